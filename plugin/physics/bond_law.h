@@ -1,0 +1,50 @@
+#pragma once
+/// The bond between drum and frame of Eq. (1): a spring k23 and a dashpot c23 side by side that carry tension
+/// as well as compression.
+
+#include "physics/checks.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace drumlin::physics {
+
+/// Parameters of a bond.
+struct Bond {
+  double stiffness = 0.0;                                    ///< k23, N/m, finite and > 0
+  double damping = 0.0;                                      ///< c23, N s/m, finite and >= 0
+  double length = 0.0;                                       ///< distance without force, m, finite and >= 0
+  double strength = std::numeric_limits<double>::infinity(); ///< N, > 0; infinite: never breaks
+
+  /// Empty if every value is allowed, else what is wrong: name, value, what is allowed.
+  [[nodiscard]] std::string invalid() const {
+    using detail::Allowed;
+    using detail::violation;
+    std::string text = violation("stiffness", stiffness, "N/m", Allowed::positive);
+    if (text.empty()) text = violation("damping", damping, "N s/m", Allowed::not_negative);
+    if (text.empty()) text = violation("length", length, "m", Allowed::not_negative);
+    if (text.empty()) text = violation("strength", strength, "N", Allowed::positive_or_infinite);
+    return text;
+  }
+};
+
+/// What a bond does at one instant.
+struct BondForce {
+  double force;      ///< N, positive in tension (it pulls the two balls together)
+  double stored;     ///< energy in the spring, J, k e^2 / 2
+  double dissipated; ///< power turned into heat by the dashpot, W, c e'^2, never negative
+  bool breaks;       ///< |force| is beyond the strength; `force` is what the bond would carry if it held
+};
+
+/// F = k e + c e', e = distance - length: the bond terms of Eq. (1), with e = x3 - x2, act on the drum as +F.
+/// distance in m; distance_rate in m/s, positive while the balls part. The power F e' that the balls give to
+/// the bond is d(stored)/dt + dissipated. Whether a bond has broken before is the caller's to remember.
+[[nodiscard]] inline BondForce bond_force(const Bond &bond, double distance, double distance_rate) {
+  const double stretch = distance - bond.length;
+  const double force = bond.stiffness * stretch + bond.damping * distance_rate;
+  return {force, 0.5 * bond.stiffness * stretch * stretch, bond.damping * distance_rate * distance_rate,
+          std::fabs(force) > bond.strength};
+}
+
+} // namespace drumlin::physics

@@ -1,0 +1,51 @@
+#pragma once
+/// How the parameter structs of this folder judge their values: one wording for all of them.
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string>
+
+namespace drumlin::physics::detail {
+
+/// What a parameter may be. Every kind refuses NaN; only `positive_or_infinite` accepts infinity.
+enum class Allowed { finite, not_negative, positive, positive_or_infinite };
+
+/// A number as a user would write it: the shortest text that reads back as the same double, whatever the
+/// locale.
+inline std::string number_text(double value) {
+  if (std::isnan(value)) return "nan"; // without the sign bit that NaN may carry
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
+  return {text.data(), end.ptr};
+}
+
+/// Empty if `value` is allowed, else for example "stiffness is -5 N/m; allowed: finite and > 0".
+/// `unit` may be empty for a number without dimension.
+inline std::string violation(const std::string &name, double value, const std::string &unit,
+                             Allowed allowed) {
+  bool good = false;
+  const char *range = "";
+  switch (allowed) {
+  case Allowed::finite:
+    good = std::isfinite(value);
+    range = "finite";
+    break;
+  case Allowed::not_negative:
+    good = std::isfinite(value) && value >= 0.0;
+    range = "finite and >= 0";
+    break;
+  case Allowed::positive:
+    good = std::isfinite(value) && value > 0.0;
+    range = "finite and > 0";
+    break;
+  case Allowed::positive_or_infinite:
+    good = value > 0.0;
+    range = "> 0, may be infinite";
+    break;
+  }
+  if (good) return {};
+  return name + " is " + number_text(value) + (unit.empty() ? "" : " ") + unit + "; allowed: " + range;
+}
+
+} // namespace drumlin::physics::detail

@@ -1,0 +1,75 @@
+#pragma once
+// When, within a step, a contact is made or broken.
+//
+// A step advances the positions as x(t+s) = x(t) + v(t) s + q s^2 with x(t+dt) given, so the overlap between
+// two steps is the parabola through d(t), d'(t) and d(t+dt): exact for what the stepping did, third order in
+// dt for the motion itself. Events on the line k d + c d' = 0 (condition B) are located by linear
+// interpolation of that sum.
+
+#include "physics/contact_law.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace drumlin::physics {
+
+/// Overlap d (m, positive when overlapping) and its rate d' (m/s, positive when it grows) at one instant.
+struct OverlapState {
+  double overlap;
+  double rate;
+};
+
+/// A make or break of contact.
+struct ContactTransition {
+  bool make;
+  double since;   ///< s after the begin of the step, 0 to dt
+  double overlap; ///< m, at the event
+  double rate;    ///< m/s, at the event
+  double force; ///< N: just after a make; just before a break under A (tensile, Eq. 5); 0 at a break under B
+                ///< (Eq. 6)
+};
+
+namespace detail {
+
+/// First root in [0, dt] of d0 + r s + q s^2, which changes sign there upward (d0 <= 0) or downward (d0 >=
+/// 0).
+inline double first_crossing(double d0, double r, double q, double dt) {
+  if (d0 > 0.0) return first_crossing(-d0, -r, -q, dt);
+  const double root = std::sqrt(std::max(0.0, r * r - 4.0 * q * d0));
+  const double s = r >= 0.0 ? (r + root > 0.0 ? -2.0 * d0 / (r + root) : 0.0) : (root - r) / (2.0 * q);
+  return std::clamp(s, 0.0, dt);
+}
+
+} // namespace detail
+
+/// The event between two consecutive steps, if the contact changed.
+/// \param k, c stiffness (N/m) and damping coefficient (N s/m) of the contact
+/// \param before, after states at the two steps; whether there is contact in each follows from in_contact()
+/// A second event within the same step goes unseen: steps are far shorter than a contact.
+[[nodiscard]] inline std::optional<ContactTransition> locate_transition(Transition transition, double k,
+                                                                        double c, double dt,
+                                                                        const OverlapState &before,
+                                                                        const OverlapState &after) {
+  const bool was = in_contact(transition, k, c, before.overlap, before.rate);
+  const bool is = in_contact(transition, k, c, after.overlap, after.rate);
+  if (was == is) return std::nullopt;
+
+  const double q = (after.overlap - before.overlap - before.rate * dt) / (dt * dt);
+  const bool through_gap = is ? before.overlap <= 0.0 : transition == Transition::A;
+  ContactTransition event{is, 0.0, 0.0, 0.0, 0.0};
+  if (through_gap) { // d = 0
+    event.since = detail::first_crossing(before.overlap, before.rate, q, dt);
+    event.rate = before.rate + 2.0 * q * event.since;
+    event.force = c * event.rate;
+  } else { // k d + c d' = 0
+    const double sum_before = k * before.overlap + c * before.rate;
+    const double sum_after = k * after.overlap + c * after.rate;
+    event.since = std::clamp(dt * sum_before / (sum_before - sum_after), 0.0, dt);
+    event.overlap = before.overlap + (before.rate + q * event.since) * event.since;
+    event.rate = c > 0.0 ? -k * event.overlap / c : before.rate + 2.0 * q * event.since;
+  }
+  return event;
+}
+
+} // namespace drumlin::physics

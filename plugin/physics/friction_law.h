@@ -1,0 +1,141 @@
+#pragma once
+/// Coulomb friction with a tangential spring and dashpot (Cundall and Strack 1979, Geotechnique 29, 47-65),
+/// in the two readings of "limited by mu |Fn|" that the engines use, and without the spring.
+///
+/// Sign convention: vt is the velocity of ball i's surface relative to ball j's at the contact, its
+/// tangential part; the spring xi is the tangential displacement that vt has built up; the force is the one
+/// on ball i (ball j takes the opposite). It opposes xi and vt. SI units.
+
+#include "physics/checks.h"
+
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace drumlin::physics {
+
+using Vec3 = std::array<double, 3>;
+
+/// What mu |Fn| limits.
+/// spring: only the spring's force kt xi. Where it slides the dashpot is dropped; just before that the force
+///         may exceed mu |Fn| by the dashpot's share. (LIGGGHTS, tangential history.)
+/// total:  spring and dashpot together. Where it slides the spring is reset so that kt xi + ct vt has the
+///         length mu |Fn|. (LAMMPS, gran/hooke/history.)
+enum class Cap { spring, total };
+
+/// Parameters of friction.
+struct Friction {
+  double stiffness = 0.0;   ///< kt, N/m, finite and > 0
+  double damping = 0.0;     ///< ct, N s/m, finite and >= 0
+  double coefficient = 0.0; ///< mu, finite and >= 0
+  Cap cap = Cap::spring;    ///< which reading of the limit
+
+  /// Empty if every value is allowed, else what is wrong: name, value, what is allowed.
+  [[nodiscard]] std::string invalid() const {
+    using detail::Allowed;
+    using detail::violation;
+    std::string text = violation("tangential stiffness", stiffness, "N/m", Allowed::positive);
+    if (text.empty()) text = violation("tangential damping", damping, "N s/m", Allowed::not_negative);
+    if (text.empty()) text = violation("friction coefficient", coefficient, "", Allowed::not_negative);
+    return text;
+  }
+};
+
+/// What one step of friction gives.
+struct FrictionStep {
+  Vec3 force;        ///< N, on ball i, at the end of the step
+  Vec3 spring;       ///< xi after the step, m, in the tangent plane
+  double dissipated; ///< energy turned into heat during the step, J; see friction_step() for its sign
+  double stored;     ///< energy in the spring after the step, J, kt |xi|^2 / 2
+  bool sliding;      ///< the limit was reached
+};
+
+namespace detail {
+[[nodiscard]] inline double dot(const Vec3 &a, const Vec3 &b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+[[nodiscard]] inline Vec3 scaled(double s, const Vec3 &a) { return {s * a[0], s * a[1], s * a[2]}; }
+/// a + s b
+[[nodiscard]] inline Vec3 sum(const Vec3 &a, double s, const Vec3 &b) {
+  return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
+}
+} // namespace detail
+
+/// One step of friction with history: the spring takes vt dt up, is projected on the present tangent plane
+/// and, where it slides, is reset to the limit.
+///   trial    xi* = P (xi + vt dt)
+///   stick    F = -(kt xi* + ct vt)
+///   slide    Cap::spring  if kt |xi*| > mu |Fn|:         F = -mu |Fn| xi* / |xi*|,       xi = -F / kt
+///            Cap::total   if |kt xi* + ct vt| > mu |Fn|: F = -mu |Fn| (kt xi* + ct vt) / |kt xi* + ct vt|,
+///                                                        xi = (-F - ct vt) / kt
+/// normal_force Fn in N, of either sign (its magnitude counts: under transition A a contact also rubs in
+/// tension); normal a unit vector of either sense; tangential_velocity vt in m/s, in the tangent plane;
+/// spring_before xi in m, zero for a new contact; dt in s, >= 0 (0: evaluates the force without moving the
+/// spring).
+/// (One difference to LAMMPS: where the trial spring is exactly zero and the dashpot alone is beyond the
+/// limit, as in the first force of a run, LAMMPS drops the force altogether; here it is mu |Fn| as in every
+/// step.)
+///
+/// Energy: the work that the balls do on the contact, the integral of -F . vt over the step, is the change of
+/// `stored` plus `dissipated`, which is the dashpot's heat ct vt^2 dt where it acts, plus kt xi . (xi* - xi)
+/// of the slip, plus what the projection takes from the spring. In steady sliding this is exactly mu |Fn|
+/// |vt| dt, in sticking exactly the dashpot's heat; the step in which one turns into the other is right to
+/// second order in dt. dissipated >= 0 for Cap::spring always, and for Cap::total as long as ct |vt| <= mu
+/// |Fn|. Beyond that Cap::total winds the spring up against the motion, which stores energy that no force has
+/// brought in: the law itself is not passive there, and a negative `dissipated` says so.
+[[nodiscard]] inline FrictionStep friction_step(const Friction &friction, double normal_force,
+                                                const Vec3 &normal, const Vec3 &tangential_velocity,
+                                                const Vec3 &spring_before, double dt) {
+  const double kt = friction.stiffness;
+  const double ct = friction.damping;
+  const double limit = friction.coefficient * std::fabs(normal_force);
+  const Vec3 &vt = tangential_velocity;
+
+  const Vec3 moved = detail::sum(spring_before, dt, vt);
+  const double off_plane = detail::dot(moved, normal);
+  const Vec3 trial = detail::sum(moved, -off_plane, normal);
+
+  Vec3 spring = trial;
+  Vec3 pull{}; // what spring and dashpot exert, -F
+  bool sliding = false;
+  double dashpot_heat = ct * detail::dot(vt, vt) * dt;
+  if (friction.cap == Cap::spring) {
+    const double length = kt * std::sqrt(detail::dot(trial, trial));
+    sliding = length > limit;
+    if (sliding) {
+      spring = detail::scaled(limit / length, trial);
+      pull = detail::scaled(kt, spring);
+      dashpot_heat = 0.0;
+    } else {
+      pull = detail::sum(detail::scaled(kt, trial), ct, vt);
+    }
+  } else {
+    const Vec3 trial_pull = detail::sum(detail::scaled(kt, trial), ct, vt);
+    const double length = std::sqrt(detail::dot(trial_pull, trial_pull));
+    sliding = length > limit;
+    if (sliding) {
+      pull = detail::scaled(limit / length, trial_pull);
+      spring = detail::scaled(1.0 / kt, detail::sum(pull, -ct, vt));
+    } else {
+      pull = trial_pull;
+    }
+  }
+
+  const Vec3 slip = detail::sum(trial, -1.0, spring);
+  const double dissipated = dashpot_heat + kt * detail::dot(spring, slip) + 0.5 * kt * off_plane * off_plane;
+  return {detail::scaled(-1.0, pull), spring, dissipated, 0.5 * kt * detail::dot(spring, spring), sliding};
+}
+
+/// One step of friction without history: F = -ct vt, at most mu |Fn| long. It holds nothing at rest: a ball
+/// on a slope creeps. stiffness and cap of `friction` are not used; the spring is zero, nothing is stored,
+/// and dissipated is -F . vt dt >= 0. Other arguments as in friction_step().
+[[nodiscard]] inline FrictionStep friction_step_without_history(const Friction &friction, double normal_force,
+                                                                const Vec3 &tangential_velocity, double dt) {
+  const double limit = friction.coefficient * std::fabs(normal_force);
+  const double speed = std::sqrt(detail::dot(tangential_velocity, tangential_velocity));
+  const bool sliding = friction.damping * speed > limit;
+  const double factor = sliding ? limit / speed : friction.damping;
+  return {detail::scaled(-factor, tangential_velocity), Vec3{}, factor * speed * speed * dt, 0.0, sliding};
+}
+
+} // namespace drumlin::physics

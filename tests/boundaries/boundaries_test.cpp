@@ -1,0 +1,291 @@
+/// The boundaries of the project, read from its sources: the physics core knows the standard library only,
+/// the oracles know nothing of the plugin, the fixes know an engine only through engine.h, and every source
+/// is named in a CMakeLists.txt.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <initializer_list>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path root = DRUMLIN_SOURCE_DIR;
+
+struct Include {
+  std::string name;
+  bool quoted; ///< "name", not <name>
+};
+
+std::vector<Include> includes_of(const std::string &text) {
+  static const std::regex line(R"re((?:^|\n)[ \t]*#[ \t]*include[ \t]*([<"])([^>"\n]+)[>"])re");
+  std::vector<Include> found;
+  for (std::sregex_iterator i(text.begin(), text.end(), line), end; i != end; ++i)
+    found.push_back({(*i)[2].str(), (*i)[1].str() == "\""});
+  return found;
+}
+
+bool starts_with(const std::string &text, const std::string &start) { return text.rfind(start, 0) == 0; }
+
+bool is_standard(const Include &include) {
+  static const std::set<std::string> headers{"algorithm",
+                                             "any",
+                                             "array",
+                                             "atomic",
+                                             "bitset",
+                                             "cassert",
+                                             "cctype",
+                                             "cerrno",
+                                             "cfenv",
+                                             "cfloat",
+                                             "charconv",
+                                             "chrono",
+                                             "cinttypes",
+                                             "climits",
+                                             "clocale",
+                                             "cmath",
+                                             "codecvt",
+                                             "complex",
+                                             "condition_variable",
+                                             "csetjmp",
+                                             "csignal",
+                                             "cstdarg",
+                                             "cstddef",
+                                             "cstdint",
+                                             "cstdio",
+                                             "cstdlib",
+                                             "cstring",
+                                             "ctime",
+                                             "cuchar",
+                                             "cwchar",
+                                             "cwctype",
+                                             "deque",
+                                             "exception",
+                                             "execution",
+                                             "filesystem",
+                                             "forward_list",
+                                             "fstream",
+                                             "functional",
+                                             "future",
+                                             "initializer_list",
+                                             "iomanip",
+                                             "ios",
+                                             "iosfwd",
+                                             "iostream",
+                                             "istream",
+                                             "iterator",
+                                             "limits",
+                                             "list",
+                                             "locale",
+                                             "map",
+                                             "memory",
+                                             "memory_resource",
+                                             "mutex",
+                                             "new",
+                                             "numeric",
+                                             "optional",
+                                             "ostream",
+                                             "queue",
+                                             "random",
+                                             "ratio",
+                                             "regex",
+                                             "scoped_allocator",
+                                             "set",
+                                             "shared_mutex",
+                                             "sstream",
+                                             "stack",
+                                             "stdexcept",
+                                             "streambuf",
+                                             "string",
+                                             "string_view",
+                                             "system_error",
+                                             "thread",
+                                             "tuple",
+                                             "type_traits",
+                                             "typeindex",
+                                             "typeinfo",
+                                             "unordered_map",
+                                             "unordered_set",
+                                             "utility",
+                                             "valarray",
+                                             "variant",
+                                             "vector"};
+  return !include.quoted && headers.count(include.name) == 1;
+}
+
+bool fits_physics(const Include &include) {
+  return is_standard(include) || (include.quoted && starts_with(include.name, "physics/") &&
+                                  include.name.find("..") == std::string::npos);
+}
+
+/// Engine headers come through engine.h alone; libraries that are no engine's are named here.
+bool fits_fixes(const Include &include) {
+  if (include.name.find("..") != std::string::npos) return false;
+  if (include.quoted)
+    return include.name == "engine.h" || starts_with(include.name, "physics/") ||
+           starts_with(include.name, "fixes/");
+  return is_standard(include) || starts_with(include.name, "fmt/") || starts_with(include.name, "sys/") ||
+         include.name == "unistd.h";
+}
+
+/// Nothing of plugin/: by its name from there or from the root, through "..", or by a bare name that only
+/// plugin/ has.
+bool fits_oracle(const Include &include, const fs::path &folder) {
+  if (!include.quoted) return !starts_with(include.name, "physics/") && !starts_with(include.name, "plugin/");
+  if (fs::exists(folder / include.name)) {
+    const fs::path target = fs::weakly_canonical(folder / include.name);
+    const fs::path inside = target.lexically_relative(fs::weakly_canonical(root / "plugin"));
+    return inside.empty() || *inside.begin() == "..";
+  }
+  if (starts_with(include.name, "plugin/") || fs::exists(root / "plugin" / include.name)) return false;
+  for (const char *part : {"physics", "fixes", "liggghts", "lammps"})
+    if (starts_with(include.name, std::string(part) + "/") ||
+        fs::exists(root / "plugin" / part / include.name))
+      return fs::exists(root / "postprocess" / include.name);
+  return true;
+}
+
+std::string without_comments(const std::string &cmake) { // "#" to the end of its line
+  return std::regex_replace(cmake, std::regex("#[^\n]*"), "");
+}
+
+bool globs(const std::string &cmake) {
+  static const std::regex call(R"re(file[ \t\n]*\([ \t\n]*GLOB|aux_source_directory[ \t\n]*\()re",
+                               std::regex::icase);
+  return std::regex_search(without_comments(cmake), call);
+}
+
+std::string text_of(const fs::path &file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+bool is_source(const fs::path &file) {
+  static const std::set<std::string> endings{".h",   ".hpp", ".hh",  ".cpp", ".cc",
+                                             ".cxx", ".c",   ".ipp", ".inl"};
+  return endings.count(file.extension().string()) == 1;
+}
+
+bool is_cmake(const fs::path &file) {
+  return file.filename() == "CMakeLists.txt" || file.extension() == ".cmake";
+}
+
+/// Files below `folder` of the project, without build trees and hidden folders.
+std::vector<fs::path> files(const fs::path &folder, const std::function<bool(const fs::path &)> &wanted) {
+  std::vector<fs::path> found;
+  if (!fs::exists(root / folder)) return found;
+  for (auto i = fs::recursive_directory_iterator(root / folder); i != fs::recursive_directory_iterator();
+       ++i) {
+    const std::string name = i->path().filename().string();
+    if (i->is_directory() &&
+        (starts_with(name, "build") || starts_with(name, ".") || fs::exists(i->path() / "CMakeCache.txt")))
+      i.disable_recursion_pending();
+    else if (i->is_regular_file() && wanted(i->path()))
+      found.push_back(i->path());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+void expect_includes(const fs::path &folder,
+                     const std::function<bool(const Include &, const fs::path &)> &fit) {
+  for (const fs::path &file : files(folder, is_source))
+    for (const Include &include : includes_of(text_of(file)))
+      EXPECT_TRUE(fit(include, file.parent_path()))
+          << file.lexically_relative(root).string() << " includes " << include.name;
+}
+
+TEST(Boundaries, ThePhysicsCoreIncludesTheStandardLibraryOnly) {
+  ASSERT_GE(files("plugin/physics", is_source).size(), 5U);
+  expect_includes("plugin/physics",
+                  [](const Include &include, const fs::path &) { return fits_physics(include); });
+  for (const fs::path &file : files("plugin/physics", is_source))
+    for (const Include &include : includes_of(text_of(file)))
+      if (include.quoted) {
+        EXPECT_TRUE(fs::exists(root / "plugin" / include.name)) << file << " " << include.name;
+      }
+}
+
+TEST(Boundaries, TheDirectSolverAndThePostprocessorKnowNothingOfThePlugin) {
+  for (const char *folder : {"tests/direct", "tests/postprocess", "postprocess"})
+    expect_includes(folder, fits_oracle);
+  for (const char *folder : {"tests/direct", "tests/postprocess", "postprocess"})
+    for (const fs::path &file : files(folder, is_cmake)) {
+      const std::string text = without_comments(text_of(file));
+      EXPECT_EQ(text.find("drumlin_physics"), std::string::npos) << file;
+      EXPECT_EQ(text.find("/plugin"), std::string::npos) << file;
+    }
+}
+
+TEST(Boundaries, TheOracleOfThePhysicsTestsKnowsNothingOfThePlugin) {
+  for (const char *name : {"tests/physics/ode.h", "tests/physics/ode.cpp", "tests/physics/oscillator.h"}) {
+    ASSERT_TRUE(fs::exists(root / name)) << name;
+    for (const Include &include : includes_of(text_of(root / name)))
+      EXPECT_TRUE(fits_oracle(include, (root / name).parent_path())) << name << " includes " << include.name;
+  }
+}
+
+TEST(Boundaries, TheFixesKnowAnEngineThroughEngineHOnly) {
+  expect_includes("plugin/fixes",
+                  [](const Include &include, const fs::path &) { return fits_fixes(include); });
+}
+
+TEST(Boundaries, EverySourceIsNamedNotGlobbed) {
+  const std::vector<fs::path> lists = files(".", is_cmake);
+  ASSERT_GE(lists.size(), 5U);
+  for (const fs::path &file : lists)
+    EXPECT_FALSE(globs(text_of(file))) << file;
+}
+
+// The checks above pass where they see nothing. That they see is checked here.
+TEST(BoundaryChecks, ReadIncludeLines) {
+  const auto found =
+      includes_of("#include <cmath>\n  #  include \"engine.h\" // why\n// #include <no>\n#include <a/b.h>");
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_EQ(found[0].name, "cmath");
+  EXPECT_FALSE(found[0].quoted);
+  EXPECT_EQ(found[1].name, "engine.h");
+  EXPECT_TRUE(found[1].quoted);
+  EXPECT_EQ(found[2].name, "a/b.h");
+}
+
+TEST(BoundaryChecks, RefuseWhatDoesNotFit) {
+  EXPECT_TRUE(fits_physics({"cmath", false}));
+  EXPECT_TRUE(fits_physics({"physics/checks.h", true}));
+  for (const char *name : {"math.h", "Eigen/Dense", "mpi.h", "vtkPoints.h", "unistd.h", "cvode/cvode.h"})
+    EXPECT_FALSE(fits_physics({name, false})) << name;
+  for (const char *name : {"engine.h", "fixes/clock.h", "../fixes/clock.h", "physics/../engine.h", "cmath"})
+    EXPECT_FALSE(fits_physics({name, true})) << name;
+
+  EXPECT_TRUE(fits_fixes({"engine.h", true}));
+  EXPECT_TRUE(fits_fixes({"physics/contact_law.h", true}));
+  for (const char *name :
+       {"atom.h", "liggghts/engine.h", "lammps/engine.h", "../liggghts/engine.h", "fix.h"}) {
+    EXPECT_FALSE(fits_fixes({name, true})) << name;
+    EXPECT_FALSE(fits_fixes({name, false})) << name;
+  }
+
+  const fs::path folder = root / "tests/direct";
+  EXPECT_TRUE(fits_oracle({"cvode/cvode.h", false}, folder));
+  EXPECT_TRUE(fits_oracle({"oracle.h", true}, folder));
+  for (const char *name : {"physics/contact_law.h", "contact_law.h", "plugin/physics/contact_law.h",
+                           "../../plugin/physics/contact_law.h", "fixes/anything.h"})
+    EXPECT_FALSE(fits_oracle({name, true}, folder)) << name;
+  EXPECT_FALSE(fits_oracle({"physics/contact_law.h", false}, folder));
+
+  EXPECT_TRUE(globs("file(GLOB sources *.cpp)"));
+  EXPECT_TRUE(globs("file( glob_recurse s *.cpp)"));
+  EXPECT_TRUE(globs("aux_source_directory(. s)"));
+  EXPECT_FALSE(globs("# no file(GLOB ...) here\nadd_executable(a a.cpp)"));
+}
+
+} // namespace

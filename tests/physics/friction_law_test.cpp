@@ -1,0 +1,327 @@
+/// Friction: closed forms, CVODE with a mode for sticking and one for sliding, the two readings of the limit,
+/// energy.
+
+#include "ode.h"
+#include "oscillator.h"
+#include "physics/friction_law.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace {
+
+using namespace drumlin::physics;
+
+constexpr double kt = 1e4, ct = 40.0, mu = 0.5;
+const Vec3 up{0.0, 0.0, 1.0};
+const Vec3 none{};
+
+double dot(const Vec3 &a, const Vec3 &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double length(const Vec3 &a) { return std::sqrt(dot(a, a)); }
+Vec3 times(double s, const Vec3 &a) { return {s * a[0], s * a[1], s * a[2]}; }
+Vec3 cross(const Vec3 &a, const Vec3 &b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+class EitherCap : public testing::TestWithParam<Cap> {
+protected:
+  Friction friction{kt, ct, mu, GetParam()};
+};
+INSTANTIATE_TEST_SUITE_P(, EitherCap, testing::Values(Cap::spring, Cap::total),
+                         [](const auto &row) { return row.param == Cap::spring ? "spring" : "total"; });
+
+TEST_P(EitherCap, SticksAsADampedOscillator) { // the spring follows the closed form, the force is its m x''
+  const oracle::Oscillator closed{1.0, kt, ct};
+  const Vec3 along{1.0 / 3.0, 2.0 / 3.0, -2.0 / 3.0}, normal{2.0 / 3.0, 1.0 / 3.0, 2.0 / 3.0};
+  const double dt = 1e-5;
+  Vec3 spring{};
+  for (int n = 0; n < 10000; ++n) {
+    const oracle::Motion middle = closed.at((n + 0.5) * dt, 0.0, 1.0);
+    const FrictionStep step = friction_step(friction, 1e6, normal, times(middle.v, along), spring, dt);
+    ASSERT_FALSE(step.sliding);
+    spring = step.spring;
+    const oracle::Motion now = closed.at((n + 1) * dt, 0.0, 1.0);
+    const FrictionStep still = friction_step(friction, 1e6, normal, times(now.v, along), spring, 0.0);
+    ASSERT_NEAR(dot(still.force, along), now.a, 1e-4);
+    ASSERT_NEAR(length(still.force), std::fabs(now.a), 1e-4);
+    ASSERT_NEAR(still.stored, 0.5 * kt * now.x * now.x, 1e-5);
+  }
+}
+
+TEST_P(EitherCap, SlidesWithTheCoulombForce) {
+  const Vec3 v{0.3, -0.4, 0.0};
+  for (const double normal_force : {100.0, -100.0}) { // in tension too
+    Vec3 spring{};
+    for (int n = 0; n < 5000; ++n)
+      spring = friction_step(friction, normal_force, up, v, spring, 1e-4).spring;
+    const FrictionStep step = friction_step(friction, normal_force, up, v, spring, 1e-4);
+    EXPECT_TRUE(step.sliding);
+    EXPECT_NEAR(length(step.force), 50.0, 1e-10);
+    EXPECT_NEAR(dot(step.force, v), -50.0 * 0.5, 1e-10); // straight against the motion
+    EXPECT_NEAR(step.dissipated, 50.0 * 0.5 * 1e-4, 1e-14);
+    // What the spring holds: the whole limit, or what the dashpot leaves of it.
+    const double spring_force = GetParam() == Cap::spring ? 50.0 : 50.0 - ct * 0.5;
+    EXPECT_NEAR(kt * length(step.spring), spring_force, 1e-9);
+    EXPECT_NEAR(step.stored, 0.5 * spring_force * spring_force / kt, 1e-10);
+  }
+}
+
+TEST_P(EitherCap, HasNoForceWithoutNormalForce) {
+  const FrictionStep step = friction_step(friction, 0.0, up, {1.0, 0.0, 0.0}, {1e-3, 2e-3, 0.0}, 1e-5);
+  EXPECT_EQ(length(step.force), 0.0);
+  EXPECT_TRUE(step.sliding);
+  const FrictionStep rest = friction_step(friction, 0.0, up, none, none, 1e-5);
+  EXPECT_EQ(length(rest.force), 0.0);
+  EXPECT_EQ(length(rest.spring), 0.0);
+}
+
+TEST_P(EitherCap, KeepsTheSpringInTheTangentPlane) {
+  const double tilt = 0.1;
+  const Vec3 normal{std::sin(tilt), 0.0, std::cos(tilt)};
+  const FrictionStep step = friction_step(friction, 1e6, normal, none, {1e-3, 2e-3, 0.0}, 1e-5);
+  EXPECT_NEAR(dot(step.spring, normal), 0.0, 1e-18);
+  EXPECT_NEAR(dot(step.force, normal), 0.0, 1e-12);
+  EXPECT_NEAR(step.spring[1], 2e-3, 1e-18);
+  EXPECT_NEAR(length(step.spring), std::hypot(1e-3 * std::cos(tilt), 2e-3), 1e-16);
+  const FrictionStep flipped =
+      friction_step(friction, 1e6, times(-1.0, normal), none, {1e-3, 2e-3, 0.0}, 1e-5);
+  EXPECT_EQ(step.force, flipped.force);
+  const double before = 0.5 * kt * 5e-6;
+  EXPECT_NEAR(step.stored + step.dissipated, before, 1e-15);
+}
+
+TEST_P(EitherCap, DoesNotMoveTheSpringInNoTime) {
+  const Vec3 spring{1e-3, 0.0, 0.0};
+  const FrictionStep step = friction_step(friction, 1e6, up, {0.5, 0.0, 0.0}, spring, 0.0);
+  EXPECT_EQ(step.spring, spring);
+  EXPECT_NEAR(step.force[0], -10.0 - 20.0, 1e-12);
+  EXPECT_EQ(step.dissipated, 0.0);
+}
+
+TEST(Caps, DifferWhereOnlyTheDashpotIsBeyondTheLimit) {
+  // Spring 40 N, dashpot 20 N, limit 50 N.
+  const Vec3 spring{4e-3, 0.0, 0.0}, v{0.5, 0.0, 0.0};
+  const FrictionStep lig = friction_step({kt, ct, mu, Cap::spring}, 100.0, up, v, spring, 0.0);
+  EXPECT_FALSE(lig.sliding);
+  EXPECT_NEAR(lig.force[0], -60.0, 1e-12); // beyond mu Fn
+  EXPECT_EQ(lig.spring, spring);
+  const FrictionStep lmp = friction_step({kt, ct, mu, Cap::total}, 100.0, up, v, spring, 0.0);
+  EXPECT_TRUE(lmp.sliding);
+  EXPECT_NEAR(lmp.force[0], -50.0, 1e-12);
+  EXPECT_NEAR(lmp.spring[0], 3e-3, 1e-15); // 30 N, and the dashpot's 20
+}
+
+TEST(Caps, DifferWhereTheSpringSlidesAgainstTheDashpot) {
+  // Spring 60 N one way, dashpot 20 N the other way, limit 50 N: only the spring alone is beyond it.
+  const Vec3 spring{6e-3, 0.0, 0.0}, v{-0.5, 0.0, 0.0};
+  const FrictionStep lig = friction_step({kt, ct, mu, Cap::spring}, 100.0, up, v, spring, 0.0);
+  EXPECT_TRUE(lig.sliding);
+  EXPECT_NEAR(lig.force[0], -50.0, 1e-12); // the dashpot is dropped
+  EXPECT_NEAR(lig.spring[0], 5e-3, 1e-15);
+  const FrictionStep lmp = friction_step({kt, ct, mu, Cap::total}, 100.0, up, v, spring, 0.0);
+  EXPECT_FALSE(lmp.sliding);
+  EXPECT_NEAR(lmp.force[0], -40.0, 1e-12);
+}
+
+TEST(Caps, CoincideWithoutDashpotAndFarFromTheLimit) {
+  std::mt19937 random(15485863);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  int sliding = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 v{unit(random), unit(random), 0.0}, spring{1e-2 * unit(random), 1e-2 * unit(random), 0.0};
+    const FrictionStep a = friction_step({kt, 0.0, mu, Cap::spring}, 100.0, up, v, spring, 1e-5);
+    const FrictionStep b = friction_step({kt, 0.0, mu, Cap::total}, 100.0, up, v, spring, 1e-5);
+    ASSERT_EQ(a.sliding, b.sliding);
+    for (std::size_t j = 0; j < 3; ++j) {
+      ASSERT_NEAR(a.force[j], b.force[j], 1e-10);
+      ASSERT_NEAR(a.spring[j], b.spring[j], 1e-14);
+    }
+    ASSERT_NEAR(a.dissipated, b.dissipated, 1e-14);
+    if (a.sliding) ++sliding;
+    const FrictionStep c = friction_step({kt, ct, mu, Cap::spring}, 1e6, up, v, spring, 1e-5);
+    const FrictionStep d = friction_step({kt, ct, mu, Cap::total}, 1e6, up, v, spring, 1e-5);
+    ASSERT_EQ(c.force, d.force);
+    ASSERT_EQ(c.spring, d.spring);
+  }
+  EXPECT_GT(sliding, 200);
+  EXPECT_LT(sliding, 1800);
+}
+
+/// A block of 1 kg thrown at 1 m/s on the spring and dashpot of friction (limit 50 N): sticks, slides, sticks
+/// and swings out.
+struct Thrown {
+  double x, v;
+};
+
+Thrown thrown_core(const Friction &friction, double t) {
+  const int steps = 400000;
+  const double dt = t / steps;
+  Thrown block{0.0, 1.0};
+  Vec3 spring{};
+  for (int n = 0; n < steps; ++n) {
+    const FrictionStep step = friction_step(friction, 100.0, up, {block.v, 0.0, 0.0}, spring, dt);
+    spring = step.spring;
+    block.x += dt * block.v;
+    block.v += dt * step.force[0];
+  }
+  return block;
+}
+
+Thrown thrown_cvode(Cap cap, double damping, double t) {
+  const double limit = 50.0;
+  bool sliding = false;
+  oracle::Ode block( // y = place, velocity, spring
+      [&](double, const oracle::State &y, oracle::State &f) {
+        f[0] = y[1];
+        f[1] = sliding ? -limit : -(kt * y[2] + damping * y[1]);
+        if (!sliding)
+          f[2] = y[1];
+        else
+          f[2] = cap == Cap::spring ? 0.0
+                                    : damping * limit / kt; // holds kt xi + ct v at the limit, v' = -limit/m
+      },
+      0.0, {0.0, 1.0, 0.0}, {1e-2, 1.0, 1e-2});
+  const auto pull = [&](const oracle::State &y) {
+    return cap == Cap::spring ? kt * y[2] : kt * y[2] + damping * y[1];
+  };
+  int slides = 0;
+  while (block.time() < t) {
+    const oracle::Event next =
+        sliding ? oracle::Event([&](double, const oracle::State &y) { // the trial pull stops growing
+          return cap == Cap::spring ? y[1] : y[1] - damping * limit / kt;
+        })
+                : oracle::Event([&](double, const oracle::State &y) { return pull(y) - limit; });
+    // After the one slide of this throw the block swings within the limit.
+    const int event = slides == 1 && !sliding ? block.advance(t) : block.advance(t, {next});
+    if (event < 0) break;
+    sliding = !sliding;
+    if (sliding) ++slides;
+    block.restart(block.state());
+  }
+  EXPECT_EQ(slides, 1);
+  return {block.state()[0], block.state()[1]};
+}
+
+TEST_P(EitherCap, ThrowsABlockAsCvodeDoes) {
+  for (const double t : {0.01, 0.02, 0.05}) {
+    const Thrown core = thrown_core(friction, t), exact = thrown_cvode(GetParam(), ct, t);
+    EXPECT_NEAR(core.x, exact.x, 2e-7) << t;
+    EXPECT_NEAR(core.v, exact.v, 2e-5) << t;
+  }
+}
+
+TEST_P(EitherCap, ThrowsABlockAsTheClosedFormDoes) {
+  // Without dashpot: w = 100/s, sticks until sin wt = 1/2, slides from v = sqrt(3)/2 with 50 m/s2, then
+  // swings about the place where the spring is unstretched, 5 mm short of where it stopped.
+  friction.damping = 0.0;
+  const double v1 = std::sqrt(0.75), t1 = std::asin(0.5) / 100.0, t2 = t1 + v1 / 50.0;
+  const double stop = 5e-3 + v1 * v1 / 100.0;
+  const double t = t2 + 0.013;
+  const Thrown core = thrown_core(friction, t);
+  EXPECT_NEAR(core.x, stop - 5e-3 * (1.0 - std::cos(1.3)), 2e-7);
+  EXPECT_NEAR(core.v, -0.5 * std::sin(1.3), 2e-5);
+  const Thrown exact = thrown_cvode(GetParam(), 0.0, t);
+  EXPECT_NEAR(exact.x, stop - 5e-3 * (1.0 - std::cos(1.3)), 1e-10);
+}
+
+/// A smooth path on a surface that turns, from stick to slide and back. Returns work - heat - stored, and the
+/// least heat of a step.
+struct Balance {
+  double missing, heat, least;
+  int sticking, sliding;
+};
+
+Balance balance(const Friction &friction, int steps) {
+  const double dt = 0.2 / steps;
+  Vec3 spring{};
+  Balance sum{0.0, 0.0, 1.0, 0, 0};
+  double stored = 0.0;
+  for (int n = 0; n < steps; ++n) {
+    const double t = (n + 0.5) * dt;
+    const Vec3 normal{std::sin(2.0 * t), 0.0, std::cos(2.0 * t)};
+    const Vec3 east = cross({0.0, 1.0, 0.0}, normal);
+    const double v1 = 0.8 * std::cos(60.0 * t), v2 = 0.5 * std::sin(37.0 * t);
+    const Vec3 v{v1 * east[0], v2, v1 * east[2]};
+    const FrictionStep step =
+        friction_step(friction, 100.0 + 30.0 * std::sin(90.0 * t), normal, v, spring, dt);
+    spring = step.spring;
+    stored = step.stored;
+    sum.missing -= dot(step.force, v) * dt;
+    sum.heat += step.dissipated;
+    sum.least = std::min(sum.least, step.dissipated);
+    ++(step.sliding ? sum.sliding : sum.sticking);
+  }
+  sum.missing -= sum.heat + stored;
+  return sum;
+}
+
+TEST_P(EitherCap, FindsTheWorkAsHeatAndInTheSpring) {
+  const Balance coarse = balance(friction, 20000), fine = balance(friction, 40000);
+  EXPECT_GT(fine.sliding, 4000);
+  EXPECT_GT(fine.sticking, 4000);
+  EXPECT_GE(fine.least, 0.0); // ct |vt| <= mu |Fn| here
+  EXPECT_GT(fine.heat, 1.0);
+  EXPECT_LT(std::fabs(fine.missing), 1e-3 * fine.heat);
+  EXPECT_NEAR(coarse.missing / fine.missing, 2.0,
+              0.2); // the force of a step is the one at its end: first order
+}
+
+TEST(FrictionEnergy, IsNeverMadeByCapSpring) {
+  std::mt19937 random(49979687);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 v{unit(random), unit(random), 0.0},
+        spring{1e-2 * unit(random), 1e-2 * unit(random), 1e-3 * unit(random)};
+    const double fn = 100.0 * unit(random);
+    ASSERT_GE(friction_step({kt, 10.0 * ct, mu, Cap::spring}, fn, up, v, spring, 1e-3).dissipated, 0.0);
+    const bool within = ct * length(v) <= mu * std::fabs(fn);
+    if (within) {
+      ASSERT_GE(friction_step({kt, ct, mu, Cap::total}, fn, up, v, spring, 1e-3).dissipated, 0.0);
+    }
+  }
+}
+
+TEST(FrictionEnergy, IsMadeByCapTotalWhereTheDashpotAloneIsBeyondTheLimit) {
+  // No normal force: no force, no work; yet the spring is wound up against the motion, to be paid out later.
+  // The step says so.
+  const FrictionStep step = friction_step({kt, ct, mu, Cap::total}, 0.0, up, {0.5, 0.0, 0.0}, none, 1e-6);
+  EXPECT_EQ(length(step.force), 0.0);
+  EXPECT_NEAR(step.stored, 0.5 * 20.0 * 20.0 / kt, 1e-12);
+  EXPECT_LT(step.dissipated, 0.0);
+}
+
+TEST(FrictionWithoutHistory, IsADashpotUpToTheLimit) {
+  const Friction friction{0.0, ct, mu, Cap::spring};
+  const FrictionStep slow = friction_step_without_history(friction, 100.0, {0.6, 0.8, 0.0}, 1e-3);
+  EXPECT_FALSE(slow.sliding);
+  EXPECT_NEAR(slow.force[0], -24.0, 1e-12);
+  EXPECT_NEAR(slow.force[1], -32.0, 1e-12);
+  EXPECT_NEAR(slow.dissipated, 40.0 * 1e-3, 1e-15);
+  const FrictionStep fast = friction_step_without_history(friction, -100.0, {6.0, 8.0, 0.0}, 1e-3);
+  EXPECT_TRUE(fast.sliding);
+  EXPECT_NEAR(fast.force[0], -30.0, 1e-12);
+  EXPECT_NEAR(fast.force[1], -40.0, 1e-12);
+  EXPECT_NEAR(fast.dissipated, 500.0 * 1e-3, 1e-12);
+  for (const FrictionStep &step : {slow, fast}) {
+    EXPECT_EQ(step.stored, 0.0);
+    EXPECT_EQ(step.spring, none);
+  }
+  EXPECT_EQ(length(friction_step_without_history(friction, 100.0, none, 1e-3).force), 0.0);
+  EXPECT_EQ(length(friction_step_without_history(friction, 0.0, none, 1e-3).force), 0.0);
+}
+
+TEST(FrictionWithoutHistory, StopsABlockAsTheClosedFormDoes) {
+  // Slides with 50 m/s2 from 2 m/s down to mu Fn / ct = 1.25 m/s, then creeps to rest with the time 1/40 s.
+  const Friction friction{0.0, ct, mu, Cap::spring};
+  const int steps = 400000;
+  const double end = 0.1, dt = end / steps, slide = (2.0 - 1.25) / 50.0;
+  double v = 2.0;
+  for (int n = 0; n < steps; ++n)
+    v += dt * friction_step_without_history(friction, 100.0, {v, 0.0, 0.0}, dt).force[0];
+  EXPECT_NEAR(v, 1.25 * std::exp(-40.0 * (end - slide)), 1e-5);
+}
+
+} // namespace

@@ -1,0 +1,121 @@
+/// What a user reads when a value is wrong: the name, the value, what is allowed.
+
+#include "physics/bond_law.h"
+#include "physics/contact_law.h"
+#include "physics/excitation.h"
+#include "physics/friction_law.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace drumlin::physics;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+const double nan_value = std::nan("");
+
+enum Range { finite, not_negative, positive, positive_or_infinite };
+
+/// Sets one member of a good parameter set to every kind of bad and good value and reads the message.
+template <typename Parameters>
+void expect_judged(const Parameters &good, double Parameters::*member, const std::string &name,
+                   const std::string &unit, Range range) {
+  ASSERT_EQ(good.invalid(), "");
+  const std::string allowed = range == finite         ? "finite"
+                              : range == not_negative ? "finite and >= 0"
+                              : range == positive     ? "finite and > 0"
+                                                      : "> 0, may be infinite";
+  const auto judge = [&](double value, const std::string &text, bool accepted) {
+    Parameters changed = good;
+    changed.*member = value;
+    std::string expected;
+    if (!accepted) {
+      expected.append(name).append(" is ").append(text);
+      if (!unit.empty()) expected.append(" ").append(unit);
+      expected.append("; allowed: ").append(allowed);
+    }
+    EXPECT_EQ(changed.invalid(), expected);
+  };
+  judge(nan_value, "nan", false);
+  judge(-nan_value, "nan", false);
+  judge(infinity, "inf", range == positive_or_infinite);
+  judge(-infinity, "-inf", false);
+  judge(-5.0, "-5", range == finite);
+  judge(-0.1, "-0.1", range == finite);
+  judge(0.0, "0", range == finite || range == not_negative);
+  judge(1e-300, "1e-300", true);
+  judge(12.5, "12.5", true);
+}
+
+TEST(Messages, OfAContact) {
+  const LinearContact by_coefficient{1e8, 4e5, Damping::coefficient, Transition::A};
+  const LinearContact by_ratio{1e8, 0.5, Damping::ratio, Transition::B};
+  expect_judged(by_coefficient, &LinearContact::stiffness, "stiffness", "N/m", positive);
+  expect_judged(by_coefficient, &LinearContact::damping, "damping coefficient", "N s/m", not_negative);
+  expect_judged(by_ratio, &LinearContact::damping, "damping ratio", "", not_negative);
+  EXPECT_EQ((LinearContact{-5.0, 0.5, Damping::ratio, Transition::B}).invalid(),
+            "stiffness is -5 N/m; allowed: finite and > 0");
+}
+
+TEST(Messages, OfABond) {
+  const Bond bond{1e6, 1e4, 0.5, 1e5};
+  expect_judged(bond, &Bond::stiffness, "stiffness", "N/m", positive);
+  expect_judged(bond, &Bond::damping, "damping", "N s/m", not_negative);
+  expect_judged(bond, &Bond::length, "length", "m", not_negative);
+  expect_judged(bond, &Bond::strength, "strength", "N", positive_or_infinite);
+  EXPECT_EQ((Bond{1e6, 1e4, 0.5}).invalid(), "");
+}
+
+TEST(Messages, OfAnExcitation) {
+  Excitation plain;
+  plain.amplitude = 58.8e3;
+  plain.angular_frequency = 125.7;
+  expect_judged(plain, &Excitation::amplitude, "amplitude", "N", not_negative);
+  expect_judged(plain, &Excitation::angular_frequency, "angular frequency", "rad/s", not_negative);
+  expect_judged(plain, &Excitation::phase, "phase", "rad", finite);
+  expect_judged(plain, &Excitation::start, "start", "s", finite);
+  expect_judged(plain, &Excitation::ramp, "ramp", "s", not_negative);
+  expect_judged(plain, &Excitation::sweep_duration, "sweep duration", "s", not_negative);
+  Excitation sweep = plain;
+  sweep.sweep_duration = 2.0;
+  expect_judged(sweep, &Excitation::sweep_frequency, "sweep frequency", "rad/s", not_negative);
+  Excitation eccentric = plain;
+  eccentric.eccentric = true;
+  eccentric.eccentric_mass = 50.0;
+  eccentric.eccentric_radius = 0.1;
+  expect_judged(eccentric, &Excitation::eccentric_mass, "eccentric mass", "kg", positive);
+  expect_judged(eccentric, &Excitation::eccentric_radius, "eccentric radius", "m", positive);
+}
+
+TEST(Messages, OfAnExcitationLeaveOutWhatIsNotUsed) {
+  Excitation e;
+  e.eccentric_mass = -1.0;
+  e.sweep_frequency = nan_value;
+  EXPECT_EQ(e.invalid(), "");
+  e.eccentric = true;
+  e.amplitude = nan_value;
+  e.eccentric_mass = e.eccentric_radius = 1.0;
+  EXPECT_EQ(e.invalid(), "");
+}
+
+TEST(Messages, OfFriction) {
+  for (const Cap cap : {Cap::spring, Cap::total}) {
+    const Friction friction{1e7, 1e4, 0.5, cap};
+    expect_judged(friction, &Friction::stiffness, "tangential stiffness", "N/m", positive);
+    expect_judged(friction, &Friction::damping, "tangential damping", "N s/m", not_negative);
+    expect_judged(friction, &Friction::coefficient, "friction coefficient", "", not_negative);
+  }
+}
+
+TEST(Messages, RefuseParametersThatNobodySet) {
+  EXPECT_NE(LinearContact{}.invalid(), "");
+  EXPECT_NE(Bond{}.invalid(), "");
+  EXPECT_NE(Friction{}.invalid(), "");
+}
+
+} // namespace
