@@ -1,0 +1,87 @@
+#include "fixes/commands.h"
+
+#include "fixes/arguments.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace drumlin {
+namespace {
+
+using LAMMPS_NS::LAMMPS;
+
+struct Engine : LAMMPS_NS::Pointers {
+  explicit Engine(LAMMPS *engine) : Pointers(engine) {}
+  LAMMPS_NS::Error *errors() { return error; }
+  int rank() { return comm->me; }
+  MPI_Comm ranks() { return world; }
+};
+
+bool whole_number(const std::string &text, double &value) {
+  value = parse_number(text);
+  return std::isfinite(value) && value == std::floor(value) && std::fabs(value) < 1e15;
+}
+
+} // namespace
+
+void check_command(LAMMPS *lmp, int narg, char **arg) {
+  Engine engine(lmp);
+  Arguments in(engine.errors(), "drumlin/check", narg, arg);
+  const std::string name = in.word("the variable's name");
+  const std::string value = in.word("the value of variable " + name);
+  constexpr const char *rules = "one_of, positive, non_negative, finite, integer, multiple_of or directory";
+  const std::string rule = in.word("the rule for variable " + name, rules);
+  const auto reject = [&](const std::string &allowed) {
+    in.fail("variable " + name + " is '" + value + "'; allowed: " + allowed);
+  };
+
+  if (rule == "one_of") {
+    std::vector<std::string> choices;
+    while (!in.empty())
+      choices.push_back(in.word("choice"));
+    bool found = false;
+    for (const std::string &choice : choices)
+      found = found || choice == value;
+    if (choices.empty())
+      in.fail("rule one_of for variable " + name + " has no choice; allowed: at least one word");
+    if (!found) reject(join_choices(choices));
+  } else if (rule == "positive" || rule == "non_negative" || rule == "finite") {
+    const Range range = rule == "positive" ? Range::positive
+                        : rule == "finite" ? Range::any
+                                           : Range::non_negative;
+    if (!in_range(parse_number(value), range)) reject(allowed_text(range));
+  } else if (rule == "integer") {
+    const auto lowest = in.integer("rule integer, lowest", INT_MIN);
+    const auto highest = in.integer("rule integer, highest", lowest);
+    double number = 0.0;
+    if (!whole_number(value, number) || number < static_cast<double>(lowest) ||
+        number > static_cast<double>(highest))
+      reject(fmt::format("a whole number from {} to {}", lowest, highest));
+  } else if (rule == "multiple_of") {
+    const std::string other = in.word("rule multiple_of, the other variable's name");
+    const std::string other_value = in.word("rule multiple_of, the other variable's value");
+    double a = 0.0;
+    double b = 0.0;
+    if (!whole_number(value, a) || !whole_number(other_value, b) || b <= 0.0 || a <= 0.0 ||
+        std::fmod(a, b) != 0.0)
+      reject(fmt::format("a multiple of {}, which is {}", other, other_value));
+  } else if (rule == "directory") {
+    // Made by one rank; a file in its place, or a folder that cannot be written, is said before anything is
+    // built.
+    int bad = 0;
+    if (engine.rank() == 0) {
+      std::error_code failed;
+      std::filesystem::create_directories(value, failed);
+      bad = !std::filesystem::is_directory(value, failed) || access(value.c_str(), W_OK | X_OK) != 0;
+    }
+    MPI_Bcast(&bad, 1, MPI_INT, 0, engine.ranks());
+    if (bad) reject("a folder that can be made or written");
+  } else {
+    in.fail("unknown rule '" + rule + "' for variable " + name + "; allowed: " + rules);
+  }
+  if (!in.empty())
+    in.fail("variable " + name + ": '" + in.peek() + "' is left over; allowed: one value and one rule");
+}
+
+} // namespace drumlin

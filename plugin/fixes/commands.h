@@ -1,0 +1,17 @@
+#pragma once
+// Commands that the plugin adds to decks: plugin/doc/drumlin_check.md, drumlin_record.md, drumlin_settle.md.
+
+#include "engine.h"
+
+namespace drumlin {
+
+/// drumlin/check NAME VALUE rule ...: judges a deck variable before anything is built.
+void check_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
+
+/// drumlin/record FILE name value ...: writes what a run was made with, for the report.
+void record_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
+
+/// drumlin/settle [ratio r] [every n] [limit n]: runs until static equilibrium.
+void settle_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
+
+} // namespace drumlin

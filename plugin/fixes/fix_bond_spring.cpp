@@ -1,0 +1,173 @@
+#include "fixes/fix_bond_spring.h"
+
+#include "fixes/arguments.h"
+#include "fixes/restart_record.h"
+
+#include <fmt/format.h>
+
+using namespace LAMMPS_NS;
+using drumlin::Range;
+namespace physics = drumlin::physics;
+
+FixBondSpring::FixBondSpring(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) {
+  scalar_flag = vector_flag = 1;
+  size_vector = 5;
+  extscalar = extvector = 0;
+  global_freq = 1;
+  restart_global = 1;
+
+  drumlin::Arguments in(error, "fix bond/spring", narg - 3, arg + 3);
+  tags_[0] = static_cast<int>(in.integer("ball i", 1));
+  tags_[1] = static_cast<int>(in.integer("ball j", 1));
+  if (tags_[0] == tags_[1])
+    in.fail(fmt::format("ball j is {}, the same as ball i; allowed: another ball", tags_[1]));
+  bond_.stiffness = in.number("stiffness k", Range::positive);
+  bond_.damping = in.number("damping c", Range::non_negative);
+  while (!in.empty()) {
+    const std::string keyword = in.word("keyword");
+    if (keyword == "length") {
+      current_length_ = !in.empty() && in.peek() == "current";
+      if (current_length_)
+        in.word("length");
+      else
+        bond_.length = in.number("keyword length ('current' or)", Range::positive);
+    } else if (keyword == "strength") {
+      bond_.strength = in.number("keyword strength", Range::positive);
+    } else {
+      in.fail("unknown keyword '" + keyword + "'; allowed: length or strength");
+    }
+  }
+}
+
+int FixBondSpring::setmask() { return FixConst::PRE_NEIGHBOR | FixConst::POST_FORCE; }
+
+void FixBondSpring::init() {
+  for (const int tag : tags_) {
+    int mine = 0;
+    for (int i = 0; i < atom->nlocal; ++i)
+      mine += atom->tag[i] == tag ? 1 : 0;
+    int all = 0;
+    MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_SUM, world);
+    if (all != 1)
+      error->all(FLERR,
+                 fmt::format("fix bond/spring: ball {} is missing; allowed: the ID of a ball in the box", tag)
+                     .c_str());
+  }
+}
+
+void FixBondSpring::setup_pre_neighbor() { find_balls(); }
+void FixBondSpring::pre_neighbor() { find_balls(); }
+
+void FixBondSpring::find_balls() {
+  local_ = {-1, -1};
+  for (int i = 0; i < atom->nlocal; ++i)
+    for (std::size_t b = 0; b < 2; ++b)
+      if (atom->tag[i] == tags_[b]) local_[b] = i;
+}
+
+FixBondSpring::State FixBondSpring::share_state() {
+  std::array<double, 14> mine{}; // per ball: position, velocity, 1 if owned
+  for (std::size_t b = 0; b < 2; ++b)
+    if (const int i = local_[b]; i >= 0) {
+      double *part = &mine[7 * b];
+      for (int a = 0; a < 3; ++a) {
+        part[a] = atom->x[i][a];
+        part[3 + a] = atom->v[i][a];
+      }
+      part[6] = 1.0;
+    }
+  std::array<double, 14> all = mine;
+  if (comm->nprocs > 1) MPI_Allreduce(mine.data(), all.data(), 14, MPI_DOUBLE, MPI_SUM, world);
+  if (all[6] != 1.0 || all[13] != 1.0)
+    error->all(FLERR,
+               fmt::format("fix bond/spring: ball {} was lost at step {}; allowed: both balls in the box",
+                           tags_[all[6] != 1.0 ? 0 : 1], update->ntimestep)
+                   .c_str());
+  std::array<double, 3> d{all[7] - all[0], all[8] - all[1], all[9] - all[2]};
+  domain->minimum_image(d[0], d[1], d[2]);
+  State s{};
+  s.distance = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  for (std::size_t a = 0; a < 3; ++a) {
+    s.direction[a] = d[a] / s.distance;
+    s.rate += (all[10 + a] - all[3 + a]) * s.direction[a];
+  }
+  return s;
+}
+
+physics::BondForce FixBondSpring::evaluate() {
+  if (!whole_) return {};
+  const State s = share_state();
+  return physics::bond_force(bond_, s.distance, s.rate);
+}
+
+void FixBondSpring::setup(int vflag) {
+  if (current_length_) {
+    bond_.length = share_state().distance;
+    current_length_ = false;
+  }
+  if (const std::string wrong = bond_.invalid(); !wrong.empty())
+    error->all(FLERR, ("fix bond/spring: " + wrong).c_str());
+  if (!echoed_ && comm->me == 0) {
+    const std::string text = fmt::format(
+        "fix bond/spring {}: balls {} and {}, k = {:.6g} N/m, c = {:.6g} N s/m, length = {:.9g} m, "
+        "strength = {:.6g} N\n",
+        id, tags_[0], tags_[1], bond_.stiffness, bond_.damping, bond_.length, bond_.strength);
+    for (FILE *out : {screen, logfile})
+      if (out) std::fputs(text.c_str(), out);
+  }
+  echoed_ = true;
+  post_force(vflag);
+}
+
+void FixBondSpring::post_force(int) {
+  acted_ = {};
+  if (!whole_) return;
+  state_ = share_state();
+  acted_ = physics::bond_force(bond_, state_.distance, state_.rate);
+  if (acted_.breaks) {
+    whole_ = false;
+    if (comm->me == 0)
+      error->warning(
+          FLERR,
+          fmt::format("fix bond/spring {}: the bond of balls {} and {} broke at step {} under {:.6g} N", id,
+                      tags_[0], tags_[1], update->ntimestep, acted_.force)
+              .c_str());
+    acted_ = {};
+    return;
+  }
+  double **f = atom->f;
+  for (std::size_t b = 0; b < 2; ++b)
+    if (const int i = local_[b]; i >= 0) {
+      const double sign = b == 0 ? 1.0 : -1.0; // tension pulls i towards j and j towards i
+      for (std::size_t a = 0; a < 3; ++a)
+        f[i][a] += sign * acted_.force * state_.direction[a];
+    }
+}
+
+void FixBondSpring::write_restart(FILE *file) {
+  drumlin::write_restart_record(file, comm->me, {current_length_ ? -1.0 : bond_.length, whole_ ? 1.0 : 0.0});
+}
+
+void FixBondSpring::restart(char *buffer) {
+  const double *state = reinterpret_cast<const double *>(buffer);
+  if (current_length_ && state[0] >= 0.0) {
+    bond_.length = state[0];
+    current_length_ = false;
+  }
+  whole_ = state[1] != 0.0;
+}
+
+double FixBondSpring::compute_vector(int n) {
+  switch (n) {
+  case 0:
+    return whole_ ? state_.distance - bond_.length : 0.0;
+  case 1:
+    return whole_ ? state_.rate : 0.0;
+  case 2:
+    return acted_.stored;
+  case 3:
+    return acted_.dissipated;
+  default:
+    return whole_ ? 1.0 : 0.0;
+  }
+}

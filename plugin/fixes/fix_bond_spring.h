@@ -1,0 +1,52 @@
+#pragma once
+// fix bond/spring: a bonded spring-dashpot between two balls. See plugin/doc/fix_bond_spring.md.
+
+#include "engine.h"
+#include "physics/bond_law.h"
+
+#include <optional>
+
+namespace LAMMPS_NS {
+
+/// Spring k and dashpot c along the line of two balls, given by tag; tension positive. The two balls'
+/// positions and velocities are shared over all ranks, so any distance and decomposition will do.
+class FixBondSpring : public Fix {
+public:
+  FixBondSpring(LAMMPS *, int, char **);
+
+  int setmask() override;
+  void init() override;
+  void setup_pre_neighbor() override;
+  void pre_neighbor() override;
+  void setup(int) override;
+  void post_force(int) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+  /// Bond force that acted in this step, N, tension positive.
+  double compute_scalar() override { return acted_.force; }
+  /// 0: stretch, m; 1: its rate as the force saw it, m/s; 2: energy in the spring, J; 3: power of the
+  /// dashpot, W; 4: 1 while whole.
+  double compute_vector(int) override;
+
+  /// Force and power at the positions and velocities of now; collective.
+  drumlin::physics::BondForce evaluate();
+
+private:
+  struct State {
+    double distance, rate;
+    std::array<double, 3> direction; // from i to j
+  };
+  State share_state();
+  void find_balls();
+
+  std::array<int, 2> tags_{};
+  std::array<int, 2> local_{-1, -1}; // indices of owned balls, -1 for those of other ranks
+  drumlin::physics::Bond bond_;
+  bool current_length_ = true; // the length is the distance at the first set-up
+  bool whole_ = true;
+  bool echoed_ = false;
+  State state_{};
+  drumlin::physics::BondForce acted_{};
+};
+
+} // namespace LAMMPS_NS

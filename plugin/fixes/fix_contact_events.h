@@ -1,0 +1,67 @@
+#pragma once
+// fix contact/events: makes and breaks of contact, located within the step. See
+// plugin/doc/fix_contact_events.md.
+
+#include "engine.h"
+#include "fixes/clock.h"
+#include "fixes/contact_source.h"
+#include "fixes/output_file.h"
+#include "physics/event_location.h"
+
+#include <map>
+
+namespace LAMMPS_NS {
+
+/// Watches the pairs of two types (or of the whole group) and writes each make and break once, on any number
+/// of ranks.
+class FixContactEvents : public Fix {
+public:
+  FixContactEvents(LAMMPS *, int, char **);
+
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void pre_exchange() override;
+  void pre_neighbor() override;
+  void end_of_step() override;
+  void post_run() override;
+  int pack_comm(int, int *, double *, int, int *) override;
+  void unpack_comm(int, int, double *) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+  /// Events seen so far.
+  double compute_scalar() override;
+
+private:
+  using Tags = std::pair<int, int>; // lower first
+  struct Watched {
+    int i, j;
+    Tags tags;
+    double k, c;
+    drumlin::physics::Transition transition;
+    drumlin::physics::OverlapState state;
+  };
+  struct Event {
+    double time;
+    int make;
+    double overlap, rate, force;
+    int tag_i, tag_j;
+  };
+
+  bool is_watched(int i, int j) const;
+  void rebuild();
+  void refresh_ghost_velocities();
+  void write_out();
+
+  std::array<int, 2> types_{0, 0}; // 0: all pairs of the group
+  drumlin::OutputFile file_;
+  const drumlin::ContactSource *source_ = nullptr;
+  drumlin::Clock clock_;
+  std::vector<Watched> watched_;
+  std::map<Tags, drumlin::physics::OverlapState> carried_; // states over a rebuild, known on every rank
+  bool stale_ = true;
+  std::vector<Event> pending_; // not yet written
+  bigint count_ = 0;
+};
+
+} // namespace LAMMPS_NS

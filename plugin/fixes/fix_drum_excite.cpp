@@ -1,0 +1,185 @@
+#include "fixes/fix_drum_excite.h"
+
+#include "fixes/arguments.h"
+#include "fixes/restart_record.h"
+
+#include <fmt/format.h>
+
+using namespace LAMMPS_NS;
+using drumlin::Range;
+namespace engine = drumlin::engine;
+namespace physics = drumlin::physics;
+
+namespace {
+
+constexpr double two_pi = 6.283185307179586;
+
+std::array<double, 3> unit(drumlin::Arguments &in, const std::string &what) {
+  std::array<double, 3> v{};
+  for (std::size_t a = 0; a < 3; ++a)
+    v[a] = in.number(what + ", " + "xyz"[a]);
+  const double length = std::hypot(v[0], v[1], v[2]);
+  if (length == 0.0) in.fail(what + " is '0 0 0'; allowed: a vector with a length");
+  for (double &component : v)
+    component /= length;
+  return v;
+}
+
+std::array<double, 3> cross(const std::array<double, 3> &a, const std::array<double, 3> &b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+} // namespace
+
+FixDrumExcite::FixDrumExcite(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) {
+  scalar_flag = vector_flag = 1;
+  size_vector = 6;
+  extscalar = extvector = 0;
+  global_freq = 1;
+  restart_global = 1;
+  time_depend = 1; // the clock counts steps
+
+  drumlin::Arguments in(error, "fix drum/excite", narg - 3, arg + 3);
+  bool has_amplitude = false;
+  bool has_frequency = false;
+  while (!in.empty()) {
+    const std::string keyword = in.word("keyword");
+    if (keyword == "amplitude" || keyword == "eccentric") {
+      if (has_amplitude)
+        in.fail("keyword " + keyword +
+                ": the amplitude is given twice; allowed: amplitude or eccentric, once");
+      has_amplitude = true;
+      if (keyword == "amplitude") {
+        excitation_.amplitude = in.number("keyword amplitude", Range::non_negative);
+      } else {
+        excitation_.eccentric = true;
+        excitation_.eccentric_mass = in.number("keyword eccentric, mass", Range::positive);
+        excitation_.eccentric_radius = in.number("keyword eccentric, radius", Range::positive);
+      }
+    } else if (keyword == "omega" || keyword == "frequency") {
+      if (has_frequency)
+        in.fail("keyword " + keyword + ": the frequency is given twice; allowed: omega or frequency, once");
+      has_frequency = true;
+      excitation_.angular_frequency =
+          in.number("keyword " + keyword, Range::positive) * (keyword == "omega" ? 1.0 : two_pi);
+    } else if (keyword == "phase") {
+      excitation_.phase = in.number("keyword phase");
+    } else if (keyword == "start") {
+      excitation_.start = in.number("keyword start", Range::non_negative);
+    } else if (keyword == "ramp") {
+      excitation_.ramp = in.number("keyword ramp", Range::non_negative);
+    } else if (keyword == "sweep") {
+      excitation_.sweep_frequency = in.number("keyword sweep, end frequency", Range::positive);
+      excitation_.sweep_duration = in.number("keyword sweep, duration", Range::positive);
+    } else if (keyword == "direction") {
+      given_direction_ = unit(in, "keyword direction");
+    } else if (keyword == "mode") {
+      excitation_.rotating = in.choice("keyword mode", {"directed", "rotating"}) == 1;
+    } else if (keyword == "axis") {
+      axis_ = unit(in, "keyword axis");
+    } else {
+      in.fail("unknown keyword '" + keyword +
+              "'; allowed: amplitude, eccentric, omega, frequency, phase, start, ramp, sweep, direction, "
+              "mode or axis");
+    }
+  }
+  if (!has_amplitude) in.fail("the amplitude is missing; allowed: amplitude Fw or eccentric me re");
+  if (!has_frequency) in.fail("the frequency is missing; allowed: omega w or frequency f");
+  if (excitation_.rotating && !axis_)
+    in.fail("keyword mode is 'rotating' and the axis is missing; allowed: axis x y z");
+  if (!excitation_.rotating && axis_)
+    in.fail("keyword axis is given and keyword mode is 'directed'; allowed: axis with mode rotating only");
+  if (const std::string wrong = excitation_.invalid(); !wrong.empty()) in.fail(wrong);
+}
+
+int FixDrumExcite::setmask() { return FixConst::POST_FORCE; }
+
+void FixDrumExcite::init() {
+  if (group->count(igroup) == 0)
+    error->all(FLERR,
+               fmt::format("fix drum/excite: group {} is empty; allowed: a group with at least one ball",
+                           group->names[igroup])
+                   .c_str());
+  mass_ = group->mass(igroup);
+  if (given_direction_) {
+    direction_ = *given_direction_;
+  } else {
+    const Vector g = engine::gravity(modify);
+    const double size = std::hypot(g[0], g[1], g[2]);
+    if (size == 0.0)
+      error->all(
+          FLERR,
+          "fix drum/excite: keyword direction is missing and there is no gravity to take it from; allowed: "
+          "direction x y z");
+    direction_ = {g[0] / size, g[1] / size, g[2] / size};
+  }
+  if (axis_) {
+    const double along =
+        (*axis_)[0] * direction_[0] + (*axis_)[1] * direction_[1] + (*axis_)[2] * direction_[2];
+    if (std::fabs(along) > 1e-12)
+      error->all(
+          FLERR,
+          fmt::format("fix drum/excite: keyword axis: its cosine with the direction is {:.6g}; allowed: an "
+                      "axis at right angles to the direction",
+                      along)
+              .c_str());
+    normal_ = cross(*axis_, direction_);
+  }
+}
+
+void FixDrumExcite::setup(int vflag) {
+  clock_.set_up(update->ntimestep, update->dt);
+  if (!echoed_ && comm->me == 0) {
+    const double w = excitation_.angular_frequency;
+    const std::string text = fmt::format(
+        "fix drum/excite {}: {} Fw = {:.6g} N on {:.6g} kg, omega = {:.6g} rad/s ({:.6g} Hz), {:.6g} steps "
+        "per cycle, "
+        "direction {:.6g} {:.6g} {:.6g}\n",
+        id, excitation_.rotating ? "rotating" : "directed",
+        excitation_.eccentric ? excitation_.eccentric_mass * excitation_.eccentric_radius * w * w
+                              : excitation_.amplitude,
+        mass_, w, w / two_pi, two_pi / (w * update->dt), direction_[0], direction_[1], direction_[2]);
+    for (FILE *out : {screen, logfile})
+      if (out) std::fputs(text.c_str(), out);
+  }
+  echoed_ = true;
+  post_force(vflag);
+}
+
+void FixDrumExcite::post_force(int) {
+  const Vector F = force_now();
+  double **f = atom->f;
+  const double *rmass = atom->rmass;
+  const int *mask = atom->mask;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (mask[i] & groupbit) {
+      const double share = rmass[i] / mass_;
+      for (int a = 0; a < 3; ++a)
+        f[i][a] += share * F[a];
+    }
+}
+
+double FixDrumExcite::now() const { return clock_.time(update->ntimestep); }
+
+FixDrumExcite::Vector FixDrumExcite::force_now() const {
+  const std::array<double, 2> part = physics::excitation_components(excitation_, now());
+  Vector F{};
+  for (std::size_t a = 0; a < 3; ++a)
+    F[a] = part[0] * direction_[a] + part[1] * normal_[a];
+  return F;
+}
+
+void FixDrumExcite::write_restart(FILE *file) {
+  const auto state = clock_.state();
+  drumlin::write_restart_record(file, comm->me, {state.begin(), state.end()});
+}
+
+void FixDrumExcite::restart(char *buffer) { clock_.restore(reinterpret_cast<const double *>(buffer)); }
+
+double FixDrumExcite::compute_scalar() { return physics::excitation_force(excitation_, now()); }
+
+double FixDrumExcite::compute_vector(int n) {
+  if (n < 3) return force_now()[static_cast<std::size_t>(n)];
+  if (n == 3) return physics::excitation_phase(excitation_, now());
+  return n == 4 ? physics::excitation_frequency(excitation_, now()) : now();
+}

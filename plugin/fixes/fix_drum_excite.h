@@ -1,0 +1,44 @@
+#pragma once
+// fix drum/excite: the excitation force of the vibratory drum. See plugin/doc/fix_drum_excite.md.
+
+#include "engine.h"
+#include "fixes/clock.h"
+#include "physics/excitation.h"
+
+#include <optional>
+
+namespace LAMMPS_NS {
+
+/// Adds Fe(t) to a group, shared by mass. Fe is positive along `direction`, by default that of gravity, and
+/// belongs to the time of the positions in the same step.
+class FixDrumExcite : public Fix {
+public:
+  FixDrumExcite(LAMMPS *, int, char **);
+
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void post_force(int) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+  /// Fe along the direction, N.
+  double compute_scalar() override;
+  /// 0-2: force components, N; 3: phase, rad; 4: frequency, rad/s; 5: own time, s.
+  double compute_vector(int) override;
+
+private:
+  using Vector = std::array<double, 3>;
+  double now() const;
+  Vector force_now() const;
+
+  drumlin::physics::Excitation excitation_;
+  std::optional<Vector> given_direction_;
+  std::optional<Vector> axis_; // of rotation
+  Vector direction_{};
+  Vector normal_{}; // axis x direction: second component of a rotating force
+  drumlin::Clock clock_;
+  double mass_ = 0.0; // of the group
+  bool echoed_ = false;
+};
+
+} // namespace LAMMPS_NS

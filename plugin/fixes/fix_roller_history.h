@@ -1,0 +1,96 @@
+#pragma once
+// fix roller/history: motion and forces of drum and frame, at one instant. See
+// plugin/doc/fix_roller_history.md.
+
+#include "engine.h"
+#include "fixes/clock.h"
+#include "fixes/contact_source.h"
+#include "fixes/output_file.h"
+
+#include <optional>
+
+namespace LAMMPS_NS {
+
+class FixDrumExcite;
+class FixBondSpring;
+
+/// Writes chain.csv (samples) and cycles.csv (extremes, harmonics and energies over every step). The forces
+/// and accelerations in a row are the right-hand sides of Eq. (1) at the positions and velocities of that
+/// row.
+class FixRollerHistory : public Fix {
+public:
+  FixRollerHistory(LAMMPS *, int, char **);
+
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void pre_neighbor() override;
+  void end_of_step() override;
+  void post_run() override;
+  int pack_comm(int, int *, double *, int, int *) override;
+  void unpack_comm(int, int, double *) override;
+  void write_restart(FILE *) override;
+  void restart(char *) override;
+  /// 0-9: the columns of chain.csv at the last evaluated step.
+  double compute_vector(int) override;
+
+private:
+  struct Body {
+    int groupbit = 0;
+    double mass = 0.0;
+    double origin = 0.0; // engine coordinate along the axis where x = 0
+    bool has_origin = false;
+    double x = 0.0, v = 0.0, a = 0.0;
+  };
+  struct Candidate { // a ball of the drum, and one that is neither drum nor frame
+    int drum, other;
+    double k, c;
+    drumlin::physics::Transition transition;
+  };
+  struct Forces {
+    double contact = 0.0, excitation = 0.0, bond = 0.0;
+    double contact_dissipated = 0.0, contact_stored = 0.0; // W, J
+    double bond_dissipated = 0.0, bond_stored = 0.0;       // W, J
+    double excitation_power = 0.0;                         // W
+    bool in_contact = false;
+  };
+  /// Accumulated over the steps of a cycle, or since the start (energies).
+  struct Cycle {
+    double number = 0.0, steps = 0.0;
+    double a_min = 0.0, a_max = 0.0, F_min = 0.0, F_max = 0.0, contact_steps = 0.0;
+    std::array<double, 6> harmonic{}; // a1 cos, sin; a2 cos, sin; a(1/2) cos, sin
+    double work = 0.0, contact_dissipated = 0.0, bond_dissipated = 0.0;
+  };
+
+  void parse(int narg, char **arg);
+  void rebuild();
+  void evaluate();
+  void locate(Body &body, const char *name);
+  void write_sample();
+  void start_cycle();
+  void count_step(const Forces &before, double a_before);
+  void write_cycle();
+  double along(const double *vector) const;
+  double time() const { return clock_.time(update->ntimestep); }
+
+  std::string file_name_, cycles_name_, excite_id_, bond_id_, frame_group_;
+  bool append_ = false;
+  int steps_per_cycle_ = 0; // 0: no cycles file
+  std::array<double, 3> axis_{};
+  bool has_axis_ = false;
+
+  std::optional<drumlin::OutputFile> file_, cycles_file_;
+  const drumlin::ContactSource *source_ = nullptr;
+  FixDrumExcite *excite_ = nullptr;
+  FixBondSpring *bond_ = nullptr;
+  drumlin::Clock clock_;
+  Body drum_, frame_;
+  double gravity_ = 0.0; // m/s2, downwards along the axis
+  Forces forces_;
+  Cycle cycle_;
+  std::vector<Candidate> candidates_;
+  bool stale_ = true;
+  bigint last_sample_ = -1;
+};
+
+} // namespace LAMMPS_NS

@@ -1,0 +1,49 @@
+#pragma once
+// Kinematics of a pair of balls at the end of a step, when position and velocity belong to the same instant.
+
+#include "engine.h"
+
+#include <cmath>
+
+namespace drumlin {
+
+/// Overlap, its rate, and the unit normal from ball j to ball i.
+struct PairMotion {
+  double overlap; ///< m
+  double rate;    ///< m/s, positive when the overlap grows
+  std::array<double, 3> normal;
+};
+
+inline PairMotion pair_motion(const LAMMPS_NS::Atom &atom, int i, int j) {
+  const double *xi = atom.x[i];
+  const double *xj = atom.x[j];
+  const double *vi = atom.v[i];
+  const double *vj = atom.v[j];
+  PairMotion m{};
+  std::array<double, 3> d{xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]};
+  const double distance = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  for (std::size_t a = 0; a < 3; ++a) {
+    m.normal[a] = d[a] / distance;
+    m.rate -= (vi[a] - vj[a]) * m.normal[a];
+  }
+  m.overlap = atom.radius[i] + atom.radius[j] - distance;
+  return m;
+}
+
+/// Packs owned velocities for the ghosts, and takes them there: the pair style leaves ghosts at the half-step
+/// velocity.
+inline void pack_velocities(const LAMMPS_NS::Atom &atom, int n, const int *list, double *buf) {
+  int m = 0;
+  for (int a = 0; a < n; ++a)
+    for (int b = 0; b < 3; ++b)
+      buf[m++] = atom.v[list[a]][b];
+}
+
+inline void unpack_velocities(const LAMMPS_NS::Atom &atom, int n, int first, const double *buf) {
+  int m = 0;
+  for (int i = first; i < first + n; ++i)
+    for (int b = 0; b < 3; ++b)
+      atom.v[i][b] = buf[m++];
+}
+
+} // namespace drumlin

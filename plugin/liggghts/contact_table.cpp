@@ -1,0 +1,144 @@
+#include "liggghts/contact_table.h"
+
+#include "fixes/contact_source.h"
+#include "fix_property_global.h"
+#include "fix_rigid.h"
+#include "global_properties.h"
+#include "pair_gran.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <memory>
+
+namespace drumlin {
+namespace {
+
+using LAMMPS_NS::FixPropertyGlobal;
+using LAMMPS_NS::LAMMPS;
+using LAMMPS_NS::Pointers;
+
+constexpr const char *model = "model hooke/transition";
+constexpr double default_friction = 0.5;
+
+/// A matrix property over pairs of types.
+class TypePairProperty : Pointers {
+public:
+  TypePairProperty(LAMMPS *engine, const char *name, int ntypes)
+      : Pointers(engine), name_(name),
+        fix_(static_cast<FixPropertyGlobal *>(modify->find_fix_property(
+            name, "property/global", "peratomtypepair", ntypes, ntypes, model, false))) {}
+
+  bool given() const { return fix_ != nullptr; }
+
+  double operator()(int i, int j, bool zero_allowed) {
+    const double value = fix_->compute_array(i - 1, j - 1);
+    if (!std::isfinite(value) || value < 0.0 || (value == 0.0 && !zero_allowed))
+      error->all(FLERR, fmt::format("{}: property {} of types {} and {} is {}; allowed: a finite number {} 0",
+                                    model, name_, i, j, value, zero_allowed ? ">=" : ">")
+                            .c_str());
+    return value;
+  }
+
+  void require(const char *meaning, int ntypes) const {
+    if (given()) return;
+    error->all(FLERR,
+               fmt::format(
+                   "{}: property {} ({}) is missing; give 'fix ID all property/global {} peratomtypepair {}' "
+                   "and {} values",
+                   model, name_, meaning, name_, ntypes, ntypes * ntypes)
+                   .c_str());
+  }
+
+private:
+  const char *name_;
+  FixPropertyGlobal *fix_;
+};
+
+/// The pair style's table as the fixes see it.
+class PairSource : public ContactSource, Pointers {
+public:
+  PairSource(LAMMPS *engine, const ContactTable *table) : Pointers(engine), table_(table) {}
+
+  const physics::LinearContact &law(int itype, int jtype) const override {
+    return table_->at(itype, jtype).normal;
+  }
+
+  double effective_mass(int i, int j) const override {
+    const auto *pair = static_cast<LAMMPS_NS::PairGran *>(force->pair);
+    double mi = atom->rmass[i];
+    double mj = atom->rmass[j];
+    if (pair->fr_pair() != nullptr) {
+      const double *body_mass = pair->mr_pair();
+      if (body_mass[i] > 0.0) mi = body_mass[i];
+      if (body_mass[j] > 0.0) mj = body_mass[j];
+    }
+    if (atom->mask[i] & pair->freeze_group_bit()) return mj;
+    if (atom->mask[j] & pair->freeze_group_bit()) return mi;
+    return physics::effective_mass(mi, mj);
+  }
+
+  bool serves(const LAMMPS *engine) const { return lmp == engine; }
+  bool reads(const ContactTable *table) const { return table_ == table; }
+
+private:
+  const ContactTable *table_;
+};
+
+std::unique_ptr<PairSource> current_source; // one engine instance per process runs a deck
+
+} // namespace
+
+void ContactTable::read(LAMMPS *lmp, int ntypes, physics::Transition transition, physics::Damping damping,
+                        bool is_wall) {
+  TypePairProperty kn(lmp, "kn", ntypes);
+  TypePairProperty kt(lmp, "kt", ntypes);
+  TypePairProperty ct(lmp, "gammat_abs", ntypes);
+  TypePairProperty c(lmp, damping == physics::Damping::ratio ? "dampingRatio" : "gamman_abs", ntypes);
+  kn.require("normal stiffness, N/m", ntypes);
+  c.require(damping == physics::Damping::ratio
+                ? "damping ratio D, keyword damping ratio"
+                : "normal damping coefficient, N s/m, keyword damping coefficient",
+            ntypes);
+
+  stride_ = static_cast<std::size_t>(ntypes) + 1;
+  coefficients_.assign(stride_ * stride_, {});
+  for (int i = 1; i <= ntypes; ++i)
+    for (int j = 1; j <= ntypes; ++j) {
+      ContactCoefficients &p =
+          coefficients_[static_cast<std::size_t>(i) * stride_ + static_cast<std::size_t>(j)];
+      p.normal = {kn(i, j, false), c(i, j, true), damping, transition};
+      p.tangential_stiffness = kt.given() ? kt(i, j, true) : 2.0 / 7.0 * p.normal.stiffness;
+      p.tangential_damping = ct.given() ? ct(i, j, true) : 0.0;
+      p.tangential_damping_share = ct.given() ? 0.0 : 0.5;
+    }
+  if (!is_wall) current_source = std::make_unique<PairSource>(lmp, this);
+}
+
+void provide_friction_default(LAMMPS *lmp, int ntypes) {
+  constexpr const char *name = "coefficientFriction"; // as the engine's tangential models ask for it
+  if (TypePairProperty given(lmp, name, ntypes); given.given()) {
+    for (int i = 1; i <= ntypes; ++i)
+      for (int j = 1; j <= ntypes; ++j)
+        given(i, j, true);
+    return;
+  }
+  std::vector<std::string> words = {"drumlin_friction",    "all", "property/global", name, "peratomtypepair",
+                                    std::to_string(ntypes)};
+  words.insert(words.end(), static_cast<std::size_t>(ntypes) * static_cast<std::size_t>(ntypes),
+               fmt::format("{}", default_friction));
+  std::vector<char *> arg;
+  arg.reserve(words.size());
+  for (std::string &word : words)
+    arg.push_back(word.data());
+  lmp->modify->add_fix(static_cast<int>(arg.size()), arg.data());
+}
+
+ContactTable::~ContactTable() {
+  if (current_source && current_source->reads(this)) current_source.reset();
+}
+
+const ContactSource *contact_source(LAMMPS *lmp) {
+  return current_source && current_source->serves(lmp) ? current_source.get() : nullptr;
+}
+
+} // namespace drumlin

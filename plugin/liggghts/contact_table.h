@@ -1,0 +1,47 @@
+#pragma once
+// Coefficients of the contact law for each pair of types, read from the deck's `fix property/global` values.
+
+#include "lammps.h"
+#include "physics/contact_law.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace drumlin {
+
+/// What a contact of two types needs in the inner loop.
+struct ContactCoefficients {
+  physics::LinearContact normal;
+  double tangential_stiffness;     ///< kt, N/m
+  double tangential_damping;       ///< absolute tangential damping coefficient, N s/m, if the deck gives one
+  double tangential_damping_share; ///< else the share of the normal coefficient c that is used
+};
+
+/// Table over pairs of types. Defaults where the deck gives nothing: kt = 2/7 kn, tangential damping = c / 2.
+class ContactTable {
+public:
+  ContactTable() = default;
+  ContactTable(const ContactTable &) = delete;
+  ContactTable &operator=(const ContactTable &) = delete;
+  ~ContactTable();
+
+  /// Reads and checks the properties; ends the run with one line that names property, types, value and what
+  /// is allowed. \param is_wall the pair style's table, not a wall's, is the one that fixes may ask for
+  /// (contact_source.h)
+  void read(LAMMPS_NS::LAMMPS *lmp, int ntypes, physics::Transition transition, physics::Damping damping,
+            bool is_wall);
+
+  const ContactCoefficients &at(int itype, int jtype) const {
+    return coefficients_[static_cast<std::size_t>(itype) * stride_ + static_cast<std::size_t>(jtype)];
+  }
+
+private:
+  std::vector<ContactCoefficients> coefficients_;
+  std::size_t stride_ = 0;
+};
+
+/// Makes the property coefficientFriction, with 0.5 for all pairs of types, if the deck gives none: the
+/// engine's tangential models insist on one. One that is given is checked, which the engine does not do.
+void provide_friction_default(LAMMPS_NS::LAMMPS *lmp, int ntypes);
+
+} // namespace drumlin

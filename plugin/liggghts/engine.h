@@ -1,0 +1,61 @@
+#pragma once
+// The thin layer under the engine-neutral fixes and commands: what they need of LIGGGHTS, under names that an
+// adapter to LAMMPS can give as well. Nothing else in plugin/fixes knows which engine it is compiled for.
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix.h"
+#include "fix_gravity.h"
+#include "force.h"
+#include "group.h"
+#include "integrate.h"
+#include "memory.h"
+#include "modify.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+#include "output.h"
+#include "pair.h"
+#include "pointers.h"
+#include "timer.h"
+#include "update.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace drumlin::engine {
+
+using LAMMPS_NS::bigint;
+using LAMMPS_NS::LAMMPS;
+
+/// Name and version of the engine, for logs and run records.
+inline std::string name_and_version() { return std::string("LIGGGHTS ") + LIGGGHTS_VERSION; }
+
+/// Copies the velocities of owned balls to their ghosts through the fix's pack_comm/unpack_comm pair.
+inline void forward_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Fix *fix) { comm->forward_comm_fix(fix); }
+
+/// Acceleration of gravity (m/s2) as the deck's fix gravity gives it now; zero without one.
+inline std::array<double, 3> gravity(LAMMPS_NS::Modify *modify) {
+  std::array<double, 3> g{0.0, 0.0, 0.0};
+  auto *fix = static_cast<LAMMPS_NS::FixGravity *>(modify->find_fix_style("gravity", 0));
+  if (fix != nullptr) fix->get_gravity(g.data());
+  return g;
+}
+
+/// A fix by its ID, or nullptr.
+inline LAMMPS_NS::Fix *find_fix(LAMMPS_NS::Modify *modify, const std::string &id) {
+  const int index = modify->find_fix(id.c_str());
+  return index < 0 ? nullptr : modify->fix[index];
+}
+
+/// Neighbour list of the pair style, each pair once (twice across ranks with newton off), or nullptr.
+inline LAMMPS_NS::NeighList *pair_list(LAMMPS_NS::Force *force) {
+  return force->pair != nullptr ? force->pair->list : nullptr;
+}
+
+/// Index of a neighbour without the bits that the engine packs into it.
+inline int neighbour_index(int packed) { return packed & NEIGHMASK; }
+
+} // namespace drumlin::engine

@@ -1,0 +1,40 @@
+#include "liggghts/model_settings.h"
+
+#include "fixes/arguments.h"
+
+namespace drumlin {
+
+ModelSettings::ModelSettings(LAMMPS_NS::Error *error, const std::string &command, bool rolling, int narg,
+                             char **arg) {
+  std::vector<std::string> keywords = {"transition", "damping"};
+  if (rolling) keywords.emplace_back("torsionTorque");
+
+  Arguments in(error, command, narg, arg);
+  while (!in.empty()) {
+    const std::string keyword = in.word("keyword");
+    if (keyword == "transition") {
+      words_.insert(words_.end(),
+                    {"transition_A", in.choice("keyword " + keyword, {"A", "B"}) == 0 ? "on" : "off"});
+    } else if (keyword == "damping") {
+      words_.insert(words_.end(),
+                    {"damping_coefficient",
+                     in.choice("keyword " + keyword, {"coefficient", "ratio"}) == 0 ? "on" : "off"});
+    } else if (keyword == "torsionTorque" && rolling) {
+      words_.insert(words_.end(),
+                    {keyword, in.choice("keyword " + keyword, {"on", "off"}) == 0 ? "on" : "off"});
+    } else if (keyword == "tangential" || keyword == "rolling_friction" || keyword == "cohesion" ||
+               keyword == "surface" || keyword == "primitive" || keyword == "mesh") {
+      in.fail(
+          "'" + keyword +
+          "' comes too late or lacks its value; allowed: models first, for a wall then primitive or mesh, "
+          "then " +
+          join_choices(keywords));
+    } else {
+      in.fail("unknown keyword '" + keyword + "'; allowed: " + join_choices(keywords));
+    }
+  }
+  for (std::string &word : words_)
+    pointers_.push_back(word.data());
+}
+
+} // namespace drumlin

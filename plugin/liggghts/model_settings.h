@@ -1,0 +1,28 @@
+#pragma once
+// Keywords of `model hooke/transition` for pairs and walls: parsed and checked here, then handed to the
+// engine's settings as the switches that the models registered. (The engine's own parser reads past a missing
+// value, takes any text as a number and names neither the command nor what is allowed.)
+
+#include "error.h"
+
+#include <string>
+#include <vector>
+
+namespace drumlin {
+
+/// Words that the engine's settings parser gets, in its form.
+class ModelSettings {
+public:
+  /// \param command for error texts, e.g. "pair_style gran model hooke/transition"
+  /// \param rolling the combination has a rolling model, which takes `torsionTorque on|off`
+  ModelSettings(LAMMPS_NS::Error *error, const std::string &command, bool rolling, int narg, char **arg);
+
+  int size() const { return static_cast<int>(pointers_.size()); }
+  char **words() { return pointers_.data(); }
+
+private:
+  std::vector<std::string> words_;
+  std::vector<char *> pointers_;
+};
+
+} // namespace drumlin

@@ -1,0 +1,214 @@
+// Registration of everything that the plugin adds to a stock LIGGGHTS, called by the preloaded library
+// (preload.cpp).
+
+// The order of these matters: the headers below lean on them without including them.
+#include "fix_insert_stream.h"
+#include "fix_mesh_surface.h"
+#include "fix_property_atom.h"
+#include "global_properties.h"
+
+#include "contact_models.h"
+
+#include "pair_gran_base.h"
+
+#include "fix_wall_gran_base.h"
+
+#include "comm.h"
+#include "input.h"
+#include "neighbor.h"
+#include "variable.h"
+
+#include "engine.h"
+#include "fixes/commands.h"
+#include "fixes/fix_bond_spring.h"
+#include "fixes/fix_contact_events.h"
+#include "fixes/fix_drum_excite.h"
+#include "fixes/fix_guard.h"
+#include "fixes/fix_roller_history.h"
+#include "liggghts/contact_table.h"
+#include "liggghts/model_settings.h"
+
+#include <fstream>
+#include <map>
+#include <string>
+
+namespace {
+
+using namespace LIGGGHTS::ContactModels; // NOLINT: the engine's model constants
+using LAMMPS_NS::Fix;
+using LAMMPS_NS::FixWallGran;
+using LAMMPS_NS::Input;
+using LAMMPS_NS::LAMMPS;
+using LAMMPS_NS::Modify;
+using LAMMPS_NS::PairGran;
+using LAMMPS_NS::Pointers;
+
+// The release that the contact data layout below was built for, without superquadrics.
+static_assert(sizeof(SurfacesIntersectData) == 368,
+              "contact data of this LIGGGHTS differ from the stock binary's");
+
+// The engine's style maps are not public. An explicit instantiation may name a private member; its friend
+// hands it out.
+template <auto Member>
+struct ModifyAccess {
+  friend auto &fix_map_of(Modify &modify) { return modify.*Member; }
+};
+auto &fix_map_of(Modify &modify);
+template struct ModifyAccess<&Modify::fix_map>;
+
+template <auto Member>
+struct InputAccess {
+  friend auto &command_map_of(Input &input) { return input.*Member; }
+};
+auto &command_map_of(Input &input);
+template struct InputAccess<&Input::command_map>;
+
+// Input's base class is protected: only a C-style cast converts to it.
+struct PointersAccess : Pointers {
+  static LAMMPS *engine_of(Input &input) { return ((Pointers &)input).*(&PointersAccess::lmp); } // NOLINT
+};
+
+/// A combination of models keeps contact history: its shear spring or rolling torque must vanish with the
+/// contact.
+template <class Style>
+constexpr bool has_history = Style::TANGENTIAL == TANGENTIAL_HISTORY || Style::ROLLING == ROLLING_EPSD2;
+
+/// With a distance factor above 1 the engine calls surfacesClose() for a contact that has just ended; at 1 it
+/// would keep the shear spring until the next neighbour build.
+constexpr double contact_distance_factor = 1.01;
+
+/// What a combination of models needs of the engine before it reads its properties.
+template <class Style>
+void prepare(LAMMPS *engine) {
+  if (has_history<Style>) engine->neighbor->register_contact_dist_factor(contact_distance_factor);
+  if (Style::TANGENTIAL != TANGENTIAL_OFF)
+    drumlin::provide_friction_default(engine, engine->force->registry.max_type());
+}
+
+template <class Style>
+class TransitionPair : public LIGGGHTS::PairStyles::Granular<ContactModel<Style>> {
+  using Base = LIGGGHTS::PairStyles::Granular<ContactModel<Style>>;
+
+public:
+  TransitionPair(LAMMPS *engine, PairGran *pair, int64_t hash) : Base(engine, pair, hash), engine_(engine) {}
+
+  void settings(int narg, char **arg, LIGGGHTS::IContactHistorySetup *history) override {
+    drumlin::ModelSettings words(engine_->error, "pair_style gran model hooke/transition",
+                                 Style::ROLLING != ROLLING_OFF, narg, arg);
+    Base::settings(words.size(), words.words(), history);
+  }
+
+  void init_granular() override {
+    prepare<Style>(engine_);
+    Base::init_granular();
+  }
+
+private:
+  LAMMPS *engine_;
+};
+
+template <class Style>
+class TransitionWall : public LIGGGHTS::Walls::Granular<ContactModel<Style>> {
+  using Base = LIGGGHTS::Walls::Granular<ContactModel<Style>>;
+
+public:
+  TransitionWall(LAMMPS *engine, FixWallGran *wall, int64_t hash)
+      : Base(engine, wall, hash), engine_(engine) {}
+
+  void settings(int narg, char **arg, LIGGGHTS::IContactHistorySetup *history) override {
+    drumlin::ModelSettings words(engine_->error, "fix wall/gran model hooke/transition",
+                                 Style::ROLLING != ROLLING_OFF, narg, arg);
+    Base::settings(words.size(), words.words(), history);
+  }
+
+  void init_granular() override {
+    prepare<Style>(engine_);
+    Base::init_granular();
+  }
+
+private:
+  LAMMPS *engine_;
+};
+
+template <int Tangential, int Rolling>
+void add_combination() {
+  using Style = GranStyle<HOOKE_TRANSITION, Tangential, COHESION_OFF, Rolling, SURFACE_DEFAULT>;
+  LIGGGHTS::PairStyles::Factory::instance().addStyle(
+      "gran", Style::HASHCODE,
+      [](LAMMPS *lmp, PairGran *parent, int64_t hash) -> LIGGGHTS::PairStyles::IGranularPairStyle * {
+        return new TransitionPair<Style>(lmp, parent, hash);
+      });
+  LIGGGHTS::Walls::Factory::instance().addStyle(
+      "gran", Style::HASHCODE,
+      [](LAMMPS *lmp, FixWallGran *parent, int64_t hash) -> LIGGGHTS::Walls::IGranularWall * {
+        return new TransitionWall<Style>(lmp, parent, hash);
+      });
+}
+
+template <int Tangential>
+void add_rolling_combinations() {
+  add_combination<Tangential, ROLLING_OFF>();
+  add_combination<Tangential, ROLLING_CDT>();
+  add_combination<Tangential, ROLLING_EPSD2>();
+}
+
+void add_contact_models() {
+  Factory::instance().addNormalModel("hooke/transition", HOOKE_TRANSITION);
+  add_rolling_combinations<TANGENTIAL_OFF>();
+  add_rolling_combinations<TANGENTIAL_NO_HISTORY>();
+  add_rolling_combinations<TANGENTIAL_HISTORY>();
+}
+
+template <class FixStyle>
+Fix *create_fix(LAMMPS *lmp, int narg, char **arg) {
+  return new FixStyle(lmp, narg, arg);
+}
+
+void add_fixes(LAMMPS *lmp) {
+  auto &fixes = *fix_map_of(*lmp->modify);
+  fixes["drum/excite"] = create_fix<LAMMPS_NS::FixDrumExcite>;
+  fixes["bond/spring"] = create_fix<LAMMPS_NS::FixBondSpring>;
+  fixes["contact/events"] = create_fix<LAMMPS_NS::FixContactEvents>;
+  fixes["roller/history"] = create_fix<LAMMPS_NS::FixRollerHistory>;
+  fixes["guard"] = create_fix<LAMMPS_NS::FixGuard>;
+}
+
+void add_commands(LAMMPS *lmp) {
+  auto &commands = *command_map_of(*lmp->input);
+  commands["drumlin/check"] = drumlin::check_command;
+  commands["drumlin/record"] = drumlin::record_command;
+  commands["drumlin/settle"] = drumlin::settle_command;
+}
+
+/// Folder of the deck named by -in, so that a deck finds its includes from any working directory (`${here}`);
+/// "." for a deck from standard input. A value given by -var stays.
+void define_here(LAMMPS *lmp) {
+  std::ifstream file("/proc/self/cmdline");
+  std::string here = ".";
+  for (std::string word, previous; std::getline(file, word, '\0'); previous = word)
+    if (previous == "-in" || previous == "-i")
+      here = word.find('/') == std::string::npos ? "." : word.substr(0, word.rfind('/'));
+  std::string name = "here";
+  std::string style = "index";
+  char *words[] = {name.data(), style.data(), here.data()};
+  lmp->input->variable->set(3, words);
+}
+
+} // namespace
+
+extern "C" __attribute__((visibility("default"))) void drumlin_register(void *input,
+                                                                        const char *engine_version) {
+  LAMMPS *lmp = PointersAccess::engine_of(*static_cast<Input *>(input));
+  static LAMMPS *known = nullptr;
+  if (known == lmp) return;
+  if (known == nullptr) add_contact_models();
+  known = lmp;
+  add_fixes(lmp);
+  add_commands(lmp);
+  define_here(lmp);
+  if (lmp->comm->me != 0) return;
+  for (FILE *out : {lmp->screen, lmp->logfile})
+    if (out)
+      std::fprintf(out, "drumlin %s, plugin for LIGGGHTS %s, loaded in LIGGGHTS %s\n", DRUMLIN_VERSION,
+                   LIGGGHTS_VERSION, engine_version);
+}

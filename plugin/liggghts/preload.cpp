@@ -1,0 +1,99 @@
+// The library that users preload. It carries no engine symbols, so any program can have it in its LD_PRELOAD;
+// it acts only in a process that runs an engine, where it loads the plugin built for that engine or says why
+// it cannot.
+//
+// The engine's main program calls LAMMPS_NS::Input::file() through the dynamic linker. This library defines
+// that symbol, is found first, lets the plugin register its styles on the Input object, and then goes on to
+// the engine's own.
+
+#include <cstdio>
+#include <cstdlib>
+#include <dlfcn.h>
+#include <string>
+
+namespace {
+
+constexpr const char *input_file_symbol = "_ZN9LAMMPS_NS5Input4fileEv";
+constexpr const char *liggghts_symbol = "_ZN8LIGGGHTS10PairStyles7Factory8instanceEv";
+
+/// File that a symbol comes from, with links resolved, so that its name ends in the engine's full version.
+std::string real_file_of(const void *address) {
+  Dl_info info{};
+  if (dladdr(address, &info) == 0 || info.dli_fname == nullptr) return {};
+  char *resolved = realpath(info.dli_fname, nullptr);
+  std::string path = resolved != nullptr ? resolved : info.dli_fname;
+  std::free(resolved);
+  return path;
+}
+
+bool ends_with(const std::string &text, const std::string &end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+std::string base_name(const std::string &path) { return path.substr(path.find_last_of('/') + 1); }
+
+/// Ends the run on every rank: each calls this, rank 0 speaks. MPI is reached by name, since this library
+/// links nothing.
+[[noreturn]] void stop(const std::string &why) {
+  int rank = 0;
+  void *world = dlsym(RTLD_DEFAULT, "ompi_mpi_comm_world");
+  using CommRank = int (*)(void *, int *);
+  using Finalize = int (*)();
+  if (auto comm_rank = reinterpret_cast<CommRank>(dlsym(RTLD_DEFAULT, "MPI_Comm_rank")); comm_rank && world)
+    comm_rank(world, &rank);
+  if (rank == 0) std::printf("ERROR: drumlin %s: %s\n", DRUMLIN_VERSION, why.c_str());
+  std::fflush(stdout);
+  if (auto finalize = reinterpret_cast<Finalize>(dlsym(RTLD_DEFAULT, "MPI_Finalize"))) finalize();
+  std::exit(1);
+}
+
+using Register = void (*)(void *input, const char *engine_version);
+
+/// The plugin's entry point, or nullptr in `why` words if this process cannot take it.
+Register load_plugin(const void *engine_input_file, std::string &why) {
+  const std::string engine = real_file_of(engine_input_file);
+  const std::string built_for = std::string("LIGGGHTS ") + LIGGGHTS_VERSION;
+  if (dlsym(RTLD_DEFAULT, liggghts_symbol) == nullptr) {
+    why = "built for " + built_for + ", but this process runs another engine (" + base_name(engine) +
+          "); take the preload away, or use 'plugin load' with the library built for LAMMPS";
+    return nullptr;
+  }
+  if (!ends_with(engine, std::string(".so.") + LIGGGHTS_VERSION)) {
+    why = "built for " + built_for + ", but this process runs " + base_name(engine) +
+          "; build drumlin against the installed version";
+    return nullptr;
+  }
+  const std::string self = real_file_of(reinterpret_cast<const void *>(&load_plugin));
+  const std::string plugin = self.substr(0, self.find_last_of('/') + 1) + "libdrumlin-liggghts.so";
+  void *handle = dlopen(plugin.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (handle == nullptr) {
+    const char *reason = dlerror();
+    why = std::string("cannot load the plugin: ") + (reason ? reason : "unknown reason");
+    return nullptr;
+  }
+  return reinterpret_cast<Register>(dlsym(handle, "drumlin_register"));
+}
+
+/// Line buffering in the engine's processes: its error->one() texts are lost otherwise when output is
+/// redirected.
+__attribute__((constructor)) void keep_error_texts() {
+  if (dlsym(RTLD_DEFAULT, liggghts_symbol) != nullptr) std::setvbuf(stdout, nullptr, _IOLBF, 0);
+}
+
+} // namespace
+
+// The engine's LAMMPS_NS::Input::file(), met first by the dynamic linker.
+extern "C" __attribute__((visibility("default"))) void
+drumlin_input_file(void *input) __asm__("_ZN9LAMMPS_NS5Input4fileEv");
+
+void drumlin_input_file(void *input) {
+  using InputFile = void (*)(void *);
+  static const auto engine_input_file = reinterpret_cast<InputFile>(dlsym(RTLD_NEXT, input_file_symbol));
+  if (engine_input_file == nullptr)
+    stop("the engine's Input::file() is not in a shared library; it cannot be extended");
+  std::string why;
+  const Register registration = load_plugin(reinterpret_cast<const void *>(engine_input_file), why);
+  if (registration == nullptr) stop(why);
+  registration(input, LIGGGHTS_VERSION);
+  engine_input_file(input);
+}

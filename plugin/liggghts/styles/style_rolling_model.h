@@ -1,0 +1,3 @@
+// The rolling models that this plugin combines; the engine's own list is not part of its development package.
+#include "rolling_model_cdt.h"
+#include "rolling_model_epsd2.h"

@@ -1,0 +1,3 @@
+// The tangential models that this plugin combines; the engine's own list is not part of its development package.
+#include "tangential_model_no_history.h"
+#include "tangential_model_history.h"
