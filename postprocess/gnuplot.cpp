@@ -1,0 +1,198 @@
+#include "gnuplot.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string_view>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// What follows `using x:y` for a style.
+std::string_view style_words(CurveStyle style) {
+  switch (style) {
+  case CurveStyle::condition_a:
+    return "with lines lw 2.4 dt (12,6) lc rgb '#D55E00'";
+  case CurveStyle::condition_b:
+    return "with lines lw 2.2 dt solid lc rgb '#0072B2'";
+  case CurveStyle::direct_a:
+    return "with points pt 6 ps 0.75 lw 1.1 lc rgb '#000000'";
+  case CurveStyle::direct_b:
+    return "with points pt 8 ps 0.75 lw 1.1 lc rgb '#000000'";
+  case CurveStyle::direct_line:
+    return "with lines lw 1.2 dt (2,4) lc rgb '#000000'";
+  case CurveStyle::measured_a:
+    return "with points pt 7 ps 1.1 lc rgb '#D55E00'";
+  case CurveStyle::measured_b:
+    return "with points pt 5 ps 1.1 lc rgb '#0072B2'";
+  case CurveStyle::plain:
+    return "with lines lw 1.6 dt solid lc rgb '#000000'";
+  case CurveStyle::limit:
+    return "with lines lw 1.2 dt (12,4,2,4) lc rgb '#666666'";
+  }
+  return "with lines";
+}
+
+/// A gnuplot string in double quotes; words come from us and from run folders' names.
+std::string gnuplot_string(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '\n') {
+      out += "\\n";
+      continue;
+    }
+    if (c == '"' || c == '\\') out += '\\';
+    out += c == '`' ? '\'' : c; // gnuplot would run what stands between backquotes
+  }
+  return out + "\"";
+}
+
+std::string panel_script(const Panel &panel) {
+  std::string s;
+  s += panel.title.empty() ? "  unset title\n"
+                           : fmt::format("  set title {} noenhanced\n", gnuplot_string(panel.title));
+  s += fmt::format("  set xlabel {}\n  set ylabel {}\n", gnuplot_string(panel.x_label),
+                   gnuplot_string(panel.y_label));
+  s += panel.log_y ? "  set logscale y\n  set format y '10^{%T}'\n"
+                   : "  unset logscale\n  set format y '%g'\n";
+  if (panel.x_ticks.empty()) {
+    s += "  set xtics autofreq norotate\n  set autoscale x\n";
+    s += panel.tight_x ? "  set autoscale xfix\n  set offsets 0, 0, 0, 0\n"
+                       : "  set offsets graph 0.04, graph 0.04, 0, 0\n";
+    if (!panel.x_range.empty())
+      s += fmt::format("  set xrange {}\n  set offsets 0, 0, 0, 0\n", panel.x_range);
+  } else {
+    s += "  set xtics rotate by -35 left noenhanced (";
+    for (std::size_t i = 0; i < panel.x_ticks.size(); ++i)
+      s += fmt::format("{}{} {}", i == 0 ? "" : ", ", gnuplot_string(panel.x_ticks[i]), i + 1);
+    s += fmt::format(")\n  set xrange [0.5:{}]\n", static_cast<double>(panel.x_ticks.size()) + 0.5);
+  }
+  s += "  plot ";
+  bool first = true;
+  for (const Curve &curve : panel.curves) {
+    if (!first) s += ", \\\n       ";
+    first = false;
+    std::string every;
+    if (curve.every > 1 || curve.offset > 0) every = fmt::format(" every {}::{}", curve.every, curve.offset);
+    const std::string title =
+        curve.title.empty() ? "notitle" : fmt::format("title {} noenhanced", gnuplot_string(curve.title));
+    s += fmt::format("{} skip 1{} using {}:{} {} {}", gnuplot_string(curve.data), every, curve.x, curve.y,
+                     style_words(curve.style), title);
+  }
+  return s + "\n";
+}
+
+int columns_of(const Figure &figure) {
+  return std::clamp(figure.columns, 1, std::max(1, static_cast<int>(figure.panels.size())));
+}
+
+int rows_of(const Figure &figure) {
+  const int columns = columns_of(figure);
+  return (static_cast<int>(figure.panels.size()) + columns - 1) / columns;
+}
+
+std::string read_all(const fs::path &path) {
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+} // namespace
+
+fs::path find_gnuplot() {
+  const char *path = std::getenv("PATH");
+  std::string_view rest = path != nullptr ? path : "";
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find(':'), rest.size());
+    const fs::path candidate = fs::path(rest.substr(0, end)) / "gnuplot";
+    if (end > 0 && ::access(candidate.c_str(), X_OK) == 0) return fs::absolute(candidate);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  throw std::runtime_error("the program gnuplot is not on PATH; install the Debian package gnuplot-nox");
+}
+
+int figure_width(const Figure &figure) { return columns_of(figure) * figure.panel_width; }
+
+int figure_height(const Figure &figure) {
+  return rows_of(figure) * figure.panel_height + (figure.panels.size() > 1 ? 40 : 0);
+}
+
+std::string gnuplot_script(const Figure &figure) {
+  const int rows = rows_of(figure);
+  const int columns = columns_of(figure);
+  const bool many = figure.panels.size() > 1;
+  const int width = figure_width(figure);
+  const int height = figure_height(figure);
+  std::string s = fmt::format("# {}\n# Run in this folder: gnuplot {}.gp\n", figure.title, figure.name);
+  s += "set encoding utf8\n"
+       "set datafile separator comma\n"
+       "set datafile missing ''\n"
+       "set grid lc rgb '#dddddd' lt 1 lw 0.6\n"
+       "set border lw 1.0\n"
+       "set tics nomirror out\n"
+       "set xzeroaxis lt 1 lw 0.8 dt solid lc rgb '#999999'\n"
+       "set bmargin 5.5\n"
+       "set key bmargin center horizontal Left reverse samplen 2.5 width -2 maxrows 1\n";
+  s += fmt::format("do for [kind in \"svg png\"] {{\n"
+                   "  if (kind eq \"svg\") {{ set terminal svg size {0},{1} enhanced rounded font 'DejaVu "
+                   "Sans,Helvetica,Arial,15' "
+                   "background '#ffffff' }}\n"
+                   "  else {{ set terminal pngcairo size {2},{3} enhanced rounded fontscale 1.5 linewidth "
+                   "1.5 pointscale 1.5 font "
+                   "'DejaVu Sans,11.5' background '#ffffff' }}\n",
+                   width, height, width * 3 / 2, height * 3 / 2);
+  s += fmt::format("  set output \"{}.\".kind\n", figure.name);
+  if (many)
+    s += fmt::format("  set multiplot layout {},{} title {} noenhanced\n", rows, columns,
+                     gnuplot_string(figure.title));
+  for (const Panel &panel : figure.panels)
+    s += panel_script(panel);
+  if (many) s += "  unset multiplot\n";
+  return s + "  unset output\n}\n";
+}
+
+void render(const fs::path &gnuplot, const fs::path &folder, const Figure &figure) {
+  const fs::path script = folder / (figure.name + ".gp");
+  {
+    std::ofstream out(script);
+    out << gnuplot_script(figure);
+    if (!out.flush()) throw std::runtime_error(fmt::format("cannot write {}", script.string()));
+  }
+  const fs::path log = folder / (figure.name + ".log");
+  const std::string program = gnuplot.string();
+  const std::string file = figure.name + ".gp";
+  const std::string log_name = log.string();
+  const std::string where = folder.string();
+  const pid_t child = ::fork();
+  if (child < 0) throw std::runtime_error("cannot start gnuplot: fork failed");
+  if (child == 0) {
+    // Settings of the user must not change the report: --default-settings reads none of them.
+    const int fd = ::open(log_name.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    if (fd < 0 || ::dup2(fd, 1) < 0 || ::dup2(fd, 2) < 0 || ::chdir(where.c_str()) != 0) ::_exit(126);
+    ::execl(program.c_str(), "gnuplot", "--default-settings", file.c_str(), static_cast<char *>(nullptr));
+    ::_exit(127);
+  }
+  int status = 0;
+  if (::waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    throw std::runtime_error(fmt::format("gnuplot failed on {}: {}", script.string(), read_all(log)));
+  std::error_code ignored;
+  fs::remove(log, ignored);
+  for (const char *kind : {".svg", ".png"}) {
+    const fs::path picture = folder / (figure.name + kind);
+    std::error_code error;
+    if (fs::file_size(picture, error) == 0 || error)
+      throw std::runtime_error(fmt::format("gnuplot made no {}", picture.string()));
+  }
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,70 @@
+// Figures by gnuplot, run as a process: a script is written beside its data, and SVG and PNG come out.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+/// The looks that a curve can have. Each differs in dash or marker as well as in colour (Okabe-Ito), so that
+/// a black and white print still tells them apart.
+enum class CurveStyle {
+  condition_a, ///< dashed line, vermilion
+  condition_b, ///< solid line, blue
+  direct_a,    ///< thin, open circles, black
+  direct_b,    ///< thin, open triangles, black
+  direct_line, ///< thin dotted black line
+  measured_a,  ///< filled circles, vermilion
+  measured_b,  ///< filled squares, blue
+  plain,       ///< solid line, black
+  limit        ///< thin dash-dotted line, grey: a tolerance or a bound
+};
+
+/// One curve of a panel, read from a CSV file with one header line.
+struct Curve {
+  std::string data;  ///< data file, relative to the script's folder
+  std::string x;     ///< gnuplot expression or column number, e.g. "1" or "(column(1)*1e3)"
+  std::string y;     ///< the same for the ordinate
+  std::string title; ///< legend text; empty: not in the legend
+  CurveStyle style = CurveStyle::plain;
+  int every = 1;  ///< markers only: use every n-th row
+  int offset = 0; ///< first row used
+};
+
+/// One set of axes.
+struct Panel {
+  std::string title;
+  std::string x_label; ///< with unit
+  std::string y_label; ///< with unit
+  std::vector<Curve> curves;
+  bool log_y = false;
+  bool tight_x = false;                  ///< the axis ends with the data, as a time axis does
+  std::string x_range = {};              ///< as gnuplot writes it, e.g. "[-0.1:*]"; empty: what the data need
+  std::vector<std::string> x_ticks = {}; ///< names at x = 1, 2, ... instead of numbers
+};
+
+/// A figure: panels in rows of `columns`. The legend stands below each panel, outside of the axes.
+struct Figure {
+  std::string name;  ///< file stem of script, SVG and PNG
+  std::string title; ///< printed above the panels when there is more than one
+  std::vector<Panel> panels;
+  int columns = 1;
+  int panel_width = 900;  ///< px
+  int panel_height = 520; ///< px
+};
+
+/// Size of the whole figure in CSS pixels.
+int figure_width(const Figure &figure);
+int figure_height(const Figure &figure);
+
+/// Full path of the gnuplot program. Throws std::runtime_error naming the Debian package if there is none.
+std::filesystem::path find_gnuplot();
+
+/// The gnuplot script of a figure; it writes NAME.svg and NAME.png into the folder that it runs in.
+std::string gnuplot_script(const Figure &figure);
+
+/// Writes folder/NAME.gp and runs it there. Throws std::runtime_error with gnuplot's own words on failure.
+void render(const std::filesystem::path &gnuplot, const std::filesystem::path &folder, const Figure &figure);
+
+} // namespace drumlin::post

@@ -1,0 +1,253 @@
+#include "report.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+
+#include <unistd.h>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "command.h"
+#include "direct_solver.h"
+#include "gnuplot.h"
+#include "report_figures.h"
+#include "report_html.h"
+#include "report_results.h"
+#include "report_runs.h"
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char *summary_file = "report.json";
+
+void write_text(const fs::path &file, const std::string &text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  if (!out.flush()) throw std::runtime_error(fmt::format("cannot write {}", file.string()));
+}
+
+/// The place of the report, absolute and without a trailing slash. Throws if it may not be replaced.
+fs::path checked_place(const fs::path &out, const std::vector<fs::path> &runs) {
+  if (out.empty()) throw UsageError("--out = '': allowed are new folders and earlier reports");
+  fs::path place = fs::absolute(out).lexically_normal();
+  if (!place.has_filename()) place = place.parent_path();
+  const auto refuse = [&out](const std::string &why) {
+    throw UsageError(
+        fmt::format("--out = '{}' {}; allowed are new folders and earlier reports", out.string(), why));
+  };
+  if (fs::exists(place)) {
+    if (!fs::is_directory(place)) refuse("is not a folder");
+    if (!fs::is_empty(place) && !fs::is_regular_file(place / summary_file)) refuse("holds other files");
+    const std::string inside = fs::canonical(place).string() + "/";
+    for (const fs::path &run : runs)
+      if ((fs::canonical(run).string() + "/").rfind(inside, 0) == 0)
+        refuse("holds the run folder " + run.string());
+  }
+  std::error_code error;
+  fs::create_directories(place.parent_path(), error);
+  if (error || ::access(place.parent_path().c_str(), W_OK | X_OK) != 0) refuse("cannot be made");
+  return place;
+}
+
+/// A folder that goes away again unless it is moved to its place.
+class Draft {
+public:
+  explicit Draft(const fs::path &place) : place_(place), folder_(beside("new")) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "figures");
+    fs::create_directories(folder_ / "data");
+  }
+  Draft(const Draft &) = delete;
+  Draft &operator=(const Draft &) = delete;
+  ~Draft() {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  const fs::path &folder() const { return folder_; }
+
+  /// Swaps the draft in; an earlier report comes back if that fails.
+  void publish() {
+    const fs::path old = beside("old");
+    const bool replaces = fs::exists(place_);
+    if (replaces) fs::rename(place_, old);
+    std::error_code error;
+    fs::rename(folder_, place_, error);
+    if (error) {
+      if (replaces) fs::rename(old, place_);
+      throw std::runtime_error(
+          fmt::format("cannot move the report to {}: {}", place_.string(), error.message()));
+    }
+    std::error_code ignored;
+    fs::remove_all(old, ignored);
+  }
+
+private:
+  fs::path beside(const char *what) const {
+    return place_.parent_path() / fmt::format(".{}.{}-{}", place_.filename().string(), what, ::getpid());
+  }
+  fs::path place_;
+  fs::path folder_;
+};
+
+std::string program_version(const fs::path &program) {
+  std::string command = "'";
+  for (const char c : program.string())
+    command += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE *)> pipe(
+      ::popen((command + "' --version 2>/dev/null").c_str(), "r"), &::pclose);
+  std::array<char, 200> line{};
+  if (!pipe || std::fgets(line.data(), static_cast<int>(line.size()), pipe.get()) == nullptr)
+    return "gnuplot";
+  std::string text = line.data();
+  while (!text.empty() && (text.back() == '\n' || text.back() == ' '))
+    text.pop_back();
+  return text;
+}
+
+nlohmann::ordered_json check_json(const ReportResults &results, const Check &check) {
+  nlohmann::ordered_json json;
+  const Run &run = results.runs[check.run].run;
+  const bool valued = check.agreement != Agreement::not_measured && std::isfinite(check.value);
+  json["run"] = run.name;
+  json["case"] = run.case_name;
+  json["transition"] = transition_name(run.transition());
+  json["quantity"] = check.quantity;
+  json["unit"] = check.unit;
+  json["reference"] = check.reference;
+  json["measured"] = valued ? nlohmann::ordered_json(check.value) : nlohmann::ordered_json(nullptr);
+  json["difference"] = valued ? nlohmann::ordered_json(check.difference) : nlohmann::ordered_json(nullptr);
+  json["tolerance"] = check.tolerance;
+  json["agrees"] = check.agrees();
+  json["short_run"] = check.short_run;
+  json["from"] = check.source;
+  return json;
+}
+
+std::string summary_json(const ReportResults &results, const ReportVersions &versions) {
+  const CheckCount count = count_checks(results);
+  nlohmann::ordered_json json;
+  json["made_at"] = versions.made_at;
+  json["drumlin"] = versions.drumlin;
+  json["direct_solver"] = versions.direct_solver;
+  json["gnuplot"] = versions.gnuplot;
+  json["checks"] = count.all;
+  json["agree"] = count.agree;
+  json["agree_to_digits_given"] = count.same_digits;
+  json["runs"] = nlohmann::ordered_json::array();
+  for (const RunResult &result : results.runs) {
+    nlohmann::ordered_json run;
+    run["name"] = result.run.name;
+    run["parameters"] = result.run.parameters;
+    run["missing"] = result.run.missing;
+    json["runs"].push_back(run);
+  }
+  json["comparisons"] = nlohmann::ordered_json::array();
+  for (const std::vector<Check> *checks : {&results.checks, &results.restitution, &results.words})
+    for (const Check &check : *checks)
+      json["comparisons"].push_back(check_json(results, check));
+  // Names of folders need not be UTF-8; the report must come out all the same.
+  return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+/// Counts the pieces of work and says which one begins.
+class Progress {
+public:
+  Progress(const std::function<void(const std::string &)> &say, std::size_t all) : say_(say), all_(all) {}
+  void operator()(const std::string &what) {
+    ++done_;
+    const std::size_t width = fmt::format("{}", all_).size();
+    if (say_) say_(fmt::format("[{:>{}}/{}] {}", done_, width, all_, what));
+  }
+  /// The number of pieces is known better by now.
+  void expect(std::size_t all) { all_ = all; }
+  std::size_t done() const { return done_; }
+
+private:
+  const std::function<void(const std::string &)> &say_;
+  std::size_t all_;
+  std::size_t done_ = 0;
+};
+
+/// Reading what others wrote: whatever is wrong with it is the input's fault.
+std::vector<Run> read_runs(const std::vector<fs::path> &folders) {
+  std::vector<Run> runs;
+  try {
+    for (const fs::path &folder : folders)
+      runs.push_back(read_run(folder));
+    name_runs(runs);
+  } catch (const std::runtime_error &error) {
+    throw UsageError(error.what());
+  }
+  return runs;
+}
+
+} // namespace
+
+ReportOutcome write_report(const ReportOptions &options) {
+  fs::path gnuplot;
+  try {
+    gnuplot = find_gnuplot();
+  } catch (const std::runtime_error &error) {
+    throw UsageError(error.what());
+  }
+  std::vector<fs::path> folders;
+  fs::path place;
+  try {
+    folders = find_run_folders(options.folders);
+    place = checked_place(options.out, folders);
+  } catch (const fs::filesystem_error &error) {
+    throw UsageError(error.what());
+  }
+  std::vector<Run> runs = read_runs(folders);
+
+  constexpr std::size_t usual_figures = 13;
+  Progress progress(options.progress, runs.size() + usual_figures + 1);
+  ReportResults results;
+  DirectSolutions direct;
+  for (Run &run : runs) {
+    progress(run.kind == RunKind::chain ? fmt::format("{}: direct solution and measures", run.name)
+                                        : fmt::format("{}: measures", run.name));
+    try {
+      results.runs.push_back(analyse(std::move(run), direct));
+    } catch (const std::invalid_argument &error) {
+      throw UsageError(error.what());
+    }
+  }
+  compare(results);
+  const FigurePlan plan = plan_figures(results);
+  const std::vector<ReportTable> tables = make_tables(results);
+  progress.expect(progress.done() + plan.figures.size() + plan.absent.size() + 1);
+
+  Draft draft(place);
+  for (const AbsentFigure &absent : plan.absent)
+    progress(fmt::format("{} left out: {}", absent.label, absent.reason));
+  for (const PlannedFigure &figure : plan.figures) {
+    progress(fmt::format("{} {}", figure.label, figure.figure.name));
+    write_text(draft.folder() / "data" / (figure.figure.name + ".csv"), figure.csv);
+    render(gnuplot, draft.folder() / "figures", figure.figure);
+  }
+  progress("tables and page");
+  for (const ReportTable &table : tables)
+    if (!table.rows.empty()) write_text(draft.folder() / "data" / (table.name + ".csv"), table_csv(table));
+  ReportVersions versions;
+  versions.drumlin = options.version;
+  versions.direct_solver = direct_solver_name();
+  versions.gnuplot = program_version(gnuplot);
+  versions.made_at = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)));
+  write_text(draft.folder() / "index.html", report_page(results, tables, plan, versions));
+  write_text(draft.folder() / summary_file, summary_json(results, versions));
+  draft.publish();
+  return {place / "index.html", count_checks(results)};
+}
+
+} // namespace drumlin::post

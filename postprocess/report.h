@@ -1,0 +1,32 @@
+// `drumlin report`: from run folders to a folder with index.html, figures and data.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "report_tables.h"
+
+namespace drumlin::post {
+
+/// What to report on, and where to.
+struct ReportOptions {
+  std::vector<std::filesystem::path> folders;        ///< run folders or parents of them
+  std::filesystem::path out = "report";              ///< replaced as a whole if it is an earlier report
+  std::string version = "unknown";                   ///< of this project, printed in the report
+  std::function<void(const std::string &)> progress; ///< gets one line per piece of work; may be empty
+};
+
+/// What came of it.
+struct ReportOutcome {
+  std::filesystem::path page; ///< index.html
+  CheckCount checks;
+};
+
+/// Makes the report in a folder beside `out` and moves it there when it is whole. Throws UsageError for
+/// folders or files that cannot be used (an earlier report then stays as it was), std::runtime_error for
+/// other failures.
+ReportOutcome write_report(const ReportOptions &options);
+
+} // namespace drumlin::post

@@ -1,0 +1,53 @@
+#include "report_command.h"
+
+#include "report.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+namespace {
+
+struct Arguments {
+  std::vector<std::string> folders;
+  std::string out = "report";
+};
+
+void run(const Arguments &arguments) {
+  ReportOptions options;
+  options.folders.assign(arguments.folders.begin(), arguments.folders.end());
+  options.out = arguments.out;
+  options.version = DRUMLIN_VERSION;
+  options.progress = [](const std::string &line) {
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+  };
+  const ReportOutcome outcome = write_report(options);
+  fmt::print("{} of {} checks against reference values agree\n{}\n", outcome.checks.agree, outcome.checks.all,
+             outcome.page.string());
+}
+
+} // namespace
+
+void add_report_command(CLI::App &app, Session &) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App *report = app.add_subcommand(
+      "report",
+      "Figures, tables and checks against reference values from runs of the chain and of single impacts, as "
+      "one page that opens from disk.");
+  report->add_option("dir", arguments->folders, "run folders (with chain.csv), or parents of run folders")
+      ->type_name("DIR")
+      ->required();
+  report->add_option("--out", arguments->out, "folder for the report; an earlier report there is replaced")
+      ->type_name("DIR")
+      ->capture_default_str();
+  report->callback([arguments] { run(*arguments); });
+}
+
+} // namespace drumlin::post

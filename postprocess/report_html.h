@@ -1,0 +1,28 @@
+// The report's page: one XHTML5 file without scripts that needs no network.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report_figures.h"
+#include "report_results.h"
+#include "report_tables.h"
+
+namespace drumlin::post {
+
+/// Programs that the report was made with, for the record.
+struct ReportVersions {
+  std::string drumlin;
+  std::string direct_solver;
+  std::string gnuplot;
+  std::string made_at; ///< date and time, UTC
+};
+
+/// Text with &, <, >, " and ' replaced, and characters that XML forbids left out.
+std::string html_escaped(const std::string &text);
+
+/// The page. Figures are expected at figures/NAME.svg and .png, data at data/NAME.csv beside it.
+std::string report_page(const ReportResults &results, const std::vector<ReportTable> &tables,
+                        const FigurePlan &plan, const ReportVersions &versions);
+
+} // namespace drumlin::post
