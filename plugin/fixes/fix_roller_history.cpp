@@ -90,6 +90,8 @@ void FixRollerHistory::init() {
     error->all(
         FLERR,
         "fix roller/history: the pair style is another; allowed: pair_style gran model hooke/transition");
+  drumlin::OutputFile::check(file_name_, comm, error, world, file_keyword);
+  if (steps_per_cycle_ > 0) drumlin::OutputFile::check(cycles_name_, comm, error, world, cycles_keyword);
   if (group->count(igroup) == 0)
     error->all(FLERR,
                fmt::format("fix roller/history: group {} is empty; allowed: the group of the drum's balls",
@@ -149,7 +151,7 @@ void FixRollerHistory::setup(int) {
   if (steps_per_cycle_ > 0 && !cycles_file_) {
     cycles_file_.emplace(cycles_name_, append_);
     cycles_file_->open(
-        comm, error, world, command,
+        comm, error, world, cycles_keyword,
         "cycle,time,a_drum_min,a_drum_max,F_contact_min,F_contact_max,contact_share,a1_cos,a1_sin,a2_cos,"
         "a2_sin,ah_cos,ah_sin,work_excitation,dissipated_contact,dissipated_bond,kinetic,potential,"
         "stored_contact,stored_bond");
@@ -211,9 +213,11 @@ void FixRollerHistory::locate(Body &body, const char *name) {
   body.x = position - body.origin;
   body.v = all[1] / body.mass;
   if (!std::isfinite(body.x) || !std::isfinite(body.v))
-    error->all(FLERR, fmt::format("fix roller/history: the {} is at {} m with {} m/s at step {}", name,
-                                  body.x, body.v, update->ntimestep)
-                          .c_str());
+    error->all(
+        FLERR,
+        fmt::format("fix roller/history: the {} is at {} m with {} m/s at step {}; allowed: finite numbers",
+                    name, body.x, body.v, update->ntimestep)
+            .c_str());
 }
 
 void FixRollerHistory::evaluate() {

@@ -41,12 +41,13 @@ public:
 
   void require(const char *meaning, int ntypes) const {
     if (given()) return;
-    error->all(FLERR,
-               fmt::format(
-                   "{}: property {} ({}) is missing; give 'fix ID all property/global {} peratomtypepair {}' "
-                   "and {} values",
-                   model, name_, meaning, name_, ntypes, ntypes * ntypes)
-                   .c_str());
+    error->all(
+        FLERR,
+        fmt::format(
+            "{}: property {} ({}) is missing; allowed: 'fix ID all property/global {} peratomtypepair {}' "
+            "and {} values",
+            model, name_, meaning, name_, ntypes, ntypes * ntypes)
+            .c_str());
   }
 
 private:

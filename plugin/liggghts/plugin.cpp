@@ -82,7 +82,7 @@ template <class Style>
 void prepare(LAMMPS *engine) {
   if (has_history<Style>) engine->neighbor->register_contact_dist_factor(contact_distance_factor);
   if (Style::TANGENTIAL != TANGENTIAL_OFF)
-    drumlin::provide_friction_default(engine, engine->force->registry.max_type());
+    drumlin::provide_friction_default(engine, engine->atom->ntypes);
 }
 
 template <class Style>

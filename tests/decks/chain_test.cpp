@@ -1,0 +1,246 @@
+// The chain of in.chain in the engine against the direct solver: the four cases under A and B, the order of
+// the stepping, the equilibrium that it starts from, and Eq. (1) in every recorded row.
+#include "engine.h"
+
+#include "analysis.h"
+#include "direct_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+using post::ChainHistory;
+using post::ChainParameters;
+using post::Transition;
+
+constexpr int cycles = 30; // the deck's default
+
+struct Case {
+  const char *name;
+  Transition transition;
+  ChainParameters parameters() const { return post::table1_case(name, transition); }
+};
+
+void PrintTo(const Case &value, std::ostream *out) {
+  *out << value.name << post::transition_name(value.transition);
+}
+
+std::string case_name(const ::testing::TestParamInfo<Case> &info) {
+  return info.param.name + post::transition_name(info.param.transition);
+}
+
+post::DirectResult truth_of(const ChainParameters &parameters, int samples_per_cycle) {
+  post::DirectOptions options;
+  options.cycles = cycles;
+  options.samples_per_cycle = samples_per_cycle;
+  return post::solve_direct(parameters, options);
+}
+
+/// Relative RMS error of the drum's velocity over the last five cycles.
+double velocity_error(const ChainHistory &run, const ChainHistory &truth) {
+  if (run.size() != truth.size()) return std::numeric_limits<double>::infinity();
+  const std::size_t rows = truth.size() - 1;
+  return post::relative_rms(run.v_drum, truth.v_drum, rows * (cycles - 5) / cycles, rows + 1);
+}
+
+class Chain : public ::testing::TestWithParam<Case> {};
+
+TEST_P(Chain, FollowsTheDirectSolver) {
+  const ChainParameters p = GetParam().parameters();
+  constexpr int steps = 2000;
+  constexpr int samples = 200;
+  const ChainRun run = run_chain(GetParam().name, p.transition, steps, samples);
+  const post::DirectResult truth = truth_of(p, samples);
+  const double error = velocity_error(run.history, truth.history);
+  RecordProperty("error", number(error));
+  EXPECT_LT(error, 5e-3);
+
+  const double step = p.period() / steps;
+  ASSERT_EQ(run.events.size(), truth.events.size());
+  for (std::size_t i = 0; i < truth.events.size(); ++i) {
+    EXPECT_EQ(run.events[i].make, truth.events[i].make) << "event " << i;
+    EXPECT_NEAR(run.events[i].time, truth.events[i].time, 2 * step) << "event " << i;
+    EXPECT_EQ(run.events[i].id_i, 1);
+    EXPECT_EQ(run.events[i].id_j, 2);
+  }
+  // The events alternate, and under B a contact is broken with nothing left, under A in tension at d = 0.
+  for (std::size_t i = 0; i < run.events.size(); ++i) {
+    const post::ContactEvent &event = run.events[i];
+    EXPECT_EQ(event.make, i % 2 == 1) << "the chain starts in contact";
+    if (event.make) continue;
+    if (p.transition == Transition::B)
+      EXPECT_NEAR(p.k * event.overlap + p.damping() * event.overlap_rate, 0, 1e-6 * (p.m2 + p.m3) * p.g);
+    else
+      EXPECT_LT(event.force, 0);
+  }
+}
+
+TEST_P(Chain, StartsFromStaticEquilibrium) {
+  const ChainParameters p = GetParam().parameters();
+  const ChainHistory h = run_chain(GetParam().name, p.transition, 200, 200, {{"cycles", "1"}}).history;
+  const double sinking = (p.m2 + p.m3) * p.g / p.k;
+  const double weight = (p.m2 + p.m3) * p.g;
+  EXPECT_EQ(h.time.front(), 0);
+  EXPECT_NEAR(h.x_drum.front(), -sinking, 1e-9 * sinking);
+  EXPECT_NEAR(h.x_frame.front() - h.x_drum.front(), -p.m3 * p.g / p.k23, 1e-9 * p.m3 * p.g / p.k23);
+  EXPECT_NEAR(h.F_contact.front(), weight, 1e-9 * weight);
+  EXPECT_NEAR(h.F_bond.front(), -p.m3 * p.g, 1e-9 * weight);
+  EXPECT_EQ(h.F_excitation.front(), 0);
+  EXPECT_NEAR(h.a_drum.front(), 0, 1e-9 * p.g);
+  EXPECT_NEAR(h.a_frame.front(), 0, 1e-9 * p.g);
+  EXPECT_NEAR(h.v_drum.front(), 0, 1e-8 * p.g / p.omega);
+  EXPECT_NEAR(h.v_frame.front(), 0, 1e-8 * p.g / p.omega);
+}
+
+// Every row holds the right-hand sides of Eq. (1) at its own time, position and velocity, and the
+// acceleration that the engine's velocities show. The engine steps with the dashpots at the half-step
+// velocity, v - a dt/2: its velocities follow an acceleration that is off by about C/m dt/2 a, C the sum of
+// the dashpots.
+TEST_P(Chain, RecordsEquationOneInEveryRow) {
+  const ChainParameters p = GetParam().parameters();
+  constexpr int steps = 2000;
+  const ChainRun run = run_chain(GetParam().name, p.transition, steps, steps, {{"cycles", "6"}});
+  const ChainHistory &h = run.history;
+  ASSERT_EQ(h.size(), 6u * steps + 1);
+  const double dt = p.period() / steps;
+  const auto largest = [](const std::vector<double> &values) {
+    double result = 0;
+    for (const double value : values)
+      result = std::max(result, std::fabs(value));
+    return result;
+  };
+  const double F_scale = largest(h.F_contact);
+  const double a_scale = largest(h.a_drum);
+  const double frame_scale = p.g + largest(h.a_frame);
+  std::vector<bool> near_event(h.size(), false);
+  for (const post::ContactEvent &event : run.events)
+    for (long n = std::lround(event.time / dt) - 2; n <= std::lround(event.time / dt) + 2; ++n)
+      if (n >= 0 && n < static_cast<long>(h.size())) near_event[static_cast<std::size_t>(n)] = true;
+
+  double worst_row = 0, worst_drum = 0, worst_frame = 0;
+  for (std::size_t n = 0; n < h.size(); ++n) {
+    const double d = -h.x_drum[n];
+    double contact = d > 0 ? p.k * d - p.damping() * h.v_drum[n] : 0;
+    if (p.transition == Transition::B) contact = std::max(0.0, contact);
+    const double bond = p.c23 * (h.v_frame[n] - h.v_drum[n]) + p.k23 * (h.x_frame[n] - h.x_drum[n]);
+    const double excitation = p.Fw * std::sin(2 * pi * static_cast<double>(n) / steps);
+    const double a_drum = -p.g + (contact + bond - excitation) / p.m2;
+    worst_row = std::max(
+        {worst_row, std::fabs(h.F_contact[n] - contact) / F_scale, std::fabs(h.F_bond[n] - bond) / F_scale,
+         std::fabs(h.F_excitation[n] - excitation) / F_scale, std::fabs(h.a_drum[n] - a_drum) / a_scale,
+         std::fabs(h.a_frame[n] - (-p.g - bond / p.m3)) / frame_scale,
+         std::fabs(h.time[n] - static_cast<double>(n) * dt) / p.period()});
+    if (n == 0 || n + 1 == h.size()) continue;
+    // The row after the start sees the excitation begin; near an event the force jumps.
+    const auto centred = [&](const std::vector<double> &v) { return (v[n + 1] - v[n - 1]) / (2 * dt); };
+    if (!near_event[n]) worst_drum = std::max(worst_drum, std::fabs(centred(h.v_drum) - h.a_drum[n]));
+    worst_frame = std::max(worst_frame, std::fabs(centred(h.v_frame) - h.a_frame[n]));
+  }
+  EXPECT_LT(worst_row, 1e-11);
+  const double drum_lag = (p.damping() + p.c23) / p.m2 * dt / 2;
+  const double frame_lag = 2 * p.c23 / p.m3 * dt / 2 * p.m3 / p.m2 * a_scale / frame_scale;
+  EXPECT_LT(worst_drum / a_scale, 2 * drum_lag);
+  EXPECT_LT(worst_frame / frame_scale, 2 * frame_lag + 1e-4);
+  RecordProperty("worst_drum", number(worst_drum / a_scale) + " of " + number(drum_lag));
+  RecordProperty("worst_frame", number(worst_frame / frame_scale) + " of " + number(frame_lag));
+}
+
+const Case all_cases[] = {{"I", Transition::A},  {"I", Transition::B},   {"II", Transition::A},
+                          {"II", Transition::B}, {"III", Transition::A}, {"III", Transition::B},
+                          {"IV", Transition::A}, {"IV", Transition::B}};
+INSTANTIATE_TEST_SUITE_P(Table1, Chain, ::testing::ValuesIn(all_cases), case_name);
+
+// Without loss of contact the error of the stock stepping is smooth and of first order.
+class SmoothChain : public ::testing::TestWithParam<Case> {};
+
+TEST_P(SmoothChain, ErrorIsOfFirstOrder) {
+  const post::DirectResult truth = truth_of(GetParam().parameters(), 100);
+  std::vector<double> steps, errors;
+  for (const int n : {500, 1000, 2000, 4000, 8000}) {
+    const ChainRun run = run_chain(GetParam().name, GetParam().transition, n, 100);
+    EXPECT_TRUE(run.events.empty());
+    steps.push_back(n);
+    errors.push_back(velocity_error(run.history, truth.history));
+  }
+  const double order = fitted_order(steps, errors);
+  RecordProperty("order", number(order));
+  RecordProperty("error_at_8000", number(errors.back()));
+  EXPECT_NEAR(order, -1, 0.1);
+}
+
+const Case smooth_cases[] = {{"I", Transition::A}, {"I", Transition::B}, {"IV", Transition::A}};
+INSTANTIATE_TEST_SUITE_P(Table1, SmoothChain, ::testing::ValuesIn(smooth_cases), case_name);
+
+// A make falls anywhere within a step, so that its mis-timing, and with it the error, is anything from almost
+// nothing to a bound that falls with the step. The bound is seen as the largest error over neighbouring
+// numbers of steps, among which the make falls at different parts of a step. Of first order it falls to 1/9
+// with nine times the steps, of order one half to 1/3; six neighbours see it to within a factor of about two,
+// hence 1/4.
+class ImpactingChain : public ::testing::TestWithParam<Case> {};
+
+TEST_P(ImpactingChain, ErrorHasAnEnvelopeOfFirstOrder) {
+  constexpr int samples = 20;
+  const post::DirectResult truth = truth_of(GetParam().parameters(), samples);
+  const auto envelope = [&](int level) {
+    double largest = 0;
+    for (const int base : {480, 500, 520, 540, 560, 580}) {
+      const ChainRun run = run_chain(GetParam().name, GetParam().transition, level * base, samples);
+      largest = std::max(largest, velocity_error(run.history, truth.history));
+    }
+    return largest;
+  };
+  const double coarse = envelope(1), medium = envelope(3), fine = envelope(9);
+  RecordProperty("envelope", number(coarse) + ", " + number(medium) + ", " + number(fine));
+  EXPECT_LT(medium, coarse);
+  EXPECT_LT(fine, 0.25 * coarse);
+}
+
+const Case impacting_cases[] = {{"II", Transition::A},
+                                {"II", Transition::B},
+                                {"III", Transition::A},
+                                {"III", Transition::B},
+                                {"IV", Transition::B}};
+INSTANTIATE_TEST_SUITE_P(Table1, ImpactingChain, ::testing::ValuesIn(impacting_cases), case_name);
+
+// The drum turns round before the gap opens: the contact of B is made again at Fc = 0 while the balls still
+// overlap. A law that waits for d = 0 would let the drum fall through the soil.
+TEST(ChainUnderB, ContactIsMadeAgainWhileOverlapping) {
+  ChainParameters p = post::table1_case("II", Transition::B);
+  p.k = 1e7;
+  p.D = 0.5;
+  const ChainRun run = run_chain("II", Transition::B, 2000, 200, {{"k", "1e7"}, {"D", "0.5"}});
+  const post::DirectResult truth = truth_of(p, 200);
+  const auto again = [&](const std::vector<post::ContactEvent> &events) {
+    return std::count_if(events.begin(), events.end(), [&](const post::ContactEvent &event) {
+      return event.make && event.overlap > 0 && std::fabs(event.force) < 1e-6 * (p.m2 + p.m3) * p.g;
+    });
+  };
+  RecordProperty("re-made", std::to_string(again(run.events)));
+  EXPECT_GT(again(run.events), 0);
+  EXPECT_EQ(again(run.events), again(truth.events));
+  EXPECT_EQ(run.events.size(), truth.events.size());
+  EXPECT_LT(velocity_error(run.history, truth.history), 5e-3);
+  const double deepest = *std::min_element(truth.history.x_drum.begin(), truth.history.x_drum.end());
+  for (const double x : run.history.x_drum)
+    ASSERT_GT(x, 1.01 * deepest);
+}
+
+TEST(Settle, NamesASceneThatNeverSettles) {
+  const Scratch scratch;
+  const Outcome outcome =
+      run_deck(chain_deck("in.chain"), {{"D", "0"}, {"c23", "0"}, {"settle_limit", "50000"}}, scratch.path());
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_FALSE(outcome.timed_out);
+  EXPECT_TRUE(outcome.says("ERROR: drumlin/settle: no equilibrium")) << outcome.output;
+  EXPECT_TRUE(outcome.says("after 50000 steps")) << outcome.output;
+}
+
+} // namespace
+} // namespace drumlin::test

@@ -1,0 +1,112 @@
+// All combinations of tangential and rolling models that the plugin promises, between balls, on primitive
+// planes and on a mesh: they run, stay finite, hold the balls in the box, take energy out, and agree on 1 and
+// 2 ranks.
+#include "scene.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+struct Combination {
+  std::string tangential, rolling;
+  std::string words() const { return "tangential " + tangential + " rolling_friction " + rolling; }
+};
+
+void PrintTo(const Combination &value, std::ostream *out) { *out << value.words(); }
+
+std::vector<Frame> run_box(const Combination &models, const char *transition, int ranks) {
+  const Scratch scratch;
+  write_floor(scratch / "floor.stl", 0.3, false);
+  const Outcome outcome = run_deck(
+      test_deck("box.in"), {{"models", models.words()}, {"transition", transition}}, scratch.path(), ranks);
+  EXPECT_TRUE(outcome.ok()) << outcome.output;
+  return outcome.ok() ? read_dump(scratch / "state.dump") : std::vector<Frame>{};
+}
+
+constexpr double mass = 0.16, radius = 0.025, g = 9.81;
+
+double energy(const Frame &frame) {
+  double sum = 0;
+  for (const auto &[id, ball] : frame.balls) {
+    sum += mass * g * ball.x[2];
+    for (std::size_t a = 0; a < 3; ++a)
+      sum += 0.5 * mass * (ball.v[a] * ball.v[a] + 0.4 * radius * radius * ball.omega[a] * ball.omega[a]);
+  }
+  return sum;
+}
+
+class Combinations : public ::testing::TestWithParam<Combination> {};
+
+TEST_P(Combinations, RunAndTakeEnergyOut) {
+  for (const char *transition : {"A", "B"}) {
+    const std::vector<Frame> frames = run_box(GetParam(), transition, 1);
+    ASSERT_EQ(frames.size(), 5u);
+    const Frame &end = frames.back();
+    ASSERT_EQ(end.balls.size(), 50u);
+    double spin_change = 0;
+    for (const auto &[id, ball] : end.balls) {
+      for (const auto part : {&Ball::x, &Ball::v, &Ball::f, &Ball::omega, &Ball::torque})
+        for (const double value : ball.*part)
+          ASSERT_TRUE(std::isfinite(value)) << "ball " << id;
+      // Walls at -0.15 and 0.15, floor at 0; an impact at 1 m/s overlaps by a millimetre.
+      EXPECT_LT(std::fabs(ball.x[0]), 0.15 - radius + 0.002);
+      EXPECT_LT(std::fabs(ball.x[1]), 0.15 - radius + 0.002);
+      EXPECT_GT(ball.x[2], radius - 0.002);
+      spin_change += std::fabs(ball.omega[0]) + std::fabs(ball.omega[1] - 20) + std::fabs(ball.omega[2]);
+    }
+    EXPECT_LT(energy(end), 0.7 * energy(frames.front()));
+    const bool turns = GetParam().tangential != "off" || GetParam().rolling != "off";
+    EXPECT_EQ(spin_change > 1, turns) << spin_change;
+  }
+}
+
+/// The engine numbers the balls rank by rank: by where they start, then.
+std::map<std::array<double, 3>, Ball> by_start(const std::vector<Frame> &frames) {
+  std::map<std::array<double, 3>, Ball> balls;
+  for (const auto &[id, ball] : frames.back().balls)
+    balls[frames.front().balls.at(id).x] = ball;
+  return balls;
+}
+
+class CombinationsOnRanks : public ::testing::TestWithParam<Combination> {};
+
+TEST_P(CombinationsOnRanks, AgreeWithOne) {
+  for (const char *transition : {"A", "B"}) {
+    const std::vector<Frame> one = run_box(GetParam(), transition, 1),
+                             two = run_box(GetParam(), transition, 2);
+    ASSERT_FALSE(one.empty() || two.empty());
+    const auto expected = by_start(one), found = by_start(two);
+    ASSERT_EQ(expected.size(), 50u);
+    double worst_x = 0, worst_spin = 0;
+    for (const auto &[start, ball] : expected)
+      for (std::size_t a = 0; a < 3; ++a) {
+        worst_x = std::max(worst_x, std::fabs(found.at(start).x[a] - ball.x[a]));
+        worst_spin = std::max(worst_spin, std::fabs(found.at(start).omega[a] - ball.omega[a]));
+      }
+    EXPECT_LT(worst_x, 1e-10 * radius) << transition;
+    EXPECT_LT(worst_spin, 1e-8 * 20) << transition;
+    RecordProperty(std::string("worst_x_") + transition, number(worst_x));
+    RecordProperty(std::string("worst_spin_") + transition, number(worst_spin));
+  }
+}
+
+const Combination combinations[] = {{"off", "off"},        {"off", "cdt"},        {"off", "epsd2"},
+                                    {"no_history", "off"}, {"no_history", "cdt"}, {"no_history", "epsd2"},
+                                    {"history", "off"},    {"history", "cdt"},    {"history", "epsd2"}};
+std::string name_of(const ::testing::TestParamInfo<Combination> &test) {
+  return test.param.tangential + "_" + test.param.rolling;
+}
+INSTANTIATE_TEST_SUITE_P(Models, Combinations, ::testing::ValuesIn(combinations), name_of);
+INSTANTIATE_TEST_SUITE_P(Models, CombinationsOnRanks, ::testing::ValuesIn(combinations), name_of);
+
+} // namespace
+} // namespace drumlin::test

@@ -1,0 +1,132 @@
+// The energy ledger of the chain: what the exciter gives is what contact and bond dissipate plus what bodies
+// and springs hold more than at the start. The sums close up to the scheme's error, which falls with the
+// step.
+#include "engine.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+using post::ChainHistory;
+using post::ChainParameters;
+using post::Transition;
+
+/// Sums over the run, J.
+struct Ledger {
+  double work = 0, contact = 0, bond = 0, held = 0;
+  double closure() const { return (work - contact - bond - held) / work; }
+};
+
+Ledger ledger_of(const post::Table &table) {
+  const auto last = [&](const char *column) { return table.numbers(column).back(); };
+  Ledger ledger{last("work_excitation"), last("dissipated_contact"), last("dissipated_bond"), 0};
+  for (const char *column : {"kinetic", "potential", "stored_contact", "stored_bond"})
+    ledger.held += last(column) - table.numbers(column).front();
+  return ledger;
+}
+
+/// The same from the rows of chain.csv by the trapezoid rule, from Eq. (1) alone.
+Ledger ledger_of(const ChainHistory &h, const ChainParameters &p) {
+  Ledger ledger;
+  const auto energy = [&](std::size_t n) {
+    const double stretch = h.x_frame[n] - h.x_drum[n];
+    const double overlap = std::max(0.0, -h.x_drum[n]);
+    return 0.5 * (p.m2 * h.v_drum[n] * h.v_drum[n] + p.m3 * h.v_frame[n] * h.v_frame[n] +
+                  p.k * overlap * overlap + p.k23 * stretch * stretch) +
+           p.g * (p.m2 * h.x_drum[n] + p.m3 * h.x_frame[n]);
+  };
+  for (std::size_t n = 0; n + 1 < h.size(); ++n) {
+    const double half = 0.5 * (h.time[n + 1] - h.time[n]);
+    for (const std::size_t end : {n, n + 1}) {
+      const double overlap = std::max(0.0, -h.x_drum[end]);
+      const double rate = h.v_frame[end] - h.v_drum[end];
+      ledger.work -= half * h.F_excitation[end] * h.v_drum[end];
+      // The contact takes Fc d', its spring k d d' of it.
+      ledger.contact += half * (p.k * overlap - h.F_contact[end]) * h.v_drum[end];
+      ledger.bond += half * p.c23 * rate * rate;
+    }
+  }
+  ledger.held = energy(h.size() - 1) - energy(0);
+  return ledger;
+}
+
+struct Recorded {
+  Ledger ledger;
+  ChainHistory history;
+};
+
+Recorded run(const std::string &name, Transition transition, int steps, int samples, int cycles) {
+  const Scratch scratch;
+  const Outcome outcome = run_deck(chain_deck("in.chain"),
+                                   {{"case", name},
+                                    {"transition", post::transition_name(transition)},
+                                    {"steps_per_cycle", std::to_string(steps)},
+                                    {"samples_per_cycle", std::to_string(samples)},
+                                    {"cycles", std::to_string(cycles)}},
+                                   scratch.path());
+  if (!outcome.ok()) throw std::runtime_error(outcome.output);
+  return {ledger_of(post::read_table(scratch / "cycles.csv")), post::read_chain(scratch / "chain.csv")};
+}
+
+class Energy : public ::testing::TestWithParam<std::string> {};
+
+// The file's sums are those of its rows: by their own trapezoids, and to rounding.
+TEST_P(Energy, SumsAreThoseOfTheRows) {
+  for (const Transition transition : {Transition::A, Transition::B}) {
+    const ChainParameters p = post::table1_case(GetParam(), transition);
+    const Recorded recorded = run(GetParam(), transition, 1000, 1000, 8);
+    const Ledger expected = ledger_of(recorded.history, p);
+    const Ledger &found = recorded.ledger;
+    EXPECT_NEAR(found.work, expected.work, 1e-9 * expected.work);
+    EXPECT_NEAR(found.contact, expected.contact, 1e-9 * expected.work);
+    EXPECT_NEAR(found.bond, expected.bond, 1e-9 * expected.work);
+    EXPECT_NEAR(found.held, expected.held, 1e-9 * expected.work);
+    EXPECT_GT(found.contact, 0.1 * found.work);
+    EXPECT_GT(found.bond, 0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Table1, Energy, ::testing::Values("I", "II", "III", "IV"),
+                         [](const auto &test) { return test.param; });
+
+TEST(EnergyOfASmoothChain, ClosesInFirstOrder) {
+  for (const auto &[name, transition] : {std::pair{"I", Transition::A}, std::pair{"IV", Transition::A}}) {
+    std::vector<double> steps, errors;
+    for (const int n : {500, 1000, 2000, 4000}) {
+      steps.push_back(n);
+      errors.push_back(std::fabs(run(name, transition, n, 10, 20).ledger.closure()));
+    }
+    RecordProperty(std::string("order_") + name, number(fitted_order(steps, errors)));
+    RecordProperty(std::string("closure_at_4000_") + name, number(errors.back()));
+    EXPECT_NEAR(fitted_order(steps, errors), -1, 0.1) << name;
+    EXPECT_LT(errors.back(), 2e-3) << name;
+  }
+}
+
+// Makes fall anywhere in a step, and the closure with them: its largest value over neighbouring steps is the
+// measure.
+TEST(EnergyOfAnImpactingChain, ClosesWithinAnEnvelopeOfFirstOrder) {
+  for (const auto &[name, transition] : {std::pair{"II", Transition::A}, std::pair{"II", Transition::B},
+                                         std::pair{"III", Transition::B}, std::pair{"IV", Transition::B}}) {
+    const auto envelope = [&, n = name, t = transition](int level) {
+      double largest = 0;
+      for (const int base : {480, 510, 540, 570})
+        largest = std::max(largest, std::fabs(run(n, t, level * base, 10, 20).ledger.closure()));
+      return largest;
+    };
+    const double coarse = envelope(1), fine = envelope(4);
+    RecordProperty(std::string("envelope_") + name + post::transition_name(transition),
+                   number(coarse) + ", " + number(fine));
+    EXPECT_LT(fine, 0.4 * coarse) << name << post::transition_name(transition);
+    EXPECT_LT(fine, 1e-2) << name << post::transition_name(transition);
+  }
+}
+
+} // namespace
+} // namespace drumlin::test

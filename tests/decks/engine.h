@@ -1,0 +1,101 @@
+// Runs the stock engine with the plugin as a user would, as a child process in a folder of its own, and reads
+// what it wrote. No shell is involved.
+#pragma once
+
+#include "chain_csv.h"
+#include "chain_model.h"
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace drumlin::test {
+
+constexpr double pi = 3.141592653589793;
+
+/// A fresh temporary folder, removed with everything in it at the end (kept if the test has failed by then).
+class Scratch {
+public:
+  Scratch();
+  ~Scratch();
+  Scratch(const Scratch &) = delete;
+  Scratch &operator=(const Scratch &) = delete;
+  const std::filesystem::path &path() const { return path_; }
+  std::filesystem::path operator/(const std::string &name) const { return path_ / name; }
+
+private:
+  std::filesystem::path path_;
+};
+
+/// How a child process ended.
+struct Outcome {
+  int status = -1;        ///< exit status; 128 + signal if a signal ended it
+  bool timed_out = false; ///< it was stopped at its time limit
+  std::string output;     ///< standard output and standard error
+  bool ok() const { return status == 0 && !timed_out; }
+  bool says(const std::string &text) const { return output.find(text) != std::string::npos; }
+};
+
+/// Runs a program with extra environment entries ("NAME=value") in a folder, for at most `limit` seconds.
+Outcome run_program(const std::vector<std::string> &words, const std::vector<std::string> &environment,
+                    const std::filesystem::path &folder, double limit = 20.0);
+
+/// Values for a deck's variables, given by -var.
+using Variables = std::vector<std::pair<std::string, std::string>>;
+
+/// A number for -var, bit for bit.
+std::string number(double value);
+
+/// Runs a deck with the plugin on a number of ranks; `out` is set to the folder.
+Outcome run_deck(const std::filesystem::path &deck, const Variables &variables,
+                 const std::filesystem::path &folder, int ranks = 1, double limit = 100.0);
+
+/// A deck of the project (inputs/chain/...) or of these tests.
+std::filesystem::path chain_deck(const std::string &name);
+std::filesystem::path test_deck(const std::string &name);
+
+/// The preloaded library.
+std::string plugin_library();
+
+/// One ball in a dump.
+struct Ball {
+  std::array<double, 3> x{}, v{}, f{}, omega{}, torque{};
+};
+
+/// What the test decks dump: balls by ID, one entry per dumped step.
+struct Frame {
+  long step = 0;
+  std::map<long, Ball> balls;
+};
+std::vector<Frame> read_dump(const std::filesystem::path &file);
+
+/// A whole file as text.
+std::string read_text(const std::filesystem::path &file);
+
+/// What a run of the chain or of a single impact wrote.
+struct ChainRun {
+  post::ChainHistory history;
+  std::vector<post::ContactEvent> events;
+};
+ChainRun read_run(const std::filesystem::path &folder);
+
+/// Runs in.chain in a folder of its own for a case of Table 1; further variables override. Fails the test on
+/// an error.
+ChainRun run_chain(const std::string &name, post::Transition transition, int steps_per_cycle,
+                   int samples_per_cycle, const Variables &more = {});
+
+/// A copy of the chain's decks in a folder, with the box from `bottom` up instead of the deck's own, so that
+/// a border between ranks falls where it is wanted: N ranks are N layers of one height up to z = 4. Returns
+/// where the copy is.
+std::filesystem::path chain_with_bottom(const std::filesystem::path &folder, double bottom);
+
+/// Slope of log(error) over log(steps) by least squares: -1 for a first-order scheme.
+double fitted_order(const std::vector<double> &steps, const std::vector<double> &errors);
+
+/// Largest |a - b| over the largest |b|; infinite if the lengths differ.
+double relative_difference(const std::vector<double> &a, const std::vector<double> &b);
+
+} // namespace drumlin::test

@@ -1,0 +1,168 @@
+// A single impact without gravity, on the fixed ball of in.impact and on plane and mesh walls, against the
+// closed forms.
+#include "scene.h"
+
+#include "analysis.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+using post::Transition;
+
+struct Impact {
+  Transition transition;
+  double D;
+  double restitution; // REFERENCE.md; 0: no rebound
+};
+
+void PrintTo(const Impact &value, std::ostream *out) {
+  *out << post::transition_name(value.transition) << ", D = " << value.D;
+}
+
+std::string impact_name(const ::testing::TestParamInfo<Impact> &info) {
+  return post::transition_name(info.param.transition) + std::to_string(std::lround(10 * info.param.D));
+}
+
+post::ImpactParameters parameters_of(const Impact &impact) {
+  post::ImpactParameters p;
+  p.transition = impact.transition;
+  p.damping_ratio = impact.D;
+  p.speed = 0.5;
+  return p; // the deck's mass and stiffness
+}
+
+struct Measured {
+  double error;          // of the overlap while in contact, relative to the largest
+  double velocity_error; // the same of the velocity, before the break
+  double restitution;
+  std::vector<post::ContactEvent> events;
+};
+
+/// in.impact at a number of steps per undamped contact, with the ball starting so many steps away.
+Measured run_impact(const Impact &impact, int steps, double onset) {
+  const post::ImpactParameters p = parameters_of(impact);
+  const Scratch scratch;
+  const Outcome outcome = run_deck(chain_deck("in.impact"),
+                                   {{"transition", post::transition_name(impact.transition)},
+                                    {"D", number(impact.D)},
+                                    {"steps_per_contact", std::to_string(steps)},
+                                    {"onset", number(onset)},
+                                    {"contacts", "4"},
+                                    {"samples", "100"}},
+                                   scratch.path());
+  if (!outcome.ok()) throw std::runtime_error(outcome.output);
+  const ChainRun run = read_run(scratch.path());
+  const double dt = pi / (std::sqrt(p.stiffness / p.mass) * steps);
+  const double end = post::impact_duration(p);
+  std::vector<double> x, v, exact_x, exact_v;
+  for (std::size_t n = 0; n < run.history.size(); ++n) {
+    const double since = run.history.time[n] - onset * dt;
+    if (since < 0 || since > end - 2 * dt) continue;
+    const post::ImpactState exact = post::impact_state(p, since);
+    x.push_back(run.history.x_drum[n]);
+    v.push_back(run.history.v_drum[n]);
+    exact_x.push_back(-exact.overlap);
+    exact_v.push_back(-exact.rate);
+  }
+  return {relative_difference(x, exact_x), relative_difference(v, exact_v),
+          run.history.v_drum.back() / p.speed, run.events};
+}
+
+class SingleImpact : public ::testing::TestWithParam<Impact> {};
+
+TEST_P(SingleImpact, FollowsTheClosedFormInFirstOrder) {
+  const post::ImpactParameters p = parameters_of(GetParam());
+  const double end = post::impact_duration(p);
+  std::vector<double> steps, errors, velocity_errors, restitution_errors;
+  for (const int n : {200, 400, 800, 1600, 3200}) {
+    const Measured measured = run_impact(GetParam(), n, 0);
+    steps.push_back(n);
+    errors.push_back(measured.error);
+    velocity_errors.push_back(measured.velocity_error);
+    restitution_errors.push_back(std::fabs(measured.restitution - GetParam().restitution));
+  }
+  EXPECT_NEAR(fitted_order(steps, errors), -1, 0.1);
+  EXPECT_NEAR(fitted_order(steps, velocity_errors), -1, 0.1);
+  EXPECT_LT(errors.back(), 2e-3);
+  RecordProperty("order", number(fitted_order(steps, errors)));
+  RecordProperty("restitution_errors",
+                 number(restitution_errors.front()) + ", " + number(restitution_errors.back()));
+  if (std::isinf(end)) return;
+  EXPECT_LT(restitution_errors.back(), 2e-3);
+  EXPECT_LT(restitution_errors.back(), 0.25 * restitution_errors.front());
+}
+
+TEST_P(SingleImpact, MakeAndBreakAreLocatedWithinTheStep) {
+  const post::ImpactParameters p = parameters_of(GetParam());
+  const double end = post::impact_duration(p);
+  constexpr int steps = 2000;
+  constexpr double onset = 10.37; // the drum arrives within a step, in free flight: known to rounding
+  const double dt = pi / (std::sqrt(p.stiffness / p.mass) * steps);
+  const std::vector<post::ContactEvent> events = run_impact(GetParam(), steps, onset).events;
+  ASSERT_EQ(events.size(), std::isinf(end) ? 1u : 2u);
+  EXPECT_TRUE(events[0].make);
+  EXPECT_NEAR(events[0].time, onset * dt, 0.01 * dt);
+  const double c = 2 * p.damping_ratio * std::sqrt(p.mass * p.stiffness);
+  EXPECT_NEAR(events[0].force, c * p.speed, 0.01 * c * p.speed);
+  if (std::isinf(end)) return;
+  const post::ImpactState last = post::impact_state(p, end);
+  EXPECT_FALSE(events[1].make);
+  EXPECT_NEAR(events[1].time, end + onset * dt, 3 * dt);
+  EXPECT_NEAR(events[1].overlap_rate, last.rate, 3e-3 * p.speed);
+  const double deepest = p.speed / std::sqrt(p.stiffness / p.mass);
+  EXPECT_NEAR(events[1].overlap, last.overlap, 3e-3 * deepest);
+  EXPECT_NEAR(events[1].force, GetParam().transition == Transition::A ? c * last.rate : 0,
+              3e-3 * c * p.speed);
+}
+
+const Impact impacts[] = {{Transition::A, 0.2, 0.526621}, {Transition::A, 0.5, 0.163034},
+                          {Transition::A, 0.8, 0.015165}, {Transition::A, 2.0, 0},
+                          {Transition::B, 0.2, 0.571740}, {Transition::B, 0.5, 0.298436},
+                          {Transition::B, 0.8, 0.179783}, {Transition::B, 2.0, 0.047769}};
+INSTANTIATE_TEST_SUITE_P(Reference, SingleImpact, ::testing::ValuesIn(impacts), impact_name);
+
+// For the same overlap and rate a fixed ball, a primitive plane and a mesh give the same force: head on, the
+// ball cannot tell them apart.
+class Obstacles : public ::testing::TestWithParam<Impact> {};
+
+TEST_P(Obstacles, BallPlaneAndMeshAreOne) {
+  const auto run = [](const char *obstacle) {
+    const Impact &impact = GetParam();
+    return run_balls({{"obstacle", obstacle},
+                      {"transition", post::transition_name(impact.transition)},
+                      {"dashpot", number(impact.D)},
+                      {"velocity2", "0 0 -0.5"},
+                      {"gap", "0.0001"},
+                      {"dt", "1e-5"},
+                      {"steps", "3000"}});
+  };
+  const BallsRun ball = run("ball");
+  const BallsRun plane = run("plane");
+  const BallsRun mesh = run("mesh");
+  ASSERT_EQ(ball.frames.size(), 3001u);
+  const auto overlap = [](const BallsRun &r, long id) {
+    std::vector<double> values = r.series(id, &Ball::x, 2);
+    for (double &value : values)
+      value = 0.75 - value;
+    return values;
+  };
+  const std::vector<double> force = ball.series(2, &Ball::f, 2);
+  EXPECT_GT(*std::max_element(force.begin(), force.end()), 1e5);
+  for (const BallsRun *wall : {&plane, &mesh}) {
+    EXPECT_LT(relative_difference(wall->series(1, &Ball::v, 2), ball.series(2, &Ball::v, 2)), 1e-12);
+    EXPECT_LT(relative_difference(wall->series(1, &Ball::f, 2), force), 1e-12);
+    EXPECT_LT(relative_difference(overlap(*wall, 1), overlap(ball, 2)), 1e-12);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Reference, Obstacles, ::testing::ValuesIn(impacts), impact_name);
+
+} // namespace
+} // namespace drumlin::test

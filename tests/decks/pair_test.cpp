@@ -1,0 +1,217 @@
+// Two balls: momentum, the effective mass, mirror images, the two ways to give damping, and the bond.
+#include "scene.h"
+
+#include "analysis.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+/// Under A and under B.
+class EitherTransition : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Law, EitherTransition, ::testing::Values("A", "B"),
+                         [](const auto &test) { return test.param; });
+
+/// Largest departure of the total momentum from its start, over the sum of the balls' largest momenta.
+double momentum_drift(const BallsRun &run, double m1, double m2) {
+  const std::vector<double> v1 = run.series(1, &Ball::v, 2);
+  const std::vector<double> v2 = run.series(2, &Ball::v, 2);
+  double drift = 0, scale = 0;
+  for (std::size_t n = 0; n < v1.size(); ++n) {
+    drift = std::max(drift, std::fabs(m1 * (v1[n] - v1[0]) + m2 * (v2[n] - v2[0])));
+    scale = std::max(scale, m1 * std::fabs(v1[n]) + m2 * std::fabs(v2[n]));
+  }
+  return drift / scale;
+}
+
+TEST_P(EitherTransition, FreePairKeepsItsMomentumAndReboundsWithItsEffectiveMass) {
+  constexpr double m1 = 500, m2 = 3000, k = 1e8;
+  post::ImpactParameters p;
+  p.transition = post::transition_from_name(GetParam());
+  p.mass = m1 * m2 / (m1 + m2);
+  p.speed = 0.9;
+  const auto restitution_error = [&](double D, int steps) {
+    p.damping_ratio = D;
+    const BallsRun run = run_balls({{"fixed", "3"},
+                                    {"transition", GetParam()},
+                                    {"dashpot", number(D)},
+                                    {"m1", number(m1)},
+                                    {"m2", number(m2)},
+                                    {"velocity1", "0 0 0.6"},
+                                    {"velocity2", "0 0 -0.3"},
+                                    {"dt", number(pi / std::sqrt(k / p.mass) / steps)},
+                                    {"steps", std::to_string(3 * steps)}});
+    EXPECT_LT(momentum_drift(run, m1, m2), 1e-14);
+    const auto &end = run.frames.back().balls;
+    const double e = (end.at(2).v[2] - end.at(1).v[2]) / p.speed;
+    return std::fabs(e + post::impact_state(p, post::impact_duration(p)).rate / p.speed);
+  };
+  for (const double D : {0.2, 0.5}) {
+    const double coarse = restitution_error(D, 250), fine = restitution_error(D, 2000);
+    RecordProperty("restitution_error_" + number(D), number(coarse) + ", " + number(fine));
+    EXPECT_LT(fine, 1e-3);
+    EXPECT_LT(fine, 0.25 * coarse);
+  }
+}
+
+// A drum driven onto a fixed ball, and seen in a mirror: a ball driven onto a fixed drum. Each sign of the
+// law, of the effective mass with a fixed partner on either side, and of the exciter has its mirror image.
+TEST_P(EitherTransition, DrumOnFixedBallMirrorsBallOnFixedDrum) {
+  const auto run = [&](int fixed) {
+    const double up = fixed == 1 ? 1 : -1;
+    return run_balls({{"fixed", std::to_string(fixed)},
+                      {"driven", std::to_string(3 - fixed)},
+                      {"transition", GetParam()},
+                      {"r1", "0.5"},
+                      {"r2", "0.5"},
+                      {fixed == 1 ? "m2" : "m1", "1500"},
+                      {fixed == 1 ? "m1" : "m2", "700"},
+                      {fixed == 1 ? "velocity2" : "velocity1", vector_text(0, 0, -0.4 * up)},
+                      {"excitation", "amplitude 1e4 omega 5 phase 1.4 direction 0 0 " + number(-up)},
+                      {"dt", "1e-5"},
+                      {"steps", "6000"}});
+  };
+  const BallsRun drum = run(1);
+  const BallsRun ball = run(2);
+  EXPECT_GT(drum.events.size(), 2u);
+  ASSERT_EQ(drum.events.size(), ball.events.size());
+  for (std::size_t i = 0; i < drum.events.size(); ++i) {
+    EXPECT_EQ(drum.events[i].make, ball.events[i].make);
+    EXPECT_NEAR(drum.events[i].time, ball.events[i].time, 1e-12);
+  }
+  for (const auto part : {&Ball::x, &Ball::v, &Ball::f}) {
+    std::vector<double> image = ball.series(1, part, 2);
+    for (double &value : image)
+      value = -value;
+    EXPECT_LT(relative_difference(image, drum.series(2, part, 2)), 1e-12);
+  }
+}
+
+TEST_P(EitherTransition, RatioAndCoefficientAreOneDamping) {
+  constexpr double m1 = 500, m2 = 3000, k = 1e8, D = 0.35;
+  struct Scene {
+    const char *obstacle, *fixed;
+    double mass; // that the contact sees
+  };
+  for (const Scene &scene : {Scene{"ball", "3", m1 * m2 / (m1 + m2)}, Scene{"ball", "1", m2},
+                             Scene{"ball", "2", m1}, Scene{"plane", "3", m2}, Scene{"mesh", "3", m2}}) {
+    const auto run = [&](const char *damping, const char *property, double value) {
+      return run_balls({{"obstacle", scene.obstacle},
+                        {"fixed", scene.fixed},
+                        {"transition", GetParam()},
+                        {"damping", damping},
+                        {"property", property},
+                        {"dashpot", number(value)},
+                        {"m1", number(m1)},
+                        {"m2", number(m2)},
+                        {"velocity1", "0 0 0.6"},
+                        {"velocity2", "0 0 -0.3"},
+                        {"dt", "1e-5"},
+                        {"steps", "1500"}});
+    };
+    const BallsRun ratio = run("ratio", "dampingRatio", D);
+    const BallsRun coefficient = run("coefficient", "gamman_abs", 2 * D * std::sqrt(scene.mass * k));
+    for (const auto &[id, ball] : ratio.frames.front().balls) {
+      EXPECT_LT(relative_difference(coefficient.series(id, &Ball::v, 2), ratio.series(id, &Ball::v, 2)),
+                1e-14)
+          << scene.obstacle << ", fixed " << scene.fixed << ", ball " << id;
+    }
+    double change = 0;
+    for (const auto &[id, ball] : ratio.frames.front().balls)
+      change += std::fabs(ratio.frames.back().balls.at(id).v[2] - ball.v[2]);
+    EXPECT_GT(change, 0.1) << "no contact";
+  }
+}
+
+// The bond: a damped oscillator.
+
+constexpr double bond_k = 1e6, bond_c = 8e3, stretch = 0.01;
+
+BallsRun run_bond(const std::string &fixed, double m1, double m2, const std::string &more, double dt,
+                  int steps) {
+  return run_balls({{"fixed", fixed},
+                    {"gap", "0.5"},
+                    {"m1", number(m1)},
+                    {"m2", number(m2)},
+                    {"k23", number(bond_k)},
+                    {"bond", number(bond_c) + " length " + number(0.5 + 0.75 + 0.5 - stretch) + more},
+                    {"dt", number(dt)},
+                    {"steps", std::to_string(steps)}});
+}
+
+/// Stretch at time t of a mass released at rest.
+double released(double mass, double t) {
+  const std::complex<double> half = bond_c / (2 * mass);
+  const std::complex<double> root = std::sqrt(half * half - bond_k / mass);
+  const std::complex<double> s1 = -half + root, s2 = -half - root;
+  return (stretch * (s1 * std::exp(s2 * t) - s2 * std::exp(s1 * t)) / (s1 - s2)).real();
+}
+
+TEST(Bond, FollowsTheDampedOscillatorInFirstOrder) {
+  constexpr double m1 = 600, m2 = 1000, time = 0.5;
+  for (const std::string fixed : {"1", "2", "3"}) {
+    const double mass = fixed == "1" ? m2 : fixed == "2" ? m1 : m1 * m2 / (m1 + m2);
+    std::vector<double> all_steps, errors;
+    for (const int steps : {500, 1000, 2000, 4000}) {
+      const BallsRun run = run_bond(fixed, m1, m2, "", time / steps, steps);
+      const std::vector<double> x1 = run.series(1, &Ball::x, 2), x2 = run.series(2, &Ball::x, 2);
+      std::vector<double> found, exact;
+      for (std::size_t n = 0; n < x1.size(); ++n) {
+        found.push_back((x2[n] - x1[n]) - (x2[0] - x1[0]) + stretch);
+        exact.push_back(released(mass, time / steps * static_cast<double>(n)));
+      }
+      all_steps.push_back(steps);
+      errors.push_back(relative_difference(found, exact));
+      if (fixed == "3") {
+        EXPECT_LT(momentum_drift(run, m1, m2), 1e-14);
+      }
+    }
+    RecordProperty("order_fixed_" + fixed, number(fitted_order(all_steps, errors)));
+    EXPECT_NEAR(fitted_order(all_steps, errors), -1, 0.1) << "fixed: " << fixed;
+    EXPECT_LT(errors.back(), 2e-3);
+  }
+}
+
+TEST(Bond, BreaksOnceAtItsStrengthAndNeverPullsAgain) {
+  constexpr double m1 = 600, m2 = 1000, time = 0.5,
+                   strength = 8000; // released, it swings back to about -7 kN
+  const BallsRun whole =
+      run_bond("1", m1, m2, " strength " + number(1.01 * bond_k * stretch), time / 1000, 1000);
+  EXPECT_EQ(whole.output.find("broke"), std::string::npos);
+  EXPECT_NE(whole.frames.back().balls.at(2).f[2], 0);
+
+  // Started at rest below its strength and driven beyond it.
+  const BallsRun run = run_balls({{"gap", "0.5"},
+                                  {"m2", number(m2)},
+                                  {"k23", number(bond_k)},
+                                  {"bond", number(bond_c) + " length current strength " + number(strength)},
+                                  {"excitation", "amplitude 3000 omega 31.6 direction 0 0 1"},
+                                  {"dt", "5e-4"},
+                                  {"steps", "2000"}});
+  const std::string words = "WARNING: fix bond/spring bond: the bond of balls 1 and 2 broke at step ";
+  const std::size_t found = run.output.find(words);
+  ASSERT_NE(found, std::string::npos) << run.output;
+  EXPECT_EQ(run.output.find(words, found + 1), std::string::npos) << "it broke twice";
+  const long step = std::stol(run.output.substr(found + words.size()));
+  double largest = 0;
+  for (const Frame &frame : run.frames) {
+    const double push = 3000 * std::sin(31.6 * 5e-4 * static_cast<double>(frame.step));
+    const double bond = frame.balls.at(2).f[2] - push;
+    if (frame.step >= step)
+      ASSERT_NEAR(bond, 0, 1e-9 * strength) << "step " << frame.step;
+    else
+      largest = std::max(largest, std::fabs(bond));
+  }
+  EXPECT_LE(largest, strength);
+  EXPECT_GT(largest, 0.95 * strength);
+}
+
+} // namespace
+} // namespace drumlin::test

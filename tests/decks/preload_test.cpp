@@ -1,0 +1,39 @@
+// The preloaded library speaks in the engine's process and keeps silent in any other.
+#include "engine.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+namespace drumlin::test {
+namespace {
+
+TEST(Preload, LeavesOtherProgramsAlone) {
+  const Scratch scratch;
+  const std::string preload = "LD_PRELOAD=" + plugin_library();
+  const Outcome echo = run_program({"/bin/echo", "untouched"}, {preload}, scratch.path());
+  EXPECT_EQ(echo.status, 0);
+  EXPECT_EQ(echo.output, "untouched\n");
+  const Outcome fails = run_program({"/bin/ls", "no-such-file"}, {preload, "LC_ALL=C"}, scratch.path());
+  EXPECT_EQ(fails.status, 2);
+  EXPECT_EQ(fails.output, "/bin/ls: cannot access 'no-such-file': No such file or directory\n");
+  const Outcome child =
+      run_program({"/bin/sh", "-c", "/bin/sh -c '/bin/echo grandchild; exit 3'"}, {preload}, scratch.path());
+  EXPECT_EQ(child.status, 3);
+  EXPECT_EQ(child.output, "grandchild\n");
+}
+
+TEST(Preload, StartLineNamesBothVersions) {
+  const Scratch scratch;
+  std::ofstream(scratch / "in.empty") << "print \"here is ${here}\"\n";
+  const Outcome outcome = run_deck(scratch / "in.empty", {}, scratch.path());
+  EXPECT_TRUE(outcome.ok()) << outcome.output;
+  EXPECT_TRUE(outcome.says(std::string("drumlin ") + DRUMLIN_VERSION +
+                           ", plugin for LIGGGHTS 3.8.0, loaded in LIGGGHTS 3.8.0\n"))
+      << outcome.output;
+  EXPECT_TRUE(outcome.says("here is " + scratch.path().string() + "\n")) << outcome.output;
+}
+
+} // namespace
+} // namespace drumlin::test

@@ -1,0 +1,68 @@
+// A run that leaves the process in the middle of a cycle and goes on from its restart file must write the
+// same files, byte for byte, as one that stayed.
+#include "engine.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace drumlin::test {
+namespace {
+
+using post::ChainParameters;
+using post::Transition;
+
+void expect_same_files(const std::string &name, Transition transition, int ranks) {
+  const ChainParameters p = post::table1_case(name, transition);
+  constexpr int steps_per_cycle = 400, cycles = 5, before = 133, after = 3467; // fourteen cycles
+  const Scratch stayed, left;
+  const auto chain = [&](const Scratch &scratch) {
+    const std::string decks = chain_with_bottom(scratch.path(), -3.5).string(); // 2 ranks: soil | drum, frame
+    return Variables{{"case", name},
+                     {"transition", post::transition_name(transition)},
+                     {"steps_per_cycle", std::to_string(steps_per_cycle)},
+                     {"cycles", std::to_string(cycles)},
+                     {"before", std::to_string(before)},
+                     {"after", std::to_string(after)},
+                     {"here", decks},
+                     {"chain", decks},
+                     {"tests", test_deck("split.in").parent_path().string()}};
+  };
+  const Outcome whole = run_deck(test_deck("split.in"), chain(stayed), stayed.path(), ranks);
+  ASSERT_TRUE(whole.ok()) << whole.output;
+  const Outcome first = run_deck(test_deck("stop.in"), chain(left), left.path(), ranks);
+  ASSERT_TRUE(first.ok()) << first.output;
+  const std::size_t rows_before = post::read_chain(left / "chain.csv").size();
+  const std::size_t events_before = post::read_events(left / "events.csv").size();
+  const Outcome second = run_deck(test_deck("resume.in"),
+                                  {{"transition", post::transition_name(transition)},
+                                   {"k", number(p.k)},
+                                   {"D", number(p.D)},
+                                   {"omega", number(p.omega)},
+                                   {"steps_per_cycle", std::to_string(steps_per_cycle)},
+                                   {"after", std::to_string(after)}},
+                                  left.path(), ranks);
+  ASSERT_TRUE(second.ok()) << second.output;
+  for (const char *file : {"chain.csv", "events.csv", "cycles.csv"})
+    EXPECT_EQ(read_text(left / file), read_text(stayed / file)) << file;
+
+  // There is something to compare: rows, cycles and events on both sides of the restart.
+  EXPECT_EQ(rows_before, 200u * cycles + 1 + before / 2);
+  EXPECT_EQ(post::read_chain(left / "chain.csv").size(), 200u * 14 + 1);
+  EXPECT_EQ(post::read_table(left / "cycles.csv").rows(), 1 + 14u);
+  EXPECT_GT(events_before, 3u);
+  EXPECT_GT(post::read_events(left / "events.csv").size(), events_before + 3);
+}
+
+class Restart : public ::testing::TestWithParam<int> {};
+
+TEST_P(Restart, ContinuesBitwiseDuringExcitation) {
+  expect_same_files("II", Transition::B, GetParam());
+  expect_same_files("III", Transition::A, GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(One, Restart, ::testing::Values(1));
+INSTANTIATE_TEST_SUITE_P(Ranks, Restart, ::testing::Values(2));
+
+} // namespace
+} // namespace drumlin::test

@@ -1,0 +1,125 @@
+#include "bad_input.h"
+
+namespace drumlin::test {
+namespace {
+
+const char *const positive = "allowed: a finite number > 0";
+const char *const non_negative = "allowed: a finite number >= 0";
+const char *const whole = "allowed: a whole number from ";
+
+/// A value that a variable may not have.
+BadInput variable(const std::string &name, const std::string &value, const std::string &allowed,
+                  bool two_ranks = false) {
+  BadInput input{name + " '" + value + "'",
+                 "",
+                 {"drumlin/check: ", "variable " + name + " is '" + value + "'; ", allowed}};
+  input.variables = {{name, value}};
+  input.two_ranks = two_ranks;
+  return input;
+}
+
+BadInput variables(const std::string &name, const Variables &values, const std::vector<std::string> &says,
+                   bool two_ranks = false) {
+  BadInput input{name, "", says};
+  input.variables = values;
+  input.two_ranks = two_ranks;
+  return input;
+}
+
+BadGroup chain_choices() {
+  return {"ChainChoices",
+          "in.chain",
+          {
+              variable("case", "V", "allowed: I, II, III or IV", true),
+              variable("case", "ii", "allowed: I, II, III or IV"),
+              variable("case", "2", "allowed: I, II, III or IV"),
+              variable("transition", "C", "allowed: A or B", true),
+              variable("transition", "AB", "allowed: A or B"),
+              variable("stepping", "exact", "allowed: stock", true),
+              variable("guard", "yes", "allowed: on or off", true),
+              variables("two values", {{"k", "1e8 2e8"}}, {"drumlin/check: ", "variable k", "'2e8'"}),
+              variables("empty value", {{"k", ""}}, {"drumlin/check: ", "variable k is missing"}),
+          }};
+}
+
+BadGroup chain_numbers() {
+  BadGroup group{"ChainNumbers", "in.chain", {}};
+  for (const char *name : {"k", "omega", "m2", "m3", "k23"})
+    for (const char *value : {"0", "-1", "nan", "inf"})
+      group.inputs.push_back(variable(name, value, positive, std::string(value) == "-1"));
+  for (const char *name : {"D", "Fw", "c23", "g"})
+    for (const char *value : {"-0.5", "NaN", "-inf"})
+      group.inputs.push_back(variable(name, value, non_negative));
+  group.inputs.push_back(variable("k", "stiff", positive, true));
+  group.inputs.push_back(variable("k", "100MN/m", positive));
+  group.inputs.push_back(variable("k", "1e999", positive));
+  group.inputs.push_back(variable("Fw", "58,800", non_negative));
+  return group;
+}
+
+BadGroup chain_counts() {
+  BadGroup group{"ChainCounts", "in.chain", {}};
+  for (const char *name : {"cycles", "steps_per_cycle", "samples_per_cycle", "settle_limit"})
+    for (const char *value : {"0", "-5", "2.5", "many", "nan", "1e30"})
+      group.inputs.push_back(variable(name, value, whole, std::string(value) == "0"));
+  group.inputs.push_back(variable("samples_per_cycle", "300", "allowed"));
+  group.inputs.back().says = {"variable steps_per_cycle is '2000'",
+                              "allowed: a multiple of samples_per_cycle, which is 300"};
+  group.inputs.back().two_ranks = true;
+  group.inputs.push_back(variable("samples_per_cycle", "4000", "allowed"));
+  group.inputs.back().says = {"variable steps_per_cycle is '2000'",
+                              "allowed: a multiple of samples_per_cycle, which is 4000"};
+  return group;
+}
+
+BadGroup chain_folder() {
+  const std::string allowed = "allowed: a folder that can be made or written";
+  return {"ChainFolder",
+          "in.chain",
+          {
+              variable("out", "out/chain.csv", allowed, true), // a file of the earlier run
+              variable("out", "out/chain.csv/below", allowed),
+              variable("out", "/dev/null/results", allowed),
+          }};
+}
+
+BadGroup chain_equilibrium() {
+  return {"ChainEquilibrium",
+          "in.chain",
+          {
+              variables("no damping", {{"D", "0"}, {"c23", "0"}, {"settle_limit", "20000"}},
+                        {"drumlin/settle: no equilibrium: unbalanced ratio ", "after 20000 steps",
+                         "within 20000 steps", "without damping"},
+                        true),
+              variables("too soft to carry", {{"k", "1000"}},
+                        {"fix bond/spring: ball 2 was lost at step ", "both balls in the box"}),
+          }};
+}
+
+BadGroup impact() {
+  BadGroup group{"Impact", "in.impact", {}};
+  group.inputs.push_back(variable("transition", "c", "allowed: A or B", true));
+  group.inputs.push_back(variable("stepping", "half", "allowed: stock"));
+  group.inputs.push_back(variable("guard", "1", "allowed: on or off"));
+  for (const char *name : {"k", "m2", "speed"})
+    for (const char *value : {"0", "-1", "nan"})
+      group.inputs.push_back(variable(name, value, positive));
+  group.inputs.push_back(variable("D", "-0.5", non_negative, true));
+  group.inputs.push_back(variable("onset", "-1", non_negative));
+  for (const char *name : {"steps_per_contact", "contacts", "samples"})
+    for (const char *value : {"0", "1.5"})
+      group.inputs.push_back(variable(name, value, whole));
+  group.inputs.push_back(variable("samples", "3", ""));
+  group.inputs.back().says = {"variable steps_per_contact is '2000'",
+                              "allowed: a multiple of samples, which is 3"};
+  group.inputs.push_back(variable("out", "out/events.csv", "allowed: a folder that can be made or written"));
+  return group;
+}
+
+} // namespace
+
+std::vector<BadGroup> bad_variables() {
+  return {chain_choices(), chain_numbers(), chain_counts(), chain_folder(), chain_equilibrium(), impact()};
+}
+
+} // namespace drumlin::test

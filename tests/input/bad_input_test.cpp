@@ -1,0 +1,128 @@
+// Each mistake of the tables, on one rank and on two: the engine ends within seconds with a status other than
+// 0 and with one line that says what is wrong, and leaves the files of an earlier run as they were.
+
+#include "bad_input.h"
+#include "host.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *earlier_files[] = {"chain.csv", "events.csv", "cycles.csv", "parameters.csv"};
+
+/// The folder `out` of an earlier run.
+class EarlierRun {
+public:
+  explicit EarlierRun(const fs::path &folder) : folder_(folder / "out") {
+    fs::create_directory(folder_);
+    for (const char *name : earlier_files) {
+      write_text(folder_ / name, std::string("the earlier ") + name + "\n");
+      fs::last_write_time(folder_ / name, written_);
+    }
+  }
+  void expect_untouched() const {
+    for (const char *name : earlier_files) {
+      EXPECT_EQ(read_text(folder_ / name), std::string("the earlier ") + name + "\n");
+      EXPECT_EQ(fs::last_write_time(folder_ / name), written_) << name;
+    }
+  }
+
+private:
+  fs::path folder_;
+  fs::file_time_type written_ = fs::file_time_type::clock::now() - std::chrono::hours(1);
+};
+
+/// What a user's deck has besides the mistake: outputs into the folder of the earlier run.
+constexpr const char *outputs =
+    "\nfix out_events all contact/events file out/events.csv types 1 2\n"
+    "fix out_history drum roller/history file out/chain.csv every 10 cycles out/cycles.csv 10\n";
+
+void expect_one_error(const BadInput &input, const Outcome &outcome) {
+  EXPECT_FALSE(outcome.timed_out);
+  EXPECT_NE(outcome.status, 0);
+  std::vector<std::string> errors;
+  for (const std::string &line : lines_of(outcome.output))
+    if (line.find("ERROR") != std::string::npos) errors.push_back(line);
+  ASSERT_EQ(errors.size(), 1U) << outcome.output;
+  for (const std::string &words : input.says)
+    EXPECT_NE(errors.front().find(words), std::string::npos) << words << "\n" << errors.front();
+  if (input.text == Text::engine) return;
+  EXPECT_NE(errors.front().find("; allowed: "), std::string::npos) << errors.front();
+}
+
+void try_input(const BadGroup &group, const BadInput &input, int ranks) {
+  SCOPED_TRACE(group.name + ", " + input.name + ", ranks: " + std::to_string(ranks));
+  const Scratch scratch;
+  const EarlierRun earlier(scratch.path());
+  Outcome outcome;
+  if (group.deck.empty()) {
+    const std::string pair = input.pair.empty() ? host_pair_style() + host_properties() : input.pair;
+    outcome = run_host(pair, input.lines + outputs, scratch.path(), ranks);
+  } else {
+    std::vector<std::string> words;
+    for (const auto &[name, value] : input.variables)
+      words.insert(words.end(), {"-var", name, value});
+    words.insert(words.end(), {"-var", "out", "out"}); // the first of two counts: a mistake in `out` stays
+    outcome = run_engine(chain_deck(group.deck), words, scratch.path(), ranks);
+  }
+  expect_one_error(input, outcome);
+  if (!input.runs) earlier.expect_untouched();
+}
+
+std::vector<BadGroup> all_groups() {
+  std::vector<BadGroup> groups = bad_lines();
+  const std::vector<BadGroup> more = bad_variables();
+  groups.insert(groups.end(), more.begin(), more.end());
+  return groups;
+}
+
+/// The inputs named for two ranks, and every third of the others.
+std::vector<BadGroup> groups_for_two_ranks() {
+  std::vector<BadGroup> groups;
+  for (const BadGroup &group : all_groups()) {
+    groups.push_back({group.name, group.deck, {}});
+    for (std::size_t n = 0; n < group.inputs.size(); ++n)
+      if (group.inputs[n].two_ranks || n % 3 == 0) groups.back().inputs.push_back(group.inputs[n]);
+  }
+  return groups;
+}
+
+class BadInputTest : public ::testing::TestWithParam<BadGroup> {};
+class BadInputRanksTest : public ::testing::TestWithParam<BadGroup> {};
+
+TEST_P(BadInputTest, EndsInOneClearLine) {
+  for (const BadInput &input : GetParam().inputs)
+    try_input(GetParam(), input, 1);
+}
+
+TEST_P(BadInputRanksTest, EndsInOneClearLine) {
+  for (const BadInput &input : GetParam().inputs)
+    try_input(GetParam(), input, 2);
+}
+
+std::string group_name(const ::testing::TestParamInfo<BadGroup> &info) { return info.param.name; }
+
+INSTANTIATE_TEST_SUITE_P(OneRank, BadInputTest, ::testing::ValuesIn(all_groups()), group_name);
+INSTANTIATE_TEST_SUITE_P(TwoRanks, BadInputRanksTest, ::testing::ValuesIn(groups_for_two_ranks()),
+                         group_name);
+
+// The tests above would pass for any mistake if the host deck itself failed: it runs, and writes.
+TEST(BadInputHost, RunsWithoutAMistake) {
+  for (const int ranks : {1, 2}) {
+    const Scratch scratch;
+    const EarlierRun earlier(scratch.path());
+    const Outcome outcome = run_host(host_pair_style() + host_properties(), outputs, scratch.path(), ranks);
+    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    EXPECT_FALSE(outcome.says("ERROR")) << outcome.output;
+    for (const char *name : {"chain.csv", "events.csv", "cycles.csv"})
+      EXPECT_EQ(read_text(scratch.path() / "out" / name).find("earlier"), std::string::npos) << name;
+  }
+}
+
+} // namespace
+} // namespace drumlin::test

@@ -1,0 +1,131 @@
+// The examples of the documentation run. A fenced block whose first line says `run` after the language is an
+// example:
+// ```liggghts run: lines of a deck, run in the host deck in.host; a pair_style or a property in it replaces
+// the host's.
+// ```sh run: a command line, run in a folder that has `inputs` and `build/release/lib` as the project's own.
+
+#include "host.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <regex>
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path root = DRUMLIN_SOURCE_DIR;
+
+struct Example {
+  std::string language;
+  std::string text;
+  std::size_t line; ///< of the page, where it begins
+};
+
+std::vector<Example> examples_of(const std::string &page) {
+  std::vector<Example> examples;
+  bool inside = false;
+  bool wanted = false;
+  std::size_t number = 0;
+  for (const std::string &line : lines_of(page)) {
+    ++number;
+    if (line.rfind("```", 0) == 0) {
+      inside = !inside;
+      wanted = inside && (line == "```liggghts run" || line == "```sh run");
+      if (wanted) examples.push_back({line.substr(3, line.find(' ') - 3), "", number});
+    } else if (inside && wanted) {
+      examples.back().text += line + "\n";
+    }
+  }
+  return examples;
+}
+
+/// Text under a heading, up to the next one of the same level.
+std::string section(const std::string &page, const std::string &heading) {
+  const std::size_t begin = page.find("\n## " + heading + "\n");
+  return begin == std::string::npos ? "" : page.substr(begin + 1, page.find("\n## ", begin + 1) - begin);
+}
+
+/// Files that an example names as output.
+std::vector<std::string> outputs_of(const std::string &text) {
+  static const std::regex keyword(R"re((?:[ \t](?:file|cycles)|drumlin/record)[ \t]+([^ \t\n]+))re");
+  std::vector<std::string> files;
+  for (std::sregex_iterator i(text.begin(), text.end(), keyword), end; i != end; ++i)
+    files.push_back((*i)[1].str());
+  return files;
+}
+
+Outcome run_example(const Example &example, const fs::path &folder) {
+  if (example.language == "sh") {
+    fs::create_directories(folder / "build/release");
+    fs::create_directory_symlink(fs::path(plugin_library()).parent_path(), folder / "build/release/lib");
+    fs::create_directory_symlink(root / "inputs", folder / "inputs");
+    return run_program({"/bin/sh", "-ec", example.text}, mpi_environment(folder), folder, 60.0);
+  }
+  fs::create_directory(folder / "results");
+  const bool own_pair_style = example.text.find("pair_style") != std::string::npos;
+  return run_host((own_pair_style ? "" : host_pair_style()) + host_properties(example.text), example.text,
+                  folder, 1);
+}
+
+class DocExamplesTest : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(DocExamplesTest, Run) {
+  const std::string page = read_text(root / GetParam());
+  const std::vector<Example> examples = examples_of(page);
+  EXPECT_FALSE(examples.empty()) << GetParam() << " has no example that runs";
+  for (const Example &example : examples) {
+    SCOPED_TRACE(GetParam() + ", line " + std::to_string(example.line));
+    const Scratch scratch;
+    const Outcome outcome = run_example(example, scratch.path());
+    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    EXPECT_FALSE(outcome.says("ERROR")) << outcome.output;
+    if (example.language == "liggghts")
+      for (const std::string &file : outputs_of(example.text)) {
+        std::error_code none;
+        EXPECT_GT(fs::file_size(scratch / file, none), 0U) << file;
+        EXPECT_FALSE(none) << file;
+      }
+  }
+}
+
+/// Every engine command's page has its parts, and its section Examples an example that runs.
+TEST_P(DocExamplesTest, HaveTheirPlace) {
+  if (GetParam() == "README.md") return;
+  const std::string page = read_text(root / GetParam());
+  for (const char *part :
+       {"Syntax", "Examples", "Description", "Restart and output", "Restrictions", "Default", "Verification"})
+    EXPECT_FALSE(section(page, part).empty()) << GetParam() << " has no section " << part;
+  EXPECT_FALSE(examples_of(section(page, "Examples")).empty()) << GetParam();
+}
+
+std::vector<std::string> pages() {
+  std::vector<std::string> names;
+  for (const fs::directory_entry &entry : fs::directory_iterator(root / "plugin/doc"))
+    if (entry.path().extension() == ".md") names.push_back("plugin/doc/" + entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  names.emplace_back("README.md");
+  return names;
+}
+
+std::string page_name(const ::testing::TestParamInfo<std::string> &info) {
+  std::string name = fs::path(info.param).stem().string();
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Pages, DocExamplesTest, ::testing::ValuesIn(pages()), page_name);
+
+TEST(DocPages, AreThereForEveryCommand) {
+  for (const char *name :
+       {"drumlin_check", "drumlin_record", "drumlin_settle", "fix_bond_spring", "fix_contact_events",
+        "fix_drum_excite", "fix_guard", "fix_roller_history", "pair_gran_hooke_transition", "preload"})
+    EXPECT_TRUE(fs::exists(root / "plugin/doc" / (std::string(name) + ".md"))) << name;
+}
+
+} // namespace
+} // namespace drumlin::test

@@ -1,0 +1,116 @@
+// The preloaded library in processes that it was not built for: an engine that it cannot extend is stopped
+// with one clear line. (That other programs do not notice it is tested in decks/preload_test.cpp.)
+
+#include "host.h"
+
+#include <gtest/gtest.h>
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The environment of a process with the library.
+std::vector<std::string> preload(const fs::path &library, const Scratch &scratch) {
+  std::vector<std::string> environment = mpi_environment(scratch.path());
+  environment.push_back("LD_PRELOAD=" + library.string());
+  return environment;
+}
+
+void expect_refusal(const Outcome &outcome, const std::vector<std::string> &says) {
+  EXPECT_FALSE(outcome.timed_out);
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_FALSE(outcome.says("the engine runs"));
+  std::vector<std::string> errors;
+  for (const std::string &line : lines_of(outcome.output))
+    if (line.find("ERROR") != std::string::npos) errors.push_back(line);
+  ASSERT_EQ(errors.size(), 1U) << outcome.output;
+  EXPECT_EQ(errors.front().rfind("ERROR: drumlin ", 0), 0U) << errors.front();
+  for (const std::string &words : says)
+    EXPECT_NE(errors.front().find(words), std::string::npos) << words << "\n" << errors.front();
+}
+
+TEST(PreloadedStub, TheFakeEnginesRunWithoutIt) {
+  const Scratch scratch;
+  for (const char *program : {FAKE_LAMMPS_PROGRAM, FAKE_LIGGGHTS_PROGRAM}) {
+    const Outcome outcome = run_program({program}, {}, scratch.path());
+    EXPECT_TRUE(outcome.ok());
+    EXPECT_EQ(outcome.output, "the engine runs\n");
+  }
+}
+
+TEST(PreloadedStub, RefusesLammps) {
+  const Scratch scratch;
+  expect_refusal(run_program({FAKE_LAMMPS_PROGRAM}, preload(plugin_library(), scratch), scratch.path()),
+                 {"built for LIGGGHTS 3.8.0", "another engine (liblammps.so.0)", "take the preload away"});
+}
+
+TEST(PreloadedStub, RefusesAnotherLiggghts) {
+  const Scratch scratch;
+  expect_refusal(run_program({FAKE_LIGGGHTS_PROGRAM}, preload(plugin_library(), scratch), scratch.path()),
+                 {"built for LIGGGHTS 3.8.0", "runs libliggghts.so.3.7.0",
+                  "build drumlin against the installed version"});
+}
+
+TEST(PreloadedStub, SaysWhenThePluginIsNotBesideIt) {
+  const Scratch scratch;
+  const fs::path alone = scratch / "libdrumlin.so";
+  fs::copy_file(plugin_library(), alone);
+  write_text(scratch / "in.empty", "units si\n");
+  expect_refusal(
+      run_program({DRUMLIN_LIGGGHTS_PROGRAM, "-in", "in.empty"}, preload(alone, scratch), scratch.path()),
+      {"cannot load the plugin", "libdrumlin-liggghts.so"});
+  expect_refusal(run_program({DRUMLIN_MPIEXEC, "-np", "2", "-x", "LD_PRELOAD=" + alone.string(),
+                              DRUMLIN_LIGGGHTS_PROGRAM, "-in", "in.empty"},
+                             mpi_environment(scratch.path()), scratch.path()),
+                 {"cannot load the plugin", "libdrumlin-liggghts.so"});
+}
+
+TEST(PreloadedStub, FollowsALinkToThePlugin) {
+  const Scratch scratch;
+  fs::create_symlink(plugin_library(), scratch / "link.so");
+  write_text(scratch / "in.empty", "drumlin/check k 1 positive\n");
+  const Outcome outcome = run_program({DRUMLIN_LIGGGHTS_PROGRAM, "-in", "in.empty"},
+                                      preload(scratch / "link.so", scratch), scratch.path());
+  EXPECT_TRUE(outcome.ok()) << outcome.output;
+}
+
+TEST(PreloadedStub, LeavesADeckOfTheStockEngineAsItIs) {
+  const Scratch scratch;
+  write_text(scratch / "in.stock", "units si\nprint \"done\"\n");
+  const Outcome outcome = run_program({DRUMLIN_LIGGGHTS_PROGRAM, "-in", "in.stock"},
+                                      preload(plugin_library(), scratch), scratch.path());
+  EXPECT_TRUE(outcome.ok()) << outcome.output;
+  EXPECT_TRUE(outcome.says("done"));
+  EXPECT_TRUE(outcome.says("plugin for LIGGGHTS 3.8.0")) << outcome.output;
+}
+
+TEST(PreloadedStub, WithoutItTheEngineDoesNotKnowTheCommands) {
+  const Scratch scratch;
+  write_text(scratch / "in.check", "drumlin/check k 1 positive\n");
+  const Outcome outcome = run_program({DRUMLIN_LIGGGHTS_PROGRAM, "-in", "in.check"}, {}, scratch.path());
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(outcome.says("Unknown command: drumlin/check")) << outcome.output;
+}
+
+TEST(PreloadedStub, GivesADeckItsFolderAsHere) {
+  const Scratch scratch;
+  fs::create_directories(scratch.path() / "some where");
+  write_text(scratch.path() / "some where" / "in.here", "print \"here is <${here}>\"\n");
+  write_text(scratch / "in.here", "print \"here is <${here}>\"\n");
+  const auto here = [&scratch](const std::vector<std::string> &words) {
+    std::vector<std::string> command = {DRUMLIN_LIGGGHTS_PROGRAM};
+    command.insert(command.end(), words.begin(), words.end());
+    for (const std::string &line :
+         lines_of(run_program(command, preload(plugin_library(), scratch), scratch.path()).output))
+      if (line.rfind("here is", 0) == 0) return line;
+    return std::string("nothing");
+  };
+  EXPECT_EQ(here({"-in", "in.here"}), "here is <.>");
+  EXPECT_EQ(here({"-in", "some where/in.here"}), "here is <some where>");
+  EXPECT_EQ(here({"-i", "./some where/in.here"}), "here is <./some where>");
+  EXPECT_EQ(here({"-in", "in.here", "-var", "here", "elsewhere"}), "here is <elsewhere>");
+}
+
+} // namespace
+} // namespace drumlin::test
