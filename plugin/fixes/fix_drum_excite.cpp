@@ -156,7 +156,8 @@ void FixDrumExcite::post_integrate() {
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->mask[i] & groupbit) {
       const double share = atom->rmass[i] / mass_;
-      stepping_->foresee(i, {share * (F[0] - acted_[0]), share * (F[1] - acted_[1]), share * (F[2] - acted_[2])});
+      stepping_->foresee(
+          i, {share * (F[0] - acted_[0]), share * (F[1] - acted_[1]), share * (F[2] - acted_[2])});
     }
 }
 

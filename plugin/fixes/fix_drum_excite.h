@@ -36,7 +36,7 @@ private:
   std::optional<Vector> given_direction_;
   std::optional<Vector> axis_; // of rotation
   Vector direction_{};
-  Vector normal_{}; // axis x direction: second component of a rotating force
+  Vector normal_{};                       // axis x direction: second component of a rotating force
   class FixStepping *stepping_ = nullptr; // none under stock stepping
   Vector acted_{};                        // force of the last step
   drumlin::Clock clock_;

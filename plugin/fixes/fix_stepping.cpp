@@ -31,7 +31,8 @@ FixStepping::FixStepping(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, nar
   comm_forward = shared_columns;
   grow_arrays(atom->nmax);
   atom->add_callback(0);
-  for (int i = 0; i < atom->nlocal; ++i) std::fill_n(state_[i], columns, 0.0);
+  for (int i = 0; i < atom->nlocal; ++i)
+    std::fill_n(state_[i], columns, 0.0);
 }
 
 FixStepping::~FixStepping() {
@@ -61,8 +62,10 @@ void FixStepping::post_integrate() {
   for (const Later &item : shifts_) {
     double *v = atom->v[item.i];
     const double *before = state_[item.i];
-    if (v[0] == before[0] && v[1] == before[1] && v[2] == before[2]) continue; // not integrated: it took no kick
-    for (std::size_t a = 0; a < 3; ++a) v[a] -= 0.5 * update->dt * item.shift[a] / atom->rmass[item.i];
+    if (v[0] == before[0] && v[1] == before[1] && v[2] == before[2])
+      continue; // not integrated: it took no kick
+    for (std::size_t a = 0; a < 3; ++a)
+      v[a] -= 0.5 * update->dt * item.shift[a] / atom->rmass[item.i];
   }
   shifts_.clear();
   for (int i = 0; i < atom->nlocal; ++i) {
@@ -76,10 +79,12 @@ void FixStepping::pre_force(int) {
 }
 
 void FixStepping::end_of_step() {
-  for (int i = 0; i < atom->nlocal; ++i) std::copy_n(atom->v[i], 3, state_[i]);
+  for (int i = 0; i < atom->nlocal; ++i)
+    std::copy_n(atom->v[i], 3, state_[i]);
   double **f = atom->f;
   for (const Later &item : later_)
-    for (std::size_t a = 0; a < 3; ++a) f[item.i][a] += item.rest[a];
+    for (std::size_t a = 0; a < 3; ++a)
+      f[item.i][a] += item.rest[a];
   constrain(!later_.empty());
   // What the constraints leave of a shift is the difference that it makes to the constrained force.
   shifts_.swap(later_);
@@ -91,7 +96,8 @@ void FixStepping::end_of_step() {
     }
   constrain(!shifts_.empty());
   for (Later &item : shifts_)
-    for (std::size_t a = 0; a < 3; ++a) item.shift[a] = f[item.i][a] - item.rest[a];
+    for (std::size_t a = 0; a < 3; ++a)
+      item.shift[a] = f[item.i][a] - item.rest[a];
 }
 
 /// Constraints are projections: acting again on what has passed them changes nothing else.
@@ -115,12 +121,14 @@ int FixStepping::unpack_exchange(int i, double *buf) {
 }
 
 int FixStepping::pack_comm(int n, int *list, double *buf, int, int *) {
-  for (int m = 0; m < n; ++m) buf = std::copy_n(state_[list[m]], shared_columns, buf);
+  for (int m = 0; m < n; ++m)
+    buf = std::copy_n(state_[list[m]], shared_columns, buf);
   return comm_forward;
 }
 
 void FixStepping::unpack_comm(int n, int first, double *buf) {
-  for (int i = first; i < first + n; ++i, buf += shared_columns) std::copy_n(buf, shared_columns, state_[i]);
+  for (int i = first; i < first + n; ++i, buf += shared_columns)
+    std::copy_n(buf, shared_columns, state_[i]);
 }
 
 double FixStepping::memory_usage() { return static_cast<double>(atom->nmax) * columns * sizeof(double); }

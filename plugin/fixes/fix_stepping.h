@@ -38,9 +38,10 @@ public:
   /// Takes note, after the integration and before the ghosts hear of it, that a force on owned ball i is known to change in
   /// this step: 2 v+ - velocity_before is then the velocity with the new force.
   void foresee(int i, const std::array<double, 3> &change) {
-    for (std::size_t a = 0; a < 3; ++a) state_[i][a] -= 0.5 * update->dt * change[a] / atom->rmass[i];
+    for (std::size_t a = 0; a < 3; ++a)
+      state_[i][a] -= 0.5 * update->dt * change[a] / atom->rmass[i];
   }
-  double damping_over_mass(int i) const { return state_[i][3]; }   ///< sum of c/m, 1/s, owned balls and ghosts
+  double damping_over_mass(int i) const { return state_[i][3]; } ///< sum of c/m, 1/s, owned balls and ghosts
 
   /// Counts a contact's c/m for the next step.
   void add_damping(int i, double c_over_m) { state_[i][4] += c_over_m; }
@@ -57,9 +58,9 @@ private:
   };
   void constrain(bool any) const;
 
-  double **state_ = nullptr; // per ball: v(t) (3), sum of c/m of the last step, of this step
-  std::vector<Later> later_;  // of this step
-  std::vector<Later> shifts_; // in the opening half kick, not yet taken back
+  double **state_ = nullptr;       // per ball: v(t) (3), sum of c/m of the last step, of this step
+  std::vector<Later> later_;       // of this step
+  std::vector<Later> shifts_;      // in the opening half kick, not yet taken back
   std::vector<Fix *> constraints_; // fixes that take forces away: they act again on forces that were put back
 };
 

@@ -87,7 +87,8 @@ private:
 
   /// 1/m of ball i as its contacts feel it: 0 if frozen.
   double inverse_mass(int i, double mass) const {
-    return atom->mask[i] & static_cast<LAMMPS_NS::PairGran *>(force->pair)->freeze_group_bit() ? 0.0 : 1.0 / mass;
+    return atom->mask[i] & static_cast<LAMMPS_NS::PairGran *>(force->pair)->freeze_group_bit() ? 0.0
+                                                                                               : 1.0 / mass;
   }
 
   /// Rate of the overlap with the velocities at the begin of the step.
@@ -118,9 +119,10 @@ private:
       const double all = stepping_->damping_over_mass(sidata.i) +
                          (sidata.is_wall ? 0.0 : stepping_->damping_over_mass(sidata.j)) + missing;
       // No record although the contact is older than this step: a mesh contact went over to another triangle.
-      const double old = force_before != 0.0 ? force_before
-                                             : normal_force(transition(), k, c, motion.overlap - motion.dt * motion.rate_half,
-                                                            motion.rate_before);
+      const double old = force_before != 0.0
+                             ? force_before
+                             : normal_force(transition(), k, c, motion.overlap - motion.dt * motion.rate_half,
+                                            motion.rate_before);
       step = second_order_force(transition(), k, c, motion, old, {own_i + own_j, all});
     }
     if (sidata.computeflag) {
@@ -132,8 +134,8 @@ private:
   }
 
   /// Adds the force of the closing half kick, and has the rest added after it.
-  inline void apply(const drumlin::physics::StepForce &step, double share, const double *normal, const SurfacesCloseData &data,
-                    ForceData &i_forces, ForceData &j_forces) {
+  inline void apply(const drumlin::physics::StepForce &step, double share, const double *normal,
+                    const SurfacesCloseData &data, ForceData &i_forces, ForceData &j_forces) {
     const double kick = share * step.kick;
     for (int a = 0; a < 3; ++a) {
       i_forces.delta_F[a] += kick * normal[a];
@@ -143,8 +145,9 @@ private:
     const double rest = share * step.force - kick;
     const double shift = share * step.shift;
     const auto later = [&](int ball, double sign) {
-      stepping_->add_after_kick(ball, {sign * rest * normal[0], sign * rest * normal[1], sign * rest * normal[2]},
-                                {sign * shift * normal[0], sign * shift * normal[1], sign * shift * normal[2]});
+      stepping_->add_after_kick(
+          ball, {sign * rest * normal[0], sign * rest * normal[1], sign * rest * normal[2]},
+          {sign * shift * normal[0], sign * shift * normal[1], sign * shift * normal[2]});
     };
     later(data.i, 1.0);
     if (!data.is_wall && data.j < atom->nlocal) later(data.j, -1.0);
@@ -155,21 +158,24 @@ private:
     const double r = std::sqrt(scdata.rsq);
     const double normal[3] = {scdata.delta[0] / r, scdata.delta[1] / r, scdata.delta[2] / r};
     double rate_half = 0.0;
-    for (int a = 0; a < 3; ++a) rate_half -= (scdata.v_i[a] - scdata.v_j[a]) * normal[a];
-    const drumlin::physics::StepMotion motion{scdata.radsum - r, rate_half, rate_before(scdata, normal), stepping_->dt()};
+    for (int a = 0; a < 3; ++a)
+      rate_half -= (scdata.v_i[a] - scdata.v_j[a]) * normal[a];
+    const drumlin::physics::StepMotion motion{scdata.radsum - r, rate_half, rate_before(scdata, normal),
+                                              stepping_->dt()};
     if (drumlin::physics::made_in_step(motion)) return; // apart all along
     const drumlin::ContactCoefficients &p = table_.at(scdata.itype, scdata.jtype);
     const double mi = atom->rmass[scdata.i];
     const double m_eff = scdata.is_wall ? mi : effective_mass(scdata.i, scdata.j);
     const double c = drumlin::physics::damping_coefficient(p.normal, m_eff);
-    apply(drumlin::physics::second_order_break(transition(), p.normal.stiffness, c, motion), 1.0, normal, scdata, i_forces,
-          j_forces);
+    apply(drumlin::physics::second_order_break(transition(), p.normal.stiffness, c, motion), 1.0, normal,
+          scdata, i_forces, j_forces);
     scdata.has_force_update = true;
   }
 
   double effective_mass(int i, int j) const {
     const auto *source = drumlin::contact_source(lmp);
-    return source ? source->effective_mass(i, j) : drumlin::physics::effective_mass(atom->rmass[i], atom->rmass[j]);
+    return source ? source->effective_mass(i, j)
+                  : drumlin::physics::effective_mass(atom->rmass[i], atom->rmass[j]);
   }
 
   const bool is_wall_;

@@ -24,7 +24,8 @@ struct StepMotion {
 struct StepForce {
   double force; ///< N, physical, at t+dt; the next opening half kick gets it
   double kick;  ///< N, for the closing half kick of this step
-  double shift; ///< N: moves the balls by what dt/2 of it would in the next step's drift, and leaves their velocities
+  double
+      shift; ///< N: moves the balls by what dt/2 of it would in the next step's drift, and leaves their velocities
 };
 
 /// Whether the balls were apart at the begin of the step.
@@ -48,8 +49,8 @@ struct DampingOverMass {
 /// like leaving it out, but with a larger factor; so the others count in full from s = 1/10 on and fade below, where the own
 /// alone is stable.
 /// \param force_before F_old, N: the force that the opening half kick had
-[[nodiscard]] inline double second_order_spring_dashpot(double k, double c, const StepMotion &motion, double force_before,
-                                                        const DampingOverMass &damping) {
+[[nodiscard]] inline double second_order_spring_dashpot(double k, double c, const StepMotion &motion,
+                                                        double force_before, const DampingOverMass &damping) {
   const double half = 0.5 * motion.dt;
   const double others = std::max(0.0, damping.all - damping.own);
   const double s = half * (damping.own + std::min(1.0, 10.0 * half * damping.all) * others);
@@ -68,8 +69,9 @@ struct DampingOverMass {
 /// boundary term of the trapezoidal sum). Both are shifts of the positions; they matter for heavy damping, where d soon stops
 /// growing and the rebound goes with d.
 /// \param force_before as in second_order_spring_dashpot(); not used in the step of a make
-[[nodiscard]] inline StepForce second_order_force(Transition transition, double k, double c, const StepMotion &motion,
-                                                  double force_before, const DampingOverMass &damping) {
+[[nodiscard]] inline StepForce second_order_force(Transition transition, double k, double c,
+                                                  const StepMotion &motion, double force_before,
+                                                  const DampingOverMass &damping) {
   if (!made_in_step(motion)) {
     const double force = second_order_spring_dashpot(k, c, motion, force_before, damping);
     const double limited = transition == Transition::B && force < 0.0 ? 0.0 : force;
@@ -83,14 +85,16 @@ struct DampingOverMass {
   const double slowed = 1.0 / (1.0 + 0.5 * motion.dt * theta * damping.own);
   const double force = (k * slowed * motion.overlap + c * rate_predicted - s * first) / (1.0 + s);
   const double limited = transition == Transition::B && force < 0.0 ? 0.0 : force;
-  return {limited, theta * (first + limited), slowed * theta * c * motion.overlap / motion.dt - 0.5 * limited};
+  return {limited, theta * (first + limited),
+          slowed * theta * c * motion.overlap / motion.dt - 0.5 * limited};
 }
 
 /// Tensile force under A in the step whose end finds the contact broken: it acted for the share of the step before d = 0,
 /// and the opening half kick has given half a step of it already. Nothing under B, which breaks without a jump, and if there
 /// was no contact at the begin of the step.
 /// \param motion with motion.overlap <= 0
-[[nodiscard]] inline StepForce second_order_break(Transition transition, double k, double c, const StepMotion &motion) {
+[[nodiscard]] inline StepForce second_order_break(Transition transition, double k, double c,
+                                                  const StepMotion &motion) {
   if (transition == Transition::B || made_in_step(motion)) return {0.0, 0.0, 0.0};
   const double before = motion.overlap - motion.dt * motion.rate_half;
   const double share = before / (before - motion.overlap);
