@@ -29,7 +29,7 @@ FixStepping *FixStepping::provide(LAMMPS *lammps) {
 FixStepping::FixStepping(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) {
   nevery = 1;
   comm_forward = shared_columns;
-  grow_arrays(atom->nmax);
+  FixStepping::grow_arrays(atom->nmax);
   atom->add_callback(0);
   for (int i = 0; i < atom->nlocal; ++i)
     std::fill_n(state_[i], columns, 0.0);
