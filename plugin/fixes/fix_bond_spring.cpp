@@ -1,7 +1,10 @@
 #include "fixes/fix_bond_spring.h"
 
 #include "fixes/arguments.h"
+#include "fixes/fix_stepping.h"
 #include "fixes/restart_record.h"
+
+#include "physics/stepping.h"
 
 #include <fmt/format.h>
 
@@ -42,6 +45,7 @@ FixBondSpring::FixBondSpring(LAMMPS *lammps, int narg, char **arg) : Fix(lammps,
 int FixBondSpring::setmask() { return FixConst::PRE_NEIGHBOR | FixConst::POST_FORCE; }
 
 void FixBondSpring::init() {
+  stepping_ = FixStepping::find(lmp);
   for (const int tag : tags_) {
     int mine = 0;
     for (int i = 0; i < atom->nlocal; ++i)
@@ -66,32 +70,52 @@ void FixBondSpring::find_balls() {
 }
 
 FixBondSpring::State FixBondSpring::share_state() {
-  std::array<double, 14> mine{}; // per ball: position, velocity, 1 if owned
+  struct Ball { // as every rank shall know it
+    double x[3], v[3], v_before[3], inverse_mass, damping_over_mass, found;
+  };
+  constexpr int numbers = sizeof(Ball) / sizeof(double);
+  Ball mine[2] = {};
   for (std::size_t b = 0; b < 2; ++b)
     if (const int i = local_[b]; i >= 0) {
-      double *part = &mine[7 * b];
-      for (int a = 0; a < 3; ++a) {
-        part[a] = atom->x[i][a];
-        part[3 + a] = atom->v[i][a];
+      std::copy_n(atom->x[i], 3, mine[b].x);
+      std::copy_n(atom->v[i], 3, mine[b].v);
+      mine[b].inverse_mass = 1.0 / atom->rmass[i];
+      if (stepping_) {
+        std::copy_n(stepping_->velocity_before(i), 3, mine[b].v_before);
+        mine[b].damping_over_mass = stepping_->damping_over_mass(i);
       }
-      part[6] = 1.0;
+      mine[b].found = 1.0;
     }
-  std::array<double, 14> all = mine;
-  if (comm->nprocs > 1) MPI_Allreduce(mine.data(), all.data(), 14, MPI_DOUBLE, MPI_SUM, world);
-  if (all[6] != 1.0 || all[13] != 1.0)
-    error->all(FLERR,
-               fmt::format("fix bond/spring: ball {} was lost at step {}; allowed: both balls in the box",
-                           tags_[all[6] != 1.0 ? 0 : 1], update->ntimestep)
-                   .c_str());
-  std::array<double, 3> d{all[7] - all[0], all[8] - all[1], all[9] - all[2]};
+  Ball all[2] = {mine[0], mine[1]};
+  if (comm->nprocs > 1) MPI_Allreduce(mine, all, 2 * numbers, MPI_DOUBLE, MPI_SUM, world);
+  if (all[0].found != 1.0 || all[1].found != 1.0)
+    error->all(FLERR, fmt::format("fix bond/spring: ball {} was lost at step {}",
+                                  tags_[all[0].found != 1.0 ? 0 : 1], update->ntimestep)
+                          .c_str());
+  std::array<double, 3> d{all[1].x[0] - all[0].x[0], all[1].x[1] - all[0].x[1], all[1].x[2] - all[0].x[2]};
   domain->minimum_image(d[0], d[1], d[2]);
   State s{};
   s.distance = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  s.inverse_masses = all[0].inverse_mass + all[1].inverse_mass;
+  s.damping_over_mass = all[0].damping_over_mass + all[1].damping_over_mass;
   for (std::size_t a = 0; a < 3; ++a) {
     s.direction[a] = d[a] / s.distance;
-    s.rate += (all[10 + a] - all[3 + a]) * s.direction[a];
+    s.rate += (all[1].v[a] - all[0].v[a]) * s.direction[a];
+    s.rate_before += (all[1].v_before[a] - all[0].v_before[a]) * s.direction[a];
   }
   return s;
+}
+
+physics::BondForce FixBondSpring::law(const State &state) const {
+  if (stepping_ == nullptr || update->setupflag)
+    return physics::bond_force(bond_, state.distance, state.rate);
+  const double dt = update->dt;
+  const double stretch = state.distance - bond_.length;
+  const double acting = physics::second_order_spring_dashpot(
+      bond_.stiffness, bond_.damping, {stretch, state.rate, state.rate_before, dt}, acted_.force,
+      {bond_.damping * state.inverse_masses, state.damping_over_mass});
+  const double rate = bond_.damping > 0.0 ? (acting - bond_.stiffness * stretch) / bond_.damping : state.rate;
+  return physics::bond_force(bond_, state.distance, rate);
 }
 
 physics::BondForce FixBondSpring::evaluate() {
@@ -120,10 +144,9 @@ void FixBondSpring::setup(int vflag) {
 }
 
 void FixBondSpring::post_force(int) {
-  acted_ = {};
   if (!whole_) return;
   state_ = share_state();
-  acted_ = physics::bond_force(bond_, state_.distance, state_.rate);
+  acted_ = law(state_);
   if (acted_.breaks) {
     whole_ = false;
     if (comm->me == 0)
@@ -139,6 +162,7 @@ void FixBondSpring::post_force(int) {
   for (std::size_t b = 0; b < 2; ++b)
     if (const int i = local_[b]; i >= 0) {
       const double sign = b == 0 ? 1.0 : -1.0; // tension pulls i towards j and j towards i
+      if (stepping_) stepping_->add_damping(i, bond_.damping / atom->rmass[i]);
       for (std::size_t a = 0; a < 3; ++a)
         f[i][a] += sign * acted_.force * state_.direction[a];
     }

@@ -33,9 +33,14 @@ public:
 
 private:
   struct State {
-    double distance, rate;
+    double distance;
+    double rate;                     // with the velocities of now: half-step ones while forces are computed
+    double rate_before;              // with the velocities at the begin of the step
+    double inverse_masses;           // sum of both balls
+    double damping_over_mass;        // sum over all dashpots of both balls
     std::array<double, 3> direction; // from i to j
   };
+  drumlin::physics::BondForce law(const State &state) const;
   State share_state();
   void find_balls();
 
@@ -44,6 +49,7 @@ private:
   drumlin::physics::Bond bond_;
   bool current_length_ = true; // the length is the distance at the first set-up
   bool whole_ = true;
+  class FixStepping *stepping_ = nullptr; // none under stock stepping
   bool echoed_ = false;
   State state_{};
   drumlin::physics::BondForce acted_{};

@@ -1,6 +1,7 @@
 #include "fixes/fix_drum_excite.h"
 
 #include "fixes/arguments.h"
+#include "fixes/fix_stepping.h"
 #include "fixes/restart_record.h"
 
 #include <fmt/format.h>
@@ -92,7 +93,7 @@ FixDrumExcite::FixDrumExcite(LAMMPS *lammps, int narg, char **arg) : Fix(lammps,
   if (const std::string wrong = excitation_.invalid(); !wrong.empty()) in.fail(wrong);
 }
 
-int FixDrumExcite::setmask() { return FixConst::POST_FORCE; }
+int FixDrumExcite::setmask() { return FixConst::POST_INTEGRATE | FixConst::POST_FORCE; }
 
 void FixDrumExcite::init() {
   if (group->count(igroup) == 0)
@@ -101,6 +102,7 @@ void FixDrumExcite::init() {
                            group->names[igroup])
                    .c_str());
   mass_ = group->mass(igroup);
+  stepping_ = FixStepping::find(lmp);
   if (given_direction_) {
     direction_ = *given_direction_;
   } else {
@@ -146,8 +148,22 @@ void FixDrumExcite::setup(int vflag) {
   post_force(vflag);
 }
 
+// The contact law of second-order stepping predicts the velocity at the end of the step: what the excitation will be there is
+// known beforehand.
+void FixDrumExcite::post_integrate() {
+  if (stepping_ == nullptr) return;
+  const Vector F = force_now();
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & groupbit) {
+      const double share = atom->rmass[i] / mass_;
+      stepping_->foresee(
+          i, {share * (F[0] - acted_[0]), share * (F[1] - acted_[1]), share * (F[2] - acted_[2])});
+    }
+}
+
 void FixDrumExcite::post_force(int) {
   const Vector F = force_now();
+  acted_ = F;
   double **f = atom->f;
   const double *rmass = atom->rmass;
   const int *mask = atom->mask;

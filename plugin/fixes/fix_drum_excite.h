@@ -18,6 +18,7 @@ public:
   int setmask() override;
   void init() override;
   void setup(int) override;
+  void post_integrate() override;
   void post_force(int) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
@@ -35,7 +36,9 @@ private:
   std::optional<Vector> given_direction_;
   std::optional<Vector> axis_; // of rotation
   Vector direction_{};
-  Vector normal_{}; // axis x direction: second component of a rotating force
+  Vector normal_{};                       // axis x direction: second component of a rotating force
+  class FixStepping *stepping_ = nullptr; // none under stock stepping
+  Vector acted_{};                        // force of the last step
   drumlin::Clock clock_;
   double mass_ = 0.0; // of the group
   bool echoed_ = false;

@@ -62,8 +62,9 @@ private:
                      const std::string &command) {
     MPI_Bcast(&failed, 1, MPI_INT, 0, world);
     if (failed)
-      error->all(FLERR,
-                 (command + ": cannot write '" + name + "'; allowed: a file in a folder that exists").c_str());
+      error->all(
+          FLERR,
+          (command + ": cannot write '" + name + "'; allowed: a file in a folder that exists").c_str());
   }
 
   std::string name_;

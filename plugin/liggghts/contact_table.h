@@ -9,6 +9,9 @@
 
 namespace drumlin {
 
+/// With a distance factor above 1 the engine calls surfacesClose() for a contact that has just ended.
+constexpr double contact_distance_factor = 1.01;
+
 /// What a contact of two types needs in the inner loop.
 struct ContactCoefficients {
   physics::LinearContact normal;

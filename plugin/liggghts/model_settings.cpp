@@ -6,7 +6,7 @@ namespace drumlin {
 
 ModelSettings::ModelSettings(LAMMPS_NS::Error *error, const std::string &command, bool rolling, int narg,
                              char **arg) {
-  std::vector<std::string> keywords = {"transition", "damping"};
+  std::vector<std::string> keywords = {"transition", "damping", "stepping"};
   if (rolling) keywords.emplace_back("torsionTorque");
 
   Arguments in(error, command, narg, arg);
@@ -19,6 +19,9 @@ ModelSettings::ModelSettings(LAMMPS_NS::Error *error, const std::string &command
       words_.insert(words_.end(),
                     {"damping_coefficient",
                      in.choice("keyword " + keyword, {"coefficient", "ratio"}) == 0 ? "on" : "off"});
+    } else if (keyword == "stepping") {
+      words_.insert(words_.end(),
+                    {"stepping_stock", in.choice(keyword, {"stock", "second"}) == 0 ? "on" : "off"});
     } else if (keyword == "torsionTorque" && rolling) {
       words_.insert(words_.end(),
                     {keyword, in.choice("keyword " + keyword, {"on", "off"}) == 0 ? "on" : "off"});

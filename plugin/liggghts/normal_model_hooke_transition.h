@@ -7,10 +7,20 @@ NORMAL_MODEL(HOOKE_TRANSITION, hooke / transition, 21)
 #define DRUMLIN_NORMAL_MODEL_HOOKE_TRANSITION_H
 
 #include "contact_models.h"
+#include "atom.h"
+#include "force.h"
+#include "neighbor.h"
 #include "normal_model_base.h"
+#include "pair_gran.h"
+#include "update.h"
 
+#include <cmath>
+
+#include "fixes/contact_source.h"
+#include "fixes/fix_stepping.h"
 #include "liggghts/contact_table.h"
 #include "physics/contact_law.h"
+#include "physics/stepping.h"
 
 namespace LIGGGHTS {
 namespace ContactModels {
@@ -23,20 +33,26 @@ public:
   NormalModel(LAMMPS *lmp, IContactHistorySetup *hsetup, ContactModelBase *model)
       : NormalModelBase(lmp, hsetup, model), is_wall_(model->is_wall()) {}
 
-  // The deck's `transition` and `damping` keywords reach here as the two switches below: see
-  // model_settings.h.
+  // The deck's keywords reach here as the switches below: see model_settings.h.
   void registerSettings(Settings &settings) {
     settings.registerOnOff("transition_A", transition_a_, false);
     settings.registerOnOff("damping_coefficient", damping_coefficient_, false);
+    settings.registerOnOff("stepping_stock", stepping_stock_, false);
   }
 
-  void postSettings(IContactHistorySetup *, ContactModelBase *) {}
+  // While the deck is parsed: a fix added later, in the initialization of a run, would miss that run.
+  void postSettings(IContactHistorySetup *history, ContactModelBase *) {
+    if (stepping_stock_) return;
+    stepping_ = LAMMPS_NS::FixStepping::provide(lmp);
+    force_before_offset_ = history->add_history_value("normal_force_before", "0");
+  }
 
   void connectToProperties(PropertyRegistry &registry) {
-    const auto transition = transition_a_ ? drumlin::physics::Transition::A : drumlin::physics::Transition::B;
     const auto damping =
         damping_coefficient_ ? drumlin::physics::Damping::coefficient : drumlin::physics::Damping::ratio;
-    table_.read(lmp, registry.max_type(), transition, damping, is_wall_);
+    table_.read(lmp, registry.max_type(), transition(), damping, is_wall_);
+    // The step in which A breaks needs a call although the balls no longer overlap: see surfacesClose().
+    if (stepping_ && transition_a_) neighbor->register_contact_dist_factor(drumlin::contact_distance_factor);
   }
 
   double stressStrainExponent() { return 1.0; }
@@ -46,35 +62,128 @@ public:
     const drumlin::ContactCoefficients &p = table_.at(sidata.itype, sidata.jtype);
     const double k = p.normal.stiffness;
     const double c = drumlin::physics::damping_coefficient(p.normal, sidata.meff);
-    // The engine's vn is positive when the balls separate: overlap_rate = -vn.
-    const auto transition = transition_a_ ? drumlin::physics::Transition::A : drumlin::physics::Transition::B;
-    const double Fn = drumlin::physics::normal_force(transition, k, c, sidata.deltan, -sidata.vn);
+    const drumlin::physics::StepForce step = stepping_ ? second_order(sidata, k, c) : stock(sidata, k, c);
 
-    sidata.Fn = Fn;
+    sidata.Fn = step.force;
     sidata.kn = k;
     sidata.gamman = c;
     sidata.kt = p.tangential_stiffness;
     sidata.gammat = p.tangential_damping_share * c + p.tangential_damping;
-
-    const double share = sidata.is_wall ? sidata.area_ratio : 1.0;
-    for (int a = 0; a < 3; ++a) {
-      const double F = share * Fn * sidata.en[a];
-      i_forces.delta_F[a] += F;
-      if (!sidata.is_wall) j_forces.delta_F[a] -= F;
-    }
+    apply(step, sidata.is_wall ? sidata.area_ratio : 1.0, sidata.en, sidata, i_forces, j_forces);
   }
 
-  void surfacesClose(SurfacesCloseData &scdata, ForceData &, ForceData &) {
+  void surfacesClose(SurfacesCloseData &scdata, ForceData &i_forces, ForceData &j_forces) {
     if (scdata.contact_flags) *scdata.contact_flags &= ~CONTACT_NORMAL_MODEL;
+    if (stepping_ && transition_a_ && !update->setupflag) break_of_a(scdata, i_forces, j_forces);
   }
 
   void beginPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
   void endPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
 
 private:
+  drumlin::physics::Transition transition() const {
+    return transition_a_ ? drumlin::physics::Transition::A : drumlin::physics::Transition::B;
+  }
+
+  /// 1/m of ball i as its contacts feel it: 0 if frozen.
+  double inverse_mass(int i, double mass) const {
+    return atom->mask[i] & static_cast<LAMMPS_NS::PairGran *>(force->pair)->freeze_group_bit() ? 0.0
+                                                                                               : 1.0 / mass;
+  }
+
+  /// Rate of the overlap with the velocities at the begin of the step.
+  double rate_before(const SurfacesCloseData &data, const double *normal) const {
+    const double *vi = stepping_->velocity_before(data.i);
+    const double *vj = data.is_wall ? data.v_j : stepping_->velocity_before(data.j);
+    return -((vi[0] - vj[0]) * normal[0] + (vi[1] - vj[1]) * normal[1] + (vi[2] - vj[2]) * normal[2]);
+  }
+
+  /// The law as it stands. The engine's vn is positive when the balls separate: overlap_rate = -vn.
+  inline drumlin::physics::StepForce stock(const SurfacesIntersectData &sidata, double k, double c) const {
+    const double Fn = drumlin::physics::normal_force(transition(), k, c, sidata.deltan, -sidata.vn);
+    return {Fn, Fn, 0.0};
+  }
+
+  inline drumlin::physics::StepForce second_order(const SurfacesIntersectData &sidata, double k, double c) {
+    using namespace drumlin::physics;
+    const double own_i = c * inverse_mass(sidata.i, sidata.mi);
+    const double own_j = sidata.is_wall ? 0.0 : c * inverse_mass(sidata.j, sidata.mj);
+    double &force_before = sidata.contact_history[force_before_offset_];
+    StepForce step{};
+    if (update->setupflag) { // velocities belong to the time of the positions
+      step = stock(sidata, k, c);
+    } else {
+      const StepMotion motion{sidata.deltan, -sidata.vn, rate_before(sidata, sidata.en), stepping_->dt()};
+      // The sums know the contacts of the last step: a new one is not among them yet.
+      const double missing = made_in_step(motion) ? own_i + own_j : 0.0;
+      const double all = stepping_->damping_over_mass(sidata.i) +
+                         (sidata.is_wall ? 0.0 : stepping_->damping_over_mass(sidata.j)) + missing;
+      // No record although the contact is older than this step: a mesh contact went over to another triangle.
+      const double old = force_before != 0.0
+                             ? force_before
+                             : normal_force(transition(), k, c, motion.overlap - motion.dt * motion.rate_half,
+                                            motion.rate_before);
+      step = second_order_force(transition(), k, c, motion, old, {own_i + own_j, all});
+    }
+    if (sidata.computeflag) {
+      force_before = step.force;
+      stepping_->add_damping(sidata.i, own_i);
+      if (!sidata.is_wall && sidata.j < atom->nlocal) stepping_->add_damping(sidata.j, own_j);
+    }
+    return step;
+  }
+
+  /// Adds the force of the closing half kick, and has the rest added after it.
+  inline void apply(const drumlin::physics::StepForce &step, double share, const double *normal,
+                    const SurfacesCloseData &data, ForceData &i_forces, ForceData &j_forces) {
+    const double kick = share * step.kick;
+    for (int a = 0; a < 3; ++a) {
+      i_forces.delta_F[a] += kick * normal[a];
+      if (!data.is_wall) j_forces.delta_F[a] -= kick * normal[a];
+    }
+    if ((step.kick == step.force && step.shift == 0.0) || !data.computeflag) return;
+    const double rest = share * step.force - kick;
+    const double shift = share * step.shift;
+    const auto later = [&](int ball, double sign) {
+      stepping_->add_after_kick(
+          ball, {sign * rest * normal[0], sign * rest * normal[1], sign * rest * normal[2]},
+          {sign * shift * normal[0], sign * shift * normal[1], sign * shift * normal[2]});
+    };
+    later(data.i, 1.0);
+    if (!data.is_wall && data.j < atom->nlocal) later(data.j, -1.0);
+  }
+
+  /// A jump like the make: the tensile force acted for part of the step that ends with the balls apart.
+  void break_of_a(SurfacesCloseData &scdata, ForceData &i_forces, ForceData &j_forces) {
+    const double r = std::sqrt(scdata.rsq);
+    const double normal[3] = {scdata.delta[0] / r, scdata.delta[1] / r, scdata.delta[2] / r};
+    double rate_half = 0.0;
+    for (int a = 0; a < 3; ++a)
+      rate_half -= (scdata.v_i[a] - scdata.v_j[a]) * normal[a];
+    const drumlin::physics::StepMotion motion{scdata.radsum - r, rate_half, rate_before(scdata, normal),
+                                              stepping_->dt()};
+    if (drumlin::physics::made_in_step(motion)) return; // apart all along
+    const drumlin::ContactCoefficients &p = table_.at(scdata.itype, scdata.jtype);
+    const double mi = atom->rmass[scdata.i];
+    const double m_eff = scdata.is_wall ? mi : effective_mass(scdata.i, scdata.j);
+    const double c = drumlin::physics::damping_coefficient(p.normal, m_eff);
+    apply(drumlin::physics::second_order_break(transition(), p.normal.stiffness, c, motion), 1.0, normal,
+          scdata, i_forces, j_forces);
+    scdata.has_force_update = true;
+  }
+
+  double effective_mass(int i, int j) const {
+    const auto *source = drumlin::contact_source(lmp);
+    return source ? source->effective_mass(i, j)
+                  : drumlin::physics::effective_mass(atom->rmass[i], atom->rmass[j]);
+  }
+
   const bool is_wall_;
   bool transition_a_ = false;
   bool damping_coefficient_ = false;
+  bool stepping_stock_ = false;
+  LAMMPS_NS::FixStepping *stepping_ = nullptr; // none under stock stepping
+  int force_before_offset_ = 0;                // in the contact history, under second-order stepping
   drumlin::ContactTable table_;
 };
 

@@ -25,6 +25,7 @@
 #include "fixes/fix_drum_excite.h"
 #include "fixes/fix_guard.h"
 #include "fixes/fix_roller_history.h"
+#include "fixes/fix_stepping.h"
 #include "liggghts/contact_table.h"
 #include "liggghts/model_settings.h"
 
@@ -73,14 +74,10 @@ struct PointersAccess : Pointers {
 template <class Style>
 constexpr bool has_history = Style::TANGENTIAL == TANGENTIAL_HISTORY || Style::ROLLING == ROLLING_EPSD2;
 
-/// With a distance factor above 1 the engine calls surfacesClose() for a contact that has just ended; at 1 it
-/// would keep the shear spring until the next neighbour build.
-constexpr double contact_distance_factor = 1.01;
-
 /// What a combination of models needs of the engine before it reads its properties.
 template <class Style>
 void prepare(LAMMPS *engine) {
-  if (has_history<Style>) engine->neighbor->register_contact_dist_factor(contact_distance_factor);
+  if (has_history<Style>) engine->neighbor->register_contact_dist_factor(drumlin::contact_distance_factor);
   if (Style::TANGENTIAL != TANGENTIAL_OFF)
     drumlin::provide_friction_default(engine, engine->atom->ntypes);
 }
@@ -170,6 +167,7 @@ void add_fixes(LAMMPS *lmp) {
   fixes["bond/spring"] = create_fix<LAMMPS_NS::FixBondSpring>;
   fixes["contact/events"] = create_fix<LAMMPS_NS::FixContactEvents>;
   fixes["roller/history"] = create_fix<LAMMPS_NS::FixRollerHistory>;
+  fixes["drumlin/stepping"] = create_fix<LAMMPS_NS::FixStepping>; // made by the pair style, not by decks
   fixes["guard"] = create_fix<LAMMPS_NS::FixGuard>;
 }
 

@@ -1,13 +1,14 @@
 #pragma once
 // Second-order stepping: what a velocity-Verlet step does with the normal contact law.
 //
-// The engines' stepping is  v+ = v + dt/2 a(t),  x(t+dt) = x(t) + dt v+,  forces,  v(t+dt) = v+ + dt/2
-// a(t+dt). Stock force laws put the half-step velocity v+ into the dashpot, and act on the whole step in
-// which a contact is made: both are errors of first order. Here the dashpot sees v(t+dt), solved for
-// implicitly, and the step of a make carries the impulse of its part in contact. All that is needed is known
-// without history: the overlap rate at v+ and at v(t).
+// The engines' stepping is  v+ = v + dt/2 a(t),  x(t+dt) = x(t) + dt v+,  forces,  v(t+dt) = v+ + dt/2 a(t+dt).
+// Stock force laws put the half-step velocity v+ into the dashpot, and act on the whole step in which a contact is made:
+// both are errors of first order. Here the dashpot sees v(t+dt), solved for implicitly, and the step of a make carries the
+// impulse of its part in contact.
 
 #include "physics/contact_law.h"
+
+#include <algorithm>
 
 namespace drumlin::physics {
 
@@ -19,53 +20,86 @@ struct StepMotion {
   double dt;          ///< s
 };
 
-/// Force at t+dt, and what of it the closing half kick gets.
+/// What a contact does in a step.
 struct StepForce {
-  double force;       ///< N, physical, at t+dt
-  double kick_weight; ///< factor on `force` in the closing half kick; the next opening half kick gets `force`
-                      ///< itself
+  double force; ///< N, physical, at t+dt; the next opening half kick gets it
+  double kick;  ///< N, for the closing half kick of this step
+  double
+      shift; ///< N: moves the balls by what dt/2 of it would in the next step's drift, and leaves their velocities
 };
+
+/// Whether the balls were apart at the begin of the step.
+[[nodiscard]] inline bool made_in_step(const StepMotion &motion) {
+  return motion.overlap - motion.dt * motion.rate_half <= 0.0;
+}
+
+/// The dashpots that push the two balls of a contact, as c/m in 1/s; a fixed ball counts 0.
+struct DampingOverMass {
+  double own; ///< of this contact: c (1/mi + 1/mj)
+  double all; ///< over both balls: (sum of c of the ball's contacts, this one among them) / (its mass)
+};
+
+/// Force k d + c d' at t+dt of a spring-dashpot that held through the step, the dashpot at the velocity of t+dt.
+///
+/// With v_pred = v+ + (v+ - v(t)), the velocity that unchanged forces would give,
+///   v(t+dt) = v_pred + dt/2 (F - F_old) / m   hence   F = (k d + c d'_pred + s F_old) / (1 + s),   s = c dt / (2 m).
+/// For one contact this is the implicit solution, stable for w0 dt < 2 at any damping. In a packing the other dashpots of the
+/// ball change its velocity too: with its own c alone, a contact of a ball between n walls is unstable from some w0 dt ~ 1/(n D)
+/// on; with the sum of all, the linear limit of the springs, 2 / sqrt(n), holds at any damping. The sum changes F by O(dt^2),
+/// like leaving it out, but with a larger factor; so the others count in full from s = 1/10 on and fade below, where the own
+/// alone is stable.
+/// \param force_before F_old, N: the force that the opening half kick had
+[[nodiscard]] inline double second_order_spring_dashpot(double k, double c, const StepMotion &motion,
+                                                        double force_before, const DampingOverMass &damping) {
+  const double half = 0.5 * motion.dt;
+  const double others = std::max(0.0, damping.all - damping.own);
+  const double s = half * (damping.own + std::min(1.0, 10.0 * half * damping.all) * others);
+  const double rate_predicted = 2.0 * motion.rate_half - motion.rate_before;
+  return (k * motion.overlap + c * rate_predicted + s * force_before) / (1.0 + s);
+}
 
 /// Second-order force of a contact with d(t+dt) > 0.
 ///
-/// With v_pred = v+ + (v+ - v(t)), the velocity that unchanged forces would give,
-///   v(t+dt) = v_pred + dt/2 (F - F_old) / m   hence   F = (k d + c d'_pred + s F_old) / (1 + s),   s = c_sum
-///   dt / 2,
-/// F_old = F(t) being the law at the overlap d - dt d'+ and the rate at t. For one contact this is the
-/// implicit solution; with several, c_sum takes the dashpots of all contacts of both balls as if they pushed
-/// together, which keeps heavy damping stable in a packing and changes F by O(dt^2) only.
-///
-/// A make within the step, theta = d / (dt d'+) of it in contact: F_old = 0, the closing half kick gets 2
-/// theta F, so that the step carries the impulse theta dt F and v(t+dt) is physical.
-///
-/// \param damping_over_mass sum over both balls of (sum of c of the ball's contacts) / (its mass), 1/s; a
-/// fixed ball gives 0
+/// In the step of a make the contact acts for theta dt, theta = d / (dt d'+), between F0 = c d' at d = 0 (Eq. 4) and F. The
+/// impulse theta dt (F0 + F) / 2 is given to the closing half kick, which makes v(t+dt) physical:
+///   F = k d + c (d'_pred - dt/2 kick / m),   kick = theta (F0 + F).
+/// The drift of the step knew nothing of the contact: the overlap is too large by about theta s d (s = c dt / (2 m)), taken as
+/// d theta s / (1 + theta s), which stays below d at any damping. And from a jump of force on, the drift with the acceleration at
+/// the begin of each step leaves the positions behind the sum of the velocities by dt^2/4 of the jump of the acceleration (the
+/// boundary term of the trapezoidal sum). Both are shifts of the positions; they matter for heavy damping, where d soon stops
+/// growing and the rebound goes with d.
+/// \param force_before as in second_order_spring_dashpot(); not used in the step of a make
 [[nodiscard]] inline StepForce second_order_force(Transition transition, double k, double c,
-                                                  const StepMotion &motion, double damping_over_mass) {
-  const double s = 0.5 * motion.dt * damping_over_mass;
-  const double rate_predicted = 2.0 * motion.rate_half - motion.rate_before;
-  const double before = motion.overlap - motion.dt * motion.rate_half; // overlap at t
-  if (before <= 0.0) {
-    const double theta = motion.overlap / (motion.overlap - before);
-    const double force = (k * motion.overlap + c * rate_predicted) / (1.0 + 2.0 * theta * s);
-    return {transition == Transition::B && force < 0.0 ? 0.0 : force, 2.0 * theta};
+                                                  const StepMotion &motion, double force_before,
+                                                  const DampingOverMass &damping) {
+  if (!made_in_step(motion)) {
+    const double force = second_order_spring_dashpot(k, c, motion, force_before, damping);
+    const double limited = transition == Transition::B && force < 0.0 ? 0.0 : force;
+    return {limited, limited, 0.0};
   }
-  const double old = normal_force(transition, k, c, before, motion.rate_before);
-  const double force = (k * motion.overlap + c * rate_predicted + s * old) / (1.0 + s);
-  return {transition == Transition::B && force < 0.0 ? 0.0 : force, 1.0};
+  const double theta = motion.overlap / (motion.dt * motion.rate_half);
+  const double rate_predicted = 2.0 * motion.rate_half - motion.rate_before;
+  const double rate_at_make = motion.rate_before + (1.0 - theta) * (rate_predicted - motion.rate_before);
+  const double first = c * std::max(0.0, rate_at_make);
+  const double s = 0.5 * motion.dt * theta * damping.all;
+  const double slowed = 1.0 / (1.0 + 0.5 * motion.dt * theta * damping.own);
+  const double force = (k * slowed * motion.overlap + c * rate_predicted - s * first) / (1.0 + s);
+  const double limited = transition == Transition::B && force < 0.0 ? 0.0 : force;
+  return {limited, theta * (first + limited),
+          slowed * theta * c * motion.overlap / motion.dt - 0.5 * limited};
 }
 
-/// Tensile force under A in the step whose end finds the contact broken: it acted for the share of the step
-/// before d = 0, and the opening half kick has given half a step of it already. Zero under B, which breaks
-/// without a jump, and if there was no contact at the begin of the step. \param motion with motion.overlap <=
-/// 0 \return the force at the break and its (usually negative) weight in the closing half kick; the next
-/// opening kick gets 0
+/// Tensile force under A in the step whose end finds the contact broken: it acted for the share of the step before d = 0,
+/// and the opening half kick has given half a step of it already. Nothing under B, which breaks without a jump, and if there
+/// was no contact at the begin of the step.
+/// \param motion with motion.overlap <= 0
 [[nodiscard]] inline StepForce second_order_break(Transition transition, double k, double c,
                                                   const StepMotion &motion) {
+  if (transition == Transition::B || made_in_step(motion)) return {0.0, 0.0, 0.0};
   const double before = motion.overlap - motion.dt * motion.rate_half;
-  if (transition == Transition::B || before <= 0.0) return {0.0, 0.0};
   const double share = before / (before - motion.overlap);
-  return {normal_force(transition, k, c, before, motion.rate_before), 2.0 * share - 1.0};
+  const double tensile = normal_force(transition, k, c, before, motion.rate_before);
+  return {0.0, (2.0 * share - 1.0) * tensile, -(1.0 - share) * (1.0 - share) * tensile};
 }
 
 } // namespace drumlin::physics

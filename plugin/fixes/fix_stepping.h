@@ -1,0 +1,67 @@
+#pragma once
+// The helper of second-order stepping, made by the pair style: what the contact law needs to know of the step before.
+
+#include "engine.h"
+
+namespace LAMMPS_NS {
+
+/// Keeps for each ball its velocity at the begin of the step and the sum c/m over its contacts, on ghosts too, and hands
+/// the forces of a step in which contact was made back to their physical value before the next step starts.
+///
+/// Nothing of it is restart state: both follow from the positions and velocities at set-up.
+class FixStepping : public Fix {
+public:
+  FixStepping(LAMMPS *, int, char **);
+  ~FixStepping() override;
+
+  /// The helper of this engine instance, or nullptr under stock stepping.
+  static FixStepping *find(LAMMPS *lmp);
+  /// The helper of this engine instance, made if there is none.
+  static FixStepping *provide(LAMMPS *lmp);
+
+  int setmask() override;
+  void init() override;
+  void setup_pre_force(int) override;
+  void post_integrate() override;
+  void pre_force(int) override;
+  void end_of_step() override;
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  int pack_comm(int, int *, double *, int, int *) override;
+  void unpack_comm(int, int, double *) override;
+  double memory_usage() override;
+
+  double dt() const { return update->dt; }
+  const double *velocity_before(int i) const { return state_[i]; } ///< v(t), m/s, owned balls and ghosts
+  /// Takes note, after the integration and before the ghosts hear of it, that a force on owned ball i is known to change in
+  /// this step: 2 v+ - velocity_before is then the velocity with the new force.
+  void foresee(int i, const std::array<double, 3> &change) {
+    for (std::size_t a = 0; a < 3; ++a)
+      state_[i][a] -= 0.5 * update->dt * change[a] / atom->rmass[i];
+  }
+  double damping_over_mass(int i) const { return state_[i][3]; } ///< sum of c/m, 1/s, owned balls and ghosts
+
+  /// Counts a contact's c/m for the next step.
+  void add_damping(int i, double c_over_m) { state_[i][4] += c_over_m; }
+  /// Forces on an owned ball after the closing half kick of this step: `rest` stays for the next opening half kick, `shift`
+  /// acts in the next drift only.
+  void add_after_kick(int i, const std::array<double, 3> &rest, const std::array<double, 3> &shift) {
+    later_.push_back({i, rest, shift});
+  }
+
+private:
+  struct Later {
+    int i;
+    std::array<double, 3> rest, shift;
+  };
+  void constrain(bool any) const;
+
+  double **state_ = nullptr;       // per ball: v(t) (3), sum of c/m of the last step, of this step
+  std::vector<Later> later_;       // of this step
+  std::vector<Later> shifts_;      // in the opening half kick, not yet taken back
+  std::vector<Fix *> constraints_; // fixes that take forces away: they act again on forces that were put back
+};
+
+} // namespace LAMMPS_NS

@@ -1,0 +1,150 @@
+// Second-order stepping: order and error of a single impact against the closed form, and stability at the extremes.
+
+#include "second_stepping.h"
+
+#include "oscillator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using drumlin::physics::Transition;
+using stepping::SecondOrderBall;
+
+constexpr double k = 1e8;
+constexpr double m = 2000.0;
+const double w0 = std::sqrt(k / m);
+double coefficient(double D) { return 2.0 * D * std::sqrt(m * k); }
+
+/// Restitution by the closed form: the rate at the first root of d (A) or of k d + c d' (B) after the make.
+double exact_restitution(Transition transition, double D) {
+  const oracle::Oscillator oscillator{m, k, coefficient(D)};
+  const auto held = [&](double t) {
+    const oracle::Motion s = oscillator.at(t, 0.0, 1.0);
+    return transition == Transition::A ? s.x : k * s.x + coefficient(D) * s.v;
+  };
+  double low = 0.01 / w0;
+  double high = low;
+  while (held(high) > 0.0)
+    high += 0.01 / w0;
+  for (int n = 0; n < 100; ++n)
+    (held(0.5 * (low + high)) > 0.0 ? low : high) = 0.5 * (low + high);
+  return -oscillator.at(low, 0.0, 1.0).v;
+}
+
+/// Largest error over 50 onset phases of the impact of a ball at 1 m/s.
+double worst_error(Transition transition, double D, int steps_per_contact) {
+  const double dt = M_PI / (w0 * steps_per_contact);
+  double worst = 0.0;
+  for (int n = 0; n < 50; ++n) {
+    const double gap = (n + 0.5) / 50.0 * dt;
+    SecondOrderBall ball(m, gap, -1.0, dt, transition, {{0.0, 1.0, k, coefficient(D)}});
+    for (int step = 0; step < 3 * steps_per_contact; ++step)
+      ball.step();
+    worst = std::max(worst, std::fabs(ball.v - exact_restitution(transition, D)));
+  }
+  return worst;
+}
+
+struct Bound {
+  Transition transition;
+  double D, at_100, at_400;
+};
+
+class SingleImpact : public ::testing::TestWithParam<Bound> {};
+
+TEST_P(SingleImpact, ErrsLittleAndWithTheSquareOfTheStep) {
+  const Bound bound = GetParam();
+  const double at_100 = worst_error(bound.transition, bound.D, 100);
+  const double at_400 = worst_error(bound.transition, bound.D, 400);
+  EXPECT_LT(at_100, bound.at_100);
+  EXPECT_LT(at_400, bound.at_400);
+  EXPECT_GT(std::log(at_100 / at_400) / std::log(4.0), 1.9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Restitution, SingleImpact,
+                         ::testing::Values(Bound{Transition::B, 0.2, 3e-4, 2e-5},
+                                           Bound{Transition::B, 0.5, 1.5e-4, 1e-5},
+                                           Bound{Transition::B, 2.0, 3e-5, 2e-6},
+                                           Bound{Transition::A, 0.2, 3e-4, 2e-5},
+                                           Bound{Transition::A, 0.5, 3e-4, 2e-5}));
+
+TEST(SecondOrderStep, SlowImpactOfAnUndampedBallKeepsItsEnergy) {
+  const double dt = M_PI / (w0 * 50.0);
+  SecondOrderBall ball(m, 0.3 * dt, -1.0, dt, Transition::B, {{0.0, 1.0, k, 0.0}});
+  for (int step = 0; step < 100; ++step)
+    ball.step();
+  EXPECT_NEAR(ball.v, 1.0, 2e-3);
+}
+
+/// Whether an oscillation about rest between n walls stays bounded. A pre-load keeps all contacts closed, so that the motion is
+/// linear as in the theory.
+bool stays_bounded(int walls, double D, double w0_dt) {
+  const double dt = w0_dt / w0;
+  const double depth = 1.0;
+  std::vector<SecondOrderBall::Partner> partners;
+  for (int n = 0; n < walls; ++n) {
+    const double sign = n % 2 == 0 ? 1.0 : -1.0;
+    partners.push_back({sign * depth, sign, k, coefficient(D)});
+  }
+  // A single wall below carries a weight that presses the ball in to x = 0.
+  SecondOrderBall ball(m, 1e-9, 0.0, dt, Transition::A, partners, walls == 1 ? -k * depth : 0.0);
+  for (int step = 0; step < 20000; ++step)
+    ball.step();
+  return std::fabs(ball.x) < 1e-6;
+}
+
+TEST(SecondOrderStep, IsStableAtTheLimitOfTheSpringsForAnyDamping) {
+  for (const double D : {0.0, 0.01, 0.1, 0.5, 1.0, 2.0, 10.0, 1e3, 1e4}) {
+    EXPECT_TRUE(stays_bounded(1, D, 1.95)) << "one contact, D = " << D;
+    EXPECT_TRUE(stays_bounded(2, D, 1.36)) << "two walls, D = " << D;  // springs alone: sqrt(2)
+    EXPECT_TRUE(stays_bounded(4, D, 0.92)) << "four walls, D = " << D; // springs alone: 1
+  }
+  EXPECT_TRUE(stays_bounded(2, 2.0, 1.4));
+  EXPECT_FALSE(stays_bounded(2, 0.0, 1.45));
+  EXPECT_FALSE(stays_bounded(4, 2.0, 1.05));
+}
+
+TEST(SecondOrderStep, ForceNeverPullsUnderB) {
+  for (const double D : {0.0, 0.5, 2.0, 50.0})
+    for (const double rate : {-5.0, -0.1, 0.0, 0.1, 5.0}) {
+      const double dt = 1e-4;
+      const auto f =
+          drumlin::physics::second_order_force(Transition::B, k, coefficient(D), {1e-3, rate, rate, dt}, 1e4,
+                                               {coefficient(D) / m, coefficient(D) / m});
+      EXPECT_GE(f.force, 0.0);
+      EXPECT_GE(f.kick, 0.0);
+    }
+}
+
+TEST(SecondOrderStep, MakeCarriesTheImpulseOfThePartInContact) {
+  // Light damping and a short step: the force is c v all along, for the share theta of the step.
+  const double dt = 1e-7;
+  const double c = coefficient(0.2);
+  for (const double theta : {0.01, 0.3, 0.5, 0.99}) {
+    const double v = 1.0;
+    const auto f = drumlin::physics::second_order_force(Transition::B, k, c, {theta * dt * v, v, v, dt}, 0.0,
+                                                        {c / m, c / m});
+    EXPECT_NEAR(f.force, c * v, 1e-4 * c);
+    EXPECT_NEAR(0.5 * dt * f.kick, theta * dt * c * v, 1e-4 * dt * c);
+  }
+}
+
+TEST(SecondOrderStep, BreakOfAEndsTheTensileForceWithinTheStep) {
+  const double dt = 1e-7;
+  const double c = coefficient(0.2);
+  for (const double share : {0.01, 0.5, 0.9}) {
+    const double v = -1.0; // the overlap shrinks
+    const auto f =
+        drumlin::physics::second_order_break(Transition::A, k, c, {(1.0 - share) * dt * v, v, v, dt});
+    EXPECT_EQ(f.force, 0.0);
+    EXPECT_NEAR(0.5 * dt * (c * v + f.kick), share * dt * c * v, 1e-4 * dt * c); // with the opening half kick
+    EXPECT_EQ(
+        drumlin::physics::second_order_break(Transition::B, k, c, {(1.0 - share) * dt * v, v, v, dt}).kick,
+        0.0);
+  }
+}
+
+} // namespace
