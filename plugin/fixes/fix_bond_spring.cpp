@@ -89,9 +89,10 @@ FixBondSpring::State FixBondSpring::share_state() {
   Ball all[2] = {mine[0], mine[1]};
   if (comm->nprocs > 1) MPI_Allreduce(mine, all, 2 * numbers, MPI_DOUBLE, MPI_SUM, world);
   if (all[0].found != 1.0 || all[1].found != 1.0)
-    error->all(FLERR, fmt::format("fix bond/spring: ball {} was lost at step {}",
-                                  tags_[all[0].found != 1.0 ? 0 : 1], update->ntimestep)
-                          .c_str());
+    error->all(FLERR,
+               fmt::format("fix bond/spring: ball {} was lost at step {}; allowed: both balls in the box",
+                           tags_[all[0].found != 1.0 ? 0 : 1], update->ntimestep)
+                   .c_str());
   std::array<double, 3> d{all[1].x[0] - all[0].x[0], all[1].x[1] - all[0].x[1], all[1].x[2] - all[0].x[2]};
   domain->minimum_image(d[0], d[1], d[2]);
   State s{};

@@ -20,8 +20,8 @@ ModelSettings::ModelSettings(LAMMPS_NS::Error *error, const std::string &command
                     {"damping_coefficient",
                      in.choice("keyword " + keyword, {"coefficient", "ratio"}) == 0 ? "on" : "off"});
     } else if (keyword == "stepping") {
-      words_.insert(words_.end(),
-                    {"stepping_stock", in.choice(keyword, {"stock", "second"}) == 0 ? "on" : "off"});
+      words_.insert(words_.end(), {"stepping_stock",
+                                   in.choice("keyword " + keyword, {"stock", "second"}) == 0 ? "on" : "off"});
     } else if (keyword == "torsionTorque" && rolling) {
       words_.insert(words_.end(),
                     {keyword, in.choice("keyword " + keyword, {"on", "off"}) == 0 ? "on" : "off"});

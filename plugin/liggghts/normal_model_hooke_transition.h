@@ -8,6 +8,7 @@ NORMAL_MODEL(HOOKE_TRANSITION, hooke / transition, 21)
 
 #include "contact_models.h"
 #include "atom.h"
+#include "error.h"
 #include "force.h"
 #include "neighbor.h"
 #include "normal_model_base.h"
@@ -40,10 +41,16 @@ public:
     settings.registerOnOff("stepping_stock", stepping_stock_, false);
   }
 
-  // While the deck is parsed: a fix added later, in the initialization of a run, would miss that run.
+  // While the deck is parsed: a fix added later, in the initialization of a run, would miss that run. A wall is a fix under
+  // construction and cannot add another.
   void postSettings(IContactHistorySetup *history, ContactModelBase *) {
     if (stepping_stock_) return;
-    stepping_ = LAMMPS_NS::FixStepping::provide(lmp);
+    stepping_ = is_wall_ ? LAMMPS_NS::FixStepping::find(lmp) : LAMMPS_NS::FixStepping::provide(lmp);
+    if (stepping_ == nullptr)
+      error->all(
+          FLERR,
+          "fix wall/gran model hooke/transition: keyword stepping is 'second' (its default), but there is no "
+          "pair style with it yet; allowed: stock, or a pair_style with stepping second before");
     force_before_offset_ = history->add_history_value("normal_force_before", "0");
   }
 

@@ -209,6 +209,67 @@ const Case impacting_cases[] = {{"II", Transition::A},
                                 {"IV", Transition::B}};
 INSTANTIATE_TEST_SUITE_P(Table1, ImpactingChain, ::testing::ValuesIn(impacting_cases), case_name);
 
+// Second-order stepping: the error bounds that the project promises, at 800 and at 6400 steps per cycle, the order between
+// them, events within a twentieth of a step, and the peak force over steps and located makes.
+struct Bound {
+  Case chain;
+  double at_800, at_6400;
+};
+
+void PrintTo(const Bound &value, std::ostream *out) { PrintTo(value.chain, out); }
+
+class SecondOrderChain : public ::testing::TestWithParam<Bound> {};
+
+TEST_P(SecondOrderChain, KeepsItsErrorBounds) {
+  const Bound &bound = GetParam();
+  const ChainParameters p = bound.chain.parameters();
+  constexpr int samples = 200;
+  const post::DirectResult truth = truth_of(p, samples);
+  std::vector<double> steps, errors;
+  for (const int n : {200, 400, 800, 1600, 3200, 6400}) {
+    const ChainRun run = run_chain(bound.chain.name, p.transition, n, samples, {{"stepping", "second"}});
+    steps.push_back(n);
+    errors.push_back(velocity_error(run.history, truth.history));
+    const double step = p.period() / n;
+    ASSERT_EQ(run.events.size(), truth.events.size());
+    for (std::size_t i = 0; i < truth.events.size(); ++i) {
+      EXPECT_EQ(run.events[i].make, truth.events[i].make) << "event " << i;
+      EXPECT_NEAR(run.events[i].time, truth.events[i].time, 0.05 * step)
+          << "event " << i << " of " << n << " steps";
+    }
+  }
+  RecordProperty("errors", number(errors[2]) + ", " + number(errors.back()));
+  RecordProperty("order", number(fitted_order(steps, errors)));
+  EXPECT_LT(errors[2], bound.at_800);
+  EXPECT_LT(errors.back(), bound.at_6400);
+  EXPECT_LT(fitted_order(steps, errors), -1.8);
+}
+
+TEST_P(SecondOrderChain, FindsThePeakForce) {
+  const ChainParameters p = GetParam().chain.parameters();
+  constexpr int steps = 2000;
+  const post::DirectResult truth = truth_of(p, steps);
+  const ChainRun run = run_chain(GetParam().chain.name, p.transition, steps, steps, {{"stepping", "second"}});
+  const auto peak = [](const ChainHistory &history, const std::vector<post::ContactEvent> &events) {
+    double largest = *std::max_element(history.F_contact.begin(), history.F_contact.end());
+    for (const post::ContactEvent &event : events)
+      largest = std::max(largest, event.force);
+    return largest;
+  };
+  const double exact = peak(truth.history, truth.events);
+  EXPECT_NEAR(peak(run.history, run.events), exact, 1e-3 * exact);
+}
+
+const Bound second_order_bounds[] = {
+    {{"I", Transition::A}, 1e-5, 2e-7},    {{"I", Transition::B}, 1e-5, 2e-7},
+    {{"II", Transition::A}, 1.2e-4, 2e-6}, {{"II", Transition::B}, 1.2e-4, 2e-6},
+    {{"III", Transition::A}, 3e-5, 5e-7},  {{"III", Transition::B}, 3e-5, 5e-7},
+    {{"IV", Transition::A}, 2e-4, 2e-6},   {{"IV", Transition::B}, 2e-4, 2e-6}};
+INSTANTIATE_TEST_SUITE_P(Table1, SecondOrderChain, ::testing::ValuesIn(second_order_bounds),
+                         [](const auto &row) {
+                           return row.param.chain.name + post::transition_name(row.param.chain.transition);
+                         });
+
 // The drum turns round before the gap opens: the contact of B is made again at Fc = 0 while the balls still
 // overlap. A law that waits for d = 0 would let the drum fall through the soil.
 TEST(ChainUnderB, ContactIsMadeAgainWhileOverlapping) {

@@ -66,6 +66,7 @@ Recorded run(const std::string &name, Transition transition, int steps, int samp
   const Outcome outcome = run_deck(chain_deck("in.chain"),
                                    {{"case", name},
                                     {"transition", post::transition_name(transition)},
+                                    {"stepping", "stock"},
                                     {"steps_per_cycle", std::to_string(steps)},
                                     {"samples_per_cycle", std::to_string(samples)},
                                     {"cycles", std::to_string(cycles)}},

@@ -186,6 +186,8 @@ ChainRun run_chain(const std::string &name, post::Transition transition, int ste
                          {"steps_per_cycle", std::to_string(steps_per_cycle)},
                          {"samples_per_cycle", std::to_string(samples_per_cycle)}};
   variables.insert(variables.end(), more.begin(), more.end());
+  variables.emplace_back("stepping",
+                         "stock"); // the engine takes the first value of a variable: `more` goes before
   const Outcome outcome = run_deck(chain_deck("in.chain"), variables, scratch.path());
   if (!outcome.ok()) throw std::runtime_error("in.chain failed:\n" + outcome.output);
   return read_run(scratch.path());

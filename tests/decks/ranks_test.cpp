@@ -21,11 +21,14 @@ struct Layout {
   double bottom;
 };
 
-void expect_agreement(const std::string &name, const Layout &layout) {
+void expect_agreement(const std::string &name, const std::string &stepping, const Layout &layout) {
   // Soil at -0.5, drum at 0.75, frame at 2.
   ASSERT_NE(rank_of(-0.5, layout.bottom, layout.ranks), rank_of(0.75, layout.bottom, layout.ranks));
-  const Variables variables = {
-      {"case", name}, {"transition", "B"}, {"cycles", "10"}, {"steps_per_cycle", "400"}};
+  const Variables variables = {{"case", name},
+                               {"transition", "B"},
+                               {"stepping", stepping},
+                               {"cycles", "10"},
+                               {"steps_per_cycle", "400"}};
   const Scratch one, many;
   const Outcome serial = run_deck(chain_deck("in.chain"), variables, one.path());
   ASSERT_TRUE(serial.ok()) << serial.output;
@@ -55,8 +58,10 @@ void PrintTo(const Layout &value, std::ostream *out) { *out << value.ranks; }
 class Ranks : public ::testing::TestWithParam<Layout> {};
 
 TEST_P(Ranks, AgreeWithOne) {
-  expect_agreement("II", GetParam());
-  expect_agreement("IV", GetParam());
+  for (const char *stepping : {"second", "stock"}) {
+    expect_agreement("II", stepping, GetParam());
+    expect_agreement("IV", stepping, GetParam());
+  }
 }
 
 // 2 ranks: cut at 0.25, soil | drum, frame. 3: cuts at 1/3 and 2.17, the same in the deck's own box.

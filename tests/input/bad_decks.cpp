@@ -35,7 +35,7 @@ BadGroup chain_choices() {
               variable("case", "2", "allowed: I, II, III or IV"),
               variable("transition", "C", "allowed: A or B", true),
               variable("transition", "AB", "allowed: A or B"),
-              variable("stepping", "exact", "allowed: stock", true),
+              variable("stepping", "exact", "allowed: second or stock", true),
               variable("guard", "yes", "allowed: on or off", true),
               variables("two values", {{"k", "1e8 2e8"}}, {"drumlin/check: ", "variable k", "'2e8'"}),
               variables("empty value", {{"k", ""}}, {"drumlin/check: ", "variable k is missing"}),
@@ -99,7 +99,7 @@ BadGroup chain_equilibrium() {
 BadGroup impact() {
   BadGroup group{"Impact", "in.impact", {}};
   group.inputs.push_back(variable("transition", "c", "allowed: A or B", true));
-  group.inputs.push_back(variable("stepping", "half", "allowed: stock"));
+  group.inputs.push_back(variable("stepping", "half", "allowed: second or stock"));
   group.inputs.push_back(variable("guard", "1", "allowed: on or off"));
   for (const char *name : {"k", "m2", "speed"})
     for (const char *value : {"0", "-1", "nan"})
