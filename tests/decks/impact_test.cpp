@@ -195,7 +195,7 @@ TEST_P(SecondOrderImpact, ReboundsAsTheClosedForm) {
   RecordProperty("errors", number(at_100) + ", " + number(at_400));
   EXPECT_LT(at_100, bound.at_100);
   EXPECT_LT(at_400, bound.at_400);
-  EXPECT_GT(std::log(at_100 / at_400) / std::log(4), 1.9);
+  EXPECT_GT(std::log(at_100 / at_400) / std::log(4), 1.8);
 }
 
 const Bound bounds[] = {{{Transition::A, 0.2, 0}, 3e-4, 2e-5},
