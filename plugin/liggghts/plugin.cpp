@@ -78,8 +78,7 @@ constexpr bool has_history = Style::TANGENTIAL == TANGENTIAL_HISTORY || Style::R
 template <class Style>
 void prepare(LAMMPS *engine) {
   if (has_history<Style>) engine->neighbor->register_contact_dist_factor(drumlin::contact_distance_factor);
-  if (Style::TANGENTIAL != TANGENTIAL_OFF)
-    drumlin::provide_friction_default(engine, engine->atom->ntypes);
+  if (Style::TANGENTIAL != TANGENTIAL_OFF) drumlin::provide_friction_default(engine, engine->atom->ntypes);
 }
 
 template <class Style>
