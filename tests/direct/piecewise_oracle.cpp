@@ -80,7 +80,8 @@ public:
     for (long i = 0; i < steps; ++i) {
       const Real to = Real(i + 1) * step_;
       bool whole = true;
-      while (const Real left = to - t_) {
+      while (to != t_) {
+        const Real left = to - t_;
         Vector end = whole ? Vector(step_matrix() * z_) : Vector(moved(z_, left));
         Real when = left;
         const Ending *ending = first_ending(z_, end, left, when);

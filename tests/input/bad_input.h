@@ -22,7 +22,7 @@ struct BadInput {
   bool two_ranks = false;        ///< is among those that are tried under 2 ranks, too
   Text text = Text::ours;
   bool runs = false;     ///< the mistake shows in the run, after the output files were opened
-  std::string pair = ""; ///< pair style and properties instead of the host's
+  std::string pair = {}; ///< pair style and properties instead of the host's
 };
 
 /// Mistakes of one kind. They share a test, one engine run after the other.

@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(, Restitution,
                                           testing::Values(0.0, 0.2, 0.5, 0.8, 2.0)),
                          [](const auto &row) {
                            return std::string(std::get<0>(row.param) == Transition::A ? "A" : "B") + "_D" +
-                                  std::to_string(static_cast<int>(10.0 * std::get<1>(row.param) + 0.5));
+                                  std::to_string(std::lround(10.0 * std::get<1>(row.param)));
                          });
 
 // The values that the project's reference lists, computed there by other means.
