@@ -151,7 +151,7 @@ protected:
 
   /// A run folder copied to `name`, to be spoilt.
   static fs::path copy(const std::string &name) {
-    const fs::path to = root / name;
+    fs::path to = root / name;
     fs::remove_all(to);
     fs::copy(root / "runs" / "II-B", to);
     return to;
