@@ -2,6 +2,7 @@
 #include "command.h"
 #include "exact_command.h"
 #include "report_command.h"
+#include "study_command.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -25,6 +26,7 @@ struct Subcommand {
 constexpr std::array subcommands = {
     Subcommand{"exact", &drumlin::post::add_exact_command},
     Subcommand{"report", &drumlin::post::add_report_command},
+    Subcommand{"study", &drumlin::post::add_study_command},
 };
 
 constexpr int bad_usage = 2;

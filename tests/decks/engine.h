@@ -1,9 +1,9 @@
-// Runs the stock engine with the plugin as a user would, as a child process in a folder of its own, and reads
-// what it wrote. No shell is involved.
+// What tests ask of runs of the stock engine, and read of what they wrote.
 #pragma once
 
 #include "chain_csv.h"
 #include "chain_model.h"
+#include "engine_run.h"
 
 #include <array>
 #include <filesystem>
@@ -30,35 +30,19 @@ private:
   std::filesystem::path path_;
 };
 
-/// How a child process ended.
-struct Outcome {
-  int status = -1;        ///< exit status; 128 + signal if a signal ended it
-  bool timed_out = false; ///< it was stopped at its time limit
-  std::string output;     ///< standard output and standard error
-  bool ok() const { return status == 0 && !timed_out; }
-  bool says(const std::string &text) const { return output.find(text) != std::string::npos; }
-};
-
-/// Runs a program with extra environment entries ("NAME=value") in a folder, for at most `limit` seconds.
-Outcome run_program(const std::vector<std::string> &words, const std::vector<std::string> &environment,
-                    const std::filesystem::path &folder, double limit = 20.0);
-
-/// Values for a deck's variables, given by -var.
-using Variables = std::vector<std::pair<std::string, std::string>>;
+using post::Outcome;
+using post::plugin_library;
+using post::read_text;
+using post::run_deck;
+using post::run_program;
+using post::Variables;
 
 /// A number for -var, bit for bit.
 std::string number(double value);
 
-/// Runs a deck with the plugin on a number of ranks; `out` is set to the folder.
-Outcome run_deck(const std::filesystem::path &deck, const Variables &variables,
-                 const std::filesystem::path &folder, int ranks = 1, double limit = 100.0);
-
 /// A deck of the project (inputs/chain/...) or of these tests.
 std::filesystem::path chain_deck(const std::string &name);
 std::filesystem::path test_deck(const std::string &name);
-
-/// The preloaded library.
-std::string plugin_library();
 
 /// One ball in a dump.
 struct Ball {
@@ -71,9 +55,6 @@ struct Frame {
   std::map<long, Ball> balls;
 };
 std::vector<Frame> read_dump(const std::filesystem::path &file);
-
-/// A whole file as text.
-std::string read_text(const std::filesystem::path &file);
 
 /// What a run of the chain or of a single impact wrote.
 struct ChainRun {

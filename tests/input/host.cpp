@@ -46,8 +46,8 @@ Outcome run_engine(const fs::path &deck, const std::vector<std::string> &words, 
   if (ranks == 1)
     environment.push_back(preload);
   else
-    command = {DRUMLIN_MPIEXEC, "-np", std::to_string(ranks), "-x", preload};
-  command.insert(command.end(), {DRUMLIN_LIGGGHTS_PROGRAM, "-in", deck.string(), "-log", "none"});
+    command = {"mpirun", "-np", std::to_string(ranks), "-x", preload};
+  command.insert(command.end(), {"liggghts", "-in", deck.string(), "-log", "none"});
   command.insert(command.end(), words.begin(), words.end());
   return run_program(command, environment, folder, 20.0);
 }

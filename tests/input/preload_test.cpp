@@ -57,29 +57,28 @@ TEST(PreloadedStub, SaysWhenThePluginIsNotBesideIt) {
   const fs::path alone = scratch / "libdrumlin.so";
   fs::copy_file(plugin_library(), alone);
   write_text(scratch / "in.empty", "units si\n");
-  expect_refusal(
-      run_program({DRUMLIN_LIGGGHTS_PROGRAM, "-in", "in.empty"}, preload(alone, scratch), scratch.path()),
-      {"cannot load the plugin", "libdrumlin-liggghts.so"});
-  expect_refusal(run_program({DRUMLIN_MPIEXEC, "-np", "2", "-x", "LD_PRELOAD=" + alone.string(),
-                              DRUMLIN_LIGGGHTS_PROGRAM, "-in", "in.empty"},
-                             mpi_environment(scratch.path()), scratch.path()),
+  expect_refusal(run_program({"liggghts", "-in", "in.empty"}, preload(alone, scratch), scratch.path()),
                  {"cannot load the plugin", "libdrumlin-liggghts.so"});
+  expect_refusal(
+      run_program({"mpirun", "-np", "2", "-x", "LD_PRELOAD=" + alone.string(), "liggghts", "-in", "in.empty"},
+                  mpi_environment(scratch.path()), scratch.path()),
+      {"cannot load the plugin", "libdrumlin-liggghts.so"});
 }
 
 TEST(PreloadedStub, FollowsALinkToThePlugin) {
   const Scratch scratch;
   fs::create_symlink(plugin_library(), scratch / "link.so");
   write_text(scratch / "in.empty", "drumlin/check k 1 positive\n");
-  const Outcome outcome = run_program({DRUMLIN_LIGGGHTS_PROGRAM, "-in", "in.empty"},
-                                      preload(scratch / "link.so", scratch), scratch.path());
+  const Outcome outcome =
+      run_program({"liggghts", "-in", "in.empty"}, preload(scratch / "link.so", scratch), scratch.path());
   EXPECT_TRUE(outcome.ok()) << outcome.output;
 }
 
 TEST(PreloadedStub, LeavesADeckOfTheStockEngineAsItIs) {
   const Scratch scratch;
   write_text(scratch / "in.stock", "units si\nprint \"done\"\n");
-  const Outcome outcome = run_program({DRUMLIN_LIGGGHTS_PROGRAM, "-in", "in.stock"},
-                                      preload(plugin_library(), scratch), scratch.path());
+  const Outcome outcome =
+      run_program({"liggghts", "-in", "in.stock"}, preload(plugin_library(), scratch), scratch.path());
   EXPECT_TRUE(outcome.ok()) << outcome.output;
   EXPECT_TRUE(outcome.says("done"));
   EXPECT_TRUE(outcome.says("plugin for LIGGGHTS 3.8.0")) << outcome.output;
@@ -88,7 +87,7 @@ TEST(PreloadedStub, LeavesADeckOfTheStockEngineAsItIs) {
 TEST(PreloadedStub, WithoutItTheEngineDoesNotKnowTheCommands) {
   const Scratch scratch;
   write_text(scratch / "in.check", "drumlin/check k 1 positive\n");
-  const Outcome outcome = run_program({DRUMLIN_LIGGGHTS_PROGRAM, "-in", "in.check"}, {}, scratch.path());
+  const Outcome outcome = run_program({"liggghts", "-in", "in.check"}, {}, scratch.path());
   EXPECT_EQ(outcome.status, 1);
   EXPECT_TRUE(outcome.says("Unknown command: drumlin/check")) << outcome.output;
 }
@@ -99,7 +98,7 @@ TEST(PreloadedStub, GivesADeckItsFolderAsHere) {
   write_text(scratch.path() / "some where" / "in.here", "print \"here is <${here}>\"\n");
   write_text(scratch / "in.here", "print \"here is <${here}>\"\n");
   const auto here = [&scratch](const std::vector<std::string> &words) {
-    std::vector<std::string> command = {DRUMLIN_LIGGGHTS_PROGRAM};
+    std::vector<std::string> command = {"liggghts"};
     command.insert(command.end(), words.begin(), words.end());
     for (const std::string &line :
          lines_of(run_program(command, preload(plugin_library(), scratch), scratch.path()).output))

@@ -1,0 +1,126 @@
+#include "engine_run.h"
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <fcntl.h>
+#include <fstream>
+#include <iterator>
+#include <spawn.h>
+#include <stdexcept>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+using std::chrono::steady_clock;
+
+namespace {
+
+/// Null-terminated pointers into the words, for exec.
+std::vector<char *> pointers(std::vector<std::string> &words) {
+  std::vector<char *> result;
+  result.reserve(words.size() + 1);
+  for (std::string &word : words)
+    result.push_back(word.data());
+  result.push_back(nullptr);
+  return result;
+}
+
+/// Waits until the process has ended or the time has come; whether it has ended.
+bool wait_until(pid_t child, int &status, steady_clock::time_point end) {
+  for (;;) {
+    const pid_t ended = waitpid(child, &status, WNOHANG);
+    if (ended == child) return true;
+    if (ended < 0 && errno != EINTR)
+      throw std::runtime_error(std::string("waitpid: ") + std::strerror(errno));
+    if (steady_clock::now() >= end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+}
+
+/// Stops the child's process group: politely, so that mpirun takes its ranks along, then at once.
+void stop(pid_t child, int &status) {
+  kill(-child, SIGTERM);
+  if (wait_until(child, status, steady_clock::now() + std::chrono::seconds(5))) return;
+  kill(-child, SIGKILL);
+  waitpid(child, &status, 0);
+}
+
+} // namespace
+
+Outcome run_program(const std::vector<std::string> &words, const std::vector<std::string> &environment,
+                    const fs::path &folder, double limit) {
+  const fs::path text = folder / "screen.txt";
+  std::vector<std::string> arguments = words;
+  std::vector<std::string> entries = environment;
+  for (char **entry = environ; *entry != nullptr; ++entry)
+    entries.emplace_back(*entry);
+  const std::vector<char *> argv = pointers(arguments);
+  const std::vector<char *> envp = pointers(entries);
+
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, text.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
+  posix_spawn_file_actions_addchdir_np(&files, folder.c_str());
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  pid_t child = 0;
+  const int failed = posix_spawnp(&child, argv[0], &files, &attributes, argv.data(), envp.data());
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&files);
+  if (failed != 0) throw std::runtime_error("cannot start " + words.front() + ": " + std::strerror(failed));
+
+  Outcome outcome;
+  int status = 0;
+  const auto end = steady_clock::now() +
+                   std::chrono::duration_cast<steady_clock::duration>(std::chrono::duration<double>(limit));
+  if (!wait_until(child, status, end)) {
+    outcome.timed_out = true;
+    stop(child, status);
+  }
+  outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  outcome.output = read_text(text);
+  return outcome;
+}
+
+Outcome run_deck(const fs::path &deck, const Variables &variables, const fs::path &folder, int ranks,
+                 double limit) {
+  const std::string preload = "LD_PRELOAD=" + plugin_library();
+  std::vector<std::string> words;
+  std::vector<std::string> environment;
+  if (ranks == 1) {
+    environment = {preload};
+  } else {
+    words = {"mpirun", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1"};
+    if (geteuid() == 0) words.emplace_back("--allow-run-as-root");
+    words.insert(words.end(), {"--oversubscribe", "-np", std::to_string(ranks), "-x", preload});
+  }
+  words.insert(words.end(),
+               {"liggghts", "-in", deck.string(), "-log", "none", "-var", "out", folder.string()});
+  for (const auto &[name, value] : variables)
+    words.insert(words.end(), {"-var", name, value});
+  return run_program(words, environment, folder, limit);
+}
+
+std::string engine_error(const std::string &output) {
+  const std::size_t begin = output.find("ERROR");
+  return begin == std::string::npos ? "" : output.substr(begin, output.find('\n', begin) - begin);
+}
+
+std::string plugin_library() { return DRUMLIN_PLUGIN; }
+
+std::string read_text(const fs::path &file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw std::runtime_error("cannot read " + file.string());
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,44 @@
+#include "study_command.h"
+
+#include "study.h"
+
+#include <CLI/CLI.hpp>
+
+#include <array>
+#include <memory>
+#include <string>
+
+namespace drumlin::post {
+
+namespace {
+
+struct Study {
+  const char *name;
+  const char *summary;
+  void (*run)(const StudyOptions &);
+};
+
+// A new study is one line here.
+constexpr std::array<Study, 0> studies = {};
+
+} // namespace
+
+void add_study_command(CLI::App &app, Session &) {
+  CLI::App *command = app.add_subcommand("study", "Measures what steps, laws and options cost and what they "
+                                                  "bring. An interrupted study goes on where it was.");
+  command->require_subcommand(1);
+  for (const Study &study : studies) {
+    const auto options = std::make_shared<StudyOptions>();
+    options->out = std::string("results/study/") + study.name;
+    CLI::App *one = command->add_subcommand(study.name, study.summary);
+    one->add_option("--out", options->out, "folder of the results")->type_name("DIR")->capture_default_str();
+    one->add_flag("--fresh", options->fresh, "forget the points of an earlier call");
+    one->add_flag("--quick", options->quick, "few points: to see that it works");
+    one->callback([options, run = study.run] {
+      open_study(*options);
+      run(*options);
+    });
+  }
+}
+
+} // namespace drumlin::post
