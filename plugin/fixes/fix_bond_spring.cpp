@@ -71,7 +71,7 @@ void FixBondSpring::find_balls() {
 
 FixBondSpring::State FixBondSpring::share_state() {
   struct Ball { // as every rank shall know it
-    double x[3], v[3], v_before[3], inverse_mass, damping_over_mass, found;
+    double x[3], v[3], v_before[3], inverse_mass, found;
   };
   constexpr int numbers = sizeof(Ball) / sizeof(double);
   Ball mine[2] = {};
@@ -80,10 +80,7 @@ FixBondSpring::State FixBondSpring::share_state() {
       std::copy_n(atom->x[i], 3, mine[b].x);
       std::copy_n(atom->v[i], 3, mine[b].v);
       mine[b].inverse_mass = 1.0 / atom->rmass[i];
-      if (stepping_) {
-        std::copy_n(stepping_->velocity_before(i), 3, mine[b].v_before);
-        mine[b].damping_over_mass = stepping_->damping_over_mass(i);
-      }
+      if (stepping_) std::copy_n(stepping_->velocity_before(i), 3, mine[b].v_before);
       mine[b].found = 1.0;
     }
   Ball all[2] = {mine[0], mine[1]};
@@ -98,7 +95,6 @@ FixBondSpring::State FixBondSpring::share_state() {
   State s{};
   s.distance = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
   s.inverse_masses = all[0].inverse_mass + all[1].inverse_mass;
-  s.damping_over_mass = all[0].damping_over_mass + all[1].damping_over_mass;
   for (std::size_t a = 0; a < 3; ++a) {
     s.direction[a] = d[a] / s.distance;
     s.rate += (all[1].v[a] - all[0].v[a]) * s.direction[a];
@@ -114,7 +110,7 @@ physics::BondForce FixBondSpring::law(const State &state) const {
   const double stretch = state.distance - bond_.length;
   const double acting = physics::second_order_spring_dashpot(
       bond_.stiffness, bond_.damping, {stretch, state.rate, state.rate_before, dt}, acted_.force,
-      {bond_.damping * state.inverse_masses, state.damping_over_mass});
+      bond_.damping * state.inverse_masses);
   const double rate = bond_.damping > 0.0 ? (acting - bond_.stiffness * stretch) / bond_.damping : state.rate;
   return physics::bond_force(bond_, state.distance, rate);
 }

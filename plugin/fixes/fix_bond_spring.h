@@ -37,7 +37,6 @@ private:
     double rate;                     // with the velocities of now: half-step ones while forces are computed
     double rate_before;              // with the velocities at the begin of the step
     double inverse_masses;           // sum of both balls
-    double damping_over_mass;        // sum over all dashpots of both balls
     std::array<double, 3> direction; // from i to j
   };
   drumlin::physics::BondForce law(const State &state) const;

@@ -265,9 +265,9 @@ void FixRollerHistory::evaluate() {
 
 void FixRollerHistory::end_of_step() {
   const Forces before = forces_;
-  const double a_before = drum_.a;
+  const double v_before = drum_.v;
   evaluate();
-  if (steps_per_cycle_ > 0) count_step(before, a_before);
+  if (steps_per_cycle_ > 0) count_step(before, v_before);
   if (update->ntimestep % global_freq == 0) write_sample();
 }
 
@@ -295,7 +295,7 @@ void FixRollerHistory::start_cycle() {
   cycle_.F_min = cycle_.F_max = forces_.contact;
 }
 
-void FixRollerHistory::count_step(const Forces &before, double a_before) {
+void FixRollerHistory::count_step(const Forces &before, double v_before) {
   const double half = 0.5 * update->dt; // trapezoid over the step
   cycle_.steps += 1.0;
   cycle_.a_min = std::min(cycle_.a_min, drum_.a);
@@ -307,16 +307,13 @@ void FixRollerHistory::count_step(const Forces &before, double a_before) {
   cycle_.contact_dissipated += half * (before.contact_dissipated + forces_.contact_dissipated);
   cycle_.bond_dissipated += half * (before.bond_dissipated + forces_.bond_dissipated);
 
-  const double period = steps_per_cycle_ * update->dt;
-  const double end = 2.0 * pi * time() / period;
-  const double begin = end - 2.0 * pi / steps_per_cycle_;
+  // The change of the velocity is the integral of the acceleration, through the jumps of the contact force too.
+  const double change = 2.0 / (steps_per_cycle_ * update->dt) * (drum_.v - v_before);
+  const double middle = 2.0 * pi * (time() / update->dt - 0.5) / steps_per_cycle_;
   constexpr std::array<double, 3> orders{1.0, 2.0, 0.5};
   for (std::size_t n = 0; n < orders.size(); ++n) {
-    const double weight = 2.0 / period * half;
-    cycle_.harmonic[2 * n] +=
-        weight * (a_before * std::cos(orders[n] * begin) + drum_.a * std::cos(orders[n] * end));
-    cycle_.harmonic[2 * n + 1] +=
-        weight * (a_before * std::sin(orders[n] * begin) + drum_.a * std::sin(orders[n] * end));
+    cycle_.harmonic[2 * n] += change * std::cos(orders[n] * middle);
+    cycle_.harmonic[2 * n + 1] += change * std::sin(orders[n] * middle);
   }
   if (static_cast<int>(cycle_.steps) == steps_per_cycle_) {
     write_cycle();

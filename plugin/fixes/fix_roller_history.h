@@ -68,7 +68,7 @@ private:
   void locate(Body &body, const char *name);
   void write_sample();
   void start_cycle();
-  void count_step(const Forces &before, double a_before);
+  void count_step(const Forces &before, double v_before);
   void write_cycle();
   double along(const double *vector) const;
   double time() const { return clock_.time(update->ntimestep); }

@@ -8,8 +8,10 @@ using namespace LAMMPS_NS;
 namespace {
 
 constexpr const char *helper_id = "drumlin_stepping";
-constexpr int columns = 5;
+constexpr int columns = 8;
+constexpr int kept_columns = 5;   // what goes with a ball to another rank
 constexpr int shared_columns = 4; // what ghosts need
+constexpr int predicted = 5;      // first column of v*
 
 } // namespace
 
@@ -40,7 +42,10 @@ FixStepping::~FixStepping() {
   memory->destroy(state_);
 }
 
-int FixStepping::setmask() { return FixConst::POST_INTEGRATE | FixConst::PRE_FORCE | FixConst::END_OF_STEP; }
+int FixStepping::setmask() {
+  return FixConst::POST_INTEGRATE | FixConst::PRE_FORCE | FixConst::PRE_FINAL_INTEGRATE |
+         FixConst::END_OF_STEP;
+}
 
 void FixStepping::init() {
   constraints_.clear();
@@ -50,6 +55,7 @@ void FixStepping::init() {
 }
 
 void FixStepping::setup_pre_force(int) {
+  coupled_.clear();
   later_.clear();
   shifts_.clear();
   for (int i = 0; i < atom->nlocal; ++i) {
@@ -76,6 +82,46 @@ void FixStepping::post_integrate() {
 
 void FixStepping::pre_force(int) {
   if (comm->nprocs > 1 || atom->nghost > 0) drumlin::engine::forward_comm(comm, this);
+}
+
+void FixStepping::pre_final_integrate() {
+  int any = coupled_.empty() ? 0 : 1;
+  if (comm->nprocs > 1) {
+    const int mine = any;
+    MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
+  }
+  if (any == 0) return;
+
+  double **f = atom->f;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const double *v = atom->v[i];
+    double *star = state_[i] + predicted;
+    const bool rests =
+        v[0] == state_[i][0] && v[1] == state_[i][1] && v[2] == state_[i][2]; // forces do not move it
+    for (std::size_t a = 0; a < 3; ++a)
+      star[a] = v[a] + (rests ? 0.0 : 0.5 * update->dt * f[i][a] / atom->rmass[i]);
+  }
+  if (comm->nprocs > 1 || atom->nghost > 0) {
+    sharing_predicted_ = true;
+    drumlin::engine::forward_comm(comm, this);
+    sharing_predicted_ = false;
+  }
+  for (const Coupled &p : coupled_) {
+    const double *vi = state_[p.i] + predicted;
+    const double *vj = p.j < 0 ? p.wall_velocity.data() : state_[p.j] + predicted;
+    double rate = 0.0;
+    for (std::size_t a = 0; a < 3; ++a)
+      rate -= (vi[a] - vj[a]) * p.normal[a];
+    const double acting = drumlin::physics::coupled_force(p.transition, p.dashpot, rate);
+    const double change = p.share * (acting - p.dashpot.first);
+    for (std::size_t a = 0; a < 3; ++a) {
+      f[p.i][a] += change * p.normal[a];
+      if (p.j >= 0 && p.j < atom->nlocal) f[p.j][a] -= change * p.normal[a];
+    }
+    *p.force = acting;
+  }
+  coupled_.clear();
+  constrain(true);
 }
 
 void FixStepping::end_of_step() {
@@ -111,24 +157,28 @@ void FixStepping::grow_arrays(int nmax) { memory->grow(state_, nmax, columns, "d
 void FixStepping::copy_arrays(int i, int j, int) { std::copy_n(state_[i], columns, state_[j]); }
 
 int FixStepping::pack_exchange(int i, double *buf) {
-  std::copy_n(state_[i], columns, buf);
-  return columns;
+  std::copy_n(state_[i], kept_columns, buf);
+  return kept_columns;
 }
 
 int FixStepping::unpack_exchange(int i, double *buf) {
-  std::copy_n(buf, columns, state_[i]);
-  return columns;
+  std::copy_n(buf, kept_columns, state_[i]);
+  return kept_columns;
 }
 
 int FixStepping::pack_comm(int n, int *list, double *buf, int, int *) {
+  const int first = sharing_predicted_ ? predicted : 0;
+  const int count = sharing_predicted_ ? 3 : shared_columns;
   for (int m = 0; m < n; ++m)
-    buf = std::copy_n(state_[list[m]], shared_columns, buf);
-  return comm_forward;
+    buf = std::copy_n(state_[list[m]] + first, count, buf);
+  return count;
 }
 
-void FixStepping::unpack_comm(int n, int first, double *buf) {
-  for (int i = first; i < first + n; ++i, buf += shared_columns)
-    std::copy_n(buf, shared_columns, state_[i]);
+void FixStepping::unpack_comm(int n, int begin, double *buf) {
+  const int first = sharing_predicted_ ? predicted : 0;
+  const int count = sharing_predicted_ ? 3 : shared_columns;
+  for (int i = begin; i < begin + n; ++i, buf += count)
+    std::copy_n(buf, count, state_[i] + first);
 }
 
 double FixStepping::memory_usage() { return static_cast<double>(atom->nmax) * columns * sizeof(double); }

@@ -2,6 +2,7 @@
 // The helper of second-order stepping, made by the pair style: what the contact law needs to know of the step before.
 
 #include "engine.h"
+#include "physics/stepping.h"
 
 namespace LAMMPS_NS {
 
@@ -24,6 +25,7 @@ public:
   void setup_pre_force(int) override;
   void post_integrate() override;
   void pre_force(int) override;
+  void pre_final_integrate() override;
   void end_of_step() override;
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;
@@ -51,6 +53,17 @@ public:
     later_.push_back({i, rest, shift});
   }
 
+  /// A contact that is solved for together with the others, when all forces of the step are known: see coupled_force().
+  struct Coupled {
+    int i, j; ///< j < 0: a wall
+    std::array<double, 3> normal, wall_velocity;
+    drumlin::physics::CoupledDashpot dashpot;
+    drumlin::physics::Transition transition;
+    double share;  ///< of the force that acts, 1 but for a mesh
+    double *force; ///< takes the force, N
+  };
+  void couple(const Coupled &contact) { coupled_.push_back(contact); }
+
 private:
   struct Later {
     int i;
@@ -58,7 +71,9 @@ private:
   };
   void constrain(bool any) const;
 
-  double **state_ = nullptr;       // per ball: v(t) (3), sum of c/m of the last step, of this step
+  double **state_ = nullptr;       // per ball: v(t) (3), sum of c/m of the last step, of this step, v* (3)
+  bool sharing_predicted_ = false; // what the ghosts get: v*, else v(t) and the sum of the last step
+  std::vector<Coupled> coupled_;   // of this step
   std::vector<Later> later_;       // of this step
   std::vector<Later> shifts_;      // in the opening half kick, not yet taken back
   std::vector<Fix *> constraints_; // fixes that take forces away: they act again on forces that were put back

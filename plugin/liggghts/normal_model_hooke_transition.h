@@ -15,6 +15,7 @@ NORMAL_MODEL(HOOKE_TRANSITION, hooke / transition, 21)
 #include "pair_gran.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "fixes/contact_source.h"
@@ -70,8 +71,6 @@ public:
     const double k = p.normal.stiffness;
     const double c = drumlin::physics::damping_coefficient(p.normal, sidata.meff);
     const drumlin::physics::StepForce step = stepping_ ? second_order(sidata, k, c) : stock(sidata, k, c);
-
-    sidata.Fn = step.force;
     sidata.kn = k;
     sidata.gamman = c;
     sidata.kt = p.tangential_stiffness;
@@ -106,38 +105,57 @@ private:
   }
 
   /// The law as it stands. The engine's vn is positive when the balls separate: overlap_rate = -vn.
-  inline drumlin::physics::StepForce stock(const SurfacesIntersectData &sidata, double k, double c) const {
+  inline drumlin::physics::StepForce stock(SurfacesIntersectData &sidata, double k, double c) const {
     const double Fn = drumlin::physics::normal_force(transition(), k, c, sidata.deltan, -sidata.vn);
+    sidata.Fn = Fn;
     return {Fn, Fn, 0.0};
   }
 
-  inline drumlin::physics::StepForce second_order(const SurfacesIntersectData &sidata, double k, double c) {
+  /// Sets sidata.Fn and returns what to apply.
+  inline drumlin::physics::StepForce second_order(SurfacesIntersectData &sidata, double k, double c) {
     using namespace drumlin::physics;
-    const double own_i = c * inverse_mass(sidata.i, sidata.mi);
-    const double own_j = sidata.is_wall ? 0.0 : c * inverse_mass(sidata.j, sidata.mj);
-    double &force_before = sidata.contact_history[force_before_offset_];
-    StepForce step{};
     if (update->setupflag) { // velocities belong to the time of the positions
-      step = stock(sidata, k, c);
-    } else {
-      const StepMotion motion{sidata.deltan, -sidata.vn, rate_before(sidata, sidata.en), stepping_->dt()};
-      // The sums know the contacts of the last step: a new one is not among them yet.
-      const double missing = made_in_step(motion) ? own_i + own_j : 0.0;
-      const double all = stepping_->damping_over_mass(sidata.i) +
-                         (sidata.is_wall ? 0.0 : stepping_->damping_over_mass(sidata.j)) + missing;
-      // No record although the contact is older than this step: a mesh contact went over to another triangle.
-      const double old = force_before != 0.0
-                             ? force_before
-                             : normal_force(transition(), k, c, motion.overlap - motion.dt * motion.rate_half,
-                                            motion.rate_before);
-      step = second_order_force(transition(), k, c, motion, old, {own_i + own_j, all});
+      const StepForce step = stock(sidata, k, c);
+      note(sidata, c, step.force);
+      return step;
     }
-    if (sidata.computeflag) {
-      force_before = step.force;
-      stepping_->add_damping(sidata.i, own_i);
-      if (!sidata.is_wall && sidata.j < atom->nlocal) stepping_->add_damping(sidata.j, own_j);
-    }
-    return step;
+    const double own =
+        c * (inverse_mass(sidata.i, sidata.mi) + (sidata.is_wall ? 0.0 : inverse_mass(sidata.j, sidata.mj)));
+    const StepMotion motion{sidata.deltan, -sidata.vn, rate_before(sidata, sidata.en), stepping_->dt()};
+    const double recorded = sidata.contact_history[force_before_offset_];
+    // No record although the contact is older than this step: a mesh contact went over to another triangle.
+    const double old = recorded != 0.0
+                           ? recorded
+                           : normal_force(transition(), k, c, motion.overlap - motion.dt * motion.rate_half,
+                                          motion.rate_before);
+    const StepForce step = second_order_force(transition(), k, c, motion, old, own);
+    note(sidata, c, step.force);
+    const double all = stepping_->damping_over_mass(sidata.i) +
+                       (sidata.is_wall ? 0.0 : stepping_->damping_over_mass(sidata.j));
+    if (motion.dt * all <= heavy_damping || made_in_step(motion) || !sidata.computeflag) return step;
+
+    // Friction and rolling take the force that the contact would have alone.
+    LAMMPS_NS::FixStepping::Coupled contact{sidata.i,
+                                            sidata.is_wall ? -1 : sidata.j,
+                                            {sidata.en[0], sidata.en[1], sidata.en[2]},
+                                            {},
+                                            coupled_dashpot(k, c, motion, old, all),
+                                            transition(),
+                                            sidata.is_wall ? sidata.area_ratio : 1.0,
+                                            &sidata.contact_history[force_before_offset_]};
+    if (sidata.is_wall) std::copy_n(sidata.v_j, 3, contact.wall_velocity.begin());
+    stepping_->couple(contact);
+    return {contact.dashpot.first, contact.dashpot.first, 0.0};
+  }
+
+  /// Takes note of a contact for the next step.
+  void note(SurfacesIntersectData &sidata, double c, double force) {
+    sidata.Fn = force;
+    if (!sidata.computeflag) return;
+    sidata.contact_history[force_before_offset_] = force;
+    stepping_->add_damping(sidata.i, c * inverse_mass(sidata.i, sidata.mi));
+    if (!sidata.is_wall && sidata.j < atom->nlocal)
+      stepping_->add_damping(sidata.j, c * inverse_mass(sidata.j, sidata.mj));
   }
 
   /// Adds the force of the closing half kick, and has the rest added after it.

@@ -33,29 +33,53 @@ struct StepForce {
   return motion.overlap - motion.dt * motion.rate_half <= 0.0;
 }
 
-/// The dashpots that push the two balls of a contact, as c/m in 1/s; a fixed ball counts 0.
-struct DampingOverMass {
-  double own; ///< of this contact: c (1/mi + 1/mj)
-  double all; ///< over both balls: (sum of c of the ball's contacts, this one among them) / (its mass)
-};
-
 /// Force k d + c d' at t+dt of a spring-dashpot that held through the step, the dashpot at the velocity of t+dt.
 ///
 /// With v_pred = v+ + (v+ - v(t)), the velocity that unchanged forces would give,
-///   v(t+dt) = v_pred + dt/2 (F - F_old) / m   hence   F = (k d + c d'_pred + s F_old) / (1 + s),   s = c dt / (2 m).
-/// For one contact this is the implicit solution, stable for w0 dt < 2 at any damping. In a packing the other dashpots of the
-/// ball change its velocity too: with its own c alone, a contact of a ball between n walls is unstable from some w0 dt ~ 1/(n D)
-/// on; with the sum of all, the linear limit of the springs, 2 / sqrt(n), holds at any damping. The sum changes F by O(dt^2),
-/// like leaving it out, but with a larger factor; so the others count in full from s = 1/10 on and fade below, where the own
-/// alone is stable.
+///   v(t+dt) = v_pred + dt/2 (F - F_old) / m   hence   F = (k d + c d'_pred + s F_old) / (1 + s),   s = c dt / (2 m_eff).
+/// For one contact this is the implicit solution, stable for w0 dt < 2 at any damping. The other contacts of the two balls change
+/// their velocities too, which it does not see: an error of second order, but heavy damping in a packing needs coupled_force().
 /// \param force_before F_old, N: the force that the opening half kick had
+/// \param c_over_m c / m_eff, 1/s
 [[nodiscard]] inline double second_order_spring_dashpot(double k, double c, const StepMotion &motion,
-                                                        double force_before, const DampingOverMass &damping) {
-  const double half = 0.5 * motion.dt;
-  const double others = std::max(0.0, damping.all - damping.own);
-  const double s = half * (damping.own + std::min(1.0, 10.0 * half * damping.all) * others);
+                                                        double force_before, double c_over_m) {
+  const double s = 0.5 * motion.dt * c_over_m;
   const double rate_predicted = 2.0 * motion.rate_half - motion.rate_before;
   return (k * motion.overlap + c * rate_predicted + s * force_before) / (1.0 + s);
+}
+
+/// From this sum of dt c/m over all contacts of a contact's two balls on, its dashpot is solved for together with the others.
+/// Below, each on its own is stable up to 0.7 of the limit of the springs (tests/physics/time_step_test.cpp).
+constexpr double heavy_damping = 0.25;
+
+/// Where contacts with heavy damping meet, their dashpots must know of one another. They are solved for in two passes:
+/// first every contact gives what changes with the positions,  F_old + k (d - d_old);  then, with v* = v+ + dt/2 a, a of these forces
+/// and all others that act, each dashpot takes
+///   f = (c d'* + s f_old) / (1 + s),   f_old = F_old - k d_old,   s = dt/2 sum of c/m over all contacts of both balls.
+/// The exact solution has the matrix B_ab = dt/2 n_a.n_b / m of all contacts of a ball in the place of s/c, f = c (d'* - B (f - f_old)).
+/// By Cauchy-Schwarz the diagonal s/c is not less than B: the dashpots lag by a step at most, which takes no energy from nowhere, and
+/// any damping leaves the limit of the springs as it is. For one contact both are the same.
+struct CoupledDashpot {
+  double elastic;        ///< k d, N
+  double c;              ///< N s/m
+  double dashpot_before; ///< f_old, N
+  double first;          ///< F_old + k (d - d_old), N: what the first pass gives
+  double s;              ///< without dimension
+};
+
+/// \param all_c_over_m sum of c/m over all contacts of both balls, 1/s
+[[nodiscard]] inline CoupledDashpot coupled_dashpot(double k, double c, const StepMotion &motion,
+                                                    double force_before, double all_c_over_m) {
+  const double change = k * motion.dt * motion.rate_half;
+  const double elastic = k * motion.overlap;
+  return {elastic, c, force_before - (elastic - change), force_before + change,
+          0.5 * motion.dt * all_c_over_m};
+}
+
+/// Force at t+dt, N. \param rate d'* in m/s, with the velocities v*
+[[nodiscard]] inline double coupled_force(Transition transition, const CoupledDashpot &p, double rate) {
+  const double force = p.elastic + (p.c * rate + p.s * p.dashpot_before) / (1.0 + p.s);
+  return transition == Transition::B && force < 0.0 ? 0.0 : force;
 }
 
 /// Second-order force of a contact with d(t+dt) > 0.
@@ -68,12 +92,12 @@ struct DampingOverMass {
 /// the begin of each step leaves the positions behind the sum of the velocities by dt^2/4 of the jump of the acceleration (the
 /// boundary term of the trapezoidal sum). Both are shifts of the positions; they matter for heavy damping, where d soon stops
 /// growing and the rebound goes with d.
-/// \param force_before as in second_order_spring_dashpot(); not used in the step of a make
+/// \param force_before, c_over_m as in second_order_spring_dashpot(); the force is not used in the step of a make
 [[nodiscard]] inline StepForce second_order_force(Transition transition, double k, double c,
                                                   const StepMotion &motion, double force_before,
-                                                  const DampingOverMass &damping) {
+                                                  double c_over_m) {
   if (!made_in_step(motion)) {
-    const double force = second_order_spring_dashpot(k, c, motion, force_before, damping);
+    const double force = second_order_spring_dashpot(k, c, motion, force_before, c_over_m);
     const double limited = transition == Transition::B && force < 0.0 ? 0.0 : force;
     return {limited, limited, 0.0};
   }
@@ -81,8 +105,8 @@ struct DampingOverMass {
   const double rate_predicted = 2.0 * motion.rate_half - motion.rate_before;
   const double rate_at_make = motion.rate_before + (1.0 - theta) * (rate_predicted - motion.rate_before);
   const double first = c * std::max(0.0, rate_at_make);
-  const double s = 0.5 * motion.dt * theta * damping.all;
-  const double slowed = 1.0 / (1.0 + 0.5 * motion.dt * theta * damping.own);
+  const double s = 0.5 * motion.dt * theta * c_over_m;
+  const double slowed = 1.0 / (1.0 + s);
   const double force = (k * slowed * motion.overlap + c * rate_predicted - s * first) / (1.0 + s);
   const double limited = transition == Transition::B && force < 0.0 ? 0.0 : force;
   return {limited, theta * (first + limited),

@@ -43,16 +43,18 @@ public:
     shift_ = 0.0;
     double kick = constant_;
     double damping = 0.0;
-    double largest = 0.0;
     force_ = constant_;
+    std::vector<std::pair<Partner *, CoupledDashpot>> coupled;
     for (Partner &p : partners_) {
       const StepMotion motion{overlap(p), -p.sign * half, -p.sign * before, dt_};
       StepForce f{0.0, 0.0, 0.0};
       if (motion.overlap > 0.0) {
-        const double own = p.c / mass_;
-        f = second_order_force(transition_, p.k, p.c, motion, p.force,
-                               {own, damping_ + (made_in_step(motion) ? own : 0.0)});
-        damping += own;
+        f = second_order_force(transition_, p.k, p.c, motion, p.force, p.c / mass_);
+        damping += p.c / mass_;
+        if (dt_ * damping_ > heavy_damping && !made_in_step(motion)) {
+          coupled.emplace_back(&p, coupled_dashpot(p.k, p.c, motion, p.force, damping_));
+          f.force = f.kick = coupled.back().second.first;
+        }
       } else {
         f = second_order_break(transition_, p.k, p.c, motion);
       }
@@ -60,10 +62,18 @@ public:
       force_ += p.sign * f.force;
       kick += p.sign * f.kick;
       shift_ += p.sign * f.shift;
-      largest = std::max(largest, f.force);
+    }
+    const double predicted = half + 0.5 * dt_ * kick / mass_;
+    for (auto &[p, dashpot] : coupled) {
+      p->force = coupled_force(transition_, dashpot, -p->sign * predicted);
+      force_ += p->sign * (p->force - dashpot.first);
+      kick += p->sign * (p->force - dashpot.first);
     }
     damping_ = damping;
     v = half + 0.5 * dt_ * kick / mass_;
+    double largest = 0.0;
+    for (const Partner &p : partners_)
+      largest = std::max(largest, p.force);
     return largest;
   }
 

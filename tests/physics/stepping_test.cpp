@@ -113,7 +113,7 @@ TEST(SecondOrderStep, ForceNeverPullsUnderB) {
       const double dt = 1e-4;
       const auto f =
           drumlin::physics::second_order_force(Transition::B, k, coefficient(D), {1e-3, rate, rate, dt}, 1e4,
-                                               {coefficient(D) / m, coefficient(D) / m});
+                                               coefficient(D) / m);
       EXPECT_GE(f.force, 0.0);
       EXPECT_GE(f.kick, 0.0);
     }
@@ -126,7 +126,7 @@ TEST(SecondOrderStep, MakeCarriesTheImpulseOfThePartInContact) {
   for (const double theta : {0.01, 0.3, 0.5, 0.99}) {
     const double v = 1.0;
     const auto f = drumlin::physics::second_order_force(Transition::B, k, c, {theta * dt * v, v, v, dt}, 0.0,
-                                                        {c / m, c / m});
+                                                        c / m);
     EXPECT_NEAR(f.force, c * v, 1e-4 * c);
     EXPECT_NEAR(0.5 * dt * f.kick, theta * dt * c * v, 1e-4 * dt * c);
   }

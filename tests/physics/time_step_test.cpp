@@ -1,5 +1,6 @@
 /// Stability limits against the eigenvalues of the matrix that one stock step is.
 
+#include "physics/stepping.h"
 #include "physics/time_step.h"
 #include "stock_stepping.h"
 
@@ -11,12 +12,14 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace {
 
 using namespace drumlin::physics;
 
+constexpr double pi = 3.141592653589793;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Spring {
@@ -74,17 +77,19 @@ double true_limit(const Chain &chain, double guess) {
 }
 
 double bound(const Chain &chain) {
-  double least = infinity;
-  for (std::size_t i = 0; i < chain.mass.size(); ++i) {
-    std::vector<Link> links;
-    const int ball = static_cast<int>(i);
-    for (const Spring &s : chain.springs) {
-      if (s.one != ball && s.other != ball) continue;
-      const int partner = s.one == ball ? s.other : s.one;
-      links.push_back({s.k, s.c, partner < 0 ? infinity : chain.mass[static_cast<std::size_t>(partner)]});
-    }
-    least = std::min(least, critical_step_stock(chain.mass[i], links));
+  std::vector<LoadedBall> balls(chain.mass.size());
+  for (const Spring &s : chain.springs) {
+    const auto inverse = [&](int ball) {
+      return ball < 0 ? 0.0 : 1.0 / chain.mass[static_cast<std::size_t>(ball)];
+    };
+    const double inverse_mass = inverse(s.one) + inverse(s.other);
+    for (const int ball : {s.one, s.other})
+      if (ball >= 0)
+        balls[static_cast<std::size_t>(ball)].add({{0.6, 0.0, 0.8}, s.k * inverse_mass, s.c * inverse_mass});
   }
+  double least = infinity;
+  for (const LoadedBall &ball : balls)
+    least = std::min(least, ball.critical_step());
   return least;
 }
 
@@ -189,9 +194,197 @@ TEST(CriticalStep, NeverExceedsTheTrueLimitOfRandomChains) {
 }
 
 TEST(CriticalStep, WithoutLinksIsUnlimited) {
-  EXPECT_EQ(critical_step_stock(1.0, std::vector<Link>{}), infinity);
-  EXPECT_EQ(critical_step_stock(1.0, std::array<Link, 1>{{{0.0, 0.0}}}), infinity);
+  EXPECT_EQ(LoadedBall().critical_step(), infinity);
+  EXPECT_TRUE(LoadedBall().clearly_stable(1e300));
 }
+
+/// Balls in a plane that touch and rub: normal springs and dashpots by second-order stepping, shear springs and dashpots by the
+/// half-step velocity, as in the engine.
+struct Packing {
+  struct Contact {
+    int one, other; ///< other -1: a fixed partner
+    double angle;   ///< of the normal, from `other` to `one`
+    double k, c, kt, ct;
+  };
+  std::vector<double> mass;
+  double mass_over_inertia; ///< m r^2 / I, of balls of radius 1
+  bool second;              ///< else stock
+  std::vector<Contact> contacts;
+
+  double inverse_mass(int ball) const { return ball < 0 ? 0.0 : 1.0 / mass[static_cast<std::size_t>(ball)]; }
+
+  double bound() const {
+    std::vector<LoadedBall> balls(mass.size());
+    for (const Contact &p : contacts) {
+      const double inverse = inverse_mass(p.one) + inverse_mass(p.other);
+      const double m_t = tangential_mass(inverse_mass(p.one), inverse_mass(p.other), mass_over_inertia);
+      for (const int ball : {p.one, p.other})
+        if (ball >= 0)
+          balls[static_cast<std::size_t>(ball)].add({{std::cos(p.angle), std::sin(p.angle), 0.0},
+                                                     p.k * inverse,
+                                                     second ? 0.0 : p.c * inverse,
+                                                     p.kt / m_t,
+                                                     p.ct / m_t});
+    }
+    double least = infinity;
+    for (const LoadedBall &ball : balls)
+      least = std::min(least, ball.critical_step());
+    return least;
+  }
+
+  /// Largest magnitude of the eigenvalues of a step.
+  double growth(double dt, double heavy = heavy_damping) const {
+    const auto n =
+        static_cast<Eigen::Index>(6 * mass.size()); // of each ball x, y, turn, and dt times their rates
+    const Eigen::Index size = n + 3 * static_cast<Eigen::Index>(contacts.size());
+    std::vector<double> damping(mass.size(), 0.0);
+    for (const Contact &p : contacts)
+      for (const int ball : {p.one, p.other})
+        if (ball >= 0) damping[static_cast<std::size_t>(ball)] += p.c * inverse_mass(ball);
+
+    Eigen::MatrixXd step(size, size);
+    for (Eigen::Index column = 0; column < size; ++column) {
+      Eigen::VectorXd u = Eigen::VectorXd::Unit(size, column);
+      const Eigen::VectorXd before = u;
+      const auto kick = [&] {
+        for (std::size_t l = 0; l < contacts.size(); ++l) {
+          const Contact &p = contacts[l];
+          const double normal = u(of(l, force)), shearing = u(of(l, drag));
+          for (const int ball : {p.one, p.other}) {
+            if (ball < 0) continue;
+            const double half = 0.5 * inverse_mass(ball), sign = ball == p.one ? 1.0 : -1.0;
+            u(6 * ball + 3) += half * sign * (normal * std::cos(p.angle) - shearing * std::sin(p.angle));
+            u(6 * ball + 4) += half * sign * (normal * std::sin(p.angle) + shearing * std::cos(p.angle));
+            u(6 * ball + 5) -= half * mass_over_inertia * shearing;
+          }
+        }
+      };
+      kick();
+      for (Eigen::Index ball = 0; ball < n; ball += 6)
+        u.segment(ball, 3) += u.segment(ball + 3, 3);
+      std::vector<std::pair<std::size_t, CoupledDashpot>> coupled;
+      for (std::size_t l = 0; l < contacts.size(); ++l) {
+        const Contact &p = contacts[l];
+        const auto relative = [&](const Eigen::VectorXd &w, int what) {
+          return w(6 * p.one + what) - (p.other < 0 ? 0.0 : w(6 * p.other + what));
+        };
+        const auto overlap = [&](const Eigen::VectorXd &w, int what) {
+          return -std::cos(p.angle) * relative(w, what) - std::sin(p.angle) * relative(w, what + 1);
+        };
+        const double slide = -std::sin(p.angle) * relative(u, 3) + std::cos(p.angle) * relative(u, 4) -
+                             u(6 * p.one + 5) - (p.other < 0 ? 0.0 : u(6 * p.other + 5));
+        const double own = p.c * (inverse_mass(p.one) + inverse_mass(p.other));
+        const double all = damping[static_cast<std::size_t>(p.one)] +
+                           (p.other < 0 ? 0.0 : damping[static_cast<std::size_t>(p.other)]);
+        const StepMotion motion{overlap(u, 0), overlap(u, 3) / dt, overlap(before, 3) / dt, dt};
+        double &normal = u(of(l, force)); // forces as dt^2 times the force
+        const double old = normal / (dt * dt);
+        if (second && dt * all > heavy) {
+          coupled.emplace_back(l, coupled_dashpot(p.k, p.c, motion, old, all));
+          normal = dt * dt * coupled.back().second.first;
+        } else {
+          normal = dt * dt *
+                   (second ? second_order_spring_dashpot(p.k, p.c, motion, old, own)
+                           : p.k * motion.overlap + p.c * motion.rate_half);
+        }
+        u(of(l, shear)) += slide;
+        u(of(l, drag)) = -dt * dt * (p.kt * u(of(l, shear)) + p.ct * slide / dt);
+      }
+      const Eigen::VectorXd drifted = u;
+      kick();
+      const Eigen::VectorXd predicted = u;
+      for (const auto &[l, dashpot] : coupled) {
+        const Contact &p = contacts[l];
+        const auto along = [&](int ball) {
+          return ball < 0 ? 0.0
+                          : std::cos(p.angle) * predicted(6 * ball + 3) +
+                                std::sin(p.angle) * predicted(6 * ball + 4);
+        };
+        u(of(l, force)) =
+            dt * dt * coupled_force(Transition::A, dashpot, -(along(p.one) - along(p.other)) / dt);
+      }
+      u.head(n) = drifted.head(n);
+      kick();
+      step.col(column) = u;
+    }
+    const Eigen::VectorXd balance = scale(size);
+    return (balance.cwiseInverse().asDiagonal() * step * balance.asDiagonal())
+        .eigenvalues()
+        .cwiseAbs()
+        .maxCoeff();
+  }
+
+private:
+  enum What { shear, force, drag };
+  Eigen::Index of(std::size_t contact, What what) const {
+    return static_cast<Eigen::Index>(6 * mass.size() + 3 * contact) + what;
+  }
+  /// Forces in the size of a mass: what is left are numbers near 1.
+  Eigen::VectorXd scale(Eigen::Index size) const {
+    Eigen::VectorXd result = Eigen::VectorXd::Ones(size);
+    for (std::size_t l = 0; l < contacts.size(); ++l)
+      result(of(l, force)) = result(of(l, drag)) = 1.0 / inverse_mass(contacts[l].one);
+    return result;
+  }
+};
+
+/// Balls linked at random to one another and to fixed partners, damping ratios from 0 to 1e4.
+Packing random_packing(std::mt19937 &random, bool second, bool rubbing) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  Packing packing{{}, unit(random) < 0.5 ? 2.5 : 2.0, second, {}};
+  const int balls = 1 + static_cast<int>(6.0 * unit(random));
+  for (int i = 0; i < balls; ++i)
+    packing.mass.push_back(std::pow(10.0, 3.0 * unit(random)));
+  const double level = std::pow(10.0, -2.0 + 6.0 * unit(random)); // of the damping in this packing
+  const auto link = [&](int one, int other) {
+    const double k = 1e6 * std::pow(10.0, 2.0 * unit(random));
+    const double inverse = packing.inverse_mass(one) + packing.inverse_mass(other);
+    const double c = unit(random) < 0.2 ? 0.0 : 2.0 * level * std::sqrt(k / inverse) * unit(random);
+    const double kt = rubbing ? k * unit(random) : 0.0;
+    packing.contacts.push_back({one, other, 2.0 * pi * unit(random), k, c, kt,
+                                rubbing ? 0.5 * unit(random) * std::sqrt(kt / inverse) : 0.0});
+  };
+  for (int i = 0; i < balls; ++i) {
+    const int links = 1 + static_cast<int>(4.0 * unit(random));
+    for (int l = 0; l < links; ++l) {
+      const int other = static_cast<int>((balls + 1) * unit(random)) - 1;
+      link(i, other == i ? -1 : other);
+    }
+  }
+  return packing;
+}
+
+struct Search {
+  const char *name;
+  bool second, rubbing;
+  double heavy; ///< threshold of the coupled solution
+  double share; ///< of the bound, that must be safe
+};
+
+class PackingTest : public ::testing::TestWithParam<Search> {};
+
+TEST_P(PackingTest, IsStableUpToTheBound) {
+  const Search search = GetParam();
+  std::mt19937 random(49979687);
+  double tightest = 0.0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Packing packing = random_packing(random, search.second, search.rubbing);
+    const double bound = packing.bound();
+    for (const double share : {0.2, 0.5, 0.7, 1.0})
+      ASSERT_LE(packing.growth(share * search.share * bound, search.heavy), 1.0 + 1e-5)
+          << "trial " << trial << ", " << share;
+    if (packing.growth(1.03 * bound, search.heavy) > 1.0 + 1e-4) tightest = 1.0;
+  }
+  EXPECT_EQ(tightest, 1.0); // a bound of zero would be safe too
+}
+
+INSTANTIATE_TEST_SUITE_P(CriticalStep, PackingTest,
+                         ::testing::Values(Search{"stock", false, false, 0.0, 0.999},
+                                           Search{"stock_rubbing", false, true, 0.0, 0.999},
+                                           Search{"all_coupled", true, false, 0.0, 0.999},
+                                           Search{"second", true, false, heavy_damping, 0.7},
+                                           Search{"second_rubbing", true, true, heavy_damping, 0.7}),
+                         [](const auto &search) { return search.param.name; });
 
 TEST(Figures, OfAContact) {
   EXPECT_DOUBLE_EQ(angular_frequency(1e8, 1e4), 100.0);
