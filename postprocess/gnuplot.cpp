@@ -40,6 +40,18 @@ std::string_view style_words(CurveStyle style) {
     return "with lines lw 1.6 dt solid lc rgb '#000000'";
   case CurveStyle::limit:
     return "with lines lw 1.2 dt (12,4,2,4) lc rgb '#666666'";
+  case CurveStyle::series_1:
+    return "with linespoints lw 2.0 dt solid pt 7 ps 0.9 lc rgb '#0072B2'";
+  case CurveStyle::series_2:
+    return "with linespoints lw 1.6 dt (10,5) pt 6 ps 1.0 lc rgb '#D55E00'";
+  case CurveStyle::series_3:
+    return "with linespoints lw 2.0 dt (3,4) pt 5 ps 0.9 lc rgb '#009E73'";
+  case CurveStyle::series_4:
+    return "with linespoints lw 1.6 dt (10,4,2,4) pt 4 ps 1.0 lc rgb '#CC79A7'";
+  case CurveStyle::series_5:
+    return "with linespoints lw 1.6 dt solid pt 8 ps 1.1 lc rgb '#000000'";
+  case CurveStyle::series_6:
+    return "with linespoints lw 1.6 dt (6,3,2,3,2,3) pt 13 ps 1.2 lc rgb '#E69F00'";
   }
   return "with lines";
 }
@@ -64,8 +76,11 @@ std::string panel_script(const Panel &panel) {
                            : fmt::format("  set title {} noenhanced\n", gnuplot_string(panel.title));
   s += fmt::format("  set xlabel {}\n  set ylabel {}\n", gnuplot_string(panel.x_label),
                    gnuplot_string(panel.y_label));
-  s += panel.log_y ? "  set logscale y\n  set format y '10^{%T}'\n"
-                   : "  unset logscale\n  set format y '%g'\n";
+  s += "  unset logscale\n";
+  s += panel.log_x ? "  set logscale x\n" : "";
+  s += panel.log_y ? "  set logscale y\n  set format y '10^{%T}'\n" : "  set format y '%g'\n";
+  s += fmt::format("  set yrange {}\n", panel.y_range.empty() ? "[*:*]" : panel.y_range);
+  s += fmt::format("  set bmargin {}\n  set key maxrows {}\n", 4.5 + panel.legend_rows, panel.legend_rows);
   if (panel.x_ticks.empty()) {
     s += "  set xtics autofreq norotate\n  set autoscale x\n";
     s += panel.tight_x ? "  set autoscale xfix\n  set offsets 0, 0, 0, 0\n"
@@ -141,8 +156,7 @@ std::string gnuplot_script(const Figure &figure) {
        "set border lw 1.0\n"
        "set tics nomirror out\n"
        "set xzeroaxis lt 1 lw 0.8 dt solid lc rgb '#999999'\n"
-       "set bmargin 5.5\n"
-       "set key bmargin center horizontal Left reverse samplen 2.5 width -2 maxrows 1\n";
+       "set key bmargin center horizontal Left reverse samplen 2.5 width -2\n";
   s += fmt::format("do for [kind in \"svg png\"] {{\n"
                    "  if (kind eq \"svg\") {{ set terminal svg size {0},{1} enhanced rounded font 'DejaVu "
                    "Sans,Helvetica,Arial,15' "

@@ -149,15 +149,6 @@ constexpr const char *cycle_columns[] = {
     "a2_sin",          "ah_cos",        "ah_sin",     "work_excitation", "dissipated_contact",
     "dissipated_bond", "kinetic",       "potential",  "stored_contact",  "stored_bond"};
 
-CycleColumns read_cycle_columns(const fs::path &file) {
-  const Table table = read_table(file);
-  CycleColumns cycles;
-  cycles.rows = table.rows();
-  for (const char *name : cycle_columns)
-    if (table.has(name)) cycles.columns[name] = table.numbers(name);
-  return cycles;
-}
-
 } // namespace
 
 std::string Run::text(const std::string &parameter, const std::string &fallback) const {
@@ -193,6 +184,15 @@ std::vector<fs::path> find_run_folders(const std::vector<fs::path> &arguments) {
       add(folder);
   }
   return folders;
+}
+
+CycleColumns read_cycle_columns(const fs::path &file) {
+  const Table table = read_table(file);
+  CycleColumns cycles;
+  cycles.rows = table.rows();
+  for (const char *name : cycle_columns)
+    if (table.has(name)) cycles.columns[name] = table.numbers(name);
+  return cycles;
 }
 
 Run read_run(const fs::path &folder) {

@@ -55,6 +55,9 @@ struct Run {
 /// below. Sorted below a parent, each folder once. Throws UsageError naming the folder that is none.
 std::vector<std::filesystem::path> find_run_folders(const std::vector<std::filesystem::path> &arguments);
 
+/// Reads the columns of a cycles.csv that are known; any may be missing.
+CycleColumns read_cycle_columns(const std::filesystem::path &file);
+
 /// Reads a run folder. Throws std::runtime_error with file and line for a file that cannot be understood.
 Run read_run(const std::filesystem::path &folder);
 

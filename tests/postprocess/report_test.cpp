@@ -6,8 +6,8 @@
 #include "direct_solver.h"
 #include "report_html.h"
 #include "report_runs.h"
+#include "page.h"
 
-#include <expat.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -23,6 +23,8 @@
 namespace {
 
 using namespace drumlin::post;
+using drumlin::test::parse;
+using drumlin::test::Parsed;
 namespace fs = std::filesystem;
 
 std::string read(const fs::path &file) {
@@ -31,46 +33,6 @@ std::string read(const fs::path &file) {
 }
 
 void write(const fs::path &file, const std::string &text) { std::ofstream(file, std::ios::binary) << text; }
-
-/// What a strict parser finds in a page.
-struct Parsed {
-  bool well_formed = false;
-  std::string error;
-  std::vector<std::string> images;
-  std::vector<std::string> links;
-  std::vector<std::string> resources; ///< every other src, and what link, script, iframe and object load
-  std::set<std::string> ids;
-  std::size_t doubled_ids = 0;
-  std::size_t scripts = 0;
-};
-
-Parsed parse(const std::string &text) {
-  Parsed out;
-  XML_Parser parser = XML_ParserCreate("UTF-8");
-  XML_SetUserData(parser, &out);
-  XML_SetStartElementHandler(parser, [](void *data, const XML_Char *name, const XML_Char **attributes) {
-    Parsed &page = *static_cast<Parsed *>(data);
-    const std::string element = name;
-    if (element == "script") ++page.scripts;
-    for (; *attributes != nullptr; attributes += 2) {
-      const std::string attribute = attributes[0];
-      const std::string value = attributes[1];
-      if (attribute == "id" && !page.ids.insert(value).second) ++page.doubled_ids;
-      if (element == "img" && attribute == "src")
-        page.images.push_back(value);
-      else if (element == "a" && attribute == "href")
-        page.links.push_back(value);
-      else if (attribute == "src" || attribute == "srcset" || attribute == "href" || attribute == "data")
-        page.resources.push_back(value);
-    }
-  });
-  out.well_formed = XML_Parse(parser, text.data(), static_cast<int>(text.size()), XML_TRUE) == XML_STATUS_OK;
-  if (!out.well_formed)
-    out.error = fmt::format("line {}: {}", XML_GetCurrentLineNumber(parser),
-                            XML_ErrorString(XML_GetErrorCode(parser)));
-  XML_ParserFree(parser);
-  return out;
-}
 
 /// A folder as an engine run of the chain leaves it; what it holds is the direct solution.
 void write_chain_run(const fs::path &folder, const std::string &case_name, Transition transition, int cycles,
