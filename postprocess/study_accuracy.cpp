@@ -1,10 +1,14 @@
 #include "study_accuracy.h"
 
+#include "accuracy_page.h"
 #include "accuracy_results.h"
+#include "step_advice.h"
 #include "study.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <random>
 
 #include <fmt/format.h>
 
@@ -78,29 +82,68 @@ private:
   std::map<std::string, DirectResult> known_;
 };
 
-} // namespace
+/// Uniform numbers that are the same everywhere: the distributions of the standard library are not.
+class Draw {
+public:
+  double between(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
+  }
+  double between_decades(double low, double high) { return low * std::pow(high / low, between(0.0, 1.0)); }
 
-void run_accuracy_study(const StudyOptions &options) {
-  const Plan plan = plan_of(options.quick);
-  StudyResults chain(options.out / "chain.csv", chain_point_columns, chain_point_keys);
-  StudyResults impacts(options.out / "impacts.csv", impact_point_columns, impact_point_keys);
-  StudyProgress progress(plan.chain.size() + plan.impacts.size());
-  Truths truths;
+private:
+  std::mt19937 engine_{2018};
+};
 
-  for (ImpactPoint point : plan.impacts) {
-    if (impacts.find(key(point, impact_point_keys)) != nullptr) {
+/// Chains that are in no table: soft to stiff, hardly to heavily damped, with little to much loss of contact.
+ChainParameters drawn(Draw &draw, Transition transition) {
+  ChainParameters p;
+  p.transition = transition;
+  p.k = draw.between_decades(5e6, 4e8);
+  p.D = draw.between_decades(0.15, 3.0);
+  p.omega = 2.0 * std::acos(-1.0) * draw.between(15.0, 45.0);
+  p.Fw = draw.between(30e3, 100e3);
+  p.m2 = draw.between(1500.0, 3000.0);
+  p.m3 = draw.between(500.0, 1500.0);
+  p.k23 = draw.between_decades(5e5, 2e6);
+  p.c23 = draw.between_decades(5e3, 2e4);
+  return p;
+}
+
+/// The points of scaling.csv. Chains that advice refuses are drawn but not run: their numbers are missing.
+std::vector<ScalingPoint> scaling_plan(bool quick) {
+  std::vector<ScalingPoint> plan;
+  const std::size_t sets = quick ? 1 : 12;
+  Draw draw;
+  for (int set = 1; plan.size() < (quick ? 1 : 3) * sets; ++set) {
+    const ChainParameters p = drawn(draw, set % 2 == 0 ? Transition::A : Transition::B);
+    if (!(sensitivity(p) <= most_sensitive)) continue;
+    plan.push_back({set, "second", 1e-3, p, 0, 0.0});
+    if (quick) continue;
+    plan.push_back({set, "second", 1e-4, p, 0, 0.0});
+    plan.push_back({set, "stock", 1e-2, p, 0, 0.0});
+  }
+  return plan;
+}
+
+void measure(std::vector<ImpactPoint> plan, int phases, StudyResults &results, StudyProgress &progress) {
+  for (ImpactPoint &point : plan) {
+    if (results.find(key(point, impact_point_keys)) != nullptr) {
       progress.found();
       continue;
     }
     point.errors = measure_impacts(point.transition, point.damping_ratio, point.stepping,
-                                   point.steps_per_contact, options.quick ? 8 : 64);
-    impacts.add(cells(point));
-    progress.measured(fmt::format("impacts, {}, D = {:g}, {}, {:g} steps per contact",
+                                   point.steps_per_contact, phases);
+    results.add(cells(point));
+    progress.measured(fmt::format("impacts {}, D = {:g}, {}, {:g} steps per contact",
                                   transition_name(point.transition), point.damping_ratio, point.stepping,
                                   point.steps_per_contact));
   }
-  for (ChainPoint point : plan.chain) {
-    if (chain.find(key(point, chain_point_keys)) != nullptr) {
+}
+
+void measure(std::vector<ChainPoint> plan, StudyResults &results, StudyProgress &progress) {
+  Truths truths;
+  for (ChainPoint &point : plan) {
+    if (results.find(key(point, chain_point_keys)) != nullptr) {
       progress.found();
       continue;
     }
@@ -109,10 +152,48 @@ void run_accuracy_study(const StudyOptions &options) {
                        ? measure_reference(point.chain_case, point.steps_per_cycle, truth)
                        : measure_chain(table1_case(point.chain_case, point.transition), point.stepping,
                                        point.steps_per_cycle, truth);
-    chain.add(cells(point));
+    results.add(cells(point));
     progress.measured(fmt::format("chain {} {}, {}, {} steps per cycle", point.chain_case,
                                   transition_name(point.transition), point.stepping, point.steps_per_cycle));
   }
+}
+
+void measure(std::vector<ScalingPoint> plan, const std::vector<ChainPoint> &known, StudyResults &results,
+             StudyProgress &progress) {
+  for (ScalingPoint &point : plan) {
+    if (results.find(key(point, scaling_point_keys)) != nullptr) {
+      progress.found();
+      continue;
+    }
+    AdviceRequest request;
+    request.parameters = point.parameters;
+    request.stepping = point.stepping;
+    request.error = point.target;
+    point.steps_per_cycle = advise(request, known).steps_per_cycle;
+    point.error = measure_chain(point.parameters, point.stepping, point.steps_per_cycle,
+                                accuracy_truth(point.parameters))
+                      .velocity;
+    results.add(cells(point));
+    progress.measured(fmt::format("scaling, set {}, {}, error {:g}, {} steps per cycle", point.set,
+                                  point.stepping, point.target, point.steps_per_cycle));
+  }
+}
+
+} // namespace
+
+void run_accuracy_study(const StudyOptions &options) {
+  const Plan plan = plan_of(options.quick);
+  const std::vector<ScalingPoint> scaling_points = scaling_plan(options.quick);
+  StudyResults chain(options.out / "chain.csv", chain_point_columns, chain_point_keys);
+  StudyResults impacts(options.out / "impacts.csv", impact_point_columns, impact_point_keys);
+  StudyResults scaling(options.out / "scaling.csv", scaling_point_columns, scaling_point_keys);
+  StudyProgress progress(plan.chain.size() + plan.impacts.size() + scaling_points.size());
+
+  measure(plan.impacts, options.quick ? 8 : 64, impacts, progress);
+  measure(plan.chain, chain, progress);
+  measure(scaling_points, read_chain_points(chain.file()), scaling, progress);
+  write_accuracy_page(options.out);
+  fmt::print("{}\n", (options.out / "index.html").string());
 }
 
 } // namespace drumlin::post
