@@ -61,6 +61,12 @@ std::string steps_needed_text(const std::vector<ErrorPoint> &points, double erro
   return steps ? fmt::format("{:.10g}", *steps) : fmt::format("> {:.10g}", points.back().steps);
 }
 
+/// The order from 1 % of error on: what is coarser need not be asymptotic.
+std::optional<FittedOrder> order_of(const std::vector<ErrorPoint> &points) {
+  const std::optional<double> from = steps_needed(points, 1e-2);
+  return from ? fitted_order(points, *from) : std::nullopt;
+}
+
 /// How many times as many steps as the second-order stepping; at least, where the error was not reached.
 struct Ratio {
   double value;
@@ -78,10 +84,12 @@ void add_order_row(ReportTable &table, const std::string &what, const Series &se
                    const std::vector<ErrorPoint> &points, const std::vector<ErrorPoint> &second) {
   if (points.empty()) return;
   std::vector<std::string> row = {what, transition_name(series.transition), series.stepping};
-  const std::optional<FittedOrder> fit = fitted_order(points);
+  const std::optional<FittedOrder> fit = order_of(points);
+  const std::optional<FittedOrder> finer = fitted_order(points, finer_half(points));
   row.push_back(fit ? fmt::format("{:.2f}", fit->order) : "–");
   row.push_back(fit ? fmt::format("{:.2f}", fit->scatter) : "–");
   row.push_back(fit ? steps_text(fit->from) + " to " + steps_text(fit->to) : "–");
+  row.push_back(finer ? fmt::format("{:.2f}", finer->order) : "–");
   for (const double error : targets)
     row.push_back(steps_needed_text(points, error));
   for (const double error : targets) {
@@ -97,7 +105,13 @@ ReportTable order_table(const Data &data) {
   table.name = "orders";
   table.title = "Orders, and steps needed";
   table.text_columns = 3;
-  table.header = {"what", "transition", "stepping", "order (-)", "scatter (decades)", "fitted over steps"};
+  table.header = {"what",
+                  "transition",
+                  "stepping",
+                  "order (-)",
+                  "scatter (decades)",
+                  "fitted over steps",
+                  "order of the finer half (-)"};
   for (const double error : targets)
     table.header.push_back(fmt::format("steps for {:g}", error));
   for (const double error : targets)
@@ -115,15 +129,17 @@ ReportTable order_table(const Data &data) {
       add_order_row(table, fmt::format("impact D = {:g}", ratio), series, data.curve(ratio, series),
                     data.curve(ratio, second));
     }
-  table.notes = {"Order: error ~ steps^-order, fitted over the finer half of the steps on a logarithmic "
-                 "scale; scatter: root mean "
-                 "square distance from that line. Chain: relative RMS error of the drum's velocity, steps "
-                 "per cycle. Impact: worst "
-                 "absolute error of the restitution, steps per undamped contact.",
-                 "Steps for an error: the smallest number measured from which on every larger one kept to "
-                 "it; > N: not up to N. A ratio "
-                 "with > is a bound, for the same reason. reference is the engine's own law, hooke/stiffness "
-                 "with limitForce."};
+  table.notes = {
+      "Order: error ~ steps^-order, fitted from 1 % of error on; scatter: root mean square distance from "
+      "that "
+      "line. Finer half: fitted over the finer half of the steps on a logarithmic scale. Chain: relative RMS "
+      "error of the drum's velocity, steps per cycle. Impact: worst absolute error of the restitution, steps "
+      "per "
+      "undamped contact.",
+      "Steps for an error: the smallest number measured from which on every larger one kept to "
+      "it; > N: not up to N. A ratio "
+      "with > is a bound, for the same reason. reference is the engine's own law, hooke/stiffness "
+      "with limitForce."};
   return table;
 }
 
@@ -179,12 +195,12 @@ ReportTable promise_table(const Data &data) {
   for (const Series &series : all_series) {
     if (series.stepping != std::string("second")) continue;
     for (const char *name : cases)
-      if (const auto fit = fitted_order(data.curve(name, series, &ChainErrors::velocity)))
+      if (const auto fit = order_of(data.curve(name, series, &ChainErrors::velocity)))
         promises.at_least(fmt::format("order, chain {} {}", name, transition_name(series.transition)),
                           fmt::format("{:g} to {:g} steps per cycle", fit->from, fit->to),
                           {fit->order, false}, 1.9);
     for (const double ratio : ratios)
-      if (const auto fit = fitted_order(data.curve(ratio, series)))
+      if (const auto fit = order_of(data.curve(ratio, series)))
         promises.at_least(
             fmt::format("order, impact {}, D = {:g}", transition_name(series.transition), ratio),
             fmt::format("{:g} to {:g} steps per contact", fit->from, fit->to), {fit->order, false}, 1.9);
@@ -261,39 +277,46 @@ ReportTable scaling_table(const Data &data) {
 }
 
 /// A panel for each case; x of a point from its steps and errors.
-template <typename X>
-PlannedFigure chain_figure(const Data &data, const std::string &name, const std::string &title,
-                           const std::string &x_label, const std::string &y_label, double ChainErrors::*error,
-                           X x_of) {
+/// An error of the chain over steps or time, a panel for each case.
+struct ChainFigure {
+  const char *name;
+  const char *title;
+  const char *y_label;
+  double ChainErrors::*error;
+  bool over_time;      ///< over the wall time of a cycle instead of its steps
+  const char *y_range; ///< of all panels
+  const char *caption;
+};
+
+PlannedFigure chain_figure(const Data &data, const ChainFigure &wanted) {
+  const std::string x_label = wanted.over_time ? "wall time per cycle (s)" : "steps per cycle";
   PlannedFigure figure;
-  CurveTable table(x_label + "," + y_label);
-  figure.figure = {name, title, {}, 2, 640, 470};
+  figure.caption = wanted.caption;
+  figure.figure = {wanted.name, wanted.title, {}, 2, 640, 470};
+  CurveTable table(x_label + "," + wanted.y_label);
   for (const char *chain_case : cases) {
     Panel panel;
     panel.title = fmt::format("case {}", chain_case);
     panel.x_label = x_label;
-    panel.y_label = y_label;
+    panel.y_label = wanted.y_label;
     panel.log_x = panel.log_y = true;
+    panel.x_range = wanted.over_time ? "" : "[40:3e5]";
+    panel.y_range = wanted.y_range;
     panel.legend_rows = 2;
     for (const Series &series : all_series) {
+      const std::vector<ErrorPoint> errors = data.curve(chain_case, series, wanted.error);
+      const std::vector<ErrorPoint> seconds = data.curve(chain_case, series, &ChainErrors::loop_s);
       const std::string curve_name = fmt::format("{} {}", chain_case, series.name);
       bool any = false;
-      std::vector<ChainPoint> points = data.chain;
-      std::sort(points.begin(), points.end(), [](const ChainPoint &a, const ChainPoint &b) {
-        return a.steps_per_cycle < b.steps_per_cycle;
-      });
-      for (const ChainPoint &point : points) {
-        const double value = point.errors.*error;
-        if (point.chain_case != chain_case || point.transition != series.transition ||
-            point.stepping != series.stepping || !(value > 0.0))
-          continue;
-        table.row(curve_name, {x_of(point), value});
+      for (std::size_t i = 0; i < errors.size(); ++i) {
+        if (!(errors[i].error > 0.0)) continue; // not measured, or no event to err in
+        table.row(curve_name,
+                  {wanted.over_time ? seconds[i].error / accuracy_cycles : errors[i].steps, errors[i].error});
         any = true;
       }
       if (!any) continue;
-      Curve drawn = curve(name, curve_name, "$2", "3", series.style);
-      drawn.title = series.name;
-      panel.curves.push_back(drawn);
+      panel.curves.push_back(curve(wanted.name, curve_name, "$2", "3", series.style));
+      panel.curves.back().title = series.name;
     }
     if (!panel.curves.empty()) figure.figure.panels.push_back(panel);
   }
@@ -304,6 +327,9 @@ PlannedFigure chain_figure(const Data &data, const std::string &name, const std:
 PlannedFigure impact_figure(const Data &data) {
   const std::string name = "impacts";
   PlannedFigure figure;
+  figure.caption =
+      "Worst error of the restitution over the phases of the onset, against the closed form. Under A nothing "
+      "rebounds at D = 2.";
   CurveTable table("steps per contact,worst restitution error (-)");
   figure.figure = {name, "Restitution of single impacts: worst error over the phase of the onset", {}, 2, 640,
                    470};
@@ -313,6 +339,8 @@ PlannedFigure impact_figure(const Data &data) {
     panel.x_label = "steps per undamped contact, π/(ω_0 dt)";
     panel.y_label = "worst error of restitution (-)";
     panel.log_x = panel.log_y = true;
+    panel.x_range = "[10:2000]";
+    panel.y_range = "[1e-8:1]";
     panel.legend_rows = 2;
     for (const Series &series : all_series) {
       const std::string curve_name = fmt::format("D{:g} {}", ratio, series.name);
@@ -320,9 +348,8 @@ PlannedFigure impact_figure(const Data &data) {
       for (const ErrorPoint &point : points)
         table.row(curve_name, {point.steps, point.error});
       if (points.empty()) continue;
-      Curve drawn = curve(name, curve_name, "$2", "3", series.style);
-      drawn.title = series.name;
-      panel.curves.push_back(drawn);
+      panel.curves.push_back(curve(name, curve_name, "$2", "3", series.style));
+      panel.curves.back().title = series.name;
     }
     if (panel.curves.empty()) continue;
     // What orders 1 and 2 look like, from a common point above the curves.
@@ -340,12 +367,20 @@ PlannedFigure impact_figure(const Data &data) {
   return figure;
 }
 
-void add(StudyPage &page, PlannedFigure figure, const std::string &label, const std::string &caption) {
-  if (figure.figure.panels.empty()) return;
-  figure.label = label;
-  figure.caption = caption;
-  page.figure(figure);
-}
+/// The page with its figures numbered; those without any curve are left out.
+class Figures {
+public:
+  explicit Figures(StudyPage &page) : page_(page) {}
+  void add(PlannedFigure figure) {
+    if (figure.figure.panels.empty()) return;
+    figure.label = fmt::format("Fig. {}", ++number_);
+    page_.figure(figure);
+  }
+
+private:
+  StudyPage &page_;
+  int number_ = 0;
+};
 
 } // namespace
 
@@ -367,52 +402,47 @@ void write_accuracy_page(const fs::path &out) {
                   accuracy_cycles, accuracy_window));
   page.section("Promises");
   page.table(promise_table(data));
+  Figures figures(page);
   page.section("Error against steps");
-  add(page,
-      chain_figure(data, "velocity_error", "Error of the drum's velocity against steps per cycle",
-                   "steps per cycle", "relative RMS error (-)", &ChainErrors::velocity,
-                   [](const ChainPoint &point) { return static_cast<double>(point.steps_per_cycle); }),
-      "Fig. 1",
-      "Relative RMS error of the drum's velocity. Where contact is lost the stock stepping errs by where in "
-      "a step a make "
-      "happens to fall, which scatters; the second-order stepping knows the part of the step.");
+  figures.add(chain_figure(data, {"velocity_error", "Error of the drum's velocity against steps per cycle",
+                                  "relative RMS error (-)", &ChainErrors::velocity, false, "[1e-9:1]",
+                                  "Relative RMS error of the drum's velocity. Where contact is lost the "
+                                  "stock stepping errs by where in a step a "
+                                  "make happens to fall, which scatters; the second-order stepping knows the "
+                                  "part of the step in contact."}));
   page.table(orders);
-  add(page, impact_figure(data), "Fig. 2",
-      "Worst error of the restitution over 64 phases of the onset, against the closed form. Under A nothing "
-      "rebounds at D = 2.");
+  figures.add(impact_figure(data));
   page.section("Error against time");
-  add(page,
-      chain_figure(data, "velocity_error_time", "Error of the drum's velocity against wall time",
-                   "wall time per cycle (s)", "relative RMS error (-)", &ChainErrors::velocity,
-                   [](const ChainPoint &point) { return point.errors.loop_s / accuracy_cycles; }),
-      "Fig. 3",
-      "The same against what a cycle costs, by the engine's clock, without starting and finding the "
-      "equilibrium. Runs of the "
-      "engine's own law write the drum's velocity only; the others also events, cycles and every column of "
-      "chain.csv.");
+  figures.add(chain_figure(data, {"velocity_error_time", "Error of the drum's velocity against wall time",
+                                  "relative RMS error (-)", &ChainErrors::velocity, true, "[1e-9:1]",
+                                  "The same against what a cycle costs, by the engine's clock, without "
+                                  "starting and finding the equilibrium. "
+                                  "Runs of the engine's own law write the drum's velocity only; the others "
+                                  "also events, cycles and every column "
+                                  "of chain.csv."}));
   page.section("Peaks, events, energy");
-  add(page,
-      chain_figure(data, "force_error", "Error of the peak contact force", "steps per cycle",
-                   "relative error (-)", &ChainErrors::force,
-                   [](const ChainPoint &point) { return static_cast<double>(point.steps_per_cycle); }),
-      "Fig. 4",
-      "Peak contact force over the last five cycles, over all steps and both sides of the located makes.");
-  add(page,
-      chain_figure(data, "event_time_error", "Largest error of the time of a make or break",
-                   "steps per cycle", "error (s)", &ChainErrors::event_time_s,
-                   [](const ChainPoint &point) { return static_cast<double>(point.steps_per_cycle); }),
-      "Fig. 5",
-      "Largest error of the time of any event of a run, where the events match the truth's one by one.");
-  add(page,
-      chain_figure(data, "energy_residual", "What the energy ledger misses", "steps per cycle",
-                   "residual over the exciter's work (-)", &ChainErrors::energy,
-                   [](const ChainPoint &point) { return static_cast<double>(point.steps_per_cycle); }),
-      "Fig. 6",
-      "Work of the exciter less heat and less what bodies and springs hold more, over that work. The ledger "
-      "sums trapezoids "
-      "over whole steps, also over the step of a make, where the power jumps: where contact is lost it "
-      "closes in first order "
-      "whatever the stepping.");
+  figures.add(chain_figure(
+      data, {"force_error", "Error of the peak contact force", "relative error (-)", &ChainErrors::force,
+             false, "[1e-10:1]",
+             "Peak contact force over the last five cycles, over all steps and both sides of the located "
+             "makes."}));
+  figures.add(chain_figure(
+      data, {"acceleration_error", "Error of the drum's peak acceleration", "relative error (-)",
+             &ChainErrors::acceleration, false, "[1e-10:1]",
+             "Largest magnitude of the drum's acceleration over the last five cycles, likewise."}));
+  figures.add(chain_figure(data, {"event_time_error", "Largest error of the time of a make or break",
+                                  "error (s)", &ChainErrors::event_time_s, false, "[1e-11:1e-2]",
+                                  "Largest error of the time of any event of a run whose events match the "
+                                  "truth's one by one. Cases without "
+                                  "loss of contact have none."}));
+  figures.add(
+      chain_figure(data, {"energy_residual", "What the energy ledger misses",
+                          "residual over the exciter's work (-)", &ChainErrors::energy, false, "[1e-10:1]",
+                          "Work of the exciter less heat and less what bodies and springs hold more, over "
+                          "that work. The ledger sums "
+                          "trapezoids over whole steps, also over the step of a make, where the power jumps: "
+                          "where contact is lost it "
+                          "closes in first order whatever the stepping."}));
   if (!data.scaling.empty()) {
     page.section("Advice");
     page.paragraph(fmt::format("The command advise takes these curves over to other chains by the resolution "

@@ -7,12 +7,14 @@
 
 namespace drumlin::post {
 
-std::optional<FittedOrder> fitted_order(const std::vector<ErrorPoint> &points) {
-  if (points.empty()) return std::nullopt;
-  const double middle = std::sqrt(points.front().steps * points.back().steps);
+double finer_half(const std::vector<ErrorPoint> &points) {
+  return std::sqrt(points.front().steps * points.back().steps);
+}
+
+std::optional<FittedOrder> fitted_order(const std::vector<ErrorPoint> &points, double from) {
   std::vector<ErrorPoint> used;
   std::copy_if(points.begin(), points.end(), std::back_inserter(used), [&](const ErrorPoint &point) {
-    return point.steps >= middle && std::isfinite(point.error) && point.error > 0.0;
+    return point.steps >= from && std::isfinite(point.error) && point.error > 0.0;
   });
   if (used.size() < 3) return std::nullopt;
   const auto count = static_cast<double>(used.size());

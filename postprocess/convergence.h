@@ -21,9 +21,12 @@ struct FittedOrder {
   double to = 0.0;      ///< most
 };
 
-/// Fit over the finer half, on a logarithmic scale, of the points (in order of steps): what is coarser need not be in
-/// the asymptotic range. Nothing if fewer than three points with errors that are finite and above 0 remain.
-std::optional<FittedOrder> fitted_order(const std::vector<ErrorPoint> &points);
+/// Fit over the points from a number of steps on: what is coarser need not be in the asymptotic range. Nothing if fewer than
+/// three points with errors that are finite and above 0 remain.
+std::optional<FittedOrder> fitted_order(const std::vector<ErrorPoint> &points, double from);
+
+/// Where the finer half of the points begins, on a logarithmic scale. Points in order of steps, not empty.
+double finer_half(const std::vector<ErrorPoint> &points);
 
 /// The smallest measured number of steps from which on every larger one keeps to the error. Nothing if the
 /// largest does not. Points in order of steps.

@@ -85,6 +85,8 @@ constexpr Section sections[] = {
     {"roller", "Contact force as a roller measures it",
      "A roller cannot see the contact law. What it can measure, Fc = m2 a2 + m3 a3 + (m2 + m3) g + Fe, must "
      "equal it."},
+    {"studies", "Studies",
+     "What steps, laws and options cost and what they bring, each on a page of its own."},
 };
 
 std::string summary_html(const ReportResults &results) {
@@ -259,7 +261,8 @@ std::string figure_html(const PlannedFigure &figure) {
 }
 
 std::string report_page(const ReportResults &results, const std::vector<ReportTable> &tables,
-                        const FigurePlan &plan, const ReportVersions &versions) {
+                        const FigurePlan &plan, const std::vector<StudyLink> &studies,
+                        const ReportVersions &versions) {
   std::string s;
   s += "<nav>\n<ol>\n";
   for (const Section &section : sections)
@@ -288,6 +291,13 @@ std::string report_page(const ReportResults &results, const std::vector<ReportTa
         s += table_html(table);
         any = true;
       }
+    if (id == "studies" && !studies.empty()) {
+      s += "<ul>\n";
+      for (const StudyLink &study : studies)
+        s += fmt::format("<li><a href=\"{}\">{}</a></li>\n", html_escaped(study.place), study.title);
+      s += "</ul>\n";
+      any = true;
+    }
     if (!any) s += "<p class=\"absent\">The given runs have nothing to show here.</p>\n";
     if (id == "summary") s += commands_html(results, versions);
     s += "</section>\n";

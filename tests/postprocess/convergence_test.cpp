@@ -23,34 +23,36 @@ std::vector<ErrorPoint> power_law(double order, std::size_t count, double factor
 }
 
 TEST(FittedOrder, IsThatOfAPowerLaw) {
-  const auto fit = fitted_order(power_law(2.0, 8));
+  const auto fit = fitted_order(power_law(2.0, 8), 500.0);
   ASSERT_TRUE(fit);
   EXPECT_NEAR(fit->order, 2.0, 1e-12);
   EXPECT_NEAR(fit->scatter, 0.0, 1e-12);
-  EXPECT_EQ(fit->from, 1600.0); // the middle of 100 and 12800 on a logarithmic scale is 1131
+  EXPECT_EQ(fit->from, 800.0);
   EXPECT_EQ(fit->to, 12800.0);
 }
 
 TEST(FittedOrder, TellsTheScatterInDecades) {
-  const auto fit = fitted_order(power_law(1.0, 40, 10.0));
+  const auto fit = fitted_order(power_law(1.0, 40, 10.0), 0.0);
   ASSERT_TRUE(fit);
   EXPECT_NEAR(fit->order, 1.0, 0.05);
   EXPECT_NEAR(fit->scatter, 1.0, 0.05);
 }
 
-TEST(FittedOrder, LooksAtTheFinerHalfOnly) {
+TEST(FittedOrder, LeavesOutWhatIsCoarser) {
   std::vector<ErrorPoint> points = power_law(2.0, 8);
   for (std::size_t i = 0; i < 4; ++i)
     points[i].error = 0.5;
-  EXPECT_NEAR(fitted_order(points)->order, 2.0, 1e-12);
+  EXPECT_NEAR(finer_half(points), 1131.4, 0.1); // the middle of 100 and 12800 on a logarithmic scale
+  EXPECT_NEAR(fitted_order(points, finer_half(points))->order, 2.0, 1e-12);
+  EXPECT_LT(fitted_order(points, 0.0)->order, 1.9);
 }
 
 TEST(FittedOrder, NeedsThreeUsablePoints) {
   std::vector<ErrorPoint> points = power_law(2.0, 6);
-  EXPECT_TRUE(fitted_order(points));
+  EXPECT_TRUE(fitted_order(points, 800.0));
   points.back().error = not_a_number;
-  EXPECT_FALSE(fitted_order(points));
-  EXPECT_FALSE(fitted_order({}));
+  EXPECT_FALSE(fitted_order(points, 800.0));
+  EXPECT_FALSE(fitted_order({}, 0.0));
 }
 
 TEST(StepsNeeded, CountsFromTheLastPointAbove) {

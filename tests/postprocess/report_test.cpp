@@ -103,6 +103,15 @@ protected:
     write_chain_run(root / "runs" / "I-A", "I", Transition::A, 110);
     write_impact_run(root / "runs" / "impact-A", Transition::A, 0.5);
     write_impact_run(root / "runs" / "impact-B", Transition::B, 0.5);
+    // A study has a chain.csv of its own, which is no run.
+    for (const char *name : {"runs/study", "runs/more/study"}) {
+      fs::create_directories(root / name / "figures");
+      write(root / name / "study.txt", "drumlin\n");
+      write(root / name / "index.html",
+            fmt::format("<html><title>Cost of {} &amp; more</title></html>", name));
+      write(root / name / "chain.csv", "case,steps_per_cycle\nI,50\n");
+      write(root / name / "figures" / "f.svg", "<svg/>");
+    }
     ReportOptions options;
     options.folders = {root / "runs"};
     options.out = root / "report";
@@ -217,6 +226,25 @@ TEST_F(Report, HasEveryFileAndEveryPlaceThatItLinksTo) {
                                            : fs::is_regular_file(root / "report" / link);
     EXPECT_TRUE(found) << link;
   }
+}
+
+TEST_F(Report, TakesStudiesAlong) {
+  const std::string text = read(root / "report" / "index.html");
+  for (const auto &[place, title] :
+       {std::pair{"studies/study", "runs/more/study"}, {"studies/study-2", "runs/study"}}) {
+    EXPECT_TRUE(fs::is_regular_file(root / "report" / place / "figures" / "f.svg")) << place;
+    EXPECT_NE(text.find(fmt::format("<a href=\"{}/index.html\">Cost of {} &amp; more</a>", place, title)),
+              std::string::npos);
+  }
+}
+
+TEST_F(Report, IsMadeOfAStudyAlone) {
+  ReportOptions options;
+  options.folders = {root / "runs" / "study"};
+  options.out = root / "study-report";
+  const std::string text = read(write_report(options).page);
+  EXPECT_TRUE(parse(text).well_formed);
+  EXPECT_NE(text.find("studies/study/index.html"), std::string::npos);
 }
 
 TEST_F(Report, PrintsCommandsAsTextAndSaysWhatIsLeftOut) {
