@@ -2,6 +2,7 @@
 
 #include "chain_csv.h"
 #include "chain_model.h"
+#include "chain_options.h"
 #include "direct_solver.h"
 
 #include <CLI/CLI.hpp>
@@ -9,11 +10,8 @@
 
 #include <unistd.h>
 
-#include <array>
 #include <filesystem>
-#include <limits>
 #include <memory>
-#include <optional>
 #include <system_error>
 
 namespace drumlin::post {
@@ -22,29 +20,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A number of the chain that the command line may set instead of the case.
-struct Override {
-  const char *option;
-  double ChainParameters::*value;
-  const char *help;
-};
-constexpr std::array<Override, 9> overrides = {{
-    {"--k", &ChainParameters::k, "contact stiffness [N/m]"},
-    {"--D", &ChainParameters::D, "contact damping ratio [-], c = 2 D sqrt(m2 k)"},
-    {"--omega", &ChainParameters::omega, "angular frequency of the excitation [rad/s]"},
-    {"--Fw", &ChainParameters::Fw, "amplitude of the excitation force [N]"},
-    {"--m2", &ChainParameters::m2, "mass of the drum [kg]"},
-    {"--m3", &ChainParameters::m3, "mass of the frame [kg]"},
-    {"--k23", &ChainParameters::k23, "stiffness of the bond drum - frame [N/m]"},
-    {"--c23", &ChainParameters::c23, "damping of the bond drum - frame [N s/m]"},
-    {"--g", &ChainParameters::g, "gravity [m/s2]"},
-}};
-
 // The options as given. Numbers stay text until all are judged by one rule with one kind of message.
 struct Arguments {
-  std::string chain_case = "II";
-  std::string transition = "B";
-  std::array<std::string, overrides.size()> numbers;
+  ChainArguments chain;
   std::string cycles = "30";
   std::string samples_per_cycle = "200";
   std::string rtol = "1e-12";
@@ -57,22 +35,6 @@ struct Task {
   DirectOptions options;
   fs::path out;
 };
-
-double number_option(const char *option, const std::string &text) {
-  try {
-    return number_from_text(text);
-  } catch (const std::invalid_argument &) {
-    throw UsageError(fmt::format("{} = '{}': allowed are finite numbers", option, text));
-  }
-}
-
-int count_option(const char *option, const std::string &text) {
-  const double value = number_option(option, text);
-  const int count = value >= 1.0 && value <= std::numeric_limits<int>::max() ? static_cast<int>(value) : 0;
-  if (static_cast<double>(count) != value)
-    throw UsageError(fmt::format("{} = '{}': allowed are whole numbers from 1", option, text));
-  return count;
-}
 
 // Refuses a folder that files cannot be written to, before the work is done. Nothing is made yet.
 void check_folder(const fs::path &out) {
@@ -90,20 +52,12 @@ void check_folder(const fs::path &out) {
 
 Task judge(const Arguments &arguments) {
   Task task;
-  try {
-    task.parameters = table1_case(arguments.chain_case, transition_from_name(arguments.transition));
-  } catch (const std::invalid_argument &error) {
-    throw UsageError(fmt::format("--{}", error.what()));
-  }
-  for (std::size_t i = 0; i < overrides.size(); ++i)
-    if (!arguments.numbers[i].empty())
-      task.parameters.*overrides[i].value = number_option(overrides[i].option, arguments.numbers[i]);
+  task.parameters = judged(arguments.chain);
   task.options.cycles = number_option("--cycles", arguments.cycles);
   task.options.samples_per_cycle = count_option("--samples-per-cycle", arguments.samples_per_cycle);
   task.options.rtol = number_option("--rtol", arguments.rtol);
   task.options.impact_speed = number_option("--impact-speed", arguments.impact_speed);
-  for (const std::string &fault : {task.parameters.invalid(), task.options.invalid()})
-    if (!fault.empty()) throw UsageError("--" + fault);
+  if (const std::string fault = task.options.invalid(); !fault.empty()) throw UsageError("--" + fault);
   if (arguments.out.empty())
     throw UsageError("--out = '': allowed are folders that can be made and written to");
   task.out = arguments.out;
@@ -114,7 +68,7 @@ Task judge(const Arguments &arguments) {
 std::vector<std::pair<std::string, std::string>> record(const Arguments &arguments, const Task &task,
                                                         const DirectCost &cost, const std::string &command) {
   const ChainParameters &p = task.parameters;
-  return {{"case", arguments.chain_case},
+  return {{"case", arguments.chain.chain_case},
           {"transition", transition_name(p.transition)},
           {"k", number_text(p.k)},
           {"D", number_text(p.D)},
@@ -154,8 +108,8 @@ void run(const Arguments &arguments, const std::string &command) {
                                  task.out.string(), error.what()));
   }
   fmt::print("{}: {} samples, {} events, {} cycles (case {}, transition {}; {} steps)\n", task.out.string(),
-             result.history.size(), result.events.size(), result.cycles.size(), arguments.chain_case,
-             arguments.transition, result.cost.steps);
+             result.history.size(), result.events.size(), result.cycles.size(), arguments.chain.chain_case,
+             arguments.chain.transition, result.cost.steps);
 }
 
 } // namespace
@@ -166,14 +120,7 @@ void add_exact_command(CLI::App &app, Session &session) {
       "exact",
       "Solve the chain soil - drum - frame directly, without an engine: the truth beside engine runs. Writes "
       "chain.csv, events.csv, cycles.csv and parameters.csv.");
-  exact->add_option("--case", arguments->chain_case, "case of the paper's Table 1: I, II, III or IV")
-      ->capture_default_str();
-  exact->add_option("--transition", arguments->transition, "transition condition of the contact: A or B")
-      ->capture_default_str();
-  for (std::size_t i = 0; i < overrides.size(); ++i)
-    exact->add_option(overrides[i].option, arguments->numbers[i], overrides[i].help)
-        ->type_name("NUMBER")
-        ->group("Instead of the case's values");
+  add_chain_options(*exact, arguments->chain);
   exact->add_option("--cycles", arguments->cycles, "cycles of the excitation")
       ->type_name("NUMBER")
       ->capture_default_str();

@@ -31,7 +31,7 @@ std::string_view style_words(CurveStyle style) {
   case CurveStyle::direct_b:
     return "with points pt 8 ps 0.75 lw 1.1 lc rgb '#000000'";
   case CurveStyle::direct_line:
-    return "with lines lw 1.2 dt (2,4) lc rgb '#000000'";
+    return "with lines lw 1.2 dt (3,7) lc rgb '#000000'";
   case CurveStyle::measured_a:
     return "with points pt 7 ps 1.1 lc rgb '#D55E00'";
   case CurveStyle::measured_b:
@@ -39,7 +39,19 @@ std::string_view style_words(CurveStyle style) {
   case CurveStyle::plain:
     return "with lines lw 1.6 dt solid lc rgb '#000000'";
   case CurveStyle::limit:
-    return "with lines lw 1.2 dt (12,4,2,4) lc rgb '#666666'";
+    return "with lines lw 1.2 dt (24,8,4,8) lc rgb '#666666'";
+  case CurveStyle::series_1:
+    return "with linespoints lw 2.0 dt solid pt 7 ps 0.7 lc rgb '#0072B2'";
+  case CurveStyle::series_2:
+    return "with linespoints lw 1.6 dt (20,10) pt 6 ps 1.4 lc rgb '#D55E00'";
+  case CurveStyle::series_3:
+    return "with linespoints lw 2.0 dt (4,8) pt 5 ps 0.7 lc rgb '#009E73'";
+  case CurveStyle::series_4:
+    return "with linespoints lw 1.6 dt (24,8,4,8) pt 4 ps 1.4 lc rgb '#CC79A7'";
+  case CurveStyle::series_5:
+    return "with linespoints lw 1.0 dt solid pt 8 ps 1.9 lc rgb '#000000'";
+  case CurveStyle::series_6:
+    return "with linespoints lw 1.6 dt (24,8,4,8,4,8) pt 12 ps 1.4 lc rgb '#E69F00'";
   }
   return "with lines";
 }
@@ -64,8 +76,12 @@ std::string panel_script(const Panel &panel) {
                            : fmt::format("  set title {} noenhanced\n", gnuplot_string(panel.title));
   s += fmt::format("  set xlabel {}\n  set ylabel {}\n", gnuplot_string(panel.x_label),
                    gnuplot_string(panel.y_label));
-  s += panel.log_y ? "  set logscale y\n  set format y '10^{%T}'\n"
-                   : "  unset logscale\n  set format y '%g'\n";
+  s += "  unset logscale\n";
+  s += panel.log_x ? "  set logscale x\n  set format x '10^{%T}'\n" : "  set format x '%g'\n";
+  s += panel.log_y ? "  set logscale y\n  set format y '10^{%T}'\n" : "  set format y '%g'\n";
+  s += fmt::format("  set yrange {}\n", panel.y_range.empty() ? "[*:*]" : panel.y_range);
+  s += fmt::format("  set bmargin {}\n  set key maxrows {} width {}\n", 4.5 + panel.legend_rows,
+                   panel.legend_rows, panel.legend_rows > 1 ? 1 : -2);
   if (panel.x_ticks.empty()) {
     s += "  set xtics autofreq norotate\n  set autoscale x\n";
     s += panel.tight_x ? "  set autoscale xfix\n  set offsets 0, 0, 0, 0\n"
@@ -141,8 +157,7 @@ std::string gnuplot_script(const Figure &figure) {
        "set border lw 1.0\n"
        "set tics nomirror out\n"
        "set xzeroaxis lt 1 lw 0.8 dt solid lc rgb '#999999'\n"
-       "set bmargin 5.5\n"
-       "set key bmargin center horizontal Left reverse samplen 2.5 width -2 maxrows 1\n";
+       "set key bmargin center horizontal Left reverse samplen 2.5\n";
   s += fmt::format("do for [kind in \"svg png\"] {{\n"
                    "  if (kind eq \"svg\") {{ set terminal svg size {0},{1} enhanced rounded font 'DejaVu "
                    "Sans,Helvetica,Arial,15' "

@@ -18,7 +18,13 @@ enum class CurveStyle {
   measured_a,  ///< filled circles, vermilion
   measured_b,  ///< filled squares, blue
   plain,       ///< solid line, black
-  limit        ///< thin dash-dotted line, grey: a tolerance or a bound
+  limit,       ///< thin dash-dotted line, grey: a tolerance or a bound
+  series_1, ///< series_1 to series_6: lines with markers, each with a dash, a marker and a colour of its own
+  series_2,
+  series_3,
+  series_4,
+  series_5,
+  series_6
 };
 
 /// One curve of a panel, read from a CSV file with one header line.
@@ -42,6 +48,9 @@ struct Panel {
   bool tight_x = false;                  ///< the axis ends with the data, as a time axis does
   std::string x_range = {};              ///< as gnuplot writes it, e.g. "[-0.1:*]"; empty: what the data need
   std::vector<std::string> x_ticks = {}; ///< names at x = 1, 2, ... instead of numbers
+  bool log_x = false;
+  std::string y_range = {}; ///< as x_range
+  int legend_rows = 1;      ///< lines that the legend may take
 };
 
 /// A figure: panels in rows of `columns`. The legend stands below each panel, outside of the axes.

@@ -16,6 +16,7 @@
 
 #include "command.h"
 #include "direct_solver.h"
+#include "engine_run.h"
 #include "gnuplot.h"
 #include "report_figures.h"
 #include "report_html.h"
@@ -37,7 +38,7 @@ void write_text(const fs::path &file, const std::string &text) {
 }
 
 /// The place of the report, absolute and without a trailing slash. Throws if it may not be replaced.
-fs::path checked_place(const fs::path &out, const std::vector<fs::path> &runs) {
+fs::path checked_place(const fs::path &out, const ReportFolders &folders) {
   if (out.empty()) throw UsageError("--out = '': allowed are new folders and earlier reports");
   fs::path place = fs::absolute(out).lexically_normal();
   if (!place.has_filename()) place = place.parent_path();
@@ -49,9 +50,10 @@ fs::path checked_place(const fs::path &out, const std::vector<fs::path> &runs) {
     if (!fs::is_directory(place)) refuse("is not a folder");
     if (!fs::is_empty(place) && !fs::is_regular_file(place / summary_file)) refuse("holds other files");
     const std::string inside = fs::canonical(place).string() + "/";
-    for (const fs::path &run : runs)
-      if ((fs::canonical(run).string() + "/").rfind(inside, 0) == 0)
-        refuse("holds the run folder " + run.string());
+    for (const std::vector<fs::path> *all : {&folders.runs, &folders.studies})
+      for (const fs::path &folder : *all)
+        if ((fs::canonical(folder).string() + "/").rfind(inside, 0) == 0)
+          refuse("holds the folder " + folder.string() + " that is to be reported on");
   }
   std::error_code error;
   fs::create_directories(place.parent_path(), error);
@@ -191,6 +193,32 @@ std::vector<Run> read_runs(const std::vector<fs::path> &folders) {
   return runs;
 }
 
+/// The title of a study's page; its folder's name if the page has none.
+std::string title_of(const fs::path &study) {
+  const std::string page = read_text(study / "index.html");
+  const std::string open = "<title>";
+  const std::size_t begin = page.find(open);
+  const std::size_t end = page.find("</title>");
+  if (begin == std::string::npos || end == std::string::npos || end < begin)
+    return html_escaped(study.filename().string());
+  return page.substr(begin + open.size(), end - begin - open.size());
+}
+
+/// Copies the studies into the report, each to a folder of its name.
+std::vector<StudyLink> copy_studies(const std::vector<fs::path> &studies, const fs::path &report) {
+  std::vector<StudyLink> links;
+  for (const fs::path &study : studies) {
+    const std::string name = fs::canonical(study).filename().string();
+    fs::path place = fs::path("studies") / name;
+    for (int number = 2; fs::exists(report / place); ++number)
+      place = fs::path("studies") / fmt::format("{}-{}", name, number);
+    fs::create_directories(report / "studies");
+    fs::copy(study, report / place, fs::copy_options::recursive);
+    links.push_back({(place / "index.html").string(), title_of(study)});
+  }
+  return links;
+}
+
 } // namespace
 
 ReportOutcome write_report(const ReportOptions &options) {
@@ -200,15 +228,15 @@ ReportOutcome write_report(const ReportOptions &options) {
   } catch (const std::runtime_error &error) {
     throw UsageError(error.what());
   }
-  std::vector<fs::path> folders;
+  ReportFolders folders;
   fs::path place;
   try {
-    folders = find_run_folders(options.folders);
+    folders = find_report_folders(options.folders);
     place = checked_place(options.out, folders);
   } catch (const fs::filesystem_error &error) {
     throw UsageError(error.what());
   }
-  std::vector<Run> runs = read_runs(folders);
+  std::vector<Run> runs = read_runs(folders.runs);
 
   constexpr std::size_t usual_figures = 13;
   Progress progress(options.progress, runs.size() + usual_figures + 1);
@@ -239,12 +267,13 @@ ReportOutcome write_report(const ReportOptions &options) {
   progress("tables and page");
   for (const ReportTable &table : tables)
     if (!table.rows.empty()) write_text(draft.folder() / "data" / (table.name + ".csv"), table_csv(table));
+  const std::vector<StudyLink> studies = copy_studies(folders.studies, draft.folder());
   ReportVersions versions;
   versions.drumlin = options.version;
   versions.direct_solver = direct_solver_name();
   versions.gnuplot = program_version(gnuplot);
   versions.made_at = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)));
-  write_text(draft.folder() / "index.html", report_page(results, tables, plan, versions));
+  write_text(draft.folder() / "index.html", report_page(results, tables, plan, studies, versions));
   write_text(draft.folder() / summary_file, summary_json(results, versions));
   draft.publish();
   return {place / "index.html", count_checks(results)};

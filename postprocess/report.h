@@ -12,7 +12,7 @@ namespace drumlin::post {
 
 /// What to report on, and where to.
 struct ReportOptions {
-  std::vector<std::filesystem::path> folders;        ///< run folders or parents of them
+  std::vector<std::filesystem::path> folders;        ///< run and study folders or parents of them
   std::filesystem::path out = "report";              ///< replaced as a whole if it is an earlier report
   std::string version = "unknown";                   ///< of this project, printed in the report
   std::function<void(const std::string &)> progress; ///< gets one line per piece of work; may be empty

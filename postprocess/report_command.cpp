@@ -41,7 +41,10 @@ void add_report_command(CLI::App &app, Session &) {
       "report",
       "Figures, tables and checks against reference values from runs of the chain and of single impacts, as "
       "one page that opens from disk.");
-  report->add_option("dir", arguments->folders, "run folders (with chain.csv), or parents of run folders")
+  report
+      ->add_option(
+          "dir", arguments->folders,
+          "run folders (with chain.csv), studies (their pages are copied and linked), or parents of either")
       ->type_name("DIR")
       ->required();
   report->add_option("--out", arguments->out, "folder for the report; an earlier report there is replaced")

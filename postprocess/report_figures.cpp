@@ -1,5 +1,7 @@
 #include "report_figures.h"
 
+#include "curve_table.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,39 +14,6 @@ namespace {
 
 constexpr const char *case_names[] = {"I", "II", "III", "IV"};
 constexpr int shown_cycles = 3;
-
-/// Rows of a tidy CSV: the first column names the curve (without commas, which gnuplot would split at), blank
-/// cells are values that a row does not have.
-class CurveTable {
-public:
-  explicit CurveTable(const std::string &columns) : text_("curve," + columns + "\n") {}
-  void row(const std::string &curve, std::initializer_list<double> values) {
-    text_ += csv_cell(curve);
-    for (const double value : values) {
-      text_ += ',';
-      if (std::isfinite(value)) text_ += fmt::format("{:.12g}", value);
-    }
-    text_ += '\n';
-  }
-  const std::string &text() const { return text_; }
-
-private:
-  std::string text_;
-};
-
-/// Gnuplot expression: `value` in rows of the named curve, nothing in others. Markers take each stride-th
-/// row.
-std::string of_curve(const std::string &curve, const std::string &value, int stride = 1, int phase = 0) {
-  const std::string thinned = stride > 1 ? fmt::format(" && int($0)%{}=={}", stride, phase) : "";
-  return fmt::format("(strcol(1) eq '{}'{} ? {} : NaN)", curve, thinned, value);
-}
-
-std::string data_path(const std::string &name) { return "../data/" + name + ".csv"; }
-
-Curve curve(const std::string &figure, const std::string &name, const std::string &x, const std::string &y,
-            CurveStyle style, int stride = 1, int phase = 0) {
-  return {data_path(figure), of_curve(name, x, stride, phase), y, name, style};
-}
 
 /// Markers along a record: about 24 a cycle.
 int stride_of(const Run &run) { return std::max(1, run.samples_per_cycle / 24); }

@@ -85,68 +85,9 @@ constexpr Section sections[] = {
     {"roller", "Contact force as a roller measures it",
      "A roller cannot see the contact law. What it can measure, Fc = m2 a2 + m3 a3 + (m2 + m3) g + Fe, must "
      "equal it."},
+    {"studies", "Studies",
+     "What steps, laws and options cost and what they bring, each on a page of its own."},
 };
-
-std::string table_html(const ReportTable &table) {
-  std::string s = fmt::format("<h3 id=\"table-{}\">{}</h3>\n", table.name, html_escaped(table.title));
-  const std::size_t columns = table.shown_columns;
-  // Columns of words are left-aligned, of which the verdict is one.
-  const auto is_word = [&](std::size_t column) {
-    const std::string &name = table.header[column];
-    return column < table.text_columns || name == "agrees" || name == "remark" || name == "engine" ||
-           name == "plugin" || name == "integrated over";
-  };
-  if (!table.rows.empty()) {
-    // Columns that are empty throughout only take room.
-    std::vector<bool> shown(columns, false);
-    for (const std::vector<std::string> &row : table.rows)
-      for (std::size_t c = 0; c < columns; ++c)
-        if (!row[c].empty() && (row[c] != "–" || c < table.text_columns)) shown[c] = true;
-    // Runs with many rows are set apart.
-    bool grouped = false;
-    for (std::size_t r = 1; r < table.rows.size(); ++r)
-      grouped = grouped || table.rows[r][0] == table.rows[r - 1][0];
-    s += "<div class=\"wide\"><table>\n<thead><tr>";
-    for (std::size_t c = 0; c < columns; ++c)
-      if (shown[c])
-        s += fmt::format("<th{} scope=\"col\">{}</th>", is_word(c) ? " class=\"word\"" : "",
-                         html_escaped(table.header[c]));
-    s += "</tr></thead>\n<tbody>\n";
-    for (std::size_t r = 0; r < table.rows.size(); ++r) {
-      std::string classes = table.states[r] == RowState::differs ? "differs" : "";
-      if (grouped && r > 0 && table.rows[r][0] != table.rows[r - 1][0])
-        classes += classes.empty() ? "next" : " next";
-      s += classes.empty() ? "<tr>" : fmt::format("<tr class=\"{}\">", classes);
-      for (std::size_t c = 0; c < columns; ++c) {
-        if (!shown[c]) continue;
-        const char *cell = table.header[c] == "agrees" ? " class=\"verb\""
-                           : is_word(c)                ? " class=\"word\""
-                                                       : "";
-        s += fmt::format("<td{}>{}</td>", cell, html_escaped(table.rows[r][c]));
-      }
-      s += "</tr>\n";
-    }
-    s += "</tbody></table></div>\n";
-  }
-  s += "<div class=\"notes\">";
-  for (const std::string &note : table.notes)
-    s += fmt::format("<p>{}</p>", html_escaped(note));
-  if (!table.rows.empty())
-    s += fmt::format("<p class=\"links\"><a href=\"data/{}.csv\">CSV of this table</a></p>", table.name);
-  return s + "</div>\n";
-}
-
-std::string figure_html(const PlannedFigure &figure) {
-  const std::string &name = figure.figure.name;
-  return fmt::format(
-      "<figure id=\"{0}\">\n<a href=\"figures/{0}.svg\"><img src=\"figures/{0}.svg\" alt=\"{1}\" "
-      "width=\"{4}\" height=\"{5}\" /></a>\n"
-      "<figcaption><strong>{2}.</strong> {3} <span class=\"links\">[<a href=\"data/{0}.csv\">CSV</a>, "
-      "<a href=\"figures/{0}.png\">PNG</a>, <a href=\"figures/{0}.svg\">SVG</a>, "
-      "<a href=\"figures/{0}.gp\">gnuplot script</a>]</span></figcaption>\n</figure>\n",
-      name, html_escaped(figure.figure.title), html_escaped(figure.label), html_escaped(figure.caption),
-      figure_width(figure.figure), figure_height(figure.figure));
-}
 
 std::string summary_html(const ReportResults &results) {
   const CheckCount count = count_checks(results);
@@ -248,16 +189,81 @@ std::string html_escaped(const std::string &text) {
   return out;
 }
 
-std::string report_page(const ReportResults &results, const std::vector<ReportTable> &tables,
-                        const FigurePlan &plan, const ReportVersions &versions) {
-  const char *title = "Roller on soil: report of the runs";
+std::string html_page(const std::string &title, const std::string &made, const std::string &body) {
   std::string s = "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n"
                   "<meta charset=\"utf-8\" />\n"
                   "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\" />\n";
-  s += fmt::format("<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<header>\n<h1>{}</h1>\n", title,
-                   style, title);
-  s += fmt::format("<p class=\"made\">Made on {} by drumlin {}.</p>\n</header>\n",
-                   html_escaped(versions.made_at), html_escaped(versions.drumlin));
+  s += fmt::format("<title>{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<header>\n<h1>{0}</h1>\n",
+                   html_escaped(title), style);
+  if (!made.empty()) s += fmt::format("<p class=\"made\">{}</p>\n", html_escaped(made));
+  return s + "</header>\n" + body + "</body>\n</html>\n";
+}
+
+std::string table_html(const ReportTable &table) {
+  std::string s = fmt::format("<h3 id=\"table-{}\">{}</h3>\n", table.name, html_escaped(table.title));
+  const std::size_t columns = table.shown_columns;
+  // Columns of words are left-aligned, of which the verdict is one.
+  const auto is_word = [&](std::size_t column) {
+    const std::string &name = table.header[column];
+    return column < table.text_columns || name == "agrees" || name == "remark" || name == "engine" ||
+           name == "plugin" || name == "integrated over";
+  };
+  if (!table.rows.empty()) {
+    // Columns that are empty throughout only take room.
+    std::vector<bool> shown(columns, false);
+    for (const std::vector<std::string> &row : table.rows)
+      for (std::size_t c = 0; c < columns; ++c)
+        if (!row[c].empty() && (row[c] != "–" || c < table.text_columns)) shown[c] = true;
+    // Runs with many rows are set apart.
+    bool grouped = false;
+    for (std::size_t r = 1; r < table.rows.size(); ++r)
+      grouped = grouped || table.rows[r][0] == table.rows[r - 1][0];
+    s += "<div class=\"wide\"><table>\n<thead><tr>";
+    for (std::size_t c = 0; c < columns; ++c)
+      if (shown[c])
+        s += fmt::format("<th{} scope=\"col\">{}</th>", is_word(c) ? " class=\"word\"" : "",
+                         html_escaped(table.header[c]));
+    s += "</tr></thead>\n<tbody>\n";
+    for (std::size_t r = 0; r < table.rows.size(); ++r) {
+      std::string classes = table.states[r] == RowState::differs ? "differs" : "";
+      if (grouped && r > 0 && table.rows[r][0] != table.rows[r - 1][0])
+        classes += classes.empty() ? "next" : " next";
+      s += classes.empty() ? "<tr>" : fmt::format("<tr class=\"{}\">", classes);
+      for (std::size_t c = 0; c < columns; ++c) {
+        if (!shown[c]) continue;
+        const char *cell = table.header[c] == "agrees" ? " class=\"verb\""
+                           : is_word(c)                ? " class=\"word\""
+                                                       : "";
+        s += fmt::format("<td{}>{}</td>", cell, html_escaped(table.rows[r][c]));
+      }
+      s += "</tr>\n";
+    }
+    s += "</tbody></table></div>\n";
+  }
+  s += "<div class=\"notes\">";
+  for (const std::string &note : table.notes)
+    s += fmt::format("<p>{}</p>", html_escaped(note));
+  if (!table.rows.empty())
+    s += fmt::format("<p class=\"links\"><a href=\"data/{}.csv\">CSV of this table</a></p>", table.name);
+  return s + "</div>\n";
+}
+
+std::string figure_html(const PlannedFigure &figure) {
+  const std::string &name = figure.figure.name;
+  return fmt::format(
+      "<figure id=\"{0}\">\n<a href=\"figures/{0}.svg\"><img src=\"figures/{0}.svg\" alt=\"{1}\" "
+      "width=\"{4}\" height=\"{5}\" /></a>\n"
+      "<figcaption><strong>{2}.</strong> {3} <span class=\"links\">[<a href=\"data/{0}.csv\">CSV</a>, "
+      "<a href=\"figures/{0}.png\">PNG</a>, <a href=\"figures/{0}.svg\">SVG</a>, "
+      "<a href=\"figures/{0}.gp\">gnuplot script</a>]</span></figcaption>\n</figure>\n",
+      name, html_escaped(figure.figure.title), html_escaped(figure.label), html_escaped(figure.caption),
+      figure_width(figure.figure), figure_height(figure.figure));
+}
+
+std::string report_page(const ReportResults &results, const std::vector<ReportTable> &tables,
+                        const FigurePlan &plan, const std::vector<StudyLink> &studies,
+                        const ReportVersions &versions) {
+  std::string s;
   s += "<nav>\n<ol>\n";
   for (const Section &section : sections)
     s += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", section.id, html_escaped(section.title));
@@ -285,11 +291,20 @@ std::string report_page(const ReportResults &results, const std::vector<ReportTa
         s += table_html(table);
         any = true;
       }
+    if (id == "studies" && !studies.empty()) {
+      s += "<ul>\n";
+      for (const StudyLink &study : studies)
+        s += fmt::format("<li><a href=\"{}\">{}</a></li>\n", html_escaped(study.place), study.title);
+      s += "</ul>\n";
+      any = true;
+    }
     if (!any) s += "<p class=\"absent\">The given runs have nothing to show here.</p>\n";
     if (id == "summary") s += commands_html(results, versions);
     s += "</section>\n";
   }
-  return s + "</main>\n</body>\n</html>\n";
+  return html_page("Roller on soil: report of the runs",
+                   fmt::format("Made on {} by drumlin {}.", versions.made_at, versions.drumlin),
+                   s + "</main>\n");
 }
 
 } // namespace drumlin::post

@@ -16,6 +16,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
+bool is_study_folder(const fs::path &folder) {
+  return fs::is_regular_file(folder / "study.txt") && fs::is_regular_file(folder / "index.html");
+}
+
 bool is_run_folder(const fs::path &folder) { return fs::is_regular_file(folder / "chain.csv"); }
 
 /// The parameter as a number, if it is there. Throws for text that is no number.
@@ -149,15 +153,6 @@ constexpr const char *cycle_columns[] = {
     "a2_sin",          "ah_cos",        "ah_sin",     "work_excitation", "dissipated_contact",
     "dissipated_bond", "kinetic",       "potential",  "stored_contact",  "stored_bond"};
 
-CycleColumns read_cycle_columns(const fs::path &file) {
-  const Table table = read_table(file);
-  CycleColumns cycles;
-  cycles.rows = table.rows();
-  for (const char *name : cycle_columns)
-    if (table.has(name)) cycles.columns[name] = table.numbers(name);
-  return cycles;
-}
-
 } // namespace
 
 std::string Run::text(const std::string &parameter, const std::string &fallback) const {
@@ -165,34 +160,56 @@ std::string Run::text(const std::string &parameter, const std::string &fallback)
   return found == parameters.end() || found->second.empty() ? fallback : found->second;
 }
 
-std::vector<fs::path> find_run_folders(const std::vector<fs::path> &arguments) {
-  std::vector<fs::path> folders;
+ReportFolders find_report_folders(const std::vector<fs::path> &arguments) {
+  ReportFolders folders;
   std::set<fs::path> seen;
-  const auto add = [&](const fs::path &folder) {
-    if (seen.insert(fs::canonical(folder)).second) folders.push_back(folder);
+  const auto take = [&](const fs::path &folder, std::vector<fs::path> &into) {
+    if (seen.insert(fs::canonical(folder)).second) into.push_back(folder);
   };
   for (const fs::path &argument : arguments) {
     if (!fs::is_directory(argument))
-      throw UsageError(
-          fmt::format("'{}' is no folder; allowed are run folders (with chain.csv) and parents of them",
-                      argument.string()));
-    if (is_run_folder(argument)) {
-      add(argument);
-      continue;
+      throw UsageError(fmt::format("'{}' is no folder; allowed are run folders (with chain.csv), studies and "
+                                   "parents of them",
+                                   argument.string()));
+    std::vector<fs::path> runs;
+    std::vector<fs::path> studies;
+    if (is_study_folder(argument))
+      studies.push_back(argument);
+    else if (is_run_folder(argument))
+      runs.push_back(argument);
+    else
+      for (fs::recursive_directory_iterator entry(argument, fs::directory_options::skip_permission_denied),
+           end;
+           entry != end; ++entry) {
+        if (!entry->is_directory()) continue;
+        if (is_study_folder(entry->path())) {
+          studies.push_back(entry->path());
+          entry.disable_recursion_pending();
+        } else if (is_run_folder(entry->path())) {
+          runs.push_back(entry->path());
+        }
+      }
+    if (runs.empty() && studies.empty())
+      throw UsageError(fmt::format(
+          "'{}' has no chain.csv and no study in it or below it; allowed are run folders, studies "
+          "and parents of them",
+          argument.string()));
+    for (auto [found, into] : {std::pair{&runs, &folders.runs}, std::pair{&studies, &folders.studies}}) {
+      std::sort(found->begin(), found->end());
+      for (const fs::path &folder : *found)
+        take(folder, *into);
     }
-    std::vector<fs::path> below;
-    for (const fs::directory_entry &entry :
-         fs::recursive_directory_iterator(argument, fs::directory_options::skip_permission_denied))
-      if (entry.is_directory() && is_run_folder(entry.path())) below.push_back(entry.path());
-    if (below.empty())
-      throw UsageError(
-          fmt::format("'{}' has no chain.csv in it or below it; allowed are run folders and parents of them",
-                      argument.string()));
-    std::sort(below.begin(), below.end());
-    for (const fs::path &folder : below)
-      add(folder);
   }
   return folders;
+}
+
+CycleColumns read_cycle_columns(const fs::path &file) {
+  const Table table = read_table(file);
+  CycleColumns cycles;
+  cycles.rows = table.rows();
+  for (const char *name : cycle_columns)
+    if (table.has(name)) cycles.columns[name] = table.numbers(name);
+  return cycles;
 }
 
 Run read_run(const fs::path &folder) {

@@ -51,9 +51,18 @@ struct Run {
   Transition transition() const { return kind == RunKind::impact ? impact.transition : chain.transition; }
 };
 
-/// Run folders among `arguments`: each is one itself (holds chain.csv) or the parent of some at any depth
-/// below. Sorted below a parent, each folder once. Throws UsageError naming the folder that is none.
-std::vector<std::filesystem::path> find_run_folders(const std::vector<std::filesystem::path> &arguments);
+/// What a report is about.
+struct ReportFolders {
+  std::vector<std::filesystem::path> runs;    ///< hold chain.csv
+  std::vector<std::filesystem::path> studies; ///< hold study.txt and index.html
+};
+
+/// Run and study folders among `arguments`: each is one itself or the parent of some at any depth below. What is within a
+/// study belongs to it. Sorted below a parent, each folder once. Throws UsageError naming the folder that is none.
+ReportFolders find_report_folders(const std::vector<std::filesystem::path> &arguments);
+
+/// Reads the columns of a cycles.csv that are known; any may be missing.
+CycleColumns read_cycle_columns(const std::filesystem::path &file);
 
 /// Reads a run folder. Throws std::runtime_error with file and line for a file that cannot be understood.
 Run read_run(const std::filesystem::path &folder);

@@ -1,6 +1,7 @@
 #include "study_command.h"
 
 #include "study.h"
+#include "study_accuracy.h"
 
 #include <CLI/CLI.hpp>
 
@@ -19,7 +20,13 @@ struct Study {
 };
 
 // A new study is one line here.
-constexpr std::array<Study, 0> studies = {};
+constexpr std::array studies = {
+    Study{"accuracy",
+          "Error of the chain and of single impacts against step size and wall time, for both steppings and "
+          "the "
+          "engine's own contact law; tests what `drumlin advise` says. About half an hour.",
+          &run_accuracy_study},
+};
 
 } // namespace
 

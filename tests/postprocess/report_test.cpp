@@ -6,8 +6,8 @@
 #include "direct_solver.h"
 #include "report_html.h"
 #include "report_runs.h"
+#include "page.h"
 
-#include <expat.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -23,6 +23,8 @@
 namespace {
 
 using namespace drumlin::post;
+using drumlin::test::parse;
+using drumlin::test::Parsed;
 namespace fs = std::filesystem;
 
 std::string read(const fs::path &file) {
@@ -31,46 +33,6 @@ std::string read(const fs::path &file) {
 }
 
 void write(const fs::path &file, const std::string &text) { std::ofstream(file, std::ios::binary) << text; }
-
-/// What a strict parser finds in a page.
-struct Parsed {
-  bool well_formed = false;
-  std::string error;
-  std::vector<std::string> images;
-  std::vector<std::string> links;
-  std::vector<std::string> resources; ///< every other src, and what link, script, iframe and object load
-  std::set<std::string> ids;
-  std::size_t doubled_ids = 0;
-  std::size_t scripts = 0;
-};
-
-Parsed parse(const std::string &text) {
-  Parsed out;
-  XML_Parser parser = XML_ParserCreate("UTF-8");
-  XML_SetUserData(parser, &out);
-  XML_SetStartElementHandler(parser, [](void *data, const XML_Char *name, const XML_Char **attributes) {
-    Parsed &page = *static_cast<Parsed *>(data);
-    const std::string element = name;
-    if (element == "script") ++page.scripts;
-    for (; *attributes != nullptr; attributes += 2) {
-      const std::string attribute = attributes[0];
-      const std::string value = attributes[1];
-      if (attribute == "id" && !page.ids.insert(value).second) ++page.doubled_ids;
-      if (element == "img" && attribute == "src")
-        page.images.push_back(value);
-      else if (element == "a" && attribute == "href")
-        page.links.push_back(value);
-      else if (attribute == "src" || attribute == "srcset" || attribute == "href" || attribute == "data")
-        page.resources.push_back(value);
-    }
-  });
-  out.well_formed = XML_Parse(parser, text.data(), static_cast<int>(text.size()), XML_TRUE) == XML_STATUS_OK;
-  if (!out.well_formed)
-    out.error = fmt::format("line {}: {}", XML_GetCurrentLineNumber(parser),
-                            XML_ErrorString(XML_GetErrorCode(parser)));
-  XML_ParserFree(parser);
-  return out;
-}
 
 /// A folder as an engine run of the chain leaves it; what it holds is the direct solution.
 void write_chain_run(const fs::path &folder, const std::string &case_name, Transition transition, int cycles,
@@ -141,6 +103,15 @@ protected:
     write_chain_run(root / "runs" / "I-A", "I", Transition::A, 110);
     write_impact_run(root / "runs" / "impact-A", Transition::A, 0.5);
     write_impact_run(root / "runs" / "impact-B", Transition::B, 0.5);
+    // A study has a chain.csv of its own, which is no run.
+    for (const char *name : {"runs/study", "runs/more/study"}) {
+      fs::create_directories(root / name / "figures");
+      write(root / name / "study.txt", "drumlin\n");
+      write(root / name / "index.html",
+            fmt::format("<html><title>Cost of {} &amp; more</title></html>", name));
+      write(root / name / "chain.csv", "case,steps_per_cycle\nI,50\n");
+      write(root / name / "figures" / "f.svg", "<svg/>");
+    }
     ReportOptions options;
     options.folders = {root / "runs"};
     options.out = root / "report";
@@ -255,6 +226,25 @@ TEST_F(Report, HasEveryFileAndEveryPlaceThatItLinksTo) {
                                            : fs::is_regular_file(root / "report" / link);
     EXPECT_TRUE(found) << link;
   }
+}
+
+TEST_F(Report, TakesStudiesAlong) {
+  const std::string text = read(root / "report" / "index.html");
+  for (const auto &[place, title] :
+       {std::pair{"studies/study", "runs/more/study"}, {"studies/study-2", "runs/study"}}) {
+    EXPECT_TRUE(fs::is_regular_file(root / "report" / place / "figures" / "f.svg")) << place;
+    EXPECT_NE(text.find(fmt::format("<a href=\"{}/index.html\">Cost of {} &amp; more</a>", place, title)),
+              std::string::npos);
+  }
+}
+
+TEST_F(Report, IsMadeOfAStudyAlone) {
+  ReportOptions options;
+  options.folders = {root / "runs" / "study"};
+  options.out = root / "study-report";
+  const std::string text = read(write_report(options).page);
+  EXPECT_TRUE(parse(text).well_formed);
+  EXPECT_NE(text.find("studies/study/index.html"), std::string::npos);
 }
 
 TEST_F(Report, PrintsCommandsAsTextAndSaysWhatIsLeftOut) {

@@ -1,0 +1,122 @@
+#include "advise_command.h"
+
+#include "chain_csv.h"
+#include "chain_options.h"
+#include "step_advice.h"
+#include "study.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Arguments {
+  ChainArguments chain;
+  std::string error = "1e-3";
+  std::string stepping = "second";
+  std::string measure = "velocity";
+  std::string cycles = "30";
+  std::string from;
+};
+
+struct Measure {
+  const char *name;
+  ErrorMeasure measure;
+  const char *words;
+};
+constexpr std::array<Measure, 3> measures = {
+    {{"velocity", ErrorMeasure::velocity, "relative RMS error of the drum's velocity"},
+     {"force", ErrorMeasure::force, "relative error of the peak contact force"},
+     {"acceleration", ErrorMeasure::acceleration, "relative error of the drum's peak acceleration"}}};
+
+const Measure &measure_of(const std::string &name) {
+  const auto *const found =
+      std::find_if(measures.begin(), measures.end(), [&](const Measure &m) { return name == m.name; });
+  if (found == measures.end())
+    throw UsageError(fmt::format("--measure = '{}': allowed are velocity, force and acceleration", name));
+  return *found;
+}
+
+void run(const Arguments &arguments) {
+  AdviceRequest request;
+  request.parameters = judged(arguments.chain);
+  request.stepping = arguments.stepping;
+  if (request.stepping != "second" && request.stepping != "stock")
+    throw UsageError(fmt::format("--stepping = '{}': allowed are second and stock", request.stepping));
+  request.error = number_option("--error", arguments.error);
+  if (!(request.error > 0.0 && request.error < 1.0))
+    throw UsageError(fmt::format("--error = '{}': allowed are numbers above 0 and below 1", arguments.error));
+  const Measure &measure = measure_of(arguments.measure);
+  request.measure = measure.measure;
+  const int cycles = count_option("--cycles", arguments.cycles);
+  const fs::path folder = arguments.from.empty() ? input_file("study/accuracy") : fs::path(arguments.from);
+  if (!fs::is_regular_file(folder / "chain.csv"))
+    throw UsageError(fmt::format("--from = '{}': allowed are folders of an accuracy study, with chain.csv",
+                                 folder.string()));
+
+  const StepAdvice advice = advise(request, read_chain_points(folder / "chain.csv"));
+  const double step = request.parameters.period() / advice.steps_per_cycle;
+  fmt::print("{} steps per cycle, a step of {:.4g} s, with {} stepping\n", advice.steps_per_cycle, step,
+             request.stepping);
+  fmt::print("  for        {} of at most {:g} over cycles {} to {}\n", measure.words, request.error,
+             accuracy_cycles - accuracy_window + 1, accuracy_cycles);
+  const std::string curve =
+      fmt::format("case {} {}", advice.from, transition_name(request.parameters.transition));
+  if (advice.measured)
+    fmt::print("  from       runs of {} itself: all with as many steps or more kept to it\n", curve);
+  else
+    fmt::print("  from       the curve of {}, scaled by max(sqrt(k/m2), omega) dt and by the sensitivity "
+               "{:.2g} of this "
+               "chain, times {:g}\n"
+               "  scaling    {}\n",
+               curve, advice.sensitivity, scaling_margin,
+               scaling_summary(read_scaling_points(folder / "scaling.csv")));
+  fmt::print("  stability  the critical step is {:.4g} s, {:.3g} times as long\n",
+             request.parameters.period() / advice.critical_steps,
+             advice.steps_per_cycle / advice.critical_steps);
+  fmt::print("  time       about {:.2g} s for {} cycles at {:.2g} microseconds a step, as where the curves "
+             "were measured; "
+             "finding the equilibrium takes a few times the time of 30 cycles\n",
+             advice.seconds_per_step * cycles * advice.steps_per_cycle, cycles,
+             1e6 * advice.seconds_per_step);
+  fmt::print("  run        ./drumlin run inputs/chain/in.chain{} -var stepping {} -var cycles {} -var "
+             "steps_per_cycle {}\n",
+             deck_words(arguments.chain), request.stepping, cycles, advice.steps_per_cycle);
+}
+
+} // namespace
+
+void add_advise_command(CLI::App &app, Session &) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App *command = app.add_subcommand(
+      "advise",
+      "Steps per cycle that a run of the chain needs for an error, by the measured curves of the accuracy "
+      "study; for other chains than the measured ones scaled, with a margin.");
+  add_chain_options(*command, arguments->chain);
+  command->add_option("--error", arguments->error, "relative error that is allowed")
+      ->type_name("NUMBER")
+      ->capture_default_str();
+  command->add_option("--measure", arguments->measure, "error of: velocity, force or acceleration")
+      ->capture_default_str();
+  command->add_option("--stepping", arguments->stepping, "second or stock")->capture_default_str();
+  command->add_option("--cycles", arguments->cycles, "length of the run, for its time")
+      ->type_name("COUNT")
+      ->capture_default_str();
+  command
+      ->add_option("--from", arguments->from,
+                   "folder of an accuracy study of your own, instead of the project's")
+      ->type_name("DIR");
+  command->callback([arguments] { run(*arguments); });
+}
+
+} // namespace drumlin::post

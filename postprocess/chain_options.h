@@ -1,0 +1,36 @@
+// The chain on a command line: --case, --transition and what replaces the case's values. One rule and one kind of message
+// for all subcommands that take a chain.
+#pragma once
+
+#include "chain_model.h"
+
+#include <array>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace drumlin::post {
+
+/// The options as given. Numbers stay text until all are judged.
+struct ChainArguments {
+  std::string chain_case = "II";
+  std::string transition = "B";
+  std::array<std::string, 9> numbers; ///< k, D, omega, Fw, m2, m3, k23, c23, g; empty: the case's
+};
+
+/// Adds --case, --transition, --k and so on; `arguments` must outlive the app.
+void add_chain_options(CLI::App &command, ChainArguments &arguments);
+
+/// The chain that was asked for; UsageError if it cannot be computed.
+ChainParameters judged(const ChainArguments &arguments);
+
+/// The same as -var words for in.chain, each after a blank.
+std::string deck_words(const ChainArguments &arguments);
+
+/// The finite number, or the whole number from 1, that an option holds; else UsageError.
+double number_option(const char *option, const std::string &text);
+int count_option(const char *option, const std::string &text);
+
+} // namespace drumlin::post

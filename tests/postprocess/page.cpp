@@ -1,0 +1,36 @@
+#include "page.h"
+
+#include <expat.h>
+#include <fmt/format.h>
+
+namespace drumlin::test {
+
+Parsed parse(const std::string &text) {
+  Parsed out;
+  XML_Parser parser = XML_ParserCreate("UTF-8");
+  XML_SetUserData(parser, &out);
+  XML_SetStartElementHandler(parser, [](void *data, const XML_Char *name, const XML_Char **attributes) {
+    Parsed &page = *static_cast<Parsed *>(data);
+    const std::string element = name;
+    if (element == "script") ++page.scripts;
+    for (; *attributes != nullptr; attributes += 2) {
+      const std::string attribute = attributes[0];
+      const std::string value = attributes[1];
+      if (attribute == "id" && !page.ids.insert(value).second) ++page.doubled_ids;
+      if (element == "img" && attribute == "src")
+        page.images.push_back(value);
+      else if (element == "a" && attribute == "href")
+        page.links.push_back(value);
+      else if (attribute == "src" || attribute == "srcset" || attribute == "href" || attribute == "data")
+        page.resources.push_back(value);
+    }
+  });
+  out.well_formed = XML_Parse(parser, text.data(), static_cast<int>(text.size()), XML_TRUE) == XML_STATUS_OK;
+  if (!out.well_formed)
+    out.error = fmt::format("line {}: {}", XML_GetCurrentLineNumber(parser),
+                            XML_ErrorString(XML_GetErrorCode(parser)));
+  XML_ParserFree(parser);
+  return out;
+}
+
+} // namespace drumlin::test

@@ -1,0 +1,25 @@
+// A page as a strict reader meets it.
+#pragma once
+
+#include <cstddef>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+
+/// What a strict parser finds in a page.
+struct Parsed {
+  bool well_formed = false;
+  std::string error;
+  std::vector<std::string> images;
+  std::vector<std::string> links;
+  std::vector<std::string> resources; ///< every other src, and what link, script, iframe and object load
+  std::set<std::string> ids;
+  std::size_t doubled_ids = 0;
+  std::size_t scripts = 0;
+};
+
+Parsed parse(const std::string &text);
+
+} // namespace drumlin::test
