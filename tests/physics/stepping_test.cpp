@@ -111,9 +111,8 @@ TEST(SecondOrderStep, ForceNeverPullsUnderB) {
   for (const double D : {0.0, 0.5, 2.0, 50.0})
     for (const double rate : {-5.0, -0.1, 0.0, 0.1, 5.0}) {
       const double dt = 1e-4;
-      const auto f =
-          drumlin::physics::second_order_force(Transition::B, k, coefficient(D), {1e-3, rate, rate, dt}, 1e4,
-                                               coefficient(D) / m);
+      const auto f = drumlin::physics::second_order_force(Transition::B, k, coefficient(D),
+                                                          {1e-3, rate, rate, dt}, 1e4, coefficient(D) / m);
       EXPECT_GE(f.force, 0.0);
       EXPECT_GE(f.kick, 0.0);
     }
@@ -125,8 +124,8 @@ TEST(SecondOrderStep, MakeCarriesTheImpulseOfThePartInContact) {
   const double c = coefficient(0.2);
   for (const double theta : {0.01, 0.3, 0.5, 0.99}) {
     const double v = 1.0;
-    const auto f = drumlin::physics::second_order_force(Transition::B, k, c, {theta * dt * v, v, v, dt}, 0.0,
-                                                        c / m);
+    const auto f =
+        drumlin::physics::second_order_force(Transition::B, k, c, {theta * dt * v, v, v, dt}, 0.0, c / m);
     EXPECT_NEAR(f.force, c * v, 1e-4 * c);
     EXPECT_NEAR(0.5 * dt * f.kick, theta * dt * c * v, 1e-4 * dt * c);
   }
