@@ -91,7 +91,8 @@ double critical_steps(const ChainParameters &parameters, const std::string &step
   return p.period() / high;
 }
 
-StepAdvice advise(const AdviceRequest &request, const std::vector<ChainPoint> &points) {
+StepAdvice advise(const AdviceRequest &request, const std::vector<ChainPoint> &points,
+                  const std::function<double(const ChainParameters &)> &sensitivity_of) {
   const ChainParameters &p = request.parameters;
   const double order = request.stepping == "second" ? 2.0 : 1.0;
   StepAdvice advice;
@@ -109,7 +110,7 @@ StepAdvice advise(const AdviceRequest &request, const std::vector<ChainPoint> &p
         needed = *steps;
       }
   if (!advice.measured) {
-    advice.sensitivity = sensitivity(p);
+    advice.sensitivity = sensitivity_of(p);
     if (!(advice.sensitivity <= most_sensitive))
       throw UsageError(fmt::format("no step can be advised: a change of 1e-6 in k, D and m2 changes the "
                                    "drum's velocity by {:.2g} within {} "
@@ -119,7 +120,7 @@ StepAdvice advise(const AdviceRequest &request, const std::vector<ChainPoint> &p
       const ChainParameters known = table1_case(name, p.transition);
       const std::vector<ErrorPoint> curve = curve_of(name);
       if (curve.empty()) continue;
-      const double error = request.error * sensitivity(known) / advice.sensitivity;
+      const double error = request.error * sensitivity_of(known) / advice.sensitivity;
       const std::optional<double> steps = steps_for(curve, error, order);
       if (!steps) continue;
       const double scaled = scaling_margin * *steps * resolution(p) / resolution(known);
@@ -152,9 +153,10 @@ std::string scaling_summary(const std::vector<ScalingPoint> &points) {
     worst = std::max(worst, point.error / point.target);
   }
   if (points.empty()) return "not tested on other parameter sets";
-  return fmt::format("tested on {} other parameter sets: {} of {} runs kept the error asked for, the largest "
-                     "error was {:.2g} of it",
-                     sets.size(), kept, points.size(), worst);
+  return fmt::format(
+      "tested on {} other parameter sets: {} of {} runs kept the error asked for; the worst had "
+      "{:.2g} times as much",
+      sets.size(), kept, points.size(), worst);
 }
 
 } // namespace drumlin::post

@@ -12,6 +12,7 @@
 #include "accuracy_results.h"
 #include "chain_model.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -54,8 +55,10 @@ double sensitivity(const ChainParameters &parameters);
 double critical_steps(const ChainParameters &parameters, const std::string &stepping);
 
 /// \param points of an accuracy study
+/// \param sensitivity_of sensitivity(), or what remembers its answers
 /// UsageError if no number of steps can be advised: no curve, too sensitive, or more steps than the engine counts.
-StepAdvice advise(const AdviceRequest &request, const std::vector<ChainPoint> &points);
+StepAdvice advise(const AdviceRequest &request, const std::vector<ChainPoint> &points,
+                  const std::function<double(const ChainParameters &)> &sensitivity_of = sensitivity);
 
 /// One sentence on what runs at advised steps have shown.
 std::string scaling_summary(const std::vector<ScalingPoint> &points);
