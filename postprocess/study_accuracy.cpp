@@ -51,7 +51,8 @@ Plan plan_of(bool quick) {
     return a.steps_per_cycle < b.steps_per_cycle;
   });
 
-  for (double steps = quick ? 50.0 : 12.5; steps <= (quick ? 200.0 : 1600.0); steps *= 2.0)
+  for (const double steps : quick ? std::vector<double>{50, 100, 200}
+                                  : std::vector<double>{12.5, 25, 50, 100, 200, 400, 800, 1600})
     for (const Transition transition : {Transition::A, Transition::B})
       for (const double ratio : quick ? std::vector<double>{0.5} : std::vector<double>{0.2, 0.5, 0.8, 2.0})
         for (const char *stepping : {"second", "stock"})

@@ -82,7 +82,8 @@ TEST(StepsFor, NeverFallsWhenTheErrorFalls) {
   const std::vector<ErrorPoint> points = {{100, not_a_number}, {200, 5e-3},  {400, 2e-2},
                                           {800, 9e-3},         {1600, 9e-3}, {3200, 1e-5}};
   double last = 0.0;
-  for (double error = 1.0; error > 1e-8; error *= 0.9) {
+  for (int i = 0; i < 160; ++i) {
+    const double error = std::pow(0.9, i);
     const double steps = *steps_for(points, error, 1.0);
     EXPECT_GE(steps, last) << error;
     last = steps;
