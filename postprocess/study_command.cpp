@@ -2,6 +2,7 @@
 
 #include "study.h"
 #include "study_accuracy.h"
+#include "study_stability.h"
 
 #include <CLI/CLI.hpp>
 
@@ -26,6 +27,10 @@ constexpr std::array studies = {
           "the "
           "engine's own contact law; tests what `drumlin advise` says. About half an hour.",
           &run_accuracy_study},
+    Study{"stability",
+          "The longest stable step over damping, for both steppings; runs at the edges of what can be asked. "
+          "About ten minutes.",
+          &run_stability_study},
 };
 
 } // namespace

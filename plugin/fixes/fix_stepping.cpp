@@ -124,7 +124,24 @@ void FixStepping::pre_final_integrate() {
   constrain(true);
 }
 
+/// One entry per ball: constraints act on its forces as a whole, and what is taken back later is the difference that all
+/// its shifts together make.
+void FixStepping::merge_later() {
+  std::stable_sort(later_.begin(), later_.end(), [](const Later &a, const Later &b) { return a.i < b.i; });
+  std::size_t kept = 0;
+  for (const Later &item : later_)
+    if (kept > 0 && later_[kept - 1].i == item.i)
+      for (std::size_t a = 0; a < 3; ++a) {
+        later_[kept - 1].rest[a] += item.rest[a];
+        later_[kept - 1].shift[a] += item.shift[a];
+      }
+    else
+      later_[kept++] = item;
+  later_.resize(kept);
+}
+
 void FixStepping::end_of_step() {
+  merge_later();
   for (int i = 0; i < atom->nlocal; ++i)
     std::copy_n(atom->v[i], 3, state_[i]);
   double **f = atom->f;

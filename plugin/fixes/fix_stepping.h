@@ -69,6 +69,7 @@ private:
     int i;
     std::array<double, 3> rest, shift;
   };
+  void merge_later();
   void constrain(bool any) const;
 
   double **state_ = nullptr;       // per ball: v(t) (3), sum of c/m of the last step, of this step, v* (3)

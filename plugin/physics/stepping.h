@@ -104,10 +104,14 @@ struct CoupledDashpot {
   const double theta = motion.overlap / (motion.dt * motion.rate_half);
   const double rate_predicted = 2.0 * motion.rate_half - motion.rate_before;
   const double rate_at_make = motion.rate_before + (1.0 - theta) * (rate_predicted - motion.rate_before);
-  const double first = c * std::max(0.0, rate_at_make);
-  const double s = 0.5 * motion.dt * theta * c_over_m;
+  const double s_step = 0.5 * motion.dt * c_over_m;
+  const double s = theta * s_step;
+  // A dashpot so strong that it stops the ball within a half kick, this one or the next opening one, takes no more than the
+  // ball has: else it would throw it back.
+  const double first = c * std::max(0.0, rate_at_make) / std::max(1.0, s);
   const double slowed = 1.0 / (1.0 + s);
-  const double force = (k * slowed * motion.overlap + c * rate_predicted - s * first) / (1.0 + s);
+  const double force =
+      (k * slowed * motion.overlap + c * rate_predicted - s * first) / (std::max(1.0, s_step) + s);
   const double limited = transition == Transition::B && force < 0.0 ? 0.0 : force;
   return {limited, theta * (first + limited),
           slowed * theta * c * motion.overlap / motion.dt - 0.5 * limited};

@@ -293,10 +293,53 @@ TEST(ChainUnderB, ContactIsMadeAgainWhileOverlapping) {
     ASSERT_GT(x, 1.01 * deepest);
 }
 
-TEST(Settle, NamesASceneThatNeverSettles) {
+TEST(Settle, FindsAChainWithoutDampingAtRest) {
   const Scratch scratch;
   const Outcome outcome =
-      run_deck(chain_deck("in.chain"), {{"D", "0"}, {"c23", "0"}, {"settle_limit", "50000"}}, scratch.path());
+      run_deck(chain_deck("in.chain"), {{"D", "0"}, {"c23", "0"}, {"cycles", "1"}}, scratch.path());
+  EXPECT_TRUE(outcome.ok()) << outcome.output;
+  EXPECT_TRUE(outcome.says("after 0 steps")) << outcome.output;
+}
+
+// The dashpot alone stops the drum within a small part of a step.
+TEST(HeavyDamping, SecondOrderSteppingFollowsTheDirectSolver) {
+  ChainParameters p = post::table1_case("II", Transition::B);
+  p.D = 1e4;
+  post::DirectOptions options;
+  options.cycles = 3;
+  options.samples_per_cycle = 50;
+  const ChainHistory truth = post::solve_direct(p, options).history;
+  for (const int steps : {400, 4000}) {
+    const ChainHistory run =
+        run_chain("II", Transition::B, steps, 50, {{"D", "1e4"}, {"cycles", "3"}, {"stepping", "second"}})
+            .history;
+    EXPECT_LT(post::relative_rms(run.v_drum, truth.v_drum, 0, truth.size()), steps == 400 ? 0.1 : 5e-3);
+  }
+}
+
+// Contact and bond act on one drum: each must know what the other does in the step, or the two drive each other.
+TEST(HeavyDamping, LongStepsLeaveAChainAtRestAtRest) {
+  const ChainParameters p = post::table1_case("II", Transition::B);
+  const double static_overlap = (p.m2 + p.m3) * p.g / p.k;
+  for (const char *D : {"0", "2", "100", "1e4"})
+    for (const char *c23 : {"0", "1e4"}) {
+      const ChainHistory h =
+          run_chain(
+              "II", Transition::A, 725, 5,
+              {{"D", D}, {"c23", c23}, {"Fw", "0"}, {"omega", "1"}, {"cycles", "20"}, {"stepping", "second"}})
+              .history;
+      for (const double x : h.x_drum)
+        ASSERT_NEAR(x, -static_overlap, 1e-9 * static_overlap) << "D = " << D << ", c23 = " << c23;
+    }
+}
+
+TEST(Settle, NamesASceneThatNeverSettles) {
+  const Scratch scratch;
+  // So soft that the drum starts from a first touch, not from its equilibrium.
+  const Outcome outcome =
+      run_deck(chain_deck("in.chain"),
+               {{"D", "0"}, {"c23", "0"}, {"k", "5.8e4"}, {"guard", "off"}, {"settle_limit", "50000"}},
+               scratch.path());
   EXPECT_EQ(outcome.status, 1);
   EXPECT_FALSE(outcome.timed_out);
   EXPECT_TRUE(outcome.says("ERROR: drumlin/settle: no equilibrium")) << outcome.output;

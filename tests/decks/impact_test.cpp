@@ -168,6 +168,24 @@ TEST_P(Obstacles, BallPlaneAndMeshAreOne) {
   }
 }
 
+// Into a corner along its bisector: two contacts are made in one step, and neither knows of the other.
+TEST_P(Obstacles, CornerIsAPlaneInEachDirection) {
+  const auto run = [](const char *obstacle, const char *velocity) {
+    return run_balls({{"obstacle", obstacle},
+                      {"stepping", "second"},
+                      {"transition", post::transition_name(GetParam().transition)},
+                      {"dashpot", number(GetParam().D)},
+                      {"velocity2", velocity},
+                      {"gap", "0.0001"},
+                      {"dt", "1e-5"},
+                      {"steps", "3000"}});
+  };
+  const BallsRun plane = run("plane", "0 0 -0.5");
+  const BallsRun corner = run("corner", "-0.5 0 -0.5");
+  for (const std::size_t axis : {std::size_t{0}, std::size_t{2}})
+    EXPECT_LT(relative_difference(corner.series(1, &Ball::v, axis), plane.series(1, &Ball::v, 2)), 1e-11);
+}
+
 // Second-order stepping: over the phase of the onset, the rebound errs little and with the square of the step.
 struct Bound {
   Impact impact;

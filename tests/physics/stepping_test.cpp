@@ -71,6 +71,21 @@ INSTANTIATE_TEST_SUITE_P(Restitution, SingleImpact,
                                            Bound{Transition::A, 0.2, 3e-4, 2e-5},
                                            Bound{Transition::A, 0.5, 3e-4, 2e-5}));
 
+TEST(SecondOrderStep, DashpotThatStopsTheBallWithinAStepDoesNotThrowItBack) {
+  const double dt = M_PI / (w0 * 400.0);
+  for (const Transition transition : {Transition::A, Transition::B})
+    for (const double D : {100.0, 1e3, 1e4})
+      for (const double onset : {0.01, 0.5, 0.99}) {
+        SecondOrderBall ball(m, onset * dt, -1.0, dt, transition, {{0.0, 1.0, k, coefficient(D)}});
+        for (int step = 0; step < 2000; ++step) {
+          ball.step();
+          ASSERT_LT(ball.v, 0.01) << "D = " << D << ", onset " << onset;
+        }
+        EXPECT_LT(std::fabs(ball.v), 1e-3) << "D = " << D << ", onset " << onset;
+        EXPECT_LT(std::fabs(ball.x), dt) << "D = " << D << ", onset " << onset;
+      }
+}
+
 TEST(SecondOrderStep, SlowImpactOfAnUndampedBallKeepsItsEnergy) {
   const double dt = M_PI / (w0 * 50.0);
   SecondOrderBall ball(m, 0.3 * dt, -1.0, dt, Transition::B, {{0.0, 1.0, k, 0.0}});
