@@ -416,7 +416,7 @@ void write_accuracy_page(const fs::path &out) {
   figures.add(chain_figure(data, {"velocity_error_time", "Error of the drum's velocity against wall time",
                                   "relative RMS error (-)", &ChainErrors::velocity, true, "[1e-9:1]",
                                   "The same against what a cycle costs, by the engine's clock, without "
-                                  "starting and finding the equilibrium. "
+                                  "starting and settling. "
                                   "Runs of the engine's own law write the drum's velocity only; the others "
                                   "also events, cycles and every column "
                                   "of chain.csv."}));

@@ -85,8 +85,7 @@ void run(const Arguments &arguments) {
              request.parameters.period() / advice.critical_steps,
              advice.steps_per_cycle / advice.critical_steps);
   fmt::print("  time       about {:.2g} s for {} cycles at {:.2g} microseconds a step, as where the curves "
-             "were measured; "
-             "finding the equilibrium takes a few times the time of 30 cycles\n",
+             "were measured, besides the start of the engine\n",
              advice.seconds_per_step * cycles * advice.steps_per_cycle, cycles,
              1e6 * advice.seconds_per_step);
   fmt::print("  run        ./drumlin run inputs/chain/in.chain{} -var stepping {} -var cycles {} -var "

@@ -115,6 +115,16 @@ physics::BondForce FixBondSpring::law(const State &state) const {
   return physics::bond_force(bond_, state.distance, rate);
 }
 
+/// The dashpot alone, solved for without its neighbours, does not limit the step if it is light.
+physics::LinkModes FixBondSpring::modes() const {
+  physics::LinkModes modes;
+  modes.normal = state_.direction;
+  modes.normal_spring = bond_.stiffness * state_.inverse_masses;
+  const double c_over_m = bond_.damping * state_.inverse_masses;
+  if (stepping_ == nullptr || update->dt * c_over_m > physics::heavy_damping) modes.normal_dashpot = c_over_m;
+  return modes;
+}
+
 physics::BondForce FixBondSpring::evaluate() {
   if (!whole_) return {};
   const State s = share_state();
@@ -160,6 +170,8 @@ void FixBondSpring::post_force(int) {
     if (const int i = local_[b]; i >= 0) {
       const double sign = b == 0 ? 1.0 : -1.0; // tension pulls i towards j and j towards i
       if (stepping_) stepping_->add_damping(i, bond_.damping / atom->rmass[i]);
+      for (drumlin::ContactWatch *watch : drumlin::ContactWatch::looking())
+        watch->see(i, tags_[1 - b], modes(), 0.0);
       for (std::size_t a = 0; a < 3; ++a)
         f[i][a] += sign * acted_.force * state_.direction[a];
     }

@@ -2,6 +2,7 @@
 // fix bond/spring: a bonded spring-dashpot between two balls. See plugin/doc/fix_bond_spring.md.
 
 #include "engine.h"
+#include "fixes/contact_watch.h"
 #include "physics/bond_law.h"
 
 #include <optional>
@@ -40,6 +41,7 @@ private:
     std::array<double, 3> direction; // from i to j
   };
   drumlin::physics::BondForce law(const State &state) const;
+  drumlin::physics::LinkModes modes() const;
   State share_state();
   void find_balls();
 

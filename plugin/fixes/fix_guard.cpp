@@ -4,6 +4,7 @@
 
 #include <climits>
 #include <fmt/format.h>
+#include <limits>
 
 using namespace LAMMPS_NS;
 
@@ -12,29 +13,168 @@ namespace {
 /// Finite if and only if all three are: a sum of finite numbers of a simulation does not overflow.
 double sum(const double *v) { return v[0] + v[1] + v[2]; }
 
+/// Of a link that is alone in holding its two balls, s.
+double critical_step(const drumlin::physics::LinkModes &modes) {
+  drumlin::physics::LoadedBall ball;
+  ball.add(modes);
+  return ball.critical_step();
+}
+
+std::string pair_name(double ball, double partner) {
+  return partner > 0.0 ? fmt::format("balls {:.0f} and {:.0f}", ball, partner)
+                       : fmt::format("ball {:.0f} and a wall", ball);
+}
+
 } // namespace
 
 FixGuard::FixGuard(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) {
   nevery = 1;
+  scalar_flag = vector_flag = 1;
+  size_vector = 2;
+  global_freq = 1;
+  extscalar = extvector = 0;
+  critical_.value = std::numeric_limits<double>::infinity();
   drumlin::Arguments in(error, "fix guard", narg - 3, arg + 3);
   while (!in.empty()) {
     const std::string keyword = in.word("keyword");
     if (keyword == "every")
-      nevery = static_cast<int>(in.integer("keyword every", 1));
+      every_ = in.integer("keyword every", 1);
+    else if (keyword == "links")
+      links_ = in.integer("keyword links", 1);
+    else if (keyword == "step")
+      step_ = in.number("keyword step", drumlin::Range::positive);
+    else if (keyword == "overlap")
+      overlap_ = in.number("keyword overlap", drumlin::Range::positive);
     else if (keyword == "watch")
       watch_ = in.choice("keyword watch", {"on", "off"}) == 0;
     else
-      in.fail("unknown keyword '" + keyword + "'; allowed: every or watch");
+      in.fail("unknown keyword '" + keyword + "'; allowed: every, links, step, overlap or watch");
   }
 }
 
-int FixGuard::setmask() { return watch_ ? FixConst::END_OF_STEP : 0; }
+int FixGuard::setmask() {
+  return watch_ ? FixConst::INITIAL_INTEGRATE | FixConst::PRE_FORCE | FixConst::END_OF_STEP : 0;
+}
+
+void FixGuard::setup_pre_force(int) {
+  at_set_up_ = true;
+  begin_look();
+}
 
 void FixGuard::setup(int) {
-  if (watch_) end_of_step();
+  if (watch_) check_numbers();
+}
+
+/// The links of the set-up are complete when the set-up of every fix is over.
+void FixGuard::initial_integrate(int) {
+  if (!at_set_up_) return;
+  end_look();
+  at_set_up_ = false;
+}
+
+void FixGuard::pre_force(int) {
+  if (update->ntimestep % links_ == 0) begin_look();
 }
 
 void FixGuard::end_of_step() {
+  if (update->ntimestep % every_ == 0) check_numbers();
+  if (update->ntimestep % links_ == 0) end_look();
+}
+
+void FixGuard::begin_look() {
+  balls_.assign(static_cast<std::size_t>(atom->nlocal), {});
+  start_looking();
+}
+
+void FixGuard::see(int i, int partner, const drumlin::physics::LinkModes &modes, double overlap) {
+  if (!(atom->mask[i] & groupbit)) return;
+  Ball &ball = balls_[static_cast<std::size_t>(i)];
+  ball.loads.add(modes);
+  if (modes.normal_spring > ball.fastest) {
+    ball.fastest = modes.normal_spring;
+    ball.fastest_partner = partner;
+  }
+  if (const double alone = critical_step(modes); alone < ball.shortest) {
+    ball.shortest = alone;
+    ball.shortest_partner = partner;
+  }
+  if (overlap > ball.overlap) {
+    ball.overlap = overlap;
+    ball.overlap_partner = partner;
+  }
+}
+
+void FixGuard::end_look() {
+  stop_looking();
+  constexpr int findings = 3;
+  Finding mine[findings] = {{std::numeric_limits<double>::infinity(), 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  for (std::size_t i = 0; i < balls_.size(); ++i) {
+    const Ball &ball = balls_[i];
+    if (ball.fastest == 0.0) continue;
+    const double tag = atom->tag[i];
+    if (const double critical = ball.loads.critical_step(); critical < mine[0].value)
+      mine[0] = {critical, tag, static_cast<double>(ball.shortest_partner)};
+    if (ball.fastest > mine[1].value)
+      mine[1] = {ball.fastest, tag, static_cast<double>(ball.fastest_partner)};
+    if (ball.overlap > mine[2].value)
+      mine[2] = {ball.overlap, tag, static_cast<double>(ball.overlap_partner)};
+  }
+  constexpr int numbers = sizeof(Finding) / sizeof(double) * findings;
+  std::vector<std::array<Finding, findings>> all(static_cast<std::size_t>(comm->nprocs));
+  MPI_Allgather(mine, numbers, MPI_DOUBLE, all.data(), numbers, MPI_DOUBLE, world);
+  critical_ = all[0][0];
+  fastest_ = all[0][1];
+  deepest_ = all[0][2];
+  for (const std::array<Finding, findings> &rank : all) {
+    if (rank[0].value < critical_.value) critical_ = rank[0];
+    if (rank[1].value > fastest_.value) fastest_ = rank[1];
+    if (rank[2].value > deepest_.value) deepest_ = rank[2];
+  }
+
+  judge(update->ntimestep - (at_set_up_ ? 1 : 0)); // the step that follows the set-up has begun
+  if (at_set_up_) tell_at_set_up();
+}
+
+void FixGuard::judge(bigint step) const {
+  if (deepest_.value > overlap_)
+    error->all(
+        FLERR,
+        fmt::format("fix guard: the overlap of {} is {:.3g} of the smaller radius at step {}; allowed: "
+                    "at most {:.3g} of it (contacts too soft for their load, or balls placed in one another)",
+                    pair_name(deepest_.ball, deepest_.partner), deepest_.value, step, overlap_)
+            .c_str());
+  if (update->dt > step_ * critical_.value)
+    error->all(FLERR,
+               fmt::format(
+                   "fix guard: time step {:.4g} s, critical step {:.4g} s of ball {:.0f} at step {} (most of "
+                   "it by {}); allowed: at most {:.4g} s",
+                   update->dt, critical_.value, critical_.ball, step,
+                   pair_name(critical_.ball, critical_.partner), step_ * critical_.value)
+                   .c_str());
+}
+
+void FixGuard::tell_at_set_up() {
+  std::string text = fmt::format("fix guard {}: no contact and no bond yet\n", id);
+  if (fastest_.value > 0.0)
+    text = fmt::format(
+        "fix guard {}: critical step {:.4g} s at ball {:.0f} (most of it by {}), the step is {:.3g} of it; "
+        "pi/(w0 dt) = {:.4g} for {}; largest overlap {:.3g} of a radius\n",
+        id, critical_.value, critical_.ball, pair_name(critical_.ball, critical_.partner),
+        update->dt / critical_.value, steps_per_contact(), pair_name(fastest_.ball, fastest_.partner),
+        deepest_.value);
+  if (comm->me == 0 && text != told_)
+    for (FILE *out : {screen, logfile})
+      if (out) std::fputs(text.c_str(), out);
+  told_ = text;
+}
+
+double FixGuard::steps_per_contact() const {
+  return drumlin::physics::steps_per_contact(fastest_.value, 1.0, update->dt);
+}
+
+double FixGuard::compute_vector(int n) { return n == 0 ? steps_per_contact() : deepest_.value; }
+
+void FixGuard::check_numbers() {
   int bad = INT_MAX; // lowest tag of a ball with a number that is not finite
   for (int i = 0; i < atom->nlocal; ++i)
     if ((atom->mask[i] & groupbit) && !std::isfinite(sum(atom->x[i]) + sum(atom->v[i]) + sum(atom->f[i])) &&

@@ -4,10 +4,10 @@
 
 namespace drumlin {
 
-ModelSettings::ModelSettings(LAMMPS_NS::Error *error, const std::string &command, bool rolling, int narg,
-                             char **arg) {
+ModelSettings::ModelSettings(LAMMPS_NS::Error *error, const std::string &command,
+                             const Companions &companions, int narg, char **arg) {
   std::vector<std::string> keywords = {"transition", "damping", "stepping"};
-  if (rolling) keywords.emplace_back("torsionTorque");
+  if (companions.rolling) keywords.emplace_back("torsionTorque");
 
   Arguments in(error, command, narg, arg);
   while (!in.empty()) {
@@ -22,7 +22,7 @@ ModelSettings::ModelSettings(LAMMPS_NS::Error *error, const std::string &command
     } else if (keyword == "stepping") {
       words_.insert(words_.end(), {"stepping_stock",
                                    in.choice("keyword " + keyword, {"stock", "second"}) == 0 ? "on" : "off"});
-    } else if (keyword == "torsionTorque" && rolling) {
+    } else if (keyword == "torsionTorque" && companions.rolling) {
       words_.insert(words_.end(),
                     {keyword, in.choice("keyword " + keyword, {"on", "off"}) == 0 ? "on" : "off"});
     } else if (keyword == "tangential" || keyword == "rolling_friction" || keyword == "cohesion" ||
@@ -36,6 +36,10 @@ ModelSettings::ModelSettings(LAMMPS_NS::Error *error, const std::string &command
       in.fail("unknown keyword '" + keyword + "'; allowed: " + join_choices(keywords));
     }
   }
+  for (const auto &[word, given] : {std::pair{"tangential_spring", companions.tangential_spring},
+                                    std::pair{"tangential_dashpot", companions.tangential_dashpot},
+                                    std::pair{"rolling_spring", companions.rolling_spring}})
+    words_.insert(words_.end(), {word, given ? "on" : "off"});
   for (std::string &word : words_)
     pointers_.push_back(word.data());
 }

@@ -10,12 +10,19 @@
 
 namespace drumlin {
 
+/// The models beside the normal one.
+struct Companions {
+  bool tangential_spring, tangential_dashpot;
+  bool rolling, rolling_spring;
+};
+
 /// Words that the engine's settings parser gets, in its form.
 class ModelSettings {
 public:
   /// \param command for error texts, e.g. "pair_style gran model hooke/transition"
-  /// \param rolling the combination has a rolling model, which takes `torsionTorque on|off`
-  ModelSettings(LAMMPS_NS::Error *error, const std::string &command, bool rolling, int narg, char **arg);
+  /// \param companions a rolling model takes `torsionTorque on|off`; the normal model is told of the others' springs and dashpots
+  ModelSettings(LAMMPS_NS::Error *error, const std::string &command, const Companions &companions, int narg,
+                char **arg);
 
   int size() const { return static_cast<int>(pointers_.size()); }
   char **words() { return pointers_.data(); }

@@ -8,6 +8,7 @@ NORMAL_MODEL(HOOKE_TRANSITION, hooke / transition, 21)
 
 #include "contact_models.h"
 #include "atom.h"
+#include "domain.h"
 #include "error.h"
 #include "force.h"
 #include "neighbor.h"
@@ -19,6 +20,7 @@ NORMAL_MODEL(HOOKE_TRANSITION, hooke / transition, 21)
 #include <cmath>
 
 #include "fixes/contact_source.h"
+#include "fixes/contact_watch.h"
 #include "fixes/fix_stepping.h"
 #include "liggghts/contact_table.h"
 #include "physics/contact_law.h"
@@ -40,6 +42,9 @@ public:
     settings.registerOnOff("transition_A", transition_a_, false);
     settings.registerOnOff("damping_coefficient", damping_coefficient_, false);
     settings.registerOnOff("stepping_stock", stepping_stock_, false);
+    settings.registerOnOff("tangential_spring", tangential_spring_, false);
+    settings.registerOnOff("tangential_dashpot", tangential_dashpot_, false);
+    settings.registerOnOff("rolling_spring", rolling_spring_, false);
   }
 
   // While the deck is parsed: a fix added later, in the initialization of a run, would miss that run. A wall is a fix under
@@ -75,7 +80,10 @@ public:
     sidata.gamman = c;
     sidata.kt = p.tangential_stiffness;
     sidata.gammat = p.tangential_damping_share * c + p.tangential_damping;
-    apply(step, sidata.is_wall ? sidata.area_ratio : 1.0, sidata.en, sidata, i_forces, j_forces);
+    const double share = sidata.is_wall ? sidata.area_ratio : 1.0;
+    apply(step, share, sidata.en, sidata, i_forces, j_forces);
+    for (drumlin::ContactWatch *watch : drumlin::ContactWatch::looking())
+      show(*watch, share, sidata);
   }
 
   void surfacesClose(SurfacesCloseData &scdata, ForceData &i_forces, ForceData &j_forces) {
@@ -197,6 +205,31 @@ private:
     scdata.has_force_update = true;
   }
 
+  /// \param share of the stiffnesses that acts
+  void show(drumlin::ContactWatch &watch, double share, const SurfacesIntersectData &sidata) const {
+    const double mi = inverse_mass(sidata.i, sidata.mi);
+    const double mj = sidata.is_wall ? 0.0 : inverse_mass(sidata.j, sidata.mj);
+    if (mi + mj == 0.0) return;
+    const double mass_over_inertia = domain->dimension == 2 ? 2.0 : 2.5; // as fix nve/sphere turns balls
+    const double inverse_mt = 1.0 / drumlin::physics::tangential_mass(mi, mj, mass_over_inertia);
+    drumlin::physics::LinkModes modes;
+    std::copy_n(sidata.en, 3, modes.normal.begin());
+    modes.normal_spring = share * sidata.kn * (mi + mj);
+    if (!stepping_) modes.normal_dashpot = share * sidata.gamman * (mi + mj);
+    if (tangential_spring_) modes.tangential_spring = share * sidata.kt * inverse_mt;
+    if (tangential_dashpot_) modes.tangential_dashpot = share * sidata.gammat * inverse_mt;
+    const double ri = sidata.radi;
+    const double rj = sidata.is_wall ? ri : sidata.radj;
+    if (rolling_spring_) { // kr = kt r_eff^2, of the engine's epsd2
+      const double r_eff = sidata.is_wall ? ri : ri * rj / (ri + rj);
+      modes.rolling_spring =
+          share * sidata.kt * r_eff * r_eff * mass_over_inertia * (mi / (ri * ri) + mj / (rj * rj));
+    }
+    const double overlap = sidata.deltan / std::min(ri, rj);
+    if (mi > 0.0) watch.see(sidata.i, sidata.is_wall ? 0 : atom->tag[sidata.j], modes, overlap);
+    if (mj > 0.0 && sidata.j < atom->nlocal) watch.see(sidata.j, atom->tag[sidata.i], modes, overlap);
+  }
+
   double effective_mass(int i, int j) const {
     const auto *source = drumlin::contact_source(lmp);
     return source ? source->effective_mass(i, j)
@@ -207,6 +240,9 @@ private:
   bool transition_a_ = false;
   bool damping_coefficient_ = false;
   bool stepping_stock_ = false;
+  bool tangential_spring_ = false; // what the models beside this one have
+  bool tangential_dashpot_ = false;
+  bool rolling_spring_ = false;
   LAMMPS_NS::FixStepping *stepping_ = nullptr; // none under stock stepping
   int force_before_offset_ = 0;                // in the contact history, under second-order stepping
   drumlin::ContactTable table_;

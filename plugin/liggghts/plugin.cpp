@@ -74,6 +74,11 @@ struct PointersAccess : Pointers {
 template <class Style>
 constexpr bool has_history = Style::TANGENTIAL == TANGENTIAL_HISTORY || Style::ROLLING == ROLLING_EPSD2;
 
+template <class Style>
+constexpr drumlin::Companions companions{Style::TANGENTIAL == TANGENTIAL_HISTORY,
+                                         Style::TANGENTIAL != TANGENTIAL_OFF, Style::ROLLING != ROLLING_OFF,
+                                         Style::ROLLING == ROLLING_EPSD2};
+
 /// What a combination of models needs of the engine before it reads its properties.
 template <class Style>
 void prepare(LAMMPS *engine) {
@@ -89,8 +94,8 @@ public:
   TransitionPair(LAMMPS *engine, PairGran *pair, int64_t hash) : Base(engine, pair, hash), engine_(engine) {}
 
   void settings(int narg, char **arg, LIGGGHTS::IContactHistorySetup *history) override {
-    drumlin::ModelSettings words(engine_->error, "pair_style gran model hooke/transition",
-                                 Style::ROLLING != ROLLING_OFF, narg, arg);
+    drumlin::ModelSettings words(engine_->error, "pair_style gran model hooke/transition", companions<Style>,
+                                 narg, arg);
     Base::settings(words.size(), words.words(), history);
   }
 
@@ -112,8 +117,8 @@ public:
       : Base(engine, wall, hash), engine_(engine) {}
 
   void settings(int narg, char **arg, LIGGGHTS::IContactHistorySetup *history) override {
-    drumlin::ModelSettings words(engine_->error, "fix wall/gran model hooke/transition",
-                                 Style::ROLLING != ROLLING_OFF, narg, arg);
+    drumlin::ModelSettings words(engine_->error, "fix wall/gran model hooke/transition", companions<Style>,
+                                 narg, arg);
     Base::settings(words.size(), words.words(), history);
   }
 

@@ -55,11 +55,11 @@ struct LinkModes {
 
 /// A ball and the sum of what its links do to it.
 ///
-/// The step dt is safe if for every ball that moves the largest eigenvalue of  dt C / 2 + dt^2 K / 4  is at most 1, with
+/// The step dt is safe if for every ball that moves the largest eigenvalues of C and K have  dt C / 2 + dt^2 K / 4 <= 1,  with
 ///   K = sum over links of  k/m_eff n n^T + kt/m_t (1 - n n^T) + kr (1/Ii + 1/Ij),   C likewise with the dashpots.
 /// For by Cauchy-Schwarz a link takes no more than its share from the 4 m y^2 and 4 I q^2 of its two balls,
 ///   (n.(yi - yj))^2 <= (mi (n.yi)^2 + mj (n.yj)^2) / m_eff,   and with the rotations in the tangential plane likewise,
-/// so that 4 M - 2 dt C - dt^2 K of the whole system stays positive. It is exact for a ball between fixed partners and for a
+/// so that 4 M - 2 dt C - dt^2 K of the whole system stays positive. It is exact for links of one damping ratio between fixed partners and for a
 /// free pair, close for a row of like balls, and shorter than need be by up to a few per cent where balls roll.
 ///
 /// Second-order stepping solves for the normal dashpots (normal_dashpot = 0): the springs alone limit it. That no damping
@@ -69,13 +69,6 @@ public:
   void add(const LinkModes &link) {
     add(spring_, link.normal, link.normal_spring, link.tangential_spring, link.rolling_spring);
     add(dashpot_, link.normal, link.normal_dashpot, link.tangential_dashpot, 0.0);
-  }
-
-  /// Whether the step dt, s, is below the critical one at first glance; false may be wrong, true is not.
-  [[nodiscard]] bool clearly_stable(double dt) const {
-    const double k = spring_[0] + spring_[1] + spring_[2];
-    const double c = dashpot_[0] + dashpot_[1] + dashpot_[2];
-    return dt * (0.5 * c + 0.25 * dt * k) < 1.0;
   }
 
   /// Critical step, s; infinity without links.

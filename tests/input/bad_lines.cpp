@@ -394,32 +394,50 @@ BadGroup guard() {
   // No formula of the engine makes a NaN from words; an overflow does.
   const std::string undefined = "variable undefined equal (1e300*1e300)*0\n";
   const std::string addforce = undefined + "fix wrong drum addforce 0 0 v_undefined\n";
-  return {"Guard",
-          "",
-          {
-              line("every zero", "fix guard all guard every 0",
-                   {command + "keyword every is '0'", "a whole number from 1"}),
-              line("every without value", "fix guard all guard every",
-                   {command + "keyword every has no value", "a whole number from 1"}),
-              line("unknown watch", "fix guard all guard watch maybe",
-                   {command + "keyword watch is 'maybe'", "on or off"}),
-              line("unknown keyword", "fix guard all guard on",
-                   {command + "unknown keyword 'on'", "every or watch"}),
-              on_two_ranks(in_the_run(line("NaN at the start", addforce + "fix guard all guard",
-                                           {command + "ball 2 is not finite at step 0", "finite numbers"}))),
-              on_two_ranks(in_the_run(
-                  line("NaN in the run",
-                       "fix guard all guard\n" + undefined +
-                           "fix wrong drum addforce 0 0 0\nrun 5\nunfix wrong\nfix wrong drum addforce 0 0 "
-                           "v_undefined",
-                       {command + "ball 2 is not finite at step 6", "force 0 0 ", "finite numbers"}))),
-              in_the_run(line("NaN seen by the history", "fix guard all guard every 7\n" + addforce,
-                              {"fix roller/history: the drum is at ", " at step 1", "finite numbers"})),
-              in_the_run(line("infinite velocity",
-                              "fix guard all guard\nvelocity drum set 0 0 1e308 units box\nvelocity drum set "
-                              "0 0 1e308 sum yes units box",
-                              {command + "ball 2 is not finite at step 0", "velocity 0 0 inf"})),
-          }};
+  return {
+      "Guard",
+      "",
+      {
+          line("every zero", "fix guard all guard every 0",
+               {command + "keyword every is '0'", "a whole number from 1"}),
+          line("every without value", "fix guard all guard every",
+               {command + "keyword every has no value", "a whole number from 1"}),
+          line("unknown watch", "fix guard all guard watch maybe",
+               {command + "keyword watch is 'maybe'", "on or off"}),
+          line("unknown keyword", "fix guard all guard on",
+               {command + "unknown keyword 'on'", "every, links, step, overlap or watch"}),
+          line("links zero", "fix guard all guard links 0",
+               {command + "keyword links is '0'", "a whole number from 1"}),
+          line("step without value", "fix guard all guard step",
+               {command + "keyword step has no value", "a finite number > 0"}),
+          line("step zero", "fix guard all guard step 0",
+               {command + "keyword step is '0'", "a finite number > 0"}),
+          line("overlap is no number", "fix guard all guard overlap half",
+               {command + "keyword overlap is 'half'", "a finite number > 0"}),
+          on_two_ranks(in_the_run(line(
+              "step beyond the critical one", "fix bond all bond/spring 2 3 1e15 0\nfix guard all guard",
+              {command + "time step 1e-05 s, critical step 1.633e-06 s of ball 2 at step 0 (most of it by "
+                         "balls 2 and 3)",
+               "at most 1.633e-06 s"}))),
+          on_two_ranks(in_the_run(line("a ball in a ball",
+                                       "displace_atoms drum move 0 0 -0.6 units box\nfix guard all guard",
+                                       {command + "the overlap of balls ",
+                                        " is 1.2 of the smaller radius at step 0", "at most 0.5"}))),
+          on_two_ranks(in_the_run(line("NaN at the start", addforce + "fix guard all guard",
+                                       {command + "ball 2 is not finite at step 0", "finite numbers"}))),
+          on_two_ranks(in_the_run(
+              line("NaN in the run",
+                   "fix guard all guard\n" + undefined +
+                       "fix wrong drum addforce 0 0 0\nrun 5\nunfix wrong\nfix wrong drum addforce 0 0 "
+                       "v_undefined",
+                   {command + "ball 2 is not finite at step 6", "force 0 0 ", "finite numbers"}))),
+          in_the_run(line("NaN seen by the history", "fix guard all guard every 7\n" + addforce,
+                          {"fix roller/history: the drum is at ", " at step 1", "finite numbers"})),
+          in_the_run(line("infinite velocity",
+                          "fix guard all guard\nvelocity drum set 0 0 1e308 units box\nvelocity drum set "
+                          "0 0 1e308 sum yes units box",
+                          {command + "ball 2 is not finite at step 0", "velocity 0 0 inf"})),
+      }};
 }
 
 BadGroup check() {

@@ -1,0 +1,132 @@
+// fix guard in the engine: the critical step of scenes whose limit is known in closed form, and the runs that it stops.
+#include "scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <regex>
+#include <stdexcept>
+#include <string>
+
+namespace drumlin::test {
+namespace {
+
+constexpr double k = 1e8, m1 = 500, m2 = 2000, m_eff = m1 * m2 / (m1 + m2);
+
+struct Look {
+  double critical, steps_per_contact, overlap;
+};
+
+/// What fix guard says of a scene of balls.in in its last step.
+Look look(Variables variables, const std::string &words = "step 1e9") {
+  for (const auto &[name, value] :
+       Variables{{"guard", words}, {"steps", "2"}, {"dt", "1e-6"}, {"gap", "-0.003"}})
+    variables.emplace_back(name, value);
+  const BallsRun run = run_balls(variables);
+  std::smatch found;
+  const std::regex line("critical step ([0-9.e+-]+) s, pi/\\(w0 dt\\) ([0-9.e+-]+), overlap ([0-9.e+-]+)");
+  std::string told; // the engine echoes the command before it prints
+  for (std::sregex_iterator at(run.output.begin(), run.output.end(), line), end; at != end; ++at)
+    told = (found = *at).str();
+  if (told.empty()) throw std::runtime_error(run.output);
+  return {std::stod(found[1]), std::stod(found[2]), std::stod(found[3])};
+}
+
+Variables on(const char *obstacle, const char *stepping, double D) {
+  return {{"obstacle", obstacle}, {"stepping", stepping}, {"dashpot", number(D)}};
+}
+
+/// Root of k dt^2/4 + c dt/2 = m.
+double root(double stiffness, double damping, double mass) {
+  return (std::sqrt(damping * damping + 4 * stiffness * mass) - damping) / stiffness;
+}
+
+TEST(GuardLooks, AtOneContactAsInClosedForm) {
+  const double w0 = std::sqrt(k / m2);
+  for (const char *obstacle : {"ball", "plane", "mesh"})
+    for (const double D : {0.0, 0.5, 10.0}) {
+      const Look second = look(on(obstacle, "second", D));
+      EXPECT_NEAR(second.critical, 2 / w0, 1e-5 * second.critical) << obstacle << ", D = " << D;
+      EXPECT_NEAR(second.steps_per_contact, pi / (w0 * 1e-6), 1e-5 * second.steps_per_contact);
+      EXPECT_NEAR(second.overlap, 0.003 / (std::string(obstacle) == "ball" ? 0.5 : 0.75),
+                  1e-3 * second.overlap);
+      const double stock = 2 / w0 * (std::sqrt(1 + D * D) - D);
+      EXPECT_NEAR(look(on(obstacle, "stock", D)).critical, stock, 1e-4 * stock) << obstacle << ", D = " << D;
+    }
+}
+
+TEST(GuardLooks, AtContactsInEachDirectionForItself) {
+  const double w0 = std::sqrt(k / m2);
+  EXPECT_NEAR(look(on("corner", "second", 0.5)).critical, 2 / w0, 1e-5 / w0);
+}
+
+TEST(GuardLooks, AtBondAndContactOfAFreePairTogether) {
+  Variables pair = on("ball", "stock", 0.0);
+  for (const auto &[name, value] :
+       Variables{{"fixed", "3"}, {"m1", number(m1)}, {"k23", "2e7"}, {"bond", "3e5 length current"}})
+    pair.emplace_back(name, value);
+  const double stock = root(k + 2e7, 3e5, m_eff);
+  EXPECT_NEAR(look(pair).critical, stock, 1e-5 * stock);
+}
+
+TEST(GuardLooks, AtFrictionAndRolling) {
+  Variables pair = on("ball", "second", 0.5);
+  for (const auto &[name, value] :
+       Variables{{"fixed", "3"}, {"m1", number(m1)}, {"kt", "1e8"}, {"ct", "1e5"}, {"mu", "0.5"}})
+    pair.emplace_back(name, value);
+  // A sphere's tangential mass is 2/7 of its own.
+  Variables sliding = pair;
+  sliding.emplace_back("models", "tangential history");
+  const double slides = root(1e8, 1e5, m_eff * 2 / 7);
+  EXPECT_NEAR(look(sliding).critical, slides, 1e-5 * slides);
+  // kr = kt r_eff^2 in the rotation of both balls, I = 0.4 m r^2, beside the shear spring.
+  Variables rolling = pair;
+  rolling.emplace_back("mu_r", "0.1");
+  rolling.emplace_back("models", "tangential history rolling_friction epsd2");
+  const double r_eff = 0.5 * 0.75 / 1.25;
+  const double kr = 1e8 * r_eff * r_eff / 0.4 * (1 / (m1 * 0.25) + 1 / (m2 * 0.5625));
+  const double rolls = root(1e8 * 3.5 / m_eff + kr, 1e5 * 3.5 / m_eff, 1);
+  EXPECT_NEAR(look(rolling).critical, rolls, 1e-5 * rolls);
+}
+
+TEST(GuardStops, AtTheShareThatItIsTold) {
+  const double critical = 2 / std::sqrt(k / m2);
+  for (const double share : {0.25, 1.0}) {
+    const auto run = [&](double dt) {
+      Variables variables = on("plane", "second", 0.5);
+      for (const auto &[name, value] : Variables{
+               {"guard", "step " + number(share)}, {"dt", number(dt)}, {"gap", "-0.003"}, {"steps", "2"}})
+        variables.emplace_back(name, value);
+      return run_balls(variables);
+    };
+    EXPECT_NO_THROW(run(0.999 * share * critical));
+    try {
+      run(1.001 * share * critical);
+      ADD_FAILURE() << "ran beyond the limit";
+    } catch (const std::runtime_error &error) {
+      EXPECT_NE(std::string(error.what()).find("critical step 0.008944 s of ball 1 at step 0"),
+                std::string::npos)
+          << error.what();
+    }
+  }
+}
+
+// Found by a later look, not at set-up.
+TEST(GuardStops, WhenTheContactIsMade) {
+  Variables variables = on("plane", "second", 0.5);
+  for (const auto &[name, value] :
+       Variables{{"guard", "step 0.001"}, {"velocity2", "0 0 -0.5"}, {"gap", "1.05e-4"}, {"steps", "100"}})
+    variables.emplace_back(name, value);
+  try {
+    run_balls(variables);
+    ADD_FAILURE() << "ran beyond the limit";
+  } catch (const std::runtime_error &error) {
+    EXPECT_NE(std::string(error.what()).find("no contact and no bond yet"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("of ball 1 at step 21 (most of it by ball 1 and a wall)"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+} // namespace
+} // namespace drumlin::test
