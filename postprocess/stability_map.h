@@ -21,10 +21,11 @@ struct MapPoint {
   const HeldScene *scene;
   std::string stepping; ///< second or stock
   double D;
-  double stable;   ///< longest w0 dt that was stable
-  double unstable; ///< shortest that was not; infinite if none was
-  double limit;    ///< theory: of the scene under stock stepping, of its springs under second
+  double stable;         ///< longest w0 dt that was stable
+  double unstable;       ///< shortest that was not; infinite if none was
+  double limit;          ///< theory: of the scene under stock stepping, of its springs under second
   double middle() const; ///< between the two
+  double miss() const;   ///< middle / limit - 1
 };
 
 /// A promise about the map and whether it is kept.
