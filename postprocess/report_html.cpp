@@ -206,7 +206,7 @@ std::string table_html(const ReportTable &table) {
   const auto is_word = [&](std::size_t column) {
     const std::string &name = table.header[column];
     return column < table.text_columns || name == "agrees" || name == "remark" || name == "engine" ||
-           name == "plugin" || name == "integrated over";
+           name == "plugin" || name == "integrated over" || name == "command";
   };
   if (!table.rows.empty()) {
     // Columns that are empty throughout only take room.

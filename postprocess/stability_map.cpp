@@ -82,8 +82,8 @@ std::vector<bool> stable_balls(const std::filesystem::path &looks, int balls, bo
 std::vector<double> damping_ratios(bool quick) {
   if (quick) return {0.0, 2.0, 1e4};
   std::vector<double> values = {0.0};
-  for (int n = 0; n <= 18; ++n) // three to a decade
-    values.push_back(std::pow(10.0, -2.0 + n / 3.0));
+  for (int n = 0; n <= 12; ++n) // two to a decade
+    values.push_back(std::pow(10.0, -2.0 + n / 2.0));
   values.push_back(2.0); // Table 1, case IV
   std::sort(values.begin(), values.end());
   return values;
@@ -103,13 +103,15 @@ const std::vector<HeldScene> &held_scenes() {
 
 double MapPoint::middle() const { return std::isfinite(unstable) ? std::sqrt(stable * unstable) : stable; }
 
+double MapPoint::miss() const { return middle() / limit - 1.0; }
+
 std::vector<MapPoint> measure_stability_map(const StudyOptions &options) {
   StudyResults results(options.out / "map.csv",
                        {"scene", "stepping", "D", "w0dt_stable", "w0dt_unstable", "w0dt_theory", "single"},
                        3);
   const std::vector<double> ratios = damping_ratios(options.quick);
   const int balls = 160;
-  const int half = options.quick ? 2000 : 10000;
+  const int half = options.quick ? 2000 : 4000;
   const double width = options.quick ? 1e-2 : 1e-3;
   std::vector<const HeldScene *> scenes;
   for (const HeldScene &scene : held_scenes())
@@ -153,7 +155,7 @@ std::vector<MapVerdict> judge_stability_map(const std::vector<MapPoint> &map) {
   const MapPoint *worst = nullptr;      // stock, farthest from theory
   const MapPoint *lowest_one = nullptr; // second
   const MapPoint *two_at_2 = nullptr;
-  const auto miss = [](const MapPoint &p) { return std::fabs(p.middle() / p.limit - 1.0); };
+  const auto miss = [](const MapPoint &p) { return std::fabs(p.miss()); };
   for (const MapPoint &p : map) {
     if (p.stepping == "stock" && (worst == nullptr || miss(p) > miss(*worst))) worst = &p;
     if (p.stepping != "second") continue;

@@ -25,6 +25,7 @@ struct MapPoint {
   double unstable;       ///< shortest that was not; infinite if none was
   double limit;          ///< theory: of the scene under stock stepping, of its springs under second
   double middle() const; ///< between the two
+  double miss() const;   ///< middle / limit - 1
 };
 
 /// A promise about the map and whether it is kept.

@@ -2,6 +2,7 @@
 
 #include "stability_extremes.h"
 #include "stability_map.h"
+#include "stability_page.h"
 
 #include <fmt/format.h>
 #include <stdexcept>
@@ -11,12 +12,15 @@
 namespace drumlin::post {
 
 void run_stability_study(const StudyOptions &options) {
+  const std::vector<MapPoint> map = measure_stability_map(options);
+  const std::vector<ExtremeVerdict> extremes = measure_extremes(options);
+  write_stability_page(options.out, map, extremes);
+  fmt::print("{}\n", (options.out / "index.html").string());
+
   std::vector<std::string> failing;
-  for (const MapVerdict &verdict : judge_stability_map(measure_stability_map(options))) {
-    fmt::print("{}: {}: {}\n", verdict.promise, verdict.found, verdict.holds ? "holds" : "fails");
-    if (!verdict.holds) failing.push_back(verdict.promise);
-  }
-  for (const ExtremeVerdict &verdict : measure_extremes(options))
+  for (const MapVerdict &verdict : judge_stability_map(map))
+    if (!verdict.holds) failing.push_back(verdict.promise + ": " + verdict.found);
+  for (const ExtremeVerdict &verdict : extremes)
     if (!verdict.holds) failing.push_back(verdict.row.name);
   if (!failing.empty())
     throw std::runtime_error(fmt::format("{} rows fail: {}", failing.size(), fmt::join(failing, "; ")));

@@ -51,7 +51,8 @@ void FixStepping::init() {
   constraints_.clear();
   for (int n = 0; n < modify->nfix; ++n)
     for (const char *name : {"setforce", "freeze", "lineforce", "planeforce", "aveforce"})
-      if (std::string(modify->fix[n]->style) == name) constraints_.push_back(modify->fix[n]);
+      if (std::string(modify->fix[n]->style) == name)
+        constraints_.push_back({modify->fix[n], drumlin::engine::reaction(modify->fix[n])});
 }
 
 void FixStepping::setup_pre_force(int) {
@@ -114,10 +115,8 @@ void FixStepping::pre_final_integrate() {
       rate -= (vi[a] - vj[a]) * p.normal[a];
     const double acting = drumlin::physics::coupled_force(p.transition, p.dashpot, rate);
     const double change = p.share * (acting - p.dashpot.first);
-    for (std::size_t a = 0; a < 3; ++a) {
-      f[p.i][a] += change * p.normal[a];
-      if (p.j >= 0 && p.j < atom->nlocal) f[p.j][a] -= change * p.normal[a];
-    }
+    add_force(p.i, change, p.normal);
+    if (p.j >= 0 && p.j < atom->nlocal) add_force(p.j, -change, p.normal);
     *p.force = acting;
   }
   coupled_.clear();
@@ -146,8 +145,7 @@ void FixStepping::end_of_step() {
     std::copy_n(atom->v[i], 3, state_[i]);
   double **f = atom->f;
   for (const Later &item : later_)
-    for (std::size_t a = 0; a < 3; ++a)
-      f[item.i][a] += item.rest[a];
+    add_force(item.i, 1.0, item.rest);
   constrain(!later_.empty());
   // What the constraints leave of a shift is the difference that it makes to the constrained force.
   shifts_.swap(later_);
@@ -163,10 +161,27 @@ void FixStepping::end_of_step() {
       item.shift[a] = f[item.i][a] - item.rest[a];
 }
 
-/// Constraints are projections: acting again on what has passed them changes nothing else.
+/// Adds to the force on an owned ball what came too late for the constraints, and to what they say they took.
+void FixStepping::add_force(int i, double factor, const std::array<double, 3> &vector) {
+  for (std::size_t a = 0; a < 3; ++a)
+    atom->f[i][a] += factor * vector[a];
+  for (const Constraint &constraint : constraints_)
+    if (constraint.reaction != nullptr && (atom->mask[i] & constraint.fix->groupbit))
+      for (std::size_t a = 0; a < 3; ++a)
+        constraint.reaction[a] += factor * vector[a];
+}
+
+/// Constraints are projections: acting again on what has passed them changes nothing else. But they would say that they took
+/// what they find now.
 void FixStepping::constrain(bool any) const {
-  for (Fix *constraint : constraints_) // aveforce sums over the ranks, which must all call it
-    if (any || std::string(constraint->style) == "aveforce") constraint->post_force(0);
+  for (const Constraint &constraint : constraints_) {
+    // aveforce sums over the ranks, which must all call it
+    if (!any && std::string(constraint.fix->style) != "aveforce") continue;
+    std::array<double, 3> taken{};
+    if (constraint.reaction != nullptr) std::copy_n(constraint.reaction, 3, taken.begin());
+    constraint.fix->post_force(0);
+    if (constraint.reaction != nullptr) std::copy_n(taken.begin(), 3, constraint.reaction);
+  }
 }
 
 void FixStepping::grow_arrays(int nmax) { memory->grow(state_, nmax, columns, "drumlin/stepping:state"); }

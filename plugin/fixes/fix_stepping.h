@@ -69,7 +69,13 @@ private:
     int i;
     std::array<double, 3> rest, shift;
   };
+  /// A fix that takes forces away, and its own sum of what it took; nullptr if it has none that acting again would spoil.
+  struct Constraint {
+    Fix *fix;
+    double *reaction;
+  };
   void merge_later();
+  void add_force(int i, double factor, const std::array<double, 3> &vector);
   void constrain(bool any) const;
 
   double **state_ = nullptr;       // per ball: v(t) (3), sum of c/m of the last step, of this step, v* (3)
@@ -77,7 +83,7 @@ private:
   std::vector<Coupled> coupled_;   // of this step
   std::vector<Later> later_;       // of this step
   std::vector<Later> shifts_;      // in the opening half kick, not yet taken back
-  std::vector<Fix *> constraints_; // fixes that take forces away: they act again on forces that were put back
+  std::vector<Constraint> constraints_; // they act again on forces that were put back
 };
 
 } // namespace LAMMPS_NS

@@ -44,6 +44,10 @@ inline std::array<double, 3> gravity(LAMMPS_NS::Modify *modify) {
   return g;
 }
 
+/// The sums of force, N, x to z, that a fix freeze or setforce has taken from this rank's balls in this step and gives as its
+/// output; nullptr for another fix.
+double *reaction(LAMMPS_NS::Fix *fix);
+
 /// A fix by its ID, or nullptr.
 inline LAMMPS_NS::Fix *find_fix(LAMMPS_NS::Modify *modify, const std::string &id) {
   const int index = modify->find_fix(id.c_str());

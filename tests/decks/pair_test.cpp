@@ -213,5 +213,33 @@ TEST(Bond, BreaksOnceAtItsStrengthAndNeverPullsAgain) {
   EXPECT_GT(largest, 0.95 * strength);
 }
 
+/// With light and with heavy damping: dashpots alone, and solved for in a second pass.
+TEST(Reaction, OfAHeldBallIsWhatTheOtherBallGets) {
+  constexpr double m2 = 500, g = 9.81;
+  for (const char *held : {"freeze", "setforce 0 0 0"})
+    for (const char *dashpot : {"0.2", "5"}) {
+      const BallsRun run = run_balls({{"stepping", "second"},
+                                      {"held", held},
+                                      {"dashpot", dashpot},
+                                      {"m2", number(m2)},
+                                      {"gap", "1e-4"},
+                                      {"g", number(g)},
+                                      {"dt", "1e-4"},
+                                      {"steps", "2000"}});
+      ASSERT_EQ(run.reaction.size() + 1, run.frames.size());
+      ASSERT_FALSE(run.events.empty());
+      const auto made = static_cast<std::size_t>(std::ceil(run.events.front().time / 1e-4));
+      double most = 0, miss = 0;
+      for (std::size_t n = made + 1; n < run.frames.size(); ++n) {
+        const double contact = run.frames[n].balls.at(2).f[2] + m2 * g;
+        most = std::max(most, contact);
+        miss = std::max(miss, std::fabs(run.reaction[n - 1] + contact));
+      }
+      EXPECT_GT(most, m2 * g) << held << ", D = " << dashpot;
+      EXPECT_LT(miss, 1e-10 * most) << held << ", D = " << dashpot;
+      EXPECT_NEAR(run.reaction.back(), -m2 * g, 0.01 * m2 * g) << held << ", D = " << dashpot;
+    }
+}
+
 } // namespace
 } // namespace drumlin::test

@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <initializer_list>
+#include <iterator>
 #include <stdexcept>
 
 namespace drumlin::test {
@@ -18,7 +19,11 @@ BallsRun run_balls(const Variables &variables, int ranks) {
   write_floor(scratch / "floor.stl", 1.5, true);
   const Outcome outcome = run_deck(test_deck("balls.in"), variables, scratch.path(), ranks);
   if (!outcome.ok()) throw std::runtime_error("balls.in failed:\n" + outcome.output);
-  return {read_dump(scratch / "state.dump"), post::read_events(scratch / "events.csv"), outcome.output};
+  std::ifstream in(scratch / "reaction.txt");
+  return {read_dump(scratch / "state.dump"),
+          post::read_events(scratch / "events.csv"),
+          {std::istream_iterator<double>(in), {}},
+          outcome.output};
 }
 
 void write_floor(const std::filesystem::path &file, double half_width, bool single) {

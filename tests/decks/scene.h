@@ -9,6 +9,7 @@ namespace drumlin::test {
 struct BallsRun {
   std::vector<Frame> frames;
   std::vector<post::ContactEvent> events;
+  std::vector<double> reaction; ///< what the fixed ball's fix reads along z, N, from the second frame on
   std::string output;
 
   /// A component of one ball over the frames.
