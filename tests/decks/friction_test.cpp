@@ -198,7 +198,8 @@ void PrintTo(const SmallMotion &value, std::ostream *out) { *out << value.name; 
 class SmallMotions : public ::testing::TestWithParam<std::tuple<SmallMotion, std::string>> {};
 
 TEST_P(SmallMotions, AreOfTheOrderThatIsDocumented) {
-  const auto &[motion, stepping] = GetParam();
+  const SmallMotion &motion = std::get<0>(GetParam());
+  const std::string &stepping = std::get<1>(GetParam());
   constexpr double time = 0.1;
   const std::complex<double> half = 0.5 * motion.damping_over_mass;
   const std::complex<double> root = std::sqrt(half * half - motion.stiffness_over_mass);

@@ -193,9 +193,7 @@ TEST(CriticalStep, NeverExceedsTheTrueLimitOfRandomChains) {
   EXPECT_GT(tightest, 0.99); // a bound of zero would be safe too
 }
 
-TEST(CriticalStep, WithoutLinksIsUnlimited) {
-  EXPECT_EQ(LoadedBall().critical_step(), infinity);
-}
+TEST(CriticalStep, WithoutLinksIsUnlimited) { EXPECT_EQ(LoadedBall().critical_step(), infinity); }
 
 /// Balls in a plane that touch and rub: normal springs and dashpots by second-order stepping, shear springs and dashpots by the
 /// half-step velocity, as in the engine.
