@@ -135,8 +135,9 @@ Extreme edge_row(const std::string &name, ChainPlan plan, int cycles) {
   plan.w0_dt = w0_dt * (1.0 + 1e-12);
   plan.cycles = cycles;
   Extreme row = chain_row("At the longest stable step: w0 dt = 1.95", name, plan, 1e-2);
-  row.expected = fmt::format(
-      "way of the drum from rest over {:.0e} steps as the direct solver's (relative RMS)", cycles * steps);
+  row.expected =
+      fmt::format("way of the drum from rest over {:.0e} steps as the direct solver's (relative RMS)",
+                  static_cast<double>(cycles) * steps);
   row.error = [plan](const DeckRun &run) {
     return against_direct(plan, run.must_succeed(), [&](const ChainHistory &history) {
       return from_rest(history.x_drum, plan.parameters);

@@ -23,7 +23,7 @@ constexpr double growth_limit = 1e3; // a motion beyond so many first pushes has
 // With heavy damping and second-order stepping an unstable motion grows by as little as 1e-7 of itself per step. It shows in the part
 // of the motion that changes sign every step, measured at half time and at the end.
 constexpr double fast_growth = 1.0 + 1e-4;
-constexpr double fast_noise = 1e-13; // m: rounding
+constexpr double fast_noise = 1e-11; // m: above what rounding stirs up
 
 /// Fourth difference, largest over the window: 16 times what changes sign every step, next to nothing of what is slow.
 double fast_part(const std::vector<double> &x) {
@@ -73,6 +73,7 @@ std::vector<bool> stable_balls(const std::filesystem::path &looks, int balls, bo
   }
   if (!second_window) throw std::runtime_error(looks.string() + " has not two windows");
   std::vector<bool> stable;
+  stable.reserve(watched.size());
   for (const std::array<Watched, 2> &ball : watched)
     stable.push_back(ball[0].half_time.size() + ball[0].end.size() == count && !has_grown(ball[0], damped) &&
                      !has_grown(ball[1], damped));

@@ -101,7 +101,8 @@ struct CoupledDashpot {
     const double limited = transition == Transition::B && force < 0.0 ? 0.0 : force;
     return {limited, limited, 0.0};
   }
-  const double theta = motion.overlap / (motion.dt * motion.rate_half);
+  // A ball at rest that just touches has neither overlap nor rate.
+  const double theta = motion.overlap > 0.0 ? motion.overlap / (motion.dt * motion.rate_half) : 0.0;
   const double rate_predicted = 2.0 * motion.rate_half - motion.rate_before;
   const double rate_at_make = motion.rate_before + (1.0 - theta) * (rate_predicted - motion.rate_before);
   const double s_step = 0.5 * motion.dt * c_over_m;

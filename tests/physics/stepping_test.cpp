@@ -146,6 +146,16 @@ TEST(SecondOrderStep, MakeCarriesTheImpulseOfThePartInContact) {
   }
 }
 
+TEST(SecondOrderStep, BallAtRestThatJustTouchesFeelsNothing) {
+  for (const Transition transition : {Transition::A, Transition::B}) {
+    const drumlin::physics::StepForce step = drumlin::physics::second_order_force(
+        transition, k, coefficient(1.0), {0.0, 0.0, 0.0, 1e-3}, 0.0, coefficient(1.0) / m);
+    EXPECT_EQ(step.force, 0.0);
+    EXPECT_EQ(step.kick, 0.0);
+    EXPECT_EQ(step.shift, 0.0);
+  }
+}
+
 TEST(SecondOrderStep, BreakOfAEndsTheTensileForceWithinTheStep) {
   const double dt = 1e-7;
   const double c = coefficient(0.2);

@@ -1,46 +1,20 @@
 // `drumlin study accuracy --quick`: what it measures holds, and an interrupted call goes on to the same result.
 #include "accuracy_results.h"
-#include "page.h"
+#include "scratch_study.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 namespace drumlin::test {
 namespace {
 
 namespace fs = std::filesystem;
 using post::Transition;
-
-class AccuracyStudy : public ::testing::Test {
-protected:
-  AccuracyStudy() { fs::create_directories(folder_); }
-  ~AccuracyStudy() override { fs::remove_all(folder_); }
-  post::Outcome study(std::vector<std::string> words = {}) const {
-    words.insert(words.begin(), {DRUMLIN_TOOLS, "study", "accuracy", "--quick", "--out", "out"});
-    return post::run_program(words, {}, folder_, 200);
-  }
-  fs::path folder_ = fs::temp_directory_path() / fmt::format("drumlin-accuracy-{}", ::getpid());
-  fs::path out_ = folder_ / "out";
-};
-
-/// Every second row of a file away, and the last one cut short, as a kill leaves it.
-void interrupt(const fs::path &file) {
-  std::istringstream in(post::read_text(file));
-  std::string line, kept;
-  for (int row = 0; std::getline(in, line); ++row)
-    if (row == 0 || row % 2 == 1) kept += line + '\n';
-  kept.resize(kept.size() - 3);
-  std::ofstream(file) << kept;
-}
 
 /// Errors by point: all that does not depend on how busy the machine was.
 std::map<std::string, double> errors_of(const fs::path &out) {
@@ -63,26 +37,28 @@ std::map<std::string, double> errors_of(const fs::path &out) {
   return errors;
 }
 
-TEST_F(AccuracyStudy, GoesOnWhereItWasInterrupted) {
-  const post::Outcome whole = study();
+TEST(AccuracyStudy, GoesOnWhereItWasInterrupted) {
+  const ScratchStudy study("accuracy");
+  const fs::path out = study.out();
+  const post::Outcome whole = study.run();
   ASSERT_TRUE(whole.ok()) << whole.output;
-  const std::map<std::string, double> errors = errors_of(out_);
-  EXPECT_EQ(post::read_chain_points(out_ / "chain.csv").size(), 15u);
-  EXPECT_EQ(post::read_impact_points(out_ / "impacts.csv").size(), 12u);
-  EXPECT_EQ(post::read_scaling_points(out_ / "scaling.csv").size(), 1u);
+  const std::map<std::string, double> errors = errors_of(out);
+  EXPECT_EQ(post::read_chain_points(out / "chain.csv").size(), 15u);
+  EXPECT_EQ(post::read_impact_points(out / "impacts.csv").size(), 12u);
+  EXPECT_EQ(post::read_scaling_points(out / "scaling.csv").size(), 1u);
   for (const char *file : {"chain.csv", "impacts.csv", "scaling.csv"})
-    interrupt(out_ / file);
-  fs::remove(out_ / "index.html");
-  const post::Outcome rest = study();
+    interrupt(out / file);
+  fs::remove(out / "index.html");
+  const post::Outcome rest = study.run();
   ASSERT_TRUE(rest.ok()) << rest.output;
   EXPECT_LT(std::count(rest.output.begin(), rest.output.end(), '\n'), 20) << "nothing is measured twice";
-  EXPECT_EQ(errors_of(out_), errors);
+  EXPECT_EQ(errors_of(out), errors);
 
   // What was measured is what the stepping promises, and the law of the engine is the plugin's with stock stepping.
   for (const Transition transition : {Transition::A, Transition::B}) {
     const auto at_400 = [&](const char *stepping, auto error) {
       for (const post::ErrorPoint &point :
-           post::chain_curve(post::read_chain_points(out_ / "chain.csv"), "II", transition, stepping, error))
+           post::chain_curve(post::read_chain_points(out / "chain.csv"), "II", transition, stepping, error))
         if (point.steps == 400) return point.error;
       return std::nan("");
     };
@@ -96,22 +72,16 @@ TEST_F(AccuracyStudy, GoesOnWhereItWasInterrupted) {
       EXPECT_NEAR(at_400("reference", &post::ChainErrors::velocity),
                   at_400("stock", &post::ChainErrors::velocity), 1e-2);
     }
-    const auto impacts = post::impact_curve(post::read_impact_points(out_ / "impacts.csv"), transition, 0.5,
+    const auto impacts = post::impact_curve(post::read_impact_points(out / "impacts.csv"), transition, 0.5,
                                             "second", &post::ImpactErrors::worst);
     ASSERT_EQ(impacts.size(), 3u);
     EXPECT_LT(impacts[1].error, 1.5e-4);
     EXPECT_NEAR(impacts[0].error / impacts[2].error, 16, 4);
   }
-  for (const post::ScalingPoint &point : post::read_scaling_points(out_ / "scaling.csv"))
+  for (const post::ScalingPoint &point : post::read_scaling_points(out / "scaling.csv"))
     EXPECT_LT(point.error, point.target);
 
-  const Parsed page = parse(post::read_text(out_ / "index.html"));
-  EXPECT_TRUE(page.well_formed) << page.error;
-  EXPECT_EQ(page.doubled_ids, 0u);
-  EXPECT_GT(page.images.size(), 5u);
-  for (const std::vector<std::string> *links : {&page.images, &page.links})
-    for (const std::string &link : *links)
-      EXPECT_TRUE(fs::is_regular_file(out_ / link)) << link;
+  expect_sound_page(out, 6);
 }
 
 } // namespace
