@@ -71,7 +71,7 @@ void FixBondSpring::find_balls() {
 
 FixBondSpring::State FixBondSpring::share_state() {
   struct Ball { // as every rank shall know it
-    double x[3], v[3], v_before[3], inverse_mass, found;
+    double x[3], v[3], v_before[3], inverse_mass, damping_over_mass, found;
   };
   constexpr int numbers = sizeof(Ball) / sizeof(double);
   Ball mine[2] = {};
@@ -80,7 +80,10 @@ FixBondSpring::State FixBondSpring::share_state() {
       std::copy_n(atom->x[i], 3, mine[b].x);
       std::copy_n(atom->v[i], 3, mine[b].v);
       mine[b].inverse_mass = 1.0 / atom->rmass[i];
-      if (stepping_) std::copy_n(stepping_->velocity_before(i), 3, mine[b].v_before);
+      if (stepping_) {
+        std::copy_n(stepping_->velocity_before(i), 3, mine[b].v_before);
+        mine[b].damping_over_mass = stepping_->damping_over_mass(i);
+      }
       mine[b].found = 1.0;
     }
   Ball all[2] = {mine[0], mine[1]};
@@ -95,6 +98,7 @@ FixBondSpring::State FixBondSpring::share_state() {
   State s{};
   s.distance = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
   s.inverse_masses = all[0].inverse_mass + all[1].inverse_mass;
+  s.damping_over_mass = all[0].damping_over_mass + all[1].damping_over_mass;
   for (std::size_t a = 0; a < 3; ++a) {
     s.direction[a] = d[a] / s.distance;
     s.rate += (all[1].v[a] - all[0].v[a]) * s.direction[a];
@@ -103,25 +107,19 @@ FixBondSpring::State FixBondSpring::share_state() {
   return s;
 }
 
-physics::BondForce FixBondSpring::law(const State &state) const {
-  if (stepping_ == nullptr || update->setupflag)
-    return physics::bond_force(bond_, state.distance, state.rate);
-  const double dt = update->dt;
-  const double stretch = state.distance - bond_.length;
-  const double acting = physics::second_order_spring_dashpot(
-      bond_.stiffness, bond_.damping, {stretch, state.rate, state.rate_before, dt}, acted_.force,
-      bond_.damping * state.inverse_masses);
-  const double rate = bond_.damping > 0.0 ? (acting - bond_.stiffness * stretch) / bond_.damping : state.rate;
-  return physics::bond_force(bond_, state.distance, rate);
+/// The bond under a tension that its dashpot made up for.
+physics::BondForce FixBondSpring::under(double tension) const {
+  const double stretch = state_.distance - bond_.length;
+  const double rate =
+      bond_.damping > 0.0 ? (tension - bond_.stiffness * stretch) / bond_.damping : state_.rate;
+  return physics::bond_force(bond_, state_.distance, rate);
 }
 
-/// The dashpot alone, solved for without its neighbours, does not limit the step if it is light.
 physics::LinkModes FixBondSpring::modes() const {
   physics::LinkModes modes;
   modes.normal = state_.direction;
   modes.normal_spring = bond_.stiffness * state_.inverse_masses;
-  const double c_over_m = bond_.damping * state_.inverse_masses;
-  if (stepping_ == nullptr || update->dt * c_over_m > physics::heavy_damping) modes.normal_dashpot = c_over_m;
+  if (stepping_ == nullptr) modes.normal_dashpot = bond_.damping * state_.inverse_masses;
   return modes;
 }
 
@@ -153,28 +151,66 @@ void FixBondSpring::setup(int vflag) {
 void FixBondSpring::post_force(int) {
   if (!whole_) return;
   state_ = share_state();
-  acted_ = law(state_);
-  if (acted_.breaks) {
-    whole_ = false;
-    if (comm->me == 0)
-      error->warning(
-          FLERR,
-          fmt::format("fix bond/spring {}: the bond of balls {} and {} broke at step {} under {:.6g} N", id,
-                      tags_[0], tags_[1], update->ntimestep, acted_.force)
-              .c_str());
-    acted_ = {};
-    return;
-  }
-  double **f = atom->f;
   for (std::size_t b = 0; b < 2; ++b)
     if (const int i = local_[b]; i >= 0) {
-      const double sign = b == 0 ? 1.0 : -1.0; // tension pulls i towards j and j towards i
       if (stepping_) stepping_->add_damping(i, bond_.damping / atom->rmass[i]);
       for (drumlin::ContactWatch *watch : drumlin::ContactWatch::looking())
         watch->see(i, tags_[1 - b], modes(), 0.0);
-      for (std::size_t a = 0; a < 3; ++a)
-        f[i][a] += sign * acted_.force * state_.direction[a];
     }
+  if (stepping_ == nullptr || update->setupflag) {
+    take_note(physics::bond_force(bond_, state_.distance, state_.rate));
+    pull(acted_.force);
+    return;
+  }
+  const physics::StepMotion motion{state_.distance - bond_.length, state_.rate, state_.rate_before,
+                                   update->dt};
+  if (motion.dt * state_.damping_over_mass <= physics::heavy_damping) {
+    take_note(under(physics::second_order_spring_dashpot(bond_.stiffness, bond_.damping, motion, acted_.force,
+                                                         bond_.damping * state_.inverse_masses)));
+    pull(acted_.force);
+    return;
+  }
+  const physics::CoupledDashpot coupled = physics::coupled_dashpot(bond_.stiffness, bond_.damping, motion,
+                                                                   acted_.force, state_.damping_over_mass);
+  pull(coupled.first);
+  stepping_->couple([this, coupled] {
+    // There is no make and no clamp: A is the law without them.
+    take_note(under(physics::coupled_force(physics::Transition::A, coupled, predicted_rate())));
+    for (std::size_t b = 0; b < 2; ++b)
+      if (const int i = local_[b]; i >= 0)
+        stepping_->add_force(i, sign_[b] * (acted_.force - coupled.first), state_.direction);
+  });
+}
+
+/// Rate of the length with the velocities that FixStepping predicts.
+double FixBondSpring::predicted_rate() const {
+  double mine = 0.0;
+  for (std::size_t b = 0; b < 2; ++b)
+    if (const int i = local_[b]; i >= 0)
+      for (std::size_t a = 0; a < 3; ++a)
+        mine -= sign_[b] * stepping_->predicted_velocity(i)[a] * state_.direction[a];
+  double rate = mine;
+  if (comm->nprocs > 1) MPI_Allreduce(&mine, &rate, 1, MPI_DOUBLE, MPI_SUM, world);
+  return rate;
+}
+
+void FixBondSpring::pull(double tension) {
+  for (std::size_t b = 0; b < 2; ++b)
+    if (const int i = local_[b]; i >= 0)
+      for (std::size_t a = 0; a < 3; ++a)
+        atom->f[i][a] += sign_[b] * tension * state_.direction[a];
+}
+
+void FixBondSpring::take_note(const physics::BondForce &acting) {
+  acted_ = acting;
+  if (!acted_.breaks) return;
+  whole_ = false;
+  if (comm->me == 0)
+    error->warning(
+        FLERR, fmt::format("fix bond/spring {}: the bond of balls {} and {} broke at step {} under {:.6g} N",
+                           id, tags_[0], tags_[1], update->ntimestep, acted_.force)
+                   .c_str());
+  acted_ = {};
 }
 
 void FixBondSpring::write_restart(FILE *file) {

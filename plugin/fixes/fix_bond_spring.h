@@ -38,13 +38,18 @@ private:
     double rate;                     // with the velocities of now: half-step ones while forces are computed
     double rate_before;              // with the velocities at the begin of the step
     double inverse_masses;           // sum of both balls
+    double damping_over_mass;        // sum of c/m over the links of both balls
     std::array<double, 3> direction; // from i to j
   };
-  drumlin::physics::BondForce law(const State &state) const;
+  drumlin::physics::BondForce under(double tension) const;
   drumlin::physics::LinkModes modes() const;
   State share_state();
+  double predicted_rate() const;
+  void pull(double tension);
+  void take_note(const drumlin::physics::BondForce &acting);
   void find_balls();
 
+  static constexpr std::array<double, 2> sign_{1.0, -1.0}; // tension pulls i towards j and j towards i
   std::array<int, 2> tags_{};
   std::array<int, 2> local_{-1, -1}; // indices of owned balls, -1 for those of other ranks
   drumlin::physics::Bond bond_;

@@ -11,7 +11,6 @@ constexpr const char *helper_id = "drumlin_stepping";
 constexpr int columns = 8;
 constexpr int kept_columns = 5;   // what goes with a ball to another rank
 constexpr int shared_columns = 4; // what ghosts need
-constexpr int predicted = 5;      // first column of v*
 
 } // namespace
 
@@ -57,6 +56,7 @@ void FixStepping::init() {
 
 void FixStepping::setup_pre_force(int) {
   coupled_.clear();
+  coupled_links_.clear();
   later_.clear();
   shifts_.clear();
   for (int i = 0; i < atom->nlocal; ++i) {
@@ -86,7 +86,7 @@ void FixStepping::pre_force(int) {
 }
 
 void FixStepping::pre_final_integrate() {
-  int any = coupled_.empty() ? 0 : 1;
+  int any = coupled_.empty() && coupled_links_.empty() ? 0 : 1;
   if (comm->nprocs > 1) {
     const int mine = any;
     MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
@@ -120,6 +120,9 @@ void FixStepping::pre_final_integrate() {
     *p.force = acting;
   }
   coupled_.clear();
+  for (const std::function<void()> &close : coupled_links_)
+    close();
+  coupled_links_.clear();
   constrain(true);
 }
 
@@ -161,7 +164,6 @@ void FixStepping::end_of_step() {
       item.shift[a] = f[item.i][a] - item.rest[a];
 }
 
-/// Adds to the force on an owned ball what came too late for the constraints, and to what they say they took.
 void FixStepping::add_force(int i, double factor, const std::array<double, 3> &vector) {
   for (std::size_t a = 0; a < 3; ++a)
     atom->f[i][a] += factor * vector[a];

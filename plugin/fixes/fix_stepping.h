@@ -4,6 +4,8 @@
 #include "engine.h"
 #include "physics/stepping.h"
 
+#include <functional>
+
 namespace LAMMPS_NS {
 
 /// Keeps for each ball its velocity at the begin of the step and the sum c/m over its contacts, on ghosts too, and hands
@@ -63,8 +65,15 @@ public:
     double *force; ///< takes the force, N
   };
   void couple(const Coupled &contact) { coupled_.push_back(contact); }
+  /// The same for a link whose balls may be on any ranks: `close` is called on all ranks, when v* is known, and adds to the forces.
+  void couple(const std::function<void()> &close) { coupled_links_.push_back(close); }
+  /// v*, m/s, of an owned ball: in `close` only.
+  const double *predicted_velocity(int i) const { return state_[i] + predicted; }
+  /// Adds to the force on an owned ball what came too late for the constraints, and to what they say they took.
+  void add_force(int i, double factor, const std::array<double, 3> &vector);
 
 private:
+  static constexpr int predicted = 5; // first column of v*
   struct Later {
     int i;
     std::array<double, 3> rest, shift;
@@ -75,14 +84,14 @@ private:
     double *reaction;
   };
   void merge_later();
-  void add_force(int i, double factor, const std::array<double, 3> &vector);
   void constrain(bool any) const;
 
   double **state_ = nullptr;       // per ball: v(t) (3), sum of c/m of the last step, of this step, v* (3)
   bool sharing_predicted_ = false; // what the ghosts get: v*, else v(t) and the sum of the last step
   std::vector<Coupled> coupled_;   // of this step
-  std::vector<Later> later_;       // of this step
-  std::vector<Later> shifts_;      // in the opening half kick, not yet taken back
+  std::vector<std::function<void()>> coupled_links_;
+  std::vector<Later> later_;            // of this step
+  std::vector<Later> shifts_;           // in the opening half kick, not yet taken back
   std::vector<Constraint> constraints_; // they act again on forces that were put back
 };
 
