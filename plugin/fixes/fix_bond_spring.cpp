@@ -164,9 +164,11 @@ void FixBondSpring::post_force(int) {
   }
   const physics::StepMotion motion{state_.distance - bond_.length, state_.rate, state_.rate_before,
                                    update->dt};
-  if (motion.dt * state_.damping_over_mass <= physics::heavy_damping) {
+  // A light dashpot on its own: together with a far heavier one it would lag behind by many steps.
+  const double c_over_m = bond_.damping * state_.inverse_masses;
+  if (motion.dt * c_over_m <= physics::heavy_damping) {
     take_note(under(physics::second_order_spring_dashpot(bond_.stiffness, bond_.damping, motion, acted_.force,
-                                                         bond_.damping * state_.inverse_masses)));
+                                                         c_over_m)));
     pull(acted_.force);
     return;
   }
