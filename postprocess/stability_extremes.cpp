@@ -133,6 +133,7 @@ Extreme edge_row(const std::string &name, ChainPlan plan, int cycles) {
   const double softer = p.k / ChainParameters().k;
   p.k23 *= softer;
   p.c23 *= std::sqrt(softer);
+  p.g *= std::min(1.0, softer); // else a soft bond lets the frame out of the box
   constexpr double w0_dt = 1.95;
   constexpr int steps = 5000;
   p.omega = two_pi * fastest(p) / (w0_dt * steps);
