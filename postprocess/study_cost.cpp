@@ -106,7 +106,7 @@ std::vector<Scene> scenes(bool quick) {
 
 /// The bed of a scene, made if an earlier call did not finish it.
 fs::path settled(const Scene &scene, const fs::path &out) {
-  const fs::path file = out / fmt::format("bed_{}.data", scene.balls);
+  fs::path file = out / fmt::format("bed_{}.data", scene.balls);
   if (fs::exists(file)) return file;
   fmt::print("settling {}: {} steps\n", scene.name, scene.bed[3].second);
   std::fflush(stdout);
@@ -146,6 +146,8 @@ void check_same_work(const std::vector<Scene> &all, const std::vector<CostRun> &
         engine = &run;
       else if (run.scene == scene.name && run.variant == "stock")
         plugin = &run;
+    if (engine == nullptr || plugin == nullptr)
+      throw std::logic_error("a scene without the two laws that are compared");
     if (!(std::fabs(engine->place - plugin->place) <= scene.same))
       throw std::runtime_error(fmt::format("{}: the two laws ended at {} and {} m: not the same work",
                                            scene.name, engine->place, plugin->place));

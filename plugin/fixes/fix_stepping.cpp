@@ -8,10 +8,8 @@ using namespace LAMMPS_NS;
 namespace {
 
 constexpr const char *helper_id = "drumlin_stepping";
-constexpr int columns = 8;
-constexpr int kept_columns = 5;   // what goes with a ball to another rank
+constexpr int columns = 5;
 constexpr int shared_columns = 4; // what ghosts need
-constexpr int predicted = 5;      // first column of v*
 
 } // namespace
 
@@ -93,31 +91,30 @@ void FixStepping::pre_final_integrate() {
   if (any == 0) return;
 
   double **f = atom->f;
-  for (int i = 0; i < atom->nlocal; ++i) {
+  const int nlocal = atom->nlocal;
+  for (int i = 0; i < nlocal; ++i) {
     const double *v = atom->v[i];
-    double *star = state_[i] + predicted;
-    const bool rests =
-        v[0] == state_[i][0] && v[1] == state_[i][1] && v[2] == state_[i][2]; // forces do not move it
+    double *star = state_[i]; // in the place of v(t), which this step needs no more
+    const bool rests = v[0] == star[0] && v[1] == star[1] && v[2] == star[2]; // forces do not move it
+    const double kick = rests ? 0.0 : 0.5 * update->dt / atom->rmass[i];
     for (std::size_t a = 0; a < 3; ++a)
-      star[a] = v[a] + (rests ? 0.0 : 0.5 * update->dt * f[i][a] / atom->rmass[i]);
+      star[a] = v[a] + kick * f[i][a];
   }
-  if (comm->nprocs > 1 || atom->nghost > 0) {
-    sharing_predicted_ = true;
-    drumlin::engine::forward_comm(comm, this);
-    sharing_predicted_ = false;
-  }
+  if (comm->nprocs > 1 || atom->nghost > 0) drumlin::engine::forward_comm(comm, this);
   for (const Coupled &p : coupled_) {
-    const double *vi = state_[p.i] + predicted;
-    const double *vj = p.j < 0 ? p.wall_velocity.data() : state_[p.j] + predicted;
-    double rate = 0.0;
-    for (std::size_t a = 0; a < 3; ++a)
-      rate -= (vi[a] - vj[a]) * p.normal[a];
-    const double acting = drumlin::physics::coupled_force(p.transition, p.dashpot, rate);
+    const auto along = [&](int ball) {
+      const double *v = state_[ball];
+      return v[0] * p.normal[0] + v[1] * p.normal[1] + v[2] * p.normal[2];
+    };
+    const double rate = (p.j < 0 ? 0.0 : along(p.j)) - along(p.i);
+    const double acting = drumlin::physics::coupled_force(p.dashpot, rate);
     const double change = p.share * (acting - p.dashpot.first);
-    for (std::size_t a = 0; a < 3; ++a) {
-      f[p.i][a] += change * p.normal[a];
-      if (p.j >= 0 && p.j < atom->nlocal) f[p.j][a] -= change * p.normal[a];
-    }
+    const auto add = [&](double *ball, double size) {
+      for (std::size_t a = 0; a < 3; ++a)
+        ball[a] += size * p.normal[a];
+    };
+    add(f[p.i], change);
+    if (p.j >= 0 && p.j < nlocal) add(f[p.j], -change);
     *p.force = acting;
   }
   coupled_.clear();
@@ -174,28 +171,24 @@ void FixStepping::grow_arrays(int nmax) { memory->grow(state_, nmax, columns, "d
 void FixStepping::copy_arrays(int i, int j, int) { std::copy_n(state_[i], columns, state_[j]); }
 
 int FixStepping::pack_exchange(int i, double *buf) {
-  std::copy_n(state_[i], kept_columns, buf);
-  return kept_columns;
+  std::copy_n(state_[i], columns, buf);
+  return columns;
 }
 
 int FixStepping::unpack_exchange(int i, double *buf) {
-  std::copy_n(buf, kept_columns, state_[i]);
-  return kept_columns;
+  std::copy_n(buf, columns, state_[i]);
+  return columns;
 }
 
 int FixStepping::pack_comm(int n, int *list, double *buf, int, int *) {
-  const int first = sharing_predicted_ ? predicted : 0;
-  const int count = sharing_predicted_ ? 3 : shared_columns;
   for (int m = 0; m < n; ++m)
-    buf = std::copy_n(state_[list[m]] + first, count, buf);
-  return count;
+    buf = std::copy_n(state_[list[m]], shared_columns, buf);
+  return shared_columns;
 }
 
 void FixStepping::unpack_comm(int n, int begin, double *buf) {
-  const int first = sharing_predicted_ ? predicted : 0;
-  const int count = sharing_predicted_ ? 3 : shared_columns;
-  for (int i = begin; i < begin + n; ++i, buf += count)
-    std::copy_n(buf, count, state_[i] + first);
+  for (int i = begin; i < begin + n; ++i, buf += shared_columns)
+    std::copy_n(buf, shared_columns, state_[i]);
 }
 
 double FixStepping::memory_usage() { return static_cast<double>(atom->nmax) * columns * sizeof(double); }

@@ -56,13 +56,13 @@ public:
   /// A contact that is solved for together with the others, when all forces of the step are known: see coupled_force().
   struct Coupled {
     int i, j; ///< j < 0: a wall
-    std::array<double, 3> normal, wall_velocity;
-    drumlin::physics::CoupledDashpot dashpot;
-    drumlin::physics::Transition transition;
-    double share;  ///< of the force that acts, 1 but for a mesh
-    double *force; ///< takes the force, N
+    std::array<double, 3> normal;
+    drumlin::physics::CoupledDashpot dashpot; ///< sees the rate of a resting wall
+    double share;                             ///< of the force that acts, 1 but for a mesh
+    double *force;                            ///< takes the force, N
   };
-  void couple(const Coupled &contact) { coupled_.push_back(contact); }
+  /// A contact to be filled in, in its place: copying it as a whole would wait for its parts to be written.
+  Coupled &couple() { return coupled_.emplace_back(); }
 
 private:
   struct Later {
@@ -72,8 +72,8 @@ private:
   void merge_later();
   void constrain(bool any) const;
 
-  double **state_ = nullptr;       // per ball: v(t) (3), sum of c/m of the last step, of this step, v* (3)
-  bool sharing_predicted_ = false; // what the ghosts get: v*, else v(t) and the sum of the last step
+  double **state_ =
+      nullptr; // per ball: v(t), at the end of a step v* (3), sum of c/m of the last step, of this step
   std::vector<Coupled> coupled_;   // of this step
   std::vector<Later> later_;       // of this step
   std::vector<Later> shifts_;      // in the opening half kick, not yet taken back

@@ -114,13 +114,13 @@ private:
   /// Sets sidata.Fn and returns what to apply.
   inline drumlin::physics::StepForce second_order(SurfacesIntersectData &sidata, double k, double c) {
     using namespace drumlin::physics;
+    const double c_over_m_i = c * inverse_mass(sidata.i, sidata.mi);
+    const double c_over_m_j = sidata.is_wall ? 0.0 : c * inverse_mass(sidata.j, sidata.mj);
     if (update->setupflag) { // velocities belong to the time of the positions
       const StepForce step = stock(sidata, k, c);
-      note(sidata, c, step.force);
+      note(sidata, c_over_m_i, c_over_m_j);
       return step;
     }
-    const double own =
-        c * (inverse_mass(sidata.i, sidata.mi) + (sidata.is_wall ? 0.0 : inverse_mass(sidata.j, sidata.mj)));
     const StepMotion motion{sidata.deltan, -sidata.vn, rate_before(sidata, sidata.en), stepping_->dt()};
     const double recorded = sidata.contact_history[force_before_offset_];
     // No record although the contact is older than this step: a mesh contact went over to another triangle.
@@ -128,34 +128,34 @@ private:
                            ? recorded
                            : normal_force(transition(), k, c, motion.overlap - motion.dt * motion.rate_half,
                                           motion.rate_before);
-    const StepForce step = second_order_force(transition(), k, c, motion, old, own);
-    note(sidata, c, step.force);
+    // Friction and rolling take the force that the contact would have alone.
+    const StepForce step = second_order_force(transition(), k, c, motion, old, c_over_m_i + c_over_m_j);
+    sidata.Fn = step.force;
+    note(sidata, c_over_m_i, c_over_m_j);
     const double all = stepping_->damping_over_mass(sidata.i) +
                        (sidata.is_wall ? 0.0 : stepping_->damping_over_mass(sidata.j));
     if (motion.dt * all <= heavy_damping || made_in_step(motion) || !sidata.computeflag) return step;
 
-    // Friction and rolling take the force that the contact would have alone.
-    LAMMPS_NS::FixStepping::Coupled contact{sidata.i,
-                                            sidata.is_wall ? -1 : sidata.j,
-                                            {sidata.en[0], sidata.en[1], sidata.en[2]},
-                                            {},
-                                            coupled_dashpot(k, c, motion, old, all),
-                                            transition(),
-                                            sidata.is_wall ? sidata.area_ratio : 1.0,
-                                            &sidata.contact_history[force_before_offset_]};
-    if (sidata.is_wall) std::copy_n(sidata.v_j, 3, contact.wall_velocity.begin());
-    stepping_->couple(contact);
+    LAMMPS_NS::FixStepping::Coupled &contact = stepping_->couple();
+    contact.i = sidata.i;
+    contact.j = sidata.is_wall ? -1 : sidata.j;
+    contact.normal = {sidata.en[0], sidata.en[1], sidata.en[2]};
+    contact.dashpot = coupled_dashpot(transition(), k, c, motion, old, all);
+    if (sidata.is_wall)
+      contact.dashpot.at_rest +=
+          contact.dashpot.per_rate *
+          (sidata.v_j[0] * sidata.en[0] + sidata.v_j[1] * sidata.en[1] + sidata.v_j[2] * sidata.en[2]);
+    contact.share = sidata.is_wall ? sidata.area_ratio : 1.0;
+    contact.force = &sidata.contact_history[force_before_offset_];
     return {contact.dashpot.first, contact.dashpot.first, 0.0};
   }
 
   /// Takes note of a contact for the next step.
-  void note(SurfacesIntersectData &sidata, double c, double force) {
-    sidata.Fn = force;
+  void note(const SurfacesIntersectData &sidata, double c_over_m_i, double c_over_m_j) {
     if (!sidata.computeflag) return;
-    sidata.contact_history[force_before_offset_] = force;
-    stepping_->add_damping(sidata.i, c * inverse_mass(sidata.i, sidata.mi));
-    if (!sidata.is_wall && sidata.j < atom->nlocal)
-      stepping_->add_damping(sidata.j, c * inverse_mass(sidata.j, sidata.mj));
+    sidata.contact_history[force_before_offset_] = sidata.Fn;
+    stepping_->add_damping(sidata.i, c_over_m_i);
+    if (!sidata.is_wall && sidata.j < atom->nlocal) stepping_->add_damping(sidata.j, c_over_m_j);
   }
 
   /// Adds the force of the closing half kick, and has the rest added after it.
