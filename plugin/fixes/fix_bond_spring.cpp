@@ -159,7 +159,7 @@ void FixBondSpring::post_force(int) {
   for (std::size_t b = 0; b < 2; ++b)
     if (const int i = local_[b]; i >= 0) {
       const double sign = b == 0 ? 1.0 : -1.0; // tension pulls i towards j and j towards i
-      if (stepping_) stepping_->add_damping(i, bond_.damping / atom->rmass[i]);
+      if (stepping_) stepping_->add_damping(i, bond_.damping, atom->rmass[i]);
       for (std::size_t a = 0; a < 3; ++a)
         f[i][a] += sign * acted_.force * state_.direction[a];
     }

@@ -8,7 +8,7 @@ using namespace LAMMPS_NS;
 namespace {
 
 constexpr const char *helper_id = "drumlin_stepping";
-constexpr int columns = 5;
+constexpr int columns = 6;
 constexpr int shared_columns = 4; // what ghosts need
 
 } // namespace
@@ -59,6 +59,7 @@ void FixStepping::setup_pre_force(int) {
   for (int i = 0; i < atom->nlocal; ++i) {
     std::copy_n(atom->v[i], 3, state_[i]);
     state_[i][3] = state_[i][4] = 0.0;
+    state_[i][5] = 1.0; // any, as long as there is no contact
   }
 }
 
@@ -73,7 +74,7 @@ void FixStepping::post_integrate() {
   }
   shifts_.clear();
   for (int i = 0; i < atom->nlocal; ++i) {
-    state_[i][3] = state_[i][4];
+    state_[i][3] = state_[i][4] / state_[i][5];
     state_[i][4] = 0.0;
   }
 }

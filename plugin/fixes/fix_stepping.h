@@ -45,8 +45,11 @@ public:
   }
   double damping_over_mass(int i) const { return state_[i][3]; } ///< sum of c/m, 1/s, owned balls and ghosts
 
-  /// Counts a contact's c/m for the next step.
-  void add_damping(int i, double c_over_m) { state_[i][4] += c_over_m; }
+  /// Counts a contact's c for the next step. \param mass of ball i as its contacts feel it: infinite if it is fixed
+  void add_damping(int i, double c, double mass) {
+    state_[i][4] += c;
+    state_[i][5] = mass;
+  }
   /// Forces on an owned ball after the closing half kick of this step: `rest` stays for the next opening half kick, `shift`
   /// acts in the next drift only.
   void add_after_kick(int i, const std::array<double, 3> &rest, const std::array<double, 3> &shift) {
@@ -73,7 +76,7 @@ private:
   void constrain(bool any) const;
 
   double **state_ =
-      nullptr; // per ball: v(t), at the end of a step v* (3), sum of c/m of the last step, of this step
+      nullptr; // per ball: v(t), at the end of a step v* (3), sum of c/m of the last step; sum of c of this step, and mass
   std::vector<Coupled> coupled_;   // of this step
   std::vector<Later> later_;       // of this step
   std::vector<Later> shifts_;      // in the opening half kick, not yet taken back

@@ -17,6 +17,7 @@ NORMAL_MODEL(HOOKE_TRANSITION, hooke / transition, 21)
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fixes/contact_source.h"
 #include "fixes/fix_stepping.h"
@@ -91,10 +92,11 @@ private:
     return transition_a_ ? drumlin::physics::Transition::A : drumlin::physics::Transition::B;
   }
 
-  /// 1/m of ball i as its contacts feel it: 0 if frozen.
-  double inverse_mass(int i, double mass) const {
-    return atom->mask[i] & static_cast<LAMMPS_NS::PairGran *>(force->pair)->freeze_group_bit() ? 0.0
-                                                                                               : 1.0 / mass;
+  /// Mass of ball i as its contacts feel it, kg.
+  double mass(int i, double own) const {
+    return atom->mask[i] & static_cast<LAMMPS_NS::PairGran *>(force->pair)->freeze_group_bit()
+               ? std::numeric_limits<double>::infinity()
+               : own;
   }
 
   /// Rate of the overlap with the velocities at the begin of the step.
@@ -114,11 +116,9 @@ private:
   /// Sets sidata.Fn and returns what to apply.
   inline drumlin::physics::StepForce second_order(SurfacesIntersectData &sidata, double k, double c) {
     using namespace drumlin::physics;
-    const double c_over_m_i = c * inverse_mass(sidata.i, sidata.mi);
-    const double c_over_m_j = sidata.is_wall ? 0.0 : c * inverse_mass(sidata.j, sidata.mj);
     if (update->setupflag) { // velocities belong to the time of the positions
       const StepForce step = stock(sidata, k, c);
-      note(sidata, c_over_m_i, c_over_m_j);
+      note(sidata, c);
       return step;
     }
     const StepMotion motion{sidata.deltan, -sidata.vn, rate_before(sidata, sidata.en), stepping_->dt()};
@@ -129,9 +129,9 @@ private:
                            : normal_force(transition(), k, c, motion.overlap - motion.dt * motion.rate_half,
                                           motion.rate_before);
     // Friction and rolling take the force that the contact would have alone.
-    const StepForce step = second_order_force(transition(), k, c, motion, old, c_over_m_i + c_over_m_j);
+    const StepForce step = second_order_force(transition(), k, c, motion, old, c / sidata.meff);
     sidata.Fn = step.force;
-    note(sidata, c_over_m_i, c_over_m_j);
+    note(sidata, c);
     const double all = stepping_->damping_over_mass(sidata.i) +
                        (sidata.is_wall ? 0.0 : stepping_->damping_over_mass(sidata.j));
     if (motion.dt * all <= heavy_damping || made_in_step(motion) || !sidata.computeflag) return step;
@@ -151,11 +151,12 @@ private:
   }
 
   /// Takes note of a contact for the next step.
-  void note(const SurfacesIntersectData &sidata, double c_over_m_i, double c_over_m_j) {
+  void note(const SurfacesIntersectData &sidata, double c) {
     if (!sidata.computeflag) return;
     sidata.contact_history[force_before_offset_] = sidata.Fn;
-    stepping_->add_damping(sidata.i, c_over_m_i);
-    if (!sidata.is_wall && sidata.j < atom->nlocal) stepping_->add_damping(sidata.j, c_over_m_j);
+    stepping_->add_damping(sidata.i, c, mass(sidata.i, sidata.mi));
+    if (!sidata.is_wall && sidata.j < atom->nlocal)
+      stepping_->add_damping(sidata.j, c, mass(sidata.j, sidata.mj));
   }
 
   /// Adds the force of the closing half kick, and has the rest added after it.
