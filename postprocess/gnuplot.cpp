@@ -38,6 +38,8 @@ std::string_view style_words(CurveStyle style) {
     return "with points pt 5 ps 1.1 lc rgb '#0072B2'";
   case CurveStyle::plain:
     return "with lines lw 1.6 dt solid lc rgb '#000000'";
+  case CurveStyle::spread:
+    return "with yerrorbars pt 5 ps 0.9 lw 1.6 lc rgb '#0072B2'";
   case CurveStyle::limit:
     return "with lines lw 1.2 dt (24,8,4,8) lc rgb '#666666'";
   case CurveStyle::series_1:

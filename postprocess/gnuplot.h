@@ -18,7 +18,8 @@ enum class CurveStyle {
   measured_a,  ///< filled circles, vermilion
   measured_b,  ///< filled squares, blue
   plain,       ///< solid line, black
-  limit,       ///< thin dash-dotted line, grey: a tolerance or a bound
+  spread,   ///< bars from low to high with a square at the middle, blue; y names three columns, e.g. "3:4:5"
+  limit,    ///< thin dash-dotted line, grey: a tolerance or a bound
   series_1, ///< series_1 to series_6: lines with markers, each with a dash, a marker and a colour of its own
   series_2,
   series_3,

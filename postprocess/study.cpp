@@ -159,11 +159,11 @@ const DeckRun &DeckRun::must_succeed() const {
   throw std::runtime_error(fmt::format("{}: {}", deck_, why));
 }
 
-double DeckRun::loop_seconds() const {
-  const std::string mark = "Loop time of ";
-  const std::size_t found = outcome_.output.rfind(mark);
-  if (found == std::string::npos) throw std::runtime_error(deck_ + ": the engine gave no loop time");
-  return std::strtod(outcome_.output.c_str() + found + mark.size(), nullptr);
+double DeckRun::printed(const std::string &text) const {
+  const std::size_t found = outcome_.output.rfind(text);
+  if (found == std::string::npos)
+    throw std::runtime_error(fmt::format("{}: the engine did not print '{}'", deck_, text));
+  return std::strtod(outcome_.output.c_str() + found + text.size(), nullptr);
 }
 
 double median(std::vector<double> values) {

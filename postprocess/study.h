@@ -82,8 +82,10 @@ public:
   const DeckRun &must_succeed() const;
   /// What the run wrote.
   std::filesystem::path file(const std::string &name) const { return folder_ / name; }
+  /// The number behind the last place of a text in what the engine printed. Throws std::runtime_error if there is none.
+  double printed(const std::string &text) const;
   /// Seconds that the last `run` of the deck took, by the engine's own clock.
-  double loop_seconds() const;
+  double loop_seconds() const { return printed("Loop time of "); }
   /// Wall time of the whole process, s.
   double wall_seconds() const { return wall_seconds_; }
 

@@ -2,6 +2,7 @@
 
 #include "study.h"
 #include "study_accuracy.h"
+#include "study_cost.h"
 #include "study_stability.h"
 
 #include <CLI/CLI.hpp>
@@ -27,6 +28,10 @@ constexpr std::array studies = {
           "the "
           "engine's own contact law; tests what `drumlin advise` says. About half an hour.",
           &run_accuracy_study},
+    Study{"cost",
+          "What a step costs on the chain and on settled beds, and what each optional piece adds, as ratios "
+          "within interleaved rounds. About a quarter of an hour, on a quiet machine.",
+          &run_cost_study},
     Study{"stability",
           "The longest stable step over damping, for both steppings; runs at the edges of what can be asked. "
           "About ten minutes.",

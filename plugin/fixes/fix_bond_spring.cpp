@@ -153,7 +153,7 @@ void FixBondSpring::post_force(int) {
   state_ = share_state();
   for (std::size_t b = 0; b < 2; ++b)
     if (const int i = local_[b]; i >= 0) {
-      if (stepping_) stepping_->add_damping(i, bond_.damping / atom->rmass[i]);
+      if (stepping_) stepping_->add_damping(i, bond_.damping, atom->rmass[i]);
       for (drumlin::ContactWatch *watch : drumlin::ContactWatch::looking())
         watch->see(i, tags_[1 - b], modes(), 0.0);
     }
@@ -172,12 +172,12 @@ void FixBondSpring::post_force(int) {
     pull(acted_.force);
     return;
   }
-  const physics::CoupledDashpot coupled = physics::coupled_dashpot(bond_.stiffness, bond_.damping, motion,
-                                                                   acted_.force, state_.damping_over_mass);
+  // There is no make and no clamp: A is the law without them.
+  const physics::CoupledDashpot coupled = physics::coupled_dashpot(
+      physics::Transition::A, bond_.stiffness, bond_.damping, motion, acted_.force, state_.damping_over_mass);
   pull(coupled.first);
   stepping_->couple([this, coupled] {
-    // There is no make and no clamp: A is the law without them.
-    take_note(under(physics::coupled_force(physics::Transition::A, coupled, predicted_rate())));
+    take_note(under(physics::coupled_force(coupled, predicted_rate())));
     for (std::size_t b = 0; b < 2; ++b)
       if (const int i = local_[b]; i >= 0)
         stepping_->add_force(i, sign_[b] * (acted_.force - coupled.first), state_.direction);

@@ -8,8 +8,7 @@ using namespace LAMMPS_NS;
 namespace {
 
 constexpr const char *helper_id = "drumlin_stepping";
-constexpr int columns = 8;
-constexpr int kept_columns = 5;   // what goes with a ball to another rank
+constexpr int columns = 6;
 constexpr int shared_columns = 4; // what ghosts need
 
 } // namespace
@@ -62,6 +61,7 @@ void FixStepping::setup_pre_force(int) {
   for (int i = 0; i < atom->nlocal; ++i) {
     std::copy_n(atom->v[i], 3, state_[i]);
     state_[i][3] = state_[i][4] = 0.0;
+    state_[i][5] = 1.0; // any, as long as there is no contact
   }
 }
 
@@ -76,7 +76,7 @@ void FixStepping::post_integrate() {
   }
   shifts_.clear();
   for (int i = 0; i < atom->nlocal; ++i) {
-    state_[i][3] = state_[i][4];
+    state_[i][3] = state_[i][4] / state_[i][5];
     state_[i][4] = 0.0;
   }
 }
@@ -94,29 +94,26 @@ void FixStepping::pre_final_integrate() {
   if (any == 0) return;
 
   double **f = atom->f;
-  for (int i = 0; i < atom->nlocal; ++i) {
+  const int nlocal = atom->nlocal;
+  for (int i = 0; i < nlocal; ++i) {
     const double *v = atom->v[i];
-    double *star = state_[i] + predicted;
-    const bool rests =
-        v[0] == state_[i][0] && v[1] == state_[i][1] && v[2] == state_[i][2]; // forces do not move it
+    double *star = state_[i]; // in the place of v(t), which this step needs no more
+    const bool rests = v[0] == star[0] && v[1] == star[1] && v[2] == star[2]; // forces do not move it
+    const double kick = rests ? 0.0 : 0.5 * update->dt / atom->rmass[i];
     for (std::size_t a = 0; a < 3; ++a)
-      star[a] = v[a] + (rests ? 0.0 : 0.5 * update->dt * f[i][a] / atom->rmass[i]);
+      star[a] = v[a] + kick * f[i][a];
   }
-  if (comm->nprocs > 1 || atom->nghost > 0) {
-    sharing_predicted_ = true;
-    drumlin::engine::forward_comm(comm, this);
-    sharing_predicted_ = false;
-  }
+  if (comm->nprocs > 1 || atom->nghost > 0) drumlin::engine::forward_comm(comm, this);
   for (const Coupled &p : coupled_) {
-    const double *vi = state_[p.i] + predicted;
-    const double *vj = p.j < 0 ? p.wall_velocity.data() : state_[p.j] + predicted;
-    double rate = 0.0;
-    for (std::size_t a = 0; a < 3; ++a)
-      rate -= (vi[a] - vj[a]) * p.normal[a];
-    const double acting = drumlin::physics::coupled_force(p.transition, p.dashpot, rate);
+    const auto along = [&](int ball) {
+      const double *v = state_[ball];
+      return v[0] * p.normal[0] + v[1] * p.normal[1] + v[2] * p.normal[2];
+    };
+    const double rate = (p.j < 0 ? 0.0 : along(p.j)) - along(p.i);
+    const double acting = drumlin::physics::coupled_force(p.dashpot, rate);
     const double change = p.share * (acting - p.dashpot.first);
     add_force(p.i, change, p.normal);
-    if (p.j >= 0 && p.j < atom->nlocal) add_force(p.j, -change, p.normal);
+    if (p.j >= 0 && p.j < nlocal) add_force(p.j, -change, p.normal);
     *p.force = acting;
   }
   coupled_.clear();
@@ -191,28 +188,24 @@ void FixStepping::grow_arrays(int nmax) { memory->grow(state_, nmax, columns, "d
 void FixStepping::copy_arrays(int i, int j, int) { std::copy_n(state_[i], columns, state_[j]); }
 
 int FixStepping::pack_exchange(int i, double *buf) {
-  std::copy_n(state_[i], kept_columns, buf);
-  return kept_columns;
+  std::copy_n(state_[i], columns, buf);
+  return columns;
 }
 
 int FixStepping::unpack_exchange(int i, double *buf) {
-  std::copy_n(buf, kept_columns, state_[i]);
-  return kept_columns;
+  std::copy_n(buf, columns, state_[i]);
+  return columns;
 }
 
 int FixStepping::pack_comm(int n, int *list, double *buf, int, int *) {
-  const int first = sharing_predicted_ ? predicted : 0;
-  const int count = sharing_predicted_ ? 3 : shared_columns;
   for (int m = 0; m < n; ++m)
-    buf = std::copy_n(state_[list[m]] + first, count, buf);
-  return count;
+    buf = std::copy_n(state_[list[m]], shared_columns, buf);
+  return shared_columns;
 }
 
 void FixStepping::unpack_comm(int n, int begin, double *buf) {
-  const int first = sharing_predicted_ ? predicted : 0;
-  const int count = sharing_predicted_ ? 3 : shared_columns;
-  for (int i = begin; i < begin + n; ++i, buf += count)
-    std::copy_n(buf, count, state_[i] + first);
+  for (int i = begin; i < begin + n; ++i, buf += shared_columns)
+    std::copy_n(buf, shared_columns, state_[i]);
 }
 
 double FixStepping::memory_usage() { return static_cast<double>(atom->nmax) * columns * sizeof(double); }

@@ -47,8 +47,11 @@ public:
   }
   double damping_over_mass(int i) const { return state_[i][3]; } ///< sum of c/m, 1/s, owned balls and ghosts
 
-  /// Counts a contact's c/m for the next step.
-  void add_damping(int i, double c_over_m) { state_[i][4] += c_over_m; }
+  /// Counts a contact's c for the next step. \param mass of ball i as its contacts feel it: infinite if it is fixed
+  void add_damping(int i, double c, double mass) {
+    state_[i][4] += c;
+    state_[i][5] = mass;
+  }
   /// Forces on an owned ball after the closing half kick of this step: `rest` stays for the next opening half kick, `shift`
   /// acts in the next drift only.
   void add_after_kick(int i, const std::array<double, 3> &rest, const std::array<double, 3> &shift) {
@@ -58,22 +61,21 @@ public:
   /// A contact that is solved for together with the others, when all forces of the step are known: see coupled_force().
   struct Coupled {
     int i, j; ///< j < 0: a wall
-    std::array<double, 3> normal, wall_velocity;
-    drumlin::physics::CoupledDashpot dashpot;
-    drumlin::physics::Transition transition;
-    double share;  ///< of the force that acts, 1 but for a mesh
-    double *force; ///< takes the force, N
+    std::array<double, 3> normal;
+    drumlin::physics::CoupledDashpot dashpot; ///< sees the rate of a resting wall
+    double share;                             ///< of the force that acts, 1 but for a mesh
+    double *force;                            ///< takes the force, N
   };
-  void couple(const Coupled &contact) { coupled_.push_back(contact); }
+  /// A contact to be filled in, in its place: copying it as a whole would wait for its parts to be written.
+  Coupled &couple() { return coupled_.emplace_back(); }
   /// The same for a link whose balls may be on any ranks: `close` is called on all ranks, when v* is known, and adds to the forces.
   void couple(const std::function<void()> &close) { coupled_links_.push_back(close); }
   /// v*, m/s, of an owned ball: in `close` only.
-  const double *predicted_velocity(int i) const { return state_[i] + predicted; }
+  const double *predicted_velocity(int i) const { return state_[i]; }
   /// Adds to the force on an owned ball what came too late for the constraints, and to what they say they took.
   void add_force(int i, double factor, const std::array<double, 3> &vector);
 
 private:
-  static constexpr int predicted = 5; // first column of v*
   struct Later {
     int i;
     std::array<double, 3> rest, shift;
@@ -86,9 +88,9 @@ private:
   void merge_later();
   void constrain(bool any) const;
 
-  double **state_ = nullptr;       // per ball: v(t) (3), sum of c/m of the last step, of this step, v* (3)
-  bool sharing_predicted_ = false; // what the ghosts get: v*, else v(t) and the sum of the last step
-  std::vector<Coupled> coupled_;   // of this step
+  double **state_ =
+      nullptr; // per ball: v(t), at the end of a step v* (3), sum of c/m of the last step; sum of c of this step, and mass
+  std::vector<Coupled> coupled_; // of this step
   std::vector<std::function<void()>> coupled_links_;
   std::vector<Later> later_;            // of this step
   std::vector<Later> shifts_;           // in the opening half kick, not yet taken back

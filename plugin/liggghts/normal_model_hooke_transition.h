@@ -18,6 +18,7 @@ NORMAL_MODEL(HOOKE_TRANSITION, hooke / transition, 21)
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fixes/contact_source.h"
 #include "fixes/contact_watch.h"
@@ -99,10 +100,11 @@ private:
     return transition_a_ ? drumlin::physics::Transition::A : drumlin::physics::Transition::B;
   }
 
-  /// 1/m of ball i as its contacts feel it: 0 if frozen.
-  double inverse_mass(int i, double mass) const {
-    return atom->mask[i] & static_cast<LAMMPS_NS::PairGran *>(force->pair)->freeze_group_bit() ? 0.0
-                                                                                               : 1.0 / mass;
+  /// Mass of ball i as its contacts feel it, kg.
+  double mass(int i, double own) const {
+    return atom->mask[i] & static_cast<LAMMPS_NS::PairGran *>(force->pair)->freeze_group_bit()
+               ? std::numeric_limits<double>::infinity()
+               : own;
   }
 
   /// Rate of the overlap with the velocities at the begin of the step.
@@ -124,11 +126,9 @@ private:
     using namespace drumlin::physics;
     if (update->setupflag) { // velocities belong to the time of the positions
       const StepForce step = stock(sidata, k, c);
-      note(sidata, c, step.force);
+      note(sidata, c);
       return step;
     }
-    const double own =
-        c * (inverse_mass(sidata.i, sidata.mi) + (sidata.is_wall ? 0.0 : inverse_mass(sidata.j, sidata.mj)));
     const StepMotion motion{sidata.deltan, -sidata.vn, rate_before(sidata, sidata.en), stepping_->dt()};
     const double recorded = sidata.contact_history[force_before_offset_];
     // No record although the contact is older than this step: a mesh contact went over to another triangle.
@@ -136,34 +136,35 @@ private:
                            ? recorded
                            : normal_force(transition(), k, c, motion.overlap - motion.dt * motion.rate_half,
                                           motion.rate_before);
-    const StepForce step = second_order_force(transition(), k, c, motion, old, own);
-    note(sidata, c, step.force);
+    // Friction and rolling take the force that the contact would have alone.
+    const StepForce step = second_order_force(transition(), k, c, motion, old, c / sidata.meff);
+    sidata.Fn = step.force;
+    note(sidata, c);
     const double all = stepping_->damping_over_mass(sidata.i) +
                        (sidata.is_wall ? 0.0 : stepping_->damping_over_mass(sidata.j));
     if (motion.dt * all <= heavy_damping || made_in_step(motion) || !sidata.computeflag) return step;
 
-    // Friction and rolling take the force that the contact would have alone.
-    LAMMPS_NS::FixStepping::Coupled contact{sidata.i,
-                                            sidata.is_wall ? -1 : sidata.j,
-                                            {sidata.en[0], sidata.en[1], sidata.en[2]},
-                                            {},
-                                            coupled_dashpot(k, c, motion, old, all),
-                                            transition(),
-                                            sidata.is_wall ? sidata.area_ratio : 1.0,
-                                            &sidata.contact_history[force_before_offset_]};
-    if (sidata.is_wall) std::copy_n(sidata.v_j, 3, contact.wall_velocity.begin());
-    stepping_->couple(contact);
+    LAMMPS_NS::FixStepping::Coupled &contact = stepping_->couple();
+    contact.i = sidata.i;
+    contact.j = sidata.is_wall ? -1 : sidata.j;
+    contact.normal = {sidata.en[0], sidata.en[1], sidata.en[2]};
+    contact.dashpot = coupled_dashpot(transition(), k, c, motion, old, all);
+    if (sidata.is_wall)
+      contact.dashpot.at_rest +=
+          contact.dashpot.per_rate *
+          (sidata.v_j[0] * sidata.en[0] + sidata.v_j[1] * sidata.en[1] + sidata.v_j[2] * sidata.en[2]);
+    contact.share = sidata.is_wall ? sidata.area_ratio : 1.0;
+    contact.force = &sidata.contact_history[force_before_offset_];
     return {contact.dashpot.first, contact.dashpot.first, 0.0};
   }
 
   /// Takes note of a contact for the next step.
-  void note(SurfacesIntersectData &sidata, double c, double force) {
-    sidata.Fn = force;
+  void note(const SurfacesIntersectData &sidata, double c) {
     if (!sidata.computeflag) return;
-    sidata.contact_history[force_before_offset_] = force;
-    stepping_->add_damping(sidata.i, c * inverse_mass(sidata.i, sidata.mi));
+    sidata.contact_history[force_before_offset_] = sidata.Fn;
+    stepping_->add_damping(sidata.i, c, mass(sidata.i, sidata.mi));
     if (!sidata.is_wall && sidata.j < atom->nlocal)
-      stepping_->add_damping(sidata.j, c * inverse_mass(sidata.j, sidata.mj));
+      stepping_->add_damping(sidata.j, c, mass(sidata.j, sidata.mj));
   }
 
   /// Adds the force of the closing half kick, and has the rest added after it.
@@ -207,27 +208,28 @@ private:
 
   /// \param share of the stiffnesses that acts
   void show(drumlin::ContactWatch &watch, double share, const SurfacesIntersectData &sidata) const {
-    const double mi = inverse_mass(sidata.i, sidata.mi);
-    const double mj = sidata.is_wall ? 0.0 : inverse_mass(sidata.j, sidata.mj);
-    if (mi + mj == 0.0) return;
+    const double inverse_mi = 1.0 / mass(sidata.i, sidata.mi); // 0 if fixed
+    const double inverse_mj = sidata.is_wall ? 0.0 : 1.0 / mass(sidata.j, sidata.mj);
+    if (inverse_mi + inverse_mj == 0.0) return;
     const double mass_over_inertia = domain->dimension == 2 ? 2.0 : 2.5; // as fix nve/sphere turns balls
-    const double inverse_mt = 1.0 / drumlin::physics::tangential_mass(mi, mj, mass_over_inertia);
+    const double inverse_mt =
+        1.0 / drumlin::physics::tangential_mass(inverse_mi, inverse_mj, mass_over_inertia);
     drumlin::physics::LinkModes modes;
     std::copy_n(sidata.en, 3, modes.normal.begin());
-    modes.normal_spring = share * sidata.kn * (mi + mj);
-    if (!stepping_) modes.normal_dashpot = share * sidata.gamman * (mi + mj);
+    modes.normal_spring = share * sidata.kn * (inverse_mi + inverse_mj);
+    if (!stepping_) modes.normal_dashpot = share * sidata.gamman * (inverse_mi + inverse_mj);
     if (tangential_spring_) modes.tangential_spring = share * sidata.kt * inverse_mt;
     if (tangential_dashpot_) modes.tangential_dashpot = share * sidata.gammat * inverse_mt;
     const double ri = sidata.radi;
     const double rj = sidata.is_wall ? ri : sidata.radj;
     if (rolling_spring_) { // kr = kt r_eff^2, of the engine's epsd2
       const double r_eff = sidata.is_wall ? ri : ri * rj / (ri + rj);
-      modes.rolling_spring =
-          share * sidata.kt * r_eff * r_eff * mass_over_inertia * (mi / (ri * ri) + mj / (rj * rj));
+      modes.rolling_spring = share * sidata.kt * r_eff * r_eff * mass_over_inertia *
+                             (inverse_mi / (ri * ri) + inverse_mj / (rj * rj));
     }
     const double overlap = sidata.deltan / std::min(ri, rj);
-    if (mi > 0.0) watch.see(sidata.i, sidata.is_wall ? 0 : atom->tag[sidata.j], modes, overlap);
-    if (mj > 0.0 && sidata.j < atom->nlocal) watch.see(sidata.j, atom->tag[sidata.i], modes, overlap);
+    if (inverse_mi > 0.0) watch.see(sidata.i, sidata.is_wall ? 0 : atom->tag[sidata.j], modes, overlap);
+    if (inverse_mj > 0.0 && sidata.j < atom->nlocal) watch.see(sidata.j, atom->tag[sidata.i], modes, overlap);
   }
 
   double effective_mass(int i, int j) const {

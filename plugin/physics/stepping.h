@@ -9,6 +9,7 @@
 #include "physics/contact_law.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace drumlin::physics {
 
@@ -44,8 +45,9 @@ struct StepForce {
 [[nodiscard]] inline double second_order_spring_dashpot(double k, double c, const StepMotion &motion,
                                                         double force_before, double c_over_m) {
   const double s = 0.5 * motion.dt * c_over_m;
+  const double slowed = 1.0 / (1.0 + s); // apart, so that the division need not wait for the motion
   const double rate_predicted = 2.0 * motion.rate_half - motion.rate_before;
-  return (k * motion.overlap + c * rate_predicted + s * force_before) / (1.0 + s);
+  return slowed * (k * motion.overlap + c * rate_predicted + s * force_before);
 }
 
 /// From this sum of dt c/m over all contacts of a contact's two balls on, its dashpot is solved for together with the others.
@@ -60,26 +62,29 @@ constexpr double heavy_damping = 0.25;
 /// By Cauchy-Schwarz the diagonal s/c is not less than B: the dashpots lag by a step at most, which takes no energy from nowhere, and
 /// any damping leaves the limit of the springs as it is. For one contact both are the same.
 struct CoupledDashpot {
-  double elastic;        ///< k d, N
-  double c;              ///< N s/m
-  double dashpot_before; ///< f_old, N
-  double first;          ///< F_old + k (d - d_old), N: what the first pass gives
-  double s;              ///< without dimension
+  double first;    ///< F_old + k (d - d_old), N: what the first pass gives
+  double at_rest;  ///< k d + s f_old / (1 + s), N: force without d'*
+  double per_rate; ///< c / (1 + s), N s/m
+  double least;    ///< N: 0 under B, which never pulls
 };
 
 /// \param all_c_over_m sum of c/m over all contacts of both balls, 1/s
-[[nodiscard]] inline CoupledDashpot coupled_dashpot(double k, double c, const StepMotion &motion,
-                                                    double force_before, double all_c_over_m) {
+[[nodiscard]] inline CoupledDashpot coupled_dashpot(Transition transition, double k, double c,
+                                                    const StepMotion &motion, double force_before,
+                                                    double all_c_over_m) {
   const double change = k * motion.dt * motion.rate_half;
   const double elastic = k * motion.overlap;
-  return {elastic, c, force_before - (elastic - change), force_before + change,
-          0.5 * motion.dt * all_c_over_m};
+  const double dashpot_before = force_before - (elastic - change);
+  const double s = 0.5 * motion.dt * all_c_over_m;
+  const double slowed = 1.0 / (1.0 + s);
+  return {force_before + change, elastic + slowed * s * dashpot_before, slowed * c,
+          transition == Transition::B ? 0.0 : -std::numeric_limits<double>::infinity()};
 }
 
 /// Force at t+dt, N. \param rate d'* in m/s, with the velocities v*
-[[nodiscard]] inline double coupled_force(Transition transition, const CoupledDashpot &p, double rate) {
-  const double force = p.elastic + (p.c * rate + p.s * p.dashpot_before) / (1.0 + p.s);
-  return transition == Transition::B && force < 0.0 ? 0.0 : force;
+[[nodiscard]] inline double coupled_force(const CoupledDashpot &p, double rate) {
+  const double force = p.at_rest + p.per_rate * rate;
+  return force < p.least ? p.least : force;
 }
 
 /// Second-order force of a contact with d(t+dt) > 0.

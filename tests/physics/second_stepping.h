@@ -52,7 +52,7 @@ public:
         f = second_order_force(transition_, p.k, p.c, motion, p.force, p.c / mass_);
         damping += p.c / mass_;
         if (dt_ * damping_ > heavy_damping && !made_in_step(motion)) {
-          coupled.emplace_back(&p, coupled_dashpot(p.k, p.c, motion, p.force, damping_));
+          coupled.emplace_back(&p, coupled_dashpot(transition_, p.k, p.c, motion, p.force, damping_));
           f.force = f.kick = coupled.back().second.first;
         }
       } else {
@@ -65,7 +65,7 @@ public:
     }
     const double predicted = half + 0.5 * dt_ * kick / mass_;
     for (auto &[p, dashpot] : coupled) {
-      p->force = coupled_force(transition_, dashpot, -p->sign * predicted);
+      p->force = coupled_force(dashpot, -p->sign * predicted);
       force_ += p->sign * (p->force - dashpot.first);
       kick += p->sign * (p->force - dashpot.first);
     }

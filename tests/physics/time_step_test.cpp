@@ -277,7 +277,7 @@ struct Packing {
         double &normal = u(of(l, force)); // forces as dt^2 times the force
         const double old = normal / (dt * dt);
         if (second && dt * all > heavy) {
-          coupled.emplace_back(l, coupled_dashpot(p.k, p.c, motion, old, all));
+          coupled.emplace_back(l, coupled_dashpot(Transition::A, p.k, p.c, motion, old, all));
           normal = dt * dt * coupled.back().second.first;
         } else {
           normal = dt * dt *
@@ -297,8 +297,7 @@ struct Packing {
                           : std::cos(p.angle) * predicted(6 * ball + 3) +
                                 std::sin(p.angle) * predicted(6 * ball + 4);
         };
-        u(of(l, force)) =
-            dt * dt * coupled_force(Transition::A, dashpot, -(along(p.one) - along(p.other)) / dt);
+        u(of(l, force)) = dt * dt * coupled_force(dashpot, -(along(p.one) - along(p.other)) / dt);
       }
       u.head(n) = drifted.head(n);
       kick();

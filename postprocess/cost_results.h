@@ -1,0 +1,66 @@
+// What the cost study measures: its file runs.csv, row by row, and the ratios that follow.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+/// One row of runs.csv. The first three name the run.
+struct CostRun {
+  std::string scene;
+  std::string variant; ///< what is switched on
+  int round;           ///< from 1; runs of one round were interleaved
+  int balls;           ///< that move
+  int steps;
+  double loop_s; ///< by the engine's clock
+  double pair_s; ///< of it, in the pair style
+  double place;  ///< height of drum or bed at the end, m: tells whether variants did the same work
+
+  double us_per_step() const { return 1e6 * loop_s / steps; }
+};
+
+extern const std::vector<std::string> cost_run_columns;
+constexpr std::size_t cost_run_keys = 3;
+std::vector<std::string> cells(const CostRun &run);
+/// The rows of a file in order. std::runtime_error for one that cannot be understood.
+std::vector<CostRun> read_cost_runs(const std::filesystem::path &file);
+
+/// Median and extremes over the rounds.
+struct Spread {
+  double median, low, high;
+};
+
+/// A variant of a scene: what a step takes.
+struct VariantCost {
+  std::string scene, variant;
+  int rounds;
+  Spread us_per_step;
+  double pair_us_per_step; ///< median
+  double ns_per_ball;      ///< and step, median
+};
+/// In the order in which scenes and variants first appear.
+std::vector<VariantCost> variant_costs(const std::vector<CostRun> &runs);
+
+/// What a piece costs: a variant over the one without it.
+struct Comparison {
+  const char *piece;
+  const char *variant;
+  const char *base;
+  double most; ///< largest ratio that was promised; 0: none was
+};
+
+/// The median over the rounds of the ratio within a round: neighbours in time share the machine's mood.
+struct PieceCost {
+  std::string scene;
+  Comparison comparison;
+  Spread ratio;
+  double extra_us_per_step; ///< median of the difference within a round
+  bool holds() const { return comparison.most == 0.0 || ratio.median <= comparison.most; }
+};
+/// The comparisons that the scenes allow, scene by scene. Rounds that lack one of the two do not count.
+std::vector<PieceCost> piece_costs(const std::vector<CostRun> &runs,
+                                   const std::vector<Comparison> &comparisons);
+
+} // namespace drumlin::post
