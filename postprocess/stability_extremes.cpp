@@ -339,7 +339,7 @@ void add_stop_rows(std::vector<Extreme> &rows) {
   const ChainPlan soft = with(&ChainParameters::k, 2e4);
   rows.push_back(stop_row("the drum sinks through the soil: k = 2e4 N/m", soft, "overlap"));
   const ChainPlan heavy = with(&ChainParameters::m2, 6e6);
-  rows.push_back(stop_row("overlap at the start more than the radius: m2 = 6e6 kg", heavy, "overlap"));
+  rows.push_back(stop_row("the drum is too heavy for the soil: m2 = 6e6 kg", heavy, "overlap"));
   ChainPlan undefined;
   Extreme given = stop_row("not a number is given: Fw = nan", undefined, "allowed: ");
   given.variables.emplace_back("Fw", "nan");
