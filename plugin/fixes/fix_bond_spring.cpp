@@ -166,7 +166,7 @@ void FixBondSpring::post_force(int) {
                                    update->dt};
   // A light dashpot on its own: together with a far heavier one it would lag behind by many steps.
   const double c_over_m = bond_.damping * state_.inverse_masses;
-  if (motion.dt * c_over_m <= physics::heavy_damping) {
+  if (!physics::needs_coupling(motion.dt, bond_.stiffness, bond_.damping, c_over_m)) {
     take_note(under(physics::second_order_spring_dashpot(bond_.stiffness, bond_.damping, motion, acted_.force,
                                                          c_over_m)));
     pull(acted_.force);

@@ -142,7 +142,7 @@ private:
     note(sidata, c);
     const double all = stepping_->damping_over_mass(sidata.i) +
                        (sidata.is_wall ? 0.0 : stepping_->damping_over_mass(sidata.j));
-    if (motion.dt * all <= heavy_damping || made_in_step(motion) || !sidata.computeflag) return step;
+    if (!needs_coupling(motion.dt, k, c, all) || made_in_step(motion) || !sidata.computeflag) return step;
 
     LAMMPS_NS::FixStepping::Coupled &contact = stepping_->couple();
     contact.i = sidata.i;

@@ -50,9 +50,16 @@ struct StepForce {
   return slowed * (k * motion.overlap + c * rate_predicted + s * force_before);
 }
 
-/// From this sum of dt c/m over all contacts of a contact's two balls on, its dashpot is solved for together with the others.
-/// Below, each on its own is stable up to 0.7 of the limit of the springs (tests/physics/time_step_test.cpp).
-constexpr double heavy_damping = 0.25;
+/// Whether a contact's dashpot must be solved for together with the others of its balls: see CoupledDashpot.
+///
+/// Each on its own costs less, lags by nothing, and is stable up to 0.7 of the limit of the springs (tests/physics/time_step_test.cpp)
+/// as long as dt sum c/m <= 0.25, or <= 0.75 and dt^2 sum k/m <= 0.5, the springs far from their limit. sum k/m is taken as k/c sum c/m, as
+/// where contacts are alike.
+/// \param all_c_over_m sum of c/m over all contacts of both balls, 1/s
+[[nodiscard]] inline bool needs_coupling(double dt, double k, double c, double all_c_over_m) {
+  const double dashpots = dt * all_c_over_m;
+  return dashpots > 0.25 && (dashpots > 0.75 || dashpots * dt * k > 0.5 * c);
+}
 
 /// Where contacts with heavy damping meet, their dashpots must know of one another. They are solved for in two passes:
 /// first every contact gives what changes with the positions,  F_old + k (d - d_old);  then, with v* = v+ + dt/2 a, a of these forces
