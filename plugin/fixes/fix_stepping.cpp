@@ -8,7 +8,6 @@ using namespace LAMMPS_NS;
 namespace {
 
 constexpr const char *helper_id = "drumlin_stepping";
-constexpr int columns = 6;
 constexpr int shared_columns = 4; // what ghosts need
 
 } // namespace
