@@ -153,7 +153,7 @@ void FixBondSpring::post_force(int) {
   state_ = share_state();
   for (std::size_t b = 0; b < 2; ++b)
     if (const int i = local_[b]; i >= 0) {
-      if (stepping_) stepping_->add_damping(i, bond_.damping, atom->rmass[i]);
+      if (stepping_) stepping_->add_damping(i, bond_.damping, [&] { return atom->rmass[i]; });
       for (drumlin::ContactWatch *watch : drumlin::ContactWatch::looking())
         watch->see(i, tags_[1 - b], modes(), 0.0);
     }

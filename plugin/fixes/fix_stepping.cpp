@@ -31,7 +31,7 @@ FixStepping::FixStepping(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, nar
   FixStepping::grow_arrays(atom->nmax);
   atom->add_callback(0);
   for (int i = 0; i < atom->nlocal; ++i)
-    std::fill_n(state_[i], columns, 0.0);
+    FixStepping::set_arrays(i);
 }
 
 FixStepping::~FixStepping() {
@@ -58,9 +58,8 @@ void FixStepping::setup_pre_force(int) {
   later_.clear();
   shifts_.clear();
   for (int i = 0; i < atom->nlocal; ++i) {
+    set_arrays(i);
     std::copy_n(atom->v[i], 3, state_[i]);
-    state_[i][3] = state_[i][4] = 0.0;
-    state_[i][5] = 1.0; // any, as long as there is no contact
   }
 }
 
@@ -75,7 +74,7 @@ void FixStepping::post_integrate() {
   }
   shifts_.clear();
   for (int i = 0; i < atom->nlocal; ++i) {
-    state_[i][3] = state_[i][4] / state_[i][5];
+    state_[i][3] = state_[i][4] * state_[i][5];
     state_[i][4] = 0.0;
   }
 }
@@ -185,6 +184,12 @@ void FixStepping::constrain(bool any) const {
 void FixStepping::grow_arrays(int nmax) { memory->grow(state_, nmax, columns, "drumlin/stepping:state"); }
 
 void FixStepping::copy_arrays(int i, int j, int) { std::copy_n(state_[i], columns, state_[j]); }
+
+/// A ball that is new: its mass is not known yet.
+void FixStepping::set_arrays(int i) {
+  std::fill_n(state_[i], columns, 0.0);
+  state_[i][5] = -1.0;
+}
 
 int FixStepping::pack_exchange(int i, double *buf) {
   std::copy_n(state_[i], columns, buf);

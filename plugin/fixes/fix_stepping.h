@@ -31,6 +31,7 @@ public:
   void end_of_step() override;
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
   int pack_exchange(int, double *) override;
   int unpack_exchange(int, double *) override;
   int pack_comm(int, int *, double *, int, int *) override;
@@ -47,11 +48,13 @@ public:
   }
   double damping_over_mass(int i) const { return row(i)[3]; } ///< sum of c/m, 1/s, owned balls and ghosts
 
-  /// Counts a contact's c for the next step. \param mass of ball i as its contacts feel it: infinite if it is fixed
-  void add_damping(int i, double c, double mass) {
+  /// Counts a contact's c, N s/m, on owned ball i for the next step.
+  /// \param mass gives the mass of the ball as its contacts feel it, kg, infinite if it is fixed; asked for once in a run
+  template <class Mass>
+  void add_damping(int i, double c, const Mass &mass) {
     double *ball = row(i);
     ball[4] += c;
-    ball[5] = mass;
+    if (ball[5] < 0.0) ball[5] = 1.0 / mass();
   }
   /// Forces on an owned ball after the closing half kick of this step: `rest` stays for the next opening half kick, `shift`
   /// acts in the next drift only.
@@ -93,7 +96,7 @@ private:
   void constrain(bool any) const;
 
   double **state_ =
-      nullptr; // per ball: v(t), at the end of a step v* (3), sum of c/m of the last step; sum of c of this step, and mass
+      nullptr; // per ball: v(t), at the end of a step v* (3), sum of c/m of the last step; sum of c of this step, and 1/m
   std::vector<Coupled> coupled_; // of this step
   std::vector<std::function<void()>> coupled_links_;
   std::vector<Later> later_;            // of this step

@@ -162,9 +162,9 @@ private:
   void note(const SurfacesIntersectData &sidata, double c) {
     if (!sidata.computeflag) return;
     sidata.contact_history[force_before_offset_] = sidata.Fn;
-    stepping_->add_damping(sidata.i, c, mass(sidata.i, sidata.mi));
+    stepping_->add_damping(sidata.i, c, [&] { return mass(sidata.i, sidata.mi); });
     if (!sidata.is_wall && sidata.j < atom->nlocal)
-      stepping_->add_damping(sidata.j, c, mass(sidata.j, sidata.mj));
+      stepping_->add_damping(sidata.j, c, [&] { return mass(sidata.j, sidata.mj); });
   }
 
   /// Adds the force of the closing half kick, and has the rest added after it.

@@ -325,15 +325,18 @@ TEST(HeavyDamping, OfTheBondFollowsTheDirectSolverToo) {
   options.samples_per_cycle = 50;
   const ChainHistory truth = post::solve_direct(p, options).history;
   std::vector<double> all_steps, errors;
-  for (const int steps : {400, 800, 1600}) { // dt c23 / m_eff from 0.94 to 0.23: both kinds of stepping
+  for (const int steps : {200, 800, 1600, 3200}) {
     const ChainHistory run =
         run_chain("IV", Transition::B, steps, 50, {{"c23", "1e7"}, {"cycles", "3"}, {"stepping", "second"}})
             .history;
+    const double error = post::relative_rms(run.v_drum, truth.v_drum, 0, truth.size());
+    EXPECT_LT(error, 1e-3) << steps;
+    if (steps == 200)
+      continue; // dt c23 / m_eff = 1.9: solved for together; from 800 steps on, 0.47, on its own
     all_steps.push_back(steps);
-    errors.push_back(post::relative_rms(run.v_drum, truth.v_drum, 0, truth.size()));
+    errors.push_back(error);
   }
-  EXPECT_LT(errors.back(), 1e-3);
-  EXPECT_LT(fitted_order(all_steps, errors), -1.5);
+  EXPECT_LT(fitted_order(all_steps, errors), -1.8);
 }
 
 // Contact and bond act on one drum: each must know what the other does in the step, or the two drive each other.
