@@ -72,15 +72,18 @@ void run(const Arguments &arguments) {
              accuracy_cycles - accuracy_window + 1, accuracy_cycles);
   const std::string curve =
       fmt::format("case {} {}", advice.from, transition_name(request.parameters.transition));
-  if (advice.measured)
+  if (advice.measured) {
     fmt::print("  from       runs of {} itself: all with as many steps or more kept to it\n", curve);
-  else
+  } else {
+    const std::vector<ScalingPoint> tests = read_scaling_points(folder / "scaling.csv");
     fmt::print("  from       the curve of {}, scaled by max(sqrt(k/m2), omega) dt and by the sensitivity "
                "{:.2g} of this "
                "chain, times {:g}\n"
                "  scaling    {}\n",
-               curve, advice.sensitivity, scaling_margin,
-               scaling_summary(read_scaling_points(folder / "scaling.csv")));
+               curve, advice.sensitivity, scaling_margin, scaling_summary(tests));
+    if (const std::string outside = outside_of_tests(request.parameters, tests); !outside.empty())
+      fmt::print("  outside    {}: compare with a run of half the step\n", outside);
+  }
   fmt::print("  stability  the critical step is {:.4g} s, {:.3g} times as long\n",
              request.parameters.period() / advice.critical_steps,
              advice.steps_per_cycle / advice.critical_steps);

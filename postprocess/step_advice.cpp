@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include <fmt/format.h>
@@ -141,6 +142,31 @@ StepAdvice advise(const AdviceRequest &request, const std::vector<ChainPoint> &p
   advice.steps_per_cycle = advised_multiple * static_cast<int>(std::ceil(needed / advised_multiple));
   advice.seconds_per_step = seconds_per_step(points, request.stepping);
   return advice;
+}
+
+std::string outside_of_tests(const ChainParameters &parameters, const std::vector<ScalingPoint> &points) {
+  struct Quantity {
+    const char *name;
+    const char *unit;
+    double (*of)(const ChainParameters &);
+  };
+  const Quantity quantities[] = {
+      {"sqrt(k/m2)", " rad/s", [](const ChainParameters &p) { return std::sqrt(p.k / p.m2); }},
+      {"omega", " rad/s", [](const ChainParameters &p) { return p.omega; }},
+      {"D", "", [](const ChainParameters &p) { return p.D; }}};
+  std::string text;
+  for (const Quantity &quantity : quantities) {
+    double low = std::numeric_limits<double>::infinity(), high = 0.0;
+    for (const ScalingPoint &point : points) {
+      low = std::min(low, quantity.of(point.parameters));
+      high = std::max(high, quantity.of(point.parameters));
+    }
+    const double value = quantity.of(parameters);
+    if (points.empty() || (value >= low && value <= high)) continue;
+    text += fmt::format("{}{} = {:.3g}{}, tested from {:.3g} to {:.3g}", text.empty() ? "" : "; ",
+                        quantity.name, value, quantity.unit, low, high);
+  }
+  return text;
 }
 
 std::string scaling_summary(const std::vector<ScalingPoint> &points) {

@@ -60,6 +60,10 @@ double critical_steps(const ChainParameters &parameters, const std::string &step
 StepAdvice advise(const AdviceRequest &request, const std::vector<ChainPoint> &points,
                   const std::function<double(const ChainParameters &)> &sensitivity_of = sensitivity);
 
+/// What of a chain lies outside of what the scaling was tested with: sqrt(k/m2), omega, D; empty if nothing does, or nothing was
+/// tested.
+std::string outside_of_tests(const ChainParameters &parameters, const std::vector<ScalingPoint> &points);
+
 /// One sentence on what runs at advised steps have shown.
 std::string scaling_summary(const std::vector<ScalingPoint> &points);
 

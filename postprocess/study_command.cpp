@@ -1,15 +1,18 @@
 #include "study_command.h"
 
+#include "command.h"
 #include "study.h"
 #include "study_accuracy.h"
 #include "study_cost.h"
 #include "study_stability.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <array>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace drumlin::post {
 
@@ -43,7 +46,6 @@ constexpr std::array studies = {
 void add_study_command(CLI::App &app, Session &) {
   CLI::App *command = app.add_subcommand("study", "Measures what steps, laws and options cost and what they "
                                                   "bring. An interrupted study goes on where it was.");
-  command->require_subcommand(1);
   for (const Study &study : studies) {
     const auto options = std::make_shared<StudyOptions>();
     options->out = std::string("results/study/") + study.name;
@@ -56,6 +58,17 @@ void add_study_command(CLI::App &app, Session &) {
       run(*options);
     });
   }
+  command->allow_extras(); // to name a study that does not exist
+  command->callback([command] {
+    if (!command->get_subcommands().empty()) return;
+    std::vector<std::string> names;
+    names.reserve(studies.size());
+    for (const Study &study : studies)
+      names.emplace_back(study.name);
+    const std::vector<std::string> given = command->remaining();
+    throw UsageError(fmt::format("NAME = '{}': allowed are {}", given.empty() ? "" : given.front(),
+                                 fmt::join(names, ", ")));
+  });
 }
 
 } // namespace drumlin::post

@@ -164,6 +164,9 @@ TEST_F(AdviseCommand, AnswersFromTheStudyThatComesWithTheProject) {
   EXPECT_EQ(other.status, 0) << other.output;
   EXPECT_TRUE(other.says("tested on 12 other parameter sets")) << other.output;
   EXPECT_TRUE(other.says("-var D 0.4 -var stepping stock")) << other.output;
+  EXPECT_FALSE(other.says("outside")) << other.output;
+  const Outcome far = run({"--error", "1e-3", "--D", "20"});
+  EXPECT_TRUE(far.says("outside    D = 20, tested from ")) << far.output;
 }
 
 TEST_F(AdviseCommand, RefusesBadInputInOneLine) {
