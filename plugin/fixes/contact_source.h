@@ -5,6 +5,9 @@
 
 #include "engine.h"
 #include "physics/contact_law.h"
+#include "physics/stepping.h"
+
+#include <cmath>
 
 namespace drumlin {
 
@@ -14,9 +17,18 @@ public:
   virtual ~ContactSource() = default;
   /// Law of a pair of types (1..ntypes).
   virtual const physics::LinearContact &law(int itype, int jtype) const = 0;
-  /// Effective mass (kg) of the contact of balls i and j (local or ghost indices): a frozen partner counts as
-  /// fixed, a ball of a rigid body with the body's mass.
-  virtual double effective_mass(int i, int j) const = 0;
+  /// Mass (kg) of ball i (local or ghost index) as its contacts feel it: infinite if it is frozen, the body's if it belongs to a
+  /// rigid body.
+  virtual double mass(int i) const = 0;
+  /// Effective mass (kg) of the contact of balls i and j, of which one at most is frozen.
+  double effective_mass(int i, int j) const {
+    const double mi = mass(i);
+    const double mj = mass(j);
+    return std::isinf(mi) ? mj : std::isinf(mj) ? mi : physics::effective_mass(mi, mj);
+  }
+  /// The dashpots of ball i (local) if it touches all walls at once; their sum is infinite if there are meshes, of which it may
+  /// touch any number of triangles.
+  virtual physics::Dashpots wall_dashpots(int i) const = 0;
 };
 
 /// Source of the pair style of this engine instance, or nullptr if the pair style is not hooke/transition.

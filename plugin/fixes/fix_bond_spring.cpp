@@ -66,7 +66,10 @@ void FixBondSpring::find_balls() {
   local_ = {-1, -1};
   for (int i = 0; i < atom->nlocal; ++i)
     for (std::size_t b = 0; b < 2; ++b)
-      if (atom->tag[i] == tags_[b]) local_[b] = i;
+      if (atom->tag[i] == tags_[b]) {
+        local_[b] = i;
+        if (stepping_) stepping_->expect(i, bond_.stiffness, bond_.damping);
+      }
 }
 
 FixBondSpring::State FixBondSpring::share_state() {
@@ -153,7 +156,7 @@ void FixBondSpring::post_force(int) {
   state_ = share_state();
   for (std::size_t b = 0; b < 2; ++b)
     if (const int i = local_[b]; i >= 0) {
-      if (stepping_) stepping_->add_damping(i, bond_.damping, [&] { return atom->rmass[i]; });
+      if (stepping_ && stepping_->counting()) stepping_->add_damping(i, bond_.damping);
       for (drumlin::ContactWatch *watch : drumlin::ContactWatch::looking())
         watch->see(i, tags_[1 - b], modes(), 0.0);
     }

@@ -1,6 +1,9 @@
 #include "fixes/fix_stepping.h"
 
+#include "fixes/contact_source.h"
+
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 using namespace LAMMPS_NS;
@@ -8,7 +11,8 @@ using namespace LAMMPS_NS;
 namespace {
 
 constexpr const char *helper_id = "drumlin_stepping";
-constexpr int shared_columns = 4; // what ghosts need
+constexpr int shared = 4;    // numbers per ball that ghosts need
+constexpr int exchanged = 5; // that a ball takes to another rank
 
 } // namespace
 
@@ -27,7 +31,7 @@ FixStepping *FixStepping::provide(LAMMPS *lammps) {
 
 FixStepping::FixStepping(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) {
   nevery = 1;
-  comm_forward = shared_columns;
+  comm_forward = shared;
   FixStepping::grow_arrays(atom->nmax);
   atom->add_callback(0);
   for (int i = 0; i < atom->nlocal; ++i)
@@ -36,12 +40,12 @@ FixStepping::FixStepping(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, nar
 
 FixStepping::~FixStepping() {
   atom->delete_callback(id, 0);
-  memory->destroy(state_);
+  memory->destroy(velocity_);
 }
 
 int FixStepping::setmask() {
-  return FixConst::POST_INTEGRATE | FixConst::PRE_FORCE | FixConst::PRE_FINAL_INTEGRATE |
-         FixConst::END_OF_STEP;
+  return FixConst::POST_INTEGRATE | FixConst::PRE_EXCHANGE | FixConst::PRE_FORCE |
+         FixConst::PRE_FINAL_INTEGRATE | FixConst::END_OF_STEP;
 }
 
 void FixStepping::init() {
@@ -53,34 +57,83 @@ void FixStepping::init() {
 }
 
 void FixStepping::setup_pre_force(int) {
+  in_setup_ = true;
   coupled_.clear();
   coupled_links_.clear();
   later_.clear();
   shifts_.clear();
+  std::fill(damping_.begin(), damping_.end(), 0.0);
   for (int i = 0; i < atom->nlocal; ++i) {
     set_arrays(i);
-    std::copy_n(atom->v[i], 3, state_[i]);
+    std::copy_n(atom->v[i], 3, velocity_[i]);
   }
+  expect_contacts();
 }
 
 void FixStepping::post_integrate() {
   for (const Later &item : shifts_) {
     double *v = atom->v[item.i];
-    const double *before = state_[item.i];
+    const double *before = velocity_[item.i];
     if (v[0] == before[0] && v[1] == before[1] && v[2] == before[2])
       continue; // not integrated: it took no kick
     for (std::size_t a = 0; a < 3; ++a)
       v[a] -= 0.5 * update->dt * item.shift[a] / atom->rmass[item.i];
   }
   shifts_.clear();
+  in_setup_ = false;
+  dt_ = update->dt;
+  counted_ = counting_;
+  if (!counted_) return;
   for (int i = 0; i < atom->nlocal; ++i) {
-    state_[i][3] = state_[i][4] * state_[i][5];
-    state_[i][4] = 0.0;
+    const auto n = static_cast<std::size_t>(i);
+    damping_over_mass_[n] = damping_[n] * inverse_mass_[n];
   }
+  std::fill_n(damping_.begin(), atom->nlocal + atom->nghost, 0.0);
 }
 
+void FixStepping::setup_pre_exchange() { expected_.clear(); }
+void FixStepping::pre_exchange() { expected_.clear(); }
+
 void FixStepping::pre_force(int) {
+  if (neighbor->ago == 0 || update->dt != expected_dt_) expect_contacts();
   if (comm->nprocs > 1 || atom->nghost > 0) drumlin::engine::forward_comm(comm, this);
+}
+
+/// Contacts are counted only if one could need coupling, were all neighbours, walls and links to act at once. needs_coupling()
+/// grows with the sum and with k/c: what it denies for these it denies for all contacts until the next search for neighbours,
+/// and the choice changes no result.
+void FixStepping::expect_contacts() {
+  const drumlin::ContactSource *source = drumlin::contact_source(lmp);
+  const NeighList *list = drumlin::engine::pair_list(force);
+  std::vector<drumlin::physics::Dashpots> balls(static_cast<std::size_t>(atom->nlocal + atom->nghost));
+  const auto ball = [&](int i) -> drumlin::physics::Dashpots & { return balls[static_cast<std::size_t>(i)]; };
+  for (int ii = 0; ii < list->inum; ++ii) {
+    const int i = list->ilist[ii];
+    for (int jj = 0; jj < list->numneigh[i]; ++jj) {
+      const int j = drumlin::engine::neighbour_index(list->firstneigh[i][jj]);
+      const double m_eff = source->effective_mass(i, j);
+      if (std::isinf(m_eff)) continue;
+      const drumlin::physics::LinearContact &law = source->law(atom->type[i], atom->type[j]);
+      const double c = drumlin::physics::damping_coefficient(law, m_eff);
+      ball(i).add(law.stiffness, c);
+      ball(j).add(law.stiffness, c);
+    }
+  }
+  for (const Expected &link : expected_)
+    ball(link.i).add(link.k, link.c);
+
+  std::array<double, 2> mine{}; // greatest sum of c/m, and k/c
+  for (int i = 0; i < atom->nlocal; ++i) {
+    double &inverse_mass = inverse_mass_[static_cast<std::size_t>(i)];
+    if (inverse_mass < 0.0) inverse_mass = 1.0 / source->mass(i);
+    if (inverse_mass == 0.0) continue;
+    ball(i).add(source->wall_dashpots(i));
+    mine = {std::max(mine[0], ball(i).sum * inverse_mass), std::max(mine[1], ball(i).stiffest)};
+  }
+  std::array<double, 2> all = mine;
+  if (comm->nprocs > 1) MPI_Allreduce(mine.data(), all.data(), 2, MPI_DOUBLE, MPI_MAX, world);
+  counting_ = drumlin::physics::needs_coupling(update->dt, all[1], 1.0, 2.0 * all[0]);
+  expected_dt_ = update->dt;
 }
 
 void FixStepping::pre_final_integrate() {
@@ -95,7 +148,7 @@ void FixStepping::pre_final_integrate() {
   const int nlocal = atom->nlocal;
   for (int i = 0; i < nlocal; ++i) {
     const double *v = atom->v[i];
-    double *star = state_[i]; // in the place of v(t), which this step needs no more
+    double *star = velocity_[i]; // in the place of v(t), which this step needs no more
     const bool rests = v[0] == star[0] && v[1] == star[1] && v[2] == star[2]; // forces do not move it
     const double kick = rests ? 0.0 : 0.5 * update->dt / atom->rmass[i];
     for (std::size_t a = 0; a < 3; ++a)
@@ -104,7 +157,7 @@ void FixStepping::pre_final_integrate() {
   if (comm->nprocs > 1 || atom->nghost > 0) drumlin::engine::forward_comm(comm, this);
   for (const Coupled &p : coupled_) {
     const auto along = [&](int ball) {
-      const double *v = state_[ball];
+      const double *v = velocity_[ball];
       return v[0] * p.normal[0] + v[1] * p.normal[1] + v[2] * p.normal[2];
     };
     const double rate = (p.j < 0 ? 0.0 : along(p.j)) - along(p.i);
@@ -139,8 +192,13 @@ void FixStepping::merge_later() {
 
 void FixStepping::end_of_step() {
   merge_later();
-  for (int i = 0; i < atom->nlocal; ++i)
-    std::copy_n(atom->v[i], 3, state_[i]);
+  double **v = atom->v;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    double *before = row(i);
+    before[0] = v[i][0];
+    before[1] = v[i][1];
+    before[2] = v[i][2];
+  }
   double **f = atom->f;
   for (const Later &item : later_)
     add_force(item.i, 1.0, item.rest);
@@ -181,35 +239,50 @@ void FixStepping::constrain(bool any) const {
   }
 }
 
-void FixStepping::grow_arrays(int nmax) { memory->grow(state_, nmax, columns, "drumlin/stepping:state"); }
+void FixStepping::grow_arrays(int nmax) {
+  memory->grow(velocity_, nmax, 3, "drumlin/stepping:velocity");
+  for (std::vector<double> *values : {&damping_over_mass_, &inverse_mass_, &damping_})
+    values->resize(static_cast<std::size_t>(nmax));
+}
 
-void FixStepping::copy_arrays(int i, int j, int) { std::copy_n(state_[i], columns, state_[j]); }
+void FixStepping::copy_arrays(int i, int j, int) {
+  std::array<double, exchanged> ball{};
+  pack_exchange(i, ball.data());
+  unpack_exchange(j, ball.data());
+}
 
-/// A ball that is new: its mass is not known yet.
 void FixStepping::set_arrays(int i) {
-  std::fill_n(state_[i], columns, 0.0);
-  state_[i][5] = -1.0;
+  std::array<double, exchanged> ball{};
+  ball.back() = -1.0;
+  unpack_exchange(i, ball.data());
 }
 
 int FixStepping::pack_exchange(int i, double *buf) {
-  std::copy_n(state_[i], columns, buf);
-  return columns;
+  pack_comm(1, &i, buf, 0, nullptr);
+  buf[shared] = inverse_mass_[static_cast<std::size_t>(i)];
+  return exchanged;
 }
 
 int FixStepping::unpack_exchange(int i, double *buf) {
-  std::copy_n(buf, columns, state_[i]);
-  return columns;
+  unpack_comm(1, i, buf);
+  inverse_mass_[static_cast<std::size_t>(i)] = buf[shared];
+  return exchanged;
 }
 
 int FixStepping::pack_comm(int n, int *list, double *buf, int, int *) {
-  for (int m = 0; m < n; ++m)
-    buf = std::copy_n(state_[list[m]], shared_columns, buf);
-  return shared_columns;
+  for (int m = 0; m < n; ++m) {
+    buf = std::copy_n(velocity_[list[m]], 3, buf);
+    *buf++ = damping_over_mass_[static_cast<std::size_t>(list[m])];
+  }
+  return shared;
 }
 
 void FixStepping::unpack_comm(int n, int begin, double *buf) {
-  for (int i = begin; i < begin + n; ++i, buf += shared_columns)
-    std::copy_n(buf, shared_columns, state_[i]);
+  for (int i = begin; i < begin + n; ++i) {
+    std::copy_n(buf, 3, velocity_[i]);
+    damping_over_mass_[static_cast<std::size_t>(i)] = buf[3];
+    buf += shared;
+  }
 }
 
-double FixStepping::memory_usage() { return static_cast<double>(atom->nmax) * columns * sizeof(double); }
+double FixStepping::memory_usage() { return static_cast<double>(atom->nmax) * 6 * sizeof(double); }

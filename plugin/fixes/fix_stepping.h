@@ -24,8 +24,10 @@ public:
 
   int setmask() override;
   void init() override;
+  void setup_pre_exchange() override;
   void setup_pre_force(int) override;
   void post_integrate() override;
+  void pre_exchange() override;
   void pre_force(int) override;
   void pre_final_integrate() override;
   void end_of_step() override;
@@ -38,24 +40,25 @@ public:
   void unpack_comm(int, int, double *) override;
   double memory_usage() override;
 
-  double dt() const { return update->dt; }
+  bool in_setup() const { return in_setup_; } ///< velocities belong to the time of the positions
+  double dt() const { return dt_; }           ///< s
   const double *velocity_before(int i) const { return row(i); } ///< v(t), m/s, owned balls and ghosts
   /// Takes note, after the integration and before the ghosts hear of it, that a force on owned ball i is known to change in
   /// this step: 2 v+ - velocity_before is then the velocity with the new force.
   void foresee(int i, const std::array<double, 3> &change) {
     for (std::size_t a = 0; a < 3; ++a)
-      state_[i][a] -= 0.5 * update->dt * change[a] / atom->rmass[i];
+      velocity_[i][a] -= 0.5 * update->dt * change[a] / atom->rmass[i];
   }
-  double damping_over_mass(int i) const { return row(i)[3]; } ///< sum of c/m, 1/s, owned balls and ghosts
-
-  /// Counts a contact's c, N s/m, on owned ball i for the next step.
-  /// \param mass gives the mass of the ball as its contacts feel it, kg, infinite if it is fixed; asked for once in a run
-  template <class Mass>
-  void add_damping(int i, double c, const Mass &mass) {
-    double *ball = row(i);
-    ball[4] += c;
-    if (ball[5] < 0.0) ball[5] = 1.0 / mass();
+  /// Sum of c/m in the last step, 1/s, of owned balls and ghosts; 0 if none could be heavy: see expect_contacts().
+  double damping_over_mass(int i) const {
+    return counted_ ? damping_over_mass_[static_cast<std::size_t>(i)] : 0.0;
   }
+  /// Whether the contacts of this step are to be counted with add_damping().
+  bool counting() const { return counting_; }
+  /// Counts the c, N s/m, of a contact of ball i for the next step; what a ghost gets is forgotten.
+  void add_damping(int i, double c) { damping_[static_cast<std::size_t>(i)] += c; }
+  /// Announces, before each search for neighbours (pre_neighbor), a link on owned ball i that is no contact.
+  void expect(int i, double k, double c) { expected_.push_back({i, k, c}); }
   /// Forces on an owned ball after the closing half kick of this step: `rest` stays for the next opening half kick, `shift`
   /// acts in the next drift only.
   void add_after_kick(int i, const std::array<double, 3> &rest, const std::array<double, 3> &shift) {
@@ -75,7 +78,7 @@ public:
   /// The same for a link whose balls may be on any ranks: `close` is called on all ranks, when v* is known, and adds to the forces.
   void couple(const std::function<void()> &close) { coupled_links_.push_back(close); }
   /// v*, m/s, of an owned ball: in `close` only.
-  const double *predicted_velocity(int i) const { return state_[i]; }
+  const double *predicted_velocity(int i) const { return velocity_[i]; }
   /// Adds to the force on an owned ball what came too late for the constraints, and to what they say they took.
   void add_force(int i, double factor, const std::array<double, 3> &vector);
 
@@ -89,15 +92,28 @@ private:
     Fix *fix;
     double *reaction;
   };
-  static constexpr int columns = 6;
+  struct Expected {
+    int i;
+    double k, c;
+  };
   /// Rows follow one another: this spares the inner loop a pointer per ball.
-  double *row(int i) const { return state_[0] + static_cast<std::ptrdiff_t>(i) * columns; }
+  double *row(int i) const { return velocity_[0] + static_cast<std::ptrdiff_t>(i) * 3; }
+  void expect_contacts();
   void merge_later();
   void constrain(bool any) const;
 
-  double **state_ =
-      nullptr; // per ball: v(t), at the end of a step v* (3), sum of c/m of the last step; sum of c of this step, and 1/m
-  std::vector<Coupled> coupled_; // of this step
+  bool in_setup_ = false;
+  bool counting_ = false; // whether the contacts of this step are counted
+  bool counted_ = false;  // whether those of the last were
+  double dt_ = 0.0;
+  double expected_dt_ = 0.0;       // that counting_ was chosen for
+  std::vector<Expected> expected_; // links that are no contacts
+  // Of each ball:
+  double **velocity_ = nullptr;           // v(t), at the end of a step v*, m/s
+  std::vector<double> damping_over_mass_; // sum of c/m in the last step, 1/s
+  std::vector<double> inverse_mass_;      // as its contacts feel it, 1/kg; below 0: not known yet
+  std::vector<double> damping_;           // sum of c in this step, N s/m
+  std::vector<Coupled> coupled_;          // of this step
   std::vector<std::function<void()>> coupled_links_;
   std::vector<Later> later_;            // of this step
   std::vector<Later> shifts_;           // in the opening half kick, not yet taken back

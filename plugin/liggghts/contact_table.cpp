@@ -3,12 +3,16 @@
 #include "fixes/contact_source.h"
 #include "fix_property_global.h"
 #include "fix_rigid.h"
+#include "fix_wall_gran.h"
 #include "global_properties.h"
 #include "pair_gran.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <memory>
+#include <vector>
 
 namespace drumlin {
 namespace {
@@ -55,27 +59,41 @@ private:
   FixPropertyGlobal *fix_;
 };
 
+std::vector<const ContactTable *> wall_tables; // one for each wall
+
 /// The pair style's table as the fixes see it.
 class PairSource : public ContactSource, Pointers {
 public:
-  PairSource(LAMMPS *engine, const ContactTable *table) : Pointers(engine), table_(table) {}
+  PairSource(LAMMPS *engine, const ContactTable *table) : Pointers(engine), table_(table) {
+    for (int n = 0; n < modify->nfix; ++n)
+      if (const auto *wall = dynamic_cast<const LAMMPS_NS::FixWallGran *>(modify->fix[n]))
+        meshes_ = meshes_ || wall->is_mesh_wall();
+  }
 
   const physics::LinearContact &law(int itype, int jtype) const override {
     return table_->at(itype, jtype).normal;
   }
 
-  double effective_mass(int i, int j) const override {
+  double mass(int i) const override {
     const auto *pair = static_cast<LAMMPS_NS::PairGran *>(force->pair);
-    double mi = atom->rmass[i];
-    double mj = atom->rmass[j];
-    if (pair->fr_pair() != nullptr) {
-      const double *body_mass = pair->mr_pair();
-      if (body_mass[i] > 0.0) mi = body_mass[i];
-      if (body_mass[j] > 0.0) mj = body_mass[j];
+    if (atom->mask[i] & pair->freeze_group_bit()) return std::numeric_limits<double>::infinity();
+    return pair->fr_pair() != nullptr && pair->mr_pair()[i] > 0.0 ? pair->mr_pair()[i] : atom->rmass[i];
+  }
+
+  physics::Dashpots wall_dashpots(int i) const override {
+    physics::Dashpots all;
+    if (meshes_) all.sum = std::numeric_limits<double>::infinity();
+    for (const ContactTable *wall : wall_tables) {
+      physics::Dashpots strongest;
+      for (int type = 1; type <= atom->ntypes; ++type) {
+        const physics::LinearContact &law = wall->at(atom->type[i], type).normal;
+        physics::Dashpots one;
+        one.add(law.stiffness, physics::damping_coefficient(law, mass(i)));
+        strongest = {std::max(strongest.sum, one.sum), std::max(strongest.stiffest, one.stiffest)};
+      }
+      all.add(strongest);
     }
-    if (atom->mask[i] & pair->freeze_group_bit()) return mj;
-    if (atom->mask[j] & pair->freeze_group_bit()) return mi;
-    return physics::effective_mass(mi, mj);
+    return all;
   }
 
   bool serves(const LAMMPS *engine) const { return lmp == engine; }
@@ -83,6 +101,7 @@ public:
 
 private:
   const ContactTable *table_;
+  bool meshes_ = false;
 };
 
 std::unique_ptr<PairSource> current_source; // one engine instance per process runs a deck
@@ -112,7 +131,10 @@ void ContactTable::read(LAMMPS *lmp, int ntypes, physics::Transition transition,
       p.tangential_damping = ct.given() ? ct(i, j, true) : 0.0;
       p.tangential_damping_share = ct.given() ? 0.0 : 0.5;
     }
-  if (!is_wall) current_source = std::make_unique<PairSource>(lmp, this);
+  if (!is_wall)
+    current_source = std::make_unique<PairSource>(lmp, this);
+  else if (std::find(wall_tables.begin(), wall_tables.end(), this) == wall_tables.end())
+    wall_tables.push_back(this);
 }
 
 void provide_friction_default(LAMMPS *lmp, int ntypes) {
@@ -135,6 +157,7 @@ void provide_friction_default(LAMMPS *lmp, int ntypes) {
 }
 
 ContactTable::~ContactTable() {
+  wall_tables.erase(std::remove(wall_tables.begin(), wall_tables.end(), this), wall_tables.end());
   if (current_source && current_source->reads(this)) current_source.reset();
 }
 

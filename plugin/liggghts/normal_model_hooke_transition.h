@@ -76,20 +76,24 @@ public:
     const drumlin::ContactCoefficients &p = table_.at(sidata.itype, sidata.jtype);
     const double k = p.normal.stiffness;
     const double c = drumlin::physics::damping_coefficient(p.normal, sidata.meff);
-    const drumlin::physics::StepForce step = stepping_ ? second_order(sidata, k, c) : stock(sidata, k, c);
     sidata.kn = k;
     sidata.gamman = c;
     sidata.kt = p.tangential_stiffness;
     sidata.gammat = p.tangential_damping_share * c + p.tangential_damping;
     const double share = sidata.is_wall ? sidata.area_ratio : 1.0;
-    apply(step, share, sidata.en, sidata, i_forces, j_forces);
+    if (stepping_ == nullptr) {
+      // The engine's vn is positive when the balls separate: overlap_rate = -vn.
+      sidata.Fn = drumlin::physics::normal_force(transition(), k, c, sidata.deltan, -sidata.vn);
+      add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);
+    } else
+      second_order(sidata, k, c, share, i_forces, j_forces);
     for (drumlin::ContactWatch *watch : drumlin::ContactWatch::looking())
       show(*watch, share, sidata);
   }
 
   void surfacesClose(SurfacesCloseData &scdata, ForceData &i_forces, ForceData &j_forces) {
     if (scdata.contact_flags) *scdata.contact_flags &= ~CONTACT_NORMAL_MODEL;
-    if (stepping_ && transition_a_ && !update->setupflag) break_of_a(scdata, i_forces, j_forces);
+    if (stepping_ && transition_a_ && !stepping_->in_setup()) break_of_a(scdata, i_forces, j_forces);
   }
 
   void beginPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
@@ -114,22 +118,46 @@ private:
     return -((vi[0] - vj[0]) * normal[0] + (vi[1] - vj[1]) * normal[1] + (vi[2] - vj[2]) * normal[2]);
   }
 
-  /// The law as it stands. The engine's vn is positive when the balls separate: overlap_rate = -vn.
-  inline drumlin::physics::StepForce stock(SurfacesIntersectData &sidata, double k, double c) const {
-    const double Fn = drumlin::physics::normal_force(transition(), k, c, sidata.deltan, -sidata.vn);
-    sidata.Fn = Fn;
-    return {Fn, Fn, 0.0};
+  /// Sets sidata.Fn and adds the force.
+  inline void second_order(SurfacesIntersectData &sidata, double k, double c, double share,
+                           ForceData &i_forces, ForceData &j_forces) {
+    using namespace drumlin::physics;
+    double &force_before = sidata.contact_history[force_before_offset_];
+    const StepMotion motion = motion_of(sidata);
+    const double all = damping_over_mass(sidata);
+    // Nearly all contacts of nearly all steps; what a make, a break or heavy damping need is kept out of their way.
+    if (sidata.computeflag && !stepping_->in_setup() && force_before != 0.0 && !made_in_step(motion) &&
+        !needs_coupling(motion.dt, k, c, all)) {
+      sidata.Fn = second_order_held(transition(), k, c, motion, force_before, c / sidata.meff);
+      add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);
+    } else
+      second_order_rare(sidata, k, c, share, i_forces, j_forces);
+    if (!sidata.computeflag) return;
+    force_before = sidata.Fn;
+    if (!stepping_->counting()) return;
+    stepping_->add_damping(sidata.i, c);
+    if (!sidata.is_wall) stepping_->add_damping(sidata.j, c);
   }
 
-  /// Sets sidata.Fn and returns what to apply.
-  inline drumlin::physics::StepForce second_order(SurfacesIntersectData &sidata, double k, double c) {
+  inline drumlin::physics::StepMotion motion_of(const SurfacesIntersectData &sidata) const {
+    return {sidata.deltan, -sidata.vn, rate_before(sidata, sidata.en), stepping_->dt()};
+  }
+  /// Sum of c/m over all contacts of both balls, 1/s.
+  inline double damping_over_mass(const SurfacesIntersectData &sidata) const {
+    return stepping_->damping_over_mass(sidata.i) +
+           (sidata.is_wall ? 0.0 : stepping_->damping_over_mass(sidata.j));
+  }
+
+  [[gnu::noinline]] void second_order_rare(SurfacesIntersectData &sidata, double k, double c, double share,
+                                           ForceData &i_forces, ForceData &j_forces) {
     using namespace drumlin::physics;
-    if (update->setupflag) { // velocities belong to the time of the positions
-      const StepForce step = stock(sidata, k, c);
-      note(sidata, c);
-      return step;
+    const StepMotion motion = motion_of(sidata);
+    const double all = damping_over_mass(sidata);
+    if (stepping_->in_setup()) { // velocities belong to the time of the positions
+      sidata.Fn = normal_force(transition(), k, c, motion.overlap, motion.rate_half);
+      add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);
+      return;
     }
-    const StepMotion motion{sidata.deltan, -sidata.vn, rate_before(sidata, sidata.en), stepping_->dt()};
     const double recorded = sidata.contact_history[force_before_offset_];
     // No record although the contact is older than this step: a mesh contact went over to another triangle.
     const double old = recorded != 0.0
@@ -139,11 +167,10 @@ private:
     // Friction and rolling take the force that the contact would have alone.
     const StepForce step = second_order_force(transition(), k, c, motion, old, c / sidata.meff);
     sidata.Fn = step.force;
-    note(sidata, c);
-    const double all = stepping_->damping_over_mass(sidata.i) +
-                       (sidata.is_wall ? 0.0 : stepping_->damping_over_mass(sidata.j));
-    if (!needs_coupling(motion.dt, k, c, all) || made_in_step(motion) || !sidata.computeflag) return step;
-
+    if (!needs_coupling(motion.dt, k, c, all) || made_in_step(motion) || !sidata.computeflag) {
+      apply(step, share, sidata.en, sidata, i_forces, j_forces);
+      return;
+    }
     LAMMPS_NS::FixStepping::Coupled &contact = stepping_->couple();
     contact.i = sidata.i;
     contact.j = sidata.is_wall ? -1 : sidata.j;
@@ -153,28 +180,29 @@ private:
       contact.dashpot.at_rest +=
           contact.dashpot.per_rate *
           (sidata.v_j[0] * sidata.en[0] + sidata.v_j[1] * sidata.en[1] + sidata.v_j[2] * sidata.en[2]);
-    contact.share = sidata.is_wall ? sidata.area_ratio : 1.0;
+    contact.share = share;
     contact.force = &sidata.contact_history[force_before_offset_];
-    return {contact.dashpot.first, contact.dashpot.first, 0.0};
+    add(share * contact.dashpot.first, sidata.en, sidata, i_forces, j_forces);
   }
 
-  /// Takes note of a contact for the next step.
-  void note(const SurfacesIntersectData &sidata, double c) {
-    if (!sidata.computeflag) return;
-    sidata.contact_history[force_before_offset_] = sidata.Fn;
-    stepping_->add_damping(sidata.i, c, [&] { return mass(sidata.i, sidata.mi); });
-    if (!sidata.is_wall && sidata.j < atom->nlocal)
-      stepping_->add_damping(sidata.j, c, [&] { return mass(sidata.j, sidata.mj); });
+  /// Adds a force on both balls.
+  static inline void add(double force, const double *normal, const SurfacesCloseData &data,
+                         ForceData &i_forces, ForceData &j_forces) {
+    const double x = force * normal[0], y = force * normal[1], z = force * normal[2];
+    i_forces.delta_F[0] += x;
+    i_forces.delta_F[1] += y;
+    i_forces.delta_F[2] += z;
+    if (data.is_wall) return;
+    j_forces.delta_F[0] -= x;
+    j_forces.delta_F[1] -= y;
+    j_forces.delta_F[2] -= z;
   }
 
   /// Adds the force of the closing half kick, and has the rest added after it.
-  inline void apply(const drumlin::physics::StepForce &step, double share, const double *normal,
-                    const SurfacesCloseData &data, ForceData &i_forces, ForceData &j_forces) {
+  void apply(const drumlin::physics::StepForce &step, double share, const double *normal,
+             const SurfacesCloseData &data, ForceData &i_forces, ForceData &j_forces) {
     const double kick = share * step.kick;
-    for (int a = 0; a < 3; ++a) {
-      i_forces.delta_F[a] += kick * normal[a];
-      if (!data.is_wall) j_forces.delta_F[a] -= kick * normal[a];
-    }
+    add(kick, normal, data, i_forces, j_forces);
     if ((step.kick == step.force && step.shift == 0.0) || !data.computeflag) return;
     const double rest = share * step.force - kick;
     const double shift = share * step.shift;

@@ -61,6 +61,29 @@ struct StepForce {
   return dashpots > 0.25 && (dashpots > 0.75 || dashpots * dt * k > 0.5 * c);
 }
 
+/// Dashpots that may act on a ball at once.
+struct Dashpots {
+  double sum = 0.0;      ///< of c, N s/m
+  double stiffest = 0.0; ///< greatest k/c, 1/s; infinite if there is a spring without dashpot
+
+  void add(double k, double c) {
+    sum += c;
+    stiffest = std::max(stiffest, k / c);
+  }
+  void add(const Dashpots &other) {
+    sum += other.sum;
+    stiffest = std::max(stiffest, other.stiffest);
+  }
+};
+
+/// Force at t+dt of a contact that held through the step, under its transition condition. Arguments as above.
+[[nodiscard]] inline double second_order_held(Transition transition, double k, double c,
+                                              const StepMotion &motion, double force_before,
+                                              double c_over_m) {
+  const double force = second_order_spring_dashpot(k, c, motion, force_before, c_over_m);
+  return transition == Transition::B && force < 0.0 ? 0.0 : force;
+}
+
 /// Where contacts with heavy damping meet, their dashpots must know of one another. They are solved for in two passes:
 /// first every contact gives what changes with the positions,  F_old + k (d - d_old);  then, with v* = v+ + dt/2 a, a of these forces
 /// and all others that act, each dashpot takes
@@ -109,9 +132,8 @@ struct CoupledDashpot {
                                                   const StepMotion &motion, double force_before,
                                                   double c_over_m) {
   if (!made_in_step(motion)) {
-    const double force = second_order_spring_dashpot(k, c, motion, force_before, c_over_m);
-    const double limited = transition == Transition::B && force < 0.0 ? 0.0 : force;
-    return {limited, limited, 0.0};
+    const double force = second_order_held(transition, k, c, motion, force_before, c_over_m);
+    return {force, force, 0.0};
   }
   // A ball at rest that just touches has neither overlap nor rate.
   const double theta = motion.overlap > 0.0 ? motion.overlap / (motion.dt * motion.rate_half) : 0.0;

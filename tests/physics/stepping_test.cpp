@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 namespace {
 
@@ -154,6 +155,23 @@ TEST(SecondOrderStep, BallAtRestThatJustTouchesFeelsNothing) {
     EXPECT_EQ(step.kick, 0.0);
     EXPECT_EQ(step.shift, 0.0);
   }
+}
+
+// What a bound on sum and k/c denies is denied for every contact below it: FixStepping leaves the counting on that.
+TEST(SecondOrderStep, NeedOfCouplingGrowsWithTheSumOfDampingsAndWithTheSpring) {
+  std::mt19937 random(20251121);
+  std::uniform_real_distribution<double> exponent(-3.0, 1.0);
+  int needed = 0;
+  for (int n = 0; n < 10000; ++n) {
+    const double dt = 1e-4;
+    const double all = std::pow(10.0, exponent(random)) / dt;    // sum of c/m
+    const double spring = std::pow(10.0, exponent(random)) / dt; // k/c
+    if (!drumlin::physics::needs_coupling(dt, 7.0 * spring, 7.0, all)) continue;
+    ++needed;
+    EXPECT_TRUE(drumlin::physics::needs_coupling(dt, 1.5 * spring, 1.0, all));
+    EXPECT_TRUE(drumlin::physics::needs_coupling(dt, spring, 1.0, 1.5 * all));
+  }
+  EXPECT_GT(needed, 1000);
 }
 
 TEST(SecondOrderStep, BreakOfAEndsTheTensileForceWithinTheStep) {
