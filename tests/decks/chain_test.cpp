@@ -36,9 +36,10 @@ std::string case_name(const ::testing::TestParamInfo<Case> &info) {
   return info.param.name + post::transition_name(info.param.transition);
 }
 
-post::DirectResult truth_of(const ChainParameters &parameters, int samples_per_cycle) {
+post::DirectResult truth_of(const ChainParameters &parameters, int samples_per_cycle,
+                            int number_of_cycles = cycles) {
   post::DirectOptions options;
-  options.cycles = cycles;
+  options.cycles = number_of_cycles;
   options.samples_per_cycle = samples_per_cycle;
   return post::solve_direct(parameters, options);
 }
@@ -305,10 +306,7 @@ TEST(Settle, FindsAChainWithoutDampingAtRest) {
 TEST(HeavyDamping, SecondOrderSteppingFollowsTheDirectSolver) {
   ChainParameters p = post::table1_case("II", Transition::B);
   p.D = 1e4;
-  post::DirectOptions options;
-  options.cycles = 3;
-  options.samples_per_cycle = 50;
-  const ChainHistory truth = post::solve_direct(p, options).history;
+  const ChainHistory truth = truth_of(p, 50, 3).history;
   for (const int steps : {400, 4000}) {
     const ChainHistory run =
         run_chain("II", Transition::B, steps, 50, {{"D", "1e4"}, {"cycles", "3"}, {"stepping", "second"}})
@@ -320,10 +318,7 @@ TEST(HeavyDamping, SecondOrderSteppingFollowsTheDirectSolver) {
 TEST(HeavyDamping, OfTheBondFollowsTheDirectSolverToo) {
   ChainParameters p = post::table1_case("IV", Transition::B);
   p.c23 = 1e7;
-  post::DirectOptions options;
-  options.cycles = 3;
-  options.samples_per_cycle = 50;
-  const ChainHistory truth = post::solve_direct(p, options).history;
+  const ChainHistory truth = truth_of(p, 50, 3).history;
   std::vector<double> all_steps, errors;
   for (const int steps : {200, 800, 1600, 3200}) {
     const ChainHistory run =
