@@ -5,6 +5,7 @@
 #include "curve_table.h"
 #include "step_advice.h"
 #include "study_page.h"
+#include "study_promises.h"
 
 #include "chain_csv.h"
 
@@ -143,37 +144,14 @@ ReportTable order_table(const Data &data) {
   return table;
 }
 
-/// Judges what was promised; a row for each promise that the measured points can tell.
-class Promises {
-public:
-  Promises() {
-    table_.name = "promises";
-    table_.title = "What second-order stepping promises";
-    table_.text_columns = 2;
-    table_.header = {"what", "at", "measured", "promised", "holds"};
-  }
-  void at_most(const std::string &what, const std::string &at, double value, double bound) {
-    add(what, at, fmt::format("{:.2g}", value), fmt::format("<= {:g}", bound), value <= bound);
-  }
-  void at_least(const std::string &what, const std::string &at, const Ratio &ratio, double bound) {
-    add(what, at, fmt::format("{}{:.3g}", ratio.at_least ? "> " : "", ratio.value),
-        fmt::format(">= {:g}", bound), ratio.value >= bound);
-  }
-  ReportTable table() const {
-    ReportTable table = table_;
-    table.notes = {fmt::format("{} of {} hold.", held_, table.rows.size())};
-    return table;
-  }
+Promise at_most(const std::string &what, double value, double bound) {
+  return {fmt::format("{}: at most {:g}", what, bound), fmt::format("{:.2g}", value), value <= bound};
+}
 
-private:
-  void add(const std::string &what, const std::string &at, const std::string &value, const std::string &bound,
-           bool holds) {
-    held_ += holds ? 1 : 0;
-    table_.add({what, at, value, bound, holds ? "yes" : "no"}, holds ? RowState::agrees : RowState::differs);
-  }
-  ReportTable table_;
-  int held_ = 0;
-};
+Promise at_least(const std::string &what, const Ratio &ratio, double bound) {
+  return {fmt::format("{}: at least {:g}", what, bound),
+          fmt::format("{}{:.3g}", ratio.at_least ? "> " : "", ratio.value), ratio.value >= bound};
+}
 
 std::optional<double> error_at(const std::vector<ErrorPoint> &points, double steps) {
   for (const ErrorPoint &point : points)
@@ -181,36 +159,39 @@ std::optional<double> error_at(const std::vector<ErrorPoint> &points, double ste
   return std::nullopt;
 }
 
-ReportTable promise_table(const Data &data) {
+/// A promise for each that the measured points can tell.
+std::vector<Promise> judge(const Data &data) {
   constexpr std::array<double, 4> at_800 = {1e-5, 1.2e-4, 3e-5, 2e-4}, at_6400 = {2e-7, 2e-6, 5e-7, 2e-6};
   const Series &second = all_series[0], &reference = all_series[4];
-  Promises promises;
+  std::vector<Promise> promises;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const std::vector<ErrorPoint> curve = data.curve(cases[i], second, &ChainErrors::velocity);
     for (const auto &[steps, bound] : {std::pair{800.0, at_800[i]}, std::pair{6400.0, at_6400[i]}})
       if (const std::optional<double> error = error_at(curve, steps))
-        promises.at_most(fmt::format("velocity error, chain {} B", cases[i]),
-                         fmt::format("{:g} steps per cycle", steps), *error, bound);
+        promises.push_back(at_most(
+            fmt::format("velocity error, chain {} B, {:g} steps per cycle", cases[i], steps), *error, bound));
   }
   for (const Series &series : all_series) {
     if (series.stepping != std::string("second")) continue;
+    const std::string transition = transition_name(series.transition);
     for (const char *name : cases)
       if (const auto fit = order_of(data.curve(name, series, &ChainErrors::velocity)))
-        promises.at_least(fmt::format("order, chain {} {}", name, transition_name(series.transition)),
-                          fmt::format("{:g} to {:g} steps per cycle", fit->from, fit->to),
-                          {fit->order, false}, 1.9);
+        promises.push_back(at_least(fmt::format("order, chain {} {}, {:g} to {:g} steps per cycle", name,
+                                                transition, fit->from, fit->to),
+                                    {fit->order, false}, 1.9));
     for (const double ratio : ratios)
       if (const auto fit = order_of(data.curve(ratio, series)))
-        promises.at_least(
-            fmt::format("order, impact {}, D = {:g}", transition_name(series.transition), ratio),
-            fmt::format("{:g} to {:g} steps per contact", fit->from, fit->to), {fit->order, false}, 1.9);
+        promises.push_back(at_least(fmt::format("order, impact {}, D = {:g}, {:g} to {:g} steps per contact",
+                                                transition, ratio, fit->from, fit->to),
+                                    {fit->order, false}, 1.9));
     for (const auto &[ratio, first, last] :
          {std::tuple{0.2, 3e-4, 2e-5}, std::tuple{0.5, 1.5e-4, 1e-5}, std::tuple{2.0, 3e-5, 2e-6}})
       for (const auto &[steps, bound] : {std::pair{100.0, first}, std::pair{400.0, last}})
         if (const std::optional<double> error = error_at(data.curve(ratio, series), steps))
-          promises.at_most(fmt::format("restitution error, impact {}, D = {:g}",
-                                       transition_name(series.transition), ratio),
-                           fmt::format("{:g} steps per contact", steps), *error, bound);
+          promises.push_back(
+              at_most(fmt::format("restitution error, impact {}, D = {:g}, {:g} steps per contact",
+                                  transition, ratio, steps),
+                      *error, bound));
   }
   double worst = 0.0;
   long unmatched = 0;
@@ -221,18 +202,20 @@ ReportTable promise_table(const Data &data) {
     const double step = table1_case(point.chain_case, point.transition).period() / point.steps_per_cycle;
     worst = std::max(worst, point.errors.event_time_s / step);
   }
-  const std::string from = fmt::format("from {} steps per cycle on", fine);
+  const std::string from = fmt::format(", from {} steps per cycle on", fine);
   if (worst > 0.0) {
-    promises.at_most("time of any make or break, in steps", from, worst, 0.05);
-    promises.at_most("runs whose events do not match one by one", from, static_cast<double>(unmatched), 0.0);
+    promises.push_back(at_most("time of any make or break, in steps" + from, worst, 0.05));
+    promises.push_back(
+        at_most("runs whose events do not match one by one" + from, static_cast<double>(unmatched), 0.0));
   }
   for (const auto &[error, bound] : {std::pair{1e-3, 12.0}, std::pair{1e-5, 100.0}})
     for (std::size_t i = 1; i < cases.size(); ++i)
       if (const auto ratio = ratio_to(data.curve(cases[i], second, &ChainErrors::velocity),
                                       data.curve(cases[i], reference, &ChainErrors::velocity), error))
-        promises.at_least(fmt::format("steps of the engine's own law over ours, chain {} B", cases[i]),
-                          fmt::format("error {:g}", error), *ratio, bound);
-  return promises.table();
+        promises.push_back(at_least(
+            fmt::format("steps of the engine's own law over ours, chain {} B, error {:g}", cases[i], error),
+            *ratio, bound));
+  return promises;
 }
 
 ReportTable scaling_table(const Data &data) {
@@ -401,7 +384,7 @@ void write_accuracy_page(const fs::path &out) {
                   "limited to compression. Chains run for {} cycles; errors count over the last {}.",
                   accuracy_cycles, accuracy_window));
   page.section("Promises");
-  page.table(promise_table(data));
+  page.table(promise_table(judge(data)));
   Figures figures(page);
   page.section("Error against steps");
   figures.add(chain_figure(data, {"velocity_error", "Error of the drum's velocity against steps per cycle",

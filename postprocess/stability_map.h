@@ -2,6 +2,7 @@
 #pragma once
 
 #include "study.h"
+#include "study_promises.h"
 
 #include <string>
 #include <vector>
@@ -28,15 +29,8 @@ struct MapPoint {
   double miss() const;   ///< middle / limit - 1
 };
 
-/// A promise about the map and whether it is kept.
-struct MapVerdict {
-  std::string promise;
-  std::string found;
-  bool holds;
-};
-
 /// Measures what options.out/map.csv does not have yet.
 std::vector<MapPoint> measure_stability_map(const StudyOptions &options);
-std::vector<MapVerdict> judge_stability_map(const std::vector<MapPoint> &map);
+std::vector<Promise> judge_stability_map(const std::vector<MapPoint> &map);
 
 } // namespace drumlin::post

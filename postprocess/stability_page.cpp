@@ -61,18 +61,6 @@ PlannedFigure map_figure(const std::vector<MapPoint> &map) {
   return figure;
 }
 
-ReportTable promise_table(const std::vector<MapPoint> &map) {
-  ReportTable table;
-  table.name = "promises";
-  table.title = "What is promised";
-  table.text_columns = 2;
-  table.header = {"what", "measured", "agrees"};
-  for (const MapVerdict &verdict : judge_stability_map(map))
-    table.add({verdict.promise, verdict.found, verdict.holds ? "yes" : "no"},
-              verdict.holds ? RowState::agrees : RowState::differs);
-  return table;
-}
-
 ReportTable boundary_table(const std::vector<MapPoint> &map) {
   ReportTable table;
   table.name = "boundaries";
@@ -134,7 +122,7 @@ void write_stability_page(const std::filesystem::path &out, const std::vector<Ma
       "is the plugin's second-order stepping, stock the engine's velocity Verlet with the plugin's contact "
       "law.");
   page.section("The longest stable step");
-  page.table(promise_table(map));
+  page.table(promise_table(judge_stability_map(map)));
   page.figure(map_figure(map));
   page.table(boundary_table(map));
   page.section("Extremes");

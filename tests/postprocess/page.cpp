@@ -1,7 +1,10 @@
 #include "page.h"
 
+#include "engine_run.h"
+
 #include <expat.h>
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 namespace drumlin::test {
 
@@ -31,6 +34,19 @@ Parsed parse(const std::string &text) {
                             XML_ErrorString(XML_GetErrorCode(parser)));
   XML_ParserFree(parser);
   return out;
+}
+
+Parsed expect_sound_page(const std::filesystem::path &out, std::size_t images) {
+  const Parsed page = parse(post::read_text(out / "index.html"));
+  EXPECT_TRUE(page.well_formed) << page.error;
+  EXPECT_EQ(page.doubled_ids, 0u);
+  EXPECT_EQ(page.scripts, 0u);
+  EXPECT_TRUE(page.resources.empty());
+  EXPECT_GE(page.images.size(), images);
+  for (const std::vector<std::string> *links : {&page.images, &page.links})
+    for (const std::string &link : *links)
+      EXPECT_TRUE(std::filesystem::is_regular_file(out / link)) << link;
+  return page;
 }
 
 } // namespace drumlin::test

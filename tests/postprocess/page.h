@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
@@ -21,5 +22,8 @@ struct Parsed {
 };
 
 Parsed parse(const std::string &text);
+
+/// Expects out/index.html to be strict XML with at least so many images, and a file behind every link and image.
+Parsed expect_sound_page(const std::filesystem::path &out, std::size_t images);
 
 } // namespace drumlin::test

@@ -1,5 +1,6 @@
 // `drumlin study accuracy --quick`: what it measures holds, and an interrupted call goes on to the same result.
 #include "accuracy_results.h"
+#include "page.h"
 #include "scratch_study.h"
 
 #include <fmt/format.h>

@@ -54,13 +54,7 @@ TEST_F(CostStudy, GoesOnWhereItWasInterrupted) {
     }
   }
 
-  const Parsed page = parse(post::read_text(out / "index.html"));
-  EXPECT_TRUE(page.well_formed) << page.error;
-  EXPECT_EQ(page.doubled_ids, 0u);
-  EXPECT_EQ(page.images.size(), 1u);
-  for (const std::vector<std::string> *links : {&page.images, &page.links})
-    for (const std::string &link : *links)
-      EXPECT_TRUE(fs::is_regular_file(out / link)) << link;
+  expect_sound_page(out, 1);
 }
 
 TEST_F(CostStudy, RefusesAPathThatTheEngineWouldSplit) {

@@ -1,7 +1,5 @@
 #include "scratch_study.h"
 
-#include "page.h"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -37,16 +35,6 @@ void interrupt(const fs::path &file) {
     if (row == 0 || row % 2 == 1) kept += line + '\n';
   kept.resize(kept.size() - 3);
   std::ofstream(file) << kept;
-}
-
-void expect_sound_page(const fs::path &out, std::size_t images) {
-  const Parsed page = parse(post::read_text(out / "index.html"));
-  EXPECT_TRUE(page.well_formed) << page.error;
-  EXPECT_EQ(page.doubled_ids, 0u);
-  EXPECT_GE(page.images.size(), images);
-  for (const std::vector<std::string> *links : {&page.images, &page.links})
-    for (const std::string &link : *links)
-      EXPECT_TRUE(fs::is_regular_file(out / link)) << link;
 }
 
 } // namespace drumlin::test

@@ -28,7 +28,4 @@ private:
 /// Every second row of a file away, and the last one cut short, as a kill leaves it.
 void interrupt(const std::filesystem::path &file);
 
-/// The study's page is strict XML, and every link and image leads to a file.
-void expect_sound_page(const std::filesystem::path &out, std::size_t images);
-
 } // namespace drumlin::test

@@ -1,4 +1,5 @@
 // `drumlin study stability --quick`: what must hold holds, and an interrupted call goes on to the same result.
+#include "page.h"
 #include "scratch_study.h"
 
 #include "study.h"
