@@ -59,21 +59,13 @@ DirectResult accuracy_truth(const ChainParameters &parameters) {
 ChainErrors measure_chain(const ChainParameters &parameters, const std::string &stepping, int steps_per_cycle,
                           const DirectResult &truth) {
   const ChainParameters &p = parameters;
-  const DeckRun run("chain/in.chain", {{"transition", transition_name(p.transition)},
-                                       {"stepping", stepping},
-                                       {"k", number_text(p.k)},
-                                       {"D", number_text(p.D)},
-                                       {"omega", number_text(p.omega)},
-                                       {"Fw", number_text(p.Fw)},
-                                       {"m2", number_text(p.m2)},
-                                       {"m3", number_text(p.m3)},
-                                       {"k23", number_text(p.k23)},
-                                       {"c23", number_text(p.c23)},
-                                       {"g", number_text(p.g)},
-                                       {"cycles", std::to_string(accuracy_cycles)},
-                                       {"steps_per_cycle", std::to_string(steps_per_cycle)},
-                                       {"samples_per_cycle", std::to_string(accuracy_samples)},
-                                       {"settle_limit", "2000000000"}});
+  Variables variables = parameter_values(p);
+  variables.insert(variables.end(), {{"stepping", stepping},
+                                     {"cycles", std::to_string(accuracy_cycles)},
+                                     {"steps_per_cycle", std::to_string(steps_per_cycle)},
+                                     {"samples_per_cycle", std::to_string(accuracy_samples)},
+                                     {"settle_limit", "2000000000"}});
+  const DeckRun run("chain/in.chain", variables);
   run.must_succeed();
   const ChainHistory history = read_chain(run.file("chain.csv"));
   const std::vector<ContactEvent> events = read_events(run.file("events.csv"));

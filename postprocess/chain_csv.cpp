@@ -468,6 +468,19 @@ void write_files(const std::vector<FileText> &files) {
   }
 }
 
+std::vector<std::pair<std::string, std::string>> parameter_values(const ChainParameters &p) {
+  return {{"transition", transition_name(p.transition)},
+          {"k", number_text(p.k)},
+          {"D", number_text(p.D)},
+          {"omega", number_text(p.omega)},
+          {"Fw", number_text(p.Fw)},
+          {"m2", number_text(p.m2)},
+          {"m3", number_text(p.m3)},
+          {"k23", number_text(p.k23)},
+          {"c23", number_text(p.c23)},
+          {"g", number_text(p.g)}};
+}
+
 void write_chain(const fs::path &file, const ChainHistory &history) {
   write_files({{file, chain_text(history)}});
 }

@@ -6,6 +6,8 @@
 // that no reader ever meets a file half written. Numbers have 17 digits and come back bit for bit.
 #pragma once
 
+#include "chain_model.h"
+
 #include <cstddef>
 #include <filesystem>
 #include <map>
@@ -106,6 +108,9 @@ std::string chain_text(const ChainHistory &history);
 std::string events_text(const std::vector<ContactEvent> &events);
 std::string cycles_text(const std::vector<CycleSummary> &cycles);
 std::string parameters_text(const std::vector<std::pair<std::string, std::string>> &parameters);
+
+/// The chain's parameters by the names that decks, commands and parameters.csv give them, as text.
+std::vector<std::pair<std::string, std::string>> parameter_values(const ChainParameters &parameters);
 
 /// A name of a file and the text to go into it.
 using FileText = std::pair<std::filesystem::path, std::string>;

@@ -68,24 +68,17 @@ Task judge(const Arguments &arguments) {
 std::vector<std::pair<std::string, std::string>> record(const Arguments &arguments, const Task &task,
                                                         const DirectCost &cost, const std::string &command) {
   const ChainParameters &p = task.parameters;
-  return {{"case", arguments.chain.chain_case},
-          {"transition", transition_name(p.transition)},
-          {"k", number_text(p.k)},
-          {"D", number_text(p.D)},
-          {"c", number_text(p.damping())},
-          {"omega", number_text(p.omega)},
-          {"Fw", number_text(p.Fw)},
-          {"m2", number_text(p.m2)},
-          {"m3", number_text(p.m3)},
-          {"k23", number_text(p.k23)},
-          {"c23", number_text(p.c23)},
-          {"g", number_text(p.g)},
-          {"impact_speed", number_text(task.options.impact_speed)},
-          {"cycles", number_text(task.options.cycles)},
-          {"samples_per_cycle", fmt::format("{}", task.options.samples_per_cycle)},
-          {"solver", fmt::format("{} {}", direct_solver_name(), cost.bdf ? "Adams and BDF" : "Adams")},
-          {"rtol", number_text(task.options.rtol)},
-          {"command", command}};
+  std::vector<std::pair<std::string, std::string>> values = parameter_values(p);
+  values.insert(values.begin(), {"case", arguments.chain.chain_case});
+  values.insert(values.end(),
+                {{"c", number_text(p.damping())},
+                 {"impact_speed", number_text(task.options.impact_speed)},
+                 {"cycles", number_text(task.options.cycles)},
+                 {"samples_per_cycle", fmt::format("{}", task.options.samples_per_cycle)},
+                 {"solver", fmt::format("{} {}", direct_solver_name(), cost.bdf ? "Adams and BDF" : "Adams")},
+                 {"rtol", number_text(task.options.rtol)},
+                 {"command", command}});
+  return values;
 }
 
 void run(const Arguments &arguments, const std::string &command) {

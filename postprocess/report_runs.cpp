@@ -54,6 +54,22 @@ void check_parameters(const Run &run, const std::string &complaint) {
     throw std::runtime_error(fmt::format("{}: {}", (run.folder / "parameters.csv").string(), complaint));
 }
 
+/// Takes the transition, the last of the parameters, and says whether none is absent.
+bool take_transition(Run &run, Transition &transition, std::vector<std::string> absent) {
+  if (!run.parameters.count("transition")) absent.emplace_back("transition");
+  if (!absent.empty()) {
+    run.missing.push_back(
+        fmt::format("parameters.csv lacks {}: not judged and not compared.", joined(absent)));
+    return false;
+  }
+  try {
+    transition = transition_from_name(run.parameters.at("transition"));
+  } catch (const std::invalid_argument &error) {
+    check_parameters(run, error.what());
+  }
+  return true;
+}
+
 /// Fills Run::at_case: whether each parameter is the named case's.
 void compare_with_case(Run &run) {
   const std::optional<ReferenceCase> known = reference_case(run.case_name);
@@ -95,17 +111,7 @@ void read_chain_parameters(Run &run) {
   take(run, "k23", p.k23, absent);
   take(run, "c23", p.c23, absent);
   take(run, "g", p.g, absent);
-  if (!run.parameters.count("transition")) absent.emplace_back("transition");
-  if (!absent.empty()) {
-    run.missing.push_back(
-        fmt::format("parameters.csv lacks {}: not judged and not compared.", joined(absent)));
-    return;
-  }
-  try {
-    p.transition = transition_from_name(run.parameters.at("transition"));
-  } catch (const std::invalid_argument &error) {
-    check_parameters(run, error.what());
-  }
+  if (!take_transition(run, p.transition, absent)) return;
   check_parameters(run, p.invalid());
   run.kind = RunKind::chain;
   run.case_name = run.text("case", "");
@@ -126,17 +132,7 @@ void read_impact_parameters(Run &run) {
   take(run, "D", p.damping_ratio, absent);
   take(run, "m2", p.mass, absent);
   take(run, "speed", p.speed, absent);
-  if (!run.parameters.count("transition")) absent.emplace_back("transition");
-  if (!absent.empty()) {
-    run.missing.push_back(
-        fmt::format("parameters.csv lacks {}: not judged and not compared.", joined(absent)));
-    return;
-  }
-  try {
-    p.transition = transition_from_name(run.parameters.at("transition"));
-  } catch (const std::invalid_argument &error) {
-    check_parameters(run, error.what());
-  }
+  if (!take_transition(run, p.transition, absent)) return;
   for (const auto &[name, value] :
        {std::pair{"k", p.stiffness}, std::pair{"m2", p.mass}, std::pair{"speed", p.speed}})
     if (value <= 0.0)

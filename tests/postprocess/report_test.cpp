@@ -45,23 +45,15 @@ void write_chain_run(const fs::path &folder, const std::string &case_name, Trans
   write_chain(folder / "chain.csv", result.history);
   write_events(folder / "events.csv", result.events);
   write_cycles(folder / "cycles.csv", result.cycles);
-  write_parameters(folder / "parameters.csv", {{"deck", "chain"},
-                                               {"case", case_name},
-                                               {"transition", transition_name(transition)},
-                                               {"k", number_text(p.k)},
-                                               {"D", number_text(p.D)},
-                                               {"omega", number_text(p.omega)},
-                                               {"Fw", number_text(p.Fw)},
-                                               {"m2", number_text(p.m2)},
-                                               {"m3", number_text(p.m3)},
-                                               {"k23", number_text(p.k23)},
-                                               {"c23", number_text(p.c23)},
-                                               {"g", number_text(p.g)},
-                                               {"stepping", "none"},
-                                               {"steps_per_cycle", "2000"},
-                                               {"timestep", number_text(p.period() / 2000)},
-                                               {"engine", "a test"},
-                                               {"command", command}});
+  std::vector<std::pair<std::string, std::string>> values = parameter_values(p);
+  values.insert(values.end(), {{"deck", "chain"},
+                               {"case", case_name},
+                               {"stepping", "none"},
+                               {"steps_per_cycle", "2000"},
+                               {"timestep", number_text(p.period() / 2000)},
+                               {"engine", "a test"},
+                               {"command", command}});
+  write_parameters(folder / "parameters.csv", values);
 }
 
 /// A folder as the impact deck leaves it, from the closed form.
