@@ -41,7 +41,9 @@ public:
   double memory_usage() override;
 
   bool in_setup() const { return in_setup_; } ///< velocities belong to the time of the positions
-  double dt() const { return dt_; }           ///< s
+  /// Whether this is a step, in which no dashpot is heavy and none has to be counted.
+  bool light() const { return light_; }
+  double dt() const { return dt_; }                             ///< s
   const double *velocity_before(int i) const { return row(i); } ///< v(t), m/s, owned balls and ghosts
   /// Takes note, after the integration and before the ghosts hear of it, that a force on owned ball i is known to change in
   /// this step: 2 v+ - velocity_before is then the velocity with the new force.
@@ -103,6 +105,7 @@ private:
   void constrain(bool any) const;
 
   bool in_setup_ = false;
+  bool light_ = false;
   bool counting_ = false; // whether the contacts of this step are counted
   bool counted_ = false;  // whether those of the last were
   double dt_ = 0.0;

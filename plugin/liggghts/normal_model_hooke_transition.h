@@ -124,19 +124,13 @@ private:
     using namespace drumlin::physics;
     double &force_before = sidata.contact_history[force_before_offset_];
     const StepMotion motion = motion_of(sidata);
-    const double all = damping_over_mass(sidata);
-    // Nearly all contacts of nearly all steps; what a make, a break or heavy damping need is kept out of their way.
-    if (sidata.computeflag && !stepping_->in_setup() && force_before != 0.0 && !made_in_step(motion) &&
-        !needs_coupling(motion.dt, k, c, all)) {
+    // Nearly all contacts of nearly all steps; what makes, breaks and heavy damping need is kept out of their way.
+    if (stepping_->light() && sidata.computeflag && force_before != 0.0 && !made_in_step(motion)) {
       sidata.Fn = second_order_held(transition(), k, c, motion, force_before, c / sidata.meff);
       add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);
+      force_before = sidata.Fn;
     } else
       second_order_rare(sidata, k, c, share, i_forces, j_forces);
-    if (!sidata.computeflag) return;
-    force_before = sidata.Fn;
-    if (!stepping_->counting()) return;
-    stepping_->add_damping(sidata.i, c);
-    if (!sidata.is_wall) stepping_->add_damping(sidata.j, c);
   }
 
   inline drumlin::physics::StepMotion motion_of(const SurfacesIntersectData &sidata) const {
@@ -152,37 +146,48 @@ private:
                                            ForceData &i_forces, ForceData &j_forces) {
     using namespace drumlin::physics;
     const StepMotion motion = motion_of(sidata);
+    double &force_before = sidata.contact_history[force_before_offset_];
     const double all = damping_over_mass(sidata);
     if (stepping_->in_setup()) { // velocities belong to the time of the positions
       sidata.Fn = normal_force(transition(), k, c, motion.overlap, motion.rate_half);
       add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);
-      return;
+    } else {
+      // No record although the contact is older than this step: a mesh contact went over to another triangle.
+      const double old = force_before != 0.0
+                             ? force_before
+                             : normal_force(transition(), k, c, motion.overlap - motion.dt * motion.rate_half,
+                                            motion.rate_before);
+      // Friction and rolling take the force that the contact would have alone.
+      const StepForce step = second_order_force(transition(), k, c, motion, old, c / sidata.meff);
+      sidata.Fn = step.force;
+      if (sidata.computeflag && needs_coupling(motion.dt, k, c, all) && !made_in_step(motion)) {
+        const CoupledDashpot dashpot = coupled_dashpot(transition(), k, c, motion, old, all);
+        add(share * dashpot.first, sidata.en, sidata, i_forces, j_forces);
+        couple(sidata, dashpot, share);
+      } else
+        apply(step, share, sidata.en, sidata, i_forces, j_forces);
     }
-    const double recorded = sidata.contact_history[force_before_offset_];
-    // No record although the contact is older than this step: a mesh contact went over to another triangle.
-    const double old = recorded != 0.0
-                           ? recorded
-                           : normal_force(transition(), k, c, motion.overlap - motion.dt * motion.rate_half,
-                                          motion.rate_before);
-    // Friction and rolling take the force that the contact would have alone.
-    const StepForce step = second_order_force(transition(), k, c, motion, old, c / sidata.meff);
-    sidata.Fn = step.force;
-    if (!needs_coupling(motion.dt, k, c, all) || made_in_step(motion) || !sidata.computeflag) {
-      apply(step, share, sidata.en, sidata, i_forces, j_forces);
-      return;
-    }
+    if (!sidata.computeflag) return;
+    force_before = sidata.Fn;
+    if (!stepping_->counting()) return;
+    stepping_->add_damping(sidata.i, c);
+    if (!sidata.is_wall) stepping_->add_damping(sidata.j, c);
+  }
+
+  /// Leaves a dashpot to be solved for when all forces of the step are known.
+  void couple(const SurfacesIntersectData &sidata, const drumlin::physics::CoupledDashpot &dashpot,
+              double share) {
     LAMMPS_NS::FixStepping::Coupled &contact = stepping_->couple();
     contact.i = sidata.i;
     contact.j = sidata.is_wall ? -1 : sidata.j;
     contact.normal = {sidata.en[0], sidata.en[1], sidata.en[2]};
-    contact.dashpot = coupled_dashpot(transition(), k, c, motion, old, all);
+    contact.dashpot = dashpot;
     if (sidata.is_wall)
       contact.dashpot.at_rest +=
-          contact.dashpot.per_rate *
+          dashpot.per_rate *
           (sidata.v_j[0] * sidata.en[0] + sidata.v_j[1] * sidata.en[1] + sidata.v_j[2] * sidata.en[2]);
     contact.share = share;
     contact.force = &sidata.contact_history[force_before_offset_];
-    add(share * contact.dashpot.first, sidata.en, sidata, i_forces, j_forces);
   }
 
   /// Adds a force on both balls.
