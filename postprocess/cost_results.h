@@ -48,7 +48,8 @@ struct Comparison {
   const char *piece;
   const char *variant;
   const char *base;
-  double most; ///< largest ratio that was promised; 0: none was
+  double most;            ///< largest ratio that was promised; 0: none was
+  std::string where = ""; ///< scene that the promise is about; empty: all
 };
 
 /// The median over the rounds of the ratio within a round: neighbours in time share the machine's mood.
@@ -57,7 +58,11 @@ struct PieceCost {
   Comparison comparison;
   Spread ratio;
   double extra_us_per_step; ///< median of the difference within a round
-  bool holds() const { return comparison.most == 0.0 || ratio.median <= comparison.most; }
+  /// Largest ratio that was promised here; 0: none was.
+  double promised() const {
+    return comparison.where.empty() || comparison.where == scene ? comparison.most : 0.0;
+  }
+  bool holds() const { return promised() == 0.0 || ratio.median <= promised(); }
 };
 /// The comparisons that the scenes allow, scene by scene. Rounds that lack one of the two do not count.
 std::vector<PieceCost> piece_costs(const std::vector<CostRun> &runs,

@@ -33,7 +33,7 @@ constexpr std::array studies = {
           &run_accuracy_study},
     Study{"cost",
           "What a step costs on the chain and on settled beds, and what each optional piece adds, as ratios "
-          "within interleaved rounds. About a quarter of an hour, on a quiet machine.",
+          "within interleaved rounds. About twenty minutes, on a quiet machine.",
           &run_cost_study},
     Study{"stability",
           "The longest stable step over damping, for both steppings; runs at the edges of what can be asked. "

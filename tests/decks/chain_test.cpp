@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <ostream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -348,6 +350,26 @@ TEST(HeavyDamping, LongStepsLeaveAChainAtRestAtRest) {
       for (const double x : h.x_drum)
         ASSERT_NEAR(x, -static_overlap, 1e-9 * static_overlap) << "D = " << D << ", c23 = " << c23;
     }
+}
+
+// Two dashpots that must know of one another, both of walls: no pair of balls tells that they are heavy.
+TEST(HeavyDamping, BetweenTwoWallsIsStableUpToTheLimitOfTheSprings) {
+  for (const char *D : {"2", "100"}) {
+    const Scratch scratch;
+    const Outcome outcome = run_deck(
+        std::filesystem::path(DRUMLIN_SOURCE_DIR) / "inputs/study/in.stability",
+        {{"scene", "two"}, {"D", D}, {"balls", "8"}, {"lowest", "0.7"}, {"highest", "1.4"}, {"half", "2000"}},
+        scratch.path());
+    ASSERT_TRUE(outcome.ok()) << outcome.output;
+    const std::string looks = read_text(scratch / "looks.dump");
+    std::istringstream last(looks.substr(looks.rfind("ITEM: ATOMS id x z \n")));
+    std::string header;
+    std::getline(last, header);
+    int balls = 0;
+    for (double id = 0, x = 0, z = 0; last >> id >> x >> z; ++balls)
+      EXPECT_LT(std::fabs(z), 1e-6) << "pushed by 1e-6 m, ball " << id << ", D = " << D;
+    EXPECT_EQ(balls, 8);
+  }
 }
 
 TEST(Settle, NamesASceneThatNeverSettles) {

@@ -46,6 +46,9 @@ TEST(CostResults, PromiseIsKeptUpToItsLimit) {
   const std::vector<CostRun> runs = {run("bed", "without", 1, 1.0), run("bed", "with", 1, 1.1)};
   EXPECT_TRUE(post::piece_costs(runs, {{"piece", "with", "without", 0.0}})[0].holds()) << "nothing promised";
   EXPECT_TRUE(post::piece_costs(runs, {{"piece", "with", "without", 1.11}})[0].holds());
+  EXPECT_FALSE(post::piece_costs(runs, {{"piece", "with", "without", 1.09, "bed"}})[0].holds());
+  EXPECT_TRUE(post::piece_costs(runs, {{"piece", "with", "without", 1.09, "chain"}})[0].holds())
+      << "promised elsewhere";
   EXPECT_FALSE(post::piece_costs(runs, {{"piece", "with", "without", 1.09}})[0].holds());
 }
 
