@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <ostream>
 #include <sstream>
 #include <string>
@@ -352,23 +353,44 @@ TEST(HeavyDamping, LongStepsLeaveAChainAtRestAtRest) {
     }
 }
 
-// Two dashpots that must know of one another, both of walls: no pair of balls tells that they are heavy.
-TEST(HeavyDamping, BetweenTwoWallsIsStableUpToTheLimitOfTheSprings) {
+/// Eight balls, w0 dt up to 1.4, each pushed by 1e-6 m between two walls.
+void expect_held(const std::filesystem::path &deck, const Scratch &scratch, const char *D) {
+  const Outcome outcome = run_deck(
+      deck,
+      {{"scene", "two"}, {"D", D}, {"balls", "8"}, {"lowest", "0.7"}, {"highest", "1.4"}, {"half", "2000"}},
+      scratch.path());
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  const std::string looks = read_text(scratch / "looks.dump");
+  std::istringstream last(looks.substr(looks.rfind("ITEM: ATOMS id x z \n")));
+  std::string header;
+  std::getline(last, header);
+  int balls = 0;
+  for (double id = 0, x = 0, z = 0; last >> id >> x >> z; ++balls)
+    EXPECT_LT(std::fabs(z), 1e-6) << "ball " << id << ", D = " << D;
+  EXPECT_EQ(balls, 8);
+}
+
+// Dashpots that must know of one another, all of walls: no pair of balls tells that they are heavy.
+TEST(HeavyDamping, BetweenWallsIsStableUpToTheLimitOfTheSprings) {
+  const std::filesystem::path study = std::filesystem::path(DRUMLIN_SOURCE_DIR) / "inputs/study";
   for (const char *D : {"2", "100"}) {
-    const Scratch scratch;
-    const Outcome outcome = run_deck(
-        std::filesystem::path(DRUMLIN_SOURCE_DIR) / "inputs/study/in.stability",
-        {{"scene", "two"}, {"D", D}, {"balls", "8"}, {"lowest", "0.7"}, {"highest", "1.4"}, {"half", "2000"}},
-        scratch.path());
-    ASSERT_TRUE(outcome.ok()) << outcome.output;
-    const std::string looks = read_text(scratch / "looks.dump");
-    std::istringstream last(looks.substr(looks.rfind("ITEM: ATOMS id x z \n")));
-    std::string header;
-    std::getline(last, header);
-    int balls = 0;
-    for (double id = 0, x = 0, z = 0; last >> id >> x >> z; ++balls)
-      EXPECT_LT(std::fabs(z), 1e-6) << "pushed by 1e-6 m, ball " << id << ", D = " << D;
-    EXPECT_EQ(balls, 8);
+    const Scratch planes, meshes;
+    expect_held(study / "in.stability", planes, D);
+    std::filesystem::copy(study, meshes / "study");
+    std::ofstream(meshes / "strip.stl") // within the box
+        << "solid strip\n"
+           "facet normal 0 0 1\nouter loop\nvertex -1.9 -0.9 0\nvertex 1.9 -0.9 0\nvertex 1.9 15.9 "
+           "0\nendloop\nendfacet\n"
+           "facet normal 0 0 1\nouter loop\nvertex -1.9 -0.9 0\nvertex 1.9 15.9 0\nvertex -1.9 15.9 "
+           "0\nendloop\nendfacet\n"
+           "endsolid strip\n";
+    std::ofstream held(meshes / "study/held.two");
+    held << "fix below all mesh/surface file ${out}/strip.stl type 1 move 0 0 -0.4\n"
+            "fix above all mesh/surface file ${out}/strip.stl type 1 move 0 0 0.4\n"
+            "fix walls all wall/gran model hooke/transition mesh n_meshes 2 meshes below above "
+            "transition A damping ratio stepping ${stepping}\n";
+    held.close();
+    expect_held(meshes / "study/in.stability", meshes, D);
   }
 }
 
