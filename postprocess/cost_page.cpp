@@ -34,12 +34,13 @@ ReportTable variant_table(const std::vector<VariantCost> &costs) {
   table.name = "variants";
   table.title = "What a step takes";
   table.text_columns = 2;
-  table.header = {"scene",    "variant",  "rounds",    "step (us)",
-                  "min (us)", "max (us)", "pair (us)", "ball and step (ns)"};
+  table.header = {
+      "scene",     "variant",           "rounds", "step (us)", "lower quartile (us)", "upper quartile (us)",
+      "pair (us)", "ball and step (ns)"};
   for (const VariantCost &cost : costs)
     table.add({cost.scene, cost.variant, std::to_string(cost.rounds),
-               fmt::format("{:.4g}", cost.us_per_step.median), fmt::format("{:.4g}", cost.us_per_step.low),
-               fmt::format("{:.4g}", cost.us_per_step.high), fmt::format("{:.4g}", cost.pair_us_per_step),
+               fmt::format("{:.4g}", cost.us_per_step.median), fmt::format("{:.4g}", cost.us_per_step.lower),
+               fmt::format("{:.4g}", cost.us_per_step.upper), fmt::format("{:.4g}", cost.pair_us_per_step),
                fmt::format("{:.4g}", cost.ns_per_ball)});
   table.notes = {
       "Medians over the rounds. Pair is the part of a step in the pair style; balls are those that move."};
@@ -56,14 +57,14 @@ ReportTable piece_table(const std::vector<PieceCost> &costs) {
                   "variant",
                   "over",
                   "ratio (-)",
-                  "min (-)",
-                  "max (-)",
+                  "lower quartile (-)",
+                  "upper quartile (-)",
                   "promised at most (-)",
                   "extra per step (us)"};
   for (const PieceCost &cost : costs)
     table.add({cost.scene, cost.comparison.piece, cost.comparison.variant, cost.comparison.base,
-               fmt::format("{:.3f}", cost.ratio.median), fmt::format("{:.3f}", cost.ratio.low),
-               fmt::format("{:.3f}", cost.ratio.high),
+               fmt::format("{:.3f}", cost.ratio.median), fmt::format("{:.3f}", cost.ratio.lower),
+               fmt::format("{:.3f}", cost.ratio.upper),
                cost.promised() > 0.0 ? fmt::format("{:.2f}", cost.promised()) : "–",
                fmt::format("{:.3g}", cost.extra_us_per_step)},
               cost.promised() == 0.0 ? RowState::plain
@@ -85,9 +86,9 @@ PlannedFigure piece_figure(const std::vector<PieceCost> &costs) {
   PlannedFigure figure;
   figure.label = "Fig. 1";
   figure.caption = "Cost per step of a variant over the one without the piece: median over the rounds, "
-                   "lowest and highest.";
+                   "quartiles.";
   figure.figure = {name, "Cost per step over that without the piece", {}, 1, 1000, 520};
-  CurveTable table("piece,ratio (-),lowest (-),highest (-)");
+  CurveTable table("piece,ratio (-),lower quartile (-),upper quartile (-)");
   for (const PieceCost &cost : costs) {
     std::vector<Panel> &panels = figure.figure.panels;
     if (panels.empty() || panels.back().title != cost.scene) {
@@ -100,7 +101,7 @@ PlannedFigure piece_figure(const std::vector<PieceCost> &costs) {
     }
     panels.back().x_ticks.emplace_back(cost.comparison.piece);
     table.row(cost.scene, {static_cast<double>(panels.back().x_ticks.size()), cost.ratio.median,
-                           cost.ratio.low, cost.ratio.high});
+                           cost.ratio.lower, cost.ratio.upper});
   }
   figure.csv = table.text();
   return figure;

@@ -14,8 +14,7 @@ namespace drumlin::post {
 namespace {
 
 Spread spread(const std::vector<double> &values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return {median(values), *low, *high};
+  return {median(values), quantile(values, 0.25), quantile(values, 0.75)};
 }
 
 /// The values without repetition, in order of appearance.

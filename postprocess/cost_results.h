@@ -27,9 +27,9 @@ std::vector<std::string> cells(const CostRun &run);
 /// The rows of a file in order. std::runtime_error for one that cannot be understood.
 std::vector<CostRun> read_cost_runs(const std::filesystem::path &file);
 
-/// Median and extremes over the rounds.
+/// Median and quartiles over the rounds.
 struct Spread {
-  double median, low, high;
+  double median, lower, upper;
 };
 
 /// A variant of a scene: what a step takes.

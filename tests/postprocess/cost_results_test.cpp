@@ -20,8 +20,8 @@ TEST(CostResults, RatioIsTheMedianWithinRounds) {
   const auto pieces = post::piece_costs(runs, {{"piece", "with", "without", 0.0}});
   ASSERT_EQ(pieces.size(), 1u);
   EXPECT_NEAR(pieces[0].ratio.median, 1.2, 1e-12);
-  EXPECT_NEAR(pieces[0].ratio.low, 1.1, 1e-12);
-  EXPECT_NEAR(pieces[0].ratio.high, 1.4, 1e-12);
+  EXPECT_NEAR(pieces[0].ratio.lower, 1.15, 1e-12);
+  EXPECT_NEAR(pieces[0].ratio.upper, 1.3, 1e-12);
   EXPECT_NEAR(pieces[0].extra_us_per_step, 800.0, 1e-9) << "of 100, 800 and 800";
 }
 
@@ -30,7 +30,7 @@ TEST(CostResults, RoundWithoutItsBaseDoesNotCount) {
                                      run("bed", "with", 2, 9.0)};
   const auto pieces = post::piece_costs(runs, {{"piece", "with", "without", 0.0}});
   ASSERT_EQ(pieces.size(), 1u);
-  EXPECT_NEAR(pieces[0].ratio.high, 1.1, 1e-12);
+  EXPECT_NEAR(pieces[0].ratio.upper, 1.1, 1e-12);
 }
 
 TEST(CostResults, ScenesDoNotMixAndNeedNotHaveEveryVariant) {
@@ -59,8 +59,8 @@ TEST(CostResults, UnitsOfAStep) {
   ASSERT_EQ(costs.size(), 1u);
   EXPECT_EQ(costs[0].rounds, 3);
   EXPECT_NEAR(costs[0].us_per_step.median, 100.0, 1e-9) << "0.2 s over 2000 steps";
-  EXPECT_NEAR(costs[0].us_per_step.low, 50.0, 1e-9);
-  EXPECT_NEAR(costs[0].us_per_step.high, 200.0, 1e-9);
+  EXPECT_NEAR(costs[0].us_per_step.lower, 75.0, 1e-9);
+  EXPECT_NEAR(costs[0].us_per_step.upper, 150.0, 1e-9);
   EXPECT_NEAR(costs[0].pair_us_per_step, 50.0, 1e-9);
   EXPECT_NEAR(costs[0].ns_per_ball, 2000.0, 1e-9) << "of 50 balls";
 }
