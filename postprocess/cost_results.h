@@ -48,8 +48,8 @@ struct Comparison {
   const char *piece;
   const char *variant;
   const char *base;
-  double most;            ///< largest ratio that was promised; 0: none was
-  std::string where = ""; ///< scene that the promise is about; empty: all
+  double most;                 ///< largest ratio that was promised; 0: none was
+  const char *where = nullptr; ///< scene that the promise is about; nullptr: all
 };
 
 /// The median over the rounds of the ratio within a round: neighbours in time share the machine's mood.
@@ -60,7 +60,7 @@ struct PieceCost {
   double extra_us_per_step; ///< median of the difference within a round
   /// Largest ratio that was promised here; 0: none was.
   double promised() const {
-    return comparison.where.empty() || comparison.where == scene ? comparison.most : 0.0;
+    return comparison.where == nullptr || comparison.where == scene ? comparison.most : 0.0;
   }
   bool holds() const { return promised() == 0.0 || ratio.median <= promised(); }
 };

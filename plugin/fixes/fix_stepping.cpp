@@ -249,24 +249,24 @@ void FixStepping::grow_arrays(int nmax) {
 
 void FixStepping::copy_arrays(int i, int j, int) {
   std::array<double, exchanged> ball{};
-  pack_exchange(i, ball.data());
-  unpack_exchange(j, ball.data());
+  FixStepping::pack_exchange(i, ball.data());
+  FixStepping::unpack_exchange(j, ball.data());
 }
 
 void FixStepping::set_arrays(int i) {
   std::array<double, exchanged> ball{};
   ball.back() = -1.0;
-  unpack_exchange(i, ball.data());
+  FixStepping::unpack_exchange(i, ball.data());
 }
 
 int FixStepping::pack_exchange(int i, double *buf) {
-  pack_comm(1, &i, buf, 0, nullptr);
+  FixStepping::pack_comm(1, &i, buf, 0, nullptr);
   buf[shared] = inverse_mass_[static_cast<std::size_t>(i)];
   return exchanged;
 }
 
 int FixStepping::unpack_exchange(int i, double *buf) {
-  unpack_comm(1, i, buf);
+  FixStepping::unpack_comm(1, i, buf);
   inverse_mass_[static_cast<std::size_t>(i)] = buf[shared];
   return exchanged;
 }

@@ -37,7 +37,7 @@ Parsed parse(const std::string &text) {
 }
 
 Parsed expect_sound_page(const std::filesystem::path &out, std::size_t images) {
-  const Parsed page = parse(post::read_text(out / "index.html"));
+  Parsed page = parse(post::read_text(out / "index.html"));
   EXPECT_TRUE(page.well_formed) << page.error;
   EXPECT_EQ(page.doubled_ids, 0u);
   EXPECT_EQ(page.scripts, 0u);
