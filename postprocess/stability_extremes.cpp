@@ -179,9 +179,10 @@ Extreme impact_row(const std::string &name, const ImpactParameters &p) {
   return row;
 }
 
-/// A run that must end with an error that names `word`.
-Extreme stop_row(const std::string &name, ChainPlan plan, const std::string &word) {
-  Extreme row = chain_row("Must stop", name, plan, 0.0);
+/// Makes a run one that must end with an error that names `word`.
+Extreme stopping(Extreme row, const std::string &word) {
+  row.group = "Must stop";
+  row.allowed = 0.0;
   row.limit = 30.0;
   row.expected = fmt::format("an ERROR that says '{}' (0: it does)", word);
   row.error = [word](const DeckRun &run) {
@@ -189,6 +190,10 @@ Extreme stop_row(const std::string &name, ChainPlan plan, const std::string &wor
     return stopped && engine_error(run.outcome().output).find(word) != std::string::npos ? 0.0 : 1.0;
   };
   return row;
+}
+
+Extreme stop_row(const std::string &name, ChainPlan plan, const std::string &word) {
+  return stopping(chain_row("Must stop", name, plan, 0.0), word);
 }
 
 /// The plan with one parameter changed.
@@ -349,6 +354,14 @@ void add_stop_rows(std::vector<Extreme> &rows) {
   Extreme overflow = stop_row("a number overflows: D = 1e304", infinite_damping, "not finite");
   overflow.variables.emplace_back("D", "1e304");
   rows.push_back(overflow);
+  for (const int ranks : {1, 2}) {
+    Extreme packed;
+    packed.name = fmt::format("balls start in one another: 0.8 of a radius apart, ranks: {}", ranks);
+    packed.deck = "study/in.small_bed";
+    packed.variables = {{"spacing", "0.8"}};
+    packed.ranks = ranks;
+    rows.push_back(stopping(packed, "of the smaller radius at step 0; allowed"));
+  }
 }
 
 std::string without_commas(std::string text) {
