@@ -2,6 +2,7 @@
 
 #include "chain_csv.h"
 #include "chain_options.h"
+#include "options.h"
 #include "step_advice.h"
 #include "study.h"
 

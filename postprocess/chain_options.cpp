@@ -1,12 +1,11 @@
 #include "chain_options.h"
 
-#include "chain_csv.h"
 #include "command.h"
+#include "options.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <limits>
 #include <stdexcept>
 
 namespace drumlin::post {
@@ -32,22 +31,6 @@ constexpr std::array<Override, 9> overrides = {{
 }};
 
 } // namespace
-
-double number_option(const char *option, const std::string &text) {
-  try {
-    return number_from_text(text);
-  } catch (const std::invalid_argument &) {
-    throw UsageError(fmt::format("{} = '{}': allowed are finite numbers", option, text));
-  }
-}
-
-int count_option(const char *option, const std::string &text) {
-  const double value = number_option(option, text);
-  const int count = value >= 1.0 && value <= std::numeric_limits<int>::max() ? static_cast<int>(value) : 0;
-  if (static_cast<double>(count) != value)
-    throw UsageError(fmt::format("{} = '{}': allowed are whole numbers from 1", option, text));
-  return count;
-}
 
 void add_chain_options(CLI::App &command, ChainArguments &arguments) {
   command.add_option("--case", arguments.chain_case, "case of the paper's Table 1: I, II, III or IV")

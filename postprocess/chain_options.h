@@ -29,8 +29,4 @@ ChainParameters judged(const ChainArguments &arguments);
 /// The same as -var words for in.chain, each after a blank.
 std::string deck_words(const ChainArguments &arguments);
 
-/// The finite number, or the whole number from 1, that an option holds; else UsageError.
-double number_option(const char *option, const std::string &text);
-int count_option(const char *option, const std::string &text);
-
 } // namespace drumlin::post

@@ -4,6 +4,7 @@
 #include "chain_model.h"
 #include "chain_options.h"
 #include "direct_solver.h"
+#include "options.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

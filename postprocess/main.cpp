@@ -1,5 +1,6 @@
 // The tool behind ./drumlin: one program, one subcommand per job.
 #include "advise_command.h"
+#include "bed_command.h"
 #include "command.h"
 #include "exact_command.h"
 #include "report_command.h"
@@ -26,6 +27,7 @@ struct Subcommand {
 // A new subcommand is one line here.
 constexpr std::array subcommands = {
     Subcommand{"advise", &drumlin::post::add_advise_command},
+    Subcommand{"bed", &drumlin::post::add_bed_command},
     Subcommand{"exact", &drumlin::post::add_exact_command},
     Subcommand{"report", &drumlin::post::add_report_command},
     Subcommand{"study", &drumlin::post::add_study_command},

@@ -30,7 +30,8 @@ void check_command(LAMMPS *lmp, int narg, char **arg) {
   Arguments in(engine.errors(), "drumlin/check", narg, arg);
   const std::string name = in.word("the variable's name");
   const std::string value = in.word("the value of variable " + name);
-  constexpr const char *rules = "one_of, positive, non_negative, finite, integer, multiple_of or directory";
+  constexpr const char *rules =
+      "one_of, positive, non_negative, finite, integer, multiple_of, directory or file";
   const std::string rule = in.word("the rule for variable " + name, rules);
   const auto reject = [&](const std::string &allowed) {
     in.fail("variable " + name + " is '" + value + "'; allowed: " + allowed);
@@ -77,6 +78,17 @@ void check_command(LAMMPS *lmp, int narg, char **arg) {
     }
     MPI_Bcast(&bad, 1, MPI_INT, 0, engine.ranks());
     if (bad) reject("a folder that can be made or written");
+  } else if (rule == "file") {
+    std::string maker;
+    while (!in.empty())
+      maker += (maker.empty() ? "" : " ") + in.word("command that makes the file");
+    int bad = 0;
+    if (engine.rank() == 0) {
+      std::error_code failed;
+      bad = !std::filesystem::is_regular_file(value, failed) || access(value.c_str(), R_OK) != 0;
+    }
+    MPI_Bcast(&bad, 1, MPI_INT, 0, engine.ranks());
+    if (bad) reject("a file that can be read" + (maker.empty() ? "" : ", which '" + maker + "' makes"));
   } else {
     in.fail("unknown rule '" + rule + "' for variable " + name + "; allowed: " + rules);
   }

@@ -5,13 +5,17 @@
 
 #include "engine.h"
 #include "physics/contact_law.h"
+#include "physics/friction_law.h"
 #include "physics/stepping.h"
 
 #include <cmath>
 
 namespace drumlin {
 
-/// The normal contact law in force, as the pair style applies it.
+/// Which of the engine's tangential models acts beside the normal law.
+enum class FrictionModel { none, no_history, history };
+
+/// The contact law in force, as the pair style applies it.
 class ContactSource {
 public:
   virtual ~ContactSource() = default;
@@ -29,6 +33,12 @@ public:
   /// The dashpots of ball i (local) if it touches all walls at once; their sum is infinite if there are meshes, of which it may
   /// touch any number of triangles.
   virtual physics::Dashpots wall_dashpots(int i) const = 0;
+  virtual FrictionModel friction_model() const = 0;
+  /// Friction of a pair of types whose normal damping coefficient is c (N s/m). Not for FrictionModel::none.
+  virtual physics::Friction friction(int itype, int jtype, double c) const = 0;
+  /// Tangential spring (m, three components) of ball i and its jj-th neighbour in the pair list, as ball i feels it; valid
+  /// until the list is built anew. For FrictionModel::history only.
+  virtual const double *tangential_spring(int i, int jj) const = 0;
 };
 
 /// Source of the pair style of this engine instance, or nullptr if the pair style is not hooke/transition.

@@ -3,7 +3,6 @@
 #include "fixes/arguments.h"
 #include "fixes/fix_bond_spring.h"
 #include "fixes/fix_drum_excite.h"
-#include "fixes/pair_motion.h"
 #include "fixes/restart_record.h"
 
 #include <algorithm>
@@ -29,7 +28,7 @@ FixRollerHistory::FixRollerHistory(LAMMPS *lammps, int narg, char **arg) : Fix(l
   global_freq = 1;
   restart_global = 1;
   time_depend = 1;
-  comm_forward = 3;
+  comm_forward = 6;
   parse(narg, arg);
 }
 
@@ -182,13 +181,16 @@ void FixRollerHistory::rebuild() {
       const bool i_drum = mask[i] & drum_.groupbit;
       const bool j_drum = mask[j] & drum_.groupbit;
       if (i_drum == j_drum || ((i_drum ? mask[j] : mask[i]) & roller)) continue;
-      const int drum = i_drum ? i : j;
       // With newton off a pair across ranks is listed on both: the drum ball's owner counts it.
-      if (drum >= atom->nlocal && !force->newton_pair) continue;
+      if ((i_drum ? i : j) >= atom->nlocal && !force->newton_pair) continue;
       const physics::LinearContact &law = source_->law(atom->type[i], atom->type[j]);
-      candidates_.push_back({drum, i_drum ? j : i, law.stiffness,
-                             physics::damping_coefficient(law, source_->effective_mass(i, j)),
-                             law.transition});
+      const double c = physics::damping_coefficient(law, source_->effective_mass(i, j));
+      const drumlin::FrictionModel model = source_->friction_model();
+      candidates_.push_back(
+          {i, j, i_drum ? 1.0 : -1.0, law.stiffness, c, law.transition,
+           model == drumlin::FrictionModel::none ? physics::Friction{}
+                                                 : source_->friction(atom->type[i], atom->type[j], c),
+           model == drumlin::FrictionModel::history ? source_->tangential_spring(i, jj) : nullptr});
     }
   }
   stale_ = false;
@@ -220,6 +222,18 @@ void FixRollerHistory::locate(Body &body, const char *name) {
             .c_str());
 }
 
+/// What the engine's tangential model exerts on ball i, its dashpot at the velocities of the row.
+std::array<double, 3> FixRollerHistory::friction_force(const Candidate &pair,
+                                                       const drumlin::PairMotion &motion,
+                                                       double normal_force) const {
+  const physics::Vec3 slip = drumlin::tangential_velocity(*atom, pair.i, pair.j, motion);
+  if (pair.spring == nullptr)
+    return physics::friction_step_without_history(pair.friction, normal_force, slip, 0.0).force;
+  return physics::friction_step(pair.friction, normal_force, motion.normal, slip,
+                                {pair.spring[0], pair.spring[1], pair.spring[2]}, 0.0)
+      .force;
+}
+
 void FixRollerHistory::evaluate() {
   if (comm->nprocs > 1 || atom->nghost > 0) engine::forward_comm(comm, this);
   if (stale_) rebuild();
@@ -228,9 +242,11 @@ void FixRollerHistory::evaluate() {
 
   std::array<double, 4> mine{}; // contact force, dissipated power, stored energy, pairs in contact
   for (const Candidate &pair : candidates_) {
-    const drumlin::PairMotion m = drumlin::pair_motion(*atom, pair.drum, pair.other);
+    const drumlin::PairMotion m = drumlin::pair_motion(*atom, pair.i, pair.j);
     const double F = physics::normal_force(pair.transition, pair.k, pair.c, m.overlap, m.rate);
-    mine[0] += F * along(m.normal.data());
+    mine[0] += pair.sign * F * along(m.normal.data());
+    if (m.overlap > 0.0 && pair.friction.coefficient > 0.0)
+      mine[0] += pair.sign * along(friction_force(pair, m, F).data());
     mine[1] += physics::contact_power(pair.transition, pair.k, pair.c, m.overlap, m.rate).dissipated;
     mine[2] += physics::contact_energy(pair.k, m.overlap);
     mine[3] += physics::in_contact(pair.transition, pair.k, pair.c, m.overlap, m.rate) ? 1.0 : 0.0;
@@ -343,11 +359,17 @@ void FixRollerHistory::post_run() {
 
 int FixRollerHistory::pack_comm(int n, int *list, double *buf, int, int *) {
   drumlin::pack_velocities(*atom, n, list, buf);
+  buf += 3 * n;
+  for (int a = 0; a < n; ++a)
+    buf = std::copy_n(atom->omega[list[a]], 3, buf);
   return comm_forward;
 }
 
 void FixRollerHistory::unpack_comm(int n, int first, double *buf) {
   drumlin::unpack_velocities(*atom, n, first, buf);
+  buf += 3 * n;
+  for (int i = first; i < first + n; ++i, buf += 3)
+    std::copy_n(buf, 3, atom->omega[i]);
 }
 
 void FixRollerHistory::write_restart(FILE *file) {

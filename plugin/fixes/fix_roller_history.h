@@ -6,6 +6,7 @@
 #include "fixes/clock.h"
 #include "fixes/contact_source.h"
 #include "fixes/output_file.h"
+#include "fixes/pair_motion.h"
 
 #include <optional>
 
@@ -42,10 +43,13 @@ private:
     bool has_origin = false;
     double x = 0.0, v = 0.0, a = 0.0;
   };
-  struct Candidate { // a ball of the drum, and one that is neither drum nor frame
-    int drum, other;
+  struct Candidate { // a pair of the list: a ball of the drum, and one that is neither drum nor frame
+    int i, j;
+    double sign; // 1: ball i is the drum's; -1: ball j
     double k, c;
     drumlin::physics::Transition transition;
+    drumlin::physics::Friction friction;
+    const double *spring; // of the tangential model; nullptr if it has none
   };
   struct Forces {
     double contact = 0.0, excitation = 0.0, bond = 0.0;
@@ -65,6 +69,8 @@ private:
   void parse(int narg, char **arg);
   void rebuild();
   void evaluate();
+  std::array<double, 3> friction_force(const Candidate &pair, const drumlin::PairMotion &motion,
+                                       double normal_force) const;
   void locate(Body &body, const char *name);
   void write_sample();
   void start_cycle();

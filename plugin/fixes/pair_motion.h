@@ -30,6 +30,23 @@ inline PairMotion pair_motion(const LAMMPS_NS::Atom &atom, int i, int j) {
   return m;
 }
 
+/// Velocity of ball i's surface relative to ball j's at the contact, its tangential part, m/s.
+inline std::array<double, 3> tangential_velocity(const LAMMPS_NS::Atom &atom, int i, int j,
+                                                 const PairMotion &m) {
+  const double arm_i = atom.radius[i] - 0.5 * m.overlap;
+  const double arm_j = atom.radius[j] - 0.5 * m.overlap;
+  std::array<double, 3> spin{}, slip{};
+  for (std::size_t a = 0; a < 3; ++a)
+    spin[a] = arm_i * atom.omega[i][a] + arm_j * atom.omega[j][a];
+  for (std::size_t a = 0; a < 3; ++a) {
+    const std::size_t b = (a + 1) % 3;
+    const std::size_t c = (a + 2) % 3;
+    slip[a] =
+        atom.v[i][a] - atom.v[j][a] + m.rate * m.normal[a] - (spin[b] * m.normal[c] - spin[c] * m.normal[b]);
+  }
+  return slip;
+}
+
 /// Packs owned velocities for the ghosts, and takes them there: the pair style leaves ghosts at the half-step
 /// velocity.
 inline void pack_velocities(const LAMMPS_NS::Atom &atom, int n, const int *list, double *buf) {

@@ -1,6 +1,6 @@
 #include "liggghts/contact_table.h"
 
-#include "fixes/contact_source.h"
+#include "engine.h"
 #include "fix_property_global.h"
 #include "fix_rigid.h"
 #include "fix_wall_gran.h"
@@ -23,6 +23,8 @@ using LAMMPS_NS::Pointers;
 
 constexpr const char *model = "model hooke/transition";
 constexpr double default_friction = 0.5;
+constexpr const char *friction_property =
+    "coefficientFriction"; // as the engine's tangential models ask for it
 
 /// A matrix property over pairs of types.
 class TypePairProperty : Pointers {
@@ -96,12 +98,29 @@ public:
     return all;
   }
 
+  FrictionModel friction_model() const override { return friction_model_; }
+  void set_friction_model(FrictionModel acting) { friction_model_ = acting; }
+
+  physics::Friction friction(int itype, int jtype, double c) const override {
+    const ContactCoefficients &p = table_->at(itype, jtype);
+    TypePairProperty coefficient(lmp, friction_property, atom->ntypes);
+    return {p.tangential_stiffness, p.tangential_damping_share * c + p.tangential_damping,
+            coefficient(itype, jtype, true), physics::Cap::spring};
+  }
+
+  // The engine builds the tangential model before any other that asks for history: its spring comes first.
+  const double *tangential_spring(int i, int jj) const override {
+    auto *pair = static_cast<LAMMPS_NS::PairGran *>(force->pair);
+    return pair->listgranhistory->firstdouble[i] + static_cast<std::ptrdiff_t>(pair->dnum()) * jj;
+  }
+
   bool serves(const LAMMPS *engine) const { return lmp == engine; }
   bool reads(const ContactTable *table) const { return table_ == table; }
 
 private:
   const ContactTable *table_;
   bool meshes_ = false;
+  FrictionModel friction_model_ = FrictionModel::none;
 };
 
 std::unique_ptr<PairSource> current_source; // one engine instance per process runs a deck
@@ -137,16 +156,20 @@ void ContactTable::read(LAMMPS *lmp, int ntypes, physics::Transition transition,
     wall_tables.push_back(this);
 }
 
+void set_friction_model(FrictionModel acting) {
+  if (current_source) current_source->set_friction_model(acting);
+}
+
 void provide_friction_default(LAMMPS *lmp, int ntypes) {
-  constexpr const char *name = "coefficientFriction"; // as the engine's tangential models ask for it
-  if (TypePairProperty given(lmp, name, ntypes); given.given()) {
+  if (TypePairProperty given(lmp, friction_property, ntypes); given.given()) {
     for (int i = 1; i <= ntypes; ++i)
       for (int j = 1; j <= ntypes; ++j)
         given(i, j, true);
     return;
   }
-  std::vector<std::string> words = {"drumlin_friction",    "all", "property/global", name, "peratomtypepair",
-                                    std::to_string(ntypes)};
+  std::vector<std::string> words = {"drumlin_friction", "all",
+                                    "property/global",  friction_property,
+                                    "peratomtypepair",  std::to_string(ntypes)};
   words.insert(words.end(), static_cast<std::size_t>(ntypes) * static_cast<std::size_t>(ntypes),
                fmt::format("{}", default_friction));
   std::vector<char *> arg;

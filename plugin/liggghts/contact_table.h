@@ -1,6 +1,7 @@
 #pragma once
 // Coefficients of the contact law for each pair of types, read from the deck's `fix property/global` values.
 
+#include "fixes/contact_source.h"
 #include "lammps.h"
 #include "physics/contact_law.h"
 
@@ -42,6 +43,9 @@ private:
   std::vector<ContactCoefficients> coefficients_;
   std::size_t stride_ = 0;
 };
+
+/// Tells the pair style's table which tangential model acts beside it.
+void set_friction_model(FrictionModel acting);
 
 /// Makes the property coefficientFriction, with 0.5 for all pairs of types, if the deck gives none: the
 /// engine's tangential models insist on one. One that is given is checked, which the engine does not do.

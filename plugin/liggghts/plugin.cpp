@@ -118,6 +118,10 @@ public:
   void init_granular() override {
     prepare<Style>(engine_);
     Base::init_granular();
+    drumlin::set_friction_model(Style::TANGENTIAL == TANGENTIAL_HISTORY ? drumlin::FrictionModel::history
+                                : Style::TANGENTIAL == TANGENTIAL_NO_HISTORY
+                                    ? drumlin::FrictionModel::no_history
+                                    : drumlin::FrictionModel::none);
   }
 
 private:

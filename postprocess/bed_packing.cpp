@@ -1,0 +1,183 @@
+#include "bed_packing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <utility>
+
+namespace drumlin::post {
+
+namespace {
+
+constexpr double pi = 3.141592653589793;
+constexpr int most_balls = 10'000'000;
+constexpr std::array<std::pair<Grading, const char *>, 2> gradings = {
+    {{Grading::uniform, "uniform"}, {Grading::mass, "mass"}}};
+
+/// Numbers from 0 to 1, 1 left out. The standard fixes the bits of the engine, but not what its distributions make of them.
+class Random {
+public:
+  explicit Random(std::uint64_t seed) : bits_(seed) {}
+  double operator()() { return static_cast<double>(bits_() >> 11U) * 0x1p-53; }
+  double between(double low, double high) { return low + (*this)() * (high - low); }
+
+private:
+  std::mt19937_64 bits_;
+};
+
+/// Inverse of the distribution of radii. Mass goes with the area or the volume of a ball, so that the same mass in equal
+/// intervals means a density of numbers ~ r^-2 or r^-3. No pow(): only what IEEE 754 rounds correctly.
+double radius(const PackingOptions &options, double share) {
+  const double low = options.radius_min;
+  const double high = options.radius_max;
+  if (options.grading == Grading::uniform) return low + share * (high - low);
+  if (options.dimensions() == 2) return 1.0 / (1.0 / low - share * (1.0 / low - 1.0 / high));
+  const double few = 1.0 / (low * low);
+  return 1.0 / std::sqrt(few - share * (few - 1.0 / (high * high)));
+}
+
+/// Balls by the cell that holds their centre; a cell is as wide as the largest ball, so that only neighbour cells count.
+class Cells {
+public:
+  Cells(const std::array<double, 3> &size, double cell) : cell_(cell) {
+    std::size_t cells = 1;
+    for (std::size_t a = 0; a < 3; ++a) {
+      count_[a] = static_cast<long>(size[a] / cell) + 1;
+      cells *= static_cast<std::size_t>(count_[a]);
+    }
+    first_.assign(cells, -1);
+  }
+
+  void add(const std::vector<PackedBall> &balls) {
+    const std::array<long, 3> at = place(balls.back().centre);
+    next_.push_back(std::exchange(first_[index(at)], static_cast<long>(balls.size()) - 1));
+  }
+
+  bool is_free(const PackedBall &ball, const std::vector<PackedBall> &balls) const {
+    const std::array<long, 3> at = place(ball.centre);
+    std::array<long, 3> from{}, to{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      from[a] = std::max(0L, at[a] - 1);
+      to[a] = std::min(count_[a] - 1, at[a] + 1);
+    }
+    for (long i = from[0]; i <= to[0]; ++i)
+      for (long j = from[1]; j <= to[1]; ++j)
+        for (long k = from[2]; k <= to[2]; ++k)
+          for (long n = first_[index({i, j, k})]; n >= 0; n = next_[static_cast<std::size_t>(n)])
+            if (touch(ball, balls[static_cast<std::size_t>(n)])) return false;
+    return true;
+  }
+
+private:
+  static bool touch(const PackedBall &a, const PackedBall &b) {
+    const double x = a.centre[0] - b.centre[0];
+    const double y = a.centre[1] - b.centre[1];
+    const double z = a.centre[2] - b.centre[2];
+    const double reach = a.radius + b.radius;
+    return x * x + y * y + z * z <= reach * reach;
+  }
+  std::array<long, 3> place(const std::array<double, 3> &centre) const {
+    return {static_cast<long>(centre[0] / cell_), static_cast<long>(centre[1] / cell_),
+            static_cast<long>(centre[2] / cell_)};
+  }
+  std::size_t index(const std::array<long, 3> &at) const {
+    return static_cast<std::size_t>((at[0] * count_[1] + at[1]) * count_[2] + at[2]);
+  }
+
+  double cell_;
+  std::array<long, 3> count_{};
+  std::vector<long> first_, next_; // chains of balls; -1 ends one
+};
+
+/// Area of a disc or volume of a ball, m2 or m3.
+double content(double radius, int dimensions) {
+  return dimensions == 2 ? pi * radius * radius : 4.0 / 3.0 * pi * radius * radius * radius;
+}
+
+} // namespace
+
+std::string grading_name(Grading grading) {
+  return std::find_if(gradings.begin(), gradings.end(),
+                      [grading](const auto &g) { return g.first == grading; })
+      ->second;
+}
+
+Grading grading_from_name(const std::string &name) {
+  for (const auto &[grading, known] : gradings)
+    if (name == known) return grading;
+  throw std::invalid_argument(fmt::format("grading is '{}'; allowed: uniform or mass", name));
+}
+
+double largest_share(int dimensions) { return dimensions == 2 ? 0.5 : 0.34; }
+double default_share(int dimensions) { return dimensions == 2 ? 0.45 : 0.28; }
+
+std::string PackingOptions::invalid() const {
+  const auto fault = [](const char *name, double value, const char *allowed) {
+    return fmt::format("{} is {}; allowed: {}", name, value, allowed);
+  };
+  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
+  if (balls < 1 || balls > most_balls) return fault("balls", balls, "a whole number from 1 to 10000000");
+  if (!positive(radius_min)) return fault("radius-min", radius_min, "a finite number > 0");
+  if (!std::isfinite(radius_max) || radius_max < radius_min)
+    return fmt::format("radius-max is {}; allowed: a finite number >= radius-min, which is {}", radius_max,
+                       radius_min);
+  const std::string room = fmt::format("room for the largest ball, at least {}", 2.0 * radius_max);
+  if (!std::isfinite(width) || width < 2.0 * radius_max) return fault("width", width, room.c_str());
+  if (depth != 0.0 && (!std::isfinite(depth) || depth < 2.0 * radius_max))
+    return fault("depth", depth, ("0 (two dimensions) or " + room).c_str());
+  if (height != 0.0 && (!std::isfinite(height) || height < 2.0 * radius_max))
+    return fault("height", height, ("0 (as needed) or " + room).c_str());
+  return {};
+}
+
+Packing pack_balls(const PackingOptions &options, const std::function<void(std::size_t)> &progress,
+                   int attempts) {
+  if (const std::string fault = options.invalid(); !fault.empty()) throw std::invalid_argument(fault);
+  const int dimensions = options.dimensions();
+  const auto count = static_cast<std::size_t>(options.balls);
+  Random random(options.seed);
+
+  std::vector<double> radii(count);
+  double all = 0.0;
+  for (double &r : radii) {
+    r = radius(options, random());
+    all += content(r, dimensions);
+  }
+  const double base = options.width * (dimensions == 2 ? 1.0 : options.depth);
+  const double least = all / (base * largest_share(dimensions));
+  double height = options.height;
+  if (height == 0.0)
+    height = std::max(all / (base * default_share(dimensions)), 2.0 * options.radius_max);
+  else if (height < least)
+    throw std::invalid_argument(
+        fmt::format("height is {} m, in which {} balls of radius {} to {} m do not fit without touching; "
+                    "allowed: 0 (as needed) or at least {:.3f}",
+                    height, count, options.radius_min, options.radius_max, least));
+
+  std::vector<PackedBall> balls;
+  balls.reserve(count);
+  Cells cells({options.width, options.depth, height}, 2.0 * options.radius_max);
+  for (const double r : radii) {
+    PackedBall ball{{}, r};
+    int tries = 0;
+    do {
+      if (++tries > attempts)
+        throw std::invalid_argument(fmt::format("balls is {}, of which {} found a place and the next none in "
+                                                "{} tries; allowed: fewer balls, or a "
+                                                "wider or higher box (width {}, height {:.3f} m)",
+                                                count, balls.size(), attempts, options.width, height));
+      ball.centre[0] = random.between(r, options.width - r);
+      if (dimensions == 3) ball.centre[1] = random.between(r, options.depth - r);
+      ball.centre[2] = random.between(r, height - r);
+    } while (!cells.is_free(ball, balls));
+    balls.push_back(ball);
+    cells.add(balls);
+    if (progress && balls.size() % 50'000 == 0) progress(balls.size());
+  }
+  return {std::move(balls), height};
+}
+
+} // namespace drumlin::post
