@@ -65,6 +65,10 @@ public:
     const auto damping =
         damping_coefficient_ ? drumlin::physics::Damping::coefficient : drumlin::physics::Damping::ratio;
     table_.read(lmp, registry.max_type(), transition(), damping, is_wall_);
+    if (tangential_spring_) {
+      registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
+      registry.connect("coeffFrict", friction_, "model hooke/transition");
+    }
     // The step in which A breaks needs a call although the balls no longer overlap: see surfacesClose().
     if (stepping_ && transition_a_) neighbor->register_contact_dist_factor(drumlin::contact_distance_factor);
   }
@@ -93,7 +97,8 @@ public:
 
   void surfacesClose(SurfacesCloseData &scdata, ForceData &i_forces, ForceData &j_forces) {
     if (scdata.contact_flags) *scdata.contact_flags &= ~CONTACT_NORMAL_MODEL;
-    if (stepping_ && transition_a_ && !stepping_->in_setup()) break_of_a(scdata, i_forces, j_forces);
+    if (stepping_ && transition_a_ && scdata.computeflag && !stepping_->in_setup())
+      break_of_a(scdata, i_forces, j_forces);
   }
 
   void beginPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
@@ -145,8 +150,12 @@ private:
   [[gnu::noinline]] void second_order_rare(SurfacesIntersectData &sidata, double k, double c, double share,
                                            ForceData &i_forces, ForceData &j_forces) {
     using namespace drumlin::physics;
-    const StepMotion motion = motion_of(sidata);
     double &force_before = sidata.contact_history[force_before_offset_];
+    if (!sidata.computeflag) {
+      look(sidata, share, i_forces, j_forces);
+      return;
+    }
+    const StepMotion motion = motion_of(sidata);
     const double all = damping_over_mass(sidata);
     if (stepping_->in_setup()) { // velocities belong to the time of the positions
       sidata.Fn = normal_force(transition(), k, c, motion.overlap, motion.rate_half);
@@ -160,18 +169,30 @@ private:
       // Friction and rolling take the force that the contact would have alone.
       const StepForce step = second_order_force(transition(), k, c, motion, old, c / sidata.meff);
       sidata.Fn = step.force;
-      if (sidata.computeflag && needs_coupling(motion.dt, k, c, all) && !made_in_step(motion)) {
+      if (needs_coupling(motion.dt, k, c, all) && !made_in_step(motion)) {
         const CoupledDashpot dashpot = coupled_dashpot(transition(), k, c, motion, old, all);
         add(share * dashpot.first, sidata.en, sidata, i_forces, j_forces);
         couple(sidata, dashpot, share);
       } else
         apply(step, share, sidata.en, sidata, i_forces, j_forces);
     }
-    if (!sidata.computeflag) return;
     force_before = sidata.Fn;
     if (!stepping_->counting()) return;
     stepping_->add_damping(sidata.i, c);
     if (!sidata.is_wall) stepping_->add_damping(sidata.j, c);
+  }
+
+  /// What compute pair/gran/local sees behind a step, when the velocities of the step are gone: the force on record.
+  /// The step left the spring of a contact that slid at the friction limit, to rounding. The engine's `tangential history`
+  /// must find it above the limit, or, where the limit is zero, not damped: else it takes the contact for one that sticks
+  /// and puts a dashpot on top.
+  void look(SurfacesIntersectData &sidata, double share, ForceData &i_forces, ForceData &j_forces) const {
+    sidata.Fn = sidata.contact_history[force_before_offset_];
+    add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);
+    if (!tangential_spring_) return;
+    constexpr double below = 1.0 - 1e-12;
+    sidata.Fn *= below;
+    if (friction_[sidata.itype][sidata.jtype] * sidata.Fn == 0.0) sidata.gammat = 0.0;
   }
 
   /// Leaves a dashpot to be solved for when all forces of the step are known.
@@ -208,7 +229,7 @@ private:
              const SurfacesCloseData &data, ForceData &i_forces, ForceData &j_forces) {
     const double kick = share * step.kick;
     add(kick, normal, data, i_forces, j_forces);
-    if ((step.kick == step.force && step.shift == 0.0) || !data.computeflag) return;
+    if (step.kick == step.force && step.shift == 0.0) return;
     const double rest = share * step.force - kick;
     const double shift = share * step.shift;
     const auto later = [&](int ball, double sign) {
@@ -280,6 +301,7 @@ private:
   bool rolling_spring_ = false;
   LAMMPS_NS::FixStepping *stepping_ = nullptr; // none under stock stepping
   int force_before_offset_ = 0;                // in the contact history, under second-order stepping
+  double **friction_ = nullptr; // coefficients by types, as the engine's `tangential history` has them
   drumlin::ContactTable table_;
 };
 
