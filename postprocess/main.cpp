@@ -5,6 +5,7 @@
 #include "exact_command.h"
 #include "report_command.h"
 #include "study_command.h"
+#include "vtk_command.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -31,6 +32,7 @@ constexpr std::array subcommands = {
     Subcommand{"exact", &drumlin::post::add_exact_command},
     Subcommand{"report", &drumlin::post::add_report_command},
     Subcommand{"study", &drumlin::post::add_study_command},
+    Subcommand{"vtk", &drumlin::post::add_vtk_command},
 };
 
 constexpr int bad_usage = 2;

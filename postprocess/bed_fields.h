@@ -1,0 +1,107 @@
+// Fields of a bed of balls: what its balls and contacts are on the average over the cells of a grid.
+//
+// A ball counts at its centre, a contact at the middle of its overlap. Each is shared out linearly over the cells whose centres
+// surround its place p,
+//   w_c(p) = prod_a max(0, 1 - |p_a - x_c,a| / h_a),    h the sides of a cell, x_c the centre of cell c,
+// and what would go to a cell beyond the edge goes to the last one before it. The shares of a place in the grid add up to 1, so
+// that a sum over the cells is the sum over the balls or contacts. With V = prod_a h_a, over soil balls b (volume V_b, mass m_b)
+// and contacts k of two soil balls (force f and branch l from centre to centre, normal n = l/|l|):
+//   solid fraction       phi   = 1/V sum_b w V_b
+//   bulk density         rho   = 1/V sum_b w m_b
+//   velocity             v     = sum_b w m_b v_b / sum_b w m_b
+//   coordination         Z     = sum_b w z_b / sum_b w,      z_b the number of contacts of b
+//   contact stress       sigma = 1/V sum_k w f l,            sigma_ij of f_i l_j; compression is positive
+//   fabric               F     = sum_k w n n / sum_k w
+// In two dimensions, the plane z = 0, all is taken per metre out of the plane: V_b = pi r^2 times 1 m. Drum and frame are not
+// soil, and what they and the walls do to the soil is no part of its stress.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace drumlin::post {
+
+using Vector = std::array<double, 3>;
+/// Components xx xy xz yx yy yz zx zy zz.
+using Tensor = std::array<double, 9>;
+
+/// Types of balls in the decks of inputs/bed.
+enum BallType : int { soil_type = 1, drum_type = 2, frame_type = 3 };
+
+struct Ball {
+  long id = 0;
+  int type = soil_type;
+  double radius = 0.0; ///< m
+  double mass = 0.0;   ///< kg
+  Vector position{};   ///< m
+  Vector velocity{};   ///< m/s
+  Vector spin{};       ///< angular velocity, rad/s
+  Vector force{};      ///< all forces on it, N
+};
+
+/// Two balls that overlap.
+struct BallContact {
+  std::size_t i = 0, j = 0; ///< places of the balls in their vector
+  Vector force{};           ///< on ball i by ball j, N
+  double overlap = 0.0;     ///< m
+};
+
+/// Contacts of each ball.
+std::vector<int> coordination(std::size_t balls, const std::vector<BallContact> &contacts);
+
+/// From the centre of ball j to that of ball i, m.
+Vector branch(const std::vector<Ball> &balls, const BallContact &contact);
+
+/// The force of a contact along its normal, positive in compression, and the magnitude of what remains, N.
+struct ForceParts {
+  double normal = 0.0, tangential = 0.0;
+};
+ForceParts force_parts(const std::vector<Ball> &balls, const BallContact &contact);
+
+/// The smallest box around some balls, m.
+struct Bounds {
+  Vector low{inf, inf, inf};
+  Vector high{-inf, -inf, -inf};
+  void add(const Ball &ball);
+  bool empty() const { return low[0] > high[0]; }
+
+private:
+  static constexpr double inf = std::numeric_limits<double>::infinity();
+};
+
+/// Cells of equal size. The first axis runs fastest.
+struct FieldGrid {
+  Vector origin{};                           ///< lowest corner, m
+  Vector sides{1.0, 1.0, 1.0};               ///< of a cell, m; the third is the 1 m of two dimensions
+  std::array<std::size_t, 3> cells{1, 1, 1}; ///< along each axis
+  bool flat = false;                         ///< two dimensions
+
+  std::size_t size() const { return cells[0] * cells[1] * cells[2]; }
+  double cell_volume() const { return sides[0] * sides[1] * sides[2]; }
+};
+
+/// The most cells that fitted_grid() gives.
+constexpr double largest_grid = 1e7;
+
+/// A grid that just covers the bounds, the sides of its cells as near to `side` as a whole number of cells along each axis allows, so
+/// that the cells at the edge are full ones. Throws std::invalid_argument if it would have more than largest_grid cells.
+FieldGrid fitted_grid(const Bounds &bounds, double side, bool flat);
+
+/// One value per cell. Where there is no ball, velocity and coordination are 0, and fabric where there is no contact.
+struct BedFields {
+  std::vector<double> solid_fraction;
+  std::vector<double> bulk_density; ///< kg/m3
+  std::vector<Vector> velocity;     ///< m/s
+  std::vector<double> coordination;
+  std::vector<Tensor> stress;   ///< Pa
+  std::vector<double> pressure; ///< a half (two dimensions) or a third of the trace of the stress, Pa
+  std::vector<Tensor> fabric;
+};
+
+/// The fields of the soil. A ball or contact whose place is outside the grid does not count.
+BedFields coarse_grained(const std::vector<Ball> &balls, const std::vector<BallContact> &contacts,
+                         const FieldGrid &grid);
+
+} // namespace drumlin::post

@@ -1,0 +1,279 @@
+#include "vtk_command.h"
+
+#include "bed_fields.h"
+#include "chain_csv.h"
+#include "options.h"
+#include "vtk_files.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <regex>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Side of a cell of the fields in mean diameters of the soil balls, unless the user gives one: some nine balls in a cell.
+constexpr double default_cell = 3.0;
+
+struct Arguments {
+  std::string folder, out, cell;
+};
+
+/// What the command writes, as names from the folder of the results.
+constexpr std::array<const char *, 3> collections = {"balls.pvd", "contacts.pvd", "fields.pvd"};
+
+bool is_ours(const std::string &name) {
+  static const std::regex pattern(R"((balls|contacts)(_\d+\.vtp|\.pvd)|fields(_\d+\.vti|\.pvd))");
+  return std::regex_match(name, pattern);
+}
+
+/// The dumped steps, and whether there is a dump of the contacts too.
+std::map<long, bool> dumped_steps(const fs::path &dumps) {
+  static const std::regex pattern(R"(balls_(\d{1,18})\.vtp)");
+  std::map<long, bool> steps;
+  std::error_code code;
+  for (const fs::directory_entry &entry : fs::directory_iterator(dumps, code)) {
+    const std::string name = entry.path().filename().string();
+    std::smatch match;
+    if (std::regex_match(name, match, pattern))
+      steps[std::stol(match[1])] = fs::exists(dumps / fmt::format("contacts_{}.vtp", match[1].str()));
+  }
+  return steps;
+}
+
+/// Time step of the run, s.
+double time_step(const fs::path &folder) {
+  const fs::path file = folder / "parameters.csv";
+  const std::map<std::string, std::string> parameters = read_parameters(file);
+  const auto found = parameters.find("timestep");
+  if (found == parameters.end())
+    throw std::runtime_error(
+        fmt::format("{}: has no 'timestep'; expected the time step of the run in s", file.string()));
+  double dt = 0.0;
+  try {
+    dt = number_from_text(found->second);
+  } catch (const std::invalid_argument &) {
+  }
+  if (dt <= 0.0)
+    throw std::runtime_error(
+        fmt::format("{}: timestep is '{}', expected a number > 0 in s", file.string(), found->second));
+  return dt;
+}
+
+/// A line now and then on standard output.
+class Progress {
+public:
+  explicit Progress(std::size_t total) : total_(total) {}
+  void done(const char *what) {
+    ++done_;
+    const auto now = std::chrono::steady_clock::now();
+    if (now - told_ < std::chrono::seconds(2)) return;
+    told_ = now;
+    fmt::print("{} of {} steps {}\n", done_, total_, what);
+    std::fflush(stdout);
+  }
+
+private:
+  std::size_t total_;
+  std::size_t done_ = 0;
+  std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
+};
+
+/// Results under way: a folder inside that of the results, which goes with this object.
+class Workshop {
+public:
+  explicit Workshop(const fs::path &out) : out_(out), made_(!fs::exists(out)) {
+    fs::create_directories(out);
+    folder_ = out / fmt::format("unfinished.{}", ::getpid());
+    fs::create_directory(folder_);
+  }
+  ~Workshop() {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+    if (made_) fs::remove(out_, ignored); // if nothing was put there
+  }
+  Workshop(const Workshop &) = delete;
+  Workshop &operator=(const Workshop &) = delete;
+
+  fs::path operator/(const std::string &name) const { return folder_ / name; }
+
+  /// Moves the files to the results, and removes those of an earlier call which these do not replace.
+  void hand_over(const std::vector<std::string> &names) const {
+    for (const std::string &name : names)
+      fs::rename(folder_ / name, out_ / name);
+    const std::set<std::string> fresh(names.begin(), names.end());
+    for (const fs::directory_entry &entry : fs::directory_iterator(out_)) {
+      const std::string name = entry.path().filename().string();
+      if (is_ours(name) && fresh.count(name) == 0) fs::remove(entry.path());
+    }
+  }
+
+private:
+  fs::path out_;
+  bool made_;
+  fs::path folder_;
+};
+
+/// What is the same for all steps.
+struct Bed {
+  Bounds soil;
+  double mean_diameter = 0.0; ///< of the soil balls of the first step, m
+  bool flat = true;           ///< all balls stay in z = 0
+};
+
+Bed survey(const fs::path &dumps, const std::map<long, bool> &steps) {
+  Bed bed;
+  Progress progress(steps.size());
+  for (const auto &step : steps) {
+    const fs::path file = dumps / fmt::format("balls_{}.vtp", step.first);
+    double diameters = 0.0, soil = 0.0;
+    for (const Ball &ball : read_ball_dump(file)) {
+      bed.flat = bed.flat && ball.position[2] == 0.0;
+      if (ball.type != soil_type) continue;
+      bed.soil.add(ball);
+      diameters += 2.0 * ball.radius;
+      soil += 1.0;
+    }
+    if (soil == 0.0)
+      throw std::runtime_error(
+          fmt::format("{}: holds no soil balls (type {})", file.string(), int{soil_type}));
+    if (bed.mean_diameter == 0.0) bed.mean_diameter = diameters / soil;
+    progress.done("read");
+  }
+  return bed;
+}
+
+/// Refuses folders whose files are not an earlier result: the names are those of the dumps.
+void check_out(const fs::path &out) {
+  if (!fs::is_directory(out) || fs::exists(out / collections[0])) return;
+  for (const fs::directory_entry &entry : fs::directory_iterator(out))
+    if (is_ours(entry.path().filename().string()))
+      throw UsageError(
+          fmt::format("--out = '{}': has {}, but no {}; allowed: a new folder or that of an earlier result",
+                      out.string(), entry.path().filename().string(), collections[0]));
+}
+
+FieldGrid grid_for(const Arguments &arguments, const Bed &bed) {
+  double side = default_cell * bed.mean_diameter;
+  if (!arguments.cell.empty()) side = number_option("--cell", arguments.cell);
+  try {
+    return fitted_grid(bed.soil, side, bed.flat);
+  } catch (const std::invalid_argument &fault) {
+    throw UsageError(fmt::format("--cell = '{}': {}; allowed: larger cells", side, fault.what()));
+  }
+}
+
+void run(const Arguments &arguments) {
+  if (!arguments.cell.empty() && number_option("--cell", arguments.cell) <= 0.0)
+    throw UsageError(fmt::format("--cell = '{}': allowed are numbers > 0", arguments.cell));
+  const fs::path folder = arguments.folder;
+  const fs::path dumps = folder / "dump";
+  const fs::path out = arguments.out.empty() ? folder / "vtk" : fs::path(arguments.out);
+  const std::map<long, bool> steps = dumped_steps(dumps);
+  if (steps.empty())
+    throw UsageError(fmt::format(
+        "DIR = '{}': there is no dump/balls_STEP.vtp; allowed: the folder of a bed run with dumps",
+        folder.string()));
+  std::optional<Bed> bed;
+  double dt = 0.0;
+  try {
+    dt = time_step(folder);
+    check_out(out);
+    bed = survey(dumps, steps);
+  } catch (const UsageError &) {
+    throw;
+  } catch (const std::runtime_error &fault) {
+    throw UsageError(fault.what());
+  }
+  const FieldGrid grid = grid_for(arguments, *bed);
+
+  std::vector<std::string> names;
+  std::array<std::vector<std::pair<double, std::string>>, 3> series; // as in `collections`
+  try {
+    const Workshop workshop(out);
+    Progress progress(steps.size());
+    for (const auto &[step, has_contacts] : steps) {
+      const auto add = [&, step = step](std::size_t collection, const std::string &name) {
+        names.push_back(name);
+        series[collection].emplace_back(static_cast<double>(step) * dt, name);
+        return workshop / name;
+      };
+      const std::vector<Ball> balls = read_ball_dump(dumps / fmt::format("balls_{}.vtp", step));
+      const fs::path ball_file = add(0, fmt::format("balls_{}.vtp", step));
+      if (has_contacts) {
+        const std::vector<BallContact> contacts =
+            read_contact_dump(dumps / fmt::format("contacts_{}.vtp", step), balls);
+        write_ball_points(ball_file, balls, coordination(balls.size(), contacts));
+        write_contact_lines(add(1, fmt::format("contacts_{}.vtp", step)), balls, contacts);
+        write_field_image(add(2, fmt::format("fields_{}.vti", step)), grid,
+                          coarse_grained(balls, contacts, grid));
+      } else {
+        write_ball_points(ball_file, balls, {});
+      }
+      progress.done("written");
+    }
+    std::vector<FileText> texts;
+    for (std::size_t i = 0; i < collections.size(); ++i)
+      if (!series[i].empty()) {
+        names.emplace_back(collections[i]);
+        texts.emplace_back(workshop / collections[i], collection_text(series[i]));
+      }
+    write_files(texts);
+    workshop.hand_over(names);
+  } catch (const fs::filesystem_error &fault) {
+    throw UsageError(fmt::format("--out = '{}': {}; allowed: a folder that can be made and written to",
+                                 out.string(), fault.code().message()));
+  } catch (const std::runtime_error &fault) {
+    throw UsageError(fault.what());
+  }
+  for (std::size_t i = 0; i < collections.size(); ++i)
+    if (!series[i].empty())
+      fmt::print("{}: {} steps, {:g} to {:g} s\n", (out / collections[i]).string(), series[i].size(),
+                 series[i].front().first, series[i].back().first);
+  if (series[1].size() < series[0].size())
+    fmt::print("no contacts and no fields where dump/contacts_STEP.vtp is missing: {} of {} steps\n",
+               series[0].size() - series[1].size(), series[0].size());
+  if (!series[2].empty())
+    fmt::print("fields on {} cells of {:.3g} m by {:.3g} m\n", grid.size(), grid.sides[0], grid.sides[1]);
+}
+
+} // namespace
+
+void add_vtk_command(CLI::App &app, Session &) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App *vtk = app.add_subcommand("vtk", "Balls, contacts and coarse-grained fields of a bed run as time "
+                                            "series for ParaView: balls.pvd, contacts.pvd, "
+                                            "fields.pvd, from the dumps of a run with dumps.");
+  vtk->add_option("dir", arguments->folder, "folder of the run, with dump/ and parameters.csv")
+      ->type_name("DIR")
+      ->required();
+  vtk->add_option("--out", arguments->out, "folder for the results, made if missing; DIR/vtk if not given")
+      ->type_name("DIR");
+  vtk->add_option("--cell", arguments->cell,
+                  fmt::format("side of the cells of the fields [m], fitted to the bed; {:g} mean diameters "
+                              "of the soil balls if not given",
+                              default_cell))
+      ->type_name("NUMBER");
+  vtk->callback([arguments] { run(*arguments); });
+}
+
+} // namespace drumlin::post

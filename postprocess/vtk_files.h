@@ -1,0 +1,34 @@
+// VTK's files of a bed: the dumps of the engine in, what ParaView shows out. All of VTK is behind this.
+//
+// Readers throw std::runtime_error with the file and what is wrong with it; what VTK itself has to say of a file is kept off
+// the screen and goes into what(). Writers throw it if a file cannot be written.
+#pragma once
+
+#include "bed_fields.h"
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace drumlin::post {
+
+/// Balls from a dump of the engine (inputs/bed/dumps), in order of their ids. Positions have the 7 digits of the file's floats.
+std::vector<Ball> read_ball_dump(const std::filesystem::path &file);
+/// Contacts of these balls from a dump of the engine, the lower id first, in order of the ids.
+std::vector<BallContact> read_contact_dump(const std::filesystem::path &file, const std::vector<Ball> &balls);
+
+/// Points with radius, diameter, velocity, angular_velocity, force, mass, type, id; and coordination, if given.
+void write_ball_points(const std::filesystem::path &file, const std::vector<Ball> &balls,
+                       const std::vector<int> &coordination);
+/// Lines between the centres of two balls, with force, normal_force, tangential_force, overlap, id1, id2 as cell data.
+void write_contact_lines(const std::filesystem::path &file, const std::vector<Ball> &balls,
+                         const std::vector<BallContact> &contacts);
+/// An image with the fields as cell data, each by its name in BedFields.
+void write_field_image(const std::filesystem::path &file, const FieldGrid &grid, const BedFields &fields);
+
+/// The text of a .pvd file: ParaView's list of the files of a time series.
+/// \param files time, s, and name from the folder of the .pvd file
+std::string collection_text(const std::vector<std::pair<double, std::string>> &files);
+
+} // namespace drumlin::post

@@ -1,0 +1,373 @@
+// ./drumlin vtk on dumps written by hand: what it makes of them, and what it says of dumps that are none.
+#include "bed_fields.h"
+#include "chain_csv.h"
+#include "engine_run.h"
+#include "vtk_files.h"
+
+#include <gtest/gtest.h>
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkXMLImageDataReader.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+using post::Outcome;
+using post::read_text;
+
+struct Array {
+  std::string name;
+  int components;
+  std::string values;
+};
+
+std::string array_text(const Array &array) {
+  return "<DataArray type=\"Float64\" Name=\"" + array.name + "\" NumberOfComponents=\"" +
+         std::to_string(array.components) + "\" format=\"ascii\">" + array.values + "</DataArray>\n";
+}
+
+std::string poly_data(int points, const std::string &places, const std::vector<Array> &point_data, int lines,
+                      const std::vector<Array> &cell_data) {
+  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" "
+                     "byte_order=\"LittleEndian\">\n<PolyData>\n"
+                     "<Piece NumberOfPoints=\"" +
+                     std::to_string(points) + "\" NumberOfVerts=\"0\" NumberOfLines=\"" +
+                     std::to_string(lines) + "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<PointData>\n";
+  for (const Array &array : point_data)
+    text += array_text(array);
+  text += "</PointData>\n<CellData>\n";
+  for (const Array &array : cell_data)
+    text += array_text(array);
+  text += "</CellData>\n<Points>\n" + array_text({"Points", 3, places}) +
+          "</Points>\n<Lines>\n<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">";
+  for (int i = 0; i < 2 * lines; ++i)
+    text += std::to_string(i) + " ";
+  text += "</DataArray>\n<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">";
+  for (int i = 1; i <= lines; ++i)
+    text += std::to_string(2 * i) + " ";
+  return text + "</DataArray>\n</Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+}
+
+/// Two soil balls beside each other, id 1 and 2, and the drum, id 9, above the first; not in order.
+std::map<std::string, Array> ball_arrays() {
+  return {{"id", {"id", 1, "9 2 1"}},           {"type", {"type", 1, "2 1 1"}},
+          {"radius", {"radius", 1, "2 1 1"}},   {"mass", {"mass", 1, "500 20 10"}},
+          {"v", {"v", 3, "0 0 0 0 6 0 3 0 0"}}, {"omega", {"omega", 3, "0 0 0 0 0 2 0 0 1"}},
+          {"f", {"f", 3, "0 7 0 0 0 0 1 2 3"}}};
+}
+std::string ball_dump(const std::map<std::string, Array> &arrays = ball_arrays()) {
+  std::vector<Array> columns;
+  for (const auto &named : arrays)
+    columns.push_back(named.second);
+  return poly_data(3, "1 3.9 0 2.8 1 0 1 1 0", columns, 0, {});
+}
+
+/// Ball 2 on 1 named by the higher id first, and the drum on 1.
+std::map<std::string, Array> contact_arrays() {
+  return {{"id1", {"id1", 1, "2 1"}},
+          {"id2", {"id2", 1, "1 9"}},
+          {"force", {"force", 3, "100 30 0 0 -400 0"}},
+          {"delta", {"delta", 1, "0.2 0.1"}}};
+}
+std::string contact_dump(const std::map<std::string, Array> &arrays = contact_arrays()) {
+  std::vector<Array> columns;
+  for (const auto &named : arrays)
+    columns.push_back(named.second);
+  return poly_data(4, "2.8 1 0 1 1 0 1 1 0 1 3.9 0", {}, 2, columns);
+}
+
+class VtkCommand : public ::testing::Test {
+protected:
+  VtkCommand() {
+    std::string name = (fs::temp_directory_path() / "drumlin-vtk-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
+    folder_ = name;
+    put("run/parameters.csv", "name,value\ndeck,bed\ntimestep,0.125\n");
+    for (const char *step : {"0", "1000", "200"}) {
+      put(std::string("run/dump/balls_") + step + ".vtp", ball_dump());
+      put(std::string("run/dump/contacts_") + step + ".vtp", contact_dump());
+      put(std::string("run/dump/balls_boundingBox_") + step + ".vtr", "of no interest");
+    }
+  }
+  ~VtkCommand() override {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+
+  void put(const std::string &file, const std::string &text) const {
+    fs::create_directories((folder_ / file).parent_path());
+    std::ofstream(folder_ / file) << text;
+  }
+  Outcome run(std::vector<std::string> words) const {
+    words.insert(words.begin(), {DRUMLIN_TOOLS, "vtk"});
+    return post::run_program(words, {}, folder_);
+  }
+  /// Every file below a folder, with its text.
+  std::map<std::string, std::string> files(const std::string &name) const {
+    std::map<std::string, std::string> texts;
+    if (fs::exists(folder_ / name))
+      for (const auto &entry : fs::recursive_directory_iterator(folder_ / name))
+        texts[entry.path().lexically_relative(folder_ / name).string()] =
+            entry.is_directory() ? "(folder)" : read_text(entry.path());
+    return texts;
+  }
+  std::vector<std::string> names(const std::string &name) const {
+    std::vector<std::string> all;
+    for (const auto &file : files(name))
+      all.push_back(file.first);
+    return all;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(VtkCommand, WritesThreeCollections) {
+  const Outcome outcome = run({"run"});
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  EXPECT_EQ(names("run/vtk"), (std::vector<std::string>{
+                                  "balls.pvd", "balls_0.vtp", "balls_1000.vtp", "balls_200.vtp",
+                                  "contacts.pvd", "contacts_0.vtp", "contacts_1000.vtp", "contacts_200.vtp",
+                                  "fields.pvd", "fields_0.vti", "fields_1000.vti", "fields_200.vti"}));
+  EXPECT_EQ(read_text(folder_ / "run/vtk/fields.pvd"),
+            "<?xml version=\"1.0\"?>\n"
+            "<VTKFile type=\"Collection\" version=\"0.1\">\n"
+            "  <Collection>\n"
+            "    <DataSet timestep=\"0\" file=\"fields_0.vti\"/>\n"
+            "    <DataSet timestep=\"25\" file=\"fields_200.vti\"/>\n"
+            "    <DataSet timestep=\"125\" file=\"fields_1000.vti\"/>\n"
+            "  </Collection>\n"
+            "</VTKFile>\n");
+  EXPECT_TRUE(outcome.says("run/vtk/contacts.pvd: 3 steps, 0 to 125 s\n")) << outcome.output;
+}
+
+TEST_F(VtkCommand, WritesWhatTheDumpsHold) {
+  ASSERT_TRUE(run({"run", "--cell", "4", "--out", "new/here"}).ok());
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName((folder_ / "new/here/balls_200.vtp").c_str());
+  reader->Update();
+  vtkPointData *balls = reader->GetOutput()->GetPointData();
+  ASSERT_EQ(reader->GetOutput()->GetNumberOfPoints(), 3);
+  const auto column = [&balls](const char *name) {
+    std::vector<double> values;
+    vtkDataArray *array = balls->GetArray(name);
+    for (vtkIdType row = 0; row < array->GetNumberOfTuples(); ++row)
+      for (int c = 0; c < array->GetNumberOfComponents(); ++c)
+        values.push_back(array->GetComponent(row, c));
+    return values;
+  };
+  using Values = std::vector<double>;
+  EXPECT_EQ(column("id"), (Values{1, 2, 9}));
+  EXPECT_EQ(column("type"), (Values{1, 1, 2}));
+  EXPECT_EQ(column("radius"), (Values{1, 1, 2}));
+  EXPECT_EQ(column("diameter"), (Values{2, 2, 4}));
+  EXPECT_EQ(column("mass"), (Values{10, 20, 500}));
+  EXPECT_EQ(column("velocity"), (Values{3, 0, 0, 0, 6, 0, 0, 0, 0}));
+  EXPECT_EQ(column("angular_velocity"), (Values{0, 0, 1, 0, 0, 2, 0, 0, 0}));
+  EXPECT_EQ(column("force"), (Values{1, 2, 3, 0, 0, 0, 0, 7, 0}));
+  EXPECT_EQ(column("coordination"), (Values{2, 1, 1}));
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfVerts(), 3); // or ParaView shows nothing
+
+  vtkNew<vtkXMLPolyDataReader> lines;
+  lines->SetFileName((folder_ / "new/here/contacts_200.vtp").c_str());
+  lines->Update();
+  ASSERT_EQ(lines->GetOutput()->GetNumberOfLines(), 2);
+  vtkCellData *contacts = lines->GetOutput()->GetCellData();
+  const auto row = [&contacts](const char *name, vtkIdType contact) {
+    const double *tuple = contacts->GetArray(name)->GetTuple(contact);
+    return Values(tuple, tuple + contacts->GetArray(name)->GetNumberOfComponents());
+  };
+  EXPECT_EQ(row("id1", 0), (Values{1}));
+  EXPECT_EQ(row("id2", 0), (Values{2}));
+  EXPECT_EQ(row("force", 0), (Values{-100, -30, 0})); // on ball 1, by its neighbour on the right
+  EXPECT_DOUBLE_EQ(row("normal_force", 0)[0], 100);
+  EXPECT_DOUBLE_EQ(row("tangential_force", 0)[0], 30);
+  EXPECT_EQ(row("overlap", 0), (Values{0.2}));
+  EXPECT_EQ(row("id2", 1), (Values{9}));
+  EXPECT_DOUBLE_EQ(row("normal_force", 1)[0], 400);
+  EXPECT_NEAR(row("tangential_force", 1)[0], 0.0, 1e-12);
+  double end[3];
+  lines->GetOutput()->GetPoint(1, end);
+  EXPECT_FLOAT_EQ(static_cast<float>(end[0]), 2.8F);
+
+  vtkNew<vtkXMLImageDataReader> image;
+  image->SetFileName((folder_ / "new/here/fields_200.vti").c_str());
+  image->Update();
+  ASSERT_EQ(image->GetOutput()->GetNumberOfCells(), 1); // of 3.8 m by 2 m: soil alone
+  vtkCellData *fields = image->GetOutput()->GetCellData();
+  const double area = 3.8 * 2.0;
+  EXPECT_NEAR(fields->GetArray("solid_fraction")->GetTuple1(0), 2.0 * 3.141592653589793 / area, 1e-6);
+  EXPECT_NEAR(fields->GetArray("bulk_density")->GetTuple1(0), 30.0 / area, 1e-6);
+  EXPECT_NEAR(fields->GetArray("velocity")->GetComponent(0, 0), 1.0, 1e-14);
+  EXPECT_NEAR(fields->GetArray("velocity")->GetComponent(0, 1), 4.0, 1e-14);
+  EXPECT_NEAR(fields->GetArray("stress")->GetComponent(0, 0), 100.0 * 1.8 / area, 1e-5); // f_x l_x
+  EXPECT_NEAR(fields->GetArray("stress")->GetComponent(0, 3), 30.0 * 1.8 / area, 1e-5);  // f_y l_x
+  EXPECT_NEAR(fields->GetArray("stress")->GetComponent(0, 4), 0.0, 1e-12); // the drum's is not soil's
+  EXPECT_NEAR(fields->GetArray("pressure")->GetTuple1(0), 50.0 * 1.8 / area, 1e-5);
+  EXPECT_NEAR(fields->GetArray("fabric")->GetComponent(0, 0), 1.0, 1e-14);
+  EXPECT_NEAR(fields->GetArray("coordination")->GetTuple1(0), 1.0, 1e-14);
+}
+
+TEST_F(VtkCommand, MakesDoWithoutContacts) {
+  ASSERT_TRUE(run({"run"}).ok());
+  for (const char *step : {"0", "1000", "200"})
+    fs::remove(folder_ / "run/dump" / (std::string("contacts_") + step + ".vtp"));
+  const Outcome outcome = run({"run"});
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  EXPECT_TRUE(outcome.says("no contacts and no fields")) << outcome.output;
+  EXPECT_EQ(names("run/vtk"),
+            (std::vector<std::string>{"balls.pvd", "balls_0.vtp", "balls_1000.vtp", "balls_200.vtp"}));
+  EXPECT_EQ(read_text(folder_ / "run/vtk/balls_0.vtp").find("coordination"), std::string::npos);
+}
+
+TEST_F(VtkCommand, TakesTheRoomOfAnEarlierResultAndOfNothingElse) {
+  ASSERT_TRUE(run({"run"}).ok());
+  put("run/vtk/view.pvsm", "the user's");
+  fs::remove(folder_ / "run/dump/balls_1000.vtp");
+  const Outcome outcome = run({"run"});
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  EXPECT_EQ(names("run/vtk"),
+            (std::vector<std::string>{"balls.pvd", "balls_0.vtp", "balls_200.vtp", "contacts.pvd",
+                                      "contacts_0.vtp", "contacts_200.vtp", "fields.pvd", "fields_0.vti",
+                                      "fields_200.vti", "view.pvsm"}));
+}
+
+struct Bad {
+  std::string name;
+  std::map<std::string, std::string> files; ///< replaced in the folder of the run; removed if "-"
+  std::vector<std::string> words;           ///< of the call, behind vtk
+  std::vector<std::string> says;
+};
+
+TEST_F(VtkCommand, BadInputIsOneLineAndTouchesNothing) {
+  ASSERT_TRUE(run({"run"}).ok());
+  const std::string balls = "dump/balls_200.vtp", contacts = "dump/contacts_200.vtp";
+  const auto with = [](std::map<std::string, Array> arrays, const std::string &name, const Array &array) {
+    arrays[name] = array;
+    return arrays;
+  };
+  const auto without = [](std::map<std::string, Array> arrays, const std::string &name) {
+    arrays.erase(name);
+    return arrays;
+  };
+  const std::string whole = ball_dump();
+  put("file", "not a folder");
+  const std::vector<Bad> table = {
+      {"no folder", {}, {}, {"dir is required"}},
+      {"unknown folder", {}, {"nowhere"}, {"'nowhere'", "dump/balls_STEP.vtp", "allowed"}},
+      {"no dumps",
+       {{"dump/balls_0.vtp", "-"}, {"dump/balls_200.vtp", "-"}, {"dump/balls_1000.vtp", "-"}},
+       {"run"},
+       {"'run'", "no dump"}},
+      {"no parameters", {{"parameters.csv", "-"}}, {"run"}, {"parameters.csv", "cannot be read"}},
+      {"no time step", {{"parameters.csv", "name,value\nk,1\n"}}, {"run"}, {"parameters.csv", "timestep"}},
+      {"time step of words", {{"parameters.csv", "name,value\ntimestep,soon\n"}}, {"run"}, {"'soon'", "> 0"}},
+      {"time step of zero", {{"parameters.csv", "name,value\ntimestep,0\n"}}, {"run"}, {"'0'", "> 0"}},
+      {"endless time step", {{"parameters.csv", "name,value\ntimestep,inf\n"}}, {"run"}, {"'inf'", "> 0"}},
+      {"cell of zero", {}, {"run", "--cell", "0"}, {"--cell", "'0'", "> 0"}},
+      {"negative cell", {}, {"run", "--cell=-1"}, {"--cell", "'-1'", "> 0"}},
+      {"cell of words", {}, {"run", "--cell", "big"}, {"--cell", "'big'", "finite"}},
+      {"too many cells", {}, {"run", "--cell", "1e-5"}, {"--cell", "larger cells"}},
+      {"out is a file", {}, {"run", "--out", "file"}, {"--out", "'file'", "allowed"}},
+      {"out below a file", {}, {"run", "--out", "file/x"}, {"--out", "'file/x'", "allowed"}},
+      {"out is the dumps", {}, {"run", "--out", "run/dump"}, {"--out", "'run/dump'", "balls.pvd", "allowed"}},
+      {"empty balls", {{balls, ""}}, {"run"}, {"balls_200.vtp", "no whole VTK file"}},
+      {"balls cut short",
+       {{balls, whole.substr(0, whole.size() / 2)}},
+       {"run"},
+       {"balls_200.vtp", "no whole VTK file"}},
+      {"balls of words", {{balls, "hello"}}, {"run"}, {"balls_200.vtp", "no whole VTK file"}},
+      {"no balls", {{balls, poly_data(0, "", {}, 0, {})}}, {"run"}, {"balls_200.vtp", "no balls"}},
+      {"contacts for balls", {{balls, contact_dump()}}, {"run"}, {"balls_200.vtp", "'id'"}},
+      {"no radius",
+       {{balls, ball_dump(without(ball_arrays(), "radius"))}},
+       {"run"},
+       {"balls_200.vtp", "'radius'"}},
+      {"flat velocity",
+       {{balls, ball_dump(with(ball_arrays(), "v", {"v", 1, "1 2 3"}))}},
+       {"run"},
+       {"balls_200.vtp", "'v'"}},
+      {"radius of zero",
+       {{balls, ball_dump(with(ball_arrays(), "radius", {"radius", 1, "2 0 1"}))}},
+       {"run"},
+       {"ball 2", "> 0"}},
+      {"mass of nan",
+       {{balls, ball_dump(with(ball_arrays(), "mass", {"mass", 1, "2 nan 1"}))}},
+       {"run"},
+       {"'mass'", "nan"}},
+      {"an id twice",
+       {{balls, ball_dump(with(ball_arrays(), "id", {"id", 1, "9 1 1"}))}},
+       {"run"},
+       {"two balls", "1"}},
+      {"no soil",
+       {{balls, ball_dump(with(ball_arrays(), "type", {"type", 1, "2 3 3"}))}},
+       {"run"},
+       {"balls_200.vtp", "no soil"}},
+      {"contacts cut short",
+       {{contacts, contact_dump().substr(0, 600)}},
+       {"run"},
+       {"contacts_200.vtp", "no whole VTK file"}},
+      {"no force",
+       {{contacts, contact_dump(without(contact_arrays(), "force"))}},
+       {"run"},
+       {"contacts_200.vtp", "'force'"}},
+      {"contact of a stranger",
+       {{contacts, contact_dump(with(contact_arrays(), "id2", {"id2", 1, "1 7"}))}},
+       {"run"},
+       {"contacts_200.vtp", "ball 7"}},
+      {"a contact twice",
+       {{contacts, contact_dump(with(contact_arrays(), "id2", {"id2", 1, "1 2"}))}},
+       {"run"},
+       {"contacts_200.vtp", "1 and 2", "twice"}},
+  };
+  const auto before = files("run/vtk");
+  ASSERT_EQ(before.size(), 12U);
+  for (const Bad &bad : table) {
+    SCOPED_TRACE(bad.name);
+    std::map<std::string, std::string> saved;
+    for (const auto &[file, text] : bad.files) {
+      saved[file] = read_text(folder_ / "run" / file);
+      if (text == "-")
+        fs::remove(folder_ / "run" / file);
+      else
+        put("run/" + file, text);
+    }
+    const Outcome outcome = run(bad.words);
+    EXPECT_EQ(outcome.status, 2) << outcome.output;
+    EXPECT_EQ(outcome.output.rfind("ERROR: drumlin vtk: ", 0), 0U) << outcome.output;
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
+    for (const std::string &said : bad.says)
+      EXPECT_TRUE(outcome.says(said)) << said << " is not in " << outcome.output;
+    EXPECT_EQ(files("run/vtk"), before);
+    for (const auto &[file, text] : saved)
+      put("run/" + file, text);
+  }
+  EXPECT_TRUE(run({"run"}).ok()); // all is as it was
+}
+
+// A first call that fails leaves no folder.
+TEST_F(VtkCommand, AFailureLeavesNothingBehind) {
+  put("run/dump/contacts_1000.vtp", "hello");
+  EXPECT_EQ(run({"run"}).status, 2);
+  EXPECT_FALSE(fs::exists(folder_ / "run/vtk"));
+}
+
+} // namespace
+} // namespace drumlin::test
