@@ -29,7 +29,7 @@ void share_out(const FieldGrid &grid, const Vector &place, const Visit &visit) {
     const double cells = static_cast<double>(grid.cells[a]);
     const double along = (place[a] - grid.origin[a]) / grid.sides[a];
     if (!(along >= 0.0 && along <= cells)) return;
-    const double from_first = std::clamp(along - 0.5, 0.0, cells - 1.0);
+    const double from_first = std::max(0.0, along - 0.5);
     const double lower = std::floor(from_first);
     const auto cell = static_cast<std::size_t>(lower);
     pairs[a] = {{cell, std::min(cell + 1, grid.cells[a] - 1)},

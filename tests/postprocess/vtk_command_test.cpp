@@ -66,6 +66,14 @@ std::string poly_data(int points, const std::string &places, const std::vector<A
   return text + "</DataArray>\n</Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n";
 }
 
+std::vector<Array> all_of(const std::map<std::string, Array> &arrays) {
+  std::vector<Array> all;
+  all.reserve(arrays.size());
+  for (const auto &named : arrays)
+    all.push_back(named.second);
+  return all;
+}
+
 /// Two soil balls beside each other, id 1 and 2, and the drum, id 9, above the first; not in order.
 std::map<std::string, Array> ball_arrays() {
   return {{"id", {"id", 1, "9 2 1"}},           {"type", {"type", 1, "2 1 1"}},
@@ -74,10 +82,7 @@ std::map<std::string, Array> ball_arrays() {
           {"f", {"f", 3, "0 7 0 0 0 0 1 2 3"}}};
 }
 std::string ball_dump(const std::map<std::string, Array> &arrays = ball_arrays()) {
-  std::vector<Array> columns;
-  for (const auto &named : arrays)
-    columns.push_back(named.second);
-  return poly_data(3, "1 3.9 0 2.8 1 0 1 1 0", columns, 0, {});
+  return poly_data(3, "1 3.9 0 2.8 1 0 1 1 0", all_of(arrays), 0, {});
 }
 
 /// Ball 2 on 1 named by the higher id first, and the drum on 1.
@@ -88,10 +93,7 @@ std::map<std::string, Array> contact_arrays() {
           {"delta", {"delta", 1, "0.2 0.1"}}};
 }
 std::string contact_dump(const std::map<std::string, Array> &arrays = contact_arrays()) {
-  std::vector<Array> columns;
-  for (const auto &named : arrays)
-    columns.push_back(named.second);
-  return poly_data(4, "2.8 1 0 1 1 0 1 1 0 1 3.9 0", {}, 2, columns);
+  return poly_data(4, "2.8 1 0 1 1 0 1 1 0 1 3.9 0", {}, 2, all_of(arrays));
 }
 
 class VtkCommand : public ::testing::Test {
