@@ -135,7 +135,6 @@ def scene(folder, colour, contacts_wanted=True):
     label = pv.AnnotateTimeFilter(registrationName="time", Input=balls)
     label.Format = "t = {time:.4f} s"
     pv.Show(label, view).Color = [0.0, 0.0, 0.0]
-    pv.GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
     if flat:
         view.InteractionMode = "2D"
         pv.ResetCamera(view)
@@ -170,6 +169,7 @@ def main(words):
         if file and not os.access(os.path.dirname(os.path.abspath(file)), os.W_OK):
             fail("'%s' cannot be written; allowed: a file in a folder that exists" % file)
     view, times = scene(given.folder, given.colour, not given.no_contacts)
+    pv.GetAnimationScene().UpdateAnimationUsingDataTimeSteps()  # as ParaView with windows does by itself
     view.ViewSize = given.size
     wanted = times[-1] if given.time is None else given.time
     pv.GetAnimationScene().AnimationTime = view.ViewTime = min(times, key=lambda time: abs(time - wanted))
