@@ -51,6 +51,9 @@ public:
       update->integrate->run(piece);
       ratio = unbalanced_ratio();
       if (!std::isfinite(ratio)) break;
+      const engine::bigint done = update->ntimestep - first;
+      if (done / every_ % pieces_per_line == 0)
+        say(fmt::format("drumlin/settle: unbalanced ratio {:.3g} after {} steps, wanted {:.3g}\n", ratio, done, ratio_));
     }
     update->integrate->cleanup();
     update->whichflag = 0;
@@ -63,15 +66,21 @@ public:
                                     "within {} steps (without damping a scene never settles)",
                                     ratio, steps, ratio_, limit_)
                             .c_str());
-    if (comm->me == 0)
-      for (FILE *out : {screen, logfile})
-        if (out)
-          std::fputs(
-              fmt::format("drumlin/settle: unbalanced ratio {:.3g} after {} steps\n", ratio, steps).c_str(),
-              out);
+    say(fmt::format("drumlin/settle: unbalanced ratio {:.3g} after {} steps\n", ratio, steps));
   }
 
 private:
+  static constexpr engine::bigint pieces_per_line = 10;
+
+  void say(const std::string &text) const {
+    if (comm->me != 0) return;
+    for (FILE *out : {screen, logfile})
+      if (out) {
+        std::fputs(text.c_str(), out);
+        std::fflush(out);
+      }
+  }
+
   /// Largest unbalanced force on a ball over the mean weight of a ball. The force that would bring a ball to
   /// rest within one piece counts as unbalanced too: a ball passing its equilibrium has no net force but has
   /// not settled. Without gravity, over the largest force itself: only a scene without any force is settled

@@ -118,8 +118,10 @@ physics::BondForce FixBondSpring::under(double tension) const {
   return physics::bond_force(bond_, state_.distance, rate);
 }
 
-physics::LinkModes FixBondSpring::modes() const {
+/// Of the bond to its ball of this mass.
+physics::LinkModes FixBondSpring::modes(double mass) const {
   physics::LinkModes modes;
+  modes.burden = physics::link_burden(1.0 / mass, state_.inverse_masses - 1.0 / mass);
   modes.normal = state_.direction;
   modes.normal_spring = bond_.stiffness * state_.inverse_masses;
   if (stepping_ == nullptr) modes.normal_dashpot = bond_.damping * state_.inverse_masses;
@@ -158,7 +160,7 @@ void FixBondSpring::post_force(int) {
     if (const int i = local_[b]; i >= 0) {
       if (stepping_ && stepping_->counting()) stepping_->add_damping(i, bond_.damping);
       for (drumlin::ContactWatch *watch : drumlin::ContactWatch::looking())
-        watch->see(i, tags_[1 - b], modes(), 0.0);
+        watch->see(i, tags_[1 - b], modes(atom->rmass[i]), 0.0);
     }
   if (stepping_ == nullptr || update->setupflag) {
     take_note(physics::bond_force(bond_, state_.distance, state_.rate));

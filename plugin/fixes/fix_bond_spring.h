@@ -31,6 +31,8 @@ public:
 
   /// Force and power at the positions and velocities of now; collective.
   drumlin::physics::BondForce evaluate();
+  /// Distance of now over the length without force, m; collective.
+  double stretch() { return current_length_ ? 0.0 : share_state().distance - bond_.length; }
 
 private:
   struct State {
@@ -42,7 +44,7 @@ private:
     std::array<double, 3> direction; // from i to j
   };
   drumlin::physics::BondForce under(double tension) const;
-  drumlin::physics::LinkModes modes() const;
+  drumlin::physics::LinkModes modes(double mass) const;
   State share_state();
   double predicted_rate() const;
   void pull(double tension);

@@ -49,6 +49,11 @@ void FixRollerHistory::parse(int narg, char **arg) {
       const int index = group->find(frame_group_.c_str());
       if (index < 0) in.fail("keyword frame is '" + frame_group_ + "'; allowed: the name of a group");
       frame_.groupbit = group->bitmask[index];
+    } else if (keyword == "soil") {
+      const std::string name = in.word("keyword soil: its group", "the name of a group");
+      const int index = group->find(name.c_str());
+      if (index < 0) in.fail("keyword soil is '" + name + "'; allowed: the name of a group");
+      soil_groupbit_ = group->bitmask[index];
     } else if (keyword == "excite") {
       excite_id_ = in.word("keyword excite: its fix", "the ID of a fix drum/excite");
     } else if (keyword == "bond") {
@@ -69,18 +74,28 @@ void FixRollerHistory::parse(int narg, char **arg) {
       append_ = in.choice("keyword append", {"yes", "no"}) == 0;
     } else {
       in.fail("unknown keyword '" + keyword +
-              "'; allowed: file, every, cycles, frame, excite, bond, axis, origin or append");
+              "'; allowed: file, every, cycles, frame, soil, excite, bond, axis, origin or append");
     }
   }
   if (file_name_.empty()) in.fail("keyword file is missing; allowed: file NAME every N");
   if (every == 0) in.fail("keyword every is missing; allowed: file NAME every N");
+  if (soil_groupbit_ != 0) {
+    if (frame_.groupbit == 0 || steps_per_cycle_ == 0)
+      in.fail("keyword soil goes with keywords frame and cycles; allowed: all three, or no soil");
+    bed_.emplace(lmp, soil_groupbit_);
+  }
   drum_.groupbit = groupbit;
   nevery = steps_per_cycle_ > 0 ? 1 : every; // cycle sums need every step
   global_freq = every;
 }
 
 int FixRollerHistory::setmask() {
-  return FixConst::PRE_NEIGHBOR | FixConst::END_OF_STEP | FixConst::POST_RUN;
+  return FixConst::PRE_NEIGHBOR | FixConst::END_OF_STEP | FixConst::POST_RUN | (bed_ ? FixConst::PRE_FORCE : 0);
+}
+
+void FixRollerHistory::setup_pre_force(int step) { pre_force(step); }
+void FixRollerHistory::pre_force(int) {
+  if (bed_) bed_->clear();
 }
 
 void FixRollerHistory::init() {
@@ -143,20 +158,30 @@ void FixRollerHistory::setup(int) {
   if (!file_) {
     file_.emplace(file_name_, append_);
     file_->open(comm, error, world, file_keyword,
-                frame_.groupbit != 0
+                bed_ ? "time,x_drum,v_drum,a_drum,x_frame,v_frame,a_frame,F_contact,F_excitation,F_bond,"
+                       "settlement,overlap_ratio,coordination,void_ratio,kinetic,potential,elastic,dissipated,"
+                       "work_excitation,F_floor,F_sides,F_thrust"
+                : frame_.groupbit != 0
                     ? "time,x_drum,v_drum,a_drum,x_frame,v_frame,a_frame,F_contact,F_excitation,F_bond"
                     : "time,x_drum,v_drum,a_drum,F_contact,F_excitation");
   }
   if (steps_per_cycle_ > 0 && !cycles_file_) {
     cycles_file_.emplace(cycles_name_, append_);
-    cycles_file_->open(
-        comm, error, world, cycles_keyword,
+    const std::string columns =
         "cycle,time,a_drum_min,a_drum_max,F_contact_min,F_contact_max,contact_share,a1_cos,a1_sin,a2_cos,"
         "a2_sin,ah_cos,ah_sin,work_excitation,dissipated_contact,dissipated_bond,kinetic,potential,"
-        "stored_contact,stored_bond");
+        "stored_contact,stored_bond";
+    cycles_file_->open(comm, error, world, cycles_keyword,
+                       (bed_ ? columns + ",dissipated_friction,settlement" : columns).c_str());
   }
   rebuild();
   evaluate();
+  if (first && bed_) {
+    const drumlin::BallSums balls = ball_sums();
+    if (balls.soil_balls == 0.0)
+      error->all(FLERR, "fix roller/history: keyword soil: its group is empty; allowed: the group of the soil balls");
+    reference_ = {balls.height, sums_.tangential_stored, balls.soil_height / balls.soil_mass};
+  }
   if (first) {
     cycle_.number = -1.0;
     start_cycle();
@@ -196,7 +221,8 @@ void FixRollerHistory::rebuild() {
   stale_ = false;
 }
 
-void FixRollerHistory::locate(Body &body, const char *name) {
+/// \param stretch of what holds the body when its origin is taken, m: x is 0 without it
+void FixRollerHistory::locate(Body &body, const char *name, double stretch) {
   std::array<double, 2> mine{}; // mass-weighted position and velocity along the axis
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->mask[i] & body.groupbit) {
@@ -209,7 +235,7 @@ void FixRollerHistory::locate(Body &body, const char *name) {
   if (comm->nprocs > 1) MPI_Allreduce(mine.data(), all.data(), 2, MPI_DOUBLE, MPI_SUM, world);
   const double position = all[0] / body.mass;
   if (!body.has_origin) {
-    body.origin = position;
+    body.origin = position - stretch;
     body.has_origin = true;
   }
   body.x = position - body.origin;
@@ -238,7 +264,7 @@ void FixRollerHistory::evaluate() {
   if (comm->nprocs > 1 || atom->nghost > 0) engine::forward_comm(comm, this);
   if (stale_) rebuild();
   locate(drum_, "drum");
-  if (frame_.groupbit != 0) locate(frame_, "frame");
+  if (frame_.groupbit != 0) locate(frame_, "frame", bond_ && !frame_.has_origin ? bond_->stretch() : 0.0);
 
   std::array<double, 4> mine{}; // contact force, dissipated power, stored energy, pairs in contact
   for (const Candidate &pair : candidates_) {
@@ -277,6 +303,14 @@ void FixRollerHistory::evaluate() {
     if (frame_.mass > 0.0) frame_.a = -bond.force / frame_.mass - gravity_;
   }
   drum_.a = drum_force / drum_.mass - gravity_;
+  if (bed_) evaluate_bed();
+}
+
+void FixRollerHistory::evaluate_bed() {
+  sums_ = bed_->contacts(axis_);
+  forces_.contact_dissipated = sums_.normal_heat;
+  forces_.contact_stored = sums_.normal_stored + sums_.tangential_stored;
+  forces_.tangential_power = sums_.tangential_power;
 }
 
 void FixRollerHistory::end_of_step() {
@@ -289,13 +323,22 @@ void FixRollerHistory::end_of_step() {
 
 void FixRollerHistory::write_sample() {
   last_sample_ = update->ntimestep;
+  const drumlin::BallSums balls = bed_ ? ball_sums() : drumlin::BallSums{}; // collective
   FILE *out = file_->get();
   if (out == nullptr) return;
-  if (frame_.groupbit != 0)
-    std::fprintf(out, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", time(), drum_.x,
-                 drum_.v, drum_.a, frame_.x, frame_.v, frame_.a, forces_.contact, forces_.excitation,
-                 forces_.bond);
-  else
+  if (frame_.groupbit != 0) {
+    std::fprintf(out, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g", time(), drum_.x, drum_.v,
+                 drum_.a, frame_.x, frame_.v, frame_.a, forces_.contact, forces_.excitation, forces_.bond);
+    if (bed_)
+      std::fprintf(
+          out, ",%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g", cycle_.settlement,
+          sums_.contacts > 0.0 ? sums_.overlap / sums_.contacts : 0.0, sums_.coordination / balls.soil_balls,
+          bed_->void_ratio(axis_, reference_.window_top, balls.solid), balls.kinetic,
+          gravity_ * (balls.height - reference_.height), forces_.contact_stored + forces_.bond_stored,
+          cycle_.contact_dissipated + cycle_.bond_dissipated + tangential_heat(), cycle_.work,
+          sums_.floor_force, sums_.side_force, sums_.side_thrust);
+    std::fputc('\n', out);
+  } else
     std::fprintf(out, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", time(), drum_.x, drum_.v, drum_.a,
                  forces_.contact, forces_.excitation);
 }
@@ -307,6 +350,8 @@ void FixRollerHistory::start_cycle() {
   cycle_.work = sums.work;
   cycle_.contact_dissipated = sums.contact_dissipated;
   cycle_.bond_dissipated = sums.bond_dissipated;
+  cycle_.tangential_work = sums.tangential_work;
+  cycle_.settlement = sums.steps > 0.0 ? sums.sinking / sums.steps : 0.0;
   cycle_.a_min = cycle_.a_max = drum_.a;
   cycle_.F_min = cycle_.F_max = forces_.contact;
 }
@@ -322,6 +367,8 @@ void FixRollerHistory::count_step(const Forces &before, double v_before) {
   cycle_.work += half * (before.excitation_power + forces_.excitation_power);
   cycle_.contact_dissipated += half * (before.contact_dissipated + forces_.contact_dissipated);
   cycle_.bond_dissipated += half * (before.bond_dissipated + forces_.bond_dissipated);
+  cycle_.tangential_work += half * (before.tangential_power + forces_.tangential_power);
+  cycle_.sinking -= drum_.x;
 
   // The change of the velocity is the integral of the acceleration, through the jumps of the contact force too.
   const double change = 2.0 / (steps_per_cycle_ * update->dt) * (drum_.v - v_before);
@@ -338,6 +385,7 @@ void FixRollerHistory::count_step(const Forces &before, double v_before) {
 }
 
 void FixRollerHistory::write_cycle() {
+  const drumlin::BallSums balls = bed_ ? ball_sums() : drumlin::BallSums{}; // collective
   FILE *out = cycles_file_->get();
   if (out == nullptr) return;
   const double share =
@@ -346,10 +394,14 @@ void FixRollerHistory::write_cycle() {
                cycle_.a_max, cycle_.F_min, cycle_.F_max, share);
   for (const double value : cycle_.harmonic)
     std::fprintf(out, ",%.17g", value);
-  const double kinetic = 0.5 * (drum_.mass * drum_.v * drum_.v + frame_.mass * frame_.v * frame_.v);
-  const double potential = gravity_ * (drum_.mass * drum_.x + frame_.mass * frame_.x);
-  std::fprintf(out, ",%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", cycle_.work, cycle_.contact_dissipated,
+  const double kinetic =
+      bed_ ? balls.kinetic : 0.5 * (drum_.mass * drum_.v * drum_.v + frame_.mass * frame_.v * frame_.v);
+  const double potential = gravity_ * (bed_ ? balls.height - reference_.height
+                                            : drum_.mass * drum_.x + frame_.mass * frame_.x);
+  std::fprintf(out, ",%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g", cycle_.work, cycle_.contact_dissipated,
                cycle_.bond_dissipated, kinetic, potential, forces_.contact_stored, forces_.bond_stored);
+  if (bed_) std::fprintf(out, ",%.17g,%.17g", tangential_heat(), cycle_.steps > 0.0 ? cycle_.sinking / cycle_.steps : 0.0);
+  std::fputc('\n', out);
 }
 
 void FixRollerHistory::post_run() {
@@ -377,8 +429,13 @@ void FixRollerHistory::write_restart(FILE *file) {
   std::vector<double> state(clock.begin(), clock.end());
   state.push_back(drum_.origin);
   state.push_back(frame_.origin);
-  const auto *sums = reinterpret_cast<const double *>(&cycle_);
-  state.insert(state.end(), sums, sums + sizeof(Cycle) / sizeof(double));
+  state.push_back(static_cast<double>(last_sample_));
+  const auto append = [&state](const auto &doubles) {
+    const auto *first = reinterpret_cast<const double *>(&doubles);
+    state.insert(state.end(), first, first + sizeof(doubles) / sizeof(double));
+  };
+  append(cycle_);
+  append(reference_);
   drumlin::write_restart_record(file, comm->me, state);
 }
 
@@ -388,7 +445,11 @@ void FixRollerHistory::restart(char *buffer) {
   drum_.origin = state[3];
   frame_.origin = state[4];
   drum_.has_origin = frame_.has_origin = true;
-  std::copy_n(state + 5, sizeof(Cycle) / sizeof(double), reinterpret_cast<double *>(&cycle_));
+  last_sample_ = static_cast<bigint>(state[5]);
+  state += 6;
+  std::copy_n(state, sizeof(Cycle) / sizeof(double), reinterpret_cast<double *>(&cycle_));
+  std::copy_n(state + sizeof(Cycle) / sizeof(double), sizeof(Reference) / sizeof(double),
+              reinterpret_cast<double *>(&reference_));
 }
 
 double FixRollerHistory::compute_vector(int n) {

@@ -3,6 +3,7 @@
 // plugin/doc/fix_roller_history.md.
 
 #include "engine.h"
+#include "fixes/bed_state.h"
 #include "fixes/clock.h"
 #include "fixes/contact_source.h"
 #include "fixes/output_file.h"
@@ -15,7 +16,7 @@ namespace LAMMPS_NS {
 class FixDrumExcite;
 class FixBondSpring;
 
-/// Writes chain.csv (samples) and cycles.csv (extremes, harmonics and energies over every step). The forces
+/// Writes chain.csv or bed.csv (samples) and cycles.csv (extremes, harmonics and energies over every step). The forces
 /// and accelerations in a row are the right-hand sides of Eq. (1) at the positions and velocities of that
 /// row.
 class FixRollerHistory : public Fix {
@@ -24,8 +25,10 @@ public:
 
   int setmask() override;
   void init() override;
+  void setup_pre_force(int) override;
   void setup(int) override;
   void pre_neighbor() override;
+  void pre_force(int) override;
   void end_of_step() override;
   void post_run() override;
   int pack_comm(int, int *, double *, int, int *) override;
@@ -56,6 +59,7 @@ private:
     double contact_dissipated = 0.0, contact_stored = 0.0; // W, J
     double bond_dissipated = 0.0, bond_stored = 0.0;       // W, J
     double excitation_power = 0.0;                         // W
+    double tangential_power = 0.0;                         // W, of a bed
     bool in_contact = false;
   };
   /// Accumulated over the steps of a cycle, or since the start (energies).
@@ -64,6 +68,15 @@ private:
     double a_min = 0.0, a_max = 0.0, F_min = 0.0, F_max = 0.0, contact_steps = 0.0;
     std::array<double, 6> harmonic{}; // a1 cos, sin; a2 cos, sin; a(1/2) cos, sin
     double work = 0.0, contact_dissipated = 0.0, bond_dissipated = 0.0;
+    double tangential_work = 0.0; // J, into friction and rolling
+    double sinking = 0.0;         // sum of -x_drum over the steps
+    double settlement = 0.0;      // m, mean of -x_drum over the last whole cycle
+  };
+  /// What a bed is measured against, from the first set-up on.
+  struct Reference {
+    double height = 0.0;            // kg m, BallSums::height
+    double tangential_stored = 0.0; // J
+    double window_top = 0.0;        // m, along the axis
   };
 
   void parse(int narg, char **arg);
@@ -71,7 +84,12 @@ private:
   void evaluate();
   std::array<double, 3> friction_force(const Candidate &pair, const drumlin::PairMotion &motion,
                                        double normal_force) const;
-  void locate(Body &body, const char *name);
+  void locate(Body &body, const char *name, double stretch = 0.0);
+  void evaluate_bed();
+  drumlin::BallSums ball_sums() const { return bed_->balls(axis_, reference_.window_top); }
+  double tangential_heat() const {
+    return cycle_.tangential_work - (sums_.tangential_stored - reference_.tangential_stored);
+  }
   void write_sample();
   void start_cycle();
   void count_step(const Forces &before, double v_before);
@@ -94,6 +112,10 @@ private:
   double gravity_ = 0.0; // m/s2, downwards along the axis
   Forces forces_;
   Cycle cycle_;
+  int soil_groupbit_ = 0; // 0: no bed
+  std::optional<drumlin::BedState> bed_;
+  drumlin::ContactSums sums_; // of the last evaluated step
+  Reference reference_;
   std::vector<Candidate> candidates_;
   bool stale_ = true;
   bigint last_sample_ = -1;

@@ -13,6 +13,9 @@ namespace drumlin {
 /// With a distance factor above 1 the engine calls surfacesClose() for a contact that has just ended.
 constexpr double contact_distance_factor = 1.01;
 
+/// Name in the contact history of the normal force that acted in the step, N, under second-order stepping.
+constexpr const char *final_force_name = "normal_force_before";
+
 /// What a contact of two types needs in the inner loop.
 struct ContactCoefficients {
   physics::LinearContact normal;

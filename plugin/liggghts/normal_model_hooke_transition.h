@@ -50,7 +50,7 @@ public:
 
   // While the deck is parsed: a fix added later, in the initialization of a run, would miss that run. A wall is a fix under
   // construction and cannot add another.
-  void postSettings(IContactHistorySetup *history, ContactModelBase *) {
+  void postSettings(IContactHistorySetup *history, ContactModelBase *all) {
     if (stepping_stock_) return;
     stepping_ = is_wall_ ? LAMMPS_NS::FixStepping::find(lmp) : LAMMPS_NS::FixStepping::provide(lmp);
     if (stepping_ == nullptr)
@@ -58,7 +58,8 @@ public:
           FLERR,
           "fix wall/gran model hooke/transition: keyword stepping is 'second' (its default), but there is no "
           "pair style with it yet; allowed: stock, or a pair_style with stepping second before");
-    force_before_offset_ = history->add_history_value("normal_force_before", "0");
+    force_before_offset_ = history->add_history_value(drumlin::final_force_name, "0");
+    all->add_history_offset(drumlin::final_force_name, force_before_offset_);
   }
 
   void connectToProperties(PropertyRegistry &registry) {
@@ -282,8 +283,15 @@ private:
                              (inverse_mi / (ri * ri) + inverse_mj / (rj * rj));
     }
     const double overlap = sidata.deltan / std::min(ri, rj);
-    if (inverse_mi > 0.0) watch.see(sidata.i, sidata.is_wall ? 0 : atom->tag[sidata.j], modes, overlap);
-    if (inverse_mj > 0.0 && sidata.j < atom->nlocal) watch.see(sidata.j, atom->tag[sidata.i], modes, overlap);
+    const auto see = [&](int ball, int partner, double own, double other, double r_own, double r_other) {
+      modes.burden = drumlin::physics::link_burden(own, other);
+      modes.rolling_burden = drumlin::physics::link_burden(own / (r_own * r_own), other / (r_other * r_other));
+      watch.see(ball, partner, modes, overlap);
+    };
+    if (inverse_mi > 0.0)
+      see(sidata.i, sidata.is_wall ? 0 : atom->tag[sidata.j], inverse_mi, inverse_mj, ri, rj);
+    if (inverse_mj > 0.0 && sidata.j < atom->nlocal)
+      see(sidata.j, atom->tag[sidata.i], inverse_mj, inverse_mi, rj, ri);
   }
 
   double effective_mass(int i, int j) const {

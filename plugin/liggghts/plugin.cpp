@@ -22,6 +22,7 @@
 
 #include "engine.h"
 #include "fixes/commands.h"
+#include "fixes/contact_ledger.h"
 #include "fixes/fix_bond_spring.h"
 #include "fixes/fix_contact_events.h"
 #include "fixes/fix_drum_excite.h"
@@ -102,9 +103,59 @@ void prepare(LAMMPS *engine) {
   if (Style::TANGENTIAL != TANGENTIAL_OFF) drumlin::provide_friction_default(engine, engine->atom->ntypes);
 }
 
+/// The engine's combination of models, that enters what it did into the ledgers that are open.
 template <class Style>
-class TransitionPair : public LIGGGHTS::PairStyles::Granular<ContactModel<Style>> {
-  using Base = LIGGGHTS::PairStyles::Granular<ContactModel<Style>>;
+class EnteredContact : public ContactModel<Style> {
+  using Base = ContactModel<Style>;
+
+public:
+  using Base::Base;
+
+  void connectToProperties(PropertyRegistry &registry) {
+    Base::connectToProperties(registry);
+    final_force_offset_ = this->get_history_offset(drumlin::final_force_name);
+  }
+
+  void surfacesIntersect(SurfacesIntersectData &contact, ForceData &i_forces, ForceData &j_forces) {
+    Base::surfacesIntersect(contact, i_forces, j_forces);
+    if (!drumlin::ContactLedger::open().empty() && contact.computeflag) enter(contact, i_forces, j_forces);
+  }
+
+private:
+  [[gnu::noinline]] void enter(const SurfacesIntersectData &contact, const ForceData &i_forces,
+                               const ForceData &j_forces) const {
+    drumlin::LedgerEntry entry{};
+    entry.i = contact.i;
+    entry.j = contact.is_wall ? -1 : contact.j;
+    entry.overlap = contact.deltan;
+    entry.radius = contact.is_wall ? contact.radi : std::min(contact.radi, contact.radj);
+    entry.share = contact.is_wall ? contact.area_ratio : 1.0;
+    entry.normal_stiffness = contact.kn;
+    entry.normal_force = contact.Fn;
+    if (final_force_offset_ >= 0) entry.final_force = contact.contact_history + final_force_offset_;
+    if (Style::TANGENTIAL == TANGENTIAL_HISTORY) { // its spring is first in the history
+      entry.tangential_stiffness = contact.kt;
+      entry.spring = contact.contact_history;
+    }
+    double along = 0.0;
+    for (std::size_t a = 0; a < 3; ++a)
+      along += i_forces.delta_F[a] * contact.en[a];
+    for (std::size_t a = 0; a < 3; ++a) {
+      entry.normal[a] = contact.en[a];
+      entry.tangential_force[a] = i_forces.delta_F[a] - along * contact.en[a];
+      entry.torque_i[a] = i_forces.delta_torque[a];
+      entry.torque_j[a] = j_forces.delta_torque[a];
+    }
+    for (drumlin::ContactLedger *ledger : drumlin::ContactLedger::open())
+      ledger->enter(entry);
+  }
+
+  int final_force_offset_ = -1;
+};
+
+template <class Style>
+class TransitionPair : public LIGGGHTS::PairStyles::Granular<EnteredContact<Style>> {
+  using Base = LIGGGHTS::PairStyles::Granular<EnteredContact<Style>>;
 
 public:
   TransitionPair(LAMMPS *engine, PairGran *pair, int64_t hash) : Base(engine, pair, hash), engine_(engine) {}
@@ -129,8 +180,8 @@ private:
 };
 
 template <class Style>
-class TransitionWall : public LIGGGHTS::Walls::Granular<ContactModel<Style>> {
-  using Base = LIGGGHTS::Walls::Granular<ContactModel<Style>>;
+class TransitionWall : public LIGGGHTS::Walls::Granular<EnteredContact<Style>> {
+  using Base = LIGGGHTS::Walls::Granular<EnteredContact<Style>>;
 
 public:
   TransitionWall(LAMMPS *engine, FixWallGran *wall, int64_t hash)
@@ -199,6 +250,7 @@ void add_commands(LAMMPS *lmp) {
   auto &commands = *command_map_of(*lmp->input);
   commands["drumlin/check"] = drumlin::check_command;
   commands["drumlin/record"] = drumlin::record_command;
+  commands["drumlin/run"] = drumlin::run_command;
   commands["drumlin/settle"] = drumlin::settle_command;
 }
 

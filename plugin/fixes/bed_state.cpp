@@ -1,0 +1,112 @@
+#include "fixes/bed_state.h"
+
+#include <cmath>
+
+namespace drumlin {
+namespace {
+
+using Vec3 = std::array<double, 3>;
+
+double dot(const Vec3 &a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+template <class Sums>
+Sums over_ranks(const Sums &mine, MPI_Comm world) {
+  constexpr int numbers = sizeof(Sums) / sizeof(double);
+  Sums all;
+  MPI_Allreduce(&mine, &all, numbers, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
+/// Part of a ball (as wide as its diameter) that lies below a height.
+double part_below(double height, double centre, double radius) {
+  return std::min(1.0, std::max(0.0, (height - centre + radius) / (2.0 * radius)));
+}
+
+} // namespace
+
+std::size_t BedState::upright(const Vec3 &axis) {
+  std::size_t most = 0;
+  for (std::size_t a = 1; a < 3; ++a)
+    if (std::fabs(axis[a]) > std::fabs(axis[most])) most = a;
+  return most;
+}
+
+ContactSums BedState::contacts(const Vec3 &axis) const {
+  const LAMMPS_NS::Atom &atom = *lmp_->atom;
+  const double half = lmp_->force->newton_pair ? 1.0 : 0.5;
+  ContactSums mine;
+  for (const LedgerEntry &e : entries_) {
+    const bool wall = e.j < 0;
+    // With newton off a contact across ranks is entered on both.
+    const double weight = !wall && (e.i >= atom.nlocal || e.j >= atom.nlocal) ? half : 1.0;
+    const double force = e.share * (e.final_force != nullptr ? *e.final_force : e.normal_force);
+    const double *vi = atom.v[e.i];
+    constexpr std::array<double, 3> still{};
+    const double *vj = wall ? still.data() : atom.v[e.j];
+    const Vec3 v{vi[0] - vj[0], vi[1] - vj[1], vi[2] - vj[2]};
+    const double rate = -dot(e.normal, v.data());
+    const double stiffness = e.share * e.normal_stiffness;
+    mine.normal_heat += weight * (force - stiffness * e.overlap) * rate;
+    mine.normal_stored += weight * 0.5 * stiffness * e.overlap * e.overlap;
+    mine.tangential_power -= weight * (dot(e.tangential_force, v.data()) + dot(e.torque_i, atom.omega[e.i]) +
+                                       (wall ? 0.0 : dot(e.torque_j, atom.omega[e.j])));
+    if (e.spring != nullptr)
+      mine.tangential_stored += weight * 0.5 * e.share * e.tangential_stiffness *
+                                (e.spring[0] * e.spring[0] + e.spring[1] * e.spring[1] + e.spring[2] * e.spring[2]);
+    const double ends = (atom.mask[e.i] & soil_ ? 1.0 : 0.0) + (!wall && atom.mask[e.j] & soil_ ? 1.0 : 0.0);
+    mine.coordination += weight * ends;
+    if (ends > 0.0) {
+      mine.contacts += weight;
+      mine.overlap += weight * e.overlap / e.radius;
+    }
+    if (wall) {
+      const double across = dot(axis, e.normal.data());
+      const double up = force * across + dot(axis, e.tangential_force.data());
+      if (std::fabs(across) > 0.5)
+        mine.floor_force += up;
+      else {
+        mine.side_force += up;
+        mine.side_thrust += force;
+      }
+    }
+  }
+  return over_ranks(mine, lmp_->world);
+}
+
+BallSums BedState::balls(const Vec3 &axis, double window_top) const {
+  const LAMMPS_NS::Atom &atom = *lmp_->atom;
+  const bool flat = lmp_->domain->dimension == 2;
+  const double inertia = flat ? 0.5 : 0.4; // I / (m r^2), as fix nve/sphere turns balls
+  constexpr double pi = 3.141592653589793;
+  BallSums mine;
+  for (int i = 0; i < atom.nlocal; ++i) {
+    const double m = atom.rmass[i];
+    const double r = atom.radius[i];
+    const double *v = atom.v[i];
+    const double *w = atom.omega[i];
+    mine.kinetic += 0.5 * m *
+                    (v[0] * v[0] + v[1] * v[1] + v[2] * v[2] +
+                     inertia * r * r * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]));
+    Vec3 x{};
+    lmp_->domain->unmap(atom.x[i], atom.image[i], x.data());
+    const double height = dot(axis, x.data());
+    mine.height += m * height;
+    if (!(atom.mask[i] & soil_)) continue;
+    mine.soil_height += m * height;
+    mine.soil_mass += m;
+    mine.soil_balls += 1.0;
+    mine.solid += (flat ? pi * r * r : 4.0 / 3.0 * pi * r * r * r) * part_below(window_top, height, r);
+  }
+  return over_ranks(mine, lmp_->world);
+}
+
+double BedState::void_ratio(const Vec3 &axis, double window_top, double solid) const {
+  const LAMMPS_NS::Domain &box = *lmp_->domain;
+  const std::size_t up = upright(axis);
+  double window = axis[up] > 0.0 ? window_top - box.boxlo[up] : window_top + box.boxhi[up];
+  for (std::size_t a = 0; a < 3; ++a)
+    if (a != up && (a != 2 || box.dimension == 3)) window *= box.prd[a];
+  return solid > 0.0 ? window / solid - 1.0 : 0.0;
+}
+
+} // namespace drumlin
