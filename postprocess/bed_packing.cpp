@@ -149,9 +149,11 @@ Packing pack_balls(const PackingOptions &options, const std::function<void(std::
   const double base = options.width * (dimensions == 2 ? 1.0 : options.depth);
   const double least = all / (base * largest_share(dimensions));
   double height = options.height;
-  if (height == 0.0)
-    height = std::max(all / (base * default_share(dimensions)), 2.0 * options.radius_max);
-  else if (height < least)
+  if (height == 0.0) { // along the walls a strip is not as full
+    const double strip = options.radius_max;
+    const double free_base = (options.width - strip) * (dimensions == 2 ? 1.0 : options.depth - strip);
+    height = std::max(all / (free_base * default_share(dimensions)) + strip, 2.0 * options.radius_max);
+  } else if (height < least)
     throw std::invalid_argument(
         fmt::format("height is {} m, in which {} balls of radius {} to {} m do not fit without touching; "
                     "allowed: 0 (as needed) or at least {:.3f}",

@@ -51,8 +51,9 @@ ContactSums BedState::contacts(const Vec3 &axis) const {
     mine.tangential_power -= weight * (dot(e.tangential_force, v.data()) + dot(e.torque_i, atom.omega[e.i]) +
                                        (wall ? 0.0 : dot(e.torque_j, atom.omega[e.j])));
     if (e.spring != nullptr)
-      mine.tangential_stored += weight * 0.5 * e.share * e.tangential_stiffness *
-                                (e.spring[0] * e.spring[0] + e.spring[1] * e.spring[1] + e.spring[2] * e.spring[2]);
+      mine.tangential_stored +=
+          weight * 0.5 * e.share * e.tangential_stiffness *
+          (e.spring[0] * e.spring[0] + e.spring[1] * e.spring[1] + e.spring[2] * e.spring[2]);
     const double ends = (atom.mask[e.i] & soil_ ? 1.0 : 0.0) + (!wall && atom.mask[e.j] & soil_ ? 1.0 : 0.0);
     mine.coordination += weight * ends;
     if (ends > 0.0) {

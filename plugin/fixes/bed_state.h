@@ -10,9 +10,10 @@ namespace drumlin {
 
 /// Sums over all contacts of a step, roller's included.
 struct ContactSums {
-  double normal_heat = 0.0;      ///< W, of the normal dashpots as they acted; what condition B keeps back included
-  double tangential_power = 0.0; ///< W that friction and rolling take from the balls: heat, and what their springs store
-  double normal_stored = 0.0;    ///< J
+  double normal_heat = 0.0; ///< W, of the normal dashpots as they acted; what condition B keeps back included
+  double tangential_power =
+      0.0; ///< W that friction and rolling take from the balls: heat, and what their springs store
+  double normal_stored = 0.0;     ///< J
   double tangential_stored = 0.0; ///< J, in tangential springs
   double contacts = 0.0;          ///< between soil balls, or of one with anything else
   double coordination = 0.0;      ///< ends of contacts on soil balls
@@ -24,10 +25,10 @@ struct ContactSums {
 
 /// Sums over all balls.
 struct BallSums {
-  double kinetic = 0.0;   ///< J, rotation included
-  double height = 0.0;    ///< kg m, mass times coordinate along the axis
+  double kinetic = 0.0;     ///< J, rotation included
+  double height = 0.0;      ///< kg m, mass times coordinate along the axis
   double soil_height = 0.0; ///< the same of the soil
-  double soil_mass = 0.0; ///< kg
+  double soil_mass = 0.0;   ///< kg
   double soil_balls = 0.0;
   double solid = 0.0; ///< m3 (m2 in two dimensions) of soil in the window
 };

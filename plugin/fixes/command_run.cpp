@@ -1,10 +1,12 @@
 #include "fixes/commands.h"
 
 #include "fixes/arguments.h"
+#include "fixes/output_file.h"
 
 #include "input.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fmt/format.h>
 
 namespace drumlin {
@@ -34,8 +36,10 @@ public:
     if (every_ == 0) in.fail("keyword every is missing; allowed: every N, with N steps >= 1");
     if (std::isfinite(limit_) && restart_.empty())
       in.fail("keyword limit goes with keyword restart; allowed: limit SECONDS restart FILE");
+    if (!restart_.empty()) OutputFile::check(restart_, comm, error, world, "drumlin/run: keyword restart");
     if (update->ntimestep > last_)
-      in.fail(fmt::format("the last step is '{}'; allowed: at least {}, the step of now", last_, update->ntimestep));
+      in.fail(fmt::format("the last step is '{}'; allowed: at least {}, the step of now", last_,
+                          update->ntimestep));
   }
 
   void run() {
@@ -51,10 +55,11 @@ public:
       longest = std::max(longest, now - before);
       before = now;
       const auto done = static_cast<double>(update->ntimestep - first);
-      say(fmt::format("drumlin/run: {:.0f} %, step {} of {}, {:.6g} s simulated, {:.0f} s so far, about {:.0f} s left\n",
-                      100.0 * static_cast<double>(update->ntimestep) / static_cast<double>(last_),
-                      update->ntimestep, last_, static_cast<double>(update->ntimestep) * update->dt, now,
-                      now / done * static_cast<double>(last_ - update->ntimestep)));
+      say(fmt::format(
+          "drumlin/run: {:.0f} %, step {} of {}, {:.6g} s simulated, {:.0f} s so far, about {:.0f} s left\n",
+          100.0 * static_cast<double>(update->ntimestep) / static_cast<double>(last_), update->ntimestep,
+          last_, static_cast<double>(update->ntimestep) * update->dt, now,
+          now / done * static_cast<double>(last_ - update->ntimestep)));
       if (update->ntimestep < last_ && now + longest > limit_) return stop();
     }
   }
@@ -63,9 +68,12 @@ private:
   /// There is no time for another piece.
   void stop() {
     input->one(("write_restart " + restart_).c_str());
-    say(fmt::format("drumlin/run: stopped at step {} of {} by limit {:.6g} s; go on from {}\n", update->ntimestep,
-                    last_, limit_, restart_));
-    input->one("quit");
+    say(fmt::format("drumlin/run: stopped at step {} of {} by limit {:.6g} s; go on from {}\n",
+                    update->ntimestep, last_, limit_, restart_));
+    // Not the engine's `quit`, which exits with 1: nothing went wrong.
+    MPI_Barrier(world);
+    MPI_Finalize();
+    std::exit(0); // NOLINT(concurrency-mt-unsafe): as the engine ends itself
   }
 
   void say(const std::string &text) {

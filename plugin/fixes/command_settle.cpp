@@ -53,7 +53,8 @@ public:
       if (!std::isfinite(ratio)) break;
       const engine::bigint done = update->ntimestep - first;
       if (done / every_ % pieces_per_line == 0)
-        say(fmt::format("drumlin/settle: unbalanced ratio {:.3g} after {} steps, wanted {:.3g}\n", ratio, done, ratio_));
+        say(fmt::format("drumlin/settle: unbalanced ratio {:.3g} after {} steps, wanted {:.3g}\n", ratio,
+                        done, ratio_));
     }
     update->integrate->cleanup();
     update->whichflag = 0;

@@ -90,7 +90,8 @@ void FixRollerHistory::parse(int narg, char **arg) {
 }
 
 int FixRollerHistory::setmask() {
-  return FixConst::PRE_NEIGHBOR | FixConst::END_OF_STEP | FixConst::POST_RUN | (bed_ ? FixConst::PRE_FORCE : 0);
+  return FixConst::PRE_NEIGHBOR | FixConst::END_OF_STEP | FixConst::POST_RUN |
+         (bed_ ? FixConst::PRE_FORCE : 0);
 }
 
 void FixRollerHistory::setup_pre_force(int step) { pre_force(step); }
@@ -158,9 +159,10 @@ void FixRollerHistory::setup(int) {
   if (!file_) {
     file_.emplace(file_name_, append_);
     file_->open(comm, error, world, file_keyword,
-                bed_ ? "time,x_drum,v_drum,a_drum,x_frame,v_frame,a_frame,F_contact,F_excitation,F_bond,"
-                       "settlement,overlap_ratio,coordination,void_ratio,kinetic,potential,elastic,dissipated,"
-                       "work_excitation,F_floor,F_sides,F_thrust"
+                bed_
+                    ? "time,x_drum,v_drum,a_drum,x_frame,v_frame,a_frame,F_contact,F_excitation,F_bond,"
+                      "settlement,overlap_ratio,coordination,void_ratio,kinetic,potential,elastic,dissipated,"
+                      "work_excitation,F_floor,F_sides,F_thrust"
                 : frame_.groupbit != 0
                     ? "time,x_drum,v_drum,a_drum,x_frame,v_frame,a_frame,F_contact,F_excitation,F_bond"
                     : "time,x_drum,v_drum,a_drum,F_contact,F_excitation");
@@ -179,7 +181,9 @@ void FixRollerHistory::setup(int) {
   if (first && bed_) {
     const drumlin::BallSums balls = ball_sums();
     if (balls.soil_balls == 0.0)
-      error->all(FLERR, "fix roller/history: keyword soil: its group is empty; allowed: the group of the soil balls");
+      error->all(
+          FLERR,
+          "fix roller/history: keyword soil: its group is empty; allowed: the group of the soil balls");
     reference_ = {balls.height, sums_.tangential_stored, balls.soil_height / balls.soil_mass};
   }
   if (first) {
@@ -396,11 +400,13 @@ void FixRollerHistory::write_cycle() {
     std::fprintf(out, ",%.17g", value);
   const double kinetic =
       bed_ ? balls.kinetic : 0.5 * (drum_.mass * drum_.v * drum_.v + frame_.mass * frame_.v * frame_.v);
-  const double potential = gravity_ * (bed_ ? balls.height - reference_.height
-                                            : drum_.mass * drum_.x + frame_.mass * frame_.x);
+  const double potential =
+      gravity_ * (bed_ ? balls.height - reference_.height : drum_.mass * drum_.x + frame_.mass * frame_.x);
   std::fprintf(out, ",%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g", cycle_.work, cycle_.contact_dissipated,
                cycle_.bond_dissipated, kinetic, potential, forces_.contact_stored, forces_.bond_stored);
-  if (bed_) std::fprintf(out, ",%.17g,%.17g", tangential_heat(), cycle_.steps > 0.0 ? cycle_.sinking / cycle_.steps : 0.0);
+  if (bed_)
+    std::fprintf(out, ",%.17g,%.17g", tangential_heat(),
+                 cycle_.steps > 0.0 ? cycle_.sinking / cycle_.steps : 0.0);
   std::fputc('\n', out);
 }
 

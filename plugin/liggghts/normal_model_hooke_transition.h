@@ -285,7 +285,8 @@ private:
     const double overlap = sidata.deltan / std::min(ri, rj);
     const auto see = [&](int ball, int partner, double own, double other, double r_own, double r_other) {
       modes.burden = drumlin::physics::link_burden(own, other);
-      modes.rolling_burden = drumlin::physics::link_burden(own / (r_own * r_own), other / (r_other * r_other));
+      modes.rolling_burden =
+          drumlin::physics::link_burden(own / (r_own * r_own), other / (r_other * r_other));
       watch.see(ball, partner, modes, overlap);
     };
     if (inverse_mi > 0.0)

@@ -28,7 +28,7 @@ BadInput variables(const std::string &name, const Variables &values, const std::
 
 BadGroup chain_choices() {
   return {"ChainChoices",
-          "in.chain",
+          "chain/in.chain",
           {
               variable("case", "V", "allowed: I, II, III or IV", true),
               variable("case", "ii", "allowed: I, II, III or IV"),
@@ -43,7 +43,7 @@ BadGroup chain_choices() {
 }
 
 BadGroup chain_numbers() {
-  BadGroup group{"ChainNumbers", "in.chain", {}};
+  BadGroup group{"ChainNumbers", "chain/in.chain", {}};
   for (const char *name : {"k", "omega", "m2", "m3", "k23"})
     for (const char *value : {"0", "-1", "nan", "inf"})
       group.inputs.push_back(variable(name, value, positive, std::string(value) == "-1"));
@@ -58,7 +58,7 @@ BadGroup chain_numbers() {
 }
 
 BadGroup chain_counts() {
-  BadGroup group{"ChainCounts", "in.chain", {}};
+  BadGroup group{"ChainCounts", "chain/in.chain", {}};
   for (const char *name : {"cycles", "steps_per_cycle", "samples_per_cycle", "settle_limit"})
     for (const char *value : {"0", "-5", "2.5", "many", "nan", "1e30"})
       group.inputs.push_back(variable(name, value, whole, std::string(value) == "0"));
@@ -75,7 +75,7 @@ BadGroup chain_counts() {
 BadGroup chain_folder() {
   const std::string allowed = "allowed: a folder that can be made or written";
   return {"ChainFolder",
-          "in.chain",
+          "chain/in.chain",
           {
               variable("out", "out/chain.csv", allowed, true), // a file of the earlier run
               variable("out", "out/chain.csv/below", allowed),
@@ -86,7 +86,7 @@ BadGroup chain_folder() {
 BadGroup chain_equilibrium() {
   return {
       "ChainEquilibrium",
-      "in.chain",
+      "chain/in.chain",
       {
           variables("no damping",
                     {{"D", "0"}, {"c23", "0"}, {"k", "5.8e4"}, {"guard", "off"}, {"settle_limit", "20000"}},
@@ -100,7 +100,7 @@ BadGroup chain_equilibrium() {
 }
 
 BadGroup impact() {
-  BadGroup group{"Impact", "in.impact", {}};
+  BadGroup group{"Impact", "chain/in.impact", {}};
   group.inputs.push_back(variable("transition", "c", "allowed: A or B", true));
   group.inputs.push_back(variable("stepping", "half", "allowed: second or stock"));
   group.inputs.push_back(variable("guard", "1", "allowed: on or off"));
@@ -119,10 +119,58 @@ BadGroup impact() {
   return group;
 }
 
+/// What all decks of the bed share, tried on the first of them.
+BadGroup bed_settle() {
+  BadGroup group{"BedSettle", "bed/in.settle", {}};
+  group.inputs.push_back(variable("transition", "C", "allowed: A or B", true));
+  group.inputs.push_back(variable("stepping", "half", "allowed: second or stock"));
+  group.inputs.push_back(variable("guard", "1", "allowed: on or off"));
+  for (const char *name : {"k", "m2", "m3", "r2", "r3", "k23", "dt", "ratio"})
+    for (const char *value : {"0", "-1", "nan"})
+      group.inputs.push_back(variable(name, value, positive));
+  for (const char *name : {"D", "friction", "g", "c23", "drag"})
+    group.inputs.push_back(variable(name, "-0.5", non_negative));
+  for (const char *name : {"fall", "settle_limit"})
+    group.inputs.push_back(variable(name, "-1", whole));
+  group.inputs.push_back(
+      variable("balls", "none.data",
+               "allowed: a file that can be read, which './drumlin bed --out none.data' makes", true));
+  return group;
+}
+
+BadGroup bed_place() {
+  BadGroup group{"BedPlace", "bed/in.place", {}};
+  for (const char *name : {"sink", "settle_limit"})
+    group.inputs.push_back(variable(name, "1.5", whole));
+  group.inputs.push_back(variable("ratio", "0", positive));
+  group.inputs.push_back(
+      variable("bed", "none.restart", "./drumlin run inputs/bed/in.settle -var bed none.restart", true));
+  return group;
+}
+
+BadGroup bed() {
+  BadGroup group{"Bed", "bed/in.bed", {}};
+  for (const char *name : {"omega", "time_limit"})
+    for (const char *value : {"0", "-1", "nan"})
+      group.inputs.push_back(variable(name, value, positive));
+  group.inputs.push_back(variable("Fw", "-1", non_negative));
+  for (const char *name : {"cycles", "steps_per_cycle", "samples_per_cycle"})
+    for (const char *value : {"0", "1.5"})
+      group.inputs.push_back(variable(name, value, whole));
+  group.inputs.push_back(variable("dumps_per_cycle", "-1", whole));
+  group.inputs.push_back(variable("dumps_per_cycle", "3", ""));
+  group.inputs.back().says = {"variable steps_per_cycle is '2500'",
+                              "allowed: a multiple of dumps_per_cycle, which is 3"};
+  group.inputs.push_back(
+      variable("start", "none.restart", "./drumlin run inputs/bed/in.place -var start none.restart", true));
+  return group;
+}
+
 } // namespace
 
 std::vector<BadGroup> bad_variables() {
-  return {chain_choices(), chain_numbers(), chain_counts(), chain_folder(), chain_equilibrium(), impact()};
+  return {chain_choices(), chain_numbers(), chain_counts(), chain_folder(), chain_equilibrium(),
+          impact(),        bed_settle(),    bed_place(),    bed()};
 }
 
 } // namespace drumlin::test

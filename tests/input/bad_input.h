@@ -28,7 +28,7 @@ struct BadInput {
 /// Mistakes of one kind. They share a test, one engine run after the other.
 struct BadGroup {
   std::string name;
-  std::string deck; ///< of inputs/chain; empty: the host deck
+  std::string deck; ///< of inputs; empty: the host deck
   std::vector<BadInput> inputs;
 };
 
@@ -37,7 +37,7 @@ inline void PrintTo(const BadGroup &group, std::ostream *out) { *out << group.in
 
 /// Lines in the host deck, command by command.
 std::vector<BadGroup> bad_lines();
-/// Variables of in.chain and in.impact.
+/// Variables of the decks of inputs/chain and inputs/bed.
 std::vector<BadGroup> bad_variables();
 
 } // namespace drumlin::test

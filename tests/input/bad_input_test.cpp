@@ -68,7 +68,7 @@ void try_input(const BadGroup &group, const BadInput &input, int ranks) {
     for (const auto &[name, value] : input.variables)
       words.insert(words.end(), {"-var", name, value});
     words.insert(words.end(), {"-var", "out", "out"}); // the first of two counts: a mistake in `out` stays
-    outcome = run_engine(chain_deck(group.deck), words, scratch.path(), ranks);
+    outcome = run_engine(chain_deck("../" + group.deck), words, scratch.path(), ranks);
   }
   expect_one_error(input, outcome);
   if (!input.runs) earlier.expect_untouched();

@@ -361,6 +361,14 @@ BadGroup roller_history() {
                {command + "keyword frame: its group is missing", "the name of a group"}),
           line("empty frame group", more("frame nobody"),
                {command + "keyword frame: group nobody is empty", "frame's balls"}),
+          line("unknown soil group", more("soil mud"),
+               {command + "keyword soil is 'mud'", "the name of a group"}),
+          line("soil without group", more("soil"),
+               {command + "keyword soil: its group is missing", "the name of a group"}),
+          line("soil without cycles", more("frame frame soil soil"),
+               {command + "keyword soil goes with keywords frame and cycles", "all three"}),
+          line("empty soil group", more("frame frame soil nobody cycles out/y.csv 10"),
+               {command + "keyword soil: its group is empty", "the soil balls"}),
           on_two_ranks(line("unknown excite", more("excite motor"),
                             {command + "keyword excite is 'motor'", "ID of a fix drum/excite"})),
           line("excite of another style", more("excite gravity"),
@@ -499,6 +507,34 @@ BadGroup record() {
       }};
 }
 
+BadGroup run() {
+  const std::string command = "drumlin/run: ";
+  return {
+      "Run",
+      "",
+      {
+          line("nothing", "drumlin/run", {command + "the last step has no value", "a whole number from 0"}),
+          line("last step a word", "drumlin/run soon every 10",
+               {command + "the last step is 'soon'", "a whole number from 0"}),
+          line("last step behind", "run 20\ndrumlin/run 10 every 10",
+               {command + "the last step is '10'", "at least 20, the step of now"}),
+          line("no every", "drumlin/run 10",
+               {command + "keyword every is missing", "every N, with N steps >= 1"}),
+          line("every zero", "drumlin/run 10 every 0",
+               {command + "keyword every is '0'", "a whole number from 1"}),
+          line("limit zero", "drumlin/run 10 every 10 limit 0", {command + "keyword limit is '0'", "> 0"}),
+          line("limit without restart", "drumlin/run 10 every 10 limit 60",
+               {command + "keyword limit goes with keyword restart", "limit SECONDS restart FILE"}),
+          line("restart without file", "drumlin/run 10 every 10 restart",
+               {command + "keyword restart: its file is missing", "a file in a folder that exists"}),
+          on_two_ranks(line(
+              "restart in no folder", "drumlin/run 10 every 10 limit 60 restart nowhere/x",
+              {command + "keyword restart: cannot write 'nowhere/x'", "a file in a folder that exists"})),
+          line("unknown keyword", "drumlin/run 10 every 10 for 3",
+               {command + "unknown keyword 'for'", "every, limit or restart"}),
+      }};
+}
+
 BadGroup settle() {
   const std::string command = "drumlin/settle: ";
   return {
@@ -529,7 +565,7 @@ BadGroup settle() {
 
 std::vector<BadGroup> bad_lines() {
   return {pair_style(),     properties(), wall(),  drum_excite(), bond_spring(), contact_events(),
-          roller_history(), guard(),      check(), record(),      settle()};
+          roller_history(), guard(),      check(), record(),      run(),         settle()};
 }
 
 } // namespace drumlin::test
