@@ -54,7 +54,7 @@ std::uint64_t seed_option(const std::string &text) {
   return seed;
 }
 
-/// What the engine's read_data takes. The vertical axis is y in two dimensions and z in three; x = 0 is the middle.
+/// What the engine's read_data takes. y is up; x = 0 and z = 0 are the middle.
 std::string data_text(const PackingOptions &options, double density, const Packing &packing) {
   const bool flat = options.dimensions() == 2;
   const double depth = flat ? 2.0 * options.radius_max : options.depth;
@@ -65,20 +65,14 @@ std::string data_text(const PackingOptions &options, double density, const Packi
       packing.balls.size(), options.radius_min, options.radius_max, grading_name(options.grading),
       options.width, options.depth, packing.height, options.seed, packing.balls.size(), types);
   auto out = std::back_inserter(text);
-  fmt::format_to(out, "{:.17g} {:.17g} xlo xhi\n", -0.5 * options.width, 0.5 * options.width);
-  if (flat) fmt::format_to(out, "0 {:.17g} ylo yhi\n", top);
-  fmt::format_to(out, "{:.17g} {:.17g} {} {}\n", -0.5 * depth, 0.5 * depth, flat ? "zlo" : "ylo",
-                 flat ? "zhi" : "yhi");
-  if (!flat) fmt::format_to(out, "0 {:.17g} zlo zhi\n", top);
+  fmt::format_to(out, "{:.17g} {:.17g} xlo xhi\n0 {:.17g} ylo yhi\n{:.17g} {:.17g} zlo zhi\n",
+                 -0.5 * options.width, 0.5 * options.width, top, -0.5 * depth, 0.5 * depth);
   fmt::format_to(out, "\nAtoms\n\n"); // ID, type, diameter, density, x, y, z
   std::size_t id = 0;
-  for (const PackedBall &ball : packing.balls) {
-    const double x = ball.centre[0] - 0.5 * options.width;
-    const double across = flat ? 0.0 : ball.centre[1] - 0.5 * options.depth;
-    const double up = ball.centre[2];
-    fmt::format_to(out, "{} 1 {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", ++id, 2.0 * ball.radius, density, x,
-                   flat ? up : across, flat ? 0.0 : up);
-  }
+  for (const PackedBall &ball : packing.balls)
+    fmt::format_to(out, "{} 1 {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", ++id, 2.0 * ball.radius, density,
+                   ball.centre[0] - 0.5 * options.width, ball.centre[2],
+                   flat ? 0.0 : ball.centre[1] - 0.5 * depth);
   return text;
 }
 

@@ -31,7 +31,7 @@ void check_command(LAMMPS *lmp, int narg, char **arg) {
   const std::string name = in.word("the variable's name");
   const std::string value = in.word("the value of variable " + name);
   constexpr const char *rules =
-      "one_of, positive, non_negative, finite, integer, multiple_of, directory or file";
+      "one_of, positive, non_negative, finite, integer, multiple_of, directory, file or one_rank";
   const std::string rule = in.word("the rule for variable " + name, rules);
   const auto reject = [&](const std::string &allowed) {
     in.fail("variable " + name + " is '" + value + "'; allowed: " + allowed);
@@ -89,6 +89,11 @@ void check_command(LAMMPS *lmp, int narg, char **arg) {
     }
     MPI_Bcast(&bad, 1, MPI_INT, 0, engine.ranks());
     if (bad) reject("a file that can be read" + (maker.empty() ? "" : ", which '" + maker + "' makes"));
+  } else if (rule == "one_rank") {
+    int ranks = 0;
+    MPI_Comm_size(engine.ranks(), &ranks);
+    if (ranks > 1)
+      in.fail(fmt::format("variable {} is '{}' on {} ranks; allowed: one rank", name, value, ranks));
   } else {
     in.fail("unknown rule '" + rule + "' for variable " + name + "; allowed: " + rules);
   }

@@ -14,6 +14,9 @@ constexpr const char *helper_id = "drumlin_stepping";
 constexpr int shared = 4;    // numbers per ball that ghosts need
 constexpr int exchanged = 5; // that a ball takes to another rank
 
+/// Constraints that share forces among the balls of a group, over all ranks, which must all call them.
+bool joins(const std::string &style) { return style == "aveforce" || style == "clump"; }
+
 } // namespace
 
 FixStepping *FixStepping::find(LAMMPS *lammps) {
@@ -51,9 +54,9 @@ int FixStepping::setmask() {
 void FixStepping::init() {
   constraints_.clear();
   for (int n = 0; n < modify->nfix; ++n)
-    for (const char *name : {"setforce", "freeze", "lineforce", "planeforce", "aveforce"})
+    for (const char *name : {"setforce", "freeze", "lineforce", "planeforce", "aveforce", "clump"})
       if (std::string(modify->fix[n]->style) == name)
-        constraints_.push_back({modify->fix[n], drumlin::engine::reaction(modify->fix[n])});
+        constraints_.push_back({modify->fix[n], drumlin::engine::reaction(modify->fix[n]), joins(name)});
 }
 
 void FixStepping::setup_pre_force(int) {
@@ -193,6 +196,11 @@ void FixStepping::merge_later() {
 }
 
 void FixStepping::end_of_step() {
+  // What one ball of a body gets or gives back all of them do.
+  for (const Constraint &constraint : constraints_)
+    if (constraint.joins)
+      for (int i = 0; i < atom->nlocal; ++i)
+        if (atom->mask[i] & constraint.fix->groupbit) later_.push_back({i, {}, {}});
   merge_later();
   double **v = atom->v;
   for (int i = 0; i < atom->nlocal; ++i) {
@@ -232,8 +240,7 @@ void FixStepping::add_force(int i, double factor, const std::array<double, 3> &v
 /// what they find now.
 void FixStepping::constrain(bool any) const {
   for (const Constraint &constraint : constraints_) {
-    // aveforce sums over the ranks, which must all call it
-    if (!any && std::string(constraint.fix->style) != "aveforce") continue;
+    if (!any && !constraint.joins) continue;
     std::array<double, 3> taken{};
     if (constraint.reaction != nullptr) std::copy_n(constraint.reaction, 3, taken.begin());
     constraint.fix->post_force(0);

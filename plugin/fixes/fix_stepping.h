@@ -93,6 +93,7 @@ private:
   struct Constraint {
     Fix *fix;
     double *reaction;
+    bool joins; ///< the balls of its group
   };
   struct Expected {
     int i;

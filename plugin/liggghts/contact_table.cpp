@@ -1,6 +1,7 @@
 #include "liggghts/contact_table.h"
 
 #include "engine.h"
+#include "fixes/fix_clump.h"
 #include "fix_property_global.h"
 #include "fix_rigid.h"
 #include "fix_wall_gran.h"
@@ -79,7 +80,9 @@ public:
   double mass(int i) const override {
     const auto *pair = static_cast<LAMMPS_NS::PairGran *>(force->pair);
     if (atom->mask[i] & pair->freeze_group_bit()) return std::numeric_limits<double>::infinity();
-    return pair->fr_pair() != nullptr && pair->mr_pair()[i] > 0.0 ? pair->mr_pair()[i] : atom->rmass[i];
+    const double own =
+        pair->fr_pair() != nullptr && pair->mr_pair()[i] > 0.0 ? pair->mr_pair()[i] : atom->rmass[i];
+    return LAMMPS_NS::FixClump::mass_of(*atom, i, own);
   }
 
   physics::Dashpots wall_dashpots(int i) const override {

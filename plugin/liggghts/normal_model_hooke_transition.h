@@ -22,6 +22,7 @@ NORMAL_MODEL(HOOKE_TRANSITION, hooke / transition, 21)
 
 #include "fixes/contact_source.h"
 #include "fixes/contact_watch.h"
+#include "fixes/fix_clump.h"
 #include "fixes/fix_stepping.h"
 #include "liggghts/contact_table.h"
 #include "physics/contact_law.h"
@@ -70,6 +71,7 @@ public:
       registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
       registry.connect("coeffFrict", friction_, "model hooke/transition");
     }
+    clumps_ = !LAMMPS_NS::FixClump::all().empty();
     // The step in which A breaks needs a call although the balls no longer overlap: see surfacesClose().
     if (stepping_ && transition_a_) neighbor->register_contact_dist_factor(drumlin::contact_distance_factor);
   }
@@ -79,6 +81,7 @@ public:
   inline void surfacesIntersect(SurfacesIntersectData &sidata, ForceData &i_forces, ForceData &j_forces) {
     if (sidata.contact_flags) *sidata.contact_flags |= CONTACT_NORMAL_MODEL;
     const drumlin::ContactCoefficients &p = table_.at(sidata.itype, sidata.jtype);
+    if (clumps_) take_body_masses(sidata);
     const double k = p.normal.stiffness;
     const double c = drumlin::physics::damping_coefficient(p.normal, sidata.meff);
     sidata.kn = k;
@@ -112,9 +115,21 @@ private:
 
   /// Mass of ball i as its contacts feel it, kg.
   double mass(int i, double own) const {
-    return atom->mask[i] & static_cast<LAMMPS_NS::PairGran *>(force->pair)->freeze_group_bit()
-               ? std::numeric_limits<double>::infinity()
-               : own;
+    return is_frozen(i) ? std::numeric_limits<double>::infinity() : own;
+  }
+  bool is_frozen(int i) const {
+    return atom->mask[i] & static_cast<LAMMPS_NS::PairGran *>(force->pair)->freeze_group_bit();
+  }
+
+  /// A ball of a clump has the clump's mass in its contacts.
+  void take_body_masses(SurfacesIntersectData &sidata) const {
+    sidata.mi = LAMMPS_NS::FixClump::mass_of(*atom, sidata.i, sidata.mi);
+    sidata.meff = sidata.mi;
+    if (sidata.is_wall) return;
+    sidata.mj = LAMMPS_NS::FixClump::mass_of(*atom, sidata.j, sidata.mj);
+    sidata.meff = is_frozen(sidata.j)   ? sidata.mi
+                  : is_frozen(sidata.i) ? sidata.mj
+                                        : drumlin::physics::effective_mass(sidata.mi, sidata.mj);
   }
 
   /// Rate of the overlap with the velocities at the begin of the step.
@@ -253,7 +268,7 @@ private:
                                               stepping_->dt()};
     if (drumlin::physics::made_in_step(motion)) return; // apart all along
     const drumlin::ContactCoefficients &p = table_.at(scdata.itype, scdata.jtype);
-    const double mi = atom->rmass[scdata.i];
+    const double mi = LAMMPS_NS::FixClump::mass_of(*atom, scdata.i, atom->rmass[scdata.i]);
     const double m_eff = scdata.is_wall ? mi : effective_mass(scdata.i, scdata.j);
     const double c = drumlin::physics::damping_coefficient(p.normal, m_eff);
     apply(drumlin::physics::second_order_break(transition(), p.normal.stiffness, c, motion), 1.0, normal,
@@ -305,6 +320,7 @@ private:
   bool transition_a_ = false;
   bool damping_coefficient_ = false;
   bool stepping_stock_ = false;
+  bool clumps_ = false;            // whether there is any fix clump
   bool tangential_spring_ = false; // what the models beside this one have
   bool tangential_dashpot_ = false;
   bool rolling_spring_ = false;

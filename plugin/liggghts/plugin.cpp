@@ -24,6 +24,7 @@
 #include "fixes/commands.h"
 #include "fixes/contact_ledger.h"
 #include "fixes/fix_bond_spring.h"
+#include "fixes/fix_clump.h"
 #include "fixes/fix_contact_events.h"
 #include "fixes/fix_drum_excite.h"
 #include "fixes/fix_guard.h"
@@ -240,6 +241,7 @@ void add_fixes(LAMMPS *lmp) {
   auto &fixes = *fix_map_of(*lmp->modify);
   fixes["drum/excite"] = create_fix<LAMMPS_NS::FixDrumExcite>;
   fixes["bond/spring"] = create_fix<LAMMPS_NS::FixBondSpring>;
+  fixes["clump"] = create_fix<LAMMPS_NS::FixClump>;
   fixes["contact/events"] = create_fix<LAMMPS_NS::FixContactEvents>;
   fixes["roller/history"] = create_fix<LAMMPS_NS::FixRollerHistory>;
   fixes["drumlin/stepping"] = create_fix<LAMMPS_NS::FixStepping>; // made by the pair style, not by decks

@@ -279,6 +279,24 @@ BadGroup bond_spring() {
       }};
 }
 
+BadGroup clump() {
+  const std::string command = "fix clump: ";
+  return {
+      "Clump",
+      "",
+      {
+          line("a word too many", "fix body drum clump rigid",
+               {command + "'rigid' is left over", "fix ID group clump"}),
+          line("group all", "fix body all clump", {command + "its group is 'all'", "the balls of the body"}),
+          on_two_ranks(line("empty group", "fix body nobody clump",
+                            {command + "group nobody is empty", "balls of the body"})),
+          on_two_ranks(line("a ball in two", "fix one drum clump\nfix two roller clump",
+                            {command + "1 balls of group ", "a ball in one clump"})),
+          line("a force behind it", "fix body drum clump\nfix bond all bond/spring 2 3 1e6 1e4",
+               {command + "fix bond (bond/spring) stands behind it", "group drum", "behind all fixes"}),
+      }};
+}
+
 BadGroup contact_events() {
   const std::string command = "fix contact/events: ";
   const auto with = [](const std::string &words) { return "fix events all contact/events " + words; };
@@ -564,7 +582,7 @@ BadGroup settle() {
 } // namespace
 
 std::vector<BadGroup> bad_lines() {
-  return {pair_style(),     properties(), wall(),  drum_excite(), bond_spring(), contact_events(),
+  return {pair_style(),     properties(), wall(),  drum_excite(), bond_spring(), clump(), contact_events(),
           roller_history(), guard(),      check(), record(),      run(),         settle()};
 }
 

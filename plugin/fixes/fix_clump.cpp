@@ -1,0 +1,97 @@
+#include "fixes/fix_clump.h"
+
+#include "fixes/arguments.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <string>
+
+using namespace LAMMPS_NS;
+
+FixClump::FixClump(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) {
+  vector_flag = 1;
+  size_vector = 4;
+  extvector = 0;
+  global_freq = 1;
+  drumlin::Arguments in(error, "fix clump", narg - 3, arg + 3);
+  if (!in.empty()) in.fail("'" + in.peek() + "' is left over; allowed: fix ID group clump");
+  if (igroup == 0) in.fail("its group is 'all'; allowed: a group that is not all, the balls of the body");
+  list().push_back(this);
+}
+
+FixClump::~FixClump() { list().erase(std::remove(list().begin(), list().end(), this), list().end()); }
+
+std::vector<FixClump *> &FixClump::list() {
+  static std::vector<FixClump *> clumps; // one engine instance per process runs a deck
+  return clumps;
+}
+
+int FixClump::setmask() { return FixConst::POST_FORCE; }
+
+void FixClump::init() {
+  const double balls = static_cast<double>(group->count(igroup));
+  if (balls == 0.0)
+    error->all(FLERR, fmt::format("fix clump: group {} is empty; allowed: the group of the balls of the body",
+                                  group->names[igroup])
+                          .c_str());
+  mass_ = group->mass(igroup);
+  for (const FixClump *other : list())
+    if (const int common = shared_with(*other); other != this && common > 0)
+      error->all(
+          FLERR,
+          fmt::format("fix clump: {} balls of group {} are in group {} too; allowed: a ball in one clump",
+                      common, group->names[igroup], group->names[other->igroup])
+              .c_str());
+  // Forces that come after this fix would act on single balls of the body.
+  constexpr std::array<const char *, 6> harmless = {"lineforce", "planeforce",  "setforce",
+                                                    "freeze",    "drum/excite", "clump"};
+  bool behind = false;
+  for (int n = 0; n < modify->nfix; ++n) {
+    const Fix &other = *modify->fix[n];
+    const bool forces = behind && (modify->fmask[n] & FixConst::POST_FORCE);
+    behind = behind || &other == this;
+    if (forces && std::find(harmless.begin(), harmless.end(), std::string(other.style)) == harmless.end() &&
+        shared_with(other) > 0)
+      error->all(
+          FLERR,
+          fmt::format("fix clump: fix {} ({}) stands behind it and exerts forces on group {}; allowed: fix "
+                      "clump behind all fixes that exert forces on its balls",
+                      other.id, other.style, group->names[igroup])
+              .c_str());
+  }
+  if (!echoed_ && comm->me == 0) {
+    const std::string text = fmt::format("fix clump {}: {:.0f} balls, {:.9g} kg\n", id, balls, mass_);
+    for (FILE *out : {screen, logfile})
+      if (out) std::fputs(text.c_str(), out);
+  }
+  echoed_ = true;
+}
+
+/// Balls of the body in the group of another fix; collective.
+int FixClump::shared_with(const Fix &other) const {
+  int mine = 0;
+  for (int i = 0; i < atom->nlocal; ++i)
+    mine += (atom->mask[i] & groupbit) && (atom->mask[i] & other.groupbit) ? 1 : 0;
+  int all = 0;
+  MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_SUM, world);
+  return all;
+}
+
+void FixClump::setup(int vflag) { post_force(vflag); }
+
+void FixClump::post_force(int) {
+  double **f = atom->f;
+  std::array<double, 3> mine{};
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & groupbit)
+      for (std::size_t a = 0; a < 3; ++a)
+        mine[a] += f[i][a];
+  MPI_Allreduce(mine.data(), force_.data(), 3, MPI_DOUBLE, MPI_SUM, world);
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & groupbit)
+      for (std::size_t a = 0; a < 3; ++a)
+        f[i][a] = force_[a] * (atom->rmass[i] / mass_);
+}
+
+double FixClump::compute_vector(int n) { return n == 0 ? mass_ : force_[static_cast<std::size_t>(n - 1)]; }
