@@ -54,7 +54,7 @@ protected:
   static void run(const Scratch &folder, const Variables &more, int ranks = 1) {
     Variables variables = more;
     variables.insert(variables.end(),
-                     {{"bed", (scratch->path() / "settled.restart").string()}, {"decks", decks().string()}});
+                     {{"bed", (scratch->path() / "settled.restart").string()}, {"here", decks().string()}});
     const Outcome outcome = run_deck(test_deck("dumps.in"), variables, folder.path(), ranks);
     ASSERT_TRUE(outcome.ok()) << outcome.output;
   }
