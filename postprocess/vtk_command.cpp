@@ -46,20 +46,6 @@ bool is_ours(const std::string &name) {
   return std::regex_match(name, pattern);
 }
 
-/// The dumped steps, and whether there is a dump of the contacts too.
-std::map<long, bool> dumped_steps(const fs::path &dumps) {
-  static const std::regex pattern(R"(balls_(\d{1,18})\.vtp)");
-  std::map<long, bool> steps;
-  std::error_code code;
-  for (const fs::directory_entry &entry : fs::directory_iterator(dumps, code)) {
-    const std::string name = entry.path().filename().string();
-    std::smatch match;
-    if (std::regex_match(name, match, pattern))
-      steps[std::stol(match[1])] = fs::exists(dumps / fmt::format("contacts_{}.vtp", match[1].str()));
-  }
-  return steps;
-}
-
 /// Time step of the run, s.
 double time_step(const fs::path &folder) {
   const fs::path file = folder / "parameters.csv";

@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <regex>
 #include <stdexcept>
 #include <string_view>
 #include <tuple>
@@ -161,6 +162,19 @@ void write(const fs::path &file, Data *data) {
 constexpr auto itself = [](const auto &value) { return value; };
 
 } // namespace
+
+std::map<long, bool> dumped_steps(const fs::path &dumps) {
+  static const std::regex pattern(R"(balls_(\d{1,18})\.vtp)");
+  std::map<long, bool> steps;
+  std::error_code code;
+  for (const fs::directory_entry &entry : fs::directory_iterator(dumps, code)) {
+    const std::string name = entry.path().filename().string();
+    std::smatch match;
+    if (std::regex_match(name, match, pattern))
+      steps[std::stol(match[1])] = fs::exists(dumps / fmt::format("contacts_{}.vtp", match[1].str()));
+  }
+  return steps;
+}
 
 std::vector<Ball> read_ball_dump(const fs::path &file) {
   const vtkSmartPointer<vtkPolyData> data = read_poly_data(file);

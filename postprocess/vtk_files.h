@@ -7,12 +7,15 @@
 #include "bed_fields.h"
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace drumlin::post {
 
+/// The dumped steps of a run's dump folder, and whether there is a dump of the contacts too. None without such a folder.
+std::map<long, bool> dumped_steps(const std::filesystem::path &dumps);
 /// Balls from a dump of the engine (inputs/bed/dumps), in order of their ids. Positions have the 7 digits of the file's floats.
 std::vector<Ball> read_ball_dump(const std::filesystem::path &file);
 /// Contacts of these balls from a dump of the engine, the lower id first, in order of the ids.
