@@ -19,9 +19,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What follows `using x:y` for a style.
-std::string_view style_words(CurveStyle style) {
-  switch (style) {
+/// What follows `using x:y` for a curve.
+std::string style_words(const Curve &curve) {
+  switch (curve.style) {
   case CurveStyle::condition_a:
     return "with lines lw 2.4 dt (12,6) lc rgb '#D55E00'";
   case CurveStyle::condition_b:
@@ -54,6 +54,22 @@ std::string_view style_words(CurveStyle style) {
     return "with linespoints lw 1.0 dt solid pt 8 ps 1.9 lc rgb '#000000'";
   case CurveStyle::series_6:
     return "with linespoints lw 1.6 dt (24,8,4,8,4,8) pt 12 ps 1.4 lc rgb '#E69F00'";
+  case CurveStyle::line_1:
+    return "with lines lw 2.2 dt solid lc rgb '#0072B2'";
+  case CurveStyle::line_2:
+    return "with lines lw 2.2 dt (12,6) lc rgb '#D55E00'";
+  case CurveStyle::line_3:
+    return "with lines lw 2.0 dt (4,5) lc rgb '#009E73'";
+  case CurveStyle::line_4:
+    return "with lines lw 2.0 dt (18,5,4,5) lc rgb '#CC79A7'";
+  case CurveStyle::line_5:
+    return "with lines lw 1.2 dt solid lc rgb '#000000'";
+  case CurveStyle::discs:
+    return "with circles lc palette fill solid border lc rgb '#777777'";
+  case CurveStyle::circles:
+    return "with circles lc rgb '#000000' lw 1.6 fill empty border";
+  case CurveStyle::segments:
+    return fmt::format("with vectors nohead lw {:.3g} lc rgb '#000000'", curve.width);
   }
   return "with lines";
 }
@@ -96,6 +112,17 @@ std::string panel_script(const Panel &panel) {
       s += fmt::format("{}{} {}", i == 0 ? "" : ", ", gnuplot_string(panel.x_ticks[i]), i + 1);
     s += fmt::format(")\n  set xrange [0.5:{}]\n", static_cast<double>(panel.x_ticks.size()) + 0.5);
   }
+  if (panel.equal_scales) s += "  set size ratio -1\n";
+  if (!panel.color_label.empty()) {
+    s += fmt::format("  set colorbox\n  set rmargin 8.5\n  set cblabel {}\n  set cbrange {}\n",
+                     gnuplot_string(panel.color_label),
+                     panel.color_range.empty() ? "[*:*]" : panel.color_range);
+    s += panel.color_whole
+             ? "  set palette defined (0 '#ffffff', 1 '#faeed5', 2 '#f3d9a0', 3 '#d3e8f5', 4 '#9dcdea', "
+               "5 '#5ba9d6', 6 '#0072B2') maxcolors 7\n  set cbtics 1\n"
+             : "  set palette defined (0 '#fffdf5', 1 '#f6d78b', 2 '#E69F00', 3 '#D55E00')\n"
+               "  set cbtics autofreq\n";
+  }
   s += "  plot ";
   bool first = true;
   for (const Curve &curve : panel.curves) {
@@ -106,9 +133,12 @@ std::string panel_script(const Panel &panel) {
     const std::string title =
         curve.title.empty() ? "notitle" : fmt::format("title {} noenhanced", gnuplot_string(curve.title));
     s += fmt::format("{} skip 1{} using {}:{} {} {}", gnuplot_string(curve.data), every, curve.x, curve.y,
-                     style_words(curve.style), title);
+                     style_words(curve), title);
   }
-  return s + "\n";
+  s += "\n";
+  if (panel.equal_scales) s += "  set size noratio\n";
+  if (!panel.color_label.empty()) s += "  unset colorbox\n  set rmargin -1\n";
+  return s;
 }
 
 int columns_of(const Figure &figure) {
@@ -160,14 +190,14 @@ std::string gnuplot_script(const Figure &figure) {
        "set tics nomirror out\n"
        "set xzeroaxis lt 1 lw 0.8 dt solid lc rgb '#999999'\n"
        "set key bmargin center horizontal Left reverse samplen 2.5\n";
-  s += fmt::format("do for [kind in \"svg png\"] {{\n"
+  s += fmt::format("do for [kind in \"{4}\"] {{\n"
                    "  if (kind eq \"svg\") {{ set terminal svg size {0},{1} enhanced rounded font 'DejaVu "
                    "Sans,Helvetica,Arial,15' "
                    "background '#ffffff' }}\n"
                    "  else {{ set terminal pngcairo size {2},{3} enhanced rounded fontscale 1.5 linewidth "
                    "1.5 pointscale 1.5 font "
                    "'DejaVu Sans,11.5' background '#ffffff' }}\n",
-                   width, height, width * 3 / 2, height * 3 / 2);
+                   width, height, width * 3 / 2, height * 3 / 2, figure.only_png ? "png" : "svg png");
   s += fmt::format("  set output \"{}.\".kind\n", figure.name);
   if (many)
     s += fmt::format("  set multiplot layout {},{} title {} noenhanced\n", rows, columns,
@@ -205,6 +235,7 @@ void render(const fs::path &gnuplot, const fs::path &folder, const Figure &figur
   std::error_code ignored;
   fs::remove(log, ignored);
   for (const char *kind : {".svg", ".png"}) {
+    if (figure.only_png && std::string_view(kind) == ".svg") continue;
     const fs::path picture = folder / (figure.name + kind);
     std::error_code error;
     if (fs::file_size(picture, error) == 0 || error)

@@ -25,7 +25,15 @@ enum class CurveStyle {
   series_3,
   series_4,
   series_5,
-  series_6
+  series_6,
+  line_1, ///< line_1 to line_5: lines, each with a dash and a colour of its own
+  line_2,
+  line_3,
+  line_4,
+  line_5,
+  discs,    ///< filled circles in their true size; y names ordinate, radius and colour, e.g. "4:5:6"
+  circles,  ///< the same as outlines, black; y names ordinate and radius
+  segments, ///< black line segments of Curve::width; y names ordinate and the extents along both axes
 };
 
 /// One curve of a panel, read from a CSV file with one header line.
@@ -35,8 +43,9 @@ struct Curve {
   std::string y;     ///< the same for the ordinate
   std::string title; ///< legend text; empty: not in the legend
   CurveStyle style = CurveStyle::plain;
-  int every = 1;  ///< markers only: use every n-th row
-  int offset = 0; ///< first row used
+  int every = 1;      ///< markers only: use every n-th row
+  int offset = 0;     ///< first row used
+  double width = 1.0; ///< of segments, pt
 };
 
 /// One set of axes.
@@ -50,8 +59,12 @@ struct Panel {
   std::string x_range = {};              ///< as gnuplot writes it, e.g. "[-0.1:*]"; empty: what the data need
   std::vector<std::string> x_ticks = {}; ///< names at x = 1, 2, ... instead of numbers
   bool log_x = false;
-  std::string y_range = {}; ///< as x_range
-  int legend_rows = 1;      ///< lines that the legend may take
+  std::string y_range = {};     ///< as x_range
+  int legend_rows = 1;          ///< lines that the legend may take
+  bool equal_scales = false;    ///< one unit is as long on both axes: a picture rather than a graph
+  std::string color_label = {}; ///< of the colour box of discs, with unit; empty: no colour box
+  std::string color_range = {}; ///< as x_range
+  bool color_whole = false;     ///< one colour per whole number
 };
 
 /// A figure: panels in rows of `columns`. The legend stands below each panel, outside of the axes.
@@ -62,6 +75,7 @@ struct Figure {
   int columns = 1;
   int panel_width = 900;  ///< px
   int panel_height = 520; ///< px
+  bool only_png = false;  ///< no SVG: thousands of circles make many MB of it
 };
 
 /// Size of the whole figure in CSS pixels.
@@ -71,7 +85,7 @@ int figure_height(const Figure &figure);
 /// Full path of the gnuplot program. Throws std::runtime_error naming the Debian package if there is none.
 std::filesystem::path find_gnuplot();
 
-/// The gnuplot script of a figure; it writes NAME.svg and NAME.png into the folder that it runs in.
+/// The gnuplot script of a figure; it writes NAME.svg, unless only_png, and NAME.png into the folder that it runs in.
 std::string gnuplot_script(const Figure &figure);
 
 /// Writes folder/NAME.gp and runs it there. Throws std::runtime_error with gnuplot's own words on failure.
