@@ -14,6 +14,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bed_figures.h"
+#include "bed_page.h"
+#include "bed_results.h"
 #include "command.h"
 #include "direct_solver.h"
 #include "engine_run.h"
@@ -135,7 +138,33 @@ nlohmann::ordered_json check_json(const ReportResults &results, const Check &che
   return json;
 }
 
-std::string summary_json(const ReportResults &results, const ReportVersions &versions) {
+nlohmann::ordered_json bed_json(const BedResult &bed) {
+  const BedMeasures &m = bed.measures;
+  const auto number = [](double value) {
+    return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+  };
+  nlohmann::ordered_json json;
+  json["name"] = bed.run.name;
+  json["parameters"] = bed.run.parameters;
+  json["cycles"] = m.cycles;
+  json["steady_cycles"] = m.steady_count;
+  if (m.cycles > 0) {
+    json["largest_drum_acceleration"] = number(m.extremes.acceleration.max);
+    json["largest_contact_force"] = number(m.extremes.force.max);
+    json["smallest_contact_force"] = number(m.extremes.force.min);
+    json["contact_share"] = number(m.contact_share);
+    json["settlement"] = number(m.settlement);
+    json["settlement_per_cycle"] = number(m.settlement_per_cycle);
+  }
+  if (m.amplitudes) json["compaction_meter_value"] = number(compaction_meter_value(*m.amplitudes));
+  json["imbalance_percent"] = number(m.imbalance_percent);
+  json["coordination"] = {number(m.coordination_start), number(m.coordination_end)};
+  json["void_ratio"] = {number(m.void_ratio_start), number(m.void_ratio_end)};
+  return json;
+}
+
+std::string summary_json(const ReportResults &results, const std::vector<BedResult> &beds,
+                         const ReportVersions &versions) {
   const CheckCount count = count_checks(results);
   nlohmann::ordered_json json;
   json["made_at"] = versions.made_at;
@@ -153,6 +182,8 @@ std::string summary_json(const ReportResults &results, const ReportVersions &ver
     run["missing"] = result.run.missing;
     json["runs"].push_back(run);
   }
+  for (const BedResult &bed : beds)
+    json["beds"].push_back(bed_json(bed));
   json["comparisons"] = nlohmann::ordered_json::array();
   for (const std::vector<Check> *checks : {&results.checks, &results.restitution, &results.words})
     for (const Check &check : *checks)
@@ -242,27 +273,49 @@ ReportOutcome write_report(const ReportOptions &options) {
   Progress progress(options.progress, runs.size() + usual_figures + 1);
   ReportResults results;
   DirectSolutions direct;
+  std::vector<BedResult> beds;
   for (Run &run : runs) {
     progress(run.kind == RunKind::chain ? fmt::format("{}: direct solution and measures", run.name)
                                         : fmt::format("{}: measures", run.name));
     try {
-      results.runs.push_back(analyse(std::move(run), direct));
+      if (run.kind == RunKind::bed)
+        beds.push_back(analyse_bed(std::move(run)));
+      else
+        results.runs.push_back(analyse(std::move(run), direct));
+    } catch (const std::runtime_error &error) {
+      throw UsageError(error.what());
     } catch (const std::invalid_argument &error) {
       throw UsageError(error.what());
     }
   }
   compare(results);
-  const FigurePlan plan = plan_figures(results);
-  const std::vector<ReportTable> tables = make_tables(results);
-  progress.expect(progress.done() + plan.figures.size() + plan.absent.size() + 1);
+  const bool only_beds = results.runs.empty() && !beds.empty();
+  const FigurePlan plan = only_beds ? FigurePlan() : plan_figures(results);
+  std::vector<ReportTable> tables;
+  if (!only_beds) tables = make_tables(results);
+  if (!beds.empty()) tables.push_back(bed_table(beds));
+  const std::vector<BedGroup> groups = group_beds(beds);
+  FigurePlan bed_plan;
+  if (!beds.empty()) progress("beds: dumps");
+  try {
+    bed_plan = plan_bed_figures(groups);
+  } catch (const std::runtime_error &error) {
+    throw UsageError(error.what());
+  }
+  const std::size_t pieces =
+      plan.figures.size() + plan.absent.size() + bed_plan.figures.size() + bed_plan.absent.size() + 1;
+  progress.expect(progress.done() + pieces);
 
   Draft draft(place);
-  for (const AbsentFigure &absent : plan.absent)
-    progress(fmt::format("{} left out: {}", absent.label, absent.reason));
-  for (const PlannedFigure &figure : plan.figures) {
-    progress(fmt::format("{} {}", figure.label, figure.figure.name));
-    write_text(draft.folder() / "data" / (figure.figure.name + ".csv"), figure.csv);
-    render(gnuplot, draft.folder() / "figures", figure.figure);
+  for (const auto &[figures, page] :
+       {std::pair<const FigurePlan *, const char *>(&plan, ""), {&bed_plan, "bed: "}}) {
+    for (const AbsentFigure &absent : figures->absent)
+      progress(fmt::format("{}{} left out: {}", page, absent.label, absent.reason));
+    for (const PlannedFigure &figure : figures->figures) {
+      progress(fmt::format("{}{} {}", page, figure.label, figure.figure.name));
+      write_text(draft.folder() / "data" / (figure.figure.name + ".csv"), figure.csv);
+      render(gnuplot, draft.folder() / "figures", figure.figure);
+    }
   }
   progress("tables and page");
   for (const ReportTable &table : tables)
@@ -273,8 +326,14 @@ ReportOutcome write_report(const ReportOptions &options) {
   versions.direct_solver = direct_solver_name();
   versions.gnuplot = program_version(gnuplot);
   versions.made_at = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)));
-  write_text(draft.folder() / "index.html", report_page(results, tables, plan, studies, versions));
-  write_text(draft.folder() / summary_file, summary_json(results, versions));
+  std::vector<std::string> bed_names;
+  bed_names.reserve(beds.size());
+  for (const BedResult &bed : beds)
+    bed_names.push_back(bed.run.name);
+  if (!beds.empty())
+    write_text(draft.folder() / "bed.html", bed_page(beds, groups, tables.back(), bed_plan, versions));
+  write_text(draft.folder() / "index.html", report_page(results, tables, plan, bed_names, studies, versions));
+  write_text(draft.folder() / summary_file, summary_json(results, beds, versions));
   draft.publish();
   return {place / "index.html", count_checks(results)};
 }

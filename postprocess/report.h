@@ -1,4 +1,4 @@
-// `drumlin report`: from run folders to a folder with index.html, figures and data.
+// `drumlin report`: from run folders to a folder with index.html, bed.html if there are runs of beds, figures and data.
 #pragma once
 
 #include <filesystem>

@@ -29,22 +29,23 @@ void run(const Arguments &arguments) {
     std::fflush(stdout);
   };
   const ReportOutcome outcome = write_report(options);
-  fmt::print("{} of {} checks against reference values agree\n{}\n", outcome.checks.agree, outcome.checks.all,
-             outcome.page.string());
+  if (outcome.checks.all > 0)
+    fmt::print("{} of {} checks against reference values agree\n", outcome.checks.agree, outcome.checks.all);
+  fmt::print("{}\n", outcome.page.string());
 }
 
 } // namespace
 
 void add_report_command(CLI::App &app, Session &) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App *report = app.add_subcommand(
-      "report",
-      "Figures, tables and checks against reference values from runs of the chain and of single impacts, as "
-      "one page that opens from disk.");
+  CLI::App *report = app.add_subcommand("report", "Figures, tables and checks against reference values from "
+                                                  "runs of the chain, of single impacts and of a "
+                                                  "roller on a bed, as pages that open from disk.");
   report
-      ->add_option(
-          "dir", arguments->folders,
-          "run folders (with chain.csv), studies (their pages are copied and linked), or parents of either")
+      ->add_option("dir", arguments->folders,
+                   "run folders (with chain.csv or bed.csv), studies (their pages are copied and linked), or "
+                   "parents of "
+                   "either")
       ->type_name("DIR")
       ->required();
   report->add_option("--out", arguments->out, "folder for the report; an earlier report there is replaced")

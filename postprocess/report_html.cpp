@@ -85,9 +85,23 @@ constexpr Section sections[] = {
     {"roller", "Contact force as a roller measures it",
      "A roller cannot see the contact law. What it can measure, Fc = m2 a2 + m3 a3 + (m2 + m3) g + Fe, must "
      "equal it."},
+    {"bed", "Roller on a bed of balls", ""},
     {"studies", "Studies",
      "What steps, laws and options cost and what they bring, each on a page of its own."},
 };
+
+/// Whether a section has anything to do with the given runs: those of beds only have a page of their own.
+bool belongs(const std::string &section, const ReportResults &results, const std::vector<std::string> &beds) {
+  if (section == "bed") return !beds.empty();
+  return beds.empty() || !results.runs.empty() || section == "summary" || section == "studies";
+}
+
+std::string beds_html(const std::vector<std::string> &beds) {
+  std::string s = "<p><a href=\"bed.html\">Figures of these runs</a> are on a page of their own: ";
+  for (std::size_t i = 0; i < beds.size(); ++i)
+    s += (i == 0 ? "" : ", ") + html_escaped(beds[i]);
+  return s + ".</p>\n";
+}
 
 std::string summary_html(const ReportResults &results) {
   const CheckCount count = count_checks(results);
@@ -149,18 +163,40 @@ std::string words_html(const std::string &text) {
   return out;
 }
 
-std::string commands_html(const ReportResults &results, const ReportVersions &versions) {
-  std::string s = "<h3 id=\"commands\">Commands and versions</h3>\n<dl class=\"commands\">\n";
+std::string versions_html(const ReportResults &results, const ReportVersions &versions) {
+  std::vector<std::pair<std::string, std::string>> commands;
+  commands.reserve(results.runs.size());
   for (const RunResult &result : results.runs)
-    s += fmt::format("<dt>{}</dt><dd><code>{}</code></dd>\n", html_escaped(result.run.name),
-                     words_html(result.run.text("command")));
-  s += "</dl>\n<p>";
-  s += html_escaped(fmt::format("Report by drumlin {}; direct solution by {}; figures by {}.",
-                                versions.drumlin, versions.direct_solver, versions.gnuplot));
-  return s + "</p>\n";
+    commands.emplace_back(result.run.name, result.run.text("command"));
+  return commands_html(commands) + "<p>" +
+         html_escaped(fmt::format("Report by drumlin {}; direct solution by {}; figures by {}.",
+                                  versions.drumlin, versions.direct_solver, versions.gnuplot)) +
+         "</p>\n";
 }
 
 } // namespace
+
+std::string commands_html(const std::vector<std::pair<std::string, std::string>> &commands) {
+  std::string s = "<h3 id=\"commands\">Commands and versions</h3>\n<dl class=\"commands\">\n";
+  for (const auto &[name, command] : commands)
+    s += fmt::format("<dt>{}</dt><dd><code>{}</code></dd>\n", html_escaped(name), words_html(command));
+  return s + "</dl>\n";
+}
+
+std::string made_line(const ReportVersions &versions) {
+  return fmt::format("Made on {} by drumlin {}.", versions.made_at, versions.drumlin);
+}
+
+std::string section_html(const FigurePlan &plan, const std::string &section) {
+  std::string s;
+  for (const PlannedFigure &figure : plan.figures)
+    if (figure.section == section) s += figure_html(figure);
+  for (const AbsentFigure &absent : plan.absent)
+    if (absent.section == section)
+      s += fmt::format("<p class=\"absent\">{} is left out: {}.</p>\n", html_escaped(absent.label),
+                       html_escaped(absent.reason));
+  return s;
+}
 
 std::string html_escaped(const std::string &text) {
   std::string out;
@@ -250,42 +286,42 @@ std::string table_html(const ReportTable &table) {
 
 std::string figure_html(const PlannedFigure &figure) {
   const std::string &name = figure.figure.name;
+  const bool png = figure.figure.only_png;
   return fmt::format(
-      "<figure id=\"{0}\">\n<a href=\"figures/{0}.svg\"><img src=\"figures/{0}.svg\" alt=\"{1}\" "
+      "<figure id=\"{0}\">\n<a href=\"figures/{0}.{6}\"><img src=\"figures/{0}.{6}\" alt=\"{1}\" "
       "width=\"{4}\" height=\"{5}\" /></a>\n"
       "<figcaption><strong>{2}.</strong> {3} <span class=\"links\">[<a href=\"data/{0}.csv\">CSV</a>, "
-      "<a href=\"figures/{0}.png\">PNG</a>, <a href=\"figures/{0}.svg\">SVG</a>, "
+      "<a href=\"figures/{0}.png\">PNG</a>, {7}"
       "<a href=\"figures/{0}.gp\">gnuplot script</a>]</span></figcaption>\n</figure>\n",
       name, html_escaped(figure.figure.title), html_escaped(figure.label), html_escaped(figure.caption),
-      figure_width(figure.figure), figure_height(figure.figure));
+      figure_width(figure.figure), figure_height(figure.figure), png ? "png" : "svg",
+      png ? "" : fmt::format("<a href=\"figures/{}.svg\">SVG</a>, ", name));
 }
 
 std::string report_page(const ReportResults &results, const std::vector<ReportTable> &tables,
-                        const FigurePlan &plan, const std::vector<StudyLink> &studies,
-                        const ReportVersions &versions) {
+                        const FigurePlan &plan, const std::vector<std::string> &beds,
+                        const std::vector<StudyLink> &studies, const ReportVersions &versions) {
   std::string s;
   s += "<nav>\n<ol>\n";
   for (const Section &section : sections)
-    s += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", section.id, html_escaped(section.title));
+    if (belongs(section.id, results, beds))
+      s += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", section.id, html_escaped(section.title));
   s += "</ol>\n</nav>\n<main>\n";
   int number = 0;
   for (const Section &section : sections) {
     const std::string id = section.id;
+    if (!belongs(id, results, beds)) continue;
     s += fmt::format("<section id=\"{}\">\n<h2>{}. {}</h2>\n", id, ++number, html_escaped(section.title));
     if (section.words[0] != '\0') s += fmt::format("<p>{}</p>\n", html_escaped(section.words));
-    if (id == "summary") s += summary_html(results);
-    bool any = id == "summary";
-    for (const PlannedFigure &figure : plan.figures)
-      if (figure.section == id) {
-        s += figure_html(figure);
-        any = true;
-      }
-    for (const AbsentFigure &absent : plan.absent)
-      if (absent.section == id) {
-        s += fmt::format("<p class=\"absent\">{} is left out: {}.</p>\n", html_escaped(absent.label),
-                         html_escaped(absent.reason));
-        any = true;
-      }
+    if (id == "summary")
+      s +=
+          belongs("direct", results, beds)
+              ? summary_html(results)
+              : fmt::format("<p>{} run folders were read, of a roller on a bed of balls.</p>\n", beds.size());
+    if (id == "bed") s += beds_html(beds);
+    const std::string figures = section_html(plan, id);
+    s += figures;
+    bool any = id == "summary" || id == "bed" || !figures.empty();
     for (const ReportTable &table : tables)
       if (table.section == id) {
         s += table_html(table);
@@ -299,12 +335,10 @@ std::string report_page(const ReportResults &results, const std::vector<ReportTa
       any = true;
     }
     if (!any) s += "<p class=\"absent\">The given runs have nothing to show here.</p>\n";
-    if (id == "summary") s += commands_html(results, versions);
+    if (id == "summary" && belongs("direct", results, beds)) s += versions_html(results, versions);
     s += "</section>\n";
   }
-  return html_page("Roller on soil: report of the runs",
-                   fmt::format("Made on {} by drumlin {}.", versions.made_at, versions.drumlin),
-                   s + "</main>\n");
+  return html_page("Roller on soil: report of the runs", made_line(versions), s + "</main>\n");
 }
 
 } // namespace drumlin::post

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "report_figures.h"
@@ -31,15 +32,26 @@ std::string table_html(const ReportTable &table);
 /// A figure with its caption and links to figures/NAME.svg, .png, .gp and data/NAME.csv.
 std::string figure_html(const PlannedFigure &figure);
 
+/// The figures of a section in order, then those left out and why. Empty if the plan has none of either.
+std::string section_html(const FigurePlan &plan, const std::string &section);
+
+/// A heading, then the commands of runs, each with the name of its run.
+std::string commands_html(const std::vector<std::pair<std::string, std::string>> &commands);
+
+/// "Made on ... by drumlin ...".
+std::string made_line(const ReportVersions &versions);
+
 /// A study beside the report.
 struct StudyLink {
   std::string place; ///< of its index.html, relative to the report's
   std::string title; ///< as it stands in its page, escaped
 };
 
-/// The page of the report. Figures are expected at figures/NAME.svg and .png, data at data/NAME.csv beside it.
+/// The page of the report. Figures are expected at figures/NAME.svg and .png, data at data/NAME.csv beside it. With bed runs it
+/// links their page, bed.html, and without any other runs it has no sections on these.
+/// \param beds names of the bed runs
 std::string report_page(const ReportResults &results, const std::vector<ReportTable> &tables,
-                        const FigurePlan &plan, const std::vector<StudyLink> &studies,
-                        const ReportVersions &versions);
+                        const FigurePlan &plan, const std::vector<std::string> &beds,
+                        const std::vector<StudyLink> &studies, const ReportVersions &versions);
 
 } // namespace drumlin::post

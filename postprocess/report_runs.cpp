@@ -20,7 +20,14 @@ bool is_study_folder(const fs::path &folder) {
   return fs::is_regular_file(folder / "study.txt") && fs::is_regular_file(folder / "index.html");
 }
 
-bool is_run_folder(const fs::path &folder) { return fs::is_regular_file(folder / "chain.csv"); }
+/// The record of a run: chain.csv, or bed.csv of a bed.
+fs::path record_of(const fs::path &folder) {
+  const fs::path bed = folder / "bed.csv";
+  const fs::path chain = folder / "chain.csv";
+  return !fs::is_regular_file(chain) && fs::is_regular_file(bed) ? bed : chain;
+}
+
+bool is_run_folder(const fs::path &folder) { return fs::is_regular_file(record_of(folder)); }
 
 /// The parameter as a number, if it is there. Throws for text that is no number.
 std::optional<double> number(const Run &run, const std::string &name) {
@@ -99,7 +106,8 @@ void compare_with_case(Run &run) {
   run.at_case = true;
 }
 
-void read_chain_parameters(Run &run) {
+/// Fills Run::chain; says whether all of it is there.
+bool take_chain(Run &run) {
   std::vector<std::string> absent;
   ChainParameters &p = run.chain;
   take(run, "k", p.k, absent);
@@ -111,18 +119,40 @@ void read_chain_parameters(Run &run) {
   take(run, "k23", p.k23, absent);
   take(run, "c23", p.c23, absent);
   take(run, "g", p.g, absent);
-  if (!take_transition(run, p.transition, absent)) return;
+  if (!take_transition(run, p.transition, absent)) return false;
   check_parameters(run, p.invalid());
-  run.kind = RunKind::chain;
-  run.case_name = run.text("case", "");
-  if (const std::optional<double> speed = number(run, "impact_speed")) run.impact_speed = *speed;
-  compare_with_case(run);
+  return true;
+}
+
+/// Fills Run::complete and Run::samples_per_cycle.
+void count_cycles(Run &run) {
   if (run.history.size() < 3) return;
-  const double period = p.period();
+  const double period = run.chain.period();
   run.complete = complete_cycles(run.history.time.back(), period);
   const double step =
       (run.history.time.back() - run.history.time.front()) / static_cast<double>(run.history.size() - 1);
   run.samples_per_cycle = std::max(1, static_cast<int>(std::lround(period / step)));
+}
+
+void read_chain_parameters(Run &run) {
+  if (!take_chain(run)) return;
+  run.kind = RunKind::chain;
+  run.case_name = run.text("case", "");
+  if (const std::optional<double> speed = number(run, "impact_speed")) run.impact_speed = *speed;
+  compare_with_case(run);
+  count_cycles(run);
+}
+
+/// Of a bed nothing may be missing: its deck writes all of it.
+void read_bed_parameters(Run &run) {
+  const std::string deck = run.text("deck", "");
+  check_parameters(run,
+                   deck == "bed" ? "" : fmt::format("deck is '{}'; allowed beside bed.csv is bed", deck));
+  if (!take_chain(run))
+    throw std::runtime_error(fmt::format("{}: {}", run.folder.string(), run.missing.back()));
+  run.kind = RunKind::bed;
+  run.case_name = run.text("case", "");
+  count_cycles(run);
 }
 
 void read_impact_parameters(Run &run) {
@@ -147,7 +177,8 @@ constexpr const char *cycle_columns[] = {
     "cycle",           "time",          "a_drum_min", "a_drum_max",      "F_contact_min",
     "F_contact_max",   "contact_share", "a1_cos",     "a1_sin",          "a2_cos",
     "a2_sin",          "ah_cos",        "ah_sin",     "work_excitation", "dissipated_contact",
-    "dissipated_bond", "kinetic",       "potential",  "stored_contact",  "stored_bond"};
+    "dissipated_bond", "kinetic",       "potential",  "stored_contact",  "stored_bond",
+    "settlement"};
 
 } // namespace
 
@@ -164,8 +195,8 @@ ReportFolders find_report_folders(const std::vector<fs::path> &arguments) {
   };
   for (const fs::path &argument : arguments) {
     if (!fs::is_directory(argument))
-      throw UsageError(fmt::format("'{}' is no folder; allowed are run folders (with chain.csv), studies and "
-                                   "parents of them",
+      throw UsageError(fmt::format("'{}' is no folder; allowed are run folders (with chain.csv or bed.csv), "
+                                   "studies and parents of them",
                                    argument.string()));
     std::vector<fs::path> runs;
     std::vector<fs::path> studies;
@@ -187,8 +218,8 @@ ReportFolders find_report_folders(const std::vector<fs::path> &arguments) {
       }
     if (runs.empty() && studies.empty())
       throw UsageError(fmt::format(
-          "'{}' has no chain.csv and no study in it or below it; allowed are run folders, studies "
-          "and parents of them",
+          "'{}' has no chain.csv, no bed.csv and no study in it or below it; allowed are run folders, "
+          "studies and parents of them",
           argument.string()));
     for (auto [found, into] : {std::pair{&runs, &folders.runs}, std::pair{&studies, &folders.studies}}) {
       std::sort(found->begin(), found->end());
@@ -211,10 +242,12 @@ CycleColumns read_cycle_columns(const fs::path &file) {
 Run read_run(const fs::path &folder) {
   Run run;
   run.folder = folder;
-  run.history = read_chain(folder / "chain.csv");
+  const fs::path record = record_of(folder);
+  const bool bed = record.filename() == "bed.csv";
+  run.history = read_chain(record);
   if (run.history.size() < 3)
-    throw std::runtime_error(fmt::format("{}: {} rows; allowed are 3 or more",
-                                         (folder / "chain.csv").string(), run.history.size()));
+    throw std::runtime_error(
+        fmt::format("{}: {} rows; allowed are 3 or more", record.string(), run.history.size()));
   if (fs::is_regular_file(folder / "events.csv")) {
     run.events = read_events(folder / "events.csv");
     run.has_events = true;
@@ -223,14 +256,16 @@ Run read_run(const fs::path &folder) {
         "events.csv is missing: no events table; jumps, force at make and contact share come "
         "from samples.");
   }
-  if (fs::is_regular_file(folder / "parameters.csv"))
+  if (bed || fs::is_regular_file(folder / "parameters.csv"))
     run.parameters = read_parameters(folder / "parameters.csv");
   else
     run.missing.emplace_back("parameters.csv is missing: not judged and not compared.");
 
   const std::string deck = run.text("deck", "");
   const bool impact = deck == "impact" || (deck.empty() && run.parameters.count("speed") != 0);
-  if (!run.parameters.empty()) {
+  if (bed) {
+    read_bed_parameters(run);
+  } else if (!run.parameters.empty()) {
     if (impact)
       read_impact_parameters(run);
     else

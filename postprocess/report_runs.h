@@ -17,6 +17,7 @@ namespace drumlin::post {
 enum class RunKind {
   chain,  ///< the three-ball chain under excitation
   impact, ///< a single impact without gravity
+  bed,    ///< the roller on a bed of balls
   unknown ///< no parameters.csv, or one that does not tell the parameters: listed, not judged
 };
 
@@ -29,7 +30,7 @@ struct Run {
   std::vector<std::string> missing;              ///< sentences on what is missing and what is lost by it
 
   std::string case_name;     ///< "I" to "IV", or what parameters.csv says; empty if it says nothing
-  ChainParameters chain;     ///< of a chain
+  ChainParameters chain;     ///< of a chain, or of the contacts, roller and excitation of a bed
   double impact_speed = 0.0; ///< of a chain that starts by falling onto the soil, m/s; 0: from equilibrium
   ImpactParameters impact;   ///< of an impact
   bool direct = false;       ///< written by the direct solver rather than by an engine
@@ -41,8 +42,8 @@ struct Run {
   bool has_events = false;
   std::optional<CycleColumns> cycles;
 
-  int complete = 0;          ///< complete excitation cycles in chain.csv
-  int samples_per_cycle = 0; ///< rows of chain.csv per cycle
+  int complete = 0;          ///< complete excitation cycles in chain.csv or bed.csv
+  int samples_per_cycle = 0; ///< rows of it per cycle
   int steps_per_cycle = 0;   ///< 0 if not told
   double timestep = 0.0;     ///< s; 0 if not told
 
@@ -53,7 +54,7 @@ struct Run {
 
 /// What a report is about.
 struct ReportFolders {
-  std::vector<std::filesystem::path> runs;    ///< hold chain.csv
+  std::vector<std::filesystem::path> runs;    ///< hold chain.csv or bed.csv
   std::vector<std::filesystem::path> studies; ///< hold study.txt and index.html
 };
 

@@ -23,7 +23,8 @@ struct Parsed {
 
 Parsed parse(const std::string &text);
 
-/// Expects out/index.html to be strict XML with at least so many images, and a file behind every link and image.
-Parsed expect_sound_page(const std::filesystem::path &out, std::size_t images);
+/// Expects a page in `out` to be strict XML with at least so many images, and a file or a place behind every link and image.
+Parsed expect_sound_page(const std::filesystem::path &out, std::size_t images,
+                         const std::string &file = "index.html");
 
 } // namespace drumlin::test

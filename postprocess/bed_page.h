@@ -1,0 +1,21 @@
+// The report's page on runs of the roller on a bed of balls: bed.html beside index.html.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bed_results.h"
+#include "report_figures.h"
+#include "report_html.h"
+#include "report_tables.h"
+
+namespace drumlin::post {
+
+/// The numbers of all bed runs, one row each.
+ReportTable bed_table(const std::vector<BedResult> &beds);
+
+/// The page. Figures and data are expected where report_page() expects them.
+std::string bed_page(const std::vector<BedResult> &beds, const std::vector<BedGroup> &groups,
+                     const ReportTable &table, const FigurePlan &plan, const ReportVersions &versions);
+
+} // namespace drumlin::post

@@ -1,0 +1,316 @@
+#include "bed_pictures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bed_fields.h"
+#include "curve_table.h"
+#include "vtk_files.h"
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The bed at one instant.
+struct Instant {
+  double time = 0.0;  ///< s
+  double force = 0.0; ///< on the drum, N, of the nearest row of bed.csv
+  bool has_contacts = false;
+  std::vector<Ball> balls;
+  std::vector<BallContact> contacts;
+};
+
+/// The instants that the pictures show, in order.
+enum Which : std::size_t { settled, peak, least, instants };
+
+/// A run's instants; those that its dumps do not have are empty.
+struct Views {
+  const BedResult *result = nullptr;
+  std::array<std::optional<Instant>, instants> views;
+  std::vector<Ball> last; ///< at the last dump; empty with a single one
+};
+
+constexpr double bright_share = 0.98; ///< of the soil balls are slower than the end of the scale of colours
+constexpr int force_classes = 5;      ///< of contacts, each up to twice the force of the one before
+constexpr double widest = 6.0;        ///< line of the largest force, pt
+constexpr double layer = 2.0;         ///< of the profile, in mean diameters of the soil balls
+
+/// Row of bed.csv nearest to a time.
+std::size_t row_near(const ChainHistory &history, double time) {
+  const auto next = std::lower_bound(history.time.begin(), history.time.end(), time);
+  auto row = static_cast<std::size_t>(next - history.time.begin());
+  if (row == history.size() || (row > 0 && time - history.time[row - 1] < history.time[row] - time)) --row;
+  return row;
+}
+
+Instant read_instant(const BedResult &result, long step, bool has_contacts) {
+  const fs::path dumps = result.run.folder / "dump";
+  Instant instant;
+  instant.time = static_cast<double>(step) * result.run.timestep;
+  instant.force = result.run.history.F_contact[row_near(result.run.history, instant.time)];
+  instant.has_contacts = has_contacts;
+  instant.balls = read_ball_dump(dumps / fmt::format("balls_{}.vtp", step));
+  if (has_contacts)
+    instant.contacts = read_contact_dump(dumps / fmt::format("contacts_{}.vtp", step), instant.balls);
+  return instant;
+}
+
+/// Settled is the first dump; peak and least are those with the largest and the smallest force on the drum of the others.
+std::optional<Views> read_views(const BedResult &result) {
+  const std::map<long, bool> steps = dumped_steps(result.run.folder / "dump");
+  if (steps.empty()) return std::nullopt;
+  if (!(result.run.timestep > 0.0))
+    throw std::runtime_error(fmt::format("{}: timestep is missing or not above 0, and dumps need it",
+                                         (result.run.folder / "parameters.csv").string()));
+  Views out;
+  out.result = &result;
+  out.views[settled] = read_instant(result, steps.begin()->first, steps.begin()->second);
+  if (steps.size() == 1) return out;
+  const ChainHistory &h = result.run.history;
+  const auto force = [&](const std::pair<const long, bool> &step) {
+    return h.F_contact[row_near(h, static_cast<double>(step.first) * result.run.timestep)];
+  };
+  const auto [low, high] =
+      std::minmax_element(std::next(steps.begin()), steps.end(),
+                          [&](const auto &a, const auto &b) { return force(a) < force(b); });
+  out.views[peak] = read_instant(result, high->first, high->second);
+  if (low != high) out.views[least] = read_instant(result, low->first, low->second);
+  out.last =
+      read_ball_dump(result.run.folder / "dump" / fmt::format("balls_{}.vtp", std::prev(steps.end())->first));
+  return out;
+}
+
+double speed(const Ball &ball) { return std::hypot(ball.velocity[0], ball.velocity[1], ball.velocity[2]); }
+
+/// What all pictures of a group share, so that they can be compared.
+struct Scales {
+  Bounds bounds;
+  double fastest = 0.0;   ///< end of the scale of colours, m/s
+  double strongest = 0.0; ///< largest normal force of a contact, N
+};
+
+Scales scales_of(const std::vector<Views> &all) {
+  Scales scales;
+  std::vector<double> speeds;
+  for (const Views &views : all)
+    for (const std::optional<Instant> &instant : views.views) {
+      if (!instant) continue;
+      for (const Ball &ball : instant->balls) {
+        scales.bounds.add(ball);
+        if (ball.type == soil_type && &instant != &views.views[settled]) speeds.push_back(speed(ball));
+      }
+      for (const BallContact &contact : instant->contacts)
+        scales.strongest = std::max(scales.strongest, force_parts(instant->balls, contact).normal);
+    }
+  if (!speeds.empty()) {
+    const auto place =
+        speeds.begin() + static_cast<std::ptrdiff_t>(bright_share * static_cast<double>(speeds.size() - 1));
+    std::nth_element(speeds.begin(), place, speeds.end());
+    scales.fastest = *place;
+  }
+  // Two digits: the numbers of the scale are read by people.
+  for (double *value : {&scales.fastest, &scales.strongest})
+    if (*value > 0.0) {
+      const double unit = std::pow(10.0, std::floor(std::log10(*value)) - 1.0);
+      *value = std::ceil(*value / unit) * unit;
+    }
+  return scales;
+}
+
+void put_instant(CurveTable &table, const std::string &label, const Instant &instant) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<int> counts = coordination(instant.balls.size(), instant.contacts);
+  for (std::size_t b = 0; b < instant.balls.size(); ++b) {
+    const Ball &ball = instant.balls[b];
+    table.row(fmt::format("{} {}", label, ball.type == soil_type ? "soil" : "roller"),
+              {ball.position[0], ball.position[1], ball.radius, speed(ball),
+               instant.has_contacts ? static_cast<double>(counts[b]) : none, none, none, none});
+  }
+  for (const BallContact &contact : instant.contacts) {
+    const Vector &from = instant.balls[contact.j].position;
+    const Vector l = branch(instant.balls, contact);
+    table.row(label + " contact",
+              {from[0], from[1], none, none, none, l[0], l[1], force_parts(instant.balls, contact).normal});
+  }
+}
+
+Panel instant_panel(const std::string &figure, const std::string &label, const Instant &instant,
+                    const Scales &scales, bool by_contacts) {
+  Panel panel;
+  panel.title = fmt::format("{}: {:.4g} s, {:.1f} kN on the drum", label, instant.time, instant.force * 1e-3);
+  panel.x_label = "x (m)";
+  panel.y_label = "y (m)";
+  panel.equal_scales = true;
+  const double margin = 0.02 * (scales.bounds.high[0] - scales.bounds.low[0]);
+  const auto range = [&](std::size_t axis) {
+    return fmt::format("[{:.4g}:{:.4g}]", scales.bounds.low[axis] - margin,
+                       scales.bounds.high[axis] + margin);
+  };
+  panel.x_range = range(0);
+  panel.y_range = range(1);
+  panel.legend_rows = 2;
+  if (by_contacts) {
+    panel.color_label = "contacts of a ball (-)";
+    panel.color_range = "[-0.5:6.5]";
+    panel.color_whole = true;
+  } else {
+    panel.color_label = "speed of a ball (m/s)";
+    panel.color_range = fmt::format("[0:{:.3g}]", std::max(scales.fastest, 1.0e-9));
+  }
+  const auto add = [&](const char *what, const std::string &x, const std::string &y, CurveStyle style) {
+    panel.curves.push_back(curve(figure, label + what, x, y, style));
+    panel.curves.back().title.clear();
+  };
+  add(" soil", "$2", by_contacts ? "3:4:6" : "3:4:5", CurveStyle::discs);
+  for (int i = 0; i < force_classes && scales.strongest > 0.0; ++i) {
+    const double high = scales.strongest / std::pow(2.0, force_classes - 1 - i);
+    add(" contact", fmt::format("($9 > {:.6g} && $9 <= {:.6g} ? $2 : NaN)", 0.5 * high, high), "3:7:8",
+        CurveStyle::segments);
+    panel.curves.back().width = widest * 0.75 * high / scales.strongest; // of the middle of the class
+    panel.curves.back().title = fmt::format("{:.2g} to {:.2g} kN", 0.5e-3 * high, 1e-3 * high);
+  }
+  add(" roller", "$2", "3:4", CurveStyle::circles);
+  return panel;
+}
+
+std::string picture_caption(Which which, const Scales &scales) {
+  std::string words;
+  switch (which) {
+  case settled:
+    words = "The bed at the first dump";
+    break;
+  case peak:
+    words = "The dump with the largest force on the drum";
+    break;
+  default:
+    words = "The dump with the smallest force on the drum";
+  }
+  words += which == settled ? "; colours: contacts of each soil ball with other balls"
+                            : "; colours: speed of the soil balls (the fastest 2 % are off the scale)";
+  if (scales.strongest > 0.0)
+    words +=
+        ". Black lines join the centres of balls that press on each other, their width in proportion to "
+        "the normal force; forces below the smallest of the legend and those with the walls are not drawn";
+  return words + ". Circles: drum, and the frame above it, of which only the mass counts.";
+}
+
+/// Solid fraction of the soil over the depth, from x = low to high. Returns the largest.
+double put_profile(CurveTable &table, const std::string &label, const std::vector<Ball> &balls,
+                   const Bounds &soil, double low, double high, double diameter) {
+  FieldGrid grid;
+  grid.flat = true;
+  const double depth = soil.high[1] - soil.low[1];
+  grid.cells[1] = static_cast<std::size_t>(std::max(1.0, std::round(depth / (layer * diameter))));
+  grid.origin = {low, soil.low[1], 0.0};
+  grid.sides = {high - low, depth / static_cast<double>(grid.cells[1]), 1.0};
+  const BedFields fields = coarse_grained(balls, {}, grid);
+  for (std::size_t c = 0; c < grid.cells[1]; ++c)
+    table.row(label, {depth - (static_cast<double>(c) + 0.5) * grid.sides[1], fields.solid_fraction[c]});
+  return *std::max_element(fields.solid_fraction.begin(), fields.solid_fraction.end());
+}
+
+void plan_profile(const std::vector<Views> &all, const std::string &stem, const std::string &section,
+                  FigurePlan &plan) {
+  const std::string name = stem + "profile";
+  CurveTable table("depth (m),solid fraction (-)");
+  Panel whole{"across the whole box", "solid fraction (-)", "depth below the highest ball (m)", {}};
+  Panel below{"below the drum", "solid fraction (-)", "depth below the highest ball (m)", {}};
+  double densest = 0.0;
+  for (const Views &views : all) {
+    if (views.last.empty()) continue;
+    const std::string label = transition_name(views.result->run.transition());
+    const bool a = views.result->run.transition() == Transition::A;
+    Bounds soil;
+    double diameters = 0.0;
+    double balls = 0.0;
+    for (const std::vector<Ball> *state : {&views.views[settled]->balls, &views.last})
+      for (const Ball &ball : *state) {
+        if (ball.type != soil_type) continue;
+        soil.add(ball);
+        diameters += 2.0 * ball.radius;
+        balls += 1.0;
+      }
+    if (soil.empty()) continue;
+    const auto add = [&](const std::string &when, const std::vector<Ball> &state, CurveStyle style) {
+      const auto put = [&](Panel &panel, const std::string &where, double low, double high) {
+        const std::string row = fmt::format("{} {} {}", label, when, where);
+        densest = std::max(densest, put_profile(table, row, state, soil, low, high, diameters / balls));
+        panel.curves.push_back(curve(name, row, "$3", "2", style));
+        panel.curves.back().title = fmt::format("{} {}", label, when);
+      };
+      put(whole, "whole", soil.low[0], soil.high[0]);
+      for (const Ball &ball : state)
+        if (ball.type == drum_type)
+          put(below, "below", ball.position[0] - ball.radius, ball.position[0] + ball.radius);
+    };
+    add("before", views.views[settled]->balls, a ? CurveStyle::series_5 : CurveStyle::series_3);
+    add("after", views.last, a ? CurveStyle::series_2 : CurveStyle::series_1);
+  }
+  if (whole.curves.empty()) return;
+  PlannedFigure figure{section, "", "", {}, table.text()};
+  figure.figure = {name, "Solid fraction over the depth", {}, 2, 570, 560};
+  for (Panel *panel : {&whole, &below}) {
+    if (panel->curves.empty()) continue;
+    panel->y_range = "[*:*] reverse";
+    panel->x_range =
+        fmt::format("[{:.3g}:{:.3g}]", 0.8 * densest, 1.03 * densest); // else nothing is seen to change
+    panel->legend_rows = 2;
+    figure.figure.panels.push_back(*panel);
+  }
+  figure.caption = fmt::format(
+      "Area of the soil balls over that of the bed at the first and at the last dump, in layers of "
+      "some {:g} mean diameters: across the whole box, and where the drum is overhead. Layers that are "
+      "partly air or drum are off the scale; the CSV has them.",
+      layer);
+  plan.figures.push_back(std::move(figure));
+}
+
+} // namespace
+
+void plan_bed_pictures(const BedGroup &group, const std::string &stem, const std::string &section,
+                       FigurePlan &plan) {
+  std::vector<Views> all;
+  for (const BedResult *result : group.runs) {
+    if (std::optional<Views> views = read_views(*result))
+      all.push_back(std::move(*views));
+    else
+      plan.absent.push_back({section, "Pictures of " + result->run.name,
+                             "the run has no dumps; run it with -var dumps_per_cycle 10 to get them"});
+  }
+  if (all.empty()) return;
+  const Scales scales = scales_of(all);
+  constexpr std::array<std::pair<const char *, const char *>, instants> names = {
+      {{"settled", "The bed at rest"},
+       {"peak", "The bed at the largest force on the drum"},
+       {"least", "The bed at the smallest force on the drum"}}};
+  for (const Which which : {settled, peak, least}) {
+    const std::string name = stem + names[which].first;
+    CurveTable table("x (m),y (m),radius (m),speed (m/s),contacts (-),dx (m),dy (m),normal force (N)");
+    std::vector<Panel> panels;
+    for (const Views &views : all) {
+      const std::optional<Instant> &instant = views.views[which];
+      if (!instant) continue;
+      const std::string label = transition_name(views.result->run.transition());
+      put_instant(table, label, *instant);
+      panels.push_back(
+          instant_panel(name, label, *instant, scales, which == settled && instant->has_contacts));
+    }
+    if (panels.empty()) continue;
+    PlannedFigure figure{section, "", picture_caption(which, scales), {}, table.text()};
+    figure.figure = {name, names[which].second, panels, 2, 640, 760};
+    figure.figure.only_png = true;
+    plan.figures.push_back(std::move(figure));
+  }
+  plan_profile(all, stem, section, plan);
+}
+
+} // namespace drumlin::post
