@@ -106,7 +106,8 @@ private:
     curves(force, "motion", "$3*1e3", "($5*1e-3)");
     add("motion", "Drum acceleration and contact force", {acceleration, force}, table,
         fmt::format("Acceleration of the drum and force of the soil on it over the last {} cycles. The force "
-                    "is the sum over all balls that touch the drum.",
+                    "is the sum over all balls that touch the drum, their friction included: it can pull "
+                    "under B, too.",
                     shown_cycles),
         1, 960, 400);
   }

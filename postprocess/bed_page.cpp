@@ -37,81 +37,79 @@ std::string words_of(const BedGroup &group) {
 
 } // namespace
 
-ReportTable bed_table(const std::vector<BedResult> &beds) {
-  ReportTable table;
-  table.section = "bed";
-  table.name = "bed_runs";
-  table.title = "Runs of the roller on a bed";
-  table.text_columns = 2;
-  table.header = {"run",
+std::vector<ReportTable> bed_tables(const std::vector<BedResult> &beds) {
+  ReportTable motion;
+  motion.section = "bed";
+  motion.name = "bed_runs";
+  motion.title = "Runs of the roller on a bed";
+  motion.text_columns = 2;
+  motion.header = {"run",
+                   "transition",
+                   "friction (-)",
+                   "balls",
+                   "frequency (Hz)",
+                   "cycles (-)",
+                   "steady cycles",
+                   "largest drum acceleration (m/s²)",
+                   "largest contact force (kN)",
+                   "smallest contact force (kN)",
+                   "share of time in contact (-)",
+                   "CMV (-)",
+                   "stepping",
+                   "steps per cycle",
+                   "ranks",
+                   "command"};
+  motion.shown_columns = motion.header.size() - 4;
+  ReportTable state;
+  state.section = "bed";
+  state.name = "bed_states";
+  state.title = "What the roller does to the bed";
+  state.text_columns = 2;
+  state.header = {"run",
                   "transition",
-                  "friction (-)",
-                  "balls",
-                  "frequency (Hz)",
-                  "cycles (-)",
-                  "steady cycles",
-                  "largest drum acceleration (m/s²)",
-                  "largest contact force (kN)",
-                  "smallest contact force (kN)",
-                  "share of time in contact (-)",
                   "settlement at the end (mm)",
                   "settlement per cycle (mm)",
-                  "CMV (-)",
-                  "imbalance of energy (% of work)",
                   "coordination at the start (-)",
                   "coordination at the end (-)",
                   "void ratio at the start (-)",
                   "void ratio at the end (-)",
-                  "stepping",
-                  "steps per cycle",
-                  "ranks",
-                  "command"};
-  table.shown_columns = table.header.size() - 4;
+                  "imbalance of energy (% of work)"};
+  state.shown_columns = state.header.size();
   for (const BedResult &result : beds) {
     const Run &run = result.run;
     const BedMeasures &m = result.measures;
+    const std::string transition = transition_name(run.transition());
     const bool any = m.cycles > 0;
     const auto steady = [any](double value, int decimals) { return any ? fixed(value, decimals) : dash; };
-    table.add({run.name,
-               transition_name(run.transition()),
-               run.text("friction", dash),
-               run.text("balls", dash),
-               fmt::format("{:g}", 1.0 / run.chain.period()),
-               fmt::format("{}", m.cycles),
-               any ? fmt::format("{} to {}", m.cycles - m.steady_count + 1, m.cycles) : dash,
-               steady(m.extremes.acceleration.max, 2),
-               steady(m.extremes.force.max * 1e-3, 2),
-               steady(m.extremes.force.min * 1e-3, 2),
-               steady(m.contact_share, 4),
-               steady(m.settlement * 1e3, 3),
-               steady(m.settlement_per_cycle * 1e3, 3),
-               m.amplitudes ? fixed(compaction_meter_value(*m.amplitudes), 2) : dash,
-               fixed(m.imbalance_percent, 3),
-               fixed(m.coordination_start, 3),
-               fixed(m.coordination_end, 3),
-               fixed(m.void_ratio_start, 4),
-               fixed(m.void_ratio_end, 4),
-               run.text("stepping", dash),
-               run.steps_per_cycle > 0 ? fmt::format("{}", run.steps_per_cycle) : dash,
-               run.text("ranks", dash),
-               run.text("command", dash)});
-    if (!any) table.notes.push_back(fmt::format("{}: ends before its first complete cycle.", run.name));
+    motion.add({run.name, transition, run.text("friction", dash), run.text("balls", dash),
+                fmt::format("{:g}", 1.0 / run.chain.period()), fmt::format("{}", m.cycles),
+                any ? fmt::format("{} to {}", m.cycles - m.steady_count + 1, m.cycles) : dash,
+                steady(m.extremes.acceleration.max, 2), steady(m.extremes.force.max * 1e-3, 2),
+                steady(m.extremes.force.min * 1e-3, 2), steady(m.contact_share, 4),
+                m.amplitudes ? fixed(compaction_meter_value(*m.amplitudes), 2) : dash,
+                run.text("stepping", dash),
+                run.steps_per_cycle > 0 ? fmt::format("{}", run.steps_per_cycle) : dash,
+                run.text("ranks", dash), run.text("command", dash)});
+    state.add({run.name, transition, steady(m.settlement * 1e3, 3), steady(m.settlement_per_cycle * 1e3, 3),
+               fixed(m.coordination_start, 3), fixed(m.coordination_end, 3), fixed(m.void_ratio_start, 4),
+               fixed(m.void_ratio_end, 4), fixed(m.imbalance_percent, 3)});
+    if (!any) motion.notes.push_back(fmt::format("{}: ends before its first complete cycle.", run.name));
   }
-  table.notes.emplace_back(
-      "Acceleration, forces, share of contact, settlement per cycle and CMV are of the steady cycles: about "
-      "the "
-      "second half of the run, an even number of cycles, every step of them. CMV = 300 A2 / A1 of the drum's "
-      "acceleration. Settlement is the mean of the drum's position over a cycle, below where it lay at "
-      "rest.");
-  table.notes.emplace_back(
-      "Imbalance: kinetic + potential + elastic + dissipated energy - work of the exciter at the end, less "
-      "its "
-      "value at the start. Coordination and void ratio at the end are means over the last cycle.");
-  return table;
+  motion.notes.emplace_back("From acceleration to CMV: of the steady cycles, about the second half of the "
+                            "run, an even number of them, "
+                            "every step. CMV = 300 A2 / A1 of the drum's acceleration.");
+  state.notes.emplace_back(
+      "Settlement: mean of the drum's position over a cycle, below where it lay at rest; per cycle in the "
+      "steady "
+      "cycles. Coordination and void ratio at the end are means over the last cycle. Imbalance: kinetic + "
+      "potential + elastic + dissipated energy - work of the exciter at the end, less its value at the "
+      "start.");
+  return {motion, state};
 }
 
 std::string bed_page(const std::vector<BedResult> &beds, const std::vector<BedGroup> &groups,
-                     const ReportTable &table, const FigurePlan &plan, const ReportVersions &versions) {
+                     const std::vector<ReportTable> &tables, const FigurePlan &plan,
+                     const ReportVersions &versions) {
   std::string s = "<nav>\n<p><a href=\"index.html\">Report of the runs</a></p>\n<ol>\n"
                   "<li><a href=\"#summary\">Summary</a></li>\n";
   for (std::size_t i = 0; i < groups.size(); ++i)
@@ -121,7 +119,8 @@ std::string bed_page(const std::vector<BedResult> &beds, const std::vector<BedGr
        "acts "
        "on the drum. Masses, forces and energies are per metre out of the picture. Condition A dashed, "
        "condition B solid.</p>\n";
-  s += table_html(table);
+  for (const ReportTable &table : tables)
+    s += table_html(table);
   std::vector<std::pair<std::string, std::string>> commands;
   commands.reserve(beds.size());
   for (const BedResult &result : beds)

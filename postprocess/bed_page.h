@@ -11,11 +11,12 @@
 
 namespace drumlin::post {
 
-/// The numbers of all bed runs, one row each.
-ReportTable bed_table(const std::vector<BedResult> &beds);
+/// The numbers of all bed runs, one row each: the roller's motion, and what becomes of the bed.
+std::vector<ReportTable> bed_tables(const std::vector<BedResult> &beds);
 
 /// The page. Figures and data are expected where report_page() expects them.
 std::string bed_page(const std::vector<BedResult> &beds, const std::vector<BedGroup> &groups,
-                     const ReportTable &table, const FigurePlan &plan, const ReportVersions &versions);
+                     const std::vector<ReportTable> &tables, const FigurePlan &plan,
+                     const ReportVersions &versions);
 
 } // namespace drumlin::post

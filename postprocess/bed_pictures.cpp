@@ -283,7 +283,7 @@ void plan_bed_pictures(const BedGroup &group, const std::string &stem, const std
     if (std::optional<Views> views = read_views(*result))
       all.push_back(std::move(*views));
     else
-      plan.absent.push_back({section, "Pictures of " + result->run.name,
+      plan.absent.push_back({section, "The picture of " + result->run.name,
                              "the run has no dumps; run it with -var dumps_per_cycle 10 to get them"});
   }
   if (all.empty()) return;

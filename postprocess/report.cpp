@@ -293,7 +293,9 @@ ReportOutcome write_report(const ReportOptions &options) {
   const FigurePlan plan = only_beds ? FigurePlan() : plan_figures(results);
   std::vector<ReportTable> tables;
   if (!only_beds) tables = make_tables(results);
-  if (!beds.empty()) tables.push_back(bed_table(beds));
+  std::vector<ReportTable> of_beds;
+  if (!beds.empty()) of_beds = bed_tables(beds);
+  tables.insert(tables.end(), of_beds.begin(), of_beds.end());
   const std::vector<BedGroup> groups = group_beds(beds);
   FigurePlan bed_plan;
   if (!beds.empty()) progress("beds: dumps");
@@ -331,7 +333,7 @@ ReportOutcome write_report(const ReportOptions &options) {
   for (const BedResult &bed : beds)
     bed_names.push_back(bed.run.name);
   if (!beds.empty())
-    write_text(draft.folder() / "bed.html", bed_page(beds, groups, tables.back(), bed_plan, versions));
+    write_text(draft.folder() / "bed.html", bed_page(beds, groups, of_beds, bed_plan, versions));
   write_text(draft.folder() / "index.html", report_page(results, tables, plan, bed_names, studies, versions));
   write_text(draft.folder() / summary_file, summary_json(results, beds, versions));
   draft.publish();

@@ -157,14 +157,18 @@ TEST_F(BedReport, MeasuresAnEvenNumberOfCycles) {
 }
 
 TEST_F(BedReport, PrintsTheMeasures) {
-  const ReportTable table = bed_table({result("B")});
-  const std::vector<std::string> words = {"B",     "B",     "0.5",   "2",      "20",     "6",      "3 to 6",
-                                          "16.00", "6.00",  "-0.60", "0.7500", "36.000", "8.000",  "30.00",
-                                          "9.000", "3.300", "5.000", "0.2500", "0.2000", "second", "800"};
-  ASSERT_EQ(table.rows.size(), 1u);
-  for (std::size_t i = 0; i < words.size(); ++i)
-    EXPECT_EQ(table.rows[0][i], words[i]) << table.header[i];
-  EXPECT_EQ(table.header.size(), table.rows[0].size());
+  const std::vector<ReportTable> tables = bed_tables({result("B")});
+  const std::vector<std::vector<std::string>> rows = {
+      {"B", "B", "0.5", "2", "20", "6", "3 to 6", "16.00", "6.00", "-0.60", "0.7500", "30.00", "second",
+       "800"},
+      {"B", "B", "36.000", "8.000", "3.300", "5.000", "0.2500", "0.2000", "9.000"}};
+  ASSERT_EQ(tables.size(), rows.size());
+  for (std::size_t t = 0; t < rows.size(); ++t) {
+    ASSERT_EQ(tables[t].rows.size(), 1u);
+    EXPECT_EQ(tables[t].rows[0].size(), tables[t].header.size());
+    for (std::size_t i = 0; i < rows[t].size(); ++i)
+      EXPECT_EQ(tables[t].rows[0][i], rows[t][i]) << tables[t].header[i];
+  }
 }
 
 TEST_F(BedReport, PairsAWithBWhereAllElseIsAlike) {
@@ -193,10 +197,12 @@ TEST_F(BedReport, IsSoundWithBedsOnly) {
       EXPECT_TRUE(name == "curve" || name.find(" (") != std::string::npos) << image << ": " << name;
   }
   const std::string text = read_text(out / "bed.html");
-  EXPECT_NE(text.find("Pictures of B is left out: the run has no dumps; run it with -var dumps_per_cycle 10"),
-            std::string::npos);
+  EXPECT_NE(
+      text.find("The picture of B is left out: the run has no dumps; run it with -var dumps_per_cycle 10"),
+      std::string::npos);
   EXPECT_NE(text.find("<span>&lt;in.bed&gt;</span>"), std::string::npos);
-  EXPECT_EQ(read_table(out / "data" / "bed_runs.csv").rows(), 2u);
+  for (const char *name : {"bed_runs.csv", "bed_states.csv"})
+    EXPECT_EQ(read_table(out / "data" / name).rows(), 2u);
 }
 
 TEST_F(BedReport, StandsBesideChains) {
