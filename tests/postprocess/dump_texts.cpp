@@ -41,6 +41,7 @@ std::map<std::string, Array> ball_arrays() {
 }
 std::string ball_dump(const std::map<std::string, Array> &arrays) {
   std::vector<Array> columns;
+  columns.reserve(arrays.size());
   for (const auto &named : arrays)
     columns.push_back(named.second);
   return poly_data(3, "1 3.9 0 2.8 1 0 1 1 0", columns, 0, {});
@@ -54,6 +55,7 @@ std::map<std::string, Array> contact_arrays() {
 }
 std::string contact_dump(const std::map<std::string, Array> &arrays) {
   std::vector<Array> columns;
+  columns.reserve(arrays.size());
   for (const auto &named : arrays)
     columns.push_back(named.second);
   return poly_data(4, "2.8 1 0 1 1 0 1 1 0 1 3.9 0", {}, 2, columns);
