@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -182,7 +183,7 @@ Panel instant_panel(const std::string &figure, const std::string &label, const I
   return panel;
 }
 
-std::string picture_caption(Which which, const Scales &scales) {
+std::string picture_caption(Which which, const Scales &scales, bool by_contacts) {
   std::string words;
   switch (which) {
   case settled:
@@ -194,8 +195,8 @@ std::string picture_caption(Which which, const Scales &scales) {
   default:
     words = "The dump with the smallest force on the drum";
   }
-  words += which == settled ? "; colours: contacts of each soil ball with other balls"
-                            : "; colours: speed of the soil balls (the fastest 2 % are off the scale)";
+  words += by_contacts ? "; colours: contacts of each soil ball with other balls"
+                       : "; colours: speed of the soil balls (the fastest 2 % are off the scale)";
   if (scales.strongest > 0.0)
     words +=
         ". Black lines join the centres of balls that press on each other, their width in proportion to "
@@ -296,16 +297,19 @@ void plan_bed_pictures(const BedGroup &group, const std::string &stem, const std
     const std::string name = stem + names[which].first;
     CurveTable table("x (m),y (m),radius (m),speed (m/s),contacts (-),dx (m),dy (m),normal force (N)");
     std::vector<Panel> panels;
+    // At rest there is no speed to show.
+    const bool by_contacts = which == settled && std::all_of(all.begin(), all.end(), [](const Views &views) {
+                               return views.views[settled]->has_contacts;
+                             });
     for (const Views &views : all) {
       const std::optional<Instant> &instant = views.views[which];
       if (!instant) continue;
       const std::string label = transition_name(views.result->run.transition());
       put_instant(table, label, *instant);
-      panels.push_back(
-          instant_panel(name, label, *instant, scales, which == settled && instant->has_contacts));
+      panels.push_back(instant_panel(name, label, *instant, scales, by_contacts));
     }
     if (panels.empty()) continue;
-    PlannedFigure figure{section, "", picture_caption(which, scales), {}, table.text()};
+    PlannedFigure figure{section, "", picture_caption(which, scales, by_contacts), {}, table.text()};
     figure.figure = {name, names[which].second, panels, 2, 640, 760};
     figure.figure.only_png = true;
     plan.figures.push_back(std::move(figure));
