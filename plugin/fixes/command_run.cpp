@@ -3,8 +3,6 @@
 #include "fixes/arguments.h"
 #include "fixes/output_file.h"
 
-#include "input.h"
-
 #include <algorithm>
 #include <cstdlib>
 #include <fmt/format.h>

@@ -10,6 +10,7 @@
 #include "fix_gravity.h"
 #include "force.h"
 #include "group.h"
+#include "input.h"
 #include "integrate.h"
 #include "memory.h"
 #include "modify.h"

@@ -284,6 +284,80 @@ TEST_F(Bed, WantsWhatTheDecksBeforeItMake) {
   EXPECT_FALSE(fs::exists(folder / "bed.csv"));
 }
 
+TEST_F(Bed, WantsRoomForTheRoller) {
+  for (const auto &[name, value, says] :
+       {std::array{"r2", "0.5", "variable room_beside is '-0.2'; allowed: a finite number > 0"},
+        std::array{"r3", "2", "variable room_above is '-"}}) {
+    const Scratch folder;
+    Variables variables = {{name, value}};
+    for (const auto &variable : roller())
+      variables.push_back(variable);
+    variables.insert(variables.end(),
+                     {{"bed", (scratch->path() / "soil.restart").string()}, {"start", "x.restart"}});
+    const Outcome outcome = run_deck(bed_folder() / "in.place", variables, folder.path());
+    EXPECT_FALSE(outcome.ok()) << name;
+    EXPECT_TRUE(outcome.says(says)) << outcome.output;
+    EXPECT_FALSE(fs::exists(folder / "x.restart"));
+  }
+}
+
+// Three dimensions: spheres, a cylinder of soil-sized balls on a cell that was copied, periodic all around.
+TEST(Bed3d, CarriesACylinderOnCopiesOfACellOnRanksOneAndTwo) {
+  const Scratch scratch;
+  const auto file = [&scratch](const char *name) { return (scratch / name).string(); };
+  const auto run = [&](const Scratch &folder, const char *deck, Variables variables, int ranks = 1) {
+    variables.insert(variables.end(), {{"case", "gravel3d"},
+                                       {"walls", "0"},
+                                       {"m2", "1000"},
+                                       {"m3", "500"},
+                                       {"r2", "0.1"},
+                                       {"k23", "5e5"},
+                                       {"c23", "5e3"},
+                                       {"Fw", "29400"},
+                                       {"ratio", "0.01"},
+                                       {"cell", file("cell.data")},
+                                       {"bed", file("soil.restart")},
+                                       {"start", file("roller.restart")},
+                                       {"cycles", "2"}});
+    return run_deck(bed_folder() / deck, variables, folder.path(), ranks);
+  };
+  const Outcome made = run_program(
+      {DRUMLIN_TOOLS, "bed", "--balls", "100", "--width", "0.15", "--depth", "0.1", "--out", "balls.data"},
+      {}, scratch.path());
+  ASSERT_TRUE(made.ok()) << made.output;
+  const Outcome settled = run(scratch, "in.settle", {{"balls", file("balls.data")}, {"bed", file("cell")}});
+  ASSERT_TRUE(settled.ok()) << settled.output;
+  const Outcome refused = run(scratch, "in.tile", {{"copies_x", "3"}}, 2);
+  EXPECT_FALSE(refused.ok());
+  EXPECT_TRUE(refused.says("/cell.data' on 2 ranks; allowed: one rank")) << refused.output;
+  const Outcome tiled = run(scratch, "in.tile", {{"copies_x", "3"}});
+  ASSERT_TRUE(tiled.ok()) << tiled.output;
+  const Outcome placed = run(scratch, "in.place", {});
+  ASSERT_TRUE(placed.ok()) << placed.output;
+
+  std::vector<std::vector<double>> heights;
+  for (const int ranks : {1, 2}) {
+    const Scratch folder;
+    const Outcome shaken = run(folder, "in.bed3d", {}, ranks);
+    ASSERT_TRUE(shaken.ok()) << shaken.output;
+    const post::Table table = post::read_table(folder / "bed.csv");
+    heights.push_back(table.numbers("x_drum"));
+    EXPECT_LT(imbalance(folder / "bed.csv"), 0.01);
+    // The mean of r^3 over 16 to 24 mm is 8.32e-6 m3; the roller is as wide as the box is deep.
+    const double soil = 300.0 * 4.0 / 3.0 * pi * 8.32e-6 * 2650.0;
+    EXPECT_NEAR(table.numbers("F_floor").front(), (soil + 150.0) * gravity, 0.02 * (soil + 150.0) * gravity);
+    EXPECT_EQ(table.numbers("F_sides").front(), 0.0);
+    EXPECT_NEAR(table.numbers("F_contact").front(), 150.0 * gravity, 1e-2 * 150.0 * gravity);
+    EXPECT_GT(table.numbers("coordination").front(), 3.0);
+    EXPECT_LT(table.numbers("coordination").front(), 6.5);
+    EXPECT_GT(table.numbers("void_ratio").front(), 0.5);
+    EXPECT_LT(table.numbers("void_ratio").front(), 1.2);
+  }
+  ASSERT_EQ(heights[0].size(), heights[1].size());
+  for (std::size_t i = 0; i <= 100; ++i) // 1000 steps
+    EXPECT_NEAR(heights[0][i], heights[1][i], 1e-10) << "row " << i;
+}
+
 /// Largest relative difference between drum and frame on frozen soil balls and the chain with the summed stiffness and damping.
 double farthest_from_chain(const Variables &row, double stiffness_share, int ranks = 1) {
   double worst = 0.0;
