@@ -48,13 +48,11 @@ struct LinkModes {
   double rolling_burden = 1.0;     ///< the same of 1/I
 };
 
-/// What a link takes from one of its balls, as a multiple of k / m_eff: (1 + a) k/mi from ball i and (1 + 1/a) k/mj from ball j,
-/// a = mi/mj, but from 1/16 to 16 only. 1 for balls of like mass and a fixed partner, small for a heavy ball among light ones.
+/// What a link takes from one of its balls, as a multiple of k / m_eff, when ball i takes k/mi + k/sqrt(mi mj) and ball j
+/// k/mj + k/sqrt(mi mj). 1 for like balls and a fixed partner, small for a heavy ball among light ones.
 /// Arguments: 1/m (or 1/I) of the ball at hand, > 0, and of its partner, >= 0.
 [[nodiscard]] inline double link_burden(double inverse_own, double inverse_other) {
-  if (inverse_other == 0.0) return 1.0;
-  const double ratio = inverse_other / inverse_own;
-  return (1.0 + std::min(16.0, std::max(1.0 / 16.0, ratio))) / (1.0 + ratio);
+  return (inverse_own + std::sqrt(inverse_own * inverse_other)) / (inverse_own + inverse_other);
 }
 
 /// Mass m_t, kg, that the sliding of two balls in contact sees, rotation included: 1/m_t = 1/mi + ri^2/Ii + 1/mj + rj^2/Ij.
@@ -69,11 +67,12 @@ struct LinkModes {
 /// The step dt is safe if for every ball that moves the largest eigenvalues of C and K have  dt C / 2 + dt^2 K / 4 <= 1,  with
 ///   K = sum over links of  b (k/m_eff n n^T + kt/m_t (1 - n n^T)) + b' kr (1/Ii + 1/Ij),   C likewise with the dashpots,
 /// b and b' the burdens. For by Cauchy-Schwarz a link takes no more than its share from the 4 m y^2 and 4 I q^2 of its two balls,
-///   (n.(yi - yj))^2 <= (1 + a) (n.yi)^2 + (1 + 1/a) (n.yj)^2   for any a > 0, here that of link_burden(),
+///   (n.(yi - yj))^2 <= (1 + a) (n.yi)^2 + (1 + 1/a) (n.yj)^2   for any a > 0, here a = sqrt(mi/mj),
 /// and with the rotations in the tangential plane likewise, so that 4 M - 2 dt C - dt^2 K of the whole system stays positive. (With
-/// a = mi/mj throughout both balls would take k/m_eff: a drum that rests on twenty soil balls would seem to need steps half as long.)
-/// It is exact for links of one damping ratio between fixed partners and for a free pair, close for a row of like balls, and shorter
-/// than need be by up to a few per cent where balls roll or differ in mass by more than 16 times.
+/// a = mi/mj both balls would take k/m_eff: exact for a free pair, but a ball on many light ones, a drum on soil, or a coarse grain
+/// among fine ones, would seem to need steps half as long and shorter.) It is exact for links of one damping ratio between fixed
+/// partners and for a free pair of like balls, close for a row of like balls, and shorter than need be by up to a few per cent
+/// where balls roll and by up to 15 % for a free pair of unlike masses.
 ///
 /// Second-order stepping solves for the normal dashpots (normal_dashpot = 0): the springs alone limit it. That no damping
 /// shortens the step then is not proved for a packing; tests/physics/time_step_test.cpp searches for a counterexample.

