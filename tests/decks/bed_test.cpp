@@ -37,18 +37,22 @@ protected:
 
   static void SetUpTestSuite() {
     scratch = std::make_unique<Scratch>();
-    const Outcome made =
-        run_program({DRUMLIN_TOOLS, "bed", "--balls", "150", "--width", "0.6", "--out", "balls.data"}, {},
-                    scratch->path());
+    make(*scratch, "1", {drums.begin(), drums.end()});
+  }
+  /// DRUM.restart for each kind of drum, in a folder.
+  static void make(const Scratch &folder, const std::string &seed, const std::vector<std::string> &kinds) {
+    const Outcome made = run_program(
+        {DRUMLIN_TOOLS, "bed", "--balls", "150", "--width", "0.6", "--seed", seed, "--out", "balls.data"}, {},
+        folder.path());
     ASSERT_TRUE(made.ok()) << made.output;
     const Outcome settled = run_deck(bed_folder() / "in.settle",
-                                     {{"balls", "balls.data"}, {"bed", "soil.restart"}}, scratch->path());
+                                     {{"balls", "balls.data"}, {"bed", "soil.restart"}}, folder.path());
     ASSERT_TRUE(settled.ok()) << settled.output;
-    for (const std::string drum : drums) {
+    for (const std::string &drum : kinds) {
       Variables variables = roller();
       variables.insert(variables.end(),
                        {{"bed", "soil.restart"}, {"drum", drum}, {"start", drum + ".restart"}});
-      const Outcome placed = run_deck(bed_folder() / "in.place", variables, scratch->path());
+      const Outcome placed = run_deck(bed_folder() / "in.place", variables, folder.path());
       ASSERT_TRUE(placed.ok()) << placed.output;
     }
   }
@@ -143,6 +147,46 @@ TEST_F(Bed, GoesTheSameWayOnRanksOneTwoAndFour) {
       for (std::size_t i = 0; i <= 100; ++i) // 1000 steps
         EXPECT_NEAR(alone[i], together[i], 1e-10) << "row " << i << ", ranks " << ranks << ", " << drum;
     }
+  }
+}
+
+// Beds are chaotic: over ten cycles only means over many beds can agree. Five seeds, two standard errors of the difference.
+TEST_F(Bed, MeansOverSeedsAgreeOnRanksOneAndTwo) {
+  constexpr std::size_t seeds = 5;
+  const std::array<const char *, 3> columns = {"settlement", "a_drum_max", "F_contact_max"};
+  std::array<std::array<std::vector<double>, 3>, 2>
+      means; // [ranks - 1][column][seed], over the last eight cycles
+  for (std::size_t seed = 1; seed <= seeds; ++seed) {
+    const Scratch made;
+    make(made, std::to_string(seed), {"ball"});
+    for (const int ranks : {1, 2}) {
+      const Scratch folder;
+      const Outcome outcome =
+          shake(folder, {{"start", (made / "ball.restart").string()}, {"cycles", "10"}}, ranks);
+      ASSERT_TRUE(outcome.ok()) << outcome.output;
+      const post::Table cycles = post::read_table(folder / "cycles.csv");
+      ASSERT_EQ(cycles.rows(), 11u);
+      for (std::size_t c = 0; c < columns.size(); ++c) {
+        const std::vector<double> all = cycles.numbers(columns[c]);
+        means[static_cast<std::size_t>(ranks) - 1][c].push_back(
+            std::accumulate(all.begin() + 3, all.end(), 0.0) / 8);
+      }
+    }
+  }
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    std::array<double, 2> mean{}, variance_of_mean{};
+    for (std::size_t r = 0; r < 2; ++r) {
+      for (const double value : means[r][c])
+        mean[r] += value / seeds;
+      for (const double value : means[r][c])
+        variance_of_mean[r] += (value - mean[r]) * (value - mean[r]) / (seeds * (seeds - 1));
+    }
+    const double two_errors = 2.0 * std::sqrt(variance_of_mean[0] + variance_of_mean[1]);
+    EXPECT_LT(std::fabs(mean[0] - mean[1]), two_errors)
+        << columns[c] << ": " << mean[0] << " and " << mean[1];
+    EXPECT_GT(two_errors, 0.0); // the seeds are different beds
+    RecordProperty(columns[c], std::to_string(mean[0]) + " " + std::to_string(mean[1]) + " +- " +
+                                   std::to_string(two_errors));
   }
 }
 
