@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <sstream>
@@ -268,6 +269,27 @@ TEST_F(Bed, ForcesOfTheWallsMinusWeightAreTheRateOfChangeOfMomentum) {
   }
   // In the step of a make the halves of a step get unlike forces (doc page of the pair style); all others are exact.
   EXPECT_GT(exact, 25u);
+}
+
+// Single balls of the clump make and break contacts; all of them move alike.
+TEST_F(Bed, ClumpStaysRigidOnRanksOneAndTwo) {
+  for (const int ranks : {1, 2}) {
+    const Scratch folder;
+    const Outcome outcome =
+        run(test_deck("bed_steps.in"), folder,
+            {{"cycles", "1"}, {"drum", "clump"}, {"Fw", "6000"}, {"steps", "500"}}, ranks);
+    ASSERT_TRUE(outcome.ok()) << outcome.output;
+    const std::vector<Frame> frames = read_dump(folder / "state.dump");
+    const std::map<long, Ball> &first = frames.front().balls, &last = frames.back().balls;
+    const long frame = last.rbegin()->first;
+    const std::array<double, 3> moved = {0.0, last.at(151).x[1] - first.at(151).x[1], 0.0};
+    EXPECT_NE(moved[1], 0.0);
+    for (long id = 151; id < frame; ++id)
+      for (std::size_t a = 0; a < 3; ++a) {
+        EXPECT_NEAR(last.at(id).x[a] - first.at(id).x[a], moved[a], 1e-12) << id << ", ranks " << ranks;
+        EXPECT_NEAR(last.at(id).v[a], last.at(151).v[a], 1e-12) << id << ", ranks " << ranks;
+      }
+  }
 }
 
 /// What the books miss at the end, over the work of the exciter: balance of energies, and the largest miss on the way.
