@@ -22,11 +22,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Height of the box above the soil balls, m: room for drum and frame.
-constexpr double room_above = 2.0;
-/// Soil, drum, frame: a box knows the number of its types for good.
-constexpr int types = 3;
-
 struct Number {
   const char *option;
   double PackingOptions::*value;
@@ -54,28 +49,6 @@ std::uint64_t seed_option(const std::string &text) {
   return seed;
 }
 
-/// What the engine's read_data takes. y is up; x = 0 and z = 0 are the middle.
-std::string data_text(const PackingOptions &options, double density, const Packing &packing) {
-  const bool flat = options.dimensions() == 2;
-  const double depth = flat ? 2.0 * options.radius_max : options.depth;
-  const double top = packing.height + room_above;
-  std::string text = fmt::format(
-      "# {} balls at random: radius {} to {} m, grading {}, {} m wide, {} m deep, filled to {} m, "
-      "seed {} (drumlin bed)\n\n{} atoms\n{} atom types\n\n",
-      packing.balls.size(), options.radius_min, options.radius_max, grading_name(options.grading),
-      options.width, options.depth, packing.height, options.seed, packing.balls.size(), types);
-  auto out = std::back_inserter(text);
-  fmt::format_to(out, "{:.17g} {:.17g} xlo xhi\n0 {:.17g} ylo yhi\n{:.17g} {:.17g} zlo zhi\n",
-                 -0.5 * options.width, 0.5 * options.width, top, -0.5 * depth, 0.5 * depth);
-  fmt::format_to(out, "\nAtoms\n\n"); // ID, type, diameter, density, x, y, z
-  std::size_t id = 0;
-  for (const PackedBall &ball : packing.balls)
-    fmt::format_to(out, "{} 1 {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", ++id, 2.0 * ball.radius, density,
-                   ball.centre[0] - 0.5 * options.width, ball.centre[2],
-                   flat ? 0.0 : ball.centre[1] - 0.5 * depth);
-  return text;
-}
-
 void run(const Arguments &arguments) {
   PackingOptions options;
   options.balls = count_option("--balls", arguments.balls);
@@ -94,7 +67,7 @@ void run(const Arguments &arguments) {
       std::fflush(stdout);
     });
     if (out.has_parent_path()) fs::create_directories(out.parent_path());
-    write_files({{out, data_text(options, density, packing)}});
+    write_files({{out, bed_data(options, density, packing)}});
   } catch (const std::invalid_argument &fault) {
     throw UsageError(fmt::format("--{}", fault.what()));
   } catch (const std::runtime_error &fault) {

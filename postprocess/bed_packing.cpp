@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <random>
 #include <stdexcept>
 #include <utility>
@@ -14,6 +15,10 @@ namespace {
 
 constexpr double pi = 3.141592653589793;
 constexpr int most_balls = 10'000'000;
+/// Height of the box above the soil balls, m: room for drum and frame.
+constexpr double room_above = 2.0;
+/// Soil, drum, frame: a box knows the number of its types for good.
+constexpr int types = 3;
 constexpr std::array<std::pair<Grading, const char *>, 2> gradings = {
     {{Grading::uniform, "uniform"}, {Grading::mass, "mass"}}};
 
@@ -180,6 +185,27 @@ Packing pack_balls(const PackingOptions &options, const std::function<void(std::
     if (progress && balls.size() % 50'000 == 0) progress(balls.size());
   }
   return {std::move(balls), height};
+}
+
+std::string bed_data(const PackingOptions &options, double density, const Packing &packing) {
+  const bool flat = options.dimensions() == 2;
+  const double depth = flat ? 2.0 * options.radius_max : options.depth;
+  const double top = packing.height + room_above;
+  std::string text = fmt::format(
+      "# {} balls at random: radius {} to {} m, grading {}, {} m wide, {} m deep, filled to {} m, "
+      "seed {} (drumlin bed)\n\n{} atoms\n{} atom types\n\n",
+      packing.balls.size(), options.radius_min, options.radius_max, grading_name(options.grading),
+      options.width, options.depth, packing.height, options.seed, packing.balls.size(), types);
+  auto out = std::back_inserter(text);
+  fmt::format_to(out, "{:.17g} {:.17g} xlo xhi\n0 {:.17g} ylo yhi\n{:.17g} {:.17g} zlo zhi\n",
+                 -0.5 * options.width, 0.5 * options.width, top, -0.5 * depth, 0.5 * depth);
+  fmt::format_to(out, "\nAtoms\n\n"); // ID, type, diameter, density, x, y, z
+  std::size_t id = 0;
+  for (const PackedBall &ball : packing.balls)
+    fmt::format_to(out, "{} 1 {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", ++id, 2.0 * ball.radius, density,
+                   ball.centre[0] - 0.5 * options.width, ball.centre[2],
+                   flat ? 0.0 : ball.centre[1] - 0.5 * depth);
+  return text;
 }
 
 } // namespace drumlin::post

@@ -60,4 +60,8 @@ struct Packing {
 Packing pack_balls(const PackingOptions &options, const std::function<void(std::size_t)> &progress = {},
                    int attempts = 100'000);
 
+/// The data file that the engine's read_data takes: balls of type 1, of three (soil, drum, frame), in a box with room for the
+/// roller above them. y is up; x = 0 and z = 0 are the middle. Density of a ball in kg/m3, of a disc 1 m thick.
+std::string bed_data(const PackingOptions &options, double density, const Packing &packing);
+
 } // namespace drumlin::post

@@ -4,6 +4,7 @@
 #include "study.h"
 #include "study_accuracy.h"
 #include "study_cost.h"
+#include "study_fidelity.h"
 #include "study_stability.h"
 
 #include <CLI/CLI.hpp>
@@ -35,6 +36,11 @@ constexpr std::array studies = {
           "What a step costs on the chain and on settled beds, and what each optional piece adds, as ratios "
           "within interleaved rounds. About twenty minutes, on a quiet machine.",
           &run_cost_study},
+    Study{"fidelity",
+          "What each ingredient of a bed changes and costs, over five seeds: condition, friction, stiffness, "
+          "step, number, size and "
+          "packing of the balls, kind of drum, frequency. About two hours.",
+          &run_fidelity_study},
     Study{"stability",
           "The longest stable step over damping, for both steppings; runs at the edges of what can be asked. "
           "About ten minutes.",
