@@ -22,16 +22,16 @@ ReportTable effect_table(const std::vector<Effect> &effects) {
   table.title = "What an ingredient changes";
   table.text_columns = 2;
   table.header = {"ingredient", "matters for", "seeds"};
-  for (const Quantity quantity : quantities) {
-    const std::string name = quantity_name(quantity);
+  for (const BedQuantity quantity : bed_quantities) {
+    const std::string name = bed_quantity_name(quantity);
     table.header.push_back(name.substr(0, name.find(" (")) + " (%)");
   }
   table.header.emplace_back("wall time over base (-)");
   for (const Effect &effect : effects) {
     std::vector<std::string> matters;
-    for (std::size_t q = 0; q < quantities.size(); ++q)
+    for (std::size_t q = 0; q < bed_quantities.size(); ++q)
       if (effect.change[q].beyond_scatter()) {
-        const std::string name = quantity_name(quantities[q]);
+        const std::string name = bed_quantity_name(bed_quantities[q]);
         matters.push_back(name.substr(0, name.find(" (")));
       }
     std::vector<std::string> row = {effect.variant,
@@ -56,18 +56,18 @@ ReportTable run_table(const std::vector<FidelityRun> &runs) {
   table.name = "means";
   table.title = "Means over the seeds";
   table.header = {"variant", "seeds"};
-  for (const Quantity quantity : quantities)
-    table.header.push_back(quantity_name(quantity));
+  for (const BedQuantity quantity : bed_quantities)
+    table.header.push_back(bed_quantity_name(quantity));
   table.header.emplace_back("wall time (s)");
   std::vector<std::string> names;
   for (const FidelityRun &run : runs)
     if (std::find(names.begin(), names.end(), run.variant) == names.end()) names.push_back(run.variant);
   for (const std::string &name : names) {
-    std::array<std::vector<double>, quantities.size()> values;
+    std::array<std::vector<double>, bed_quantities.size()> values;
     std::vector<double> wall;
     for (const FidelityRun &run : runs) {
       if (run.variant != name) continue;
-      for (std::size_t q = 0; q < quantities.size(); ++q)
+      for (std::size_t q = 0; q < bed_quantities.size(); ++q)
         values[q].push_back(run.values[q]);
       wall.push_back(run.wall_s);
     }
@@ -84,15 +84,15 @@ ReportTable run_table(const std::vector<FidelityRun> &runs) {
 }
 
 PlannedFigure effect_figure(const std::vector<Effect> &effects) {
-  const std::string name = "effects";
+  const std::string name = "changes";
   PlannedFigure figure;
   figure.label = "Fig. 1";
   figure.caption = "Change against the base, mean over the seeds and twice its standard error: bars that "
                    "cross zero say nothing.";
   figure.figure = {name, "What an ingredient changes", {}, 2, 900, 520};
   CurveTable table("ingredient,change (%),low (%),high (%)");
-  for (std::size_t q = 0; q < quantities.size(); ++q) {
-    std::string title = quantity_name(quantities[q]);
+  for (std::size_t q = 0; q < bed_quantities.size(); ++q) {
+    std::string title = bed_quantity_name(bed_quantities[q]);
     title = title.substr(0, title.find(" ("));
     Panel panel;
     panel.title = title;

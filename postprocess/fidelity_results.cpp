@@ -16,15 +16,15 @@ const std::vector<std::string> fidelity_run_columns = {
     "variant",       "seed",  "a_drum_max_m_s2", "F_contact_max_N", "settlement_m_per_cycle",
     "contact_share", "wall_s"};
 
-std::string quantity_name(Quantity quantity) {
+std::string bed_quantity_name(BedQuantity quantity) {
   switch (quantity) {
-  case Quantity::acceleration:
+  case BedQuantity::acceleration:
     return "drum acceleration (m/s2)";
-  case Quantity::force:
+  case BedQuantity::force:
     return "contact force (N/m)";
-  case Quantity::settlement:
+  case BedQuantity::settlement:
     return "settlement (m/cycle)";
-  case Quantity::contact:
+  case BedQuantity::contact:
     return "contact share (-)";
   }
   throw std::logic_error("a quantity without a name");
@@ -43,7 +43,7 @@ std::vector<FidelityRun> read_fidelity_runs(const std::filesystem::path &file) {
   std::vector<FidelityRun> runs;
   for (const StudyResults::Row &row : rows.rows()) {
     FidelityRun run{row[0], static_cast<int>(rows.number(row, "seed")), {}, rows.number(row, "wall_s")};
-    for (std::size_t q = 0; q < quantities.size(); ++q) {
+    for (std::size_t q = 0; q < bed_quantities.size(); ++q) {
       run.values[q] = rows.number(row, fidelity_run_columns[fidelity_run_keys + q]);
       if (!std::isfinite(run.values[q]))
         throw std::runtime_error(fmt::format("{}: {} of seed {} has no number in {}", file.string(),
@@ -72,12 +72,12 @@ MeanError mean_error(const std::vector<double> &values) {
 
 Effect effect_of(const std::vector<FidelityRun> &runs, const std::string &variant, const std::string &base) {
   Effect effect{variant, base, 0, {}, 0.0};
-  std::array<std::vector<double>, quantities.size()> differences, bases;
+  std::array<std::vector<double>, bed_quantities.size()> differences, bases;
   std::vector<double> ratios;
   for (const FidelityRun &one : runs)
     for (const FidelityRun &other : runs) {
       if (one.variant != variant || other.variant != base || one.seed != other.seed) continue;
-      for (std::size_t q = 0; q < quantities.size(); ++q) {
+      for (std::size_t q = 0; q < bed_quantities.size(); ++q) {
         differences[q].push_back(one.values[q] - other.values[q]);
         bases[q].push_back(other.values[q]);
       }
@@ -86,7 +86,7 @@ Effect effect_of(const std::vector<FidelityRun> &runs, const std::string &varian
   if (ratios.empty()) throw std::invalid_argument(fmt::format("{} and {} share no seed", variant, base));
   effect.seeds = static_cast<int>(ratios.size());
   effect.wall_ratio = median(ratios);
-  for (std::size_t q = 0; q < quantities.size(); ++q) {
+  for (std::size_t q = 0; q < bed_quantities.size(); ++q) {
     const MeanError difference = mean_error(differences[q]);
     const double scale = std::fabs(mean_error(bases[q]).mean);
     effect.change[q] = {difference.mean / scale, difference.two_errors / scale};

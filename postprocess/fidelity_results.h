@@ -9,23 +9,23 @@
 namespace drumlin::post {
 
 /// What is asked of a bed, from the second half of a run.
-enum class Quantity {
+enum class BedQuantity {
   acceleration, ///< largest of the drum, mean over the cycles, m/s2
   force,        ///< largest contact force, mean over the cycles, N per metre of width
   settlement,   ///< of the drum per cycle, m
   contact       ///< share of steps with contact
 };
-constexpr std::array<Quantity, 4> quantities = {Quantity::acceleration, Quantity::force, Quantity::settlement,
-                                                Quantity::contact};
+constexpr std::array<BedQuantity, 4> bed_quantities = {BedQuantity::acceleration, BedQuantity::force,
+                                                       BedQuantity::settlement, BedQuantity::contact};
 /// Name with unit, for headers.
-std::string quantity_name(Quantity quantity);
+std::string bed_quantity_name(BedQuantity quantity);
 
 /// One row of runs.csv. The first two name the run.
 struct FidelityRun {
   std::string variant;
   int seed;
-  std::array<double, quantities.size()> values; ///< in the order of `quantities`
-  double wall_s;                                ///< of the engine's loop, excitation only
+  std::array<double, bed_quantities.size()> values; ///< in the order of `bed_quantities`
+  double wall_s;                                    ///< of the engine's loop, excitation only
 };
 
 extern const std::vector<std::string> fidelity_run_columns;
@@ -46,8 +46,8 @@ MeanError mean_error(const std::vector<double> &values);
 struct Effect {
   std::string variant, base;
   int seeds;
-  std::array<MeanError, quantities.size()> change; ///< relative to the mean of the base
-  double wall_ratio;                               ///< median over the seeds
+  std::array<MeanError, bed_quantities.size()> change; ///< relative to the mean of the base
+  double wall_ratio;                                   ///< median over the seeds
 };
 /// std::invalid_argument if the two share no seed.
 Effect effect_of(const std::vector<FidelityRun> &runs, const std::string &variant, const std::string &base);

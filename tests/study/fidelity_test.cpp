@@ -1,0 +1,43 @@
+// `drumlin study fidelity --quick`: every variant runs on every seed, and an interrupted call makes no bed and no run twice.
+#include "fidelity_results.h"
+#include "page.h"
+#include "scratch_study.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(FidelityStudy, GoesOnWhereItWasInterrupted) {
+  const ScratchStudy study("fidelity");
+  const post::Outcome whole = study.run();
+  ASSERT_TRUE(whole.ok()) << whole.output;
+  const fs::path rows = study.out() / "runs.csv";
+  const std::vector<post::FidelityRun> runs = post::read_fidelity_runs(rows);
+  ASSERT_EQ(runs.size(), 6u);
+  const auto made = fs::last_write_time(study.out() / "beds/gravel_2.restart");
+
+  interrupt(rows);
+  fs::remove(study.out() / "index.html");
+  const post::Outcome rest = study.run();
+  ASSERT_TRUE(rest.ok()) << rest.output;
+  EXPECT_EQ(fs::last_write_time(study.out() / "beds/gravel_2.restart"), made);
+  const std::vector<post::FidelityRun> again = post::read_fidelity_runs(rows);
+  ASSERT_EQ(again.size(), runs.size());
+  for (const post::FidelityRun &run : runs) {
+    const auto same = [&run](const post::FidelityRun &other) {
+      return other.variant == run.variant && other.seed == run.seed && other.values == run.values;
+    };
+    EXPECT_EQ(std::count_if(again.begin(), again.end(), same), 1) << run.variant << ", seed " << run.seed;
+  }
+  expect_sound_page(study.out(), 1);
+}
+
+} // namespace
+} // namespace drumlin::test
