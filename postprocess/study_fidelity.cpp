@@ -119,7 +119,7 @@ Variables joined(Variables first, const Variables &second) {
 fs::path made(const Bed &bed, int seed, const fs::path &out) {
   const fs::path folder = fs::absolute(out / "beds");
   fs::create_directories(folder);
-  const fs::path done = folder / fmt::format("{}_{}.restart", bed.name, seed);
+  fs::path done = folder / fmt::format("{}_{}.restart", bed.name, seed);
   if (fs::exists(done)) return done;
   fmt::print("making bed {}, seed {}\n", bed.name, seed);
   std::fflush(stdout);
