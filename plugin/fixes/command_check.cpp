@@ -30,8 +30,8 @@ void check_command(LAMMPS *lmp, int narg, char **arg) {
   Arguments in(engine.errors(), "drumlin/check", narg, arg);
   const std::string name = in.word("the variable's name");
   const std::string value = in.word("the value of variable " + name);
-  constexpr const char *rules =
-      "one_of, positive, non_negative, finite, integer, multiple_of, directory, file or one_rank";
+  constexpr const char *rules = "one_of, positive, non_negative, finite, integer, multiple_of, directory, "
+                                "file, one_rank or box_dimension";
   const std::string rule = in.word("the rule for variable " + name, rules);
   const auto reject = [&](const std::string &allowed) {
     in.fail("variable " + name + " is '" + value + "'; allowed: " + allowed);
@@ -94,6 +94,10 @@ void check_command(LAMMPS *lmp, int narg, char **arg) {
     MPI_Comm_size(engine.ranks(), &ranks);
     if (ranks > 1)
       in.fail(fmt::format("variable {} is '{}' on {} ranks; allowed: one rank", name, value, ranks));
+  } else if (rule == "box_dimension") {
+    if (value != std::to_string(lmp->domain->dimension))
+      in.fail(fmt::format("variable {} is '{}'; allowed: {}, the dimension of the box that was read", name,
+                          value, lmp->domain->dimension));
   } else {
     in.fail("unknown rule '" + rule + "' for variable " + name + "; allowed: " + rules);
   }

@@ -350,6 +350,17 @@ TEST_F(Bed, WantsWhatTheDecksBeforeItMake) {
   EXPECT_FALSE(fs::exists(folder / "bed.csv"));
 }
 
+TEST_F(Bed, RefusesACaseOfAnotherDimensionOnRanksOneAndTwo) {
+  for (const int ranks : {1, 2}) {
+    const Scratch folder;
+    const Outcome outcome = shake(folder, {{"case", "gravel3d"}}, ranks);
+    EXPECT_FALSE(outcome.ok());
+    EXPECT_TRUE(outcome.says("variable dimension is '3'; allowed: 2, the dimension of the box"))
+        << outcome.output;
+    EXPECT_FALSE(fs::exists(folder / "bed.csv"));
+  }
+}
+
 TEST_F(Bed, WantsRoomForTheRoller) {
   for (const auto &[name, value, says] :
        {std::array{"r2", "0.5", "variable room_beside is '-0.2'; allowed: a finite number > 0"},
