@@ -9,6 +9,7 @@
 #include <iterator>
 #include <spawn.h>
 #include <stdexcept>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -30,24 +31,33 @@ std::vector<char *> pointers(std::vector<std::string> &words) {
   return result;
 }
 
+/// How a process ended, and what it used.
+struct End {
+  int status = 0;
+  rusage used = {};
+};
+
 /// Waits until the process has ended or the time has come; whether it has ended.
-bool wait_until(pid_t child, int &status, steady_clock::time_point end) {
+bool wait_until(pid_t child, End &how, steady_clock::time_point end) {
   for (;;) {
-    const pid_t ended = waitpid(child, &status, WNOHANG);
+    const pid_t ended = wait4(child, &how.status, WNOHANG, &how.used);
     if (ended == child) return true;
-    if (ended < 0 && errno != EINTR)
-      throw std::runtime_error(std::string("waitpid: ") + std::strerror(errno));
+    if (ended < 0 && errno != EINTR) throw std::runtime_error(std::string("wait4: ") + std::strerror(errno));
     if (steady_clock::now() >= end) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
 }
 
 /// Stops the child's process group: politely, so that mpirun takes its ranks along, then at once.
-void stop(pid_t child, int &status) {
+void stop(pid_t child, End &how) {
   kill(-child, SIGTERM);
-  if (wait_until(child, status, steady_clock::now() + std::chrono::seconds(5))) return;
+  if (wait_until(child, how, steady_clock::now() + std::chrono::seconds(5))) return;
   kill(-child, SIGKILL);
-  waitpid(child, &status, 0);
+  wait4(child, &how.status, 0, &how.used);
+}
+
+double seconds(const timeval &time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
 } // namespace
@@ -79,14 +89,16 @@ Outcome run_program(const std::vector<std::string> &words, const std::vector<std
   if (failed != 0) throw std::runtime_error("cannot start " + words.front() + ": " + std::strerror(failed));
 
   Outcome outcome;
-  int status = 0;
+  End how;
   const auto end = steady_clock::now() +
                    std::chrono::duration_cast<steady_clock::duration>(std::chrono::duration<double>(limit));
-  if (!wait_until(child, status, end)) {
+  if (!wait_until(child, how, end)) {
     outcome.timed_out = true;
-    stop(child, status);
+    stop(child, how);
   }
-  outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  outcome.status = WIFEXITED(how.status) ? WEXITSTATUS(how.status) : 128 + WTERMSIG(how.status);
+  outcome.cpu_seconds = seconds(how.used.ru_utime) + seconds(how.used.ru_stime);
+  outcome.peak_bytes = 1024.0 * static_cast<double>(how.used.ru_maxrss); // Linux counts it in KiB
   outcome.output = read_text(text);
   return outcome;
 }

@@ -12,7 +12,10 @@ namespace drumlin::post {
 struct Outcome {
   int status = -1;        ///< exit status; 128 + signal if a signal ended it
   bool timed_out = false; ///< it was stopped at its time limit
-  std::string output;     ///< standard output and standard error
+  double cpu_seconds =
+      0.0; ///< processor time of the child and its children, s: its wall time, had it the machine for itself
+  double peak_bytes = 0.0; ///< largest memory that one of them held at a time
+  std::string output;      ///< standard output and standard error
   bool ok() const { return status == 0 && !timed_out; }
   bool says(const std::string &text) const { return output.find(text) != std::string::npos; }
 };

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -12,9 +14,20 @@
 
 namespace drumlin::post {
 
+namespace {
+
+/// Student's t that a share of 0.95 does not leave to either side, by degrees of freedom (any table of it); beyond the
+/// table the last one, which is on the safe side.
+double student_t_95(std::size_t freedom) {
+  constexpr std::array t = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228};
+  return t.at(std::min(freedom, t.size()) - 1);
+}
+
+} // namespace
+
 const std::vector<std::string> fidelity_run_columns = {
-    "variant",       "seed",  "a_drum_max_m_s2", "F_contact_max_N", "settlement_m_per_cycle",
-    "contact_share", "wall_s"};
+    "variant",       "seed", "a_drum_max_m_s2", "F_contact_max_N", "settlement_m_per_cycle",
+    "contact_share", "cpu_s"};
 
 std::string bed_quantity_name(BedQuantity quantity) {
   switch (quantity) {
@@ -34,7 +47,7 @@ std::vector<std::string> cells(const FidelityRun &run) {
   std::vector<std::string> row = {run.variant, std::to_string(run.seed)};
   for (const double value : run.values)
     row.push_back(number_text(value));
-  row.push_back(number_text(run.wall_s));
+  row.push_back(number_text(run.cpu_s));
   return row;
 }
 
@@ -42,7 +55,7 @@ std::vector<FidelityRun> read_fidelity_runs(const std::filesystem::path &file) {
   const StudyResults rows(file, fidelity_run_columns, fidelity_run_keys);
   std::vector<FidelityRun> runs;
   for (const StudyResults::Row &row : rows.rows()) {
-    FidelityRun run{row[0], static_cast<int>(rows.number(row, "seed")), {}, rows.number(row, "wall_s")};
+    FidelityRun run{row[0], static_cast<int>(rows.number(row, "seed")), {}, rows.number(row, "cpu_s")};
     for (std::size_t q = 0; q < bed_quantities.size(); ++q) {
       run.values[q] = rows.number(row, fidelity_run_columns[fidelity_run_keys + q]);
       if (!std::isfinite(run.values[q]))
@@ -55,7 +68,9 @@ std::vector<FidelityRun> read_fidelity_runs(const std::filesystem::path &file) {
   return runs;
 }
 
-bool MeanError::beyond_scatter() const { return std::fabs(mean) > two_errors; }
+bool MeanError::beyond_scatter() const { return std::fabs(mean) > half_width; }
+
+bool MeanError::within(double bound) const { return std::fabs(mean) + half_width <= bound; }
 
 MeanError mean_error(const std::vector<double> &values) {
   if (values.empty()) throw std::invalid_argument("a mean of no values");
@@ -66,30 +81,31 @@ MeanError mean_error(const std::vector<double> &values) {
   double squares = 0.0;
   for (const double value : values)
     squares += (value - mean) * (value - mean);
-  return {mean, values.size() < 2 ? std::numeric_limits<double>::infinity()
-                                  : 2.0 * std::sqrt(squares / (n * (n - 1.0)))};
+  if (values.size() < 2) return {mean, std::numeric_limits<double>::infinity()};
+  return {mean, student_t_95(values.size() - 1) * std::sqrt(squares / (n * (n - 1.0)))};
 }
 
-Effect effect_of(const std::vector<FidelityRun> &runs, const std::string &variant, const std::string &base) {
-  Effect effect{variant, base, 0, {}, 0.0};
+std::optional<Effect> effect_of(const std::vector<FidelityRun> &runs, const BedComparison &compared) {
+  Effect effect{compared, 0, {}, 0.0};
   std::array<std::vector<double>, bed_quantities.size()> differences, bases;
   std::vector<double> ratios;
   for (const FidelityRun &one : runs)
     for (const FidelityRun &other : runs) {
-      if (one.variant != variant || other.variant != base || one.seed != other.seed) continue;
+      if (one.variant != compared.variant || other.variant != compared.base || one.seed != other.seed)
+        continue;
       for (std::size_t q = 0; q < bed_quantities.size(); ++q) {
         differences[q].push_back(one.values[q] - other.values[q]);
         bases[q].push_back(other.values[q]);
       }
-      ratios.push_back(one.wall_s / other.wall_s);
+      ratios.push_back(one.cpu_s / other.cpu_s);
     }
-  if (ratios.empty()) throw std::invalid_argument(fmt::format("{} and {} share no seed", variant, base));
+  if (ratios.empty()) return std::nullopt;
   effect.seeds = static_cast<int>(ratios.size());
-  effect.wall_ratio = median(ratios);
+  effect.cost = median(ratios);
   for (std::size_t q = 0; q < bed_quantities.size(); ++q) {
     const MeanError difference = mean_error(differences[q]);
     const double scale = std::fabs(mean_error(bases[q]).mean);
-    effect.change[q] = {difference.mean / scale, difference.two_errors / scale};
+    effect.change[q] = {difference.mean / scale, difference.half_width / scale};
   }
   return effect;
 }

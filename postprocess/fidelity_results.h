@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,7 @@ struct FidelityRun {
   std::string variant;
   int seed;
   std::array<double, bed_quantities.size()> values; ///< in the order of `bed_quantities`
-  double wall_s;                                    ///< of the engine's loop, excitation only
+  double cpu_s; ///< processor time of the engine, excitation only: what a machine of one's own would take
 };
 
 extern const std::vector<std::string> fidelity_run_columns;
@@ -34,22 +35,29 @@ std::vector<std::string> cells(const FidelityRun &run);
 /// The rows of a file in order. std::runtime_error for one that cannot be understood.
 std::vector<FidelityRun> read_fidelity_runs(const std::filesystem::path &file);
 
-/// Mean over seeds and twice its standard error; the error is infinite for one seed.
+/// Mean over seeds and half the width of its 95 % interval, by Student's t; infinite for one seed.
 struct MeanError {
-  double mean, two_errors;
-  /// Whether the mean is farther from zero than two standard errors: a claim that scatter does not make.
+  double mean, half_width;
+  /// Whether zero lies outside of the interval: a claim that scatter alone makes once in twenty times.
   bool beyond_scatter() const;
+  /// Whether the whole interval lies within +-bound.
+  bool within(double bound) const;
 };
 MeanError mean_error(const std::vector<double> &values);
 
+/// What is compared with what.
+struct BedComparison {
+  std::string what, variant, base;
+};
+
 /// A variant over its base: differences seed by seed, so that what a seed's bed does to both falls out.
 struct Effect {
-  std::string variant, base;
+  BedComparison compared;
   int seeds;
   std::array<MeanError, bed_quantities.size()> change; ///< relative to the mean of the base
-  double wall_ratio;                                   ///< median over the seeds
+  double cost; ///< processor time over the base's, median over the seeds
 };
-/// std::invalid_argument if the two share no seed.
-Effect effect_of(const std::vector<FidelityRun> &runs, const std::string &variant, const std::string &base);
+/// Nothing if the two share no seed.
+std::optional<Effect> effect_of(const std::vector<FidelityRun> &runs, const BedComparison &compared);
 
 } // namespace drumlin::post

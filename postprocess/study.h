@@ -17,6 +17,7 @@ struct StudyOptions {
   std::filesystem::path out; ///< folder of its results, made if missing
   bool fresh = false;        ///< forget what an earlier call measured
   bool quick = false;        ///< few points: to see that it works, not to learn from
+  int jobs = 1;              ///< runs at the same time, in a study that does not time them against each other
 };
 
 /// Makes the folder of a study, or finds an earlier call's points there, to go on from. Points of another build of the

@@ -1,6 +1,7 @@
 #include "study_command.h"
 
 #include "command.h"
+#include "options.h"
 #include "study.h"
 #include "study_accuracy.h"
 #include "study_cost.h"
@@ -23,6 +24,7 @@ struct Study {
   const char *name;
   const char *summary;
   void (*run)(const StudyOptions &);
+  bool parallel = false; ///< its runs may share the machine
 };
 
 // A new study is one line here.
@@ -37,10 +39,12 @@ constexpr std::array studies = {
           "within interleaved rounds. About twenty minutes, on a quiet machine.",
           &run_cost_study},
     Study{"fidelity",
-          "What each ingredient of a bed changes and costs, over five seeds: condition, friction, stiffness, "
-          "step, number, size and "
-          "packing of the balls, kind of drum, frequency. About two hours.",
-          &run_fidelity_study},
+          "What each ingredient of a bed changes and costs, over five seeds: condition, friction, rolling, "
+          "stiffness, step, number, size and "
+          "packing of the balls, kind of drum, frequency, two dimensions or three. About two hours of "
+          "processor "
+          "time.",
+          &run_fidelity_study, true},
     Study{"stability",
           "The longest stable step over damping, for both steppings; runs at the edges of what can be asked. "
           "About ten minutes.",
@@ -59,7 +63,13 @@ void add_study_command(CLI::App &app, Session &) {
     one->add_option("--out", options->out, "folder of the results")->type_name("DIR")->capture_default_str();
     one->add_flag("--fresh", options->fresh, "forget the points of an earlier call");
     one->add_flag("--quick", options->quick, "few points: to see that it works");
-    one->callback([options, run = study.run] {
+    const auto jobs = std::make_shared<std::string>("1");
+    if (study.parallel)
+      one->add_option("--jobs", *jobs, "runs at the same time, one processor each")
+          ->type_name("COUNT")
+          ->capture_default_str();
+    one->callback([options, jobs, run = study.run] {
+      options->jobs = count_option("--jobs", *jobs);
       open_study(*options);
       run(*options);
     });
