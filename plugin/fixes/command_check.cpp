@@ -1,6 +1,7 @@
 #include "fixes/commands.h"
 
 #include "fixes/arguments.h"
+#include "fixes/bed_files.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -31,7 +32,7 @@ void check_command(LAMMPS *lmp, int narg, char **arg) {
   const std::string name = in.word("the variable's name");
   const std::string value = in.word("the value of variable " + name);
   constexpr const char *rules = "one_of, positive, non_negative, finite, integer, multiple_of, directory, "
-                                "file, one_rank or box_dimension";
+                                "file, data_file, restart or one_rank";
   const std::string rule = in.word("the rule for variable " + name, rules);
   const auto reject = [&](const std::string &allowed) {
     in.fail("variable " + name + " is '" + value + "'; allowed: " + allowed);
@@ -94,10 +95,15 @@ void check_command(LAMMPS *lmp, int narg, char **arg) {
     MPI_Comm_size(engine.ranks(), &ranks);
     if (ranks > 1)
       in.fail(fmt::format("variable {} is '{}' on {} ranks; allowed: one rank", name, value, ranks));
-  } else if (rule == "box_dimension") {
-    if (value != std::to_string(lmp->domain->dimension))
-      in.fail(fmt::format("variable {} is '{}'; allowed: {}, the dimension of the box that was read", name,
-                          value, lmp->domain->dimension));
+  } else if (rule == "data_file" || rule == "restart") {
+    const RestartNotes notes = rule == "restart" ? read_notes(in) : RestartNotes{};
+    std::string fault;
+    if (engine.rank() == 0) fault = rule == "restart" ? restart_fault(value, notes) : data_file_fault(value);
+    auto length = static_cast<int>(fault.size());
+    MPI_Bcast(&length, 1, MPI_INT, 0, engine.ranks());
+    fault.resize(static_cast<std::size_t>(length));
+    MPI_Bcast(fault.data(), length, MPI_CHAR, 0, engine.ranks());
+    if (!fault.empty()) in.fail("variable " + name + " is '" + value + "'" + fault);
   } else {
     in.fail("unknown rule '" + rule + "' for variable " + name + "; allowed: " + rules);
   }

@@ -1,6 +1,7 @@
 #include "fixes/commands.h"
 
 #include "fixes/arguments.h"
+#include "fixes/bed_files.h"
 #include "fixes/output_file.h"
 
 #include <algorithm>
@@ -24,9 +25,10 @@ public:
         every_ = in.integer("keyword every", 1);
       else if (keyword == "limit")
         limit_ = in.number("keyword limit", Range::positive);
-      else if (keyword == "restart")
+      else if (keyword == "restart") {
         restart_ = in.word("keyword restart: its file", "a file in a folder that exists");
-      else
+        notes_ = read_notes(in);
+      } else
         in.fail("unknown keyword '" + keyword + "'; allowed: every, limit or restart");
     }
     if (domain->box_exist == 0)
@@ -53,11 +55,17 @@ public:
       longest = std::max(longest, now - before);
       before = now;
       const auto done = static_cast<double>(update->ntimestep - first);
-      say(fmt::format(
-          "drumlin/run: {:.0f} %, step {} of {}, {:.6g} s simulated, {:.0f} s so far, about {:.0f} s left\n",
-          100.0 * static_cast<double>(update->ntimestep) / static_cast<double>(last_), update->ntimestep,
-          last_, static_cast<double>(update->ntimestep) * update->dt, now,
-          now / done * static_cast<double>(last_ - update->ntimestep)));
+      engine::say(lmp,
+                  fmt::format("drumlin/run: {:.0f} %, step {} of {}, {:.6g} s simulated, {:.0f} s so far, "
+                              "about {:.0f} s left\n",
+                              100.0 * static_cast<double>(update->ntimestep) / static_cast<double>(last_),
+                              update->ntimestep, last_, static_cast<double>(update->ntimestep) * update->dt,
+                              now, now / done * static_cast<double>(last_ - update->ntimestep)));
+      if (engine::told_to_stop(world))
+        error->all(FLERR,
+                   fmt::format("drumlin/run: stopped by a signal at step {} of {}; allowed: to be left alone",
+                               update->ntimestep, last_)
+                       .c_str());
       if (update->ntimestep < last_ && now + longest > limit_) return stop();
     }
   }
@@ -65,28 +73,20 @@ public:
 private:
   /// There is no time for another piece.
   void stop() {
-    input->one(("write_restart " + restart_).c_str());
-    say(fmt::format("drumlin/run: stopped at step {} of {} by limit {:.6g} s; go on from {}\n",
-                    update->ntimestep, last_, limit_, restart_));
+    write_noted_restart(lmp, restart_, notes_, "drumlin/run: keyword restart");
+    engine::say(lmp, fmt::format("drumlin/run: stopped at step {} of {} by limit {:.6g} s; go on from {}\n",
+                                 update->ntimestep, last_, limit_, restart_));
     // Not the engine's `quit`, which exits with 1: nothing went wrong.
     MPI_Barrier(world);
     MPI_Finalize();
     std::exit(0); // NOLINT(concurrency-mt-unsafe): as the engine ends itself
   }
 
-  void say(const std::string &text) {
-    if (comm->me != 0) return;
-    for (FILE *out : {screen, logfile})
-      if (out) {
-        std::fputs(text.c_str(), out);
-        std::fflush(out);
-      }
-  }
-
   engine::bigint last_ = 0;
   engine::bigint every_ = 0;
   double limit_ = std::numeric_limits<double>::infinity(); // s of wall time
   std::string restart_;
+  RestartNotes notes_;
 };
 
 } // namespace

@@ -51,10 +51,17 @@ public:
       update->integrate->run(piece);
       ratio = unbalanced_ratio();
       if (!std::isfinite(ratio)) break;
+      if (engine::told_to_stop(world))
+        error->all(FLERR,
+                   fmt::format("drumlin/settle: stopped by a signal after {} steps, unbalanced ratio {:.3g}; "
+                               "allowed: to be left alone",
+                               update->ntimestep - first, ratio)
+                       .c_str());
       const engine::bigint done = update->ntimestep - first;
       if (done / every_ % pieces_per_line == 0)
-        say(fmt::format("drumlin/settle: unbalanced ratio {:.3g} after {} steps, wanted {:.3g}\n", ratio,
-                        done, ratio_));
+        engine::say(lmp,
+                    fmt::format("drumlin/settle: unbalanced ratio {:.3g} after {} steps, wanted {:.3g}\n",
+                                ratio, done, ratio_));
     }
     update->integrate->cleanup();
     update->whichflag = 0;
@@ -67,20 +74,11 @@ public:
                                     "within {} steps (without damping a scene never settles)",
                                     ratio, steps, ratio_, limit_)
                             .c_str());
-    say(fmt::format("drumlin/settle: unbalanced ratio {:.3g} after {} steps\n", ratio, steps));
+    engine::say(lmp, fmt::format("drumlin/settle: unbalanced ratio {:.3g} after {} steps\n", ratio, steps));
   }
 
 private:
   static constexpr engine::bigint pieces_per_line = 10;
-
-  void say(const std::string &text) const {
-    if (comm->me != 0) return;
-    for (FILE *out : {screen, logfile})
-      if (out) {
-        std::fputs(text.c_str(), out);
-        std::fflush(out);
-      }
-  }
 
   /// Largest unbalanced force on a ball over the mean weight of a ball. The force that would bring a ball to
   /// rest within one piece counts as unbalanced too: a ball passing its equilibrium has no net force but has

@@ -146,8 +146,7 @@ void FixBondSpring::setup(int vflag) {
         "fix bond/spring {}: balls {} and {}, k = {:.6g} N/m, c = {:.6g} N s/m, length = {:.9g} m, "
         "strength = {:.6g} N\n",
         id, tags_[0], tags_[1], bond_.stiffness, bond_.damping, bond_.length, bond_.strength);
-    for (FILE *out : {screen, logfile})
-      if (out) std::fputs(text.c_str(), out);
+    drumlin::engine::say(lmp, text);
   }
   echoed_ = true;
   post_force(vflag);

@@ -60,11 +60,8 @@ void FixClump::init() {
                       other.id, other.style, group->names[igroup])
               .c_str());
   }
-  if (!echoed_ && comm->me == 0) {
-    const std::string text = fmt::format("fix clump {}: {:.0f} balls, {:.9g} kg\n", id, balls, mass_);
-    for (FILE *out : {screen, logfile})
-      if (out) std::fputs(text.c_str(), out);
-  }
+  if (!echoed_)
+    drumlin::engine::say(lmp, fmt::format("fix clump {}: {:.0f} balls, {:.9g} kg\n", id, balls, mass_));
   echoed_ = true;
 }
 

@@ -141,8 +141,7 @@ void FixDrumExcite::setup(int vflag) {
         excitation_.eccentric ? excitation_.eccentric_mass * excitation_.eccentric_radius * w * w
                               : excitation_.amplitude,
         mass_, w, w / two_pi, two_pi / (w * update->dt), direction_[0], direction_[1], direction_[2]);
-    for (FILE *out : {screen, logfile})
-      if (out) std::fputs(text.c_str(), out);
+    drumlin::engine::say(lmp, text);
   }
   echoed_ = true;
   post_force(vflag);

@@ -162,9 +162,7 @@ void FixGuard::tell_at_set_up() {
         id, critical_.value, critical_.ball, pair_name(critical_.ball, critical_.partner),
         update->dt / critical_.value, steps_per_contact(), pair_name(fastest_.ball, fastest_.partner),
         deepest_.value);
-  if (comm->me == 0 && text != told_)
-    for (FILE *out : {screen, logfile})
-      if (out) std::fputs(text.c_str(), out);
+  if (text != told_) drumlin::engine::say(lmp, text);
   told_ = text;
 }
 

@@ -19,10 +19,12 @@
 #include "output.h"
 #include "pair.h"
 #include "pointers.h"
+#include "signal_handling.h"
 #include "timer.h"
 #include "update.h"
 
 #include <array>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -33,6 +35,23 @@ using LAMMPS_NS::LAMMPS;
 
 /// Name and version of the engine, for logs and run records.
 inline std::string name_and_version() { return std::string("LIGGGHTS ") + LIGGGHTS_VERSION; }
+
+/// Tells the user: on the screen and in the log file, at once. Rank 0 speaks, the others may call it too.
+inline void say(const LAMMPS *lmp, const std::string &text) {
+  if (lmp->comm->me != 0) return;
+  for (FILE *out : {lmp->screen, lmp->logfile})
+    if (out != nullptr) {
+      std::fputs(text.c_str(), out);
+      std::fflush(out);
+    }
+}
+
+/// Whether a signal (Ctrl-C, a scheduler) has told a rank to stop: the engine then ends each run after a step. Collective.
+inline bool told_to_stop(MPI_Comm world) {
+  int stop = LAMMPS_NS::SignalHandler::request_quit ? 1 : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &stop, 1, MPI_INT, MPI_MAX, world);
+  return stop != 0;
+}
 
 /// Copies the velocities of owned balls to their ghosts through the fix's pack_comm/unpack_comm pair.
 inline void forward_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Fix *fix) { comm->forward_comm_fix(fix); }

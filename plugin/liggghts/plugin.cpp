@@ -254,6 +254,7 @@ void add_commands(LAMMPS *lmp) {
   commands["drumlin/record"] = drumlin::record_command;
   commands["drumlin/run"] = drumlin::run_command;
   commands["drumlin/settle"] = drumlin::settle_command;
+  commands["drumlin/write_restart"] = drumlin::write_restart_command;
 }
 
 /// Folder of the deck named by -in, so that a deck finds its includes from any working directory (`${here}`);
@@ -289,9 +290,7 @@ extern "C" __attribute__((visibility("default"))) void drumlin_register(void *in
   add_fixes(lmp);
   add_commands(lmp);
   define_here(lmp);
-  if (lmp->comm->me != 0) return;
-  for (FILE *out : {lmp->screen, lmp->logfile})
-    if (out)
-      std::fprintf(out, "drumlin %s, plugin for LIGGGHTS %s, loaded in LIGGGHTS %s\n", DRUMLIN_VERSION,
-                   LIGGGHTS_VERSION, engine_version);
+  drumlin::engine::say(lmp, std::string("drumlin " DRUMLIN_VERSION ", plugin for LIGGGHTS " LIGGGHTS_VERSION
+                                        ", loaded in LIGGGHTS ") +
+                                engine_version + "\n");
 }

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <memory>
 #include <numeric>
@@ -41,16 +42,19 @@ protected:
     make(*scratch, "1", {drums.begin(), drums.end()});
   }
   /// DRUM.restart for each kind of drum, in a folder.
-  static void make(const Scratch &folder, const std::string &seed, const std::vector<std::string> &kinds) {
+  static void make(const Scratch &folder, const std::string &seed, const std::vector<std::string> &kinds,
+                   const Variables &more = {}) {
     const Outcome made = run_program(
         {DRUMLIN_TOOLS, "bed", "--balls", "150", "--width", "0.6", "--seed", seed, "--out", "balls.data"}, {},
         folder.path());
     ASSERT_TRUE(made.ok()) << made.output;
-    const Outcome settled = run_deck(bed_folder() / "in.settle",
-                                     {{"balls", "balls.data"}, {"bed", "soil.restart"}}, folder.path());
+    Variables settling = more;
+    settling.insert(settling.end(), {{"balls", "balls.data"}, {"bed", "soil.restart"}});
+    const Outcome settled = run_deck(bed_folder() / "in.settle", settling, folder.path());
     ASSERT_TRUE(settled.ok()) << settled.output;
     for (const std::string &drum : kinds) {
       Variables variables = roller();
+      variables.insert(variables.end(), more.begin(), more.end());
       variables.insert(variables.end(),
                        {{"bed", "soil.restart"}, {"drum", drum}, {"start", drum + ".restart"}});
       const Outcome placed = run_deck(bed_folder() / "in.place", variables, folder.path());
@@ -322,6 +326,21 @@ TEST_F(Bed, BooksOfEnergyCloseWithinAPercentOverTenCyclesAndBetterWithSmallerSte
   }
 }
 
+TEST_F(Bed, BooksOfEnergyCloseWithRollingFriction) {
+  const Scratch bed;
+  make(bed, "1", {"ball"}, {{"rolling", "0.1"}});
+  std::vector<double> heat;
+  for (const char *rolling : {"0.1", "1e-6"}) {
+    const Scratch folder;
+    const Outcome outcome = shake(
+        folder, {{"cycles", "5"}, {"rolling", rolling}, {"start", (bed.path() / "ball.restart").string()}});
+    ASSERT_TRUE(outcome.ok()) << outcome.output;
+    EXPECT_LT(imbalance(folder / "bed.csv"), 0.01) << rolling;
+    heat.push_back(post::read_table(folder / "bed.csv").numbers("dissipated").back());
+  }
+  EXPECT_GT(std::fabs(heat[0] - heat[1]), 0.05 * heat[0]); // the torques are not idle
+}
+
 TEST_F(Bed, LeftAloneStaysAsItIs) {
   const Scratch folder;
   const Outcome outcome = shake(folder, {{"Fw", "0"}, {"cycles", "4"}}); // 10,000 steps
@@ -350,15 +369,93 @@ TEST_F(Bed, WantsWhatTheDecksBeforeItMake) {
   EXPECT_FALSE(fs::exists(folder / "bed.csv"));
 }
 
-TEST_F(Bed, RefusesACaseOfAnotherDimensionOnRanksOneAndTwo) {
+// The engine would hang on two ranks, or go on with other laws than the contacts remember.
+TEST_F(Bed, RefusesFilesThatAreCutShortOrOfAnotherSceneOnRanksOneAndTwo) {
+  const std::string whole = read_text(*scratch / "ball.restart"), balls = read_text(*scratch / "balls.data");
+  const std::string cut = "; allowed: a whole restart file of drumlin/write_restart or drumlin/run, ";
+  const auto refused = [](const char *deck, const Variables &variables, const std::string &says, int ranks) {
+    const Scratch folder;
+    const Outcome outcome = run(bed_folder() / deck, folder, variables, ranks);
+    EXPECT_EQ(outcome.status, 1) << says << outcome.output;
+    EXPECT_TRUE(outcome.says(says)) << outcome.output;
+    EXPECT_FALSE(fs::exists(folder / "bed.csv"));
+    EXPECT_FALSE(fs::exists(folder / "x.restart"));
+  };
+  const Scratch files;
+  const auto written = [&files](const char *name, const std::string &text) {
+    std::ofstream(files / name, std::ios::binary) << text;
+    return (files / name).string();
+  };
+  const std::string header = written("cut.restart", whole.substr(0, 100)),
+                    half = written("half.restart", whole.substr(0, whole.size() / 2)),
+                    nearly = written("nearly.restart", whole.substr(0, whole.size() - 1)),
+                    longer = written("longer.restart", "x" + whole), other = written("other.restart", balls),
+                    some = written("some.data", balls.substr(0, balls.size() / 2)),
+                    none = written("none.data", whole);
+  for (const int ranks : {1, 2}) {
+    for (const std::string &file : {header, half, nearly, longer, other})
+      refused("in.bed", {{"start", file}}, "variable start is '" + file + "'" + cut, ranks);
+    refused("in.bed", {{"start", (*scratch / "soil.restart").string()}},
+            ", made with bed soil; allowed: made with bed roller", ranks);
+    refused("in.bed", {{"stepping", "stock"}},
+            ", made with stepping second; allowed: made with stepping stock", ranks);
+    refused("in.bed", {{"rolling", "0.1"}}, ", made with rolling off; allowed: made with rolling epsd2",
+            ranks);
+    refused("in.bed", {{"case", "gravel3d"}}, ", made with dimension 2; allowed: made with dimension 3",
+            ranks);
+    refused("in.bed", {{"case", "sand"}}, "variable case_file is ", ranks);
+    refused("in.place", {{"bed", (*scratch / "ball.restart").string()}, {"start", "x.restart"}},
+            ", made with bed roller; allowed: made with bed soil", ranks);
+    refused("in.settle", {{"balls", some}, {"bed", "x.restart"}},
+            "variable balls is '" + some + "'; allowed: a whole data file, and this one has ", ranks);
+    refused("in.settle", {{"balls", none}, {"bed", "x.restart"}},
+            "variable balls is '" + none + "'; allowed: a data file with atoms", ranks);
+  }
+}
+
+// A drum that is shot through the floor, and soil that a far too long step throws out of the box: with nothing else to stop them.
+TEST_F(Bed, ALostBallIsAnErrorOnRanksOneAndTwo) {
   for (const int ranks : {1, 2}) {
     const Scratch folder;
-    const Outcome outcome = shake(folder, {{"case", "gravel3d"}}, ranks);
-    EXPECT_FALSE(outcome.ok());
-    EXPECT_TRUE(outcome.says("variable dimension is '3'; allowed: 2, the dimension of the box"))
-        << outcome.output;
-    EXPECT_FALSE(fs::exists(folder / "bed.csv"));
+    const Outcome roller = shake(folder, {{"guard", "off"}, {"Fw", "1e12"}}, ranks);
+    EXPECT_EQ(roller.status, 1) << roller.output;
+    EXPECT_TRUE(roller.says("ERROR: fix bond/spring: ball 151 was lost at step ")) << roller.output;
+    const Outcome soil = run(bed_folder() / "in.settle", folder,
+                             {{"guard", "off"},
+                              {"k", "1e12"},
+                              {"balls", (*scratch / "balls.data").string()},
+                              {"bed", (folder / "x.restart").string()}},
+                             ranks);
+    EXPECT_EQ(soil.status, 1) << soil.output;
+    EXPECT_TRUE(soil.says("ERROR: Lost atoms")) << soil.output;
+    EXPECT_FALSE(fs::exists(folder / "x.restart"));
   }
+}
+
+// The engine answers a signal by ending each run after one step: a command that runs in pieces must see it.
+TEST_F(Bed, EndsAtASignal) {
+  const Scratch folder;
+  const Outcome settling = run_deck(bed_folder() / "in.settle",
+                                    {{"ratio", "1e-300"},
+                                     {"balls", (*scratch / "balls.data").string()},
+                                     {"bed", (folder / "x.restart").string()}},
+                                    folder.path(), 1, 5.0);
+  EXPECT_TRUE(settling.timed_out);
+  EXPECT_EQ(settling.status, 1);
+  EXPECT_TRUE(settling.says("ERROR: drumlin/settle: stopped by a signal after ")) << settling.output;
+  EXPECT_FALSE(fs::exists(folder / "x.restart"));
+
+  Variables variables = {
+      {"cycles", "10000"}, {"start", (*scratch / "ball.restart").string()}, {"Fw", "2940"}};
+  for (const auto &variable : roller())
+    variables.push_back(variable);
+  const Outcome shaken = run_deck(bed_folder() / "in.bed", variables, folder.path(), 1, 3.0);
+  EXPECT_TRUE(shaken.timed_out);
+  EXPECT_EQ(shaken.status, 1);
+  // At a step without a row of bed.csv thermo output may be the first to complain.
+  EXPECT_TRUE(shaken.says("ERROR: drumlin/run: stopped by a signal at step ") ||
+              shaken.says("ERROR: Fix in variable not computed at compatible time"))
+      << shaken.output;
 }
 
 TEST_F(Bed, WantsRoomForTheRoller) {

@@ -504,6 +504,12 @@ BadGroup check() {
                {command + "variable k is '10'", "a multiple of n, which is 4"}),
           line("multiple of zero", "drumlin/check k 10 multiple_of n 0",
                {command + "variable k is '10'", "a multiple of n, which is 0"}),
+          on_two_ranks(line("no restart file", "drumlin/check start nowhere restart stage ten",
+                            {command + "variable start is 'nowhere'", "a whole restart file"})),
+          line("note without value", "drumlin/check start nowhere restart stage",
+               {command + "the value of note stage is missing"}),
+          line("no data file", "drumlin/check balls nowhere data_file",
+               {command + "variable balls is 'nowhere'", "a data file with atoms"}),
           on_two_ranks(line("a file as folder", "drumlin/check out pair/x directory",
                             {command + "variable out is 'pair/x'", "a folder that can be made or written"})),
           in_engine_words(
@@ -553,6 +559,22 @@ BadGroup run() {
       }};
 }
 
+BadGroup write_restart() {
+  const std::string command = "drumlin/write_restart: ";
+  return {"WriteRestart",
+          "",
+          {
+              line("nothing", "drumlin/write_restart",
+                   {command + "the file is missing", "a file in a folder that exists"}),
+              line("name without value", "drumlin/write_restart out/x bed",
+                   {command + "the value of note bed is missing"}),
+              line("name with a star", "drumlin/write_restart out/x.*",
+                   {command + "the file is 'out/x.*'", "a name without * and %"}),
+              on_two_ranks(line("file in no folder", "drumlin/write_restart nowhere/x bed soil",
+                                {command + "cannot write 'nowhere/x'", "a file in a folder that exists"})),
+          }};
+}
+
 BadGroup settle() {
   const std::string command = "drumlin/settle: ";
   return {
@@ -582,8 +604,8 @@ BadGroup settle() {
 } // namespace
 
 std::vector<BadGroup> bad_lines() {
-  return {pair_style(),     properties(), wall(),  drum_excite(), bond_spring(), clump(), contact_events(),
-          roller_history(), guard(),      check(), record(),      run(),         settle()};
+  return {pair_style(),     properties(), wall(),  drum_excite(), bond_spring(), clump(),  contact_events(),
+          roller_history(), guard(),      check(), record(),      run(),         settle(), write_restart()};
 }
 
 } // namespace drumlin::test

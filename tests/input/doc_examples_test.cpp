@@ -122,8 +122,9 @@ INSTANTIATE_TEST_SUITE_P(Pages, DocExamplesTest, ::testing::ValuesIn(pages()), p
 
 TEST(DocPages, AreThereForEveryCommand) {
   for (const char *name :
-       {"drumlin_check", "drumlin_record", "drumlin_settle", "fix_bond_spring", "fix_contact_events",
-        "fix_drum_excite", "fix_guard", "fix_roller_history", "pair_gran_hooke_transition", "preload"})
+       {"drumlin_check", "drumlin_record", "drumlin_run", "drumlin_settle", "drumlin_write_restart",
+        "fix_bond_spring", "fix_clump", "fix_contact_events", "fix_drum_excite", "fix_guard",
+        "fix_roller_history", "pair_gran_hooke_transition", "preload"})
     EXPECT_TRUE(fs::exists(root / "plugin/doc" / (std::string(name) + ".md"))) << name;
 }
 

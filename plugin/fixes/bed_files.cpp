@@ -1,0 +1,145 @@
+#include "fixes/bed_files.h"
+
+#include "fixes/arguments.h"
+#include "fixes/output_file.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+namespace drumlin {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// The notes stand behind what the engine reads, which is as many bytes as their last line says:
+//   drumlin restart notes
+//   NAME VALUE
+//   ...
+//   bytes COUNT
+constexpr const char *notes_begin = "\ndrumlin restart notes\n";
+constexpr std::streamoff longest_notes = 4096;
+
+std::string notes_text(const RestartNotes &notes, std::uintmax_t bytes) {
+  std::string text = notes_begin;
+  for (const auto &[name, value] : notes)
+    text += fmt::format("{} {}\n", name, value);
+  return text + fmt::format("bytes {}\n", bytes);
+}
+
+/// Notes of a whole file, `bytes` being the last; none of another.
+RestartNotes notes_of(const std::string &file) {
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  if (!in) return {};
+  const std::streamoff size = in.tellg();
+  const std::streamoff from = std::max<std::streamoff>(0, size - longest_notes);
+  in.seekg(from);
+  const std::string tail{std::istreambuf_iterator<char>(in), {}};
+  const std::size_t begin = tail.rfind(notes_begin);
+  if (begin == std::string::npos || tail.back() != '\n') return {};
+  std::istringstream lines(tail.substr(begin + std::string(notes_begin).size()));
+  RestartNotes notes;
+  for (std::string name, value; lines >> name >> value;)
+    notes.emplace_back(name, value);
+  const std::string bytes = std::to_string(from + static_cast<std::streamoff>(begin));
+  if (notes.empty() || notes.back() != std::pair<std::string, std::string>("bytes", bytes)) return {};
+  return notes;
+}
+
+/// Whether a line is at least so many numbers and nothing else.
+bool is_numbers(const std::string &line, std::size_t least) {
+  std::istringstream words(line);
+  std::size_t count = 0;
+  for (std::string word; words >> word; ++count)
+    if (!std::isfinite(parse_number(word))) return false;
+  return count >= least;
+}
+
+} // namespace
+
+RestartNotes read_notes(Arguments &in) {
+  RestartNotes notes;
+  while (!in.empty()) {
+    const std::string name = in.word("a note's name");
+    notes.emplace_back(name, in.word("the value of note " + name));
+  }
+  return notes;
+}
+
+void write_noted_restart(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const RestartNotes &notes,
+                         const std::string &command) {
+  if (file.find_first_of("*%") != std::string::npos)
+    lmp->error->all(
+        FLERR, fmt::format("{}: the file is '{}'; allowed: a name without * and %", command, file).c_str());
+  OutputFile::check(file, lmp->comm, lmp->error, lmp->world, command);
+  const std::string unfinished = file + ".unfinished";
+  lmp->input->one(("write_restart " + unfinished).c_str());
+  int failed = 0;
+  if (lmp->comm->me == 0) {
+    std::error_code code;
+    const std::uintmax_t bytes = fs::file_size(unfinished, code);
+    if (!code) {
+      std::ofstream out(unfinished, std::ios::binary | std::ios::app);
+      out << notes_text(notes, bytes) << std::flush;
+      failed = !out;
+    }
+    if (!code) fs::rename(unfinished, file, code);
+    failed = failed != 0 || code;
+  }
+  MPI_Bcast(&failed, 1, MPI_INT, 0, lmp->world);
+  if (failed != 0)
+    lmp->error->all(
+        FLERR,
+        fmt::format("{}: cannot write '{}'; allowed: a file on a disk with room", command, file).c_str());
+}
+
+std::string restart_fault(const std::string &file, const RestartNotes &notes) {
+  const RestartNotes found = notes_of(file);
+  if (found.empty())
+    return "; allowed: a whole restart file of drumlin/write_restart or drumlin/run, and this one is cut "
+           "short "
+           "or none";
+  for (const auto &[name, value] : notes) {
+    const auto same_name = [&name = name](const auto &note) { return note.first == name; };
+    const auto note = std::find_if(found.begin(), found.end(), same_name);
+    const std::string was = note == found.end() ? "nothing" : note->second;
+    if (was != value)
+      return fmt::format(", made with {} {}; allowed: made with {} {}", name, was, name, value);
+  }
+  return "";
+}
+
+std::string data_file_fault(const std::string &file) {
+  constexpr std::size_t least_numbers[] = {7, 4}; // id type diameter density x y z; id vx vy vz
+  const std::string sections[] = {"Atoms", "Velocities"};
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line); // the title
+  double atoms = 0.0;
+  bool found = false;
+  std::vector<std::string> words;
+  while (std::getline(in, line)) {
+    std::istringstream text(line);
+    words.assign(std::istream_iterator<std::string>(text), {});
+    if (words.size() == 2 && words[1] == "atoms") atoms = parse_number(words[0]);
+    if (words.empty()) continue;
+    const auto *const section = std::find(std::begin(sections), std::end(sections), words[0]);
+    if (section == std::end(sections)) continue;
+    found = found || section == std::begin(sections);
+    std::getline(in, line); // blank
+    double rows = 0.0;
+    while (rows < atoms && std::getline(in, line) &&
+           is_numbers(line, least_numbers[section - std::begin(sections)]))
+      rows += 1.0;
+    if (!(rows == atoms) || in.eof())
+      return fmt::format("; allowed: a whole data file, and this one has {:.0f} of {:.0f} rows under {}",
+                         rows, atoms, *section);
+  }
+  return found && atoms > 0.0 ? "" : "; allowed: a data file with atoms";
+}
+
+} // namespace drumlin

@@ -1,0 +1,33 @@
+#pragma once
+// The files that a bed is kept in between decks: found whole and fitting, or refused before the engine, which would hang or go
+// on with the wrong laws, reads them.
+
+#include "engine.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace drumlin {
+
+class Arguments;
+
+/// What a restart file was made with, by name.
+using RestartNotes = std::vector<std::pair<std::string, std::string>>;
+
+/// Pairs of words up to the end. Ends the run if a name has no value.
+RestartNotes read_notes(Arguments &in);
+
+/// Writes the engine's restart file with the notes behind what the engine reads. An earlier file of this name is replaced once the
+/// new one is whole. Collective; ends the run if the file cannot be written.
+void write_noted_restart(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const RestartNotes &notes,
+                         const std::string &command);
+
+/// Empty if a file is whole and holds these notes; else what is wrong with it, and what is allowed. Not collective.
+std::string restart_fault(const std::string &file, const RestartNotes &notes);
+
+/// Empty if every section by atoms of a data file has as many lines of numbers as its header counts atoms; else what is wrong with
+/// it, and what is allowed. Not collective.
+std::string data_file_fault(const std::string &file);
+
+} // namespace drumlin
