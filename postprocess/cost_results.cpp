@@ -13,10 +13,6 @@ namespace drumlin::post {
 
 namespace {
 
-Spread spread(const std::vector<double> &values) {
-  return {median(values), quantile(values, 0.25), quantile(values, 0.75)};
-}
-
 /// The values without repetition, in order of appearance.
 std::vector<std::string> names(const std::vector<CostRun> &runs, std::string CostRun::*name) {
   std::vector<std::string> found;
@@ -68,6 +64,10 @@ std::vector<CostRun> read_cost_runs(const std::filesystem::path &file) {
     runs.push_back(std::move(run));
   }
   return runs;
+}
+
+Spread spread(const std::vector<double> &values) {
+  return {median(values), quantile(values, 0.25), quantile(values, 0.75)};
 }
 
 std::vector<VariantCost> variant_costs(const std::vector<CostRun> &runs) {

@@ -31,6 +31,8 @@ std::vector<CostRun> read_cost_runs(const std::filesystem::path &file);
 struct Spread {
   double median, lower, upper;
 };
+/// values not empty.
+Spread spread(const std::vector<double> &values);
 
 /// A variant of a scene: what a step takes.
 struct VariantCost {

@@ -6,6 +6,7 @@
 #include "study_accuracy.h"
 #include "study_cost.h"
 #include "study_fidelity.h"
+#include "study_speed.h"
 #include "study_stability.h"
 
 #include <CLI/CLI.hpp>
@@ -45,6 +46,11 @@ constexpr std::array studies = {
           "processor "
           "time.",
           &run_fidelity_study, true},
+    Study{"speed",
+          "Steps of balls per second from 2500 balls to a quarter of a million, on one rank and on two, "
+          "beside the "
+          "engine's own law; memory; a projection to 1e8. About twenty minutes, on a quiet machine.",
+          &run_speed_study},
     Study{"stability",
           "The longest stable step over damping, for both steppings; runs at the edges of what can be asked. "
           "About ten minutes.",

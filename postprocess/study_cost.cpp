@@ -1,11 +1,12 @@
 #include "study_cost.h"
 
-#include "command.h"
+#include "cost_bed.h"
 #include "cost_page.h"
 #include "cost_results.h"
 #include "study.h"
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -22,14 +23,6 @@ struct Variant {
   std::string law;
   Variables switches;
 };
-
-// The dashpots are given as coefficients, as the engine's law has them: the same forces, ball for ball.
-std::string engine_law(const std::string &models) {
-  return "hooke/stiffness " + models + " limitForce on absolute_damping on";
-}
-std::string plugin_law(const std::string &models, const std::string &stepping) {
-  return fmt::format("hooke/transition {} stepping {} damping coefficient", models, stepping);
-}
 
 const Variables watching = {{"guards", "1"}};
 const Variables idle_guard = {{"guards", "1"}, {"guard", "off"}};
@@ -75,48 +68,23 @@ struct Scene {
   std::string name;
   std::string deck;
   Variables variables;
-  Variables bed; ///< how its bed is made; empty: there is none
+  std::optional<CostBed> bed;
   int balls;
   int steps;
   std::vector<Variant> variants;
   double same; ///< m: law and engine's law, which are one to rounding, end no farther apart
 };
 
-/// \param settling steps that settle the bed
-Scene bed(int columns, int layers, int rows, int steps, int settling) {
-  const Variables sides = {{"sides", layers > 1 ? "p" : "f"}};
-  Variables making = {{"columns", std::to_string(columns)},
-                      {"layers", std::to_string(layers)},
-                      {"rows", std::to_string(rows + 1)},
-                      {"steps", std::to_string(settling)},
-                      {"from", "lattice"},
-                      {"D", "0.5"}};
-  const int balls = columns * layers * rows;
-  return {
-      fmt::format("bed {}", balls), "study/in.cost_bed", sides, making, balls, steps, bed_variants(), 1e-6};
+Scene on_bed(const CostBed &bed, int steps) {
+  return {bed.name(), "study/in.cost_bed", bed.sides(), bed, bed.balls(), steps, bed_variants(), 1e-6};
 }
 
 std::vector<Scene> scenes(bool quick) {
   // Over many jumps of the force rounding grows on the chain, but not to a tenth of a millimetre.
   const Scene chain = {"chain", "study/in.cost_chain", {}, {}, 2, quick ? 2000 : 200000, chain_variants(),
                        1e-4};
-  if (quick) return {chain, bed(20, 1, 5, 50, 2000)};
-  return {chain, bed(100, 1, 25, 5000, 30000), bed(40, 40, 20, 120, 15000)};
-}
-
-/// The bed of a scene, made if an earlier call did not finish it.
-fs::path settled(const Scene &scene, const fs::path &out) {
-  fs::path file = out / fmt::format("bed_{}.data", scene.balls);
-  if (fs::exists(file)) return file;
-  fmt::print("settling {}: {} steps\n", scene.name, scene.bed[3].second);
-  std::fflush(stdout);
-  Variables variables = scene.bed;
-  variables.insert(variables.end(), scene.variables.begin(), scene.variables.end());
-  const fs::path unfinished = out / "unfinished.data";
-  variables.emplace_back("data", fs::absolute(unfinished).string());
-  DeckRun(scene.deck, variables).must_succeed();
-  fs::rename(unfinished, file);
-  return file;
+  if (quick) return {chain, on_bed({20, 1, 5, 2000}, 50)};
+  return {chain, on_bed({100, 1, 25, 30000}, 5000), on_bed({40, 40, 20, 15000}, 120)};
 }
 
 CostRun measure(const Scene &scene, const Variant &variant, int round, const fs::path &out) {
@@ -124,7 +92,7 @@ CostRun measure(const Scene &scene, const Variant &variant, int round, const fs:
   variables.insert(variables.end(), scene.variables.begin(), scene.variables.end());
   variables.emplace_back("law", variant.law);
   variables.emplace_back("steps", std::to_string(scene.steps));
-  if (!scene.bed.empty()) variables.emplace_back("data", fs::absolute(settled(scene, out)).string());
+  if (scene.bed) variables.emplace_back("data", fs::absolute(settled(*scene.bed, out)).string());
   const DeckRun run(scene.deck, variables);
   run.must_succeed();
   return {scene.name,
@@ -157,10 +125,7 @@ void check_same_work(const std::vector<Scene> &all, const std::vector<CostRun> &
 } // namespace
 
 void run_cost_study(const StudyOptions &options) {
-  if (fs::absolute(options.out).string().find(' ') != std::string::npos)
-    throw UsageError(
-        fmt::format("--out is '{}'; allowed: a path without spaces, at which the engine would split it",
-                    options.out.string()));
+  check_engine_path(options.out);
   const std::vector<Scene> all = scenes(options.quick);
   const int rounds = options.quick ? 1 : 25; // many short ones: the machine's mood changes within minutes
   StudyResults results(options.out / "runs.csv", cost_run_columns, cost_run_keys);

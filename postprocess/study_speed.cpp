@@ -1,0 +1,102 @@
+#include "study_speed.h"
+
+#include "cost_bed.h"
+#include "speed_page.h"
+#include "speed_results.h"
+#include "study.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+namespace {
+
+struct Scene {
+  CostBed bed;
+  int steps;
+};
+
+struct Law {
+  const char *name;
+  std::string words;
+};
+
+/// All with friction, as beds have it.
+std::vector<Law> laws() {
+  const std::string friction = "tangential history";
+  return {{engine_law_name, engine_law(friction)},
+          {"stock", plugin_law(friction, "stock")},
+          {"second", plugin_law(friction, "second")}};
+}
+
+SpeedRun measure(const Scene &scene, const Law &law, int ranks, int round, const std::filesystem::path &out) {
+  Variables variables = scene.bed.sides();
+  variables.insert(variables.end(), {{"law", law.words},
+                                     {"steps", std::to_string(scene.steps)},
+                                     {"data", std::filesystem::absolute(settled(scene.bed, out)).string()}});
+  const DeckRun run("study/in.cost_bed", variables, ranks);
+  run.must_succeed();
+  return {scene.bed.name(),
+          law.name,
+          ranks,
+          round,
+          scene.bed.balls(),
+          scene.steps,
+          run.loop_seconds(),
+          run.outcome().peak_bytes,
+          run.printed("ends at ")};
+}
+
+/// Ranks and laws that are one to rounding end where the first run of their scene ended.
+void check_same_work(const std::vector<SpeedRun> &runs) {
+  constexpr double same = 1e-6; // m
+  for (const SpeedRun &run : runs)
+    for (const SpeedRun &other : runs)
+      if (run.scene == other.scene && !(std::fabs(run.place - other.place) <= same))
+        throw std::runtime_error(
+            fmt::format("{}: {} on {} ranks and {} on {} ended at {} and {} m: not the same work", run.scene,
+                        run.law, run.ranks, other.law, other.ranks, run.place, other.place));
+}
+
+} // namespace
+
+void run_speed_study(const StudyOptions &options) {
+  check_engine_path(options.out);
+  const CostBed plane = options.quick ? CostBed{20, 1, 5, 2000} : CostBed{100, 1, 25, 30000};
+  const CostBed cell = options.quick ? CostBed{6, 6, 4, 1000} : CostBed{40, 40, 20, 15000};
+  CostBed copies = cell;
+  copies.copies_x = options.quick ? 2 : 4;
+  copies.copies_y = options.quick ? 1 : 2;
+  const std::vector<Scene> scenes = {{plane, options.quick ? 50 : 5000},
+                                     {cell, options.quick ? 50 : 240},
+                                     {copies, options.quick ? 20 : 60}};
+  const int rounds = options.quick ? 1 : 5;
+  const std::vector<Law> all = laws();
+  StudyResults results(options.out / "runs.csv", speed_run_columns, speed_run_keys);
+  StudyProgress progress(2 * static_cast<std::size_t>(rounds) * scenes.size() * all.size());
+  for (int round = 1; round <= rounds; ++round)
+    for (const Scene &scene : scenes)
+      for (const Law &law : all)
+        for (const int ranks : {1, 2}) {
+          if (results.find({scene.bed.name(), law.name, std::to_string(ranks), std::to_string(round)}) !=
+              nullptr) {
+            progress.found();
+            continue;
+          }
+          const SpeedRun run = measure(scene, law, ranks, round, options.out);
+          results.add(cells(run));
+          progress.measured(
+              fmt::format("round {}, {}, {}, {} rank{}: {:.3g} million steps of balls per second", round,
+                          run.scene, run.law, ranks, ranks > 1 ? "s" : "", run.million_per_second()));
+        }
+  check_same_work(read_speed_runs(results.file()));
+  write_speed_page(options.out, {plane.name(), cell.name(), copies.name()});
+  fmt::print("{}\n", (options.out / "index.html").string());
+}
+
+} // namespace drumlin::post
