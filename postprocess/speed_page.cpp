@@ -79,7 +79,7 @@ ReportTable projection_table(const std::vector<Throughput> &all, const SpeedScen
   ReportTable table;
   table.name = "projection";
   table.title = "On paper: 1e8 balls, 20 balls high";
-  table.header = {"balls per rank", "ranks",          "memory per rank (GB)", "ghosts per ball (-)",
+  table.header = {"balls per rank", "ranks",          "memory per rank (GB)",    "ghosts per ball (-)",
                   "step (ms)",      "ten cycles (h)", "efficiency of a rank (-)"};
   const double bytes = bytes_per_ball(all, "second", scenes.cell, scenes.copies);
   const Throughput &alone = find(all, scenes.copies, "second", 1);

@@ -394,7 +394,8 @@ TEST_F(Bed, RefusesFilesThatAreCutShortOrOfAnotherSceneOnRanksOneAndTwo) {
                     none = written("none.data", whole);
   for (const int ranks : {1, 2}) {
     for (const std::string &file : {header, half, nearly, longer, other})
-      refused("in.bed", {{"start", file}}, "variable start is '" + file + "'" + cut, ranks);
+      refused("in.bed", {{"start", file}},
+              std::string("variable start is '").append(file).append("'").append(cut), ranks);
     refused("in.bed", {{"start", (*scratch / "soil.restart").string()}},
             ", made with bed soil; allowed: made with bed roller", ranks);
     refused("in.bed", {{"stepping", "stock"}},

@@ -48,7 +48,8 @@ TEST(FidelityStudy, ABedThatFailsStopsNoOther) {
   fs::create_directory(bed); // no deck takes that for a bed
   const post::Outcome outcome = study.run();
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_TRUE(outcome.says("seed 2, rolling: bed/in.bed: ERROR: drumlin/check: variable start is ")) << outcome.output;
+  EXPECT_TRUE(outcome.says("seed 2, rolling: bed/in.bed: ERROR: drumlin/check: variable start is "))
+      << outcome.output;
   EXPECT_EQ(post::read_fidelity_runs(rows).size(), 5u);
   EXPECT_NE(post::read_text(study.out() / "index.html").find("Missing: seed 2, rolling"), std::string::npos);
 }
