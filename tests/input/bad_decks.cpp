@@ -128,10 +128,9 @@ BadGroup bed_settle() {
   for (const char *name : {"k", "m2", "m3", "r2", "r3", "k23", "dt", "ratio"})
     for (const char *value : {"0", "-1", "nan"})
       group.inputs.push_back(variable(name, value, positive));
-  for (const char *name : {"D", "friction", "g", "c23", "drag"})
+  for (const char *name : {"D", "friction", "rolling", "g", "c23", "drag", "fall"})
     group.inputs.push_back(variable(name, "-0.5", non_negative));
-  for (const char *name : {"fall", "settle_limit"})
-    group.inputs.push_back(variable(name, "-1", whole));
+  group.inputs.push_back(variable("settle_limit", "-1", whole));
   group.inputs.push_back(
       variable("balls", "none.data",
                "allowed: a file that can be read, which './drumlin bed --out none.data' makes", true));
@@ -140,8 +139,8 @@ BadGroup bed_settle() {
 
 BadGroup bed_place() {
   BadGroup group{"BedPlace", "bed/in.place", {}};
-  for (const char *name : {"sink", "settle_limit"})
-    group.inputs.push_back(variable(name, "1.5", whole));
+  group.inputs.push_back(variable("settle_limit", "1.5", whole));
+  group.inputs.push_back(variable("sink", "-1", non_negative));
   group.inputs.push_back(variable("ratio", "0", positive));
   group.inputs.push_back(
       variable("bed", "none.restart", "./drumlin run inputs/bed/in.settle -var bed none.restart", true));
