@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 
 namespace drumlin::post {
@@ -57,8 +58,8 @@ ReportTable effect_table(const std::vector<Effect> &effects) {
   ReportTable table;
   table.name = "effects";
   table.title = "What an ingredient changes";
-  table.text_columns = 2;
-  table.header = {"ingredient", "matters for", "seeds"};
+  table.text_columns = 3;
+  table.header = {"row", "ingredient", "matters for", "seeds"};
   for (const BedQuantity quantity : bed_quantities)
     table.header.push_back(without_unit(quantity) + " (%)");
   table.header.emplace_back("processor time (ratio)");
@@ -66,7 +67,7 @@ ReportTable effect_table(const std::vector<Effect> &effects) {
     std::vector<std::string> matters;
     for (std::size_t q = 0; q < bed_quantities.size(); ++q)
       if (effect.change[q].beyond_scatter()) matters.push_back(without_unit(bed_quantities[q]));
-    std::vector<std::string> row = {effect.compared.what,
+    std::vector<std::string> row = {std::to_string(table.rows.size() + 1), effect.compared.what,
                                     matters.empty() ? "nothing beyond the scatter"
                                                     : fmt::format("{}", fmt::join(matters, ", ")),
                                     std::to_string(effect.seeds)};
@@ -77,10 +78,8 @@ ReportTable effect_table(const std::vector<Effect> &effects) {
   }
   table.notes = {
       "Change seed by seed: mean and half of its 95 % interval (Student's t), in percent of the mean of what "
-      "it "
-      "is compared with. A bed is chaotic: what the interval does not exclude is not claimed, and of twenty "
-      "claims "
-      "scatter alone makes one.",
+      "it is compared with. A bed is chaotic: what the interval does not exclude is not claimed, and of "
+      "twenty claims scatter alone makes one.",
       "Acceleration and force: largest values of a cycle; all means over the second half of the run."};
   return table;
 }
@@ -133,13 +132,19 @@ PlannedFigure effect_figure(const std::vector<Effect> &effects) {
     panel.curves = {curve(name, title, "$2", "3:4:5", CurveStyle::spread)};
     panel.curves.back().title.clear();
     panel.x_label = "row of the table of effects";
+    double lowest = 0.0, highest = 0.0;
     for (std::size_t n = 0; n < effects.size(); ++n) {
       panel.x_ticks.push_back(std::to_string(n + 1));
       const MeanError &change = effects[n].change[q];
       table.row(title,
                 {static_cast<double>(n + 1), 100.0 * change.mean, 100.0 * (change.mean - change.half_width),
                  100.0 * (change.mean + change.half_width)});
+      if (!std::isfinite(change.half_width)) continue; // one seed
+      lowest = std::min(lowest, change.mean - change.half_width);
+      highest = std::max(highest, change.mean + change.half_width);
     }
+    // Each panel its own: gnuplot would take the range of all rows for each.
+    panel.y_range = fmt::format("[{:.4g}:{:.4g}]", 110.0 * lowest - 1.0, 110.0 * highest + 1.0);
     figure.figure.panels.push_back(panel);
   }
   figure.csv = table.text();
@@ -152,10 +157,8 @@ void write_fidelity_page(const std::filesystem::path &out, const std::vector<Fid
                          const std::vector<Effect> &effects, const std::vector<std::string> &failures) {
   StudyPage page(out, "What a bed needs");
   page.paragraph("Each ingredient of a bed is put in, left out or set otherwise, on beds of the same seeds, "
-                 "and compared "
-                 "with the finest of its kind. The base: 2500 discs, drum a ball, condition B, friction 0.5, "
-                 "second-order "
-                 "stepping, 2500 steps per cycle, 20 Hz, ten cycles.");
+                 "and compared with the finest of its kind. The base: 2500 discs, drum a ball, condition B, "
+                 "friction 0.5, second-order stepping, 2500 steps per cycle, 20 Hz, ten cycles.");
   for (const std::string &failure : failures)
     page.paragraph("Missing: " + failure);
   page.section("Conclusions");
