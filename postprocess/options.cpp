@@ -20,7 +20,7 @@ double number_option(const char *option, const std::string &text) {
 int count_option(const char *option, const std::string &text) {
   const double value = number_option(option, text);
   const int count = value >= 1.0 && value <= std::numeric_limits<int>::max() ? static_cast<int>(value) : 0;
-  if (static_cast<double>(count) != value)
+  if (count < 1 || static_cast<double>(count) != value)
     throw UsageError(fmt::format("{} = '{}': allowed are whole numbers from 1", option, text));
   return count;
 }

@@ -21,6 +21,10 @@ TEST(FidelityStudy, GoesOnWhereItWasInterrupted) {
   const fs::path rows = study.out() / "runs.csv";
   const std::vector<post::FidelityRun> runs = post::read_fidelity_runs(rows);
   ASSERT_EQ(runs.size(), 6u);
+  for (const post::FidelityRun &run : runs) { // four cycles of 150 balls, whatever the machine does besides
+    EXPECT_GT(run.cpu_s, 0.05) << run.variant;
+    EXPECT_LT(run.cpu_s, 10.0) << run.variant;
+  }
   const auto made = fs::last_write_time(study.out() / "beds/gravel_2.restart");
 
   interrupt(rows);
