@@ -52,10 +52,4 @@ std::string plugin_law(const std::string &models, const std::string &stepping) {
   return fmt::format("hooke/transition {} stepping {} damping coefficient", models, stepping);
 }
 
-void check_engine_path(const fs::path &out) {
-  if (fs::absolute(out).string().find(' ') != std::string::npos)
-    throw UsageError(fmt::format(
-        "--out is '{}'; allowed: a path without spaces, at which the engine would split it", out.string()));
-}
-
 } // namespace drumlin::post

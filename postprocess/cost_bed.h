@@ -27,7 +27,4 @@ std::filesystem::path settled(const CostBed &bed, const std::filesystem::path &f
 std::string engine_law(const std::string &models);
 std::string plugin_law(const std::string &models, const std::string &stepping);
 
-/// Throws UsageError for a folder that the engine would split at a space.
-void check_engine_path(const std::filesystem::path &out);
-
 } // namespace drumlin::post

@@ -51,6 +51,12 @@ std::string joined(const std::vector<std::string> &cells) {
 
 } // namespace
 
+void check_engine_path(const fs::path &out) {
+  if (fs::absolute(out).string().find(' ') != std::string::npos)
+    throw UsageError(fmt::format(
+        "--out is '{}'; allowed: a path without spaces, at which the engine would split it", out.string()));
+}
+
 void open_study(const StudyOptions &options) {
   const fs::path file = options.out / record_name;
   const std::string now = record(options);

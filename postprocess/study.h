@@ -20,6 +20,9 @@ struct StudyOptions {
   int jobs = 1;              ///< runs at the same time, in a study that does not time them against each other
 };
 
+/// Throws UsageError for a folder that the engine would split at a space.
+void check_engine_path(const std::filesystem::path &out);
+
 /// Makes the folder of a study, or finds an earlier call's points there, to go on from. Points of another build of the
 /// plugin, or of another choice of `quick`, do not mix: UsageError, unless the options say fresh, which removes them.
 void open_study(const StudyOptions &options);

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <sstream>
+#include <zlib.h>
 
 namespace drumlin {
 
@@ -21,17 +22,32 @@ namespace {
 //   NAME VALUE
 //   ...
 //   bytes COUNT
+//   crc32 SUM of these bytes
 constexpr const char *notes_begin = "\ndrumlin restart notes\n";
 constexpr std::streamoff longest_notes = 4096;
 
-std::string notes_text(const RestartNotes &notes, std::uintmax_t bytes) {
+std::string notes_text(const RestartNotes &notes) {
   std::string text = notes_begin;
   for (const auto &[name, value] : notes)
     text += fmt::format("{} {}\n", name, value);
-  return text + fmt::format("bytes {}\n", bytes);
+  return text;
 }
 
-/// Notes of a whole file, `bytes` being the last; none of another.
+/// What the last two notes say of the first so many bytes of a file.
+RestartNotes sum_notes(const std::string &file, std::uintmax_t bytes) {
+  std::ifstream in(file, std::ios::binary);
+  std::vector<char> buffer(std::size_t{1} << 20);
+  uLong sum = crc32(0, nullptr, 0);
+  for (std::uintmax_t left = bytes; left > 0 && in;) {
+    in.read(buffer.data(), static_cast<std::streamsize>(std::min<std::uintmax_t>(left, buffer.size())));
+    const auto count = static_cast<uInt>(in.gcount());
+    sum = crc32(sum, reinterpret_cast<const Bytef *>(buffer.data()), count);
+    left -= count;
+  }
+  return {{"bytes", std::to_string(bytes)}, {"crc32", fmt::format("{:08x}", sum)}};
+}
+
+/// Notes of a whole file; none of another.
 RestartNotes notes_of(const std::string &file) {
   std::ifstream in(file, std::ios::binary | std::ios::ate);
   if (!in) return {};
@@ -45,8 +61,8 @@ RestartNotes notes_of(const std::string &file) {
   RestartNotes notes;
   for (std::string name, value; lines >> name >> value;)
     notes.emplace_back(name, value);
-  const std::string bytes = std::to_string(from + static_cast<std::streamoff>(begin));
-  if (notes.empty() || notes.back() != std::pair<std::string, std::string>("bytes", bytes)) return {};
+  const RestartNotes last = sum_notes(file, static_cast<std::uintmax_t>(from) + begin);
+  if (notes.size() < last.size() || !std::equal(last.rbegin(), last.rend(), notes.rbegin())) return {};
   return notes;
 }
 
@@ -70,12 +86,22 @@ RestartNotes read_notes(Arguments &in) {
   return notes;
 }
 
+bool is_restart_name(const std::string &file) {
+  return file.find_first_of("*%") == std::string::npos && OutputFile::writable(file);
+}
+
+void check_restart_name(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const std::string &command) {
+  int bad = lmp->comm->me == 0 && !is_restart_name(file) ? 1 : 0;
+  MPI_Bcast(&bad, 1, MPI_INT, 0, lmp->world);
+  if (bad != 0)
+    lmp->error->all(
+        FLERR,
+        fmt::format("{}: cannot write '{}'; allowed: {}", command, file, restart_name_allowed).c_str());
+}
+
 void write_noted_restart(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const RestartNotes &notes,
                          const std::string &command) {
-  if (file.find_first_of("*%") != std::string::npos)
-    lmp->error->all(
-        FLERR, fmt::format("{}: the file is '{}'; allowed: a name without * and %", command, file).c_str());
-  OutputFile::check(file, lmp->comm, lmp->error, lmp->world, command);
+  check_restart_name(lmp, file, command);
   const std::string unfinished = file + ".unfinished";
   lmp->input->one(("write_restart " + unfinished).c_str());
   int failed = 0;
@@ -84,7 +110,10 @@ void write_noted_restart(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const 
     const std::uintmax_t bytes = fs::file_size(unfinished, code);
     if (!code) {
       std::ofstream out(unfinished, std::ios::binary | std::ios::app);
-      out << notes_text(notes, bytes) << std::flush;
+      RestartNotes all = notes;
+      for (const auto &note : sum_notes(unfinished, bytes))
+        all.push_back(note);
+      out << notes_text(all) << std::flush;
       failed = !out;
     }
     if (!code) fs::rename(unfinished, file, code);
@@ -101,8 +130,7 @@ std::string restart_fault(const std::string &file, const RestartNotes &notes) {
   const RestartNotes found = notes_of(file);
   if (found.empty())
     return "; allowed: a whole restart file of drumlin/write_restart or drumlin/run, and this one is cut "
-           "short "
-           "or none";
+           "short, damaged or none";
   for (const auto &[name, value] : notes) {
     const auto same_name = [&name = name](const auto &note) { return note.first == name; };
     const auto note = std::find_if(found.begin(), found.end(), same_name);

@@ -18,6 +18,15 @@ using RestartNotes = std::vector<std::pair<std::string, std::string>>;
 /// Pairs of words up to the end. Ends the run if a name has no value.
 RestartNotes read_notes(Arguments &in);
 
+/// What a restart file may be named, for an error text.
+constexpr const char *restart_name_allowed = "a file in a folder that exists, without * and % in its name";
+
+/// Whether a restart file of this name can be written; touches nothing. Not collective.
+bool is_restart_name(const std::string &file);
+
+/// Ends the run if write_noted_restart() is going to fail; touches nothing. Collective.
+void check_restart_name(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const std::string &command);
+
 /// Writes the engine's restart file with the notes behind what the engine reads. An earlier file of this name is replaced once the
 /// new one is whole. Collective; ends the run if the file cannot be written.
 void write_noted_restart(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const RestartNotes &notes,

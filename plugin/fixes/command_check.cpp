@@ -32,7 +32,7 @@ void check_command(LAMMPS *lmp, int narg, char **arg) {
   const std::string name = in.word("the variable's name");
   const std::string value = in.word("the value of variable " + name);
   constexpr const char *rules = "one_of, positive, non_negative, finite, integer, multiple_of, directory, "
-                                "file, data_file, restart or one_rank";
+                                "file, data_file, restart, restart_name or one_rank";
   const std::string rule = in.word("the rule for variable " + name, rules);
   const auto reject = [&](const std::string &allowed) {
     in.fail("variable " + name + " is '" + value + "'; allowed: " + allowed);
@@ -90,6 +90,10 @@ void check_command(LAMMPS *lmp, int narg, char **arg) {
     }
     MPI_Bcast(&bad, 1, MPI_INT, 0, engine.ranks());
     if (bad) reject("a file that can be read" + (maker.empty() ? "" : ", which '" + maker + "' makes"));
+  } else if (rule == "restart_name") {
+    int bad = engine.rank() == 0 && !is_restart_name(value) ? 1 : 0;
+    MPI_Bcast(&bad, 1, MPI_INT, 0, engine.ranks());
+    if (bad) reject(restart_name_allowed);
   } else if (rule == "one_rank") {
     int ranks = 0;
     MPI_Comm_size(engine.ranks(), &ranks);

@@ -2,7 +2,6 @@
 
 #include "fixes/arguments.h"
 #include "fixes/bed_files.h"
-#include "fixes/output_file.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -26,7 +25,7 @@ public:
       else if (keyword == "limit")
         limit_ = in.number("keyword limit", Range::positive);
       else if (keyword == "restart") {
-        restart_ = in.word("keyword restart: its file", "a file in a folder that exists");
+        restart_ = in.word("keyword restart: its file", restart_name_allowed);
         notes_ = read_notes(in);
       } else
         in.fail("unknown keyword '" + keyword + "'; allowed: every, limit or restart");
@@ -36,7 +35,7 @@ public:
     if (every_ == 0) in.fail("keyword every is missing; allowed: every N, with N steps >= 1");
     if (std::isfinite(limit_) && restart_.empty())
       in.fail("keyword limit goes with keyword restart; allowed: limit SECONDS restart FILE");
-    if (!restart_.empty()) OutputFile::check(restart_, comm, error, world, "drumlin/run: keyword restart");
+    if (!restart_.empty()) check_restart_name(lmp, restart_, "drumlin/run: keyword restart");
     if (update->ntimestep > last_)
       in.fail(fmt::format("the last step is '{}'; allowed: at least {}, the step of now", last_,
                           update->ntimestep));
@@ -61,11 +60,13 @@ public:
                               100.0 * static_cast<double>(update->ntimestep) / static_cast<double>(last_),
                               update->ntimestep, last_, static_cast<double>(update->ntimestep) * update->dt,
                               now, now / done * static_cast<double>(last_ - update->ntimestep)));
-      if (engine::told_to_stop(world))
-        error->all(FLERR,
-                   fmt::format("drumlin/run: stopped by a signal at step {} of {}; allowed: to be left alone",
-                               update->ntimestep, last_)
-                       .c_str());
+      if (engine::told_to_stop(world)) {
+        if (!restart_.empty()) write_noted_restart(lmp, restart_, notes_, "drumlin/run: keyword restart");
+        error->all(FLERR, fmt::format("drumlin/run: stopped by a signal at step {} of {}; allowed: to {}",
+                                      update->ntimestep, last_,
+                                      restart_.empty() ? "be left alone" : "go on from " + restart_)
+                              .c_str());
+      }
       if (update->ntimestep < last_ && now + longest > limit_) return stop();
     }
   }

@@ -34,13 +34,12 @@ FixRollerHistory::FixRollerHistory(LAMMPS *lammps, int narg, char **arg) : Fix(l
 
 void FixRollerHistory::parse(int narg, char **arg) {
   drumlin::Arguments in(error, command, narg - 3, arg + 3);
-  int every = 0;
   while (!in.empty()) {
     const std::string keyword = in.word("keyword");
     if (keyword == "file") {
       file_name_ = in.word("keyword file: its name", "a file in a folder that exists");
     } else if (keyword == "every") {
-      every = static_cast<int>(in.integer("keyword every", 1));
+      every_ = static_cast<int>(in.integer("keyword every", 1));
     } else if (keyword == "cycles") {
       cycles_name_ = in.word("keyword cycles: its file name", "a file in a folder that exists");
       steps_per_cycle_ = static_cast<int>(in.integer("keyword cycles, steps per cycle", 1));
@@ -78,15 +77,15 @@ void FixRollerHistory::parse(int narg, char **arg) {
     }
   }
   if (file_name_.empty()) in.fail("keyword file is missing; allowed: file NAME every N");
-  if (every == 0) in.fail("keyword every is missing; allowed: file NAME every N");
+  if (every_ == 0) in.fail("keyword every is missing; allowed: file NAME every N");
   if (soil_groupbit_ != 0) {
     if (frame_.groupbit == 0 || steps_per_cycle_ == 0)
       in.fail("keyword soil goes with keywords frame and cycles; allowed: all three, or no soil");
     bed_.emplace(lmp, soil_groupbit_);
   }
   drum_.groupbit = groupbit;
-  nevery = steps_per_cycle_ > 0 ? 1 : every; // cycle sums need every step
-  global_freq = every;
+  nevery = steps_per_cycle_ > 0 ? 1 : every_; // cycle sums need every step
+  global_freq = nevery;
 }
 
 int FixRollerHistory::setmask() {
@@ -192,8 +191,7 @@ void FixRollerHistory::setup(int) {
     if (steps_per_cycle_ > 0) write_cycle(); // row of cycle 0: the energies at the start
     start_cycle();
   }
-  if (last_sample_ != update->ntimestep && static_cast<int>(update->ntimestep % global_freq) == 0)
-    write_sample();
+  if (last_sample_ != update->ntimestep && update->ntimestep % every_ == 0) write_sample();
 }
 
 void FixRollerHistory::pre_neighbor() { stale_ = true; }
@@ -322,7 +320,7 @@ void FixRollerHistory::end_of_step() {
   const double v_before = drum_.v;
   evaluate();
   if (steps_per_cycle_ > 0) count_step(before, v_before);
-  if (update->ntimestep % global_freq == 0) write_sample();
+  if (update->ntimestep % every_ == 0) write_sample();
 }
 
 void FixRollerHistory::write_sample() {

@@ -99,6 +99,7 @@ private:
 
   std::string file_name_, cycles_name_, excite_id_, bond_id_, frame_group_;
   bool append_ = false;
+  int every_ = 0;           // steps between rows
   int steps_per_cycle_ = 0; // 0: no cycles file
   std::array<double, 3> axis_{};
   bool has_axis_ = false;

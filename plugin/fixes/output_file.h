@@ -21,20 +21,23 @@ public:
     if (file_) std::fclose(file_);
   }
 
+  /// What name allows, for an error text.
+  static constexpr const char *allowed = "a file in a folder that exists";
+
+  /// Whether a file of this name can be written; touches nothing. Not collective.
+  static bool writable(const std::string &name) {
+    namespace fs = std::filesystem;
+    std::error_code code;
+    const fs::path folder = fs::path(name).has_parent_path() ? fs::path(name).parent_path() : fs::path(".");
+    if (fs::exists(name, code)) return !fs::is_directory(name, code) && access(name.c_str(), W_OK) == 0;
+    return fs::is_directory(folder, code) && access(folder.c_str(), W_OK | X_OK) == 0;
+  }
+
   /// Ends the run if open() is going to fail; touches nothing. For a fix's init(): all come before the first
   /// set-up, so that one bad name leaves the files of all fixes as they were. Collective.
   static void check(const std::string &name, LAMMPS_NS::Comm *comm, LAMMPS_NS::Error *error, MPI_Comm world,
                     const std::string &command) {
-    namespace fs = std::filesystem;
-    int failed = 0;
-    if (comm->me == 0) {
-      std::error_code code;
-      const fs::path folder = fs::path(name).has_parent_path() ? fs::path(name).parent_path() : fs::path(".");
-      failed = fs::exists(name, code)
-                   ? fs::is_directory(name, code) || access(name.c_str(), W_OK) != 0
-                   : !fs::is_directory(folder, code) || access(folder.c_str(), W_OK | X_OK) != 0;
-    }
-    end_if(failed, name, error, world, command);
+    end_if(comm->me == 0 && !writable(name) ? 1 : 0, name, error, world, command);
   }
 
   /// Opens the file once, on rank 0; collective. Ends the run if that fails.
@@ -61,10 +64,7 @@ private:
   static void end_if(int failed, const std::string &name, LAMMPS_NS::Error *error, MPI_Comm world,
                      const std::string &command) {
     MPI_Bcast(&failed, 1, MPI_INT, 0, world);
-    if (failed)
-      error->all(
-          FLERR,
-          (command + ": cannot write '" + name + "'; allowed: a file in a folder that exists").c_str());
+    if (failed) error->all(FLERR, (command + ": cannot write '" + name + "'; allowed: " + allowed).c_str());
   }
 
   std::string name_;

@@ -386,14 +386,17 @@ TEST_F(Bed, RefusesFilesThatAreCutShortOrOfAnotherSceneOnRanksOneAndTwo) {
     std::ofstream(files / name, std::ios::binary) << text;
     return (files / name).string();
   };
+  std::string flipped = whole;
+  flipped[whole.size() / 2] ^= 1;
   const std::string header = written("cut.restart", whole.substr(0, 100)),
                     half = written("half.restart", whole.substr(0, whole.size() / 2)),
                     nearly = written("nearly.restart", whole.substr(0, whole.size() - 1)),
-                    longer = written("longer.restart", "x" + whole), other = written("other.restart", balls),
+                    longer = written("longer.restart", "x" + whole),
+                    damaged = written("damaged.restart", flipped), other = written("other.restart", balls),
                     some = written("some.data", balls.substr(0, balls.size() / 2)),
                     none = written("none.data", whole);
   for (const int ranks : {1, 2}) {
-    for (const std::string &file : {header, half, nearly, longer, other})
+    for (const std::string &file : {header, half, nearly, longer, damaged, other})
       refused("in.bed", {{"start", file}},
               std::string("variable start is '").append(file).append("'").append(cut), ranks);
     refused("in.bed", {{"start", (*scratch / "soil.restart").string()}},
@@ -453,10 +456,41 @@ TEST_F(Bed, EndsAtASignal) {
   const Outcome shaken = run_deck(bed_folder() / "in.bed", variables, folder.path(), 1, 3.0);
   EXPECT_TRUE(shaken.timed_out);
   EXPECT_EQ(shaken.status, 1);
-  // At a step without a row of bed.csv thermo output may be the first to complain.
-  EXPECT_TRUE(shaken.says("ERROR: drumlin/run: stopped by a signal at step ") ||
-              shaken.says("ERROR: Fix in variable not computed at compatible time"))
-      << shaken.output;
+  EXPECT_TRUE(shaken.says("ERROR: drumlin/run: stopped by a signal at step ")) << shaken.output;
+  EXPECT_TRUE(shaken.says("; allowed: to go on from ")) << shaken.output;
+
+  const std::size_t rows_before = post::read_table(folder / "bed.csv").rows();
+  const Outcome resumed =
+      shake(folder,
+            {{"cycles", "10000"}, {"start", (folder / "stopped.restart").string()}, {"time_limit", "1e-3"}});
+  ASSERT_TRUE(resumed.ok()) << resumed.output;
+  const post::Table rows = post::read_table(folder / "bed.csv");
+  ASSERT_GT(rows.rows(), rows_before);
+  const std::vector<double> time = rows.numbers("time");
+  for (std::size_t n = 1; n < time.size(); ++n)
+    ASSERT_NEAR(time[n] - time[n - 1], 0.05 / 250.0, 1e-9) << "row " << n;
+}
+
+// Said before the bed has settled, not after.
+TEST_F(Bed, RefusesNamesThatCannotBeWrittenAtTheBeginning) {
+  const Scratch folder;
+  for (const std::string &file :
+       {std::string("nowhere/x.restart"), folder.path().string(), std::string("x.*")}) {
+    const std::string allowed = "is '" + file + "'; allowed: a file in a folder that exists, without * and %";
+    const Outcome settled = run(bed_folder() / "in.settle", folder,
+                                {{"balls", (*scratch / "balls.data").string()}, {"bed", file}});
+    EXPECT_TRUE(settled.says("ERROR: drumlin/check: variable bed " + allowed)) << settled.output;
+    const Outcome placed = run(bed_folder() / "in.place", folder,
+                               {{"bed", (*scratch / "soil.restart").string()}, {"start", file}});
+    EXPECT_TRUE(placed.says("ERROR: drumlin/check: variable start " + allowed)) << placed.output;
+    const Outcome tiled =
+        run(bed_folder() / "in.tile", folder, {{"cell", (*scratch / "balls.data").string()}, {"bed", file}});
+    EXPECT_TRUE(tiled.says("ERROR: drumlin/check: variable bed " + allowed)) << tiled.output;
+    for (const Outcome &outcome : {settled, placed, tiled}) {
+      EXPECT_EQ(outcome.status, 1);
+      EXPECT_FALSE(outcome.says("Loop time")) << outcome.output;
+    }
+  }
 }
 
 TEST_F(Bed, WantsRoomForTheRoller) {

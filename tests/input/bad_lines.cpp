@@ -510,6 +510,8 @@ BadGroup check() {
                {command + "the value of note stage is missing"}),
           line("no data file", "drumlin/check balls nowhere data_file",
                {command + "variable balls is 'nowhere'", "a data file with atoms"}),
+          on_two_ranks(line("no name of a restart file", "drumlin/check bed nowhere/x restart_name",
+                            {command + "variable bed is 'nowhere/x'", "a file in a folder that exists"})),
           on_two_ranks(line("a file as folder", "drumlin/check out pair/x directory",
                             {command + "variable out is 'pair/x'", "a folder that can be made or written"})),
           in_engine_words(
@@ -569,7 +571,7 @@ BadGroup write_restart() {
               line("name without value", "drumlin/write_restart out/x bed",
                    {command + "the value of note bed is missing"}),
               line("name with a star", "drumlin/write_restart out/x.*",
-                   {command + "the file is 'out/x.*'", "a name without * and %"}),
+                   {command + "cannot write 'out/x.*'", "without * and %"}),
               on_two_ranks(line("file in no folder", "drumlin/write_restart nowhere/x bed soil",
                                 {command + "cannot write 'nowhere/x'", "a file in a folder that exists"})),
           }};
