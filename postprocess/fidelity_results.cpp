@@ -1,6 +1,5 @@
 #include "fidelity_results.h"
 
-#include "chain_csv.h"
 #include "study.h"
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 namespace drumlin::post {
@@ -24,6 +24,20 @@ double student_t_95(std::size_t freedom) {
 }
 
 } // namespace
+
+BedValues bed_values(const Table &cycles, double width) {
+  const auto begin =
+      static_cast<std::ptrdiff_t>((cycles.rows() + 1) / 2); // the first row is the start, no cycle
+  const auto mean = [&](const char *column) {
+    const std::vector<double> all = cycles.numbers(column);
+    return std::accumulate(all.begin() + begin, all.end(), 0.0) /
+           static_cast<double>(all.end() - (all.begin() + begin));
+  };
+  const std::vector<double> sunk = cycles.numbers("settlement");
+  const double per_cycle =
+      (sunk.back() - *(sunk.begin() + begin - 1)) / static_cast<double>(sunk.end() - (sunk.begin() + begin));
+  return {mean("a_drum_max"), mean("F_contact_max") / width, per_cycle, mean("contact_share")};
+}
 
 const std::vector<std::string> fidelity_run_columns = {
     "variant",       "seed", "a_drum_max_m_s2", "F_contact_max_N", "settlement_m_per_cycle",

@@ -1,6 +1,8 @@
 // What the fidelity study measures: its file runs.csv, row by row, and the effects that follow.
 #pragma once
 
+#include "chain_csv.h"
+
 #include <array>
 #include <filesystem>
 #include <optional>
@@ -21,11 +23,17 @@ constexpr std::array<BedQuantity, 4> bed_quantities = {BedQuantity::acceleration
 /// Name with unit, for headers.
 std::string bed_quantity_name(BedQuantity quantity);
 
+/// In the order of `bed_quantities`.
+using BedValues = std::array<double, bed_quantities.size()>;
+
+/// What a run's cycles.csv says of its second half. \param width of the bed, m \pre at least two cycles behind the row of the start
+BedValues bed_values(const Table &cycles, double width);
+
 /// One row of runs.csv. The first two name the run.
 struct FidelityRun {
   std::string variant;
   int seed;
-  std::array<double, bed_quantities.size()> values; ///< in the order of `bed_quantities`
+  BedValues values;
   double cpu_s; ///< processor time of the engine, excitation only: what a machine of one's own would take
 };
 

@@ -180,21 +180,8 @@ FidelityRun measure(const Bed &bed, const Variant &variant, int seed, const fs::
                                      {"samples_per_cycle", "250"}});
   const DeckRun run("bed/in.bed", variables);
   run.must_succeed();
-  const Table table = read_table(run.file("cycles.csv"));
-  const auto first = static_cast<std::ptrdiff_t>(table.rows()) - cycles / 2; // the second half
-  const auto mean = [&](const char *column) {
-    const std::vector<double> all = table.numbers(column);
-    double sum = 0.0;
-    std::for_each(all.begin() + first, all.end(), [&sum](double value) { sum += value; });
-    return sum / static_cast<double>(all.size() - static_cast<std::size_t>(first));
-  };
-  const std::vector<double> settlement = table.numbers("settlement");
-  const double per_cycle = (settlement.back() - settlement[static_cast<std::size_t>(first) - 1]) /
-                           static_cast<double>(settlement.size() - static_cast<std::size_t>(first));
   const double width = bed.packing.dimensions() == 3 ? bed.packing.depth : 1.0; // m
-  return {variant.name,
-          seed,
-          {mean("a_drum_max"), mean("F_contact_max") / width, per_cycle, mean("contact_share")},
+  return {variant.name, seed, bed_values(read_table(run.file("cycles.csv")), width),
           run.outcome().cpu_seconds};
 }
 

@@ -33,6 +33,26 @@ TEST(MeanError, OfOneSeedClaimsNothing) {
   EXPECT_THROW(post::mean_error({}), std::invalid_argument);
 }
 
+// Four cycles behind the start; what counts are the last two, and settlement from the end of the second on.
+TEST(BedValues, AreOfTheSecondHalfAndPerMetreOfWidth) {
+  const post::Table cycles("cycles.csv",
+                           {"cycle", "a_drum_max", "F_contact_max", "contact_share", "settlement"},
+                           {{"0", "900", "9000", "1", "0"},
+                            {"1", "90", "900", "0.25", "0.5"},
+                            {"2", "70", "700", "0.25", "0.6"},
+                            {"3", "20", "200", "0.5", "0.65"},
+                            {"4", "30", "600", "1", "0.8"}},
+                           {2, 3, 4, 5, 6});
+  const post::BedValues plane = post::bed_values(cycles, 1.0);
+  EXPECT_DOUBLE_EQ(plane[0], 25.0);
+  EXPECT_DOUBLE_EQ(plane[1], 400.0);
+  EXPECT_NEAR(plane[2], 0.1, 1e-15);
+  EXPECT_DOUBLE_EQ(plane[3], 0.75);
+  const post::BedValues space = post::bed_values(cycles, 0.2);
+  EXPECT_DOUBLE_EQ(space[1], 2000.0); // N/m
+  EXPECT_EQ(space[0], plane[0]);
+}
+
 // The seeds differ by far more than the variant changes them: only differences seed by seed show it.
 TEST(Effect, ComparesSeedBySeed) {
   const std::vector<FidelityRun> runs = {
