@@ -105,22 +105,28 @@ Outcome run_program(const std::vector<std::string> &words, const std::vector<std
 
 Outcome run_deck(const fs::path &deck, const Variables &variables, const fs::path &folder, int ranks,
                  double limit) {
-  const std::string preload = "LD_PRELOAD=" + plugin_library();
+  const bool lammps = deck.extension() == ".lammps";
+  if (lammps && !has_lammps()) throw std::runtime_error("LAMMPS is not set up: ./drumlin setup lammps");
   std::vector<std::string> words;
   std::vector<std::string> environment;
-  if (ranks == 1) {
-    environment = {preload};
-  } else {
+  if (!lammps) environment = {"LD_PRELOAD=" + plugin_library()};
+  if (ranks > 1) {
     words = {"mpirun", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1"};
     if (geteuid() == 0) words.emplace_back("--allow-run-as-root");
-    words.insert(words.end(), {"--oversubscribe", "-np", std::to_string(ranks), "-x", preload});
+    words.insert(words.end(), {"--oversubscribe", "-np", std::to_string(ranks)});
+    for (const std::string &entry : environment)
+      words.insert(words.end(), {"-x", entry});
+    environment.clear(); // for the ranks, not for mpirun
   }
-  words.insert(words.end(),
-               {"liggghts", "-in", deck.string(), "-log", "none", "-var", "out", folder.string()});
+  words.insert(words.end(), {lammps ? DRUMLIN_LAMMPS_PROGRAM : "liggghts", "-in", deck.string(), "-log", "none",
+                             "-var", "out", folder.string()});
+  if (lammps) words.insert(words.end(), {"-var", "plugin", DRUMLIN_LAMMPS_PLUGIN});
   for (const auto &[name, value] : variables)
     words.insert(words.end(), {"-var", name, value});
   return run_program(words, environment, folder, limit);
 }
+
+bool has_lammps() { return *DRUMLIN_LAMMPS_PROGRAM != '\0'; }
 
 std::string engine_error(const std::string &output) {
   const std::size_t begin = output.find("ERROR");

@@ -60,7 +60,7 @@ public:
                               100.0 * static_cast<double>(update->ntimestep) / static_cast<double>(last_),
                               update->ntimestep, last_, static_cast<double>(update->ntimestep) * update->dt,
                               now, now / done * static_cast<double>(last_ - update->ntimestep)));
-      if (engine::told_to_stop(world)) {
+      if (engine::told_to_stop(lmp)) {
         if (!restart_.empty()) write_noted_restart(lmp, restart_, notes_, "drumlin/run: keyword restart");
         error->all(FLERR, fmt::format("drumlin/run: stopped by a signal at step {} of {}; allowed: to {}",
                                       update->ntimestep, last_,

@@ -40,7 +40,7 @@ public:
     update->firststep = update->beginstep = update->ntimestep;
     update->laststep = update->endstep = update->ntimestep + limit_;
     lmp->init();
-    update->integrate->setup();
+    engine::set_up_run(update->integrate);
     timer->init();
 
     double ratio = unbalanced_ratio();
@@ -51,7 +51,7 @@ public:
       update->integrate->run(piece);
       ratio = unbalanced_ratio();
       if (!std::isfinite(ratio)) break;
-      if (engine::told_to_stop(world))
+      if (engine::told_to_stop(lmp))
         error->all(FLERR,
                    fmt::format("drumlin/settle: stopped by a signal after {} steps, unbalanced ratio {:.3g}; "
                                "allowed: to be left alone",

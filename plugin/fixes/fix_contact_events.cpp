@@ -36,7 +36,7 @@ bool append_argument(int narg, char **arg) {
 } // namespace
 
 FixContactEvents::FixContactEvents(LAMMPS *lammps, int narg, char **arg)
-    : Fix(lammps, narg, arg), file_(file_argument(error, narg, arg), append_argument(narg, arg)) {
+    : GhostFix(lammps, narg, arg), file_(file_argument(error, narg, arg), append_argument(narg, arg)) {
   scalar_flag = 1;
   extscalar = 0;
   global_freq = 1;
@@ -66,9 +66,9 @@ int FixContactEvents::setmask() {
 void FixContactEvents::init() {
   source_ = drumlin::contact_source(lmp);
   if (source_ == nullptr)
-    error->all(
-        FLERR,
-        "fix contact/events: the pair style is another; allowed: pair_style gran model hooke/transition");
+    error->all(FLERR,
+               fmt::format("fix contact/events: the pair style is another; allowed: {}", engine::pair_style)
+                   .c_str());
   drumlin::OutputFile::check(file_.name(), comm, error, world, file_keyword);
 }
 
@@ -150,11 +150,10 @@ void FixContactEvents::refresh_ghost_velocities() {
   if (comm->nprocs > 1 || atom->nghost > 0) engine::forward_comm(comm, this);
 }
 
-int FixContactEvents::pack_comm(int n, int *list, double *buf, int, int *) {
+void FixContactEvents::pack_ghosts(int n, const int *list, double *buf) {
   drumlin::pack_velocities(*atom, n, list, buf);
-  return comm_forward;
 }
-void FixContactEvents::unpack_comm(int n, int first, double *buf) {
+void FixContactEvents::unpack_ghosts(int n, int first, double *buf) {
   drumlin::unpack_velocities(*atom, n, first, buf);
 }
 

@@ -14,7 +14,7 @@ namespace LAMMPS_NS {
 
 /// Watches the pairs of two types (or of the whole group) and writes each make and break once, on any number
 /// of ranks.
-class FixContactEvents : public Fix {
+class FixContactEvents : public drumlin::engine::GhostFix {
 public:
   FixContactEvents(LAMMPS *, int, char **);
 
@@ -25,8 +25,8 @@ public:
   void pre_neighbor() override;
   void end_of_step() override;
   void post_run() override;
-  int pack_comm(int, int *, double *, int, int *) override;
-  void unpack_comm(int, int, double *) override;
+  void pack_ghosts(int, const int *, double *) override;
+  void unpack_ghosts(int, int, double *) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
   /// Events seen so far.

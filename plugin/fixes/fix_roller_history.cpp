@@ -21,7 +21,7 @@ constexpr double pi = 3.141592653589793;
 
 } // namespace
 
-FixRollerHistory::FixRollerHistory(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) {
+FixRollerHistory::FixRollerHistory(LAMMPS *lammps, int narg, char **arg) : GhostFix(lammps, narg, arg) {
   vector_flag = 1;
   size_vector = 10;
   extvector = 0;
@@ -101,9 +101,9 @@ void FixRollerHistory::pre_force(int) {
 void FixRollerHistory::init() {
   source_ = drumlin::contact_source(lmp);
   if (source_ == nullptr)
-    error->all(
-        FLERR,
-        "fix roller/history: the pair style is another; allowed: pair_style gran model hooke/transition");
+    error->all(FLERR,
+               fmt::format("fix roller/history: the pair style is another; allowed: {}", engine::pair_style)
+                   .c_str());
   drumlin::OutputFile::check(file_name_, comm, error, world, file_keyword);
   if (steps_per_cycle_ > 0) drumlin::OutputFile::check(cycles_name_, comm, error, world, cycles_keyword);
   if (group->count(igroup) == 0)
@@ -413,15 +413,14 @@ void FixRollerHistory::post_run() {
   if (cycles_file_) cycles_file_->flush();
 }
 
-int FixRollerHistory::pack_comm(int n, int *list, double *buf, int, int *) {
+void FixRollerHistory::pack_ghosts(int n, const int *list, double *buf) {
   drumlin::pack_velocities(*atom, n, list, buf);
   buf += 3 * n;
   for (int a = 0; a < n; ++a)
     buf = std::copy_n(atom->omega[list[a]], 3, buf);
-  return comm_forward;
 }
 
-void FixRollerHistory::unpack_comm(int n, int first, double *buf) {
+void FixRollerHistory::unpack_ghosts(int n, int first, double *buf) {
   drumlin::unpack_velocities(*atom, n, first, buf);
   buf += 3 * n;
   for (int i = first; i < first + n; ++i, buf += 3)

@@ -19,7 +19,7 @@ class FixBondSpring;
 /// Writes chain.csv or bed.csv (samples) and cycles.csv (extremes, harmonics and energies over every step). The forces
 /// and accelerations in a row are the right-hand sides of Eq. (1) at the positions and velocities of that
 /// row.
-class FixRollerHistory : public Fix {
+class FixRollerHistory : public drumlin::engine::GhostFix {
 public:
   FixRollerHistory(LAMMPS *, int, char **);
 
@@ -31,8 +31,8 @@ public:
   void pre_force(int) override;
   void end_of_step() override;
   void post_run() override;
-  int pack_comm(int, int *, double *, int, int *) override;
-  void unpack_comm(int, int, double *) override;
+  void pack_ghosts(int, const int *, double *) override;
+  void unpack_ghosts(int, int, double *) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
   /// 0-9: the columns of chain.csv at the last evaluated step.

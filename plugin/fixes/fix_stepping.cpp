@@ -32,7 +32,7 @@ FixStepping *FixStepping::provide(LAMMPS *lammps) {
   return find(lammps);
 }
 
-FixStepping::FixStepping(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) {
+FixStepping::FixStepping(LAMMPS *lammps, int narg, char **arg) : GhostFix(lammps, narg, arg) {
   nevery = 1;
   comm_forward = shared;
   FixStepping::grow_arrays(atom->nmax);
@@ -48,7 +48,7 @@ FixStepping::~FixStepping() {
 
 int FixStepping::setmask() {
   return FixConst::POST_INTEGRATE | FixConst::PRE_EXCHANGE | FixConst::PRE_FORCE |
-         FixConst::PRE_FINAL_INTEGRATE | FixConst::END_OF_STEP;
+         drumlin::engine::closes_forces | FixConst::END_OF_STEP;
 }
 
 void FixStepping::init() {
@@ -141,7 +141,7 @@ void FixStepping::expect_contacts() {
   expected_dt_ = update->dt;
 }
 
-void FixStepping::pre_final_integrate() {
+void FixStepping::close_forces() {
   int any = coupled_.empty() && coupled_links_.empty() ? 0 : 1;
   if (comm->nprocs > 1) {
     const int mine = any;
@@ -267,26 +267,25 @@ void FixStepping::set_arrays(int i) {
 }
 
 int FixStepping::pack_exchange(int i, double *buf) {
-  FixStepping::pack_comm(1, &i, buf, 0, nullptr);
+  FixStepping::pack_ghosts(1, &i, buf);
   buf[shared] = inverse_mass_[static_cast<std::size_t>(i)];
   return exchanged;
 }
 
 int FixStepping::unpack_exchange(int i, double *buf) {
-  FixStepping::unpack_comm(1, i, buf);
+  FixStepping::unpack_ghosts(1, i, buf);
   inverse_mass_[static_cast<std::size_t>(i)] = buf[shared];
   return exchanged;
 }
 
-int FixStepping::pack_comm(int n, int *list, double *buf, int, int *) {
+void FixStepping::pack_ghosts(int n, const int *list, double *buf) {
   for (int m = 0; m < n; ++m) {
     buf = std::copy_n(velocity_[list[m]], 3, buf);
     *buf++ = damping_over_mass_[static_cast<std::size_t>(list[m])];
   }
-  return shared;
 }
 
-void FixStepping::unpack_comm(int n, int begin, double *buf) {
+void FixStepping::unpack_ghosts(int n, int begin, double *buf) {
   for (int i = begin; i < begin + n; ++i) {
     std::copy_n(buf, 3, velocity_[i]);
     damping_over_mass_[static_cast<std::size_t>(i)] = buf[3];

@@ -12,7 +12,7 @@ namespace LAMMPS_NS {
 /// the forces of a step in which contact was made back to their physical value before the next step starts.
 ///
 /// Nothing of it is restart state: both follow from the positions and velocities at set-up.
-class FixStepping : public Fix {
+class FixStepping : public drumlin::engine::GhostFix {
 public:
   FixStepping(LAMMPS *, int, char **);
   ~FixStepping() override;
@@ -29,20 +29,22 @@ public:
   void post_integrate() override;
   void pre_exchange() override;
   void pre_force(int) override;
-  void pre_final_integrate() override;
+  void close_forces() override;
   void end_of_step() override;
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;
   void set_arrays(int) override;
   int pack_exchange(int, double *) override;
   int unpack_exchange(int, double *) override;
-  int pack_comm(int, int *, double *, int, int *) override;
-  void unpack_comm(int, int, double *) override;
+  void pack_ghosts(int, const int *, double *) override;
+  void unpack_ghosts(int, int, double *) override;
   double memory_usage() override;
 
   bool in_setup() const { return in_setup_; } ///< velocities belong to the time of the positions
   /// Whether this is a step, in which no dashpot is heavy and none has to be counted.
   bool light() const { return light_; }
+  /// Whether this rank owns a ball; false for a wall's -1.
+  bool owns(int i) const { return i >= 0 && i < atom->nlocal; }
   double dt() const { return dt_; }                             ///< s
   const double *velocity_before(int i) const { return row(i); } ///< v(t), m/s, owned balls and ghosts
   /// Takes note, after the integration and before the ghosts hear of it, that a force on owned ball i is known to change in

@@ -22,6 +22,7 @@
 #include "signal_handling.h"
 #include "timer.h"
 #include "update.h"
+#include "variable.h"
 
 #include <array>
 #include <cstdio>
@@ -36,6 +37,30 @@ using LAMMPS_NS::LAMMPS;
 /// Name and version of the engine, for logs and run records.
 inline std::string name_and_version() { return std::string("LIGGGHTS ") + LIGGGHTS_VERSION; }
 
+/// The pair style with the plugin's law, as a deck names it.
+constexpr const char *pair_style = "pair_style gran model hooke/transition";
+
+/// A fix, with names of its own for what the engines name differently.
+class GhostFix : public LAMMPS_NS::Fix {
+public:
+  using Fix::Fix;
+  /// Numbers of owned balls for their ghosts, `comm_forward` for each of the n balls.
+  virtual void pack_ghosts(int n, const int *balls, double *numbers) = 0;
+  virtual void unpack_ghosts(int n, int first, double *numbers) = 0;
+  /// When all forces of the step are known and before the closing half kick, if setmask() has `closes_forces`.
+  virtual void close_forces() {}
+
+  int pack_comm(int n, int *balls, double *numbers, int, int *) final {
+    pack_ghosts(n, balls, numbers);
+    return comm_forward; // for one ball
+  }
+  void unpack_comm(int n, int first, double *numbers) final { unpack_ghosts(n, first, numbers); }
+  void pre_final_integrate() final { close_forces(); }
+};
+constexpr int closes_forces = LAMMPS_NS::FixConst::PRE_FINAL_INTEGRATE;
+
+inline void set_up_run(LAMMPS_NS::Integrate *integrate) { integrate->setup(); }
+
 /// Tells the user: on the screen and in the log file, at once. Rank 0 speaks, the others may call it too.
 inline void say(const LAMMPS *lmp, const std::string &text) {
   if (lmp->comm->me != 0) return;
@@ -47,9 +72,9 @@ inline void say(const LAMMPS *lmp, const std::string &text) {
 }
 
 /// Whether a signal (Ctrl-C, a scheduler) has told a rank to stop: the engine then ends each run after a step. Collective.
-inline bool told_to_stop(MPI_Comm world) {
+inline bool told_to_stop(const LAMMPS *lmp) {
   int stop = LAMMPS_NS::SignalHandler::request_quit ? 1 : 0;
-  MPI_Allreduce(MPI_IN_PLACE, &stop, 1, MPI_INT, MPI_MAX, world);
+  MPI_Allreduce(MPI_IN_PLACE, &stop, 1, MPI_INT, MPI_MAX, lmp->world);
   return stop != 0;
 }
 

@@ -21,9 +21,9 @@ NORMAL_MODEL(HOOKE_TRANSITION, hooke / transition, 21)
 #include <limits>
 
 #include "fixes/contact_source.h"
-#include "fixes/contact_watch.h"
 #include "fixes/fix_clump.h"
 #include "fixes/fix_stepping.h"
+#include "fixes/stepped_contact.h"
 #include "liggghts/contact_table.h"
 #include "physics/contact_law.h"
 #include "physics/stepping.h"
@@ -134,9 +134,8 @@ private:
 
   /// Rate of the overlap with the velocities at the begin of the step.
   double rate_before(const SurfacesCloseData &data, const double *normal) const {
-    const double *vi = stepping_->velocity_before(data.i);
-    const double *vj = data.is_wall ? data.v_j : stepping_->velocity_before(data.j);
-    return -((vi[0] - vj[0]) * normal[0] + (vi[1] - vj[1]) * normal[1] + (vi[2] - vj[2]) * normal[2]);
+    return drumlin::rate_before(*stepping_, data.i,
+                                data.is_wall ? data.v_j : stepping_->velocity_before(data.j), normal);
   }
 
   /// Sets sidata.Fn and adds the force.
@@ -157,45 +156,19 @@ private:
   inline drumlin::physics::StepMotion motion_of(const SurfacesIntersectData &sidata) const {
     return {sidata.deltan, -sidata.vn, rate_before(sidata, sidata.en), stepping_->dt()};
   }
-  /// Sum of c/m over all contacts of both balls, 1/s.
-  inline double damping_over_mass(const SurfacesIntersectData &sidata) const {
-    return stepping_->damping_over_mass(sidata.i) +
-           (sidata.is_wall ? 0.0 : stepping_->damping_over_mass(sidata.j));
-  }
 
   [[gnu::noinline]] void second_order_rare(SurfacesIntersectData &sidata, double k, double c, double share,
                                            ForceData &i_forces, ForceData &j_forces) {
-    using namespace drumlin::physics;
-    double &force_before = sidata.contact_history[force_before_offset_];
     if (!sidata.computeflag) {
       look(sidata, share, i_forces, j_forces);
       return;
     }
-    const StepMotion motion = motion_of(sidata);
-    const double all = damping_over_mass(sidata);
-    if (stepping_->in_setup()) { // velocities belong to the time of the positions
-      sidata.Fn = normal_force(transition(), k, c, motion.overlap, motion.rate_half);
-      add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);
-    } else {
-      // No record although the contact is older than this step: a mesh contact went over to another triangle.
-      const double old = force_before != 0.0
-                             ? force_before
-                             : normal_force(transition(), k, c, motion.overlap - motion.dt * motion.rate_half,
-                                            motion.rate_before);
-      // Friction and rolling take the force that the contact would have alone.
-      const StepForce step = second_order_force(transition(), k, c, motion, old, c / sidata.meff);
-      sidata.Fn = step.force;
-      if (needs_coupling(motion.dt, k, c, all) && !made_in_step(motion)) {
-        const CoupledDashpot dashpot = coupled_dashpot(transition(), k, c, motion, old, all);
-        add(share * dashpot.first, sidata.en, sidata, i_forces, j_forces);
-        couple(sidata, dashpot, share);
-      } else
-        apply(step, share, sidata.en, sidata, i_forces, j_forces);
-    }
-    force_before = sidata.Fn;
-    if (!stepping_->counting()) return;
-    stepping_->add_damping(sidata.i, c);
-    if (!sidata.is_wall) stepping_->add_damping(sidata.j, c);
+    const drumlin::SteppedContact stepped(transition(), *stepping_);
+    const auto push = [&](double force) { add(force, sidata.en, sidata, i_forces, j_forces); };
+    sidata.Fn = stepped.exert({sidata.i, sidata.is_wall ? -1 : sidata.j, sidata.en,
+                               sidata.is_wall ? sidata.v_j : nullptr, sidata.deltan, -sidata.vn, k, c,
+                               sidata.meff, share},
+                              sidata.contact_history[force_before_offset_], push);
   }
 
   /// What compute pair/gran/local sees behind a step, when the velocities of the step are gone: the force on record.
@@ -211,22 +184,6 @@ private:
     if (friction_[sidata.itype][sidata.jtype] * sidata.Fn == 0.0) sidata.gammat = 0.0;
   }
 
-  /// Leaves a dashpot to be solved for when all forces of the step are known.
-  void couple(const SurfacesIntersectData &sidata, const drumlin::physics::CoupledDashpot &dashpot,
-              double share) {
-    LAMMPS_NS::FixStepping::Coupled &contact = stepping_->couple();
-    contact.i = sidata.i;
-    contact.j = sidata.is_wall ? -1 : sidata.j;
-    contact.normal = {sidata.en[0], sidata.en[1], sidata.en[2]};
-    contact.dashpot = dashpot;
-    if (sidata.is_wall)
-      contact.dashpot.at_rest +=
-          dashpot.per_rate *
-          (sidata.v_j[0] * sidata.en[0] + sidata.v_j[1] * sidata.en[1] + sidata.v_j[2] * sidata.en[2]);
-    contact.share = share;
-    contact.force = &sidata.contact_history[force_before_offset_];
-  }
-
   /// Adds a force on both balls.
   static inline void add(double force, const double *normal, const SurfacesCloseData &data,
                          ForceData &i_forces, ForceData &j_forces) {
@@ -240,23 +197,6 @@ private:
     j_forces.delta_F[2] -= z;
   }
 
-  /// Adds the force of the closing half kick, and has the rest added after it.
-  void apply(const drumlin::physics::StepForce &step, double share, const double *normal,
-             const SurfacesCloseData &data, ForceData &i_forces, ForceData &j_forces) {
-    const double kick = share * step.kick;
-    add(kick, normal, data, i_forces, j_forces);
-    if (step.kick == step.force && step.shift == 0.0) return;
-    const double rest = share * step.force - kick;
-    const double shift = share * step.shift;
-    const auto later = [&](int ball, double sign) {
-      stepping_->add_after_kick(
-          ball, {sign * rest * normal[0], sign * rest * normal[1], sign * rest * normal[2]},
-          {sign * shift * normal[0], sign * shift * normal[1], sign * shift * normal[2]});
-    };
-    later(data.i, 1.0);
-    if (!data.is_wall && data.j < atom->nlocal) later(data.j, -1.0);
-  }
-
   /// A jump like the make: the tensile force acted for part of the step that ends with the balls apart.
   void break_of_a(SurfacesCloseData &scdata, ForceData &i_forces, ForceData &j_forces) {
     const double r = std::sqrt(scdata.rsq);
@@ -264,50 +204,39 @@ private:
     double rate_half = 0.0;
     for (int a = 0; a < 3; ++a)
       rate_half -= (scdata.v_i[a] - scdata.v_j[a]) * normal[a];
-    const drumlin::physics::StepMotion motion{scdata.radsum - r, rate_half, rate_before(scdata, normal),
-                                              stepping_->dt()};
-    if (drumlin::physics::made_in_step(motion)) return; // apart all along
     const drumlin::ContactCoefficients &p = table_.at(scdata.itype, scdata.jtype);
     const double mi = LAMMPS_NS::FixClump::mass_of(*atom, scdata.i, atom->rmass[scdata.i]);
     const double m_eff = scdata.is_wall ? mi : effective_mass(scdata.i, scdata.j);
     const double c = drumlin::physics::damping_coefficient(p.normal, m_eff);
-    apply(drumlin::physics::second_order_break(transition(), p.normal.stiffness, c, motion), 1.0, normal,
-          scdata, i_forces, j_forces);
-    scdata.has_force_update = true;
+    const drumlin::SteppedContact stepped(transition(), *stepping_);
+    const auto push = [&](double force) { add(force, normal, scdata, i_forces, j_forces); };
+    scdata.has_force_update |=
+        stepped.end({scdata.i, scdata.is_wall ? -1 : scdata.j, normal, scdata.is_wall ? scdata.v_j : nullptr,
+                     scdata.radsum - r, rate_half, p.normal.stiffness, c, m_eff, 1.0},
+                    push);
   }
 
   /// \param share of the stiffnesses that acts
   void show(drumlin::ContactWatch &watch, double share, const SurfacesIntersectData &sidata) const {
-    const double inverse_mi = 1.0 / mass(sidata.i, sidata.mi); // 0 if fixed
-    const double inverse_mj = sidata.is_wall ? 0.0 : 1.0 / mass(sidata.j, sidata.mj);
-    if (inverse_mi + inverse_mj == 0.0) return;
-    const double mass_over_inertia = domain->dimension == 2 ? 2.0 : 2.5; // as fix nve/sphere turns balls
-    const double inverse_mt =
-        1.0 / drumlin::physics::tangential_mass(inverse_mi, inverse_mj, mass_over_inertia);
-    drumlin::physics::LinkModes modes;
-    std::copy_n(sidata.en, 3, modes.normal.begin());
-    modes.normal_spring = share * sidata.kn * (inverse_mi + inverse_mj);
-    if (!stepping_) modes.normal_dashpot = share * sidata.gamman * (inverse_mi + inverse_mj);
-    if (tangential_spring_) modes.tangential_spring = share * sidata.kt * inverse_mt;
-    if (tangential_dashpot_) modes.tangential_dashpot = share * sidata.gammat * inverse_mt;
-    const double ri = sidata.radi;
-    const double rj = sidata.is_wall ? ri : sidata.radj;
-    if (rolling_spring_) { // kr = kt r_eff^2, of the engine's epsd2
-      const double r_eff = sidata.is_wall ? ri : ri * rj / (ri + rj);
-      modes.rolling_spring = share * sidata.kt * r_eff * r_eff * mass_over_inertia *
-                             (inverse_mi / (ri * ri) + inverse_mj / (rj * rj));
-    }
-    const double overlap = sidata.deltan / std::min(ri, rj);
-    const auto see = [&](int ball, int partner, double own, double other, double r_own, double r_other) {
-      modes.burden = drumlin::physics::link_burden(own, other);
-      modes.rolling_burden =
-          drumlin::physics::link_burden(own / (r_own * r_own), other / (r_other * r_other));
-      watch.see(ball, partner, modes, overlap);
-    };
-    if (inverse_mi > 0.0)
-      see(sidata.i, sidata.is_wall ? 0 : atom->tag[sidata.j], inverse_mi, inverse_mj, ri, rj);
-    if (inverse_mj > 0.0 && sidata.j < atom->nlocal)
-      see(sidata.j, atom->tag[sidata.i], inverse_mj, inverse_mi, rj, ri);
+    drumlin::ShownContact p{};
+    p.i = sidata.i;
+    p.j = sidata.is_wall ? -1 : sidata.j;
+    p.tag_i = atom->tag[sidata.i];
+    p.tag_j = sidata.is_wall ? 0 : atom->tag[sidata.j];
+    p.owns_j = p.j >= 0 && p.j < atom->nlocal;
+    p.inverse_mi = 1.0 / mass(sidata.i, sidata.mi);
+    p.inverse_mj = sidata.is_wall ? 0.0 : 1.0 / mass(sidata.j, sidata.mj);
+    p.ri = sidata.radi;
+    p.rj = sidata.is_wall ? sidata.radi : sidata.radj;
+    p.overlap = sidata.deltan;
+    p.normal = sidata.en;
+    p.mass_over_inertia = domain->dimension == 2 ? 2.0 : 2.5; // as fix nve/sphere turns balls
+    p.normal_spring = share * sidata.kn;
+    if (!stepping_) p.normal_dashpot = share * sidata.gamman;
+    if (tangential_spring_) p.tangential_spring = share * sidata.kt;
+    if (tangential_dashpot_) p.tangential_dashpot = share * sidata.gammat;
+    if (rolling_spring_) p.rolling_spring_share = share * sidata.kt; // kr = kt r_eff^2, of the engine's epsd2
+    drumlin::show(watch, p);
   }
 
   double effective_mass(int i, int j) const {

@@ -18,11 +18,11 @@
 #include "fix_setforce.h"
 #include "input.h"
 #include "neighbor.h"
-#include "variable.h"
 
 #include "engine.h"
 #include "fixes/commands.h"
 #include "fixes/contact_ledger.h"
+#include "fixes/deck_folder.h"
 #include "fixes/fix_bond_spring.h"
 #include "fixes/fix_clump.h"
 #include "fixes/fix_contact_events.h"
@@ -33,7 +33,6 @@
 #include "liggghts/contact_table.h"
 #include "liggghts/model_settings.h"
 
-#include <fstream>
 #include <map>
 #include <string>
 
@@ -257,20 +256,6 @@ void add_commands(LAMMPS *lmp) {
   commands["drumlin/write_restart"] = drumlin::write_restart_command;
 }
 
-/// Folder of the deck named by -in, so that a deck finds its includes from any working directory (`${here}`);
-/// "." for a deck from standard input. A value given by -var stays.
-void define_here(LAMMPS *lmp) {
-  std::ifstream file("/proc/self/cmdline");
-  std::string here = ".";
-  for (std::string word, previous; std::getline(file, word, '\0'); previous = word)
-    if (previous == "-in" || previous == "-i")
-      here = word.find('/') == std::string::npos ? "." : word.substr(0, word.rfind('/'));
-  std::string name = "here";
-  std::string style = "index";
-  char *words[] = {name.data(), style.data(), here.data()};
-  lmp->input->variable->set(3, words);
-}
-
 } // namespace
 
 double *drumlin::engine::reaction(Fix *fix) {
@@ -289,7 +274,7 @@ extern "C" __attribute__((visibility("default"))) void drumlin_register(void *in
   known = lmp;
   add_fixes(lmp);
   add_commands(lmp);
-  define_here(lmp);
+  drumlin::define_here(lmp);
   drumlin::engine::say(lmp, std::string("drumlin " DRUMLIN_VERSION ", plugin for LIGGGHTS " LIGGGHTS_VERSION
                                         ", loaded in LIGGGHTS ") +
                                 engine_version + "\n");

@@ -2,6 +2,7 @@
 // example:
 // ```liggghts run: lines of a deck, run in the host deck in.host; a pair_style or a property in it replaces
 // the host's.
+// ```lammps run: the same in host.lammps; not run where LAMMPS is not set up.
 // ```sh run: a command line, run in a folder that has `inputs` and `build/release/lib` as the project's own.
 
 #include "host.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 #include <regex>
 
 namespace drumlin::test {
@@ -34,7 +36,7 @@ std::vector<Example> examples_of(const std::string &page) {
     ++number;
     if (line.rfind("```", 0) == 0) {
       inside = !inside;
-      wanted = inside && (line == "```liggghts run" || line == "```sh run");
+      wanted = inside && (line == "```liggghts run" || line == "```lammps run" || line == "```sh run");
       if (wanted) examples.push_back({line.substr(3, line.find(' ') - 3), "", number});
     } else if (inside && wanted) {
       examples.back().text += line + "\n";
@@ -66,6 +68,10 @@ Outcome run_example(const Example &example, const fs::path &folder) {
     return run_program({"/bin/sh", "-ec", example.text}, mpi_environment(folder), folder, 60.0);
   }
   fs::create_directory(folder / "results");
+  if (example.language == "lammps") {
+    write_text(folder / "lines", example.text + "run 20\n");
+    return run_deck(root / "tests/input/host.lammps", {{"lines", (folder / "lines").string()}}, folder);
+  }
   const bool own_pair_style = example.text.find("pair_style") != std::string::npos;
   return run_host((own_pair_style ? "" : host_pair_style()) + host_properties(example.text), example.text,
                   folder, 1);
@@ -79,11 +85,15 @@ TEST_P(DocExamplesTest, Run) {
   EXPECT_FALSE(examples.empty()) << GetParam() << " has no example that runs";
   for (const Example &example : examples) {
     SCOPED_TRACE(GetParam() + ", line " + std::to_string(example.line));
+    if (example.language == "lammps" && !post::has_lammps()) {
+      std::puts("SKIPPED: LAMMPS is not set up (./drumlin setup lammps)");
+      continue;
+    }
     const Scratch scratch;
     const Outcome outcome = run_example(example, scratch.path());
     EXPECT_TRUE(outcome.ok()) << outcome.output;
     EXPECT_FALSE(outcome.says("ERROR")) << outcome.output;
-    if (example.language == "liggghts")
+    if (example.language != "sh")
       for (const std::string &file : outputs_of(example.text)) {
         std::error_code none;
         EXPECT_GT(fs::file_size(scratch / file, none), 0U) << file;
@@ -124,7 +134,8 @@ TEST(DocPages, AreThereForEveryCommand) {
   for (const char *name :
        {"drumlin_check", "drumlin_record", "drumlin_run", "drumlin_settle", "drumlin_write_restart",
         "fix_bond_spring", "fix_clump", "fix_contact_events", "fix_drum_excite", "fix_guard",
-        "fix_roller_history", "pair_gran_hooke_transition", "preload"})
+        "fix_roller_history", "fix_wall_gran_transition", "lammps", "pair_gran_hooke_transition",
+        "pair_gran_hooke_transition_lammps", "preload"})
     EXPECT_TRUE(fs::exists(root / "plugin/doc" / (std::string(name) + ".md"))) << name;
 }
 

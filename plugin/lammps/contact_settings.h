@@ -1,0 +1,65 @@
+#pragma once
+// Words of pair_style gran/hooke/transition and pair_coeff, checked.
+
+#include "fixes/arguments.h"
+#include "lammps/contact_terms.h"
+
+namespace drumlin {
+
+/// Keywords up to the end.
+inline ContactSettings read_settings(Arguments &in) {
+  ContactSettings settings;
+  while (!in.empty()) {
+    const std::string keyword = in.word("keyword");
+    const std::string what = "keyword " + keyword;
+    if (keyword == "transition")
+      settings.transition =
+          in.choice(what, {"A", "B"}) == 0 ? physics::Transition::A : physics::Transition::B;
+    else if (keyword == "damping")
+      settings.damping = in.choice(what, {"coefficient", "ratio"}) == 0 ? physics::Damping::coefficient
+                                                                        : physics::Damping::ratio;
+    else if (keyword == "stepping")
+      settings.stock = in.choice(what, {"second", "stock"}) == 1;
+    else if (keyword == "tangential")
+      settings.tangential = static_cast<FrictionModel>(in.choice(what, {"off", "no_history", "history"}));
+    else if (keyword == "cap")
+      settings.cap = in.choice(what, {"spring", "total"}) == 0 ? physics::Cap::spring : physics::Cap::total;
+    else
+      in.fail("unknown keyword '" + keyword + "'; allowed: transition, damping, stepping, tangential or cap");
+  }
+  return settings;
+}
+
+/// k, damping and, with friction, mu and at will kt and ct up to the end.
+inline ContactCoefficients read_coefficients(Arguments &in, const ContactSettings &settings) {
+  ContactCoefficients p;
+  p.normal.stiffness = in.number("normal stiffness k", Range::positive);
+  p.normal.damping =
+      in.number(settings.damping == physics::Damping::ratio ? "damping ratio D" : "damping coefficient c",
+                Range::non_negative);
+  p.normal.damping_kind = settings.damping;
+  p.normal.transition = settings.transition;
+  p.tangential_stiffness = 2.0 / 7.0 * p.normal.stiffness;
+  if (settings.tangential != FrictionModel::none) {
+    p.friction = in.number("friction coefficient mu", Range::non_negative);
+    const auto next_is_given = [&in](const char *what) {
+      if (in.empty()) return false;
+      if (in.peek() != "NULL") return true;
+      in.word(what);
+      return false;
+    };
+    if (next_is_given("tangential stiffness kt"))
+      p.tangential_stiffness = in.number("tangential stiffness kt", Range::positive);
+    if (next_is_given("tangential damping ct")) {
+      p.tangential_damping = in.number("tangential damping coefficient ct", Range::non_negative);
+      p.tangential_damping_share = 0.0;
+    }
+  }
+  if (!in.empty())
+    in.fail("'" + in.peek() + "' is left over; allowed: I J k damping" +
+            (settings.tangential == FrictionModel::none ? "; friction needs keyword tangential of pair_style"
+                                                        : " mu [kt|NULL [ct|NULL]]"));
+  return p;
+}
+
+} // namespace drumlin

@@ -1,0 +1,124 @@
+// Registration of everything that the plugin adds to LAMMPS, called by the command `plugin load`.
+
+#include "lammpsplugin.h"
+
+#include "command.h"
+#include "fix_freeze.h"
+#include "fix_setforce.h"
+
+#include "engine.h"
+#include "fixes/commands.h"
+#include "fixes/deck_folder.h"
+#include "fixes/fix_bond_spring.h"
+#include "fixes/fix_clump.h"
+#include "fixes/fix_contact_events.h"
+#include "fixes/fix_drum_excite.h"
+#include "fixes/fix_guard.h"
+#include "fixes/fix_roller_history.h"
+#include "fixes/fix_stepping.h"
+#include "lammps/fix_wall_gran_transition.h"
+#include "lammps/pair_gran_hooke_transition.h"
+
+#include <cstring>
+
+namespace {
+
+using LAMMPS_NS::Fix;
+using LAMMPS_NS::LAMMPS;
+
+// What the engine's constraints have summed is not public. An explicit instantiation may name a private member; its friend hands
+// it out.
+template <auto Member>
+struct FreezeAccess {
+  friend auto &reaction_of(LAMMPS_NS::FixFreeze &fix) { return fix.*Member; }
+};
+auto &reaction_of(LAMMPS_NS::FixFreeze &fix);
+template struct FreezeAccess<&LAMMPS_NS::FixFreeze::foriginal>;
+
+template <auto Member>
+struct SetForceAccess {
+  friend auto &reaction_of(LAMMPS_NS::FixSetForce &fix) { return fix.*Member; }
+};
+auto &reaction_of(LAMMPS_NS::FixSetForce &fix);
+template struct SetForceAccess<&LAMMPS_NS::FixSetForce::foriginal>;
+
+/// A function of the core's adapters as a command of the engine.
+template <void (*function)(LAMMPS *, int, char **)>
+class EngineCommand : public LAMMPS_NS::Command {
+public:
+  using LAMMPS_NS::Command::Command;
+  void command(int narg, char **arg) override { function(lmp, narg, arg); }
+};
+
+template <class Style>
+void *create(void *lmp) {
+  return new Style(static_cast<LAMMPS *>(lmp));
+}
+
+/// The engine keeps fixes by their base class.
+template <class FixStyle>
+void *create_fix(void *lmp, int narg, char **arg) {
+  return static_cast<Fix *>(new FixStyle(static_cast<LAMMPS *>(lmp), narg, arg));
+}
+
+void *create_pair(void *lmp) {
+  return static_cast<LAMMPS_NS::Pair *>(new LAMMPS_NS::PairGranHookeTransition(static_cast<LAMMPS *>(lmp)));
+}
+
+} // namespace
+
+double *drumlin::engine::reaction(Fix *fix) {
+  const std::string style = fix->style;
+  if (style == "freeze") return reaction_of(*static_cast<LAMMPS_NS::FixFreeze *>(fix));
+  if (style == "setforce") return reaction_of(*static_cast<LAMMPS_NS::FixSetForce *>(fix));
+  return nullptr;
+}
+
+extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *lmp, void *handle,
+                                                                         void *register_function) {
+  using namespace LAMMPS_NS;
+  auto *engine = static_cast<LAMMPS *>(lmp);
+  if (std::strcmp(engine->version, LAMMPS_VERSION) != 0)
+    engine->error->all(FLERR, (std::string("drumlin: the plugin is built for LAMMPS ") + LAMMPS_VERSION +
+                               ", this is " + engine->version + "; allowed: the version that it is built for")
+                                  .c_str());
+  const auto add = reinterpret_cast<lammpsplugin_regfunc>(register_function);
+  lammpsplugin_t plugin{};
+  plugin.version = LAMMPS_VERSION;
+  plugin.author = "drumlin";
+  plugin.handle = handle;
+  const auto add_v1 = [&](const char *style, const char *name, const char *info,
+                          lammpsplugin_factory1 *make) {
+    plugin.style = style;
+    plugin.name = name;
+    plugin.info = info;
+    plugin.creator.v1 = make;
+    add(&plugin, lmp);
+  };
+  const auto add_fix = [&](const char *name, const char *info, lammpsplugin_factory2 *make) {
+    plugin.style = "fix";
+    plugin.name = name;
+    plugin.info = info;
+    plugin.creator.v2 = make;
+    add(&plugin, lmp);
+  };
+  add_v1("pair", "gran/hooke/transition", "linear contact with transition A or B", create_pair);
+  add_fix("wall/gran/transition", "its planes", create_fix<FixWallGranTransition>);
+  add_fix("drum/excite", "harmonic excitation of a drum", create_fix<FixDrumExcite>);
+  add_fix("bond/spring", "bonded spring-dashpot", create_fix<FixBondSpring>);
+  add_fix("clump", "one rigid body that does not turn", create_fix<FixClump>);
+  add_fix("contact/events", "makes and breaks of contact", create_fix<FixContactEvents>);
+  add_fix("roller/history", "motion and forces of drum and frame", create_fix<FixRollerHistory>);
+  add_fix("drumlin/stepping", "second-order stepping", create_fix<FixStepping>);
+  add_fix("guard", "step, overlap and finite numbers", create_fix<FixGuard>);
+  add_v1("command", "drumlin/check", "judges a variable", create<EngineCommand<drumlin::check_command>>);
+  add_v1("command", "drumlin/record", "what a run was made with",
+         create<EngineCommand<drumlin::record_command>>);
+  add_v1("command", "drumlin/run", "a run with progress and a limit",
+         create<EngineCommand<drumlin::run_command>>);
+  add_v1("command", "drumlin/settle", "a run to equilibrium", create<EngineCommand<drumlin::settle_command>>);
+  add_v1("command", "drumlin/write_restart", "a restart file with notes",
+         create<EngineCommand<drumlin::write_restart_command>>);
+  drumlin::define_here(engine);
+  drumlin::engine::say(engine, "drumlin " DRUMLIN_VERSION ", plugin for LAMMPS " LAMMPS_VERSION "\n");
+}

@@ -1,0 +1,111 @@
+#pragma once
+// The thin layer under the engine-neutral fixes and commands: what they need of LAMMPS, under the names that plugin/liggghts/engine.h
+// gives as well. Nothing else in plugin/fixes knows which engine it is compiled for.
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "error.h"
+#include "fix.h"
+#include "force.h"
+#include "group.h"
+#include "input.h"
+#include "integrate.h"
+#include "memory.h"
+#include "modify.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+#include "output.h"
+#include "pair.h"
+#include "pointers.h"
+#include "timer.h"
+#include "update.h"
+#include "variable.h"
+#include "version.h"
+
+#include "lammps/lammps_version.h"
+
+#include <array>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace drumlin::engine {
+
+using LAMMPS_NS::bigint;
+using LAMMPS_NS::LAMMPS;
+
+/// Name and version of the engine, for logs and run records.
+inline std::string name_and_version() { return std::string("LAMMPS ") + LAMMPS_VERSION; }
+
+/// The pair style with the plugin's law, as a deck names it.
+constexpr const char *pair_style = "pair_style gran/hooke/transition";
+
+/// A fix, with names of its own for what the engines name differently.
+class GhostFix : public LAMMPS_NS::Fix {
+public:
+  using Fix::Fix;
+  /// Numbers of owned balls for their ghosts, `comm_forward` for each of the n balls.
+  virtual void pack_ghosts(int n, const int *balls, double *numbers) = 0;
+  virtual void unpack_ghosts(int n, int first, double *numbers) = 0;
+  /// When all forces of the step are known and before the closing half kick, if setmask() has `closes_forces`. Fixes act in the order of
+  /// the deck: this one must stand before those that integrate.
+  virtual void close_forces() {}
+
+  int pack_forward_comm(int n, int *balls, double *numbers, int, int *) final {
+    pack_ghosts(n, balls, numbers);
+    return n * comm_forward;
+  }
+  void unpack_forward_comm(int n, int first, double *numbers) final { unpack_ghosts(n, first, numbers); }
+  void final_integrate() final { close_forces(); }
+};
+constexpr int closes_forces = LAMMPS_NS::FixConst::FINAL_INTEGRATE;
+
+inline void set_up_run(LAMMPS_NS::Integrate *integrate) { integrate->setup(1); }
+
+/// Tells the user: on the screen and in the log file, at once. Rank 0 speaks, the others may call it too.
+inline void say(const LAMMPS *lmp, const std::string &text) {
+  if (lmp->comm->me != 0) return;
+  for (FILE *out : {lmp->screen, lmp->logfile})
+    if (out != nullptr) {
+      std::fputs(text.c_str(), out);
+      std::fflush(out);
+    }
+}
+
+/// Whether the command `timer timeout` has told the engine to stop: it then ends each run. (A signal ends LAMMPS itself.) Collective.
+inline bool told_to_stop(const LAMMPS *lmp) { return lmp->timer->is_timeout(); }
+
+/// Copies the numbers of owned balls to their ghosts through the fix's pack_ghosts/unpack_ghosts pair.
+inline void forward_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Fix *fix) { version::forward_comm(comm, fix); }
+
+/// Acceleration of gravity (m/s2) as the deck's fix gravity gives it now; zero without one.
+inline std::array<double, 3> gravity(LAMMPS_NS::Modify *modify) {
+  for (int n = 0; n < modify->nfix; ++n)
+    if (std::string(modify->fix[n]->style) == "gravity") {
+      int dimension = 0;
+      if (const auto *g = static_cast<const double *>(modify->fix[n]->extract("gvec", dimension)))
+        return {g[0], g[1], g[2]};
+    }
+  return {0.0, 0.0, 0.0};
+}
+
+/// The sums of force, N, x to z, that a fix freeze or setforce has taken from this rank's balls in this step and gives as its
+/// output; nullptr for another fix.
+double *reaction(LAMMPS_NS::Fix *fix);
+
+/// A fix by its ID, or nullptr.
+inline LAMMPS_NS::Fix *find_fix(LAMMPS_NS::Modify *modify, const std::string &id) {
+  const int index = modify->find_fix(id);
+  return index < 0 ? nullptr : modify->fix[index];
+}
+
+/// Neighbour list of the pair style, each pair once (twice across ranks with newton off), or nullptr.
+inline LAMMPS_NS::NeighList *pair_list(LAMMPS_NS::Force *force) {
+  return force->pair != nullptr ? force->pair->list : nullptr;
+}
+
+/// Index of a neighbour without the bits that the engine packs into it.
+inline int neighbour_index(int packed) { return packed & NEIGHMASK; }
+
+} // namespace drumlin::engine

@@ -1,0 +1,203 @@
+#include "lammps/fix_wall_gran_transition.h"
+
+#include "fixes/arguments.h"
+#include "fixes/fix_clump.h"
+#include "lammps/pair_gran_hooke_transition.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace LAMMPS_NS;
+using drumlin::FrictionModel;
+namespace physics = drumlin::physics;
+
+namespace {
+constexpr const char *command = "fix wall/gran/transition";
+}
+
+FixWallGranTransition::FixWallGranTransition(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) {
+  vector_flag = 1;
+  size_vector = 3;
+  extvector = 1;
+  global_freq = 1;
+  restart_peratom = 1;
+  create_attribute = 1;
+  drumlin::Arguments in(error, command, narg - 3, arg + 3);
+  type_ = static_cast<int>(in.integer("type of the wall", 1, atom->ntypes));
+  axis_ = in.choice("wall", {"xplane", "yplane", "zplane"});
+  for (std::size_t side = 0; side < 2; ++side) {
+    const std::string what = side == 0 ? "place of the low wall" : "place of the high wall";
+    if (!in.empty() && in.peek() == "NULL")
+      in.word(what);
+    else {
+      place_[side] = in.number(what);
+      has_[side] = true;
+    }
+  }
+  if (!in.empty()) in.fail("'" + in.peek() + "' is left over; allowed: TYPE xplane|yplane|zplane LOW HIGH");
+  if (sides() == 0) in.fail("both places are NULL; allowed: a number, in m, for one at least");
+  if (sides() == 2 && place_[0] >= place_[1])
+    in.fail("the low wall is not below the high one; allowed: LOW < HIGH");
+  FixWallGranTransition::grow_arrays(atom->nmax);
+  atom->add_callback(Atom::GROW);
+  atom->add_callback(Atom::RESTART);
+  for (int i = 0; i < atom->nlocal; ++i)
+    FixWallGranTransition::set_arrays(i);
+  list().push_back(this);
+}
+
+FixWallGranTransition::~FixWallGranTransition() {
+  atom->delete_callback(id, Atom::GROW);
+  atom->delete_callback(id, Atom::RESTART);
+  memory->destroy(memory_);
+  list().erase(std::remove(list().begin(), list().end(), this), list().end());
+}
+
+std::vector<FixWallGranTransition *> &FixWallGranTransition::list() {
+  static std::vector<FixWallGranTransition *> walls; // one engine instance per process runs a deck
+  return walls;
+}
+
+int FixWallGranTransition::setmask() { return FixConst::POST_FORCE; }
+
+void FixWallGranTransition::init() {
+  pair_ = PairGranHookeTransition::find(lmp);
+  if (pair_ == nullptr)
+    error->all(FLERR,
+               (std::string(command) + ": the pair style is another; allowed: " + drumlin::engine::pair_style)
+                   .c_str());
+  stepping_ = pair_->contact_settings().stock ? nullptr : FixStepping::find(lmp);
+}
+
+void FixWallGranTransition::setup(int vflag) { post_force(vflag); }
+
+void FixWallGranTransition::post_force(int) {
+  force_ = {};
+  const drumlin::ContactSettings &settings = pair_->contact_settings();
+  const bool stepped = !settings.stock;
+  switch (settings.tangential) {
+  case FrictionModel::none:
+    return stepped ? touch_balls<true, FrictionModel::none>() : touch_balls<false, FrictionModel::none>();
+  case FrictionModel::no_history:
+    return stepped ? touch_balls<true, FrictionModel::no_history>()
+                   : touch_balls<false, FrictionModel::no_history>();
+  case FrictionModel::history:
+    return stepped ? touch_balls<true, FrictionModel::history>()
+                   : touch_balls<false, FrictionModel::history>();
+  }
+}
+
+template <bool stepped, FrictionModel tangential>
+void FixWallGranTransition::touch_balls() {
+  const drumlin::ContactSettings &settings = pair_->contact_settings();
+  const bool moves = update->setupflag == 0;
+  const bool told = !drumlin::ContactLedger::open().empty() || !drumlin::ContactWatch::looking().empty();
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (!has_[side]) continue;
+    double normal[3] = {};
+    normal[axis_] = side == 0 ? 1.0 : -1.0;
+    for (int i = 0; i < atom->nlocal; ++i) {
+      if (!(atom->mask[i] & groupbit)) continue;
+      const double gap = normal[axis_] * (atom->x[i][axis_] - place_[side]); // of the centre
+      double *remembered = row(i, static_cast<int>(side));
+      const bool touches = gap < atom->radius[i];
+      if (!touches && remembered[0] == 0.0) continue;
+      const drumlin::ContactCoefficients &law = pair_->at(atom->type[i], type_);
+      const double mass = FixClump::mass_of(*atom, i, atom->rmass[i]);
+      const double *v = atom->v[i];
+
+      drumlin::Contact p{};
+      p.normal.i = i;
+      p.normal.j = -1;
+      p.normal.normal = normal;
+      p.normal.overlap = atom->radius[i] - gap;
+      p.normal.rate_half = -(v[0] * normal[0] + v[1] * normal[1] + v[2] * normal[2]);
+      p.normal.k = law.normal.stiffness;
+      p.normal.c = physics::damping_coefficient(law.normal, mass);
+      p.normal.m_eff = mass;
+      p.normal.share = 1.0;
+      p.history = remembered + (settings.spring() > 0 ? 1 : 4);
+
+      drumlin::ContactForces forces{};
+      if (!touches) { // it did, a step ago
+        std::fill_n(remembered, of_a_side, 0.0);
+        if constexpr (stepped)
+          if (moves && settings.transition == physics::Transition::A)
+            drumlin::SteppedContact(settings.transition, *stepping_).end(p.normal, [&](double push) {
+              for (std::size_t a = 0; a < 3; ++a)
+                forces.force[a] += push * normal[a];
+            });
+      } else {
+        remembered[0] = 1.0;
+        p.arm_i = atom->radius[i] - 0.5 * p.normal.overlap; // as between balls
+        if constexpr (tangential != FrictionModel::none)
+          for (std::size_t a = 0; a < 3; ++a) {
+            const std::size_t b = (a + 1) % 3;
+            const std::size_t c = (a + 2) % 3;
+            p.slip[a] = v[a] + p.normal.rate_half * normal[a] -
+                        p.arm_i * (atom->omega[i][b] * normal[c] - atom->omega[i][c] * normal[b]);
+          }
+        forces = drumlin::exert<stepped, tangential>(settings, law, stepping_, p, update->dt, moves);
+        if (told) {
+          drumlin::enter(settings, law, p, forces, atom->radius[i]);
+          drumlin::ShownContact shown{};
+          shown.i = i;
+          shown.j = -1;
+          shown.tag_i = static_cast<int>(atom->tag[i]);
+          shown.inverse_mi = 1.0 / pair_->mass(i);
+          shown.ri = shown.rj = atom->radius[i];
+          shown.overlap = p.normal.overlap;
+          shown.normal = normal;
+          shown.mass_over_inertia = 2.5; // of spheres, as fix nve/sphere turns them
+          drumlin::tell(settings, law, p, shown);
+        }
+      }
+      for (std::size_t a = 0; a < 3; ++a) {
+        atom->f[i][a] += forces.force[a];
+        atom->torque[i][a] += forces.torque_i[a];
+        force_[a] += forces.force[a];
+      }
+    }
+  }
+}
+
+double FixWallGranTransition::compute_vector(int n) {
+  double all = 0.0;
+  MPI_Allreduce(&force_[static_cast<std::size_t>(n)], &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
+void FixWallGranTransition::grow_arrays(int nmax) {
+  memory->grow(memory_, nmax, numbers(), "wall/gran/transition:memory");
+}
+
+void FixWallGranTransition::copy_arrays(int i, int j, int) { std::copy_n(memory_[i], numbers(), memory_[j]); }
+
+void FixWallGranTransition::set_arrays(int i) { std::fill_n(memory_[i], numbers(), 0.0); }
+
+int FixWallGranTransition::pack_exchange(int i, double *buf) {
+  std::copy_n(memory_[i], numbers(), buf);
+  return numbers();
+}
+
+int FixWallGranTransition::unpack_exchange(int i, double *buf) {
+  std::copy_n(buf, numbers(), memory_[i]);
+  return numbers();
+}
+
+int FixWallGranTransition::pack_restart(int i, double *buf) {
+  buf[0] = 1 + numbers();
+  std::copy_n(memory_[i], numbers(), buf + 1);
+  return 1 + numbers();
+}
+
+void FixWallGranTransition::unpack_restart(int i, int nth) {
+  const double *values = atom->extra[i]; // the records of all fixes, each with its length first
+  for (int n = 0; n < nth; ++n)
+    values += static_cast<int>(values[0]);
+  std::copy_n(values + 1, numbers(), memory_[i]);
+}
+
+double FixWallGranTransition::memory_usage() {
+  return static_cast<double>(atom->nmax) * numbers() * sizeof(double);
+}

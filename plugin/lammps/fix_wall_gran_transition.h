@@ -1,0 +1,58 @@
+#pragma once
+// fix wall/gran/transition: see plugin/doc/fix_wall_gran_transition.md.
+
+#include "engine.h"
+#include "lammps/contact_terms.h"
+
+namespace LAMMPS_NS {
+
+class PairGranHookeTransition;
+
+/// A pair of planes at rest across an axis of the box, with the law of the pair style between balls and a type.
+class FixWallGranTransition : public Fix {
+public:
+  FixWallGranTransition(LAMMPS *, int, char **);
+  ~FixWallGranTransition() override;
+
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void post_force(int) override;
+  /// 0-2: force of the walls on the balls, N.
+  double compute_vector(int) override;
+
+  void grow_arrays(int) override;
+  void copy_arrays(int, int, int) override;
+  void set_arrays(int) override;
+  int pack_exchange(int, double *) override;
+  int unpack_exchange(int, double *) override;
+  int pack_restart(int, double *) override;
+  void unpack_restart(int, int) override;
+  int maxsize_restart() override { return 1 + numbers(); }
+  int size_restart(int) override { return 1 + numbers(); }
+  double memory_usage() override;
+
+  int type() const { return type_; }
+  int sides() const { return (has_[0] ? 1 : 0) + (has_[1] ? 1 : 0); }
+  /// The walls of this engine instance.
+  static const std::vector<FixWallGranTransition *> &all() { return list(); }
+
+private:
+  static constexpr int of_a_side = 5; // touch, spring, force
+  static constexpr int numbers() { return 2 * of_a_side; }
+  static std::vector<FixWallGranTransition *> &list();
+  double *row(int i, int side) { return memory_[i] + static_cast<std::ptrdiff_t>(side) * of_a_side; }
+  template <bool stepped, drumlin::FrictionModel tangential>
+  void touch_balls();
+
+  int axis_ = 0;
+  int type_ = 1;
+  std::array<bool, 2> has_{};     // low side, high side
+  std::array<double, 2> place_{}; // m
+  double **memory_ = nullptr;     // of each ball, for each side
+  std::array<double, 3> force_{}; // N, of this rank
+  const PairGranHookeTransition *pair_ = nullptr;
+  FixStepping *stepping_ = nullptr;
+};
+
+} // namespace LAMMPS_NS

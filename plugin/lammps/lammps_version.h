@@ -1,0 +1,48 @@
+#pragma once
+// Where the versions of LAMMPS differ that the plugin can be built for: 29 Sep 2021 (Debian 12) and those of 2024 on.
+
+#include "comm.h"
+#include "fix.h"
+#include "lmptype.h"
+#include "neigh_request.h"
+#include "neighbor.h"
+#include "pair.h"
+
+#ifdef HISTBITS
+#define DRUMLIN_LAMMPS_2021 0
+#else
+#define DRUMLIN_LAMMPS_2021 1
+#endif
+
+namespace drumlin::engine::version {
+
+inline void forward_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Fix *fix) {
+#if DRUMLIN_LAMMPS_2021
+  comm->forward_comm_fix(fix);
+#else
+  comm->forward_comm(fix);
+#endif
+}
+
+/// Asks for the neighbour list of a pair style of balls of finite size.
+inline void request_list(LAMMPS_NS::Neighbor *neighbor, LAMMPS_NS::Pair *pair, int instance, bool history) {
+#if DRUMLIN_LAMMPS_2021
+  const int index = neighbor->request(pair, instance); // moves the array of requests
+  LAMMPS_NS::NeighRequest *request = neighbor->requests[index];
+  request->size = 1;
+  request->history = history ? 1 : 0;
+#else
+  (void)instance;
+  neighbor->add_request(pair,
+                        LAMMPS_NS::NeighConst::REQ_SIZE | (history ? LAMMPS_NS::NeighConst::REQ_HISTORY : 0));
+#endif
+}
+
+} // namespace drumlin::engine::version
+
+/// The parameters of Pair::transfer_history() behind the two arrays.
+#if DRUMLIN_LAMMPS_2021
+#define DRUMLIN_TRANSFER_TYPES
+#else
+#define DRUMLIN_TRANSFER_TYPES , int, int
+#endif

@@ -1,0 +1,372 @@
+#include "lammps/pair_gran_hooke_transition.h"
+
+#include "fix_dummy.h"
+#include "fix_neigh_history.h"
+#include "fixes/arguments.h"
+#include "fixes/fix_clump.h"
+#include "fixes/pair_motion.h"
+#include "lammps/contact_settings.h"
+#include "lammps/fix_wall_gran_transition.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+using namespace LAMMPS_NS;
+using drumlin::ContactCoefficients;
+using drumlin::FrictionModel;
+namespace engine = drumlin::engine;
+namespace physics = drumlin::physics;
+
+namespace {
+
+constexpr const char *style_name = "gran/hooke/transition";
+
+std::string history_id(int instance) { return "DRUMLIN_HISTORY" + std::to_string(instance); }
+std::string placeholder_id(int instance) { return "DRUMLIN_HISTORY_PLACE" + std::to_string(instance); }
+
+} // namespace
+
+PairGranHookeTransition::PairGranHookeTransition(LAMMPS *lammps) : Pair(lammps) {
+  single_enable = 0;
+  no_virial_fdotr_compute = 1;
+  centroidstressflag = CENTROID_NOTAVAIL;
+  finitecutflag = 1;
+  nondefault_history_transfer = 1;
+  beyond_contact = 1; // a contact that ends in the step of a new neighbour list must be known to have been one
+  // Holds the place of the history among the fixes, which is the order of their calls.
+  modify->add_fix(placeholder_id(instance_me) + " all DUMMY");
+}
+
+PairGranHookeTransition::~PairGranHookeTransition() {
+  if (copymode) return;
+  for (const std::string &id : {placeholder_id(instance_me), history_id(instance_me)})
+    if (modify->find_fix(id) >= 0) modify->delete_fix(id);
+  if (!allocated) return;
+  memory->destroy(setflag);
+  memory->destroy(cutsq);
+}
+
+PairGranHookeTransition *PairGranHookeTransition::find(LAMMPS *lmp) {
+  return dynamic_cast<PairGranHookeTransition *>(lmp->force->pair);
+}
+
+const drumlin::ContactSource *drumlin::contact_source(engine::LAMMPS *lmp) {
+  return PairGranHookeTransition::find(lmp);
+}
+
+void PairGranHookeTransition::settings(int narg, char **arg) {
+  drumlin::Arguments in(error, std::string("pair_style ") + style_name, narg, arg);
+  settings_ = drumlin::read_settings(in);
+  // While the deck is parsed: a fix added later, in the initialization of a run, would miss that run.
+  if (!settings_.stock) FixStepping::provide(lmp);
+}
+
+void PairGranHookeTransition::allocate() {
+  allocated = 1;
+  const int n = atom->ntypes;
+  memory->create(setflag, n + 1, n + 1, "pair:setflag");
+  memory->create(cutsq, n + 1, n + 1, "pair:cutsq");
+  for (int i = 1; i <= n; ++i)
+    for (int j = 1; j <= n; ++j)
+      setflag[i][j] = 0;
+  stride_ = static_cast<std::size_t>(n) + 1;
+  coefficients_.assign(stride_ * stride_, {});
+}
+
+void PairGranHookeTransition::coeff(int narg, char **arg) {
+  drumlin::Arguments in(error, std::string("pair_coeff of ") + style_name, narg, arg);
+  const std::string types[2] = {in.word("types I"), in.word("types J")};
+  ContactCoefficients given = drumlin::read_coefficients(in, settings_);
+  if (!allocated) allocate();
+  int range[2][2];
+  for (int side = 0; side < 2; ++side)
+    utils::bounds(FLERR, types[side], 1, atom->ntypes, range[side][0], range[side][1], error);
+  int count = 0;
+  for (int i = range[0][0]; i <= range[0][1]; ++i)
+    for (int j = std::max(range[1][0], i); j <= range[1][1]; ++j) {
+      for (const std::size_t place : {static_cast<std::size_t>(i) * stride_ + static_cast<std::size_t>(j),
+                                      static_cast<std::size_t>(j) * stride_ + static_cast<std::size_t>(i)})
+        coefficients_[place] = given;
+      setflag[i][j] = 1;
+      ++count;
+    }
+  if (count == 0)
+    in.fail("types are '" + types[0] + "' and '" + types[1] + "'; allowed: types I <= J of the box");
+}
+
+void PairGranHookeTransition::check_engine() const {
+  const auto refuse = [this](const std::string &why) {
+    error->all(FLERR, (std::string("pair_style ") + style_name + ": " + why).c_str());
+  };
+  if (!atom->radius_flag || !atom->rmass_flag)
+    refuse("the atom style has no radius or no mass of its own; allowed: atom_style sphere");
+  if (comm->ghost_velocity == 0) refuse("ghosts have no velocity; allowed: comm_modify vel yes before");
+  if (force->newton_pair != 0) refuse("newton is on for pairs; allowed: newton off before the box");
+  for (int n = 0; n < modify->nfix; ++n)
+    if (modify->fix[n]->rigid_flag)
+      refuse(std::string("fix ") + modify->fix[n]->id + " (" + modify->fix[n]->style +
+             ") makes rigid bodies; allowed: fix clump");
+  if (settings_.stock) return;
+  for (int n = 0; n < modify->nfix && modify->fix[n] != FixStepping::find(lmp); ++n)
+    if (modify->fix[n]->time_integrate)
+      refuse(std::string("fix ") + modify->fix[n]->id + " (" + modify->fix[n]->style +
+             ") stands before it; allowed: pair_style before the fixes that integrate, or stepping stock");
+}
+
+void PairGranHookeTransition::init_style() {
+  check_engine();
+  const bool remembers = settings_.history() > 0;
+  engine::version::request_list(neighbor, this, instance_me, remembers);
+  if (remembers && history_ == nullptr)
+    history_ = static_cast<FixNeighHistory *>(modify->replace_fix(
+        placeholder_id(instance_me),
+        history_id(instance_me) + " all NEIGH_HISTORY " + std::to_string(settings_.history()), 1));
+  if (remembers) history_->pair = this;
+  stepping_ = settings_.stock ? nullptr : FixStepping::find(lmp);
+
+  freeze_groupbit_ = 0;
+  for (int n = 0; n < modify->nfix; ++n)
+    if (std::string(modify->fix[n]->style) == "freeze") freeze_groupbit_ = modify->fix[n]->groupbit;
+
+  const auto ntypes = static_cast<std::size_t>(atom->ntypes);
+  std::vector<double> mine(2 * (ntypes + 1), 0.0);
+  std::vector<double> all = mine;
+  for (int n = 0; n < modify->nfix; ++n) // balls that are still to come
+    if (const std::string style = modify->fix[n]->style; style == "pour" || style == "deposit")
+      for (int type = 1; type <= atom->ntypes; ++type) {
+        int extracted = type;
+        if (const auto *radius = static_cast<double *>(modify->fix[n]->extract("radius", extracted)))
+          mine[static_cast<std::size_t>(type)] = std::max(mine[static_cast<std::size_t>(type)], *radius);
+      }
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const bool frozen = atom->mask[i] & freeze_groupbit_;
+    double &reach = mine[static_cast<std::size_t>(atom->type[i]) + (frozen ? ntypes + 1 : 0)];
+    reach = std::max(reach, atom->radius[i]);
+  }
+  MPI_Allreduce(mine.data(), all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_MAX, world);
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(ntypes) + 1;
+  reach_.assign(all.begin(), middle);
+  frozen_reach_.assign(middle, all.end());
+}
+
+double PairGranHookeTransition::init_one(int i, int j) {
+  const auto a = static_cast<std::size_t>(i);
+  const auto b = static_cast<std::size_t>(j);
+  return std::max({reach_[a] + reach_[b], frozen_reach_[a] + reach_[b], reach_[a] + frozen_reach_[b]});
+}
+
+double PairGranHookeTransition::mass(int i) const {
+  if (atom->mask[i] & freeze_groupbit_) return std::numeric_limits<double>::infinity();
+  return FixClump::mass_of(*atom, i, atom->rmass[i]);
+}
+
+physics::Dashpots PairGranHookeTransition::wall_dashpots(int i) const {
+  physics::Dashpots all;
+  for (const FixWallGranTransition *wall : FixWallGranTransition::all()) {
+    const physics::LinearContact &law = at(atom->type[i], wall->type()).normal;
+    for (int side = 0; side < wall->sides(); ++side)
+      all.add(law.stiffness, physics::damping_coefficient(law, mass(i)));
+  }
+  return all;
+}
+
+const double *PairGranHookeTransition::tangential_spring(int i, int jj) const {
+  return history_->firstvalue[i] + static_cast<std::ptrdiff_t>(settings_.history()) * jj;
+}
+
+void PairGranHookeTransition::compute(int eflag, int vflag) {
+  ev_init(eflag, vflag);
+  const bool stepped = !settings_.stock;
+  switch (settings_.tangential) {
+  case FrictionModel::none:
+    return stepped ? compute_contacts<true, FrictionModel::none>()
+                   : compute_contacts<false, FrictionModel::none>();
+  case FrictionModel::no_history:
+    return stepped ? compute_contacts<true, FrictionModel::no_history>()
+                   : compute_contacts<false, FrictionModel::no_history>();
+  case FrictionModel::history:
+    return stepped ? compute_contacts<true, FrictionModel::history>()
+                   : compute_contacts<false, FrictionModel::history>();
+  }
+}
+
+template <bool stepped, FrictionModel tangential>
+void PairGranHookeTransition::compute_contacts() {
+  constexpr bool remembers = stepped || tangential == FrictionModel::history;
+  const int history_size = settings_.history();
+  const bool moves = update->setupflag == 0;
+  const bool a_may_end = stepped && moves && settings_.transition == physics::Transition::A;
+  const double dt = update->dt;
+  const int nlocal = atom->nlocal;
+  const double *const *x = atom->x;
+  const double *const *v = atom->v;
+  const double *radius = atom->radius;
+  double **f = atom->f;
+  double **torque = atom->torque;
+  const bool clumps = !FixClump::all().empty();
+  const bool told = !drumlin::ContactLedger::open().empty() || !drumlin::ContactWatch::looking().empty();
+
+  for (int ii = 0; ii < list->inum; ++ii) {
+    const int i = list->ilist[ii];
+    const int *neighbours = list->firstneigh[i];
+    int *touch = remembers ? history_->firstflag[i] : nullptr;
+    double *memory_of_i = remembers ? history_->firstvalue[i] : nullptr;
+    for (int jj = 0; jj < list->numneigh[i]; ++jj) {
+      const int j = neighbours[jj] & NEIGHMASK;
+      const double d[3] = {x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]};
+      const double squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+      const double reach = radius[i] + radius[j];
+      const bool touches = squared < reach * reach;
+      if (!touches && (!remembers || touch[jj] == 0)) continue;
+
+      const double distance = std::sqrt(squared);
+      const double inverse = 1.0 / distance;
+      const double normal[3] = {d[0] * inverse, d[1] * inverse, d[2] * inverse};
+      const double relative[3] = {v[i][0] - v[j][0], v[i][1] - v[j][1], v[i][2] - v[j][2]};
+      const ContactCoefficients &law = at(atom->type[i], atom->type[j]);
+      double mi = atom->rmass[i];
+      double mj = atom->rmass[j];
+      if (clumps) {
+        mi = FixClump::mass_of(*atom, i, mi);
+        mj = FixClump::mass_of(*atom, j, mj);
+      }
+      const bool i_frozen = atom->mask[i] & freeze_groupbit_;
+      const bool j_frozen = atom->mask[j] & freeze_groupbit_;
+      const double m_eff = j_frozen ? mi : i_frozen ? mj : physics::effective_mass(mi, mj);
+
+      drumlin::Contact p{};
+      p.normal.i = i;
+      p.normal.j = j;
+      p.normal.normal = normal;
+      p.normal.overlap = reach - distance;
+      p.normal.rate_half = -(relative[0] * normal[0] + relative[1] * normal[1] + relative[2] * normal[2]);
+      p.normal.k = law.normal.stiffness;
+      p.normal.c = physics::damping_coefficient(law.normal, m_eff);
+      p.normal.m_eff = m_eff;
+      p.normal.share = 1.0;
+      if constexpr (remembers) p.history = memory_of_i + static_cast<std::ptrdiff_t>(history_size) * jj;
+
+      drumlin::ContactForces forces{};
+      if (!touches) { // it did, a step ago
+        touch[jj] = 0;
+        std::fill_n(p.history, history_size, 0.0);
+        if constexpr (stepped)
+          if (a_may_end)
+            drumlin::SteppedContact(settings_.transition, *stepping_).end(p.normal, [&](double push) {
+              for (std::size_t a = 0; a < 3; ++a)
+                forces.force[a] += push * normal[a];
+            });
+      } else {
+        if constexpr (tangential != FrictionModel::none) {
+          p.arm_i = radius[i] - 0.5 * p.normal.overlap;
+          p.arm_j = radius[j] - 0.5 * p.normal.overlap;
+          const double *wi = atom->omega[i];
+          const double *wj = atom->omega[j];
+          const double spin[3] = {p.arm_i * wi[0] + p.arm_j * wj[0], p.arm_i * wi[1] + p.arm_j * wj[1],
+                                  p.arm_i * wi[2] + p.arm_j * wj[2]};
+          for (std::size_t a = 0; a < 3; ++a) {
+            const std::size_t b = (a + 1) % 3;
+            const std::size_t c = (a + 2) % 3;
+            p.slip[a] =
+                relative[a] + p.normal.rate_half * normal[a] - (spin[b] * normal[c] - spin[c] * normal[b]);
+          }
+        }
+        if constexpr (remembers) touch[jj] = 1;
+        forces = drumlin::exert<stepped, tangential>(settings_, law, stepping_, p, dt, moves);
+        if (told) report<stepped, tangential>(p, forces);
+      }
+      for (std::size_t a = 0; a < 3; ++a)
+        f[i][a] += forces.force[a];
+      if constexpr (tangential != FrictionModel::none)
+        for (std::size_t a = 0; a < 3; ++a)
+          torque[i][a] += forces.torque_i[a];
+      if (j < nlocal) {
+        for (std::size_t a = 0; a < 3; ++a)
+          f[j][a] -= forces.force[a];
+        if constexpr (tangential != FrictionModel::none)
+          for (std::size_t a = 0; a < 3; ++a)
+            torque[j][a] += forces.torque_j[a];
+      }
+      if (evflag)
+        ev_tally_xyz(i, j, nlocal, 0, 0.0, 0.0, forces.force[0], forces.force[1], forces.force[2], d[0], d[1],
+                     d[2]);
+    }
+  }
+}
+
+template <bool stepped, FrictionModel tangential>
+void PairGranHookeTransition::report(const drumlin::Contact &p, const drumlin::ContactForces &forces) const {
+  const int i = p.normal.i;
+  const int j = p.normal.j;
+  const ContactCoefficients &law = at(atom->type[i], atom->type[j]);
+  drumlin::enter(settings_, law, p, forces, std::min(atom->radius[i], atom->radius[j]));
+  drumlin::ShownContact shown{};
+  shown.i = i;
+  shown.j = j;
+  shown.tag_i = static_cast<int>(atom->tag[i]);
+  shown.tag_j = static_cast<int>(atom->tag[j]);
+  shown.owns_j = j < atom->nlocal;
+  shown.inverse_mi = 1.0 / mass(i);
+  shown.inverse_mj = 1.0 / mass(j);
+  shown.ri = atom->radius[i];
+  shown.rj = atom->radius[j];
+  shown.overlap = p.normal.overlap;
+  shown.normal = p.normal.normal;
+  shown.mass_over_inertia = 2.5; // of spheres, as fix nve/sphere turns them
+  drumlin::tell(settings_, law, p, shown);
+}
+
+/// The spring turns round when the balls change places, the force does not.
+void PairGranHookeTransition::transfer_history(double *source, double *target DRUMLIN_TRANSFER_TYPES) {
+  for (int n = 0; n < settings_.history(); ++n)
+    target[n] = n < settings_.spring() ? -source[n] : source[n];
+}
+
+void PairGranHookeTransition::write_restart(FILE *file) {
+  const int words[5] = {static_cast<int>(settings_.transition), static_cast<int>(settings_.damping),
+                        settings_.stock ? 1 : 0, static_cast<int>(settings_.tangential),
+                        static_cast<int>(settings_.cap)};
+  std::fwrite(words, sizeof(int), 5, file);
+  for (int i = 1; i <= atom->ntypes; ++i)
+    for (int j = i; j <= atom->ntypes; ++j) {
+      const ContactCoefficients &p = at(i, j);
+      const double numbers[7] = {static_cast<double>(setflag[i][j]),
+                                 p.normal.stiffness,
+                                 p.normal.damping,
+                                 p.friction,
+                                 p.tangential_stiffness,
+                                 p.tangential_damping,
+                                 p.tangential_damping_share};
+      std::fwrite(numbers, sizeof(double), 7, file);
+    }
+}
+
+void PairGranHookeTransition::read_restart(FILE *file) {
+  int words[5] = {};
+  if (comm->me == 0) utils::sfread(FLERR, words, sizeof(int), 5, file, nullptr, error);
+  MPI_Bcast(words, 5, MPI_INT, 0, world);
+  settings_ = {static_cast<physics::Transition>(words[0]), static_cast<physics::Damping>(words[1]),
+               words[2] != 0, static_cast<FrictionModel>(words[3]), static_cast<physics::Cap>(words[4])};
+  if (!settings_.stock) FixStepping::provide(lmp);
+  allocate();
+  for (int i = 1; i <= atom->ntypes; ++i)
+    for (int j = i; j <= atom->ntypes; ++j) {
+      double numbers[7] = {};
+      if (comm->me == 0) utils::sfread(FLERR, numbers, sizeof(double), 7, file, nullptr, error);
+      MPI_Bcast(numbers, 7, MPI_DOUBLE, 0, world);
+      setflag[i][j] = static_cast<int>(numbers[0]);
+      ContactCoefficients p;
+      p.normal = {numbers[1], numbers[2], settings_.damping, settings_.transition};
+      p.friction = numbers[3];
+      p.tangential_stiffness = numbers[4];
+      p.tangential_damping = numbers[5];
+      p.tangential_damping_share = numbers[6];
+      for (const std::size_t place : {static_cast<std::size_t>(i) * stride_ + static_cast<std::size_t>(j),
+                                      static_cast<std::size_t>(j) * stride_ + static_cast<std::size_t>(i)})
+        coefficients_[place] = p;
+    }
+}
+
+double PairGranHookeTransition::atom2cut(int i) { return 2.0 * atom->radius[i]; }
+double PairGranHookeTransition::radii2cut(double r1, double r2) { return r1 + r2; }

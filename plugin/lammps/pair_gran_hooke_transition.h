@@ -1,0 +1,66 @@
+#pragma once
+// pair_style gran/hooke/transition: see plugin/doc/pair_gran_hooke_transition.md.
+
+#include "engine.h"
+#include "fixes/contact_source.h"
+#include "lammps/contact_terms.h"
+
+namespace LAMMPS_NS {
+
+class FixNeighHistory;
+class FixWallGranTransition;
+
+/// The transition law between balls: the core's laws, with the neighbour history of gran/hooke/history.
+class PairGranHookeTransition : public Pair, public drumlin::ContactSource {
+public:
+  explicit PairGranHookeTransition(LAMMPS *);
+  ~PairGranHookeTransition() override;
+
+  void compute(int, int) override;
+  void settings(int, char **) override;
+  void coeff(int, char **) override;
+  void init_style() override;
+  double init_one(int, int) override;
+  void write_restart(FILE *) override;
+  void read_restart(FILE *) override;
+  void transfer_history(double *, double *DRUMLIN_TRANSFER_TYPES) override;
+  double memory_usage() override { return 0.0; }
+  double atom2cut(int) override;
+  double radii2cut(double, double) override;
+
+  const drumlin::physics::LinearContact &law(int itype, int jtype) const override {
+    return at(itype, jtype).normal;
+  }
+  double mass(int i) const override;
+  drumlin::physics::Dashpots wall_dashpots(int i) const override;
+  drumlin::FrictionModel friction_model() const override { return settings_.tangential; }
+  drumlin::physics::Friction friction(int itype, int jtype, double c) const override {
+    return at(itype, jtype).tangential(c, settings_.cap);
+  }
+  const double *tangential_spring(int i, int jj) const override;
+
+  /// The pair style of this engine instance, or nullptr if it is another.
+  static PairGranHookeTransition *find(LAMMPS *lmp);
+  const drumlin::ContactSettings &contact_settings() const { return settings_; }
+  const drumlin::ContactCoefficients &at(int itype, int jtype) const {
+    return coefficients_[static_cast<std::size_t>(itype) * stride_ + static_cast<std::size_t>(jtype)];
+  }
+
+private:
+  void allocate();
+  template <bool stepped, drumlin::FrictionModel tangential>
+  void compute_contacts();
+  template <bool stepped, drumlin::FrictionModel tangential>
+  [[gnu::noinline]] void report(const drumlin::Contact &, const drumlin::ContactForces &) const;
+  void check_engine() const;
+
+  drumlin::ContactSettings settings_;
+  std::size_t stride_ = 0;
+  std::vector<drumlin::ContactCoefficients> coefficients_;
+  FixNeighHistory *history_ = nullptr;
+  FixStepping *stepping_ = nullptr;
+  int freeze_groupbit_ = 0;
+  std::vector<double> reach_, frozen_reach_; // greatest radius by type, m
+};
+
+} // namespace LAMMPS_NS

@@ -1,0 +1,209 @@
+// LAMMPS against LIGGGHTS: the same fixes and laws under another pair style, walls and neighbour history of its own. The difference
+// that is allowed is rounding: what grows of it is the scene's doing.
+#include "engine.h"
+
+#include "analysis.h"
+#include "direct_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Everything here needs an lmp with the plugin.
+class InLammps : public ::testing::Test {
+protected:
+  void SetUp() override {
+    if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  }
+};
+
+struct Chain {
+  const char *name;
+  post::Transition transition;
+  const char *stepping;
+};
+
+void PrintTo(const Chain &chain, std::ostream *out) {
+  *out << chain.name << post::transition_name(chain.transition) << chain.stepping;
+}
+
+class InLammpsChain : public InLammps, public ::testing::WithParamInterface<Chain> {};
+
+std::string chain_name(const ::testing::TestParamInfo<Chain> &info) {
+  return info.param.name + post::transition_name(info.param.transition) + "_" + info.param.stepping;
+}
+
+TEST_P(InLammpsChain, IsThatOfLiggghtsAndFollowsTheDirectSolver) {
+  const Variables variables = {{"case", GetParam().name},
+                               {"transition", post::transition_name(GetParam().transition)},
+                               {"stepping", GetParam().stepping}};
+  const Scratch lammps, liggghts;
+  const Outcome there = run_deck(chain_deck("in.chain.lammps"), variables, lammps.path());
+  ASSERT_TRUE(there.ok()) << there.output;
+  const Outcome here = run_deck(chain_deck("in.chain"), variables, liggghts.path());
+  ASSERT_TRUE(here.ok()) << here.output;
+  const ChainRun a = read_run(lammps.path()), b = read_run(liggghts.path());
+  for (const auto column :
+       {&post::ChainHistory::x_drum, &post::ChainHistory::v_drum, &post::ChainHistory::a_drum,
+        &post::ChainHistory::x_frame, &post::ChainHistory::v_frame, &post::ChainHistory::a_frame,
+        &post::ChainHistory::F_contact, &post::ChainHistory::F_bond})
+    EXPECT_LT(relative_difference(a.history.*column, b.history.*column), 1e-9);
+  EXPECT_EQ(a.history.F_excitation, b.history.F_excitation);
+  ASSERT_EQ(a.events.size(), b.events.size());
+  for (std::size_t n = 0; n < a.events.size(); ++n) {
+    EXPECT_EQ(a.events[n].make, b.events[n].make) << "event " << n;
+    EXPECT_NEAR(a.events[n].time, b.events[n].time, 1e-9 * b.events[n].time) << "event " << n;
+  }
+
+  const post::ChainParameters p = post::table1_case(GetParam().name, GetParam().transition);
+  post::DirectOptions options;
+  options.cycles = 30;
+  options.samples_per_cycle = 200;
+  const post::ChainHistory truth = post::solve_direct(p, options).history;
+  ASSERT_EQ(a.history.size(), truth.size());
+  const double error = post::relative_rms(a.history.v_drum, truth.v_drum, 25 * 200, truth.size());
+  EXPECT_LT(error, std::string(GetParam().stepping) == "second" ? 1e-4 : 5e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table1, InLammpsChain,
+    ::testing::Values(Chain{"I", post::Transition::A, "second"}, Chain{"I", post::Transition::B, "second"},
+                      Chain{"II", post::Transition::A, "second"}, Chain{"II", post::Transition::B, "second"},
+                      Chain{"III", post::Transition::A, "second"},
+                      Chain{"III", post::Transition::B, "second"}, Chain{"IV", post::Transition::A, "second"},
+                      Chain{"IV", post::Transition::B, "second"}, Chain{"II", post::Transition::A, "stock"},
+                      Chain{"II", post::Transition::B, "stock"}),
+    chain_name);
+
+/// Largest distance of two states in position, m, over the frames.
+double distance(const std::vector<Frame> &a, const std::vector<Frame> &b) {
+  if (a.size() != b.size()) return std::numeric_limits<double>::infinity();
+  double largest = 0.0;
+  for (std::size_t n = 0; n < a.size(); ++n) {
+    if (a[n].step != b[n].step || a[n].balls.size() != b[n].balls.size())
+      return std::numeric_limits<double>::infinity();
+    for (const auto &[id, ball] : a[n].balls)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        largest = std::max(largest, std::fabs(ball.x[axis] - b[n].balls.at(id).x[axis]));
+  }
+  return largest;
+}
+
+struct Bounce {
+  const char *name;
+  Variables variables;
+};
+
+void PrintTo(const Bounce &bounce, std::ostream *out) { *out << bounce.name; }
+
+std::string bounce_name(const ::testing::TestParamInfo<Bounce> &info) { return info.param.name; }
+
+class InLammpsBounce : public InLammps, public ::testing::WithParamInterface<Bounce> {};
+
+TEST_P(InLammpsBounce, GoesAsInLiggghtsOnRanksOneAndTwo) {
+  const Scratch liggghts;
+  const Outcome here = run_deck(test_deck("bounce.in"), GetParam().variables, liggghts.path());
+  ASSERT_TRUE(here.ok()) << here.output;
+  const std::vector<Frame> expected = read_dump(liggghts / "balls.txt");
+  // There is something to compare: balls that have met walls and one another and turn.
+  ASSERT_EQ(expected.size(), 13u);
+  double fastest_turn = 0.0;
+  for (const auto &[id, ball] : expected.back().balls)
+    fastest_turn = std::max(fastest_turn, std::fabs(ball.omega[1]));
+  EXPECT_EQ(fastest_turn > 1.0, std::string(GetParam().name) != "without_friction");
+  for (const int ranks : {1, 2}) {
+    const Scratch lammps;
+    const Outcome there = run_deck(test_deck("bounce.lammps"), GetParam().variables, lammps.path(), ranks);
+    ASSERT_TRUE(there.ok()) << there.output;
+    EXPECT_LT(distance(read_dump(lammps / "balls.txt"), expected), 1e-9) << "ranks " << ranks;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Balls, InLammpsBounce,
+                         ::testing::Values(Bounce{"B", {}}, Bounce{"A", {{"transition", "A"}}},
+                                           Bounce{"stock", {{"stepping", "stock"}}},
+                                           Bounce{"without_friction", {{"tangential", "off"}, {"mu", "-1"}}},
+                                           Bounce{"without_spring", {{"tangential", "no_history"}}},
+                                           Bounce{"heavy_dashpots", {{"D", "2"}}}),
+                         bounce_name);
+
+TEST_F(InLammps, GoesOnFromARestartFileBitwiseOnRanksOneAndTwo) {
+  for (const int ranks : {1, 2}) {
+    const Scratch stayed, left;
+    const Outcome whole = run_deck(test_deck("bounce.lammps"), {}, stayed.path(), ranks);
+    ASSERT_TRUE(whole.ok()) << whole.output;
+    const Outcome resumed = run_deck(test_deck("bounce.resume.lammps"),
+                                     {{"start", (stayed / "first.restart").string()}}, left.path(), ranks);
+    ASSERT_TRUE(resumed.ok()) << resumed.output;
+    const std::string all = read_text(stayed / "balls.txt"), second = read_text(left / "balls.txt");
+    const std::size_t begin = all.find("ITEM: TIMESTEP\n7000\n");
+    ASSERT_NE(begin, std::string::npos);
+    EXPECT_EQ(all.substr(begin), second.substr(second.find("ITEM: TIMESTEP\n7000\n"))) << "ranks " << ranks;
+  }
+}
+
+TEST_F(InLammps, SaysWhatIsWrongInOneLine) {
+  const std::string pair = "pair_style gran/hooke/transition", coeff = "pair_coeff of gran/hooke/transition",
+                    wall = "fix wall/gran/transition";
+  struct Bad {
+    std::string line;
+    std::vector<std::string> says;
+  };
+  const std::string good = "pair_style gran/hooke/transition\npair_coeff * * 1e5 0.2\n";
+  const Bad bad[] = {
+      {"pair_style gran/hooke/transition transition C",
+       {pair, "keyword transition is 'C'", "allowed: A or B"}},
+      {"pair_style gran/hooke/transition stepping third",
+       {pair, "keyword stepping is 'third'", "second or stock"}},
+      {"pair_style gran/hooke/transition rolling on",
+       {pair, "unknown keyword 'rolling'", "allowed: transition"}},
+      {"pair_style gran/hooke/transition damping", {pair, "keyword damping has no value"}},
+      {"pair_style gran/hooke/transition\npair_coeff * * -1 0.2",
+       {coeff, "normal stiffness k is '-1'", "a finite number > 0"}},
+      {"pair_style gran/hooke/transition\npair_coeff * * 1e5", {coeff, "damping ratio D has no value"}},
+      {"pair_style gran/hooke/transition\npair_coeff * * 1e5 0.2 0.4",
+       {coeff, "'0.4' is left over", "tangential"}},
+      {"pair_style gran/hooke/transition tangential history\npair_coeff * * 1e5 0.2 nan",
+       {coeff, "friction coefficient mu is 'nan'"}},
+      {good + "fix floor all wall/gran/transition 3 zplane 0 NULL",
+       {wall, "type of the wall is '3'", "1 to 2"}},
+      {good + "fix floor all wall/gran/transition 2 zcylinder 0 NULL",
+       {wall, "'zcylinder'", "xplane, yplane or zplane"}},
+      {good + "fix floor all wall/gran/transition 2 zplane NULL NULL", {wall, "both places are NULL"}},
+      {good + "fix floor all wall/gran/transition 2 zplane 1 0", {wall, "allowed: LOW < HIGH"}},
+      {"pair_style gran/hooke/history 1e5 NULL 1 NULL 0.4 1\npair_coeff * *\nfix floor all "
+       "wall/gran/transition 2 zplane 0 NULL",
+       {wall, "the pair style is another", "gran/hooke/transition"}},
+      {"fix early all nve/sphere\n" + good,
+       {pair, "fix early (nve/sphere) stands before it", "stepping stock"}},
+      {good + "fix guard all guard every 0", {"fix guard", "keyword every is '0'"}},
+      {good + "fix excite all drum/excite amplitude 1 omega -1",
+       {"fix drum/excite", "keyword omega is '-1'"}},
+      {"drumlin/check k 0 positive", {"drumlin/check", "variable k is '0'", "a finite number > 0"}},
+  };
+  for (const Bad &input : bad) {
+    const Scratch folder;
+    std::ofstream(folder / "lines") << input.line << "\nrun 1\n";
+    const Outcome outcome = run_deck(fs::path(DRUMLIN_SOURCE_DIR) / "tests/input/host.lammps",
+                                     {{"lines", (folder / "lines").string()}}, folder.path());
+    EXPECT_EQ(outcome.status, 1) << input.line << "\n" << outcome.output;
+    const std::string error = post::engine_error(outcome.output);
+    for (const std::string &text : input.says)
+      EXPECT_NE(error.find(text), std::string::npos) << input.line << "\n" << error << "\nmisses: " << text;
+  }
+}
+
+} // namespace
+} // namespace drumlin::test
