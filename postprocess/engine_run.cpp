@@ -118,8 +118,8 @@ Outcome run_deck(const fs::path &deck, const Variables &variables, const fs::pat
       words.insert(words.end(), {"-x", entry});
     environment.clear(); // for the ranks, not for mpirun
   }
-  words.insert(words.end(), {lammps ? DRUMLIN_LAMMPS_PROGRAM : "liggghts", "-in", deck.string(), "-log", "none",
-                             "-var", "out", folder.string()});
+  words.insert(words.end(), {lammps ? DRUMLIN_LAMMPS_PROGRAM : "liggghts", "-in", deck.string(), "-log",
+                             "none", "-var", "out", folder.string()});
   if (lammps) words.insert(words.end(), {"-var", "plugin", DRUMLIN_LAMMPS_PLUGIN});
   for (const auto &[name, value] : variables)
     words.insert(words.end(), {"-var", name, value});

@@ -33,7 +33,8 @@ PairGranHookeTransition::PairGranHookeTransition(LAMMPS *lammps) : Pair(lammps) 
   centroidstressflag = CENTROID_NOTAVAIL;
   finitecutflag = 1;
   nondefault_history_transfer = 1;
-  beyond_contact = 1; // a contact that ends in the step of a new neighbour list must be known to have been one
+  beyond_contact =
+      1; // a contact that ends in the step of a new neighbour list must be known to have been one
   // Holds the place of the history among the fixes, which is the order of their calls.
   modify->add_fix(placeholder_id(instance_me) + " all DUMMY");
 }

@@ -47,7 +47,8 @@ std::vector<Frame> read_dump(const fs::path &file) {
     } else if (line == "ITEM: NUMBER OF ATOMS") {
       in >> balls;
     } else if (line.rfind("ITEM: ATOMS", 0) == 0) {
-      if (line != columns && line != columns + " ") throw std::runtime_error(file.string() + ": unexpected columns: " + line);
+      if (line != columns && line != columns + " ")
+        throw std::runtime_error(file.string() + ": unexpected columns: " + line);
       for (long n = 0; n < balls; ++n) {
         long id = 0;
         Ball ball;
