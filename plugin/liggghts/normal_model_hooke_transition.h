@@ -197,8 +197,13 @@ private:
     j_forces.delta_F[2] -= z;
   }
 
-  /// A jump like the make: the tensile force acted for part of the step that ends with the balls apart.
+  /// A jump like the make: the tensile force acted for part of the step that ends with the balls apart. The record says that they
+  /// touched a step ago; their motion alone, along a normal that turns, may say so twice.
   void break_of_a(SurfacesCloseData &scdata, ForceData &i_forces, ForceData &j_forces) {
+    if (scdata.contact_history == nullptr) return;
+    double &force_before = scdata.contact_history[force_before_offset_];
+    if (force_before == 0.0) return;
+    force_before = 0.0;
     const double r = std::sqrt(scdata.rsq);
     const double normal[3] = {scdata.delta[0] / r, scdata.delta[1] / r, scdata.delta[2] / r};
     double rate_half = 0.0;
@@ -230,7 +235,7 @@ private:
     p.rj = sidata.is_wall ? sidata.radi : sidata.radj;
     p.overlap = sidata.deltan;
     p.normal = sidata.en;
-    p.mass_over_inertia = domain->dimension == 2 ? 2.0 : 2.5; // as fix nve/sphere turns balls
+    p.mass_over_inertia = 1.0 / drumlin::engine::inertia_share(lmp);
     p.normal_spring = share * sidata.kn;
     if (!stepping_) p.normal_dashpot = share * sidata.gamman;
     if (tangential_spring_) p.tangential_spring = share * sidata.kt;
