@@ -66,6 +66,14 @@ RestartNotes notes_of(const std::string &file) {
   return notes;
 }
 
+/// Engines do not read each other's restart files.
+RestartNotes with_engine(const RestartNotes &notes) {
+  const std::string engine = engine::name_and_version();
+  RestartNotes all = {{"engine", engine.substr(0, engine.find(' '))}};
+  all.insert(all.end(), notes.begin(), notes.end());
+  return all;
+}
+
 /// Whether a line is at least so many numbers and nothing else.
 bool is_numbers(const std::string &line, std::size_t least) {
   std::istringstream words(line);
@@ -110,7 +118,7 @@ void write_noted_restart(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const 
     const std::uintmax_t bytes = fs::file_size(unfinished, code);
     if (!code) {
       std::ofstream out(unfinished, std::ios::binary | std::ios::app);
-      RestartNotes all = notes;
+      RestartNotes all = with_engine(notes);
       for (const auto &note : sum_notes(unfinished, bytes))
         all.push_back(note);
       out << notes_text(all) << std::flush;
@@ -131,7 +139,7 @@ std::string restart_fault(const std::string &file, const RestartNotes &notes) {
   if (found.empty())
     return "; allowed: a whole restart file of drumlin/write_restart or drumlin/run, and this one is cut "
            "short, damaged or none";
-  for (const auto &[name, value] : notes) {
+  for (const auto &[name, value] : with_engine(notes)) {
     const auto same_name = [&name = name](const auto &note) { return note.first == name; };
     const auto note = std::find_if(found.begin(), found.end(), same_name);
     const std::string was = note == found.end() ? "nothing" : note->second;

@@ -77,7 +77,7 @@ ContactSums BedState::contacts(const Vec3 &axis) const {
 BallSums BedState::balls(const Vec3 &axis, double window_top) const {
   const LAMMPS_NS::Atom &atom = *lmp_->atom;
   const bool flat = lmp_->domain->dimension == 2;
-  const double inertia = flat ? 0.5 : 0.4; // I / (m r^2), as fix nve/sphere turns balls
+  const double inertia = engine::inertia_share(lmp_);
   constexpr double pi = 3.141592653589793;
   BallSums mine;
   for (int i = 0; i < atom.nlocal; ++i) {

@@ -2,6 +2,7 @@
 
 #include "fixes/arguments.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace drumlin {

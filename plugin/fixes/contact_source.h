@@ -18,7 +18,6 @@ enum class FrictionModel { none, no_history, history };
 /// The contact law in force, as the pair style applies it.
 class ContactSource {
 public:
-  virtual ~ContactSource() = default;
   /// Law of a pair of types (1..ntypes).
   virtual const physics::LinearContact &law(int itype, int jtype) const = 0;
   /// Mass (kg) of ball i (local or ghost index) as its contacts feel it: infinite if it is frozen, the body's if it belongs to a
@@ -39,6 +38,9 @@ public:
   /// Tangential spring (m, three components) of ball i and its jj-th neighbour in the pair list, as ball i feels it; valid
   /// until the list is built anew. For FrictionModel::history only.
   virtual const double *tangential_spring(int i, int jj) const = 0;
+
+protected:
+  ~ContactSource() = default;
 };
 
 /// Source of the pair style of this engine instance, or nullptr if the pair style is not hooke/transition.

@@ -15,7 +15,6 @@ public:
   ContactWatch() = default;
   ContactWatch(const ContactWatch &) = delete;
   ContactWatch &operator=(const ContactWatch &) = delete;
-  virtual ~ContactWatch() { stop_looking(); }
 
   /// One side of a link. Whoever computes a link calls this for each ball of it that this rank owns.
   /// \param i the ball, owned
@@ -27,6 +26,7 @@ public:
   static const std::vector<ContactWatch *> &looking() { return list(); }
 
 protected:
+  ~ContactWatch() { stop_looking(); }
   void start_looking() {
     stop_looking();
     list().push_back(this);

@@ -97,7 +97,7 @@ FixBondSpring::State FixBondSpring::share_state() {
                            tags_[all[0].found != 1.0 ? 0 : 1], update->ntimestep)
                    .c_str());
   std::array<double, 3> d{all[1].x[0] - all[0].x[0], all[1].x[1] - all[0].x[1], all[1].x[2] - all[0].x[2]};
-  domain->minimum_image(d[0], d[1], d[2]);
+  drumlin::engine::minimum_image(domain, d);
   State s{};
   s.distance = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
   s.inverse_masses = all[0].inverse_mass + all[1].inverse_mass;

@@ -2,6 +2,7 @@
 // Kinematics of a pair of balls at the end of a step, when position and velocity belong to the same instant.
 
 #include "engine.h"
+#include "physics/friction_law.h"
 
 #include <cmath>
 
@@ -35,16 +36,12 @@ inline std::array<double, 3> tangential_velocity(const LAMMPS_NS::Atom &atom, in
                                                  const PairMotion &m) {
   const double arm_i = atom.radius[i] - 0.5 * m.overlap;
   const double arm_j = atom.radius[j] - 0.5 * m.overlap;
-  std::array<double, 3> spin{}, slip{};
-  for (std::size_t a = 0; a < 3; ++a)
-    spin[a] = arm_i * atom.omega[i][a] + arm_j * atom.omega[j][a];
+  physics::Vec3 relative{}, turning{};
   for (std::size_t a = 0; a < 3; ++a) {
-    const std::size_t b = (a + 1) % 3;
-    const std::size_t c = (a + 2) % 3;
-    slip[a] =
-        atom.v[i][a] - atom.v[j][a] + m.rate * m.normal[a] - (spin[b] * m.normal[c] - spin[c] * m.normal[b]);
+    relative[a] = atom.v[i][a] - atom.v[j][a];
+    turning[a] = arm_i * atom.omega[i][a] + arm_j * atom.omega[j][a];
   }
-  return slip;
+  return physics::slip_velocity(relative, m.normal, turning);
 }
 
 /// Packs owned velocities for the ghosts, and takes them there: the pair style leaves ghosts at the half-step

@@ -9,6 +9,7 @@
 #include "physics/friction_law.h"
 
 #include <array>
+#include <type_traits>
 
 namespace drumlin {
 
@@ -98,6 +99,22 @@ inline ContactForces exert(const ContactSettings &settings, const ContactCoeffic
   for (std::size_t a = 0; a < 3; ++a)
     out.force[a] = push * n.normal[a] + out.tangential_force[a];
   return out;
+}
+
+/// Calls run(stepped, tangential) with what the settings choose, as constants by their types.
+template <class Run>
+void with_models(const ContactSettings &settings, Run &&run) {
+  const auto with_stepping = [&](auto tangential) {
+    settings.stock ? run(std::false_type{}, tangential) : run(std::true_type{}, tangential);
+  };
+  switch (settings.tangential) {
+  case FrictionModel::none:
+    return with_stepping(std::integral_constant<FrictionModel, FrictionModel::none>{});
+  case FrictionModel::no_history:
+    return with_stepping(std::integral_constant<FrictionModel, FrictionModel::no_history>{});
+  case FrictionModel::history:
+    return with_stepping(std::integral_constant<FrictionModel, FrictionModel::history>{});
+  }
 }
 
 /// Enters a contact into the ledgers that are open.

@@ -7,6 +7,8 @@
 #include "domain.h"
 #include "error.h"
 #include "fix.h"
+#include "fix_freeze.h"
+#include "fix_setforce.h"
 #include "force.h"
 #include "group.h"
 #include "input.h"
@@ -63,16 +65,6 @@ constexpr int closes_forces = LAMMPS_NS::FixConst::FINAL_INTEGRATE;
 
 inline void set_up_run(LAMMPS_NS::Integrate *integrate) { integrate->setup(1); }
 
-/// Tells the user: on the screen and in the log file, at once. Rank 0 speaks, the others may call it too.
-inline void say(const LAMMPS *lmp, const std::string &text) {
-  if (lmp->comm->me != 0) return;
-  for (FILE *out : {lmp->screen, lmp->logfile})
-    if (out != nullptr) {
-      std::fputs(text.c_str(), out);
-      std::fflush(out);
-    }
-}
-
 /// Whether the command `timer timeout` has told the engine to stop: it then ends each run. (A signal ends LAMMPS itself.) Collective.
 inline bool told_to_stop(const LAMMPS *lmp) { return lmp->timer->is_timeout(); }
 
@@ -90,22 +82,14 @@ inline std::array<double, 3> gravity(LAMMPS_NS::Modify *modify) {
   return {0.0, 0.0, 0.0};
 }
 
-/// The sums of force, N, x to z, that a fix freeze or setforce has taken from this rank's balls in this step and gives as its
-/// output; nullptr for another fix.
-double *reaction(LAMMPS_NS::Fix *fix);
-
-/// A fix by its ID, or nullptr.
-inline LAMMPS_NS::Fix *find_fix(LAMMPS_NS::Modify *modify, const std::string &id) {
-  const int index = modify->find_fix(id);
-  return index < 0 ? nullptr : modify->fix[index];
+/// The shortest of a vector's periodic images, m.
+inline void minimum_image(LAMMPS_NS::Domain *domain, std::array<double, 3> &d) {
+  version::minimum_image(domain, d.data());
 }
 
-/// Neighbour list of the pair style, each pair once (twice across ranks with newton off), or nullptr.
-inline LAMMPS_NS::NeighList *pair_list(LAMMPS_NS::Force *force) {
-  return force->pair != nullptr ? force->pair->list : nullptr;
-}
-
-/// Index of a neighbour without the bits that the engine packs into it.
-inline int neighbour_index(int packed) { return packed & NEIGHMASK; }
+/// I / (m r^2) of balls, as fix nve/sphere turns them: a disc's with its keyword `disc`.
+double inertia_share(const LAMMPS *lmp);
 
 } // namespace drumlin::engine
+
+#include "fixes/both_engines.h"

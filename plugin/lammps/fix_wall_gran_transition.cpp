@@ -73,18 +73,9 @@ void FixWallGranTransition::setup(int vflag) { post_force(vflag); }
 
 void FixWallGranTransition::post_force(int) {
   force_ = {};
-  const drumlin::ContactSettings &settings = pair_->contact_settings();
-  const bool stepped = !settings.stock;
-  switch (settings.tangential) {
-  case FrictionModel::none:
-    return stepped ? touch_balls<true, FrictionModel::none>() : touch_balls<false, FrictionModel::none>();
-  case FrictionModel::no_history:
-    return stepped ? touch_balls<true, FrictionModel::no_history>()
-                   : touch_balls<false, FrictionModel::no_history>();
-  case FrictionModel::history:
-    return stepped ? touch_balls<true, FrictionModel::history>()
-                   : touch_balls<false, FrictionModel::history>();
-  }
+  drumlin::with_models(pair_->contact_settings(), [this](auto stepped, auto tangential) {
+    touch_balls<decltype(stepped)::value, decltype(tangential)::value>();
+  });
 }
 
 template <bool stepped, FrictionModel tangential>
@@ -130,13 +121,11 @@ void FixWallGranTransition::touch_balls() {
       } else {
         remembered[0] = 1.0;
         p.arm_i = atom->radius[i] - 0.5 * p.normal.overlap; // as between balls
-        if constexpr (tangential != FrictionModel::none)
-          for (std::size_t a = 0; a < 3; ++a) {
-            const std::size_t b = (a + 1) % 3;
-            const std::size_t c = (a + 2) % 3;
-            p.slip[a] = v[a] + p.normal.rate_half * normal[a] -
-                        p.arm_i * (atom->omega[i][b] * normal[c] - atom->omega[i][c] * normal[b]);
-          }
+        if constexpr (tangential != FrictionModel::none) {
+          const double *w = atom->omega[i];
+          p.slip = physics::slip_velocity({v[0], v[1], v[2]}, {normal[0], normal[1], normal[2]},
+                                          {p.arm_i * w[0], p.arm_i * w[1], p.arm_i * w[2]});
+        }
         forces = drumlin::exert<stepped, tangential>(settings, law, stepping_, p, update->dt, moves);
         if (told) {
           drumlin::enter(settings, law, p, forces, atom->radius[i]);
@@ -148,7 +137,7 @@ void FixWallGranTransition::touch_balls() {
           shown.ri = shown.rj = atom->radius[i];
           shown.overlap = p.normal.overlap;
           shown.normal = normal;
-          shown.mass_over_inertia = 2.5; // of spheres, as fix nve/sphere turns them
+          shown.mass_over_inertia = 1.0 / drumlin::engine::inertia_share(lmp);
           drumlin::tell(settings, law, p, shown);
         }
       }

@@ -2,6 +2,7 @@
 // Where the versions of LAMMPS differ that the plugin can be built for: 29 Sep 2021 (Debian 12) and those of 2024 on.
 
 #include "comm.h"
+#include "domain.h"
 #include "fix.h"
 #include "lmptype.h"
 #include "neigh_request.h"
@@ -21,6 +22,14 @@ inline void forward_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Fix *fix) {
   comm->forward_comm_fix(fix);
 #else
   comm->forward_comm(fix);
+#endif
+}
+
+inline void minimum_image(LAMMPS_NS::Domain *domain, double *d) {
+#if DRUMLIN_LAMMPS_2021
+  domain->minimum_image(d[0], d[1], d[2]);
+#else
+  domain->minimum_image(FLERR, d);
 #endif
 }
 

@@ -178,18 +178,9 @@ const double *PairGranHookeTransition::tangential_spring(int i, int jj) const {
 
 void PairGranHookeTransition::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
-  const bool stepped = !settings_.stock;
-  switch (settings_.tangential) {
-  case FrictionModel::none:
-    return stepped ? compute_contacts<true, FrictionModel::none>()
-                   : compute_contacts<false, FrictionModel::none>();
-  case FrictionModel::no_history:
-    return stepped ? compute_contacts<true, FrictionModel::no_history>()
-                   : compute_contacts<false, FrictionModel::no_history>();
-  case FrictionModel::history:
-    return stepped ? compute_contacts<true, FrictionModel::history>()
-                   : compute_contacts<false, FrictionModel::history>();
-  }
+  drumlin::with_models(settings_, [this](auto stepped, auto tangential) {
+    compute_contacts<decltype(stepped)::value, decltype(tangential)::value>();
+  });
 }
 
 template <bool stepped, FrictionModel tangential>
@@ -264,14 +255,10 @@ void PairGranHookeTransition::compute_contacts() {
           p.arm_j = radius[j] - 0.5 * p.normal.overlap;
           const double *wi = atom->omega[i];
           const double *wj = atom->omega[j];
-          const double spin[3] = {p.arm_i * wi[0] + p.arm_j * wj[0], p.arm_i * wi[1] + p.arm_j * wj[1],
-                                  p.arm_i * wi[2] + p.arm_j * wj[2]};
-          for (std::size_t a = 0; a < 3; ++a) {
-            const std::size_t b = (a + 1) % 3;
-            const std::size_t c = (a + 2) % 3;
-            p.slip[a] =
-                relative[a] + p.normal.rate_half * normal[a] - (spin[b] * normal[c] - spin[c] * normal[b]);
-          }
+          p.slip = physics::slip_velocity(
+              {relative[0], relative[1], relative[2]}, {normal[0], normal[1], normal[2]},
+              {p.arm_i * wi[0] + p.arm_j * wj[0], p.arm_i * wi[1] + p.arm_j * wj[1],
+               p.arm_i * wi[2] + p.arm_j * wj[2]});
         }
         if constexpr (remembers) touch[jj] = 1;
         forces = drumlin::exert<stepped, tangential>(settings_, law, stepping_, p, dt, moves);
@@ -314,7 +301,7 @@ void PairGranHookeTransition::report(const drumlin::Contact &p, const drumlin::C
   shown.rj = atom->radius[j];
   shown.overlap = p.normal.overlap;
   shown.normal = p.normal.normal;
-  shown.mass_over_inertia = 2.5; // of spheres, as fix nve/sphere turns them
+  shown.mass_over_inertia = 1.0 / engine::inertia_share(lmp);
   drumlin::tell(settings_, law, p, shown);
 }
 
@@ -368,6 +355,3 @@ void PairGranHookeTransition::read_restart(FILE *file) {
         coefficients_[place] = p;
     }
 }
-
-double PairGranHookeTransition::atom2cut(int i) { return 2.0 * atom->radius[i]; }
-double PairGranHookeTransition::radii2cut(double r1, double r2) { return r1 + r2; }

@@ -25,8 +25,10 @@ public:
   void read_restart(FILE *) override;
   void transfer_history(double *, double *DRUMLIN_TRANSFER_TYPES) override;
   double memory_usage() override { return 0.0; }
-  double atom2cut(int) override;
-  double radii2cut(double, double) override;
+#if DRUMLIN_LAMMPS_2021 // later the engine takes it from the radii
+  double atom2cut(int i) override { return 2.0 * atom->radius[i]; }
+  double radii2cut(double r1, double r2) override { return r1 + r2; }
+#endif
 
   const drumlin::physics::LinearContact &law(int itype, int jtype) const override {
     return at(itype, jtype).normal;

@@ -65,7 +65,7 @@ private:
 std::vector<const ContactTable *> wall_tables; // one for each wall
 
 /// The pair style's table as the fixes see it.
-class PairSource : public ContactSource, Pointers {
+class PairSource final : public ContactSource, Pointers {
 public:
   PairSource(LAMMPS *engine, const ContactTable *table) : Pointers(engine), table_(table) {
     for (int n = 0; n < modify->nfix; ++n)

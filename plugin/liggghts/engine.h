@@ -7,7 +7,9 @@
 #include "domain.h"
 #include "error.h"
 #include "fix.h"
+#include "fix_freeze.h"
 #include "fix_gravity.h"
+#include "fix_setforce.h"
 #include "force.h"
 #include "group.h"
 #include "input.h"
@@ -61,16 +63,6 @@ constexpr int closes_forces = LAMMPS_NS::FixConst::PRE_FINAL_INTEGRATE;
 
 inline void set_up_run(LAMMPS_NS::Integrate *integrate) { integrate->setup(); }
 
-/// Tells the user: on the screen and in the log file, at once. Rank 0 speaks, the others may call it too.
-inline void say(const LAMMPS *lmp, const std::string &text) {
-  if (lmp->comm->me != 0) return;
-  for (FILE *out : {lmp->screen, lmp->logfile})
-    if (out != nullptr) {
-      std::fputs(text.c_str(), out);
-      std::fflush(out);
-    }
-}
-
 /// Whether a signal (Ctrl-C, a scheduler) has told a rank to stop: the engine then ends each run after a step. Collective.
 inline bool told_to_stop(const LAMMPS *lmp) {
   int stop = LAMMPS_NS::SignalHandler::request_quit ? 1 : 0;
@@ -89,22 +81,14 @@ inline std::array<double, 3> gravity(LAMMPS_NS::Modify *modify) {
   return g;
 }
 
-/// The sums of force, N, x to z, that a fix freeze or setforce has taken from this rank's balls in this step and gives as its
-/// output; nullptr for another fix.
-double *reaction(LAMMPS_NS::Fix *fix);
-
-/// A fix by its ID, or nullptr.
-inline LAMMPS_NS::Fix *find_fix(LAMMPS_NS::Modify *modify, const std::string &id) {
-  const int index = modify->find_fix(id.c_str());
-  return index < 0 ? nullptr : modify->fix[index];
+/// The shortest of a vector's periodic images, m.
+inline void minimum_image(LAMMPS_NS::Domain *domain, std::array<double, 3> &d) {
+  domain->minimum_image(d[0], d[1], d[2]);
 }
 
-/// Neighbour list of the pair style, each pair once (twice across ranks with newton off), or nullptr.
-inline LAMMPS_NS::NeighList *pair_list(LAMMPS_NS::Force *force) {
-  return force->pair != nullptr ? force->pair->list : nullptr;
-}
-
-/// Index of a neighbour without the bits that the engine packs into it.
-inline int neighbour_index(int packed) { return packed & NEIGHMASK; }
+/// I / (m r^2) of balls, as fix nve/sphere turns them: a disc's in two dimensions.
+inline double inertia_share(const LAMMPS *lmp) { return lmp->domain->dimension == 2 ? 0.5 : 0.4; }
 
 } // namespace drumlin::engine
+
+#include "fixes/both_engines.h"

@@ -14,8 +14,6 @@
 #include "fix_wall_gran_base.h"
 
 #include "comm.h"
-#include "fix_freeze.h"
-#include "fix_setforce.h"
 #include "input.h"
 #include "neighbor.h"
 
@@ -51,8 +49,7 @@ using LAMMPS_NS::Pointers;
 static_assert(sizeof(SurfacesIntersectData) == 368,
               "contact data of this LIGGGHTS differ from the stock binary's");
 
-// The engine's style maps and what its constraints have summed are not public. An explicit instantiation may name a private member; its friend
-// hands it out.
+// The engine's style maps are not public. An explicit instantiation may name a private member; its friend hands it out.
 template <auto Member>
 struct ModifyAccess {
   friend auto &fix_map_of(Modify &modify) { return modify.*Member; }
@@ -66,20 +63,6 @@ struct InputAccess {
 };
 auto &command_map_of(Input &input);
 template struct InputAccess<&Input::command_map>;
-
-template <auto Member>
-struct FreezeAccess {
-  friend auto &reaction_of(LAMMPS_NS::FixFreeze &fix) { return fix.*Member; }
-};
-auto &reaction_of(LAMMPS_NS::FixFreeze &fix);
-template struct FreezeAccess<&LAMMPS_NS::FixFreeze::foriginal>;
-
-template <auto Member>
-struct SetForceAccess {
-  friend auto &reaction_of(LAMMPS_NS::FixSetForce &fix) { return fix.*Member; }
-};
-auto &reaction_of(LAMMPS_NS::FixSetForce &fix);
-template struct SetForceAccess<&LAMMPS_NS::FixSetForce::foriginal>;
 
 // Input's base class is protected: only a C-style cast converts to it.
 struct PointersAccess : Pointers {
@@ -257,13 +240,6 @@ void add_commands(LAMMPS *lmp) {
 }
 
 } // namespace
-
-double *drumlin::engine::reaction(Fix *fix) {
-  const std::string style = fix->style;
-  if (style == "freeze") return reaction_of(*static_cast<LAMMPS_NS::FixFreeze *>(fix));
-  if (style == "setforce") return reaction_of(*static_cast<LAMMPS_NS::FixSetForce *>(fix));
-  return nullptr;
-}
 
 extern "C" __attribute__((visibility("default"))) void drumlin_register(void *input,
                                                                         const char *engine_version) {

@@ -6,12 +6,16 @@
 // that symbol, is found first, lets the plugin register its styles on the Input object, and then goes on to
 // the engine's own.
 
+#include "stub.h"
+
 #include <cstdio>
 #include <cstdlib>
 #include <dlfcn.h>
 #include <string>
 
 namespace {
+
+using drumlin::stop;
 
 constexpr const char *input_file_symbol = "_ZN9LAMMPS_NS5Input4fileEv";
 constexpr const char *liggghts_symbol = "_ZN8LIGGGHTS10PairStyles7Factory8instanceEv";
@@ -31,21 +35,6 @@ bool ends_with(const std::string &text, const std::string &end) {
 }
 
 std::string base_name(const std::string &path) { return path.substr(path.find_last_of('/') + 1); }
-
-/// Ends the run on every rank: each calls this, rank 0 speaks. MPI is reached by name, since this library
-/// links nothing.
-[[noreturn]] void stop(const std::string &why) {
-  int rank = 0;
-  void *world = dlsym(RTLD_DEFAULT, "ompi_mpi_comm_world");
-  using CommRank = int (*)(void *, int *);
-  using Finalize = int (*)();
-  if (auto comm_rank = reinterpret_cast<CommRank>(dlsym(RTLD_DEFAULT, "MPI_Comm_rank")); comm_rank && world)
-    comm_rank(world, &rank);
-  if (rank == 0) std::printf("ERROR: drumlin %s: %s\n", DRUMLIN_VERSION, why.c_str());
-  std::fflush(stdout);
-  if (auto finalize = reinterpret_cast<Finalize>(dlsym(RTLD_DEFAULT, "MPI_Finalize"))) finalize();
-  std::exit(1);
-}
 
 using Register = void (*)(void *input, const char *engine_version);
 

@@ -61,6 +61,17 @@ namespace detail {
 }
 } // namespace detail
 
+/// vt, m/s: tangential part of the velocity of ball i's surface relative to ball j's at the contact,
+///   vt = v - (v . n) n - (a_i w_i + a_j w_j) x n
+/// relative v = v_i - v_j in m/s; normal n the unit vector from j to i; turning a_i w_i + a_j w_j in m/s, of each ball its distance
+/// from the contact point, r - d/2, times its angular velocity.
+[[nodiscard]] inline Vec3 slip_velocity(const Vec3 &relative, const Vec3 &normal, const Vec3 &turning) {
+  const double along = detail::dot(relative, normal);
+  return {relative[0] - along * normal[0] - (turning[1] * normal[2] - turning[2] * normal[1]),
+          relative[1] - along * normal[1] - (turning[2] * normal[0] - turning[0] * normal[2]),
+          relative[2] - along * normal[2] - (turning[0] * normal[1] - turning[1] * normal[0])};
+}
+
 /// One step of friction with history: the spring takes vt dt up, is projected on the present tangent plane
 /// and, where it slides, is reset to the limit.
 ///   trial    xi* = P (xi + vt dt)

@@ -510,6 +510,96 @@ TEST_F(Bed, WantsRoomForTheRoller) {
   }
 }
 
+/// The same beds in LAMMPS.
+class BedInLammps : public Bed {
+protected:
+  void SetUp() override {
+    if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  }
+  static Outcome shake(const Scratch &folder, const Variables &more, int ranks = 1) {
+    return run(bed_folder() / "in.bed.lammps", folder, more, ranks);
+  }
+};
+
+// From the same data file, with springs and records that begin anew in both engines: what differs is rounding. Over 500 steps it stays
+// small; later the bed makes it grow.
+TEST_F(BedInLammps, GoesAsInLiggghtsOnRanksOneTwoAndFour) {
+  for (const char *drum : drums)
+    for (const Variables &law :
+         {Variables{}, Variables{{"transition", "A"}}, Variables{{"stepping", "stock"}},
+          Variables{{"transition", "A"}, {"friction", "0"}}}) {
+      Variables variables = law;
+      variables.insert(variables.end(), {{"drum", drum}, {"cycles", "1"}});
+      const Scratch here;
+      const std::string fresh = (here / "fresh.restart").string();
+      Variables from_data = variables;
+      from_data.emplace_back("fresh", fresh);
+      const Outcome made = run(test_deck("bed_from_data.in"), here, from_data);
+      ASSERT_TRUE(made.ok()) << made.output;
+      Variables in_liggghts = variables;
+      in_liggghts.emplace_back("start", fresh);
+      const Outcome liggghts = Bed::shake(here, in_liggghts);
+      ASSERT_TRUE(liggghts.ok()) << liggghts.output;
+      const post::Table expected = post::read_table(here / "bed.csv");
+      for (const int ranks : {1, 2, 4}) {
+        const Scratch there;
+        const Outcome lammps = shake(there, variables, ranks);
+        ASSERT_TRUE(lammps.ok()) << lammps.output;
+        const post::Table found = post::read_table(there / "bed.csv");
+        ASSERT_EQ(found.rows(), expected.rows());
+        ASSERT_EQ(found.header(), expected.header());
+        for (const std::string &column : expected.header()) {
+          const std::vector<double> a = expected.numbers(column), b = found.numbers(column);
+          double largest = 1e-12; // below this a column says nothing
+          for (const double value : a)
+            largest = std::max(largest, std::fabs(value));
+          for (std::size_t n = 0; n <= 50; ++n) // 500 steps
+            EXPECT_NEAR(a[n], b[n], 1e-9 * largest)
+                << column << ", row " << n << ", ranks " << ranks << ", " << drum;
+        }
+        const std::vector<double> x = expected.numbers("x_drum"), y = found.numbers("x_drum");
+        for (std::size_t n = 0; n <= 50; ++n)
+          EXPECT_NEAR(x[n], y[n], 1e-9); // m
+        EXPECT_LT(x[50], -1e-4);
+      }
+    }
+}
+
+TEST_F(BedInLammps, GoesOnWhereALimitOfTimeStoppedItOnRanksOneAndTwo) {
+  for (const int ranks : {1, 2}) {
+    const Scratch stayed, left;
+    ASSERT_TRUE(shake(stayed, {{"cycles", "3"}}, ranks).ok());
+    const Outcome stopped = shake(left, {{"cycles", "3"}, {"time_limit", "1e-3"}}, ranks);
+    ASSERT_TRUE(stopped.ok()) << stopped.output;
+    EXPECT_TRUE(stopped.says("drumlin/run: stopped at step 2500 of 7500 by limit 0.001 s; go on from "))
+        << stopped.output;
+    const Outcome resumed =
+        shake(left, {{"cycles", "3"}, {"start", (left / "stopped.restart").string()}}, ranks);
+    ASSERT_TRUE(resumed.ok()) << resumed.output;
+    for (const char *file : {"bed.csv", "cycles.csv", "events.csv"})
+      EXPECT_EQ(read_text(left / file), read_text(stayed / file)) << file << ", ranks " << ranks;
+  }
+}
+
+TEST_F(BedInLammps, RefusesWhatItDoesNotHaveOnRanksOneAndTwo) {
+  const Scratch files;
+  fs::copy_file(*scratch / "ball.restart", files / "alone.restart");
+  const auto refused = [](const Variables &variables, const std::string &says, int ranks) {
+    const Scratch folder;
+    const Outcome outcome = shake(folder, variables, ranks);
+    EXPECT_EQ(outcome.status, 1) << says << outcome.output;
+    EXPECT_TRUE(outcome.says(says)) << outcome.output;
+    EXPECT_FALSE(fs::exists(folder / "bed.csv"));
+  };
+  for (const int ranks : {1, 2}) {
+    refused({{"start", "nowhere"}}, "variable start is 'nowhere'; allowed: a file that can be read", ranks);
+    refused({{"start", (files / "alone.restart").string()}},
+            ", made with engine LIGGGHTS; allowed: made with engine LAMMPS", ranks);
+    refused({{"rolling", "0.1"}}, "variable rolling is '0.1'; allowed: 0", ranks);
+    refused({{"dumps_per_cycle", "10"}}, "variable dumps_per_cycle is '10'; allowed: 0", ranks);
+  }
+}
+
 // Three dimensions: spheres, a cylinder of soil-sized balls on a cell that was copied, periodic all around.
 TEST(Bed3d, CarriesACylinderOnCopiesOfACellOnRanksOneAndTwo) {
   const Scratch scratch;

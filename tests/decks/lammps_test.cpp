@@ -139,6 +139,28 @@ INSTANTIATE_TEST_SUITE_P(Balls, InLammpsBounce,
                                            Bounce{"heavy_dashpots", {{"D", "2"}}}),
                          bounce_name);
 
+// The order of balls in memory decides which of two is the first of a pair: when it changes, the contact's memory turns round.
+TEST_F(InLammps, ContactsOutliveAChangeOfTheOrderOfBalls) {
+  const Scratch kept, shuffled;
+  ASSERT_TRUE(run_deck(test_deck("bounce.lammps"), {}, kept.path()).ok());
+  const Outcome outcome = run_deck(test_deck("bounce.lammps"), {{"shuffle", "50"}}, shuffled.path());
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  EXPECT_TRUE(outcome.says("Neighbor list builds = 120")) << outcome.output;
+  EXPECT_LT(distance(read_dump(kept / "balls.txt"), read_dump(shuffled / "balls.txt")), 1e-9);
+}
+
+TEST_F(InLammps, RefusesAnotherVersionOnRanksOneAndTwo) {
+  const Scratch folder;
+  for (const int ranks : {1, 2}) {
+    const Outcome outcome =
+        run_deck(chain_deck("in.chain.lammps"), {{"plugin", DRUMLIN_OTHER_LAMMPS}}, folder.path(), ranks);
+    EXPECT_EQ(outcome.status, 1) << outcome.output;
+    EXPECT_TRUE(outcome.says("ERROR: drumlin " DRUMLIN_VERSION
+                             ": built for LAMMPS 1 Feb 2003 (20030201), but this is 20"))
+        << outcome.output;
+  }
+}
+
 TEST_F(InLammps, GoesOnFromARestartFileBitwiseOnRanksOneAndTwo) {
   for (const int ranks : {1, 2}) {
     const Scratch stayed, left;

@@ -1,10 +1,9 @@
-// Registration of everything that the plugin adds to LAMMPS, called by the command `plugin load`.
+// Registration of everything that the plugin adds to LAMMPS, called by load.cpp.
 
 #include "lammpsplugin.h"
 
 #include "command.h"
-#include "fix_freeze.h"
-#include "fix_setforce.h"
+#include "fix_nve_sphere.h"
 
 #include "engine.h"
 #include "fixes/commands.h"
@@ -19,28 +18,18 @@
 #include "lammps/fix_wall_gran_transition.h"
 #include "lammps/pair_gran_hooke_transition.h"
 
-#include <cstring>
-
 namespace {
 
 using LAMMPS_NS::Fix;
 using LAMMPS_NS::LAMMPS;
 
-// What the engine's constraints have summed is not public. An explicit instantiation may name a private member; its friend hands
-// it out.
+// Not public. An explicit instantiation may name a private member; its friend hands it out.
 template <auto Member>
-struct FreezeAccess {
-  friend auto &reaction_of(LAMMPS_NS::FixFreeze &fix) { return fix.*Member; }
+struct NVESphereAccess {
+  friend auto &inertia_of(LAMMPS_NS::FixNVESphere &fix) { return fix.*Member; }
 };
-auto &reaction_of(LAMMPS_NS::FixFreeze &fix);
-template struct FreezeAccess<&LAMMPS_NS::FixFreeze::foriginal>;
-
-template <auto Member>
-struct SetForceAccess {
-  friend auto &reaction_of(LAMMPS_NS::FixSetForce &fix) { return fix.*Member; }
-};
-auto &reaction_of(LAMMPS_NS::FixSetForce &fix);
-template struct SetForceAccess<&LAMMPS_NS::FixSetForce::foriginal>;
+auto &inertia_of(LAMMPS_NS::FixNVESphere &fix);
+template struct NVESphereAccess<&LAMMPS_NS::FixNVESphere::inertia>;
 
 /// A function of the core's adapters as a command of the engine.
 template <void (*function)(LAMMPS *, int, char **)>
@@ -67,21 +56,16 @@ void *create_pair(void *lmp) {
 
 } // namespace
 
-double *drumlin::engine::reaction(Fix *fix) {
-  const std::string style = fix->style;
-  if (style == "freeze") return reaction_of(*static_cast<LAMMPS_NS::FixFreeze *>(fix));
-  if (style == "setforce") return reaction_of(*static_cast<LAMMPS_NS::FixSetForce *>(fix));
-  return nullptr;
+double drumlin::engine::inertia_share(const LAMMPS *lmp) {
+  for (int n = 0; n < lmp->modify->nfix; ++n)
+    if (auto *fix = dynamic_cast<LAMMPS_NS::FixNVESphere *>(lmp->modify->fix[n])) return inertia_of(*fix);
+  return 0.4;
 }
 
-extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *lmp, void *handle,
-                                                                         void *register_function) {
+extern "C" __attribute__((visibility("default"))) void drumlin_register(void *lmp, void *handle,
+                                                                        void *register_function) {
   using namespace LAMMPS_NS;
   auto *engine = static_cast<LAMMPS *>(lmp);
-  if (std::strcmp(engine->version, LAMMPS_VERSION) != 0)
-    engine->error->all(FLERR, (std::string("drumlin: the plugin is built for LAMMPS ") + LAMMPS_VERSION +
-                               ", this is " + engine->version + "; allowed: the version that it is built for")
-                                  .c_str());
   const auto add = reinterpret_cast<lammpsplugin_regfunc>(register_function);
   lammpsplugin_t plugin{};
   plugin.version = LAMMPS_VERSION;

@@ -1,0 +1,34 @@
+#pragma once
+// The end of each engine's engine.h: what is the same text for both engines.
+
+namespace drumlin::engine {
+
+/// Tells the user: on the screen and in the log file, at once. Rank 0 speaks, the others may call it too.
+inline void say(const LAMMPS *lmp, const std::string &text) {
+  if (lmp->comm->me != 0) return;
+  for (FILE *out : {lmp->screen, lmp->logfile})
+    if (out != nullptr) {
+      std::fputs(text.c_str(), out);
+      std::fflush(out);
+    }
+}
+
+/// A fix by its ID, or nullptr.
+inline LAMMPS_NS::Fix *find_fix(LAMMPS_NS::Modify *modify, const std::string &id) {
+  const int index = modify->find_fix(id.c_str());
+  return index < 0 ? nullptr : modify->fix[index];
+}
+
+/// Neighbour list of the pair style, each pair once (twice across ranks with newton off), or nullptr.
+inline LAMMPS_NS::NeighList *pair_list(LAMMPS_NS::Force *force) {
+  return force->pair != nullptr ? force->pair->list : nullptr;
+}
+
+/// Index of a neighbour without the bits that the engine packs into it.
+inline int neighbour_index(int packed) { return packed & NEIGHMASK; }
+
+/// The sums of force, N, x to z, that a fix freeze or setforce has taken from this rank's balls in this step and gives as its
+/// output; nullptr for another fix.
+double *reaction(LAMMPS_NS::Fix *fix);
+
+} // namespace drumlin::engine

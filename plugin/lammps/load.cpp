@@ -1,0 +1,53 @@
+// The library that `plugin load` takes. It carries no symbols of the engine, so that any LAMMPS can load it; it loads the plugin
+// proper where that fits, and says why where it does not. (The engine itself would only tell of an undefined symbol, and go on.)
+
+#include "stub.h"
+
+#include <cstdlib>
+#include <cstring>
+#include <dlfcn.h>
+#include <string>
+
+namespace {
+
+using drumlin::find_function;
+using drumlin::stop;
+
+/// "29 Sep 2021" as 20210929, which is how lammps_version() tells it.
+int version_number(const char *date) {
+  constexpr const char *months = "JanFebMarAprMayJunJulAugSepOctNovDec";
+  char *end = nullptr;
+  const long day = std::strtol(date, &end, 10);
+  const std::string month(end + 1, 3);
+  const long year = std::strtol(end + 4, nullptr, 10);
+  const char *found = std::strstr(months, month.c_str());
+  return static_cast<int>(year * 10000 + ((found - months) / 3 + 1) * 100 + day);
+}
+
+void check_engine(void *lmp) {
+  auto *version = find_function<int (*)(void *)>("lammps_version");
+  auto *setting = find_function<int (*)(void *, const char *)>("lammps_extract_setting");
+  if (version == nullptr || setting == nullptr) stop("this process does not show LAMMPS's C interface");
+  const std::string built_for = std::string("built for LAMMPS ") + LAMMPS_VERSION;
+  const int built = version_number(LAMMPS_VERSION);
+  if (version(lmp) != built)
+    stop(built_for + " (" + std::to_string(built) + "), but this is " + std::to_string(version(lmp)) +
+         "; allowed: the version that it is built for, as ./drumlin setup lammps builds it");
+  if (setting(lmp, "tagint") != 4 || setting(lmp, "bigint") != 8)
+    stop(built_for + " with -DLAMMPS_SIZES=SMALLBIG, its default, but this one has other sizes of numbers");
+}
+
+} // namespace
+
+extern "C" __attribute__((visibility("default"))) void lammpsplugin_init(void *lmp, void *handle,
+                                                                         void *register_function) {
+  check_engine(lmp);
+  Dl_info self{};
+  dladdr(reinterpret_cast<const void *>(&lammpsplugin_init), &self);
+  const std::string file = self.dli_fname;
+  const std::string plugin = file.substr(0, file.find_last_of('/') + 1) + "libdrumlin-lammps.so";
+  void *library = dlopen(plugin.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) stop(std::string("cannot load the plugin: ") + dlerror());
+  using Register = void (*)(void *, void *, void *);
+  reinterpret_cast<Register>(dlsym(library, "drumlin_register"))(lmp, handle, register_function);
+}
