@@ -46,23 +46,26 @@ ReportTable speed_table(const std::vector<Throughput> &all) {
                quartiles(one.million_per_second), quartiles(one.over_engine),
                one.ranks == 1 ? "-" : quartiles(one.efficiency),
                fmt::format("{:.1f}", 1e-6 * one.peak_bytes)});
-  table.notes = {
-      "Medians over the rounds; ratios within a round. The law of the engine is hooke/stiffness with "
-      "limitForce on; all have friction. The last bed is copies of the second one."};
+  table.notes = {"Medians over the rounds; ratios within a round and an engine. The law of the engine is "
+                 "hooke/stiffness "
+                 "with limitForce on, in LAMMPS gran/hooke/history with limit_damping; all have friction. "
+                 "The last bed is "
+                 "copies of the second one."};
   return table;
 }
 
-std::vector<Promise> promises(const std::vector<Throughput> &all, const SpeedScenes &scenes) {
+std::vector<Promise> promises(const std::vector<Throughput> &all, const SpeedScenes &scenes,
+                              const EngineLaws &laws) {
   // What the scatter of a ratio leaves to be told, where nothing is to be added.
   constexpr double nothing = 1.02, least_efficiency = 0.85;
   std::vector<Promise> kept;
   for (const std::string &scene : {scenes.plane, scenes.cell, scenes.copies})
-    for (const char *law : {"stock", "second"}) {
+    for (const char *law : {laws.stock, laws.second}) {
       const Spread ratio = find(all, scene, law, 1).over_engine;
       kept.push_back({fmt::format("{}: {} takes at most {:.2f} of the engine's law", scene, law, nothing),
                       quartiles(ratio), ratio.median <= nothing});
     }
-  for (const char *law : {engine_law_name, "stock", "second"}) {
+  for (const char *law : laws.all()) {
     const Spread efficiency = find(all, scenes.cell, law, 2).efficiency;
     kept.push_back(
         {fmt::format("{}, {}: efficiency on 2 ranks at least {:.2f}", scenes.cell, law, least_efficiency),
@@ -104,13 +107,14 @@ ReportTable projection_table(const std::vector<Throughput> &all, const SpeedScen
   return table;
 }
 
-PlannedFigure speed_figure(const std::vector<Throughput> &all, const SpeedScenes &scenes) {
+PlannedFigure speed_figure(const std::vector<Throughput> &all, const SpeedScenes &scenes,
+                           const std::vector<EngineLaws> &engines) {
   const std::string name = "throughput";
   PlannedFigure figure;
   figure.label = "Fig. 1";
   figure.caption =
       "Steps of balls per second: median over the rounds and quartiles; from left to right the engine's "
-      "law, stock and second on one rank, then on two.";
+      "law, stock and second on one rank, then on two; then those of LAMMPS.";
   figure.figure = {name, "Steps of balls per second", {}, 3, 420, 420};
   CurveTable table("place,million per s,lower quartile,upper quartile");
   for (const std::string &scene : {scenes.plane, scenes.cell, scenes.copies}) {
@@ -121,12 +125,14 @@ PlannedFigure speed_figure(const std::vector<Throughput> &all, const SpeedScenes
     panel.curves = {curve(name, scene, "$2", "3:4:5", CurveStyle::spread)};
     panel.curves.back().title.clear();
     panel.legend_rows = 3; // room for the names
-    for (const int ranks : {1, 2})
-      for (const char *law : {engine_law_name, "stock", "second"}) {
-        const Spread speed = find(all, scene, law, ranks).million_per_second;
-        panel.x_ticks.push_back(fmt::format("{}, {}", law, ranks));
-        table.row(scene, {static_cast<double>(panel.x_ticks.size()), speed.median, speed.lower, speed.upper});
-      }
+    for (const EngineLaws &laws : engines)
+      for (const int ranks : {1, 2})
+        for (const char *law : laws.all()) {
+          const Spread speed = find(all, scene, law, ranks).million_per_second;
+          panel.x_ticks.push_back(fmt::format("{}, {}", law, ranks));
+          table.row(scene,
+                    {static_cast<double>(panel.x_ticks.size()), speed.median, speed.lower, speed.upper});
+        }
     figure.figure.panels.push_back(panel);
   }
   figure.csv = table.text();
@@ -136,18 +142,34 @@ PlannedFigure speed_figure(const std::vector<Throughput> &all, const SpeedScenes
 } // namespace
 
 void write_speed_page(const std::filesystem::path &out, const SpeedScenes &scenes) {
-  const std::vector<Throughput> all = throughputs(read_speed_runs(out / "runs.csv"), engine_law_name);
+  std::vector<Throughput> all;
+  std::vector<EngineLaws> engines; // that ran
+  std::vector<Promise> kept;
+  for (const EngineLaws &laws : engine_laws) {
+    std::vector<SpeedRun> runs = read_speed_runs(out / "runs.csv");
+    const auto of_another = [names = laws.all()](const SpeedRun &run) {
+      return std::find(names.begin(), names.end(), run.law) == names.end();
+    };
+    runs.erase(std::remove_if(runs.begin(), runs.end(), of_another), runs.end());
+    if (runs.empty()) continue;
+    engines.push_back(laws);
+    const std::vector<Throughput> of_engine = throughputs(runs, laws.own);
+    all.insert(all.end(), of_engine.begin(), of_engine.end());
+    const std::vector<Promise> promised = promises(of_engine, scenes, laws);
+    kept.insert(kept.end(), promised.begin(), promised.end());
+  }
   StudyPage page(out, "Speed");
   page.paragraph("A step of a settled bed, from 2500 balls in the plane to a quarter of a million in three "
                  "dimensions, by the "
-                 "engine's own law and by the plugin's, on one rank and on two. Runs of one round are "
+                 "engine's own law and by the plugin's, on one rank and on two, in LIGGGHTS and, if it is "
+                 "set up, in LAMMPS. Runs of one round are "
                  "interleaved. Times by "
                  "the engine's own clock, without starting and reading.");
   page.section("Promises");
-  page.table(promise_table(promises(all, scenes)));
+  page.table(promise_table(kept));
   page.section("Throughput");
   page.table(speed_table(all));
-  page.figure(speed_figure(all, scenes));
+  page.figure(speed_figure(all, scenes, engines));
   page.section("Towards 1e8 balls");
   page.table(projection_table(all, scenes));
   page.paragraph("Decomposition: a bed is wide and flat, so ranks share it along x and z, never along y: "

@@ -1,13 +1,20 @@
 // The page of the speed study.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 
 namespace drumlin::post {
 
 /// How runs.csv names the engine's own law.
-constexpr const char *engine_law_name = "engine law";
+/// Laws that are compared in one engine: its own, and the plugin's by its stepping.
+struct EngineLaws {
+  const char *own, *stock, *second;
+  std::array<const char *, 3> all() const { return {own, stock, second}; }
+};
+constexpr std::array<EngineLaws, 2> engine_laws = {
+    {{"engine law", "stock", "second"}, {"LAMMPS's law", "LAMMPS stock", "LAMMPS second"}}};
 
 /// The scenes that the page speaks of, as runs.csv names them.
 struct SpeedScenes {

@@ -4,6 +4,7 @@
 #include "fixes/output_file.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
@@ -21,8 +22,10 @@ namespace {
 //   drumlin restart notes
 //   NAME VALUE
 //   ...
+//   end COUNT of bytes, by which the engine knows that a file is whole
 //   bytes COUNT
 //   crc32 SUM of these bytes
+// and those of the end again.
 constexpr const char *notes_begin = "\ndrumlin restart notes\n";
 constexpr std::streamoff longest_notes = 4096;
 
@@ -47,6 +50,12 @@ RestartNotes sum_notes(const std::string &file, std::uintmax_t bytes) {
   return {{"bytes", std::to_string(bytes)}, {"crc32", fmt::format("{:08x}", sum)}};
 }
 
+std::string last_bytes(const std::string &file, std::streamoff count) {
+  std::ifstream in(file, std::ios::binary);
+  in.seekg(-count, std::ios::end);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 /// Notes of a whole file; none of another.
 RestartNotes notes_of(const std::string &file) {
   std::ifstream in(file, std::ios::binary | std::ios::ate);
@@ -56,11 +65,18 @@ RestartNotes notes_of(const std::string &file) {
   in.seekg(from);
   const std::string tail{std::istreambuf_iterator<char>(in), {}};
   const std::size_t begin = tail.rfind(notes_begin);
-  if (begin == std::string::npos || tail.back() != '\n') return {};
+  if (begin == std::string::npos) return {};
   std::istringstream lines(tail.substr(begin + std::string(notes_begin).size()));
   RestartNotes notes;
-  for (std::string name, value; lines >> name >> value;)
+  std::size_t end_mark = 0;
+  for (std::string name, value; name != "crc32" && lines >> name >> value;) {
     notes.emplace_back(name, value);
+    if (name == "end") end_mark = std::strtoul(value.c_str(), nullptr, 10);
+  }
+  if (lines.get() != '\n') return {};
+  const std::string end{std::istreambuf_iterator<char>(lines), {}};
+  if (end.size() != end_mark || begin < end_mark || tail.compare(begin - end_mark, end_mark, end) != 0)
+    return {};
   const RestartNotes last = sum_notes(file, static_cast<std::uintmax_t>(from) + begin);
   if (notes.size() < last.size() || !std::equal(last.rbegin(), last.rend(), notes.rbegin())) return {};
   return notes;
@@ -117,11 +133,13 @@ void write_noted_restart(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const 
     std::error_code code;
     const std::uintmax_t bytes = fs::file_size(unfinished, code);
     if (!code) {
+      const std::string end = last_bytes(unfinished, engine::restart_end_mark);
       std::ofstream out(unfinished, std::ios::binary | std::ios::app);
       RestartNotes all = with_engine(notes);
+      all.emplace_back("end", std::to_string(engine::restart_end_mark));
       for (const auto &note : sum_notes(unfinished, bytes))
         all.push_back(note);
-      out << notes_text(all) << std::flush;
+      out << notes_text(all) << end << std::flush;
       failed = !out;
     }
     if (!code) fs::rename(unfinished, file, code);

@@ -1,7 +1,6 @@
 #pragma once
 // What second-order stepping does with one contact of a step, and what a contact tells those who watch: the part of an engine's
-// adapter that does not depend on the engine. The inner loop's common case, a light contact that goes on, is left to the adapter:
-// one call of physics::second_order_held().
+// adapter that does not depend on the engine.
 
 #include "fixes/contact_watch.h"
 #include "fixes/fix_stepping.h"
@@ -9,15 +8,16 @@
 #include "physics/stepping.h"
 
 #include <algorithm>
+#include <array>
 
 namespace drumlin {
 
 /// One contact as an engine's loop meets it.
 struct StepContact {
-  int i, j;                    ///< balls, owned or ghosts; j < 0: a wall
-  const double *normal;        ///< unit vector from j to i
-  const double *wall_velocity; ///< m/s, of a wall; nullptr: at rest
-  double overlap;              ///< m
+  int i, j;                     ///< balls, owned or ghosts; j < 0: a wall
+  std::array<double, 3> normal; ///< unit vector from j to i
+  const double *wall_velocity;  ///< m/s, of a wall; nullptr: at rest
+  double overlap;               ///< m
   double rate_half; ///< m/s, of the overlap, with the velocities that the engine has in the middle of a step
   double k, c, m_eff; ///< N/m, N s/m, kg
   double share;       ///< of the force that acts: 1 but for a mesh
@@ -25,9 +25,27 @@ struct StepContact {
 
 /// Rate of the overlap with the velocities at the begin of the step, m/s.
 inline double rate_before(const LAMMPS_NS::FixStepping &stepping, int i, const double *v_j,
-                          const double *normal) {
+                          const std::array<double, 3> &normal) {
   const double *v_i = stepping.velocity_before(i);
   return -((v_i[0] - v_j[0]) * normal[0] + (v_i[1] - v_j[1]) * normal[1] + (v_i[2] - v_j[2]) * normal[2]);
+}
+
+/// Nearly all contacts of nearly all steps: one that goes on, and need not know of the other dashpots of its balls. For inner loops.
+/// \param j below 0: a wall \param record the normal force, N, of the step before; takes that of this step, which acts
+/// \returns false if it is none of these: then nothing is done, and SteppedContact::exert() does it
+inline bool hold(physics::Transition transition, LAMMPS_NS::FixStepping &stepping, int i, int j,
+                 const physics::StepMotion &motion, double k, double c, double m_eff, double &record) {
+  if (record == 0.0 || physics::made_in_step(motion)) return false;
+  if (!stepping.light()) {
+    const double all = stepping.damping_over_mass(i) + (j < 0 ? 0.0 : stepping.damping_over_mass(j));
+    if (stepping.in_setup() || physics::needs_coupling(motion.dt, k, c, all)) return false;
+    if (stepping.counting()) {
+      stepping.add_damping(i, c);
+      if (j >= 0) stepping.add_damping(j, c);
+    }
+  }
+  record = physics::second_order_held(transition, k, c, motion, record, c / m_eff);
+  return true;
 }
 
 /// Second-order stepping of contacts under one transition condition.
@@ -97,7 +115,7 @@ private:
     LAMMPS_NS::FixStepping::Coupled &contact = stepping_.couple();
     contact.i = p.i;
     contact.j = p.j;
-    contact.normal = {p.normal[0], p.normal[1], p.normal[2]};
+    contact.normal = p.normal;
     contact.dashpot = dashpot;
     if (p.wall_velocity != nullptr)
       contact.dashpot.at_rest +=

@@ -47,12 +47,34 @@ struct Contact {
   double *history; ///< see ContactSettings::history(); nullptr if there is none
 };
 
-/// Forces of a contact, on ball i; j takes the opposite force.
+/// What a contact exerts: the force on ball i, of which j takes the opposite, and on each ball the torque -arm times moment.
 struct ContactForces {
   double normal_force; ///< N, as friction takes it
   physics::Vec3 force, tangential_force;
-  physics::Vec3 torque_i, torque_j; ///< N m
+  physics::Vec3 moment; ///< N, normal x tangential force
 };
+
+/// A copy, number by number, for what is out of line: an inner loop whose contact is copied as a whole keeps it in memory.
+inline StepContact apart(const StepContact &p) {
+  return {p.i,
+          p.j,
+          {p.normal[0], p.normal[1], p.normal[2]},
+          p.wall_velocity,
+          p.overlap,
+          p.rate_half,
+          p.k,
+          p.c,
+          p.m_eff,
+          p.share};
+}
+
+/// What makes, breaks and heavy damping need, out of line. \param push takes the force that acts along the normal, N \returns the force that friction takes, N
+[[gnu::noinline]] inline double exert_rare(physics::Transition transition, LAMMPS_NS::FixStepping &stepping,
+                                           const StepContact &contact, double &record, double &push) {
+  return SteppedContact(transition, stepping).exert(contact, record, [&push](double force) {
+    push += force;
+  });
+}
 
 /// Exerts the laws on one contact with an overlap. \param stepping nullptr under stock stepping \param moves whether the springs move on:
 /// not in a set-up
@@ -67,38 +89,42 @@ inline ContactForces exert(const ContactSettings &settings, const ContactCoeffic
   } else {
     constexpr int record_place = tangential == FrictionModel::history ? 3 : 0;
     double &record = p.history[record_place];
-    const SteppedContact contact(settings.transition, *stepping);
-    const physics::StepMotion motion = contact.motion(n);
-    // Nearly all contacts of nearly all steps.
-    if (stepping->light() && record != 0.0 && !physics::made_in_step(motion))
-      out.normal_force = push = record =
-          physics::second_order_held(settings.transition, n.k, n.c, motion, record, n.c / n.m_eff);
-    else
-      out.normal_force = contact.exert(n, record, [&push](double force) { push += force; });
+    const physics::StepMotion motion = SteppedContact(settings.transition, *stepping).motion(n);
+    if (hold(settings.transition, *stepping, n.i, n.j, motion, n.k, n.c, n.m_eff, record))
+      out.normal_force = push = record;
+    else {
+      double acting = 0.0;
+      out.normal_force = exert_rare(settings.transition, *stepping, apart(n), record, acting);
+      push = acting;
+    }
   }
   if constexpr (tangential != FrictionModel::none) {
     const physics::Friction friction = law.tangential(n.c, settings.cap);
-    const physics::Vec3 normal{n.normal[0], n.normal[1], n.normal[2]};
     if constexpr (tangential == FrictionModel::history) {
       const physics::FrictionStep step =
-          physics::friction_step(friction, out.normal_force, normal, p.slip,
+          physics::friction_step(friction, out.normal_force, n.normal, p.slip,
                                  {p.history[0], p.history[1], p.history[2]}, moves ? dt : 0.0);
-      if (moves) std::copy_n(step.spring.begin(), 3, p.history);
+      if (moves) {
+        p.history[0] = step.spring[0];
+        p.history[1] = step.spring[1];
+        p.history[2] = step.spring[2];
+      }
       out.tangential_force = step.force;
     } else
       out.tangential_force =
           physics::friction_step_without_history(friction, out.normal_force, p.slip, 0.0).force;
-    for (std::size_t a = 0; a < 3; ++a) {
-      const std::size_t b = (a + 1) % 3;
-      const std::size_t c = (a + 2) % 3;
-      const double moment = normal[b] * out.tangential_force[c] - normal[c] * out.tangential_force[b];
-      out.torque_i[a] = -p.arm_i * moment;
-      out.torque_j[a] = -p.arm_j * moment;
-    }
+    out.moment = physics::cross(n.normal, out.tangential_force);
   }
-  for (std::size_t a = 0; a < 3; ++a)
-    out.force[a] = push * n.normal[a] + out.tangential_force[a];
+  out.force = physics::sum(out.tangential_force, push, n.normal);
   return out;
+}
+
+/// Force, N, on ball i of a contact under A that ended in this step.
+[[gnu::noinline]] inline physics::Vec3 end_of_a(LAMMPS_NS::FixStepping &stepping,
+                                                const StepContact &contact) {
+  double push = 0.0;
+  SteppedContact(physics::Transition::A, stepping).end(contact, [&push](double force) { push += force; });
+  return {push * contact.normal[0], push * contact.normal[1], push * contact.normal[2]};
 }
 
 /// Calls run(stepped, tangential) with what the settings choose, as constants by their types.
@@ -123,7 +149,7 @@ inline void enter(const ContactSettings &settings, const ContactCoefficients &la
   LedgerEntry entry{};
   entry.i = p.normal.i;
   entry.j = p.normal.j;
-  std::copy_n(p.normal.normal, 3, entry.normal.begin());
+  entry.normal = p.normal.normal;
   entry.overlap = p.normal.overlap;
   entry.radius = smaller_radius;
   entry.share = p.normal.share;
@@ -135,8 +161,8 @@ inline void enter(const ContactSettings &settings, const ContactCoefficients &la
     entry.spring = p.history;
   }
   entry.tangential_force = forces.tangential_force;
-  entry.torque_i = forces.torque_i;
-  entry.torque_j = forces.torque_j;
+  entry.torque_i = physics::scaled(-p.arm_i, forces.moment);
+  entry.torque_j = physics::scaled(-p.arm_j, forces.moment);
   for (ContactLedger *ledger : ContactLedger::open())
     ledger->enter(entry);
 }

@@ -63,6 +63,9 @@ public:
 };
 constexpr int closes_forces = LAMMPS_NS::FixConst::FINAL_INTEGRATE;
 
+/// Bytes at the end of a restart file by which the engine knows that it is whole: a word and its zero.
+constexpr int restart_end_mark = 16;
+
 inline void set_up_run(LAMMPS_NS::Integrate *integrate) { integrate->setup(1); }
 
 /// Whether the command `timer timeout` has told the engine to stop: it then ends each run. (A signal ends LAMMPS itself.) Collective.

@@ -85,11 +85,12 @@ void FixWallGranTransition::touch_balls() {
   const bool told = !drumlin::ContactLedger::open().empty() || !drumlin::ContactWatch::looking().empty();
   for (std::size_t side = 0; side < 2; ++side) {
     if (!has_[side]) continue;
-    double normal[3] = {};
-    normal[axis_] = side == 0 ? 1.0 : -1.0;
+    physics::Vec3 normal{};
+    normal[static_cast<std::size_t>(axis_)] = side == 0 ? 1.0 : -1.0;
     for (int i = 0; i < atom->nlocal; ++i) {
       if (!(atom->mask[i] & groupbit)) continue;
-      const double gap = normal[axis_] * (atom->x[i][axis_] - place_[side]); // of the centre
+      const double gap =
+          normal[static_cast<std::size_t>(axis_)] * (atom->x[i][axis_] - place_[side]); // of the centre
       double *remembered = row(i, static_cast<int>(side));
       const bool touches = gap < atom->radius[i];
       if (!touches && remembered[0] == 0.0) continue;
@@ -114,16 +115,13 @@ void FixWallGranTransition::touch_balls() {
         std::fill_n(remembered, of_a_side, 0.0);
         if constexpr (stepped)
           if (moves && settings.transition == physics::Transition::A)
-            drumlin::SteppedContact(settings.transition, *stepping_).end(p.normal, [&](double push) {
-              for (std::size_t a = 0; a < 3; ++a)
-                forces.force[a] += push * normal[a];
-            });
+            forces.force = drumlin::end_of_a(*stepping_, p.normal);
       } else {
         remembered[0] = 1.0;
         p.arm_i = atom->radius[i] - 0.5 * p.normal.overlap; // as between balls
         if constexpr (tangential != FrictionModel::none) {
           const double *w = atom->omega[i];
-          p.slip = physics::slip_velocity({v[0], v[1], v[2]}, {normal[0], normal[1], normal[2]},
+          p.slip = physics::slip_velocity({v[0], v[1], v[2]}, normal,
                                           {p.arm_i * w[0], p.arm_i * w[1], p.arm_i * w[2]});
         }
         forces = drumlin::exert<stepped, tangential>(settings, law, stepping_, p, update->dt, moves);
@@ -136,14 +134,14 @@ void FixWallGranTransition::touch_balls() {
           shown.inverse_mi = 1.0 / pair_->mass(i);
           shown.ri = shown.rj = atom->radius[i];
           shown.overlap = p.normal.overlap;
-          shown.normal = normal;
+          shown.normal = normal.data();
           shown.mass_over_inertia = 1.0 / drumlin::engine::inertia_share(lmp);
           drumlin::tell(settings, law, p, shown);
         }
       }
       for (std::size_t a = 0; a < 3; ++a) {
         atom->f[i][a] += forces.force[a];
-        atom->torque[i][a] += forces.torque_i[a];
+        atom->torque[i][a] -= p.arm_i * forces.moment[a];
         force_[a] += forces.force[a];
       }
     }

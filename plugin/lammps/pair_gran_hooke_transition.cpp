@@ -186,14 +186,21 @@ void PairGranHookeTransition::compute(int eflag, int vflag) {
 template <bool stepped, FrictionModel tangential>
 void PairGranHookeTransition::compute_contacts() {
   constexpr bool remembers = stepped || tangential == FrictionModel::history;
-  const int history_size = settings_.history();
+  constexpr bool rubs = tangential != FrictionModel::none;
+  const drumlin::ContactSettings settings = settings_;
+  const int history_size = settings.history();
   const bool moves = update->setupflag == 0;
-  const bool a_may_end = stepped && moves && settings_.transition == physics::Transition::A;
+  const bool a_may_end = stepped && moves && settings.transition == physics::Transition::A;
   const double dt = update->dt;
   const int nlocal = atom->nlocal;
+  const int freeze_bit = freeze_groupbit_;
   const double *const *x = atom->x;
   const double *const *v = atom->v;
+  const double *const *omega = atom->omega;
   const double *radius = atom->radius;
+  const double *rmass = atom->rmass;
+  const int *type = atom->type;
+  const int *mask = atom->mask;
   double **f = atom->f;
   double **torque = atom->torque;
   const bool clumps = !FixClump::all().empty();
@@ -202,88 +209,86 @@ void PairGranHookeTransition::compute_contacts() {
   for (int ii = 0; ii < list->inum; ++ii) {
     const int i = list->ilist[ii];
     const int *neighbours = list->firstneigh[i];
+    const int count = list->numneigh[i];
     int *touch = remembers ? history_->firstflag[i] : nullptr;
     double *memory_of_i = remembers ? history_->firstvalue[i] : nullptr;
-    for (int jj = 0; jj < list->numneigh[i]; ++jj) {
+    const physics::Vec3 xi{x[i][0], x[i][1], x[i][2]};
+    const double ri = radius[i];
+    const bool i_frozen = mask[i] & freeze_bit;
+    const double mi = clumps ? FixClump::mass_of(*atom, i, rmass[i]) : rmass[i];
+    physics::Vec3 force_i{};
+    physics::Vec3 torque_i{};
+    for (int jj = 0; jj < count; ++jj) {
       const int j = neighbours[jj] & NEIGHMASK;
-      const double d[3] = {x[i][0] - x[j][0], x[i][1] - x[j][1], x[i][2] - x[j][2]};
-      const double squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-      const double reach = radius[i] + radius[j];
+      const physics::Vec3 d{xi[0] - x[j][0], xi[1] - x[j][1], xi[2] - x[j][2]};
+      const double squared = physics::dot(d, d);
+      const double reach = ri + radius[j];
       const bool touches = squared < reach * reach;
       if (!touches && (!remembers || touch[jj] == 0)) continue;
 
       const double distance = std::sqrt(squared);
       const double inverse = 1.0 / distance;
-      const double normal[3] = {d[0] * inverse, d[1] * inverse, d[2] * inverse};
-      const double relative[3] = {v[i][0] - v[j][0], v[i][1] - v[j][1], v[i][2] - v[j][2]};
-      const ContactCoefficients &law = at(atom->type[i], atom->type[j]);
-      double mi = atom->rmass[i];
-      double mj = atom->rmass[j];
-      if (clumps) {
-        mi = FixClump::mass_of(*atom, i, mi);
-        mj = FixClump::mass_of(*atom, j, mj);
-      }
-      const bool i_frozen = atom->mask[i] & freeze_groupbit_;
-      const bool j_frozen = atom->mask[j] & freeze_groupbit_;
-      const double m_eff = j_frozen ? mi : i_frozen ? mj : physics::effective_mass(mi, mj);
+      const physics::Vec3 relative{v[i][0] - v[j][0], v[i][1] - v[j][1], v[i][2] - v[j][2]};
+      const ContactCoefficients &law = at(type[i], type[j]);
+      const double mj = clumps ? FixClump::mass_of(*atom, j, rmass[j]) : rmass[j];
+      const double m_eff = mask[j] & freeze_bit ? mi : i_frozen ? mj : physics::effective_mass(mi, mj);
 
-      drumlin::Contact p{};
-      p.normal.i = i;
-      p.normal.j = j;
-      p.normal.normal = normal;
-      p.normal.overlap = reach - distance;
-      p.normal.rate_half = -(relative[0] * normal[0] + relative[1] * normal[1] + relative[2] * normal[2]);
-      p.normal.k = law.normal.stiffness;
-      p.normal.c = physics::damping_coefficient(law.normal, m_eff);
-      p.normal.m_eff = m_eff;
-      p.normal.share = 1.0;
-      if constexpr (remembers) p.history = memory_of_i + static_cast<std::ptrdiff_t>(history_size) * jj;
+      const physics::Vec3 normal = physics::scaled(inverse, d);
+      const double overlap = reach - distance;
+      const double arm_i = ri - 0.5 * overlap;
+      const double arm_j = radius[j] - 0.5 * overlap;
+      physics::Vec3 slip{};
+      if constexpr (rubs)
+        slip = physics::slip_velocity(relative, normal,
+                                      {arm_i * omega[i][0] + arm_j * omega[j][0],
+                                       arm_i * omega[i][1] + arm_j * omega[j][1],
+                                       arm_i * omega[i][2] + arm_j * omega[j][2]});
+      double *const history =
+          remembers ? memory_of_i + static_cast<std::ptrdiff_t>(history_size) * jj : nullptr;
+      const drumlin::Contact p{{i, j, normal, nullptr, overlap, -physics::dot(relative, normal),
+                                law.normal.stiffness, physics::damping_coefficient(law.normal, m_eff), m_eff,
+                                1.0},
+                               slip,
+                               arm_i,
+                               arm_j,
+                               history};
 
-      drumlin::ContactForces forces{};
-      if (!touches) { // it did, a step ago
-        touch[jj] = 0;
-        std::fill_n(p.history, history_size, 0.0);
-        if constexpr (stepped)
-          if (a_may_end)
-            drumlin::SteppedContact(settings_.transition, *stepping_).end(p.normal, [&](double push) {
-              for (std::size_t a = 0; a < 3; ++a)
-                forces.force[a] += push * normal[a];
-            });
-      } else {
-        if constexpr (tangential != FrictionModel::none) {
-          p.arm_i = radius[i] - 0.5 * p.normal.overlap;
-          p.arm_j = radius[j] - 0.5 * p.normal.overlap;
-          const double *wi = atom->omega[i];
-          const double *wj = atom->omega[j];
-          p.slip = physics::slip_velocity(
-              {relative[0], relative[1], relative[2]}, {normal[0], normal[1], normal[2]},
-              {p.arm_i * wi[0] + p.arm_j * wj[0], p.arm_i * wi[1] + p.arm_j * wj[1],
-               p.arm_i * wi[2] + p.arm_j * wj[2]});
-        }
+      drumlin::ContactForces forces;
+      if (touches) {
         if constexpr (remembers) touch[jj] = 1;
-        forces = drumlin::exert<stepped, tangential>(settings_, law, stepping_, p, dt, moves);
-        if (told) report<stepped, tangential>(p, forces);
+        forces = drumlin::exert<stepped, tangential>(settings, law, stepping_, p, dt, moves);
+        if (told)
+          report({drumlin::apart(p.normal), p.slip, p.arm_i, p.arm_j, p.history},
+                 {forces.normal_force, forces.force, forces.tangential_force, forces.moment});
+      } else { // it did, a step ago
+        forces = {};
+        touch[jj] = 0;
+        std::fill_n(history, history_size, 0.0);
+        if (a_may_end) forces.force = drumlin::end_of_a(*stepping_, drumlin::apart(p.normal));
       }
-      for (std::size_t a = 0; a < 3; ++a)
-        f[i][a] += forces.force[a];
-      if constexpr (tangential != FrictionModel::none)
-        for (std::size_t a = 0; a < 3; ++a)
-          torque[i][a] += forces.torque_i[a];
+      force_i = physics::sum(force_i, 1.0, forces.force);
+      if constexpr (rubs) torque_i = physics::sum(torque_i, -arm_i, forces.moment);
       if (j < nlocal) {
-        for (std::size_t a = 0; a < 3; ++a)
-          f[j][a] -= forces.force[a];
-        if constexpr (tangential != FrictionModel::none)
-          for (std::size_t a = 0; a < 3; ++a)
-            torque[j][a] += forces.torque_j[a];
+        f[j][0] -= forces.force[0];
+        f[j][1] -= forces.force[1];
+        f[j][2] -= forces.force[2];
+        if constexpr (rubs) {
+          torque[j][0] -= arm_j * forces.moment[0];
+          torque[j][1] -= arm_j * forces.moment[1];
+          torque[j][2] -= arm_j * forces.moment[2];
+        }
       }
       if (evflag)
         ev_tally_xyz(i, j, nlocal, 0, 0.0, 0.0, forces.force[0], forces.force[1], forces.force[2], d[0], d[1],
                      d[2]);
     }
+    for (std::size_t a = 0; a < 3; ++a) {
+      f[i][a] += force_i[a];
+      if constexpr (rubs) torque[i][a] += torque_i[a];
+    }
   }
 }
 
-template <bool stepped, FrictionModel tangential>
 void PairGranHookeTransition::report(const drumlin::Contact &p, const drumlin::ContactForces &forces) const {
   const int i = p.normal.i;
   const int j = p.normal.j;
@@ -300,7 +305,7 @@ void PairGranHookeTransition::report(const drumlin::Contact &p, const drumlin::C
   shown.ri = atom->radius[i];
   shown.rj = atom->radius[j];
   shown.overlap = p.normal.overlap;
-  shown.normal = p.normal.normal;
+  shown.normal = p.normal.normal.data();
   shown.mass_over_inertia = 1.0 / engine::inertia_share(lmp);
   drumlin::tell(settings_, law, p, shown);
 }

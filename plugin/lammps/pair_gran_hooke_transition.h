@@ -52,7 +52,6 @@ private:
   void allocate();
   template <bool stepped, drumlin::FrictionModel tangential>
   void compute_contacts();
-  template <bool stepped, drumlin::FrictionModel tangential>
   [[gnu::noinline]] void report(const drumlin::Contact &, const drumlin::ContactForces &) const;
   void check_engine() const;
 

@@ -61,6 +61,9 @@ public:
 };
 constexpr int closes_forces = LAMMPS_NS::FixConst::PRE_FINAL_INTEGRATE;
 
+/// Bytes at the end of a restart file by which the engine knows that it is whole.
+constexpr int restart_end_mark = 0;
+
 inline void set_up_run(LAMMPS_NS::Integrate *integrate) { integrate->setup(); }
 
 /// Whether a signal (Ctrl-C, a scheduler) has told a rank to stop: the engine then ends each run after a step. Collective.

@@ -135,7 +135,8 @@ private:
   /// Rate of the overlap with the velocities at the begin of the step.
   double rate_before(const SurfacesCloseData &data, const double *normal) const {
     return drumlin::rate_before(*stepping_, data.i,
-                                data.is_wall ? data.v_j : stepping_->velocity_before(data.j), normal);
+                                data.is_wall ? data.v_j : stepping_->velocity_before(data.j),
+                                {normal[0], normal[1], normal[2]});
   }
 
   /// Sets sidata.Fn and adds the force.
@@ -144,11 +145,11 @@ private:
     using namespace drumlin::physics;
     double &force_before = sidata.contact_history[force_before_offset_];
     const StepMotion motion = motion_of(sidata);
-    // Nearly all contacts of nearly all steps; what makes, breaks and heavy damping need is kept out of their way.
-    if (stepping_->light() && sidata.computeflag && force_before != 0.0 && !made_in_step(motion)) {
-      sidata.Fn = second_order_held(transition(), k, c, motion, force_before, c / sidata.meff);
+    if (sidata.computeflag &&
+        drumlin::hold(transition(), *stepping_, sidata.i, sidata.is_wall ? -1 : sidata.j, motion, k, c,
+                      sidata.meff, force_before)) {
+      sidata.Fn = force_before;
       add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);
-      force_before = sidata.Fn;
     } else
       second_order_rare(sidata, k, c, share, i_forces, j_forces);
   }
@@ -165,9 +166,16 @@ private:
     }
     const drumlin::SteppedContact stepped(transition(), *stepping_);
     const auto push = [&](double force) { add(force, sidata.en, sidata, i_forces, j_forces); };
-    sidata.Fn = stepped.exert({sidata.i, sidata.is_wall ? -1 : sidata.j, sidata.en,
-                               sidata.is_wall ? sidata.v_j : nullptr, sidata.deltan, -sidata.vn, k, c,
-                               sidata.meff, share},
+    sidata.Fn = stepped.exert({sidata.i,
+                               sidata.is_wall ? -1 : sidata.j,
+                               {sidata.en[0], sidata.en[1], sidata.en[2]},
+                               sidata.is_wall ? sidata.v_j : nullptr,
+                               sidata.deltan,
+                               -sidata.vn,
+                               k,
+                               c,
+                               sidata.meff,
+                               share},
                               sidata.contact_history[force_before_offset_], push);
   }
 
@@ -215,10 +223,17 @@ private:
     const double c = drumlin::physics::damping_coefficient(p.normal, m_eff);
     const drumlin::SteppedContact stepped(transition(), *stepping_);
     const auto push = [&](double force) { add(force, normal, scdata, i_forces, j_forces); };
-    scdata.has_force_update |=
-        stepped.end({scdata.i, scdata.is_wall ? -1 : scdata.j, normal, scdata.is_wall ? scdata.v_j : nullptr,
-                     scdata.radsum - r, rate_half, p.normal.stiffness, c, m_eff, 1.0},
-                    push);
+    scdata.has_force_update |= stepped.end({scdata.i,
+                                            scdata.is_wall ? -1 : scdata.j,
+                                            {normal[0], normal[1], normal[2]},
+                                            scdata.is_wall ? scdata.v_j : nullptr,
+                                            scdata.radsum - r,
+                                            rate_half,
+                                            p.normal.stiffness,
+                                            c,
+                                            m_eff,
+                                            1.0},
+                                           push);
   }
 
   /// \param share of the stiffnesses that acts

@@ -43,10 +43,10 @@ struct LinearContact {
 /// A fixed partner is an infinite mass, and m_eff is then the other ball's mass (m2 in Eq. (10)).
 /// Valid for masses > 0 of which at most one is infinite.
 [[nodiscard]] inline double effective_mass(double mi, double mj) {
-  // Divided by the larger mass, so that an infinite one gives the limit instead of infinity / infinity.
   const double lighter = mi < mj ? mi : mj;
   const double heavier = mi < mj ? mj : mi;
-  return lighter / (1.0 + lighter / heavier);
+  const double sum = lighter + heavier;
+  return std::isinf(sum) ? lighter : lighter * (heavier / sum);
 }
 
 /// Dashpot coefficient c, N s/m: c = 2 D sqrt(m_eff k), Eq. (10), or the coefficient itself if that was

@@ -7,14 +7,12 @@
 /// on ball i (ball j takes the opposite). It opposes xi and vt. SI units.
 
 #include "physics/checks.h"
+#include "physics/vec3.h"
 
-#include <array>
 #include <cmath>
 #include <string>
 
 namespace drumlin::physics {
-
-using Vec3 = std::array<double, 3>;
 
 /// What mu |Fn| limits.
 /// spring: only the spring's force kt xi. Where it slides the dashpot is dropped; just before that the force
@@ -50,26 +48,12 @@ struct FrictionStep {
   bool sliding;      ///< the limit was reached
 };
 
-namespace detail {
-[[nodiscard]] inline double dot(const Vec3 &a, const Vec3 &b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-[[nodiscard]] inline Vec3 scaled(double s, const Vec3 &a) { return {s * a[0], s * a[1], s * a[2]}; }
-/// a + s b
-[[nodiscard]] inline Vec3 sum(const Vec3 &a, double s, const Vec3 &b) {
-  return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
-}
-} // namespace detail
-
 /// vt, m/s: tangential part of the velocity of ball i's surface relative to ball j's at the contact,
 ///   vt = v - (v . n) n - (a_i w_i + a_j w_j) x n
 /// relative v = v_i - v_j in m/s; normal n the unit vector from j to i; turning a_i w_i + a_j w_j in m/s, of each ball its distance
 /// from the contact point, r - d/2, times its angular velocity.
 [[nodiscard]] inline Vec3 slip_velocity(const Vec3 &relative, const Vec3 &normal, const Vec3 &turning) {
-  const double along = detail::dot(relative, normal);
-  return {relative[0] - along * normal[0] - (turning[1] * normal[2] - turning[2] * normal[1]),
-          relative[1] - along * normal[1] - (turning[2] * normal[0] - turning[0] * normal[2]),
-          relative[2] - along * normal[2] - (turning[0] * normal[1] - turning[1] * normal[0])};
+  return sum(sum(relative, -dot(relative, normal), normal), -1.0, cross(turning, normal));
 }
 
 /// One step of friction with history: the spring takes vt dt up, is projected on the present tangent plane
@@ -102,39 +86,39 @@ namespace detail {
   const double limit = friction.coefficient * std::fabs(normal_force);
   const Vec3 &vt = tangential_velocity;
 
-  const Vec3 moved = detail::sum(spring_before, dt, vt);
-  const double off_plane = detail::dot(moved, normal);
-  const Vec3 trial = detail::sum(moved, -off_plane, normal);
+  const Vec3 moved = sum(spring_before, dt, vt);
+  const double off_plane = dot(moved, normal);
+  const Vec3 trial = sum(moved, -off_plane, normal);
 
   Vec3 spring = trial;
   Vec3 pull{}; // what spring and dashpot exert, -F
   bool sliding = false;
-  double dashpot_heat = ct * detail::dot(vt, vt) * dt;
+  double dashpot_heat = ct * dot(vt, vt) * dt;
   if (friction.cap == Cap::spring) {
-    const double length = kt * std::sqrt(detail::dot(trial, trial));
+    const double length = kt * std::sqrt(dot(trial, trial));
     sliding = length > limit;
     if (sliding) {
-      spring = detail::scaled(limit / length, trial);
-      pull = detail::scaled(kt, spring);
+      spring = scaled(limit / length, trial);
+      pull = scaled(kt, spring);
       dashpot_heat = 0.0;
     } else {
-      pull = detail::sum(detail::scaled(kt, trial), ct, vt);
+      pull = sum(scaled(kt, trial), ct, vt);
     }
   } else {
-    const Vec3 trial_pull = detail::sum(detail::scaled(kt, trial), ct, vt);
-    const double length = std::sqrt(detail::dot(trial_pull, trial_pull));
+    const Vec3 trial_pull = sum(scaled(kt, trial), ct, vt);
+    const double length = std::sqrt(dot(trial_pull, trial_pull));
     sliding = length > limit;
     if (sliding) {
-      pull = detail::scaled(limit / length, trial_pull);
-      spring = detail::scaled(1.0 / kt, detail::sum(pull, -ct, vt));
+      pull = scaled(limit / length, trial_pull);
+      spring = scaled(1.0 / kt, sum(pull, -ct, vt));
     } else {
       pull = trial_pull;
     }
   }
 
-  const Vec3 slip = detail::sum(trial, -1.0, spring);
-  const double dissipated = dashpot_heat + kt * detail::dot(spring, slip) + 0.5 * kt * off_plane * off_plane;
-  return {detail::scaled(-1.0, pull), spring, dissipated, 0.5 * kt * detail::dot(spring, spring), sliding};
+  const Vec3 slip = sum(trial, -1.0, spring);
+  const double dissipated = dashpot_heat + kt * dot(spring, slip) + 0.5 * kt * off_plane * off_plane;
+  return {scaled(-1.0, pull), spring, dissipated, 0.5 * kt * dot(spring, spring), sliding};
 }
 
 /// One step of friction without history: F = -ct vt, at most mu |Fn| long. It holds nothing at rest: a ball
@@ -143,10 +127,10 @@ namespace detail {
 [[nodiscard]] inline FrictionStep friction_step_without_history(const Friction &friction, double normal_force,
                                                                 const Vec3 &tangential_velocity, double dt) {
   const double limit = friction.coefficient * std::fabs(normal_force);
-  const double speed = std::sqrt(detail::dot(tangential_velocity, tangential_velocity));
+  const double speed = std::sqrt(dot(tangential_velocity, tangential_velocity));
   const bool sliding = friction.damping * speed > limit;
   const double factor = sliding ? limit / speed : friction.damping;
-  return {detail::scaled(-factor, tangential_velocity), Vec3{}, factor * speed * speed * dt, 0.0, sliding};
+  return {scaled(-factor, tangential_velocity), Vec3{}, factor * speed * speed * dt, 0.0, sliding};
 }
 
 } // namespace drumlin::physics
