@@ -1,5 +1,7 @@
 #include "report_html.h"
 
+#include "engine_table.h"
+
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -76,6 +78,7 @@ constexpr Section sections[] = {
      "The paper's Fig. 8, and what cannot be seen in it. The direct solution integrates the same equations "
      "between "
      "located events, without any engine."},
+    {"engines", "Engine against engine", "The same chains in LIGGGHTS and in LAMMPS."},
     {"loops", "Orbits and force-displacement loops",
      "Beyond the paper: the same steady states, seen without time."},
     {"events", "Contact events", ""},
@@ -93,6 +96,7 @@ constexpr Section sections[] = {
 /// Whether a section has anything to do with the given runs: those of beds only have a page of their own.
 bool belongs(const std::string &section, const ReportResults &results, const std::vector<std::string> &beds) {
   if (section == "bed") return !beds.empty();
+  if (section == "engines") return !engine_pairs(results).empty();
   return beds.empty() || !results.runs.empty() || section == "summary" || section == "studies";
 }
 

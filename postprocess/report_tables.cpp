@@ -1,5 +1,7 @@
 #include "report_tables.h"
 
+#include "engine_table.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -401,6 +403,7 @@ std::vector<ReportTable> make_tables(const ReportResults &results) {
     add_check(words, results, check);
   tables.push_back(std::move(words));
 
+  tables.push_back(engine_table(results));
   tables.push_back(meters_table(results));
   tables.push_back(events_table(results));
   tables.push_back(errors_table(results));
