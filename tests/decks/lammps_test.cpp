@@ -8,12 +8,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace drumlin::test {
@@ -173,6 +176,107 @@ TEST_F(InLammps, GoesOnFromARestartFileBitwiseOnRanksOneAndTwo) {
     const std::size_t begin = all.find("ITEM: TIMESTEP\n7000\n");
     ASSERT_NE(begin, std::string::npos);
     EXPECT_EQ(all.substr(begin), second.substr(second.find("ITEM: TIMESTEP\n7000\n"))) << "ranks " << ranks;
+  }
+}
+
+/// No dashpots and no friction: what remembers nothing, and has an energy.
+const Variables springs = {{"D", "0"}, {"tangential", "off"}, {"mu", "-1"}};
+
+TEST_F(InLammps, GoesOnFromADataFileWhereNothingIsRemembered) {
+  const Scratch stayed, left;
+  ASSERT_TRUE(run_deck(test_deck("bounce.lammps"), springs, stayed.path()).ok());
+  Variables variables = springs;
+  variables.emplace_back("start", (stayed / "first.data").string());
+  const Outcome resumed = run_deck(test_deck("bounce.data.lammps"), variables, left.path());
+  ASSERT_TRUE(resumed.ok()) << resumed.output;
+  std::vector<Frame> whole = read_dump(stayed / "balls.txt");
+  const std::vector<Frame> rest = read_dump(left / "balls.txt");
+  whole.erase(whole.begin(), whole.end() - static_cast<std::ptrdiff_t>(rest.size()));
+  ASSERT_EQ(rest.size(), 7u);
+  EXPECT_LT(distance(whole, rest), 1e-9);
+}
+
+// A set-up computes forces from velocities of the full step, which second-order stepping would have had, too.
+TEST_F(InLammps, RunSplitOrWholeIsOneUnderSecondOrderStepping) {
+  for (const char *D : {"0", "0.2"}) {
+    std::vector<std::vector<Frame>> frames;
+    for (const auto &[first, rest] : {std::pair{"2500", "9500"}, std::pair{"10500", "1500"}}) {
+      Variables variables = {{"D", D}, {"first", first}, {"rest", rest}};
+      variables.insert(variables.end(), springs.begin(), springs.end());
+      const Scratch folder;
+      ASSERT_TRUE(run_deck(test_deck("bounce.lammps"), variables, folder.path()).ok());
+      frames.push_back(read_dump(folder / "balls.txt"));
+    }
+    EXPECT_LT(distance(frames[0], frames[1]), std::string(D) == "0" ? 1e-9 : 1e-6) << D;
+  }
+}
+
+/// Energy of the springs and of the weight in bounce.scene, J.
+double energy(const std::map<long, Ball> &balls) {
+  constexpr double k = 1e5, density = 2500.0, gravity = 9.81;
+  const auto radius = [](long id) { return 0.5 * (0.06 + 0.02 * std::sin(7.0 * static_cast<double>(id))); };
+  const auto spring = [](double overlap) { return overlap > 0.0 ? 0.5 * k * overlap * overlap : 0.0; };
+  const std::array<std::array<double, 2>, 3> walls = {
+      {{0.0, 0.4}, {0.0, 0.3}, {0.0, std::numeric_limits<double>::infinity()}}};
+  double sum = 0.0;
+  for (const auto &[i, one] : balls) {
+    const double r = radius(i);
+    sum += 4.0 / 3.0 * pi * r * r * r * density * gravity * one.x[2];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      sum += spring(walls[axis][0] + r - one.x[axis]) + spring(one.x[axis] + r - walls[axis][1]);
+    for (const auto &[j, other] : balls)
+      if (j < i)
+        sum += spring(r + radius(j) -
+                      std::hypot(one.x[0] - other.x[0], one.x[1] - other.x[1], one.x[2] - other.x[2]));
+  }
+  return sum;
+}
+
+TEST_F(InLammps, ForcesAreTheCentralDifferencesOfTheEnergy) {
+  constexpr double h = 1e-7; // m
+  for (const char *stepping : {"second", "stock"}) {
+    const Scratch folder;
+    Variables variables = springs;
+    variables.emplace_back("stepping", stepping);
+    ASSERT_TRUE(run_deck(test_deck("bounce.lammps"), variables, folder.path()).ok());
+    double largest = 0.0;
+    for (const Frame &frame : read_dump(folder / "balls.txt"))
+      for (const auto &[id, ball] : frame.balls)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          std::map<long, Ball> moved = frame.balls;
+          moved.at(id).x[axis] = ball.x[axis] + h;
+          const double above = energy(moved);
+          moved.at(id).x[axis] = ball.x[axis] - h;
+          const double force = -(above - energy(moved)) / (2.0 * h);
+          EXPECT_NEAR(ball.f[axis], force, 1e-3)
+              << stepping << ", step " << frame.step << ", ball " << id; // N
+          largest = std::max(largest, std::fabs(force));
+        }
+    EXPECT_GT(largest, 50.0);
+  }
+}
+
+TEST_F(InLammps, AnImpactConvergesToTheClosedForm) {
+  for (const post::Transition transition : {post::Transition::A, post::Transition::B}) {
+    post::ImpactParameters p;
+    p.transition = transition;
+    p.speed = 0.5;
+    const double exact = -post::impact_state(p, post::impact_duration(p)).rate;
+    std::vector<double> steps, errors;
+    for (const char *count : {"400", "800", "1600"}) {
+      const Scratch folder;
+      const Outcome outcome = run_deck(chain_deck("in.impact.lammps"),
+                                       {{"transition", post::transition_name(transition)},
+                                        {"D", number(p.damping_ratio)},
+                                        {"steps_per_contact", count},
+                                        {"samples", "100"}},
+                                       folder.path());
+      ASSERT_TRUE(outcome.ok()) << outcome.output;
+      steps.push_back(std::stod(count));
+      errors.push_back(std::fabs(read_run(folder.path()).history.v_drum.back() - exact));
+    }
+    EXPECT_LT(errors.back(), 1e-5 * p.speed) << post::transition_name(transition);
+    EXPECT_LT(fitted_order(steps, errors), -1.5) << post::transition_name(transition);
   }
 }
 
