@@ -15,7 +15,8 @@ inline void say(const LAMMPS *lmp, const std::string &text) {
 
 /// A fix by its ID, or nullptr.
 inline LAMMPS_NS::Fix *find_fix(LAMMPS_NS::Modify *modify, const std::string &id) {
-  const int index = modify->find_fix(id.c_str());
+  const int index =
+      modify->find_fix(id.c_str()); // NOLINT(readability-redundant-string-cstr): LIGGGHTS's wants it
   return index < 0 ? nullptr : modify->fix[index];
 }
 
