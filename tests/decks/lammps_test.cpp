@@ -280,7 +280,7 @@ TEST_F(InLammps, AnImpactConvergesToTheClosedForm) {
   }
 }
 
-TEST_F(InLammps, SaysWhatIsWrongInOneLine) {
+TEST_F(InLammps, SaysWhatIsWrongInOneLineOnRanksOneAndTwo) {
   const std::string pair = "pair_style gran/hooke/transition", coeff = "pair_coeff of gran/hooke/transition",
                     wall = "fix wall/gran/transition";
   struct Bad {
@@ -319,16 +319,18 @@ TEST_F(InLammps, SaysWhatIsWrongInOneLine) {
        {"fix drum/excite", "keyword omega is '-1'"}},
       {"drumlin/check k 0 positive", {"drumlin/check", "variable k is '0'", "a finite number > 0"}},
   };
-  for (const Bad &input : bad) {
-    const Scratch folder;
-    std::ofstream(folder / "lines") << input.line << "\nrun 1\n";
-    const Outcome outcome = run_deck(fs::path(DRUMLIN_SOURCE_DIR) / "tests/input/host.lammps",
-                                     {{"lines", (folder / "lines").string()}}, folder.path());
-    EXPECT_EQ(outcome.status, 1) << input.line << "\n" << outcome.output;
-    const std::string error = post::engine_error(outcome.output);
-    for (const std::string &text : input.says)
-      EXPECT_NE(error.find(text), std::string::npos) << input.line << "\n" << error << "\nmisses: " << text;
-  }
+  for (const Bad &input : bad)
+    for (const int ranks : {1, 2}) {
+      const Scratch folder;
+      std::ofstream(folder / "lines") << input.line << "\nrun 1\n";
+      const Outcome outcome = run_deck(fs::path(DRUMLIN_SOURCE_DIR) / "tests/input/host.lammps",
+                                       {{"lines", (folder / "lines").string()}}, folder.path(), ranks);
+      EXPECT_EQ(outcome.status, 1) << input.line << ", ranks " << ranks << "\n" << outcome.output;
+      const std::string error = post::engine_error(outcome.output);
+      for (const std::string &text : input.says)
+        EXPECT_NE(error.find(text), std::string::npos) << input.line << ", ranks " << ranks << "\n"
+                                                       << error << "\nmisses: " << text;
+    }
 }
 
 } // namespace
