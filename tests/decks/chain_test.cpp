@@ -353,11 +353,12 @@ TEST(HeavyDamping, LongStepsLeaveAChainAtRestAtRest) {
     }
 }
 
-/// Eight balls, w0 dt up to 1.4, each pushed by 1e-6 m between two walls.
-void expect_held(const std::filesystem::path &deck, const Scratch &scratch, const char *D) {
+/// Eight balls, w0 dt from 0.7 to `highest`, each pushed by 1e-6 m between walls.
+void expect_held(const std::filesystem::path &deck, const Scratch &scratch, const char *D,
+                 const char *scene = "two", const char *highest = "1.4") {
   const Outcome outcome = run_deck(
       deck,
-      {{"scene", "two"}, {"D", D}, {"balls", "8"}, {"lowest", "0.7"}, {"highest", "1.4"}, {"half", "2000"}},
+      {{"scene", scene}, {"D", D}, {"balls", "8"}, {"lowest", "0.7"}, {"highest", highest}, {"half", "2000"}},
       scratch.path());
   ASSERT_TRUE(outcome.ok()) << outcome.output;
   const std::string looks = read_text(scratch / "looks.dump");
@@ -391,6 +392,15 @@ TEST(HeavyDamping, BetweenWallsIsStableUpToTheLimitOfTheSprings) {
             "transition A damping ratio stepping ${stepping}\n";
     held.close();
     expect_held(meshes / "study/in.stability", meshes, D);
+  }
+}
+
+// Four dashpots along one line, light and heavy: each alone would drive the others.
+TEST(HeavyDamping, BetweenFourWallsIsStableUpToTheLimitOfTheSprings) {
+  for (const char *D : {"0.1", "0.3", "2"}) {
+    const Scratch folder;
+    expect_held(std::filesystem::path(DRUMLIN_SOURCE_DIR) / "inputs/study/in.stability", folder, D, "four",
+                "0.98");
   }
 }
 
