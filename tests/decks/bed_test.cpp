@@ -80,6 +80,28 @@ protected:
     return run(bed_folder() / "in.bed", folder, more, ranks);
   }
 
+  /// Stopped by the limit of wall time in the middle of the excitation, and gone on from there in another process.
+  static void expect_goes_on(const char *deck) {
+    const auto shaken = [deck](const Scratch &folder, Variables more, int ranks) {
+      more.emplace_back("cycles", "3");
+      return run(bed_folder() / deck, folder, more, ranks);
+    };
+    for (const int ranks : {1, 2}) {
+      const Scratch stayed, left;
+      ASSERT_TRUE(shaken(stayed, {}, ranks).ok());
+      const Outcome stopped = shaken(left, {{"time_limit", "1e-3"}}, ranks);
+      ASSERT_TRUE(stopped.ok()) << stopped.output;
+      EXPECT_TRUE(stopped.says("drumlin/run: stopped at step 2500 of 7500 by limit 0.001 s; go on from "))
+          << stopped.output;
+      EXPECT_EQ(post::read_table(left / "bed.csv").rows(), 251u);
+      const Outcome resumed = shaken(left, {{"start", (left / "stopped.restart").string()}}, ranks);
+      ASSERT_TRUE(resumed.ok()) << resumed.output;
+      for (const char *file : {"bed.csv", "cycles.csv", "events.csv"})
+        EXPECT_EQ(read_text(left / file), read_text(stayed / file)) << file << ", ranks " << ranks;
+      EXPECT_EQ(post::read_table(left / "bed.csv").rows(), 751u);
+    }
+  }
+
   static double soil_mass() {
     double mass = 0.0;
     for (const double r : radii())
@@ -205,25 +227,7 @@ TEST_F(Bed, RepeatsItselfOnRanksOneAndTwo) {
   }
 }
 
-// Stopped by the limit of wall time in the middle of the excitation, and gone on from there in another process.
-TEST_F(Bed, GoesOnWhereALimitOfTimeStoppedItOnRanksOneAndTwo) {
-  for (const int ranks : {1, 2}) {
-    const Scratch stayed, left;
-    ASSERT_TRUE(shake(stayed, {{"cycles", "3"}}, ranks).ok());
-    const Outcome stopped = shake(left, {{"cycles", "3"}, {"time_limit", "1e-3"}}, ranks);
-    ASSERT_TRUE(stopped.ok()) << stopped.output;
-    EXPECT_TRUE(stopped.says("drumlin/run: stopped at step 2500 of 7500 by limit 0.001 s; go on from "))
-        << stopped.output;
-    const std::size_t rows_before = post::read_table(left / "bed.csv").rows();
-    EXPECT_EQ(rows_before, 251u);
-    const Outcome resumed =
-        shake(left, {{"cycles", "3"}, {"start", (left / "stopped.restart").string()}}, ranks);
-    ASSERT_TRUE(resumed.ok()) << resumed.output;
-    for (const char *file : {"bed.csv", "cycles.csv", "events.csv"})
-      EXPECT_EQ(read_text(left / file), read_text(stayed / file)) << file << ", ranks " << ranks;
-    EXPECT_EQ(post::read_table(left / "bed.csv").rows(), 751u);
-  }
-}
+TEST_F(Bed, GoesOnWhereALimitOfTimeStoppedItOnRanksOneAndTwo) { expect_goes_on("in.bed"); }
 
 // Contacts between balls take as much momentum from one as they give to the other: walls, weight and exciter make up the rest.
 // The engine's own forces, ball by ball, are the witness, and the velocities that they lead to.
@@ -565,21 +569,7 @@ TEST_F(BedInLammps, GoesAsInLiggghtsOnRanksOneTwoAndFour) {
     }
 }
 
-TEST_F(BedInLammps, GoesOnWhereALimitOfTimeStoppedItOnRanksOneAndTwo) {
-  for (const int ranks : {1, 2}) {
-    const Scratch stayed, left;
-    ASSERT_TRUE(shake(stayed, {{"cycles", "3"}}, ranks).ok());
-    const Outcome stopped = shake(left, {{"cycles", "3"}, {"time_limit", "1e-3"}}, ranks);
-    ASSERT_TRUE(stopped.ok()) << stopped.output;
-    EXPECT_TRUE(stopped.says("drumlin/run: stopped at step 2500 of 7500 by limit 0.001 s; go on from "))
-        << stopped.output;
-    const Outcome resumed =
-        shake(left, {{"cycles", "3"}, {"start", (left / "stopped.restart").string()}}, ranks);
-    ASSERT_TRUE(resumed.ok()) << resumed.output;
-    for (const char *file : {"bed.csv", "cycles.csv", "events.csv"})
-      EXPECT_EQ(read_text(left / file), read_text(stayed / file)) << file << ", ranks " << ranks;
-  }
-}
+TEST_F(BedInLammps, GoesOnWhereALimitOfTimeStoppedItOnRanksOneAndTwo) { expect_goes_on("in.bed.lammps"); }
 
 TEST_F(BedInLammps, RefusesWhatItDoesNotHaveOnRanksOneAndTwo) {
   const Scratch files;
