@@ -53,21 +53,19 @@ std::size_t row_near(const ChainHistory &history, double time) {
   return row;
 }
 
-Instant read_instant(const BedResult &result, long step, bool has_contacts) {
-  const fs::path dumps = result.run.folder / "dump";
+Instant read_instant(const BedResult &result, long step, const StepDump &dump) {
   Instant instant;
   instant.time = static_cast<double>(step) * result.run.timestep;
   instant.force = result.run.history.F_contact[row_near(result.run.history, instant.time)];
-  instant.has_contacts = has_contacts;
-  instant.balls = read_ball_dump(dumps / fmt::format("balls_{}.vtp", step));
-  if (has_contacts)
-    instant.contacts = read_contact_dump(dumps / fmt::format("contacts_{}.vtp", step), instant.balls);
+  instant.has_contacts = !dump.contacts.empty();
+  instant.balls = read_ball_dump(dump.balls);
+  if (instant.has_contacts) instant.contacts = read_contact_dump(dump.contacts, instant.balls);
   return instant;
 }
 
 /// Settled is the first dump; peak and least are those with the largest and the smallest force on the drum of the others.
 std::optional<Views> read_views(const BedResult &result) {
-  const std::map<long, bool> steps = dumped_steps(result.run.folder / "dump");
+  const std::map<long, StepDump> steps = dumped_steps(result.run.folder / "dump");
   if (steps.empty()) return std::nullopt;
   if (!(result.run.timestep > 0.0))
     throw std::runtime_error(fmt::format("{}: timestep is missing or not above 0, and dumps need it",
@@ -77,7 +75,7 @@ std::optional<Views> read_views(const BedResult &result) {
   out.views[settled] = read_instant(result, steps.begin()->first, steps.begin()->second);
   if (steps.size() == 1) return out;
   const ChainHistory &h = result.run.history;
-  const auto force = [&](const std::pair<const long, bool> &step) {
+  const auto force = [&](const std::pair<const long, StepDump> &step) {
     return h.F_contact[row_near(h, static_cast<double>(step.first) * result.run.timestep)];
   };
   const auto [low, high] =
@@ -85,8 +83,7 @@ std::optional<Views> read_views(const BedResult &result) {
                           [&](const auto &a, const auto &b) { return force(a) < force(b); });
   out.views[peak] = read_instant(result, high->first, high->second);
   if (low != high) out.views[least] = read_instant(result, low->first, low->second);
-  out.last =
-      read_ball_dump(result.run.folder / "dump" / fmt::format("balls_{}.vtp", std::prev(steps.end())->first));
+  out.last = read_ball_dump(std::prev(steps.end())->second.balls);
   return out;
 }
 

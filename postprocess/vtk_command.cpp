@@ -126,11 +126,11 @@ struct Bed {
   bool flat = true;           ///< all balls stay in z = 0
 };
 
-Bed survey(const fs::path &dumps, const std::map<long, bool> &steps) {
+Bed survey(const std::map<long, StepDump> &steps) {
   Bed bed;
   Progress progress(steps.size());
   for (const auto &step : steps) {
-    const fs::path file = dumps / fmt::format("balls_{}.vtp", step.first);
+    const fs::path &file = step.second.balls;
     double diameters = 0.0, soil = 0.0;
     for (const Ball &ball : read_ball_dump(file)) {
       bed.flat = bed.flat && ball.position[2] == 0.0;
@@ -172,19 +172,18 @@ void run(const Arguments &arguments) {
   if (!arguments.cell.empty() && number_option("--cell", arguments.cell) <= 0.0)
     throw UsageError(fmt::format("--cell = '{}': allowed are numbers > 0", arguments.cell));
   const fs::path folder = arguments.folder;
-  const fs::path dumps = folder / "dump";
   const fs::path out = arguments.out.empty() ? folder / "vtk" : fs::path(arguments.out);
-  const std::map<long, bool> steps = dumped_steps(dumps);
+  const std::map<long, StepDump> steps = dumped_steps(folder / "dump");
   if (steps.empty())
     throw UsageError(fmt::format(
-        "DIR = '{}': there is no dump/balls_STEP.vtp; allowed: the folder of a bed run with dumps",
+        "DIR = '{}': there is no dump/balls_STEP.vtp or .dump; allowed: the folder of a bed run with dumps",
         folder.string()));
   std::optional<Bed> bed;
   double dt = 0.0;
   try {
     dt = time_step(folder);
     check_out(out);
-    bed = survey(dumps, steps);
+    bed = survey(steps);
   } catch (const UsageError &) {
     throw;
   } catch (const std::runtime_error &fault) {
@@ -197,17 +196,16 @@ void run(const Arguments &arguments) {
   try {
     const Workshop workshop(out);
     Progress progress(steps.size());
-    for (const auto &[step, has_contacts] : steps) {
+    for (const auto &[step, dump] : steps) {
       const auto add = [&, step = step](std::size_t collection, const std::string &name) {
         names.push_back(name);
         series[collection].emplace_back(static_cast<double>(step) * dt, name);
         return workshop / name;
       };
-      const std::vector<Ball> balls = read_ball_dump(dumps / fmt::format("balls_{}.vtp", step));
+      const std::vector<Ball> balls = read_ball_dump(dump.balls);
       const fs::path ball_file = add(0, fmt::format("balls_{}.vtp", step));
-      if (has_contacts) {
-        const std::vector<BallContact> contacts =
-            read_contact_dump(dumps / fmt::format("contacts_{}.vtp", step), balls);
+      if (!dump.contacts.empty()) {
+        const std::vector<BallContact> contacts = read_contact_dump(dump.contacts, balls);
         write_ball_points(ball_file, balls, coordination(balls.size(), contacts));
         write_contact_lines(add(1, fmt::format("contacts_{}.vtp", step)), balls, contacts);
         write_field_image(add(2, fmt::format("fields_{}.vti", step)), grid,
@@ -236,7 +234,7 @@ void run(const Arguments &arguments) {
       fmt::print("{}: {} steps, {:g} to {:g} s\n", (out / collections[i]).string(), series[i].size(),
                  series[i].front().first, series[i].back().first);
   if (series[1].size() < series[0].size())
-    fmt::print("no contacts and no fields where dump/contacts_STEP.vtp is missing: {} of {} steps\n",
+    fmt::print("no contacts and no fields where the dump of the contacts is missing: {} of {} steps\n",
                series[0].size() - series[1].size(), series[0].size());
   if (!series[2].empty())
     fmt::print("fields on {} cells of {:.3g} m by {:.3g} m\n", grid.size(), grid.sides[0], grid.sides[1]);

@@ -1,6 +1,7 @@
 #include "vtk_files.h"
 
 #include "chain_csv.h"
+#include "text_dump.h"
 
 #include <fmt/format.h>
 
@@ -81,31 +82,103 @@ vtkSmartPointer<vtkPolyData> read_poly_data(const fs::path &file) {
   return reader->GetOutput();
 }
 
-/// One array of a file: finite numbers of so many components.
+/// One quantity of a dump: finite numbers of so many components for each row.
 class Column {
 public:
-  Column(const fs::path &file, vtkDataSetAttributes *data, const char *name, int components, vtkIdType rows)
-      : array_(data->GetArray(name)) {
-    if (array_ == nullptr || array_->GetNumberOfComponents() != components ||
-        array_->GetNumberOfTuples() != rows)
-      fail(file, fmt::format("array '{}' with {} rows of {} numbers is missing; expected a dump as "
-                             "inputs/bed/dumps makes it",
-                             name, rows, components));
-    for (vtkIdType row = 0; row < rows; ++row)
-      for (int c = 0; c < components; ++c)
-        if (!std::isfinite(array_->GetComponent(row, c)))
-          fail(file, fmt::format("array '{}' holds {}, expected finite numbers", name,
-                                 array_->GetComponent(row, c)));
-  }
+  Column(std::vector<double> values, std::size_t components)
+      : values_(std::move(values)), components_(components) {}
 
-  double number(vtkIdType row) const { return array_->GetComponent(row, 0); }
-  long whole(vtkIdType row) const { return std::lround(number(row)); }
-  Vector vector(vtkIdType row) const {
-    return {array_->GetComponent(row, 0), array_->GetComponent(row, 1), array_->GetComponent(row, 2)};
+  double number(std::size_t row) const { return values_[row * components_]; }
+  long whole(std::size_t row) const { return std::lround(number(row)); }
+  Vector vector(std::size_t row) const {
+    const double *first = &values_[row * components_];
+    return {first[0], first[1], first[2]};
   }
 
 private:
-  vtkDataArray *array_;
+  std::vector<double> values_;
+  std::size_t components_;
+};
+
+/// A dump of balls or contacts, whichever engine wrote it.
+class Dump {
+public:
+  enum class Of { balls, contacts };
+
+  Dump(const fs::path &file, Of what) : file_(file) {
+    if (file.extension() == ".dump") {
+      text_ = read_text_dump(file);
+      rows_ = text_.rows.size();
+      return;
+    }
+    vtk_ = read_poly_data(file);
+    rows_ =
+        static_cast<std::size_t>(what == Of::balls ? vtk_->GetNumberOfPoints() : vtk_->GetNumberOfCells());
+    data_ =
+        what == Of::balls ? static_cast<vtkDataSetAttributes *>(vtk_->GetPointData()) : vtk_->GetCellData();
+  }
+
+  std::size_t rows() const { return rows_; }
+
+  /// \param name of the array in VTK's files \param in_text the names of its components in a text dump
+  Column column(const char *name, const std::vector<std::string> &in_text) const {
+    std::vector<double> values;
+    values.reserve(rows_ * in_text.size());
+    if (data_ != nullptr)
+      from_vtk(name, in_text.size(), values);
+    else
+      from_text(in_text, values);
+    for (const double value : values)
+      if (!std::isfinite(value))
+        fail(file_, fmt::format("array '{}' holds {}, expected finite numbers", name, value));
+    return {values, in_text.size()};
+  }
+
+  /// Of the balls.
+  Column positions() const {
+    if (data_ == nullptr) return column("position", {"x", "y", "z"});
+    std::vector<double> values(3 * rows_);
+    for (std::size_t row = 0; row < rows_; ++row) {
+      vtk_->GetPoint(static_cast<vtkIdType>(row), &values[3 * row]);
+      for (std::size_t a = 0; a < 3; ++a)
+        if (!std::isfinite(values[3 * row + a]))
+          fail(file_, fmt::format("a ball is at {}", values[3 * row + a]));
+    }
+    return {values, 3};
+  }
+
+private:
+  void from_vtk(const char *name, std::size_t components, std::vector<double> &values) const {
+    vtkDataArray *array = data_->GetArray(name);
+    if (array == nullptr || array->GetNumberOfComponents() != static_cast<int>(components) ||
+        array->GetNumberOfTuples() != static_cast<vtkIdType>(rows_))
+      fail(file_, fmt::format("array '{}' with {} rows of {} numbers is missing; expected a dump as "
+                              "inputs/bed/dumps makes it",
+                              name, rows_, components));
+    for (std::size_t row = 0; row < rows_; ++row)
+      for (std::size_t c = 0; c < components; ++c)
+        values.push_back(array->GetComponent(static_cast<vtkIdType>(row), static_cast<int>(c)));
+  }
+
+  void from_text(const std::vector<std::string> &names, std::vector<double> &values) const {
+    std::vector<std::size_t> places;
+    for (const std::string &name : names) {
+      const auto found = std::find(text_.names.begin(), text_.names.end(), name);
+      if (found == text_.names.end())
+        fail(file_,
+             fmt::format("column '{}' is missing; expected a dump as inputs/bed/dumps makes it", name));
+      places.push_back(static_cast<std::size_t>(found - text_.names.begin()));
+    }
+    for (const std::vector<double> &row : text_.rows)
+      for (const std::size_t place : places)
+        values.push_back(row[place]);
+  }
+
+  fs::path file_;
+  std::size_t rows_ = 0;
+  TextDump text_;
+  vtkSmartPointer<vtkPolyData> vtk_;
+  vtkDataSetAttributes *data_ = nullptr; // of vtk_; nullptr: a text dump
 };
 
 template <class Array, class Values, class Part>
@@ -163,44 +236,37 @@ constexpr auto itself = [](const auto &value) { return value; };
 
 } // namespace
 
-std::map<long, bool> dumped_steps(const fs::path &dumps) {
-  static const std::regex pattern(R"(balls_(\d{1,18})\.vtp)");
-  std::map<long, bool> steps;
+std::map<long, StepDump> dumped_steps(const fs::path &dumps) {
+  static const std::regex pattern(R"(balls_(\d{1,18})\.(vtp|dump))");
+  std::map<long, StepDump> steps;
   std::error_code code;
   for (const fs::directory_entry &entry : fs::directory_iterator(dumps, code)) {
     const std::string name = entry.path().filename().string();
     std::smatch match;
-    if (std::regex_match(name, match, pattern))
-      steps[std::stol(match[1])] = fs::exists(dumps / fmt::format("contacts_{}.vtp", match[1].str()));
+    if (!std::regex_match(name, match, pattern)) continue;
+    const fs::path contacts = dumps / fmt::format("contacts_{}.{}", match[1].str(), match[2].str());
+    steps[std::stol(match[1])] = {entry.path(), fs::exists(contacts) ? contacts : fs::path()};
   }
   return steps;
 }
 
 std::vector<Ball> read_ball_dump(const fs::path &file) {
-  const vtkSmartPointer<vtkPolyData> data = read_poly_data(file);
-  const vtkIdType rows = data->GetNumberOfPoints();
-  if (rows == 0) fail(file, "holds no balls");
-  vtkPointData *columns = data->GetPointData();
-  const Column id(file, columns, "id", 1, rows), type(file, columns, "type", 1, rows),
-      radius(file, columns, "radius", 1, rows), mass(file, columns, "mass", 1, rows),
-      velocity(file, columns, "v", 3, rows), spin(file, columns, "omega", 3, rows),
-      force(file, columns, "f", 3, rows);
-  std::vector<Ball> balls(static_cast<std::size_t>(rows));
-  vtkIdType row = 0;
+  const Dump dump(file, Dump::Of::balls);
+  if (dump.rows() == 0) fail(file, "holds no balls");
+  const Column id = dump.column("id", {"id"}), type = dump.column("type", {"type"}),
+               radius = dump.column("radius", {"radius"}), mass = dump.column("mass", {"mass"}),
+               velocity = dump.column("v", {"vx", "vy", "vz"}),
+               spin = dump.column("omega", {"omegax", "omegay", "omegaz"}),
+               force = dump.column("f", {"fx", "fy", "fz"}), position = dump.positions();
+  std::vector<Ball> balls(dump.rows());
+  std::size_t row = 0;
   for (Ball &ball : balls) {
-    ball = {id.whole(row),
-            static_cast<int>(type.whole(row)),
-            radius.number(row),
-            mass.number(row),
-            {},
-            velocity.vector(row),
-            spin.vector(row),
-            force.vector(row)};
-    data->GetPoint(row, ball.position.data());
+    ball = {id.whole(row),        static_cast<int>(type.whole(row)),
+            radius.number(row),   mass.number(row),
+            position.vector(row), velocity.vector(row),
+            spin.vector(row),     force.vector(row)};
     if (!(ball.radius > 0.0))
       fail(file, fmt::format("the radius of ball {} is {}, expected > 0", ball.id, ball.radius));
-    for (const double coordinate : ball.position)
-      if (!std::isfinite(coordinate)) fail(file, fmt::format("ball {} is at {}", ball.id, coordinate));
     ++row;
   }
   std::sort(balls.begin(), balls.end(), [](const Ball &a, const Ball &b) { return a.id < b.id; });
@@ -211,13 +277,15 @@ std::vector<Ball> read_ball_dump(const fs::path &file) {
 }
 
 std::vector<BallContact> read_contact_dump(const fs::path &file, const std::vector<Ball> &balls) {
-  const vtkSmartPointer<vtkPolyData> data = read_poly_data(file);
-  const vtkIdType rows = data->GetNumberOfCells();
+  const Dump dump(file, Dump::Of::contacts);
   std::vector<BallContact> contacts;
-  if (rows == 0) return contacts;
-  vtkCellData *columns = data->GetCellData();
-  const Column id1(file, columns, "id1", 1, rows), id2(file, columns, "id2", 1, rows),
-      force(file, columns, "force", 3, rows), overlap(file, columns, "delta", 1, rows);
+  if (dump.rows() == 0) return contacts;
+  const bool text = file.extension() == ".dump";
+  const Column id1 = dump.column("id1", {"c_pair[1]"}), id2 = dump.column("id2", {"c_pair[2]"}),
+               overlap = dump.column("delta", {"c_contact[7]"});
+  std::vector<Column> forces = {dump.column("force", {"c_contact[1]", "c_contact[2]", "c_contact[3]"})};
+  if (text) // compute pair/local gives the force along the normal and that across apart
+    forces.push_back(dump.column("across", {"c_contact[4]", "c_contact[5]", "c_contact[6]"}));
   std::unordered_map<long, std::size_t> places;
   for (std::size_t place = 0; place < balls.size(); ++place)
     places[balls[place].id] = place;
@@ -227,9 +295,11 @@ std::vector<BallContact> read_contact_dump(const fs::path &file, const std::vect
       fail(file, fmt::format("a contact of ball {}, which the dump of the balls does not have", id));
     return found->second;
   };
-  for (vtkIdType row = 0; row < rows; ++row) {
-    BallContact contact{place_of(id1.whole(row)), place_of(id2.whole(row)), force.vector(row),
-                        overlap.number(row)};
+  for (std::size_t row = 0; row < dump.rows(); ++row) {
+    BallContact contact{place_of(id1.whole(row)), place_of(id2.whole(row)), {}, overlap.number(row)};
+    for (const Column &force : forces)
+      for (std::size_t a = 0; a < 3; ++a)
+        contact.force[a] += force.vector(row)[a];
     if (contact.i > contact.j) { // a ball of the other rank came first
       std::swap(contact.i, contact.j);
       for (double &component : contact.force)

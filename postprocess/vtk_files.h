@@ -1,4 +1,4 @@
-// VTK's files of a bed: the dumps of the engine in, what ParaView shows out. All of VTK is behind this.
+// VTK's files of a bed: the dumps of the engine in (those of LAMMPS are text), what ParaView shows out. All of VTK is behind this.
 //
 // Readers throw std::runtime_error with the file and what is wrong with it; what VTK itself has to say of a file is kept off
 // the screen and goes into what(). Writers throw it if a file cannot be written.
@@ -14,9 +14,15 @@
 
 namespace drumlin::post {
 
-/// The dumped steps of a run's dump folder, and whether there is a dump of the contacts too. None without such a folder.
-std::map<long, bool> dumped_steps(const std::filesystem::path &dumps);
-/// Balls from a dump of the engine (inputs/bed/dumps), in order of their ids. Positions have the 7 digits of the file's floats.
+/// The files of a dumped step.
+struct StepDump {
+  std::filesystem::path balls;
+  std::filesystem::path contacts; ///< empty if there is none
+};
+/// The dumped steps of a run's dump folder: VTK's files (*.vtp) of LIGGGHTS or text (*.dump) of LAMMPS. None without such a folder.
+std::map<long, StepDump> dumped_steps(const std::filesystem::path &dumps);
+/// Balls from a dump of the engine (inputs/bed/dumps), in order of their ids. Positions of LIGGGHTS have the 7 digits of the file's
+/// floats.
 std::vector<Ball> read_ball_dump(const std::filesystem::path &file);
 /// Contacts of these balls from a dump of the engine, the lower id first, in order of the ids.
 std::vector<BallContact> read_contact_dump(const std::filesystem::path &file, const std::vector<Ball> &balls);

@@ -16,8 +16,9 @@ public:
   ContactWatch(const ContactWatch &) = delete;
   ContactWatch &operator=(const ContactWatch &) = delete;
 
-  /// One side of a link. Whoever computes a link calls this for each ball of it that this rank owns.
-  /// \param i the ball, owned
+  /// One side of a link. Whoever computes a link calls this for each ball of it that this rank owns; with newton on, where no other
+  /// rank meets a contact, for a ghost, too.
+  /// \param i the ball
   /// \param partner ID of the other ball, 0 for a wall
   /// \param overlap of a contact, as a share of the smaller radius; 0 for a bond
   virtual void see(int i, int partner, const physics::LinkModes &modes, double overlap) = 0;

@@ -2,7 +2,9 @@
 
 #include "fixes/arguments.h"
 
+#include <algorithm>
 #include <climits>
+#include <cstring>
 #include <fmt/format.h>
 #include <limits>
 
@@ -21,14 +23,16 @@ double critical_step(const drumlin::physics::LinkModes &modes) {
 }
 
 std::string pair_name(double ball, double partner) {
-  return partner > 0.0 ? fmt::format("balls {:.0f} and {:.0f}", ball, partner)
+  const auto [first, second] = std::minmax(ball, partner); // whichever of them a rank has met first
+  return partner > 0.0 ? fmt::format("balls {:.0f} and {:.0f}", first, second)
                        : fmt::format("ball {:.0f} and a wall", ball);
 }
 
 } // namespace
 
-FixGuard::FixGuard(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) {
+FixGuard::FixGuard(LAMMPS *lammps, int narg, char **arg) : GhostFix(lammps, narg, arg) {
   nevery = 1;
+  comm_reverse = sizeof(Ball) / sizeof(double);
   scalar_flag = vector_flag = 1;
   size_vector = 2;
   global_freq = 1;
@@ -82,42 +86,63 @@ void FixGuard::end_of_step() {
 }
 
 void FixGuard::begin_look() {
-  balls_.assign(static_cast<std::size_t>(atom->nlocal), {});
+  balls_.assign(static_cast<std::size_t>(atom->nlocal + (force->newton_pair ? atom->nghost : 0)), {});
   start_looking();
 }
 
 void FixGuard::see(int i, int partner, const drumlin::physics::LinkModes &modes, double overlap) {
   if (!(atom->mask[i] & groupbit)) return;
-  Ball &ball = balls_[static_cast<std::size_t>(i)];
-  ball.loads.add(modes);
-  if (modes.normal_spring > ball.fastest) {
-    ball.fastest = modes.normal_spring;
-    ball.fastest_partner = partner;
+  Ball link;
+  link.loads.add(modes);
+  link.fastest = modes.normal_spring;
+  link.shortest = critical_step(modes);
+  link.overlap = overlap;
+  link.fastest_partner = link.shortest_partner = link.overlap_partner = partner;
+  balls_[static_cast<std::size_t>(i)].join(link);
+}
+
+void FixGuard::Ball::join(const Ball &other) {
+  loads.add(other.loads);
+  if (other.fastest > fastest) {
+    fastest = other.fastest;
+    fastest_partner = other.fastest_partner;
   }
-  if (const double alone = critical_step(modes); alone < ball.shortest) {
-    ball.shortest = alone;
-    ball.shortest_partner = partner;
+  if (other.shortest < shortest) {
+    shortest = other.shortest;
+    shortest_partner = other.shortest_partner;
   }
-  if (overlap > ball.overlap) {
-    ball.overlap = overlap;
-    ball.overlap_partner = partner;
+  if (other.overlap > overlap) {
+    overlap = other.overlap;
+    overlap_partner = other.overlap_partner;
+  }
+}
+
+void FixGuard::pack_gathered(int n, int first, double *buf) {
+  std::memcpy(buf, balls_.data() + first, static_cast<std::size_t>(n) * sizeof(Ball));
+}
+
+void FixGuard::join_gathered(int n, const int *list, const double *buf) {
+  for (int m = 0; m < n; ++m) {
+    Ball ball;
+    std::memcpy(static_cast<void *>(&ball), buf + static_cast<std::ptrdiff_t>(m) * comm_reverse,
+                sizeof(Ball));
+    balls_[static_cast<std::size_t>(list[m])].join(ball);
   }
 }
 
 void FixGuard::end_look() {
   stop_looking();
+  if (force->newton_pair) drumlin::engine::reverse_comm(comm, this);
   constexpr int findings = 3;
   Finding mine[findings] = {{std::numeric_limits<double>::infinity(), 0, 0}, {0, 0, 0}, {0, 0, 0}};
-  for (std::size_t i = 0; i < balls_.size(); ++i) {
-    const Ball &ball = balls_[i];
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const Ball &ball = balls_[static_cast<std::size_t>(i)];
     if (ball.fastest == 0.0) continue;
     const double tag = atom->tag[i];
     if (const double critical = ball.loads.critical_step(); critical < mine[0].value)
-      mine[0] = {critical, tag, static_cast<double>(ball.shortest_partner)};
-    if (ball.fastest > mine[1].value)
-      mine[1] = {ball.fastest, tag, static_cast<double>(ball.fastest_partner)};
-    if (ball.overlap > mine[2].value)
-      mine[2] = {ball.overlap, tag, static_cast<double>(ball.overlap_partner)};
+      mine[0] = {critical, tag, ball.shortest_partner};
+    if (ball.fastest > mine[1].value) mine[1] = {ball.fastest, tag, ball.fastest_partner};
+    if (ball.overlap > mine[2].value) mine[2] = {ball.overlap, tag, ball.overlap_partner};
   }
   constexpr int numbers = sizeof(Finding) / sizeof(double) * findings;
   std::vector<std::array<Finding, findings>> all(static_cast<std::size_t>(comm->nprocs));

@@ -11,7 +11,7 @@ namespace LAMMPS_NS {
 
 /// Ends the run on all ranks, in one line, when a position, velocity or force of the group is no longer finite, when the time step
 /// is beyond the critical one of the contacts and bonds that exist, or when an overlap is too large to mean anything.
-class FixGuard : public Fix, private drumlin::ContactWatch {
+class FixGuard : public drumlin::engine::GhostFix, private drumlin::ContactWatch {
 public:
   FixGuard(LAMMPS *, int, char **);
 
@@ -21,6 +21,8 @@ public:
   void initial_integrate(int) override;
   void pre_force(int) override;
   void end_of_step() override;
+  void pack_gathered(int, int, double *) override;
+  void join_gathered(int, const int *, const double *) override;
   /// Critical step at the last look, s; infinite without links.
   double compute_scalar() override { return critical_.value; }
   /// 0: pi/(w0 dt) of the fastest link; 1: largest overlap, as a share of the smaller radius.
@@ -31,15 +33,17 @@ private:
   struct Finding {
     double value, ball, partner; // IDs; partner 0: a wall
   };
-  /// What a ball's links do to it.
+  /// What a ball's links do to it; numbers throughout, for other ranks.
   struct Ball {
     drumlin::physics::LoadedBall loads;
     double fastest = 0.0;                                      // largest k/m_eff of its links, 1/s^2
     double shortest = std::numeric_limits<double>::infinity(); // critical step of a link alone, s
     double overlap = 0.0;                                      // largest share
-    int fastest_partner = 0;
-    int shortest_partner = 0;
-    int overlap_partner = 0;
+    double fastest_partner = 0.0;                              // IDs
+    double shortest_partner = 0.0;
+    double overlap_partner = 0.0;
+
+    void join(const Ball &other);
   };
 
   void see(int i, int partner, const drumlin::physics::LinkModes &modes, double overlap) override;

@@ -250,18 +250,6 @@ void FixRollerHistory::locate(Body &body, const char *name, double stretch) {
             .c_str());
 }
 
-/// What the engine's tangential model exerts on ball i, its dashpot at the velocities of the row.
-std::array<double, 3> FixRollerHistory::friction_force(const Candidate &pair,
-                                                       const drumlin::PairMotion &motion,
-                                                       double normal_force) const {
-  const physics::Vec3 slip = drumlin::tangential_velocity(*atom, pair.i, pair.j, motion);
-  if (pair.spring == nullptr)
-    return physics::friction_step_without_history(pair.friction, normal_force, slip, 0.0).force;
-  return physics::friction_step(pair.friction, normal_force, motion.normal, slip,
-                                {pair.spring[0], pair.spring[1], pair.spring[2]}, 0.0)
-      .force;
-}
-
 void FixRollerHistory::evaluate() {
   if (comm->nprocs > 1 || atom->nghost > 0) engine::forward_comm(comm, this);
   if (stale_) rebuild();
@@ -274,7 +262,9 @@ void FixRollerHistory::evaluate() {
     const double F = physics::normal_force(pair.transition, pair.k, pair.c, m.overlap, m.rate);
     mine[0] += pair.sign * F * along(m.normal.data());
     if (m.overlap > 0.0 && pair.friction.coefficient > 0.0)
-      mine[0] += pair.sign * along(friction_force(pair, m, F).data());
+      mine[0] += pair.sign * along(drumlin::friction_force(*atom, pair.i, pair.j, m, pair.friction, F,
+                                                           pair.spring, update->dt)
+                                       .data());
     mine[1] += physics::contact_power(pair.transition, pair.k, pair.c, m.overlap, m.rate).dissipated;
     mine[2] += physics::contact_energy(pair.k, m.overlap);
     mine[3] += physics::in_contact(pair.transition, pair.k, pair.c, m.overlap, m.rate) ? 1.0 : 0.0;

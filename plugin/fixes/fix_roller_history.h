@@ -82,8 +82,6 @@ private:
   void parse(int narg, char **arg);
   void rebuild();
   void evaluate();
-  std::array<double, 3> friction_force(const Candidate &pair, const drumlin::PairMotion &motion,
-                                       double normal_force) const;
   void locate(Body &body, const char *name, double stretch = 0.0);
   void evaluate_bed();
   drumlin::BallSums ball_sums() const { return bed_->balls(axis_, reference_.window_top); }

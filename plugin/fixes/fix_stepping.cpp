@@ -35,6 +35,7 @@ FixStepping *FixStepping::provide(LAMMPS *lammps) {
 FixStepping::FixStepping(LAMMPS *lammps, int narg, char **arg) : GhostFix(lammps, narg, arg) {
   nevery = 1;
   comm_forward = shared;
+  comm_reverse = 6;
   FixStepping::grow_arrays(atom->nmax);
   atom->add_callback(0);
   for (int i = 0; i < atom->nlocal; ++i)
@@ -88,6 +89,13 @@ void FixStepping::post_integrate() {
   dt_ = update->dt;
   counted_ = counting_;
   if (!counted_) return;
+  if (force->newton_pair) {
+    gather(1);
+    std::copy_n(damping_.begin() + atom->nlocal, atom->nghost, gathered_.begin() + atom->nlocal);
+    drumlin::engine::reverse_comm(comm, this);
+    for (int i = 0; i < atom->nlocal; ++i)
+      damping_[static_cast<std::size_t>(i)] += gathered_[static_cast<std::size_t>(i)];
+  }
   for (int i = 0; i < atom->nlocal; ++i) {
     const auto n = static_cast<std::size_t>(i);
     damping_over_mass_[n] = damping_[n] * inverse_mass_[n];
@@ -124,10 +132,20 @@ void FixStepping::expect_contacts() {
       ball(j).add(law.stiffness, c);
     }
   }
+  std::array<double, 2> mine{}; // greatest sum of c/m, and k/c
+  if (force->newton_pair) {
+    gather(1);
+    for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; ++i) {
+      gathered_[static_cast<std::size_t>(i)] = ball(i).sum;
+      mine[1] = std::max(mine[1], ball(i).stiffest);
+    }
+    drumlin::engine::reverse_comm(comm, this);
+    for (int i = 0; i < atom->nlocal; ++i)
+      ball(i).sum += gathered_[static_cast<std::size_t>(i)];
+  }
   for (const Expected &link : expected_)
     ball(link.i).add(link.k, link.c);
 
-  std::array<double, 2> mine{}; // greatest sum of c/m, and k/c
   for (int i = 0; i < atom->nlocal; ++i) {
     double &inverse_mass = inverse_mass_[static_cast<std::size_t>(i)];
     if (inverse_mass < 0.0) inverse_mass = 1.0 / source->mass(i);
@@ -141,14 +159,51 @@ void FixStepping::expect_contacts() {
   expected_dt_ = update->dt;
 }
 
+/// Makes room for what ghosts have for their owners, of each ball.
+void FixStepping::gather(std::size_t numbers) {
+  comm_reverse = static_cast<int>(numbers);
+  gathered_.assign(numbers * static_cast<std::size_t>(atom->nlocal + atom->nghost), 0.0);
+}
+
 void FixStepping::close_forces() {
-  int any = coupled_.empty() && coupled_links_.empty() ? 0 : 1;
+  constexpr int couples = 1, sends = 2;
+  const auto of_a_ghost = [this](const Later &item) { return item.i >= atom->nlocal; };
+  int any = coupled_.empty() && coupled_links_.empty() ? 0 : couples;
+  if (force->newton_pair && std::any_of(later_.begin(), later_.end(), of_a_ghost)) any |= sends;
   if (comm->nprocs > 1) {
     const int mine = any;
-    MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, world);
+    MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_BOR, world);
   }
-  if (any == 0) return;
+  if (any & sends) send_later();
+  if (any & couples) solve_coupled();
+}
 
+/// Hands what is to be exerted on ghosts after the closing half kick to their owners.
+void FixStepping::send_later() {
+  constexpr std::size_t numbers = 6;
+  gather(numbers);
+  const auto gathered = [this](int i) { return gathered_.begin() + static_cast<std::ptrdiff_t>(i) * 6; };
+  std::vector<Later> kept;
+  for (const Later &item : later_)
+    if (item.i < atom->nlocal)
+      kept.push_back(item);
+    else
+      for (std::size_t a = 0; a < 3; ++a) {
+        gathered(item.i)[static_cast<std::ptrdiff_t>(a)] += item.rest[a];
+        gathered(item.i)[static_cast<std::ptrdiff_t>(a) + 3] += item.shift[a];
+      }
+  drumlin::engine::reverse_comm(comm, this);
+  later_.swap(kept);
+  for (int i = 0; i < atom->nlocal; ++i) {
+    Later item{i, {}, {}};
+    std::copy_n(gathered(i), 3, item.rest.begin());
+    std::copy_n(gathered(i) + 3, 3, item.shift.begin());
+    if (std::any_of(gathered(i), gathered(i) + 6, [](double value) { return value != 0.0; }))
+      later_.push_back(item);
+  }
+}
+
+void FixStepping::solve_coupled() {
   double **f = atom->f;
   const int nlocal = atom->nlocal;
   for (int i = 0; i < nlocal; ++i) {
@@ -160,6 +215,7 @@ void FixStepping::close_forces() {
       star[a] = v[a] + kick * f[i][a];
   }
   if (comm->nprocs > 1 || atom->nghost > 0) drumlin::engine::forward_comm(comm, this);
+  if (force->newton_pair) gather(3);
   for (const Coupled &p : coupled_) {
     const auto along = [&](int ball) {
       const double *v = velocity_[ball];
@@ -169,10 +225,22 @@ void FixStepping::close_forces() {
     const double acting = drumlin::physics::coupled_force(p.dashpot, rate);
     const double change = p.share * (acting - p.dashpot.first);
     add_force(p.i, change, p.normal);
-    if (p.j >= 0 && p.j < nlocal) add_force(p.j, -change, p.normal);
+    if (p.j >= 0 && p.j < nlocal)
+      add_force(p.j, -change, p.normal);
+    else if (takes(p.j))
+      for (std::size_t a = 0; a < 3; ++a)
+        gathered_[static_cast<std::size_t>(p.j) * 3 + a] -= change * p.normal[a];
     *p.force = acting;
   }
   coupled_.clear();
+  if (force->newton_pair) {
+    drumlin::engine::reverse_comm(comm, this);
+    for (int i = 0; i < nlocal; ++i) {
+      const double *change = gathered_.data() + static_cast<std::ptrdiff_t>(i) * 3;
+      if (change[0] != 0.0 || change[1] != 0.0 || change[2] != 0.0)
+        add_force(i, 1.0, {change[0], change[1], change[2]});
+    }
+  }
   for (const std::function<void()> &close : coupled_links_)
     close();
   coupled_links_.clear();
@@ -291,6 +359,16 @@ void FixStepping::unpack_ghosts(int n, int begin, double *buf) {
     damping_over_mass_[static_cast<std::size_t>(i)] = buf[3];
     buf += shared;
   }
+}
+
+void FixStepping::pack_gathered(int n, int begin, double *buf) {
+  std::copy_n(gathered_.begin() + static_cast<std::ptrdiff_t>(begin) * comm_reverse, n * comm_reverse, buf);
+}
+
+void FixStepping::join_gathered(int n, const int *list, const double *buf) {
+  for (int m = 0; m < n; ++m)
+    for (int a = 0; a < comm_reverse; ++a)
+      gathered_[static_cast<std::size_t>(list[m] * comm_reverse + a)] += *buf++;
 }
 
 double FixStepping::memory_usage() { return static_cast<double>(atom->nmax) * 6 * sizeof(double); }

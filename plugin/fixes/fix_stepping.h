@@ -38,13 +38,16 @@ public:
   int unpack_exchange(int, double *) override;
   void pack_ghosts(int, const int *, double *) override;
   void unpack_ghosts(int, int, double *) override;
+  void pack_gathered(int, int, double *) override;
+  void join_gathered(int, const int *, const double *) override;
   double memory_usage() override;
 
   bool in_setup() const { return in_setup_; } ///< velocities belong to the time of the positions
   /// Whether this is a step, in which no dashpot is heavy and none has to be counted.
   bool light() const { return light_; }
-  /// Whether this rank owns a ball; false for a wall's -1.
-  bool owns(int i) const { return i >= 0 && i < atom->nlocal; }
+  /// Whether this rank takes note of forces on ball i: an owned one, or with newton on, where no other rank meets the contact, a ghost
+  /// on behalf of its owner; false for a wall's -1.
+  bool takes(int i) const { return i >= 0 && (i < atom->nlocal || force->newton_pair); }
   double dt() const { return dt_; }                             ///< s
   const double *velocity_before(int i) const { return row(i); } ///< v(t), m/s, owned balls and ghosts
   /// Takes note, after the integration and before the ghosts hear of it, that a force on owned ball i is known to change in
@@ -59,12 +62,12 @@ public:
   }
   /// Whether the contacts of this step are to be counted with add_damping().
   bool counting() const { return counting_; }
-  /// Counts the c, N s/m, of a contact of ball i for the next step; what a ghost gets is forgotten.
+  /// Counts the c, N s/m, of a contact of ball i for the next step; with newton off what a ghost gets is forgotten.
   void add_damping(int i, double c) { damping_[static_cast<std::size_t>(i)] += c; }
   /// Announces, before each search for neighbours (pre_neighbor), a link on owned ball i that is no contact.
   void expect(int i, double k, double c) { expected_.push_back({i, k, c}); }
-  /// Forces on an owned ball after the closing half kick of this step: `rest` stays for the next opening half kick, `shift`
-  /// acts in the next drift only.
+  /// Forces after the closing half kick of this step on a ball that takes() them: `rest` stays for the next opening half kick,
+  /// `shift` acts in the next drift only.
   void add_after_kick(int i, const std::array<double, 3> &rest, const std::array<double, 3> &shift) {
     later_.push_back({i, rest, shift});
   }
@@ -104,6 +107,9 @@ private:
   /// Rows follow one another: this spares the inner loop a pointer per ball.
   double *row(int i) const { return velocity_[0] + static_cast<std::ptrdiff_t>(i) * 3; }
   void expect_contacts();
+  void gather(std::size_t numbers);
+  void solve_coupled();
+  void send_later();
   void merge_later();
   void constrain(bool any) const;
 
@@ -119,6 +125,7 @@ private:
   std::vector<double> damping_over_mass_; // sum of c/m in the last step, 1/s
   std::vector<double> inverse_mass_;      // as its contacts feel it, 1/kg; below 0: not known yet
   std::vector<double> damping_;           // sum of c in this step, N s/m
+  std::vector<double> gathered_;          // what ghosts have for their owners, comm_reverse numbers each
   std::vector<Coupled> coupled_;          // of this step
   std::vector<std::function<void()>> coupled_links_;
   std::vector<Later> later_;            // of this step

@@ -44,6 +44,25 @@ inline std::array<double, 3> tangential_velocity(const LAMMPS_NS::Atom &atom, in
   return physics::slip_velocity(relative, m.normal, turning);
 }
 
+/// Tangential force, N, on ball i of a pair that touches, its dashpot at the velocities of now.
+///
+/// Behind a step in which the contact slid its spring is as long as friction allows, give or take rounding: whether it slides is
+/// asked of the step of dt, s, to come.
+/// \param spring m, three components, as ball i feels it; nullptr: friction without history
+inline std::array<double, 3> friction_force(const LAMMPS_NS::Atom &atom, int i, int j, const PairMotion &m,
+                                            const physics::Friction &friction, double normal_force,
+                                            const double *spring, double dt) {
+  const physics::Vec3 slip = tangential_velocity(atom, i, j, m);
+  if (spring == nullptr)
+    return physics::friction_step_without_history(friction, normal_force, slip, 0.0).force;
+  const auto after = [&](double time) {
+    return physics::friction_step(friction, normal_force, m.normal, slip, {spring[0], spring[1], spring[2]},
+                                  time);
+  };
+  const physics::FrictionStep next = after(dt);
+  return next.sliding ? next.force : after(0.0).force;
+}
+
 /// Packs owned velocities for the ghosts, and takes them there: the pair style leaves ghosts at the half-step
 /// velocity.
 inline void pack_velocities(const LAMMPS_NS::Atom &atom, int n, const int *list, double *buf) {

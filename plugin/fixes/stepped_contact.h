@@ -139,7 +139,7 @@ private:
           {sign * shift * p.normal[0], sign * shift * p.normal[1], sign * shift * p.normal[2]});
     };
     later(p.i, 1.0);
-    if (stepping_.owns(p.j)) later(p.j, -1.0);
+    if (stepping_.takes(p.j)) later(p.j, -1.0);
   }
 
   const physics::Transition transition_;
@@ -150,7 +150,7 @@ private:
 struct ShownContact {
   int i, j;                      ///< j < 0: a wall
   int tag_i, tag_j;              ///< 0 for a wall
-  bool owns_j;                   ///< ball j is no ghost
+  bool tells_j;                  ///< of ball j, too: it is no ghost whose owner tells of the contact
   double inverse_mi, inverse_mj; ///< 1/kg, 0 if fixed
   double ri, rj;                 ///< m; of a wall the ball's
   double overlap;                ///< m
@@ -183,7 +183,7 @@ inline void show(ContactWatch &watch, const ShownContact &p) {
     watch.see(ball, partner, modes, overlap);
   };
   if (p.inverse_mi > 0.0) see(p.i, p.tag_j, p.inverse_mi, p.inverse_mj, p.ri, p.rj);
-  if (p.inverse_mj > 0.0 && p.owns_j) see(p.j, p.tag_i, p.inverse_mj, p.inverse_mi, p.rj, p.ri);
+  if (p.inverse_mj > 0.0 && p.tells_j) see(p.j, p.tag_i, p.inverse_mj, p.inverse_mi, p.rj, p.ri);
 }
 
 } // namespace drumlin

@@ -48,8 +48,12 @@ class GhostFix : public LAMMPS_NS::Fix {
 public:
   using Fix::Fix;
   /// Numbers of owned balls for their ghosts, `comm_forward` for each of the n balls.
-  virtual void pack_ghosts(int n, const int *balls, double *numbers) = 0;
-  virtual void unpack_ghosts(int n, int first, double *numbers) = 0;
+  virtual void pack_ghosts(int, const int *, double *) {}
+  virtual void unpack_ghosts(int, int, double *) {}
+  /// The way back, with newton on: what the n ghosts from `first` on have gathered, `comm_reverse` numbers for each, for their owners,
+  /// who join it to what they have.
+  virtual void pack_gathered(int, int, double *) {}
+  virtual void join_gathered(int, const int *, const double *) {}
   /// When all forces of the step are known and before the closing half kick, if setmask() has `closes_forces`. Fixes act in the order of
   /// the deck: this one must stand before those that integrate.
   virtual void close_forces() {}
@@ -59,6 +63,11 @@ public:
     return n * comm_forward;
   }
   void unpack_forward_comm(int n, int first, double *numbers) final { unpack_ghosts(n, first, numbers); }
+  int pack_reverse_comm(int n, int first, double *numbers) final {
+    pack_gathered(n, first, numbers);
+    return n * comm_reverse;
+  }
+  void unpack_reverse_comm(int n, int *balls, double *numbers) final { join_gathered(n, balls, numbers); }
   void final_integrate() final { close_forces(); }
 };
 constexpr int closes_forces = LAMMPS_NS::FixConst::FINAL_INTEGRATE;
@@ -73,6 +82,9 @@ inline bool told_to_stop(const LAMMPS *lmp) { return lmp->timer->is_timeout(); }
 
 /// Copies the numbers of owned balls to their ghosts through the fix's pack_ghosts/unpack_ghosts pair.
 inline void forward_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Fix *fix) { version::forward_comm(comm, fix); }
+
+/// Takes what ghosts have gathered to their owners through the fix's pack_gathered/join_gathered pair.
+inline void reverse_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Fix *fix) { version::reverse_comm(comm, fix); }
 
 /// Acceleration of gravity (m/s2) as the deck's fix gravity gives it now; zero without one.
 inline std::array<double, 3> gravity(LAMMPS_NS::Modify *modify) {

@@ -25,6 +25,14 @@ inline void forward_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Fix *fix) {
 #endif
 }
 
+inline void reverse_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Fix *fix) {
+#if DRUMLIN_LAMMPS_2021
+  comm->reverse_comm_fix(fix);
+#else
+  comm->reverse_comm(fix);
+#endif
+}
+
 inline void minimum_image(LAMMPS_NS::Domain *domain, double *d) {
 #if DRUMLIN_LAMMPS_2021
   domain->minimum_image(d[0], d[1], d[2]);

@@ -28,7 +28,8 @@ std::string placeholder_id(int instance) { return "DRUMLIN_HISTORY_PLACE" + std:
 } // namespace
 
 PairGranHookeTransition::PairGranHookeTransition(LAMMPS *lammps) : Pair(lammps) {
-  single_enable = 0;
+  single_extra = 11;
+  svector = new double[static_cast<std::size_t>(single_extra)];
   no_virial_fdotr_compute = 1;
   centroidstressflag = CENTROID_NOTAVAIL;
   finitecutflag = 1;
@@ -41,6 +42,7 @@ PairGranHookeTransition::PairGranHookeTransition(LAMMPS *lammps) : Pair(lammps) 
 
 PairGranHookeTransition::~PairGranHookeTransition() {
   if (copymode) return;
+  delete[] svector;
   for (const std::string &id : {placeholder_id(instance_me), history_id(instance_me)})
     if (modify->find_fix(id) >= 0) modify->delete_fix(id);
   if (!allocated) return;
@@ -103,7 +105,6 @@ void PairGranHookeTransition::check_engine() const {
   if (!atom->radius_flag || !atom->rmass_flag)
     refuse("the atom style has no radius or no mass of its own; allowed: atom_style sphere");
   if (comm->ghost_velocity == 0) refuse("ghosts have no velocity; allowed: comm_modify vel yes before");
-  if (force->newton_pair != 0) refuse("newton is on for pairs; allowed: newton off before the box");
   for (int n = 0; n < modify->nfix; ++n)
     if (modify->fix[n]->rigid_flag)
       refuse(std::string("fix ") + modify->fix[n]->id + " (" + modify->fix[n]->style +
@@ -193,6 +194,8 @@ void PairGranHookeTransition::compute_contacts() {
   const bool a_may_end = stepped && moves && settings.transition == physics::Transition::A;
   const double dt = update->dt;
   const int nlocal = atom->nlocal;
+  const int newton = force->newton_pair;
+  const int taken = newton ? nlocal + atom->nghost : nlocal; // balls that take the force here
   const int freeze_bit = freeze_groupbit_;
   const double *const *x = atom->x;
   const double *const *v = atom->v;
@@ -268,7 +271,7 @@ void PairGranHookeTransition::compute_contacts() {
       }
       force_i = physics::sum(force_i, 1.0, forces.force);
       if constexpr (rubs) torque_i = physics::sum(torque_i, -arm_i, forces.moment);
-      if (j < nlocal) {
+      if (j < taken) {
         f[j][0] -= forces.force[0];
         f[j][1] -= forces.force[1];
         f[j][2] -= forces.force[2];
@@ -279,8 +282,8 @@ void PairGranHookeTransition::compute_contacts() {
         }
       }
       if (evflag)
-        ev_tally_xyz(i, j, nlocal, 0, 0.0, 0.0, forces.force[0], forces.force[1], forces.force[2], d[0], d[1],
-                     d[2]);
+        ev_tally_xyz(i, j, nlocal, newton, 0.0, 0.0, forces.force[0], forces.force[1], forces.force[2], d[0],
+                     d[1], d[2]);
     }
     for (std::size_t a = 0; a < 3; ++a) {
       f[i][a] += force_i[a];
@@ -299,7 +302,7 @@ void PairGranHookeTransition::report(const drumlin::Contact &p, const drumlin::C
   shown.j = j;
   shown.tag_i = static_cast<int>(atom->tag[i]);
   shown.tag_j = static_cast<int>(atom->tag[j]);
-  shown.owns_j = j < atom->nlocal;
+  shown.tells_j = j < atom->nlocal || force->newton_pair;
   shown.inverse_mi = 1.0 / mass(i);
   shown.inverse_mj = 1.0 / mass(j);
   shown.ri = atom->radius[i];
@@ -308,6 +311,43 @@ void PairGranHookeTransition::report(const drumlin::Contact &p, const drumlin::C
   shown.normal = p.normal.normal.data();
   shown.mass_over_inertia = 1.0 / engine::inertia_share(lmp);
   drumlin::tell(settings_, law, p, shown);
+}
+
+const double *PairGranHookeTransition::history(int i, int j) const {
+  for (int jj = 0; jj < list->numneigh[i]; ++jj)
+    if (engine::neighbour_index(list->firstneigh[i][jj]) == j)
+      return history_->firstvalue[i] + static_cast<std::ptrdiff_t>(settings_.history()) * jj;
+  return nullptr;
+}
+
+/// For computes. There is no energy, as in pair gran. Extra values on ball i: tangential force (3), its magnitude, normal (3) and tangential
+/// (3) part of the relative velocity, overlap.
+double PairGranHookeTransition::single(int i, int j, int itype, int jtype, double, double, double,
+                                       double &force_over_distance) {
+  force_over_distance = 0.0;
+  std::fill_n(svector, single_extra, 0.0);
+  const drumlin::PairMotion now = drumlin::pair_motion(*atom, i, j);
+  const double *remembered = settings_.history() > 0 ? history(i, j) : nullptr;
+  if (now.overlap <= 0.0 || (settings_.history() > 0 && remembered == nullptr)) return 0.0;
+  const ContactCoefficients &law = at(itype, jtype);
+  const double c = physics::damping_coefficient(law.normal, effective_mass(i, j));
+  const double normal_force =
+      settings_.stock
+          ? physics::normal_force(settings_.transition, law.normal.stiffness, c, now.overlap, now.rate)
+          : remembered[settings_.spring()];
+  force_over_distance = normal_force / (atom->radius[i] + atom->radius[j] - now.overlap);
+  const physics::Friction friction =
+      settings_.tangential == FrictionModel::none ? physics::Friction{} : law.tangential(c, settings_.cap);
+  const physics::Vec3 across = drumlin::friction_force(
+      *atom, i, j, now, friction, normal_force, settings_.spring() > 0 ? remembered : nullptr, update->dt);
+  const physics::Vec3 slip = drumlin::tangential_velocity(*atom, i, j, now);
+  double *value = std::copy_n(across.begin(), 3, svector);
+  *value++ = std::sqrt(physics::dot(across, across));
+  for (const double n : now.normal)
+    *value++ = -now.rate * n;
+  value = std::copy_n(slip.begin(), 3, value);
+  *value = now.overlap;
+  return 0.0;
 }
 
 /// The spring turns round when the balls change places, the force does not.

@@ -21,6 +21,7 @@ public:
   void coeff(int, char **) override;
   void init_style() override;
   double init_one(int, int) override;
+  double single(int, int, int, int, double, double, double, double &) override;
   void write_restart(FILE *) override;
   void read_restart(FILE *) override;
   void transfer_history(double *, double *DRUMLIN_TRANSFER_TYPES) override;
@@ -54,6 +55,8 @@ private:
   void compute_contacts();
   [[gnu::noinline]] void report(const drumlin::Contact &, const drumlin::ContactForces &) const;
   void check_engine() const;
+  /// What ball i's contact with its neighbour j remembers; nullptr: j is none.
+  const double *history(int i, int j) const;
 
   drumlin::ContactSettings settings_;
   std::size_t stride_ = 0;

@@ -47,8 +47,11 @@ class GhostFix : public LAMMPS_NS::Fix {
 public:
   using Fix::Fix;
   /// Numbers of owned balls for their ghosts, `comm_forward` for each of the n balls.
-  virtual void pack_ghosts(int n, const int *balls, double *numbers) = 0;
-  virtual void unpack_ghosts(int n, int first, double *numbers) = 0;
+  virtual void pack_ghosts(int, const int *, double *) {}
+  virtual void unpack_ghosts(int, int, double *) {}
+  /// What ghosts gather for their owners where newton is on: never, see reverse_comm().
+  virtual void pack_gathered(int, int, double *) {}
+  virtual void join_gathered(int, const int *, const double *) {}
   /// When all forces of the step are known and before the closing half kick, if setmask() has `closes_forces`.
   virtual void close_forces() {}
 
@@ -75,6 +78,9 @@ inline bool told_to_stop(const LAMMPS *lmp) {
 
 /// Copies the velocities of owned balls to their ghosts through the fix's pack_comm/unpack_comm pair.
 inline void forward_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Fix *fix) { comm->forward_comm_fix(fix); }
+
+/// Contacts that remember something need newton off in LIGGGHTS: ghosts gather nothing.
+inline void reverse_comm(LAMMPS_NS::Comm *, LAMMPS_NS::Fix *) {}
 
 /// Acceleration of gravity (m/s2) as the deck's fix gravity gives it now; zero without one.
 inline std::array<double, 3> gravity(LAMMPS_NS::Modify *modify) {

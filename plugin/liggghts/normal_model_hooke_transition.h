@@ -243,7 +243,7 @@ private:
     p.j = sidata.is_wall ? -1 : sidata.j;
     p.tag_i = atom->tag[sidata.i];
     p.tag_j = sidata.is_wall ? 0 : atom->tag[sidata.j];
-    p.owns_j = p.j >= 0 && p.j < atom->nlocal;
+    p.tells_j = p.j >= 0 && p.j < atom->nlocal;
     p.inverse_mi = 1.0 / mass(sidata.i, sidata.mi);
     p.inverse_mj = sidata.is_wall ? 0.0 : 1.0 / mass(sidata.j, sidata.mj);
     p.ri = sidata.radi;

@@ -84,6 +84,14 @@ public:
     add(dashpot_, link.normal, link.burden * link.normal_dashpot, link.burden * link.tangential_dashpot, 0.0);
   }
 
+  /// Further links of the same ball.
+  void add(const LoadedBall &links) {
+    for (std::size_t a = 0; a < spring_.size(); ++a) {
+      spring_[a] += links.spring_[a];
+      dashpot_[a] += links.dashpot_[a];
+    }
+  }
+
   /// Critical step, s; infinity without links.
   [[nodiscard]] double critical_step() const {
     return critical_step_stock(largest_eigenvalue(spring_), largest_eigenvalue(dashpot_), 1.0);

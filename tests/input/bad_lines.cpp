@@ -443,7 +443,7 @@ BadGroup guard() {
           on_two_ranks(in_the_run(line(
               "step beyond the critical one", "fix bond all bond/spring 2 3 1e15 0\nfix guard all guard",
               {command + "time step 1e-05 s, critical step 1.531e-06 s of ball 3 at step 0 (most of it by "
-                         "balls 3 and 2)",
+                         "balls 2 and 3)",
                "at most 1.531e-06 s"}))),
           on_two_ranks(in_the_run(line("a ball in a ball",
                                        "displace_atoms drum move 0 0 -0.6 units box\nfix guard all guard",
