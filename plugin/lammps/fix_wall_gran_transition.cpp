@@ -24,7 +24,21 @@ FixWallGranTransition::FixWallGranTransition(LAMMPS *lammps, int narg, char **ar
   create_attribute = 1;
   drumlin::Arguments in(error, command, narg - 3, arg + 3);
   type_ = static_cast<int>(in.integer("type of the wall", 1, atom->ntypes));
-  axis_ = in.choice("wall", {"xplane", "yplane", "zplane"});
+  const int wall = in.choice("wall", {"xplane", "yplane", "zplane", "region"});
+  wall == 3 ? read_region(in) : read_planes(in, wall);
+  if (!in.empty())
+    in.fail("'" + in.peek() +
+            "' is left over; allowed: TYPE xplane|yplane|zplane LOW HIGH or TYPE region ID");
+  FixWallGranTransition::grow_arrays(atom->nmax);
+  atom->add_callback(Atom::GROW);
+  atom->add_callback(Atom::RESTART);
+  for (int i = 0; i < atom->nlocal; ++i)
+    FixWallGranTransition::set_arrays(i);
+  list().push_back(this);
+}
+
+void FixWallGranTransition::read_planes(drumlin::Arguments &in, int axis) {
+  axis_ = axis;
   for (std::size_t side = 0; side < 2; ++side) {
     const std::string what = side == 0 ? "place of the low wall" : "place of the high wall";
     if (!in.empty() && in.peek() == "NULL")
@@ -34,16 +48,16 @@ FixWallGranTransition::FixWallGranTransition(LAMMPS *lammps, int narg, char **ar
       has_[side] = true;
     }
   }
-  if (!in.empty()) in.fail("'" + in.peek() + "' is left over; allowed: TYPE xplane|yplane|zplane LOW HIGH");
   if (sides() == 0) in.fail("both places are NULL; allowed: a number, in m, for one at least");
   if (sides() == 2 && place_[0] >= place_[1])
     in.fail("the low wall is not below the high one; allowed: LOW < HIGH");
-  FixWallGranTransition::grow_arrays(atom->nmax);
-  atom->add_callback(Atom::GROW);
-  atom->add_callback(Atom::RESTART);
-  for (int i = 0; i < atom->nlocal; ++i)
-    FixWallGranTransition::set_arrays(i);
-  list().push_back(this);
+}
+
+void FixWallGranTransition::read_region(drumlin::Arguments &in) {
+  region_id_ = in.word("ID of the region");
+  const Region *region = drumlin::engine::version::find_region(domain, region_id_);
+  if (region == nullptr) in.fail("region '" + region_id_ + "' is unknown; allowed: the ID of a region");
+  places_ = region->cmax;
 }
 
 FixWallGranTransition::~FixWallGranTransition() {
@@ -67,6 +81,16 @@ void FixWallGranTransition::init() {
                (std::string(command) + ": the pair style is another; allowed: " + drumlin::engine::pair_style)
                    .c_str());
   stepping_ = pair_->contact_settings().stock ? nullptr : FixStepping::find(lmp);
+  if (region_id_.empty()) return;
+  const auto refuse = [this](const char *why) {
+    error->all(FLERR, (std::string(command) + ": region '" + region_id_ + "' " + why).c_str());
+  };
+  region_ = drumlin::engine::version::find_region(domain, region_id_);
+  if (region_ == nullptr) refuse("is gone; allowed: a region that stays while the fix does");
+  if (region_->cmax != places_)
+    refuse("has another number of faces than before; allowed: the region that it was");
+  if (region_->dynamic_check() != 0) refuse("moves; allowed: a region at rest");
+  near_.resize(static_cast<std::size_t>(places_));
 }
 
 void FixWallGranTransition::setup(int vflag) { post_force(vflag); }
@@ -80,71 +104,99 @@ void FixWallGranTransition::post_force(int) {
 
 template <bool stepped, FrictionModel tangential>
 void FixWallGranTransition::touch_balls() {
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if (!(atom->mask[i] & groupbit)) continue;
+    if (region_ != nullptr) {
+      surfaces_of_region(i, [this, i](int place, const physics::Vec3 &normal, double distance) {
+        touch<stepped, tangential>(i, place, normal, distance);
+      });
+      continue;
+    }
+    for (int side = 0; side < 2; ++side) {
+      const auto n = static_cast<std::size_t>(side);
+      if (!has_[n]) continue;
+      physics::Vec3 normal{};
+      double &up = normal[static_cast<std::size_t>(axis_)];
+      up = side == 0 ? 1.0 : -1.0;
+      touch<stepped, tangential>(i, side, normal, up * (atom->x[i][axis_] - place_[n]));
+    }
+  }
+}
+
+/// Calls touch(place, normal, distance) for each face of the region that a ball may have left in this step or nearer.
+template <class Touch>
+void FixWallGranTransition::surfaces_of_region(int i, Touch &&touch) {
+  constexpr double near = 1.1; // of the radius: what a ball has left in a step is not farther
+  const double *x = atom->x[i];
+  std::fill(near_.begin(), near_.end(), false);
+  const int faces =
+      region_->match(x[0], x[1], x[2]) ? region_->surface(x[0], x[1], x[2], near * atom->radius[i]) : 0;
+  for (int n = 0; n < faces; ++n) {
+    const Region::Contact &face = region_->contact[n];
+    near_.at(static_cast<std::size_t>(face.iwall)) = true;
+    touch(face.iwall, physics::Vec3{face.delx / face.r, face.dely / face.r, face.delz / face.r}, face.r);
+  }
+  for (int place = 0; place < places_; ++place)
+    if (!near_[static_cast<std::size_t>(place)]) std::fill_n(row(i, place), of_a_side, 0.0);
+}
+
+/// \param normal from the wall to the ball \param distance of its centre from the wall, m
+template <bool stepped, FrictionModel tangential>
+void FixWallGranTransition::touch(int i, int place, const physics::Vec3 &normal, double distance) {
+  double *remembered = row(i, place);
+  const bool touches = distance < atom->radius[i];
+  if (!touches && remembered[0] == 0.0) return;
   const drumlin::ContactSettings &settings = pair_->contact_settings();
   const bool moves = update->setupflag == 0;
-  const bool told = !drumlin::ContactLedger::open().empty() || !drumlin::ContactWatch::looking().empty();
-  for (std::size_t side = 0; side < 2; ++side) {
-    if (!has_[side]) continue;
-    physics::Vec3 normal{};
-    normal[static_cast<std::size_t>(axis_)] = side == 0 ? 1.0 : -1.0;
-    for (int i = 0; i < atom->nlocal; ++i) {
-      if (!(atom->mask[i] & groupbit)) continue;
-      const double gap =
-          normal[static_cast<std::size_t>(axis_)] * (atom->x[i][axis_] - place_[side]); // of the centre
-      double *remembered = row(i, static_cast<int>(side));
-      const bool touches = gap < atom->radius[i];
-      if (!touches && remembered[0] == 0.0) continue;
-      const drumlin::ContactCoefficients &law = pair_->at(atom->type[i], type_);
-      const double mass = FixClump::mass_of(*atom, i, atom->rmass[i]);
-      const double *v = atom->v[i];
+  const drumlin::ContactCoefficients &law = pair_->at(atom->type[i], type_);
+  const double mass = FixClump::mass_of(*atom, i, atom->rmass[i]);
+  const double *v = atom->v[i];
 
-      drumlin::Contact p{};
-      p.normal.i = i;
-      p.normal.j = -1;
-      p.normal.normal = normal;
-      p.normal.overlap = atom->radius[i] - gap;
-      p.normal.rate_half = -(v[0] * normal[0] + v[1] * normal[1] + v[2] * normal[2]);
-      p.normal.k = law.normal.stiffness;
-      p.normal.c = physics::damping_coefficient(law.normal, mass);
-      p.normal.m_eff = mass;
-      p.normal.share = 1.0;
-      p.history = remembered + (settings.spring() > 0 ? 1 : 4);
+  drumlin::Contact p{};
+  p.normal.i = i;
+  p.normal.j = -1;
+  p.normal.normal = normal;
+  p.normal.overlap = atom->radius[i] - distance;
+  p.normal.rate_half = -(v[0] * normal[0] + v[1] * normal[1] + v[2] * normal[2]);
+  p.normal.k = law.normal.stiffness;
+  p.normal.c = physics::damping_coefficient(law.normal, mass);
+  p.normal.m_eff = mass;
+  p.normal.share = 1.0;
+  p.history = remembered + (settings.spring() > 0 ? 1 : 4);
 
-      drumlin::ContactForces forces{};
-      if (!touches) { // it did, a step ago
-        std::fill_n(remembered, of_a_side, 0.0);
-        if constexpr (stepped)
-          if (moves && settings.transition == physics::Transition::A)
-            forces.force = drumlin::end_of_a(*stepping_, p.normal);
-      } else {
-        remembered[0] = 1.0;
-        p.arm_i = atom->radius[i] - 0.5 * p.normal.overlap; // as between balls
-        if constexpr (tangential != FrictionModel::none) {
-          const double *w = atom->omega[i];
-          p.slip = physics::slip_velocity({v[0], v[1], v[2]}, normal,
-                                          {p.arm_i * w[0], p.arm_i * w[1], p.arm_i * w[2]});
-        }
-        forces = drumlin::exert<stepped, tangential>(settings, law, stepping_, p, update->dt, moves);
-        if (told) {
-          drumlin::enter(settings, law, p, forces, atom->radius[i]);
-          drumlin::ShownContact shown{};
-          shown.i = i;
-          shown.j = -1;
-          shown.tag_i = static_cast<int>(atom->tag[i]);
-          shown.inverse_mi = 1.0 / pair_->mass(i);
-          shown.ri = shown.rj = atom->radius[i];
-          shown.overlap = p.normal.overlap;
-          shown.normal = normal.data();
-          shown.mass_over_inertia = 1.0 / drumlin::engine::inertia_share(lmp);
-          drumlin::tell(settings, law, p, shown);
-        }
-      }
-      for (std::size_t a = 0; a < 3; ++a) {
-        atom->f[i][a] += forces.force[a];
-        atom->torque[i][a] -= p.arm_i * forces.moment[a];
-        force_[a] += forces.force[a];
-      }
+  drumlin::ContactForces forces{};
+  if (!touches) { // it did, a step ago
+    std::fill_n(remembered, of_a_side, 0.0);
+    if constexpr (stepped)
+      if (moves && settings.transition == physics::Transition::A)
+        forces.force = drumlin::end_of_a(*stepping_, p.normal);
+  } else {
+    remembered[0] = 1.0;
+    p.arm_i = atom->radius[i] - 0.5 * p.normal.overlap; // as between balls
+    if constexpr (tangential != FrictionModel::none) {
+      const double *w = atom->omega[i];
+      p.slip = physics::slip_velocity({v[0], v[1], v[2]}, normal,
+                                      {p.arm_i * w[0], p.arm_i * w[1], p.arm_i * w[2]});
     }
+    forces = drumlin::exert<stepped, tangential>(settings, law, stepping_, p, update->dt, moves);
+    if (!drumlin::ContactLedger::open().empty() || !drumlin::ContactWatch::looking().empty()) {
+      drumlin::enter(settings, law, p, forces, atom->radius[i]);
+      drumlin::ShownContact shown{};
+      shown.i = i;
+      shown.j = -1;
+      shown.tag_i = static_cast<int>(atom->tag[i]);
+      shown.inverse_mi = 1.0 / pair_->mass(i);
+      shown.ri = shown.rj = atom->radius[i];
+      shown.overlap = p.normal.overlap;
+      shown.normal = normal.data();
+      shown.mass_over_inertia = 1.0 / drumlin::engine::inertia_share(lmp);
+      drumlin::tell(settings, law, p, shown);
+    }
+  }
+  for (std::size_t a = 0; a < 3; ++a) {
+    atom->f[i][a] += forces.force[a];
+    atom->torque[i][a] -= p.arm_i * forces.moment[a];
+    force_[a] += forces.force[a];
   }
 }
 
@@ -182,6 +234,10 @@ void FixWallGranTransition::unpack_restart(int i, int nth) {
   const double *values = atom->extra[i]; // the records of all fixes, each with its length first
   for (int n = 0; n < nth; ++n)
     values += static_cast<int>(values[0]);
+  if (static_cast<int>(values[0]) != 1 + numbers())
+    error->one(FLERR, (std::string(command) + ": the restart file holds another wall under the ID '" + id +
+                       "'; allowed: the wall that it was, or another ID")
+                          .c_str());
   std::copy_n(values + 1, numbers(), memory_[i]);
 }
 

@@ -2,13 +2,16 @@
 // fix wall/gran/transition: see plugin/doc/fix_wall_gran_transition.md.
 
 #include "engine.h"
+#include "fixes/arguments.h"
 #include "lammps/contact_terms.h"
 
 namespace LAMMPS_NS {
 
 class PairGranHookeTransition;
+class Region;
 
-/// A pair of planes at rest across an axis of the box, with the law of the pair style between balls and a type.
+/// A pair of planes at rest across an axis of the box, or the surface of a region at rest, with the law of the pair style between balls
+/// and a type.
 class FixWallGranTransition : public Fix {
 public:
   FixWallGranTransition(LAMMPS *, int, char **);
@@ -33,18 +36,29 @@ public:
   double memory_usage() override;
 
   int type() const { return type_; }
-  int sides() const { return (has_[0] ? 1 : 0) + (has_[1] ? 1 : 0); }
+  /// How many contacts a ball may have with it at once.
+  int sides() const { return region_id_.empty() ? (has_[0] ? 1 : 0) + (has_[1] ? 1 : 0) : places_; }
   /// The walls of this engine instance.
   static const std::vector<FixWallGranTransition *> &all() { return list(); }
 
 private:
   static constexpr int of_a_side = 5; // touch, spring, force
-  static constexpr int numbers() { return 2 * of_a_side; }
+  int numbers() const { return places_ * of_a_side; }
   static std::vector<FixWallGranTransition *> &list();
-  double *row(int i, int side) { return memory_[i] + static_cast<std::ptrdiff_t>(side) * of_a_side; }
+  double *row(int i, int place) { return memory_[i] + static_cast<std::ptrdiff_t>(place) * of_a_side; }
+  void read_planes(drumlin::Arguments &, int axis);
+  void read_region(drumlin::Arguments &);
   template <bool stepped, drumlin::FrictionModel tangential>
   void touch_balls();
+  template <bool stepped, drumlin::FrictionModel tangential>
+  void touch(int i, int place, const drumlin::physics::Vec3 &normal, double distance);
+  template <class Touch>
+  void surfaces_of_region(int i, Touch &&touch);
 
+  int places_ = 2;        // where a ball may touch it: what each remembers has its own row
+  std::string region_id_; // empty: planes
+  Region *region_ = nullptr;
+  std::vector<bool> near_; // places of the region, of one ball
   int axis_ = 0;
   int type_ = 1;
   std::array<bool, 2> has_{};     // low side, high side

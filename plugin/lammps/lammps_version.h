@@ -8,6 +8,9 @@
 #include "neigh_request.h"
 #include "neighbor.h"
 #include "pair.h"
+#include "region.h"
+
+#include <string>
 
 #ifdef HISTBITS
 #define DRUMLIN_LAMMPS_2021 0
@@ -30,6 +33,16 @@ inline void reverse_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Fix *fix) {
   comm->reverse_comm_fix(fix);
 #else
   comm->reverse_comm(fix);
+#endif
+}
+
+/// A region by its ID, or nullptr.
+inline LAMMPS_NS::Region *find_region(LAMMPS_NS::Domain *domain, const std::string &id) {
+#if DRUMLIN_LAMMPS_2021
+  const int index = domain->find_region(id);
+  return index < 0 ? nullptr : domain->regions[index];
+#else
+  return domain->get_region_by_id(id);
 #endif
 }
 

@@ -157,6 +157,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Bounce{"stock", {{"stepping", "stock"}}},
                       Bounce{"without_friction", {{"tangential", "off"}, {"mu", "-1"}}},
                       Bounce{"without_spring", {{"tangential", "no_history"}}},
+                      Bounce{"region", {{"walls", "block"}}},
+                      Bounce{"region_A", {{"walls", "block"}, {"transition", "A"}}},
                       Bounce{"heavy_dashpots", // c dt/m near 1: they are solved for together
                              {{"D", "40"}, {"tangential", "off"}, {"mu", "-1"}}}),
     bounce_name);
@@ -235,49 +237,49 @@ TEST_F(InLammps, RunSplitOrWholeIsOneUnderSecondOrderStepping) {
   }
 }
 
-/// Energy of the springs and of the weight in bounce.scene, J.
-double energy(const std::map<long, Ball> &balls) {
+/// Energy of the springs and of the weight in bounce.scene, J. \param pipe whether the walls are those of a cylinder, not planes
+double energy(const std::map<long, Ball> &balls, bool pipe) {
   constexpr double k = 1e5, density = 2500.0, gravity = 9.81;
   const auto radius = [](long id) { return 0.5 * (0.06 + 0.02 * std::sin(7.0 * static_cast<double>(id))); };
   const auto spring = [](double overlap) { return overlap > 0.0 ? 0.5 * k * overlap * overlap : 0.0; };
-  const std::array<std::array<double, 2>, 3> walls = {
-      {{0.0, 0.4}, {0.0, 0.3}, {0.0, std::numeric_limits<double>::infinity()}}};
   double sum = 0.0;
   for (const auto &[i, one] : balls) {
     const double r = radius(i);
-    sum += 4.0 / 3.0 * pi * r * r * r * density * gravity * one.x[2];
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      sum += spring(walls[axis][0] + r - one.x[axis]) + spring(one.x[axis] + r - walls[axis][1]);
+    const auto &[x, y, z] = one.x;
+    sum += 4.0 / 3.0 * pi * r * r * r * density * gravity * z + spring(r - z);
+    sum += pipe ? spring(r + std::hypot(x - 0.225, y - 0.15) - 0.15)
+                : spring(r - x) + spring(x + r - 0.4) + spring(r - y) + spring(y + r - 0.3);
     for (const auto &[j, other] : balls)
-      if (j < i)
-        sum += spring(r + radius(j) -
-                      std::hypot(one.x[0] - other.x[0], one.x[1] - other.x[1], one.x[2] - other.x[2]));
+      if (j < i) sum += spring(r + radius(j) - std::hypot(x - other.x[0], y - other.x[1], z - other.x[2]));
   }
   return sum;
 }
 
 TEST_F(InLammps, ForcesAreTheCentralDifferencesOfTheEnergy) {
   constexpr double h = 1e-7; // m
-  for (const char *stepping : {"second", "stock"}) {
-    const Scratch folder;
-    Variables variables = springs;
-    variables.emplace_back("stepping", stepping);
-    ASSERT_TRUE(run_deck(test_deck("bounce.lammps"), variables, folder.path()).ok());
-    double largest = 0.0;
-    for (const Frame &frame : read_dump(folder / "balls.txt"))
-      for (const auto &[id, ball] : frame.balls)
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          std::map<long, Ball> moved = frame.balls;
-          moved.at(id).x[axis] = ball.x[axis] + h;
-          const double above = energy(moved);
-          moved.at(id).x[axis] = ball.x[axis] - h;
-          const double force = -(above - energy(moved)) / (2.0 * h);
-          EXPECT_NEAR(ball.f[axis], force, 1e-3)
-              << stepping << ", step " << frame.step << ", ball " << id; // N
-          largest = std::max(largest, std::fabs(force));
-        }
-    EXPECT_GT(largest, 50.0);
-  }
+  for (const char *stepping : {"second", "stock"})
+    for (const char *walls : {"planes", "block", "cylinder"}) {
+      const bool pipe = std::string(walls) == "cylinder";
+      const Scratch folder;
+      Variables variables = springs;
+      variables.insert(variables.end(), {{"stepping", stepping}, {"walls", walls}});
+      const Outcome outcome = run_deck(test_deck("bounce.lammps"), variables, folder.path());
+      ASSERT_TRUE(outcome.ok()) << outcome.output;
+      double largest = 0.0;
+      for (const Frame &frame : read_dump(folder / "balls.txt"))
+        for (const auto &[id, ball] : frame.balls)
+          for (std::size_t axis = 0; axis < 3; ++axis) {
+            std::map<long, Ball> moved = frame.balls;
+            moved.at(id).x[axis] = ball.x[axis] + h;
+            const double above = energy(moved, pipe);
+            moved.at(id).x[axis] = ball.x[axis] - h;
+            const double force = -(above - energy(moved, pipe)) / (2.0 * h);
+            EXPECT_NEAR(ball.f[axis], force, 1e-3) // N
+                << stepping << ", " << walls << ", step " << frame.step << ", ball " << id;
+            largest = std::max(largest, std::fabs(force));
+          }
+      EXPECT_GT(largest, 50.0);
+    }
 }
 
 // Without dashpots: those in a dump see the velocities of its time, not those of the step.
@@ -367,7 +369,12 @@ TEST_F(InLammps, SaysWhatIsWrongInOneLineOnRanksOneAndTwo) {
       {good + "fix floor all wall/gran/transition 3 zplane 0 NULL",
        {wall, "type of the wall is '3'", "1 to 2"}},
       {good + "fix floor all wall/gran/transition 2 zcylinder 0 NULL",
-       {wall, "'zcylinder'", "xplane, yplane or zplane"}},
+       {wall, "'zcylinder'", "xplane, yplane, zplane or region"}},
+      {good + "fix pipe all wall/gran/transition 2 region pipe",
+       {wall, "region 'pipe' is unknown", "the ID of a region"}},
+      {good + "variable dx equal step\nregion pipe cylinder z 0 0 1 INF INF move v_dx NULL NULL\n"
+              "fix pipe all wall/gran/transition 2 region pipe",
+       {wall, "region 'pipe' moves", "a region at rest"}},
       {good + "fix floor all wall/gran/transition 2 zplane NULL NULL", {wall, "both places are NULL"}},
       {good + "fix floor all wall/gran/transition 2 zplane 1 0", {wall, "allowed: LOW < HIGH"}},
       {"pair_style gran/hooke/history 1e5 NULL 1 NULL 0.4 1\npair_coeff * *\nfix floor all "

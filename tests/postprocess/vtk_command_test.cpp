@@ -208,6 +208,7 @@ TEST_F(VtkCommand, BadInputIsOneLineAndTouchesNothing) {
     return arrays;
   };
   const std::string whole = ball_dump();
+  const std::string text_head = "ITEM: TIMESTEP\n300\nITEM: NUMBER OF ATOMS\n2\nITEM: ATOMS ";
   put("file", "not a folder");
   const std::vector<Bad> table = {
       {"no folder", {}, {}, {"dir is required"}},
@@ -228,6 +229,31 @@ TEST_F(VtkCommand, BadInputIsOneLineAndTouchesNothing) {
       {"out is a file", {}, {"run", "--out", "file"}, {"--out", "'file'", "allowed"}},
       {"out below a file", {}, {"run", "--out", "file/x"}, {"--out", "'file/x'", "allowed"}},
       {"out is the dumps", {}, {"run", "--out", "run/dump"}, {"--out", "'run/dump'", "balls.pvd", "allowed"}},
+      {"text dump of words", {{"dump/balls_300.dump", "hello"}}, {"run"}, {"balls_300.dump", "no text dump"}},
+      {"text dump cut short",
+       {{"dump/balls_300.dump", text_head + "id type\n1 1\n"}},
+       {"run"},
+       {"balls_300.dump", "has 1 rows, expected 2"}},
+      {"text dump with a short row",
+       {{"dump/balls_300.dump", text_head + "id type\n1 1\n2\n"}},
+       {"run"},
+       {"balls_300.dump", "row 2 has 1 numbers, expected 2"}},
+      {"text dump with a word",
+       {{"dump/balls_300.dump", text_head + "id type\n1 soil\n2 1\n"}},
+       {"run"},
+       {"balls_300.dump", "'soil' is no number"}},
+      {"text dump that is not finite",
+       {{"dump/balls_300.dump", text_head + "id type\n1 1\n2 nan\n"}},
+       {"run"},
+       {"balls_300.dump", "'type' holds nan"}},
+      {"text dump without radius",
+       {{"dump/balls_300.dump", text_head + "id type\n1 1\n2 1\n"}},
+       {"run"},
+       {"balls_300.dump", "column 'radius' is missing"}},
+      {"text dump of two steps",
+       {{"dump/balls_300.dump", text_head + "id type\n1 1\n2 1\n" + text_head + "id type\n1 1\n2 1\n"}},
+       {"run"},
+       {"balls_300.dump", "more than one step"}},
       {"empty balls", {{balls, ""}}, {"run"}, {"balls_200.vtp", "no whole VTK file"}},
       {"balls cut short",
        {{balls, whole.substr(0, whole.size() / 2)}},
