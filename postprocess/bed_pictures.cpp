@@ -17,8 +17,6 @@
 
 namespace drumlin::post {
 
-namespace fs = std::filesystem;
-
 namespace {
 
 /// The bed at one instant.

@@ -86,7 +86,8 @@ void FixGuard::end_of_step() {
 }
 
 void FixGuard::begin_look() {
-  balls_.assign(static_cast<std::size_t>(atom->nlocal + (force->newton_pair ? atom->nghost : 0)), {});
+  const int balls = atom->nlocal + (force->newton_pair ? atom->nghost : 0);
+  balls_.assign(static_cast<std::size_t>(balls), {});
   start_looking();
 }
 

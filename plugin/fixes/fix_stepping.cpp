@@ -366,9 +366,11 @@ void FixStepping::pack_gathered(int n, int begin, double *buf) {
 }
 
 void FixStepping::join_gathered(int n, const int *list, const double *buf) {
-  for (int m = 0; m < n; ++m)
-    for (int a = 0; a < comm_reverse; ++a)
-      gathered_[static_cast<std::size_t>(list[m] * comm_reverse + a)] += *buf++;
+  for (int m = 0; m < n; ++m) {
+    const auto ball = gathered_.begin() + static_cast<std::ptrdiff_t>(list[m]) * comm_reverse;
+    std::transform(ball, ball + comm_reverse, buf, ball, std::plus<>());
+    buf += comm_reverse;
+  }
 }
 
 double FixStepping::memory_usage() { return static_cast<double>(atom->nmax) * 6 * sizeof(double); }
