@@ -170,6 +170,7 @@ fs::path made(const Bed &bed, int seed, const fs::path &out) {
   fs::rename(roller, done);
   fs::remove(balls);
   fs::remove(soil);
+  fs::remove(roller.string() + ".data"); // for LAMMPS
   return done;
 }
 

@@ -135,7 +135,7 @@ TEST(DocPages, AreThereForEveryCommand) {
        {"drumlin_check", "drumlin_record", "drumlin_run", "drumlin_settle", "drumlin_write_restart",
         "fix_bond_spring", "fix_clump", "fix_contact_events", "fix_drum_excite", "fix_guard",
         "fix_roller_history", "fix_wall_gran_transition", "lammps", "pair_gran_hooke_transition",
-        "pair_gran_hooke_transition_lammps", "preload"})
+        "pair_gran_model_hooke_transition", "preload"})
     EXPECT_TRUE(fs::exists(root / "plugin/doc" / (std::string(name) + ".md"))) << name;
 }
 
