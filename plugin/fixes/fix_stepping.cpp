@@ -11,8 +11,9 @@ using namespace LAMMPS_NS;
 namespace {
 
 constexpr const char *helper_id = "drumlin_stepping";
-constexpr int shared = 4;    // numbers per ball that ghosts need
-constexpr int exchanged = 5; // that a ball takes to another rank
+constexpr int shared = 4;        // numbers per ball that ghosts need
+constexpr int exchanged = 5;     // that a ball takes to another rank
+constexpr int most_gathered = 6; // that a ghost has for its owner
 
 /// Constraints that share forces among the balls of a group, over all ranks, which must all call them.
 bool joins(const std::string &style) { return style == "aveforce" || style == "clump"; }
@@ -35,7 +36,6 @@ FixStepping *FixStepping::provide(LAMMPS *lammps) {
 FixStepping::FixStepping(LAMMPS *lammps, int narg, char **arg) : GhostFix(lammps, narg, arg) {
   nevery = 1;
   comm_forward = shared;
-  comm_reverse = 6;
   FixStepping::grow_arrays(atom->nmax);
   atom->add_callback(0);
   for (int i = 0; i < atom->nlocal; ++i)
@@ -53,6 +53,8 @@ int FixStepping::setmask() {
 }
 
 void FixStepping::init() {
+  comm_reverse =
+      most_gathered; // for which the engine makes room at the begin of each run; gather() may ask for less
   constraints_.clear();
   for (int n = 0; n < modify->nfix; ++n)
     for (const char *name : {"setforce", "freeze", "lineforce", "planeforce", "aveforce", "clump"})
@@ -180,9 +182,10 @@ void FixStepping::close_forces() {
 
 /// Hands what is to be exerted on ghosts after the closing half kick to their owners.
 void FixStepping::send_later() {
-  constexpr std::size_t numbers = 6;
-  gather(numbers);
-  const auto gathered = [this](int i) { return gathered_.begin() + static_cast<std::ptrdiff_t>(i) * 6; };
+  gather(most_gathered);
+  const auto gathered = [this](int i) {
+    return gathered_.begin() + static_cast<std::ptrdiff_t>(i) * most_gathered;
+  };
   std::vector<Later> kept;
   for (const Later &item : later_)
     if (item.i < atom->nlocal)
@@ -198,7 +201,7 @@ void FixStepping::send_later() {
     Later item{i, {}, {}};
     std::copy_n(gathered(i), 3, item.rest.begin());
     std::copy_n(gathered(i) + 3, 3, item.shift.begin());
-    if (std::any_of(gathered(i), gathered(i) + 6, [](double value) { return value != 0.0; }))
+    if (std::any_of(gathered(i), gathered(i) + most_gathered, [](double value) { return value != 0.0; }))
       later_.push_back(item);
   }
 }

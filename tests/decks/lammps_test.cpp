@@ -205,6 +205,21 @@ TEST_F(InLammps, GoesOnFromARestartFileBitwiseOnRanksOneAndTwoWithNewtonOffAndOn
   }
 }
 
+TEST_F(InLammps, RefusesTheHistoryOfAnotherWallOnRanksOneAndTwo) {
+  const Scratch block;
+  ASSERT_TRUE(run_deck(test_deck("bounce.lammps"), {{"walls", "block"}}, block.path()).ok());
+  for (const int ranks : {1, 2}) {
+    const Scratch folder;
+    const Outcome outcome = run_deck(test_deck("bounce.resume.lammps"),
+                                     {{"start", (block / "first.restart").string()}, {"walls", "cylinder"}},
+                                     folder.path(), ranks);
+    EXPECT_EQ(outcome.status, 1) << outcome.output;
+    EXPECT_TRUE(outcome.says("fix wall/gran/transition: the restart file holds another wall under the ID "
+                             "'walls'; allowed: "))
+        << outcome.output;
+  }
+}
+
 /// No dashpots and no friction: what remembers nothing, and has an energy.
 const Variables springs = {{"D", "0"}, {"tangential", "off"}, {"mu", "-1"}};
 
