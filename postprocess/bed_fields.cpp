@@ -63,6 +63,15 @@ double volume(const Ball &ball, bool flat) {
   return flat ? pi * r * r : 4.0 / 3.0 * pi * r * r * r;
 }
 
+/// Parts of a force along a vector of any length, and across it.
+ForceParts parts_along(const Vector &l, const Vector &f) {
+  const double length = std::hypot(l[0], l[1], l[2]);
+  if (length == 0.0) return {};
+  const double normal = (f[0] * l[0] + f[1] * l[1] + f[2] * l[2]) / length;
+  const double per_length = normal / length;
+  return {normal, std::hypot(f[0] - per_length * l[0], f[1] - per_length * l[1], f[2] - per_length * l[2])};
+}
+
 std::vector<BallContact> among_soil(const std::vector<Ball> &balls,
                                     const std::vector<BallContact> &contacts) {
   std::vector<BallContact> soil;
@@ -75,6 +84,10 @@ std::vector<BallContact> among_soil(const std::vector<Ball> &balls,
 
 } // namespace
 
+bool in_a_plane(const std::vector<Ball> &balls) {
+  return std::all_of(balls.begin(), balls.end(), [](const Ball &ball) { return ball.position[2] == 0.0; });
+}
+
 std::vector<int> coordination(std::size_t balls, const std::vector<BallContact> &contacts) {
   std::vector<int> counts(balls, 0);
   for (const BallContact &contact : contacts) {
@@ -84,20 +97,15 @@ std::vector<int> coordination(std::size_t balls, const std::vector<BallContact> 
   return counts;
 }
 
-Vector branch(const std::vector<Ball> &balls, const BallContact &contact) {
-  const Vector &to = balls[contact.i].position, &from = balls[contact.j].position;
-  return {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+Vector foot(const Ball &ball, const WallContact &contact) {
+  const double arm = ball.radius - contact.overlap;
+  const Vector &x = ball.position, &n = contact.normal;
+  return {x[0] - arm * n[0], x[1] - arm * n[1], x[2] - arm * n[2]};
 }
 
-ForceParts force_parts(const std::vector<Ball> &balls, const BallContact &contact) {
-  const Vector l = branch(balls, contact);
-  const Vector &f = contact.force;
-  const double length = std::hypot(l[0], l[1], l[2]);
-  if (length == 0.0) return {};
-  const double normal = (f[0] * l[0] + f[1] * l[1] + f[2] * l[2]) / length;
-  const double per_length = normal / length;
-  return {normal, std::hypot(f[0] - per_length * l[0], f[1] - per_length * l[1], f[2] - per_length * l[2])};
-}
+ForceParts force_parts(const BallContact &contact) { return parts_along(contact.branch, contact.force); }
+
+ForceParts force_parts(const WallContact &contact) { return parts_along(contact.normal, contact.force); }
 
 void Bounds::add(const Ball &ball) {
   for (std::size_t a = 0; a < 3; ++a) {
@@ -153,15 +161,15 @@ BedFields coarse_grained(const std::vector<Ball> &balls, const std::vector<BallC
     });
   }
   for (const BallContact &contact : soil_contacts) {
-    const Ball &j = balls[contact.j];
-    const Vector l = branch(balls, contact);
+    const Ball &i = balls[contact.i];
+    const Vector &l = contact.branch;
     const double length = std::hypot(l[0], l[1], l[2]);
     if (length == 0.0) continue;
     const double to_middle =
-        (j.radius - 0.5 * contact.overlap) / length; // from the centre of j, as a share of l
+        (i.radius - 0.5 * contact.overlap) / length; // from the centre of i, as a share of l
     Vector place, normal;
     for (std::size_t a = 0; a < 3; ++a) {
-      place[a] = j.position[a] + to_middle * l[a];
+      place[a] = i.position[a] - to_middle * l[a];
       normal[a] = l[a] / length;
     }
     share_out(grid, place, [&](std::size_t cell, double share) {

@@ -41,24 +41,43 @@ struct Ball {
   Vector force{};      ///< all forces on it, N
 };
 
+/// Whether all balls lie in z = 0.
+bool in_a_plane(const std::vector<Ball> &balls);
+
 /// Two balls that overlap.
 struct BallContact {
   std::size_t i = 0, j = 0; ///< places of the balls in their vector
-  Vector force{};           ///< on ball i by ball j, N
-  double overlap = 0.0;     ///< m
+  Vector branch{}; ///< to the centre of ball i from that of ball j, or of its image beyond a periodic side, m
+  Vector force{};  ///< on ball i by ball j, N
+  double overlap = 0.0; ///< m
 };
 
-/// Contacts of each ball.
-std::vector<int> coordination(std::size_t balls, const std::vector<BallContact> &contacts);
+/// A ball that overlaps with a wall.
+struct WallContact {
+  std::size_t i = 0;    ///< place of the ball in its vector
+  Vector force{};       ///< on the ball, N
+  Vector normal{};      ///< unit vector from the wall to the centre of the ball
+  double overlap = 0.0; ///< m
+};
 
-/// From the centre of ball j to that of ball i, m.
-Vector branch(const std::vector<Ball> &balls, const BallContact &contact);
+/// Where the ball touches the wall, m.
+Vector foot(const Ball &ball, const WallContact &contact);
+
+/// All contacts at one instant.
+struct BedContacts {
+  std::vector<BallContact> balls;
+  std::vector<WallContact> walls;
+};
+
+/// Contacts of each ball with other balls.
+std::vector<int> coordination(std::size_t balls, const std::vector<BallContact> &contacts);
 
 /// The force of a contact along its normal, positive in compression, and the magnitude of what remains, N.
 struct ForceParts {
   double normal = 0.0, tangential = 0.0;
 };
-ForceParts force_parts(const std::vector<Ball> &balls, const BallContact &contact);
+ForceParts force_parts(const BallContact &contact);
+ForceParts force_parts(const WallContact &contact);
 
 /// The smallest box around some balls, m.
 struct Bounds {

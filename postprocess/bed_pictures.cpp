@@ -25,7 +25,7 @@ struct Instant {
   double force = 0.0; ///< on the drum, N, of the nearest row of bed.csv
   bool has_contacts = false;
   std::vector<Ball> balls;
-  std::vector<BallContact> contacts;
+  BedContacts contacts;
 };
 
 /// The instants that the pictures show, in order.
@@ -92,6 +92,15 @@ struct Scales {
   Bounds bounds;
   double fastest = 0.0;   ///< end of the scale of colours, m/s
   double strongest = 0.0; ///< largest normal force of a contact, N
+  bool flat = true;       ///< two dimensions
+
+  /// Where three dimensions are cut through, z in m.
+  double middle() const { return 0.5 * (bounds.low[2] + bounds.high[2]); }
+  /// Radius, m, of the circle that the picture shows of a ball: in three dimensions of the section; 0 if it is not there.
+  double shown_radius(const Ball &ball) const {
+    const double off = flat ? 0.0 : ball.position[2] - middle();
+    return std::sqrt(std::max(0.0, ball.radius * ball.radius - off * off));
+  }
 };
 
 Scales scales_of(const std::vector<Views> &all) {
@@ -100,12 +109,15 @@ Scales scales_of(const std::vector<Views> &all) {
   for (const Views &views : all)
     for (const std::optional<Instant> &instant : views.views) {
       if (!instant) continue;
+      scales.flat = scales.flat && in_a_plane(instant->balls);
       for (const Ball &ball : instant->balls) {
         scales.bounds.add(ball);
         if (ball.type == soil_type && &instant != &views.views[settled]) speeds.push_back(speed(ball));
       }
-      for (const BallContact &contact : instant->contacts)
-        scales.strongest = std::max(scales.strongest, force_parts(instant->balls, contact).normal);
+      for (const BallContact &contact : instant->contacts.balls)
+        scales.strongest = std::max(scales.strongest, force_parts(contact).normal);
+      for (const WallContact &contact : instant->contacts.walls)
+        scales.strongest = std::max(scales.strongest, force_parts(contact).normal);
     }
   if (!speeds.empty()) {
     const auto place =
@@ -122,20 +134,30 @@ Scales scales_of(const std::vector<Views> &all) {
   return scales;
 }
 
-void put_instant(CurveTable &table, const std::string &label, const Instant &instant) {
+void put_instant(CurveTable &table, const std::string &label, const Instant &instant, const Scales &scales) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const std::vector<int> counts = coordination(instant.balls.size(), instant.contacts);
+  const std::vector<int> counts = coordination(instant.balls.size(), instant.contacts.balls);
   for (std::size_t b = 0; b < instant.balls.size(); ++b) {
     const Ball &ball = instant.balls[b];
+    const double radius = scales.shown_radius(ball);
+    if (radius == 0.0) continue;
     table.row(fmt::format("{} {}", label, ball.type == soil_type ? "soil" : "roller"),
-              {ball.position[0], ball.position[1], ball.radius, speed(ball),
+              {ball.position[0], ball.position[1], radius, speed(ball),
                instant.has_contacts ? static_cast<double>(counts[b]) : none, none, none, none});
   }
-  for (const BallContact &contact : instant.contacts) {
-    const Vector &from = instant.balls[contact.j].position;
-    const Vector l = branch(instant.balls, contact);
-    table.row(label + " contact",
-              {from[0], from[1], none, none, none, l[0], l[1], force_parts(instant.balls, contact).normal});
+  const auto put_line = [&](const Vector &to, const Vector &l, double force) {
+    table.row(label + " contact", {to[0] - l[0], to[1] - l[1], none, none, none, l[0], l[1], force});
+  };
+  const auto shown = [&](std::size_t ball) { return scales.shown_radius(instant.balls[ball]) > 0.0; };
+  for (const BallContact &contact : instant.contacts.balls)
+    if (shown(contact.i) && shown(contact.j))
+      put_line(instant.balls[contact.i].position, contact.branch, force_parts(contact).normal);
+  for (const WallContact &contact : instant.contacts.walls) {
+    if (!shown(contact.i)) continue;
+    const Ball &ball = instant.balls[contact.i];
+    const Vector from = foot(ball, contact);
+    put_line(ball.position, {ball.position[0] - from[0], ball.position[1] - from[1], 0.0},
+             force_parts(contact).normal);
   }
 }
 
@@ -194,20 +216,26 @@ std::string picture_caption(Which which, const Scales &scales, bool by_contacts)
                        : "; colours: speed of the soil balls (the fastest 2 % are off the scale)";
   if (scales.strongest > 0.0)
     words +=
-        ". Black lines join the centres of balls that press on each other, their width in proportion to "
-        "the normal force; forces below the smallest of the legend and those with the walls are not drawn";
+        ". Black lines join the centres of balls that press on each other, or one with the wall that it "
+        "presses on, their width in proportion to the normal force; forces below the smallest of the legend "
+        "are not drawn";
+  if (!scales.flat)
+    words += fmt::format(". The section z = {:.3g} m of the bed: of a ball its circle there, and the lines "
+                         "of balls that are both cut",
+                         scales.middle());
   return words + ". Circles: drum, and the frame above it, of which only the mass counts.";
 }
 
-/// Solid fraction of the soil over the depth, from x = low to high. Returns the largest.
+/// Solid fraction of the soil over the depth, from x = low to high, and in three dimensions across the bed. Returns the largest.
 double put_profile(CurveTable &table, const std::string &label, const std::vector<Ball> &balls,
                    const Bounds &soil, double low, double high, double diameter) {
   FieldGrid grid;
-  grid.flat = true;
+  grid.flat = in_a_plane(balls);
   const double depth = soil.high[1] - soil.low[1];
   grid.cells[1] = static_cast<std::size_t>(std::max(1.0, std::round(depth / (layer * diameter))));
-  grid.origin = {low, soil.low[1], 0.0};
-  grid.sides = {high - low, depth / static_cast<double>(grid.cells[1]), 1.0};
+  grid.origin = {low, soil.low[1], grid.flat ? 0.0 : soil.low[2]};
+  grid.sides = {high - low, depth / static_cast<double>(grid.cells[1]),
+                grid.flat ? 1.0 : soil.high[2] - soil.low[2]};
   const BedFields fields = coarse_grained(balls, {}, grid);
   for (std::size_t c = 0; c < grid.cells[1]; ++c)
     table.row(label, {depth - (static_cast<double>(c) + 0.5) * grid.sides[1], fields.solid_fraction[c]});
@@ -263,7 +291,8 @@ void plan_profile(const std::vector<Views> &all, const std::string &stem, const 
     figure.figure.panels.push_back(*panel);
   }
   figure.caption = fmt::format(
-      "Area of the soil balls over that of the bed at the first and at the last dump, in layers of "
+      "Area (in three dimensions volume) of the soil balls over that of the bed at the first and at the last "
+      "dump, in layers of "
       "some {:g} mean diameters: across the whole box, and where the drum is overhead. Layers that are "
       "partly air or drum are off the scale; the CSV has them.",
       layer);
@@ -300,7 +329,7 @@ void plan_bed_pictures(const BedGroup &group, const std::string &stem, const std
       const std::optional<Instant> &instant = views.views[which];
       if (!instant) continue;
       const std::string label = transition_name(views.result->run.transition());
-      put_instant(table, label, *instant);
+      put_instant(table, label, *instant, scales);
       panels.push_back(instant_panel(name, label, *instant, scales, by_contacts));
     }
     if (panels.empty()) continue;

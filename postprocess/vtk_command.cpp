@@ -132,8 +132,9 @@ Bed survey(const std::map<long, StepDump> &steps) {
   for (const auto &step : steps) {
     const fs::path &file = step.second.balls;
     double diameters = 0.0, soil = 0.0;
-    for (const Ball &ball : read_ball_dump(file)) {
-      bed.flat = bed.flat && ball.position[2] == 0.0;
+    const std::vector<Ball> balls = read_ball_dump(file);
+    bed.flat = bed.flat && in_a_plane(balls);
+    for (const Ball &ball : balls) {
       if (ball.type != soil_type) continue;
       bed.soil.add(ball);
       diameters += 2.0 * ball.radius;
@@ -205,11 +206,11 @@ void run(const Arguments &arguments) {
       const std::vector<Ball> balls = read_ball_dump(dump.balls);
       const fs::path ball_file = add(0, fmt::format("balls_{}.vtp", step));
       if (!dump.contacts.empty()) {
-        const std::vector<BallContact> contacts = read_contact_dump(dump.contacts, balls);
-        write_ball_points(ball_file, balls, coordination(balls.size(), contacts));
+        const BedContacts contacts = read_contact_dump(dump.contacts, balls);
+        write_ball_points(ball_file, balls, coordination(balls.size(), contacts.balls));
         write_contact_lines(add(1, fmt::format("contacts_{}.vtp", step)), balls, contacts);
         write_field_image(add(2, fmt::format("fields_{}.vti", step)), grid,
-                          coarse_grained(balls, contacts, grid));
+                          coarse_grained(balls, contacts.balls, grid));
       } else {
         write_ball_points(ball_file, balls, {});
       }

@@ -100,22 +100,17 @@ private:
   std::size_t components_;
 };
 
-/// A dump of balls or contacts, whichever engine wrote it.
+/// A dump of balls, or of contacts as text, whichever engine wrote it.
 class Dump {
 public:
-  enum class Of { balls, contacts };
-
-  Dump(const fs::path &file, Of what) : file_(file) {
+  explicit Dump(const fs::path &file) : file_(file) {
     if (file.extension() == ".dump") {
       text_ = read_text_dump(file);
       rows_ = text_.rows.size();
       return;
     }
     vtk_ = read_poly_data(file);
-    rows_ =
-        static_cast<std::size_t>(what == Of::balls ? vtk_->GetNumberOfPoints() : vtk_->GetNumberOfCells());
-    data_ =
-        what == Of::balls ? static_cast<vtkDataSetAttributes *>(vtk_->GetPointData()) : vtk_->GetCellData();
+    rows_ = static_cast<std::size_t>(vtk_->GetNumberOfPoints());
   }
 
   std::size_t rows() const { return rows_; }
@@ -124,7 +119,7 @@ public:
   Column column(const char *name, const std::vector<std::string> &in_text) const {
     std::vector<double> values;
     values.reserve(rows_ * in_text.size());
-    if (data_ != nullptr)
+    if (vtk_ != nullptr)
       from_vtk(name, in_text.size(), values);
     else
       from_text(in_text, values);
@@ -136,7 +131,7 @@ public:
 
   /// Of the balls.
   Column positions() const {
-    if (data_ == nullptr) return column("position", {"x", "y", "z"});
+    if (vtk_ == nullptr) return column("position", {"x", "y", "z"});
     std::vector<double> values(3 * rows_);
     for (std::size_t row = 0; row < rows_; ++row) {
       vtk_->GetPoint(static_cast<vtkIdType>(row), &values[3 * row]);
@@ -149,7 +144,7 @@ public:
 
 private:
   void from_vtk(const char *name, std::size_t components, std::vector<double> &values) const {
-    vtkDataArray *array = data_->GetArray(name);
+    vtkDataArray *array = vtk_->GetPointData()->GetArray(name);
     if (array == nullptr || array->GetNumberOfComponents() != static_cast<int>(components) ||
         array->GetNumberOfTuples() != static_cast<vtkIdType>(rows_))
       fail(file_, fmt::format("array '{}' with {} rows of {} numbers is missing; expected a dump as "
@@ -177,8 +172,7 @@ private:
   fs::path file_;
   std::size_t rows_ = 0;
   TextDump text_;
-  vtkSmartPointer<vtkPolyData> vtk_;
-  vtkDataSetAttributes *data_ = nullptr; // of vtk_; nullptr: a text dump
+  vtkSmartPointer<vtkPolyData> vtk_; // nullptr: a text dump
 };
 
 template <class Array, class Values, class Part>
@@ -244,14 +238,14 @@ std::map<long, StepDump> dumped_steps(const fs::path &dumps) {
     const std::string name = entry.path().filename().string();
     std::smatch match;
     if (!std::regex_match(name, match, pattern)) continue;
-    const fs::path contacts = dumps / fmt::format("contacts_{}.{}", match[1].str(), match[2].str());
+    const fs::path contacts = dumps / fmt::format("contacts_{}.dump", match[1].str());
     steps[std::stol(match[1])] = {entry.path(), fs::exists(contacts) ? contacts : fs::path()};
   }
   return steps;
 }
 
 std::vector<Ball> read_ball_dump(const fs::path &file) {
-  const Dump dump(file, Dump::Of::balls);
+  const Dump dump(file);
   if (dump.rows() == 0) fail(file, "holds no balls");
   const Column id = dump.column("id", {"id"}), type = dump.column("type", {"type"}),
                radius = dump.column("radius", {"radius"}), mass = dump.column("mass", {"mass"}),
@@ -276,16 +270,15 @@ std::vector<Ball> read_ball_dump(const fs::path &file) {
   return balls;
 }
 
-std::vector<BallContact> read_contact_dump(const fs::path &file, const std::vector<Ball> &balls) {
-  const Dump dump(file, Dump::Of::contacts);
-  std::vector<BallContact> contacts;
+BedContacts read_contact_dump(const fs::path &file, const std::vector<Ball> &balls) {
+  const Dump dump(file);
+  BedContacts contacts;
   if (dump.rows() == 0) return contacts;
-  const bool text = file.extension() == ".dump";
-  const Column id1 = dump.column("id1", {"c_pair[1]"}), id2 = dump.column("id2", {"c_pair[2]"}),
-               overlap = dump.column("delta", {"c_contact[7]"});
-  std::vector<Column> forces = {dump.column("force", {"c_contact[1]", "c_contact[2]", "c_contact[3]"})};
-  if (text) // compute pair/local gives the force along the normal and that across apart
-    forces.push_back(dump.column("across", {"c_contact[4]", "c_contact[5]", "c_contact[6]"}));
+  const auto name = [](int number) { return fmt::format("f_contacts[{}]", number); };
+  const Column id1 = dump.column("id1", {name(1)}), id2 = dump.column("id2", {name(2)}),
+               force = dump.column("force", {name(3), name(4), name(5)}),
+               normal = dump.column("normal", {name(6), name(7), name(8)}),
+               overlap = dump.column("overlap", {name(9)});
   std::unordered_map<long, std::size_t> places;
   for (std::size_t place = 0; place < balls.size(); ++place)
     places[balls[place].id] = place;
@@ -296,27 +289,37 @@ std::vector<BallContact> read_contact_dump(const fs::path &file, const std::vect
     return found->second;
   };
   for (std::size_t row = 0; row < dump.rows(); ++row) {
-    BallContact contact{place_of(id1.whole(row)), place_of(id2.whole(row)), {}, overlap.number(row)};
-    for (const Column &force : forces)
-      for (std::size_t a = 0; a < 3; ++a)
-        contact.force[a] += force.vector(row)[a];
+    const std::size_t i = place_of(id1.whole(row));
+    if (id2.whole(row) == 0) {
+      contacts.walls.push_back({i, force.vector(row), normal.vector(row), overlap.number(row)});
+      continue;
+    }
+    BallContact contact{i, place_of(id2.whole(row)), normal.vector(row), force.vector(row),
+                        overlap.number(row)};
     if (contact.i > contact.j) { // a ball of the other rank came first
       std::swap(contact.i, contact.j);
-      for (double &component : contact.force)
-        component = -component;
+      for (Vector *vector : {&contact.branch, &contact.force})
+        for (double &component : *vector)
+          component = 0.0 - component; // no -0
     }
-    contacts.push_back(contact);
+    const double distance = balls[contact.i].radius + balls[contact.j].radius - contact.overlap;
+    for (double &component : contact.branch)
+      component *= distance;
+    contacts.balls.push_back(contact);
   }
   const auto order = [](const BallContact &a, const BallContact &b) {
     return std::tie(a.i, a.j) < std::tie(b.i, b.j);
   };
-  std::sort(contacts.begin(), contacts.end(), order);
+  std::sort(contacts.balls.begin(), contacts.balls.end(), order);
   const auto twice =
-      std::adjacent_find(contacts.begin(), contacts.end(),
+      std::adjacent_find(contacts.balls.begin(), contacts.balls.end(),
                          [&order](const BallContact &a, const BallContact &b) { return !order(a, b); });
-  if (twice != contacts.end())
+  if (twice != contacts.balls.end())
     fail(file, fmt::format("the contact of balls {} and {} is there twice", balls[twice->i].id,
                            balls[twice->j].id));
+  std::sort(contacts.walls.begin(), contacts.walls.end(), [](const WallContact &a, const WallContact &b) {
+    return std::tie(a.i, a.normal) < std::tie(b.i, b.normal);
+  });
   return contacts;
 }
 
@@ -344,27 +347,48 @@ void write_ball_points(const fs::path &file, const std::vector<Ball> &balls,
   write<vtkXMLPolyDataWriter>(file, data.Get());
 }
 
-void write_contact_lines(const fs::path &file, const std::vector<Ball> &balls,
-                         const std::vector<BallContact> &contacts) {
+void write_contact_lines(const fs::path &file, const std::vector<Ball> &balls, const BedContacts &contacts) {
+  struct Line {
+    Vector from, to, force;
+    ForceParts parts;
+    double overlap;
+    long id1, id2;
+  };
+  std::vector<Line> lines;
+  lines.reserve(contacts.balls.size() + contacts.walls.size());
+  for (const BallContact &contact : contacts.balls) {
+    const Ball &i = balls[contact.i];
+    const Vector &x = i.position, &l = contact.branch;
+    lines.push_back({x,
+                     {x[0] - l[0], x[1] - l[1], x[2] - l[2]},
+                     contact.force,
+                     force_parts(contact),
+                     contact.overlap,
+                     i.id,
+                     balls[contact.j].id});
+  }
+  for (const WallContact &contact : contacts.walls) {
+    const Ball &i = balls[contact.i];
+    lines.push_back(
+        {i.position, foot(i, contact), contact.force, force_parts(contact), contact.overlap, i.id, 0});
+  }
   vtkNew<vtkPoints> points; // two of its own for every line: cell data can become point data
-  vtkNew<vtkCellArray> lines;
-  for (const BallContact &contact : contacts) {
-    const std::array<vtkIdType, 2> ends = {points->InsertNextPoint(balls[contact.i].position.data()),
-                                           points->InsertNextPoint(balls[contact.j].position.data())};
-    lines->InsertNextCell(2, ends.data());
+  vtkNew<vtkCellArray> cells;
+  for (const Line &line : lines) {
+    const std::array<vtkIdType, 2> ends = {points->InsertNextPoint(line.from.data()),
+                                           points->InsertNextPoint(line.to.data())};
+    cells->InsertNextCell(2, ends.data());
   }
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);
-  data->SetLines(lines);
+  data->SetLines(cells);
   vtkCellData *columns = data->GetCellData();
-  add_components(columns, "force", contacts, [](const BallContact &contact) { return contact.force; });
-  add_numbers(columns, "normal_force", contacts,
-              [&balls](const BallContact &contact) { return force_parts(balls, contact).normal; });
-  add_numbers(columns, "tangential_force", contacts,
-              [&balls](const BallContact &contact) { return force_parts(balls, contact).tangential; });
-  add_numbers(columns, "overlap", contacts, [](const BallContact &contact) { return contact.overlap; });
-  add_whole(columns, "id1", contacts, [&balls](const BallContact &contact) { return balls[contact.i].id; });
-  add_whole(columns, "id2", contacts, [&balls](const BallContact &contact) { return balls[contact.j].id; });
+  add_components(columns, "force", lines, [](const Line &line) { return line.force; });
+  add_numbers(columns, "normal_force", lines, [](const Line &line) { return line.parts.normal; });
+  add_numbers(columns, "tangential_force", lines, [](const Line &line) { return line.parts.tangential; });
+  add_numbers(columns, "overlap", lines, [](const Line &line) { return line.overlap; });
+  add_whole(columns, "id1", lines, [](const Line &line) { return line.id1; });
+  add_whole(columns, "id2", lines, [](const Line &line) { return line.id2; });
   write<vtkXMLPolyDataWriter>(file, data.Get());
 }
 

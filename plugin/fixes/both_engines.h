@@ -25,6 +25,12 @@ inline LAMMPS_NS::NeighList *pair_list(LAMMPS_NS::Force *force) {
   return force->pair != nullptr ? force->pair->list : nullptr;
 }
 
+/// Whether this rank speaks for a pair of that list: the only one that has it, or that which owns the ball with the lower ID.
+inline bool speaks_for(const LAMMPS *lmp, int i, int j) {
+  const LAMMPS_NS::Atom &atom = *lmp->atom;
+  return lmp->force->newton_pair || (atom.tag[i] < atom.tag[j] ? i : j) < atom.nlocal;
+}
+
 /// Index of a neighbour without the bits that the engine packs into it.
 inline int neighbour_index(int packed) { return packed & NEIGHMASK; }
 

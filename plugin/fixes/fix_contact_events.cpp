@@ -82,8 +82,7 @@ void FixContactEvents::setup(int) {
 bool FixContactEvents::is_watched(int i, int j) const {
   const int *mask = atom->mask;
   if (!(mask[i] & groupbit) || !(mask[j] & groupbit)) return false;
-  // Across ranks a pair is listed on both with newton off: the owner of the lower tag takes it.
-  if (!force->newton_pair && (atom->tag[i] < atom->tag[j] ? i : j) >= atom->nlocal) return false;
+  if (!engine::speaks_for(lmp, i, j)) return false;
   if (types_[0] == 0) return true;
   const int a = atom->type[i];
   const int b = atom->type[j];

@@ -11,6 +11,7 @@
 #include "fixes/fix_bond_spring.h"
 #include "fixes/fix_clump.h"
 #include "fixes/fix_contact_events.h"
+#include "fixes/fix_contact_local.h"
 #include "fixes/fix_drum_excite.h"
 #include "fixes/fix_guard.h"
 #include "fixes/fix_roller_history.h"
@@ -92,6 +93,7 @@ extern "C" __attribute__((visibility("default"))) void drumlin_register(void *lm
   add_fix("bond/spring", "bonded spring-dashpot", create_fix<FixBondSpring>);
   add_fix("clump", "one rigid body that does not turn", create_fix<FixClump>);
   add_fix("contact/events", "makes and breaks of contact", create_fix<FixContactEvents>);
+  add_fix("contact/local", "contacts and their forces for dump local", create_fix<FixContactLocal>);
   add_fix("roller/history", "motion and forces of drum and frame", create_fix<FixRollerHistory>);
   add_fix("drumlin/stepping", "second-order stepping", create_fix<FixStepping>);
   add_fix("guard", "step, overlap and finite numbers", create_fix<FixGuard>);

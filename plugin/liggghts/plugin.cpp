@@ -24,11 +24,13 @@
 #include "fixes/fix_bond_spring.h"
 #include "fixes/fix_clump.h"
 #include "fixes/fix_contact_events.h"
+#include "fixes/fix_contact_local.h"
 #include "fixes/fix_drum_excite.h"
 #include "fixes/fix_guard.h"
 #include "fixes/fix_roller_history.h"
 #include "fixes/fix_stepping.h"
 #include "liggghts/contact_table.h"
+#include "liggghts/fix_keep_history.h"
 #include "liggghts/model_settings.h"
 
 #include <map>
@@ -146,6 +148,7 @@ public:
   void settings(int narg, char **arg, LIGGGHTS::IContactHistorySetup *history) override {
     drumlin::ModelSettings words(engine_->error, "pair_style gran model hooke/transition", companions<Style>,
                                  narg, arg);
+    LAMMPS_NS::FixKeepHistory::provide(engine_);
     Base::settings(words.size(), words.words(), history);
   }
 
@@ -225,8 +228,10 @@ void add_fixes(LAMMPS *lmp) {
   fixes["bond/spring"] = create_fix<LAMMPS_NS::FixBondSpring>;
   fixes["clump"] = create_fix<LAMMPS_NS::FixClump>;
   fixes["contact/events"] = create_fix<LAMMPS_NS::FixContactEvents>;
+  fixes["contact/local"] = create_fix<LAMMPS_NS::FixContactLocal>;
   fixes["roller/history"] = create_fix<LAMMPS_NS::FixRollerHistory>;
   fixes["drumlin/stepping"] = create_fix<LAMMPS_NS::FixStepping>; // made by the pair style, not by decks
+  fixes[LAMMPS_NS::FixKeepHistory::style_name] = create_fix<LAMMPS_NS::FixKeepHistory>; // this neither
   fixes["guard"] = create_fix<LAMMPS_NS::FixGuard>;
 }
 

@@ -330,6 +330,25 @@ BadGroup contact_events() {
           }};
 }
 
+BadGroup contact_local() {
+  const std::string command = "fix contact/local: ";
+  const auto with = [](const std::string &words) { return "fix contacts all contact/local " + words; };
+  return {
+      "ContactLocal",
+      "",
+      {
+          line("nothing", with(""), {command + "keyword has no value", "every"}),
+          line("no number", with("every"), {command + "keyword every has no value", "a whole number from 1"}),
+          line("every zero", with("every 0"), {command + "keyword every is '0'", "a whole number from 1"}),
+          line("every a fraction", with("every 0.5"),
+               {command + "keyword every is '0.5'", "a whole number from 1"}),
+          on_two_ranks(
+              line("another keyword", with("file out/x.csv"), {command + "keyword is 'file'", "every"})),
+          line("a word too many", with("every 10 append yes"),
+               {command + "'append' is left over", "every N"}),
+      }};
+}
+
 BadInput with_the_stock_law(const std::string &lines, const std::string &command) {
   BadInput input = line("the stock law, " + command, lines,
                         {command + ": the pair style is another", "pair_style gran model hooke/transition"});
@@ -412,6 +431,7 @@ BadGroup roller_history() {
           with_the_stock_law(with("file out/x.csv every 10"), "fix roller/history"),
           on_two_ranks(
               with_the_stock_law("fix events all contact/events file out/x.csv", "fix contact/events")),
+          with_the_stock_law("fix contacts all contact/local every 10", "fix contact/local"),
       }};
 }
 
@@ -606,8 +626,9 @@ BadGroup settle() {
 } // namespace
 
 std::vector<BadGroup> bad_lines() {
-  return {pair_style(),     properties(), wall(),  drum_excite(), bond_spring(), clump(),  contact_events(),
-          roller_history(), guard(),      check(), record(),      run(),         settle(), write_restart()};
+  return {pair_style(), properties(),     wall(),          drum_excite(),    bond_spring(),
+          clump(),      contact_events(), contact_local(), roller_history(), guard(),
+          check(),      record(),         run(),           settle(),         write_restart()};
 }
 
 } // namespace drumlin::test

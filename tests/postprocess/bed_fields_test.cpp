@@ -21,6 +21,13 @@ using post::Vector;
 
 constexpr double pi = 3.141592653589793;
 
+/// A contact between the centres of two balls.
+BallContact between(const std::vector<Ball> &balls, std::size_t i, std::size_t j, const Vector &force,
+                    double overlap = 0.0) {
+  const Vector &to = balls[i].position, &from = balls[j].position;
+  return {i, j, {to[0] - from[0], to[1] - from[1], to[2] - from[2]}, force, overlap};
+}
+
 struct Bed {
   std::vector<Ball> balls;
   std::vector<BallContact> contacts;
@@ -47,9 +54,9 @@ Bed lattice(std::size_t n, double radius, double force, bool flat) {
         bed.balls.push_back(ball_at({middle(x), middle(y), flat ? 0.0 : middle(z)}, radius));
         const std::size_t here = at(x, y, z);
         // the force on the ball with the lower coordinate points down the axis
-        if (x + 1 < n) bed.contacts.push_back({here, at(x + 1, y, z), {-force, 0, 0}, 0.0});
-        if (y + 1 < n) bed.contacts.push_back({here, at(x, y + 1, z), {0, -force, 0}, 0.0});
-        if (z + 1 < nz) bed.contacts.push_back({here, at(x, y, z + 1), {0, 0, -force}, 0.0});
+        if (x + 1 < n) bed.contacts.push_back({here, at(x + 1, y, z), {-a, 0, 0}, {-force, 0, 0}, 0.0});
+        if (y + 1 < n) bed.contacts.push_back({here, at(x, y + 1, z), {0, -a, 0}, {0, -force, 0}, 0.0});
+        if (z + 1 < nz) bed.contacts.push_back({here, at(x, y, z + 1), {0, 0, -a}, {0, 0, -force}, 0.0});
       }
   return bed;
 }
@@ -109,7 +116,7 @@ TEST(BedFields, StressInAColumnIsTheWeightAbove) {
     bed.balls.push_back(ball_at({0.3, r * (2.0 * static_cast<double>(k) + 1.0), 0.0}, r));
   const double weight = bed.balls[0].mass * g;
   for (std::size_t k = 0; k + 1 < n; ++k) // named with the upper ball first: the force on it points up
-    bed.contacts.push_back({k + 1, k, {0.0, weight * static_cast<double>(n - 1 - k), 0.0}, 0.0});
+    bed.contacts.push_back(between(bed.balls, k + 1, k, {0.0, weight * static_cast<double>(n - 1 - k), 0.0}));
   const FieldGrid grid = grid_of(bed.balls, 8.0 * r, true); // six cells above each other, one ball wide
   ASSERT_EQ(grid.cells, (std::array<std::size_t, 3>{1, 6, 1}));
   const BedFields fields = post::coarse_grained(bed.balls, bed.contacts, grid);
@@ -147,8 +154,8 @@ Bed random_bed(bool flat) {
     bed.balls.push_back(ball);
   }
   for (std::size_t i = 0; i + 1 < bed.balls.size(); ++i)
-    bed.contacts.push_back(
-        {i, i + 1, {number(-9.0, 9.0), number(-9.0, 9.0), flat ? 0.0 : number(-9.0, 9.0)}, 1e-4});
+    bed.contacts.push_back(between(
+        bed.balls, i, i + 1, {number(-9.0, 9.0), number(-9.0, 9.0), flat ? 0.0 : number(-9.0, 9.0)}, 1e-4));
   return bed;
 }
 
@@ -222,7 +229,7 @@ TEST(BedFields, ABallAloneIsSharedByItsFourCells) {
 TEST(BedFields, AContactIsAtTheMiddleOfItsOverlap) {
   const std::vector<Ball> balls = {ball_at({2.5, 0.5, 0.0}, 0.5), ball_at({0.5, 0.5, 0.0}, 1.6)};
   const FieldGrid grid = post::fitted_grid({{0, 0, 0}, {4, 1, 0}}, 1.0, true);
-  const BedFields fields = post::coarse_grained(balls, {{0, 1, {7.0, 3.0, 0.0}, 0.1}}, grid);
+  const BedFields fields = post::coarse_grained(balls, {between(balls, 0, 1, {7.0, 3.0, 0.0}, 0.1)}, grid);
   const double place = 0.5 + 1.6 - 0.05; // 2.05: 0.45 from the middle of cell 2, 0.55 from that of cell 1
   EXPECT_NEAR(fields.stress[2][0], 7.0 * 2.0 * (place - 1.5), 1e-13);
   EXPECT_NEAR(fields.stress[1][0], 7.0 * 2.0 * (2.5 - place), 1e-13);
@@ -246,14 +253,15 @@ TEST(BedFields, VelocityIsTheMeanByMass) {
 TEST(Contacts, AreCountedForBothBallsAndTheirForceHasTwoParts) {
   const std::vector<Ball> balls = {ball_at({3.0, 4.0, 0.0}, 2.6), ball_at({0.0, 0.0, 0.0}, 2.6),
                                    ball_at({0, 9, 0}, 1.0)};
-  const BallContact contact = {0, 1, {3.0 * 2.0 - 4.0, 4.0 * 2.0 + 3.0, 0.0}, 0.2}; // 10 along, 5 across
-  EXPECT_NEAR(post::force_parts(balls, contact).normal, 10.0, 1e-14);
-  EXPECT_NEAR(post::force_parts(balls, contact).tangential, 5.0, 1e-14);
+  const BallContact contact =
+      between(balls, 0, 1, {3.0 * 2.0 - 4.0, 4.0 * 2.0 + 3.0, 0.0}, 0.2); // 10 along, 5 across
+  EXPECT_NEAR(post::force_parts(contact).normal, 10.0, 1e-14);
+  EXPECT_NEAR(post::force_parts(contact).tangential, 5.0, 1e-14);
   BallContact pulls = contact;
   pulls.force = {-3.0, -4.0, 0.0};
-  EXPECT_NEAR(post::force_parts(balls, pulls).normal, -5.0, 1e-14);
-  EXPECT_NEAR(post::force_parts(balls, pulls).tangential, 0.0, 1e-14);
-  EXPECT_EQ(post::coordination(3, {contact, {0, 2, {}, 0.0}}), (std::vector<int>{2, 1, 1}));
+  EXPECT_NEAR(post::force_parts(pulls).normal, -5.0, 1e-14);
+  EXPECT_NEAR(post::force_parts(pulls).tangential, 0.0, 1e-14);
+  EXPECT_EQ(post::coordination(3, {contact, between(balls, 0, 2, {})}), (std::vector<int>{2, 1, 1}));
 }
 
 TEST(FieldGrid, FitsWholeCellsIntoTheBounds) {

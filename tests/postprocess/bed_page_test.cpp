@@ -94,7 +94,7 @@ protected:
   void write_dumps(const std::string &name) const {
     for (const char *step : {"0", "200", "700", "800"}) {
       put(name + "/dump/balls_" + step + ".vtp", test::ball_dump());
-      put(name + "/dump/contacts_" + step + ".vtp", test::contact_dump());
+      put(name + "/dump/contacts_" + step + ".dump", test::contact_dump());
     }
   }
 
@@ -240,6 +240,7 @@ TEST_F(BedReport, ShowsTheBedAtRestAndAtTheExtremesOfTheForce) {
   const std::string &csv = figures.at("bed1_peak")->csv;
   EXPECT_NE(csv.find("A contact,1,3.9,,,,0,-2.9,400\n"), std::string::npos) << csv;
   EXPECT_NE(csv.find("A contact,2.8,1,,,,-1.8,0,100\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("A contact,1,0.05"), std::string::npos) << csv; // from the floor
   EXPECT_NE(csv.find("A roller,1,3.9,2,0,1,,,\n"), std::string::npos) << csv;
   // Two discs of 1 m in a bed of 3.8 m by 2 m: one layer, since two mean diameters are 4 m.
   EXPECT_NE(figures.at("bed1_profile")->csv.find("A before whole,1,0.826734"), std::string::npos)

@@ -14,16 +14,15 @@ struct Array {
   std::string values;
 };
 
-/// A VTK file of points and lines between neighbours in them.
-std::string poly_data(int points, const std::string &places, const std::vector<Array> &point_data, int lines,
-                      const std::vector<Array> &cell_data);
+/// A VTK file of points.
+std::string point_data(int points, const std::string &places, const std::vector<Array> &arrays);
 
 /// Two soil balls beside each other, id 1 and 2, and the drum, id 9, above the first; not in order.
 std::map<std::string, Array> ball_arrays();
 std::string ball_dump(const std::map<std::string, Array> &arrays = ball_arrays());
 
-/// Ball 2 on 1 named by the higher id first, and the drum on 1.
-std::map<std::string, Array> contact_arrays();
-std::string contact_dump(const std::map<std::string, Array> &arrays = contact_arrays());
+/// Ball 2 on 1 named by the higher id first, the drum on 1, and 1 on the floor.
+const std::string contact_rows = "2 1 100 30 0 1 0 0 0.2\n1 9 0 -400 0 0 -1 0 0.1\n1 0 5 430 0 0 1 0 0.05\n";
+std::string contact_dump(const std::string &rows = contact_rows);
 
 } // namespace drumlin::test

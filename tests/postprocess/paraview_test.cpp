@@ -60,7 +60,7 @@ TEST(ParaView, DrawsABed) {
   }
   for (const int step : {0, 10}) {
     balls[1].velocity[1] = 0.1 * step;
-    const std::vector<post::BallContact> contacts = {{0, 1, {-100.0 - step, 0.0, 0.0}, 1e-5}};
+    const post::BedContacts contacts = {{{0, 1, {-0.2, 0.0, 0.0}, {-100.0 - step, 0.0, 0.0}, 1e-5}}, {}};
     ball_files.emplace_back(0.1 * step, "balls_" + std::to_string(step) + ".vtp");
     contact_files.emplace_back(0.1 * step, "contacts_" + std::to_string(step) + ".vtp");
     post::write_ball_points(folder / ball_files.back().second, balls, {1, 1, 0});

@@ -22,6 +22,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -43,7 +44,7 @@ protected:
     put("run/parameters.csv", "name,value\ndeck,bed\ntimestep,0.125\n");
     for (const char *step : {"0", "1000", "200"}) {
       put(std::string("run/dump/balls_") + step + ".vtp", ball_dump());
-      put(std::string("run/dump/contacts_") + step + ".vtp", contact_dump());
+      put(std::string("run/dump/contacts_") + step + ".dump", contact_dump());
       put(std::string("run/dump/balls_boundingBox_") + step + ".vtr", "of no interest");
     }
   }
@@ -128,7 +129,7 @@ TEST_F(VtkCommand, WritesWhatTheDumpsHold) {
   vtkNew<vtkXMLPolyDataReader> lines;
   lines->SetFileName((folder_ / "new/here/contacts_200.vtp").c_str());
   lines->Update();
-  ASSERT_EQ(lines->GetOutput()->GetNumberOfLines(), 2);
+  ASSERT_EQ(lines->GetOutput()->GetNumberOfLines(), 3);
   vtkCellData *contacts = lines->GetOutput()->GetCellData();
   const auto row = [&contacts](const char *name, vtkIdType contact) {
     const double *tuple = contacts->GetArray(name)->GetTuple(contact);
@@ -143,9 +144,18 @@ TEST_F(VtkCommand, WritesWhatTheDumpsHold) {
   EXPECT_EQ(row("id2", 1), (Values{9}));
   EXPECT_DOUBLE_EQ(row("normal_force", 1)[0], 400);
   EXPECT_NEAR(row("tangential_force", 1)[0], 0.0, 1e-12);
+  EXPECT_EQ(row("id1", 2), (Values{1})); // on the floor
+  EXPECT_EQ(row("id2", 2), (Values{0}));
+  EXPECT_EQ(row("force", 2), (Values{5, 430, 0}));
+  EXPECT_DOUBLE_EQ(row("normal_force", 2)[0], 430);
+  EXPECT_DOUBLE_EQ(row("tangential_force", 2)[0], 5);
+  EXPECT_EQ(row("overlap", 2), (Values{0.05}));
   double end[3];
   lines->GetOutput()->GetPoint(1, end);
   EXPECT_FLOAT_EQ(static_cast<float>(end[0]), 2.8F);
+  lines->GetOutput()->GetPoint(5, end);
+  EXPECT_NEAR(end[0], 1.0, 1e-6);
+  EXPECT_NEAR(end[1], 0.05, 1e-6); // radius 1 and overlap 0.05 below the centre at 1
 
   vtkNew<vtkXMLImageDataReader> image;
   image->SetFileName((folder_ / "new/here/fields_200.vti").c_str());
@@ -165,10 +175,28 @@ TEST_F(VtkCommand, WritesWhatTheDumpsHold) {
   EXPECT_NEAR(fields->GetArray("coordination")->GetTuple1(0), 1.0, 1e-14);
 }
 
+// Ball 1 on the left presses on ball 2 on the right through a periodic side.
+TEST_F(VtkCommand, JoinsABallToTheImageOfAnother) {
+  put("run/dump/contacts_200.dump", contact_dump("1 2 50 0 0 1 0 0 0.2\n"));
+  ASSERT_TRUE(run({"run", "--cell", "4"}).ok());
+  vtkNew<vtkXMLPolyDataReader> lines;
+  lines->SetFileName((folder_ / "run/vtk/contacts_200.vtp").c_str());
+  lines->Update();
+  ASSERT_EQ(lines->GetOutput()->GetNumberOfLines(), 1);
+  EXPECT_NEAR(lines->GetOutput()->GetPoint(0)[0], 1.0, 1e-6);
+  EXPECT_NEAR(lines->GetOutput()->GetPoint(1)[0], 1.0 - 1.8, 1e-6);
+  EXPECT_DOUBLE_EQ(lines->GetOutput()->GetCellData()->GetArray("normal_force")->GetTuple1(0), 50.0);
+  vtkNew<vtkXMLImageDataReader> image;
+  image->SetFileName((folder_ / "run/vtk/fields_200.vti").c_str());
+  image->Update();
+  EXPECT_NEAR(image->GetOutput()->GetCellData()->GetArray("stress")->GetComponent(0, 0),
+              50.0 * 1.8 / (3.8 * 2.0), 1e-5);
+}
+
 TEST_F(VtkCommand, MakesDoWithoutContacts) {
   ASSERT_TRUE(run({"run"}).ok());
   for (const char *step : {"0", "1000", "200"})
-    fs::remove(folder_ / "run/dump" / (std::string("contacts_") + step + ".vtp"));
+    fs::remove(folder_ / "run/dump" / (std::string("contacts_") + step + ".dump"));
   const Outcome outcome = run({"run"});
   ASSERT_TRUE(outcome.ok()) << outcome.output;
   EXPECT_TRUE(outcome.says("no contacts and no fields")) << outcome.output;
@@ -198,7 +226,7 @@ struct Bad {
 
 TEST_F(VtkCommand, BadInputIsOneLineAndTouchesNothing) {
   ASSERT_TRUE(run({"run"}).ok());
-  const std::string balls = "dump/balls_200.vtp", contacts = "dump/contacts_200.vtp";
+  const std::string balls = "dump/balls_200.vtp", contacts = "dump/contacts_200.dump";
   const auto with = [](std::map<std::string, Array> arrays, const std::string &name, const Array &array) {
     arrays[name] = array;
     return arrays;
@@ -260,8 +288,8 @@ TEST_F(VtkCommand, BadInputIsOneLineAndTouchesNothing) {
        {"run"},
        {"balls_200.vtp", "no whole VTK file"}},
       {"balls of words", {{balls, "hello"}}, {"run"}, {"balls_200.vtp", "no whole VTK file"}},
-      {"no balls", {{balls, poly_data(0, "", {}, 0, {})}}, {"run"}, {"balls_200.vtp", "no balls"}},
-      {"contacts for balls", {{balls, contact_dump()}}, {"run"}, {"balls_200.vtp", "'id'"}},
+      {"no balls", {{balls, point_data(0, "", {})}}, {"run"}, {"balls_200.vtp", "no balls"}},
+      {"points without data", {{balls, point_data(1, "0 0 0", {})}}, {"run"}, {"balls_200.vtp", "'id'"}},
       {"no radius",
        {{balls, ball_dump(without(ball_arrays(), "radius"))}},
        {"run"},
@@ -287,21 +315,26 @@ TEST_F(VtkCommand, BadInputIsOneLineAndTouchesNothing) {
        {"run"},
        {"balls_200.vtp", "no soil"}},
       {"contacts cut short",
-       {{contacts, contact_dump().substr(0, 600)}},
+       {{contacts, contact_dump().substr(0, contact_dump().size() - 24)}},
        {"run"},
-       {"contacts_200.vtp", "no whole VTK file"}},
-      {"no force",
-       {{contacts, contact_dump(without(contact_arrays(), "force"))}},
+       {"contacts_200.dump", "has 2 rows, expected 3"}},
+      {"contacts of words", {{contacts, "hello"}}, {"run"}, {"contacts_200.dump", "no text dump"}},
+      {"contacts of another fix",
+       {{contacts, std::regex_replace(contact_dump(), std::regex("f_contacts"), "f_mine")}},
        {"run"},
-       {"contacts_200.vtp", "'force'"}},
+       {"contacts_200.dump", "'f_contacts[1]'"}},
       {"contact of a stranger",
-       {{contacts, contact_dump(with(contact_arrays(), "id2", {"id2", 1, "1 7"}))}},
+       {{contacts, contact_dump("7 1 1 0 0 1 0 0 0.1\n")}},
        {"run"},
-       {"contacts_200.vtp", "ball 7"}},
+       {"contacts_200.dump", "ball 7"}},
+      {"a stranger on the floor",
+       {{contacts, contact_dump("7 0 0 1 0 0 1 0 0.1\n")}},
+       {"run"},
+       {"contacts_200.dump", "ball 7"}},
       {"a contact twice",
-       {{contacts, contact_dump(with(contact_arrays(), "id2", {"id2", 1, "1 2"}))}},
+       {{contacts, contact_dump("2 1 1 0 0 1 0 0 0.1\n1 2 -1 0 0 -1 0 0 0.1\n")}},
        {"run"},
-       {"contacts_200.vtp", "1 and 2", "twice"}},
+       {"contacts_200.dump", "1 and 2", "twice"}},
   };
   const auto before = files("run/vtk");
   ASSERT_EQ(before.size(), 12U);
@@ -333,7 +366,7 @@ TEST_F(VtkCommand, BadInputIsOneLineAndTouchesNothing) {
 
 // A first call that fails leaves no folder.
 TEST_F(VtkCommand, AFailureLeavesNothingBehind) {
-  put("run/dump/contacts_1000.vtp", "hello");
+  put("run/dump/contacts_1000.dump", "hello");
   EXPECT_EQ(run({"run"}).status, 2);
   EXPECT_FALSE(fs::exists(folder_ / "run/vtk"));
 }

@@ -1,0 +1,71 @@
+#include "fixes/fix_contact_local.h"
+
+#include "fixes/arguments.h"
+#include "fixes/contact_source.h"
+
+using namespace LAMMPS_NS;
+namespace engine = drumlin::engine;
+
+namespace {
+
+constexpr const char *command = "fix contact/local";
+
+} // namespace
+
+FixContactLocal::FixContactLocal(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) {
+  drumlin::Arguments in(error, command, narg - 3, arg + 3);
+  in.choice("keyword", {"every"});
+  nevery = static_cast<int>(in.integer("keyword every", 1, std::numeric_limits<int>::max()));
+  if (!in.empty()) in.fail("'" + in.peek() + "' is left over; allowed: every N");
+  local_flag = 1;
+  local_freq = nevery;
+  size_local_cols = numbers;
+  size_local_rows = 0;
+}
+
+int FixContactLocal::setmask() { return FixConst::PRE_FORCE | FixConst::END_OF_STEP; }
+
+void FixContactLocal::init() {
+  if (drumlin::contact_source(lmp) == nullptr)
+    error->all(
+        FLERR,
+        (std::string(command) + ": the pair style is another; allowed: " + engine::pair_style).c_str());
+}
+
+void FixContactLocal::setup_pre_force(int vflag) { pre_force(vflag); }
+
+void FixContactLocal::setup(int) {
+  if (book_) close_book();
+}
+
+void FixContactLocal::pre_force(int) {
+  if (update->ntimestep % nevery == 0) book_.emplace();
+}
+
+void FixContactLocal::end_of_step() { close_book(); }
+
+void FixContactLocal::close_book() {
+  rows_.clear();
+  for (const drumlin::LedgerEntry &entry : book_->entries) {
+    const bool wall = entry.j < 0;
+    if (!(atom->mask[entry.i] & groupbit) && (wall || !(atom->mask[entry.j] & groupbit))) continue;
+    if (!wall && !engine::speaks_for(lmp, entry.i, entry.j)) continue;
+    const double normal =
+        entry.share * (entry.final_force != nullptr ? *entry.final_force : entry.normal_force);
+    const auto &n = entry.normal;
+    const auto &t = entry.tangential_force;
+    rows_.push_back({static_cast<double>(atom->tag[entry.i]),
+                     wall ? 0.0 : static_cast<double>(atom->tag[entry.j]), normal * n[0] + t[0],
+                     normal * n[1] + t[1], normal * n[2] + t[2], n[0], n[1], n[2], entry.overlap});
+  }
+  book_.reset();
+  row_pointers_.clear();
+  for (Row &row : rows_)
+    row_pointers_.push_back(row.data());
+  array_local = row_pointers_.data();
+  size_local_rows = static_cast<int>(rows_.size());
+}
+
+double FixContactLocal::memory_usage() {
+  return static_cast<double>(rows_.capacity() * sizeof(Row) + row_pointers_.capacity() * sizeof(double *));
+}

@@ -1,0 +1,41 @@
+#pragma once
+// fix contact/local: the contacts of a step, walls' included, for dump local. See plugin/doc/fix_contact_local.md.
+
+#include "engine.h"
+#include "fixes/contact_ledger.h"
+
+#include <optional>
+
+namespace LAMMPS_NS {
+
+/// Keeps the book of every N-th step's contacts and hands it out as local data, one row per contact, on one rank only.
+class FixContactLocal : public Fix {
+public:
+  FixContactLocal(LAMMPS *, int, char **);
+
+  int setmask() override;
+  void init() override;
+  void setup_pre_force(int) override;
+  void setup(int) override;
+  void pre_force(int) override;
+  void end_of_step() override;
+  double memory_usage() override;
+
+private:
+  class Book : public drumlin::ContactLedger {
+  public:
+    void enter(const drumlin::LedgerEntry &entry) override { entries.push_back(entry); }
+    std::vector<drumlin::LedgerEntry> entries;
+  };
+  void close_book();
+
+  /// IDs of the balls, the force on the first and the unit vector to it, the overlap.
+  static constexpr std::size_t numbers = 9;
+  using Row = std::array<double, numbers>;
+
+  std::optional<Book> book_; // open from the beginning of a step's forces to its end
+  std::vector<Row> rows_;
+  std::vector<double *> row_pointers_;
+};
+
+} // namespace LAMMPS_NS
