@@ -272,9 +272,10 @@ void plan_profile(const std::vector<Views> &all, const std::string &stem, const 
         panel.curves.back().title = fmt::format("{} {}", label, when);
       };
       put(whole, "whole", soil.low[0], soil.high[0]);
+      Bounds drum; // one ball or a clump of many
       for (const Ball &ball : state)
-        if (ball.type == drum_type)
-          put(below, "below", ball.position[0] - ball.radius, ball.position[0] + ball.radius);
+        if (ball.type == drum_type) drum.add(ball);
+      if (!drum.empty()) put(below, "below", drum.low[0], drum.high[0]);
     };
     add("before", views.views[settled]->balls, a ? CurveStyle::series_5 : CurveStyle::series_3);
     add("after", views.last, a ? CurveStyle::series_2 : CurveStyle::series_1);

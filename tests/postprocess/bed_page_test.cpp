@@ -247,6 +247,41 @@ TEST_F(BedReport, ShowsTheBedAtRestAndAtTheExtremesOfTheForce) {
       << figures.at("bed1_profile")->csv;
 }
 
+// The bed reaches from z = -1.5 m to 2.5 m, its soil from -1 m to 2.2 m.
+TEST_F(BedReport, CutsABedOfThreeDimensionsInTheMiddle) {
+  for (const char *step : {"0", "800"})
+    put(std::string("A/dump/balls_") + step + ".vtp",
+        test::ball_dump(test::ball_arrays(), "1 3.9 0.5 2.8 1 1.2 1 1 0"));
+  const std::vector<BedResult> beds = {result("A")};
+  const FigurePlan plan = plan_bed_figures(group_beds(beds));
+  std::map<std::string, const PlannedFigure *> figures;
+  for (const PlannedFigure &figure : plan.figures)
+    figures[figure.figure.name] = &figure;
+  const PlannedFigure &picture = *figures.at("bed1_peak");
+  for (const char *circle : {"A soil,1,1,0.86602", "A soil,2.8,1,0.71414", "A roller,1,3.9,2,"})
+    EXPECT_NE(picture.csv.find(circle), std::string::npos) << picture.csv;
+  EXPECT_NE(picture.caption.find("section z = 0.5 m"), std::string::npos) << picture.caption;
+  // Two balls of radius 1 m in 3.8 m by 2 m by 3.2 m.
+  EXPECT_NE(figures.at("bed1_profile")->csv.find("A before whole,1,0.34447"), std::string::npos)
+      << figures.at("bed1_profile")->csv;
+}
+
+TEST_F(BedReport, DrawsOneProfileBelowADrumOfManyBalls) {
+  std::map<std::string, test::Array> arrays = test::ball_arrays();
+  arrays["type"].values = "2 2 1"; // ball 2 is of the drum
+  for (const char *step : {"0", "800"})
+    put(std::string("A/dump/balls_") + step + ".vtp", test::ball_dump(arrays));
+  const std::vector<BedResult> beds = {result("A")};
+  const FigurePlan plan = plan_bed_figures(group_beds(beds));
+  for (const PlannedFigure &figure : plan.figures) {
+    if (figure.figure.name != "bed1_profile") continue;
+    ASSERT_EQ(figure.figure.panels.size(), 2u);
+    EXPECT_EQ(figure.figure.panels[1].curves.size(), 2u); // before and after
+    return;
+  }
+  FAIL() << "no profile";
+}
+
 TEST_F(BedReport, ToldOfARunThatEndsAtOnce) {
   write_run("short", Transition::B, 6);
   std::string bed = read_text(root / "short" / "bed.csv");

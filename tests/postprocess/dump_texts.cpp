@@ -32,12 +32,12 @@ std::map<std::string, Array> ball_arrays() {
           {"v", {"v", 3, "0 0 0 0 6 0 3 0 0"}}, {"omega", {"omega", 3, "0 0 0 0 0 2 0 0 1"}},
           {"f", {"f", 3, "0 7 0 0 0 0 1 2 3"}}};
 }
-std::string ball_dump(const std::map<std::string, Array> &arrays) {
+std::string ball_dump(const std::map<std::string, Array> &arrays, const std::string &places) {
   std::vector<Array> columns;
   columns.reserve(arrays.size());
   for (const auto &named : arrays)
     columns.push_back(named.second);
-  return point_data(3, "1 3.9 0 2.8 1 0 1 1 0", columns);
+  return point_data(3, places, columns);
 }
 
 std::string contact_dump(const std::string &rows) {
