@@ -42,7 +42,7 @@ constexpr std::array studies = {
     Study{"fidelity",
           "What each ingredient of a bed changes and costs, over five seeds: condition, friction, rolling, "
           "stiffness, step, number, size and "
-          "packing of the balls, kind of drum, frequency, two dimensions or three. About two hours of "
+          "packing of the balls, kind of drum, frequency, two dimensions or three. About five hours of "
           "processor "
           "time.",
           &run_fidelity_study, true},

@@ -54,7 +54,7 @@ TEST(FidelityStudy, ABedThatFailsStopsNoOther) {
   EXPECT_EQ(outcome.status, 1);
   EXPECT_TRUE(outcome.says("seed 2, rolling: bed/in.bed: ERROR: drumlin/check: variable start is "))
       << outcome.output;
-  EXPECT_EQ(post::read_fidelity_runs(rows).size(), 5u);
+  EXPECT_EQ(post::read_fidelity_runs(rows).size(), 5u) << outcome.output;
   EXPECT_NE(post::read_text(study.out() / "index.html").find("Missing: seed 2, rolling"), std::string::npos);
 }
 
