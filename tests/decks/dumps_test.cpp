@@ -161,6 +161,26 @@ TEST_F(Dumps, HoldEveryBallAndEveryContactOnceOnTwoRanks) {
   expect_true_dumps(folder);
 }
 
+TEST_F(Dumps, OfAGroupAreTheContactsOfItsBalls) {
+  const Scratch folder;
+  run(folder, {{"some", "1"}, {"dump_every", "250"}});
+  for (const long step : steps) {
+    const auto found = post::read_ball_dump(folder.path() / "dump" / step_file("balls", step));
+    const post::BedContacts all = contacts_of(folder, step, found);
+    std::multiset<std::pair<long, long>> expected, rows;
+    const auto add = [](auto &pairs, long a, long b) { pairs.emplace(std::min(a, b), std::max(a, b)); };
+    for (const post::BallContact &contact : all.balls)
+      if (found[contact.i].id <= 3) add(expected, found[contact.i].id, found[contact.j].id);
+    for (const post::WallContact &contact : all.walls)
+      if (found[contact.i].id <= 3) add(expected, found[contact.i].id, 0);
+    for (const std::vector<double> &row :
+         post::read_text_dump(folder.path() / "dump" / step_file("some", step, "dump")).rows)
+      add(rows, std::lround(row[0]), std::lround(row[1]));
+    EXPECT_EQ(rows, expected) << "step " << step;
+    EXPECT_GT(rows.size(), 2U);
+  }
+}
+
 TEST_F(Dumps, DoNotDisturbTheRun) {
   for (const char *transition : {"A", "B"}) {
     const Scratch with, without;
