@@ -101,8 +101,9 @@ void FixStepping::post_integrate() {
   for (int i = 0; i < atom->nlocal; ++i) {
     const auto n = static_cast<std::size_t>(i);
     damping_over_mass_[n] = damping_[n] * inverse_mass_[n];
+    damping_[n] = 0.0;
   }
-  std::fill_n(damping_.begin(), atom->nlocal + atom->nghost, 0.0);
+  std::fill_n(damping_.begin() + atom->nlocal, atom->nghost, 0.0);
 }
 
 void FixStepping::setup_pre_exchange() { expected_.clear(); }

@@ -25,6 +25,13 @@ constexpr const char *style_name = "gran/hooke/transition";
 std::string history_id(int instance) { return "DRUMLIN_HISTORY" + std::to_string(instance); }
 std::string placeholder_id(int instance) { return "DRUMLIN_HISTORY_PLACE" + std::to_string(instance); }
 
+/// A vector per ball. They follow one another in memory: this spares the inner loop a pointer per ball.
+template <class Number>
+struct Rows {
+  Number *first;
+  Number *operator[](int i) const { return first + static_cast<std::ptrdiff_t>(i) * 3; }
+};
+
 } // namespace
 
 PairGranHookeTransition::PairGranHookeTransition(LAMMPS *lammps) : Pair(lammps) {
@@ -194,18 +201,19 @@ void PairGranHookeTransition::compute_contacts() {
   const bool a_may_end = stepped && moves && settings.transition == physics::Transition::A;
   const double dt = update->dt;
   const int nlocal = atom->nlocal;
+  if (list->inum == 0) return; // there may be no arrays
   const int newton = force->newton_pair;
   const int taken = newton ? nlocal + atom->nghost : nlocal; // balls that take the force here
   const int freeze_bit = freeze_groupbit_;
-  const double *const *x = atom->x;
-  const double *const *v = atom->v;
-  const double *const *omega = atom->omega;
+  const Rows<const double> x{atom->x[0]};
+  const Rows<const double> v{atom->v[0]};
+  const Rows<const double> omega{atom->omega[0]};
   const double *radius = atom->radius;
   const double *rmass = atom->rmass;
   const int *type = atom->type;
   const int *mask = atom->mask;
-  double **f = atom->f;
-  double **torque = atom->torque;
+  const Rows<double> f{atom->f[0]};
+  const Rows<double> torque{atom->torque[0]};
   const bool clumps = !FixClump::all().empty();
   const bool told = !drumlin::ContactLedger::open().empty() || !drumlin::ContactWatch::looking().empty();
 

@@ -95,10 +95,10 @@ struct FrictionStep {
   bool sliding = false;
   double dashpot_heat = ct * dot(vt, vt) * dt;
   if (friction.cap == Cap::spring) {
-    const double length = kt * std::sqrt(dot(trial, trial));
-    sliding = length > limit;
+    const double squared = kt * kt * dot(trial, trial);
+    sliding = squared > limit * limit;
     if (sliding) {
-      spring = scaled(limit / length, trial);
+      spring = scaled(limit / std::sqrt(squared), trial);
       pull = scaled(kt, spring);
       dashpot_heat = 0.0;
     } else {
@@ -106,10 +106,10 @@ struct FrictionStep {
     }
   } else {
     const Vec3 trial_pull = sum(scaled(kt, trial), ct, vt);
-    const double length = std::sqrt(dot(trial_pull, trial_pull));
-    sliding = length > limit;
+    const double squared = dot(trial_pull, trial_pull);
+    sliding = squared > limit * limit;
     if (sliding) {
-      pull = scaled(limit / length, trial_pull);
+      pull = scaled(limit / std::sqrt(squared), trial_pull);
       spring = scaled(1.0 / kt, sum(pull, -ct, vt));
     } else {
       pull = trial_pull;
