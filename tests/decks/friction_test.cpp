@@ -275,5 +275,57 @@ TEST(FrictionOnAPlane, SlidesWithMuTimesTheNormalForce) {
   EXPECT_NEAR(end.v[0], middle.v[0] - 0.5 * 9.81 * 4000 * 1e-5, 1e-9);
 }
 
+class BooksOfASlidingBall : public ::testing::TestWithParam<std::tuple<const char *, const char *>> {};
+
+/// Without dashpots the contact point of a ball on a floor has the mass m' = 1/(1/m + a^2/I), a its distance from the centre. It winds the
+/// spring up, a quarter of an oscillation at most, slides at mu N until it stops, and swings on the spring for good.
+TEST_P(BooksOfASlidingBall, TellHeatOfFrictionFromTheEnergyOfItsSpring) {
+  const auto &[deck, stepping] = GetParam();
+  if (std::string(deck) == "slide.lammps" && !post::has_lammps())
+    GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  const Scratch folder;
+  const Outcome outcome = run_deck(test_deck(deck), {{"stepping", stepping}}, folder.path());
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+
+  constexpr double m = 0.3, r = 0.03, kn = 1e5, spring = 2.0 / 7.0 * kn, mu = 0.4, N = m * 9.81, v0 = 0.3;
+  const double arm = r - 0.5 * N / kn;
+  const double m_slip = 1 / (1 / m + arm * arm / (0.4 * m * r * r));
+  const double w = std::sqrt(spring / m_slip), limit = mu * N / spring;
+  const double t_slide = std::asin(limit * w / v0) / w, v_slide = v0 * std::cos(w * t_slide);
+  const double t_stop = t_slide + v_slide * m_slip / (mu * N);
+  const auto slid = [&](double t) { // m
+    const double since = std::clamp(t, t_slide, t_stop) - t_slide;
+    return v_slide * since - 0.5 * mu * N / m_slip * since * since;
+  };
+  const auto wound = [&](double t) { // of the spring, m
+    return t < t_slide ? v0 / w * std::sin(w * t) : limit * std::cos(w * (std::max(t, t_stop) - t_stop));
+  };
+
+  const post::Table table = post::read_table(folder / "bed.csv");
+  const std::vector<double> time = table.numbers("time"), elastic = table.numbers("elastic"),
+                            heat = table.numbers("dissipated");
+  const double most = 0.5 * spring * limit * limit; // J, of the spring
+  int winding = 0, sliding = 0, swinging = 0;
+  for (std::size_t n = 0; n < time.size(); ++n) {
+    ++(time[n] < t_slide ? winding : time[n] < t_stop ? sliding : swinging);
+    const double stored = 0.5 * spring * wound(time[n]) * wound(time[n]);
+    EXPECT_NEAR(elastic[n] - 3 * 0.5 * N * N / kn, stored, 0.01 * most) << time[n];
+    EXPECT_NEAR(heat[n], mu * N * slid(time[n]), 0.01 * most) << time[n];
+  }
+  EXPECT_GT(std::min({winding, sliding, swinging}), 1);
+  const post::Table cycles = post::read_table(folder / "cycles.csv");
+  EXPECT_NEAR(cycles.numbers("dissipated_friction").back(), 0.5 * m_slip * v_slide * v_slide, 0.01 * most);
+  EXPECT_NEAR(cycles.numbers("dissipated_contact").back(), 0.0, 1e-4 * most);
+}
+
+INSTANTIATE_TEST_SUITE_P(Engine, BooksOfASlidingBall,
+                         ::testing::Combine(::testing::Values("slide.in", "slide.lammps"),
+                                            ::testing::Values("second", "stock")),
+                         [](const auto &test) {
+                           return std::string(std::get<0>(test.param)) == "slide.in"
+                                      ? std::string("Liggghts_") + std::get<1>(test.param)
+                                      : std::string("Lammps_") + std::get<1>(test.param);
+                         });
+
 } // namespace
 } // namespace drumlin::test
