@@ -3,6 +3,8 @@
 // 2 ranks.
 #include "scene.h"
 
+#include "text_dump.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -71,6 +73,40 @@ TEST_P(Combinations, RunAndTakeEnergyOut) {
       EXPECT_EQ(spin_change > 1, turns) << spin_change;
     }
   }
+}
+
+TEST(MeshFloor, RowsOfContactsExplainTheForceOnEachBall) {
+  const Scratch scratch;
+  write_floor(scratch / "floor.stl", 0.3, false);
+  const Outcome outcome =
+      run_deck(test_deck("box.in"),
+               {{"models", "tangential history"}, {"stepping", "stock"}, {"every", "20"}}, scratch.path());
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  int on_floor = 0;
+  double worst = 0, largest = 0;
+  for (const Frame &frame : read_dump(scratch / "state.dump")) {
+    std::map<long, std::array<double, 3>> rest;
+    for (const auto &[id, ball] : frame.balls)
+      rest[id] = {ball.f[0], ball.f[1], ball.f[2] + mass * g};
+    const std::string rows = "contacts_" + std::to_string(frame.step) + ".dump";
+    for (const std::vector<double> &row : post::read_text_dump(scratch / rows).rows) {
+      const std::array<double, 3> force = {row[2], row[3], row[4]};
+      const auto i = static_cast<long>(row[0]), j = static_cast<long>(row[1]); // j = 0: a wall
+      const Ball &ball = frame.balls.at(i);
+      const bool at_a_side = std::max(std::fabs(ball.x[0]), std::fabs(ball.x[1])) > 0.15 - radius;
+      if (j == 0 && !at_a_side) ++on_floor;
+      for (std::size_t a = 0; a < 3; ++a) {
+        rest[i][a] -= force[a];
+        if (j > 0) rest[j][a] += force[a];
+        largest = std::max(largest, std::fabs(force[a]));
+      }
+    }
+    for (const auto &[id, force] : rest)
+      for (const double component : force)
+        worst = std::max(worst, std::fabs(component));
+  }
+  EXPECT_GT(on_floor, 50);
+  EXPECT_LT(worst, 1e-12 * largest);
 }
 
 /// The engine numbers the balls rank by rank: by where they start, then.
