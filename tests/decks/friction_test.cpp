@@ -275,13 +275,13 @@ TEST(FrictionOnAPlane, SlidesWithMuTimesTheNormalForce) {
   EXPECT_NEAR(end.v[0], middle.v[0] - 0.5 * 9.81 * 4000 * 1e-5, 1e-9);
 }
 
-class BooksOfASlidingBall : public ::testing::TestWithParam<std::tuple<const char *, const char *>> {};
+class BooksOfASlidingBall : public ::testing::TestWithParam<std::tuple<std::string, std::string>> {};
 
 /// Without dashpots the contact point of a ball on a floor has the mass m' = 1/(1/m + a^2/I), a its distance from the centre. It winds the
 /// spring up, a quarter of an oscillation at most, slides at mu N until it stops, and swings on the spring for good.
 TEST_P(BooksOfASlidingBall, TellHeatOfFrictionFromTheEnergyOfItsSpring) {
   const auto &[deck, stepping] = GetParam();
-  if (std::string(deck) == "slide.lammps" && !post::has_lammps())
+  if (deck == "slide.lammps" && !post::has_lammps())
     GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
   const Scratch folder;
   const Outcome outcome = run_deck(test_deck(deck), {{"stepping", stepping}}, folder.path());
@@ -318,13 +318,12 @@ TEST_P(BooksOfASlidingBall, TellHeatOfFrictionFromTheEnergyOfItsSpring) {
   EXPECT_NEAR(cycles.numbers("dissipated_contact").back(), 0.0, 1e-4 * most);
 }
 
-INSTANTIATE_TEST_SUITE_P(Engine, BooksOfASlidingBall,
+INSTANTIATE_TEST_SUITE_P(Decks, BooksOfASlidingBall,
                          ::testing::Combine(::testing::Values("slide.in", "slide.lammps"),
                                             ::testing::Values("second", "stock")),
                          [](const auto &test) {
-                           return std::string(std::get<0>(test.param)) == "slide.in"
-                                      ? std::string("Liggghts_") + std::get<1>(test.param)
-                                      : std::string("Lammps_") + std::get<1>(test.param);
+                           const std::string &deck = std::get<0>(test.param);
+                           return deck.substr(deck.find('.') + 1) + "_" + std::get<1>(test.param);
                          });
 
 } // namespace
