@@ -11,7 +11,6 @@ using namespace LAMMPS_NS;
 namespace {
 
 constexpr const char *helper_id = "drumlin_stepping";
-constexpr int shared = 4;        // numbers per ball that ghosts need
 constexpr int exchanged = 5;     // that a ball takes to another rank
 constexpr int most_gathered = 6; // that a ghost has for its owner
 
@@ -100,7 +99,7 @@ void FixStepping::post_integrate() {
   }
   for (int i = 0; i < atom->nlocal; ++i) {
     const auto n = static_cast<std::size_t>(i);
-    damping_over_mass_[n] = damping_[n] * inverse_mass_[n];
+    row(i)[sum] = damping_[n] * inverse_mass_[n];
     damping_[n] = 0.0;
   }
   std::fill_n(damping_.begin() + atom->nlocal, atom->nghost, 0.0);
@@ -321,8 +320,8 @@ void FixStepping::constrain(bool any) const {
 }
 
 void FixStepping::grow_arrays(int nmax) {
-  memory->grow(velocity_, nmax, 3, "drumlin/stepping:velocity");
-  for (std::vector<double> *values : {&damping_over_mass_, &inverse_mass_, &damping_})
+  memory->grow(velocity_, nmax, shared, "drumlin/stepping:velocity");
+  for (std::vector<double> *values : {&inverse_mass_, &damping_})
     values->resize(static_cast<std::size_t>(nmax));
 }
 
@@ -351,19 +350,11 @@ int FixStepping::unpack_exchange(int i, double *buf) {
 }
 
 void FixStepping::pack_ghosts(int n, const int *list, double *buf) {
-  for (int m = 0; m < n; ++m) {
-    buf = std::copy_n(velocity_[list[m]], 3, buf);
-    *buf++ = damping_over_mass_[static_cast<std::size_t>(list[m])];
-  }
+  for (int m = 0; m < n; ++m)
+    buf = std::copy_n(row(list[m]), shared, buf);
 }
 
-void FixStepping::unpack_ghosts(int n, int begin, double *buf) {
-  for (int i = begin; i < begin + n; ++i) {
-    std::copy_n(buf, 3, velocity_[i]);
-    damping_over_mass_[static_cast<std::size_t>(i)] = buf[3];
-    buf += shared;
-  }
-}
+void FixStepping::unpack_ghosts(int n, int begin, double *buf) { std::copy_n(buf, n * shared, row(begin)); }
 
 void FixStepping::pack_gathered(int n, int begin, double *buf) {
   std::copy_n(gathered_.begin() + static_cast<std::ptrdiff_t>(begin) * comm_reverse, n * comm_reverse, buf);

@@ -57,9 +57,7 @@ public:
       velocity_[i][a] -= 0.5 * update->dt * change[a] / atom->rmass[i];
   }
   /// Sum of c/m in the last step, 1/s, of owned balls and ghosts; 0 if none could be heavy: see expect_contacts().
-  double damping_over_mass(int i) const {
-    return counted_ ? damping_over_mass_[static_cast<std::size_t>(i)] : 0.0;
-  }
+  double damping_over_mass(int i) const { return counted_ ? row(i)[sum] : 0.0; }
   /// Whether the contacts of this step are to be counted with add_damping().
   bool counting() const { return counting_; }
   /// Counts the c, N s/m, of a contact of ball i for the next step; with newton off what a ghost gets is forgotten.
@@ -104,8 +102,10 @@ private:
     int i;
     double k, c;
   };
+  /// Of a row: what ghosts need, and the place of the sum of c/m behind the velocity. Side by side, the inner loop meets both at once.
+  static constexpr int shared = 4, sum = 3;
   /// Rows follow one another: this spares the inner loop a pointer per ball.
-  double *row(int i) const { return velocity_[0] + static_cast<std::ptrdiff_t>(i) * 3; }
+  double *row(int i) const { return velocity_[0] + static_cast<std::ptrdiff_t>(i) * shared; }
   void expect_contacts();
   void gather(std::size_t numbers);
   void solve_coupled();
@@ -121,12 +121,11 @@ private:
   double expected_dt_ = 0.0;       // that counting_ was chosen for
   std::vector<Expected> expected_; // links that are no contacts
   // Of each ball:
-  double **velocity_ = nullptr;           // v(t), at the end of a step v*, m/s
-  std::vector<double> damping_over_mass_; // sum of c/m in the last step, 1/s
-  std::vector<double> inverse_mass_;      // as its contacts feel it, 1/kg; below 0: not known yet
-  std::vector<double> damping_;           // sum of c in this step, N s/m
-  std::vector<double> gathered_;          // what ghosts have for their owners, comm_reverse numbers each
-  std::vector<Coupled> coupled_;          // of this step
+  double **velocity_ = nullptr;      // v(t), at the end of a step v*, m/s; sum of c/m in the last step, 1/s
+  std::vector<double> inverse_mass_; // as its contacts feel it, 1/kg; below 0: not known yet
+  std::vector<double> damping_;      // sum of c in this step, N s/m
+  std::vector<double> gathered_;     // what ghosts have for their owners, comm_reverse numbers each
+  std::vector<Coupled> coupled_;     // of this step
   std::vector<std::function<void()>> coupled_links_;
   std::vector<Later> later_;            // of this step
   std::vector<Later> shifts_;           // in the opening half kick, not yet taken back
