@@ -97,7 +97,6 @@ PlannedFigure piece_figure(const std::vector<PieceCost> &costs) {
       panels.back().y_label = "cost per step over base (-)";
       panels.back().curves = {curve(name, cost.scene, "$2", "3:4:5", CurveStyle::spread)};
       panels.back().curves.back().title.clear();
-      panels.back().legend_rows = 4; // room for the names of the pieces
     }
     panels.back().x_ticks.emplace_back(cost.comparison.piece);
     table.row(cost.scene, {static_cast<double>(panels.back().x_ticks.size()), cost.ratio.median,

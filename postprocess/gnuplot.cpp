@@ -98,7 +98,13 @@ std::string panel_script(const Panel &panel) {
   s += panel.log_x ? "  set logscale x\n  set format x '10^{%T}'\n" : "  set format x '%g'\n";
   s += panel.log_y ? "  set logscale y\n  set format y '10^{%T}'\n" : "  set format y '%g'\n";
   s += fmt::format("  set yrange {}\n", panel.y_range.empty() ? "[*:*]" : panel.y_range);
-  s += fmt::format("  set bmargin {}\n  set key maxrows {} width {}\n", 4.5 + panel.legend_rows,
+  constexpr double line_per_letter = 0.45; // a letter's width over the height of a line
+  std::size_t longest = 0;
+  for (const std::string &name : panel.x_ticks)
+    longest = std::max(longest, name.size());
+  s += fmt::format("  set bmargin {}\n  set key maxrows {} width {}\n",
+                   (longest == 0 ? 4.5 : 2.5) + panel.legend_rows +
+                       line_per_letter * static_cast<double>(longest),
                    panel.legend_rows, panel.legend_rows > 1 ? 1 : -2);
   if (panel.x_ticks.empty()) {
     s += "  set xtics autofreq norotate\n  set autoscale x\n";
@@ -107,7 +113,7 @@ std::string panel_script(const Panel &panel) {
     if (!panel.x_range.empty())
       s += fmt::format("  set xrange {}\n  set offsets 0, 0, 0, 0\n", panel.x_range);
   } else {
-    s += "  set xtics rotate by -35 left noenhanced (";
+    s += "  set xtics rotate by 90 right noenhanced (";
     for (std::size_t i = 0; i < panel.x_ticks.size(); ++i)
       s += fmt::format("{}{} {}", i == 0 ? "" : ", ", gnuplot_string(panel.x_ticks[i]), i + 1);
     s += fmt::format(")\n  set xrange [0.5:{}]\n", static_cast<double>(panel.x_ticks.size()) + 0.5);

@@ -115,7 +115,7 @@ PlannedFigure speed_figure(const std::vector<Throughput> &all, const SpeedScenes
   figure.caption =
       "Steps of balls per second: median over the rounds and quartiles; from left to right the engine's "
       "law, stock and second on one rank, then on two; then those of LAMMPS.";
-  figure.figure = {name, "Steps of balls per second", {}, 3, 420, 420};
+  figure.figure = {name, "Steps of balls per second", {}, 3, 420, 460};
   CurveTable table("place,million per s,lower quartile,upper quartile");
   for (const std::string &scene : {scenes.plane, scenes.cell, scenes.copies}) {
     Panel panel;
@@ -124,7 +124,6 @@ PlannedFigure speed_figure(const std::vector<Throughput> &all, const SpeedScenes
     panel.y_range = "[0:*]";
     panel.curves = {curve(name, scene, "$2", "3:4:5", CurveStyle::spread)};
     panel.curves.back().title.clear();
-    panel.legend_rows = 3; // room for the names
     for (const EngineLaws &laws : engines)
       for (const int ranks : {1, 2})
         for (const char *law : laws.all()) {
