@@ -155,8 +155,9 @@ void write_noted_restart(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const 
 std::string restart_fault(const std::string &file, const RestartNotes &notes) {
   const RestartNotes found = notes_of(file);
   if (found.empty())
-    return "; allowed: a whole restart file of drumlin/write_restart or drumlin/run, and this one is cut "
-           "short, damaged or none";
+    return fmt::format("; allowed: a whole restart file of drumlin/write_restart or drumlin/run{}, and this "
+                       "one is cut short, damaged or none",
+                       engine::beside_restart);
   for (const auto &[name, value] : with_engine(notes)) {
     const auto same_name = [&name = name](const auto &note) { return note.first == name; };
     const auto note = std::find_if(found.begin(), found.end(), same_name);

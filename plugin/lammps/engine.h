@@ -74,6 +74,8 @@ constexpr int closes_forces = LAMMPS_NS::FixConst::FINAL_INTEGRATE;
 
 /// Bytes at the end of a restart file by which the engine knows that it is whole: a word and its zero.
 constexpr int restart_end_mark = 16;
+/// What the decks read as well as NAME, a restart file, for lines on bad input.
+constexpr const char *beside_restart = ", or NAME beside which a NAME.data lies";
 
 inline void set_up_run(LAMMPS_NS::Integrate *integrate) { integrate->setup(1); }
 

@@ -66,6 +66,8 @@ constexpr int closes_forces = LAMMPS_NS::FixConst::PRE_FINAL_INTEGRATE;
 
 /// Bytes at the end of a restart file by which the engine knows that it is whole.
 constexpr int restart_end_mark = 0;
+/// What the decks read as well as a restart file, for lines on bad input: nothing.
+constexpr const char *beside_restart = "";
 
 inline void set_up_run(LAMMPS_NS::Integrate *integrate) { integrate->setup(); }
 

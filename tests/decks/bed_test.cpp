@@ -705,6 +705,10 @@ TEST_F(BedInLammps, RefusesWhatItDoesNotHaveOnRanksOneAndTwo) {
     refused({{"start", "nowhere"}}, "variable start is 'nowhere'; allowed: a file that can be read", ranks);
     refused({{"start", (files / "alone.restart").string()}},
             ", made with engine LIGGGHTS; allowed: made with engine LAMMPS", ranks);
+    refused({{"start", (*scratch / "balls.data").string()}},
+            "; allowed: a whole restart file of drumlin/write_restart or drumlin/run, or NAME beside which a "
+            "NAME.data lies, and this one is cut short, damaged or none",
+            ranks);
     refused({{"newton", "maybe"}}, "variable newton is 'maybe'; allowed: on or off", ranks);
     refused({{"rolling", "0.1"}}, "variable rolling is '0.1'; allowed: 0", ranks);
   }
