@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ostream>
 #include <string>
@@ -226,6 +227,53 @@ INSTANTIATE_TEST_SUITE_P(Restitution, SecondOrderImpact, ::testing::ValuesIn(bou
 });
 
 INSTANTIATE_TEST_SUITE_P(Reference, Obstacles, ::testing::ValuesIn(impacts), impact_name);
+
+// A ball sinks into eight contacts one after another. Alone none of their dashpots is heavy (dt c/m = 0.4); together they are, and each
+// on its own would then throw the ball back. All are pressed to the end, so that no condition of a transition acts: m a = m g - sum of
+// k d + c d', of which a far smaller step makes an oracle.
+TEST(ManyContacts, MadeOneByOneBecomeHeavyTogether) {
+  constexpr double m = 2000, k = 1e6, c = 8e5, dt = 1e-3, g = 9.81, r = 0.75, gap = 1e-6, below = 5e-4;
+  constexpr int contacts = 8, steps = 4000, parts = 100;
+  const auto acceleration = [&](double z, double v) {
+    double force = 0;
+    for (int n = 0; n < contacts; ++n)
+      if (const double overlap = r - below * n - z; overlap > 0) force += k * overlap - c * v;
+    return force / m - g;
+  };
+  std::vector<double> exact;
+  double z = r + gap, v = 0;
+  for (int step = 0; step <= steps; ++step) {
+    exact.push_back(z);
+    for (int part = 0; part < parts; ++part) { // the midpoint's rule
+      const double h = dt / parts, v_half = v + 0.5 * h * acceleration(z, v);
+      const double a = acceleration(z + 0.5 * h * v, v_half);
+      z += h * v_half;
+      v += h * a;
+    }
+  }
+  EXPECT_NEAR(z, r - below * (contacts - 1) / 2 - m * g / (contacts * k), 1e-4);
+
+  for (const auto &[obstacle, id] : {std::pair{"stack", contacts + 1L}, {"planes", 1L}}) {
+    const BallsRun run = run_balls({{"obstacle", obstacle},
+                                    {"stepping", "second"},
+                                    {"damping", "coefficient"},
+                                    {"property", "gamman_abs"},
+                                    {"dashpot", number(c)},
+                                    {"k", number(k)},
+                                    {"m2", number(m)},
+                                    {"g", number(g)},
+                                    {"gap", number(gap)},
+                                    {"dt", number(dt)},
+                                    {"steps", std::to_string(steps)}});
+    const std::vector<double> found = run.series(id, &Ball::x, 2);
+    ASSERT_EQ(found.size(), exact.size());
+    for (std::size_t step = 1; step < exact.size(); ++step) {
+      ASSERT_NEAR(found[step], exact[step], 0.01 * below) << obstacle << ", step " << step;
+      const double sinks = found[step - 1] - found[step], should = exact[step - 1] - exact[step];
+      ASSERT_NEAR(sinks, should, 0.5 * should) << obstacle << ", step " << step;
+    }
+  }
+}
 
 } // namespace
 } // namespace drumlin::test
