@@ -15,9 +15,11 @@ namespace physics = drumlin::physics;
 FixBondSpring::FixBondSpring(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) {
   scalar_flag = vector_flag = 1;
   size_vector = 5;
-  extscalar = extvector = 0;
+  extscalar = 1;
+  extvector = 0;
   global_freq = 1;
   restart_global = 1;
+  drumlin::engine::offer_energy(*this);
 
   drumlin::Arguments in(error, "fix bond/spring", narg - 3, arg + 3);
   tags_[0] = static_cast<int>(in.integer("ball i", 1));
@@ -239,7 +241,7 @@ double FixBondSpring::compute_vector(int n) {
   case 1:
     return whole_ ? state_.rate : 0.0;
   case 2:
-    return acted_.stored;
+    return acted_.force;
   case 3:
     return acted_.dissipated;
   default:

@@ -23,9 +23,9 @@ public:
   void post_force(int) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
-  /// Bond force that acted in this step, N, tension positive.
-  double compute_scalar() override { return acted_.force; }
-  /// 0: stretch, m; 1: its rate as the force saw it, m/s; 2: energy in the spring, J; 3: power of the
+  /// Energy in the spring, J.
+  double compute_scalar() override { return acted_.stored; }
+  /// 0: stretch, m; 1: its rate as the force saw it, m/s; 2: force that acted in this step, N, tension positive; 3: power of the
   /// dashpot, W; 4: 1 while whole.
   double compute_vector(int) override;
 

@@ -77,6 +77,9 @@ constexpr int restart_end_mark = 16;
 /// What the decks read as well as NAME, a restart file, for lines on bad input.
 constexpr const char *beside_restart = ", or NAME beside which a NAME.data lies";
 
+/// Lets `fix_modify energy` add a fix's scalar to the potential energy.
+inline void offer_energy(LAMMPS_NS::Fix &fix) { fix.energy_global_flag = 1; }
+
 inline void set_up_run(LAMMPS_NS::Integrate *integrate) { integrate->setup(1); }
 
 /// Whether the command `timer timeout` has told the engine to stop: it then ends each run. (A signal ends LAMMPS itself.) Collective.

@@ -69,6 +69,9 @@ constexpr int restart_end_mark = 0;
 /// What the decks read as well as a restart file, for lines on bad input: nothing.
 constexpr const char *beside_restart = "";
 
+/// LIGGGHTS has no potential energy that a fix's scalar could be part of.
+inline void offer_energy(LAMMPS_NS::Fix &) {}
+
 inline void set_up_run(LAMMPS_NS::Integrate *integrate) { integrate->setup(); }
 
 /// Whether a signal (Ctrl-C, a scheduler) has told a rank to stop: the engine then ends each run after a step. Collective.

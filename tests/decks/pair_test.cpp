@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <fstream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace drumlin::test {
@@ -178,6 +180,38 @@ TEST(Bond, FollowsTheDampedOscillatorInFirstOrder) {
     EXPECT_LT(errors.back(), 2e-3);
   }
 }
+
+class EnergyOfABond : public ::testing::TestWithParam<std::tuple<std::string, std::string>> {};
+
+// e(t) = e0 cos(w t), w^2 = k / m_eff; what the spring does not hold the balls have.
+TEST_P(EnergyOfABond, IsItsScalarAndWithFixModifyPartOfThePotentialEnergy) {
+  const auto &[deck, stepping] = GetParam();
+  if (deck == "bond.lammps" && !post::has_lammps())
+    GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  const Scratch folder;
+  const Outcome outcome = run_deck(test_deck(deck), {{"stepping", stepping}}, folder.path());
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  constexpr double k = 1e4, m_eff = 1, e0 = 0.01, most = 0.5 * k * e0 * e0;
+  std::ifstream in(folder / "energies.txt");
+  int rows = 0;
+  for (double t, energy, force, potential, kinetic; in >> t >> energy >> force >> potential >> kinetic;
+       ++rows) {
+    const double e = e0 * std::cos(std::sqrt(k / m_eff) * t);
+    EXPECT_NEAR(force, k * e, 1e-4 * k * e0) << t;
+    EXPECT_NEAR(energy, 0.5 * k * e * e, 1e-4 * most) << t;
+    EXPECT_NEAR(potential, energy, 1e-5 * most) << t;
+    EXPECT_NEAR(potential + kinetic, most, 1e-4 * most) << t;
+  }
+  EXPECT_GE(rows, 40);
+}
+
+INSTANTIATE_TEST_SUITE_P(Decks, EnergyOfABond,
+                         ::testing::Combine(::testing::Values("bond.in", "bond.lammps"),
+                                            ::testing::Values("second", "stock")),
+                         [](const auto &test) {
+                           const std::string &deck = std::get<0>(test.param);
+                           return deck.substr(deck.find('.') + 1) + "_" + std::get<1>(test.param);
+                         });
 
 TEST(Bond, BreaksOnceAtItsStrengthAndNeverPullsAgain) {
   constexpr double m1 = 600, m2 = 1000, time = 0.5,
