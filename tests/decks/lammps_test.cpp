@@ -238,6 +238,26 @@ TEST_F(InLammps, GoesOnFromADataFileWhereNothingIsRemembered) {
   EXPECT_LT(distance(whole, rest), 1e-9);
 }
 
+// The spring on a face is forgotten however far the ball goes in one step.
+TEST_F(InLammps, BallPutBackOnAFaceOfARegionBeginsAnew) {
+  const auto force = [](const char *lifted) {
+    const Scratch folder;
+    const Outcome outcome = run_deck(test_deck("lift.lammps"), {{"lifted", lifted}}, folder.path());
+    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    std::array<double, 2> along_and_up{};
+    std::ifstream in(folder / "force.txt");
+    EXPECT_TRUE(in >> along_and_up[0] >> along_and_up[1]);
+    return along_and_up;
+  };
+  constexpr double kn = 1e5, kt = 2.0 / 7.0 * kn, overlap = 1e-4, slid = 0.1 * 50e-6;
+  const std::array<double, 2> stayed = force("0"), put_back = force("0.01"), hopped = force("0.002");
+  EXPECT_NEAR(std::fabs(stayed[0]), kt * slid, 0.05 * kt * slid);
+  for (const std::array<double, 2> &anew : {put_back, hopped}) {
+    EXPECT_NEAR(anew[0], 0, 1e-12);
+    EXPECT_NEAR(std::fabs(anew[1]), kn * overlap, 0.05 * kn * overlap);
+  }
+}
+
 // A set-up computes forces from velocities of the full step, which second-order stepping would have had, too.
 TEST_F(InLammps, RunSplitOrWholeIsOneUnderSecondOrderStepping) {
   for (const char *D : {"0", "0.2"}) {
