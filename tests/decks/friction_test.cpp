@@ -1,5 +1,6 @@
 // Friction as the engine's tangential history applies it to our contact: the core's law along recorded paths,
 // closed forms of sticking and sliding, the defaults, and that a broken contact keeps nothing.
+#include "both_engines.h"
 #include "scene.h"
 
 #include "physics/friction_law.h"
@@ -275,16 +276,13 @@ TEST(FrictionOnAPlane, SlidesWithMuTimesTheNormalForce) {
   EXPECT_NEAR(end.v[0], middle.v[0] - 0.5 * 9.81 * 4000 * 1e-5, 1e-9);
 }
 
-class BooksOfASlidingBall : public ::testing::TestWithParam<std::tuple<std::string, std::string>> {};
+class BooksOfASlidingBall : public BothEngines {};
 
 /// Without dashpots the contact point of a ball on a floor has the mass m' = 1/(1/m + a^2/I), a its distance from the centre. It winds the
 /// spring up, a quarter of an oscillation at most, slides at mu N until it stops, and swings on the spring for good.
 TEST_P(BooksOfASlidingBall, TellHeatOfFrictionFromTheEnergyOfItsSpring) {
-  const auto &[deck, stepping] = GetParam();
-  if (deck == "slide.lammps" && !post::has_lammps())
-    GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
   const Scratch folder;
-  const Outcome outcome = run_deck(test_deck(deck), {{"stepping", stepping}}, folder.path());
+  const Outcome outcome = run("slide", folder);
   ASSERT_TRUE(outcome.ok()) << outcome.output;
 
   constexpr double m = 0.3, r = 0.03, kn = 1e5, spring = 2.0 / 7.0 * kn, mu = 0.4, N = m * 9.81, v0 = 0.3;
@@ -318,13 +316,7 @@ TEST_P(BooksOfASlidingBall, TellHeatOfFrictionFromTheEnergyOfItsSpring) {
   EXPECT_NEAR(cycles.numbers("dissipated_contact").back(), 0.0, 1e-4 * most);
 }
 
-INSTANTIATE_TEST_SUITE_P(Decks, BooksOfASlidingBall,
-                         ::testing::Combine(::testing::Values("slide.in", "slide.lammps"),
-                                            ::testing::Values("second", "stock")),
-                         [](const auto &test) {
-                           const std::string &deck = std::get<0>(test.param);
-                           return deck.substr(deck.find('.') + 1) + "_" + std::get<1>(test.param);
-                         });
+INSTANTIATE_TEST_SUITE_P(Decks, BooksOfASlidingBall, engines_and_steppings(), engine_and_stepping);
 
 } // namespace
 } // namespace drumlin::test

@@ -1,4 +1,5 @@
 // Two balls: momentum, the effective mass, mirror images, the two ways to give damping, and the bond.
+#include "both_engines.h"
 #include "scene.h"
 
 #include "analysis.h"
@@ -10,7 +11,6 @@
 #include <complex>
 #include <fstream>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace drumlin::test {
@@ -181,15 +181,12 @@ TEST(Bond, FollowsTheDampedOscillatorInFirstOrder) {
   }
 }
 
-class EnergyOfABond : public ::testing::TestWithParam<std::tuple<std::string, std::string>> {};
+class EnergyOfABond : public BothEngines {};
 
 // e(t) = e0 cos(w t), w^2 = k / m_eff; what the spring does not hold the balls have.
 TEST_P(EnergyOfABond, IsItsScalarAndWithFixModifyPartOfThePotentialEnergy) {
-  const auto &[deck, stepping] = GetParam();
-  if (deck == "bond.lammps" && !post::has_lammps())
-    GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
   const Scratch folder;
-  const Outcome outcome = run_deck(test_deck(deck), {{"stepping", stepping}}, folder.path());
+  const Outcome outcome = run("bond", folder);
   ASSERT_TRUE(outcome.ok()) << outcome.output;
   constexpr double k = 1e4, m_eff = 1, e0 = 0.01, most = 0.5 * k * e0 * e0;
   std::ifstream in(folder / "energies.txt");
@@ -205,13 +202,7 @@ TEST_P(EnergyOfABond, IsItsScalarAndWithFixModifyPartOfThePotentialEnergy) {
   EXPECT_GE(rows, 40);
 }
 
-INSTANTIATE_TEST_SUITE_P(Decks, EnergyOfABond,
-                         ::testing::Combine(::testing::Values("bond.in", "bond.lammps"),
-                                            ::testing::Values("second", "stock")),
-                         [](const auto &test) {
-                           const std::string &deck = std::get<0>(test.param);
-                           return deck.substr(deck.find('.') + 1) + "_" + std::get<1>(test.param);
-                         });
+INSTANTIATE_TEST_SUITE_P(Decks, EnergyOfABond, engines_and_steppings(), engine_and_stepping);
 
 TEST(Bond, BreaksOnceAtItsStrengthAndNeverPullsAgain) {
   constexpr double m1 = 600, m2 = 1000, time = 0.5,
