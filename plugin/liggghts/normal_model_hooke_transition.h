@@ -72,8 +72,8 @@ public:
       registry.connect("coeffFrict", friction_, "model hooke/transition");
     }
     clumps_ = !LAMMPS_NS::FixClump::all().empty();
-    // The step in which A breaks needs a call although the balls no longer overlap: see surfacesClose().
-    if (stepping_ && transition_a_) neighbor->register_contact_dist_factor(drumlin::contact_distance_factor);
+    // The step in which contact ends needs a call although the balls no longer overlap: see surfacesClose().
+    if (stepping_) neighbor->register_contact_dist_factor(drumlin::contact_distance_factor);
   }
 
   double stressStrainExponent() { return 1.0; }
@@ -101,8 +101,12 @@ public:
 
   void surfacesClose(SurfacesCloseData &scdata, ForceData &i_forces, ForceData &j_forces) {
     if (scdata.contact_flags) *scdata.contact_flags &= ~CONTACT_NORMAL_MODEL;
-    if (stepping_ && transition_a_ && scdata.computeflag && !stepping_->in_setup())
-      break_of_a(scdata, i_forces, j_forces);
+    if (stepping_ == nullptr || !scdata.computeflag || scdata.contact_history == nullptr) return;
+    // The record says that they touched a step ago; their motion alone, along a normal that turns, may say so twice.
+    double &force_before = scdata.contact_history[force_before_offset_];
+    if (force_before == 0.0) return;
+    force_before = 0.0;
+    if (transition_a_ && !stepping_->in_setup()) break_of_a(scdata, i_forces, j_forces);
   }
 
   void beginPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
@@ -205,13 +209,8 @@ private:
     j_forces.delta_F[2] -= z;
   }
 
-  /// A jump like the make: the tensile force acted for part of the step that ends with the balls apart. The record says that they
-  /// touched a step ago; their motion alone, along a normal that turns, may say so twice.
+  /// A jump like the make: the tensile force acted for part of the step that ends with the balls apart.
   void break_of_a(SurfacesCloseData &scdata, ForceData &i_forces, ForceData &j_forces) {
-    if (scdata.contact_history == nullptr) return;
-    double &force_before = scdata.contact_history[force_before_offset_];
-    if (force_before == 0.0) return;
-    force_before = 0.0;
     const double r = std::sqrt(scdata.rsq);
     const double normal[3] = {scdata.delta[0] / r, scdata.delta[1] / r, scdata.delta[2] / r};
     double rate_half = 0.0;

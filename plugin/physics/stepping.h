@@ -29,9 +29,16 @@ struct StepForce {
       shift; ///< N: moves the balls by what dt/2 of it would in the next step's drift, and leaves their velocities
 };
 
-/// Whether the balls were apart at the begin of the step.
-[[nodiscard]] inline bool made_in_step(const StepMotion &motion) {
+/// Whether the balls were apart at the begin of the step, by their motion in it.
+[[nodiscard]] inline bool came_from_apart(const StepMotion &motion) {
   return motion.overlap - motion.dt * motion.rate_half <= 0.0;
+}
+
+/// Whether contact was made in this step. A contact that had a force was there before, although the motion may deny it: behind a make the
+/// balls are moved beside their velocities (StepForce::shift), and other contacts of theirs that barely overlap with them.
+/// \param force_before N, of the step before; 0: none, by B or for want of contact
+[[nodiscard]] inline bool made_in_step(const StepMotion &motion, double force_before) {
+  return force_before == 0.0 && came_from_apart(motion);
 }
 
 /// Force k d + c d' at t+dt of a spring-dashpot that held through the step, the dashpot at the velocity of t+dt.
@@ -127,11 +134,11 @@ struct CoupledDashpot {
 /// the begin of each step leaves the positions behind the sum of the velocities by dt^2/4 of the jump of the acceleration (the
 /// boundary term of the trapezoidal sum). Both are shifts of the positions; they matter for heavy damping, where d soon stops
 /// growing and the rebound goes with d.
-/// \param force_before, c_over_m as in second_order_spring_dashpot(); the force is not used in the step of a make
+/// \param force_before, c_over_m as in second_order_spring_dashpot(); the force is 0 in the step of a make
 [[nodiscard]] inline StepForce second_order_force(Transition transition, double k, double c,
                                                   const StepMotion &motion, double force_before,
                                                   double c_over_m) {
-  if (!made_in_step(motion)) {
+  if (!made_in_step(motion, force_before)) {
     const double force = second_order_held(transition, k, c, motion, force_before, c_over_m);
     return {force, force, 0.0};
   }
@@ -158,7 +165,7 @@ struct CoupledDashpot {
 /// \param motion with motion.overlap <= 0
 [[nodiscard]] inline StepForce second_order_break(Transition transition, double k, double c,
                                                   const StepMotion &motion) {
-  if (transition == Transition::B || made_in_step(motion)) return {0.0, 0.0, 0.0};
+  if (transition == Transition::B || came_from_apart(motion)) return {0.0, 0.0, 0.0};
   const double before = motion.overlap - motion.dt * motion.rate_half;
   const double share = before / (before - motion.overlap);
   const double tensile = normal_force(transition, k, c, before, motion.rate_before);

@@ -213,15 +213,13 @@ TEST_F(Dumps, OfAnEarlierRunAreRemovedAndNothingElse) {
 }
 
 /// Largest of what the contacts leave unexplained of the forces on soil balls, none of whose contacts is made or broken in the step
-/// (then the force on a ball holds what the stepping puts there), or touches a ball with such a contact in the step before (which is moved
-/// a little besides, so that a contact that barely overlaps may count as made once more); as a share of the largest force.
+/// (then the force on a ball holds what the stepping puts there); as a share of the largest force.
 /// \param contacts of a step; without those of walls, balls near these are not judged
 template <class Contacts>
 double unexplained(const Scratch &folder, long begin, long end, bool with_walls, const Contacts &contacts) {
   using Touch = std::pair<std::size_t, std::size_t>;
   constexpr std::size_t wall = 1000;
   std::set<Touch> before;
-  std::set<std::size_t> shifted; // balls with a contact made or broken in the step before
   double most = 0.0, largest = 0.0;
   for (long step = begin; step <= end; ++step) {
     const auto found = post::read_ball_dump(folder.path() / "dump" / step_file("balls", step));
@@ -247,18 +245,11 @@ double unexplained(const Scratch &folder, long begin, long end, bool with_walls,
       for (std::size_t a = 0; a < 2; ++a)
         rest[contact.i][a] -= contact.force[a];
     }
-    std::set<std::size_t> changed;
     for (const auto *some : {&now, &before})
-      for (const auto &[i, j] : *some) {
-        const bool changes = now.count({i, j}) + before.count({i, j}) == 1;
-        const bool barred = changes || shifted.count(i) + shifted.count(j) > 0;
-        for (const std::size_t ball : {i, j}) {
-          if (ball >= wall) continue;
-          if (changes) changed.insert(ball);
-          if (barred) judged[ball] = false;
-        }
-      }
-    shifted = changed;
+      for (const auto &[i, j] : *some)
+        if (now.count({i, j}) + before.count({i, j}) == 1)
+          for (const std::size_t ball : {i, j})
+            if (ball < wall) judged[ball] = false;
     if (step > begin)
       for (std::size_t b = 0; b < found.size(); ++b) {
         largest = std::max(largest, std::hypot(found[b].force[0], found[b].force[1]));
@@ -277,10 +268,10 @@ TEST_F(Dumps, ForcesOfContactsAreThoseThatActedOnRanksOneAndTwo) {
     for (const int ranks : {1, 2}) {
       const Scratch folder;
       Variables variables = scene;
-      variables.insert(variables.end(), {{"dump_every", "1"}, {"steps", "450"}});
+      variables.insert(variables.end(), {{"dump_every", "1"}, {"steps", "900"}});
       run(folder, variables, ranks);
       EXPECT_LT(
-          unexplained(folder, 250, 450, true,
+          unexplained(folder, 100, 900, true,
                       [&folder](long step, const auto &found) { return contacts_of(folder, step, found); }),
           1e-12)
           << scene[0].second << " and " << scene.size() << " variables, ranks " << ranks;

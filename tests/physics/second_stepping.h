@@ -51,7 +51,7 @@ public:
       if (motion.overlap > 0.0) {
         f = second_order_force(transition_, p.k, p.c, motion, p.force, p.c / mass_);
         damping += p.c / mass_;
-        if (needs_coupling(dt_, p.k, p.c, damping_) && !made_in_step(motion)) {
+        if (needs_coupling(dt_, p.k, p.c, damping_) && !made_in_step(motion, p.force)) {
           coupled.emplace_back(&p, coupled_dashpot(transition_, p.k, p.c, motion, p.force, damping_));
           f.force = f.kick = coupled.back().second.first;
         }
