@@ -1,7 +1,6 @@
 #include "lammps/fix_wall_gran_transition.h"
 
 #include "fixes/arguments.h"
-#include "fixes/fix_clump.h"
 #include "lammps/pair_gran_hooke_transition.h"
 
 #include <algorithm>
@@ -149,7 +148,7 @@ void FixWallGranTransition::touch(int i, int place, const physics::Vec3 &normal,
   const drumlin::ContactSettings &settings = pair_->contact_settings();
   const bool moves = update->setupflag == 0;
   const drumlin::ContactCoefficients &law = pair_->at(atom->type[i], type_);
-  const double mass = FixClump::mass_of(*atom, i, atom->rmass[i]);
+  const double mass = pair_->mass_unless_frozen(i);
   const double *v = atom->v[i];
 
   drumlin::Contact p{};

@@ -28,6 +28,14 @@ inline void forward_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Fix *fix) {
 #endif
 }
 
+inline void forward_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Pair *pair) {
+#if DRUMLIN_LAMMPS_2021
+  comm->forward_comm_pair(pair);
+#else
+  comm->forward_comm(pair);
+#endif
+}
+
 inline void reverse_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Fix *fix) {
 #if DRUMLIN_LAMMPS_2021
   comm->reverse_comm_fix(fix);

@@ -40,6 +40,7 @@ PairGranHookeTransition::PairGranHookeTransition(LAMMPS *lammps) : Pair(lammps) 
   no_virial_fdotr_compute = 1;
   centroidstressflag = CENTROID_NOTAVAIL;
   finitecutflag = 1;
+  comm_forward = 1;
   nondefault_history_transfer = 1;
   beyond_contact =
       1; // a contact that ends in the step of a new neighbour list must be known to have been one
@@ -112,11 +113,11 @@ void PairGranHookeTransition::check_engine() const {
   if (!atom->radius_flag || !atom->rmass_flag)
     refuse("the atom style has no radius or no mass of its own; allowed: atom_style sphere");
   if (comm->ghost_velocity == 0) refuse("ghosts have no velocity; allowed: comm_modify vel yes before");
+  if (settings_.stock) return;
   for (int n = 0; n < modify->nfix; ++n)
     if (modify->fix[n]->rigid_flag)
       refuse(std::string("fix ") + modify->fix[n]->id + " (" + modify->fix[n]->style +
-             ") makes rigid bodies; allowed: fix clump");
-  if (settings_.stock) return;
+             ") makes rigid bodies and stepping is 'second'; allowed: stepping stock, or fix clump");
   for (int n = 0; n < modify->nfix && modify->fix[n] != FixStepping::find(lmp); ++n)
     if (modify->fix[n]->time_integrate)
       refuse(std::string("fix ") + modify->fix[n]->id + " (" + modify->fix[n]->style +
@@ -133,6 +134,11 @@ void PairGranHookeTransition::init_style() {
         history_id(instance_me) + " all NEIGH_HISTORY " + std::to_string(settings_.history()), 1));
   if (remembers) history_->pair = this;
   stepping_ = settings_.stock ? nullptr : FixStepping::find(lmp);
+
+  rigid_.clear();
+  for (int n = 0; n < modify->nfix; ++n)
+    if (modify->fix[n]->rigid_flag) rigid_.push_back(modify->fix[n]);
+  if (rigid_.empty()) rigid_mass_.clear();
 
   freeze_groupbit_ = 0;
   for (int n = 0; n < modify->nfix; ++n)
@@ -167,7 +173,43 @@ double PairGranHookeTransition::init_one(int i, int j) {
 
 double PairGranHookeTransition::mass(int i) const {
   if (atom->mask[i] & freeze_groupbit_) return std::numeric_limits<double>::infinity();
-  return FixClump::mass_of(*atom, i, atom->rmass[i]);
+  return mass_unless_frozen(i);
+}
+
+double PairGranHookeTransition::mass_unless_frozen(int i) const {
+  const auto n = static_cast<std::size_t>(i);
+  const bool of_rigid = n < rigid_mass_.size() && rigid_mass_[n] > 0.0;
+  return FixClump::mass_of(*atom, i, of_rigid ? rigid_mass_[n] : atom->rmass[i]);
+}
+
+/// Asks the fixes rigid for the masses of their bodies, for owned balls and ghosts. Collective.
+void PairGranHookeTransition::share_rigid_masses() {
+  if (rigid_.empty()) return;
+  rigid_mass_.assign(static_cast<std::size_t>(atom->nlocal + atom->nghost), 0.0);
+  for (Fix *fix : rigid_) {
+    int dimension = 0;
+    const auto *body = static_cast<const int *>(fix->extract("body", dimension));
+    const auto *mass = static_cast<const double *>(fix->extract("masstotal", dimension));
+    if (body == nullptr || mass == nullptr)
+      error->all(
+          FLERR,
+          (std::string("pair_style ") + style_name + ": fix " + fix->id + " (" + fix->style +
+           ") does not tell the masses of its bodies; allowed: fix rigid, fix rigid/small or fix clump")
+              .c_str());
+    for (int i = 0; i < atom->nlocal; ++i)
+      if (body[i] >= 0) rigid_mass_[static_cast<std::size_t>(i)] = mass[body[i]];
+  }
+  engine::version::forward_comm(comm, this);
+}
+
+int PairGranHookeTransition::pack_forward_comm(int n, int *balls, double *numbers, int, int *) {
+  for (int m = 0; m < n; ++m)
+    numbers[m] = rigid_mass_[static_cast<std::size_t>(balls[m])];
+  return n;
+}
+
+void PairGranHookeTransition::unpack_forward_comm(int n, int first, double *numbers) {
+  std::copy_n(numbers, n, rigid_mass_.begin() + first);
 }
 
 physics::Dashpots PairGranHookeTransition::wall_dashpots(int i) const {
@@ -186,6 +228,7 @@ const double *PairGranHookeTransition::tangential_spring(int i, int jj) const {
 
 void PairGranHookeTransition::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
+  if (neighbor->ago == 0) share_rigid_masses();
   drumlin::with_models(settings_, [this](auto stepped, auto tangential) {
     compute_contacts<decltype(stepped)::value, decltype(tangential)::value>();
   });
@@ -214,7 +257,7 @@ void PairGranHookeTransition::compute_contacts() {
   const int *mask = atom->mask;
   const Rows<double> f{atom->f[0]};
   const Rows<double> torque{atom->torque[0]};
-  const bool clumps = !FixClump::all().empty();
+  const bool bodies = !FixClump::all().empty() || !rigid_.empty();
   const bool told = !drumlin::ContactLedger::open().empty() || !drumlin::ContactWatch::looking().empty();
 
   for (int ii = 0; ii < list->inum; ++ii) {
@@ -226,7 +269,7 @@ void PairGranHookeTransition::compute_contacts() {
     const physics::Vec3 xi{x[i][0], x[i][1], x[i][2]};
     const double ri = radius[i];
     const bool i_frozen = mask[i] & freeze_bit;
-    const double mi = clumps ? FixClump::mass_of(*atom, i, rmass[i]) : rmass[i];
+    const double mi = bodies ? mass_unless_frozen(i) : rmass[i];
     physics::Vec3 force_i{};
     physics::Vec3 torque_i{};
     for (int jj = 0; jj < count; ++jj) {
@@ -241,7 +284,7 @@ void PairGranHookeTransition::compute_contacts() {
       const double inverse = 1.0 / distance;
       const physics::Vec3 relative{v[i][0] - v[j][0], v[i][1] - v[j][1], v[i][2] - v[j][2]};
       const ContactCoefficients &law = at(type[i], type[j]);
-      const double mj = clumps ? FixClump::mass_of(*atom, j, rmass[j]) : rmass[j];
+      const double mj = bodies ? mass_unless_frozen(j) : rmass[j];
       const double m_eff = mask[j] & freeze_bit ? mi : i_frozen ? mj : physics::effective_mass(mi, mj);
 
       const physics::Vec3 normal = physics::scaled(inverse, d);

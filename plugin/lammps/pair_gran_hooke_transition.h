@@ -25,7 +25,9 @@ public:
   void write_restart(FILE *) override;
   void read_restart(FILE *) override;
   void transfer_history(double *, double *DRUMLIN_TRANSFER_TYPES) override;
-  double memory_usage() override { return 0.0; }
+  int pack_forward_comm(int, int *, double *, int, int *) override;
+  void unpack_forward_comm(int, int, double *) override;
+  double memory_usage() override { return static_cast<double>(rigid_mass_.capacity()) * sizeof(double); }
 #if DRUMLIN_LAMMPS_2021 // later the engine takes it from the radii
   double atom2cut(int i) override { return 2.0 * atom->radius[i]; }
   double radii2cut(double r1, double r2) override { return r1 + r2; }
@@ -35,6 +37,8 @@ public:
     return at(itype, jtype).normal;
   }
   double mass(int i) const override;
+  /// The same with no regard to fix freeze: as walls feel it. Kg.
+  double mass_unless_frozen(int i) const;
   drumlin::physics::Dashpots wall_dashpots(int i) const override;
   drumlin::FrictionModel friction_model() const override { return settings_.tangential; }
   drumlin::physics::Friction friction(int itype, int jtype, double c) const override {
@@ -55,6 +59,7 @@ private:
   void compute_contacts();
   [[gnu::noinline]] void report(const drumlin::Contact &, const drumlin::ContactForces &) const;
   void check_engine() const;
+  void share_rigid_masses();
   /// What ball i's contact with its neighbour j remembers; nullptr: j is none.
   const double *history(int i, int j) const;
 
@@ -64,6 +69,9 @@ private:
   FixNeighHistory *history_ = nullptr;
   FixStepping *stepping_ = nullptr;
   int freeze_groupbit_ = 0;
+  std::vector<Fix *> rigid_;
+  std::vector<double>
+      rigid_mass_; // of owned balls and ghosts, kg, 0: of no rigid body; empty without fix rigid
   std::vector<double> reach_, frozen_reach_; // greatest radius by type, m
 };
 

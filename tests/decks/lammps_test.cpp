@@ -400,6 +400,42 @@ TEST_F(InLammps, AnImpactConvergesToTheClosedForm) {
   }
 }
 
+// Contacts feel the mass of the body. Oracles: restitution by the closed form, momentum, and LAMMPS's own law, which steps as `stock` does.
+TEST_F(InLammps, RigidBodyBouncesWithItsMassOnRanksOneAndTwo) {
+  constexpr double M = 2.0 + 3.0, m = 4.0, v = -0.5, D = 0.3, k = 1e5;
+  post::ImpactParameters impact;
+  impact.damping_ratio = D;
+  const double restitution = -post::impact_state(impact, post::impact_duration(impact)).rate / impact.speed;
+  for (const std::string target : {"ball", "floor"}) {
+    const double m_eff = target == "ball" ? M * m / (M + m) : M;
+    // Contacts end with a relative velocity of -restitution of that before; a floor has any momentum.
+    const double body = target == "ball" ? (M - restitution * m) / (M + m) * v : -restitution * v;
+    const double ball = target == "ball" ? M / (M + m) * (1.0 + restitution) * v : 0.0;
+    for (const auto &[rigid, ranks] : {std::pair{"rigid", 1}, {"rigid", 2}, {"small", 1}, {"small", 2}}) {
+      const auto velocities = [&, rigid = rigid, ranks = ranks](const Variables &law) {
+        const Scratch folder;
+        Variables variables = law;
+        variables.insert(variables.end(), {{"target", target}, {"rigid", rigid}, {"D", number(D)}});
+        const Outcome outcome = run_deck(test_deck("dumbbell.lammps"), variables, folder.path(), ranks);
+        EXPECT_TRUE(outcome.ok()) << outcome.output;
+        std::vector<double> values(3);
+        std::ifstream in(folder / "velocities.txt");
+        for (double &value : values)
+          in >> value;
+        return values;
+      };
+      const std::vector<double> found = velocities({});
+      const std::string where = target + ", " + rigid + ", ranks " + std::to_string(ranks);
+      EXPECT_NEAR(found[0], body, 1e-3 * std::fabs(v)) << where;
+      EXPECT_NEAR(found[1], body, 1e-3 * std::fabs(v)) << where;
+      EXPECT_NEAR(found[2], ball, 1e-3 * std::fabs(v)) << where;
+      const std::vector<double> own = velocities({{"gamma", number(2.0 * D * std::sqrt(k / m_eff))}});
+      for (std::size_t n = 0; n < 3; ++n)
+        EXPECT_NEAR(found[n], own[n], 1e-9) << where << ", ball " << n + 1; // m/s
+    }
+  }
+}
+
 TEST_F(InLammps, SaysWhatIsWrongInOneLineOnRanksOneAndTwo) {
   const std::string pair = "pair_style gran/hooke/transition", coeff = "pair_coeff of gran/hooke/transition",
                     wall = "fix wall/gran/transition";
@@ -437,6 +473,8 @@ TEST_F(InLammps, SaysWhatIsWrongInOneLineOnRanksOneAndTwo) {
       {"pair_style gran/hooke/history 1e5 NULL 1 NULL 0.4 1\npair_coeff * *\nfix floor all "
        "wall/gran/transition 2 zplane 0 NULL",
        {wall, "the pair style is another", "gran/hooke/transition"}},
+      {good + "fix body all rigid single",
+       {pair, "fix body (rigid)", "stepping is 'second'", "stepping stock, or fix clump"}},
       {"fix early all nve/sphere\n" + good,
        {pair, "fix early (nve/sphere) stands before it", "stepping stock"}},
       {good + "fix guard all guard every 0", {"fix guard", "keyword every is '0'"}},
