@@ -12,14 +12,14 @@ using namespace LAMMPS_NS;
 using drumlin::Range;
 namespace physics = drumlin::physics;
 
-FixBondSpring::FixBondSpring(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) {
+FixBondSpring::FixBondSpring(LAMMPS *lammps, int narg, char **arg) : GhostFix(lammps, narg, arg) {
   scalar_flag = vector_flag = 1;
   size_vector = 5;
   extscalar = 1;
   extvector = 0;
   global_freq = 1;
   restart_global = 1;
-  drumlin::engine::offer_energy(*this);
+  offer_energy_and_virial();
 
   drumlin::Arguments in(error, "fix bond/spring", narg - 3, arg + 3);
   tags_[0] = static_cast<int>(in.integer("ball i", 1));
@@ -154,7 +154,8 @@ void FixBondSpring::setup(int vflag) {
   post_force(vflag);
 }
 
-void FixBondSpring::post_force(int) {
+void FixBondSpring::post_force(int vflag) {
+  begin_virial(vflag);
   if (!whole_) return;
   state_ = share_state();
   for (std::size_t b = 0; b < 2; ++b)
@@ -184,6 +185,7 @@ void FixBondSpring::post_force(int) {
   pull(coupled.first);
   stepping_->couple([this, coupled] {
     take_note(under(physics::coupled_force(coupled, predicted_rate())));
+    tally(acted_.force - coupled.first);
     for (std::size_t b = 0; b < 2; ++b)
       if (const int i = local_[b]; i >= 0)
         stepping_->add_force(i, sign_[b] * (acted_.force - coupled.first), state_.direction);
@@ -207,6 +209,20 @@ void FixBondSpring::pull(double tension) {
     if (const int i = local_[b]; i >= 0)
       for (std::size_t a = 0; a < 3; ++a)
         atom->f[i][a] += sign_[b] * tension * state_.direction[a];
+  tally(tension);
+}
+
+/// Adds the share of this rank's balls in the sum of x f over both, J, xx, yy, zz, xy, xz, yz, to the virial.
+void FixBondSpring::tally(double tension) {
+  if (!evflag) return;
+  std::array<int, 2> mine{};
+  int n = 0;
+  for (const int i : local_)
+    if (i >= 0) mine.at(static_cast<std::size_t>(n++)) = i;
+  const auto &[x, y, z] = state_.direction;
+  const double all = -tension * state_.distance;
+  std::array<double, 6> both{all * x * x, all * y * y, all * z * z, all * x * y, all * x * z, all * y * z};
+  v_tally(n, mine.data(), 2.0, both.data());
 }
 
 void FixBondSpring::take_note(const physics::BondForce &acting) {

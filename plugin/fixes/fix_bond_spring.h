@@ -11,7 +11,7 @@ namespace LAMMPS_NS {
 
 /// Spring k and dashpot c along the line of two balls, given by tag; tension positive. The two balls'
 /// positions and velocities are shared over all ranks, so any distance and decomposition will do.
-class FixBondSpring : public Fix {
+class FixBondSpring : public drumlin::engine::GhostFix {
 public:
   FixBondSpring(LAMMPS *, int, char **);
 
@@ -48,6 +48,7 @@ private:
   State share_state();
   double predicted_rate() const;
   void pull(double tension);
+  void tally(double tension);
   void take_note(const drumlin::physics::BondForce &acting);
   void find_balls();
 

@@ -69,6 +69,12 @@ public:
   }
   void unpack_reverse_comm(int n, int *balls, double *numbers) final { join_gathered(n, balls, numbers); }
   void final_integrate() final { close_forces(); }
+
+protected:
+  /// Lets `fix_modify` add the fix's scalar to the potential energy, and what it tallies to the pressure.
+  void offer_energy_and_virial() { energy_global_flag = virial_global_flag = virial_peratom_flag = 1; }
+  /// To be called where forces are computed, before v_tally(); evflag then says whether it is wanted.
+  void begin_virial(int vflag) { v_init(vflag); }
 };
 constexpr int closes_forces = LAMMPS_NS::FixConst::FINAL_INTEGRATE;
 
@@ -76,9 +82,6 @@ constexpr int closes_forces = LAMMPS_NS::FixConst::FINAL_INTEGRATE;
 constexpr int restart_end_mark = 16;
 /// What the decks read as well as NAME, a restart file, for lines on bad input.
 constexpr const char *beside_restart = ", or NAME beside which a NAME.data lies";
-
-/// Lets `fix_modify energy` add a fix's scalar to the potential energy.
-inline void offer_energy(LAMMPS_NS::Fix &fix) { fix.energy_global_flag = 1; }
 
 inline void set_up_run(LAMMPS_NS::Integrate *integrate) { integrate->setup(1); }
 

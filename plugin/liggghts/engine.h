@@ -61,6 +61,12 @@ public:
   }
   void unpack_comm(int n, int first, double *numbers) final { unpack_ghosts(n, first, numbers); }
   void pre_final_integrate() final { close_forces(); }
+
+protected:
+  /// LIGGGHTS has no potential energy that the fix's scalar could be part of; what it tallies always counts in the pressure.
+  void offer_energy_and_virial() { virial_flag = 1; }
+  /// To be called where forces are computed, before v_tally(); evflag then says whether it is wanted.
+  void begin_virial(int vflag) { vflag ? v_setup(vflag) : void(evflag = 0); }
 };
 constexpr int closes_forces = LAMMPS_NS::FixConst::PRE_FINAL_INTEGRATE;
 
@@ -68,9 +74,6 @@ constexpr int closes_forces = LAMMPS_NS::FixConst::PRE_FINAL_INTEGRATE;
 constexpr int restart_end_mark = 0;
 /// What the decks read as well as a restart file, for lines on bad input: nothing.
 constexpr const char *beside_restart = "";
-
-/// LIGGGHTS has no potential energy that a fix's scalar could be part of.
-inline void offer_energy(LAMMPS_NS::Fix &) {}
 
 inline void set_up_run(LAMMPS_NS::Integrate *integrate) { integrate->setup(); }
 

@@ -19,10 +19,10 @@ protected:
   }
 
   /// Runs the scene into the folder.
-  static Outcome run(const std::string &scene, const Scratch &folder) {
+  static Outcome run(const std::string &scene, const Scratch &folder, Variables variables = {}) {
     const auto &[engine, stepping] = GetParam();
-    return run_deck(test_deck(scene + (engine == "lammps" ? ".lammps" : ".in")), {{"stepping", stepping}},
-                    folder.path());
+    variables.emplace_back("stepping", stepping);
+    return run_deck(test_deck(scene + (engine == "lammps" ? ".lammps" : ".in")), variables, folder.path());
   }
 };
 
