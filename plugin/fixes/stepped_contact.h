@@ -35,7 +35,7 @@ inline double rate_before(const LAMMPS_NS::FixStepping &stepping, int i, const d
 /// \returns false if it is none of these: then nothing is done, and SteppedContact::exert() does it
 inline bool hold(physics::Transition transition, LAMMPS_NS::FixStepping &stepping, int i, int j,
                  const physics::StepMotion &motion, double k, double c, double m_eff, double &record) {
-  if (record == 0.0) return false; // made in this step, or clamped in the last
+  if (!physics::was_contact(record)) return false;
   if (!stepping.light()) {
     const double all = stepping.damping_over_mass(i) + (j < 0 ? 0.0 : stepping.damping_over_mass(j));
     if (stepping.in_setup() || physics::needs_coupling(motion.dt, k, c, all)) return false;
@@ -71,13 +71,14 @@ public:
     const StepMotion now = motion(p);
     const double all = damping_over_mass(p);
     if (stepping_.in_setup()) { // velocities belong to the time of the positions
-      record = normal_force(transition_, p.k, p.c, now.overlap, now.rate_half);
+      record = limited(transition_, normal_force(transition_, p.k, p.c, now.overlap, now.rate_half));
       push(p.share * record);
     } else {
-      // No record although the contact is older than this step: B clamped it, or a mesh contact went over to another triangle.
-      const double old = record != 0.0 ? record
-                                       : normal_force(transition_, p.k, p.c,
-                                                      now.overlap - now.dt * now.rate_half, now.rate_before);
+      // No record although the contact is older than this step: a mesh contact went over to another triangle.
+      const double old =
+          was_contact(record)
+              ? record
+              : normal_force(transition_, p.k, p.c, now.overlap - now.dt * now.rate_half, now.rate_before);
       const StepForce step = second_order_force(transition_, p.k, p.c, now, old, p.c / p.m_eff);
       record = step.force;
       if (needs_coupling(now.dt, p.k, p.c, all) && !made_in_step(now, old)) {

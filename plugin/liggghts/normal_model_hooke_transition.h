@@ -104,7 +104,7 @@ public:
     if (stepping_ == nullptr || !scdata.computeflag || scdata.contact_history == nullptr) return;
     // The record says that they touched a step ago; their motion alone, along a normal that turns, may say so twice.
     double &force_before = scdata.contact_history[force_before_offset_];
-    if (force_before == 0.0) return;
+    if (!drumlin::physics::was_contact(force_before)) return;
     force_before = 0.0;
     if (transition_a_ && !stepping_->in_setup()) break_of_a(scdata, i_forces, j_forces);
   }

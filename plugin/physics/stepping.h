@@ -9,6 +9,7 @@
 #include "physics/contact_law.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace drumlin::physics {
@@ -34,11 +35,19 @@ struct StepForce {
   return motion.overlap - motion.dt * motion.rate_half <= 0.0;
 }
 
-/// Whether contact was made in this step. A contact that had a force was there before, although the motion may deny it: behind a make the
-/// balls are moved beside their velocities (StepForce::shift), and other contacts of theirs that barely overlap with them.
-/// \param force_before N, of the step before; 0: none, by B or for want of contact
+/// What B leaves of the force of a contact. The zero of a contact without force is negative: see was_contact().
+[[nodiscard]] inline double limited(Transition transition, double force) {
+  return transition == Transition::B && force <= 0.0 ? -0.0 : force;
+}
+
+/// Whether a force on record, N, is that of a contact; 0 is none.
+[[nodiscard]] inline bool was_contact(double force) { return force != 0.0 || std::signbit(force); }
+
+/// Whether contact was made in this step. One that was there before may seem to come from apart: behind a make the balls are moved beside
+/// their velocities (StepForce::shift), and other contacts of theirs that barely overlap with them.
+/// \param force_before N, on record of the step before
 [[nodiscard]] inline bool made_in_step(const StepMotion &motion, double force_before) {
-  return force_before == 0.0 && came_from_apart(motion);
+  return !was_contact(force_before) && came_from_apart(motion);
 }
 
 /// Force k d + c d' at t+dt of a spring-dashpot that held through the step, the dashpot at the velocity of t+dt.
@@ -87,8 +96,7 @@ struct Dashpots {
 [[nodiscard]] inline double second_order_held(Transition transition, double k, double c,
                                               const StepMotion &motion, double force_before,
                                               double c_over_m) {
-  const double force = second_order_spring_dashpot(k, c, motion, force_before, c_over_m);
-  return transition == Transition::B && force < 0.0 ? 0.0 : force;
+  return limited(transition, second_order_spring_dashpot(k, c, motion, force_before, c_over_m));
 }
 
 /// Where contacts with heavy damping meet, their dashpots must know of one another. They are solved for in two passes:
@@ -115,13 +123,13 @@ struct CoupledDashpot {
   const double s = 0.5 * motion.dt * all_c_over_m;
   const double slowed = 1.0 / (1.0 + s);
   return {force_before + change, elastic + slowed * s * dashpot_before, slowed * c,
-          transition == Transition::B ? 0.0 : -std::numeric_limits<double>::infinity()};
+          transition == Transition::B ? -0.0 : -std::numeric_limits<double>::infinity()};
 }
 
 /// Force at t+dt, N. \param rate d'* in m/s, with the velocities v*
 [[nodiscard]] inline double coupled_force(const CoupledDashpot &p, double rate) {
   const double force = p.at_rest + p.per_rate * rate;
-  return force < p.least ? p.least : force;
+  return force <= p.least ? p.least : force;
 }
 
 /// Second-order force of a contact with d(t+dt) > 0.
@@ -154,9 +162,8 @@ struct CoupledDashpot {
   const double slowed = 1.0 / (1.0 + s);
   const double force =
       (k * slowed * motion.overlap + c * rate_predicted - s * first) / (std::max(1.0, s_step) + s);
-  const double limited = transition == Transition::B && force < 0.0 ? 0.0 : force;
-  return {limited, theta * (first + limited),
-          slowed * theta * c * motion.overlap / motion.dt - 0.5 * limited};
+  const double acting = limited(transition, force);
+  return {acting, theta * (first + acting), slowed * theta * c * motion.overlap / motion.dt - 0.5 * acting};
 }
 
 /// Tensile force under A in the step whose end finds the contact broken: it acted for the share of the step before d = 0,

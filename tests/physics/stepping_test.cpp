@@ -147,6 +147,19 @@ TEST(SecondOrderStep, MakeCarriesTheImpulseOfThePartInContact) {
   }
 }
 
+TEST(SecondOrderStep, TellsAContactWithoutForceFromNone) {
+  using drumlin::physics::was_contact;
+  const double dt = 1e-4, c = coefficient(0.5);
+  EXPECT_FALSE(was_contact(0.0));
+  EXPECT_TRUE(was_contact(1e-300));
+  const double parting =
+      drumlin::physics::second_order_held(Transition::B, k, c, {1e-4, -5.0, -5.0, dt}, 0.0, c / m);
+  EXPECT_EQ(parting, 0.0);
+  EXPECT_TRUE(was_contact(parting));
+  EXPECT_TRUE(was_contact(drumlin::physics::coupled_force(
+      drumlin::physics::coupled_dashpot(Transition::B, k, c, {1e-4, -5.0, -5.0, dt}, 0.0, c / m), -5.0)));
+}
+
 // Moved beside its velocity, a ball may seem to have come from apart: k d + c d', not the impulse of a make.
 TEST(SecondOrderStep, ContactThatHadAForceIsNotMadeAgain) {
   const double dt = 1e-4, rate = 0.1, c = coefficient(0.5);
