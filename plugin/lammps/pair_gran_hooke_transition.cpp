@@ -1,11 +1,11 @@
 #include "lammps/pair_gran_hooke_transition.h"
 
 #include "fix_dummy.h"
-#include "fix_neigh_history.h"
 #include "fixes/arguments.h"
 #include "fixes/fix_clump.h"
 #include "fixes/pair_motion.h"
 #include "lammps/contact_settings.h"
+#include "lammps/fix_neigh_history_transition.h"
 #include "lammps/fix_wall_gran_transition.h"
 
 #include <algorithm>
@@ -129,9 +129,11 @@ void PairGranHookeTransition::init_style() {
   const bool remembers = settings_.history() > 0;
   engine::version::request_list(neighbor, this, instance_me, remembers);
   if (remembers && history_ == nullptr)
-    history_ = static_cast<FixNeighHistory *>(modify->replace_fix(
-        placeholder_id(instance_me),
-        history_id(instance_me) + " all NEIGH_HISTORY " + std::to_string(settings_.history()), 1));
+    history_ = static_cast<FixNeighHistory *>(
+        modify->replace_fix(placeholder_id(instance_me),
+                            history_id(instance_me) + " all " + FixNeighHistoryTransition::style_name + " " +
+                                std::to_string(settings_.history()),
+                            1));
   if (remembers) history_->pair = this;
   stepping_ = settings_.stock ? nullptr : FixStepping::find(lmp);
 
@@ -185,7 +187,8 @@ double PairGranHookeTransition::mass_unless_frozen(int i) const {
 /// Asks the fixes rigid for the masses of their bodies, for owned balls and ghosts. Collective.
 void PairGranHookeTransition::share_rigid_masses() {
   if (rigid_.empty()) return;
-  rigid_mass_.assign(static_cast<std::size_t>(atom->nlocal + atom->nghost), 0.0);
+  const int balls = atom->nlocal + atom->nghost;
+  rigid_mass_.assign(static_cast<std::size_t>(balls), 0.0);
   for (Fix *fix : rigid_) {
     int dimension = 0;
     const auto *body = static_cast<const int *>(fix->extract("body", dimension));

@@ -16,6 +16,7 @@
 #include "fixes/fix_guard.h"
 #include "fixes/fix_roller_history.h"
 #include "fixes/fix_stepping.h"
+#include "lammps/fix_neigh_history_transition.h"
 #include "lammps/fix_wall_gran_transition.h"
 #include "lammps/pair_gran_hooke_transition.h"
 
@@ -89,6 +90,8 @@ extern "C" __attribute__((visibility("default"))) void drumlin_register(void *lm
   };
   add_v1("pair", "gran/hooke/transition", "linear contact with transition A or B", create_pair);
   add_fix("wall/gran/transition", "its planes", create_fix<FixWallGranTransition>);
+  add_fix(FixNeighHistoryTransition::style_name, "what contacts remember",
+          create_fix<FixNeighHistoryTransition>);
   add_fix("drum/excite", "harmonic excitation of a drum", create_fix<FixDrumExcite>);
   add_fix("bond/spring", "bonded spring-dashpot", create_fix<FixBondSpring>);
   add_fix("clump", "one rigid body that does not turn", create_fix<FixClump>);

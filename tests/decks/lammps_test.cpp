@@ -195,14 +195,17 @@ TEST_F(InLammps, GoesOnFromARestartFileBitwiseOnRanksOneAndTwoWithNewtonOffAndOn
     const Scratch stayed, left;
     const Outcome whole = run_deck(test_deck("bounce.lammps"), {{"newton", newton}}, stayed.path(), ranks);
     ASSERT_TRUE(whole.ok()) << whole.output;
-    const Outcome resumed =
-        run_deck(test_deck("bounce.resume.lammps"),
-                 {{"start", (stayed / "first.restart").string()}, {"newton", newton}}, left.path(), ranks);
-    ASSERT_TRUE(resumed.ok()) << resumed.output;
-    const std::string all = read_text(stayed / "balls.txt"), second = read_text(left / "balls.txt");
-    const std::size_t begin = all.find("ITEM: TIMESTEP\n7000\n");
-    ASSERT_NE(begin, std::string::npos);
-    EXPECT_EQ(all.substr(begin), second.substr(second.find("ITEM: TIMESTEP\n7000\n"))) << "ranks " << ranks;
+    for (const char *file : {"first.restart", "during.6000"}) { // behind a run, and in it
+      const Outcome resumed =
+          run_deck(test_deck("bounce.resume.lammps"),
+                   {{"start", (stayed / file).string()}, {"newton", newton}}, left.path(), ranks);
+      ASSERT_TRUE(resumed.ok()) << resumed.output;
+      const std::string all = read_text(stayed / "balls.txt"), second = read_text(left / "balls.txt");
+      const std::size_t begin = all.find("ITEM: TIMESTEP\n7000\n");
+      ASSERT_NE(begin, std::string::npos);
+      EXPECT_EQ(all.substr(begin), second.substr(second.find("ITEM: TIMESTEP\n7000\n")))
+          << file << ", ranks " << ranks << ", newton " << newton;
+    }
   }
 }
 
