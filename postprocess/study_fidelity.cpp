@@ -83,7 +83,7 @@ Plan quick_plan() {
 
 Plan full_plan() {
   // Excitation shakes a bed by far more than what a ratio of 1e-3 leaves.
-  const Bed gravel{"gravel", {}, {{"ratio", "1e-3"}}};
+  const Bed gravel{"gravel", {}, {{"ratio", "1e-3"}, {"stepping", "second"}}};
   // The time step follows the contact time: sqrt(m/k), m ~ r^2.
   const auto stiffness = [&gravel](const char *name, const char *k, const char *dt) {
     return with(gravel, name, {{"k", k}, {"dt", dt}});
