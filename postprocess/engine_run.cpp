@@ -48,6 +48,12 @@ bool wait_until(pid_t child, End &how, steady_clock::time_point end) {
   }
 }
 
+/// Whether a deck writes into a folder `out`: those that make a bed do not, and refuse variables that they do not know.
+bool has_out(const fs::path &deck) {
+  const std::string name = deck.filename().string();
+  return name != "in.settle" && name != "in.place" && name != "in.tile";
+}
+
 /// Stops the child's process group: politely, so that mpirun takes its ranks along, then at once.
 void stop(pid_t child, End &how) {
   kill(-child, SIGTERM);
@@ -118,8 +124,9 @@ Outcome run_deck(const fs::path &deck, const Variables &variables, const fs::pat
       words.insert(words.end(), {"-x", entry});
     environment.clear(); // for the ranks, not for mpirun
   }
-  words.insert(words.end(), {lammps ? DRUMLIN_LAMMPS_PROGRAM : "liggghts", "-in", deck.string(), "-log",
-                             "none", "-var", "out", folder.string()});
+  words.insert(words.end(),
+               {lammps ? DRUMLIN_LAMMPS_PROGRAM : "liggghts", "-in", deck.string(), "-log", "none"});
+  if (has_out(deck)) words.insert(words.end(), {"-var", "out", folder.string()});
   for (const auto &[name, value] : variables)
     words.insert(words.end(), {"-var", name, value});
   if (lammps)

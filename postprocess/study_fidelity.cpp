@@ -32,6 +32,7 @@ struct Bed {
   std::string name; ///< of its files
   PackingOptions packing;
   Variables scene;       ///< of all its decks
+  std::string ratio;     ///< unbalanced force at which it counts as at rest: see in.settle
   Variables settle = {}; ///< of in.settle alone, before `scene`
 };
 
@@ -69,13 +70,13 @@ Bed of_balls(Bed bed, int balls, double smallest, double largest) {
 }
 
 Plan quick_plan() {
-  Bed bed{"gravel", {}, {}};
+  Bed bed{"gravel", {}, {}, "1e-2"};
   bed.packing.balls = 150;
   bed.packing.width = 0.6;
-  bed.scene = {{"m2", "100"},  {"m3", "50"},   {"r2", "0.1"},  {"r3", "0.05"},
-               {"k23", "5e4"}, {"c23", "500"}, {"Fw", "2940"}, {"ratio", "1e-2"}};
-  return {{{bed, {{"base"}, {"A", {{"transition", "A"}}}}},
-           {with(bed, "rolling", {{"rolling", "0.1"}}), {{"rolling"}}}},
+  bed.scene = {{"m2", "100"}, {"m3", "50"}, {"r2", "0.1"}, {"r3", "0.05"}, {"k23", "5e4"}, {"c23", "500"}};
+  const std::pair<std::string, std::string> force = {"Fw", "2940"};
+  return {{{bed, {{"base", {force}}, {"A", {force, {"transition", "A"}}}}},
+           {with(bed, "rolling", {{"rolling", "0.1"}}), {{"rolling", {force}}}}},
           {{"A instead of B", "A", "base"}, {"rolling friction", "rolling", "base"}},
           2,
           4};
@@ -83,7 +84,7 @@ Plan quick_plan() {
 
 Plan full_plan() {
   // Excitation shakes a bed by far more than what a ratio of 1e-3 leaves.
-  const Bed gravel{"gravel", {}, {{"ratio", "1e-3"}, {"stepping", "second"}}};
+  const Bed gravel{"gravel", {}, {{"stepping", "second"}}, "1e-3"};
   // The time step follows the contact time: sqrt(m/k), m ~ r^2.
   const auto stiffness = [&gravel](const char *name, const char *k, const char *dt) {
     return with(gravel, name, {{"k", k}, {"dt", dt}});
@@ -107,7 +108,7 @@ Plan full_plan() {
              {"steps x 2", {{"steps_per_cycle", "5000"}}},
              {"steps x 4", {{"steps_per_cycle", "10000"}}},
              {"A", {{"transition", "A"}}},
-             {"no friction", {{"friction", "0"}}},
+             {"no friction", {{"friction", "0"}, {"allow_change", "friction"}, {"balance", "1e30"}}},
              {"30 Hz", frequency(30.0, "1750")},
              {"40 Hz", frequency(40.0, "1250")}}},
            {with(gravel, "stock", {{"stepping", "stock"}}),
@@ -118,7 +119,7 @@ Plan full_plan() {
            {coarse, {{"625 balls", {{"steps_per_cycle", "1250"}}}}},
            {with(of_balls(gravel, 2500, 0.02, 0.02), "one_size", {}), {{"one size"}}},
            {wide, {{"wide grading", {{"steps_per_cycle", "5000"}}}}},
-           {with(gravel, "dense", {}, {{"friction", "0.1"}}), {{"dense"}}},
+           {with(gravel, "dense", {}, {{"pour_friction", "0.1"}}), {{"dense"}}},
            {with(gravel, "clump", {{"drum", "clump"}}), {{"clump"}}},
            {plane, {{"plane"}}},
            {space, {{"space", {{"steps_per_cycle", "4000"}}}}},
@@ -162,10 +163,10 @@ fs::path made(const Bed &bed, int seed, const fs::path &out) {
                  roller = folder / (stem + ".roller");
   write_files({{balls, bed_data(packing, density, pack_balls(packing))}});
   Variables settling = joined(bed.settle, bed.scene);
-  settling.insert(settling.end(), {{"balls", balls.string()}, {"bed", soil.string()}});
+  settling.insert(settling.end(), {{"ratio", bed.ratio}, {"balls", balls.string()}, {"bed", soil.string()}});
   DeckRun("bed/in.settle", settling).must_succeed();
   Variables placing = bed.scene;
-  placing.insert(placing.end(), {{"bed", soil.string()}, {"start", roller.string()}});
+  placing.insert(placing.end(), {{"ratio", bed.ratio}, {"bed", soil.string()}, {"start", roller.string()}});
   DeckRun("bed/in.place", placing).must_succeed();
   fs::rename(roller, done);
   fs::remove(balls);

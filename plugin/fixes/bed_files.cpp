@@ -1,31 +1,34 @@
 #include "fixes/bed_files.h"
 
 #include "fixes/arguments.h"
-#include "fixes/output_file.h"
+#include "fixes/whole_file.h"
 
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <sstream>
+#include <sys/mman.h>
+#include <unistd.h>
+#include <unordered_set>
 #include <zlib.h>
 
 namespace drumlin {
 
-namespace fs = std::filesystem;
-
 namespace {
 
-// The notes stand behind what the engine reads, which is as many bytes as their last line says:
+// In a restart file the notes stand behind what the engine reads, which is as many bytes as their last line says:
 //   drumlin restart notes
 //   NAME VALUE
 //   ...
 //   end COUNT of bytes, by which the engine knows that a file is whole
 //   bytes COUNT
 //   crc32 SUM of these bytes
-// and those of the end again.
+// and those of the end again. In a data file each note is a comment of the header, which engines skip:
+//   # drumlin note NAME VALUE
+constexpr const char *data_note = "# drumlin note ";
 constexpr const char *notes_begin = "\ndrumlin restart notes\n";
 constexpr std::streamoff longest_notes = 4096;
 
@@ -36,37 +39,27 @@ std::string notes_text(const RestartNotes &notes) {
   return text;
 }
 
-/// What the last two notes say of the first so many bytes of a file.
-RestartNotes sum_notes(const std::string &file, std::uintmax_t bytes) {
-  std::ifstream in(file, std::ios::binary);
-  std::vector<char> buffer(std::size_t{1} << 20);
+/// What the last two notes say of these bytes, of which zlib takes at most so many at a time.
+RestartNotes sum_notes(const std::string &bytes) {
+  constexpr std::size_t portion = std::size_t{1} << 30;
   uLong sum = crc32(0, nullptr, 0);
-  for (std::uintmax_t left = bytes; left > 0 && in;) {
-    in.read(buffer.data(), static_cast<std::streamsize>(std::min<std::uintmax_t>(left, buffer.size())));
-    const auto count = static_cast<uInt>(in.gcount());
-    sum = crc32(sum, reinterpret_cast<const Bytef *>(buffer.data()), count);
-    left -= count;
-  }
-  return {{"bytes", std::to_string(bytes)}, {"crc32", fmt::format("{:08x}", sum)}};
+  for (std::size_t from = 0; from < bytes.size(); from += portion)
+    sum = crc32(sum, reinterpret_cast<const Bytef *>(bytes.data() + from),
+                static_cast<uInt>(std::min(portion, bytes.size() - from)));
+  return {{"bytes", std::to_string(bytes.size())}, {"crc32", fmt::format("{:08x}", sum)}};
 }
 
-std::string last_bytes(const std::string &file, std::streamoff count) {
+std::string contents_of(const std::string &file) {
   std::ifstream in(file, std::ios::binary);
-  in.seekg(-count, std::ios::end);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Notes of a whole file; none of another.
-RestartNotes notes_of(const std::string &file) {
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
-  if (!in) return {};
-  const std::streamoff size = in.tellg();
-  const std::streamoff from = std::max<std::streamoff>(0, size - longest_notes);
-  in.seekg(from);
-  const std::string tail{std::istreambuf_iterator<char>(in), {}};
-  const std::size_t begin = tail.rfind(notes_begin);
+/// Notes of a restart file that is whole; none of another.
+RestartNotes notes_of_restart(const std::string &file) {
+  const std::string all = contents_of(file);
+  const std::size_t begin = all.rfind(notes_begin);
   if (begin == std::string::npos) return {};
-  std::istringstream lines(tail.substr(begin + std::string(notes_begin).size()));
+  std::istringstream lines(all.substr(begin + std::string(notes_begin).size()));
   RestartNotes notes;
   std::size_t end_mark = 0;
   for (std::string name, value; name != "crc32" && lines >> name >> value;) {
@@ -75,10 +68,26 @@ RestartNotes notes_of(const std::string &file) {
   }
   if (lines.get() != '\n') return {};
   const std::string end{std::istreambuf_iterator<char>(lines), {}};
-  if (end.size() != end_mark || begin < end_mark || tail.compare(begin - end_mark, end_mark, end) != 0)
+  if (end.size() != end_mark || begin < end_mark || all.compare(begin - end_mark, end_mark, end) != 0)
     return {};
-  const RestartNotes last = sum_notes(file, static_cast<std::uintmax_t>(from) + begin);
+  const RestartNotes last = sum_notes(all.substr(0, begin));
   if (notes.size() < last.size() || !std::equal(last.rbegin(), last.rend(), notes.rbegin())) return {};
+  return notes;
+}
+
+/// Notes in the header of a data file.
+RestartNotes notes_of_data_file(const std::string &file) {
+  std::ifstream in(file);
+  RestartNotes notes;
+  const std::string mark = data_note;
+  std::string line;
+  std::getline(in, line); // the title
+  while (std::getline(in, line) && line.rfind("Atoms", 0) != 0) {
+    if (line.rfind(mark, 0) != 0) continue;
+    std::istringstream words(line.substr(mark.size()));
+    std::string name, value;
+    if (words >> name >> value) notes.emplace_back(name, value);
+  }
   return notes;
 }
 
@@ -90,28 +99,27 @@ RestartNotes with_engine(const RestartNotes &notes) {
   return all;
 }
 
-/// Whether a line is at least so many numbers and nothing else.
-bool is_numbers(const std::string &line, std::size_t least) {
-  std::istringstream words(line);
-  std::size_t count = 0;
-  for (std::string word; words >> word; ++count)
-    if (!std::isfinite(parse_number(word))) return false;
-  return count >= least;
-}
-
 } // namespace
 
-RestartNotes read_notes(Arguments &in) {
+RestartNotes read_notes(LAMMPS_NS::LAMMPS *lmp, Arguments &in) {
   RestartNotes notes;
   while (!in.empty()) {
     const std::string name = in.word("a note's name");
+    if (name == "values_of") break;
     notes.emplace_back(name, in.word("the value of note " + name));
+  }
+  while (!in.empty()) {
+    std::string name = in.word("a variable's name");
+    const char *value = lmp->input->variable->retrieve(name.data());
+    if (value == nullptr || *value == '\0' || std::string(value).find_first_of(" \n") != std::string::npos)
+      in.fail("keyword values_of is '" + name + "'; allowed: the names of variables that are one word");
+    notes.emplace_back(name, value);
   }
   return notes;
 }
 
 bool is_restart_name(const std::string &file) {
-  return file.find_first_of("*%") == std::string::npos && OutputFile::writable(file);
+  return file.find_first_of("*%") == std::string::npos && is_output_file(file);
 }
 
 void check_restart_name(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const std::string &command) {
@@ -123,27 +131,36 @@ void check_restart_name(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const s
         fmt::format("{}: cannot write '{}'; allowed: {}", command, file, restart_name_allowed).c_str());
 }
 
-void write_noted_restart(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const RestartNotes &notes,
-                         const std::string &command) {
+namespace {
+
+/// A file in memory, by a name that the engine can open.
+class MemoryFile {
+public:
+  MemoryFile() : file_(memfd_create("drumlin", MFD_CLOEXEC)) {}
+  ~MemoryFile() {
+    if (file_ >= 0) close(file_);
+  }
+  MemoryFile(const MemoryFile &) = delete;
+  MemoryFile &operator=(const MemoryFile &) = delete;
+  std::string name() const { return fmt::format("/proc/self/fd/{}", file_); }
+
+private:
+  int file_;
+};
+
+/// Has the engine write a file, completes its contents on rank 0 and puts them on the disk. The engine does not look whether its
+/// writes succeed, as they do not on a full disk: it writes to memory, and what goes to the disk from there is checked.
+/// \param complete takes the engine's file, gives that which is written; nothing if the engine's was not whole
+template <class Complete>
+void write_checked(LAMMPS_NS::LAMMPS *lmp, const std::string &engine_command, const std::string &file,
+                   const std::string &command, Complete &&complete) {
   check_restart_name(lmp, file, command);
-  const std::string unfinished = file + ".unfinished";
-  lmp->input->one(("write_restart " + unfinished).c_str());
+  const MemoryFile memory;
+  lmp->input->one((engine_command + " " + memory.name()).c_str());
   int failed = 0;
   if (lmp->comm->me == 0) {
-    std::error_code code;
-    const std::uintmax_t bytes = fs::file_size(unfinished, code);
-    if (!code) {
-      const std::string end = last_bytes(unfinished, engine::restart_end_mark);
-      std::ofstream out(unfinished, std::ios::binary | std::ios::app);
-      RestartNotes all = with_engine(notes);
-      all.emplace_back("end", std::to_string(engine::restart_end_mark));
-      for (const auto &note : sum_notes(unfinished, bytes))
-        all.push_back(note);
-      out << notes_text(all) << end << std::flush;
-      failed = !out;
-    }
-    if (!code) fs::rename(unfinished, file, code);
-    failed = failed != 0 || code;
+    const std::optional<std::string> contents = complete(contents_of(memory.name()));
+    failed = contents && write_whole_file(file, *contents) ? 0 : 1;
   }
   MPI_Bcast(&failed, 1, MPI_INT, 0, lmp->world);
   if (failed != 0)
@@ -152,8 +169,41 @@ void write_noted_restart(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const 
         fmt::format("{}: cannot write '{}'; allowed: a file on a disk with room", command, file).c_str());
 }
 
+} // namespace
+
+void write_noted_restart(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const RestartNotes &notes,
+                         const std::string &command) {
+  write_checked(lmp, "write_restart", file, command,
+                [&notes](std::string bytes) -> std::optional<std::string> {
+                  if (bytes.empty()) return {};
+                  const std::string end = bytes.substr(bytes.size() - engine::restart_end_mark);
+                  RestartNotes all = with_engine(notes);
+                  all.emplace_back("end", std::to_string(engine::restart_end_mark));
+                  for (const auto &note : sum_notes(bytes))
+                    all.push_back(note);
+                  return bytes + notes_text(all) + end;
+                });
+}
+
+void write_noted_data(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const RestartNotes &notes,
+                      const std::string &command) {
+  write_checked(lmp, "write_data", file, command, [&notes](std::string text) -> std::optional<std::string> {
+    std::string header;
+    for (const auto &[name, value] : notes)
+      header += fmt::format("{}{} {}\n", data_note, name, value);
+    const std::size_t title_end = text.find('\n');
+    if (title_end == std::string::npos) return {};
+    return text.insert(title_end + 1, header);
+  });
+}
+
+RestartNotes notes_of(const std::string &file) {
+  const RestartNotes notes = notes_of_restart(file);
+  return notes.empty() ? notes_of_data_file(file) : notes;
+}
+
 std::string restart_fault(const std::string &file, const RestartNotes &notes) {
-  const RestartNotes found = notes_of(file);
+  const RestartNotes found = notes_of_restart(file);
   if (found.empty())
     return fmt::format("; allowed: a whole restart file of drumlin/write_restart or drumlin/run{}, and this "
                        "one is cut short, damaged or none",
@@ -168,33 +218,121 @@ std::string restart_fault(const std::string &file, const RestartNotes &notes) {
   return "";
 }
 
-std::string data_file_fault(const std::string &file) {
-  constexpr std::size_t least_numbers[] = {7, 4}; // id type diameter density x y z; id vx vy vz
-  const std::string sections[] = {"Atoms", "Velocities"};
-  std::ifstream in(file);
-  std::string line;
-  std::getline(in, line); // the title
-  double atoms = 0.0;
-  bool found = false;
-  std::vector<std::string> words;
-  while (std::getline(in, line)) {
-    std::istringstream text(line);
-    words.assign(std::istream_iterator<std::string>(text), {});
-    if (words.size() == 2 && words[1] == "atoms") atoms = parse_number(words[0]);
-    if (words.empty()) continue;
-    const auto *const section = std::find(std::begin(sections), std::end(sections), words[0]);
-    if (section == std::end(sections)) continue;
-    found = found || section == std::begin(sections);
-    std::getline(in, line); // blank
-    double rows = 0.0;
-    while (rows < atoms && std::getline(in, line) &&
-           is_numbers(line, least_numbers[section - std::begin(sections)]))
-      rows += 1.0;
-    if (!(rows == atoms) || in.eof())
-      return fmt::format("; allowed: a whole data file, and this one has {:.0f} of {:.0f} rows under {}",
-                         rows, atoms, *section);
+namespace {
+
+/// The bounds of a data file's box along one axis, m.
+struct Bounds {
+  double low = 0.0, high = 0.0;
+  /// Whether a ball may be there: the engine puts balls beyond a periodic boundary back into the box, one box length at a time.
+  bool near(double x) const { return x >= 2.0 * low - high && x <= 2.0 * high - low; }
+};
+
+/// Reader of a data file that judges it.
+class DataFile {
+public:
+  explicit DataFile(const std::string &file) : in_(file) {}
+
+  std::string fault() {
+    std::getline(in_, line_); // the title
+    while (next_line()) {
+      const std::string word = words_.front();
+      if (const std::string why = word == "Atoms"        ? atoms()
+                                  : word == "Velocities" ? velocities()
+                                                         : header();
+          !why.empty())
+        return "; allowed: " + why;
+    }
+    return has_atoms_ ? "" : "; allowed: a data file with atoms";
   }
-  return found && atoms > 0.0 ? "" : "; allowed: a data file with atoms";
-}
+
+private:
+  /// The next line that is neither empty nor a comment, in words.
+  bool next_line() {
+    while (std::getline(in_, line_)) {
+      std::istringstream text(line_.substr(0, line_.find('#')));
+      words_.assign(std::istream_iterator<std::string>(text), {});
+      if (!words_.empty()) return true;
+    }
+    return false;
+  }
+
+  std::string header() {
+    if (words_.size() == 2 && words_[1] == "atoms") count_ = parse_number(words_[0]);
+    const char *const axes[3][2] = {{"xlo", "xhi"}, {"ylo", "yhi"}, {"zlo", "zhi"}};
+    for (std::size_t a = 0; a < 3; ++a)
+      if (words_.size() == 4 && words_[2] == axes[a][0] && words_[3] == axes[a][1]) {
+        box_[a] = {parse_number(words_[0]), parse_number(words_[1])};
+        if (!(box_[a].high > box_[a].low) || box_[a].high - box_[a].low > largest_box)
+          return fmt::format("a box with bounds in order, at most {:.0e} m apart, and this one has '{}'",
+                             largest_box, line_);
+        return "";
+      }
+    if (has_atoms_)
+      return fmt::format("one data file, and this one goes on with '{}' behind its sections", shown());
+    return "";
+  }
+
+  std::string atoms() {
+    if (has_atoms_) return "a data file with one section Atoms, and this one has two";
+    has_atoms_ = true;
+    if (!(count_ >= 1.0)) return "a data file with atoms";
+    return section("Atoms", [this](const std::vector<double> &row) { // id type diameter density x y z
+      if (row.size() < 7 || !(row[2] > 0.0) || !(row[3] > 0.0)) return false;
+      for (std::size_t a = 0; a < 3; ++a)
+        if (!box_[a].near(row[4 + a])) return false;
+      return ids_.insert(row[0]).second;
+    });
+  }
+
+  std::string velocities() {
+    std::unordered_set<double> seen;
+    return section("Velocities", [this, &seen](const std::vector<double> &row) { // id vx vy vz
+      return row.size() >= 4 && ids_.count(row[0]) > 0 && seen.insert(row[0]).second;
+    });
+  }
+
+  /// Reads a row for each atom. A row is whole numbers of ID and type first; the last line must have its end, or it may be cut.
+  template <class Good>
+  std::string section(const char *name, Good &&good) {
+    double rows = 0.0;
+    std::vector<double> numbers;
+    for (; rows < count_ && next_line(); rows += 1.0) {
+      numbers.clear();
+      for (const std::string &word : words_)
+        numbers.push_back(parse_number(word));
+      const bool finite =
+          std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+      if (!finite || numbers[0] != std::floor(numbers[0]) || numbers[0] < 1.0 || numbers[0] > largest_id ||
+          in_.eof() || !good(numbers))
+        break;
+    }
+    if (rows == count_) return "";
+    return fmt::format(
+        "a whole data file of balls in their box, each ID once, and this one has {:.0f} of {:.0f} "
+        "good rows under {}, then '{}'",
+        rows, count_, name, shown());
+  }
+
+  std::string shown() const {
+    std::string text = line_.substr(0, 60);
+    for (char &c : text)
+      if (std::iscntrl(static_cast<unsigned char>(c)) != 0) c = ' ';
+    return text;
+  }
+
+  static constexpr double largest_id = 2147483647.0;
+  static constexpr double largest_box = 1e6; // m
+  std::ifstream in_;
+  std::string line_;
+  std::vector<std::string> words_;
+  double count_ = 0.0;
+  bool has_atoms_ = false;
+  std::array<Bounds, 3> box_;
+  std::unordered_set<double> ids_;
+};
+
+} // namespace
+
+std::string data_file_fault(const std::string &file) { return DataFile(file).fault(); }
 
 } // namespace drumlin

@@ -15,11 +15,13 @@ class Arguments;
 /// What a restart file was made with, by name.
 using RestartNotes = std::vector<std::pair<std::string, std::string>>;
 
-/// Pairs of words up to the end. Ends the run if a name has no value.
-RestartNotes read_notes(Arguments &in);
+/// Pairs of words up to the end, or up to `values_of` and names of variables, whose values they are. Ends the run if a name has no
+/// value.
+RestartNotes read_notes(LAMMPS_NS::LAMMPS *lmp, Arguments &in);
 
 /// What a restart file may be named, for an error text.
-constexpr const char *restart_name_allowed = "a file in a folder that exists, without * and % in its name";
+constexpr const char *restart_name_allowed = "a file in a folder that exists, without * and % in its name "
+                                             "(no device, no link, and not in /, /dev, /proc or /sys)";
 
 /// Whether a restart file of this name can be written; touches nothing. Not collective.
 bool is_restart_name(const std::string &file);
@@ -32,11 +34,18 @@ void check_restart_name(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const s
 void write_noted_restart(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const RestartNotes &notes,
                          const std::string &command);
 
+/// The same for a data file, with the notes as comments in its header.
+void write_noted_data(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const RestartNotes &notes,
+                      const std::string &command);
+
+/// Notes of a restart file that is whole, or of a data file; none of another file. Not collective.
+RestartNotes notes_of(const std::string &file);
+
 /// Empty if a file is whole and holds these notes; else what is wrong with it, and what is allowed. Not collective.
 std::string restart_fault(const std::string &file, const RestartNotes &notes);
 
-/// Empty if every section by atoms of a data file has as many lines of numbers as its header counts atoms; else what is wrong with
-/// it, and what is allowed. Not collective.
+/// Empty if a data file has a good row for each atom of its header under Atoms and, if it is there, Velocities: finite numbers, each ID
+/// once, positions in or near the box, and nothing behind them. Else what is wrong with it, and what is allowed. Not collective.
 std::string data_file_fault(const std::string &file);
 
 } // namespace drumlin

@@ -13,6 +13,16 @@ inline void say(const LAMMPS *lmp, const std::string &text) {
     }
 }
 
+/// Ends the run on all ranks with the line "ERROR: COMMAND: fault" if rank 0 has found a fault. Collective.
+inline void end_if(const LAMMPS *lmp, const std::string &command, std::string fault) {
+  auto length = static_cast<int>(fault.size());
+  MPI_Bcast(&length, 1, MPI_INT, 0, lmp->world);
+  if (length == 0) return;
+  fault.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(fault.data(), length, MPI_CHAR, 0, lmp->world);
+  lmp->error->all(FLERR, (command + ": " + fault).c_str());
+}
+
 /// A fix by its ID, or nullptr.
 inline LAMMPS_NS::Fix *find_fix(LAMMPS_NS::Modify *modify, const std::string &id) {
   const int index =

@@ -2,6 +2,7 @@
 
 #include "fixes/arguments.h"
 #include "fixes/bed_files.h"
+#include "fixes/whole_file.h"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -19,6 +20,17 @@ struct Engine : LAMMPS_NS::Pointers {
   MPI_Comm ranks() { return world; }
 };
 
+/// Whether output files can be written into a folder, which is there or can be made.
+bool can_be_folder(const std::string &folder) {
+  namespace fs = std::filesystem;
+  if (folder.find_first_of("*%") != std::string::npos || !is_output_folder(folder)) return false;
+  std::error_code code;
+  fs::path there = fs::absolute(folder, code);
+  while (!fs::exists(there, code) && there.has_relative_path())
+    there = there.parent_path();
+  return fs::is_directory(there, code) && access(there.c_str(), W_OK | X_OK) == 0;
+}
+
 bool whole_number(const std::string &text, double &value) {
   value = parse_number(text);
   return std::isfinite(value) && value == std::floor(value) && std::fabs(value) < 1e15;
@@ -32,7 +44,7 @@ void check_command(LAMMPS *lmp, int narg, char **arg) {
   const std::string name = in.word("the variable's name");
   const std::string value = in.word("the value of variable " + name);
   constexpr const char *rules = "one_of, positive, non_negative, finite, integer, multiple_of, directory, "
-                                "file, data_file, restart, restart_name or one_rank";
+                                "output_folder, file, data_file, restart, restart_name or one_rank";
   const std::string rule = in.word("the rule for variable " + name, rules);
   const auto reject = [&](const std::string &allowed) {
     in.fail("variable " + name + " is '" + value + "'; allowed: " + allowed);
@@ -52,7 +64,14 @@ void check_command(LAMMPS *lmp, int narg, char **arg) {
     const Range range = rule == "positive" ? Range::positive
                         : rule == "finite" ? Range::any
                                            : Range::non_negative;
-    if (!in_range(parse_number(value), range)) reject(allowed_text(range));
+    // Beyond these bounds products of quantities leave the range of a double.
+    constexpr double smallest = 1e-30;
+    constexpr double largest = 1e30;
+    const double number = parse_number(value);
+    const double size = std::fabs(number);
+    if (!in_range(number, range) || size > largest || (size != 0.0 && size < smallest))
+      reject(std::string(allowed_text(range)) +
+             (std::isfinite(number) && in_range(number, range) ? ", between 1e-30 and 1e30 in size" : ""));
   } else if (rule == "integer") {
     const auto lowest = in.integer("rule integer, lowest", INT_MIN);
     const auto highest = in.integer("rule integer, highest", lowest);
@@ -68,17 +87,18 @@ void check_command(LAMMPS *lmp, int narg, char **arg) {
     if (!whole_number(value, a) || !whole_number(other_value, b) || b <= 0.0 || a <= 0.0 ||
         std::fmod(a, b) != 0.0)
       reject(fmt::format("a multiple of {}, which is {}", other, other_value));
-  } else if (rule == "directory") {
-    // Made by one rank; a file in its place, or a folder that cannot be written, is said before anything is
-    // built.
+  } else if (rule == "directory" || rule == "output_folder") {
     int bad = 0;
     if (engine.rank() == 0) {
       std::error_code failed;
-      std::filesystem::create_directories(value, failed);
-      bad = !std::filesystem::is_directory(value, failed) || access(value.c_str(), W_OK | X_OK) != 0;
+      bad = !can_be_folder(value);
+      if (!bad && rule == "directory")
+        bad = !std::filesystem::create_directories(value, failed) && !std::filesystem::is_directory(value);
     }
     MPI_Bcast(&bad, 1, MPI_INT, 0, engine.ranks());
-    if (bad) reject("a folder that can be made or written");
+    if (bad)
+      reject("a folder that can be made or written, without * and % in its path, and not /, /dev, /proc or "
+             "/sys");
   } else if (rule == "file") {
     std::string maker;
     while (!in.empty())
@@ -100,14 +120,11 @@ void check_command(LAMMPS *lmp, int narg, char **arg) {
     if (ranks > 1)
       in.fail(fmt::format("variable {} is '{}' on {} ranks; allowed: one rank", name, value, ranks));
   } else if (rule == "data_file" || rule == "restart") {
-    const RestartNotes notes = rule == "restart" ? read_notes(in) : RestartNotes{};
+    const RestartNotes notes = rule == "restart" ? read_notes(lmp, in) : RestartNotes{};
     std::string fault;
     if (engine.rank() == 0) fault = rule == "restart" ? restart_fault(value, notes) : data_file_fault(value);
-    auto length = static_cast<int>(fault.size());
-    MPI_Bcast(&length, 1, MPI_INT, 0, engine.ranks());
-    fault.resize(static_cast<std::size_t>(length));
-    MPI_Bcast(fault.data(), length, MPI_CHAR, 0, engine.ranks());
-    if (!fault.empty()) in.fail("variable " + name + " is '" + value + "'" + fault);
+    if (!fault.empty()) fault = "variable " + name + " is '" + value + "'" + fault;
+    engine::end_if(lmp, "drumlin/check", fault);
   } else {
     in.fail("unknown rule '" + rule + "' for variable " + name + "; allowed: " + rules);
   }

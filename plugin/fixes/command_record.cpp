@@ -1,9 +1,10 @@
 #include "fixes/commands.h"
 
 #include "fixes/arguments.h"
+#include "fixes/command_line.h"
+#include "fixes/whole_file.h"
 
-#include <fmt/format.h>
-#include <fstream>
+#include <cstdlib>
 
 namespace drumlin {
 namespace {
@@ -20,10 +21,9 @@ std::string quoted(const std::string &text) {
 
 /// The command line of this process, with the preload that brought the plugin.
 std::string command_line() {
-  std::ifstream file("/proc/self/cmdline");
   const char *preload = std::getenv("LD_PRELOAD");
   std::string text = preload ? "LD_PRELOAD=" + std::string(preload) : "";
-  for (std::string word; std::getline(file, word, '\0');)
+  for (const std::string &word : command_line_words())
     text += (text.empty() ? "" : " ") +
             (word.empty() || word.find_first_of(" '\"$") != std::string::npos ? "'" + word + "'" : word);
   return text;
@@ -33,7 +33,7 @@ struct Engine : LAMMPS_NS::Pointers {
   explicit Engine(LAMMPS *engine) : Pointers(engine) {}
   void record(int narg, char **arg) {
     Arguments in(error, "drumlin/record", narg, arg);
-    const std::string name = in.word("the file", "a file in a folder that exists");
+    const std::string name = in.word("the file", output_name_allowed);
     std::vector<std::pair<std::string, std::string>> rows;
     while (!in.empty()) {
       const std::string key = in.word("name");
@@ -45,15 +45,14 @@ struct Engine : LAMMPS_NS::Pointers {
     rows.emplace_back("command", command_line());
     int failed = 0;
     if (comm->me == 0) {
-      std::ofstream file(name);
-      file << "name,value\n";
+      std::string text = "name,value\n";
       for (const auto &[key, value] : rows)
-        file << quoted(key) << ',' << quoted(value) << '\n';
-      file.close();
-      failed = !file;
+        text += quoted(key) + ',' + quoted(value) + '\n';
+      failed = !is_output_file(name) || !write_whole_file(name, text);
     }
     MPI_Bcast(&failed, 1, MPI_INT, 0, world);
-    if (failed) in.fail("cannot write '" + name + "'; allowed: a file in a folder that exists");
+    if (failed)
+      in.fail("cannot write '" + name + "'; allowed: " + output_name_allowed + ", on a disk with room");
   }
 };
 

@@ -26,13 +26,16 @@ public:
         limit_ = in.number("keyword limit", Range::positive);
       else if (keyword == "restart") {
         restart_ = in.word("keyword restart: its file", restart_name_allowed);
-        notes_ = read_notes(in);
+        notes_ = read_notes(lmp, in);
       } else
         in.fail("unknown keyword '" + keyword + "'; allowed: every, limit or restart");
     }
     if (domain->box_exist == 0)
       in.fail("there is no simulation box; allowed: after create_box, read_data or read_restart");
-    if (every_ == 0) in.fail("keyword every is missing; allowed: every N, with N steps >= 1");
+    if (every_ == 0) { // one piece
+      origin_ = update->ntimestep;
+      every_ = std::max<engine::bigint>(last_ - origin_, 1);
+    }
     if (std::isfinite(limit_) && restart_.empty())
       in.fail("keyword limit goes with keyword restart; allowed: limit SECONDS restart FILE");
     if (!restart_.empty()) check_restart_name(lmp, restart_, "drumlin/run: keyword restart");
@@ -47,7 +50,8 @@ public:
     double longest = 0.0; // s, of the pieces
     double before = 0.0;
     while (update->ntimestep < last_) {
-      const engine::bigint piece = std::min(every_ - update->ntimestep % every_, last_ - update->ntimestep);
+      const engine::bigint piece =
+          std::min(every_ - (update->ntimestep - origin_) % every_, last_ - update->ntimestep);
       input->one(fmt::format("run {} post no", piece).c_str());
       double now = MPI_Wtime() - begin;
       MPI_Bcast(&now, 1, MPI_DOUBLE, 0, world); // all ranks go by one clock
@@ -64,7 +68,7 @@ public:
         if (!restart_.empty()) write_noted_restart(lmp, restart_, notes_, "drumlin/run: keyword restart");
         error->all(FLERR, fmt::format("drumlin/run: stopped by a signal at step {} of {}; allowed: to {}",
                                       update->ntimestep, last_,
-                                      restart_.empty() ? "be left alone" : "go on from " + restart_)
+                                      restart_.empty() ? "run to the last step" : "go on from " + restart_)
                               .c_str());
       }
       if (update->ntimestep < last_ && now + longest > limit_) return stop();
@@ -85,6 +89,7 @@ private:
 
   engine::bigint last_ = 0;
   engine::bigint every_ = 0;
+  engine::bigint origin_ = 0;                              // pieces end a multiple of every_ behind this step
   double limit_ = std::numeric_limits<double>::infinity(); // s of wall time
   std::string restart_;
   RestartNotes notes_;

@@ -22,7 +22,7 @@ public:
       else if (keyword == "every")
         every_ = static_cast<int>(in.integer("keyword every", 1));
       else if (keyword == "limit")
-        limit_ = in.integer("keyword limit", 1);
+        limit_ = in.integer("keyword limit", 0);
       else if (keyword == "fixed") {
         const std::string name = in.word("keyword fixed: its group", "the name of a group");
         const int index = group->find(name.c_str());
@@ -55,7 +55,7 @@ public:
       if (engine::told_to_stop(lmp))
         error->all(FLERR,
                    fmt::format("drumlin/settle: stopped by a signal after {} steps, unbalanced ratio {:.3g}; "
-                               "allowed: to be left alone",
+                               "allowed: to run until it has settled",
                                update->ntimestep - first, ratio)
                        .c_str());
       const engine::bigint done = update->ntimestep - first;
@@ -70,11 +70,18 @@ public:
     update->beginstep = update->endstep = 0;
     const engine::bigint steps = update->ntimestep - first;
     if (!(ratio <= ratio_))
-      error->all(FLERR, fmt::format("drumlin/settle: no equilibrium: unbalanced ratio {:.3g} after {} steps; "
-                                    "allowed: at most {:.3g} "
-                                    "within {} steps (without damping a scene never settles)",
-                                    ratio, steps, ratio_, limit_)
-                            .c_str());
+      error->all(
+          FLERR,
+          (limit_ == 0
+               ? fmt::format(
+                     "drumlin/settle: the scene is not in equilibrium: unbalanced ratio {:.3g}; allowed: "
+                     "at most {:.3g}",
+                     ratio, ratio_)
+               : fmt::format(
+                     "drumlin/settle: no equilibrium: unbalanced ratio {:.3g} after {} steps; allowed: "
+                     "at most {:.3g} within {} steps (without damping a scene never settles)",
+                     ratio, steps, ratio_, limit_))
+              .c_str());
     engine::say(lmp, fmt::format("drumlin/settle: unbalanced ratio {:.3g} after {} steps\n", ratio, steps));
   }
 

@@ -24,7 +24,7 @@ std::string file_argument(Error *error, int narg, char **arg) {
   if (in.empty() || in.peek() != "file")
     in.fail("keyword file is missing; allowed: file NAME as the first keyword");
   in.word("keyword");
-  return in.word("keyword file: its name", "a file in a folder that exists");
+  return in.word("keyword file: its name", drumlin::output_name_allowed);
 }
 
 bool append_argument(int narg, char **arg) {
@@ -193,7 +193,7 @@ void FixContactEvents::write_out() {
   for (const Event &e : all)
     std::fprintf(file_.get(), "%.17g,%s,%.17g,%.17g,%.17g,%d,%d\n", e.time, e.make ? "make" : "break",
                  e.overlap, e.rate, e.force, e.tag_i, e.tag_j);
-  file_.flush();
+  file_.flush(error, world, file_keyword);
   MPI_Bcast(&written, 1, MPI_LMP_BIGINT, 0, world);
   count_ += written;
 }

@@ -37,11 +37,11 @@ void FixRollerHistory::parse(int narg, char **arg) {
   while (!in.empty()) {
     const std::string keyword = in.word("keyword");
     if (keyword == "file") {
-      file_name_ = in.word("keyword file: its name", "a file in a folder that exists");
+      file_name_ = in.word("keyword file: its name", drumlin::output_name_allowed);
     } else if (keyword == "every") {
       every_ = static_cast<int>(in.integer("keyword every", 1));
     } else if (keyword == "cycles") {
-      cycles_name_ = in.word("keyword cycles: its file name", "a file in a folder that exists");
+      cycles_name_ = in.word("keyword cycles: its file name", drumlin::output_name_allowed);
       steps_per_cycle_ = static_cast<int>(in.integer("keyword cycles, steps per cycle", 1));
     } else if (keyword == "frame") {
       frame_group_ = in.word("keyword frame: its group", "the name of a group");
@@ -373,6 +373,7 @@ void FixRollerHistory::count_step(const Forces &before, double v_before) {
   if (static_cast<int>(cycle_.steps) == steps_per_cycle_) {
     write_cycle();
     start_cycle();
+    flush();
   }
 }
 
@@ -398,9 +399,14 @@ void FixRollerHistory::write_cycle() {
   std::fputc('\n', out);
 }
 
+/// Once a cycle and at the end of a run: a full disk ends the run soon, and a reader sees whole cycles.
+void FixRollerHistory::flush() {
+  file_->flush(error, world, file_keyword);
+  if (cycles_file_) cycles_file_->flush(error, world, cycles_keyword);
+}
+
 void FixRollerHistory::post_run() {
-  file_->flush();
-  if (cycles_file_) cycles_file_->flush();
+  flush();
 }
 
 void FixRollerHistory::pack_ghosts(int n, const int *list, double *buf) {

@@ -89,6 +89,7 @@ private:
     return cycle_.tangential_work - (sums_.tangential_stored - reference_.tangential_stored);
   }
   void write_sample();
+  void flush();
   void start_cycle();
   void count_step(const Forces &before, double v_before);
   void write_cycle();

@@ -2,11 +2,10 @@
 // A table that rank 0 writes while a run goes on.
 
 #include "engine.h"
+#include "fixes/whole_file.h"
 
 #include <cstdio>
-#include <filesystem>
 #include <string>
-#include <unistd.h>
 
 namespace drumlin {
 
@@ -21,23 +20,11 @@ public:
     if (file_) std::fclose(file_);
   }
 
-  /// What name allows, for an error text.
-  static constexpr const char *allowed = "a file in a folder that exists";
-
-  /// Whether a file of this name can be written; touches nothing. Not collective.
-  static bool writable(const std::string &name) {
-    namespace fs = std::filesystem;
-    std::error_code code;
-    const fs::path folder = fs::path(name).has_parent_path() ? fs::path(name).parent_path() : fs::path(".");
-    if (fs::exists(name, code)) return !fs::is_directory(name, code) && access(name.c_str(), W_OK) == 0;
-    return fs::is_directory(folder, code) && access(folder.c_str(), W_OK | X_OK) == 0;
-  }
-
   /// Ends the run if open() is going to fail; touches nothing. For a fix's init(): all come before the first
   /// set-up, so that one bad name leaves the files of all fixes as they were. Collective.
   static void check(const std::string &name, LAMMPS_NS::Comm *comm, LAMMPS_NS::Error *error, MPI_Comm world,
                     const std::string &command) {
-    end_if(comm->me == 0 && !writable(name) ? 1 : 0, name, error, world, command);
+    end_if(comm->me == 0 && !is_output_file(name) ? 1 : 0, name, error, world, command, output_name_allowed);
   }
 
   /// Opens the file once, on rank 0; collective. Ends the run if that fails.
@@ -51,18 +38,21 @@ public:
       if (file_ && (!append_ || std::ftell(file_) == 0)) std::fprintf(file_, "%s\n", header);
       failed = file_ == nullptr;
     }
-    end_if(failed, name_, error, world, command);
+    end_if(failed, name_, error, world, command, output_name_allowed);
   }
 
   const std::string &name() const { return name_; }
   FILE *get() const { return file_; } ///< nullptr on other ranks
-  void flush() const {
-    if (file_) std::fflush(file_);
+
+  /// Hands what was written to the system and ends the run if any of it did not reach the disk. Collective.
+  void flush(LAMMPS_NS::Error *error, MPI_Comm world, const std::string &command) const {
+    const int failed = file_ != nullptr && (std::fflush(file_) != 0 || std::ferror(file_) != 0) ? 1 : 0;
+    end_if(failed, name_, error, world, command, "a file on a disk with room");
   }
 
 private:
   static void end_if(int failed, const std::string &name, LAMMPS_NS::Error *error, MPI_Comm world,
-                     const std::string &command) {
+                     const std::string &command, const std::string &allowed) {
     MPI_Bcast(&failed, 1, MPI_INT, 0, world);
     if (failed) error->all(FLERR, (command + ": cannot write '" + name + "'; allowed: " + allowed).c_str());
   }

@@ -14,6 +14,7 @@
 #include "fixes/fix_contact_local.h"
 #include "fixes/fix_drum_excite.h"
 #include "fixes/fix_guard.h"
+#include "fixes/fix_outputs.h"
 #include "fixes/fix_roller_history.h"
 #include "fixes/fix_stepping.h"
 #include "lammps/fix_neigh_history_transition.h"
@@ -99,8 +100,17 @@ extern "C" __attribute__((visibility("default"))) void drumlin_register(void *lm
   add_fix("contact/local", "contacts and their forces for dump local", create_fix<FixContactLocal>);
   add_fix("roller/history", "motion and forces of drum and frame", create_fix<FixRollerHistory>);
   add_fix("drumlin/stepping", "second-order stepping", create_fix<FixStepping>);
+  add_fix(FixOutputs::style_name, "the files of a run", create_fix<FixOutputs>);
   add_fix("guard", "step, overlap and finite numbers", create_fix<FixGuard>);
   add_v1("command", "drumlin/check", "judges a variable", create<EngineCommand<drumlin::check_command>>);
+  add_v1("command", "drumlin/variables", "the variables of a deck",
+         create<EngineCommand<drumlin::variables_command>>);
+  add_v1("command", "drumlin/outputs", "room for the files of a run",
+         create<EngineCommand<drumlin::outputs_command>>);
+  add_v1("command", "drumlin/take", "values that a bed was made with",
+         create<EngineCommand<drumlin::take_command>>);
+  add_v1("command", "drumlin/write_data", "a data file with notes",
+         create<EngineCommand<drumlin::write_data_command>>);
   add_v1("command", "drumlin/record", "what a run was made with",
          create<EngineCommand<drumlin::record_command>>);
   add_v1("command", "drumlin/run", "a run with progress and a limit",

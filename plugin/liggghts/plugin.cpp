@@ -27,6 +27,7 @@
 #include "fixes/fix_contact_local.h"
 #include "fixes/fix_drum_excite.h"
 #include "fixes/fix_guard.h"
+#include "fixes/fix_outputs.h"
 #include "fixes/fix_roller_history.h"
 #include "fixes/fix_stepping.h"
 #include "liggghts/contact_table.h"
@@ -232,12 +233,17 @@ void add_fixes(LAMMPS *lmp) {
   fixes["roller/history"] = create_fix<LAMMPS_NS::FixRollerHistory>;
   fixes["drumlin/stepping"] = create_fix<LAMMPS_NS::FixStepping>; // made by the pair style, not by decks
   fixes[LAMMPS_NS::FixKeepHistory::style_name] = create_fix<LAMMPS_NS::FixKeepHistory>; // this neither
+  fixes[LAMMPS_NS::FixOutputs::style_name] = create_fix<LAMMPS_NS::FixOutputs>; // by a command
   fixes["guard"] = create_fix<LAMMPS_NS::FixGuard>;
 }
 
 void add_commands(LAMMPS *lmp) {
   auto &commands = *command_map_of(*lmp->input);
   commands["drumlin/check"] = drumlin::check_command;
+  commands["drumlin/variables"] = drumlin::variables_command;
+  commands["drumlin/outputs"] = drumlin::outputs_command;
+  commands["drumlin/take"] = drumlin::take_command;
+  commands["drumlin/write_data"] = drumlin::write_data_command;
   commands["drumlin/record"] = drumlin::record_command;
   commands["drumlin/run"] = drumlin::run_command;
   commands["drumlin/settle"] = drumlin::settle_command;

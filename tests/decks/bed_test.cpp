@@ -87,10 +87,12 @@ protected:
       else if (name == "stepping")
         stepping = value;
     const Scratch &bed = stepping == "second" ? second() : *scratch;
-    variables.insert(variables.end(), {{"start", (bed.path() / (drum + ".restart")).string()},
-                                       {"here", bed_folder().string()},
-                                       {"Fw", "2940"},
-                                       {"cycles", "2"}});
+    variables.emplace_back("here", bed_folder().string());
+    const std::string name = deck.filename().string();
+    if (name != "in.settle" && name != "in.place" && name != "in.tile")
+      variables.insert(
+          variables.end(),
+          {{"start", (bed.path() / (drum + ".restart")).string()}, {"Fw", "2940"}, {"cycles", "2"}});
     return run_deck(deck, variables, folder.path(), ranks);
   }
   static Outcome shake(const Scratch &folder, const Variables &more, int ranks = 1) {
@@ -111,8 +113,18 @@ protected:
       EXPECT_TRUE(stopped.says("drumlin/run: stopped at step 2500 of 7500 by limit 0.001 s; go on from "))
           << stopped.output;
       EXPECT_EQ(post::read_table(left / "bed.csv").rows(), 251u);
-      const Outcome resumed = shaken(left, {{"start", (left / "stopped.restart").string()}}, ranks);
-      ASSERT_TRUE(resumed.ok()) << resumed.output;
+      const std::string start = (left / "stopped.restart").string();
+      for (const auto &[name, value] :
+           Variables{{"omega", "100"}, {"Fw", "10"}, {"steps_per_cycle", "5000"}}) {
+        const Outcome other = shaken(left, {{"start", start}, {name, value}}, ranks);
+        EXPECT_EQ(other.status, 1);
+        EXPECT_TRUE(other.says("ERROR: drumlin/take: variable " + name + " is '" + value + "'; allowed: "))
+            << other.output;
+      }
+      for (int n = 0; n < 2; ++n) { // continued twice from one file, the tables have each row once
+        const Outcome resumed = shaken(left, {{"start", start}}, ranks);
+        ASSERT_TRUE(resumed.ok()) << resumed.output;
+      }
       for (const char *file : {"bed.csv", "cycles.csv", "events.csv"})
         EXPECT_EQ(read_text(left / file), read_text(stayed / file)) << file << ", ranks " << ranks;
       EXPECT_EQ(post::read_table(left / "bed.csv").rows(), 751u);
@@ -202,6 +214,8 @@ TEST_F(Bed, RecordsTheForcesThatMoveTheDrum) {
     const Outcome outcome = shake(folder, {{"transition", transition},
                                            {"stepping", stepping},
                                            {"friction", "0.2"},
+                                           {"allow_change", "friction"},
+                                           {"balance", "1e30"},
                                            {"cycles", "1"},
                                            {"samples_per_cycle", "2500"}});
     ASSERT_TRUE(outcome.ok()) << outcome.output;
@@ -416,8 +430,11 @@ TEST_F(Bed, BooksOfEnergyCloseWithRollingFriction) {
   std::vector<double> heat;
   for (const char *rolling : {"0.1", "1e-6"}) {
     const Scratch folder;
-    const Outcome outcome = shake(
-        folder, {{"cycles", "5"}, {"rolling", rolling}, {"start", (bed.path() / "ball.restart").string()}});
+    const Outcome outcome = shake(folder, {{"cycles", "5"},
+                                           {"rolling", rolling},
+                                           {"allow_change", "rolling"},
+                                           {"balance", "1e30"},
+                                           {"start", (bed.path() / "ball.restart").string()}});
     ASSERT_TRUE(outcome.ok()) << outcome.output;
     EXPECT_LT(imbalance(folder / "bed.csv"), 0.01) << rolling;
     heat.push_back(post::read_table(folder / "bed.csv").numbers("dissipated").back());
@@ -490,12 +507,10 @@ TEST_F(Bed, RefusesFilesThatAreCutShortOrOfAnotherSceneOnRanksOneAndTwo) {
     refused("in.bed", {{"start", (*scratch / "soil.restart").string()}},
             ", made with bed soil; allowed: made with bed roller", ranks);
     refused("in.bed", {{"stepping", "second"}, {"start", (*scratch / "ball.restart").string()}},
-            ", made with stepping stock; allowed: made with stepping second", ranks);
-    refused("in.bed", {{"rolling", "0.1"}}, ", made with rolling off; allowed: made with rolling epsd2",
-            ranks);
-    refused("in.bed", {{"case", "gravel3d"}}, ", made with dimension 2; allowed: made with dimension 3",
-            ranks);
-    refused("in.bed", {{"case", "sand"}}, "variable case_file is ", ranks);
+            "variable stepping is 'second'; allowed: stock, with which ", ranks);
+    refused("in.settle",
+            {{"case", "sand"}, {"balls", (*scratch / "balls.data").string()}, {"bed", "x.restart"}},
+            "variable case_file is ", ranks);
     refused("in.place", {{"bed", (*scratch / "ball.restart").string()}, {"start", "x.restart"}},
             ", made with bed roller; allowed: made with bed soil", ranks);
     refused("in.settle", {{"balls", some}, {"bed", "x.restart"}},
@@ -503,6 +518,138 @@ TEST_F(Bed, RefusesFilesThatAreCutShortOrOfAnotherSceneOnRanksOneAndTwo) {
     refused("in.settle", {{"balls", none}, {"bed", "x.restart"}},
             "variable balls is '" + none + "'; allowed: a data file with atoms", ranks);
   }
+}
+
+TEST_F(Bed, RefusesValuesThatAreNotTheBedsOnRanksOneAndTwo) {
+  const Scratch folder;
+  const auto refused = [&folder](const char *deck, const Variables &more, const std::string &says,
+                                 int ranks) {
+    const Outcome outcome = run(bed_folder() / deck, folder, more, ranks);
+    EXPECT_EQ(outcome.status, 1) << says;
+    EXPECT_TRUE(outcome.says("ERROR: " + says)) << says << outcome.output;
+    EXPECT_FALSE(fs::exists(folder / "bed.csv"));
+  };
+  for (const int ranks : {1, 2}) {
+    for (const auto &[name, value, was] :
+         {std::array{"m2", "4000", "100"}, std::array{"k", "1e7", "1e8"}, std::array{"D", "0.1", "0.3"},
+          std::array{"friction", "0.2", "0.5"}, std::array{"rolling", "0.1", "0"},
+          std::array{"g", "1", "9.81"}, std::array{"walls", "0", "1"}, std::array{"r2", "0.2", "0.1"},
+          std::array{"k23", "1e6", "5e4"}, std::array{"case", "gravel3d", "gravel"},
+          std::array{"dimension", "3", "2"}})
+      if (ranks == 1 || *name == 'k')
+        refused("in.bed", {{name, value}},
+                std::string("drumlin/take: variable ") + name + " is '" + value + "'; allowed: " + was +
+                    ", with which ",
+                ranks);
+    refused("in.place",
+            {{"friction", "0.2"}, {"bed", (*scratch / "soil.restart").string()}, {"start", "x.restart"}},
+            "drumlin/take: variable friction is '0.2'; allowed: 0.5, with which ", ranks);
+    refused("in.bed", {{"allow_change", "m2"}},
+            "drumlin/take: variable allow_change is 'm2'; allowed: none, or ", ranks);
+    // What may change on purpose is then out of equilibrium.
+    refused("in.bed", {{"friction", "0.2"}, {"allow_change", "friction"}},
+            "drumlin/settle: the scene is not in equilibrium: unbalanced ratio ", ranks);
+  }
+  const Outcome changed =
+      shake(folder, {{"friction", "0.2"}, {"allow_change", "friction"}, {"balance", "1e9"}});
+  ASSERT_TRUE(changed.ok()) << changed.output;
+  const std::string parameters = read_text(folder / "parameters.csv");
+  EXPECT_NE(parameters.find("\nfriction,0.2\n"), std::string::npos);
+  EXPECT_NE(parameters.find("\nallow_change,friction\n"), std::string::npos);
+}
+
+// A bed poured with little friction lies denser; in.place lets it come to rest with its own.
+TEST_F(Bed, IsPouredWithContactsOfItsOwn) {
+  const Scratch folder;
+  const Outcome poured = run_deck(bed_folder() / "in.settle",
+                                  {{"balls", (*scratch / "balls.data").string()},
+                                   {"bed", (folder / "dense").string()},
+                                   {"pour_friction", "0"}},
+                                  folder.path());
+  ASSERT_TRUE(poured.ok()) << poured.output;
+  Variables placing = roller();
+  placing.insert(placing.end(),
+                 {{"bed", (folder / "dense").string()}, {"start", (folder / "start").string()}});
+  const Outcome placed = run_deck(bed_folder() / "in.place", placing, folder.path());
+  ASSERT_TRUE(placed.ok()) << placed.output;
+  ASSERT_TRUE(
+      shake(folder, {{"start", (folder / "start").string()}, {"cycles", "1"}, {"friction", "0.5"}}).ok());
+  const Scratch loose;
+  ASSERT_TRUE(shake(loose, {{"cycles", "1"}}).ok());
+  EXPECT_LT(post::read_table(folder / "bed.csv").numbers("void_ratio").front(),
+            post::read_table(loose / "bed.csv").numbers("void_ratio").front() - 0.01);
+}
+
+// Names that a shell or a glob would read as something else; dumps of another run stay, those of an earlier run into the same folder go.
+TEST_F(Bed, DumpsIntoFoldersOfAnyName) {
+  const Scratch folder;
+  const auto shaken = [&folder](const std::string &out, const char *dumps) {
+    return shake(folder, {{"cycles", "1"}, {"dumps_per_cycle", dumps}, {"out", (folder / out).string()}});
+  };
+  ASSERT_TRUE(shaken("B1", "5").ok());
+  for (const char *out : {"B[1]", "run(1)", "A&B", "-x", "{}", "B?", "~", "x;echo", "x|y", "`id`"}) {
+    for (const char *dumps : {"10", "5"}) {
+      const Outcome outcome = shaken(out, dumps);
+      ASSERT_TRUE(outcome.ok()) << out << outcome.output;
+    }
+    EXPECT_EQ(post::dumped_steps(folder / out / "dump").size(), 6u) << out;
+    EXPECT_EQ(post::dumped_steps(folder / "B1/dump").size(), 6u) << out;
+  }
+  std::ofstream(folder / "B1/dump/thesis.txt") << "mine\n";
+  const std::string before = read_text(folder / "B1/bed.csv");
+  const Outcome mixed = shaken("B1", "10");
+  EXPECT_EQ(mixed.status, 1);
+  EXPECT_TRUE(mixed.says("has 'thesis.txt', which is no dump of a run; allowed: ")) << mixed.output;
+  EXPECT_EQ(read_text(folder / "B1/bed.csv"), before);
+  EXPECT_EQ(post::dumped_steps(folder / "B1/dump").size(), 6u);
+  for (const char *out : {"x$(touch pwned)", "B*", "100%"})
+    EXPECT_EQ(shaken(out, "5").status, 1) << out;
+  EXPECT_FALSE(fs::exists(folder / "pwned"));
+}
+
+// Each is a data file that the engine reads for ever, or takes as it is.
+TEST_F(Bed, RefusesDataFilesThatTheEngineWouldNot) {
+  const std::string good = read_text(*scratch / "balls.data");
+  const std::size_t row = good.find('\n', good.find("Atoms")) + 2;
+  const std::string first = good.substr(row, good.find('\n', row) + 1 - row);
+  const auto changed = [&](std::size_t word, const char *text) {
+    std::istringstream words(first);
+    std::string line, next;
+    for (std::size_t n = 0; words >> next; ++n)
+      line += (n == word ? text : next) + std::string(" ");
+    return good.substr(0, row) + line + "\n" + good.substr(row + first.size());
+  };
+  const Scratch folder;
+  for (const std::string &text :
+       {changed(0, "9.2e18"), changed(0, "9223372036854775807"), changed(4, "1e308"), changed(5, "nan"),
+        changed(2, "-1"), changed(0, "2"), good.substr(0, row) + first + good.substr(row), good + good}) {
+    std::ofstream(folder / "bad.data") << text;
+    const Outcome outcome =
+        run_deck(bed_folder() / "in.settle",
+                 {{"balls", (folder / "bad.data").string()}, {"bed", "x.restart"}}, folder.path(), 1, 20.0);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_TRUE(outcome.says("ERROR: drumlin/check: variable balls is '")) << outcome.output;
+    EXPECT_FALSE(fs::exists(folder / "x.restart"));
+  }
+}
+
+// A script must not take an old file for that of the run which was stopped.
+TEST_F(Bed, LeavesNoOldFileWhenASignalStopsTheRunThatReplacesIt) {
+  const Scratch folder;
+  const std::string file = (folder / "kept.restart").string();
+  const auto stopped = [&](const char *deck, Variables variables) {
+    fs::copy_file(*scratch / "soil.restart", file, fs::copy_options::overwrite_existing);
+    const Outcome outcome = run_deck(bed_folder() / deck, variables, folder.path(), 1, 1.0);
+    EXPECT_TRUE(outcome.timed_out) << deck;
+    EXPECT_EQ(outcome.status, 1) << deck;
+    EXPECT_TRUE(outcome.says("ERROR: drumlin/run: stopped by a signal at step ")) << deck << outcome.output;
+    EXPECT_FALSE(fs::exists(file)) << deck;
+  };
+  stopped("in.settle", {{"fall", "1000"}, {"balls", (*scratch / "balls.data").string()}, {"bed", file}});
+  Variables placing = roller();
+  placing.insert(placing.end(),
+                 {{"sink", "1000"}, {"bed", (*scratch / "soil.restart").string()}, {"start", file}});
+  stopped("in.place", placing);
 }
 
 // A drum that is shot through the floor, and soil that a far too long step throws out of the box: with nothing else to stop them.
@@ -528,7 +675,7 @@ TEST_F(Bed, ALostBallIsAnErrorOnRanksOneAndTwo) {
 TEST_F(Bed, EndsAtASignal) {
   const Scratch folder;
   const Outcome settling = run_deck(bed_folder() / "in.settle",
-                                    {{"ratio", "1e-300"},
+                                    {{"ratio", "1e-29"},
                                      {"balls", (*scratch / "balls.data").string()},
                                      {"bed", (folder / "x.restart").string()}},
                                     folder.path(), 1, 5.0);
@@ -613,9 +760,10 @@ protected:
 // small; later the bed makes it grow.
 TEST_F(BedInLammps, GoesAsInLiggghtsOnRanksOneTwoAndFourWithNewtonOffAndOn) {
   for (const char *drum : drums)
-    for (const Variables &law : {Variables{}, Variables{{"stepping", "second"}},
-                                 Variables{{"stepping", "second"}, {"transition", "A"}},
-                                 Variables{{"transition", "A"}, {"friction", "0"}}}) {
+    for (const Variables &law :
+         {Variables{}, Variables{{"stepping", "second"}},
+          Variables{{"stepping", "second"}, {"transition", "A"}},
+          Variables{{"transition", "A"}, {"friction", "0"}, {"allow_change", "friction"}}}) {
       Variables variables = law;
       variables.insert(variables.end(), {{"drum", drum}, {"cycles", "1"}});
       const Scratch here;
@@ -625,7 +773,7 @@ TEST_F(BedInLammps, GoesAsInLiggghtsOnRanksOneTwoAndFourWithNewtonOffAndOn) {
       const Outcome made = run(test_deck("bed_from_data.in"), here, from_data);
       ASSERT_TRUE(made.ok()) << made.output;
       Variables in_liggghts = variables;
-      in_liggghts.emplace_back("start", fresh);
+      in_liggghts.insert(in_liggghts.end(), {{"start", fresh}, {"balance", "1e30"}});
       const Outcome liggghts = Bed::shake(here, in_liggghts);
       ASSERT_TRUE(liggghts.ok()) << liggghts.output;
       const post::Table expected = post::read_table(here / "bed.csv");
@@ -633,7 +781,7 @@ TEST_F(BedInLammps, GoesAsInLiggghtsOnRanksOneTwoAndFourWithNewtonOffAndOn) {
            {std::pair{1, "off"}, {2, "off"}, {4, "off"}, {1, "on"}, {2, "on"}, {4, "on"}}) {
         const Scratch there;
         Variables in_lammps = variables;
-        in_lammps.emplace_back("newton", newton);
+        in_lammps.insert(in_lammps.end(), {{"newton", newton}, {"rest", "0"}, {"balance", "1e30"}});
         const Outcome lammps = shake(there, in_lammps, ranks);
         ASSERT_TRUE(lammps.ok()) << lammps.output;
         const post::Table found = post::read_table(there / "bed.csv");
@@ -664,7 +812,8 @@ TEST_F(BedInLammps, DumpsWhatLiggghtsDumpsOnRanksOneAndTwo) {
                     {{"fresh", (here / "fresh.restart").string()}, {"stepping", stepping}})
                     .ok());
     Variables in_liggghts = often;
-    in_liggghts.emplace_back("start", (here / "fresh.restart").string());
+    in_liggghts.insert(in_liggghts.end(),
+                       {{"start", (here / "fresh.restart").string()}, {"balance", "1e30"}});
     const Outcome liggghts = Bed::shake(here, in_liggghts);
     ASSERT_TRUE(liggghts.ok()) << liggghts.output;
     std::map<long, post::StepDump> expected = post::dumped_steps(here / "dump");
@@ -675,7 +824,7 @@ TEST_F(BedInLammps, DumpsWhatLiggghtsDumpsOnRanksOneAndTwo) {
       fs::create_directory(there / "dump");
       std::ofstream(there / "dump/balls_7.dump") << "old";
       Variables in_lammps = often;
-      in_lammps.emplace_back("newton", newton);
+      in_lammps.insert(in_lammps.end(), {{"newton", newton}, {"rest", "0"}, {"balance", "1e30"}});
       const Outcome lammps = shake(there, in_lammps, ranks);
       ASSERT_TRUE(lammps.ok()) << lammps.output;
       const std::map<long, post::StepDump> found = post::dumped_steps(there / "dump");
@@ -755,7 +904,7 @@ TEST_F(BedInLammps, RefusesWhatItDoesNotHaveOnRanksOneAndTwo) {
             "NAME.data lies, and this one is cut short, damaged or none",
             ranks);
     refused({{"newton", "maybe"}}, "variable newton is 'maybe'; allowed: on or off", ranks);
-    refused({{"rolling", "0.1"}}, "variable rolling is '0.1'; allowed: 0", ranks);
+    refused({{"rest", "2"}}, "variable rest is '2'; allowed: 0 or 1", ranks);
   }
 }
 

@@ -37,8 +37,24 @@ BadGroup chain_choices() {
               variable("transition", "AB", "allowed: A or B"),
               variable("stepping", "exact", "allowed: second or stock", true),
               variable("guard", "yes", "allowed: on or off", true),
-              variables("two values", {{"k", "1e8 2e8"}}, {"drumlin/check: ", "variable k", "'2e8'"}),
-              variables("empty value", {{"k", ""}}, {"drumlin/check: ", "variable k is missing"}),
+              variables("two values", {{"k", "1e8 2e8"}},
+                        {"drumlin/variables: variable k is '1e8 2e8'", "a value without blanks"}),
+              variables("empty value", {{"k", ""}},
+                        {"drumlin/variables: variable k is ''", "one value that is not empty"}),
+              variables("a quoted number", {{"cycles", "\"5\""}},
+                        {"drumlin/variables: variable cycles is '\"5\"'", "a value without blanks, quotes"},
+                        true),
+              variables("a command", {{"out", "x$(touch pwned)"}},
+                        {"drumlin/variables: variable out is 'x$(touch pwned)'", "a value without blanks"}),
+              variables("a line end", {{"out", "x\ny"}},
+                        {"drumlin/variables: variable out is 'x?y'", "a value without blanks"}),
+              variables("a long value", {{"out", std::string(5000, 'x')}},
+                        {"drumlin/variables: variable out is 'xxx", "a value of at most 1000 characters"}),
+              variables("another case of letters", {{"Case", "III"}},
+                        {"drumlin/variables: -var Case is 'III'", "allowed: case, the nearest of case, k, D"},
+                        true),
+              variables("a misspelt name", {{"step_per_cycle", "1000"}},
+                        {"-var step_per_cycle is '1000'", "allowed: steps_per_cycle, the nearest of "}),
           }};
 }
 
@@ -53,6 +69,9 @@ BadGroup chain_numbers() {
   group.inputs.push_back(variable("k", "stiff", positive, true));
   group.inputs.push_back(variable("k", "100MN/m", positive));
   group.inputs.push_back(variable("k", "1e999", positive));
+  for (const char *name : {"k", "omega", "m2"})
+    for (const char *value : {"1e-308", "1e308"})
+      group.inputs.push_back(variable(name, value, "between 1e-30 and 1e30 in size"));
   group.inputs.push_back(variable("Fw", "58,800", non_negative));
   return group;
 }
@@ -80,6 +99,10 @@ BadGroup chain_folder() {
               variable("out", "out/chain.csv", allowed, true), // a file of the earlier run
               variable("out", "out/chain.csv/below", allowed),
               variable("out", "/dev/null/results", allowed),
+              variable("out", "/dev/drumlin", allowed),
+              variable("out", "/proc", allowed),
+              variable("out", "/", allowed),
+              variable("out", "x*", allowed),
           }};
 }
 

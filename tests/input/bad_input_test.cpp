@@ -111,6 +111,27 @@ INSTANTIATE_TEST_SUITE_P(OneRank, BadInputTest, ::testing::ValuesIn(all_groups()
 INSTANTIATE_TEST_SUITE_P(TwoRanks, BadInputRanksTest, ::testing::ValuesIn(groups_for_two_ranks()),
                          group_name);
 
+// A misspelt name is an error in every deck, LAMMPS's included.
+TEST(BadInputDecks, KnowTheirVariables) {
+  std::size_t decks = 0;
+  for (const char *room : {"chain", "bed", "study"})
+    for (const auto &entry : fs::directory_iterator(fs::path(DRUMLIN_SOURCE_DIR) / "inputs" / room)) {
+      const std::string name = entry.path().filename().string();
+      const bool lammps = entry.path().extension() == ".lammps";
+      if (name.rfind("in.", 0) != 0 || (lammps && !post::has_lammps())) continue;
+      const Scratch scratch;
+      const Outcome outcome = lammps ? post::run_deck(entry.path(), {{"stepz", "1"}}, scratch.path())
+                                     : run_engine(entry.path(), {"-var", "stepz", "1"}, scratch.path(), 1);
+      ++decks;
+      EXPECT_EQ(outcome.status, 1) << name;
+      EXPECT_TRUE(
+          outcome.says("ERROR: drumlin/variables: -var stepz is '1', a variable that this deck does not "
+                       "have; allowed: "))
+          << name << outcome.output;
+    }
+  EXPECT_GE(decks, 12u);
+}
+
 // The tests above would pass for any mistake if the host deck itself failed: it runs, and writes.
 TEST(BadInputHost, RunsWithoutAMistake) {
   for (const int ranks : {1, 2}) {

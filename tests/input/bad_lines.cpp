@@ -564,8 +564,6 @@ BadGroup run() {
                {command + "the last step is 'soon'", "a whole number from 0"}),
           line("last step behind", "run 20\ndrumlin/run 10 every 10",
                {command + "the last step is '10'", "at least 20, the step of now"}),
-          line("no every", "drumlin/run 10",
-               {command + "keyword every is missing", "every N, with N steps >= 1"}),
           line("every zero", "drumlin/run 10 every 0",
                {command + "keyword every is '0'", "a whole number from 1"}),
           line("limit zero", "drumlin/run 10 every 10 limit 0", {command + "keyword limit is '0'", "> 0"}),
@@ -597,6 +595,62 @@ BadGroup write_restart() {
           }};
 }
 
+BadGroup write_data() {
+  const std::string command = "drumlin/write_data: ";
+  return {"WriteData",
+          "",
+          {
+              line("nothing", "drumlin/write_data",
+                   {command + "the file is missing", "a file in a folder that exists"}),
+              line("unknown variable", "drumlin/write_data out/x values_of depth",
+                   {command + "keyword values_of is 'depth'", "the names of variables"}),
+              on_two_ranks(line("file in no folder", "drumlin/write_data nowhere/x bed soil",
+                                {command + "cannot write 'nowhere/x'", "a file in a folder that exists"})),
+          }};
+}
+
+BadGroup outputs() {
+  const std::string command = "drumlin/outputs: ";
+  return {"Outputs",
+          "",
+          {
+              line("unknown keyword", "drumlin/outputs empty out",
+                   {command + "unknown keyword 'empty'",
+                    "folder, subfolder, continue, files, restart or numbered"}),
+              line("folder without path", "drumlin/outputs folder",
+                   {command + "keyword folder: its path is missing", "a folder"}),
+              line("continue without time", "drumlin/outputs continue 5",
+                   {command + "keyword continue: its time has no value", ">= 0"}),
+              line("numbered without suffix", "drumlin/outputs numbered out/dump balls_",
+                   {command + "keyword numbered: a suffix is missing"}),
+              on_two_ranks(line("a file as folder", "drumlin/outputs folder out/chain.csv files x.csv",
+                                {command + "folder is 'out/chain.csv'", "one that can be made"})),
+              on_two_ranks(line("a folder as file", "drumlin/outputs files out",
+                                {command + "cannot write 'out'", "a file in a folder that exists"})),
+              on_two_ranks(line("a folder with other files", "drumlin/outputs numbered out balls_ .vtp",
+                                {command + "folder 'out' has '", "a folder with nothing but dumps"})),
+          }};
+}
+
+BadGroup take() {
+  const std::string command = "drumlin/take: ";
+  return {"Take",
+          "",
+          {
+              line("nothing", "drumlin/take", {command + "the file is missing"}),
+              line("no decks", "drumlin/take out/x", {command + "the list of decks is missing"}),
+              on_two_ranks(line("no notes", "drumlin/take out/chain.csv in.settle none fixed k",
+                                {command + "'out/chain.csv' does not tell the k of its bed", "in.settle"})),
+              line("a change that is not free", "drumlin/take out/chain.csv in.settle m2 fixed m2 free k",
+                   {command + "variable allow_change is 'm2'", "none, or names between commas out of k"}),
+          }};
+}
+
+BadGroup variables() {
+  return {
+      "Variables", "", {line("nothing", "drumlin/variables", {"drumlin/variables: the names are missing"})}};
+}
+
 BadGroup settle() {
   const std::string command = "drumlin/settle: ";
   return {
@@ -610,7 +664,7 @@ BadGroup settle() {
           line("every zero", "drumlin/settle every 0",
                {command + "keyword every is '0'", "a whole number from 1"}),
           line("limit negative", "drumlin/settle limit -1",
-               {command + "keyword limit is '-1'", "a whole number from 1"}),
+               {command + "keyword limit is '-1'", "a whole number from 0"}),
           line("fixed without group", "drumlin/settle fixed",
                {command + "keyword fixed: its group is missing", "the name of a group"}),
           line("unknown fixed group", "drumlin/settle fixed rock",
@@ -628,7 +682,8 @@ BadGroup settle() {
 std::vector<BadGroup> bad_lines() {
   return {pair_style(), properties(),     wall(),          drum_excite(),    bond_spring(),
           clump(),      contact_events(), contact_local(), roller_history(), guard(),
-          check(),      record(),         run(),           settle(),         write_restart()};
+          check(),      record(),         run(),           settle(),         write_restart(),
+          write_data(), outputs(),        take(),          variables()};
 }
 
 } // namespace drumlin::test

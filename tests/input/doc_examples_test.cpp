@@ -131,11 +131,26 @@ std::string page_name(const ::testing::TestParamInfo<std::string> &info) {
 INSTANTIATE_TEST_SUITE_P(Pages, DocExamplesTest, ::testing::ValuesIn(pages()), page_name);
 
 TEST(DocPages, AreThereForEveryCommand) {
-  for (const char *name :
-       {"drumlin_check", "drumlin_record", "drumlin_run", "drumlin_settle", "drumlin_write_restart",
-        "fix_bond_spring", "fix_clump", "fix_contact_events", "fix_drum_excite", "fix_guard",
-        "fix_roller_history", "fix_wall_gran_transition", "lammps", "pair_gran_hooke_transition",
-        "pair_gran_model_hooke_transition", "preload"})
+  for (const char *name : {"drumlin_check",
+                           "drumlin_outputs",
+                           "drumlin_record",
+                           "drumlin_run",
+                           "drumlin_settle",
+                           "drumlin_take",
+                           "drumlin_variables",
+                           "drumlin_write_data",
+                           "drumlin_write_restart",
+                           "fix_bond_spring",
+                           "fix_clump",
+                           "fix_contact_events",
+                           "fix_drum_excite",
+                           "fix_guard",
+                           "fix_roller_history",
+                           "fix_wall_gran_transition",
+                           "lammps",
+                           "pair_gran_hooke_transition",
+                           "pair_gran_model_hooke_transition",
+                           "preload"})
     EXPECT_TRUE(fs::exists(root / "plugin/doc" / (std::string(name) + ".md"))) << name;
 }
 

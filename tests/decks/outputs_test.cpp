@@ -1,0 +1,185 @@
+// The files of a run: earlier results stay until a new run has passed its first steps, two runs do not mix, signals and full disks are
+// errors, and nothing but regular files is replaced.
+#include "engine.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+#include <thread>
+#include <unistd.h>
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> chain_files = {"parameters.csv", "chain.csv", "events.csv", "cycles.csv"};
+
+std::map<std::string, std::string> texts(const fs::path &folder) {
+  std::map<std::string, std::string> all;
+  for (const auto &entry : fs::directory_iterator(folder))
+    if (entry.path().filename() != "screen.txt")
+      all[entry.path().filename().string()] = read_text(entry.path());
+  return all;
+}
+
+/// A step too long for the contact: the guard ends the run at its first step.
+const Variables too_long = {{"steps_per_cycle", "20"}, {"samples_per_cycle", "10"}, {"cycles", "2"}};
+
+int errors_in(const std::string &output) {
+  int errors = 0;
+  for (std::size_t at = output.find("ERROR"); at != std::string::npos; at = output.find("ERROR", at + 1))
+    ++errors;
+  return errors;
+}
+
+TEST(Outputs, OfAnEarlierRunStayWhenTheFirstStepFailsOnRanksOneAndTwo) {
+  for (const int ranks : {1, 2}) {
+    const Scratch folder;
+    ASSERT_TRUE(run_deck(chain_deck("in.chain"), {{"cycles", "1"}}, folder.path()).ok());
+    const auto before = texts(folder.path());
+    ASSERT_EQ(before.size(), chain_files.size());
+    const Outcome failed = run_deck(chain_deck("in.chain"), too_long, folder.path(), ranks);
+    EXPECT_EQ(failed.status, 1);
+    EXPECT_TRUE(failed.says("ERROR: fix guard: time step ")) << failed.output;
+    EXPECT_EQ(texts(folder.path()), before);
+  }
+}
+
+TEST(Outputs, OfARunThatFailsAtOnceAreNotThere) {
+  const Scratch folder;
+  const Outcome failed = run_deck(chain_deck("in.chain"), too_long,
+                                  folder.path()); // writes into the folder itself, which exists
+  EXPECT_EQ(failed.status, 1);
+  EXPECT_TRUE(texts(folder.path()).empty());
+}
+
+// A process that is killed cannot put back what it has kept aside: the next run does.
+TEST(Outputs, KeptAsideByAKilledRunComeBack) {
+  const Scratch folder;
+  ASSERT_TRUE(run_deck(chain_deck("in.chain"), {{"cycles", "1"}}, folder.path()).ok());
+  const auto before = texts(folder.path());
+  for (const std::string &name : chain_files)
+    fs::rename(folder / name, folder / (name + ".earlier"));
+  std::ofstream(folder / "chain.csv") << "time,half a r";
+  EXPECT_EQ(run_deck(chain_deck("in.chain"), too_long, folder.path()).status, 1);
+  EXPECT_EQ(texts(folder.path()), before);
+}
+
+// A signal is an error. While the first run goes on, a second one is refused its folder.
+TEST(Outputs, OfARunAreItsOwnUntilASignalEndsIt) {
+  for (const char *deck : {"in.chain", "in.impact"}) {
+    const Scratch folder;
+    const Variables long_run = std::string(deck) == "in.chain"
+                                   ? Variables{{"cycles", "1000000"}}
+                                   : Variables{{"contacts", "1000"}, {"steps_per_contact", "1000000"}};
+    Outcome first;
+    std::thread runner([&] { first = run_deck(chain_deck(deck), long_run, folder.path(), 1, 2.0); });
+    while (!fs::exists(folder / "chain.csv"))
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    const Scratch other;
+    const Outcome second = run_program(
+        {"liggghts", "-in", chain_deck(deck).string(), "-log", "none", "-var", "out", folder.path().string()},
+        {"LD_PRELOAD=" + plugin_library()}, other.path(), 10.0);
+    runner.join();
+    EXPECT_EQ(second.status, 1);
+    EXPECT_TRUE(second.says(", into which another run writes; allowed: ")) << second.output;
+    EXPECT_EQ(errors_in(second.output), 1) << second.output;
+    EXPECT_TRUE(first.timed_out);
+    EXPECT_EQ(first.status, 1);
+    EXPECT_TRUE(first.says("ERROR: drumlin/run: stopped by a signal at step ")) << first.output;
+    EXPECT_EQ(errors_in(first.output), 1) << first.output;
+  }
+}
+
+// Nodes are made in the scratch folder.
+TEST(Outputs, ReplaceRegularFilesOnly) {
+  for (const char *kind : {"device", "pipe", "link", "broken link", "folder", "read-only file"}) {
+    const Scratch folder;
+    const fs::path node = folder / "chain.csv";
+    const std::string what = kind;
+    if (what == "device") {
+      if (mknod(node.c_str(), S_IFCHR | 0600, makedev(1, 3)) != 0) continue; // needs root
+    } else if (what == "pipe")
+      ASSERT_EQ(mkfifo(node.c_str(), 0600), 0);
+    else if (what == "folder")
+      fs::create_directory(node);
+    else if (what == "read-only file") {
+      std::ofstream(node) << "kept\n";
+      fs::permissions(node, fs::perms::owner_read);
+    } else {
+      if (what == "link") std::ofstream(folder / "target") << "kept\n";
+      fs::create_symlink(folder / "target", node);
+    }
+    const fs::file_type type = fs::symlink_status(node).type();
+    const Outcome chain = run_deck(chain_deck("in.chain"), {{"cycles", "1"}}, folder.path(), 1, 10.0);
+    EXPECT_EQ(chain.status, 1) << kind;
+    EXPECT_TRUE(chain.says("ERROR: drumlin/outputs: cannot write ")) << kind << chain.output;
+    EXPECT_EQ(fs::symlink_status(node).type(), type) << kind;
+
+    std::ofstream(folder / "balls.data") << "balls\n\n0 atoms\n";
+    const Outcome settle = run_deck(chain_deck("../bed/in.settle"),
+                                    {{"balls", (folder / "balls.data").string()}, {"bed", node.string()}},
+                                    folder.path(), 1, 10.0);
+    EXPECT_EQ(settle.status, 1) << kind;
+    EXPECT_TRUE(settle.says("variable ba") || settle.says("variable bed is ")) << kind << settle.output;
+    EXPECT_EQ(fs::symlink_status(node).type(), type) << kind;
+    if (what == "link") EXPECT_EQ(read_text(folder / "target"), "kept\n");
+  }
+}
+
+/// Runs a shell script with a file system of 600 kB at `small` in the folder, which only its processes see.
+Outcome on_small_disk(const fs::path &folder, const std::string &script) {
+  fs::create_directory(folder / "small");
+  return run_program(
+      {"unshare", "-m", "sh", "-c", "mount -t tmpfs -o size=600k tmpfs small || exit 77\n" + script},
+      {"DRUMLIN_PRELOAD=" + plugin_library(), "DECKS=" + chain_deck("").string()}, folder, 60.0);
+}
+
+bool can_mount() {
+  const Scratch folder;
+  return on_small_disk(folder.path(), "true").ok();
+}
+
+TEST(Outputs, OnAFullDiskAreAnError) {
+  if (!can_mount()) GTEST_SKIP() << "SKIPPED: a file system of its own needs root";
+  const Scratch folder;
+  const Outcome chain =
+      on_small_disk(folder.path(), "LD_PRELOAD=$DRUMLIN_PRELOAD exec liggghts -in \"$DECKS/in.chain\" -log "
+                                   "none -var cycles 120 -var out small");
+  EXPECT_EQ(chain.status, 1);
+  EXPECT_TRUE(chain.says("chain.csv'; allowed: a file on a disk with room")) << chain.output;
+  EXPECT_EQ(errors_in(chain.output), 1) << chain.output;
+}
+
+TEST(Outputs, OnAFullDiskAnEarlierRestartFileStaysWhole) {
+  if (!can_mount()) GTEST_SKIP() << "SKIPPED: a file system of its own needs root";
+  const Scratch folder;
+  std::ofstream(folder / "keep.in") << "variable own_names string keep\ninclude ${here}/in.chain\n"
+                                       "drumlin/write_restart ${keep}/x.restart stage one\n"
+                                       "drumlin/write_data ${keep}/x.data stage one\n";
+  const std::string run =
+      "env LD_PRELOAD=$DRUMLIN_PRELOAD liggghts -in keep.in -log none -var here \"$DECKS\" -var cycles 1 "
+      "-var out out -var keep small\n";
+  for (const char *file : {"x.restart", "x.data"}) {
+    const std::string remove =
+        std::string(file) == "x.data" ? "rm small/x.restart; head -c 3000 /dev/zero > small/room\n" : "";
+    const Outcome both = on_small_disk(folder.path(), run + "cp small/" + file + " before\n" +
+                                                          "head -c 1000000 /dev/zero > small/fill\n" +
+                                                          remove + run + "echo status $?\ncmp before small/" +
+                                                          file + " && echo whole; ls small\n");
+    fs::remove_all(folder / "small");
+    EXPECT_TRUE(both.says("status 1")) << both.output;
+    EXPECT_TRUE(both.says("whole")) << both.output;
+    EXPECT_FALSE(both.says("unfinished")) << both.output;
+    EXPECT_TRUE(both.says("; allowed: a file on a disk with room")) << both.output;
+  }
+}
+
+} // namespace
+} // namespace drumlin::test
