@@ -126,11 +126,10 @@ Outcome run_deck(const fs::path &deck, const Variables &variables, const fs::pat
   }
   words.insert(words.end(),
                {lammps ? DRUMLIN_LAMMPS_PROGRAM : "liggghts", "-in", deck.string(), "-log", "none"});
-  if (has_out(deck)) words.insert(words.end(), {"-var", "out", folder.string()});
   for (const auto &[name, value] : variables)
-    words.insert(words.end(), {"-var", name, value});
-  if (lammps)
-    words.insert(words.end(), {"-var", "plugin", DRUMLIN_LAMMPS_PLUGIN}); // of a name twice the first counts
+    words.insert(words.end(), {"-var", name, value}); // of a name twice the first counts
+  if (has_out(deck)) words.insert(words.end(), {"-var", "out", folder.string()});
+  if (lammps) words.insert(words.end(), {"-var", "plugin", DRUMLIN_LAMMPS_PLUGIN});
   return run_program(words, environment, folder, limit);
 }
 

@@ -134,7 +134,7 @@ bool fits_fixes(const Include &include) {
     return include.name == "engine.h" || starts_with(include.name, "physics/") ||
            starts_with(include.name, "fixes/");
   return is_standard(include) || starts_with(include.name, "fmt/") || include.name == "zlib.h" ||
-         starts_with(include.name, "sys/") || include.name == "unistd.h";
+         starts_with(include.name, "sys/") || include.name == "unistd.h" || include.name == "fcntl.h";
 }
 
 /// Nothing of plugin/: by its name from there or from the root, through "..", or by a bare name that only

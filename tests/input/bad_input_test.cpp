@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <map>
 
 namespace drumlin::test {
 namespace {
@@ -55,6 +56,24 @@ void expect_one_error(const BadInput &input, const Outcome &outcome) {
   EXPECT_NE(errors.front().find("; allowed: "), std::string::npos) << errors.front();
 }
 
+/// What in.place and in.bed want before they judge their other variables: a file with the notes of a bed. The engine never reads it.
+const std::string &bed_file(const std::string &stage) {
+  static std::map<std::string, std::string> files;
+  std::string &text = files[stage];
+  if (text.empty()) {
+    const Scratch scratch;
+    const Outcome made = run_host(
+        host_pair_style() + host_properties(),
+        "drumlin/write_restart bed.restart bed " + stage +
+            " case gravel dimension 2 walls 1 stepping stock g 9.81 rolling_history 0 k 1e8 D 0.3 friction "
+            "0.5 rolling 0 drum ball m2 2000 m3 1000 r2 0.35 r3 0.25 rc 0.02 k23 1e6 c23 1e4\n",
+        scratch.path(), 1);
+    EXPECT_TRUE(made.ok()) << made.output;
+    text = read_text(scratch / "bed.restart");
+  }
+  return text;
+}
+
 void try_input(const BadGroup &group, const BadInput &input, int ranks) {
   SCOPED_TRACE(group.name + ", " + input.name + ", ranks: " + std::to_string(ranks));
   const Scratch scratch;
@@ -67,7 +86,16 @@ void try_input(const BadGroup &group, const BadInput &input, int ranks) {
     std::vector<std::string> words;
     for (const auto &[name, value] : input.variables)
       words.insert(words.end(), {"-var", name, value});
-    words.insert(words.end(), {"-var", "out", "out"}); // the first of two counts: a mistake in `out` stays
+    // The first of two counts: a mistake in these variables stays.
+    if (group.deck == "bed/in.place") {
+      write_text(scratch / "soil", bed_file("soil"));
+      words.insert(words.end(), {"-var", "bed", "soil"});
+    } else if (group.deck == "bed/in.bed") {
+      write_text(scratch / "roller", bed_file("roller"));
+      words.insert(words.end(), {"-var", "start", "roller"});
+    }
+    if (group.deck != "bed/in.place" && group.deck != "bed/in.settle")
+      words.insert(words.end(), {"-var", "out", "out"});
     outcome = run_engine(chain_deck("../" + group.deck), words, scratch.path(), ranks);
   }
   expect_one_error(input, outcome);

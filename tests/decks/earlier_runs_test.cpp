@@ -29,7 +29,8 @@ std::map<std::string, std::string> texts(const fs::path &folder) {
 }
 
 /// A step too long for the contact: the guard ends the run at its first step.
-const Variables too_long = {{"steps_per_cycle", "20"}, {"samples_per_cycle", "10"}, {"cycles", "2"}};
+const Variables too_long = {
+    {"k", "1e11"}, {"steps_per_cycle", "20"}, {"samples_per_cycle", "10"}, {"cycles", "2"}};
 
 int errors_in(const std::string &output) {
   int errors = 0;
@@ -38,7 +39,7 @@ int errors_in(const std::string &output) {
   return errors;
 }
 
-TEST(Outputs, OfAnEarlierRunStayWhenTheFirstStepFailsOnRanksOneAndTwo) {
+TEST(EarlierRuns, OfAnEarlierRunStayWhenTheFirstStepFailsOnRanksOneAndTwo) {
   for (const int ranks : {1, 2}) {
     const Scratch folder;
     ASSERT_TRUE(run_deck(chain_deck("in.chain"), {{"cycles", "1"}}, folder.path()).ok());
@@ -51,7 +52,7 @@ TEST(Outputs, OfAnEarlierRunStayWhenTheFirstStepFailsOnRanksOneAndTwo) {
   }
 }
 
-TEST(Outputs, OfARunThatFailsAtOnceAreNotThere) {
+TEST(EarlierRuns, OfARunThatFailsAtOnceAreNotThere) {
   const Scratch folder;
   const Outcome failed = run_deck(chain_deck("in.chain"), too_long,
                                   folder.path()); // writes into the folder itself, which exists
@@ -60,7 +61,7 @@ TEST(Outputs, OfARunThatFailsAtOnceAreNotThere) {
 }
 
 // A process that is killed cannot put back what it has kept aside: the next run does.
-TEST(Outputs, KeptAsideByAKilledRunComeBack) {
+TEST(EarlierRuns, KeptAsideByAKilledRunComeBack) {
   const Scratch folder;
   ASSERT_TRUE(run_deck(chain_deck("in.chain"), {{"cycles", "1"}}, folder.path()).ok());
   const auto before = texts(folder.path());
@@ -72,7 +73,7 @@ TEST(Outputs, KeptAsideByAKilledRunComeBack) {
 }
 
 // A signal is an error. While the first run goes on, a second one is refused its folder.
-TEST(Outputs, OfARunAreItsOwnUntilASignalEndsIt) {
+TEST(EarlierRuns, OfARunAreItsOwnUntilASignalEndsIt) {
   for (const char *deck : {"in.chain", "in.impact"}) {
     const Scratch folder;
     const Variables long_run = std::string(deck) == "in.chain"
@@ -98,18 +99,18 @@ TEST(Outputs, OfARunAreItsOwnUntilASignalEndsIt) {
 }
 
 // Nodes are made in the scratch folder.
-TEST(Outputs, ReplaceRegularFilesOnly) {
+TEST(EarlierRuns, ReplaceRegularFilesOnly) {
   for (const char *kind : {"device", "pipe", "link", "broken link", "folder", "read-only file"}) {
     const Scratch folder;
     const fs::path node = folder / "chain.csv";
     const std::string what = kind;
     if (what == "device") {
       if (mknod(node.c_str(), S_IFCHR | 0600, makedev(1, 3)) != 0) continue; // needs root
-    } else if (what == "pipe")
+    } else if (what == "pipe") {
       ASSERT_EQ(mkfifo(node.c_str(), 0600), 0);
-    else if (what == "folder")
+    } else if (what == "folder") {
       fs::create_directory(node);
-    else if (what == "read-only file") {
+    } else if (what == "read-only file") {
       std::ofstream(node) << "kept\n";
       fs::permissions(node, fs::perms::owner_read);
     } else {
@@ -129,7 +130,9 @@ TEST(Outputs, ReplaceRegularFilesOnly) {
     EXPECT_EQ(settle.status, 1) << kind;
     EXPECT_TRUE(settle.says("variable ba") || settle.says("variable bed is ")) << kind << settle.output;
     EXPECT_EQ(fs::symlink_status(node).type(), type) << kind;
-    if (what == "link") EXPECT_EQ(read_text(folder / "target"), "kept\n");
+    if (what == "link") {
+      EXPECT_EQ(read_text(folder / "target"), "kept\n");
+    }
   }
 }
 
@@ -146,7 +149,7 @@ bool can_mount() {
   return on_small_disk(folder.path(), "true").ok();
 }
 
-TEST(Outputs, OnAFullDiskAreAnError) {
+TEST(EarlierRuns, OnAFullDiskAreAnError) {
   if (!can_mount()) GTEST_SKIP() << "SKIPPED: a file system of its own needs root";
   const Scratch folder;
   const Outcome chain =
@@ -157,7 +160,7 @@ TEST(Outputs, OnAFullDiskAreAnError) {
   EXPECT_EQ(errors_in(chain.output), 1) << chain.output;
 }
 
-TEST(Outputs, OnAFullDiskAnEarlierRestartFileStaysWhole) {
+TEST(EarlierRuns, OnAFullDiskAnEarlierRestartFileStaysWhole) {
   if (!can_mount()) GTEST_SKIP() << "SKIPPED: a file system of its own needs root";
   const Scratch folder;
   std::ofstream(folder / "keep.in") << "variable own_names string keep\ninclude ${here}/in.chain\n"
