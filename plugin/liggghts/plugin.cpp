@@ -143,7 +143,9 @@ class TransitionPair : public LIGGGHTS::PairStyles::Granular<EnteredContact<Styl
   using Base = LIGGGHTS::PairStyles::Granular<EnteredContact<Style>>;
 
 public:
-  TransitionPair(LAMMPS *engine, PairGran *pair, int64_t hash) : Base(engine, pair, hash), engine_(engine) {}
+  TransitionPair(LAMMPS *engine, PairGran *pair, int64_t hash)
+      : Base(engine, pair, hash), engine_(engine), pair_(pair) {}
+  ~TransitionPair() override { LAMMPS_NS::FixStepping::dismiss(engine_); }
 
   void settings(int narg, char **arg, LIGGGHTS::IContactHistorySetup *history) override {
     drumlin::ModelSettings words(engine_->error, "pair_style gran model hooke/transition", companions<Style>,
@@ -153,6 +155,10 @@ public:
   }
 
   void init_granular() override {
+    if (drumlin::gran_pair(engine_) != pair_)
+      engine_->error->all(
+          FLERR, "pair_style gran model hooke/transition: pair_style hybrid has gran more than once; "
+                 "allowed: once");
     prepare<Style>(engine_);
     Base::init_granular();
     drumlin::set_friction_model(Style::TANGENTIAL == TANGENTIAL_HISTORY ? drumlin::FrictionModel::history
@@ -163,6 +169,7 @@ public:
 
 private:
   LAMMPS *engine_;
+  PairGran *pair_;
 };
 
 template <class Style>
