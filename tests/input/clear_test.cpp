@@ -33,5 +33,32 @@ TEST_P(ClearCommand, LeavesADeckThatLoopsItsRuns) {
   }
 }
 
+/// Runs a scene in two LAMMPS instances of one process.
+Outcome run_two_instances(const Scratch &folder, const std::string &how) {
+  write_text(folder / "lines",
+             "pair_style gran/hooke/transition tangential history\npair_coeff * * 1e7 0.5 0.3\n"
+             "fix gravity all gravity 9.81 vector 0 0 -1\n"
+             "fix wall all wall/gran/transition 1 zplane -0.99 NULL\nfix body drum clump\n"
+             "fix integrate all nve/sphere\nfix guard all guard\n"
+             "dump state all custom 100 ${instance}.txt id z vz\nrun 300\n");
+  const fs::path library = fs::path(LAMMPS_PROGRAM).parent_path() / "liblammps.so.0";
+  return run_program({TWO_INSTANCES_PROGRAM, library.string(), DRUMLIN_LAMMPS_PLUGIN,
+                      std::string(DRUMLIN_SOURCE_DIR) + "/tests/input/host.lammps",
+                      (folder / "lines").string(), how},
+                     mpi_environment(folder.path()), folder.path(), 20.0);
+}
+
+TEST(TwoLammpsInstances, GiveOneResultOneAfterTheOtherAndAreRefusedSideBySide) {
+  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  const Scratch after, beside;
+  const Outcome both = run_two_instances(after, "after");
+  ASSERT_TRUE(both.ok()) << both.output;
+  EXPECT_EQ(read_text(after / "first.txt"), read_text(after / "second.txt"));
+  const Outcome refused = run_two_instances(beside, "beside");
+  EXPECT_EQ(refused.status, 1) << refused.output;
+  EXPECT_TRUE(refused.says("ERROR: plugin load: drumlin is loaded in another LAMMPS instance"))
+      << refused.output;
+}
+
 } // namespace
 } // namespace drumlin::test
