@@ -30,12 +30,7 @@ inline LAMMPS_NS::Fix *find_fix(LAMMPS_NS::Modify *modify, const std::string &id
   return index < 0 ? nullptr : modify->fix[index];
 }
 
-/// Neighbour list of the pair style, each pair once (twice across ranks with newton off), or nullptr.
-inline LAMMPS_NS::NeighList *pair_list(LAMMPS_NS::Force *force) {
-  return force->pair != nullptr ? force->pair->list : nullptr;
-}
-
-/// Whether this rank speaks for a pair of that list: the only one that has it, or that which owns the ball with the lower ID.
+/// Whether this rank speaks for a pair of the contact law's neighbour list: the only one that has it, or that which owns the ball with the lower ID.
 inline bool speaks_for(const LAMMPS *lmp, int i, int j) {
   const LAMMPS_NS::Atom &atom = *lmp->atom;
   return lmp->force->newton_pair || (atom.tag[i] < atom.tag[j] ? i : j) < atom.nlocal;

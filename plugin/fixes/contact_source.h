@@ -35,7 +35,9 @@ public:
   virtual FrictionModel friction_model() const = 0;
   /// Friction of a pair of types whose normal damping coefficient is c (N s/m). Not for FrictionModel::none.
   virtual physics::Friction friction(int itype, int jtype, double c) const = 0;
-  /// Tangential spring (m, three components) of ball i and its jj-th neighbour in the pair list, as ball i feels it; valid
+  /// Neighbour list of the pairs of balls that have this law, each pair once (twice across ranks with newton off).
+  virtual const LAMMPS_NS::NeighList *contact_list() const = 0;
+  /// Tangential spring (m, three components) of ball i and its jj-th neighbour in that list, as ball i feels it; valid
   /// until the list is built anew. For FrictionModel::history only.
   virtual const double *tangential_spring(int i, int jj) const = 0;
 
@@ -43,7 +45,8 @@ protected:
   ~ContactSource() = default;
 };
 
-/// Source of the pair style of this engine instance, or nullptr if the pair style is not hooke/transition.
+/// Source of the pair style of this engine instance, or of the part of a hybrid pair style that is hooke/transition; nullptr if there is
+/// none, or more than one.
 /// Valid from the initialization of a run on.
 const ContactSource *contact_source(engine::LAMMPS *lmp);
 

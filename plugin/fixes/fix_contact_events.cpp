@@ -91,7 +91,7 @@ bool FixContactEvents::is_watched(int i, int j) const {
 
 void FixContactEvents::rebuild() {
   watched_.clear();
-  const NeighList *list = engine::pair_list(force);
+  const NeighList *list = source_->contact_list();
   for (int ii = 0; ii < list->inum; ++ii) {
     const int i = list->ilist[ii];
     for (int jj = 0; jj < list->numneigh[i]; ++jj) {

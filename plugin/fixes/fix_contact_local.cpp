@@ -18,7 +18,8 @@ FixContactLocal::FixContactLocal(LAMMPS *lammps, int narg, char **arg) : Fix(lam
   nevery = static_cast<int>(in.integer("keyword every", 1, std::numeric_limits<int>::max()));
   if (!in.empty()) in.fail("'" + in.peek() + "' is left over; allowed: every N");
   local_flag = 1;
-  local_freq = nevery;
+  // LIGGGHTS's compute reduce and fix ave/histo divide by the others, of a fix with local data, too.
+  local_freq = peratom_freq = global_freq = nevery;
   size_local_cols = numbers;
   size_local_rows = 0;
 }

@@ -198,7 +198,7 @@ void FixRollerHistory::pre_neighbor() { stale_ = true; }
 
 void FixRollerHistory::rebuild() {
   candidates_.clear();
-  const NeighList *list = engine::pair_list(force);
+  const NeighList *list = source_->contact_list();
   const int *mask = atom->mask;
   const int roller = drum_.groupbit | frame_.groupbit;
   for (int ii = 0; ii < list->inum; ++ii) {

@@ -19,17 +19,34 @@ bool joins(const std::string &style) { return style == "aveforce" || style == "c
 
 } // namespace
 
+namespace {
+
+/// In use or not. \param modify nullptr while the engine ends
+FixStepping *helper_of(Modify *modify) {
+  return modify == nullptr ? nullptr
+                           : dynamic_cast<FixStepping *>(drumlin::engine::find_fix(modify, helper_id));
+}
+
+} // namespace
+
 FixStepping *FixStepping::find(LAMMPS *lammps) {
-  return static_cast<FixStepping *>(drumlin::engine::find_fix(lammps->modify, helper_id));
+  FixStepping *helper = helper_of(lammps->modify);
+  return helper != nullptr && helper->in_use_ ? helper : nullptr;
 }
 
 FixStepping *FixStepping::provide(LAMMPS *lammps) {
-  if (find(lammps) == nullptr) {
+  if (helper_of(lammps->modify) == nullptr) {
     std::string words[] = {helper_id, "all", "drumlin/stepping"};
     char *arg[] = {words[0].data(), words[1].data(), words[2].data()};
     lammps->modify->add_fix(3, arg);
   }
-  return find(lammps);
+  FixStepping *helper = helper_of(lammps->modify);
+  helper->in_use_ = true;
+  return helper;
+}
+
+void FixStepping::dismiss(LAMMPS *lammps) {
+  if (FixStepping *helper = helper_of(lammps->modify)) helper->in_use_ = false;
 }
 
 FixStepping::FixStepping(LAMMPS *lammps, int narg, char **arg) : GhostFix(lammps, narg, arg) {
@@ -62,6 +79,7 @@ void FixStepping::init() {
 }
 
 void FixStepping::setup_pre_force(int) {
+  if (!in_use_) return;
   in_setup_ = true;
   light_ = false;
   coupled_.clear();
@@ -77,6 +95,7 @@ void FixStepping::setup_pre_force(int) {
 }
 
 void FixStepping::post_integrate() {
+  if (!in_use_) return;
   for (const Later &item : shifts_) {
     double *v = atom->v[item.i];
     const double *before = velocity_[item.i];
@@ -109,6 +128,7 @@ void FixStepping::setup_pre_exchange() { expected_.clear(); }
 void FixStepping::pre_exchange() { expected_.clear(); }
 
 void FixStepping::pre_force(int) {
+  if (!in_use_) return;
   if (neighbor->ago == 0 || update->dt != expected_dt_) expect_contacts();
   light_ = !counted_ && !counting_;
   if (comm->nprocs > 1 || atom->nghost > 0) drumlin::engine::forward_comm(comm, this);
@@ -119,7 +139,7 @@ void FixStepping::pre_force(int) {
 /// and the choice changes no result.
 void FixStepping::expect_contacts() {
   const drumlin::ContactSource *source = drumlin::contact_source(lmp);
-  const NeighList *list = drumlin::engine::pair_list(force);
+  const NeighList *list = source->contact_list();
   std::vector<drumlin::physics::Dashpots> balls(static_cast<std::size_t>(atom->nlocal + atom->nghost));
   const auto ball = [&](int i) -> drumlin::physics::Dashpots & { return balls[static_cast<std::size_t>(i)]; };
   for (int ii = 0; ii < list->inum; ++ii) {
@@ -168,6 +188,7 @@ void FixStepping::gather(std::size_t numbers) {
 }
 
 void FixStepping::close_forces() {
+  if (!in_use_) return;
   constexpr int couples = 1, sends = 2;
   const auto of_a_ghost = [this](const Later &item) { return item.i >= atom->nlocal; };
   int any = coupled_.empty() && coupled_links_.empty() ? 0 : couples;
@@ -267,6 +288,7 @@ void FixStepping::merge_later() {
 }
 
 void FixStepping::end_of_step() {
+  if (!in_use_) return;
   // What one ball of a body gets or gives back all of them do.
   for (const Constraint &constraint : constraints_)
     if (constraint.joins)

@@ -21,6 +21,9 @@ public:
   static FixStepping *find(LAMMPS *lmp);
   /// The helper of this engine instance, made if there is none.
   static FixStepping *provide(LAMMPS *lmp);
+  /// To be called when the pair style has another stepping or goes: find() then finds none. The fix stays at its place among the others,
+  /// without a part in the run, until provide() asks for it again.
+  static void dismiss(LAMMPS *lmp);
 
   int setmask() override;
   void init() override;
@@ -113,6 +116,7 @@ private:
   void merge_later();
   void constrain(bool any) const;
 
+  bool in_use_ = true;
   bool in_setup_ = false;
   bool light_ = false;
   bool counting_ = false; // whether the contacts of this step are counted

@@ -2,9 +2,14 @@
 // Words of pair_style gran/hooke/transition and pair_coeff, checked.
 
 #include "fixes/arguments.h"
+#include "fixes/drop_in_words.h"
 #include "lammps/contact_terms.h"
 
 namespace drumlin {
+
+constexpr DropInForms drop_in_forms = {"damping coefficient with c in pair_coeff",
+                                       "damping ratio with D in pair_coeff", "ct of 0 in pair_coeff",
+                                       "kt in pair_coeff"};
 
 /// Keywords up to the end.
 inline ContactSettings read_settings(Arguments &in) {
@@ -24,8 +29,11 @@ inline ContactSettings read_settings(Arguments &in) {
       settings.tangential = static_cast<FrictionModel>(in.choice(what, {"off", "no_history", "history"}));
     else if (keyword == "cap")
       settings.cap = in.choice(what, {"spring", "total"}) == 0 ? physics::Cap::spring : physics::Cap::total;
+    else if (keyword == "NULL" || std::isfinite(parse_number(keyword)))
+      in.fail("'" + keyword +
+              "' is no keyword; allowed: numbers in pair_coeff, which is I J k damping [mu [kt [ct]]]");
     else
-      in.fail("unknown keyword '" + keyword + "'; allowed: transition, damping, stepping, tangential or cap");
+      in.fail(unknown_keyword(keyword, drop_in_forms, "transition, damping, stepping, tangential or cap"));
   }
   return settings;
 }

@@ -27,7 +27,9 @@ FixWallGranTransition::FixWallGranTransition(LAMMPS *lammps, int narg, char **ar
   wall == 3 ? read_region(in) : read_planes(in, wall);
   if (!in.empty())
     in.fail("'" + in.peek() +
-            "' is left over; allowed: TYPE xplane|yplane|zplane LOW HIGH or TYPE region ID");
+            "' is left over; allowed: TYPE xplane|yplane|zplane LOW HIGH or TYPE region ID (the law and its "
+            "settings are those "
+            "of the pair style)");
   FixWallGranTransition::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::RESTART);
@@ -79,6 +81,7 @@ void FixWallGranTransition::init() {
     error->all(FLERR,
                (std::string(command) + ": the pair style is another; allowed: " + drumlin::engine::pair_style)
                    .c_str());
+  check_coefficients();
   stepping_ = pair_->contact_settings().stock ? nullptr : FixStepping::find(lmp);
   if (region_id_.empty()) return;
   const auto refuse = [this](const char *why) {
@@ -90,6 +93,20 @@ void FixWallGranTransition::init() {
     refuse("has another number of faces than before; allowed: the region that it was");
   if (region_->dynamic_check() != 0) refuse("moves; allowed: a region at rest");
   near_.resize(static_cast<std::size_t>(places_));
+}
+
+/// Beside other pair styles in a hybrid one the law need not have all pairs of types; those of the wall with its balls it must.
+void FixWallGranTransition::check_coefficients() const {
+  std::vector<int> mine(static_cast<std::size_t>(atom->ntypes) + 1, 0);
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & groupbit) mine[static_cast<std::size_t>(atom->type[i])] = 1;
+  std::vector<int> all = mine;
+  MPI_Allreduce(mine.data(), all.data(), static_cast<int>(all.size()), MPI_INT, MPI_MAX, world);
+  for (int type = 1; type <= atom->ntypes; ++type)
+    if (all[static_cast<std::size_t>(type)] != 0 && !pair_->has_coefficients(type, type_))
+      error->all(
+          FLERR,
+          (std::string(command) + ": " + PairGranHookeTransition::missing_coefficients(type, type_)).c_str());
 }
 
 void FixWallGranTransition::setup(int vflag) { post_force(vflag); }

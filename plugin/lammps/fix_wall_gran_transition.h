@@ -46,6 +46,7 @@ private:
   int numbers() const { return places_ * of_a_side; }
   static std::vector<FixWallGranTransition *> &list();
   double *row(int i, int place) { return memory_[i] + static_cast<std::ptrdiff_t>(place) * of_a_side; }
+  void check_coefficients() const;
   void read_planes(drumlin::Arguments &, int axis);
   void read_region(drumlin::Arguments &);
   template <bool stepped, drumlin::FrictionModel tangential>

@@ -50,6 +50,7 @@ PairGranHookeTransition::PairGranHookeTransition(LAMMPS *lammps) : Pair(lammps) 
 
 PairGranHookeTransition::~PairGranHookeTransition() {
   if (copymode) return;
+  if (!settings_.stock) FixStepping::dismiss(lmp);
   delete[] svector;
   for (const std::string &id : {placeholder_id(instance_me), history_id(instance_me)})
     if (modify->find_fix(id) >= 0) modify->delete_fix(id);
@@ -59,7 +60,7 @@ PairGranHookeTransition::~PairGranHookeTransition() {
 }
 
 PairGranHookeTransition *PairGranHookeTransition::find(LAMMPS *lmp) {
-  return dynamic_cast<PairGranHookeTransition *>(lmp->force->pair);
+  return dynamic_cast<PairGranHookeTransition *>(lmp->force->pair_match(style_name, 1));
 }
 
 const drumlin::ContactSource *drumlin::contact_source(engine::LAMMPS *lmp) {
@@ -68,9 +69,18 @@ const drumlin::ContactSource *drumlin::contact_source(engine::LAMMPS *lmp) {
 
 void PairGranHookeTransition::settings(int narg, char **arg) {
   drumlin::Arguments in(error, std::string("pair_style ") + style_name, narg, arg);
+  const int history_before = settings_.history();
   settings_ = drumlin::read_settings(in);
+  // A second pair_style line: coefficients mean something else under other settings, and contacts may remember other numbers.
+  if (allocated)
+    for (int i = 1; i <= atom->ntypes; ++i)
+      std::fill_n(setflag[i] + 1, atom->ntypes, 0);
+  if (history_ != nullptr && settings_.history() != history_before) {
+    modify->replace_fix(history_id(instance_me), placeholder_id(instance_me) + " all DUMMY", 1);
+    history_ = nullptr;
+  }
   // While the deck is parsed: a fix added later, in the initialization of a run, would miss that run.
-  if (!settings_.stock) FixStepping::provide(lmp);
+  settings_.stock ? FixStepping::dismiss(lmp) : void(FixStepping::provide(lmp));
 }
 
 void PairGranHookeTransition::allocate() {
@@ -110,6 +120,7 @@ void PairGranHookeTransition::check_engine() const {
   const auto refuse = [this](const std::string &why) {
     error->all(FLERR, (std::string("pair_style ") + style_name + ": " + why).c_str());
   };
+  if (find(lmp) != this) refuse("pair_style hybrid has it more than once; allowed: once");
   if (!atom->radius_flag || !atom->rmass_flag)
     refuse("the atom style has no radius or no mass of its own; allowed: atom_style sphere");
   if (comm->ghost_velocity == 0) refuse("ghosts have no velocity; allowed: comm_modify vel yes before");
@@ -167,7 +178,16 @@ void PairGranHookeTransition::init_style() {
   frozen_reach_.assign(middle, all.end());
 }
 
+std::string PairGranHookeTransition::missing_coefficients(int itype, int jtype) {
+  const auto [i, j] = std::minmax(itype, jtype);
+  const std::string types = std::to_string(i) + " " + std::to_string(j);
+  return "types " + types + " have no coefficients; allowed: 'pair_coeff " + types +
+         " k damping ...' or 'pair_coeff * * ...' before (coefficients are not mixed)";
+}
+
 double PairGranHookeTransition::init_one(int i, int j) {
+  if (!has_coefficients(i, j))
+    error->all(FLERR, (std::string("pair_style ") + style_name + ": " + missing_coefficients(i, j)).c_str());
   const auto a = static_cast<std::size_t>(i);
   const auto b = static_cast<std::size_t>(j);
   return std::max({reach_[a] + reach_[b], frozen_reach_[a] + reach_[b], reach_[a] + frozen_reach_[b]});
@@ -410,11 +430,25 @@ void PairGranHookeTransition::transfer_history(double *source, double *target DR
     target[n] = n < settings_.spring() ? -source[n] : source[n];
 }
 
-void PairGranHookeTransition::write_restart(FILE *file) {
+/// Pair style hybrid keeps the settings of its parts, and no coefficients.
+void PairGranHookeTransition::write_restart_settings(FILE *file) {
   const int words[5] = {static_cast<int>(settings_.transition), static_cast<int>(settings_.damping),
                         settings_.stock ? 1 : 0, static_cast<int>(settings_.tangential),
                         static_cast<int>(settings_.cap)};
   std::fwrite(words, sizeof(int), 5, file);
+}
+
+void PairGranHookeTransition::read_restart_settings(FILE *file) {
+  int words[5] = {};
+  if (comm->me == 0) utils::sfread(FLERR, words, sizeof(int), 5, file, nullptr, error);
+  MPI_Bcast(words, 5, MPI_INT, 0, world);
+  settings_ = {static_cast<physics::Transition>(words[0]), static_cast<physics::Damping>(words[1]),
+               words[2] != 0, static_cast<FrictionModel>(words[3]), static_cast<physics::Cap>(words[4])};
+  if (!settings_.stock) FixStepping::provide(lmp);
+}
+
+void PairGranHookeTransition::write_restart(FILE *file) {
+  write_restart_settings(file);
   for (int i = 1; i <= atom->ntypes; ++i)
     for (int j = i; j <= atom->ntypes; ++j) {
       const ContactCoefficients &p = at(i, j);
@@ -430,12 +464,7 @@ void PairGranHookeTransition::write_restart(FILE *file) {
 }
 
 void PairGranHookeTransition::read_restart(FILE *file) {
-  int words[5] = {};
-  if (comm->me == 0) utils::sfread(FLERR, words, sizeof(int), 5, file, nullptr, error);
-  MPI_Bcast(words, 5, MPI_INT, 0, world);
-  settings_ = {static_cast<physics::Transition>(words[0]), static_cast<physics::Damping>(words[1]),
-               words[2] != 0, static_cast<FrictionModel>(words[3]), static_cast<physics::Cap>(words[4])};
-  if (!settings_.stock) FixStepping::provide(lmp);
+  read_restart_settings(file);
   allocate();
   for (int i = 1; i <= atom->ntypes; ++i)
     for (int j = i; j <= atom->ntypes; ++j) {

@@ -5,6 +5,8 @@
 #include "fixes/contact_source.h"
 #include "lammps/contact_terms.h"
 
+#include <algorithm>
+
 namespace LAMMPS_NS {
 
 class FixNeighHistory;
@@ -24,6 +26,8 @@ public:
   double single(int, int, int, int, double, double, double, double &) override;
   void write_restart(FILE *) override;
   void read_restart(FILE *) override;
+  void write_restart_settings(FILE *) override;
+  void read_restart_settings(FILE *) override;
   void transfer_history(double *, double *DRUMLIN_TRANSFER_TYPES) override;
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
@@ -45,9 +49,16 @@ public:
     return at(itype, jtype).tangential(c, settings_.cap);
   }
   const double *tangential_spring(int i, int jj) const override;
+  const NeighList *contact_list() const override { return list; }
 
-  /// The pair style of this engine instance, or nullptr if it is another.
+  /// The pair style of this engine instance, or the one part of a hybrid pair style that is this; nullptr: there is none, or more than one.
   static PairGranHookeTransition *find(LAMMPS *lmp);
+  /// Whether a pair_coeff line has given the coefficients of a pair of types, in either order.
+  bool has_coefficients(int itype, int jtype) const {
+    return setflag[std::min(itype, jtype)][std::max(itype, jtype)] != 0;
+  }
+  /// The words of an error about a pair of types without coefficients.
+  static std::string missing_coefficients(int itype, int jtype);
   const drumlin::ContactSettings &contact_settings() const { return settings_; }
   const drumlin::ContactCoefficients &at(int itype, int jtype) const {
     return coefficients_[static_cast<std::size_t>(itype) * stride_ + static_cast<std::size_t>(jtype)];

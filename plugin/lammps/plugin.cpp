@@ -90,6 +90,13 @@ extern "C" __attribute__((visibility("default"))) void drumlin_register(void *lm
     add(&plugin, lmp);
   };
   add_v1("pair", "gran/hooke/transition", "linear contact with transition A or B", create_pair);
+  // The engine keeps one list of plugins for all its instances in a process, and styles of one only in that which has loaded it. What the
+  // plugin keeps for the process (contact observers, walls, clumps) would mix the two.
+  if (engine->force->pair_map->count("gran/hooke/transition") == 0)
+    engine->error->all(
+        FLERR,
+        "plugin load: drumlin is loaded in another LAMMPS instance of this process; allowed: one instance "
+        "with it at a time, the next when the other is closed or cleared");
   add_fix("wall/gran/transition", "its planes", create_fix<FixWallGranTransition>);
   add_fix(FixNeighHistoryTransition::style_name, "what contacts remember",
           create_fix<FixNeighHistoryTransition>);

@@ -67,7 +67,8 @@ std::vector<const ContactTable *> wall_tables; // one for each wall
 /// The pair style's table as the fixes see it.
 class PairSource final : public ContactSource, Pointers {
 public:
-  PairSource(LAMMPS *engine, const ContactTable *table) : Pointers(engine), table_(table) {
+  PairSource(LAMMPS *engine, const ContactTable *table)
+      : Pointers(engine), table_(table), pair_(gran_pair(engine)) {
     for (int n = 0; n < modify->nfix; ++n)
       if (const auto *wall = dynamic_cast<const LAMMPS_NS::FixWallGran *>(modify->fix[n]))
         meshes_ = meshes_ || wall->is_mesh_wall();
@@ -78,10 +79,9 @@ public:
   }
 
   double mass(int i) const override {
-    const auto *pair = static_cast<LAMMPS_NS::PairGran *>(force->pair);
-    if (atom->mask[i] & pair->freeze_group_bit()) return std::numeric_limits<double>::infinity();
+    if (atom->mask[i] & pair_->freeze_group_bit()) return std::numeric_limits<double>::infinity();
     const double own =
-        pair->fr_pair() != nullptr && pair->mr_pair()[i] > 0.0 ? pair->mr_pair()[i] : atom->rmass[i];
+        pair_->fr_pair() != nullptr && pair_->mr_pair()[i] > 0.0 ? pair_->mr_pair()[i] : atom->rmass[i];
     return LAMMPS_NS::FixClump::mass_of(*atom, i, own);
   }
 
@@ -113,15 +113,17 @@ public:
 
   // The engine builds the tangential model before any other that asks for history: its spring comes first.
   const double *tangential_spring(int i, int jj) const override {
-    auto *pair = static_cast<LAMMPS_NS::PairGran *>(force->pair);
-    return pair->listgranhistory->firstdouble[i] + static_cast<std::ptrdiff_t>(pair->dnum()) * jj;
+    return pair_->listgranhistory->firstdouble[i] + static_cast<std::ptrdiff_t>(pair_->dnum()) * jj;
   }
+
+  const LAMMPS_NS::NeighList *contact_list() const override { return pair_->list; }
 
   bool serves(const LAMMPS *engine) const { return lmp == engine; }
   bool reads(const ContactTable *table) const { return table_ == table; }
 
 private:
   const ContactTable *table_;
+  LAMMPS_NS::PairGran *pair_;
   bool meshes_ = false;
   FrictionModel friction_model_ = FrictionModel::none;
 };
@@ -129,6 +131,10 @@ private:
 std::unique_ptr<PairSource> current_source; // one engine instance per process runs a deck
 
 } // namespace
+
+LAMMPS_NS::PairGran *gran_pair(LAMMPS *lmp) {
+  return dynamic_cast<LAMMPS_NS::PairGran *>(lmp->force->pair_match("gran", 1));
+}
 
 void ContactTable::read(LAMMPS *lmp, int ntypes, physics::Transition transition, physics::Damping damping,
                         bool is_wall) {

@@ -8,6 +8,10 @@
 #include <cstddef>
 #include <vector>
 
+namespace LAMMPS_NS {
+class PairGran;
+}
+
 namespace drumlin {
 
 /// With a distance factor above 1 the engine calls surfacesClose() for a contact that has just ended.
@@ -15,6 +19,9 @@ constexpr double contact_distance_factor = 1.01;
 
 /// Name in the contact history of the normal force that acted in the step, N, under second-order stepping.
 constexpr const char *final_force_name = "normal_force_before";
+
+/// The pair style gran, or the one part of a hybrid pair style that is gran; nullptr if there is none, or more than one.
+LAMMPS_NS::PairGran *gran_pair(LAMMPS_NS::LAMMPS *lmp);
 
 /// What a contact of two types needs in the inner loop.
 struct ContactCoefficients {

@@ -1,8 +1,16 @@
 #include "liggghts/model_settings.h"
 
 #include "fixes/arguments.h"
+#include "fixes/drop_in_words.h"
 
 namespace drumlin {
+namespace {
+
+constexpr DropInForms drop_in_forms = {"damping coefficient with property gamman_abs",
+                                       "damping ratio with property dampingRatio", "property gammat_abs of 0",
+                                       "property kt"};
+
+} // namespace
 
 ModelSettings::ModelSettings(LAMMPS_NS::Error *error, const std::string &command,
                              const Companions &companions, int narg, char **arg) {
@@ -33,7 +41,7 @@ ModelSettings::ModelSettings(LAMMPS_NS::Error *error, const std::string &command
           "then " +
           join_choices(keywords));
     } else {
-      in.fail("unknown keyword '" + keyword + "'; allowed: " + join_choices(keywords));
+      in.fail(unknown_keyword(keyword, drop_in_forms, join_choices(keywords)));
     }
   }
   for (const auto &[word, given] : {std::pair{"tangential_spring", companions.tangential_spring},

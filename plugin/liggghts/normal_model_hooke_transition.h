@@ -52,13 +52,11 @@ public:
   // While the deck is parsed: a fix added later, in the initialization of a run, would miss that run. A wall is a fix under
   // construction and cannot add another.
   void postSettings(IContactHistorySetup *history, ContactModelBase *all) {
+    if (is_wall_)
+      take_stepping_of_pair();
+    else if (!stepping_stock_)
+      stepping_ = LAMMPS_NS::FixStepping::provide(lmp);
     if (stepping_stock_) return;
-    stepping_ = is_wall_ ? LAMMPS_NS::FixStepping::find(lmp) : LAMMPS_NS::FixStepping::provide(lmp);
-    if (stepping_ == nullptr)
-      error->all(
-          FLERR,
-          "fix wall/gran model hooke/transition: keyword stepping is 'second' (its default), but there is no "
-          "pair style with it yet; allowed: stock, or a pair_style with stepping second before");
     force_before_offset_ = history->add_history_value(drumlin::final_force_name, "0");
     all->add_history_offset(drumlin::final_force_name, force_before_offset_);
   }
@@ -71,6 +69,8 @@ public:
       registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
       registry.connect("coeffFrict", friction_, "model hooke/transition");
     }
+    if (is_wall_) take_stepping_of_pair(); // a pair_style line behind the wall may have changed it
+    pair_ = drumlin::gran_pair(lmp);
     clumps_ = !LAMMPS_NS::FixClump::all().empty();
     // The step in which contact ends needs a call although the balls no longer overlap: see surfacesClose().
     if (stepping_) neighbor->register_contact_dist_factor(drumlin::contact_distance_factor);
@@ -121,8 +121,22 @@ private:
   double mass(int i, double own) const {
     return is_frozen(i) ? std::numeric_limits<double>::infinity() : own;
   }
-  bool is_frozen(int i) const {
-    return atom->mask[i] & static_cast<LAMMPS_NS::PairGran *>(force->pair)->freeze_group_bit();
+  bool is_frozen(int i) const { return pair_ != nullptr && (atom->mask[i] & pair_->freeze_group_bit()); }
+
+  /// Ends the run where the stepping of a wall is not that of the pair style.
+  void take_stepping_of_pair() {
+    stepping_ = LAMMPS_NS::FixStepping::find(lmp);
+    if (stepping_stock_ == (stepping_ == nullptr)) return;
+    const std::string own = stepping_stock_ ? "'stock'" : "'second' (its default)";
+    const bool law = drumlin::gran_pair(lmp) != nullptr &&
+                     drumlin::gran_pair(lmp)->contact_match("normal", "hooke/transition");
+    const std::string pair =
+        stepping_stock_ || law
+            ? "and that of the pair style is " + std::string(stepping_stock_ ? "'second'" : "'stock'")
+            : "and there is no pair_style gran model hooke/transition yet";
+    error->all(FLERR, ("fix wall/gran model hooke/transition: keyword stepping is " + own + " " + pair +
+                       "; allowed: the same stepping for both, the pair style first")
+                          .c_str());
   }
 
   /// A ball of a clump has the clump's mass in its contacts.
@@ -272,6 +286,7 @@ private:
   bool tangential_spring_ = false; // what the models beside this one have
   bool tangential_dashpot_ = false;
   bool rolling_spring_ = false;
+  LAMMPS_NS::PairGran *pair_ = nullptr;        // that knows which balls are frozen
   LAMMPS_NS::FixStepping *stepping_ = nullptr; // none under stock stepping
   int force_before_offset_ = 0;                // in the contact history, under second-order stepping
   double **friction_ = nullptr; // coefficients by types, as the engine's `tangential history` has them

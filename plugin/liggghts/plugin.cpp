@@ -14,8 +14,10 @@
 #include "fix_wall_gran_base.h"
 
 #include "comm.h"
+#include "error_special.h"
 #include "input.h"
 #include "neighbor.h"
+#include "universe.h"
 
 #include "engine.h"
 #include "fixes/commands.h"
@@ -144,7 +146,9 @@ class TransitionPair : public LIGGGHTS::PairStyles::Granular<EnteredContact<Styl
   using Base = LIGGGHTS::PairStyles::Granular<EnteredContact<Style>>;
 
 public:
-  TransitionPair(LAMMPS *engine, PairGran *pair, int64_t hash) : Base(engine, pair, hash), engine_(engine) {}
+  TransitionPair(LAMMPS *engine, PairGran *pair, int64_t hash)
+      : Base(engine, pair, hash), engine_(engine), pair_(pair) {}
+  ~TransitionPair() override { LAMMPS_NS::FixStepping::dismiss(engine_); }
 
   void settings(int narg, char **arg, LIGGGHTS::IContactHistorySetup *history) override {
     drumlin::ModelSettings words(engine_->error, "pair_style gran model hooke/transition", companions<Style>,
@@ -154,6 +158,10 @@ public:
   }
 
   void init_granular() override {
+    if (drumlin::gran_pair(engine_) != pair_)
+      engine_->error->all(
+          FLERR, "pair_style gran model hooke/transition: pair_style hybrid has gran more than once; "
+                 "allowed: once");
     prepare<Style>(engine_);
     Base::init_granular();
     drumlin::set_friction_model(Style::TANGENTIAL == TANGENTIAL_HISTORY ? drumlin::FrictionModel::history
@@ -164,6 +172,7 @@ public:
 
 private:
   LAMMPS *engine_;
+  PairGran *pair_;
 };
 
 template <class Style>
@@ -250,7 +259,35 @@ void add_commands(LAMMPS *lmp) {
   commands["drumlin/write_restart"] = drumlin::write_restart_command;
 }
 
+/// The layout of the engine's class Error.
+struct ErrorLayout : Pointers {
+  using Pointers::Pointers;
+  virtual ~ErrorLayout() = default;
+  LAMMPS_NS::SpecialMessages *messages;
+};
+static_assert(sizeof(ErrorLayout) == sizeof(LAMMPS_NS::Error),
+              "class Error of this LIGGGHTS differs from the stock binary's");
+
+/// Takes away the second line that the engine puts behind one error in five, by chance: a jest or a tip, of which it prints memory that it
+/// has freed before. It does so only if the version of its `universe` says PUBLIC; its messages get one that says nothing.
+void silence_special_messages(LAMMPS *lmp) {
+  alignas(LAMMPS_NS::Universe) static char universe[sizeof(LAMMPS_NS::Universe)] = {};
+  alignas(
+      LAMMPS) static char engine[sizeof(LAMMPS)] = {}; // all that the messages read of one is its universe
+  static char no_version[] = "";
+  reinterpret_cast<LAMMPS_NS::Universe *>(universe)->version = no_version;
+  auto *stand_in = reinterpret_cast<LAMMPS *>(engine);
+  stand_in->universe = reinterpret_cast<LAMMPS_NS::Universe *>(universe);
+  auto *error = reinterpret_cast<ErrorLayout *>(lmp->error);
+  delete error->messages;
+  error->messages = new LAMMPS_NS::SpecialMessages(stand_in);
+}
+
 } // namespace
+
+extern "C" __attribute__((visibility("default"))) void drumlin_register_again(void *engine) {
+  add_fixes(static_cast<LAMMPS *>(engine));
+}
 
 extern "C" __attribute__((visibility("default"))) void drumlin_register(void *input,
                                                                         const char *engine_version) {
@@ -259,6 +296,7 @@ extern "C" __attribute__((visibility("default"))) void drumlin_register(void *in
   if (known == lmp) return;
   if (known == nullptr) add_contact_models();
   known = lmp;
+  silence_special_messages(lmp);
   add_fixes(lmp);
   add_commands(lmp);
   drumlin::define_here(lmp);

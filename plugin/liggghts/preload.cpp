@@ -4,7 +4,8 @@
 //
 // The engine's main program calls LAMMPS_NS::Input::file() through the dynamic linker. This library defines
 // that symbol, is found first, lets the plugin register its styles on the Input object, and then goes on to
-// the engine's own.
+// the engine's own. The command `clear` makes the engine's lists of styles anew and ends with
+// LAMMPS_NS::LAMMPS::post_create(): there the plugin registers again, in the same way.
 
 #include "stub.h"
 
@@ -18,6 +19,7 @@ namespace {
 using drumlin::stop;
 
 constexpr const char *input_file_symbol = "_ZN9LAMMPS_NS5Input4fileEv";
+constexpr const char *post_create_symbol = "_ZN9LAMMPS_NS6LAMMPS11post_createEv";
 constexpr const char *liggghts_symbol = "_ZN8LIGGGHTS10PairStyles7Factory8instanceEv";
 
 /// File that a symbol comes from, with links resolved, so that its name ends in the engine's full version.
@@ -37,6 +39,9 @@ bool ends_with(const std::string &text, const std::string &end) {
 std::string base_name(const std::string &path) { return path.substr(path.find_last_of('/') + 1); }
 
 using Register = void (*)(void *input, const char *engine_version);
+using RegisterAgain = void (*)(void *engine);
+
+RegisterAgain register_again = nullptr; // once the plugin is loaded
 
 /// The plugin's entry point, or nullptr in `why` words if this process cannot take it.
 Register load_plugin(const void *engine_input_file, std::string &why) {
@@ -60,6 +65,7 @@ Register load_plugin(const void *engine_input_file, std::string &why) {
     why = std::string("cannot load the plugin: ") + (reason ? reason : "unknown reason");
     return nullptr;
   }
+  register_again = reinterpret_cast<RegisterAgain>(dlsym(handle, "drumlin_register_again"));
   return reinterpret_cast<Register>(dlsym(handle, "drumlin_register"));
 }
 
@@ -85,4 +91,17 @@ void drumlin_input_file(void *input) {
   if (registration == nullptr) stop(why);
   registration(input, LIGGGHTS_VERSION);
   engine_input_file(input);
+}
+
+// The engine's LAMMPS_NS::LAMMPS::post_create(), met first by the dynamic linker; before the plugin is loaded it adds nothing.
+extern "C" __attribute__((visibility("default"))) void
+drumlin_post_create(void *engine) __asm__("_ZN9LAMMPS_NS6LAMMPS11post_createEv");
+
+void drumlin_post_create(void *engine) {
+  using PostCreate = void (*)(void *);
+  static const auto engine_post_create = reinterpret_cast<PostCreate>(dlsym(RTLD_NEXT, post_create_symbol));
+  if (engine_post_create == nullptr)
+    stop("the engine's LAMMPS::post_create() is not in a shared library; it cannot be extended");
+  if (register_again != nullptr) register_again(engine);
+  engine_post_create(engine);
 }

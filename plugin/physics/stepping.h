@@ -35,9 +35,10 @@ struct StepForce {
   return motion.overlap - motion.dt * motion.rate_half <= 0.0;
 }
 
-/// What B leaves of the force of a contact. The zero of a contact without force is negative: see was_contact().
+/// Force of a contact under its transition condition: B does not let it pull. The zero of a contact without force is negative, under
+/// either condition: see was_contact().
 [[nodiscard]] inline double limited(Transition transition, double force) {
-  return transition == Transition::B && force <= 0.0 ? -0.0 : force;
+  return (transition == Transition::B ? force <= 0.0 : force == 0.0) ? -0.0 : force;
 }
 
 /// Whether a force on record, N, is that of a contact; 0 is none.
@@ -70,11 +71,11 @@ struct StepForce {
 ///
 /// Each on its own costs less, lags by nothing, and is stable up to 0.7 of the limit of the springs (tests/physics/time_step_test.cpp)
 /// as long as dt sum c/m <= 0.25, or <= 0.75 and dt^2 sum k/m <= 0.5, the springs far from their limit. sum k/m is taken as k/c sum c/m, as
-/// where contacts are alike.
+/// where contacts are alike. A contact without a dashpot has nothing to be solved for.
 /// \param all_c_over_m sum of c/m over all contacts of both balls, 1/s
 [[nodiscard]] inline bool needs_coupling(double dt, double k, double c, double all_c_over_m) {
   const double dashpots = dt * all_c_over_m;
-  return dashpots > 0.25 && (dashpots > 0.75 || dashpots * dt * k > 0.5 * c);
+  return dashpots > 0.25 && c > 0.0 && (dashpots > 0.75 || dashpots * dt * k > 0.5 * c);
 }
 
 /// Dashpots that may act on a ball at once.
@@ -167,12 +168,12 @@ struct CoupledDashpot {
 }
 
 /// Tensile force under A in the step whose end finds the contact broken: it acted for the share of the step before d = 0,
-/// and the opening half kick has given half a step of it already. Nothing under B, which breaks without a jump, and if there
-/// was no contact at the begin of the step.
+/// and the opening half kick has given half a step of it already. Nothing where the force does not jump, which is under B and without
+/// a dashpot, and if there was no contact at the begin of the step.
 /// \param motion with motion.overlap <= 0
 [[nodiscard]] inline StepForce second_order_break(Transition transition, double k, double c,
                                                   const StepMotion &motion) {
-  if (transition == Transition::B || came_from_apart(motion)) return {0.0, 0.0, 0.0};
+  if (transition == Transition::B || c == 0.0 || came_from_apart(motion)) return {0.0, 0.0, 0.0};
   const double before = motion.overlap - motion.dt * motion.rate_half;
   const double share = before / (before - motion.overlap);
   const double tensile = normal_force(transition, k, c, before, motion.rate_before);

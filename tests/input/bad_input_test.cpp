@@ -50,6 +50,9 @@ void expect_one_error(const BadInput &input, const Outcome &outcome) {
   for (const std::string &line : lines_of(outcome.output))
     if (line.find("ERROR") != std::string::npos) errors.push_back(line);
   ASSERT_EQ(errors.size(), 1U) << outcome.output;
+  // The engine by itself adds a line to one error in five, by chance, with the same place in its source at its end.
+  const std::string place = errors.front().substr(errors.front().rfind(" ("));
+  EXPECT_EQ(outcome.output.find(place), outcome.output.rfind(place)) << outcome.output;
   for (const std::string &words : input.says)
     EXPECT_NE(errors.front().find(words), std::string::npos) << words << "\n" << errors.front();
   if (input.text == Text::engine) return;

@@ -39,6 +39,16 @@ BadInput value(const std::string &property_name, const std::string &text, const 
                "a finite number >"});
 }
 
+BadInput twice_in_a_hybrid() {
+  BadInput input =
+      line("twice in a hybrid", "",
+           {"pair_style gran model hooke/transition: pair_style hybrid has gran more than once", "once"});
+  input.pair = "pair_style hybrid gran model hooke/transition gran model hooke/transition\n"
+               "pair_coeff * * gran 1\npair_coeff 3 3 gran 2\n" +
+               host_properties();
+  return input;
+}
+
 BadGroup pair_style() {
   const std::string command = "pair_style gran model hooke/transition: ";
   const std::string good = host_properties();
@@ -63,8 +73,23 @@ BadGroup pair_style() {
                {command + "keyword stepping is 'third'", "stock or second"}),
           pair("stepping without value", "stepping", good,
                {command + "keyword stepping has no value", "stock or second"}),
-          pair("unknown keyword", "limitForce on", good,
-               {command + "unknown keyword 'limitForce'", "transition, damping or stepping"}),
+          pair("unknown keyword", "limit on", good,
+               {command + "unknown keyword 'limit'", "transition, damping or stepping"}),
+          pair("the engine's limitForce", "limitForce on", good,
+               {command + "unknown keyword 'limitForce'", "transition B in place of 'limitForce on'",
+                "transition A in place of 'limitForce off'"}),
+          pair("the engine's absolute_damping", "transition A absolute_damping on", good,
+               {command + "unknown keyword 'absolute_damping'",
+                "damping coefficient with property gamman_abs"}),
+          pair("the engine's tangential_damping", "tangential_damping off", good,
+               {command + "unknown keyword 'tangential_damping'", "property gammat_abs of 0"}),
+          pair("the engine's viscous", "viscous on", good,
+               {command + "unknown keyword 'viscous'", "damping ratio with property dampingRatio"}),
+          pair("LAMMPS's limit_damping", "limit_damping", good,
+               {command + "unknown keyword 'limit_damping'", "transition B in place of it"}),
+          pair("the engine's energies", "computeDissipatedEnergy on", good,
+               {command + "unknown keyword 'computeDissipatedEnergy'", "the energies of fix roller/history"}),
+          on_two_ranks(twice_in_a_hybrid()),
           pair("a word left over", "transition A B", good, {command + "unknown keyword 'B'"}),
           pair("torsion without rolling", "torsionTorque on", good,
                {command + "unknown keyword 'torsionTorque'"}),
@@ -122,6 +147,14 @@ BadGroup properties() {
       }};
 }
 
+/// Lines in the host deck with another pair style.
+BadInput beside(const std::string &name, const std::string &pair_style_line, const std::string &lines,
+                const std::vector<std::string> &says) {
+  BadInput input = line(name, lines, says);
+  input.pair = pair_style_line + "\npair_coeff * *\n" + host_properties();
+  return input;
+}
+
 BadGroup wall() {
   const std::string command = "fix wall/gran model hooke/transition: ";
   const std::string fix = "fix wall all wall/gran model hooke/transition ";
@@ -136,7 +169,25 @@ BadGroup wall() {
                {command + "keyword transition has no value", "A or B"}),
           line("unknown damping", fix + plane + "damping 1e5",
                {command + "keyword damping is '1e5'", "coefficient or ratio"}),
-          line("unknown keyword", fix + plane + "limitForce on", {command + "unknown keyword 'limitForce'"}),
+          line("unknown keyword", fix + plane + "limit on", {command + "unknown keyword 'limit'"}),
+          line("the engine's limitForce", fix + plane + "limitForce on",
+               {command + "unknown keyword 'limitForce'", "transition B in place of 'limitForce on'"}),
+          on_two_ranks(line("stock beside a pair style with second", fix + plane + "stepping stock",
+                            {command + "keyword stepping is 'stock' and that of the pair style is 'second'",
+                             "the same stepping for both"})),
+          on_two_ranks(
+              beside("second beside a pair style with stock",
+                     "pair_style gran model hooke/transition stepping stock", fix + plane,
+                     {command + "keyword stepping is 'second' (its default) and that of the pair style is "
+                                "'stock'",
+                      "the same stepping for both"})),
+          beside("stock, and a pair style behind it that changes to second",
+                 "pair_style gran model hooke/transition stepping stock",
+                 fix + plane + "stepping stock\npair_style gran model hooke/transition\npair_coeff * *",
+                 {command + "keyword stepping is 'stock' and that of the pair style is 'second'"}),
+          beside("second beside the engine's law", "pair_style gran model hooke/stiffness", fix + plane,
+                 {command + "keyword stepping is 'second' (its default)",
+                  "there is no pair_style gran model hooke/transition yet"}),
           line("unknown stepping", fix + plane + "stepping 2",
                {command + "keyword stepping is '2'", "stock or second"}),
           line("settings before the wall", fix + "transition A " + plane,

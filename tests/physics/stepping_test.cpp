@@ -218,4 +218,41 @@ TEST(SecondOrderStep, BreakOfAEndsTheTensileForceWithinTheStep) {
   }
 }
 
+// Without a dashpot the force falls to zero at d = 0, continuously: where A ends a contact B does. The ball bounces between two
+// undamped walls; in the second scene a damped contact, heavy enough to be solved for apart, holds it too.
+TEST(SecondOrderStep, WithoutDashpotAAndBAreOneLaw) {
+  const double dt = M_PI / (w0 * 40.0);
+  for (const bool damped : {false, true}) {
+    std::vector<SecondOrderBall::Partner> walls = {{0.0, 1.0, k, 0.0}, {0.03, -1.0, 2.0 * k, 0.0}};
+    if (damped) walls.push_back({1.0, 1.0, 0.01 * k, coefficient(2.0)});
+    SecondOrderBall a(m, 0.01, -1.0, dt, Transition::A, walls, damped ? -0.01 * k : 0.0);
+    SecondOrderBall b(m, 0.01, -1.0, dt, Transition::B, walls, damped ? -0.01 * k : 0.0);
+    int touched = 0;
+    bool before = false;
+    for (int step = 0; step < 2000; ++step) {
+      const bool touches = a.step() > 0.0;
+      b.step();
+      touched += touches && !before ? 1 : 0;
+      before = touches;
+      ASSERT_EQ(a.x, b.x) << "step " << step << (damped ? ", damped" : "");
+      ASSERT_EQ(a.v, b.v) << "step " << step << (damped ? ", damped" : "");
+    }
+    EXPECT_GT(touched, damped ? 0 : 10);
+  }
+}
+
+TEST(SecondOrderStep, ContactWithoutDashpotIsNeverSolvedForWithOthers) {
+  for (const double all_c_over_m : {0.0, 1.0, 1e12})
+    EXPECT_FALSE(drumlin::physics::needs_coupling(1e-4, k, 0.0, all_c_over_m));
+}
+
+// A contact whose force is exactly zero is one under A, too: else its next step would be taken for that of a make.
+TEST(SecondOrderStep, ZeroForceOfAContactIsOneUnderEitherTransition) {
+  using drumlin::physics::limited;
+  for (const Transition transition : {Transition::A, Transition::B})
+    EXPECT_TRUE(drumlin::physics::was_contact(limited(transition, 0.0)));
+  EXPECT_EQ(limited(Transition::A, -1.0), -1.0);
+  EXPECT_EQ(limited(Transition::B, -1.0), 0.0);
+}
+
 } // namespace

@@ -1,0 +1,91 @@
+// Hybrid pair styles: with the law as a part of one a scene goes as with the law alone, every fix included.
+
+#include "host.h"
+
+#include <gtest/gtest.h>
+
+namespace drumlin::test {
+namespace {
+
+const std::string outputs =
+    "fix guard all guard every 1 links 1\n"
+    "fix events all contact/events file events.csv\n"
+    "fix contacts all contact/local every 5\n"
+    "fix history drum roller/history file history.csv every 1 axis 0 0 1\n"
+    "dump state all custom 5 state.txt id z vz fz\n"
+    "dump contacts all local 5 contacts.txt f_contacts[1] f_contacts[2] f_contacts[5] f_contacts[9]\n";
+
+/// What the run wrote.
+std::vector<std::string> files_of(const Scratch &folder, const Outcome &outcome) {
+  EXPECT_TRUE(outcome.ok()) << outcome.output;
+  std::vector<std::string> texts;
+  for (const char *name : {"state.txt", "events.csv", "contacts.txt", "history.csv"})
+    texts.push_back(read_text(folder / name));
+  return texts;
+}
+
+std::vector<std::string> in_liggghts(const std::string &pair, int ranks) {
+  const Scratch folder;
+  const std::string excite = "fix excite drum drum/excite amplitude 1e6 omega 5e4\n";
+  const std::string wall =
+      "fix wall all wall/gran model hooke/transition tangential history primitive type 1 zplane -0.99\n";
+  return files_of(folder, run_host(pair + host_properties(), excite + wall + outputs, folder.path(), ranks));
+}
+
+TEST(HybridPairStyle, GoesAsTheLawAloneInLiggghts) {
+  const std::string law = "gran model hooke/transition tangential history";
+  for (const int ranks : {1, 2}) {
+    const std::vector<std::string> alone = in_liggghts("pair_style " + law + "\npair_coeff * *\n", ranks);
+    EXPECT_EQ(in_liggghts("pair_style hybrid " + law + "\npair_coeff * * gran\n", ranks), alone);
+    EXPECT_EQ(in_liggghts("pair_style hybrid/overlay " + law + "\npair_coeff * * gran\n", ranks), alone);
+  }
+}
+
+std::vector<std::string> in_lammps(const std::string &pair, int ranks) {
+  const Scratch folder;
+  const std::string scene =
+      "fix gravity all gravity 9.81 vector 0 0 -1\nvelocity drum set 0 0 -1 units box\n"
+      "fix wall all wall/gran/transition 1 zplane -0.99 NULL\nfix integrate all nve/sphere\n";
+  write_text(folder / "lines", pair + scene + outputs + "run 20\n");
+  return files_of(folder, run_deck(std::filesystem::path(DRUMLIN_SOURCE_DIR) / "tests/input/host.lammps",
+                                   {{"lines", (folder / "lines").string()}}, folder.path(), ranks));
+}
+
+TEST(HybridPairStyle, GoesAsTheLawAloneInLammps) {
+  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  const std::string law = "gran/hooke/transition tangential history", name = "gran/hooke/transition";
+  const std::string coefficients = " 1e7 0.5 0.3\n";
+  for (const int ranks : {1, 2}) {
+    const std::vector<std::string> alone =
+        in_lammps("pair_style " + law + "\npair_coeff * *" + coefficients, ranks);
+    EXPECT_EQ(in_lammps("pair_style hybrid " + law + "\npair_coeff * * " + name + coefficients, ranks),
+              alone);
+    EXPECT_EQ(in_lammps("pair_style hybrid/overlay " + law +
+                            " lj/cut 0.1\npair_coeff * * lj/cut 0 1\npair_coeff * * " + name + coefficients,
+                        ranks),
+              alone);
+  }
+}
+
+/// The second pair_style line of a deck stands alone: what contacts remember, and how many numbers, is that of its settings.
+TEST(PairStyle, MayBeGivenAnewInLammps) {
+  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  const std::string anew = "pair_style gran/hooke/transition tangential history stepping stock transition A\n"
+                           "pair_coeff * * 1e7 0.5 0.3\n";
+  const std::string before = "pair_style gran/hooke/transition\npair_coeff * * 1e6 0.1\n";
+  EXPECT_EQ(in_lammps(before + "run 0\n" + anew, 1), in_lammps(anew, 1));
+}
+
+/// A helper of second-order stepping that no pair style needs any more has no part in the run.
+TEST(PairStyle, GivesWayToTheEnginesOwnBetweenTwoRuns) {
+  const Scratch folder;
+  std::string stiffness = "pair_style gran model hooke/stiffness\npair_coeff * *\n";
+  for (const char *name : {"kt", "gamman", "gammat"})
+    stiffness += property(name, "1e5");
+  const Outcome outcome =
+      run_host(host_pair_style() + host_properties(), "run 2\n" + stiffness, folder.path(), 1);
+  EXPECT_TRUE(outcome.ok()) << outcome.output;
+}
+
+} // namespace
+} // namespace drumlin::test
