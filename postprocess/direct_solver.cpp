@@ -221,7 +221,11 @@ public:
     put_state(absolute_tolerances(chain.parameters(), options), tolerance_.get());
     void *memory = memory_.get();
     check(CVodeInit(memory, &Integrator::right_hand_side, 0.0, state_.get()), "CVodeInit");
+#if SUNDIALS_VERSION_MAJOR >= 7
+    check(SUNContext_PushErrHandler(context, &Integrator::note_error, this), "SUNContext_PushErrHandler");
+#else
     check(CVodeSetErrHandlerFn(memory, &Integrator::note_error, this), "CVodeSetErrHandlerFn");
+#endif
     check(CVodeSetUserData(memory, this), "CVodeSetUserData");
     check(CVodeSVtolerances(memory, options.rtol, tolerance_.get()), "CVodeSVtolerances");
     check(CVodeSetLinearSolver(memory, linear_.get(), matrix_.get()), "CVodeSetLinearSolver");
@@ -314,10 +318,17 @@ private:
     return 0;
   }
 
+#if SUNDIALS_VERSION_MAJOR >= 7
+  static void note_error(int /*line*/, const char * /*function*/, const char * /*file*/, const char *message,
+                         SUNErrCode /*code*/, void *user, SUNContext /*context*/) {
+    if (message != nullptr) static_cast<Integrator *>(user)->message_ = message;
+  }
+#else
   static void note_error(int code, const char * /*module*/, const char * /*function*/, char *message,
                          void *user) {
     if (code < 0) static_cast<Integrator *>(user)->message_ = message;
   }
+#endif
 
   void check(int flag, const char *function) const {
     if (flag >= 0) return;
@@ -515,7 +526,12 @@ public:
   Run(const ChainParameters &parameters, const DirectOptions &options, const SolverProgress &progress)
       : chain_(parameters), options_(options), progress_(progress), recorder_(chain_, options) {
     SUNContext context = nullptr;
-    if (SUNContext_Create(nullptr, &context) != 0) throw std::runtime_error("SUNDIALS could not be set up");
+#if SUNDIALS_VERSION_MAJOR >= 7
+    const auto no_ranks = SUN_COMM_NULL;
+#else
+    void *const no_ranks = nullptr;
+#endif
+    if (SUNContext_Create(no_ranks, &context) != 0) throw std::runtime_error("SUNDIALS could not be set up");
     context_.reset(context);
   }
 
