@@ -48,12 +48,12 @@ Peaks peaks_of(const DirectResult &truth) {
 
 } // namespace
 
-DirectResult accuracy_truth(const ChainParameters &parameters) {
+DirectResult accuracy_truth(const ChainParameters &parameters, const SolverProgress &progress) {
   DirectOptions options;
   options.cycles = accuracy_cycles;
   options.samples_per_cycle = accuracy_samples;
   options.rtol = 1e-13;
-  return solve_direct(parameters, options);
+  return solve_direct(parameters, options, progress);
 }
 
 ChainErrors measure_chain(const ChainParameters &parameters, const std::string &stepping, int steps_per_cycle,

@@ -28,7 +28,7 @@ struct ChainErrors {
 };
 
 /// The direct solution that the runs of a chain are measured against.
-DirectResult accuracy_truth(const ChainParameters &parameters);
+DirectResult accuracy_truth(const ChainParameters &parameters, const SolverProgress &progress = {});
 
 /// Runs in.chain. \param stepping "second" or "stock"
 ChainErrors measure_chain(const ChainParameters &parameters, const std::string &stepping, int steps_per_cycle,

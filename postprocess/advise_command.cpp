@@ -5,6 +5,7 @@
 #include "options.h"
 #include "step_advice.h"
 #include "study.h"
+#include "timed_progress.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -13,7 +14,9 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace drumlin::post {
 
@@ -27,8 +30,11 @@ struct Arguments {
   std::string stepping = "second";
   std::string measure = "velocity";
   std::string cycles = "30";
-  std::string from;
+  std::optional<std::string> from;
 };
+
+/// As many as in.chain takes.
+constexpr int most_cycles = 10'000'000;
 
 struct Measure {
   const char *name;
@@ -43,29 +49,36 @@ constexpr std::array<Measure, 3> measures = {
 const Measure &measure_of(const std::string &name) {
   const auto *const found =
       std::find_if(measures.begin(), measures.end(), [&](const Measure &m) { return name == m.name; });
-  if (found == measures.end())
-    throw UsageError(fmt::format("--measure = '{}': allowed are velocity, force and acceleration", name));
+  if (found == measures.end()) throw UsageError(refusal("--measure", name, "velocity, force, acceleration"));
   return *found;
 }
 
 void run(const Arguments &arguments) {
   AdviceRequest request;
   request.parameters = judged(arguments.chain);
-  request.stepping = arguments.stepping;
-  if (request.stepping != "second" && request.stepping != "stock")
-    throw UsageError(fmt::format("--stepping = '{}': allowed are second and stock", request.stepping));
-  request.error = number_option("--error", arguments.error);
-  if (!(request.error > 0.0 && request.error < 1.0))
-    throw UsageError(fmt::format("--error = '{}': allowed are numbers above 0 and below 1", arguments.error));
+  request.stepping = choice_option("--stepping", arguments.stepping, {"second", "stock"});
+  request.error = number_option("--error", arguments.error, {1e-15, 1.0, "", false, false, true});
   const Measure &measure = measure_of(arguments.measure);
   request.measure = measure.measure;
-  const int cycles = count_option("--cycles", arguments.cycles);
-  const fs::path folder = arguments.from.empty() ? input_file("study/accuracy") : fs::path(arguments.from);
+  const int cycles = count_option("--cycles", arguments.cycles, 1, most_cycles);
+  const fs::path folder =
+      arguments.from ? path_option("--from", *arguments.from) : input_file("study/accuracy");
   if (!fs::is_regular_file(folder / "chain.csv"))
-    throw UsageError(fmt::format("--from = '{}': allowed are folders of an accuracy study, with chain.csv",
-                                 folder.string()));
+    throw UsageError(refusal("--from", folder.string(), "folders of an accuracy study, with chain.csv"));
 
-  const StepAdvice advice = advise(request, read_chain_points(folder / "chain.csv"));
+  if (const double least = slowest_excitation(request.parameters); request.parameters.omega < least)
+    throw UsageError(
+        refusal("--omega", request.parameters.omega,
+                fmt::format("at least {:.3g} rad/s with the other numbers of this chain: {} cycles "
+                            "of it are solved several times",
+                            least, accuracy_cycles)));
+  const std::vector<ChainPoint> points = read_chain_points(folder / "chain.csv");
+  TimedProgress progress;
+  const StepAdvice advice = advise(request, points, [&](const ChainParameters &chain) {
+    return sensitivity(chain, [&](double share) {
+      progress.tell("{:.0f} % of the solutions that tell how sensitive a chain is", 100.0 * share);
+    });
+  });
   const double step = request.parameters.period() / advice.steps_per_cycle;
   fmt::print("{} steps per cycle, a step of {:.4g} s, with {} stepping\n", advice.steps_per_cycle, step,
              request.stepping);
@@ -116,8 +129,9 @@ void add_advise_command(CLI::App &app, Session &) {
       ->type_name("COUNT")
       ->capture_default_str();
   command
-      ->add_option("--from", arguments->from,
-                   "folder of an accuracy study of your own, instead of the project's")
+      ->add_option_function<std::string>(
+          "--from", [arguments](const std::string &text) { arguments->from = text; },
+          "folder of an accuracy study of your own, instead of the project's")
       ->type_name("DIR");
   command->callback([arguments] { run(*arguments); });
 }

@@ -1,20 +1,18 @@
 #include "bed_command.h"
 
 #include "bed_packing.h"
-#include "chain_csv.h"
+#include "command.h"
 #include "options.h"
+#include "output_files.h"
+#include "timed_progress.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
-#include <cstdio>
 #include <filesystem>
-#include <iterator>
 #include <memory>
 #include <stdexcept>
-#include <system_error>
 
 namespace drumlin::post {
 
@@ -25,14 +23,18 @@ namespace {
 struct Number {
   const char *option;
   double PackingOptions::*value;
+  Range range;
   const char *help;
 };
+constexpr Range side = {PackingOptions::length_range.least, PackingOptions::length_range.most, "m"};
+constexpr Range side_or_zero = {side.least, side.most, "m", true};
 constexpr std::array<Number, 5> number_options = {{
-    {"--width", &PackingOptions::width, "width of the box [m], wall to wall"},
-    {"--depth", &PackingOptions::depth, "depth of the box [m]; 0: two dimensions, the balls are discs"},
-    {"--height", &PackingOptions::height, "filled height [m]; 0: as needed"},
-    {"--radius-min", &PackingOptions::radius_min, "smallest radius [m]"},
-    {"--radius-max", &PackingOptions::radius_max, "largest radius [m]"},
+    {"--width", &PackingOptions::width, side, "width of the box [m], wall to wall"},
+    {"--depth", &PackingOptions::depth, side_or_zero,
+     "depth of the box [m]; 0: two dimensions, the balls are discs"},
+    {"--height", &PackingOptions::height, side_or_zero, "filled height [m]; 0: as needed"},
+    {"--radius-min", &PackingOptions::radius_min, PackingOptions::radius_range, "smallest radius [m]"},
+    {"--radius-max", &PackingOptions::radius_max, PackingOptions::radius_range, "largest radius [m]"},
 }};
 
 struct Arguments {
@@ -40,39 +42,30 @@ struct Arguments {
   std::array<std::string, number_options.size()> numbers;
 };
 
-std::uint64_t seed_option(const std::string &text) {
-  std::uint64_t seed = 0;
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), seed);
-  if (fault != std::errc() || end != text.data() + text.size())
-    throw UsageError(
-        fmt::format("--seed = '{}': allowed are whole numbers from 0 to 18446744073709551615", text));
-  return seed;
-}
-
 void run(const Arguments &arguments) {
   PackingOptions options;
-  options.balls = count_option("--balls", arguments.balls);
+  options.balls = count_option("--balls", arguments.balls, 1, PackingOptions::most_balls);
   for (std::size_t i = 0; i < number_options.size(); ++i)
-    options.*number_options[i].value = number_option(number_options[i].option, arguments.numbers[i]);
-  options.seed = seed_option(arguments.seed);
-  const double density = number_option("--density", arguments.density);
-  if (density <= 0.0)
-    throw UsageError(fmt::format("--density = '{}': allowed are numbers > 0", arguments.density));
-  const fs::path out = arguments.out;
+    options.*number_options[i].value =
+        number_option(number_options[i].option, arguments.numbers[i], number_options[i].range);
+  options.seed = seed_option("--seed", arguments.seed);
+  const double density = number_option("--density", arguments.density, {1e-3, 1e6, "kg/m3"});
+  const fs::path out = output_file_option("--out", arguments.out);
   Packing packing;
   try {
     options.grading = grading_from_name(arguments.grading);
-    packing = pack_balls(options, [&options](std::size_t placed) {
-      fmt::print("{} of {} balls placed\n", placed, options.balls);
-      std::fflush(stdout);
-    });
-    if (out.has_parent_path()) fs::create_directories(out.parent_path());
-    write_files({{out, bed_data(options, density, packing)}});
+    TimedProgress progress;
+    packing = pack_balls(
+        options, [&](std::size_t placed) { progress.tell("{} of {} balls placed", placed, options.balls); });
   } catch (const std::invalid_argument &fault) {
     throw UsageError(fmt::format("--{}", fault.what()));
+  }
+  try {
+    if (out.has_parent_path()) make_parent_folder(out);
+    write_files({{out, bed_data(options, density, packing)}});
   } catch (const std::runtime_error &fault) {
     throw UsageError(
-        fmt::format("--out = '{}': {}; allowed: a file that can be written", out.string(), fault.what()));
+        fmt::format("--out is '{}': {}; allowed: a file that can be written", out.string(), fault.what()));
   }
   fmt::print("{}: {} balls, filled to {:.3f} m\n", out.string(), packing.balls.size(), packing.height);
 }

@@ -14,7 +14,10 @@ namespace drumlin::post {
 namespace {
 
 constexpr double pi = 3.141592653589793;
-constexpr int most_balls = 10'000'000;
+/// Cells that the search for neighbours may have, 8 bytes each.
+constexpr double most_cells = 5e7;
+/// Pairs of balls that may be looked at while the balls are placed: about an hour.
+constexpr double most_pairs = 1e12;
 /// Height of the box above the soil balls, m: room for drum and frame.
 constexpr double room_above = 2.0;
 /// Soil, drum, frame: a box knows the number of its types for good.
@@ -113,28 +116,28 @@ std::string grading_name(Grading grading) {
 Grading grading_from_name(const std::string &name) {
   for (const auto &[grading, known] : gradings)
     if (name == known) return grading;
-  throw std::invalid_argument(fmt::format("grading is '{}'; allowed: uniform or mass", name));
+  throw std::invalid_argument(refusal("grading", name, "uniform, mass"));
 }
 
 double largest_share(int dimensions) { return dimensions == 2 ? 0.5 : 0.34; }
 double default_share(int dimensions) { return dimensions == 2 ? 0.45 : 0.28; }
 
 std::string PackingOptions::invalid() const {
-  const auto fault = [](const char *name, double value, const char *allowed) {
-    return fmt::format("{} is {}; allowed: {}", name, value, allowed);
-  };
-  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
-  if (balls < 1 || balls > most_balls) return fault("balls", balls, "a whole number from 1 to 10000000");
-  if (!positive(radius_min)) return fault("radius-min", radius_min, "a finite number > 0");
-  if (!std::isfinite(radius_max) || radius_max < radius_min)
-    return fmt::format("radius-max is {}; allowed: a finite number >= radius-min, which is {}", radius_max,
-                       radius_min);
-  const std::string room = fmt::format("room for the largest ball, at least {}", 2.0 * radius_max);
-  if (!std::isfinite(width) || width < 2.0 * radius_max) return fault("width", width, room.c_str());
-  if (depth != 0.0 && (!std::isfinite(depth) || depth < 2.0 * radius_max))
-    return fault("depth", depth, ("0 (two dimensions) or " + room).c_str());
-  if (height != 0.0 && (!std::isfinite(height) || height < 2.0 * radius_max))
-    return fault("height", height, ("0 (as needed) or " + room).c_str());
+  if (balls < 1 || balls > most_balls)
+    return refusal("balls", balls, fmt::format("a whole number from 1 to {}", most_balls));
+  if (!radius_range.holds(radius_min)) return refusal("radius-min", radius_min, radius_range.words());
+  if (!(radius_max >= radius_min && radius_max <= most_spread * radius_min && radius_range.holds(radius_max)))
+    return refusal(
+        "radius-max", radius_max,
+        fmt::format("a number from radius-min, which is {}, to {:g} times it [m]", radius_min, most_spread));
+  const Range room = {2.0 * radius_max, length_range.most, "m"};
+  const Range or_zero = {2.0 * radius_max, length_range.most, "m", true};
+  if (!room.holds(width)) return refusal("width", width, room.words() + ": room for the largest ball");
+  if (!or_zero.holds(depth))
+    return refusal("depth", depth,
+                   or_zero.words() + ": 0 makes two dimensions, else room for the largest ball");
+  if (!or_zero.holds(height))
+    return refusal("height", height, or_zero.words() + ": 0 is as needed, else room for the largest ball");
   return {};
 }
 
@@ -159,30 +162,54 @@ Packing pack_balls(const PackingOptions &options, const std::function<void(std::
     const double free_base = (options.width - strip) * (dimensions == 2 ? 1.0 : options.depth - strip);
     height = std::max(all / (free_base * default_share(dimensions)) + strip, 2.0 * options.radius_max);
   } else if (height < least)
+    throw std::invalid_argument(refusal(
+        "height", height,
+        fmt::format("0 (as needed) or at least {:.3f} [m], in which {} balls of radius {} to {} m fit "
+                    "without touching",
+                    least, count, options.radius_min, options.radius_max)));
+
+  // Known before any work: how many cells the box has, and how many balls are looked at for every try.
+  const double side = 2.0 * options.radius_max;
+  const double cell_number =
+      (options.width / side + 1.0) * (options.depth / side + 1.0) * (height / side + 1.0);
+  if (cell_number > most_cells)
     throw std::invalid_argument(
-        fmt::format("height is {} m, in which {} balls of radius {} to {} m do not fit without touching; "
-                    "allowed: 0 (as needed) or at least {:.3f}",
-                    height, count, options.radius_min, options.radius_max, least));
+        refusal(options.height > options.width ? "height" : "width", std::max(options.height, options.width),
+                fmt::format("a box of at most {:g} times the largest ball's volume (area in two dimensions)",
+                            most_cells)));
+  constexpr double tries = 5.0; // per ball, about
+  const double neighbours =
+      (dimensions == 2 ? 9.0 : 27.0) * std::min(1.0, 1.0 / cell_number) * static_cast<double>(count);
+  if (tries * neighbours * static_cast<double>(count) > most_pairs)
+    throw std::invalid_argument(
+        refusal("balls", options.balls,
+                fmt::format("at most {:.0f} with radii from {} to {} m in this box, else it takes hours",
+                            std::sqrt(most_pairs / (tries * neighbours / static_cast<double>(count))),
+                            options.radius_min, options.radius_max)));
 
   std::vector<PackedBall> balls;
   balls.reserve(count);
+  std::size_t all_tries = 0;
   Cells cells({options.width, options.depth, height}, 2.0 * options.radius_max);
   for (const double r : radii) {
     PackedBall ball{{}, r};
-    int tries = 0;
+    int failed = 0;
     do {
-      if (++tries > attempts)
-        throw std::invalid_argument(fmt::format("balls is {}, of which {} found a place and the next none in "
-                                                "{} tries; allowed: fewer balls, or a "
-                                                "wider or higher box (width {}, height {:.3f} m)",
-                                                count, balls.size(), attempts, options.width, height));
+      constexpr std::size_t now_and_then = 4096;
+      if (progress && ++all_tries % now_and_then == 0) progress(balls.size());
+      if (++failed > attempts)
+        throw std::invalid_argument(refusal(
+            "balls", options.balls,
+            fmt::format(
+                "fewer balls, or a wider or higher box (width {}, height {:.3f} m): {} found a place and "
+                "the next none in {} tries",
+                options.width, height, balls.size(), attempts)));
       ball.centre[0] = random.between(r, options.width - r);
       if (dimensions == 3) ball.centre[1] = random.between(r, options.depth - r);
       ball.centre[2] = random.between(r, height - r);
     } while (!cells.is_free(ball, balls));
     balls.push_back(ball);
     cells.add(balls);
-    if (progress && balls.size() % 50'000 == 0) progress(balls.size());
   }
   return {std::move(balls), height};
 }

@@ -1,6 +1,8 @@
 // Soil balls placed at random in a box, none touching another: what a bed is before it settles.
 #pragma once
 
+#include "range.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -30,6 +32,11 @@ struct PackingOptions {
   std::uint64_t seed = 1;
   Grading grading = Grading::uniform;
 
+  static constexpr int most_balls = 10'000'000;
+  static constexpr Range radius_range = {1e-6, 1e3, "m"};
+  static constexpr Range length_range = {1e-6, 1e5, "m"}; ///< of the sides of the box
+  static constexpr double most_spread = 1000.0;           ///< of the largest radius over the smallest
+
   int dimensions() const { return depth > 0.0 ? 3 : 2; }
   /// Empty if every value is allowed, else what is wrong: name, value, what is allowed.
   std::string invalid() const;
@@ -54,7 +61,7 @@ struct Packing {
 
 /// Places the balls. The same options give the same balls, bit for bit, on any machine: random bits become numbers by
 /// exact operations only.
-/// \param progress is called now and then with the number of balls placed
+/// \param progress is called every few thousand tries with the number of balls placed
 /// Throws std::invalid_argument with what() naming the option, its value and what is allowed: before any ball is placed if
 /// their area is too much for the box, else when a ball has found no place in `attempts` tries.
 Packing pack_balls(const PackingOptions &options, const std::function<void(std::size_t)> &progress = {},

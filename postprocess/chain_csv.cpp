@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -171,17 +169,6 @@ double cell_number(const fs::path &file, std::size_t line, std::string_view colu
 
 void append_number(fmt::memory_buffer &out, double value) {
   fmt::format_to(std::back_inserter(out), "{:.17g}", value);
-}
-
-std::string temporary_name(const fs::path &file) {
-  return fmt::format("{}.tmp.{}", file.string(), ::getpid());
-}
-
-void write_text(const fs::path &file, std::string_view text) {
-  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-  stream.close();
-  if (!stream) throw std::system_error(errno, std::generic_category());
 }
 
 } // namespace
@@ -441,44 +428,11 @@ std::string parameters_text(const std::vector<std::pair<std::string, std::string
   return text;
 }
 
-void write_files(const std::vector<FileText> &files) {
-  std::size_t started = 0;
-  const auto remove_temporaries = [&files, &started] {
-    for (std::size_t i = 0; i < started; ++i) {
-      std::error_code ignored;
-      fs::remove(temporary_name(files[i].first), ignored);
-    }
-  };
-  const fs::path *current = nullptr;
-  try {
-    for (const auto &[file, text] : files) {
-      current = &file;
-      if (fs::is_directory(file)) throw std::system_error(EISDIR, std::generic_category());
-      ++started;
-      write_text(temporary_name(file), text);
-    }
-    for (const FileText &file : files) {
-      current = &file.first;
-      fs::rename(temporary_name(file.first), file.first);
-    }
-  } catch (const std::system_error &error) {
-    remove_temporaries();
-    throw std::runtime_error(
-        fmt::format("{}: cannot be written: {}", current->string(), error.code().message()));
-  }
-}
-
 std::vector<std::pair<std::string, std::string>> parameter_values(const ChainParameters &p) {
-  return {{"transition", transition_name(p.transition)},
-          {"k", number_text(p.k)},
-          {"D", number_text(p.D)},
-          {"omega", number_text(p.omega)},
-          {"Fw", number_text(p.Fw)},
-          {"m2", number_text(p.m2)},
-          {"m3", number_text(p.m3)},
-          {"k23", number_text(p.k23)},
-          {"c23", number_text(p.c23)},
-          {"g", number_text(p.g)}};
+  std::vector<std::pair<std::string, std::string>> values = {{"transition", transition_name(p.transition)}};
+  for (const ChainNumber &number : chain_numbers)
+    values.emplace_back(number.name, number_text(p.*number.value));
+  return values;
 }
 
 void write_chain(const fs::path &file, const ChainHistory &history) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "chain_model.h"
+#include "output_files.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -111,13 +112,6 @@ std::string parameters_text(const std::vector<std::pair<std::string, std::string
 
 /// The chain's parameters by the names that decks, commands and parameters.csv give them, as text.
 std::vector<std::pair<std::string, std::string>> parameter_values(const ChainParameters &parameters);
-
-/// A name of a file and the text to go into it.
-using FileText = std::pair<std::filesystem::path, std::string>;
-
-/// Writes the files, all or none: every text goes to a temporary file first, then all are renamed. The folder
-/// must exist. std::runtime_error names the file that failed and why.
-void write_files(const std::vector<FileText> &files);
 
 void write_chain(const std::filesystem::path &file, const ChainHistory &history);
 void write_events(const std::filesystem::path &file, const std::vector<ContactEvent> &events);

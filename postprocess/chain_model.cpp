@@ -27,16 +27,6 @@ constexpr std::array<NamedCase, 4> table1 = {{
     {"IV", 100e6, 2.0, 80.0 * pi},
 }};
 
-std::string not_positive(const char *name, double value, const char *unit) {
-  if (std::isfinite(value) && value > 0.0) return {};
-  return fmt::format("{} = {}: allowed are positive finite numbers [{}]", name, value, unit);
-}
-
-std::string negative(const char *name, double value, const char *unit) {
-  if (std::isfinite(value) && value >= 0.0) return {};
-  return fmt::format("{} = {}: allowed are finite numbers of at least 0 [{}]", name, value, unit);
-}
-
 } // namespace
 
 std::string transition_name(Transition transition) { return transition == Transition::A ? "A" : "B"; }
@@ -44,26 +34,34 @@ std::string transition_name(Transition transition) { return transition == Transi
 Transition transition_from_name(const std::string &name) {
   if (name == "A") return Transition::A;
   if (name == "B") return Transition::B;
-  throw std::invalid_argument(fmt::format("transition = '{}': allowed are A and B", name));
+  throw std::invalid_argument(refusal("transition", name, "A, B"));
 }
 
 double ChainParameters::damping() const { return 2.0 * D * std::sqrt(m2 * k); }
 
 double ChainParameters::period() const { return 2.0 * pi / omega; }
 
+const std::array<ChainNumber, 9> chain_numbers = {{
+    {"k", &ChainParameters::k, {1e-6, 1e15, "N/m"}, "contact stiffness [N/m]"},
+    {"D", &ChainParameters::D, {1e-12, 1e6, "", true}, "contact damping ratio [-], c = 2 D sqrt(m2 k)"},
+    {"omega", &ChainParameters::omega, {1e-6, 1e9, "rad/s"}, "angular frequency of the excitation [rad/s]"},
+    {"Fw", &ChainParameters::Fw, {1e-9, 1e15, "N", true}, "amplitude of the excitation force [N]"},
+    {"m2", &ChainParameters::m2, {1e-6, 1e12, "kg"}, "mass of the drum [kg]"},
+    {"m3", &ChainParameters::m3, {1e-6, 1e12, "kg"}, "mass of the frame [kg]"},
+    {"k23", &ChainParameters::k23, {1e-6, 1e13, "N/m", true}, "stiffness of the bond drum - frame [N/m]"},
+    {"c23", &ChainParameters::c23, {1e-9, 1e15, "N s/m", true}, "damping of the bond drum - frame [N s/m]"},
+    {"g", &ChainParameters::g, {1e-9, 1e6, "m/s2", true}, "gravity [m/s2]"},
+}};
+
 std::string ChainParameters::invalid() const {
-  const std::array<std::string, 9> faults = {
-      not_positive("m2", m2, "kg"), not_positive("m3", m3, "kg"),          not_positive("k", k, "N/m"),
-      negative("D", D, "-"),        not_positive("omega", omega, "rad/s"), negative("Fw", Fw, "N"),
-      negative("k23", k23, "N/m"),  negative("c23", c23, "N s/m"),         negative("g", g, "m/s2"),
-  };
-  for (const std::string &fault : faults)
-    if (!fault.empty()) return fault;
+  for (const ChainNumber &number : chain_numbers)
+    if (const double value = this->*number.value; !number.range.holds(value))
+      return refusal(number.name, value, number.range.words());
   if (k23 == 0.0 && g > 0.0)
-    return fmt::format(
-        "k23 = 0 with g = {}: the frame has nothing to rest on; allowed are positive k23 [N/m], or "
-        "k23 = 0 with g = 0",
-        g);
+    return refusal("k23", k23,
+                   fmt::format("numbers above 0 [N/m], or 0 with g = 0: with g = {} the frame has nothing to "
+                               "rest on",
+                               g));
   return {};
 }
 
@@ -77,7 +75,7 @@ ChainParameters table1_case(const std::string &name, Transition transition) {
     parameters.transition = transition;
     return parameters;
   }
-  throw std::invalid_argument(fmt::format("case = '{}': allowed are I, II, III and IV", name));
+  throw std::invalid_argument(refusal("case", name, "I, II, III, IV"));
 }
 
 } // namespace drumlin::post

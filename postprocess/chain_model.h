@@ -3,6 +3,9 @@
 // touch.
 #pragma once
 
+#include "range.h"
+
+#include <array>
 #include <string>
 
 namespace drumlin::post {
@@ -45,6 +48,18 @@ struct ChainParameters {
   /// allowed.
   std::string invalid() const;
 };
+
+/// A number of the chain: its name in decks, commands and files, and what it may be. The ranges are far wider than any roller or soil; in
+/// them no intermediate result of the direct solver overflows or vanishes.
+struct ChainNumber {
+  const char *name;
+  double ChainParameters::*value;
+  Range range;
+  const char *help; ///< what it is, with its unit
+};
+
+/// All numbers: k, D, omega, Fw, m2, m3, k23, c23, g.
+extern const std::array<ChainNumber, 9> chain_numbers;
 
 /// The case "I", "II", "III" or "IV" of Table 1; std::invalid_argument tells the value and what is allowed.
 ChainParameters table1_case(const std::string &name, Transition transition);

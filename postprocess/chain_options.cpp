@@ -10,35 +10,17 @@
 
 namespace drumlin::post {
 
-namespace {
-
-// A number of the chain that the command line may set instead of the case.
-struct Override {
-  const char *option;
-  double ChainParameters::*value;
-  const char *help;
-};
-constexpr std::array<Override, 9> overrides = {{
-    {"--k", &ChainParameters::k, "contact stiffness [N/m]"},
-    {"--D", &ChainParameters::D, "contact damping ratio [-], c = 2 D sqrt(m2 k)"},
-    {"--omega", &ChainParameters::omega, "angular frequency of the excitation [rad/s]"},
-    {"--Fw", &ChainParameters::Fw, "amplitude of the excitation force [N]"},
-    {"--m2", &ChainParameters::m2, "mass of the drum [kg]"},
-    {"--m3", &ChainParameters::m3, "mass of the frame [kg]"},
-    {"--k23", &ChainParameters::k23, "stiffness of the bond drum - frame [N/m]"},
-    {"--c23", &ChainParameters::c23, "damping of the bond drum - frame [N s/m]"},
-    {"--g", &ChainParameters::g, "gravity [m/s2]"},
-}};
-
-} // namespace
-
 void add_chain_options(CLI::App &command, ChainArguments &arguments) {
   command.add_option("--case", arguments.chain_case, "case of the paper's Table 1: I, II, III or IV")
       ->capture_default_str();
   command.add_option("--transition", arguments.transition, "transition condition of the contact: A or B")
       ->capture_default_str();
-  for (std::size_t i = 0; i < overrides.size(); ++i)
-    command.add_option(overrides[i].option, arguments.numbers[i], overrides[i].help)
+  for (std::size_t i = 0; i < chain_numbers.size(); ++i)
+    command
+        .add_option_function<std::string>(
+            fmt::format("--{}", chain_numbers[i].name),
+            [&number = arguments.numbers[i]](const std::string &text) { number = text; },
+            chain_numbers[i].help)
         ->type_name("NUMBER")
         ->group("Instead of the case's values");
 }
@@ -50,9 +32,10 @@ ChainParameters judged(const ChainArguments &arguments) {
   } catch (const std::invalid_argument &error) {
     throw UsageError(fmt::format("--{}", error.what()));
   }
-  for (std::size_t i = 0; i < overrides.size(); ++i)
-    if (!arguments.numbers[i].empty())
-      parameters.*overrides[i].value = number_option(overrides[i].option, arguments.numbers[i]);
+  for (std::size_t i = 0; i < chain_numbers.size(); ++i)
+    if (arguments.numbers[i])
+      parameters.*chain_numbers[i].value = number_option(fmt::format("--{}", chain_numbers[i].name).c_str(),
+                                                         *arguments.numbers[i], chain_numbers[i].range);
   if (const std::string fault = parameters.invalid(); !fault.empty()) throw UsageError("--" + fault);
   return parameters;
 }
@@ -60,10 +43,9 @@ ChainParameters judged(const ChainArguments &arguments) {
 std::string deck_words(const ChainArguments &arguments) {
   std::string words =
       fmt::format(" -var case {} -var transition {}", arguments.chain_case, arguments.transition);
-  for (std::size_t i = 0; i < overrides.size(); ++i)
-    if (!arguments.numbers[i].empty())
-      words +=
-          fmt::format(" -var {} {}", overrides[i].option + 2, arguments.numbers[i]); // without the two dashes
+  for (std::size_t i = 0; i < chain_numbers.size(); ++i)
+    if (arguments.numbers[i])
+      words += fmt::format(" -var {} {}", chain_numbers[i].name, *arguments.numbers[i]);
   return words;
 }
 

@@ -5,6 +5,7 @@
 #include "chain_model.h"
 
 #include <array>
+#include <optional>
 #include <string>
 
 namespace CLI {
@@ -17,7 +18,7 @@ namespace drumlin::post {
 struct ChainArguments {
   std::string chain_case = "II";
   std::string transition = "B";
-  std::array<std::string, 9> numbers; ///< k, D, omega, Fw, m2, m3, k23, c23, g; empty: the case's
+  std::array<std::optional<std::string>, 9> numbers; ///< as in chain_numbers; none: the case's
 };
 
 /// Adds --case, --transition, --k and so on; `arguments` must outlive the app.

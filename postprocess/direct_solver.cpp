@@ -23,7 +23,8 @@ namespace drumlin::post {
 
 namespace {
 
-static_assert(std::is_same_v<realtype, double>, "SUNDIALS must be built in double precision");
+// SUNDIALS 6 has both names for its numbers, later ones only this, earlier ones only realtype.
+static_assert(std::is_same_v<sunrealtype, double>, "SUNDIALS must be built in double precision");
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 
@@ -113,23 +114,41 @@ public:
   // accuracy (some thousand steps per radian of the motion's own time), so the two cost the same at a ratio
   // near 10^2 to 10^3.
   bool stiff(Phase phase) const {
-    double decay = 0.0;
-    double motion = p_.omega;
-    const auto include = [&decay, &motion](double k, double c, double m) {
-      const double beta = 0.5 * c / m;
-      const double square = k / m;
-      if (beta * beta > square)
-        decay = std::max(decay, beta + std::sqrt(beta * beta - square));
-      else
-        motion = std::max(motion, std::sqrt(square));
-    };
-    if (phase == Phase::contact) include(p_.k, c_, p_.m2);
-    include(p_.k23, p_.c23, p_.m2 * p_.m3 / (p_.m2 + p_.m3));
     constexpr double bdf_pays = 300.0;
-    return decay > bdf_pays * motion;
+    const Rates found = rates(phase);
+    return found.decay > bdf_pays * found.motion;
+  }
+
+  // Radians per second that the integrator's steps must resolve, over all phases.
+  double fastest() const {
+    double fastest = 0.0;
+    for (const Phase phase : {Phase::contact, Phase::free}) {
+      const Rates found = rates(phase);
+      fastest = std::max(fastest, stiff(phase) ? found.motion : std::max(found.motion, found.decay));
+    }
+    return fastest;
   }
 
 private:
+  struct Rates {
+    double decay = 0.0;  // of the fastest overdamped pair, 1/s
+    double motion = 0.0; // fastest oscillation or excitation, rad/s
+  };
+  Rates rates(Phase phase) const {
+    Rates rates = {0.0, p_.omega};
+    const auto include = [&rates](double k, double c, double m) {
+      const double beta = 0.5 * c / m;
+      const double square = k / m;
+      if (beta * beta > square)
+        rates.decay = std::max(rates.decay, beta + std::sqrt(beta * beta - square));
+      else
+        rates.motion = std::max(rates.motion, std::sqrt(square));
+    };
+    if (phase == Phase::contact) include(p_.k, c_, p_.m2);
+    include(p_.k23, p_.c23, p_.m2 * p_.m3 / (p_.m2 + p_.m3));
+    return rates;
+  }
+
   ChainParameters p_;
   double c_;
 };
@@ -202,7 +221,11 @@ public:
     put_state(absolute_tolerances(chain.parameters(), options), tolerance_.get());
     void *memory = memory_.get();
     check(CVodeInit(memory, &Integrator::right_hand_side, 0.0, state_.get()), "CVodeInit");
+#if SUNDIALS_VERSION_MAJOR >= 7
+    check(SUNContext_PushErrHandler(context, &Integrator::note_error, this), "SUNContext_PushErrHandler");
+#else
     check(CVodeSetErrHandlerFn(memory, &Integrator::note_error, this), "CVodeSetErrHandlerFn");
+#endif
     check(CVodeSetUserData(memory, this), "CVodeSetUserData");
     check(CVodeSVtolerances(memory, options.rtol, tolerance_.get()), "CVodeSVtolerances");
     check(CVodeSetLinearSolver(memory, linear_.get(), matrix_.get()), "CVodeSetLinearSolver");
@@ -264,14 +287,14 @@ public:
   }
 
 private:
-  static int right_hand_side(realtype elapsed, N_Vector y, N_Vector rate, void *user) {
+  static int right_hand_side(sunrealtype elapsed, N_Vector y, N_Vector rate, void *user) {
     const auto &self = *static_cast<Integrator *>(user);
     put_state(self.chain_.derivative(self.phase_, self.t0_ + elapsed, state_of(y)), rate);
     return 0;
   }
 
-  static int jacobian(realtype /*elapsed*/, N_Vector /*y*/, N_Vector /*rate*/, SUNMatrix matrix, void *user,
-                      N_Vector /*work1*/, N_Vector /*work2*/, N_Vector /*work3*/) {
+  static int jacobian(sunrealtype /*elapsed*/, N_Vector /*y*/, N_Vector /*rate*/, SUNMatrix matrix,
+                      void *user, N_Vector /*work1*/, N_Vector /*work2*/, N_Vector /*work3*/) {
     const auto &self = *static_cast<Integrator *>(user);
     const std::array<State, 4> rows = {{{0.0, 1.0, 0.0, 0.0},
                                         self.chain_.drum_row(self.phase_),
@@ -285,7 +308,7 @@ private:
     return 0;
   }
 
-  static int root_functions(realtype elapsed, N_Vector y, realtype *values, void *user) {
+  static int root_functions(sunrealtype elapsed, N_Vector y, sunrealtype *values, void *user) {
     const auto &self = *static_cast<Integrator *>(user);
     const State state = state_of(y);
     const Exits exits =
@@ -295,10 +318,17 @@ private:
     return 0;
   }
 
+#if SUNDIALS_VERSION_MAJOR >= 7
+  static void note_error(int /*line*/, const char * /*function*/, const char * /*file*/, const char *message,
+                         SUNErrCode /*code*/, void *user, SUNContext /*context*/) {
+    if (message != nullptr) static_cast<Integrator *>(user)->message_ = message;
+  }
+#else
   static void note_error(int code, const char * /*module*/, const char * /*function*/, char *message,
                          void *user) {
     if (code < 0) static_cast<Integrator *>(user)->message_ = message;
   }
+#endif
 
   void check(int flag, const char *function) const {
     if (flag >= 0) return;
@@ -493,10 +523,15 @@ private:
 
 class Run {
 public:
-  Run(const ChainParameters &parameters, const DirectOptions &options)
-      : chain_(parameters), options_(options), recorder_(chain_, options) {
+  Run(const ChainParameters &parameters, const DirectOptions &options, const SolverProgress &progress)
+      : chain_(parameters), options_(options), progress_(progress), recorder_(chain_, options) {
     SUNContext context = nullptr;
-    if (SUNContext_Create(nullptr, &context) != 0) throw std::runtime_error("SUNDIALS could not be set up");
+#if SUNDIALS_VERSION_MAJOR >= 7
+    const auto no_ranks = SUN_COMM_NULL;
+#else
+    void *const no_ranks = nullptr;
+#endif
+    if (SUNContext_Create(no_ranks, &context) != 0) throw std::runtime_error("SUNDIALS could not be set up");
     context_.reset(context);
   }
 
@@ -552,6 +587,12 @@ private:
     double elapsed = 0.0;
     while (true) {
       const Reached reached = integrator.step();
+      constexpr long now_and_then = 1024; // steps: some milliseconds
+      if (++steps_ % now_and_then == 0 && progress_) progress_((start + reached.elapsed) / end);
+      constexpr long most_steps = 200'000'000; // minutes: rounding can make steps short without end
+      if (steps_ > most_steps)
+        throw std::runtime_error(fmt::format("the direct solver took more than {} steps up to t = {} s",
+                                             most_steps, start + reached.elapsed));
       const Departure departure = first_departure(integrator, start, elapsed, reached);
       const double until = departure.exit ? departure.elapsed : reached.elapsed;
       const State y = until < reached.elapsed ? integrator.state_at(until) : integrator.state();
@@ -671,6 +712,10 @@ private:
     result_.events.push_back(event);
     recorder_.event(event);
     constexpr std::size_t per_cycle = 100000;
+    constexpr std::size_t most = 5'000'000; // a quarter of a gigabyte
+    if (result_.events.size() > most)
+      throw std::runtime_error(fmt::format(
+          "the direct solver met more than {} contacts made and broken up to t = {} s", most, t_));
     if (result_.events.size() > per_cycle * (1 + static_cast<std::size_t>(t_ / chain_.parameters().period())))
       throw std::runtime_error(
           fmt::format("the direct solver met more than {} contacts made and broken per cycle up to t = {} s",
@@ -685,6 +730,8 @@ private:
 
   Chain chain_;
   DirectOptions options_;
+  const SolverProgress &progress_;
+  long steps_ = 0;
   Recorder recorder_;
   ContextPointer context_;
   std::unique_ptr<Integrator> adams_;
@@ -698,27 +745,49 @@ private:
 
 } // namespace
 
+const Range DirectOptions::cycles_range = {0.0, 25000.0, "", false, true};
+const Range DirectOptions::rtol_range = {1e-14, 1e-3};
+const Range DirectOptions::impact_speed_range = {1e-12, 1e6, "m/s", true};
+
 std::string DirectOptions::invalid() const {
-  constexpr double most_rows = 5e7;
-  if (!(std::isfinite(cycles) && cycles > 0.0))
-    return fmt::format("cycles = {}: allowed are positive finite numbers", cycles);
-  if (samples_per_cycle < 1 || samples_per_cycle > 1000000)
-    return fmt::format("samples-per-cycle = {}: allowed are 1 to 1000000", samples_per_cycle);
-  if (!(cycles * std::max(2000.0, static_cast<double>(samples_per_cycle)) <= most_rows))
-    return fmt::format("cycles = {}: with {} samples per cycle allowed are at most {}", cycles,
-                       samples_per_cycle,
-                       most_rows / std::max(2000.0, static_cast<double>(samples_per_cycle)));
-  if (!(rtol >= 1e-14 && rtol <= 1e-3)) return fmt::format("rtol = {}: allowed are 1e-14 to 1e-3", rtol);
-  if (!(std::isfinite(impact_speed) && impact_speed >= 0.0))
-    return fmt::format("impact-speed = {}: allowed are finite numbers of at least 0 [m/s]", impact_speed);
+  if (!cycles_range.holds(cycles)) return refusal("cycles", cycles, cycles_range.words());
+  if (samples_per_cycle < 1 || samples_per_cycle > most_samples)
+    return refusal("samples-per-cycle", samples_per_cycle,
+                   fmt::format("a whole number from 1 to {}", most_samples));
+  constexpr double most_rows = 5e6; // some 2 GB of memory while they are written
+  if (cycles * samples_per_cycle > most_rows)
+    return refusal("cycles", cycles,
+                   fmt::format("with {} samples per cycle at most {:g}", samples_per_cycle,
+                               most_rows / samples_per_cycle));
+  if (!rtol_range.holds(rtol)) return refusal("rtol", rtol, rtol_range.words());
+  if (!impact_speed_range.holds(impact_speed))
+    return refusal("impact-speed", impact_speed, impact_speed_range.words());
   return {};
 }
 
-DirectResult solve_direct(const ChainParameters &parameters, const DirectOptions &options) {
+double most_cycles(const ChainParameters &parameters) {
+  // A few steps each: about a minute.
+  constexpr double most_radians = 1e7;
+  return most_radians / (Chain(parameters).fastest() * parameters.period());
+}
+
+std::string too_much_work(const ChainParameters &parameters, const DirectOptions &options) {
+  const double most = most_cycles(parameters);
+  if (options.cycles <= most) return {};
+  return refusal(
+      "cycles", options.cycles,
+      fmt::format("at most {:.3g} of this chain, which moves at up to {:.3g} rad/s against {:g} of "
+                  "the excitation",
+                  most, Chain(parameters).fastest(), parameters.omega));
+}
+
+DirectResult solve_direct(const ChainParameters &parameters, const DirectOptions &options,
+                          const SolverProgress &progress) {
   std::string fault = parameters.invalid();
   if (fault.empty()) fault = options.invalid();
+  if (fault.empty()) fault = too_much_work(parameters, options);
   if (!fault.empty()) throw std::invalid_argument(fault);
-  return Run(parameters, options).solve();
+  return Run(parameters, options, progress).solve();
 }
 
 std::string direct_solver_name() { return "CVODE " SUNDIALS_VERSION; }

@@ -6,6 +6,7 @@
 #include "chain_csv.h"
 #include "chain_model.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,20 @@ struct DirectOptions {
 
   /// Empty if usable; else one line that names the option, its value and what is allowed.
   std::string invalid() const;
+
+  static const Range cycles_range, rtol_range, impact_speed_range;
+  static constexpr int most_samples = 1'000'000; ///< per cycle
 };
+
+/// As many cycles of a chain as can be solved within minutes: one that moves very much faster than it is excited needs very many steps
+/// per cycle.
+double most_cycles(const ChainParameters &parameters);
+
+/// Empty if the options ask for no more cycles than that; else one line that names them and how many are allowed.
+std::string too_much_work(const ChainParameters &parameters, const DirectOptions &options);
+
+/// Told now and then which share of the time to solve is done, from 0 to 1.
+using SolverProgress = std::function<void(double)>;
 
 /// What the solver cost.
 struct DirectCost {
@@ -43,7 +57,8 @@ struct DirectResult {
 /// or as an impact. A contact that begins at t = 0 with d = 0 (impact, or excitation without gravity) is
 /// logged as made at t = 0; one that overlaps at t = 0 is not. std::invalid_argument for parameters or
 /// options that cannot be used, std::runtime_error if the integrator fails.
-DirectResult solve_direct(const ChainParameters &parameters, const DirectOptions &options);
+DirectResult solve_direct(const ChainParameters &parameters, const DirectOptions &options,
+                          const SolverProgress &progress = {});
 
 /// Name and version of the integrator, for the record.
 std::string direct_solver_name();

@@ -5,15 +5,16 @@
 #include "chain_options.h"
 #include "direct_solver.h"
 #include "options.h"
+#include "output_files.h"
+#include "timed_progress.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <unistd.h>
-
+#include <array>
 #include <filesystem>
 #include <memory>
-#include <system_error>
+#include <stdexcept>
 
 namespace drumlin::post {
 
@@ -37,32 +38,29 @@ struct Task {
   fs::path out;
 };
 
-// Refuses a folder that files cannot be written to, before the work is done. Nothing is made yet.
-void check_folder(const fs::path &out) {
-  fs::path existing = fs::absolute(out);
-  std::error_code code;
-  while (!fs::exists(existing, code) && existing.has_relative_path())
-    existing = existing.parent_path();
-  const auto refuse = [&out](const fs::path &where, const char *why) {
-    throw UsageError(fmt::format("--out = '{}': {} {}; allowed are folders that can be made and written to",
-                                 out.string(), where.string(), why));
-  };
-  if (!fs::is_directory(existing, code)) refuse(existing, "is not a folder");
-  if (::access(existing.c_str(), W_OK | X_OK) != 0) refuse(existing, "cannot be written to");
-}
+constexpr std::array<const char *, 4> file_names = {"chain.csv", "events.csv", "cycles.csv",
+                                                    "parameters.csv"};
 
 Task judge(const Arguments &arguments) {
   Task task;
   task.parameters = judged(arguments.chain);
-  task.options.cycles = number_option("--cycles", arguments.cycles);
-  task.options.samples_per_cycle = count_option("--samples-per-cycle", arguments.samples_per_cycle);
-  task.options.rtol = number_option("--rtol", arguments.rtol);
-  task.options.impact_speed = number_option("--impact-speed", arguments.impact_speed);
-  if (const std::string fault = task.options.invalid(); !fault.empty()) throw UsageError("--" + fault);
-  if (arguments.out.empty())
-    throw UsageError("--out = '': allowed are folders that can be made and written to");
-  task.out = arguments.out;
-  check_folder(task.out);
+  DirectOptions &options = task.options;
+  options.cycles = number_option("--cycles", arguments.cycles, DirectOptions::cycles_range);
+  options.samples_per_cycle =
+      count_option("--samples-per-cycle", arguments.samples_per_cycle, 1, DirectOptions::most_samples);
+  options.rtol = number_option("--rtol", arguments.rtol, DirectOptions::rtol_range);
+  options.impact_speed =
+      number_option("--impact-speed", arguments.impact_speed, DirectOptions::impact_speed_range);
+  std::string fault = options.invalid();
+  if (fault.empty()) fault = too_much_work(task.parameters, options);
+  if (!fault.empty()) throw UsageError("--" + fault);
+  task.out = output_folder_option("--out", arguments.out);
+  for (const char *name : file_names)
+    try {
+      check_output_file(task.out / name);
+    } catch (const std::runtime_error &error) {
+      throw UsageError(fmt::format("--out is '{}': {} {}", task.out.string(), name, error.what()));
+    }
   return task;
 }
 
@@ -84,23 +82,19 @@ std::vector<std::pair<std::string, std::string>> record(const Arguments &argumen
 
 void run(const Arguments &arguments, const std::string &command) {
   const Task task = judge(arguments);
-  const DirectResult result = solve_direct(task.parameters, task.options);
-  std::error_code code;
-  fs::create_directories(task.out, code);
-  if (code)
-    throw UsageError(
-        fmt::format("--out = '{}': cannot be made: {}; allowed are folders that can be made and written to",
-                    task.out.string(), code.message()));
+  TimedProgress progress;
+  const DirectResult result = solve_direct(task.parameters, task.options, [&](double share) {
+    progress.tell("solved to cycle {:.1f} of {:g}", share * task.options.cycles, task.options.cycles);
+  });
   try {
-    write_files(
-        {{task.out / "chain.csv", chain_text(result.history)},
-         {task.out / "events.csv", events_text(result.events)},
-         {task.out / "cycles.csv", cycles_text(result.cycles)},
-         {task.out / "parameters.csv", parameters_text(record(arguments, task, result.cost, command))}});
+    make_output_folder(task.out);
   } catch (const std::runtime_error &error) {
-    throw UsageError(fmt::format("--out = '{}': {}; allowed are folders that can be made and written to",
-                                 task.out.string(), error.what()));
+    throw UsageError(fmt::format("--out is '{}': {}", task.out.string(), error.what()));
   }
+  write_files({{task.out / file_names[0], chain_text(result.history)},
+               {task.out / file_names[1], events_text(result.events)},
+               {task.out / file_names[2], cycles_text(result.cycles)},
+               {task.out / file_names[3], parameters_text(record(arguments, task, result.cost, command))}});
   fmt::print("{}: {} samples, {} events, {} cycles (case {}, transition {}; {} steps)\n", task.out.string(),
              result.history.size(), result.events.size(), result.cycles.size(), arguments.chain.chain_case,
              arguments.chain.transition, result.cost.steps);

@@ -1,5 +1,7 @@
 #include "gnuplot.h"
 
+#include "output_files.h"
+
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -216,11 +218,7 @@ std::string gnuplot_script(const Figure &figure) {
 
 void render(const fs::path &gnuplot, const fs::path &folder, const Figure &figure) {
   const fs::path script = folder / (figure.name + ".gp");
-  {
-    std::ofstream out(script);
-    out << gnuplot_script(figure);
-    if (!out.flush()) throw std::runtime_error(fmt::format("cannot write {}", script.string()));
-  }
+  write_files({{script, gnuplot_script(figure)}});
   const fs::path log = folder / (figure.name + ".log");
   const std::string program = gnuplot.string();
   const std::string file = figure.name + ".gp";

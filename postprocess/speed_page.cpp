@@ -86,8 +86,8 @@ ReportTable projection_table(const std::vector<Throughput> &all, const SpeedScen
   table.header = {"balls per rank", "ranks",          "memory per rank (GB)",    "ghosts per ball (-)",
                   "step (ms)",      "ten cycles (h)", "efficiency of a rank (-)"};
   const double bytes = bytes_per_ball(all, "stock", scenes.cell, scenes.copies);
-  const Throughput &alone = find(all, scenes.copies, "stock", 1);
-  const Throughput &shared = find(all, scenes.copies, "stock", 2);
+  const Throughput alone = find(all, scenes.copies, "stock", 1);
+  const Throughput shared = find(all, scenes.copies, "stock", 2);
   // A rank has what the ranks of its node leave it of the memory's bandwidth, and computes its ghosts' contacts once more.
   const double speed = 1e6 * alone.million_per_second.median * std::min(1.0, shared.efficiency.median);
   for (const double share : {1e4, 3e4, 1e5, 3e5, 1e6}) {

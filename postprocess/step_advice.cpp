@@ -60,19 +60,35 @@ double seconds_per_step(const std::vector<ChainPoint> &points, const std::string
 
 } // namespace
 
-double sensitivity(const ChainParameters &parameters) {
+double sensitivity(const ChainParameters &parameters, const SolverProgress &progress) {
   constexpr double change = 1e-6;
-  const std::vector<double> truth = accuracy_truth(parameters).history.v_drum;
+  constexpr std::array numbers = {&ChainParameters::k, &ChainParameters::D, &ChainParameters::m2};
+  std::size_t solved = 0;
+  const auto solution = [&](const ChainParameters &chain) {
+    std::vector<double> v_drum = accuracy_truth(chain, [&](double share) {
+                                   if (progress)
+                                     progress((static_cast<double>(solved) + share) / (1.0 + numbers.size()));
+                                 }).history.v_drum;
+    ++solved;
+    return v_drum;
+  };
+  const std::vector<double> truth = solution(parameters);
   double sum = 0.0;
-  for (const auto number : {&ChainParameters::k, &ChainParameters::D, &ChainParameters::m2}) {
+  for (const auto number : numbers) {
     ChainParameters other = parameters;
     other.*number *= 1.0 + change;
+    if (!other.invalid().empty())
+      other.*number = parameters.*number * (1.0 - change); // at the end of its range
     const std::size_t rows = truth.size();
-    const double grown = relative_rms(accuracy_truth(other).history.v_drum, truth,
-                                      rows - 1 - accuracy_window * accuracy_samples, rows);
+    const double grown =
+        relative_rms(solution(other), truth, rows - 1 - accuracy_window * accuracy_samples, rows);
     sum += grown * grown / (change * change);
   }
   return std::sqrt(sum);
+}
+
+double slowest_excitation(const ChainParameters &parameters) {
+  return parameters.omega * accuracy_cycles / most_cycles(parameters);
 }
 
 double critical_steps(const ChainParameters &parameters, const std::string &stepping) {
@@ -93,7 +109,10 @@ double critical_steps(const ChainParameters &parameters, const std::string &step
 }
 
 StepAdvice advise(const AdviceRequest &request, const std::vector<ChainPoint> &points,
-                  const std::function<double(const ChainParameters &)> &sensitivity_of) {
+                  const std::function<double(const ChainParameters &)> &remembered) {
+  const auto sensitivity_of = [&](const ChainParameters &chain) {
+    return remembered ? remembered(chain) : sensitivity(chain);
+  };
   const ChainParameters &p = request.parameters;
   const double order = request.stepping == "second" ? 2.0 : 1.0;
   StepAdvice advice;

@@ -11,6 +11,7 @@
 
 #include "accuracy_results.h"
 #include "chain_model.h"
+#include "direct_solver.h"
 
 #include <functional>
 #include <string>
@@ -48,17 +49,21 @@ constexpr double most_sensitive = 1e5;
 
 /// S: the relative RMS change of the drum's velocity over the last 5 of 30 cycles per relative change of k, D and m2, root of
 /// the sum of squares, by the direct solver.
-double sensitivity(const ChainParameters &parameters);
+/// \param progress is told the share of the work that is done, 0 to 1
+double sensitivity(const ChainParameters &parameters, const SolverProgress &progress = {});
+
+/// The lowest omega, rad/s, with which sensitivity() of a chain takes no more than minutes.
+double slowest_excitation(const ChainParameters &parameters);
 
 /// Steps per cycle at the longest stable step of the chain with the contact closed: 4 M - 2 dt C - dt^2 K ceases to be
 /// positive definite; with second-order stepping, which solves for the dashpots, without C.
 double critical_steps(const ChainParameters &parameters, const std::string &stepping);
 
 /// \param points of an accuracy study
-/// \param sensitivity_of sensitivity(), or what remembers its answers
+/// \param sensitivity_of what remembers the answers of sensitivity() or tells of its progress; sensitivity() if there is none
 /// UsageError if no number of steps can be advised: no curve, too sensitive, or more steps than the engine counts.
 StepAdvice advise(const AdviceRequest &request, const std::vector<ChainPoint> &points,
-                  const std::function<double(const ChainParameters &)> &sensitivity_of = sensitivity);
+                  const std::function<double(const ChainParameters &)> &sensitivity_of = {});
 
 /// What of a chain lies outside of what the scaling was tested with: sqrt(k/m2), omega, D; empty if nothing does, or nothing was
 /// tested.

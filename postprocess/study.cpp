@@ -1,13 +1,13 @@
 #include "study.h"
 
 #include "command.h"
+#include "output_files.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <fmt/format.h>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -60,13 +60,11 @@ void check_engine_path(const fs::path &out) {
 void open_study(const StudyOptions &options) {
   const fs::path file = options.out / record_name;
   const std::string now = record(options);
-  if (fs::exists(options.out) && !fs::is_directory(options.out))
-    throw UsageError(fmt::format("--out is '{}', which is no folder; allowed: a folder, made if missing",
-                                 options.out.string()));
   if (fs::exists(file)) {
-    if (options.fresh)
-      fs::remove_all(options.out);
-    else if (read_text(file) != now)
+    if (options.fresh) { // what is in it, not the folder: it may be a symbolic link
+      for (const fs::directory_entry &entry : fs::directory_iterator(options.out))
+        fs::remove_all(entry.path());
+    } else if (read_text(file) != now)
       throw UsageError(fmt::format("the points in '{}' are of another build or of another choice of --quick; "
                                    "allowed: --fresh, which forgets them, or another --out",
                                    options.out.string()));
@@ -75,17 +73,18 @@ void open_study(const StudyOptions &options) {
                                  "new, empty or of an earlier call",
                                  options.out.string()));
   }
-  std::error_code failed;
-  fs::create_directories(options.out, failed);
-  if (failed)
-    throw UsageError(fmt::format("--out '{}' cannot be made: {}", options.out.string(), failed.message()));
-  std::ofstream(file) << now;
+  try {
+    make_output_folder(options.out);
+  } catch (const std::runtime_error &fault) {
+    throw UsageError(fmt::format("--out is '{}': {}", options.out.string(), fault.what()));
+  }
+  write_files({{file, now}});
 }
 
 StudyResults::StudyResults(fs::path file, Row columns, std::size_t keys)
     : file_(std::move(file)), columns_(std::move(columns)), keys_(keys) {
   if (!fs::exists(file_)) {
-    std::ofstream(file_) << joined(columns_);
+    write_files({{file_, joined(columns_)}});
     return;
   }
   const std::string text = read_text(file_);
@@ -103,7 +102,7 @@ StudyResults::StudyResults(fs::path file, Row columns, std::size_t keys)
     places_[Row(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(keys_))] = rows_.size();
     rows_.push_back(std::move(row));
   }
-  if (whole != text) std::ofstream(file_) << whole;
+  if (whole != text) write_files({{file_, whole}});
 }
 
 const StudyResults::Row *StudyResults::find(const Row &key) const {
@@ -114,9 +113,7 @@ const StudyResults::Row *StudyResults::find(const Row &key) const {
 void StudyResults::add(const Row &row) {
   if (row.size() != columns_.size())
     throw std::logic_error("a row of another length than the header of " + file_.string());
-  std::ofstream out(file_, std::ios::app);
-  out << joined(row) << std::flush;
-  if (!out) throw std::runtime_error("cannot write " + file_.string());
+  append_text(file_, joined(row));
   places_[Row(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(keys_))] = rows_.size();
   rows_.push_back(row);
 }

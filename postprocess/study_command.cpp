@@ -21,6 +21,9 @@ namespace drumlin::post {
 
 namespace {
 
+/// Runs at the same time, each a process of its own.
+constexpr int most_jobs = 1000;
+
 struct Study {
   const char *name;
   const char *summary;
@@ -64,9 +67,9 @@ void add_study_command(CLI::App &app, Session &) {
                                                   "bring. An interrupted study goes on where it was.");
   for (const Study &study : studies) {
     const auto options = std::make_shared<StudyOptions>();
-    options->out = std::string("results/study/") + study.name;
+    const auto out = std::make_shared<std::string>(std::string("results/study/") + study.name);
     CLI::App *one = command->add_subcommand(study.name, study.summary);
-    one->add_option("--out", options->out, "folder of the results")->type_name("DIR")->capture_default_str();
+    one->add_option("--out", *out, "folder of the results")->type_name("DIR")->capture_default_str();
     one->add_flag("--fresh", options->fresh, "forget the points of an earlier call");
     one->add_flag("--quick", options->quick, "few points: to see that it works");
     const auto jobs = std::make_shared<std::string>("1");
@@ -74,8 +77,9 @@ void add_study_command(CLI::App &app, Session &) {
       one->add_option("--jobs", *jobs, "runs at the same time, one processor each")
           ->type_name("COUNT")
           ->capture_default_str();
-    one->callback([options, jobs, run = study.run] {
-      options->jobs = count_option("--jobs", *jobs);
+    one->callback([options, out, jobs, run = study.run] {
+      options->jobs = count_option("--jobs", *jobs, 1, most_jobs);
+      options->out = output_folder_option("--out", *out);
       open_study(*options);
       run(*options);
     });
@@ -88,8 +92,8 @@ void add_study_command(CLI::App &app, Session &) {
     for (const Study &study : studies)
       names.emplace_back(study.name);
     const std::vector<std::string> given = command->remaining();
-    throw UsageError(fmt::format("NAME = '{}': allowed are {}", given.empty() ? "" : given.front(),
-                                 fmt::join(names, ", ")));
+    throw UsageError(
+        refusal("NAME", given.empty() ? "" : given.front(), fmt::format("{}", fmt::join(names, ", "))));
   });
 }
 

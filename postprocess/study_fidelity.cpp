@@ -191,8 +191,9 @@ FidelityRun measure(const Bed &bed, const Variant &variant, int seed, const fs::
 void in_parallel(const std::vector<std::function<void()>> &tasks, int jobs) {
   std::atomic<std::size_t> next = 0;
   std::vector<std::thread> workers;
-  workers.reserve(static_cast<std::size_t>(jobs));
-  for (int worker = 0; worker < jobs; ++worker)
+  const std::size_t count = std::min(static_cast<std::size_t>(jobs), tasks.size());
+  workers.reserve(count);
+  for (std::size_t worker = 0; worker < count; ++worker)
     workers.emplace_back([&] {
       for (std::size_t task = next++; task < tasks.size(); task = next++)
         tasks[task]();

@@ -58,15 +58,21 @@ TextDump read_text_dump(const fs::path &file) {
         dump.names.push_back(word);
     }
   }
+  if (steps <= 1 && dump.names.empty() && (line.empty() || begins(line, "ITEM") || steps == 1))
+    throw CutShort(fmt::format("{}: is cut short: it ends before its rows begin", file.string()));
   if (steps != 1 || dump.names.empty())
     fail(file, "is no text dump of LAMMPS; expected one as inputs/bed/dumps.lammps makes it");
   while (std::getline(in, line)) {
+    if (in.eof()) break; // without its line end it may lack digits, too
     if (begins(line, "ITEM: ")) fail(file, "holds more than one step");
     dump.rows.push_back(numbers_of(file, line));
     if (dump.rows.back().size() != dump.names.size())
       fail(file, fmt::format("row {} has {} numbers, expected {}", dump.rows.size(), dump.rows.back().size(),
                              dump.names.size()));
   }
+  if (dump.rows.size() < announced)
+    throw CutShort(fmt::format("{}: is cut short: it has {} rows, expected {}", file.string(),
+                               dump.rows.size(), announced));
   if (dump.rows.size() != announced)
     fail(file, fmt::format("has {} rows, expected {}", dump.rows.size(), announced));
   return dump;

@@ -3,6 +3,8 @@
 #include "bed_fields.h"
 #include "chain_csv.h"
 #include "options.h"
+#include "output_files.h"
+#include "timed_progress.h"
 #include "vtk_files.h"
 
 #include <CLI/CLI.hpp>
@@ -10,10 +12,11 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
-#include <chrono>
-#include <cstdio>
 #include <filesystem>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -34,8 +37,12 @@ namespace {
 /// Side of a cell of the fields in mean diameters of the soil balls, unless the user gives one: some nine balls in a cell.
 constexpr double default_cell = 3.0;
 
+/// Sides of cells that are not absurd, m.
+constexpr Range cell_range = {1e-9, 1e9, "m"};
+
 struct Arguments {
-  std::string folder, out, cell;
+  std::string folder;
+  std::optional<std::string> out, cell;
 };
 
 /// What the command writes, as names from the folder of the results.
@@ -65,25 +72,6 @@ double time_step(const fs::path &folder) {
   return dt;
 }
 
-/// A line now and then on standard output.
-class Progress {
-public:
-  explicit Progress(std::size_t total) : total_(total) {}
-  void done(const char *what) {
-    ++done_;
-    const auto now = std::chrono::steady_clock::now();
-    if (now - told_ < std::chrono::seconds(2)) return;
-    told_ = now;
-    fmt::print("{} of {} steps {}\n", done_, total_, what);
-    std::fflush(stdout);
-  }
-
-private:
-  std::size_t total_;
-  std::size_t done_ = 0;
-  std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
-};
-
 /// Results under way: a folder inside that of the results, which goes with this object.
 class Workshop {
 public:
@@ -105,11 +93,14 @@ public:
   /// Moves the files to the results, and removes those of an earlier call which these do not replace.
   void hand_over(const std::vector<std::string> &names) const {
     for (const std::string &name : names)
-      fs::rename(folder_ / name, out_ / name);
+      check_output_file(out_ / name); // all of them, before the first is replaced
+    for (const std::string &name : names)
+      replace_file(folder_ / name, out_ / name);
     const std::set<std::string> fresh(names.begin(), names.end());
     for (const fs::directory_entry &entry : fs::directory_iterator(out_)) {
       const std::string name = entry.path().filename().string();
-      if (is_ours(name) && fresh.count(name) == 0) fs::remove(entry.path());
+      if (is_ours(name) && fresh.count(name) == 0 && fs::is_regular_file(entry.symlink_status()))
+        fs::remove(entry.path());
     }
   }
 
@@ -126,13 +117,24 @@ struct Bed {
   bool flat = true;           ///< all balls stay in z = 0
 };
 
-Bed survey(const std::map<long, StepDump> &steps) {
+/// Reads all steps once. Takes those out whose dump was cut short, as by a run that was stopped or is still going on, and says so.
+Bed survey(std::map<long, StepDump> &steps) {
   Bed bed;
-  Progress progress(steps.size());
-  for (const auto &step : steps) {
-    const fs::path &file = step.second.balls;
+  TimedProgress progress;
+  const std::size_t all = steps.size();
+  std::size_t done = 0;
+  for (auto step = steps.begin(); step != steps.end();) {
+    const fs::path &file = step->second.balls;
     double diameters = 0.0, soil = 0.0;
-    const std::vector<Ball> balls = read_ball_dump(file);
+    std::vector<Ball> balls;
+    try {
+      balls = read_ball_dump(file);
+    } catch (const CutShort &fault) {
+      if (all == 1) throw;
+      fmt::print("step {} left out: {}\n", step->first, fault.what());
+      step = steps.erase(step);
+      continue;
+    }
     bed.flat = bed.flat && in_a_plane(balls);
     for (const Ball &ball : balls) {
       if (ball.type != soil_type) continue;
@@ -144,9 +146,39 @@ Bed survey(const std::map<long, StepDump> &steps) {
       throw std::runtime_error(
           fmt::format("{}: holds no soil balls (type {})", file.string(), int{soil_type}));
     if (bed.mean_diameter == 0.0) bed.mean_diameter = diameters / soil;
-    progress.done("read");
+    progress.tell("{} of {} steps read", ++done, all);
+    ++step;
   }
+  if (steps.empty()) throw std::runtime_error("the dumps of all steps are cut short");
   return bed;
+}
+
+/// The contacts of a step; none if there is no dump of them, or one that was cut short, which is said.
+std::optional<BedContacts> contacts_of(const StepDump &dump, long step, const std::vector<Ball> &balls) {
+  if (dump.contacts.empty()) return std::nullopt;
+  try {
+    return read_contact_dump(dump.contacts, balls);
+  } catch (const CutShort &fault) {
+    fmt::print("contacts of step {} left out: {}\n", step, fault.what());
+    return std::nullopt;
+  }
+}
+
+/// One sentence on steps that a run with dumps at equal distances would have had; empty if none is missing.
+std::string missing_steps(const std::map<long, StepDump> &steps) {
+  long distance = std::numeric_limits<long>::max();
+  for (auto step = steps.begin(); step != steps.end() && std::next(step) != steps.end(); ++step)
+    distance = std::min(distance, std::next(step)->first - step->first);
+  long missing = 0, first = -1;
+  for (auto step = steps.begin(); step != steps.end() && std::next(step) != steps.end(); ++step) {
+    const long gap = std::next(step)->first - step->first;
+    if (gap % distance != 0) return {}; // not at equal distances
+    if (gap > distance && first < 0) first = step->first + distance;
+    missing += gap / distance - 1;
+  }
+  if (missing == 0) return {};
+  return fmt::format("{} step{} of the dumps every {} {} missing, from step {} on", missing,
+                     missing == 1 ? "" : "s", distance, missing == 1 ? "is" : "are", first);
 }
 
 /// Refuses folders whose files are not an earlier result: the names are those of the dumps.
@@ -155,30 +187,28 @@ void check_out(const fs::path &out) {
   for (const fs::directory_entry &entry : fs::directory_iterator(out))
     if (is_ours(entry.path().filename().string()))
       throw UsageError(
-          fmt::format("--out = '{}': has {}, but no {}; allowed: a new folder or that of an earlier result",
+          fmt::format("--out is '{}': has {}, but no {}; allowed: a new folder or that of an earlier result",
                       out.string(), entry.path().filename().string(), collections[0]));
 }
 
 FieldGrid grid_for(const Arguments &arguments, const Bed &bed) {
   double side = default_cell * bed.mean_diameter;
-  if (!arguments.cell.empty()) side = number_option("--cell", arguments.cell);
+  if (arguments.cell) side = number_option("--cell", *arguments.cell, cell_range);
   try {
     return fitted_grid(bed.soil, side, bed.flat);
   } catch (const std::invalid_argument &fault) {
-    throw UsageError(fmt::format("--cell = '{}': {}; allowed: larger cells", side, fault.what()));
+    throw UsageError(fmt::format("--cell is '{:g}': {}; allowed: larger cells", side, fault.what()));
   }
 }
 
 void run(const Arguments &arguments) {
-  if (!arguments.cell.empty() && number_option("--cell", arguments.cell) <= 0.0)
-    throw UsageError(fmt::format("--cell = '{}': allowed are numbers > 0", arguments.cell));
-  const fs::path folder = arguments.folder;
-  const fs::path out = arguments.out.empty() ? folder / "vtk" : fs::path(arguments.out);
-  const std::map<long, StepDump> steps = dumped_steps(folder / "dump");
+  if (arguments.cell) number_option("--cell", *arguments.cell, cell_range);
+  const fs::path folder = path_option("DIR", arguments.folder);
+  const fs::path out = output_folder_option("--out", arguments.out.value_or((folder / "vtk").string()));
+  std::map<long, StepDump> steps = dumped_steps(folder / "dump");
   if (steps.empty())
-    throw UsageError(fmt::format(
-        "DIR = '{}': there is no dump/balls_STEP.vtp or .dump; allowed: the folder of a bed run with dumps",
-        folder.string()));
+    throw UsageError(refusal("DIR", folder.string(),
+                             "the folder of a bed run with dumps, with dump/balls_STEP.vtp or .dump"));
   std::optional<Bed> bed;
   double dt = 0.0;
   try {
@@ -196,7 +226,8 @@ void run(const Arguments &arguments) {
   std::array<std::vector<std::pair<double, std::string>>, 3> series; // as in `collections`
   try {
     const Workshop workshop(out);
-    Progress progress(steps.size());
+    TimedProgress progress;
+    std::size_t done = 0;
     for (const auto &[step, dump] : steps) {
       const auto add = [&, step = step](std::size_t collection, const std::string &name) {
         names.push_back(name);
@@ -205,16 +236,15 @@ void run(const Arguments &arguments) {
       };
       const std::vector<Ball> balls = read_ball_dump(dump.balls);
       const fs::path ball_file = add(0, fmt::format("balls_{}.vtp", step));
-      if (!dump.contacts.empty()) {
-        const BedContacts contacts = read_contact_dump(dump.contacts, balls);
-        write_ball_points(ball_file, balls, coordination(balls.size(), contacts.balls));
-        write_contact_lines(add(1, fmt::format("contacts_{}.vtp", step)), balls, contacts);
+      if (const std::optional<BedContacts> contacts = contacts_of(dump, step, balls)) {
+        write_ball_points(ball_file, balls, coordination(balls.size(), contacts->balls));
+        write_contact_lines(add(1, fmt::format("contacts_{}.vtp", step)), balls, *contacts);
         write_field_image(add(2, fmt::format("fields_{}.vti", step)), grid,
-                          coarse_grained(balls, contacts.balls, grid));
+                          coarse_grained(balls, contacts->balls, grid));
       } else {
         write_ball_points(ball_file, balls, {});
       }
-      progress.done("written");
+      progress.tell("{} of {} steps written", ++done, steps.size());
     }
     std::vector<FileText> texts;
     for (std::size_t i = 0; i < collections.size(); ++i)
@@ -225,7 +255,7 @@ void run(const Arguments &arguments) {
     write_files(texts);
     workshop.hand_over(names);
   } catch (const fs::filesystem_error &fault) {
-    throw UsageError(fmt::format("--out = '{}': {}; allowed: a folder that can be made and written to",
+    throw UsageError(fmt::format("--out is '{}': {}; allowed: a folder that can be made and written to",
                                  out.string(), fault.code().message()));
   } catch (const std::runtime_error &fault) {
     throw UsageError(fault.what());
@@ -237,6 +267,7 @@ void run(const Arguments &arguments) {
   if (series[1].size() < series[0].size())
     fmt::print("no contacts and no fields where the dump of the contacts is missing: {} of {} steps\n",
                series[0].size() - series[1].size(), series[0].size());
+  if (const std::string missing = missing_steps(steps); !missing.empty()) fmt::print("{}\n", missing);
   if (!series[2].empty())
     fmt::print("fields on {} cells of {:.3g} m by {:.3g} m\n", grid.size(), grid.sides[0], grid.sides[1]);
 }
@@ -251,12 +282,16 @@ void add_vtk_command(CLI::App &app, Session &) {
   vtk->add_option("dir", arguments->folder, "folder of the run, with dump/ and parameters.csv")
       ->type_name("DIR")
       ->required();
-  vtk->add_option("--out", arguments->out, "folder for the results, made if missing; DIR/vtk if not given")
+  const auto optional = [vtk](const char *name, std::optional<std::string> &value, const std::string &help) {
+    return vtk->add_option_function<std::string>(
+        name, [&value](const std::string &text) { value = text; }, help);
+  };
+  optional("--out", arguments->out, "folder for the results, made if missing; DIR/vtk if not given")
       ->type_name("DIR");
-  vtk->add_option("--cell", arguments->cell,
-                  fmt::format("side of the cells of the fields [m], fitted to the bed; {:g} mean diameters "
-                              "of the soil balls if not given",
-                              default_cell))
+  optional("--cell", arguments->cell,
+           fmt::format("side of the cells of the fields [m], fitted to the bed; {:g} mean diameters "
+                       "of the soil balls if not given",
+                       default_cell))
       ->type_name("NUMBER");
   vtk->callback([arguments] { run(*arguments); });
 }

@@ -1,6 +1,7 @@
 #include "vtk_files.h"
 
 #include "chain_csv.h"
+#include "output_files.h"
 #include "text_dump.h"
 
 #include <fmt/format.h>
@@ -23,6 +24,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <regex>
 #include <stdexcept>
@@ -69,9 +72,24 @@ private:
   vtkLogger::Verbosity verbosity_;
 };
 
+/// Whether a file begins as XML does, or has not even begun, and the end of a VTK file is missing.
+bool is_cut_short(const fs::path &file) {
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  const std::streamoff size = in.tellg();
+  constexpr std::streamoff tail = 64; // blanks and line ends may follow the end
+  in.seekg(0);
+  const int first = in.peek();
+  in.clear();
+  in.seekg(std::max<std::streamoff>(0, size - tail));
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  return (size == 0 || first == '<') && text.find("</VTKFile>") == std::string::npos;
+}
+
 vtkSmartPointer<vtkPolyData> read_poly_data(const fs::path &file) {
   std::error_code code;
   if (!fs::is_regular_file(file, code)) fail(file, "is not a file");
+  if (is_cut_short(file))
+    throw CutShort(fmt::format("{}: is cut short: its end </VTKFile> is missing", file.string()));
   const Complaints complaints;
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName(file.c_str());
@@ -220,10 +238,14 @@ template <class Writer, class Data>
 void write(const fs::path &file, Data *data) {
   const Complaints complaints;
   vtkNew<Writer> writer;
-  writer->SetFileName(file.c_str());
   writer->SetInputData(data);
+  // Appended data, VTK's default, is not read by the ParaView of Debian 12 with today's libexpat.
+  writer->SetDataModeToBinary();
+  // Into memory first: on a full disk VTK's own writing to a file ends in a crash.
+  writer->WriteToOutputStringOn();
   if (writer->Write() != 1 || !complaints.first().empty())
     fail(file, fmt::format("cannot be written (VTK: {})", complaints.first()));
+  write_files({{file, writer->GetOutputString()}});
 }
 
 constexpr auto itself = [](const auto &value) { return value; };

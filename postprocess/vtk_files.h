@@ -1,10 +1,11 @@
 // VTK's files of a bed: the dumps of the engine in (some are text), what ParaView shows out. All of VTK is behind this.
 //
-// Readers throw std::runtime_error with the file and what is wrong with it; what VTK itself has to say of a file is kept off
+// Readers throw CutShort, or another std::runtime_error, with the file and what is wrong with it; what VTK itself has to say of a file is kept off
 // the screen and goes into what(). Writers throw it if a file cannot be written.
 #pragma once
 
 #include "bed_fields.h"
+#include "text_dump.h" // CutShort
 
 #include <filesystem>
 #include <map>

@@ -342,15 +342,21 @@ TEST(DirectSolver, RefusesWhatCannotBeComputed) {
   const auto starts = [](const std::string &text, const std::string &with) {
     return text.rfind(with, 0) == 0;
   };
-  EXPECT_PRED2(starts, refusal([](auto &p, auto &) { p.k = 0; }), "k = 0: allowed");
-  EXPECT_PRED2(starts, refusal([nan](auto &p, auto &) { p.D = nan; }), "D = nan: allowed");
-  EXPECT_PRED2(starts, refusal([](auto &p, auto &) { p.m3 = -1; }), "m3 = -1: allowed");
-  EXPECT_PRED2(starts, refusal([](auto &p, auto &) { p.k23 = 0; }), "k23 = 0 with g = 9.81");
-  EXPECT_PRED2(starts, refusal([](auto &, auto &o) { o.cycles = 0; }), "cycles = 0: allowed");
-  EXPECT_PRED2(starts, refusal([](auto &, auto &o) { o.cycles = 1e12; }), "cycles = 1000000000000: with");
+  EXPECT_PRED2(starts, refusal([](auto &p, auto &) { p.k = 0; }), "k is '0'; allowed: ");
+  EXPECT_PRED2(starts, refusal([nan](auto &p, auto &) { p.D = nan; }), "D is 'nan'; allowed: ");
+  EXPECT_PRED2(starts, refusal([](auto &p, auto &) { p.m3 = -1; }), "m3 is '-1'; allowed: ");
+  EXPECT_PRED2(starts, refusal([](auto &p, auto &) { p.k23 = 0; }),
+               "k23 is '0'; allowed: numbers above 0 [N/m], or 0 with g = 0: with g = 9.81");
+  EXPECT_PRED2(starts, refusal([](auto &, auto &o) { o.cycles = 0; }), "cycles is '0'; allowed: ");
+  EXPECT_PRED2(starts, refusal([](auto &, auto &o) { o.cycles = 1e12; }),
+               "cycles is '1000000000000'; allowed: ");
   EXPECT_PRED2(starts, refusal([](auto &, auto &o) { o.samples_per_cycle = 0; }),
-               "samples-per-cycle = 0: allowed");
-  EXPECT_PRED2(starts, refusal([](auto &, auto &o) { o.rtol = 1; }), "rtol = 1: allowed");
+               "samples-per-cycle is '0'; allowed: ");
+  EXPECT_PRED2(starts, refusal([](auto &, auto &o) { o.rtol = 1; }), "rtol is '1'; allowed: ");
+  // Work without bound: rows, and a chain that moves much faster than it is excited.
+  EXPECT_PRED2(starts, refusal([](auto &, auto &o) { o.samples_per_cycle = 1000000; }),
+               "cycles is '30'; allowed: with 1000000 samples per cycle at most 5");
+  EXPECT_PRED2(starts, refusal([](auto &p, auto &) { p.omega = 1e-6; }), "cycles is '30'; allowed: at most ");
   EXPECT_THROW(post::table1_case("V", Transition::B), std::invalid_argument);
   EXPECT_THROW(post::transition_from_name("C"), std::invalid_argument);
 }

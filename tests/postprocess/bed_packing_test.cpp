@@ -115,16 +115,33 @@ TEST(BedPacking, RefusesWhatCannotBePackedAndSaysWhatCan) {
     return refusal(options);
   };
   EXPECT_EQ(with(&PackingOptions::width, 0.04),
-            "width is 0.04; allowed: room for the largest ball, at least 0.048");
-  EXPECT_EQ(with(&PackingOptions::radius_min, 0.0), "radius-min is 0; allowed: a finite number > 0");
+            "width is '0.04'; allowed: a number from 0.048 to 100000 [m]: room for the largest ball");
+  EXPECT_EQ(with(&PackingOptions::radius_min, 0.0),
+            "radius-min is '0'; allowed: a number from 1e-06 to 1000 [m]");
   EXPECT_EQ(with(&PackingOptions::radius_max, 0.01),
-            "radius-max is 0.01; allowed: a finite number >= radius-min, which is 0.016");
-  EXPECT_NE(with(&PackingOptions::depth, 0.01).find("depth is 0.01; allowed: 0 (two dimensions) or"),
+            "radius-max is '0.01'; allowed: a number from radius-min, which is 0.016, to 1000 times it [m]");
+  EXPECT_NE(with(&PackingOptions::depth, 0.01).find("depth is '0.01'; allowed: 0, or a number from 0.048"),
             std::string::npos);
-  EXPECT_NE(with(&PackingOptions::height, std::nan("")).find("height is nan"), std::string::npos);
+  EXPECT_NE(with(&PackingOptions::height, std::nan("")).find("height is 'nan'"), std::string::npos);
   PackingOptions none;
   none.balls = 0;
-  EXPECT_EQ(refusal(none), "balls is 0; allowed: a whole number from 1 to 10000000");
+  EXPECT_EQ(refusal(none), "balls is '0'; allowed: a whole number from 1 to 10000000");
+}
+
+// Cells for the search of neighbours, and pairs to look at, are counted before any is made.
+TEST(BedPacking, BoundsItsWorkBeforeItBegins) {
+  PackingOptions wide;
+  wide.width = 1e5;
+  wide.depth = 1e4;
+  wide.height = 1e3;
+  EXPECT_EQ(refusal(wide).rfind("width is '100000'; allowed: a box of at most ", 0), 0u) << refusal(wide);
+  PackingOptions mixed;
+  mixed.balls = PackingOptions::most_balls;
+  mixed.depth = 2.0;
+  mixed.radius_min = 1e-3;
+  mixed.radius_max = 1.0;
+  mixed.grading = post::Grading::mass;
+  EXPECT_EQ(refusal(mixed).rfind("balls is '10000000'; allowed: at most ", 0), 0u) << refusal(mixed);
 }
 
 // Too much for the box is said before the first ball; what the least height allows is then packed.

@@ -171,16 +171,16 @@ TEST_F(AdviseCommand, AnswersFromTheStudyThatComesWithTheProject) {
 
 TEST_F(AdviseCommand, RefusesBadInputInOneLine) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> bad = {
-      {{"--error", "0"}, "--error = '0': allowed are numbers above 0 and below 1"},
-      {{"--error", "much"}, "--error = 'much'"},
-      {{"--error", "1"}, "--error = '1'"},
+      {{"--error", "0"}, "--error is '0'; allowed: a number from 1e-15 and below 1"},
+      {{"--error", "much"}, "--error is 'much'"},
+      {{"--error", "1"}, "--error is '1'"},
       {{"--case", "V"}, "'V'"},
       {{"--transition", "C"}, "'C'"},
-      {{"--k", "-1"}, "k = -1"},
-      {{"--stepping", "third"}, "--stepping = 'third': allowed are second and stock"},
-      {{"--measure", "colour"}, "--measure = 'colour': allowed are velocity, force and acceleration"},
-      {{"--cycles", "0.5"}, "--cycles = '0.5'"},
-      {{"--from", "nowhere"}, "--from = 'nowhere'"},
+      {{"--k", "-1"}, "--k is '-1'"},
+      {{"--stepping", "third"}, "--stepping is 'third'; allowed: second, stock"},
+      {{"--measure", "colour"}, "--measure is 'colour'; allowed: velocity, force, acceleration"},
+      {{"--cycles", "0.5"}, "--cycles is '0.5'"},
+      {{"--from", "nowhere"}, "--from is 'nowhere'"},
       {{"--error", "1e-12", "--D", "0.4", "--stepping", "stock"}, "steps per cycle"},
       // A drum that hops high on soil that hardly damps: chaos.
       {{"--k", "1e8", "--D", "0.02", "--Fw", "2e5"}, "no step can be advised"}};
