@@ -2,13 +2,12 @@
 
 #include "bed_fields.h"
 #include "chain_csv.h"
+#include "leftovers.h"
 #include "options.h"
 #include "vtk_files.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-
-#include <unistd.h>
 
 #include <array>
 #include <chrono>
@@ -84,12 +83,14 @@ private:
   std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
 };
 
-/// Results under way: a folder inside that of the results, which goes with this object.
+/// Results under way: a folder inside that of the results, which goes with this object. That of a killed call is cleared away.
 class Workshop {
 public:
   explicit Workshop(const fs::path &out) : out_(out), made_(!fs::exists(out)) {
+    constexpr const char *prefix = "unfinished.";
     fs::create_directories(out);
-    folder_ = out / fmt::format("unfinished.{}", ::getpid());
+    remove_leftovers(out, prefix);
+    folder_ = out / own_name(prefix);
     fs::create_directory(folder_);
   }
   ~Workshop() {
