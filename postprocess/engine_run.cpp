@@ -64,7 +64,7 @@ double seconds(const timeval &time) {
 
 Outcome run_program(const std::vector<std::string> &words, const std::vector<std::string> &environment,
                     const fs::path &folder, double limit) {
-  const fs::path text = folder / "screen.txt";
+  const fs::path text = folder / program_output_file;
   std::vector<std::string> arguments = words;
   std::vector<std::string> entries = environment;
   for (char **entry = environ; *entry != nullptr; ++entry)
