@@ -8,6 +8,7 @@
 #include "report_runs.h"
 #include "text.h"
 #include "page.h"
+#include "run_folders.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -30,6 +31,8 @@ namespace {
 using namespace drumlin::post;
 using drumlin::test::parse;
 using drumlin::test::Parsed;
+using drumlin::test::write_chain_run;
+using drumlin::test::write_impact_run;
 namespace fs = std::filesystem;
 
 std::string read(const fs::path &file) {
@@ -38,58 +41,6 @@ std::string read(const fs::path &file) {
 }
 
 void write(const fs::path &file, const std::string &text) { std::ofstream(file, std::ios::binary) << text; }
-
-/// A folder as an engine run of the chain leaves it; what it holds is the direct solution.
-void write_chain_run(const fs::path &folder, const std::string &case_name, Transition transition, int cycles,
-                     const std::string &command = "drumlin run in.chain") {
-  const ChainParameters p = table1_case(case_name, transition);
-  DirectOptions options;
-  options.cycles = cycles;
-  const DirectResult result = solve_direct(p, options);
-  fs::create_directories(folder);
-  write_chain(folder / "chain.csv", result.history);
-  write_events(folder / "events.csv", result.events);
-  write_cycles(folder / "cycles.csv", result.cycles);
-  std::vector<std::pair<std::string, std::string>> values = parameter_values(p);
-  values.insert(values.end(), {{"deck", "chain"},
-                               {"case", case_name},
-                               {"stepping", "none"},
-                               {"steps_per_cycle", "2000"},
-                               {"timestep", number_text(p.period() / 2000)},
-                               {"engine", "a test"},
-                               {"command", command}});
-  write_parameters(folder / "parameters.csv", values);
-}
-
-/// A folder as the impact deck leaves it, from the closed form.
-void write_impact_run(const fs::path &folder, Transition transition, double damping_ratio) {
-  ImpactParameters p;
-  p.transition = transition;
-  p.damping_ratio = damping_ratio;
-  const double duration = impact_duration(p);
-  const ImpactState last = impact_state(p, duration);
-  fs::create_directories(folder);
-  std::string text = "time,x_drum,v_drum,a_drum,F_contact,F_excitation\n";
-  for (int i = 0; i <= 300; ++i) {
-    const double t = 1.5 * duration * i / 300;
-    ImpactState s = impact_state(p, t);
-    if (t >= duration) s = {last.overlap + last.rate * (t - duration), last.rate, 0.0};
-    text += fmt::format("{},{},{},{},{},0\n", t, -s.overlap, -s.rate, s.force / p.mass, s.force);
-  }
-  write(folder / "chain.csv", text);
-  write(folder / "events.csv",
-        fmt::format(
-            "time,event,overlap,overlap_rate,force,id_i,id_j\n0,make,0,{},{},1,2\n{},break,{},{},{},1,2\n",
-            p.speed, impact_state(p, 0).force, duration, last.overlap, last.rate,
-            transition == Transition::A ? last.force : 0.0));
-  write_parameters(folder / "parameters.csv", {{"deck", "impact"},
-                                               {"transition", transition_name(transition)},
-                                               {"k", number_text(p.stiffness)},
-                                               {"D", number_text(p.damping_ratio)},
-                                               {"m2", number_text(p.mass)},
-                                               {"speed", number_text(p.speed)},
-                                               {"steps_per_contact", "200"}});
-}
 
 class Report : public ::testing::Test {
 protected:
