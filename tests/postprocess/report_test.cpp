@@ -284,12 +284,14 @@ TEST_F(Report, KeepsHostileNamesAsText) {
                                           "\xef\xbf\xbf",
                                           std::string(200, 'w')};
   const fs::path hostile = root / "hostile";
+  const fs::path seed = root / "seed";
+  write_chain_run(seed, "II", Transition::B, 6);
   ReportOptions options;
   for (const std::string &name : names) {
     fs::create_directories(hostile / name);
     for (const char *file : {"chain.csv", "events.csv"})
-      fs::copy(root / "runs" / "II-B" / file, hostile / name / file);
-    std::string parameters = read(root / "runs" / "II-B" / "parameters.csv");
+      fs::copy(seed / file, hostile / name / file);
+    std::string parameters = read(seed / "parameters.csv");
     parameters += csv_cell("note " + name) + "," + csv_cell(name) + "\n";
     parameters.replace(parameters.find("a test"), 6, csv_cell(name + " LAMMPS"));
     parameters.replace(parameters.find("D,0.5"), 5, "D,0.5000001"); // an error to draw
