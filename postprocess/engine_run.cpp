@@ -107,9 +107,13 @@ Outcome run_deck(const fs::path &deck, const Variables &variables, const fs::pat
                  double limit) {
   const bool lammps = deck.extension() == ".lammps";
   if (lammps && !has_lammps()) throw std::runtime_error("LAMMPS is not set up: ./drumlin setup lammps");
+  const std::string library = lammps ? DRUMLIN_LAMMPS_PLUGIN : plugin_library();
+  if (library.find_first_of(" \t\r\n\v\f:") != std::string::npos)
+    throw std::runtime_error("the plugin is '" + library +
+                             "'; allowed: a path without blanks and colons, at which it would be split");
   std::vector<std::string> words;
   std::vector<std::string> environment;
-  if (!lammps) environment = {"LD_PRELOAD=" + plugin_library()};
+  if (!lammps) environment = {"LD_PRELOAD=" + library};
   if (ranks > 1) {
     words = {"mpirun", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1"};
     if (geteuid() == 0) words.emplace_back("--allow-run-as-root");
@@ -122,8 +126,7 @@ Outcome run_deck(const fs::path &deck, const Variables &variables, const fs::pat
                              "none", "-var", "out", folder.string()});
   for (const auto &[name, value] : variables)
     words.insert(words.end(), {"-var", name, value});
-  if (lammps)
-    words.insert(words.end(), {"-var", "plugin", DRUMLIN_LAMMPS_PLUGIN}); // of a name twice the first counts
+  if (lammps) words.insert(words.end(), {"-var", "plugin", library}); // of a name twice the first counts
   return run_program(words, environment, folder, limit);
 }
 
