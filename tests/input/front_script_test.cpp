@@ -34,7 +34,7 @@ protected:
   void put(const std::string &file, const std::string &text) const { std::ofstream(folder / file) << text; }
 
   fs::path checkout(const std::string &name) const {
-    const fs::path place = folder / name;
+    fs::path place = folder / name;
     fs::create_directories(place / "build/release");
     fs::copy_file(root / "drumlin", place / "drumlin");
     const fs::path library = fs::path(post::plugin_library()).parent_path();
