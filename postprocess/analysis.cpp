@@ -64,7 +64,8 @@ std::array<double, 2> segment_integrals(double t0, double t1, double v0, double 
 } // namespace
 
 int complete_cycles(double last_time, double period) {
-  return std::max(0, static_cast<int>(std::floor(last_time / period + 1.0e-6)));
+  const double cycles = std::floor(last_time / period + 1.0e-6);
+  return static_cast<int>(std::clamp(cycles, 0.0, 1.0e9)); // else it would not fit into an int
 }
 
 TimeWindow last_cycles_window(int complete, int count, double period) {
@@ -299,10 +300,10 @@ std::optional<EnergyLedger> energy_ledger(const CycleColumns &cycles, std::strin
   }
   EnergyLedger ledger;
   ledger.first_cycle = 1;
-  ledger.last_cycle = static_cast<int>(cycles.rows);
+  ledger.last_cycle = static_cast<double>(cycles.rows);
   if (cycles.has("cycle")) {
-    ledger.first_cycle = static_cast<int>(std::lround(cycles.at("cycle").front()));
-    ledger.last_cycle = static_cast<int>(std::lround(cycles.at("cycle").back()));
+    ledger.first_cycle = cycles.at("cycle").front();
+    ledger.last_cycle = cycles.at("cycle").back();
   }
   ledger.work_excitation = change(cycles.at("work_excitation"));
   ledger.dissipated_contact = change(cycles.at("dissipated_contact"));
@@ -314,21 +315,41 @@ std::optional<EnergyLedger> energy_ledger(const CycleColumns &cycles, std::strin
   return ledger;
 }
 
-std::optional<RollerForce> roller_force(const ChainHistory &history, const ChainParameters &parameters) {
-  if (!history.has_frame() || history.size() == 0) return std::nullopt;
+std::optional<RollerForce> roller_force(const ChainHistory &history, const std::vector<ContactEvent> &events,
+                                        const ChainParameters &parameters) {
+  constexpr std::size_t reach = 2; // rows on either side
+  if (!history.has_frame() || history.size() < 2 * reach + 1) return std::nullopt;
   const ChainParameters &p = parameters;
+  const std::vector<double> &t = history.time;
+  const std::size_t size = history.size();
+  const double h = (t.back() - t.front()) / static_cast<double>(size - 1);
+  for (std::size_t i = 0; i < size; ++i)
+    if (!(std::abs(t[i] - t.front() - static_cast<double>(i) * h) < 1.0e-3 * h)) return std::nullopt;
+  const auto second_difference = [h](const std::vector<double> &x, std::size_t i) {
+    return (16.0 * (x[i - 1] + x[i + 1]) - x[i - 2] - x[i + 2] - 30.0 * x[i]) / (12.0 * h * h);
+  };
   RollerForce out;
-  out.force.reserve(history.size());
-  for (std::size_t i = 0; i < history.size(); ++i) {
-    const double force =
-        p.m2 * history.a_drum[i] + p.m3 * history.a_frame[i] + (p.m2 + p.m3) * p.g + history.F_excitation[i];
-    out.force.push_back(force);
+  out.force.assign(size, not_a_number);
+  auto next = events.begin();
+  for (std::size_t i = 0; i < size; ++i)
+    out.largest_force = std::max(out.largest_force, std::abs(history.F_contact[i]));
+  for (std::size_t i = reach; i + reach < size; ++i) {
+    while (next != events.end() && next->time < t[i - reach] - 1.0e-3 * h)
+      ++next;
+    bool smooth = next == events.end() || next->time > t[i + reach] + 1.0e-3 * h;
+    for (std::size_t j = i - reach; j < i + reach; ++j)
+      smooth = smooth && (history.F_contact[j] != 0.0) == (history.F_contact[j + 1] != 0.0);
+    if (!smooth) continue;
+    const double force = p.m2 * second_difference(history.x_drum, i) +
+                         p.m3 * second_difference(history.x_frame, i) + (p.m2 + p.m3) * p.g +
+                         history.F_excitation[i];
+    out.force[i] = force;
+    ++out.rows;
     const double difference = std::abs(force - history.F_contact[i]);
     if (difference > out.largest_difference) {
       out.largest_difference = difference;
-      out.at_time = history.time[i];
+      out.at_time = t[i];
     }
-    out.largest_force = std::max(out.largest_force, std::abs(history.F_contact[i]));
   }
   return out;
 }
@@ -392,6 +413,9 @@ std::optional<ImpactMeasure> measure_impact(const ChainHistory &history,
     }
   for (const ContactEvent &event : events)
     if (!event.make) measure.break_time = event.time;
+  measure.hits =
+      std::any_of(events.begin(), events.end(), [](const ContactEvent &event) { return event.make; }) ||
+      std::any_of(history.F_contact.begin(), history.F_contact.end(), [](double F) { return F != 0.0; });
   measure.ended = history.F_contact.back() == 0.0 && measure.speed_out > 0.0;
   return measure;
 }

@@ -122,8 +122,8 @@ EventMatch match_events(const std::vector<ContactEvent> &run, const std::vector<
 
 /// Where the exciter's work went, between the ends of the first and the last cycle of cycles.csv (J).
 struct EnergyLedger {
-  int first_cycle = 0; ///< the ledger runs from the end of this cycle
-  int last_cycle = 0;  ///< to the end of this one
+  double first_cycle = 0.0; ///< the ledger runs from the end of this cycle
+  double last_cycle = 0.0;  ///< to the end of this one
   double work_excitation = 0.0;
   double dissipated_contact = 0.0;
   double dissipated_bond = 0.0;
@@ -139,15 +139,19 @@ struct EnergyLedger {
 /// Nothing if columns are missing (named in `missing`) or there are fewer than two rows.
 std::optional<EnergyLedger> energy_ledger(const CycleColumns &cycles, std::string &missing);
 
-/// Contact force as a roller measures it, m2 a2 + m3 a3 + (m2 + m3) g + Fe, against the law's.
+/// Contact force as a roller measures it, m2 a2 + m3 a3 + (m2 + m3) g + Fe, against the law's. The accelerations are differences of
+/// the recorded positions, which the engine integrated, rather than its own accelerations, which it computes from the law's force.
 struct RollerForce {
-  std::vector<double> force;       ///< N, one per row
+  std::vector<double> force;       ///< N, one per row; NaN where it cannot be measured
+  std::size_t rows = 0;            ///< where it can
   double largest_difference = 0.0; ///< N
   double at_time = 0.0;            ///< s
   double largest_force = 0.0;      ///< largest |F_contact| of the law, N
 };
-/// Nothing for a history without frame.
-std::optional<RollerForce> roller_force(const ChainHistory &history, const ChainParameters &parameters);
+/// Differences of fourth order over five rows; rows with an event, or a beginning or an end of contact without a recorded event,
+/// among the five are left out. Nothing for a history without frame, of fewer than five rows, or whose rows are not equally far apart.
+std::optional<RollerForce> roller_force(const ChainHistory &history, const std::vector<ContactEvent> &events,
+                                        const ChainParameters &parameters);
 
 /// A single impact of a mass without gravity on the fixed ball.
 struct ImpactParameters {
@@ -174,6 +178,7 @@ struct ImpactMeasure {
   double speed_out = 0.0;           ///< m/s after the break
   double make_time = 0.0;           ///< s
   std::optional<double> break_time; ///< s; located, if events were recorded
+  bool hits = false;                ///< whether the record has a contact at all
   bool ended = false;               ///< whether the record ends without contact
   double restitution() const { return speed_out / speed_in; }
 };

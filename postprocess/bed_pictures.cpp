@@ -170,8 +170,7 @@ Panel instant_panel(const std::string &figure, const std::string &label, const I
   panel.equal_scales = true;
   const double margin = 0.02 * (scales.bounds.high[0] - scales.bounds.low[0]);
   const auto range = [&](std::size_t axis) {
-    return fmt::format("[{:.4g}:{:.4g}]", scales.bounds.low[axis] - margin,
-                       scales.bounds.high[axis] + margin);
+    return axis_range(scales.bounds.low[axis] - margin, scales.bounds.high[axis] + margin);
   };
   panel.x_range = range(0);
   panel.y_range = range(1);
@@ -182,7 +181,7 @@ Panel instant_panel(const std::string &figure, const std::string &label, const I
     panel.color_whole = true;
   } else {
     panel.color_label = "speed of a ball (m/s)";
-    panel.color_range = fmt::format("[0:{:.3g}]", std::max(scales.fastest, 1.0e-9));
+    panel.color_range = axis_range(0.0, std::max(scales.fastest, 1.0e-9));
   }
   const auto add = [&](const char *what, const std::string &x, const std::string &y, CurveStyle style) {
     panel.curves.push_back(curve(figure, label + what, x, y, style));
@@ -286,8 +285,7 @@ void plan_profile(const std::vector<Views> &all, const std::string &stem, const 
   for (Panel *panel : {&whole, &below}) {
     if (panel->curves.empty()) continue;
     panel->y_range = "[*:*] reverse";
-    panel->x_range =
-        fmt::format("[{:.3g}:{:.3g}]", 0.8 * densest, 1.03 * densest); // else nothing is seen to change
+    panel->x_range = axis_range(0.8 * densest, 1.03 * densest); // else nothing is seen to change
     panel->legend_rows = 2;
     figure.figure.panels.push_back(*panel);
   }

@@ -23,7 +23,10 @@ std::string data_path(const std::string &figure) { return "../data/" + figure + 
 
 std::string of_curve(const std::string &curve, const std::string &value, int stride, int phase) {
   const std::string thinned = stride > 1 ? fmt::format(" && int($0)%{}=={}", stride, phase) : "";
-  return fmt::format("(strcol(1) eq '{}'{} ? {} : NaN)", curve, thinned, value);
+  std::string quoted; // in gnuplot's single quotes a quote is doubled
+  for (const char c : curve)
+    quoted += c == '\'' ? "''" : std::string(1, c);
+  return fmt::format("(strcol(1) eq '{}'{} ? {} : NaN)", quoted, thinned, value);
 }
 
 Curve curve(const std::string &figure, const std::string &name, const std::string &x, const std::string &y,

@@ -70,7 +70,7 @@ double seconds(const timeval &time) {
 
 Outcome run_program(const std::vector<std::string> &words, const std::vector<std::string> &environment,
                     const fs::path &folder, double limit) {
-  const fs::path text = folder / "screen.txt";
+  const fs::path text = folder / program_output_file;
   std::vector<std::string> arguments = words;
   std::vector<std::string> entries = environment;
   for (char **entry = environ; *entry != nullptr; ++entry)
@@ -113,9 +113,13 @@ Outcome run_deck(const fs::path &deck, const Variables &variables, const fs::pat
                  double limit) {
   const bool lammps = deck.extension() == ".lammps";
   if (lammps && !has_lammps()) throw std::runtime_error("LAMMPS is not set up: ./drumlin setup lammps");
+  const std::string library = lammps ? DRUMLIN_LAMMPS_PLUGIN : plugin_library();
+  if (library.find_first_of(" \t\r\n\v\f:") != std::string::npos)
+    throw std::runtime_error("the plugin is '" + library +
+                             "'; allowed: a path without blanks and colons, at which it would be split");
   std::vector<std::string> words;
   std::vector<std::string> environment;
-  if (!lammps) environment = {"LD_PRELOAD=" + plugin_library()};
+  if (!lammps) environment = {"LD_PRELOAD=" + library};
   if (ranks > 1) {
     words = {"mpirun", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1"};
     if (geteuid() == 0) words.emplace_back("--allow-run-as-root");
@@ -129,7 +133,7 @@ Outcome run_deck(const fs::path &deck, const Variables &variables, const fs::pat
   for (const auto &[name, value] : variables)
     words.insert(words.end(), {"-var", name, value}); // of a name twice the first counts
   if (has_out(deck)) words.insert(words.end(), {"-var", "out", folder.string()});
-  if (lammps) words.insert(words.end(), {"-var", "plugin", DRUMLIN_LAMMPS_PLUGIN});
+  if (lammps) words.insert(words.end(), {"-var", "plugin", library});
   return run_program(words, environment, folder, limit);
 }
 

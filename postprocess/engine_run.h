@@ -20,6 +20,9 @@ struct Outcome {
   bool says(const std::string &text) const { return output.find(text) != std::string::npos; }
 };
 
+/// The file in its folder that run_program() leaves a program's output in.
+constexpr const char *program_output_file = "screen.txt";
+
 /// Runs a program with extra environment entries ("NAME=value") in a folder, for at most `limit` seconds.
 Outcome run_program(const std::vector<std::string> &words, const std::vector<std::string> &environment,
                     const std::filesystem::path &folder, double limit = 20.0);

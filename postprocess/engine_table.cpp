@@ -108,11 +108,12 @@ ReportTable engine_table(const ReportResults &results) {
     for (const Named &column : columns) {
       const double apart = difference(one.history.*column.column, other.history.*column.column);
       worst = std::max(worst, apart);
-      row.push_back(fmt::format("{:.1e}", apart));
+      row.push_back(std::isfinite(apart) ? fmt::format("{:.1e}", apart) : "–");
     }
     const bool agree = worst <= engines_agree_to;
     row.insert(row.end(),
-               {std::to_string(one.events.size()), fmt::format("{:.1e}", events), agree ? "yes" : "no"});
+               {std::to_string(one.events.size()),
+                std::isfinite(events) ? fmt::format("{:.1e}", events) : "–", agree ? "yes" : "no"});
     table.add(std::move(row), agree ? RowState::agrees : RowState::differs);
   }
   if (!table.rows.empty())

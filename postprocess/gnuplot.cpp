@@ -1,16 +1,17 @@
 #include "gnuplot.h"
 
+#include "engine_run.h"
 #include "output_files.h"
+#include "text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
 #include <string_view>
 
-#include <fcntl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -76,18 +77,29 @@ std::string style_words(const Curve &curve) {
   return "with lines";
 }
 
-/// A gnuplot string in double quotes; words come from us and from run folders' names.
-std::string gnuplot_string(std::string_view text) {
+/// A gnuplot string in double quotes; words come from us and from run folders' names. Other control characters than the line end
+/// are left out: they would stand in the SVG, which they make unreadable.
+std::string gnuplot_string(const std::string &text) {
   std::string out = "\"";
-  for (const char c : text) {
+  for (const char c : valid_utf8(text)) {
     if (c == '\n') {
       out += "\\n";
       continue;
     }
+    if (static_cast<unsigned char>(c) < 0x20) continue;
     if (c == '"' || c == '\\') out += '\\';
     out += c == '`' ? '\'' : c; // gnuplot would run what stands between backquotes
   }
   return out + "\"";
+}
+
+/// The label of a tic. Gnuplot takes it for a format of the tic's number, in which % begins a conversion.
+std::string tic_label(const std::string &name) {
+  constexpr std::size_t most = 40; // letters: a longer label would take the whole figure
+  std::string label;
+  for (const char c : shortened(valid_utf8(name), most))
+    label += c == '%' ? "%%" : std::string(1, c);
+  return label;
 }
 
 std::string panel_script(const Panel &panel) {
@@ -103,7 +115,7 @@ std::string panel_script(const Panel &panel) {
   constexpr double line_per_letter = 0.45; // a letter's width over the height of a line
   std::size_t longest = 0;
   for (const std::string &name : panel.x_ticks)
-    longest = std::max(longest, name.size());
+    longest = std::max(longest, tic_label(name).size());
   s += fmt::format("  set bmargin {}\n  set key maxrows {} width {}\n",
                    (longest == 0 ? 4.5 : 2.5) + panel.legend_rows +
                        line_per_letter * static_cast<double>(longest),
@@ -117,7 +129,7 @@ std::string panel_script(const Panel &panel) {
   } else {
     s += "  set xtics rotate by 90 right noenhanced (";
     for (std::size_t i = 0; i < panel.x_ticks.size(); ++i)
-      s += fmt::format("{}{} {}", i == 0 ? "" : ", ", gnuplot_string(panel.x_ticks[i]), i + 1);
+      s += fmt::format("{}{} {}", i == 0 ? "" : ", ", gnuplot_string(tic_label(panel.x_ticks[i])), i + 1);
     s += fmt::format(")\n  set xrange [0.5:{}]\n", static_cast<double>(panel.x_ticks.size()) + 0.5);
   }
   if (panel.equal_scales) s += "  set size ratio -1\n";
@@ -158,11 +170,6 @@ int rows_of(const Figure &figure) {
   return (static_cast<int>(figure.panels.size()) + columns - 1) / columns;
 }
 
-std::string read_all(const fs::path &path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 } // namespace
 
 fs::path find_gnuplot() {
@@ -175,6 +182,14 @@ fs::path find_gnuplot() {
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   throw std::runtime_error("the program gnuplot is not on PATH; install the Debian package gnuplot-nox");
+}
+
+std::string axis_range(double low, double high) {
+  const std::string from = fmt::format("{:.6g}", low);
+  const std::string to = fmt::format("{:.6g}", high);
+  return std::isfinite(low) && std::isfinite(high) && low < high && from != to
+             ? fmt::format("[{}:{}]", from, to)
+             : "";
 }
 
 int figure_width(const Figure &figure) { return columns_of(figure) * figure.panel_width; }
@@ -219,25 +234,14 @@ std::string gnuplot_script(const Figure &figure) {
 void render(const fs::path &gnuplot, const fs::path &folder, const Figure &figure) {
   const fs::path script = folder / (figure.name + ".gp");
   write_files({{script, gnuplot_script(figure)}});
-  const fs::path log = folder / (figure.name + ".log");
-  const std::string program = gnuplot.string();
-  const std::string file = figure.name + ".gp";
-  const std::string log_name = log.string();
-  const std::string where = folder.string();
-  const pid_t child = ::fork();
-  if (child < 0) throw std::runtime_error("cannot start gnuplot: fork failed");
-  if (child == 0) {
-    // Settings of the user must not change the report: --default-settings reads none of them.
-    const int fd = ::open(log_name.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    if (fd < 0 || ::dup2(fd, 1) < 0 || ::dup2(fd, 2) < 0 || ::chdir(where.c_str()) != 0) ::_exit(126);
-    ::execl(program.c_str(), "gnuplot", "--default-settings", file.c_str(), static_cast<char *>(nullptr));
-    ::_exit(127);
-  }
-  int status = 0;
-  if (::waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw std::runtime_error(fmt::format("gnuplot failed on {}: {}", script.string(), read_all(log)));
+  // Settings of the user must not change the report: --default-settings reads none of them.
+  constexpr double limit = 600.0; // s: the largest pictures take some ten
+  const Outcome outcome =
+      run_program({gnuplot.string(), "--default-settings", figure.name + ".gp"}, {}, folder, limit);
   std::error_code ignored;
-  fs::remove(log, ignored);
+  fs::remove(folder / program_output_file, ignored);
+  if (!outcome.ok())
+    throw std::runtime_error(fmt::format("gnuplot failed on {}: {}", script.string(), outcome.output));
   for (const char *kind : {".svg", ".png"}) {
     if (figure.only_png && std::string_view(kind) == ".svg") continue;
     const fs::path picture = folder / (figure.name + kind);

@@ -78,6 +78,9 @@ struct Figure {
   bool only_png = false;  ///< no SVG: thousands of circles make many MB of it
 };
 
+/// "[low:high]" with six digits for Panel::x_range and the like; empty, so that the data decide, if that is no range.
+std::string axis_range(double low, double high);
+
 /// Size of the whole figure in CSS pixels.
 int figure_width(const Figure &figure);
 int figure_height(const Figure &figure);

@@ -1,11 +1,9 @@
 #include "report.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <ctime>
 #include <fstream>
-#include <memory>
 #include <stdexcept>
 
 #include <unistd.h>
@@ -21,10 +19,12 @@
 #include "direct_solver.h"
 #include "engine_run.h"
 #include "gnuplot.h"
+#include "leftovers.h"
 #include "report_figures.h"
 #include "report_html.h"
 #include "report_results.h"
 #include "report_runs.h"
+#include "text.h"
 
 namespace drumlin::post {
 
@@ -64,10 +64,15 @@ fs::path checked_place(const fs::path &out, const ReportFolders &folders) {
   return place;
 }
 
-/// A folder that goes away again unless it is moved to its place.
+/// A folder that goes away again unless it is moved to its place. What a killed report of the same place left is cleared away first.
 class Draft {
 public:
-  explicit Draft(const fs::path &place) : place_(place), folder_(beside("new")) {
+  explicit Draft(const fs::path &place) : place_(place), folder_(beside(own_name(prefix("new")))) {
+    // Killed between its two renames, a report leaves the earlier one under its other name.
+    const fs::path earlier = leftover(place_.parent_path(), prefix("old"));
+    if (!earlier.empty() && !fs::exists(place_)) fs::rename(earlier, place_);
+    for (const char *what : {"new", "old"})
+      remove_leftovers(place_.parent_path(), prefix(what));
     fs::remove_all(folder_);
     fs::create_directories(folder_ / "figures");
     fs::create_directories(folder_ / "data");
@@ -82,7 +87,7 @@ public:
 
   /// Swaps the draft in; an earlier report comes back if that fails.
   void publish() {
-    const fs::path old = beside("old");
+    const fs::path old = beside(own_name(prefix("old")));
     const bool replaces = fs::exists(place_);
     if (replaces) fs::rename(place_, old);
     std::error_code error;
@@ -97,26 +102,20 @@ public:
   }
 
 private:
-  fs::path beside(const char *what) const {
-    return place_.parent_path() / fmt::format(".{}.{}-{}", place_.filename().string(), what, ::getpid());
+  std::string prefix(const char *what) const {
+    return fmt::format(".{}.{}-", place_.filename().string(), what);
   }
+  fs::path beside(const std::string &name) const { return place_.parent_path() / name; }
   fs::path place_;
   fs::path folder_;
 };
 
-std::string program_version(const fs::path &program) {
-  std::string command = "'";
-  for (const char c : program.string())
-    command += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  const std::unique_ptr<std::FILE, int (*)(std::FILE *)> pipe(
-      ::popen((command + "' --version 2>/dev/null").c_str(), "r"), &::pclose);
-  std::array<char, 200> line{};
-  if (!pipe || std::fgets(line.data(), static_cast<int>(line.size()), pipe.get()) == nullptr)
-    return "gnuplot";
-  std::string text = line.data();
-  while (!text.empty() && (text.back() == '\n' || text.back() == ' '))
-    text.pop_back();
-  return text;
+/// The first line that `gnuplot --version` prints.
+std::string gnuplot_version(const fs::path &gnuplot, const fs::path &scratch) {
+  std::string text = run_program({gnuplot.string(), "--version"}, {}, scratch).output;
+  fs::remove(scratch / program_output_file);
+  text.erase(std::min(text.find('\n'), text.size()));
+  return text.empty() ? "gnuplot" : text;
 }
 
 nlohmann::ordered_json check_json(const ReportResults &results, const Check &check) {
@@ -132,8 +131,9 @@ nlohmann::ordered_json check_json(const ReportResults &results, const Check &che
   json["measured"] = valued ? nlohmann::ordered_json(check.value) : nlohmann::ordered_json(nullptr);
   json["difference"] = valued ? nlohmann::ordered_json(check.difference) : nlohmann::ordered_json(nullptr);
   json["tolerance"] = check.tolerance;
-  json["agrees"] = check.agrees();
-  json["short_run"] = check.short_run;
+  const bool judged = check.agreement != Agreement::not_judged;
+  json["agrees"] = judged ? nlohmann::ordered_json(check.agrees()) : nlohmann::ordered_json(nullptr);
+  json["short_run"] = !judged;
   json["from"] = check.source;
   return json;
 }
@@ -174,6 +174,7 @@ std::string summary_json(const ReportResults &results, const std::vector<BedResu
   json["checks"] = count.all;
   json["agree"] = count.agree;
   json["agree_to_digits_given"] = count.same_digits;
+  json["not_judged"] = count.not_judged;
   json["runs"] = nlohmann::ordered_json::array();
   for (const RunResult &result : results.runs) {
     nlohmann::ordered_json run;
@@ -192,21 +193,20 @@ std::string summary_json(const ReportResults &results, const std::vector<BedResu
   return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-/// Counts the pieces of work and says which one begins.
+/// Counts the pieces of one kind of work, whose number is known before the first, and says which one begins.
 class Progress {
 public:
-  Progress(const std::function<void(const std::string &)> &say, std::size_t all) : say_(say), all_(all) {}
+  Progress(const std::function<void(const std::string &)> &say, std::string kind, std::size_t all)
+      : say_(say), kind_(std::move(kind)), all_(all) {}
   void operator()(const std::string &what) {
     ++done_;
     const std::size_t width = fmt::format("{}", all_).size();
-    if (say_) say_(fmt::format("[{:>{}}/{}] {}", done_, width, all_, what));
+    if (say_) say_(fmt::format("{} [{:>{}}/{}] {}", kind_, done_, width, all_, what));
   }
-  /// The number of pieces is known better by now.
-  void expect(std::size_t all) { all_ = all; }
-  std::size_t done() const { return done_; }
 
 private:
   const std::function<void(const std::string &)> &say_;
+  std::string kind_;
   std::size_t all_;
   std::size_t done_ = 0;
 };
@@ -224,15 +224,14 @@ std::vector<Run> read_runs(const std::vector<fs::path> &folders) {
   return runs;
 }
 
-/// The title of a study's page; its folder's name if the page has none.
+/// The title of a study's page as plain text; its folder's name if the page has none.
 std::string title_of(const fs::path &study) {
   const std::string page = read_text(study / "index.html");
   const std::string open = "<title>";
   const std::size_t begin = page.find(open);
   const std::size_t end = page.find("</title>");
-  if (begin == std::string::npos || end == std::string::npos || end < begin)
-    return html_escaped(study.filename().string());
-  return page.substr(begin + open.size(), end - begin - open.size());
+  if (begin == std::string::npos || end == std::string::npos || end < begin) return study.filename().string();
+  return html_unescaped(page.substr(begin + open.size(), end - begin - open.size()));
 }
 
 /// Copies the studies into the report, each to a folder of its name.
@@ -245,7 +244,7 @@ std::vector<StudyLink> copy_studies(const std::vector<fs::path> &studies, const 
       place = fs::path("studies") / fmt::format("{}-{}", name, number);
     fs::create_directories(report / "studies");
     fs::copy(study, report / place, fs::copy_options::recursive);
-    links.push_back({(place / "index.html").string(), title_of(study)});
+    links.push_back({link_to((place / "index.html").string()), title_of(study)});
   }
   return links;
 }
@@ -269,14 +268,15 @@ ReportOutcome write_report(const ReportOptions &options) {
   }
   std::vector<Run> runs = read_runs(folders.runs);
 
-  constexpr std::size_t usual_figures = 13;
-  Progress progress(options.progress, runs.size() + usual_figures + 1);
+  const bool any_beds =
+      std::any_of(runs.begin(), runs.end(), [](const Run &run) { return run.kind == RunKind::bed; });
+  Progress reading(options.progress, "runs", runs.size() + (any_beds ? 1 : 0));
   ReportResults results;
   DirectSolutions direct;
   std::vector<BedResult> beds;
   for (Run &run : runs) {
-    progress(run.kind == RunKind::chain ? fmt::format("{}: direct solution and measures", run.name)
-                                        : fmt::format("{}: measures", run.name));
+    reading(run.kind == RunKind::chain ? fmt::format("{}: direct solution and measures", run.name)
+                                       : fmt::format("{}: measures", run.name));
     try {
       if (run.kind == RunKind::bed)
         beds.push_back(analyse_bed(std::move(run)));
@@ -298,35 +298,35 @@ ReportOutcome write_report(const ReportOptions &options) {
   tables.insert(tables.end(), of_beds.begin(), of_beds.end());
   const std::vector<BedGroup> groups = group_beds(beds);
   FigurePlan bed_plan;
-  if (!beds.empty()) progress("beds: dumps");
+  if (any_beds) reading("dumps of the beds");
   try {
     bed_plan = plan_bed_figures(groups);
   } catch (const std::runtime_error &error) {
     throw UsageError(error.what());
   }
-  const std::size_t pieces =
-      plan.figures.size() + plan.absent.size() + bed_plan.figures.size() + bed_plan.absent.size() + 1;
-  progress.expect(progress.done() + pieces);
+  Progress drawing(options.progress, "pages",
+                   plan.figures.size() + plan.absent.size() + bed_plan.figures.size() +
+                       bed_plan.absent.size() + 1);
 
   Draft draft(place);
   for (const auto &[figures, page] :
        {std::pair<const FigurePlan *, const char *>(&plan, ""), {&bed_plan, "bed: "}}) {
     for (const AbsentFigure &absent : figures->absent)
-      progress(fmt::format("{}{} left out: {}", page, absent.label, absent.reason));
+      drawing(fmt::format("{}{} left out: {}", page, absent.label, absent.reason));
     for (const PlannedFigure &figure : figures->figures) {
-      progress(fmt::format("{}{} {}", page, figure.label, figure.figure.name));
+      drawing(fmt::format("{}{} {}", page, figure.label, figure.figure.name));
       write_text(draft.folder() / "data" / (figure.figure.name + ".csv"), figure.csv);
       render(gnuplot, draft.folder() / "figures", figure.figure);
     }
   }
-  progress("tables and page");
+  drawing("tables and text");
   for (const ReportTable &table : tables)
     if (!table.rows.empty()) write_text(draft.folder() / "data" / (table.name + ".csv"), table_csv(table));
   const std::vector<StudyLink> studies = copy_studies(folders.studies, draft.folder());
   ReportVersions versions;
   versions.drumlin = options.version;
   versions.direct_solver = direct_solver_name();
-  versions.gnuplot = program_version(gnuplot);
+  versions.gnuplot = gnuplot_version(gnuplot, draft.folder());
   versions.made_at = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)));
   std::vector<std::string> bed_names;
   bed_names.reserve(beds.size());
@@ -337,7 +337,14 @@ ReportOutcome write_report(const ReportOptions &options) {
   write_text(draft.folder() / "index.html", report_page(results, tables, plan, bed_names, studies, versions));
   write_text(draft.folder() / summary_file, summary_json(results, beds, versions));
   draft.publish();
-  return {place / "index.html", count_checks(results)};
+  ReportOutcome outcome{place / "index.html", count_checks(results), {}};
+  for (std::size_t i = 0; i < results.runs.size(); ++i) {
+    if (count_checks(results, i).not_judged == 0) continue;
+    const std::string command = judging_command(results.runs[i].run);
+    std::vector<std::string> &all = outcome.judging_commands;
+    if (std::find(all.begin(), all.end(), command) == all.end()) all.push_back(command);
+  }
+  return outcome;
 }
 
 } // namespace drumlin::post

@@ -22,6 +22,7 @@ struct ReportOptions {
 struct ReportOutcome {
   std::filesystem::path page; ///< index.html
   CheckCount checks;
+  std::vector<std::string> judging_commands; ///< of runs that are too short to be judged, each once
 };
 
 /// Makes the report in a folder beside `out` and moves it there when it is whole. Throws UsageError for

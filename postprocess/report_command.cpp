@@ -31,6 +31,11 @@ void run(const Arguments &arguments) {
   const ReportOutcome outcome = write_report(options);
   if (outcome.checks.all > 0)
     fmt::print("{} of {} checks against reference values agree\n", outcome.checks.agree, outcome.checks.all);
+  if (outcome.checks.not_judged > 0)
+    fmt::print("{} values are not judged, for their runs are too short; these are long enough:\n",
+               outcome.checks.not_judged);
+  for (const std::string &command : outcome.judging_commands)
+    fmt::print("  {}\n", command);
   fmt::print("{}\n", outcome.page.string());
 }
 

@@ -98,9 +98,21 @@ std::string range_words(const RunResult &result) {
   return words;
 }
 
+bool all_at_case(const std::vector<const RunResult *> &runs) {
+  return std::all_of(runs.begin(), runs.end(), [](const RunResult *run) { return run->run.at_case; });
+}
+
+/// "case II", or "own parameters after case II" if a run has others than the paper's.
+std::string case_title(const std::string &name, const std::vector<const RunResult *> &runs) {
+  return (all_at_case(runs) ? "case " : "own parameters after case ") + name;
+}
+
 std::string case_words(const std::string &name, const std::vector<const RunResult *> &runs) {
+  std::string own;
   for (const RunResult *run : runs)
-    if (!run->run.at_case) return fmt::format("Not at the paper's parameters: {}.", run->run.not_at_case);
+    if (!run->run.at_case)
+      own += fmt::format("{}{}: {}", own.empty() ? "" : "; ", run->run.name, run->run.not_at_case);
+  if (!own.empty()) return fmt::format("Not at the paper's parameters: {}.", own);
   if (name == "I") return "The drum never leaves the soil, so A and B coincide.";
   if (name == "II")
     return "The drum lifts off in every cycle. Under A the force jumps to tension before it lets go; under B "
@@ -128,12 +140,13 @@ ImpactPair impact_pair(const ReportResults &results) {
   ImpactPair best;
   double best_rank = std::numeric_limits<double>::infinity();
   for (const RunResult &first : results.runs) {
-    if (!first.impact) continue;
+    if (!first.impact || !first.impact->hits) continue;
     ImpactPair pair;
     (first.run.transition() == Transition::A ? pair.a : pair.b) = &first;
     double rank = 1000.0; // one of them alone
     for (const RunResult &second : results.runs) {
-      if (!second.impact || second.run.transition() == first.run.transition()) continue;
+      if (!second.impact || !second.impact->hits || second.run.transition() == first.run.transition())
+        continue;
       if (std::abs(second.run.impact.damping_ratio - first.run.impact.damping_ratio) > 1.0e-9) continue;
       (second.run.transition() == Transition::A ? pair.a : pair.b) = &second;
       rank = 0.0;
@@ -158,7 +171,8 @@ void plan_impact(const ReportResults &results, FigurePlan &plan) {
   const ImpactPair pair = impact_pair(results);
   if (pair.a == nullptr && pair.b == nullptr) {
     plan.absent.push_back(
-        {"impact", "Fig. 3", "no run folder of an impact (deck=impact in parameters.csv) was given"});
+        {"impact", "Fig. 3",
+         "no run folder of an impact (deck=impact in parameters.csv) that meets the soil was given"});
     return;
   }
   const std::string name = "fig3_single_impact";
@@ -197,7 +211,7 @@ void plan_impact(const ReportResults &results, FigurePlan &plan) {
     for (auto &[panel, x] : {std::pair(&over_overlap, "$3*1e3"), std::pair(&over_time, "$2*1e3")})
       panel->curves.push_back(
           curve(name, direct_label(*result), x, "($4*1e-3)", marker_style(result->run.transition())));
-  over_time.x_range = fmt::format("[{:.4g}:{:.4g}]", -0.05 * longest * 1e3, 1.15 * longest * 1e3);
+  over_time.x_range = axis_range(-0.05 * longest * 1e3, 1.15 * longest * 1e3);
   const ImpactParameters &p = runs.front()->run.impact;
   PlannedFigure figure{"impact", "Fig. 3", "", {}, table.text()};
   figure.figure = {name, "Fig. 3  Single impact without gravity", {over_overlap, over_time}, 2, 640, 540};
@@ -222,9 +236,12 @@ void plan_case(const ReportResults &results, std::size_t index, FigurePlan &plan
     plan.absent.push_back({"steady", label, fmt::format("no run of case {} was given", case_name)});
     return;
   }
-  const std::string name = fmt::format("fig{}_case_{}", index + 4, case_name);
+  const bool of_paper = all_at_case(runs);
+  const std::string name = of_paper ? fmt::format("fig{}_case_{}", index + 4, case_name)
+                                    : fmt::format("own_after_case_{}", case_name);
   CurveTable table(history_columns);
-  Panel panel{fmt::format("{}  Drum acceleration at steady state, case {}", label, case_name),
+  Panel panel{fmt::format("{}Drum acceleration at steady state, {}", of_paper ? label + "  " : "",
+                          case_title(case_name, runs)),
               last_cycles_label,
               "drum acceleration (m/s²)",
               {}};
@@ -235,11 +252,11 @@ void plan_case(const ReportResults &results, std::size_t index, FigurePlan &plan
     ranges += (ranges.empty() ? "" : "; ") + range_words(*result);
   }
   add_curves(panel, name, runs, since_ms, "6");
-  PlannedFigure figure{"steady", label, "", {}, table.text()};
+  PlannedFigure figure{"steady", of_paper ? label : "Own parameters", "", {}, table.text()};
   figure.figure = {name, panel.title, {panel}, 1, 960, 540};
   figure.caption = fmt::format(
-      "Drum acceleration over the last {} cycles, case {}. {} {}. Markers: direct solution. Runs: {}.",
-      shown_cycles, case_name, case_words(case_name, runs), ranges, names_of(runs));
+      "Drum acceleration over the last {} cycles, {}. {} {}. Markers: direct solution. Runs: {}.",
+      shown_cycles, case_title(case_name, runs), case_words(case_name, runs), ranges, names_of(runs));
   plan.figures.push_back(std::move(figure));
 }
 
@@ -258,7 +275,7 @@ void plan_panels(const ReportResults &results, FigurePlan &plan, PlannedFigure f
       continue;
     }
     Panel panel;
-    panel.title = fmt::format("({}) case {}", letters[i], case_names[i]);
+    panel.title = fmt::format("({}) {}", letters[i], case_title(case_names[i], {result}));
     panel.tight_x = true;
     if (!fill(*result, table, panel)) continue;
     figure.figure.panels.push_back(panel);
@@ -287,6 +304,7 @@ void plan_dem_and_direct(const ReportResults &results, FigurePlan &plan) {
   plan_panels(
       results, plan, std::move(figure), "case,time (s),time in window (s),drum acceleration (m/s2)",
       [&](const RunResult &result, CurveTable &table, Panel &panel) {
+        if (result.truth == nullptr) return false;
         const Run &run = result.run;
         const TimeWindow window = shown(run);
         const double number =
@@ -349,21 +367,21 @@ void plan_loops(const ReportResults &results, std::size_t index, FigurePlan &pla
   }
   add_curves(phase, name, runs, "(-$4*1e3)", "5");
   add_curves(loop, name, runs, "$4*1e3", "($7*1e-3)");
-  loop.x_range = fmt::format("[{:.4g}:{:.4g}]", -0.12 * largest * 1e3, 1.08 * largest * 1e3);
+  loop.x_range = axis_range(-0.12 * largest * 1e3, 1.08 * largest * 1e3);
   PlannedFigure figure{"loops", label, "", {}, table.text()};
-  figure.figure = {name,          fmt::format("{}  Orbits of case {} at steady state", label, case_name),
-                   {phase, loop}, 2,
-                   570,           500};
+  figure.figure = {
+      name,          fmt::format("{}  Orbits at steady state, {}", label, case_title(case_name, runs)),
+      {phase, loop}, 2,
+      570,           500};
   figure.caption = fmt::format(
-      "Case {}, last cycle (the last two where the state alternates). Left: drum velocity against position. "
+      "Steady state, {}: last cycle (the last two where the state alternates). Left: drum velocity against "
+      "position. "
       "Right: contact force against overlap; "
       "the "
       "area of the loop is the energy that the contact takes per cycle, a vertical line is the jump at make"
       "{}. The right panel leaves out most of the flight, where the force is zero. Runs: {}.",
-      case_name, " or, under A, at break", names_of(runs));
-  const bool coincide =
-      std::all_of(runs.begin(), runs.end(), [](const RunResult *run) { return run->run.at_case; });
-  if (case_name == "I" && coincide)
+      case_title(case_name, runs), " or, under A, at break", names_of(runs));
+  if (case_name == "I" && all_at_case(runs))
     figure.caption =
         fmt::format("Case I, last cycle. Left: drum velocity against position. Right: contact force against "
                     "overlap; the area of the loop is the energy that the contact takes per cycle. A and B "
@@ -379,7 +397,7 @@ void plan_restitution(const ReportResults &results, FigurePlan &plan) {
   bool any_b = false;
   double largest = 1.2;
   for (const RunResult &result : results.runs) {
-    if (!result.impact) continue;
+    if (!result.impact || !result.impact->hits) continue;
     const bool a = result.run.transition() == Transition::A;
     (a ? any_a : any_b) = true;
     largest = std::max(largest, 1.1 * result.run.impact.damping_ratio);
@@ -387,7 +405,7 @@ void plan_restitution(const ReportResults &results, FigurePlan &plan) {
               {result.run.impact.damping_ratio, result.impact->ended ? result.impact->restitution() : 0.0});
   }
   if (!any_a && !any_b) {
-    plan.absent.push_back({"impact", "Fig. R5", "no run folder of an impact was given"});
+    plan.absent.push_back({"impact", "Fig. R5", "no run folder of an impact that meets the soil was given"});
     return;
   }
   constexpr int points = 200;
@@ -452,8 +470,9 @@ void plan_roller(const ReportResults &results, FigurePlan &plan) {
       name, "Fig. R7  Contact force: the law's and as a roller measures it, condition B", {}, 2, 600, 390};
   figure.caption =
       fmt::format("Contact force over the last {} cycles under condition B: what the law gave (line) and "
-                  "what follows from "
-                  "accelerations, weights and excitation, m2 a2 + m3 a3 + (m2 + m3) g + Fe (markers).",
+                  "what follows from accelerations by differences of the recorded positions, weights and "
+                  "excitation, m2 a2 + m3 a3 + (m2 + m3) g + Fe (markers; none beside a make or break, where "
+                  "the force jumps).",
                   shown_cycles);
   plan_panels(
       results, plan, std::move(figure), "case,time (s),time in window (s),contact force (N)",

@@ -1,9 +1,12 @@
 #include "report_html.h"
 
 #include "engine_table.h"
+#include "text.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -73,7 +76,8 @@ constexpr Section sections[] = {
      "A mass hits the fixed ball once, without gravity: the paper's Fig. 3, and how much of the speed comes "
      "back."},
     {"steady", "Steady drum acceleration, cases I to IV",
-     "The paper's Figs. 4 to 7. Condition A dashed, condition B solid, direct solution as markers."},
+     "The paper's Figs. 4 to 7, where the parameters are the paper's. Condition A dashed, condition B solid, "
+     "direct solution as markers."},
     {"direct", "Runs against the direct solution",
      "The paper's Fig. 8, and what cannot be seen in it. The direct solution integrates the same equations "
      "between "
@@ -86,8 +90,9 @@ constexpr Section sections[] = {
      "Every value of the reference table, the compaction meter values, and the paper's words."},
     {"energy", "Energy", "Where the work of the exciter goes."},
     {"roller", "Contact force as a roller measures it",
-     "A roller cannot see the contact law. What it can measure, Fc = m2 a2 + m3 a3 + (m2 + m3) g + Fe, must "
-     "equal it."},
+     "A roller cannot see the contact law. What it can measure is motion: Fc = m2 a2 + m3 a3 + (m2 + m3) g + "
+     "Fe, here with accelerations by differences of the positions that the engine integrated, must equal the "
+     "force of the law."},
     {"bed", "Roller on a bed of balls", ""},
     {"studies", "Studies",
      "What steps, laws and options cost and what they bring, each on a page of its own."},
@@ -121,17 +126,20 @@ std::string summary_html(const ReportResults &results) {
       chains + impacts < results.runs.size()
           ? fmt::format(", {} without usable parameters", results.runs.size() - chains - impacts)
           : "");
-  if (count.all == 0)
+  if (count.all + count.not_judged == 0)
     return s + "<p class=\"verdict\">No run is at the parameters of a case with reference values, so none "
                "was judged.</p>\n";
-  s += fmt::format("<p class=\"verdict{}\"><strong>{} of {} checks against reference values agree</strong>, "
-                   "{} of them to every "
-                   "digit given{}.</p>\n",
-                   count.agree == count.all ? "" : " bad", count.agree, count.all, count.same_digits,
-                   count.differ_in_short_runs > 0
-                       ? fmt::format("; {} of those that differ are of runs with fewer than {} cycles",
-                                     count.differ_in_short_runs, long_run_cycles)
-                       : "");
+  if (count.all > 0)
+    s +=
+        fmt::format("<p class=\"verdict{}\"><strong>{} of {} checks against reference values agree</strong>, "
+                    "{} of them to every digit given.</p>\n",
+                    count.agree == count.all ? "" : " bad", count.agree, count.all, count.same_digits);
+  if (count.not_judged > 0)
+    s += fmt::format("<p class=\"verdict\"><strong>{} values are not judged</strong>: the reference values "
+                     "need steady states, of runs with {} cycles or more. <a href=\"#table-runs\">The table "
+                     "of runs</a> names the command that makes such a run.</p>\n",
+                     count.not_judged, long_run_cycles);
+  if (count.all == 0) return s;
   // Which stepping the checks were made with says most about why some differ.
   std::map<std::string, std::pair<std::size_t, std::size_t>> by_stepping;
   for (std::size_t i = 0; i < results.runs.size(); ++i) {
@@ -205,7 +213,7 @@ std::string section_html(const FigurePlan &plan, const std::string &section) {
 std::string html_escaped(const std::string &text) {
   std::string out;
   out.reserve(text.size());
-  for (const char c : text) {
+  for (const char c : valid_utf8(text)) {
     switch (c) {
     case '&':
       out += "&amp;";
@@ -227,6 +235,20 @@ std::string html_escaped(const std::string &text) {
     }
   }
   return out;
+}
+
+std::string html_unescaped(const std::string &html) {
+  constexpr std::array<std::pair<std::string_view, char>, 5> entities = {
+      {{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&#39;", '\''}}};
+  std::string text;
+  for (std::size_t i = 0; i < html.size();) {
+    const auto *const entity = std::find_if(entities.begin(), entities.end(), [&](const auto &one) {
+      return html.compare(i, one.first.size(), one.first) == 0;
+    });
+    text += entity == entities.end() ? html[i] : entity->second;
+    i += entity == entities.end() ? 1 : entity->first.size();
+  }
+  return text;
 }
 
 std::string html_page(const std::string &title, const std::string &made, const std::string &body) {
@@ -334,7 +356,8 @@ std::string report_page(const ReportResults &results, const std::vector<ReportTa
     if (id == "studies" && !studies.empty()) {
       s += "<ul>\n";
       for (const StudyLink &study : studies)
-        s += fmt::format("<li><a href=\"{}\">{}</a></li>\n", html_escaped(study.place), study.title);
+        s += fmt::format("<li><a href=\"{}\">{}</a></li>\n", html_escaped(study.place),
+                         html_escaped(study.title));
       s += "</ul>\n";
       any = true;
     }

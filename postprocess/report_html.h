@@ -19,8 +19,11 @@ struct ReportVersions {
   std::string made_at; ///< date and time, UTC
 };
 
-/// Text with &, <, >, " and ' replaced, and characters that XML forbids left out.
+/// Text with &, <, >, " and ' replaced, control characters left out, and what is not UTF-8 replaced by U+FFFD.
 std::string html_escaped(const std::string &text);
+
+/// The text that html_escaped() would give as `html`.
+std::string html_unescaped(const std::string &html);
 
 /// A whole page: head with the styles of all pages of this project, title, a line on how it was made (plain text, may be
 /// empty), then `body` as it stands.
@@ -43,8 +46,8 @@ std::string made_line(const ReportVersions &versions);
 
 /// A study beside the report.
 struct StudyLink {
-  std::string place; ///< of its index.html, relative to the report's
-  std::string title; ///< as it stands in its page, escaped
+  std::string place; ///< link to its index.html, relative to the report's
+  std::string title; ///< plain text
 };
 
 /// The page of the report. Figures are expected at figures/NAME.svg and .png, data at data/NAME.csv beside it. With bed runs it

@@ -2,6 +2,7 @@
 // beside it, and the checks against the reference values.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -38,8 +39,9 @@ struct ChainMeasures {
   std::string energy_missing;
   std::optional<RollerForce> roller;
 
-  // Against the direct solution of the same parameters.
-  double velocity_error_last = 0.0;              ///< relative RMS of drum velocity, last five cycles
+  // Against the direct solution of the same parameters, if there is one.
+  double velocity_error_last =
+      std::numeric_limits<double>::quiet_NaN();  ///< relative RMS of drum velocity, last five cycles
   std::optional<double> velocity_error_25_to_30; ///< the same, cycles 25 to 30
   bool truth_interpolated = false;               ///< the run's times are not on the direct solution's grid
   EventMatch match;                              ///< all events
@@ -50,7 +52,8 @@ enum class Agreement {
   same_digits, ///< rounds to the digits given, or lies in the range given
   tolerance,   ///< within the stated tolerance
   differs,
-  not_measured
+  not_measured,
+  not_judged ///< the run is shorter than the reference values ask for
 };
 
 /// One comparison, in the reference's unit.
@@ -67,7 +70,6 @@ struct Check {
   std::string tolerance;            ///< in words
   std::string source;
   Agreement agreement = Agreement::not_measured;
-  bool short_run = false; ///< fewer cycles than the reference values ask for
   std::string note;
   bool agrees() const { return agreement == Agreement::same_digits || agreement == Agreement::tolerance; }
 };
@@ -77,8 +79,9 @@ struct RunResult {
   Run run;
   std::optional<ChainMeasures> chain;
   std::optional<ImpactMeasure> impact;
-  std::optional<ChainMeasures> truth_chain;  ///< the same measures of the direct solution
-  std::shared_ptr<const DirectResult> truth; ///< direct solution of the same chain; empty for impacts
+  std::optional<ChainMeasures> truth_chain; ///< the same measures of the direct solution
+  std::shared_ptr<const DirectResult>
+      truth; ///< direct solution of the same chain; empty for impacts and if it failed
 };
 
 /// Everything that the report prints.

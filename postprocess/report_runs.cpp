@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <stdexcept>
 
@@ -9,6 +10,7 @@
 
 #include "command.h"
 #include "reference_values.h"
+#include "text.h"
 
 namespace drumlin::post {
 
@@ -128,10 +130,16 @@ bool take_chain(Run &run) {
 void count_cycles(Run &run) {
   if (run.history.size() < 3) return;
   const double period = run.chain.period();
+  const double rows = static_cast<double>(run.history.size() - 1);
+  const double step = (run.history.time.back() - run.history.time.front()) / rows;
+  constexpr double most_per_cycle = 1.0e6; // as the direct solver's
+  const double samples = std::min(std::round(period / step), most_per_cycle);
+  if (!(samples >= 1.0) || !(run.history.time.back() / period < 2.0 * rows))
+    throw std::runtime_error(fmt::format(
+        "{}: {} rows over {:g} s with omega = {:g} rad/s; allowed is a row or more per cycle",
+        record_of(run.folder).string(), run.history.size(), run.history.time.back(), run.chain.omega));
   run.complete = complete_cycles(run.history.time.back(), period);
-  const double step =
-      (run.history.time.back() - run.history.time.front()) / static_cast<double>(run.history.size() - 1);
-  run.samples_per_cycle = std::max(1, static_cast<int>(std::lround(period / step)));
+  run.samples_per_cycle = static_cast<int>(samples);
 }
 
 void read_chain_parameters(Run &run) {
@@ -257,7 +265,8 @@ Run read_run(const fs::path &folder) {
         "from samples.");
   }
   if (bed || fs::is_regular_file(folder / "parameters.csv"))
-    run.parameters = read_parameters(folder / "parameters.csv");
+    for (const auto &[name, value] : read_parameters(folder / "parameters.csv"))
+      run.parameters.emplace(valid_utf8(name), valid_utf8(value));
   else
     run.missing.emplace_back("parameters.csv is missing: not judged and not compared.");
 
@@ -290,8 +299,12 @@ Run read_run(const fs::path &folder) {
         "cycles.csv is missing: extremes and meter values come from samples and events; no "
         "energy ledger.");
   }
-  if (const std::optional<double> steps = number(run, "steps_per_cycle"))
+  if (const std::optional<double> steps = number(run, "steps_per_cycle")) {
+    if (!(*steps >= 0.0 && *steps <= std::numeric_limits<int>::max()))
+      check_parameters(run,
+                       fmt::format("steps_per_cycle is {:g}; allowed is a whole number above 0", *steps));
     run.steps_per_cycle = static_cast<int>(std::lround(*steps));
+  }
   if (const std::optional<double> step = number(run, "timestep")) run.timestep = *step;
   if (run.timestep <= 0.0 && run.steps_per_cycle > 0 && run.kind == RunKind::chain)
     run.timestep = run.chain.period() / run.steps_per_cycle;
@@ -312,7 +325,7 @@ void name_runs(std::vector<Run> &runs) {
       std::string tail;
       for (std::size_t j = parts[i].size() - std::min(length, parts[i].size()); j < parts[i].size(); ++j)
         tail += (tail.empty() || tail == "/" ? "" : "/") + parts[i][j];
-      runs[i].name = tail;
+      runs[i].name = valid_utf8(tail);
       ++uses[tail];
     }
     if (std::all_of(uses.begin(), uses.end(), [](const auto &use) { return use.second == 1; })) return;

@@ -34,13 +34,16 @@ std::string table_csv(const ReportTable &table);
 
 /// Number of comparisons and of those that agree.
 struct CheckCount {
-  std::size_t all = 0;
+  std::size_t all = 0; ///< that were judged
   std::size_t agree = 0;
   std::size_t same_digits = 0;
-  std::size_t differ_in_short_runs = 0; ///< differ, but the run is shorter than the reference asks for
+  std::size_t not_judged = 0; ///< of runs shorter than the reference asks for; not among `all`
 };
 /// Counts over all checks, or over one run's.
 CheckCount count_checks(const ReportResults &results);
 CheckCount count_checks(const ReportResults &results, std::size_t run);
+
+/// The command that makes a run like this one, of a case of the paper, long enough to be judged by the reference values.
+std::string judging_command(const Run &run);
 
 } // namespace drumlin::post

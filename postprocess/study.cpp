@@ -4,6 +4,7 @@
 #include "output_files.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -43,6 +44,12 @@ std::vector<std::string> split(const std::string &line) {
     cells.push_back(cell);
   if (!line.empty() && line.back() == ',') cells.emplace_back();
   return cells;
+}
+
+/// Whether a cell holds what C prints for a number that is none.
+bool is_nan(const std::string &cell) {
+  char *end = nullptr;
+  return !cell.empty() && std::isnan(std::strtod(cell.c_str(), &end)) && *end == '\0';
 }
 
 std::string joined(const std::vector<std::string> &cells) {
@@ -98,6 +105,7 @@ StudyResults::StudyResults(fs::path file, Row columns, std::size_t keys)
   while (std::getline(in, line)) {
     Row row = split(line);
     if (in.eof() || row.size() != columns_.size()) continue; // without its line end it was cut short
+    if (std::any_of(row.begin(), row.end(), is_nan)) continue;
     whole += line + '\n';
     places_[Row(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(keys_))] = rows_.size();
     rows_.push_back(std::move(row));
@@ -125,7 +133,13 @@ std::size_t StudyResults::column(const std::string &name) const {
 }
 
 double StudyResults::number(const Row &row, const std::string &name) const {
-  return std::strtod(text(row, name).c_str(), nullptr);
+  const std::string &cell = text(row, name);
+  char *end = nullptr;
+  const double value = std::strtod(cell.c_str(), &end);
+  if (*end != '\0')
+    throw UsageError(fmt::format("{}: {} is '{}'; allowed: a number, or --fresh, which measures again",
+                                 file_.string(), name, cell));
+  return value;
 }
 
 void StudyProgress::found() { ++found_; }

@@ -28,7 +28,7 @@ void check_engine_path(const std::filesystem::path &out);
 void open_study(const StudyOptions &options);
 
 /// The points of a study that are finished: a CSV file, each row written when it is known. A row cut short by an
-/// interruption is forgotten.
+/// interruption is forgotten, and so is one with a cell that is nan: it is measured again.
 class StudyResults {
 public:
   using Row = std::vector<std::string>;
@@ -46,6 +46,7 @@ public:
   /// Place of a column; std::logic_error if there is none of that name.
   std::size_t column(const std::string &name) const;
   const std::string &text(const Row &row, const std::string &name) const { return row[column(name)]; }
+  /// The number in a cell, 0 for an empty one. UsageError for a cell that holds something else.
   double number(const Row &row, const std::string &name) const;
   const std::filesystem::path &file() const { return file_; }
 

@@ -2,6 +2,7 @@
 
 #include "bed_fields.h"
 #include "chain_csv.h"
+#include "leftovers.h"
 #include "options.h"
 #include "output_files.h"
 #include "timed_progress.h"
@@ -72,12 +73,14 @@ double time_step(const fs::path &folder) {
   return dt;
 }
 
-/// Results under way: a folder inside that of the results, which goes with this object.
+/// Results under way: a folder inside that of the results, which goes with this object. That of a killed call is cleared away.
 class Workshop {
 public:
   explicit Workshop(const fs::path &out) : out_(out), made_(!fs::exists(out)) {
+    constexpr const char *prefix = "unfinished.";
     fs::create_directories(out);
-    folder_ = out / fmt::format("unfinished.{}", ::getpid());
+    remove_leftovers(out, prefix);
+    folder_ = out / own_name(prefix);
     fs::create_directory(folder_);
   }
   ~Workshop() {

@@ -109,6 +109,15 @@ TEST(PreloadedStub, GivesADeckItsFolderAsHere) {
   EXPECT_EQ(here({"-in", "some where/in.here"}), "here is <some where>");
   EXPECT_EQ(here({"-i", "./some where/in.here"}), "here is <./some where>");
   EXPECT_EQ(here({"-in", "in.here", "-var", "here", "elsewhere"}), "here is <elsewhere>");
+  // Of a link the folder of its target; of a path with blanks the one from the working directory, if it has none.
+  fs::create_directories(scratch.path() / "decks");
+  write_text(scratch.path() / "decks" / "in.here", "print \"here is <${here}>\"\n");
+  fs::create_symlink("decks/in.here", scratch.path() / "in.link");
+  EXPECT_EQ(here({"-in", "in.link"}), "here is <" + fs::canonical(scratch.path() / "decks").string() + ">");
+  const fs::path inside = scratch.path() / "some where";
+  const Outcome outcome = run_program({"liggghts", "-in", (inside / "in.here").string()},
+                                      preload(plugin_library(), scratch), inside);
+  EXPECT_TRUE(outcome.says("here is <.>")) << outcome.output;
 }
 
 } // namespace

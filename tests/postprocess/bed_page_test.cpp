@@ -10,6 +10,7 @@
 #include "engine_run.h"
 #include "page.h"
 #include "report.h"
+#include "run_folders.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -30,8 +31,8 @@ using namespace drumlin::post;
 namespace test = drumlin::test;
 namespace fs = std::filesystem;
 
-constexpr int rows_per_cycle = 8;
-constexpr double period = 0.05; // s
+using test::period;
+using test::rows_per_cycle;
 
 /// Six cycles at 20 Hz, of which the last four are steady.
 class BedReport : public ::testing::Test {
@@ -51,52 +52,12 @@ protected:
     std::ofstream(root / file) << text;
   }
 
-  /// A folder as in.bed leaves it, with numbers that are easily worked with.
   void write_run(const std::string &name, Transition transition, int cycles = 6,
                  const std::string &friction = "0.5") const {
-    std::string bed = "time,x_drum,v_drum,a_drum,x_frame,v_frame,a_frame,F_contact,F_excitation,F_bond,"
-                      "settlement,overlap_ratio,coordination,void_ratio,kinetic,potential,elastic,dissipated,"
-                      "work_excitation,F_floor,F_sides,F_thrust\n";
-    const int last = cycles * rows_per_cycle;
-    for (int i = 0; i <= last; ++i) {
-      const int in_last_cycle = i - (last - rows_per_cycle); // 0 to 8
-      bed +=
-          fmt::format("{:.17g},{},0,{},0,0,0,{},0,0,0,0,{},{},7,{},3,{},{},9e4,100,1e5\n",
-                      i * period / rows_per_cycle, -1e-3 * i, i % rows_per_cycle, 1e3 * (i % rows_per_cycle),
-                      in_last_cycle < 0 ? 3.3 : 1.0 + in_last_cycle, i == 0 ? 0.25 : 0.2, i == 0 ? -9 : -20,
-                      i == last ? 120 : 60 * (i > 0), i == last ? 100 : 50 * (i > 0));
-    }
-    put(name + "/bed.csv", bed);
-    std::string table = "cycle,time,a_drum_min,a_drum_max,F_contact_min,F_contact_max,contact_share,a1_cos,"
-                        "a1_sin,a2_cos,a2_sin,ah_cos,ah_sin,settlement\n0,0,0,0,0,0,1,0,0,0,0,0,0,0\n";
-    for (int n = 1; n <= cycles; ++n)
-      table +=
-          fmt::format("{},{:.17g},{},{},{},{},{},3,4,0.5,0,0,0,{}\n", n, n * period, -n, n == 1 ? 99 : 10 + n,
-                      -100 * n, n == 2 ? 99e3 : 1e3 * n, n % 2 == 0 ? 0.5 : 1.0, 1e-3 * n * n);
-    put(name + "/cycles.csv", table);
-    put(name + "/events.csv", "time,event,overlap,overlap_rate,force,id_i,id_j\n");
-    ChainParameters p;
-    p.transition = transition;
-    std::vector<std::pair<std::string, std::string>> values = parameter_values(p);
-    values.insert(values.end(), {{"deck", "bed"},
-                                 {"case", "gravel"},
-                                 {"start", "roller.restart"},
-                                 {"stepping", "second"},
-                                 {"friction", friction},
-                                 {"balls", "2"},
-                                 {"steps_per_cycle", "800"},
-                                 {"timestep", number_text(period / 800)},
-                                 {"command", "liggghts -in <in.bed> -var out " + name}});
-    write_parameters(root / name / "parameters.csv", values);
+    test::write_bed_run(root / name, transition, cycles, friction);
   }
 
-  /// Dumps of steps 0, 200 (row 2, 2 kN), 700 (row 7, 7 kN) and 800 (row 8, 0 kN).
-  void write_dumps(const std::string &name) const {
-    for (const char *step : {"0", "200", "700", "800"}) {
-      put(name + "/dump/balls_" + step + ".vtp", test::ball_dump());
-      put(name + "/dump/contacts_" + step + ".dump", test::contact_dump());
-    }
-  }
+  void write_dumps(const std::string &name) const { test::write_bed_dumps(root / name); }
 
   BedResult result(const std::string &name) const {
     auto run = read_run(root / name);

@@ -1,11 +1,25 @@
 // Names of run folders reach gnuplot scripts: they must stay text there.
 #include "gnuplot.h"
 
+#include "curve_table.h"
+#include "engine_run.h"
+#include "page.h"
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
 
 namespace {
 
 using namespace drumlin::post;
+namespace fs = std::filesystem;
 
 TEST(Script, KeepsHostileNamesAsText) {
   Figure figure;
@@ -20,6 +34,41 @@ TEST(Script, KeepsHostileNamesAsText) {
   EXPECT_NE(script.find("\\\"; system(\\\"touch"), std::string::npos);
   EXPECT_NE(script.find("\"b\\\\\""), std::string::npos);
   EXPECT_EQ(script.find('`'), std::string::npos); // gnuplot runs what stands between backquotes
+}
+
+/// What gnuplot draws of names along an axis, as the texts of the SVG.
+TEST(Script, DrawsHostileNamesAsTheyAre) {
+  const fs::path folder = fs::temp_directory_path() / fmt::format("drumlin-gnuplot 100% {}", ::getpid());
+  fs::create_directories(folder);
+  std::ofstream(folder / "it's.csv") << "curve,x,y\n\"it's\",1,2\n\"it's\",2,3\n";
+  Figure figure;
+  figure.name = "f";
+  figure.title = "100% {t}";
+  Panel panel;
+  panel.title = "%s {a}_b^c @d";
+  panel.x_label = "x (m)";
+  panel.y_label = "y (m)";
+  panel.x_ticks = {
+      "100%", "%s%n", "{}", "a_b^c", "a\"b", "it's", "a\\nb", "x y", "c\x01", "\xff", std::string(300, 'w')};
+  panel.curves = {{"it's.csv", of_curve("it's", "$2"), "3", "%d_{}", CurveStyle::plain}};
+  figure.panels = {panel, panel};
+  render(find_gnuplot(), folder, figure);
+  const std::string svg = read_text(folder / "f.svg");
+  for (const char *text : {"100%", "%s%n", "{}", "a_b^c", "a\"b", "it's", "a\\nb", "x y", ">c<",
+                           "%s {a}_b^c @d", "%d_{}", "100% {t}"})
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
+  EXPECT_TRUE(drumlin::test::parse(svg).well_formed);
+  EXPECT_FALSE(fs::exists(folder / program_output_file));
+  fs::remove_all(folder);
+}
+
+TEST(Script, HasNoRangeWithoutExtent) {
+  EXPECT_EQ(axis_range(-1.0, 2.5), "[-1:2.5]");
+  EXPECT_EQ(axis_range(1.0, 1.0), "");
+  EXPECT_EQ(axis_range(1.0, 1.0 + 1e-9), "");
+  EXPECT_EQ(axis_range(1.0, 0.0), "");
+  EXPECT_EQ(axis_range(0.0, std::numeric_limits<double>::infinity()), "");
+  EXPECT_EQ(axis_range(std::nan(""), 1.0), "");
 }
 
 TEST(Script, DrawsPicturesToScaleAndOnlyAsPixels) {

@@ -36,6 +36,16 @@ Parsed parse(const std::string &text) {
   return out;
 }
 
+std::string file_of(const std::string &link) {
+  std::string file;
+  for (std::size_t i = 0; i < link.size() && link[i] != '#' && link[i] != '?'; ++i) {
+    const bool coded = link[i] == '%' && i + 2 < link.size();
+    file += coded ? static_cast<char>(std::stoi(link.substr(i + 1, 2), nullptr, 16)) : link[i];
+    if (coded) i += 2;
+  }
+  return file;
+}
+
 Parsed expect_sound_page(const std::filesystem::path &out, std::size_t images, const std::string &file) {
   Parsed page = parse(post::read_text(out / file));
   EXPECT_TRUE(page.well_formed) << page.error;
@@ -46,7 +56,7 @@ Parsed expect_sound_page(const std::filesystem::path &out, std::size_t images, c
   for (const std::vector<std::string> *links : {&page.images, &page.links})
     for (const std::string &link : *links)
       EXPECT_TRUE(link.front() == '#' ? page.ids.count(link.substr(1)) != 0
-                                      : std::filesystem::is_regular_file(out / link))
+                                      : std::filesystem::is_regular_file(out / file_of(link)))
           << link;
   return page;
 }

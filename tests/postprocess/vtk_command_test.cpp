@@ -17,6 +17,9 @@
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLPolyDataReader.h>
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -416,6 +419,35 @@ TEST_F(VtkCommand, WritesNoAppendedData) {
 }
 
 // A first call that fails leaves no folder.
+TEST_F(VtkCommand, TakesHostileNames) {
+  for (const char *name : {"100%", "%s%n", "a\"b", "it's", "{}", "b\\n", "x y", "$(touch pwned)",
+                           "x;touch pwned;", "-x", "B[1]", "run(1)", "A&B", "bad\xff"}) {
+    const fs::path run_folder = folder_ / "hostile" / name;
+    fs::create_directories(run_folder.parent_path());
+    fs::copy(folder_ / "run", run_folder, fs::copy_options::recursive);
+    const Outcome outcome = run({"--", "hostile/" + std::string(name)});
+    EXPECT_TRUE(outcome.ok()) << name << ": " << outcome.output;
+    EXPECT_TRUE(fs::is_regular_file(run_folder / "vtk" / "balls.pvd")) << name;
+  }
+  fs::copy(folder_ / "run", folder_ / "-x", fs::copy_options::recursive);
+  EXPECT_TRUE(run({"--", "-x"}).ok());
+  EXPECT_TRUE(fs::is_regular_file(folder_ / "-x" / "vtk" / "balls.pvd"));
+  EXPECT_FALSE(fs::exists(folder_ / "pwned"));
+}
+
+TEST_F(VtkCommand, ClearsAwayWhatAKilledCallLeft) {
+  const pid_t child = fork(); // a process that is no more
+  if (child == 0) _exit(0);
+  ASSERT_EQ(waitpid(child, nullptr, 0), child);
+  const std::string killed = "run/vtk/unfinished." + std::to_string(child);
+  const std::string running = "run/vtk/unfinished." + std::to_string(getppid());
+  put(killed + "/balls_0.vtp", "half a file");
+  put(running + "/balls_0.vtp", "half a file");
+  ASSERT_TRUE(run({"run"}).ok());
+  EXPECT_FALSE(fs::exists(folder_ / killed));
+  EXPECT_TRUE(fs::exists(folder_ / running));
+}
+
 TEST_F(VtkCommand, AFailureLeavesNothingBehind) {
   put("run/dump/contacts_1000.dump", "hello");
   EXPECT_EQ(run({"run"}).status, 2);

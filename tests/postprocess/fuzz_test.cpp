@@ -1,0 +1,362 @@
+// Spoilt files: cut, shuffled, swapped, with absurd numbers, with the line ends of another system. Every command that reads them
+// ends within 20 s in a result or in one line that says what is wrong, and touches nothing else. Built with the sanitizers, so that
+// a fault that would pass unseen ends the command.
+//
+// The number of a mutant is the seed of everything that is random in it: a failure names it, and the same number spoils alike.
+#include "chain_csv.h"
+#include "engine_run.h"
+#include "run_folders.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <ostream>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+using post::Outcome;
+using post::Transition;
+
+// -- Spoiling -----------------------------------------------------------------------------------------------
+
+/// Random choices that are the same on every machine, which the distributions of the standard library need not be.
+class Choice {
+public:
+  explicit Choice(unsigned seed) : bits_(seed) {}
+  /// 0 to count - 1; 0 if count is 0.
+  std::size_t below(std::size_t count) { return count == 0 ? 0 : bits_() % count; }
+  template <class Values>
+  const auto &of(const Values &values) {
+    return values[below(values.size())];
+  }
+
+private:
+  std::mt19937_64 bits_;
+};
+
+std::vector<std::string> lines_of(const std::string &text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);)
+    lines.push_back(line);
+  return lines;
+}
+
+std::string joined(const std::vector<std::string> &lines) {
+  std::string text;
+  for (const std::string &line : lines)
+    text += line + '\n';
+  return text;
+}
+
+/// Begin and length of a word of the text, as commas, blanks, line ends and angle brackets part them.
+std::pair<std::size_t, std::size_t> some_word(const std::string &text, Choice &choice) {
+  constexpr const char *parting = ", \t\n<>\"=";
+  const std::size_t begin = std::min(text.find_first_not_of(parting, choice.below(text.size())), text.size());
+  return {begin, std::min(text.find_first_of(parting, begin), text.size()) - begin};
+}
+
+using Spoil = std::function<std::string(std::string, Choice &)>;
+
+std::string with_absurd_number(std::string text, Choice &choice) {
+  static const std::vector<std::string> absurd = {"nan",
+                                                  "-nan",
+                                                  "NAN(1)",
+                                                  "inf",
+                                                  "-inf",
+                                                  "1e308",
+                                                  "-1e308",
+                                                  "1e-308",
+                                                  "5e-324",
+                                                  "1e999",
+                                                  "9.2e18",
+                                                  "9223372036854775807",
+                                                  "-9223372036854775808",
+                                                  "18446744073709551616",
+                                                  "1e18",
+                                                  "1e9",
+                                                  "2147483648",
+                                                  "-1",
+                                                  "0",
+                                                  "-0",
+                                                  "",
+                                                  "0x10",
+                                                  "1,5",
+                                                  "1e",
+                                                  "--1",
+                                                  "\"",
+                                                  "word",
+                                                  "100%",
+                                                  "{}",
+                                                  "\xff\xfe",
+                                                  std::string(5000, '9')};
+  const auto [begin, length] = some_word(text, choice);
+  return text.replace(begin, length, choice.of(absurd));
+}
+
+std::string with_words_swapped(std::string text, Choice &choice) {
+  auto one = some_word(text, choice);
+  auto other = some_word(text, choice);
+  if (one.first > other.first) std::swap(one, other);
+  if (one.first + one.second > other.first) return text; // the same word
+  const std::string first = text.substr(one.first, one.second);
+  const std::string second = text.substr(other.first, other.second);
+  return text.replace(other.first, other.second, first).replace(one.first, one.second, second);
+}
+
+std::string with_bytes_changed(std::string text, Choice &choice) {
+  for (std::size_t n = 1 + choice.below(8); n > 0 && !text.empty(); --n)
+    text[choice.below(text.size())] = static_cast<char>(choice.below(256));
+  return text;
+}
+
+std::string shuffled(const std::string &text, Choice &choice) {
+  std::vector<std::string> lines = lines_of(text);
+  for (std::size_t n = lines.size(); n > 1; --n) // the first line, a header, keeps its place half of the time
+    std::swap(lines[n - 1], lines[choice.below(n)]);
+  return joined(lines);
+}
+
+std::string with_rows_moved(const std::string &text, Choice &choice) {
+  std::vector<std::string> lines = lines_of(text);
+  if (lines.size() < 3) return text;
+  const auto at = [&] {
+    return lines.begin() + static_cast<std::ptrdiff_t>(1 + choice.below(lines.size() - 1));
+  };
+  switch (choice.below(4)) {
+  case 0:
+    lines.erase(at());
+    break;
+  case 1: {
+    const std::string line = *at();
+    lines.insert(at(), line);
+    break;
+  }
+  case 2:
+    std::iter_swap(at(), at());
+    break;
+  default:
+    lines.insert(at(), "");
+  }
+  return joined(lines);
+}
+
+const std::vector<Spoil> &ways_to_spoil() {
+  static const std::vector<Spoil> ways = {
+      with_absurd_number, // five times as often as the others: it gets farthest
+      with_absurd_number,
+      with_absurd_number,
+      with_absurd_number,
+      with_absurd_number,
+      with_words_swapped,
+      with_bytes_changed,
+      shuffled,
+      with_rows_moved,
+      [](const std::string &text, Choice &choice) { return text.substr(0, choice.below(text.size())); },
+      [](const std::string &text, Choice &choice) { return text.substr(choice.below(text.size())); },
+      [](const std::string &text, Choice &) { return text + text; },
+      [](const std::string &text, Choice &) {
+        std::string other;
+        for (const char c : text)
+          other += c == '\n' ? std::string("\r\n") : std::string(1, c);
+        return other;
+      },
+  };
+  return ways;
+}
+
+// -- What is spoilt -----------------------------------------------------------------------------------------
+
+/// A command and the files that it reads. Another command, or a deck, is another one of these in `subjects`.
+struct Subject {
+  const char *name;
+  int mutants; ///< how many are tried
+  void (*write)(const fs::path &folder);
+  std::vector<std::string> files; ///< of these one or two are spoilt
+  /// Runs the command in the folder of the files. It may write to `out` there, and nowhere else.
+  Outcome (*run)(const fs::path &folder, int mutant);
+};
+
+/// The name of a test with this subject, rather than its bytes.
+void PrintTo(const Subject &subject, std::ostream *out) { *out << subject.name; }
+
+constexpr double most_seconds = 20.0;
+
+/// A gnuplot that draws nothing: most mutants need not wait for pictures.
+void write_quick_gnuplot(const fs::path &folder) {
+  fs::create_directories(folder);
+  std::ofstream(folder / "gnuplot")
+      << "#!/bin/sh\nname=${2%.gp}\necho drawn >\"$name.svg\"\necho drawn >\"$name.png\"\n";
+  fs::permissions(folder / "gnuplot", fs::perms::owner_all);
+}
+
+Outcome run_tools(const fs::path &folder, std::vector<std::string> words, const std::string &path = "") {
+  words.insert(words.begin(), DRUMLIN_TOOLS);
+  const char *usual = std::getenv("PATH");
+  return post::run_program(
+      words,
+      {"PATH=" + (path.empty() ? "" : path + ":") + (usual == nullptr ? "/usr/bin:/bin" : usual),
+       "ASAN_OPTIONS=exitcode=99", "UBSAN_OPTIONS=exitcode=99"},
+      folder, most_seconds);
+}
+
+Outcome run_report(const fs::path &folder, int mutant) {
+  constexpr int really_drawn = 12; // one in so many
+  if (mutant % really_drawn == 0) return run_tools(folder, {"report", "run", "--out", "out"});
+  const fs::path quick = folder.parent_path() / "quick";
+  write_quick_gnuplot(quick);
+  return run_tools(folder, {"report", "run", "--out", "out"}, quick.string());
+}
+
+Outcome run_vtk(const fs::path &folder, int /*mutant*/) {
+  return run_tools(folder, {"vtk", "run", "--out", "out"});
+}
+
+Outcome run_advise(const fs::path &folder, int mutant) {
+  const std::vector<std::string> own = {"advise", "--from", "run", "--case", "II", "--k", "2e8"};
+  const std::vector<std::string> measured = {"advise", "--from",     "run",  "--case",
+                                             "IV",     "--stepping", "stock"};
+  return run_tools(folder, mutant % 4 == 0 ? own : measured); // the first solves the chain seven times
+}
+
+void write_chain(const fs::path &folder) {
+  write_chain_run(folder / "run", "II", Transition::B, 4);
+  // The engine's cycles.csv has energies and harmonics besides.
+  const post::Table table = post::read_table(folder / "run" / "cycles.csv");
+  std::string text =
+      "cycle,a_drum_min,a_drum_max,F_contact_min,F_contact_max,a1_cos,a1_sin,a2_cos,a2_sin,ah_cos,ah_sin,"
+      "work_excitation,dissipated_contact,dissipated_bond,kinetic,potential,stored_contact,stored_bond\n";
+  for (int cycle = 0; cycle <= 4; ++cycle)
+    text += fmt::format("{0},-9.5,{0},-1e3,1e5,3,4,0.5,0,0.1,0,{1},{0},5,100.5,20,7,8\n", cycle, 120 * cycle);
+  std::ofstream(folder / "run" / "cycles.csv", std::ios::binary) << text;
+}
+
+void write_bed(const fs::path &folder) {
+  write_bed_run(folder / "run", Transition::B, 3);
+  write_bed_dumps(folder / "run");
+}
+
+void write_curves(const fs::path &folder) {
+  fs::create_directories(folder / "run");
+  for (const char *file : {"chain.csv", "scaling.csv"})
+    fs::copy_file(fs::path(DRUMLIN_SOURCE_DIR) / "inputs/study/accuracy" / file, folder / "run" / file);
+}
+
+const std::vector<std::string> csv_files = {"chain.csv", "events.csv", "cycles.csv", "parameters.csv",
+                                            "parameters.csv"};
+const std::vector<std::string> dump_files = {"dump/balls_0.vtp",       "dump/balls_800.vtp",
+                                             "dump/contacts_0.dump",   "dump/contacts_800.dump",
+                                             "dump/contacts_700.dump", "parameters.csv"};
+
+const std::vector<Subject> &subjects() {
+  static const std::vector<Subject> all = {
+      {"chain", 100, write_chain, csv_files, run_report},
+      {"impact",
+       80,
+       [](const fs::path &folder) { write_impact_run(folder / "run", Transition::B, 0.5); },
+       {"chain.csv", "events.csv", "parameters.csv", "parameters.csv"},
+       run_report},
+      {"bed",
+       100,
+       write_bed,
+       {"bed.csv", "events.csv", "cycles.csv", "parameters.csv", "parameters.csv"},
+       run_report},
+      {"dumps", 100, write_bed, dump_files, run_report},
+      {"vtk", 250, write_bed, dump_files, run_vtk},
+      {"advise", 40, write_curves, {"chain.csv", "scaling.csv"}, run_advise},
+  };
+  return all;
+}
+
+// -- The test -----------------------------------------------------------------------------------------------
+
+class Fuzz : public ::testing::TestWithParam<Subject> {
+protected:
+  Fuzz() {
+    std::string name = (fs::temp_directory_path() / "drumlin-fuzz-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
+    folder = name;
+  }
+  ~Fuzz() override {
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+  }
+
+  fs::path folder;
+};
+
+/// What is wrong with how a command ended; empty if nothing.
+std::string fault_of(const Outcome &outcome, const fs::path &place) {
+  if (outcome.timed_out) return fmt::format("no end within {} s", most_seconds);
+  if (outcome.status != 0 && outcome.status != 1 && outcome.status != 2)
+    return fmt::format("ended with {}", outcome.status);
+  const std::vector<std::string> lines = lines_of(outcome.output);
+  const auto errors = std::count_if(lines.begin(), lines.end(), [](const std::string &line) {
+    return line.rfind("ERROR: drumlin ", 0) == 0;
+  });
+  if (outcome.status == 0) return errors == 0 ? "" : "an error, but status 0";
+  if (errors != 1) return fmt::format("status {} with {} lines of error", outcome.status, errors);
+  if (outcome.says("std::")) return "an error of the language, not of the input";
+  for (const fs::directory_entry &entry : fs::directory_iterator(place))
+    if (const std::string name = entry.path().filename().string();
+        name != "run" && name != post::program_output_file)
+      return "left behind: " + name;
+  return "";
+}
+
+TEST_P(Fuzz, EndsInAResultOrInOneLine) {
+  const Subject &subject = GetParam();
+  subject.write(folder / "sound");
+  ASSERT_TRUE(subject.run(folder / "sound", 0).ok()) << subject.run(folder / "sound", 0).output;
+  fs::remove_all(folder / "sound" / "out");
+  fs::remove(folder / "sound" / post::program_output_file);
+  int results = 0;
+  for (int mutant = 0; mutant < subject.mutants; ++mutant) {
+    const fs::path place = folder / "spoilt";
+    fs::remove_all(place);
+    fs::copy(folder / "sound", place, fs::copy_options::recursive);
+    Choice choice(static_cast<unsigned>(mutant));
+    std::string spoilt;
+    for (std::size_t n = 1 + choice.below(2); n > 0; --n) {
+      const std::string &file = choice.of(subject.files);
+      spoilt += ' ' + file;
+      const std::string text = choice.of(ways_to_spoil())(post::read_text(place / "run" / file), choice);
+      std::ofstream(place / "run" / file, std::ios::binary) << text;
+    }
+    const Outcome outcome = subject.run(place, mutant);
+    if (outcome.ok()) ++results;
+    if (const std::string fault = fault_of(outcome, place); !fault.empty()) {
+      const fs::path kept =
+          fs::temp_directory_path() / fmt::format("drumlin-fuzz-{}-{}", subject.name, mutant);
+      fs::remove_all(kept);
+      fs::copy(place, kept, fs::copy_options::recursive);
+      ADD_FAILURE() << subject.name << ", mutant " << mutant << " (" << spoilt.substr(1) << "): " << fault
+                    << "; kept in " << kept << "\n"
+                    << outcome.output.substr(0, 3000);
+    }
+  }
+  // Both ends happen, else nothing is tried.
+  EXPECT_GT(results, subject.mutants / 20);
+  EXPECT_LT(results, subject.mutants);
+  RecordProperty("results", results);
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, Fuzz, ::testing::ValuesIn(subjects()),
+                         [](const ::testing::TestParamInfo<Subject> &subject) {
+                           return std::string(subject.param.name);
+                         });
+
+} // namespace
+} // namespace drumlin::test
