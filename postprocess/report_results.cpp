@@ -356,12 +356,6 @@ void compare_words(ReportResults &results) {
 std::shared_ptr<const DirectResult> DirectSolutions::solve(const ChainParameters &parameters, int cycles,
                                                            int samples_per_cycle, double impact_speed) {
   const ChainParameters &p = parameters;
-  // A motion this much faster than the run is long would take the solver minutes.
-  constexpr double most_radians = 1.0e6;
-  const double radians = std::sqrt((p.k + p.k23) / p.m2 + p.k23 / p.m3) * cycles * p.period();
-  if (!(radians <= most_radians))
-    throw std::runtime_error(fmt::format(
-        "the free motion of the chain goes through {:.2g} rad; allowed are {:.0g}", radians, most_radians));
   const std::string key =
       fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {}", p.m2, p.m3, p.k, p.D, p.omega, p.Fw, p.k23, p.c23,
                   p.g, transition_name(p.transition), cycles, samples_per_cycle, impact_speed);
@@ -371,6 +365,8 @@ std::shared_ptr<const DirectResult> DirectSolutions::solve(const ChainParameters
     options.cycles = cycles;
     options.samples_per_cycle = samples_per_cycle;
     options.impact_speed = impact_speed;
+    if (const std::string fault = too_much_work(parameters, options); !fault.empty())
+      throw std::runtime_error(fault);
     entry = std::make_shared<const DirectResult>(solve_direct(parameters, options));
   }
   return entry;

@@ -349,9 +349,10 @@ void add_stop_rows(std::vector<Extreme> &rows) {
   Extreme given = stop_row("not a number is given: Fw = nan", undefined, "allowed: ");
   given.variables.emplace_back("Fw", "nan");
   rows.push_back(given);
-  // c = 2 D sqrt(m2 k) overflows.
+  // c = 2 D sqrt(m2 k) would overflow.
   ChainPlan infinite_damping;
-  Extreme overflow = stop_row("a number overflows: D = 1e304", infinite_damping, "not finite");
+  Extreme overflow =
+      stop_row("a number overflows: D = 1e304", infinite_damping, "between 1e-30 and 1e30 in size");
   overflow.variables.emplace_back("D", "1e304");
   rows.push_back(overflow);
   for (const int ranks : {1, 2}) {

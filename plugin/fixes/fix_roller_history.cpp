@@ -405,9 +405,7 @@ void FixRollerHistory::flush() {
   if (cycles_file_) cycles_file_->flush(error, world, cycles_keyword);
 }
 
-void FixRollerHistory::post_run() {
-  flush();
-}
+void FixRollerHistory::post_run() { flush(); }
 
 void FixRollerHistory::pack_ghosts(int n, const int *list, double *buf) {
   drumlin::pack_velocities(*atom, n, list, buf);

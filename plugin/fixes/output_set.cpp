@@ -173,6 +173,9 @@ void OutputSet::replace_numbered(const std::vector<NumberedFiles> &patterns, lon
   for (const std::string &folder : folders)
     for (const fs::path &file : files_in(folder))
       if (file.extension() == aside) recover(file.parent_path() / file.stem());
+  for (const std::string &folder : folders)
+    for (const fs::path &file : files_in(folder))
+      before_.insert(file);
   std::vector<fs::path> earlier;
   for (const std::string &folder : folders)
     for (const fs::path &file : files_in(folder)) {
@@ -220,16 +223,14 @@ void OutputSet::roll_back() {
   if (committed_) return;
   committed_ = true; // once
   std::error_code code;
+  for (const NumberedFiles &pattern : numbered_)
+    for (const fs::path &file : files_in(pattern.folder))
+      if (number_of(file.filename().string(), pattern) && before_.count(file) == 0) fs::remove(file, code);
   for (const auto &[file, kept] : files_)
     if (kept)
       fs::rename(kept_aside(file), file, code);
     else
       fs::remove(file, code);
-  for (const NumberedFiles &pattern : numbered_)
-    for (const fs::path &file : files_in(pattern.folder))
-      if (number_of(file.filename().string(), pattern) && checked_.count(file) == 0 &&
-          files_.count(file) == 0)
-        fs::remove(file, code);
   for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder)
     fs::remove(*folder, code); // one that holds something stays
 }

@@ -980,8 +980,8 @@ TEST(Bed3d, CarriesACylinderOnCopiesOfACellOnRanksOneAndTwo) {
   }
   ASSERT_EQ(in_lammps[0].size(), heights[0].size());
   for (std::size_t i = 0; i <= 100; ++i) {
-    for (std::size_t other = 1; other < in_lammps.size(); ++other)
-      EXPECT_NEAR(in_lammps[0][i], in_lammps[other][i], 1e-10) << "row " << i << ", run " << other;
+    for (std::size_t other = 1; other < in_lammps.size(); ++other) // each has come to rest on its ranks first
+      EXPECT_NEAR(in_lammps[0][i], in_lammps[other][i], 1e-8) << "row " << i << ", run " << other;
     EXPECT_NEAR(in_lammps[0][i], heights[0][i], 2e-3) << "row " << i; // m; its springs begin anew
   }
 }

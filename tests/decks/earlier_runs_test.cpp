@@ -28,9 +28,8 @@ std::map<std::string, std::string> texts(const fs::path &folder) {
   return all;
 }
 
-/// A step too long for the contact: the guard ends the run at its first step.
-const Variables too_long = {
-    {"k", "1e11"}, {"steps_per_cycle", "20"}, {"samples_per_cycle", "10"}, {"cycles", "2"}};
+/// A force that drives the drum through the soil: the guard ends the run at step 100.
+const Variables too_strong = {{"Fw", "1e10"}, {"cycles", "1"}};
 
 int errors_in(const std::string &output) {
   int errors = 0;
@@ -45,16 +44,16 @@ TEST(EarlierRuns, OfAnEarlierRunStayWhenTheFirstStepFailsOnRanksOneAndTwo) {
     ASSERT_TRUE(run_deck(chain_deck("in.chain"), {{"cycles", "1"}}, folder.path()).ok());
     const auto before = texts(folder.path());
     ASSERT_EQ(before.size(), chain_files.size());
-    const Outcome failed = run_deck(chain_deck("in.chain"), too_long, folder.path(), ranks);
+    const Outcome failed = run_deck(chain_deck("in.chain"), too_strong, folder.path(), ranks);
     EXPECT_EQ(failed.status, 1);
-    EXPECT_TRUE(failed.says("ERROR: fix guard: time step ")) << failed.output;
+    EXPECT_TRUE(failed.says("ERROR: fix guard: the overlap of balls ")) << failed.output;
     EXPECT_EQ(texts(folder.path()), before);
   }
 }
 
 TEST(EarlierRuns, OfARunThatFailsAtOnceAreNotThere) {
   const Scratch folder;
-  const Outcome failed = run_deck(chain_deck("in.chain"), too_long,
+  const Outcome failed = run_deck(chain_deck("in.chain"), too_strong,
                                   folder.path()); // writes into the folder itself, which exists
   EXPECT_EQ(failed.status, 1);
   EXPECT_TRUE(texts(folder.path()).empty());
@@ -68,7 +67,7 @@ TEST(EarlierRuns, KeptAsideByAKilledRunComeBack) {
   for (const std::string &name : chain_files)
     fs::rename(folder / name, folder / (name + ".earlier"));
   std::ofstream(folder / "chain.csv") << "time,half a r";
-  EXPECT_EQ(run_deck(chain_deck("in.chain"), too_long, folder.path()).status, 1);
+  EXPECT_EQ(run_deck(chain_deck("in.chain"), too_strong, folder.path()).status, 1);
   EXPECT_EQ(texts(folder.path()), before);
 }
 

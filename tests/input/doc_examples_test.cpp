@@ -3,6 +3,7 @@
 // ```liggghts run: lines of a deck, run in the host deck in.host; a pair_style or a property in it replaces
 // the host's.
 // ```lammps run: the same in host.lammps; not run where LAMMPS is not set up.
+// ```liggghts deck, ```lammps deck: a complete deck, run as it is.
 // ```sh run: a command line, run in a folder that has `inputs` and `build/release/lib` as the project's own.
 
 #include "host.h"
@@ -13,6 +14,7 @@
 #include <cctype>
 #include <cstdio>
 #include <regex>
+#include <sstream>
 
 namespace drumlin::test {
 namespace {
@@ -25,6 +27,7 @@ struct Example {
   std::string language;
   std::string text;
   std::size_t line; ///< of the page, where it begins
+  bool is_deck;     ///< a complete deck
 };
 
 std::vector<Example> examples_of(const std::string &page) {
@@ -36,8 +39,12 @@ std::vector<Example> examples_of(const std::string &page) {
     ++number;
     if (line.rfind("```", 0) == 0) {
       inside = !inside;
-      wanted = inside && (line == "```liggghts run" || line == "```lammps run" || line == "```sh run");
-      if (wanted) examples.push_back({line.substr(3, line.find(' ') - 3), "", number});
+      const std::vector<std::string> kinds = {"```liggghts run", "```lammps run", "```sh run",
+                                              "```liggghts deck", "```lammps deck"};
+      wanted = inside && std::find(kinds.begin(), kinds.end(), line) != kinds.end();
+      const std::string language = wanted ? line.substr(3, line.find(' ') - 3) : "";
+      const bool deck = line.find(" deck") != std::string::npos;
+      if (wanted) examples.push_back({language, "", number, deck});
     } else if (inside && wanted) {
       examples.back().text += line + "\n";
     }
@@ -66,6 +73,11 @@ Outcome run_example(const Example &example, const fs::path &folder) {
     fs::create_directory_symlink(fs::path(plugin_library()).parent_path(), folder / "build/release/lib");
     fs::create_directory_symlink(root / "inputs", folder / "inputs");
     return run_program({"/bin/sh", "-ec", example.text}, mpi_environment(folder), folder, 60.0);
+  }
+  if (example.is_deck) {
+    const fs::path deck = folder / (example.language == "lammps" ? "own.lammps" : "own.in");
+    write_text(deck, example.text);
+    return run_deck(deck, {}, folder);
   }
   fs::create_directory(folder / "results");
   if (example.language == "lammps") {
@@ -104,12 +116,48 @@ TEST_P(DocExamplesTest, Run) {
 
 /// Every engine command's page has its parts, and its section Examples an example that runs.
 TEST_P(DocExamplesTest, HaveTheirPlace) {
-  if (GetParam() == "README.md") return;
+  if (GetParam() == "README.md" || GetParam() == "plugin/doc/in_your_own_deck.md")
+    return; // no command's page
   const std::string page = read_text(root / GetParam());
   for (const char *part :
        {"Syntax", "Examples", "Description", "Restart and output", "Restrictions", "Default", "Verification"})
     EXPECT_FALSE(section(page, part).empty()) << GetParam() << " has no section " << part;
   EXPECT_FALSE(examples_of(section(page, "Examples")).empty()) << GetParam();
+}
+
+/// The state at the end of a deck of "In your own deck".
+std::string last_state(const std::string &deck, const std::string &name) {
+  const Scratch scratch;
+  write_text(scratch / name, deck);
+  const Outcome outcome = run_deck(scratch / name, {}, scratch.path());
+  EXPECT_TRUE(outcome.ok()) << outcome.output;
+  const std::string text = read_text(scratch / "end.txt");
+  return text.substr(text.rfind("ITEM: ATOMS"));
+}
+
+std::string replaced(std::string text, const std::string &from, const std::string &to) {
+  EXPECT_NE(text.find(from), std::string::npos) << from;
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+// The ball rolls at 5/7 of the speed at which it slid; the engine's own law gives the same to the last bit.
+TEST(InYourOwnDeck, RollsAndIsTheEnginesOwnLaw) {
+  for (const Example &example : examples_of(read_text(root / "plugin/doc/in_your_own_deck.md"))) {
+    const bool lammps = example.language == "lammps";
+    if (lammps && !post::has_lammps()) continue;
+    const std::string state = last_state(example.text, lammps ? "own.lammps" : "own.in");
+    std::istringstream numbers(state.substr(state.find('\n') + 1));
+    double id = 0, x = 0, y = 0, z = 0, vx = 0;
+    numbers >> id >> x >> y >> z >> vx;
+    EXPECT_NEAR(vx, 5.0 / 7.0, 1e-3) << example.language;
+    if (lammps) continue;
+    const std::string own =
+        replaced(replaced(example.text, "hooke/transition", "hooke/stiffness"),
+                 "transition B damping coefficient stepping stock", "limitForce on absolute_damping on");
+    EXPECT_EQ(last_state(own, "own.in"), state);
+  }
 }
 
 std::vector<std::string> pages() {
