@@ -60,7 +60,7 @@ const std::string &choice_option(const char *option, const std::string &text,
 }
 
 fs::path path_option(const char *option, const std::string &text) {
-  const fs::path path = text;
+  fs::path path = text;
   // The names of temporary files beside it are some characters longer.
   constexpr std::size_t longest_part = NAME_MAX - 25;
   constexpr std::size_t longest = PATH_MAX - 200;
@@ -75,7 +75,7 @@ fs::path path_option(const char *option, const std::string &text) {
 }
 
 fs::path output_folder_option(const char *option, const std::string &text) {
-  const fs::path path = path_option(option, text);
+  fs::path path = path_option(option, text);
   try {
     check_output_folder(path);
   } catch (const std::runtime_error &fault) {
@@ -85,7 +85,7 @@ fs::path output_folder_option(const char *option, const std::string &text) {
 }
 
 fs::path output_file_option(const char *option, const std::string &text) {
-  const fs::path path = path_option(option, text);
+  fs::path path = path_option(option, text);
   try {
     check_output_file(path);
   } catch (const std::runtime_error &fault) {

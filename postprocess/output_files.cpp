@@ -35,7 +35,8 @@ fs::path real_path(const fs::path &path) { return fs::weakly_canonical(fs::absol
 
 bool below_a_system_folder(const fs::path &real) {
   constexpr std::array<const char *, 3> system_folders = {"/dev", "/proc", "/sys"};
-  return std::any_of(system_folders.begin(), system_folders.end(), [&real](const fs::path folder) {
+  return std::any_of(system_folders.begin(), system_folders.end(), [&real](const char *name) {
+    const fs::path folder = name;
     return std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first == folder.end();
   });
 }

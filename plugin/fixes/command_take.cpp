@@ -17,7 +17,7 @@ RestartNotes shared_notes(LAMMPS *lmp, const std::string &file) {
   std::string text;
   if (lmp->comm->me == 0)
     for (const auto &[name, value] : notes_of(file))
-      text += name + ' ' + value + '\n';
+      text += fmt::format("{} {}\n", name, value);
   auto length = static_cast<int>(text.size());
   MPI_Bcast(&length, 1, MPI_INT, 0, lmp->world);
   text.resize(static_cast<std::size_t>(length));

@@ -262,7 +262,7 @@ void add_commands(LAMMPS *lmp) {
 /// The layout of the engine's class Error.
 struct ErrorLayout : Pointers {
   using Pointers::Pointers;
-  virtual ~ErrorLayout() = default;
+  ~ErrorLayout() override = default;
   LAMMPS_NS::SpecialMessages *messages;
 };
 static_assert(sizeof(ErrorLayout) == sizeof(LAMMPS_NS::Error),

@@ -4,6 +4,7 @@
 #include "chain_csv.h"
 #include "vtk_files.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -118,7 +119,8 @@ protected:
            Variables{{"omega", "100"}, {"Fw", "10"}, {"steps_per_cycle", "5000"}}) {
         const Outcome other = shaken(left, {{"start", start}, {name, value}}, ranks);
         EXPECT_EQ(other.status, 1);
-        EXPECT_TRUE(other.says("ERROR: drumlin/take: variable " + name + " is '" + value + "'; allowed: "))
+        EXPECT_TRUE(
+            other.says(fmt::format("ERROR: drumlin/take: variable {} is '{}'; allowed: ", name, value)))
             << other.output;
       }
       for (int n = 0; n < 2; ++n) { // continued twice from one file, the tables have each row once
@@ -637,9 +639,9 @@ TEST_F(Bed, RefusesDataFilesThatTheEngineWouldNot) {
 TEST_F(Bed, LeavesNoOldFileWhenASignalStopsTheRunThatReplacesIt) {
   const Scratch folder;
   const std::string file = (folder / "kept.restart").string();
-  const auto stopped = [&](const char *deck, Variables variables) {
+  const auto stopped = [&](const char *deck, const Variables &variables) {
     fs::copy_file(*scratch / "soil.restart", file, fs::copy_options::overwrite_existing);
-    const Outcome outcome = run_deck(bed_folder() / deck, variables, folder.path(), 1, 1.0);
+    const Outcome outcome = run_deck(bed_folder() / deck, variables, folder.path(), 1, 3.0);
     EXPECT_TRUE(outcome.timed_out) << deck;
     EXPECT_EQ(outcome.status, 1) << deck;
     EXPECT_TRUE(outcome.says("ERROR: drumlin/run: stopped by a signal at step ")) << deck << outcome.output;

@@ -2,6 +2,7 @@
 // errors, and nothing but regular files is replaced.
 #include "engine.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -79,7 +80,7 @@ TEST(EarlierRuns, OfARunAreItsOwnUntilASignalEndsIt) {
                                    ? Variables{{"cycles", "1000000"}}
                                    : Variables{{"contacts", "1000"}, {"steps_per_contact", "1000000"}};
     Outcome first;
-    std::thread runner([&] { first = run_deck(chain_deck(deck), long_run, folder.path(), 1, 2.0); });
+    std::thread runner([&] { first = run_deck(chain_deck(deck), long_run, folder.path(), 1, 5.0); });
     while (!fs::exists(folder / "chain.csv"))
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     const Scratch other;
@@ -171,10 +172,11 @@ TEST(EarlierRuns, OnAFullDiskAnEarlierRestartFileStaysWhole) {
   for (const char *file : {"x.restart", "x.data"}) {
     const std::string remove =
         std::string(file) == "x.data" ? "rm small/x.restart; head -c 3000 /dev/zero > small/room\n" : "";
-    const Outcome both = on_small_disk(folder.path(), run + "cp small/" + file + " before\n" +
-                                                          "head -c 1000000 /dev/zero > small/fill\n" +
-                                                          remove + run + "echo status $?\ncmp before small/" +
-                                                          file + " && echo whole; ls small\n");
+    const Outcome both = on_small_disk(
+        folder.path(),
+        fmt::format("{0}cp small/{1} before\nhead -c 1000000 /dev/zero > small/fill\n{2}{0}echo status $?\n"
+                    "cmp before small/{1} && echo whole; ls small\n",
+                    run, file, remove));
     fs::remove_all(folder / "small");
     EXPECT_TRUE(both.says("status 1")) << both.output;
     EXPECT_TRUE(both.says("whole")) << both.output;

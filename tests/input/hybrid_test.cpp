@@ -2,6 +2,7 @@
 
 #include "host.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace drumlin::test {
@@ -57,13 +58,17 @@ TEST(HybridPairStyle, GoesAsTheLawAloneInLammps) {
   const std::string coefficients = " 1e7 0.5 0.3\n";
   for (const int ranks : {1, 2}) {
     const std::vector<std::string> alone =
-        in_lammps("pair_style " + law + "\npair_coeff * *" + coefficients, ranks);
-    EXPECT_EQ(in_lammps("pair_style hybrid " + law + "\npair_coeff * * " + name + coefficients, ranks),
-              alone);
-    EXPECT_EQ(in_lammps("pair_style hybrid/overlay " + law +
-                            " lj/cut 0.1\npair_coeff * * lj/cut 0 1\npair_coeff * * " + name + coefficients,
-                        ranks),
-              alone);
+        in_lammps(fmt::format("pair_style {}\npair_coeff * *{}", law, coefficients), ranks);
+    EXPECT_EQ(
+        in_lammps(fmt::format("pair_style hybrid {}\npair_coeff * * {}{}", law, name, coefficients), ranks),
+        alone);
+    EXPECT_EQ(
+        in_lammps(
+            fmt::format(
+                "pair_style hybrid/overlay {} lj/cut 0.1\npair_coeff * * lj/cut 0 1\npair_coeff * * {}{}",
+                law, name, coefficients),
+            ranks),
+        alone);
   }
 }
 

@@ -31,9 +31,6 @@ using namespace drumlin::post;
 namespace test = drumlin::test;
 namespace fs = std::filesystem;
 
-using test::period;
-using test::rows_per_cycle;
-
 /// Six cycles at 20 Hz, of which the last four are steady.
 class BedReport : public ::testing::Test {
 protected:

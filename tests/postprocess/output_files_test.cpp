@@ -116,7 +116,7 @@ TEST_F(OutputFiles, FoldersOfResultsAreChecked) {
       words.insert(words.end(), {"--out", name});
       const Outcome outcome = run(words);
       EXPECT_EQ(outcome.status, 2) << outcome.output;
-      EXPECT_EQ(outcome.output.rfind("ERROR: drumlin " + command + ": --out is '" + name + "': ", 0), 0u)
+      EXPECT_EQ(outcome.output.rfind(fmt::format("ERROR: drumlin {}: --out is '{}': ", command, name), 0), 0u)
           << outcome.output;
     }
     EXPECT_EQ(listing(), before);
