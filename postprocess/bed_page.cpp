@@ -94,6 +94,8 @@ std::vector<ReportTable> bed_tables(const std::vector<BedResult> &beds) {
                fixed(m.coordination_start, 3), fixed(m.coordination_end, 3), fixed(m.void_ratio_start, 4),
                fixed(m.void_ratio_end, 4), fixed(m.imbalance_percent, 3)});
     if (!any) motion.notes.push_back(fmt::format("{}: ends before its first complete cycle.", run.name));
+    for (const std::string &missing : run.missing)
+      motion.notes.push_back(fmt::format("{}: {}", run.name, missing));
   }
   motion.notes.emplace_back("From acceleration to CMV: of the steady cycles, about the second half of the "
                             "run, an even number of them, "

@@ -140,6 +140,9 @@ void count_cycles(Run &run) {
         record_of(run.folder).string(), run.history.size(), run.history.time.back(), run.chain.omega));
   run.complete = complete_cycles(run.history.time.back(), period);
   run.samples_per_cycle = static_cast<int>(samples);
+  if (const std::optional<double> asked = number(run, "cycles"); asked && run.complete < *asked)
+    run.missing.push_back(fmt::format("a partial run, {} of {:g} cycles: it was stopped, or is not done yet.",
+                                      run.complete, *asked));
 }
 
 void read_chain_parameters(Run &run) {

@@ -114,6 +114,19 @@ TEST_F(BedReport, MeasuresAnEvenNumberOfCycles) {
   }
 }
 
+// A signal or a limit of time has stopped it: its measures are those of the cycles that it has.
+TEST_F(BedReport, MarksAPartialRun) {
+  const std::string partial = "a partial run, 6 of 10 cycles: it was stopped, or is not done yet.";
+  const auto told = [this, &partial] {
+    const std::vector<std::string> missing = result("A").run.missing;
+    return std::count(missing.begin(), missing.end(), partial);
+  };
+  EXPECT_EQ(told(), 0);
+  std::ofstream(root / "A/parameters.csv", std::ios::app) << "cycles,10\n";
+  EXPECT_EQ(told(), 1);
+  EXPECT_NE(read_text(report({"A", "B"}) / "bed.html").find("A: " + partial), std::string::npos);
+}
+
 TEST_F(BedReport, PrintsTheMeasures) {
   const std::vector<ReportTable> tables = bed_tables({result("B")});
   const std::vector<std::vector<std::string>> rows = {
