@@ -174,7 +174,7 @@ void write_checked(LAMMPS_NS::LAMMPS *lmp, const std::string &engine_command, co
 void write_noted_restart(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const RestartNotes &notes,
                          const std::string &command) {
   write_checked(lmp, "write_restart", file, command,
-                [&notes](std::string bytes) -> std::optional<std::string> {
+                [&notes](const std::string &bytes) -> std::optional<std::string> {
                   if (bytes.empty()) return {};
                   const std::string end = bytes.substr(bytes.size() - engine::restart_end_mark);
                   RestartNotes all = with_engine(notes);
@@ -258,6 +258,7 @@ private:
 
   std::string header() {
     if (words_.size() == 2 && words_[1] == "atoms") count_ = parse_number(words_[0]);
+    if (words_.size() == 3 && words_[1] == "atom" && words_[2] == "types") types_ = parse_number(words_[0]);
     const char *const axes[3][2] = {{"xlo", "xhi"}, {"ylo", "yhi"}, {"zlo", "zhi"}};
     for (std::size_t a = 0; a < 3; ++a)
       if (words_.size() == 4 && words_[2] == axes[a][0] && words_[3] == axes[a][1]) {
@@ -267,6 +268,12 @@ private:
                              largest_box, line_);
         return "";
       }
+    constexpr std::array<const char *, 3> known = {"atoms", "types",
+                                                   "space"}; // of the header, last in a line
+    const bool is_known = std::find(known.begin(), known.end(), words_.back()) != known.end() &&
+                          std::isfinite(parse_number(words_.front()));
+    if (!has_atoms_ && !is_known)
+      return fmt::format("a data file with a box, atoms and their types, and this one has '{}'", shown());
     if (has_atoms_)
       return fmt::format("one data file, and this one goes on with '{}' behind its sections", shown());
     return "";
@@ -278,6 +285,7 @@ private:
     if (!(count_ >= 1.0)) return "a data file with atoms";
     return section("Atoms", [this](const std::vector<double> &row) { // id type diameter density x y z
       if (row.size() < 7 || !(row[2] > 0.0) || !(row[3] > 0.0)) return false;
+      if (row[1] != std::floor(row[1]) || row[1] < 1.0 || row[1] > types_) return false;
       for (std::size_t a = 0; a < 3; ++a)
         if (!box_[a].near(row[4 + a])) return false;
       return ids_.insert(row[0]).second;
@@ -326,6 +334,7 @@ private:
   std::string line_;
   std::vector<std::string> words_;
   double count_ = 0.0;
+  double types_ = 0.0;
   bool has_atoms_ = false;
   std::array<Bounds, 3> box_;
   std::unordered_set<double> ids_;

@@ -518,7 +518,8 @@ TEST_F(Bed, RefusesFilesThatAreCutShortOrOfAnotherSceneOnRanksOneAndTwo) {
     refused("in.settle", {{"balls", some}, {"bed", "x.restart"}},
             "variable balls is '" + some + "'; allowed: a whole data file of balls in their box", ranks);
     refused("in.settle", {{"balls", none}, {"bed", "x.restart"}},
-            "variable balls is '" + none + "'; allowed: a data file with atoms", ranks);
+            "variable balls is '" + none + "'; allowed: a data file with a box, atoms and their types",
+            ranks);
   }
 }
 
@@ -624,7 +625,8 @@ TEST_F(Bed, RefusesDataFilesThatTheEngineWouldNot) {
   const Scratch folder;
   for (const std::string &text :
        {changed(0, "9.2e18"), changed(0, "9223372036854775807"), changed(4, "1e308"), changed(5, "nan"),
-        changed(2, "-1"), changed(0, "2"), good.substr(0, row) + first + good.substr(row), good + good}) {
+        changed(2, "-1"), changed(0, "2"), changed(1, "4"), good.substr(0, row) + first + good.substr(row),
+        good + good}) {
     std::ofstream(folder / "bad.data") << text;
     const Outcome outcome =
         run_deck(bed_folder() / "in.settle",

@@ -6,6 +6,7 @@
 #include "chain_csv.h"
 #include "engine_run.h"
 #include "run_folders.h"
+#include "spoil.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,9 +15,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <ostream>
-#include <random>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -28,154 +27,6 @@ namespace {
 namespace fs = std::filesystem;
 using post::Outcome;
 using post::Transition;
-
-// -- Spoiling -----------------------------------------------------------------------------------------------
-
-/// Random choices that are the same on every machine, which the distributions of the standard library need not be.
-class Choice {
-public:
-  explicit Choice(unsigned seed) : bits_(seed) {}
-  /// 0 to count - 1; 0 if count is 0.
-  std::size_t below(std::size_t count) { return count == 0 ? 0 : bits_() % count; }
-  template <class Values>
-  const auto &of(const Values &values) {
-    return values[below(values.size())];
-  }
-
-private:
-  std::mt19937_64 bits_;
-};
-
-std::vector<std::string> lines_of(const std::string &text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);)
-    lines.push_back(line);
-  return lines;
-}
-
-std::string joined(const std::vector<std::string> &lines) {
-  std::string text;
-  for (const std::string &line : lines)
-    text += line + '\n';
-  return text;
-}
-
-/// Begin and length of a word of the text, as commas, blanks, line ends and angle brackets part them.
-std::pair<std::size_t, std::size_t> some_word(const std::string &text, Choice &choice) {
-  constexpr const char *parting = ", \t\n<>\"=";
-  const std::size_t begin = std::min(text.find_first_not_of(parting, choice.below(text.size())), text.size());
-  return {begin, std::min(text.find_first_of(parting, begin), text.size()) - begin};
-}
-
-using Spoil = std::function<std::string(std::string, Choice &)>;
-
-std::string with_absurd_number(std::string text, Choice &choice) {
-  static const std::vector<std::string> absurd = {"nan",
-                                                  "-nan",
-                                                  "NAN(1)",
-                                                  "inf",
-                                                  "-inf",
-                                                  "1e308",
-                                                  "-1e308",
-                                                  "1e-308",
-                                                  "5e-324",
-                                                  "1e999",
-                                                  "9.2e18",
-                                                  "9223372036854775807",
-                                                  "-9223372036854775808",
-                                                  "18446744073709551616",
-                                                  "1e18",
-                                                  "1e9",
-                                                  "2147483648",
-                                                  "-1",
-                                                  "0",
-                                                  "-0",
-                                                  "",
-                                                  "0x10",
-                                                  "1,5",
-                                                  "1e",
-                                                  "--1",
-                                                  "\"",
-                                                  "word",
-                                                  "100%",
-                                                  "{}",
-                                                  "\xff\xfe",
-                                                  std::string(5000, '9')};
-  const auto [begin, length] = some_word(text, choice);
-  return text.replace(begin, length, choice.of(absurd));
-}
-
-std::string with_words_swapped(std::string text, Choice &choice) {
-  auto one = some_word(text, choice);
-  auto other = some_word(text, choice);
-  if (one.first > other.first) std::swap(one, other);
-  if (one.first + one.second > other.first) return text; // the same word
-  const std::string first = text.substr(one.first, one.second);
-  const std::string second = text.substr(other.first, other.second);
-  return text.replace(other.first, other.second, first).replace(one.first, one.second, second);
-}
-
-std::string with_bytes_changed(std::string text, Choice &choice) {
-  for (std::size_t n = 1 + choice.below(8); n > 0 && !text.empty(); --n)
-    text[choice.below(text.size())] = static_cast<char>(choice.below(256));
-  return text;
-}
-
-std::string shuffled(const std::string &text, Choice &choice) {
-  std::vector<std::string> lines = lines_of(text);
-  for (std::size_t n = lines.size(); n > 1; --n) // the first line, a header, keeps its place half of the time
-    std::swap(lines[n - 1], lines[choice.below(n)]);
-  return joined(lines);
-}
-
-std::string with_rows_moved(const std::string &text, Choice &choice) {
-  std::vector<std::string> lines = lines_of(text);
-  if (lines.size() < 3) return text;
-  const auto at = [&] {
-    return lines.begin() + static_cast<std::ptrdiff_t>(1 + choice.below(lines.size() - 1));
-  };
-  switch (choice.below(4)) {
-  case 0:
-    lines.erase(at());
-    break;
-  case 1: {
-    const std::string line = *at();
-    lines.insert(at(), line);
-    break;
-  }
-  case 2:
-    std::iter_swap(at(), at());
-    break;
-  default:
-    lines.insert(at(), "");
-  }
-  return joined(lines);
-}
-
-const std::vector<Spoil> &ways_to_spoil() {
-  static const std::vector<Spoil> ways = {
-      with_absurd_number, // five times as often as the others: it gets farthest
-      with_absurd_number,
-      with_absurd_number,
-      with_absurd_number,
-      with_absurd_number,
-      with_words_swapped,
-      with_bytes_changed,
-      shuffled,
-      with_rows_moved,
-      [](const std::string &text, Choice &choice) { return text.substr(0, choice.below(text.size())); },
-      [](const std::string &text, Choice &choice) { return text.substr(choice.below(text.size())); },
-      [](const std::string &text, Choice &) { return text + text; },
-      [](const std::string &text, Choice &) {
-        std::string other;
-        for (const char c : text)
-          other += c == '\n' ? std::string("\r\n") : std::string(1, c);
-        return other;
-      },
-  };
-  return ways;
-}
 
 // -- What is spoilt -----------------------------------------------------------------------------------------
 
@@ -297,6 +148,14 @@ protected:
   fs::path folder;
 };
 
+std::vector<std::string> lines_of(const std::string &text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);)
+    lines.push_back(line);
+  return lines;
+}
+
 /// What is wrong with how a command ended; empty if nothing.
 std::string fault_of(const Outcome &outcome, const fs::path &place) {
   if (outcome.timed_out) return fmt::format("no end within {} s", most_seconds);
@@ -328,11 +187,11 @@ TEST_P(Fuzz, EndsInAResultOrInOneLine) {
     fs::remove_all(place);
     fs::copy(folder / "sound", place, fs::copy_options::recursive);
     Choice choice(static_cast<unsigned>(mutant));
-    std::string spoilt;
+    std::string spoilt_files;
     for (std::size_t n = 1 + choice.below(2); n > 0; --n) {
       const std::string &file = choice.of(subject.files);
-      spoilt += ' ' + file;
-      const std::string text = choice.of(ways_to_spoil())(post::read_text(place / "run" / file), choice);
+      spoilt_files += ' ' + file;
+      const std::string text = spoilt(post::read_text(place / "run" / file), choice);
       std::ofstream(place / "run" / file, std::ios::binary) << text;
     }
     const Outcome outcome = subject.run(place, mutant);
@@ -342,8 +201,8 @@ TEST_P(Fuzz, EndsInAResultOrInOneLine) {
           fs::temp_directory_path() / fmt::format("drumlin-fuzz-{}-{}", subject.name, mutant);
       fs::remove_all(kept);
       fs::copy(place, kept, fs::copy_options::recursive);
-      ADD_FAILURE() << subject.name << ", mutant " << mutant << " (" << spoilt.substr(1) << "): " << fault
-                    << "; kept in " << kept << "\n"
+      ADD_FAILURE() << subject.name << ", mutant " << mutant << " (" << spoilt_files.substr(1)
+                    << "): " << fault << "; kept in " << kept << "\n"
                     << outcome.output.substr(0, 3000);
     }
   }
