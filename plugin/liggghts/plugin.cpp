@@ -242,7 +242,7 @@ void add_fixes(LAMMPS *lmp) {
   fixes["roller/history"] = create_fix<LAMMPS_NS::FixRollerHistory>;
   fixes["drumlin/stepping"] = create_fix<LAMMPS_NS::FixStepping>; // made by the pair style, not by decks
   fixes[LAMMPS_NS::FixKeepHistory::style_name] = create_fix<LAMMPS_NS::FixKeepHistory>; // this neither
-  fixes[LAMMPS_NS::FixOutputs::style_name] = create_fix<LAMMPS_NS::FixOutputs>; // by a command
+  fixes[LAMMPS_NS::FixOutputs::style_name] = create_fix<LAMMPS_NS::FixOutputs>;         // by a command
   fixes["guard"] = create_fix<LAMMPS_NS::FixGuard>;
 }
 
