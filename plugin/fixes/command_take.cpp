@@ -38,7 +38,7 @@ bool same_value(const std::string &a, const std::string &b) {
   return std::fabs(x - y) <= rounding * std::fabs(x);
 }
 
-/// Whether one of the names between the commas of a list.
+/// Whether a comma-separated list contains a name.
 bool is_listed(const std::string &list, const std::string &name) {
   return ("," + list + ",").find("," + name + ",") != std::string::npos;
 }

@@ -59,8 +59,8 @@ private:
       files_;                               ///< what the run writes; whether an earlier file is kept aside
   std::vector<std::filesystem::path> made_; ///< folders, the outermost first
   std::vector<NumberedFiles> numbered_;
-  std::set<std::filesystem::path> before_;  ///< numbered files that were there before
-  std::set<std::filesystem::path> checked_; ///< numbered files that are whole, or of the run that goes on
+  std::set<std::filesystem::path> before_;  ///< numbered files of earlier runs, as found at the start
+  std::set<std::filesystem::path> checked_; ///< numbered files known to be whole
   int folder_lock_ = -1;
   bool committed_ = false;
 };

@@ -268,8 +268,9 @@ struct ErrorLayout : Pointers {
 static_assert(sizeof(ErrorLayout) == sizeof(LAMMPS_NS::Error),
               "class Error of this LIGGGHTS differs from the stock binary's");
 
-/// Takes away the second line that the engine puts behind one error in five, by chance: a jest or a tip, of which it prints memory that it
-/// has freed before. It does so only if the version of its `universe` says PUBLIC; its messages get one that says nothing.
+/// LIGGGHTS follows about one error in five, chosen at random, with a second line (a joke or a tip) that it prints from memory it has
+/// freed, so that users see unreadable characters. It does so only if the version of its `universe` says PUBLIC. The object that prints
+/// these lines gets a universe without a version, and is silent.
 void silence_special_messages(LAMMPS *lmp) {
   alignas(LAMMPS_NS::Universe) static char universe[sizeof(LAMMPS_NS::Universe)] = {};
   alignas(
