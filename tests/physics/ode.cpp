@@ -41,7 +41,12 @@ Ode::Ode(Rates rates, double t, State y, const State &scale) : solver_(std::make
   s.time = t;
   s.y = std::move(y);
   s.slopes.resize(s.y.size());
-  check(SUNContext_Create(nullptr, &s.context), "SUNContext_Create");
+#if SUNDIALS_VERSION_MAJOR >= 7
+  const auto no_ranks = SUN_COMM_NULL;
+#else
+  void *const no_ranks = nullptr;
+#endif
+  check(SUNContext_Create(no_ranks, &s.context), "SUNContext_Create");
   const auto size = static_cast<sunindextype>(s.y.size());
   s.vector = N_VNew_Serial(size, s.context);
   s.tolerances = N_VNew_Serial(size, s.context);
@@ -50,7 +55,7 @@ Ode::Ode(Rates rates, double t, State y, const State &scale) : solver_(std::make
     N_VGetArrayPointer(s.tolerances)[i] = 1e-13 * scale.at(i);
   }
   s.cvode = CVodeCreate(CV_ADAMS, s.context);
-  const CVRhsFn right_hand_side = [](realtype time, N_Vector at, N_Vector slope, void *self) {
+  const CVRhsFn right_hand_side = [](sunrealtype time, N_Vector at, N_Vector slope, void *self) {
     Solver &me = *static_cast<Solver *>(self);
     me.load(at);
     me.rates(time, me.scratch, me.slopes);
@@ -78,7 +83,7 @@ Ode::~Ode() {
 int Ode::advance(double t_end, const std::vector<Event> &events) {
   Solver &s = *solver_;
   s.events = events;
-  const CVRootFn roots = [](realtype time, N_Vector at, realtype *values, void *self) {
+  const CVRootFn roots = [](sunrealtype time, N_Vector at, sunrealtype *values, void *self) {
     Solver &me = *static_cast<Solver *>(self);
     me.load(at);
     for (std::size_t i = 0; i < me.events.size(); ++i)
@@ -91,7 +96,7 @@ int Ode::advance(double t_end, const std::vector<Event> &events) {
   // anew.
   check(CVodeReInit(s.cvode, s.time, s.vector), "CVodeReInit");
   check(CVodeSetStopTime(s.cvode, t_end), "CVodeSetStopTime");
-  realtype reached = s.time;
+  sunrealtype reached = s.time;
   const int flag = CVode(s.cvode, t_end, s.vector, &reached, CV_NORMAL);
   check(flag, "CVode");
   s.time = reached;
