@@ -35,6 +35,14 @@ inline const char *allowed_text(Range range) {
 }
 
 /// "I, II or III" of {"I", "II", "III"}.
+/// The words in one text. (fmt::join() has moved to a header that not every engine's copy of fmt has.)
+inline std::string joined(const std::vector<std::string> &words, const std::string &separator) {
+  std::string text;
+  for (std::size_t n = 0; n < words.size(); ++n)
+    text.append(n == 0 ? "" : separator).append(words[n]);
+  return text;
+}
+
 inline std::string join_choices(const std::vector<std::string> &choices) {
   std::string text;
   for (std::size_t n = 0; n < choices.size(); ++n)

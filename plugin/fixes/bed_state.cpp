@@ -1,5 +1,6 @@
 #include "fixes/bed_state.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace drumlin {

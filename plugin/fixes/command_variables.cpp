@@ -107,13 +107,13 @@ void variables_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) {
   if (known.empty()) in.fail("the names are missing; allowed: the names of the deck's variables");
   // Every rank was started with the same words, so that all of them come to the same end.
   for (const GivenVariable &given : given_variables(command_line_words())) {
-    const std::string shown = printable(fmt::format("{}", fmt::join(given.values, " ")));
+    const std::string shown = printable(joined(given.values, " "));
     const bool of_front_script = given.name == "here" || given.name == "plugin";
     if (of_front_script) continue;
     if (!is_in(known, given.name))
       in.fail(fmt::format(
           "-var {} is '{}', a variable that this deck does not have; allowed: {}, the nearest of {}",
-          printable(given.name), shown, nearest(given.name, known), fmt::join(known, ", ")));
+          printable(given.name), shown, nearest(given.name, known), joined(known, ", ")));
     if (const std::string allowed = value_fault(given.values, is_in(of_words, given.name)); !allowed.empty())
       in.fail(fmt::format("variable {} is '{}'; allowed: {}", given.name, shown, allowed));
   }

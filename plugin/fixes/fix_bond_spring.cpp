@@ -6,6 +6,7 @@
 
 #include "physics/stepping.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 using namespace LAMMPS_NS;

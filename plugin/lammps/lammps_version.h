@@ -1,5 +1,6 @@
 #pragma once
-// Where the versions of LAMMPS differ that the plugin can be built for: 29 Sep 2021 (Debian 12) and those of 2024 on.
+// Where releases of LAMMPS differ, from 29 Sep 2021 on. What a release has is read in its headers by plugin/lammps/CMakeLists.txt, which
+// defines DRUMLIN_LAMMPS_... as 1 or 0.
 
 #include "comm.h"
 #include "domain.h"
@@ -12,75 +13,69 @@
 
 #include <string>
 
-#ifdef HISTBITS
-#define DRUMLIN_LAMMPS_2021 0
-#else
-#define DRUMLIN_LAMMPS_2021 1
-#endif
-
 namespace drumlin::engine::version {
 
 inline void forward_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Fix *fix) {
-#if DRUMLIN_LAMMPS_2021
-  comm->forward_comm_fix(fix);
-#else
+#if DRUMLIN_LAMMPS_COMM_OVERLOADS
   comm->forward_comm(fix);
+#else
+  comm->forward_comm_fix(fix);
 #endif
 }
 
 inline void forward_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Pair *pair) {
-#if DRUMLIN_LAMMPS_2021
-  comm->forward_comm_pair(pair);
-#else
+#if DRUMLIN_LAMMPS_COMM_OVERLOADS
   comm->forward_comm(pair);
+#else
+  comm->forward_comm_pair(pair);
 #endif
 }
 
 inline void reverse_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Fix *fix) {
-#if DRUMLIN_LAMMPS_2021
-  comm->reverse_comm_fix(fix);
-#else
+#if DRUMLIN_LAMMPS_COMM_OVERLOADS
   comm->reverse_comm(fix);
+#else
+  comm->reverse_comm_fix(fix);
 #endif
 }
 
 /// A region by its ID, or nullptr.
 inline LAMMPS_NS::Region *find_region(LAMMPS_NS::Domain *domain, const std::string &id) {
-#if DRUMLIN_LAMMPS_2021
+#if DRUMLIN_LAMMPS_REGION_BY_ID
+  return domain->get_region_by_id(id);
+#else
   const int index = domain->find_region(id);
   return index < 0 ? nullptr : domain->regions[index];
-#else
-  return domain->get_region_by_id(id);
 #endif
 }
 
 inline void minimum_image(LAMMPS_NS::Domain *domain, double *d) {
-#if DRUMLIN_LAMMPS_2021
-  domain->minimum_image(d[0], d[1], d[2]);
-#else
+#if DRUMLIN_LAMMPS_IMAGE_SAYS_WHERE
   domain->minimum_image(FLERR, d);
+#else
+  domain->minimum_image(d[0], d[1], d[2]);
 #endif
 }
 
 /// Asks for the neighbour list of a pair style of balls of finite size.
 inline void request_list(LAMMPS_NS::Neighbor *neighbor, LAMMPS_NS::Pair *pair, int instance, bool history) {
-#if DRUMLIN_LAMMPS_2021
+#if DRUMLIN_LAMMPS_LIST_FLAGS
+  (void)instance;
+  neighbor->add_request(pair,
+                        LAMMPS_NS::NeighConst::REQ_SIZE | (history ? LAMMPS_NS::NeighConst::REQ_HISTORY : 0));
+#else
   const int index = neighbor->request(pair, instance); // moves the array of requests
   LAMMPS_NS::NeighRequest *request = neighbor->requests[index];
   request->size = 1;
   request->history = history ? 1 : 0;
-#else
-  (void)instance;
-  neighbor->add_request(pair,
-                        LAMMPS_NS::NeighConst::REQ_SIZE | (history ? LAMMPS_NS::NeighConst::REQ_HISTORY : 0));
 #endif
 }
 
 } // namespace drumlin::engine::version
 
 /// The parameters of Pair::transfer_history() behind the two arrays.
-#if DRUMLIN_LAMMPS_2021
-#define DRUMLIN_TRANSFER_TYPES
-#else
+#if DRUMLIN_LAMMPS_TRANSFER_TYPES
 #define DRUMLIN_TRANSFER_TYPES , int, int
+#else
+#define DRUMLIN_TRANSFER_TYPES
 #endif

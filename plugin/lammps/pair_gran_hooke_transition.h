@@ -32,7 +32,7 @@ public:
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
   double memory_usage() override { return static_cast<double>(rigid_mass_.capacity()) * sizeof(double); }
-#if DRUMLIN_LAMMPS_2021 // later the engine takes it from the radii
+#if DRUMLIN_LAMMPS_PAIR_CUTOFFS // else the engine takes them from the radii
   double atom2cut(int i) override { return 2.0 * atom->radius[i]; }
   double radii2cut(double r1, double r2) override { return r1 + r2; }
 #endif

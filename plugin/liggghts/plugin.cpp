@@ -36,6 +36,7 @@
 #include "liggghts/fix_keep_history.h"
 #include "liggghts/model_settings.h"
 
+#include <algorithm>
 #include <map>
 #include <string>
 
