@@ -35,6 +35,11 @@ void check_engine(void *lmp) {
          "; allowed: the version that it is built for, as ./drumlin setup lammps builds it");
   if (setting(lmp, "tagint") != 4 || setting(lmp, "bigint") != 8)
     stop(built_for + " with -DLAMMPS_SIZES=SMALLBIG, its default, but this one has other sizes of numbers");
+  auto *has_package = find_function<int (*)(const char *)>("lammps_config_has_package");
+  if (has_package != nullptr && has_package("GRANULAR") == 0)
+    stop("this LAMMPS has no package GRANULAR; allowed: one built with -DPKG_GRANULAR=ON, as ./drumlin setup "
+         "lammps "
+         "builds it");
 }
 
 } // namespace

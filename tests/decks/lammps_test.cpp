@@ -209,6 +209,28 @@ TEST_F(InLammps, GoesOnFromARestartFileBitwiseOnRanksOneAndTwoWithNewtonOffAndOn
   }
 }
 
+/// With -partition each partition is a run of its own: one that names a folder of its own is, byte by byte, the run alone.
+TEST_F(InLammps, PartitionsAreRunsOfTheirOwnOnRanksOneAndTwo) {
+  const Scratch scratch;
+  const std::string drumlin = std::string(DRUMLIN_SOURCE_DIR) + "/drumlin";
+  std::ofstream(scratch / "both.lammps") << "variable out world both/A both/B\n"
+                                            "variable transition world A B\n"
+                                            "variable here index "
+                                         << chain_deck("").string() << "\ninclude ${here}/in.chain.lammps\n";
+  const Outcome both =
+      run_program({drumlin, "run", "-np", "2", "both.lammps", "-partition", "2x1", "-var", "cycles", "3"}, {},
+                  scratch.path());
+  ASSERT_TRUE(both.ok()) << both.output;
+  for (const char *transition : {"A", "B"}) {
+    const Scratch alone;
+    const Outcome outcome =
+        run_deck(chain_deck("in.chain.lammps"), {{"transition", transition}, {"cycles", "3"}}, alone.path());
+    ASSERT_TRUE(outcome.ok()) << outcome.output;
+    for (const char *table : {"chain.csv", "events.csv", "cycles.csv"})
+      EXPECT_EQ(read_text(alone / table), read_text(scratch / "both" / transition / table)) << table;
+  }
+}
+
 TEST_F(InLammps, RefusesTheHistoryOfAnotherWallOnRanksOneAndTwo) {
   const Scratch block;
   ASSERT_TRUE(run_deck(test_deck("bounce.lammps"), {{"walls", "block"}}, block.path()).ok());

@@ -120,5 +120,17 @@ TEST(PreloadedStub, GivesADeckItsFolderAsHere) {
   EXPECT_TRUE(outcome.says("here is <.>")) << outcome.output;
 }
 
+TEST(PluginLoad, NamesThePackageThatIsMissing) {
+  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  const Scratch scratch;
+  const std::vector<std::string> words = {FAKE_LAMMPS_PROGRAM, DRUMLIN_LAMMPS_PLUGIN};
+  const Outcome other = run_program(words, {"FAKE_VERSION=1"}, scratch.path());
+  const std::size_t number =
+      other.output.find(" (20"); // built for LAMMPS 29 Sep 2021 (20210929), but this is 1
+  ASSERT_NE(number, std::string::npos) << other.output;
+  expect_refusal(run_program(words, {"FAKE_VERSION=" + other.output.substr(number + 2, 8)}, scratch.path()),
+                 {"this LAMMPS has no package GRANULAR; allowed: one built with -DPKG_GRANULAR=ON"});
+}
+
 } // namespace
 } // namespace drumlin::test
