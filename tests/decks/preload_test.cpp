@@ -15,9 +15,13 @@ TEST(Preload, LeavesOtherProgramsAlone) {
   const Outcome echo = run_program({"/bin/echo", "untouched"}, {preload}, scratch.path());
   EXPECT_EQ(echo.status, 0);
   EXPECT_EQ(echo.output, "untouched\n");
-  const Outcome fails = run_program({"/bin/ls", "no-such-file"}, {preload, "LC_ALL=C"}, scratch.path());
+  const std::vector<std::string> failing = {"/bin/ls",
+                                            "no-such-file"}; // its text is not the same in every release
+  const Outcome alone = run_program(failing, {"LC_ALL=C"}, scratch.path());
+  const Outcome fails = run_program(failing, {preload, "LC_ALL=C"}, scratch.path());
+  EXPECT_EQ(alone.status, 2);
   EXPECT_EQ(fails.status, 2);
-  EXPECT_EQ(fails.output, "/bin/ls: cannot access 'no-such-file': No such file or directory\n");
+  EXPECT_EQ(fails.output, alone.output);
   const Outcome child =
       run_program({"/bin/sh", "-c", "/bin/sh -c '/bin/echo grandchild; exit 3'"}, {preload}, scratch.path());
   EXPECT_EQ(child.status, 3);
