@@ -71,6 +71,7 @@ Outcome run_example(const Example &example, const fs::path &folder) {
   if (example.language == "sh") {
     fs::create_directories(folder / "build/release");
     fs::create_directory_symlink(fs::path(plugin_library()).parent_path(), folder / "build/release/lib");
+    fs::create_directory_symlink(fs::path(DRUMLIN_TOOLS).parent_path(), folder / "build/release/bin");
     fs::create_directory_symlink(root / "inputs", folder / "inputs");
     return run_program({"/bin/sh", "-ec", example.text}, mpi_environment(folder), folder, 60.0);
   }
@@ -116,7 +117,7 @@ TEST_P(DocExamplesTest, Run) {
 
 /// Every engine command's page has its parts, and its section Examples an example that runs.
 TEST_P(DocExamplesTest, HaveTheirPlace) {
-  if (GetParam() == "README.md" || GetParam() == "plugin/doc/in_your_own_deck.md")
+  if (GetParam().rfind("plugin/doc/", 0) != 0 || GetParam() == "plugin/doc/in_your_own_deck.md")
     return; // no command's page
   const std::string page = read_text(root / GetParam());
   for (const char *part :
@@ -160,17 +161,34 @@ TEST(InYourOwnDeck, RollsAndIsTheEnginesOwnLaw) {
   }
 }
 
+// Links and pictures of every page are there.
+TEST(DocPages, LinkToWhatIsThere) {
+  static const std::regex link(R"re(\]\(([^)#:]+)\))re");
+  std::size_t links = 0;
+  for (const fs::directory_entry &entry : fs::recursive_directory_iterator(root)) {
+    const std::string below = fs::relative(entry.path(), root).string();
+    if (entry.path().extension() != ".md" || below.rfind("build", 0) == 0 || below.rfind("results", 0) == 0)
+      continue;
+    const std::string page = read_text(entry.path());
+    for (std::sregex_iterator i(page.begin(), page.end(), link), end; i != end; ++i, ++links)
+      EXPECT_TRUE(fs::exists(entry.path().parent_path() / (*i)[1].str())) << below << ": " << (*i)[1];
+  }
+  EXPECT_GT(links, 50U);
+}
+
 std::vector<std::string> pages() {
   std::vector<std::string> names;
   for (const fs::directory_entry &entry : fs::directory_iterator(root / "plugin/doc"))
     if (entry.path().extension() == ".md") names.push_back("plugin/doc/" + entry.path().filename().string());
   std::sort(names.begin(), names.end());
-  names.emplace_back("README.md");
+  for (const char *name : {"README.md", "inputs/chain/README.md", "postprocess/README.md"})
+    names.emplace_back(name);
   return names;
 }
 
 std::string page_name(const ::testing::TestParamInfo<std::string> &info) {
-  std::string name = fs::path(info.param).stem().string();
+  std::string name = fs::path(info.param).replace_extension().string();
+  if (const std::string folder = "plugin/doc/"; name.rfind(folder, 0) == 0) name.erase(0, folder.size());
   std::replace_if(
       name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
   return name;
