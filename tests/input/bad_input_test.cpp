@@ -48,7 +48,8 @@ void expect_one_error(const BadInput &input, const Outcome &outcome) {
   EXPECT_NE(outcome.status, 0);
   std::vector<std::string> errors;
   for (const std::string &line : lines_of(outcome.output))
-    if (line.find("ERROR") != std::string::npos) errors.push_back(line);
+    if (line.rfind("ERROR", 0) == 0)
+      errors.push_back(line); // mpirun may add lines of its own when a rank ends
   ASSERT_EQ(errors.size(), 1U) << outcome.output;
   // The engine by itself adds a line to one error in five, by chance, with the same place in its source at its end.
   const std::string place = errors.front().substr(errors.front().rfind(" ("));

@@ -2,6 +2,7 @@
 // `beside`: whether the first is closed before the second runs. Each writes INSTANCE.txt.
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <dlfcn.h>
 #include <string>
 
@@ -10,6 +11,7 @@ int main(int narg, char **arg) {
   if (engine == nullptr) return 2;
   const auto open = reinterpret_cast<void *(*)(int, char **, void **)>(dlsym(engine, "lammps_open_no_mpi"));
   const auto file = reinterpret_cast<void (*)(void *, const char *)>(dlsym(engine, "lammps_file"));
+  const auto failed = reinterpret_cast<int (*)(void *)>(dlsym(engine, "lammps_has_error"));
   const auto close = reinterpret_cast<void (*)(void *)>(dlsym(engine, "lammps_close"));
   const auto run = [&](const char *name) {
     std::array<std::string, 12> words = {"lmp",  "-log",  "none", "-var", "plugin",   arg[2],
@@ -18,7 +20,8 @@ int main(int narg, char **arg) {
     for (std::size_t n = 0; n < words.size(); ++n)
       pointers.at(n) = words.at(n).data();
     void *instance = open(12, pointers.data(), nullptr);
-    file(instance, arg[3]);
+    file(instance, arg[3]); // ends the process at an error, or, since 2024, comes back
+    if (failed(instance) != 0) std::exit(1);
     return instance;
   };
   void *first = run("first");
