@@ -2,6 +2,7 @@
 
 #include "fixes/arguments.h"
 #include "fixes/bed_files.h"
+#include "fixes/stop_signal.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -45,6 +46,7 @@ public:
   }
 
   void run() {
+    const StopSignal signals(lmp);
     const double begin = MPI_Wtime();
     const engine::bigint first = update->ntimestep;
     double longest = 0.0; // s, of the pieces
@@ -64,7 +66,7 @@ public:
                               100.0 * static_cast<double>(update->ntimestep) / static_cast<double>(last_),
                               update->ntimestep, last_, static_cast<double>(update->ntimestep) * update->dt,
                               now, now / done * static_cast<double>(last_ - update->ntimestep)));
-      if (engine::told_to_stop(lmp)) {
+      if (StopSignal::told(lmp)) {
         if (!restart_.empty()) write_noted_restart(lmp, restart_, notes_, "drumlin/run: keyword restart");
         error->all(FLERR, fmt::format("drumlin/run: stopped by a signal at step {} of {}; allowed: to {}",
                                       update->ntimestep, last_,

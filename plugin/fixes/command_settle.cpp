@@ -1,6 +1,7 @@
 #include "fixes/commands.h"
 
 #include "fixes/arguments.h"
+#include "fixes/stop_signal.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -36,6 +37,7 @@ public:
   }
 
   void run() {
+    const StopSignal signals(lmp);
     update->whichflag = 1;
     update->nsteps = static_cast<int>(limit_);
     update->firststep = update->beginstep = update->ntimestep;
@@ -52,7 +54,7 @@ public:
       update->integrate->run(piece);
       ratio = unbalanced_ratio();
       if (!std::isfinite(ratio)) break;
-      if (engine::told_to_stop(lmp))
+      if (StopSignal::told(lmp))
         error->all(FLERR,
                    fmt::format("drumlin/settle: stopped by a signal after {} steps, unbalanced ratio {:.3g}; "
                                "allowed: to run until it has settled",

@@ -85,8 +85,10 @@ constexpr const char *beside_restart = ", or NAME beside which a NAME.data lies"
 
 inline void set_up_run(LAMMPS_NS::Integrate *integrate) { integrate->setup(1); }
 
-/// Whether the command `timer timeout` has told the engine to stop: it then ends each run. (A signal ends LAMMPS itself.) Collective.
-inline bool told_to_stop(const LAMMPS *lmp) { return lmp->timer->is_timeout(); }
+/// Tells the engine to end each run after the step, and whether it was told so, by this or by the command `timer timeout`. To be called on
+/// all ranks alike.
+inline void end_runs(LAMMPS *lmp) { lmp->timer->force_timeout(); }
+inline bool runs_have_ended(const LAMMPS *lmp) { return lmp->timer->is_timeout(); }
 
 /// Copies the numbers of owned balls to their ghosts through the fix's pack_ghosts/unpack_ghosts pair.
 inline void forward_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Fix *fix) { version::forward_comm(comm, fix); }

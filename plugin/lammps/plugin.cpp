@@ -17,6 +17,7 @@
 #include "fixes/fix_outputs.h"
 #include "fixes/fix_roller_history.h"
 #include "fixes/fix_stepping.h"
+#include "fixes/stop_signal.h"
 #include "lammps/fix_neigh_history_transition.h"
 #include "lammps/fix_wall_gran_transition.h"
 #include "lammps/pair_gran_hooke_transition.h"
@@ -108,6 +109,7 @@ extern "C" __attribute__((visibility("default"))) void drumlin_register(void *lm
   add_fix("roller/history", "motion and forces of drum and frame", create_fix<FixRollerHistory>);
   add_fix("drumlin/stepping", "second-order stepping", create_fix<FixStepping>);
   add_fix(FixOutputs::style_name, "the files of a run", create_fix<FixOutputs>);
+  add_fix(FixStop::style_name, "signals that end a run", create_fix<FixStop>);
   add_fix("guard", "step, overlap and finite numbers", create_fix<FixGuard>);
   add_v1("command", "drumlin/check", "judges a variable", create<EngineCommand<drumlin::check_command>>);
   add_v1("command", "drumlin/variables", "the variables of a deck",

@@ -77,11 +77,13 @@ constexpr const char *beside_restart = "";
 
 inline void set_up_run(LAMMPS_NS::Integrate *integrate) { integrate->setup(); }
 
-/// Whether a signal (Ctrl-C, a scheduler) has told a rank to stop: the engine then ends each run after a step. Collective.
-inline bool told_to_stop(const LAMMPS *lmp) {
-  int stop = LAMMPS_NS::SignalHandler::request_quit ? 1 : 0;
-  MPI_Allreduce(MPI_IN_PLACE, &stop, 1, MPI_INT, MPI_MAX, lmp->world);
-  return stop != 0;
+/// Tells the engine to end each run after the step, and whether it was told so, by this or by a signal of its own. To be called on all
+/// ranks alike.
+inline void end_runs(LAMMPS *) { LAMMPS_NS::SignalHandler::request_quit = true; }
+inline bool runs_have_ended(const LAMMPS *lmp) {
+  int ended = LAMMPS_NS::SignalHandler::request_quit ? 1 : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &ended, 1, MPI_INT, MPI_MAX, lmp->world);
+  return ended != 0;
 }
 
 /// Copies the velocities of owned balls to their ghosts through the fix's pack_comm/unpack_comm pair.

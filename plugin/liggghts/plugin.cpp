@@ -14,10 +14,8 @@
 #include "fix_wall_gran_base.h"
 
 #include "comm.h"
-#include "error_special.h"
 #include "input.h"
 #include "neighbor.h"
-#include "universe.h"
 
 #include "engine.h"
 #include "fixes/commands.h"
@@ -32,6 +30,7 @@
 #include "fixes/fix_outputs.h"
 #include "fixes/fix_roller_history.h"
 #include "fixes/fix_stepping.h"
+#include "fixes/stop_signal.h"
 #include "liggghts/contact_table.h"
 #include "liggghts/fix_keep_history.h"
 #include "liggghts/model_settings.h"
@@ -243,6 +242,7 @@ void add_fixes(LAMMPS *lmp) {
   fixes["roller/history"] = create_fix<LAMMPS_NS::FixRollerHistory>;
   fixes["drumlin/stepping"] = create_fix<LAMMPS_NS::FixStepping>; // made by the pair style, not by decks
   fixes[LAMMPS_NS::FixKeepHistory::style_name] = create_fix<LAMMPS_NS::FixKeepHistory>; // this neither
+  fixes[LAMMPS_NS::FixStop::style_name] = create_fix<LAMMPS_NS::FixStop>;               // by commands
   fixes[LAMMPS_NS::FixOutputs::style_name] = create_fix<LAMMPS_NS::FixOutputs>;         // by a command
   fixes["guard"] = create_fix<LAMMPS_NS::FixGuard>;
 }
@@ -260,31 +260,6 @@ void add_commands(LAMMPS *lmp) {
   commands["drumlin/write_restart"] = drumlin::write_restart_command;
 }
 
-/// The layout of the engine's class Error.
-struct ErrorLayout : Pointers {
-  using Pointers::Pointers;
-  ~ErrorLayout() override = default;
-  LAMMPS_NS::SpecialMessages *messages;
-};
-static_assert(sizeof(ErrorLayout) == sizeof(LAMMPS_NS::Error),
-              "class Error of this LIGGGHTS differs from the stock binary's");
-
-/// LIGGGHTS follows about one error in five, chosen at random, with a second line (a joke or a tip) that it prints from memory it has
-/// freed, so that users see unreadable characters. It does so only if the version of its `universe` says PUBLIC. The object that prints
-/// these lines gets a universe without a version, and is silent.
-void silence_special_messages(LAMMPS *lmp) {
-  alignas(LAMMPS_NS::Universe) static char universe[sizeof(LAMMPS_NS::Universe)] = {};
-  alignas(
-      LAMMPS) static char engine[sizeof(LAMMPS)] = {}; // all that the messages read of one is its universe
-  static char no_version[] = "";
-  reinterpret_cast<LAMMPS_NS::Universe *>(universe)->version = no_version;
-  auto *stand_in = reinterpret_cast<LAMMPS *>(engine);
-  stand_in->universe = reinterpret_cast<LAMMPS_NS::Universe *>(universe);
-  auto *error = reinterpret_cast<ErrorLayout *>(lmp->error);
-  delete error->messages;
-  error->messages = new LAMMPS_NS::SpecialMessages(stand_in);
-}
-
 } // namespace
 
 extern "C" __attribute__((visibility("default"))) void drumlin_register_again(void *engine) {
@@ -298,7 +273,6 @@ extern "C" __attribute__((visibility("default"))) void drumlin_register(void *in
   if (known == lmp) return;
   if (known == nullptr) add_contact_models();
   known = lmp;
-  silence_special_messages(lmp);
   add_fixes(lmp);
   add_commands(lmp);
   drumlin::define_here(lmp);

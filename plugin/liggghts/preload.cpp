@@ -7,6 +7,11 @@
 // the engine's own. The command `clear` makes the engine's lists of styles anew and ends with
 // LAMMPS_NS::LAMMPS::post_create(): there the plugin registers again, in the same way.
 
+// For the layout of two classes alone.
+#include "lammps.h"
+#include "pointers.h"
+#include "universe.h"
+
 #include "stub.h"
 
 #include <cstdio>
@@ -20,6 +25,8 @@ using drumlin::stop;
 
 constexpr const char *input_file_symbol = "_ZN9LAMMPS_NS5Input4fileEv";
 constexpr const char *post_create_symbol = "_ZN9LAMMPS_NS6LAMMPS11post_createEv";
+constexpr const char *special_messages_symbol = "_ZN9LAMMPS_NS15SpecialMessagesC1EPNS_6LAMMPSE";
+constexpr const char *request_quit_symbol = "_ZN9LAMMPS_NS13SignalHandler12request_quitE";
 constexpr const char *liggghts_symbol = "_ZN8LIGGGHTS10PairStyles7Factory8instanceEv";
 
 /// File that a symbol comes from, with links resolved, so that its name ends in the engine's full version.
@@ -69,10 +76,23 @@ Register load_plugin(const void *engine_input_file, std::string &why) {
   return reinterpret_cast<Register>(dlsym(handle, "drumlin_register"));
 }
 
-/// Line buffering in the engine's processes: its error->one() texts are lost otherwise when output is
-/// redirected.
+/// Line buffering in the engine's processes: its error->one() texts are lost otherwise when output is redirected. Open MPI would put eight
+/// lines on MPI_Abort behind each: it reads the variable when the engine starts it, and what mpirun itself has to say is not its concern.
 __attribute__((constructor)) void keep_error_texts() {
-  if (dlsym(RTLD_DEFAULT, liggghts_symbol) != nullptr) std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  if (dlsym(RTLD_DEFAULT, liggghts_symbol) == nullptr) return;
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  ::setenv("OMPI_MCA_orte_execute_quiet", "1", 0); // NOLINT(concurrency-mt-unsafe): before main()
+}
+
+/// An engine of which its SpecialMessages read no more than the version of its `universe`.
+LAMMPS_NS::LAMMPS *without_version() {
+  alignas(LAMMPS_NS::Universe) static char universe[sizeof(LAMMPS_NS::Universe)] = {};
+  alignas(LAMMPS_NS::LAMMPS) static char engine[sizeof(LAMMPS_NS::LAMMPS)] = {};
+  static char no_version[] = "";
+  reinterpret_cast<LAMMPS_NS::Universe *>(universe)->version = no_version;
+  auto *stand_in = reinterpret_cast<LAMMPS_NS::LAMMPS *>(engine);
+  stand_in->universe = reinterpret_cast<LAMMPS_NS::Universe *>(universe);
+  return stand_in;
 }
 
 } // namespace
@@ -91,6 +111,9 @@ void drumlin_input_file(void *input) {
   if (registration == nullptr) stop(why);
   registration(input, LIGGGHTS_VERSION);
   engine_input_file(input);
+  // A signal ends the reading of the deck behind the command of that moment, and the engine would exit with 0.
+  const auto *quit = static_cast<const bool *>(dlsym(RTLD_DEFAULT, request_quit_symbol));
+  if (quit != nullptr && *quit) stop("stopped by a signal before the end of the deck");
 }
 
 // The engine's LAMMPS_NS::LAMMPS::post_create(), met first by the dynamic linker; before the plugin is loaded it adds nothing.
@@ -104,4 +127,20 @@ void drumlin_post_create(void *engine) {
     stop("the engine's LAMMPS::post_create() is not in a shared library; it cannot be extended");
   if (register_again != nullptr) register_again(engine);
   engine_post_create(engine);
+}
+
+// The engine's LAMMPS_NS::SpecialMessages::SpecialMessages(LAMMPS *), met first by the dynamic linker. The engine follows about one error in
+// five, chosen at random, with a second line (a joke or a tip) that it prints from memory it has freed, so that users see unreadable
+// characters. It does so only if the version of its `universe` says PUBLIC.
+extern "C" __attribute__((visibility("default"))) void
+drumlin_special_messages(void *messages,
+                         void *engine) __asm__("_ZN9LAMMPS_NS15SpecialMessagesC1EPNS_6LAMMPSE");
+
+void drumlin_special_messages(void *messages, void *engine) {
+  using Construct = void (*)(void *, void *);
+  static const auto engine_construct = reinterpret_cast<Construct>(dlsym(RTLD_NEXT, special_messages_symbol));
+  if (engine_construct == nullptr) return; // nobody else has it, so nobody has called this
+  const bool known = ends_with(real_file_of(reinterpret_cast<const void *>(engine_construct)),
+                               std::string(".so.") + LIGGGHTS_VERSION);
+  engine_construct(messages, known ? without_version() : engine);
 }

@@ -100,6 +100,75 @@ protected:
     return run(bed_folder() / "in.bed", folder, more, ranks);
   }
 
+  /// Names that a shell or a glob would read as something else; dumps of another run stay, those of an earlier run into the same folder go.
+  static void expect_dumps_into_folders_of_any_name(const char *deck, const Variables &more) {
+    const Scratch folder;
+    const auto shaken = [&](const std::string &out, const char *dumps) {
+      Variables variables = {{"cycles", "1"},
+                             {"omega", "3141.6"}, // few steps, no longer than usual
+                             {"steps_per_cycle", "100"},
+                             {"samples_per_cycle", "10"},
+                             {"dumps_per_cycle", dumps},
+                             {"out", (folder / out).string()}};
+      variables.insert(variables.end(), more.begin(), more.end());
+      return run(bed_folder() / deck, folder, variables);
+    };
+    ASSERT_TRUE(shaken("B1", "5").ok());
+    for (const char *out : {"B[1]", "run(1)", "A&B", "-x", "{}", "B?", "~", "x;echo", "x|y", "`id`"}) {
+      for (const char *dumps : {"10", "5"}) {
+        const Outcome outcome = shaken(out, dumps);
+        ASSERT_TRUE(outcome.ok()) << out << outcome.output;
+      }
+      EXPECT_EQ(post::dumped_steps(folder / out / "dump").size(), 6u) << out;
+      EXPECT_EQ(post::dumped_steps(folder / "B1/dump").size(), 6u) << out;
+    }
+    std::ofstream(folder / "B1/dump/thesis.txt") << "mine\n";
+    const std::string before = read_text(folder / "B1/bed.csv");
+    const Outcome mixed = shaken("B1", "10");
+    EXPECT_EQ(mixed.status, 1);
+    EXPECT_TRUE(mixed.says("has 'thesis.txt', which is no dump of a run; allowed: ")) << mixed.output;
+    EXPECT_EQ(read_text(folder / "B1/bed.csv"), before);
+    EXPECT_EQ(post::dumped_steps(folder / "B1/dump").size(), 6u);
+    for (const char *out : {"x$(touch pwned)", "B*", "100%", "a b"}) {
+      const Outcome refused = shaken(out, "5");
+      EXPECT_EQ(refused.status, 1) << out;
+      EXPECT_TRUE(refused.says("ERROR: drumlin/")) << out << refused.output;
+    }
+    EXPECT_FALSE(fs::exists(folder / "pwned"));
+  }
+
+  /// One piece, in the middle of which a signal comes; another run continues from the file that it leaves.
+  static void expect_ends_at_a_signal(const char *deck, const Variables &more) {
+    const Scratch folder;
+    const auto shaken = [&](const Variables &variables, double limit) {
+      Variables all = variables;
+      all.insert(all.end(), more.begin(), more.end());
+      all.insert(all.end(), {{"omega", "0.12566370614359174"}, // a period of 50 s
+                             {"steps_per_cycle", "2500000"},
+                             {"samples_per_cycle", "250000"},
+                             {"start", (*scratch / "ball.restart").string()},
+                             {"Fw", "2940"}});
+      for (const auto &variable : roller())
+        all.push_back(variable);
+      return run_deck(bed_folder() / deck, all, folder.path(), 1, limit);
+    };
+    const Outcome stopped = shaken({}, 4.0);
+    EXPECT_TRUE(stopped.timed_out);
+    EXPECT_EQ(stopped.status, 1);
+    EXPECT_TRUE(stopped.says("ERROR: drumlin/run: stopped by a signal at step ")) << stopped.output;
+    EXPECT_TRUE(stopped.says("; allowed: to go on from ")) << stopped.output;
+    EXPECT_EQ(stopped.output.find("ERROR"), stopped.output.rfind("ERROR")) << stopped.output;
+
+    const std::size_t rows_before = post::read_table(folder / "bed.csv").rows();
+    const Outcome resumed = shaken({{"start", (folder / "stopped.restart").string()}}, 3.0);
+    EXPECT_EQ(resumed.status, 1);
+    const post::Table rows = post::read_table(folder / "bed.csv");
+    ASSERT_GT(rows.rows(), rows_before) << resumed.output;
+    const std::vector<double> time = rows.numbers("time");
+    for (std::size_t n = 1; n < time.size(); ++n)
+      ASSERT_NEAR(time[n] - time[n - 1], 50.0 / 250000.0, 1e-9) << "row " << n;
+  }
+
   /// Stopped by the limit of wall time in the middle of the excitation, and gone on from there in another process.
   static void expect_goes_on(const char *deck, const char *stepping) {
     const auto shaken = [deck, stepping](const Scratch &folder, Variables more, int ranks) {
@@ -583,32 +652,7 @@ TEST_F(Bed, IsPouredWithContactsOfItsOwn) {
             post::read_table(loose / "bed.csv").numbers("void_ratio").front() - 0.01);
 }
 
-// Names that a shell or a glob would read as something else; dumps of another run stay, those of an earlier run into the same folder go.
-TEST_F(Bed, DumpsIntoFoldersOfAnyName) {
-  const Scratch folder;
-  const auto shaken = [&folder](const std::string &out, const char *dumps) {
-    return shake(folder, {{"cycles", "1"}, {"dumps_per_cycle", dumps}, {"out", (folder / out).string()}});
-  };
-  ASSERT_TRUE(shaken("B1", "5").ok());
-  for (const char *out : {"B[1]", "run(1)", "A&B", "-x", "{}", "B?", "~", "x;echo", "x|y", "`id`"}) {
-    for (const char *dumps : {"10", "5"}) {
-      const Outcome outcome = shaken(out, dumps);
-      ASSERT_TRUE(outcome.ok()) << out << outcome.output;
-    }
-    EXPECT_EQ(post::dumped_steps(folder / out / "dump").size(), 6u) << out;
-    EXPECT_EQ(post::dumped_steps(folder / "B1/dump").size(), 6u) << out;
-  }
-  std::ofstream(folder / "B1/dump/thesis.txt") << "mine\n";
-  const std::string before = read_text(folder / "B1/bed.csv");
-  const Outcome mixed = shaken("B1", "10");
-  EXPECT_EQ(mixed.status, 1);
-  EXPECT_TRUE(mixed.says("has 'thesis.txt', which is no dump of a run; allowed: ")) << mixed.output;
-  EXPECT_EQ(read_text(folder / "B1/bed.csv"), before);
-  EXPECT_EQ(post::dumped_steps(folder / "B1/dump").size(), 6u);
-  for (const char *out : {"x$(touch pwned)", "B*", "100%"})
-    EXPECT_EQ(shaken(out, "5").status, 1) << out;
-  EXPECT_FALSE(fs::exists(folder / "pwned"));
-}
+TEST_F(Bed, DumpsIntoFoldersOfAnyName) { expect_dumps_into_folders_of_any_name("in.bed", {}); }
 
 // Each is a data file that the engine reads for ever, or takes as it is.
 TEST_F(Bed, RefusesDataFilesThatTheEngineWouldNot) {
@@ -675,8 +719,8 @@ TEST_F(Bed, ALostBallIsAnErrorOnRanksOneAndTwo) {
   }
 }
 
-// The engine answers a signal by ending each run after one step: a command that runs in pieces must see it.
-TEST_F(Bed, EndsAtASignal) {
+// In the middle of a piece, which has no progress of its own.
+TEST_F(Bed, EndsAtASignalWhileItSettles) {
   const Scratch folder;
   const Outcome settling = run_deck(bed_folder() / "in.settle",
                                     {{"ratio", "1e-29"},
@@ -687,28 +731,9 @@ TEST_F(Bed, EndsAtASignal) {
   EXPECT_EQ(settling.status, 1);
   EXPECT_TRUE(settling.says("ERROR: drumlin/settle: stopped by a signal after ")) << settling.output;
   EXPECT_FALSE(fs::exists(folder / "x.restart"));
-
-  Variables variables = {
-      {"cycles", "10000"}, {"start", (*scratch / "ball.restart").string()}, {"Fw", "2940"}};
-  for (const auto &variable : roller())
-    variables.push_back(variable);
-  const Outcome shaken = run_deck(bed_folder() / "in.bed", variables, folder.path(), 1, 3.0);
-  EXPECT_TRUE(shaken.timed_out);
-  EXPECT_EQ(shaken.status, 1);
-  EXPECT_TRUE(shaken.says("ERROR: drumlin/run: stopped by a signal at step ")) << shaken.output;
-  EXPECT_TRUE(shaken.says("; allowed: to go on from ")) << shaken.output;
-
-  const std::size_t rows_before = post::read_table(folder / "bed.csv").rows();
-  const Outcome resumed =
-      shake(folder,
-            {{"cycles", "10000"}, {"start", (folder / "stopped.restart").string()}, {"time_limit", "1e-3"}});
-  ASSERT_TRUE(resumed.ok()) << resumed.output;
-  const post::Table rows = post::read_table(folder / "bed.csv");
-  ASSERT_GT(rows.rows(), rows_before);
-  const std::vector<double> time = rows.numbers("time");
-  for (std::size_t n = 1; n < time.size(); ++n)
-    ASSERT_NEAR(time[n] - time[n - 1], 0.05 / 250.0, 1e-9) << "row " << n;
 }
+
+TEST_F(Bed, EndsAtASignalAndContinues) { expect_ends_at_a_signal("in.bed", {}); }
 
 // Said before the bed has settled, not after.
 TEST_F(Bed, RefusesNamesThatCannotBeWrittenAtTheBeginning) {
@@ -910,6 +935,14 @@ TEST_F(BedInLammps, RefusesWhatItDoesNotHaveOnRanksOneAndTwo) {
     refused({{"newton", "maybe"}}, "variable newton is 'maybe'; allowed: on or off", ranks);
     refused({{"rest", "2"}}, "variable rest is '2'; allowed: 0 or 1", ranks);
   }
+}
+
+TEST_F(BedInLammps, DumpsIntoFoldersOfAnyName) {
+  expect_dumps_into_folders_of_any_name("in.bed.lammps", {{"rest", "0"}, {"balance", "1e30"}});
+}
+
+TEST_F(BedInLammps, EndsAtASignalAndContinues) {
+  expect_ends_at_a_signal("in.bed.lammps", {{"rest", "0"}, {"balance", "1e30"}});
 }
 
 // Three dimensions: spheres, a cylinder of soil-sized balls on a cell that was copied, periodic all around.

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
 #include <thread>
@@ -72,29 +73,44 @@ TEST(EarlierRuns, KeptAsideByAKilledRunComeBack) {
   EXPECT_EQ(texts(folder.path()), before);
 }
 
-// A signal is an error. While the first run goes on, a second one is refused its folder.
+/// A run that a signal ends after a while; meanwhile a second one is refused its folder.
+struct Ended {
+  std::string deck;
+  Variables variables;
+  int ranks;
+  Outcome first, second;
+};
+
+void run_until_a_signal(Ended &run) {
+  const Scratch folder, other;
+  const auto deck = chain_deck(run.deck);
+  std::thread runner([&] { run.first = run_deck(deck, run.variables, folder.path(), run.ranks, 5.0); });
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(4);
+  while (!fs::exists(folder / "chain.csv") && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  run.second = run_deck(deck, {{"out", folder.path().string()}}, other.path(), 1, 10.0);
+  runner.join();
+}
+
 TEST(EarlierRuns, OfARunAreItsOwnUntilASignalEndsIt) {
-  for (const char *deck : {"in.chain", "in.impact"}) {
-    const Scratch folder;
-    const Variables long_run = std::string(deck) == "in.chain"
-                                   ? Variables{{"cycles", "1000000"}}
-                                   : Variables{{"contacts", "1000"}, {"steps_per_contact", "1000000"}};
-    Outcome first;
-    std::thread runner([&] { first = run_deck(chain_deck(deck), long_run, folder.path(), 1, 5.0); });
-    while (!fs::exists(folder / "chain.csv"))
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    const Scratch other;
-    const Outcome second = run_program(
-        {"liggghts", "-in", chain_deck(deck).string(), "-log", "none", "-var", "out", folder.path().string()},
-        {"LD_PRELOAD=" + plugin_library()}, other.path(), 10.0);
-    runner.join();
-    EXPECT_EQ(second.status, 1);
-    EXPECT_TRUE(second.says(", into which another run writes; allowed: ")) << second.output;
-    EXPECT_EQ(errors_in(second.output), 1) << second.output;
-    EXPECT_TRUE(first.timed_out);
-    EXPECT_EQ(first.status, 1);
-    EXPECT_TRUE(first.says("ERROR: drumlin/run: stopped by a signal at step ")) << first.output;
-    EXPECT_EQ(errors_in(first.output), 1) << first.output;
+  std::vector<Ended> runs = {
+      {"in.chain", {{"cycles", "1000000"}}, 2, {}, {}},
+      {"in.impact", {{"contacts", "1000"}, {"steps_per_contact", "1000000"}}, 1, {}, {}}};
+  if (post::has_lammps()) runs.push_back({"in.chain.lammps", {{"cycles", "1000000"}}, 1, {}, {}});
+  std::vector<std::thread> side_by_side;
+  side_by_side.reserve(runs.size());
+  for (Ended &run : runs)
+    side_by_side.emplace_back(run_until_a_signal, std::ref(run));
+  for (std::thread &one : side_by_side)
+    one.join();
+  for (const Ended &run : runs) {
+    EXPECT_EQ(run.second.status, 1) << run.deck;
+    EXPECT_TRUE(run.second.says(", into which another run writes; allowed: ")) << run.second.output;
+    EXPECT_EQ(errors_in(run.second.output), 1) << run.second.output;
+    EXPECT_TRUE(run.first.timed_out) << run.deck;
+    EXPECT_EQ(run.first.status, 1) << run.deck;
+    EXPECT_TRUE(run.first.says("ERROR: drumlin/run: stopped by a signal at step ")) << run.first.output;
+    EXPECT_EQ(errors_in(run.first.output), 1) << run.first.output;
   }
 }
 

@@ -84,6 +84,32 @@ TEST(PreloadedStub, LeavesADeckOfTheStockEngineAsItIs) {
   EXPECT_TRUE(outcome.says("plugin for LIGGGHTS 3.8.0")) << outcome.output;
 }
 
+// Neither a jest of the engine's nor what Open MPI has to say on errors of one rank.
+TEST(PreloadedStub, LeavesErrorsOneLine) {
+  const Scratch scratch;
+  write_text(scratch / "in.error", "units nowhere\n");
+  const auto lines_of_error = [&](const std::string &libraries, const std::vector<std::string> &words) {
+    std::vector<std::string> command = {"liggghts", "-log", "none"};
+    command.insert(command.end(), words.begin(), words.end());
+    std::vector<std::string> environment = mpi_environment(scratch.path());
+    environment.push_back("LD_PRELOAD=" + libraries);
+    const Outcome outcome = run_program(command, environment, scratch.path());
+    EXPECT_EQ(outcome.status, 1);
+    return lines_of(outcome.output);
+  };
+  const std::string with_plugin = plugin_library() + ":" ALWAYS_JESTS;
+  for (const std::vector<std::string> &words : {std::vector<std::string>{"-in", "in.error", "-var"},
+                                                {"-nonsense"},
+                                                {"-in", "nowhere"},
+                                                {"-in", "in.error", "-log", "/nowhere/log"}}) {
+    const std::vector<std::string> lines = lines_of_error(with_plugin, words);
+    ASSERT_EQ(lines.size(), 1U) << words.back() << lines.back();
+    EXPECT_EQ(lines.front().rfind("ERROR", 0), 0U) << lines.front();
+    EXPECT_GT(lines_of_error(ALWAYS_JESTS, words).size(), 1U) << words.back();
+  }
+  EXPECT_EQ(lines_of_error(with_plugin, {"-in", "in.error"}).size(), 3U); // with two that greet
+}
+
 TEST(PreloadedStub, WithoutItTheEngineDoesNotKnowTheCommands) {
   const Scratch scratch;
   write_text(scratch / "in.check", "drumlin/check k 1 positive\n");

@@ -1,0 +1,61 @@
+#include "fixes/stop_signal.h"
+
+#include <string>
+
+namespace {
+
+volatile std::sig_atomic_t signals = 0;
+
+/// The first two only count: mpirun follows Ctrl-C, which has reached the ranks as well, with a SIGTERM.
+void count_signal(int number) {
+  signals = signals + 1;
+  if (signals < 3) return;
+  std::signal(number, SIG_DFL);
+  std::raise(number);
+}
+
+/// Ends the engine's runs if a rank has had a signal. Collective.
+void end_runs_if_asked(drumlin::engine::LAMMPS *lmp) {
+  int stop = signals;
+  if (lmp->comm->nprocs > 1) MPI_Allreduce(MPI_IN_PLACE, &stop, 1, MPI_INT, MPI_MAX, lmp->world);
+  if (stop != 0) drumlin::engine::end_runs(lmp);
+}
+
+constexpr const char *fix_id = "drumlin_stop";
+
+} // namespace
+
+drumlin::StopSignal::StopSignal(engine::LAMMPS *lmp) : lmp_(lmp) {
+  std::string words[] = {fix_id, "all", LAMMPS_NS::FixStop::style_name};
+  char *arg[] = {words[0].data(), words[1].data(), words[2].data()};
+  lmp->modify->add_fix(3, arg);
+  signals = 0;
+  struct sigaction counting {};
+  counting.sa_handler = count_signal;
+  counting.sa_flags = SA_RESTART; // writes of files under way are not cut
+  for (const int number : {SIGINT, SIGTERM}) {
+    Handler &handler = handlers_.emplace_back();
+    handler.number = number;
+    sigaction(number, &counting, &handler.before);
+  }
+}
+
+drumlin::StopSignal::~StopSignal() {
+  for (const Handler &handler : handlers_)
+    sigaction(handler.number, &handler.before, nullptr);
+  if (engine::find_fix(lmp_->modify, fix_id) != nullptr) lmp_->modify->delete_fix(fix_id);
+}
+
+bool drumlin::StopSignal::told(engine::LAMMPS *lmp) {
+  end_runs_if_asked(lmp);
+  return engine::runs_have_ended(lmp);
+}
+
+/// Ranks that ask each other wait for each other: seldom where a step takes no longer than that.
+LAMMPS_NS::FixStop::FixStop(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) {
+  constexpr double enough = 1000.0; // balls on a rank
+  constexpr int seldom = 20;        // steps
+  nevery = comm->nprocs == 1 || static_cast<double>(atom->natoms) > enough * comm->nprocs ? 1 : seldom;
+}
+
+void LAMMPS_NS::FixStop::end_of_step() { end_runs_if_asked(lmp); }
