@@ -231,6 +231,19 @@ std::string gnuplot_script(const Figure &figure) {
   return s + "  unset output\n}\n";
 }
 
+bool is_whole_picture(const fs::path &file) {
+  using namespace std::string_view_literals;
+  std::ifstream in(file, std::ios::binary);
+  const std::string all(std::istreambuf_iterator<char>(in), {});
+  const bool png = file.extension() == ".png";
+  const std::string_view begin = png ? "\x89PNG\r\n\x1a\n"sv : "<?xml"sv;
+  const std::string_view end = png ? "\0\0\0\0IEND\xae\x42\x60\x82"sv : "</svg>"sv;
+  std::string_view rest = all;
+  if (!png) rest = rest.substr(0, rest.find_last_not_of(" \r\n") + 1);
+  return rest.size() >= begin.size() + end.size() && rest.substr(0, begin.size()) == begin &&
+         rest.substr(rest.size() - end.size()) == end;
+}
+
 void render(const fs::path &gnuplot, const fs::path &folder, const Figure &figure) {
   const fs::path script = folder / (figure.name + ".gp");
   write_files({{script, gnuplot_script(figure)}});
@@ -245,9 +258,9 @@ void render(const fs::path &gnuplot, const fs::path &folder, const Figure &figur
   for (const char *kind : {".svg", ".png"}) {
     if (figure.only_png && std::string_view(kind) == ".svg") continue;
     const fs::path picture = folder / (figure.name + kind);
-    std::error_code error;
-    if (fs::file_size(picture, error) == 0 || error)
-      throw std::runtime_error(fmt::format("gnuplot made no {}", picture.string()));
+    if (!is_whole_picture(picture))
+      throw std::runtime_error(
+          fmt::format("{} is cut short; allowed: a disk with room for what gnuplot draws", picture.string()));
   }
 }
 

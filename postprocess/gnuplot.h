@@ -91,7 +91,10 @@ std::filesystem::path find_gnuplot();
 /// The gnuplot script of a figure; it writes NAME.svg, unless only_png, and NAME.png into the folder that it runs in.
 std::string gnuplot_script(const Figure &figure);
 
-/// Writes folder/NAME.gp and runs it there. Throws std::runtime_error with gnuplot's own words on failure.
+/// Whether a PNG or SVG file begins and ends as such a file does: one that gnuplot wrote onto a full disk does not, and gnuplot ends with 0.
+bool is_whole_picture(const std::filesystem::path &file);
+
+/// Writes folder/NAME.gp and runs it there. Throws std::runtime_error with gnuplot's own words on failure, or if a picture is not whole.
 void render(const std::filesystem::path &gnuplot, const std::filesystem::path &folder, const Figure &figure);
 
 } // namespace drumlin::post

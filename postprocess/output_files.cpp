@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstring>
 #include <cstddef>
 #include <optional>
@@ -144,6 +146,25 @@ private:
   int file_ = -1;
 };
 
+/// Whether a name is the prefix and the number of a process that is no more.
+bool is_leftover(const std::string &name, const std::string &prefix) {
+  if (name.size() <= prefix.size() || name.compare(0, prefix.size(), prefix) != 0) return false;
+  pid_t process = 0;
+  const char *end = name.data() + name.size();
+  const auto [stop, code] = std::from_chars(name.data() + prefix.size(), end, process);
+  return code == std::errc() && stop == end && process > 0 && ::kill(process, 0) != 0 && errno == ESRCH;
+}
+
+std::vector<fs::path> leftovers(const fs::path &parent, const std::string &prefix) {
+  std::vector<fs::path> found;
+  std::error_code ignored;
+  for (fs::directory_iterator entry(parent, ignored), end; entry != end; entry.increment(ignored))
+    if (entry->symlink_status(ignored).type() == fs::file_type::directory &&
+        is_leftover(entry->path().filename().string(), prefix))
+      found.push_back(entry->path());
+  return found;
+}
+
 void must_be_writable(const fs::path &file) {
   if (const std::string fault = fault_of_file(file); !fault.empty()) fail(file, fault);
 }
@@ -214,6 +235,31 @@ void append_text(const fs::path &file, const std::string &text) {
   } catch (const std::system_error &error) {
     fail(file, error.code().message());
   }
+}
+
+TemporaryFolder::TemporaryFolder(const fs::path &parent, const std::string &prefix)
+    : path_(parent / own_name(prefix)) {
+  remove_leftovers(parent, prefix);
+  fs::remove_all(path_);
+  fs::create_directory(path_);
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+std::string own_name(const std::string &prefix) { return fmt::format("{}{}", prefix, ::getpid()); }
+
+void remove_leftovers(const fs::path &parent, const std::string &prefix) {
+  std::error_code ignored;
+  for (const fs::path &folder : leftovers(parent, prefix))
+    fs::remove_all(folder, ignored);
+}
+
+fs::path leftover(const fs::path &parent, const std::string &prefix) {
+  const std::vector<fs::path> found = leftovers(parent, prefix);
+  return found.empty() ? fs::path() : found.front();
 }
 
 } // namespace drumlin::post

@@ -40,4 +40,28 @@ void replace_file(const std::filesystem::path &finished, const std::filesystem::
 /// then taken off again where that is possible.
 void append_text(const std::filesystem::path &file, const std::string &text);
 
+/// A folder PARENT/PREFIX and the number of this process, for results under way. It goes away with this object and all that is left in it;
+/// those of killed processes are cleared away first.
+class TemporaryFolder {
+public:
+  TemporaryFolder(const std::filesystem::path &parent, const std::string &prefix);
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder &) = delete;
+  TemporaryFolder &operator=(const TemporaryFolder &) = delete;
+  const std::filesystem::path &path() const { return path_; }
+
+private:
+  std::filesystem::path path_;
+};
+
+/// PREFIX followed by the number of this process.
+std::string own_name(const std::string &prefix);
+
+/// Folders PREFIX and a process number in `parent` whose process is no more, as a kill leaves them: removed. Those of running
+/// processes and all else stay. Faults are ignored: what cannot be removed harms nobody.
+void remove_leftovers(const std::filesystem::path &parent, const std::string &prefix);
+
+/// The first of the folders that remove_leftovers() would remove; empty if there is none.
+std::filesystem::path leftover(const std::filesystem::path &parent, const std::string &prefix);
+
 } // namespace drumlin::post

@@ -19,7 +19,7 @@
 #include "direct_solver.h"
 #include "engine_run.h"
 #include "gnuplot.h"
-#include "leftovers.h"
+#include "output_files.h"
 #include "report_figures.h"
 #include "report_html.h"
 #include "report_results.h"
@@ -33,12 +33,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char *summary_file = "report.json";
-
-void write_text(const fs::path &file, const std::string &text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  if (!out.flush()) throw std::runtime_error(fmt::format("cannot write {}", file.string()));
-}
 
 /// The place of the report, absolute and without a trailing slash. Throws if it may not be replaced.
 fs::path checked_place(const fs::path &out, const ReportFolders &folders) {
@@ -58,32 +52,23 @@ fs::path checked_place(const fs::path &out, const ReportFolders &folders) {
         if ((fs::canonical(folder).string() + "/").rfind(inside, 0) == 0)
           refuse("holds the folder " + folder.string() + " that is to be reported on");
   }
-  std::error_code error;
-  fs::create_directories(place.parent_path(), error);
-  if (error || ::access(place.parent_path().c_str(), W_OK | X_OK) != 0) refuse("cannot be made");
+  try {
+    check_output_folder(place);
+    make_output_folder(place.parent_path());
+  } catch (const std::runtime_error &error) {
+    throw UsageError(fmt::format("--out = '{}': {}", out.string(), error.what()));
+  }
   return place;
 }
 
-/// A folder that goes away again unless it is moved to its place. What a killed report of the same place left is cleared away first.
+/// A report under way, beside its place. What a killed report of the same place left is cleared away first.
 class Draft {
 public:
-  explicit Draft(const fs::path &place) : place_(place), folder_(beside(own_name(prefix("new")))) {
-    // Killed between its two renames, a report leaves the earlier one under its other name.
-    const fs::path earlier = leftover(place_.parent_path(), prefix("old"));
-    if (!earlier.empty() && !fs::exists(place_)) fs::rename(earlier, place_);
-    for (const char *what : {"new", "old"})
-      remove_leftovers(place_.parent_path(), prefix(what));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_ / "figures");
-    fs::create_directories(folder_ / "data");
+  explicit Draft(const fs::path &place) : place_(place) {
+    fs::create_directories(folder() / "figures");
+    fs::create_directories(folder() / "data");
   }
-  Draft(const Draft &) = delete;
-  Draft &operator=(const Draft &) = delete;
-  ~Draft() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-  const fs::path &folder() const { return folder_; }
+  const fs::path &folder() const { return folder_.path(); }
 
   /// Swaps the draft in; an earlier report comes back if that fails.
   void publish() {
@@ -91,7 +76,7 @@ public:
     const bool replaces = fs::exists(place_);
     if (replaces) fs::rename(place_, old);
     std::error_code error;
-    fs::rename(folder_, place_, error);
+    fs::rename(folder(), place_, error);
     if (error) {
       if (replaces) fs::rename(old, place_);
       throw std::runtime_error(
@@ -106,8 +91,15 @@ private:
     return fmt::format(".{}.{}-", place_.filename().string(), what);
   }
   fs::path beside(const std::string &name) const { return place_.parent_path() / name; }
+  /// Killed between its two renames, a report leaves the earlier one under its other name.
+  std::string prefix_after_rescue() const {
+    const fs::path earlier = leftover(place_.parent_path(), prefix("old"));
+    if (!earlier.empty() && !fs::exists(place_)) fs::rename(earlier, place_);
+    remove_leftovers(place_.parent_path(), prefix("old"));
+    return prefix("new");
+  }
   fs::path place_;
-  fs::path folder_;
+  TemporaryFolder folder_{place_.parent_path(), prefix_after_rescue()};
 };
 
 /// The first line that `gnuplot --version` prints.
@@ -315,13 +307,14 @@ ReportOutcome write_report(const ReportOptions &options) {
       drawing(fmt::format("{}{} left out: {}", page, absent.label, absent.reason));
     for (const PlannedFigure &figure : figures->figures) {
       drawing(fmt::format("{}{} {}", page, figure.label, figure.figure.name));
-      write_text(draft.folder() / "data" / (figure.figure.name + ".csv"), figure.csv);
+      write_files({{draft.folder() / "data" / (figure.figure.name + ".csv"), figure.csv}});
       render(gnuplot, draft.folder() / "figures", figure.figure);
     }
   }
   drawing("tables and text");
   for (const ReportTable &table : tables)
-    if (!table.rows.empty()) write_text(draft.folder() / "data" / (table.name + ".csv"), table_csv(table));
+    if (!table.rows.empty())
+      write_files({{draft.folder() / "data" / (table.name + ".csv"), table_csv(table)}});
   const std::vector<StudyLink> studies = copy_studies(folders.studies, draft.folder());
   ReportVersions versions;
   versions.drumlin = options.version;
@@ -332,10 +325,12 @@ ReportOutcome write_report(const ReportOptions &options) {
   bed_names.reserve(beds.size());
   for (const BedResult &bed : beds)
     bed_names.push_back(bed.run.name);
+  std::vector<FileText> pages = {
+      {draft.folder() / "index.html", report_page(results, tables, plan, bed_names, studies, versions)},
+      {draft.folder() / summary_file, summary_json(results, beds, versions)}};
   if (!beds.empty())
-    write_text(draft.folder() / "bed.html", bed_page(beds, groups, of_beds, bed_plan, versions));
-  write_text(draft.folder() / "index.html", report_page(results, tables, plan, bed_names, studies, versions));
-  write_text(draft.folder() / summary_file, summary_json(results, beds, versions));
+    pages.emplace_back(draft.folder() / "bed.html", bed_page(beds, groups, of_beds, bed_plan, versions));
+  write_files(pages);
   draft.publish();
   ReportOutcome outcome{place / "index.html", count_checks(results), {}};
   for (std::size_t i = 0; i < results.runs.size(); ++i) {

@@ -2,7 +2,6 @@
 
 #include "bed_fields.h"
 #include "chain_csv.h"
-#include "leftovers.h"
 #include "options.h"
 #include "output_files.h"
 #include "timed_progress.h"
@@ -73,32 +72,26 @@ double time_step(const fs::path &folder) {
   return dt;
 }
 
-/// Results under way: a folder inside that of the results, which goes with this object. That of a killed call is cleared away.
+/// Results under way, in a folder inside that of the results.
 class Workshop {
 public:
-  explicit Workshop(const fs::path &out) : out_(out), made_(!fs::exists(out)) {
-    constexpr const char *prefix = "unfinished.";
-    fs::create_directories(out);
-    remove_leftovers(out, prefix);
-    folder_ = out / own_name(prefix);
-    fs::create_directory(folder_);
-  }
+  explicit Workshop(const fs::path &out) : out_(out) {}
   ~Workshop() {
+    folder_.reset();
     std::error_code ignored;
-    fs::remove_all(folder_, ignored);
     if (made_) fs::remove(out_, ignored); // if nothing was put there
   }
   Workshop(const Workshop &) = delete;
   Workshop &operator=(const Workshop &) = delete;
 
-  fs::path operator/(const std::string &name) const { return folder_ / name; }
+  fs::path operator/(const std::string &name) const { return folder_->path() / name; }
 
   /// Moves the files to the results, and removes those of an earlier call which these do not replace.
   void hand_over(const std::vector<std::string> &names) const {
     for (const std::string &name : names)
       check_output_file(out_ / name); // all of them, before the first is replaced
     for (const std::string &name : names)
-      replace_file(folder_ / name, out_ / name);
+      replace_file(*this / name, out_ / name);
     const std::set<std::string> fresh(names.begin(), names.end());
     for (const fs::directory_entry &entry : fs::directory_iterator(out_)) {
       const std::string name = entry.path().filename().string();
@@ -109,8 +102,8 @@ public:
 
 private:
   fs::path out_;
-  bool made_;
-  fs::path folder_;
+  bool made_ = fs::create_directories(out_);
+  std::optional<TemporaryFolder> folder_{std::in_place, out_, "unfinished."};
 };
 
 /// What is the same for all steps.

@@ -22,11 +22,12 @@ void FixOutputs::end_of_step() {
 }
 
 void FixOutputs::commit() {
+  check_numbered(); // a full disk may have cut the first
   committed_ = true;
   if (set_ != nullptr) set_->commit();
 }
 
-void FixOutputs::post_run() {
+void FixOutputs::check_numbered() {
   std::string fault;
   if (set_ != nullptr) {
     try {
@@ -36,5 +37,6 @@ void FixOutputs::post_run() {
     }
   }
   drumlin::engine::end_if(lmp, "drumlin/outputs", fault);
-  if (!committed_) commit();
 }
+
+void FixOutputs::post_run() { committed_ ? check_numbered() : commit(); }

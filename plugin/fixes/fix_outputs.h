@@ -29,6 +29,8 @@ private:
   static constexpr drumlin::engine::bigint first_steps = 100;
 
   void commit();
+  /// Ends the run if a dump is cut short. Collective.
+  void check_numbered();
   std::unique_ptr<drumlin::OutputSet> set_;
   std::optional<drumlin::engine::bigint> first_;
   bool committed_ = false;

@@ -22,8 +22,10 @@ namespace {
 
 constexpr const char *style_name = "gran/hooke/transition";
 
-std::string history_id(int instance) { return "DRUMLIN_HISTORY" + std::to_string(instance); }
-std::string placeholder_id(int instance) { return "DRUMLIN_HISTORY_PLACE" + std::to_string(instance); }
+// The same for every object of the style, of which an engine has one: a restart file is read for fixes of these IDs, whatever pair styles its
+// deck has made before.
+const std::string history_id = "DRUMLIN_HISTORY0";
+const std::string placeholder_id = "DRUMLIN_HISTORY_PLACE";
 
 /// A vector per ball. They follow one another in memory: this spares the inner loop a pointer per ball.
 template <class Number>
@@ -45,14 +47,14 @@ PairGranHookeTransition::PairGranHookeTransition(LAMMPS *lammps) : Pair(lammps) 
   beyond_contact =
       1; // a contact that ends in the step of a new neighbour list must be known to have been one
   // Holds the place of the history among the fixes, which is the order of their calls.
-  modify->add_fix(placeholder_id(instance_me) + " all DUMMY");
+  modify->add_fix(placeholder_id + " all DUMMY");
 }
 
 PairGranHookeTransition::~PairGranHookeTransition() {
   if (copymode) return;
   if (!settings_.stock) FixStepping::dismiss(lmp);
   delete[] svector;
-  for (const std::string &id : {placeholder_id(instance_me), history_id(instance_me)})
+  for (const std::string &id : {placeholder_id, history_id})
     if (modify->find_fix(id) >= 0) modify->delete_fix(id);
   if (!allocated) return;
   memory->destroy(setflag);
@@ -76,7 +78,7 @@ void PairGranHookeTransition::settings(int narg, char **arg) {
     for (int i = 1; i <= atom->ntypes; ++i)
       std::fill_n(setflag[i] + 1, atom->ntypes, 0);
   if (history_ != nullptr && settings_.history() != history_before) {
-    modify->replace_fix(history_id(instance_me), placeholder_id(instance_me) + " all DUMMY", 1);
+    modify->replace_fix(history_id, placeholder_id + " all DUMMY", 1);
     history_ = nullptr;
   }
   // While the deck is parsed: a fix added later, in the initialization of a run, would miss that run.
@@ -141,8 +143,8 @@ void PairGranHookeTransition::init_style() {
   engine::version::request_list(neighbor, this, instance_me, remembers);
   if (remembers && history_ == nullptr)
     history_ = static_cast<FixNeighHistory *>(
-        modify->replace_fix(placeholder_id(instance_me),
-                            history_id(instance_me) + " all " + FixNeighHistoryTransition::style_name + " " +
+        modify->replace_fix(placeholder_id,
+                            history_id + " all " + FixNeighHistoryTransition::style_name + " " +
                                 std::to_string(settings_.history()),
                             1));
   if (remembers) history_->pair = this;

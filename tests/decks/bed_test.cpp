@@ -137,6 +137,33 @@ protected:
     EXPECT_FALSE(fs::exists(folder / "pwned"));
   }
 
+  /// A disk that has no room for the first dump: an error, and the earlier run's files are as they were.
+  static void expect_cut_dumps_are_an_error(const std::string &engine_and_deck, const std::string &more) {
+    if (!can_mount_small_disk()) GTEST_SKIP() << "SKIPPED: a file system of its own needs root";
+    const Scratch folder;
+    std::string words = engine_and_deck + more;
+    for (const auto &[name, value] : Variables{{"omega", "3141.6"},
+                                               {"steps_per_cycle", "100"},
+                                               {"samples_per_cycle", "10"},
+                                               {"cycles", "2"},
+                                               {"Fw", "2940"},
+                                               {"out", "o"},
+                                               {"start", (*scratch / "ball.restart").string()}})
+      words += fmt::format(" -var {} '{}'", name, value);
+    for (const auto &[name, value] : roller())
+      words += fmt::format(" -var {} {}", name, value);
+    const Outcome outcome = on_small_disk(
+        folder.path(), fmt::format("run() {{ {} -log none -var dumps_per_cycle $1; }}\n"
+                                   "mkdir -p o/dump; mount -t tmpfs -o size=8k tmpfs o/dump || exit 77\n"
+                                   "run 0 || exit 10\ncp -r o before\n"
+                                   "run 2\necho status $?\ndiff -r before o && echo whole\n",
+                                   words));
+    EXPECT_TRUE(outcome.says("status 1\nwhole\n")) << outcome.output;
+    EXPECT_TRUE(outcome.says("ERROR: drumlin/outputs: dump 'o/dump/")) << outcome.output;
+    EXPECT_TRUE(outcome.says("' is cut short; allowed: a disk with room")) << outcome.output;
+    EXPECT_EQ(outcome.output.find("ERROR"), outcome.output.rfind("ERROR")) << outcome.output;
+  }
+
   /// One piece, in the middle of which a signal comes; another run continues from the file that it leaves.
   static void expect_ends_at_a_signal(const char *deck, const Variables &more) {
     const Scratch folder;
@@ -654,6 +681,10 @@ TEST_F(Bed, IsPouredWithContactsOfItsOwn) {
 
 TEST_F(Bed, DumpsIntoFoldersOfAnyName) { expect_dumps_into_folders_of_any_name("in.bed", {}); }
 
+TEST_F(Bed, OnAFullDiskCutDumpsAreAnError) {
+  expect_cut_dumps_are_an_error("LD_PRELOAD=$DRUMLIN_PRELOAD liggghts -in $DECKS/../bed/in.bed", "");
+}
+
 // Each is a data file that the engine reads for ever, or takes as it is.
 TEST_F(Bed, RefusesDataFilesThatTheEngineWouldNot) {
   const std::string good = read_text(*scratch / "balls.data");
@@ -939,6 +970,11 @@ TEST_F(BedInLammps, RefusesWhatItDoesNotHaveOnRanksOneAndTwo) {
 
 TEST_F(BedInLammps, DumpsIntoFoldersOfAnyName) {
   expect_dumps_into_folders_of_any_name("in.bed.lammps", {{"rest", "0"}, {"balance", "1e30"}});
+}
+
+TEST_F(BedInLammps, OnAFullDiskCutDumpsAreAnError) {
+  expect_cut_dumps_are_an_error("'" LAMMPS_PROGRAM "' -in $DECKS/../bed/in.bed.lammps",
+                                " -var plugin '" DRUMLIN_LAMMPS_PLUGIN "' -var rest 0 -var balance 1e30");
 }
 
 TEST_F(BedInLammps, EndsAtASignalAndContinues) {

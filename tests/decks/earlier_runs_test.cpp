@@ -152,21 +152,8 @@ TEST(EarlierRuns, ReplaceRegularFilesOnly) {
   }
 }
 
-/// Runs a shell script with a file system of 600 kB at `small` in the folder, which only its processes see.
-Outcome on_small_disk(const fs::path &folder, const std::string &script) {
-  fs::create_directory(folder / "small");
-  return run_program(
-      {"unshare", "-m", "sh", "-c", "mount -t tmpfs -o size=600k tmpfs small || exit 77\n" + script},
-      {"DRUMLIN_PRELOAD=" + plugin_library(), "DECKS=" + chain_deck("").string()}, folder, 60.0);
-}
-
-bool can_mount() {
-  const Scratch folder;
-  return on_small_disk(folder.path(), "true").ok();
-}
-
 TEST(EarlierRuns, OnAFullDiskAreAnError) {
-  if (!can_mount()) GTEST_SKIP() << "SKIPPED: a file system of its own needs root";
+  if (!can_mount_small_disk()) GTEST_SKIP() << "SKIPPED: a file system of its own needs root";
   const Scratch folder;
   const Outcome chain =
       on_small_disk(folder.path(), "LD_PRELOAD=$DRUMLIN_PRELOAD exec liggghts -in \"$DECKS/in.chain\" -log "
@@ -177,7 +164,7 @@ TEST(EarlierRuns, OnAFullDiskAreAnError) {
 }
 
 TEST(EarlierRuns, OnAFullDiskAnEarlierRestartFileStaysWhole) {
-  if (!can_mount()) GTEST_SKIP() << "SKIPPED: a file system of its own needs root";
+  if (!can_mount_small_disk()) GTEST_SKIP() << "SKIPPED: a file system of its own needs root";
   const Scratch folder;
   std::ofstream(folder / "keep.in") << "variable own_names string keep\ninclude ${here}/in.chain\n"
                                        "drumlin/write_restart ${keep}/x.restart stage one\n"

@@ -73,6 +73,11 @@ ChainRun run_chain(const std::string &name, post::Transition transition, int ste
 /// where the copy is.
 std::filesystem::path chain_with_bottom(const std::filesystem::path &folder, double bottom);
 
+/// Runs a shell script in a folder with a file system of 600 kB at `small`, which only its processes see; the variables $DRUMLIN_PRELOAD
+/// and $DECKS are the plugin and inputs/chain. Status 77: this needs root.
+Outcome on_small_disk(const std::filesystem::path &folder, const std::string &script);
+bool can_mount_small_disk();
+
 /// Slope of log(error) over log(steps) by least squares: -1 for a first-order scheme.
 double fitted_order(const std::vector<double> &steps, const std::vector<double> &errors);
 

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 namespace drumlin::test {
 namespace {
 
@@ -70,6 +72,47 @@ TEST(HybridPairStyle, GoesAsTheLawAloneInLammps) {
             ranks),
         alone);
   }
+}
+
+/// A run in two halves, the second from the first's restart file in a process of its own; the last dump of both. `anew` is what the second
+/// deck says of the pair style again.
+std::vector<std::string> in_halves(const std::string &pair, const std::string &anew, int ranks) {
+  const Scratch folder;
+  const std::string scene = "fix gravity all gravity 9.81 vector 0 0 -1\n"
+                            "fix wall all wall/gran/transition 1 zplane -0.99 NULL\n"
+                            "fix integrate all nve/sphere\n";
+  const std::string rest = "dump state all custom 10 state.txt id x z vx vz fx fz tqy\ndump_modify state "
+                           "format float %.17g\nrun 10\n";
+  write_text(folder / "lines", pair + "velocity drum set 0.3 0 -1 units box\n" + scene +
+                                   "run 10\nwrite_restart half.restart\n" + rest);
+  const Outcome whole = run_deck(std::filesystem::path(DRUMLIN_SOURCE_DIR) / "tests/input/host.lammps",
+                                 {{"lines", (folder / "lines").string()}}, folder.path(), ranks);
+  EXPECT_TRUE(whole.ok()) << whole.output;
+  std::vector<std::string> states = {read_text(folder / "state.txt")};
+  write_text(folder / "second.lammps", "plugin load ${plugin}\natom_modify map array sort 0 0\nnewton off\n"
+                                       "comm_modify vel yes\nread_restart half.restart\ntimestep 1e-5\n" +
+                                           anew + scene + rest);
+  const Outcome second = run_deck(folder / "second.lammps", {}, folder.path(), ranks);
+  states.push_back(second.ok() ? read_text(folder / "state.txt") : second.output);
+  return states;
+}
+
+// Pair style hybrid keeps no coefficients in restart files; settings and contact history are there, also if a deck says them again.
+TEST(HybridPairStyle, ContinuesFromARestartFileBitwiseInLammps) {
+  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  const std::string law = "gran/hooke/transition tangential history transition A damping coefficient";
+  const std::string alone = "pair_coeff * * 1e7 1e4 0.3\n";
+  const std::string part = "pair_coeff * * gran/hooke/transition 1e7 1e4 0.3\n";
+  const std::string hybrid = fmt::format("pair_style hybrid {}\n", law);
+  const std::string again = "pair_style " + law + "\n" + alone;
+  for (const auto &[first, second, ranks] : {std::tuple(hybrid + part, part, 1),
+                                             {hybrid + part, hybrid + part, 2},
+                                             {again, std::string(), 1},
+                                             {again, again, 1}}) {
+    const std::vector<std::string> states = in_halves(first, second, ranks);
+    EXPECT_EQ(states[0], states[1]) << second << ", ranks " << ranks;
+  }
+  EXPECT_NE(in_halves(hybrid + part, "", 1)[1].find("ERROR: "), std::string::npos);
 }
 
 /// The second pair_style line of a deck stands alone: what contacts remember, and how many numbers, is that of its settings.

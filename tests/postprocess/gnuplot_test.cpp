@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <stdexcept>
 #include <string>
 
 namespace {
@@ -59,6 +60,34 @@ TEST(Script, DrawsHostileNamesAsTheyAre) {
     EXPECT_NE(svg.find(text), std::string::npos) << text;
   EXPECT_TRUE(drumlin::test::parse(svg).well_formed);
   EXPECT_FALSE(fs::exists(folder / program_output_file));
+  fs::remove_all(folder);
+}
+
+// On a full disk gnuplot leaves a part of a picture and ends with 0.
+TEST(Picture, ThatIsCutShortIsAnError) {
+  const fs::path folder = fs::temp_directory_path() / fmt::format("drumlin-cut-{}", ::getpid());
+  fs::create_directories(folder);
+  std::ofstream(folder / "f.csv") << "x,y\n1,2\n2,3\n";
+  Figure figure;
+  figure.name = "f";
+  figure.panels = {Panel()};
+  figure.panels[0].curves = {{"f.csv", "1", "2", "", CurveStyle::plain}};
+  for (const char *cut : {"f.svg", "f.png"}) {
+    const fs::path half = folder / "half-gnuplot";
+    std::ofstream(half) << fmt::format("#!/bin/sh\n'{}' \"$@\" && truncate -s -9 {}\n",
+                                       find_gnuplot().string(), cut);
+    fs::permissions(half, fs::perms::owner_all);
+    EXPECT_NO_THROW(render(find_gnuplot(), folder, figure));
+    EXPECT_TRUE(is_whole_picture(folder / cut));
+    try {
+      render(half, folder, figure);
+      ADD_FAILURE() << cut;
+    } catch (const std::runtime_error &fault) {
+      EXPECT_EQ(fault.what(),
+                (folder / cut).string() + " is cut short; allowed: a disk with room for what gnuplot draws");
+    }
+    EXPECT_FALSE(is_whole_picture(folder / cut));
+  }
   fs::remove_all(folder);
 }
 

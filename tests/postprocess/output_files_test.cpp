@@ -234,6 +234,25 @@ TEST_F(FullDisk, AFullDiskLeavesTheEarlierFileWhole) {
   }
 }
 
+// A report is whole or not there, wherever the disk is full: at a table, in a picture or on a page.
+TEST_F(FullDisk, AReportIsAnErrorAndLeavesNothing) {
+  if (::geteuid() != 0) GTEST_SKIP() << "a small disk can be mounted by root only";
+  ASSERT_EQ(run({"exact", "--cycles", "3", "--out", "chain"}).status, 0);
+  fs::create_directory(folder_ / "disk");
+  for (const char *size : {"60k", "300k", "400k"}) {
+    const Outcome outcome = post::run_program(
+        {"unshare", "-m", "sh", "-c",
+         fmt::format("mount -t tmpfs -o size={} tmpfs disk || exit 77; '{}' report chain --out disk/o; echo "
+                     "status $?; ls -A disk",
+                     size, DRUMLIN_TOOLS)},
+        {}, folder_);
+    if (outcome.status == 77) GTEST_SKIP() << "this machine lets no small disk be mounted";
+    EXPECT_TRUE(outcome.says("ERROR: drumlin report: ")) << outcome.output;
+    const std::string end = "status 1\n";
+    EXPECT_EQ(outcome.output.find(end) + end.size(), outcome.output.size()) << outcome.output;
+  }
+}
+
 // Rows of a study are added one by one: one that does not arrive is taken off again.
 TEST_F(FullDisk, ARowThatDoesNotArriveIsAnError) {
   put("rows.csv", "a,b\n1,2\n");
