@@ -36,7 +36,6 @@ constexpr const char *summary_file = "report.json";
 
 /// The place of the report, absolute and without a trailing slash. Throws if it may not be replaced.
 fs::path checked_place(const fs::path &out, const ReportFolders &folders) {
-  if (out.empty()) throw UsageError("--out = '': allowed are new folders and earlier reports");
   fs::path place = fs::absolute(out).lexically_normal();
   if (!place.has_filename()) place = place.parent_path();
   const auto refuse = [&out](const std::string &why) {
@@ -53,7 +52,6 @@ fs::path checked_place(const fs::path &out, const ReportFolders &folders) {
           refuse("holds the folder " + folder.string() + " that is to be reported on");
   }
   try {
-    check_output_folder(place);
     make_output_folder(place.parent_path());
   } catch (const std::runtime_error &error) {
     throw UsageError(fmt::format("--out = '{}': {}", out.string(), error.what()));

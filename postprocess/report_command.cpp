@@ -1,5 +1,6 @@
 #include "report_command.h"
 
+#include "options.h"
 #include "report.h"
 
 #include <CLI/CLI.hpp>
@@ -21,8 +22,9 @@ struct Arguments {
 
 void run(const Arguments &arguments) {
   ReportOptions options;
-  options.folders.assign(arguments.folders.begin(), arguments.folders.end());
-  options.out = arguments.out;
+  for (const std::string &folder : arguments.folders)
+    options.folders.push_back(path_option("DIR", folder));
+  options.out = output_folder_option("--out", arguments.out);
   options.version = DRUMLIN_VERSION;
   options.progress = [](const std::string &line) {
     fmt::print("{}\n", line);

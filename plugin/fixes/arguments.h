@@ -96,7 +96,7 @@ public:
   }
 
   [[noreturn]] void fail(const std::string &why) const {
-    error_->all(FLERR, (command_ + ": " + why).c_str());
+    error_->all(FLERR, engine::as_is(command_ + ": " + why));
     std::abort(); // not reached: error->all() ends the process
   }
 

@@ -126,9 +126,8 @@ void check_restart_name(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const s
   int bad = lmp->comm->me == 0 && !is_restart_name(file) ? 1 : 0;
   MPI_Bcast(&bad, 1, MPI_INT, 0, lmp->world);
   if (bad != 0)
-    lmp->error->all(
-        FLERR,
-        fmt::format("{}: cannot write '{}'; allowed: {}", command, file, restart_name_allowed).c_str());
+    lmp->error->all(FLERR, engine::as_is(fmt::format("{}: cannot write '{}'; allowed: {}", command, file,
+                                                     restart_name_allowed)));
 }
 
 namespace {
@@ -164,9 +163,8 @@ void write_checked(LAMMPS_NS::LAMMPS *lmp, const std::string &engine_command, co
   }
   MPI_Bcast(&failed, 1, MPI_INT, 0, lmp->world);
   if (failed != 0)
-    lmp->error->all(
-        FLERR,
-        fmt::format("{}: cannot write '{}'; allowed: a file on a disk with room", command, file).c_str());
+    lmp->error->all(FLERR, engine::as_is(fmt::format(
+                               "{}: cannot write '{}'; allowed: a file on a disk with room", command, file)));
 }
 
 } // namespace

@@ -20,7 +20,7 @@ inline void end_if(const LAMMPS *lmp, const std::string &command, std::string fa
   if (length == 0) return;
   fault.resize(static_cast<std::size_t>(length));
   MPI_Bcast(fault.data(), length, MPI_CHAR, 0, lmp->world);
-  lmp->error->all(FLERR, (command + ": " + fault).c_str());
+  lmp->error->all(FLERR, engine::as_is(command + ": " + fault));
 }
 
 /// A fix by its ID, or nullptr.

@@ -68,10 +68,10 @@ public:
                               now, now / done * static_cast<double>(last_ - update->ntimestep)));
       if (StopSignal::told(lmp)) {
         if (!restart_.empty()) write_noted_restart(lmp, restart_, notes_, "drumlin/run: keyword restart");
-        error->all(FLERR, fmt::format("drumlin/run: stopped by a signal at step {} of {}; allowed: to {}",
-                                      update->ntimestep, last_,
-                                      restart_.empty() ? "run to the last step" : "go on from " + restart_)
-                              .c_str());
+        error->all(FLERR,
+                   engine::as_is(fmt::format(
+                       "drumlin/run: stopped by a signal at step {} of {}; allowed: to {}", update->ntimestep,
+                       last_, restart_.empty() ? "run to the last step" : "go on from " + restart_)));
       }
       if (update->ntimestep < last_ && now + longest > limit_) return stop();
     }

@@ -55,11 +55,10 @@ public:
       ratio = unbalanced_ratio();
       if (!std::isfinite(ratio)) break;
       if (StopSignal::told(lmp))
-        error->all(FLERR,
-                   fmt::format("drumlin/settle: stopped by a signal after {} steps, unbalanced ratio {:.3g}; "
-                               "allowed: to run until it has settled",
-                               update->ntimestep - first, ratio)
-                       .c_str());
+        error->all(FLERR, engine::as_is(fmt::format(
+                              "drumlin/settle: stopped by a signal after {} steps, unbalanced ratio {:.3g}; "
+                              "allowed: to run until it has settled",
+                              update->ntimestep - first, ratio)));
       const engine::bigint done = update->ntimestep - first;
       if (done / every_ % pieces_per_line == 0)
         engine::say(lmp,
@@ -74,16 +73,16 @@ public:
     if (!(ratio <= ratio_))
       error->all(
           FLERR,
-          (limit_ == 0
-               ? fmt::format(
-                     "drumlin/settle: the scene is not in equilibrium: unbalanced ratio {:.3g}; allowed: "
-                     "at most {:.3g}",
-                     ratio, ratio_)
-               : fmt::format(
-                     "drumlin/settle: no equilibrium: unbalanced ratio {:.3g} after {} steps; allowed: "
-                     "at most {:.3g} within {} steps (without damping a scene never settles)",
-                     ratio, steps, ratio_, limit_))
-              .c_str());
+          engine::as_is(
+              limit_ == 0
+                  ? fmt::format(
+                        "drumlin/settle: the scene is not in equilibrium: unbalanced ratio {:.3g}; allowed: "
+                        "at most {:.3g}",
+                        ratio, ratio_)
+                  : fmt::format(
+                        "drumlin/settle: no equilibrium: unbalanced ratio {:.3g} after {} steps; allowed: "
+                        "at most {:.3g} within {} steps (without damping a scene never settles)",
+                        ratio, steps, ratio_, limit_)));
     engine::say(lmp, fmt::format("drumlin/settle: unbalanced ratio {:.3g} after {} steps\n", ratio, steps));
   }
 

@@ -57,8 +57,8 @@ void FixBondSpring::init() {
     MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_SUM, world);
     if (all != 1)
       error->all(FLERR,
-                 fmt::format("fix bond/spring: ball {} is missing; allowed: the ID of a ball in the box", tag)
-                     .c_str());
+                 drumlin::engine::as_is(fmt::format(
+                     "fix bond/spring: ball {} is missing; allowed: the ID of a ball in the box", tag)));
   }
 }
 
@@ -95,10 +95,9 @@ FixBondSpring::State FixBondSpring::share_state() {
   Ball all[2] = {mine[0], mine[1]};
   if (comm->nprocs > 1) MPI_Allreduce(mine, all, 2 * numbers, MPI_DOUBLE, MPI_SUM, world);
   if (all[0].found != 1.0 || all[1].found != 1.0)
-    error->all(FLERR,
-               fmt::format("fix bond/spring: ball {} was lost at step {}; allowed: both balls in the box",
-                           tags_[all[0].found != 1.0 ? 0 : 1], update->ntimestep)
-                   .c_str());
+    error->all(FLERR, drumlin::engine::as_is(fmt::format(
+                          "fix bond/spring: ball {} was lost at step {}; allowed: both balls in the box",
+                          tags_[all[0].found != 1.0 ? 0 : 1], update->ntimestep)));
   std::array<double, 3> d{all[1].x[0] - all[0].x[0], all[1].x[1] - all[0].x[1], all[1].x[2] - all[0].x[2]};
   drumlin::engine::minimum_image(domain, d);
   State s{};
@@ -143,7 +142,7 @@ void FixBondSpring::setup(int vflag) {
     current_length_ = false;
   }
   if (const std::string wrong = bond_.invalid(); !wrong.empty())
-    error->all(FLERR, ("fix bond/spring: " + wrong).c_str());
+    error->all(FLERR, drumlin::engine::as_is("fix bond/spring: " + wrong));
   if (!echoed_ && comm->me == 0) {
     const std::string text = fmt::format(
         "fix bond/spring {}: balls {} and {}, k = {:.6g} N/m, c = {:.6g} N s/m, length = {:.9g} m, "
@@ -231,10 +230,10 @@ void FixBondSpring::take_note(const physics::BondForce &acting) {
   if (!acted_.breaks) return;
   whole_ = false;
   if (comm->me == 0)
-    error->warning(
-        FLERR, fmt::format("fix bond/spring {}: the bond of balls {} and {} broke at step {} under {:.6g} N",
-                           id, tags_[0], tags_[1], update->ntimestep, acted_.force)
-                   .c_str());
+    error->warning(FLERR,
+                   drumlin::engine::as_is(fmt::format(
+                       "fix bond/spring {}: the bond of balls {} and {} broke at step {} under {:.6g} N", id,
+                       tags_[0], tags_[1], update->ntimestep, acted_.force)));
   acted_ = {};
 }
 

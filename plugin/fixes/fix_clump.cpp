@@ -32,17 +32,16 @@ int FixClump::setmask() { return FixConst::POST_FORCE; }
 void FixClump::init() {
   const double balls = static_cast<double>(group->count(igroup));
   if (balls == 0.0)
-    error->all(FLERR, fmt::format("fix clump: group {} is empty; allowed: the group of the balls of the body",
-                                  group->names[igroup])
-                          .c_str());
+    error->all(FLERR, drumlin::engine::as_is(fmt::format(
+                          "fix clump: group {} is empty; allowed: the group of the balls of the body",
+                          group->names[igroup])));
   mass_ = group->mass(igroup);
   for (const FixClump *other : list())
     if (const int common = shared_with(*other); other != this && common > 0)
-      error->all(
-          FLERR,
-          fmt::format("fix clump: {} balls of group {} are in group {} too; allowed: a ball in one clump",
-                      common, group->names[igroup], group->names[other->igroup])
-              .c_str());
+      error->all(FLERR,
+                 drumlin::engine::as_is(fmt::format(
+                     "fix clump: {} balls of group {} are in group {} too; allowed: a ball in one clump",
+                     common, group->names[igroup], group->names[other->igroup])));
   // Forces that come after this fix would act on single balls of the body.
   constexpr std::array<const char *, 6> harmless = {"lineforce", "planeforce",  "setforce",
                                                     "freeze",    "drum/excite", "clump"};
@@ -53,12 +52,11 @@ void FixClump::init() {
     behind = behind || &other == this;
     if (forces && std::find(harmless.begin(), harmless.end(), std::string(other.style)) == harmless.end() &&
         shared_with(other) > 0)
-      error->all(
-          FLERR,
-          fmt::format("fix clump: fix {} ({}) stands behind it and exerts forces on group {}; allowed: fix "
-                      "clump behind all fixes that exert forces on its balls",
-                      other.id, other.style, group->names[igroup])
-              .c_str());
+      error->all(FLERR,
+                 drumlin::engine::as_is(fmt::format(
+                     "fix clump: fix {} ({}) stands behind it and exerts forces on group {}; allowed: fix "
+                     "clump behind all fixes that exert forces on its balls",
+                     other.id, other.style, group->names[igroup])));
   }
   if (!echoed_)
     drumlin::engine::say(lmp, fmt::format("fix clump {}: {:.0f} balls, {:.9g} kg\n", id, balls, mass_));

@@ -66,9 +66,8 @@ int FixContactEvents::setmask() {
 void FixContactEvents::init() {
   source_ = drumlin::contact_source(lmp);
   if (source_ == nullptr)
-    error->all(FLERR,
-               fmt::format("fix contact/events: the pair style is another; allowed: {}", engine::pair_style)
-                   .c_str());
+    error->all(FLERR, engine::as_is(fmt::format("fix contact/events: the pair style is another; allowed: {}",
+                                                engine::pair_style)));
   drumlin::OutputFile::check(file_.name(), comm, error, world, file_keyword);
 }
 

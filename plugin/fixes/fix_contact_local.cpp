@@ -28,9 +28,8 @@ int FixContactLocal::setmask() { return FixConst::PRE_FORCE | FixConst::END_OF_S
 
 void FixContactLocal::init() {
   if (drumlin::contact_source(lmp) == nullptr)
-    error->all(
-        FLERR,
-        (std::string(command) + ": the pair style is another; allowed: " + engine::pair_style).c_str());
+    error->all(FLERR, engine::as_is(std::string(command) +
+                                    ": the pair style is another; allowed: " + engine::pair_style));
 }
 
 void FixContactLocal::setup_pre_force(int vflag) { pre_force(vflag); }

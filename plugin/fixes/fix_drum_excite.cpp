@@ -97,10 +97,9 @@ int FixDrumExcite::setmask() { return FixConst::POST_INTEGRATE | FixConst::POST_
 
 void FixDrumExcite::init() {
   if (group->count(igroup) == 0)
-    error->all(FLERR,
-               fmt::format("fix drum/excite: group {} is empty; allowed: a group with at least one ball",
-                           group->names[igroup])
-                   .c_str());
+    error->all(FLERR, engine::as_is(fmt::format(
+                          "fix drum/excite: group {} is empty; allowed: a group with at least one ball",
+                          group->names[igroup])));
   mass_ = group->mass(igroup);
   stepping_ = FixStepping::find(lmp);
   if (given_direction_) {
@@ -119,12 +118,11 @@ void FixDrumExcite::init() {
     const double along =
         (*axis_)[0] * direction_[0] + (*axis_)[1] * direction_[1] + (*axis_)[2] * direction_[2];
     if (std::fabs(along) > 1e-12)
-      error->all(
-          FLERR,
-          fmt::format("fix drum/excite: keyword axis: its cosine with the direction is {:.6g}; allowed: an "
-                      "axis at right angles to the direction",
-                      along)
-              .c_str());
+      error->all(FLERR,
+                 engine::as_is(fmt::format(
+                     "fix drum/excite: keyword axis: its cosine with the direction is {:.6g}; allowed: an "
+                     "axis at right angles to the direction",
+                     along)));
     normal_ = cross(*axis_, direction_);
   }
 }

@@ -163,20 +163,18 @@ void FixGuard::end_look() {
 
 void FixGuard::judge(bigint step) const {
   if (deepest_.value > overlap_)
-    error->all(
-        FLERR,
-        fmt::format("fix guard: the overlap of {} is {:.3g} of the smaller radius at step {}; allowed: "
-                    "at most {:.3g} of it (contacts too soft for their load, or balls placed in one another)",
-                    pair_name(deepest_.ball, deepest_.partner), deepest_.value, step, overlap_)
-            .c_str());
+    error->all(FLERR,
+               drumlin::engine::as_is(fmt::format(
+                   "fix guard: the overlap of {} is {:.3g} of the smaller radius at step {}; allowed: "
+                   "at most {:.3g} of it (contacts too soft for their load, or balls placed in one another)",
+                   pair_name(deepest_.ball, deepest_.partner), deepest_.value, step, overlap_)));
   if (update->dt > step_ * critical_.value)
     error->all(FLERR,
-               fmt::format(
+               drumlin::engine::as_is(fmt::format(
                    "fix guard: time step {:.4g} s, critical step {:.4g} s of ball {:.0f} at step {} (most of "
                    "it by {}); allowed: at most {:.4g} s",
                    update->dt, critical_.value, critical_.ball, step,
-                   pair_name(critical_.ball, critical_.partner), step_ * critical_.value)
-                   .c_str());
+                   pair_name(critical_.ball, critical_.partner), step_ * critical_.value)));
 }
 
 void FixGuard::tell_at_set_up() {
@@ -220,9 +218,8 @@ void FixGuard::check_numbers() {
   MPI_Allreduce(mine.data(), all.data(), 9, MPI_DOUBLE, MPI_SUM, world);
   error->all(
       FLERR,
-      fmt::format(
+      drumlin::engine::as_is(fmt::format(
           "fix guard: ball {} is not finite at step {}: position {} {} {} m, velocity {} {} {} m/s, force "
           "{} {} {} N; allowed: finite numbers (too large a time step is the usual cause)",
-          worst, update->ntimestep, all[0], all[1], all[2], all[3], all[4], all[5], all[6], all[7], all[8])
-          .c_str());
+          worst, update->ntimestep, all[0], all[1], all[2], all[3], all[4], all[5], all[6], all[7], all[8])));
 }

@@ -101,39 +101,34 @@ void FixRollerHistory::pre_force(int) {
 void FixRollerHistory::init() {
   source_ = drumlin::contact_source(lmp);
   if (source_ == nullptr)
-    error->all(FLERR,
-               fmt::format("fix roller/history: the pair style is another; allowed: {}", engine::pair_style)
-                   .c_str());
+    error->all(FLERR, engine::as_is(fmt::format("fix roller/history: the pair style is another; allowed: {}",
+                                                engine::pair_style)));
   drumlin::OutputFile::check(file_name_, comm, error, world, file_keyword);
   if (steps_per_cycle_ > 0) drumlin::OutputFile::check(cycles_name_, comm, error, world, cycles_keyword);
   if (group->count(igroup) == 0)
-    error->all(FLERR,
-               fmt::format("fix roller/history: group {} is empty; allowed: the group of the drum's balls",
-                           group->names[igroup])
-                   .c_str());
+    error->all(FLERR, engine::as_is(fmt::format(
+                          "fix roller/history: group {} is empty; allowed: the group of the drum's balls",
+                          group->names[igroup])));
   drum_.mass = group->mass(igroup);
   if (!frame_group_.empty()) {
     const int index = group->find(frame_group_.c_str());
     if (index < 0 || group->count(index) == 0)
-      error->all(FLERR, fmt::format(
+      error->all(FLERR, engine::as_is(fmt::format(
                             "fix roller/history: keyword frame: group {} is empty; allowed: the group of the "
                             "frame's balls",
-                            frame_group_)
-                            .c_str());
+                            frame_group_)));
     frame_.mass = group->mass(index);
   }
   excite_ = dynamic_cast<FixDrumExcite *>(engine::find_fix(modify, excite_id_));
   if (!excite_id_.empty() && excite_ == nullptr)
-    error->all(FLERR,
-               fmt::format("fix roller/history: keyword excite is '{}'; allowed: the ID of a fix drum/excite",
-                           excite_id_)
-                   .c_str());
+    error->all(FLERR, engine::as_is(fmt::format(
+                          "fix roller/history: keyword excite is '{}'; allowed: the ID of a fix drum/excite",
+                          excite_id_)));
   bond_ = dynamic_cast<FixBondSpring *>(engine::find_fix(modify, bond_id_));
   if (!bond_id_.empty() && bond_ == nullptr)
-    error->all(FLERR,
-               fmt::format("fix roller/history: keyword bond is '{}'; allowed: the ID of a fix bond/spring",
-                           bond_id_)
-                   .c_str());
+    error->all(FLERR, engine::as_is(fmt::format(
+                          "fix roller/history: keyword bond is '{}'; allowed: the ID of a fix bond/spring",
+                          bond_id_)));
 
   const std::array<double, 3> g = engine::gravity(modify);
   if (!has_axis_) {
@@ -243,11 +238,10 @@ void FixRollerHistory::locate(Body &body, const char *name, double stretch) {
   body.x = position - body.origin;
   body.v = all[1] / body.mass;
   if (!std::isfinite(body.x) || !std::isfinite(body.v))
-    error->all(
-        FLERR,
-        fmt::format("fix roller/history: the {} is at {} m with {} m/s at step {}; allowed: finite numbers",
-                    name, body.x, body.v, update->ntimestep)
-            .c_str());
+    error->all(FLERR,
+               engine::as_is(fmt::format(
+                   "fix roller/history: the {} is at {} m with {} m/s at step {}; allowed: finite numbers",
+                   name, body.x, body.v, update->ntimestep)));
 }
 
 void FixRollerHistory::evaluate() {

@@ -54,7 +54,8 @@ private:
   static void end_if(int failed, const std::string &name, LAMMPS_NS::Error *error, MPI_Comm world,
                      const std::string &command, const std::string &allowed) {
     MPI_Bcast(&failed, 1, MPI_INT, 0, world);
-    if (failed) error->all(FLERR, (command + ": cannot write '" + name + "'; allowed: " + allowed).c_str());
+    if (failed)
+      error->all(FLERR, engine::as_is(command + ": cannot write '" + name + "'; allowed: " + allowed));
   }
 
   std::string name_;

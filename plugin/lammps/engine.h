@@ -85,6 +85,10 @@ constexpr const char *beside_restart = ", or NAME beside which a NAME.data lies"
 
 inline void set_up_run(LAMMPS_NS::Integrate *integrate) { integrate->setup(1); }
 
+/// The words of an error as the engine's error->all() takes them: as a string, for pointers to characters are formats to it, in which {} stands
+/// for an argument.
+inline const std::string &as_is(const std::string &words) { return words; }
+
 /// Tells the engine to end each run after the step, and whether it was told so, by this or by the command `timer timeout`. To be called on
 /// all ranks alike.
 inline void end_runs(LAMMPS *lmp) { lmp->timer->force_timeout(); }

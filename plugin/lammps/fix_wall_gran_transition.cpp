@@ -78,14 +78,13 @@ int FixWallGranTransition::setmask() { return FixConst::POST_FORCE; }
 void FixWallGranTransition::init() {
   pair_ = PairGranHookeTransition::find(lmp);
   if (pair_ == nullptr)
-    error->all(FLERR,
-               (std::string(command) + ": the pair style is another; allowed: " + drumlin::engine::pair_style)
-                   .c_str());
+    error->all(FLERR, drumlin::engine::as_is(std::string(command) + ": the pair style is another; allowed: " +
+                                             drumlin::engine::pair_style));
   check_coefficients();
   stepping_ = pair_->contact_settings().stock ? nullptr : FixStepping::find(lmp);
   if (region_id_.empty()) return;
   const auto refuse = [this](const char *why) {
-    error->all(FLERR, (std::string(command) + ": region '" + region_id_ + "' " + why).c_str());
+    error->all(FLERR, drumlin::engine::as_is(std::string(command) + ": region '" + region_id_ + "' " + why));
   };
   region_ = drumlin::engine::version::find_region(domain, region_id_);
   if (region_ == nullptr) refuse("is gone; allowed: a region that stays while the fix does");
@@ -104,9 +103,8 @@ void FixWallGranTransition::check_coefficients() const {
   MPI_Allreduce(mine.data(), all.data(), static_cast<int>(all.size()), MPI_INT, MPI_MAX, world);
   for (int type = 1; type <= atom->ntypes; ++type)
     if (all[static_cast<std::size_t>(type)] != 0 && !pair_->has_coefficients(type, type_))
-      error->all(
-          FLERR,
-          (std::string(command) + ": " + PairGranHookeTransition::missing_coefficients(type, type_)).c_str());
+      error->all(FLERR, drumlin::engine::as_is(std::string(command) + ": " +
+                                               PairGranHookeTransition::missing_coefficients(type, type_)));
 }
 
 void FixWallGranTransition::setup(int vflag) { post_force(vflag); }
@@ -251,9 +249,9 @@ void FixWallGranTransition::unpack_restart(int i, int nth) {
   for (int n = 0; n < nth; ++n)
     values += static_cast<int>(values[0]);
   if (static_cast<int>(values[0]) != 1 + numbers())
-    error->one(FLERR, (std::string(command) + ": the restart file holds another wall under the ID '" + id +
-                       "'; allowed: the wall that it was, or another ID")
-                          .c_str());
+    error->one(FLERR, drumlin::engine::as_is(std::string(command) +
+                                             ": the restart file holds another wall under the ID '" + id +
+                                             "'; allowed: the wall that it was, or another ID"));
   std::copy_n(values + 1, numbers(), memory_[i]);
 }
 

@@ -120,7 +120,7 @@ void PairGranHookeTransition::coeff(int narg, char **arg) {
 
 void PairGranHookeTransition::check_engine() const {
   const auto refuse = [this](const std::string &why) {
-    error->all(FLERR, (std::string("pair_style ") + style_name + ": " + why).c_str());
+    error->all(FLERR, engine::as_is(std::string("pair_style ") + style_name + ": " + why));
   };
   if (find(lmp) != this) refuse("pair_style hybrid has it more than once; allowed: once");
   if (!atom->radius_flag || !atom->rmass_flag)
@@ -189,7 +189,8 @@ std::string PairGranHookeTransition::missing_coefficients(int itype, int jtype) 
 
 double PairGranHookeTransition::init_one(int i, int j) {
   if (!has_coefficients(i, j))
-    error->all(FLERR, (std::string("pair_style ") + style_name + ": " + missing_coefficients(i, j)).c_str());
+    error->all(FLERR,
+               engine::as_is(std::string("pair_style ") + style_name + ": " + missing_coefficients(i, j)));
   const auto a = static_cast<std::size_t>(i);
   const auto b = static_cast<std::size_t>(j);
   return std::max({reach_[a] + reach_[b], frozen_reach_[a] + reach_[b], reach_[a] + frozen_reach_[b]});
@@ -218,9 +219,9 @@ void PairGranHookeTransition::share_rigid_masses() {
     if (body == nullptr || mass == nullptr)
       error->all(
           FLERR,
-          (std::string("pair_style ") + style_name + ": fix " + fix->id + " (" + fix->style +
-           ") does not tell the masses of its bodies; allowed: fix rigid, fix rigid/small or fix clump")
-              .c_str());
+          engine::as_is(
+              std::string("pair_style ") + style_name + ": fix " + fix->id + " (" + fix->style +
+              ") does not tell the masses of its bodies; allowed: fix rigid, fix rigid/small or fix clump"));
     for (int i = 0; i < atom->nlocal; ++i)
       if (body[i] >= 0) rigid_mass_[static_cast<std::size_t>(i)] = mass[body[i]];
   }

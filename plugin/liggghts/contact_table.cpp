@@ -40,9 +40,9 @@ public:
   double operator()(int i, int j, bool zero_allowed) {
     const double value = fix_->compute_array(i - 1, j - 1);
     if (!std::isfinite(value) || value < 0.0 || (value == 0.0 && !zero_allowed))
-      error->all(FLERR, fmt::format("{}: property {} of types {} and {} is {}; allowed: a finite number {} 0",
-                                    model, name_, i, j, value, zero_allowed ? ">=" : ">")
-                            .c_str());
+      error->all(FLERR, engine::as_is(fmt::format(
+                            "{}: property {} of types {} and {} is {}; allowed: a finite number {} 0", model,
+                            name_, i, j, value, zero_allowed ? ">=" : ">")));
     return value;
   }
 
@@ -50,11 +50,10 @@ public:
     if (given()) return;
     error->all(
         FLERR,
-        fmt::format(
+        engine::as_is(fmt::format(
             "{}: property {} ({}) is missing; allowed: 'fix ID all property/global {} peratomtypepair {}' "
             "and {} values",
-            model, name_, meaning, name_, ntypes, ntypes * ntypes)
-            .c_str());
+            model, name_, meaning, name_, ntypes, ntypes * ntypes)));
   }
 
 private:

@@ -77,6 +77,9 @@ constexpr const char *beside_restart = "";
 
 inline void set_up_run(LAMMPS_NS::Integrate *integrate) { integrate->setup(); }
 
+/// The words of an error as the engine's error->all() takes them.
+inline const char *as_is(const std::string &words) { return words.c_str(); }
+
 /// Tells the engine to end each run after the step, and whether it was told so, by this or by a signal of its own. To be called on all
 /// ranks alike.
 inline void end_runs(LAMMPS *) { LAMMPS_NS::SignalHandler::request_quit = true; }

@@ -134,9 +134,9 @@ private:
         stepping_stock_ || law
             ? "and that of the pair style is " + std::string(stepping_stock_ ? "'second'" : "'stock'")
             : "and there is no pair_style gran model hooke/transition yet";
-    error->all(FLERR, ("fix wall/gran model hooke/transition: keyword stepping is " + own + " " + pair +
-                       "; allowed: the same stepping for both, the pair style first")
-                          .c_str());
+    error->all(FLERR, drumlin::engine::as_is("fix wall/gran model hooke/transition: keyword stepping is " +
+                                             own + " " + pair +
+                                             "; allowed: the same stepping for both, the pair style first"));
   }
 
   /// A ball of a clump has the clump's mass in its contacts.

@@ -143,6 +143,23 @@ INSTANTIATE_TEST_SUITE_P(OneRank, BadInputTest, ::testing::ValuesIn(all_groups()
 INSTANTIATE_TEST_SUITE_P(TwoRanks, BadInputRanksTest, ::testing::ValuesIn(groups_for_two_ranks()),
                          group_name);
 
+// The engine's error->all() takes words for a format, in which {} stands for an argument, unless it is kept from it.
+TEST(BadInput, BracesStayAsTheyAreInLammps) {
+  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  const Scratch scratch;
+  const auto decks = std::filesystem::path(DRUMLIN_SOURCE_DIR) / "inputs";
+  for (const auto &[deck, name] : {std::pair("chain/in.chain.lammps", "k"),
+                                   {"chain/in.chain.lammps", "case"},
+                                   {"bed/in.bed.lammps", "start"}})
+    for (const std::string value : {"{}", "{0}", "{"}) {
+      const Outcome outcome = post::run_deck(decks / deck, {{name, value}}, scratch.path());
+      EXPECT_EQ(outcome.status, 1);
+      EXPECT_TRUE(outcome.says("ERROR: drumlin/check: variable " + std::string(name) + " is '" + value +
+                               "'; allowed: "))
+          << outcome.output;
+    }
+}
+
 // A misspelt name is an error in every deck, LAMMPS's included.
 TEST(BadInputDecks, KnowTheirVariables) {
   std::size_t decks = 0;
