@@ -51,11 +51,4 @@ bool drumlin::StopSignal::told(engine::LAMMPS *lmp) {
   return engine::runs_have_ended(lmp);
 }
 
-/// Ranks that ask each other wait for each other: seldom where a step takes no longer than that.
-LAMMPS_NS::FixStop::FixStop(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) {
-  constexpr double enough = 1000.0; // balls on a rank
-  constexpr int seldom = 20;        // steps
-  nevery = comm->nprocs == 1 || static_cast<double>(atom->natoms) > enough * comm->nprocs ? 1 : seldom;
-}
-
 void LAMMPS_NS::FixStop::end_of_step() { end_runs_if_asked(lmp); }

@@ -36,7 +36,7 @@ namespace LAMMPS_NS {
 /// fix drumlin/stop: made by StopSignal, not by decks. It asks during a run.
 class FixStop : public Fix {
 public:
-  FixStop(LAMMPS *lammps, int narg, char **arg);
+  FixStop(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) { nevery = 1; }
   int setmask() override { return FixConst::END_OF_STEP; }
   void end_of_step() override;
 

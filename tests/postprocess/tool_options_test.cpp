@@ -78,7 +78,7 @@ TEST_F(ToolOptions, AbsurdValuesAreRefusedAtOnce) {
        "bed: --seed is '-1'; allowed: a whole number from 0 to 18446744073709551615"},
       {{"bed", "--grading", ""}, "bed: --grading is ''; allowed: uniform, mass"},
       {{"bed", "--out", ""}, "bed: --out is ''; allowed: "},
-      {{"report", long_name}, "report: DIR is 'n"},
+      {{"report", long_name}, "report: DIR is 'x"},
       {{"report", "", "--out", "o"}, "report: DIR is ''; allowed: "},
       {{"report", ".", "--out", ""}, "report: --out is ''; allowed: "},
       {{"report", ".", "--out", long_name}, "(5000 characters)'; allowed: "},
