@@ -97,6 +97,21 @@ std::vector<int> coordination(std::size_t balls, const std::vector<BallContact> 
   return counts;
 }
 
+std::vector<double> ball_pressures(const std::vector<Ball> &balls, const BedContacts &contacts) {
+  std::vector<double> pressures(balls.size(), 0.0);
+  for (const BallContact &contact : contacts.balls) {
+    const double normal = force_parts(contact).normal; // -f . r is this times the arm, on either side
+    for (const std::size_t b : {contact.i, contact.j})
+      pressures[b] += normal * (balls[b].radius - 0.5 * contact.overlap);
+  }
+  for (const WallContact &contact : contacts.walls)
+    pressures[contact.i] += force_parts(contact).normal * (balls[contact.i].radius - contact.overlap);
+  const bool flat = in_a_plane(balls);
+  for (std::size_t b = 0; b < balls.size(); ++b)
+    pressures[b] /= (flat ? 2.0 : 3.0) * volume(balls[b], flat);
+  return pressures;
+}
+
 Vector foot(const Ball &ball, const WallContact &contact) {
   const double arm = ball.radius - contact.overlap;
   const Vector &x = ball.position, &n = contact.normal;

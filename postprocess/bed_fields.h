@@ -72,6 +72,11 @@ struct BedContacts {
 /// Contacts of each ball with other balls.
 std::vector<int> coordination(std::size_t balls, const std::vector<BallContact> &contacts);
 
+/// Pressure in each ball, Pa, compression positive, by the forces f of all its contacts, those with drum and walls included:
+///   p = -1/(d V) sum f . r,    d dimensions, V volume of the ball, r from its centre to the middle of the overlap or to the wall.
+/// It is the mean over the ball's own volume of the pressure inside, exactly if the ball does not spin; pores have no share in it.
+std::vector<double> ball_pressures(const std::vector<Ball> &balls, const BedContacts &contacts);
+
 /// The force of a contact along its normal, positive in compression, and the magnitude of what remains, N.
 struct ForceParts {
   double normal = 0.0, tangential = 0.0;

@@ -9,11 +9,14 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <iterator>
 #include <limits>
@@ -37,6 +40,8 @@ namespace {
 /// Side of a cell of the fields in mean diameters of the soil balls, unless the user gives one: some nine balls in a cell.
 constexpr double default_cell = 3.0;
 
+constexpr double pi = 3.141592653589793;
+
 /// Sides of cells that are not absurd, m.
 constexpr Range cell_range = {1e-9, 1e9, "m"};
 
@@ -47,29 +52,110 @@ struct Arguments {
 
 /// What the command writes, as names from the folder of the results.
 constexpr std::array<const char *, 3> collections = {"balls.pvd", "contacts.pvd", "fields.pvd"};
+/// What a picture needs to know of all steps at once, for postprocess/paraview/bed.py.
+constexpr const char *scene_name = "scene.json";
 
 bool is_ours(const std::string &name) {
-  static const std::regex pattern(R"((balls|contacts)(_\d+\.vtp|\.pvd)|fields(_\d+\.vti|\.pvd))");
+  static const std::regex pattern(R"((balls|contacts)(_\d+\.vtp|\.pvd)|fields(_\d+\.vti|\.pvd)|scene\.json)");
   return std::regex_match(name, pattern);
 }
 
-/// Time step of the run, s.
-double time_step(const fs::path &folder) {
+/// What the run was made with.
+struct RunParameters {
+  double dt = 0.0; ///< time step, s
+  std::optional<double> omega,
+      F_drive; ///< of the excitation: angular frequency, rad/s, and amplitude, N; where the run has one
+};
+
+RunParameters run_parameters(const fs::path &folder) {
   const fs::path file = folder / "parameters.csv";
   const std::map<std::string, std::string> parameters = read_parameters(file);
-  const auto found = parameters.find("timestep");
-  if (found == parameters.end())
+  const auto number = [&](const char *name, double least, const char *expected) -> std::optional<double> {
+    const auto found = parameters.find(name);
+    if (found == parameters.end()) return std::nullopt;
+    try {
+      if (const double value = number_from_text(found->second); value >= least) return value;
+    } catch (const std::invalid_argument &) {
+    }
+    throw std::runtime_error(
+        fmt::format("{}: {} is '{}', expected {}", file.string(), name, found->second, expected));
+  };
+  constexpr double positive = std::numeric_limits<double>::min();
+  const std::optional<double> dt = number("timestep", positive, "a number > 0 in s");
+  if (!dt)
     throw std::runtime_error(
         fmt::format("{}: has no 'timestep'; expected the time step of the run in s", file.string()));
-  double dt = 0.0;
-  try {
-    dt = number_from_text(found->second);
-  } catch (const std::invalid_argument &) {
+  return {*dt, number("omega", positive, "a number > 0 in rad/s"), number("Fw", 0.0, "a number >= 0 in N")};
+}
+
+/// The phase of the excitation at a time, and the vertical forces on the drum, named as in bed.csv.
+StepValues values_of_step(double time, const RunParameters &run, const std::vector<Ball> &balls,
+                          const std::optional<BedContacts> &contacts) {
+  StepValues values;
+  if (run.omega) {
+    const double turns = std::round(1e9 * *run.omega * time / (2.0 * pi)) / 1e9; // a whole cycle is one
+    values.emplace_back("cycle", std::floor(turns) + 1.0);
+    values.emplace_back("phase", 360.0 * (turns - std::floor(turns)));
+    if (run.F_drive) values.emplace_back("F_excitation", *run.F_drive * std::sin(2.0 * pi * turns));
   }
-  if (dt <= 0.0)
-    throw std::runtime_error(
-        fmt::format("{}: timestep is '{}', expected a number > 0 in s", file.string(), found->second));
-  return dt;
+  if (!contacts) return values;
+  double on_drum = 0.0;
+  for (const BallContact &contact : contacts->balls) {
+    if (balls[contact.i].type == drum_type) on_drum += contact.force[1];
+    if (balls[contact.j].type == drum_type) on_drum -= contact.force[1];
+  }
+  for (const WallContact &contact : contacts->walls)
+    if (balls[contact.i].type == drum_type) on_drum += contact.force[1];
+  values.emplace_back("F_contact", on_drum);
+  return values;
+}
+
+/// How large the values of an array become. One ball that was thrown up does not set the colours of a picture: the quantile is the
+/// largest, over the steps, of that which 99 % of the step's values do not exceed.
+class Sizes {
+public:
+  void add(const std::string &array, std::vector<double> values) {
+    if (values.empty()) return;
+    auto &[quantile, largest] = sizes_[array];
+    const auto place =
+        values.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), place, values.end());
+    quantile = std::max(quantile, *place);
+    largest = std::max(largest, *std::max_element(place, values.end()));
+  }
+  nlohmann::json json() const {
+    nlohmann::json all = nlohmann::json::object();
+    for (const auto &[array, size] : sizes_)
+      all[array] = {{"quantile_99", size.first}, {"largest", size.second}};
+    return all;
+  }
+
+private:
+  std::map<std::string, std::pair<double, double>> sizes_;
+};
+
+double magnitude(const Vector &vector) { return std::hypot(vector[0], vector[1], vector[2]); }
+
+/// Of the soil balls, and of all contacts.
+void add_sizes(Sizes &sizes, const std::vector<Ball> &balls, const ContactSums &sums,
+               const std::optional<BedContacts> &contacts) {
+  const auto of_soil = [&](const char *array, const auto &value) {
+    std::vector<double> values;
+    for (std::size_t b = 0; b < balls.size(); ++b)
+      if (balls[b].type == soil_type) values.push_back(value(b));
+    sizes.add(array, std::move(values));
+  };
+  of_soil("velocity", [&](std::size_t b) { return magnitude(balls[b].velocity); });
+  of_soil("angular_velocity", [&](std::size_t b) { return magnitude(balls[b].spin); });
+  if (!contacts) return;
+  of_soil("coordination", [&](std::size_t b) { return static_cast<double>(sums.coordination[b]); });
+  of_soil("pressure", [&](std::size_t b) { return sums.pressure[b]; });
+  std::vector<double> forces;
+  for (const BallContact &contact : contacts->balls)
+    forces.push_back(force_parts(contact).normal);
+  for (const WallContact &contact : contacts->walls)
+    forces.push_back(force_parts(contact).normal);
+  sizes.add("normal_force", std::move(forces));
 }
 
 /// Results under way, in a folder inside that of the results.
@@ -108,7 +194,7 @@ private:
 
 /// What is the same for all steps.
 struct Bed {
-  Bounds soil;
+  Bounds soil, all;
   double mean_diameter = 0.0; ///< of the soil balls of the first step, m
   bool flat = true;           ///< all balls stay in z = 0
 };
@@ -133,6 +219,7 @@ Bed survey(std::map<long, StepDump> &steps) {
     }
     bed.flat = bed.flat && in_a_plane(balls);
     for (const Ball &ball : balls) {
+      bed.all.add(ball);
       if (ball.type != soil_type) continue;
       bed.soil.add(ball);
       diameters += 2.0 * ball.radius;
@@ -197,6 +284,17 @@ FieldGrid grid_for(const Arguments &arguments, const Bed &bed) {
   }
 }
 
+std::string scene_text(const Bed &bed, const RunParameters &run, const Sizes &sizes) {
+  const auto corners = [](const Bounds &bounds) { return nlohmann::json{bounds.low, bounds.high}; };
+  nlohmann::json scene = {{"dimension", bed.flat ? 2 : 3},
+                          {"mean_diameter", bed.mean_diameter},
+                          {"bounds", corners(bed.all)},
+                          {"soil_bounds", corners(bed.soil)},
+                          {"sizes", sizes.json()}};
+  if (run.omega) scene["period"] = 2.0 * pi / *run.omega;
+  return scene.dump(1) + "\n";
+}
+
 void run(const Arguments &arguments) {
   if (arguments.cell) number_option("--cell", *arguments.cell, cell_range);
   const fs::path folder = path_option("DIR", arguments.folder);
@@ -206,9 +304,9 @@ void run(const Arguments &arguments) {
     throw UsageError(refusal("DIR", folder.string(),
                              "the folder of a bed run with dumps, with dump/balls_STEP.vtp or .dump"));
   std::optional<Bed> bed;
-  double dt = 0.0;
+  RunParameters parameters;
   try {
-    dt = time_step(folder);
+    parameters = run_parameters(folder);
     check_out(out);
     bed = survey(steps);
   } catch (const UsageError &) {
@@ -220,25 +318,29 @@ void run(const Arguments &arguments) {
 
   std::vector<std::string> names;
   std::array<std::vector<std::pair<double, std::string>>, 3> series; // as in `collections`
+  Sizes sizes;
   try {
     const Workshop workshop(out);
     TimedProgress progress;
     std::size_t done = 0;
     for (const auto &[step, dump] : steps) {
+      const double time = static_cast<double>(step) * parameters.dt;
       const auto add = [&, step = step](std::size_t collection, const std::string &name) {
         names.push_back(name);
-        series[collection].emplace_back(static_cast<double>(step) * dt, name);
+        series[collection].emplace_back(time, name);
         return workshop / name;
       };
       const std::vector<Ball> balls = read_ball_dump(dump.balls);
-      const fs::path ball_file = add(0, fmt::format("balls_{}.vtp", step));
-      if (const std::optional<BedContacts> contacts = contacts_of(dump, step, balls)) {
-        write_ball_points(ball_file, balls, coordination(balls.size(), contacts->balls));
+      const std::optional<BedContacts> contacts = contacts_of(dump, step, balls);
+      ContactSums sums;
+      if (contacts) sums = {coordination(balls.size(), contacts->balls), ball_pressures(balls, *contacts)};
+      write_ball_points(add(0, fmt::format("balls_{}.vtp", step)), balls, sums,
+                        values_of_step(time, parameters, balls, contacts));
+      add_sizes(sizes, balls, sums, contacts);
+      if (contacts) {
         write_contact_lines(add(1, fmt::format("contacts_{}.vtp", step)), balls, *contacts);
         write_field_image(add(2, fmt::format("fields_{}.vti", step)), grid,
                           coarse_grained(balls, contacts->balls, grid));
-      } else {
-        write_ball_points(ball_file, balls, {});
       }
       progress.tell("{} of {} steps written", ++done, steps.size());
     }
@@ -248,6 +350,8 @@ void run(const Arguments &arguments) {
         names.emplace_back(collections[i]);
         texts.emplace_back(workshop / collections[i], collection_text(series[i]));
       }
+    names.emplace_back(scene_name);
+    texts.emplace_back(workshop / scene_name, scene_text(*bed, parameters, sizes));
     write_files(texts);
     workshop.hand_over(names);
   } catch (const fs::filesystem_error &fault) {

@@ -9,6 +9,7 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkIntArray.h>
 #include <vtkLogger.h>
@@ -23,6 +24,7 @@
 #include <vtkXMLPolyDataWriter.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -193,9 +195,10 @@ private:
   vtkSmartPointer<vtkPolyData> vtk_; // nullptr: a text dump
 };
 
+constexpr auto itself = [](const auto &value) { return value; };
+
 template <class Array, class Values, class Part>
-void add_array(vtkDataSetAttributes *data, const char *name, int components, const Values &values,
-               const Part &part) {
+void add_array(vtkFieldData *data, const char *name, int components, const Values &values, const Part &part) {
   vtkNew<Array> array;
   array->SetName(name);
   array->SetNumberOfComponents(components);
@@ -211,19 +214,19 @@ void add_array(vtkDataSetAttributes *data, const char *name, int components, con
 
 /// An array of numbers, each got from a value by part(value).
 template <class Values, class Part>
-void add_numbers(vtkDataSetAttributes *data, const char *name, const Values &values, const Part &part) {
+void add_numbers(vtkFieldData *data, const char *name, const Values &values, const Part &part) {
   add_array<vtkDoubleArray>(data, name, 1, values,
                             [&part](const auto &value, const auto &set) { set(0, part(value)); });
 }
 template <class Values, class Part>
-void add_whole(vtkDataSetAttributes *data, const char *name, const Values &values, const Part &part) {
+void add_whole(vtkFieldData *data, const char *name, const Values &values, const Part &part) {
   add_array<vtkIntArray>(data, name, 1, values, [&part](const auto &value, const auto &set) {
     set(0, static_cast<int>(part(value)));
   });
 }
 /// The same for vectors and tensors.
 template <class Values, class Part>
-void add_components(vtkDataSetAttributes *data, const char *name, const Values &values, const Part &part) {
+void add_components(vtkFieldData *data, const char *name, const Values &values, const Part &part) {
   using Components = std::decay_t<decltype(part(values.front()))>;
   constexpr std::size_t components = std::tuple_size_v<Components>;
   add_array<vtkDoubleArray>(data, name, static_cast<int>(components), values,
@@ -247,8 +250,6 @@ void write(const fs::path &file, Data *data) {
     fail(file, fmt::format("cannot be written (VTK: {})", complaints.first()));
   write_files({{file, writer->GetOutputString()}});
 }
-
-constexpr auto itself = [](const auto &value) { return value; };
 
 } // namespace
 
@@ -345,8 +346,8 @@ BedContacts read_contact_dump(const fs::path &file, const std::vector<Ball> &bal
   return contacts;
 }
 
-void write_ball_points(const fs::path &file, const std::vector<Ball> &balls,
-                       const std::vector<int> &coordination) {
+void write_ball_points(const fs::path &file, const std::vector<Ball> &balls, const ContactSums &sums,
+                       const StepValues &values) {
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> vertices;
   for (const Ball &ball : balls) {
@@ -365,7 +366,10 @@ void write_ball_points(const fs::path &file, const std::vector<Ball> &balls,
   add_numbers(columns, "mass", balls, [](const Ball &ball) { return ball.mass; });
   add_whole(columns, "type", balls, [](const Ball &ball) { return ball.type; });
   add_whole(columns, "id", balls, [](const Ball &ball) { return ball.id; });
-  if (!coordination.empty()) add_whole(columns, "coordination", coordination, itself);
+  if (!sums.coordination.empty()) add_whole(columns, "coordination", sums.coordination, itself);
+  if (!sums.pressure.empty()) add_numbers(columns, "pressure", sums.pressure, itself);
+  for (const auto &[name, value] : values)
+    add_numbers(data->GetFieldData(), name.c_str(), std::array<double, 1>{value}, itself);
   write<vtkXMLPolyDataWriter>(file, data.Get());
 }
 

@@ -264,6 +264,52 @@ TEST(Contacts, AreCountedForBothBallsAndTheirForceHasTwoParts) {
   EXPECT_EQ(post::coordination(3, {contact, between(balls, 0, 2, {})}), (std::vector<int>{2, 1, 1}));
 }
 
+// By hand: -f . r of a contact is its normal force times the distance from the centre to the middle of the overlap.
+TEST(BallPressure, OfTwoBallsAndAFloor) {
+  for (const bool flat : {true, false}) {
+    const double z = flat ? 0.0 : 1.0, d = flat ? 2.0 : 3.0;
+    const std::vector<Ball> balls = {ball_at({0.0, 0.0, z}, 2.0), ball_at({1.74, 2.32, z}, 1.0)}; // 2.9 apart
+    const double volume0 = flat ? 4.0 * pi : 32.0 / 3.0 * pi, volume1 = flat ? pi : 4.0 / 3.0 * pi;
+    const Vector force = {-0.6 * 10.0 + 0.8 * 5.0, -0.8 * 10.0 - 0.6 * 5.0,
+                          0.0}; // on the first: 10 along, 5 across
+    const BallContact contact = between(balls, 0, 1, force, 0.1);
+    const std::vector<double> pressed = post::ball_pressures(balls, {{contact}, {}});
+    EXPECT_NEAR(pressed[0], 10.0 * 1.95 / (d * volume0), 1e-14);
+    EXPECT_NEAR(pressed[1], 10.0 * 0.95 / (d * volume1), 1e-14);
+    BallContact pulls = contact;
+    for (double &component : pulls.force)
+      component = -component;
+    EXPECT_NEAR(post::ball_pressures(balls, {{pulls}, {}})[1], -10.0 * 0.95 / (d * volume1), 1e-14);
+    const post::WallContact floor = {0, {3.0, 30.0, 0.0}, {0.0, 1.0, 0.0}, 0.25};
+    EXPECT_NEAR(post::ball_pressures(balls, {{}, {floor}})[0], 30.0 * 1.75 / (d * volume0), 1e-14);
+  }
+}
+
+// A ball in a column carries the weights above it at its top, and its own besides at its foot.
+TEST(BallPressure, OfAColumnUnderGravityGrowsWithDepth) {
+  const double radius = 0.02, density = 2600.0, gravity = 9.81;
+  const std::size_t n = 7;
+  for (const bool flat : {true, false}) {
+    post::BedContacts contacts;
+    std::vector<Ball> balls; // from the floor up
+    for (std::size_t b = 0; b < n; ++b)
+      balls.push_back(
+          ball_at({0.0, (2.0 * static_cast<double>(b) + 1.0) * radius, flat ? 0.0 : 1.0}, radius));
+    const double volume = flat ? pi * radius * radius : 4.0 / 3.0 * pi * radius * radius * radius;
+    const double weight = density * volume * gravity;
+    for (std::size_t b = 0; b + 1 < n; ++b)
+      contacts.balls.push_back(
+          between(balls, b, b + 1, {0.0, -weight * static_cast<double>(n - 1 - b), 0.0}));
+    contacts.walls.push_back({0, {0.0, weight * static_cast<double>(n), 0.0}, {0.0, 1.0, 0.0}, 0.0});
+    const std::vector<double> found = post::ball_pressures(balls, contacts);
+    for (std::size_t b = 0; b < n;
+         ++b) { // only the vertical stress, density gravity depth at the centre, times 2 r area / V
+      const double depth = (2.0 * static_cast<double>(n - b) - 1.0) * radius;
+      EXPECT_NEAR(found[b], density * gravity * depth / (flat ? 2.0 : 3.0), 1e-10) << b;
+    }
+  }
+}
+
 TEST(FieldGrid, FitsWholeCellsIntoTheBounds) {
   const FieldGrid grid = post::fitted_grid({{-1.0, 0.5, -3.0}, {1.1, 1.4, 3.0}}, 0.4, true);
   EXPECT_EQ(grid.cells, (std::array<std::size_t, 3>{5, 2, 1}));

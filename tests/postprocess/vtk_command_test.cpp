@@ -7,9 +7,11 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -87,10 +89,11 @@ protected:
 TEST_F(VtkCommand, WritesThreeCollections) {
   const Outcome outcome = run({"run"});
   ASSERT_TRUE(outcome.ok()) << outcome.output;
-  EXPECT_EQ(names("run/vtk"), (std::vector<std::string>{
-                                  "balls.pvd", "balls_0.vtp", "balls_1000.vtp", "balls_200.vtp",
-                                  "contacts.pvd", "contacts_0.vtp", "contacts_1000.vtp", "contacts_200.vtp",
-                                  "fields.pvd", "fields_0.vti", "fields_1000.vti", "fields_200.vti"}));
+  EXPECT_EQ(
+      names("run/vtk"),
+      (std::vector<std::string>{"balls.pvd", "balls_0.vtp", "balls_1000.vtp", "balls_200.vtp", "contacts.pvd",
+                                "contacts_0.vtp", "contacts_1000.vtp", "contacts_200.vtp", "fields.pvd",
+                                "fields_0.vti", "fields_1000.vti", "fields_200.vti", "scene.json"}));
   EXPECT_EQ(read_text(folder_ / "run/vtk/fields.pvd"),
             "<?xml version=\"1.0\"?>\n"
             "<VTKFile type=\"Collection\" version=\"0.1\">\n"
@@ -128,6 +131,9 @@ TEST_F(VtkCommand, WritesWhatTheDumpsHold) {
   EXPECT_EQ(column("angular_velocity"), (Values{0, 0, 1, 0, 0, 2, 0, 0, 0}));
   EXPECT_EQ(column("force"), (Values{1, 2, 3, 0, 0, 0, 0, 7, 0}));
   EXPECT_EQ(column("coordination"), (Values{2, 1, 1}));
+  const double by_hand = 100 * 0.9 + 400 * 0.95 + 430 * 0.95; // ball 1: its neighbour, the drum, the floor
+  const Values pressure = column("pressure");
+  EXPECT_NEAR(pressure[0], by_hand / (2.0 * 3.141592653589793), 1e-9);
   EXPECT_EQ(reader->GetOutput()->GetNumberOfVerts(), 3); // or ParaView shows nothing
 
   vtkNew<vtkXMLPolyDataReader> lines;
@@ -179,6 +185,37 @@ TEST_F(VtkCommand, WritesWhatTheDumpsHold) {
   EXPECT_NEAR(fields->GetArray("coordination")->GetTuple1(0), 1.0, 1e-14);
 }
 
+// A quarter of a turn into the second cycle of 20 s. Contacts push the drum up by 400 N.
+TEST_F(VtkCommand, TellsThePhaseAndTheForcesOnTheDrum) {
+  put("run/parameters.csv", "name,value\ntimestep,0.125\nomega,0.31415926535897931\nFw,1000\n");
+  ASSERT_TRUE(run({"run"}).ok());
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName((folder_ / "run/vtk/balls_200.vtp").c_str());
+  reader->Update();
+  const auto value = [&reader](const char *name) {
+    return reader->GetOutput()->GetFieldData()->GetArray(name)->GetTuple1(0);
+  };
+  EXPECT_EQ(value("cycle"), 2.0);
+  EXPECT_NEAR(value("phase"), 90.0, 1e-6);
+  EXPECT_NEAR(value("F_excitation"), 1000.0, 1e-9);
+  EXPECT_EQ(value("F_contact"), 400.0);
+}
+
+// For the colours of a picture: the soil's faster ball, 6 m/s, does not count, and the drum never does.
+TEST_F(VtkCommand, TellsHowLargeValuesBecome) {
+  put("run/parameters.csv", "name,value\ntimestep,0.125\nomega,0.31415926535897931\n");
+  ASSERT_TRUE(run({"run"}).ok());
+  const nlohmann::json scene = nlohmann::json::parse(read_text(folder_ / "run/vtk/scene.json"));
+  EXPECT_EQ(scene["dimension"], 2);
+  EXPECT_NEAR(scene["period"].get<double>(), 20.0, 1e-12);
+  EXPECT_EQ(scene["sizes"]["velocity"]["quantile_99"], 3.0);
+  EXPECT_EQ(scene["sizes"]["velocity"]["largest"], 6.0);
+  EXPECT_EQ(scene["sizes"]["coordination"]["largest"], 2.0);
+  EXPECT_EQ(scene["sizes"]["normal_force"]["largest"], 430.0);
+  EXPECT_NEAR(scene["bounds"][1][1].get<double>(), 5.9, 1e-6); // top of the drum
+  EXPECT_NEAR(scene["soil_bounds"][1][1].get<double>(), 2.0, 1e-6);
+}
+
 // Ball 1 on the left presses on ball 2 on the right through a periodic side.
 TEST_F(VtkCommand, JoinsABallToTheImageOfAnother) {
   put("run/dump/contacts_200.dump", contact_dump("1 2 50 0 0 1 0 0 0.2\n"));
@@ -204,8 +241,8 @@ TEST_F(VtkCommand, MakesDoWithoutContacts) {
   const Outcome outcome = run({"run"});
   ASSERT_TRUE(outcome.ok()) << outcome.output;
   EXPECT_TRUE(outcome.says("no contacts and no fields")) << outcome.output;
-  EXPECT_EQ(names("run/vtk"),
-            (std::vector<std::string>{"balls.pvd", "balls_0.vtp", "balls_1000.vtp", "balls_200.vtp"}));
+  EXPECT_EQ(names("run/vtk"), (std::vector<std::string>{"balls.pvd", "balls_0.vtp", "balls_1000.vtp",
+                                                        "balls_200.vtp", "scene.json"}));
   EXPECT_EQ(read_text(folder_ / "run/vtk/balls_0.vtp").find("coordination"), std::string::npos);
 }
 
@@ -218,7 +255,7 @@ TEST_F(VtkCommand, TakesTheRoomOfAnEarlierResultAndOfNothingElse) {
   EXPECT_EQ(names("run/vtk"),
             (std::vector<std::string>{"balls.pvd", "balls_0.vtp", "balls_200.vtp", "contacts.pvd",
                                       "contacts_0.vtp", "contacts_200.vtp", "fields.pvd", "fields_0.vti",
-                                      "fields_200.vti", "view.pvsm"}));
+                                      "fields_200.vti", "scene.json", "view.pvsm"}));
 }
 
 struct Bad {
@@ -254,6 +291,14 @@ TEST_F(VtkCommand, BadInputIsOneLineAndTouchesNothing) {
       {"time step of words", {{"parameters.csv", "name,value\ntimestep,soon\n"}}, {"run"}, {"'soon'", "> 0"}},
       {"time step of zero", {{"parameters.csv", "name,value\ntimestep,0\n"}}, {"run"}, {"'0'", "> 0"}},
       {"endless time step", {{"parameters.csv", "name,value\ntimestep,inf\n"}}, {"run"}, {"'inf'", "> 0"}},
+      {"angular frequency of words",
+       {{"parameters.csv", "name,value\ntimestep,1\nomega,fast\n"}},
+       {"run"},
+       {"omega is 'fast'", "> 0"}},
+      {"negative amplitude",
+       {{"parameters.csv", "name,value\ntimestep,1\nomega,1\nFw,-1\n"}},
+       {"run"},
+       {"Fw is '-1'", ">= 0"}},
       {"cell of zero", {}, {"run", "--cell", "0"}, {"--cell", "'0'", "from 1e-09"}},
       {"negative cell", {}, {"run", "--cell=-1"}, {"--cell", "'-1'", "from 1e-09"}},
       {"cell of words", {}, {"run", "--cell", "big"}, {"--cell", "'big'", "a number"}},
@@ -336,7 +381,7 @@ TEST_F(VtkCommand, BadInputIsOneLineAndTouchesNothing) {
        {"contacts_200.dump", "1 and 2", "twice"}},
   };
   const auto before = files("run/vtk");
-  ASSERT_EQ(before.size(), 12U);
+  ASSERT_EQ(before.size(), 13U);
   for (const Bad &bad : table) {
     SCOPED_TRACE(bad.name);
     std::map<std::string, std::string> saved;
