@@ -1,5 +1,7 @@
 #include "engine_run.h"
 
+#include "places.h"
+
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -113,7 +115,7 @@ Outcome run_deck(const fs::path &deck, const Variables &variables, const fs::pat
                  double limit) {
   const bool lammps = deck.extension() == ".lammps";
   if (lammps && !has_lammps()) throw std::runtime_error("LAMMPS is not set up: ./drumlin setup lammps");
-  const std::string library = lammps ? DRUMLIN_LAMMPS_PLUGIN : plugin_library();
+  const std::string library = lammps ? places().lammps_plugin.string() : plugin_library();
   if (library.find_first_of(" \t\r\n\v\f:") != std::string::npos)
     throw std::runtime_error("the plugin is '" + library +
                              "'; allowed: a path without blanks and colons, at which it would be split");
@@ -129,7 +131,7 @@ Outcome run_deck(const fs::path &deck, const Variables &variables, const fs::pat
     environment.clear(); // for the ranks, not for mpirun
   }
   words.insert(words.end(),
-               {lammps ? DRUMLIN_LAMMPS_PROGRAM : "liggghts", "-in", deck.string(), "-log", "none"});
+               {lammps ? places().lammps : places().liggghts, "-in", deck.string(), "-log", "none"});
   for (const auto &[name, value] : variables)
     words.insert(words.end(), {"-var", name, value}); // of a name twice the first counts
   if (has_out(deck)) words.insert(words.end(), {"-var", "out", folder.string()});
@@ -137,14 +139,14 @@ Outcome run_deck(const fs::path &deck, const Variables &variables, const fs::pat
   return run_program(words, environment, folder, limit);
 }
 
-bool has_lammps() { return *DRUMLIN_LAMMPS_PROGRAM != '\0'; }
+bool has_lammps() { return !places().lammps.empty(); }
 
 std::string engine_error(const std::string &output) {
   const std::size_t begin = output.find("ERROR");
   return begin == std::string::npos ? "" : output.substr(begin, output.find('\n', begin) - begin);
 }
 
-std::string plugin_library() { return DRUMLIN_PLUGIN; }
+std::string plugin_library() { return places().liggghts_plugin.string(); }
 
 std::string read_text(const fs::path &file) {
   std::ifstream in(file, std::ios::binary);

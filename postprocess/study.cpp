@@ -2,6 +2,7 @@
 
 #include "command.h"
 #include "output_files.h"
+#include "places.h"
 
 #include <algorithm>
 #include <cmath>
@@ -193,6 +194,6 @@ double quantile(std::vector<double> values, double share) {
 
 double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
 
-fs::path input_file(const std::string &name) { return fs::path(DRUMLIN_INPUTS) / name; }
+fs::path input_file(const std::string &name) { return places().inputs / name; }
 
 } // namespace drumlin::post

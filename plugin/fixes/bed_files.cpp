@@ -4,6 +4,8 @@
 #include "fixes/whole_file.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <fstream>
@@ -13,7 +15,6 @@
 #include <sys/mman.h>
 #include <unistd.h>
 #include <unordered_set>
-#include <zlib.h>
 
 namespace drumlin {
 
@@ -39,14 +40,23 @@ std::string notes_text(const RestartNotes &notes) {
   return text;
 }
 
-/// What the last two notes say of these bytes, of which zlib takes at most so many at a time.
+/// Checksum of gzip and PNG.
+std::uint32_t crc32(const std::string &bytes) {
+  std::array<std::uint32_t, 256> of_byte{};
+  for (std::uint32_t n = 0; n < of_byte.size(); ++n) {
+    of_byte[n] = n;
+    for (int bit = 0; bit < 8; ++bit)
+      of_byte[n] = (of_byte[n] >> 1) ^ ((of_byte[n] & 1U) != 0 ? 0xedb88320U : 0U);
+  }
+  std::uint32_t sum = ~0U;
+  for (const char c : bytes)
+    sum = (sum >> 8) ^ of_byte[(sum ^ static_cast<unsigned char>(c)) & 0xffU];
+  return ~sum;
+}
+
+/// What the last two notes say of these bytes.
 RestartNotes sum_notes(const std::string &bytes) {
-  constexpr std::size_t portion = std::size_t{1} << 30;
-  uLong sum = crc32(0, nullptr, 0);
-  for (std::size_t from = 0; from < bytes.size(); from += portion)
-    sum = crc32(sum, reinterpret_cast<const Bytef *>(bytes.data() + from),
-                static_cast<uInt>(std::min(portion, bytes.size() - from)));
-  return {{"bytes", std::to_string(bytes.size())}, {"crc32", fmt::format("{:08x}", sum)}};
+  return {{"bytes", std::to_string(bytes.size())}, {"crc32", fmt::format("{:08x}", crc32(bytes))}};
 }
 
 std::string contents_of(const std::string &file) {

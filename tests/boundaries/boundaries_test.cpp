@@ -133,8 +133,8 @@ bool fits_fixes(const Include &include) {
   if (include.quoted)
     return include.name == "engine.h" || starts_with(include.name, "physics/") ||
            starts_with(include.name, "fixes/");
-  return is_standard(include) || starts_with(include.name, "fmt/") || include.name == "zlib.h" ||
-         starts_with(include.name, "sys/") || include.name == "unistd.h" || include.name == "fcntl.h";
+  return is_standard(include) || starts_with(include.name, "fmt/") || starts_with(include.name, "sys/") ||
+         include.name == "unistd.h" || include.name == "fcntl.h";
 }
 
 /// Nothing of plugin/: by its name from there or from the root, through "..", or by a bare name that only
