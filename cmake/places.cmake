@@ -18,3 +18,36 @@ endfunction()
 file(RELATIVE_PATH inputs ${CMAKE_RUNTIME_OUTPUT_DIRECTORY} ${PROJECT_SOURCE_DIR}/inputs)
 file(RELATIVE_PATH libraries ${CMAKE_RUNTIME_OUTPUT_DIRECTORY} ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
 write_places(${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/places ${inputs} ${libraries}/)
+
+# What an installation has: bin/drumlin, parts, decks and pages.
+file(RELATIVE_PATH inputs /${folder_of_parts} /${folder_of_shares}/inputs)
+write_places(${PROJECT_BINARY_DIR}/places ${inputs} "")
+install(PROGRAMS drumlin DESTINATION bin)
+install(FILES ${PROJECT_BINARY_DIR}/places DESTINATION ${folder_of_parts})
+set(targets "")
+foreach(target drumlin drumlin-liggghts drumlin-lammps drumlinplugin drumlin-tools)
+  if(TARGET ${target})
+    list(APPEND targets ${target})
+  endif()
+endforeach()
+install(TARGETS ${targets} RUNTIME DESTINATION ${folder_of_parts} LIBRARY DESTINATION ${folder_of_parts})
+install(DIRECTORY inputs DESTINATION ${folder_of_shares})
+install(FILES README.md CHANGELOG.md DESTINATION ${folder_of_pages})
+install(FILES LICENSE DESTINATION ${folder_of_pages} RENAME copyright)
+install(DIRECTORY plugin/doc DESTINATION ${folder_of_pages}/plugin)
+install(DIRECTORY postprocess/ DESTINATION ${folder_of_shares}/paraview FILES_MATCHING PATTERN "*.py")
+
+# The package of this Debian, by `cpack -G DEB` in the build folder.
+set(CPACK_PACKAGE_CONTACT "drumlin developers <drumlin@localhost>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+    OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON) # libraries of the release that it is built on
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "gnuplot-nox | gnuplot, openmpi-bin")
+if(DRUMLIN_LIGGGHTS) # whose library the plugin does not name, so that the list above does not have it
+  string(APPEND CPACK_DEBIAN_PACKAGE_DEPENDS ", liggghts (>= ${LIGGGHTS_VERSION}), liggghts (<< ${LIGGGHTS_VERSION}.1)")
+endif()
+include(CPack)

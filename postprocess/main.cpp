@@ -14,6 +14,7 @@
 #include <array>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <string>
 
 namespace {
@@ -92,7 +93,10 @@ int run(int argc, char **argv) {
 
 int main(int argc, char **argv) {
   try {
-    return run(argc, argv);
+    const int status = run(argc, argv);
+    const bool printed = std::fflush(stdout) == 0 && static_cast<bool>(std::cout.flush());
+    return status != 0 || printed ? status
+                                  : fail("", "standard output cannot be written; allowed: one that can", 1);
   } catch (...) { // not even a message could be made
     return 1;
   }

@@ -35,11 +35,13 @@ protected:
 
   fs::path checkout(const std::string &name) const {
     fs::path place = folder / name;
-    fs::create_directories(place / "build/release");
-    fs::copy_file(root / "drumlin", place / "drumlin");
-    const fs::path library = fs::path(post::plugin_library()).parent_path();
-    fs::create_directory_symlink(library, place / "build/release/lib");
-    fs::create_directory_symlink(library.parent_path() / "bin", place / "build/release/bin");
+    fs::create_directories(place / "build/release/bin");
+    for (const char *file : {"drumlin", "CMakeLists.txt"})
+      fs::copy_file(root / file, place / file);
+    fs::create_directory_symlink(fs::path(post::plugin_library()).parent_path(), place / "build/release/lib");
+    fs::create_symlink(DRUMLIN_TOOLS, place / "build/release/bin/drumlin-tools");
+    std::ofstream(place / "build/release/bin/places")
+        << "inputs=../../../inputs\nliggghts_plugin=../lib/libdrumlin.so\nliggghts=liggghts\n";
     fs::copy(root / "inputs", place / "inputs", fs::copy_options::recursive);
     return place;
   }
@@ -90,8 +92,8 @@ TEST_F(FrontScript, HandsArgumentsToTheEngineAsTheyAre) {
     std::vector<std::string> arguments = {"run", "-np", ranks, "my.deck"};
     std::string printed = "<-in><my.deck>";
     for (const std::string &name : hostile) {
-      arguments.insert(arguments.end(), {"-var", "out", name});
-      printed += "<-var><out><" + name + ">";
+      arguments.insert(arguments.end(), {"-var", "name", name});
+      printed += "<-var><name><" + name + ">";
     }
     const Outcome outcome = call(script, arguments, folder);
     EXPECT_TRUE(outcome.ok()) << outcome.output;
@@ -123,23 +125,118 @@ TEST_F(FrontScript, RunsWithoutHome) {
   EXPECT_TRUE(version.ok()) << version.output;
 }
 
+const std::vector<std::string> short_chain = {"run", "chain/in.chain", "-var", "cycles",
+                                              "1",   "-var",           "out",  "out"};
+
+/// The same with another deck and another folder for results.
+std::vector<std::string> short_run(const std::string &deck, const std::string &out) {
+  std::vector<std::string> words = short_chain;
+  words[1] = deck;
+  words.back() = out;
+  return words;
+}
+
 TEST_F(FrontScript, RunsInACheckoutWhosePathHasSpaces) {
   const fs::path place = checkout("my check out");
-  const std::vector<std::string> short_chain = {
-      "run", "inputs/chain/in.chain", "-var", "cycles", "1", "-var", "out", "out"};
-  const Outcome inside = call(place / "drumlin", short_chain, place, true);
-  EXPECT_TRUE(inside.ok()) << inside.output;
-  EXPECT_TRUE(fs::is_regular_file(place / "out/chain.csv")) << inside.output;
-  // From elsewhere the engine would split the path: one line, which names the way out, and that way works.
-  std::vector<std::string> from_elsewhere = short_chain;
-  from_elsewhere[1] = (place / "inputs/chain/in.chain").string();
-  expect_one_line(call(place / "drumlin", from_elsewhere, folder),
-                  "a path with blanks, at which the engine splits it; allowed: ");
+  for (const std::string deck :
+       {"inputs/chain/in.chain", "chain/in.chain", "../my check out/inputs/chain/in.chain"}) {
+    fs::remove_all(folder / "work here");
+    fs::create_directory(folder / "work here");
+    const Outcome outcome = call(place / "drumlin", short_run(deck, "of a/run"), folder / "work here", true);
+    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    EXPECT_TRUE(fs::is_regular_file(folder / "work here/of a/run/chain.csv")) << outcome.output;
+  }
   fs::create_directory_symlink(place, folder / "link");
-  from_elsewhere[1] = "link/inputs/chain/in.chain";
-  const Outcome linked = call(folder / "link/drumlin", from_elsewhere, folder, true);
+  const Outcome linked = call(folder / "link/drumlin", short_chain, folder, true);
   EXPECT_TRUE(linked.ok()) << linked.output;
   EXPECT_TRUE(fs::is_regular_file(folder / "out/chain.csv")) << linked.output;
+  EXPECT_TRUE(linked.says("LD_PRELOAD=" + (folder / "link/build/release/lib/libdrumlin.so").string()))
+      << linked.output;
+}
+
+TEST_F(FrontScript, TakesFilesInFoldersWithSpaces) {
+  const fs::path place = checkout("checkout");
+  fs::create_directory(folder / "a bed");
+  Outcome outcome =
+      call(place / "drumlin",
+           {"run", "bed/in.settle", "-var", "balls", "a bed/balls.data", "-var", "bed", "b/soil.restart"},
+           folder, false);
+  EXPECT_TRUE(outcome.ok()) << outcome.output;
+  const std::size_t begin = outcome.output.find("<balls><") + 8;
+  const fs::path handed = outcome.output.substr(begin, outcome.output.find('>', begin) - begin);
+  EXPECT_EQ(handed.string().find(' '), std::string::npos) << outcome.output;
+  EXPECT_EQ(fs::canonical(handed.parent_path()) / handed.filename(), folder / "a bed/balls.data");
+  EXPECT_TRUE(outcome.says("<b/soil.restart>")) << outcome.output;
+  expect_one_line(call(place / "drumlin", {"run", "bed/in.bed", "-var", "start", "a bed/of mine"}, folder),
+                  "-var start is 'a bed/of mine'; allowed: ");
+}
+
+/// Where the working folder is the only one that can be written, and the user is no longer who built it all.
+TEST_F(FrontScript, RunsInstalledFromAReadOnlyPrefixThatWasMoved) {
+  const Outcome installing = run_program(
+      {"cmake", "--install", DRUMLIN_BINARY_DIR, "--prefix", (folder / "first").string()}, {}, folder, 60.0);
+  ASSERT_TRUE(installing.ok()) << installing.output;
+  const fs::path prefix = folder / "moved pre fix";
+  fs::rename(folder / "first", prefix);
+  const auto writable = [&](bool yes) {
+    return run_program({"chmod", "-R", yes ? "u+w" : "a-w", prefix.string()}, {}, folder);
+  };
+  writable(false);
+  const fs::path script = prefix / "bin/drumlin";
+  fs::create_directory(folder / "work here");
+  for (const char *deck : {"chain/in.chain", "inputs/chain/in.impact"}) {
+    const Outcome outcome =
+        call(script, {"run", deck, "-var", "out", "of a/run"}, folder / "work here", true);
+    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    EXPECT_TRUE(fs::is_regular_file(folder / "work here/of a/run/chain.csv")) << outcome.output;
+    EXPECT_FALSE(outcome.says(root.string())) << outcome.output;
+  }
+  const Outcome advice = call(script, {"advise", "--error", "1e-3", "--case", "II"}, folder / "work here");
+  EXPECT_TRUE(advice.ok()) << advice.output;
+  for (const char *command : {"setup", "test", "check"})
+    expect_one_line(call(script, {command}, folder),
+                    std::string("allowed: ./drumlin ") + command + " in a checkout");
+  fs::create_symlink(script, folder / "bin/drumlin-link");
+  EXPECT_TRUE(call(folder / "bin/drumlin-link", {"run", "chain/in.chain"}, folder).says("<-in>"));
+  const Outcome help = call(script, {"--help"}, folder);
+  EXPECT_FALSE(help.says("./drumlin")) << help.output;
+  EXPECT_FALSE(help.says("setup")) << help.output;
+  writable(true);
+}
+
+/// A shell line around the script, which it has as $drumlin.
+TEST_F(FrontScript, RunsInPlacesOfAllKinds) {
+  const fs::path place = checkout("checkout");
+  const auto shell = [&](const std::string &line) {
+    fs::remove_all(folder / "out");
+    return run_program(
+        {"bash", "-c", line},
+        {"drumlin=" + (place / "drumlin").string(), "run=run chain/in.chain -var cycles 1 -var out out"},
+        folder, 60.0);
+  };
+  for (const char *line :
+       {"$drumlin $run >&-", "$drumlin $run >&- 2>&-", "$drumlin $run <&-", "$drumlin $run >/dev/full",
+        "set -o pipefail; $drumlin $run | head -n 2", "umask 077; $drumlin $run",
+        "LC_ALL=de_DE.UTF-8 $drumlin $run", "LC_NUMERIC=de_DE.UTF-8 $drumlin $run",
+        "cd / && cd - >/dev/null && env -u HOME -u PWD $drumlin $run"}) {
+    SCOPED_TRACE(line);
+    const Outcome outcome = shell(line);
+    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    std::size_t rows = 0;
+    std::ifstream table(folder / "out/chain.csv");
+    for (std::string row; std::getline(table, row); ++rows)
+      EXPECT_EQ(std::count(row.begin(), row.end(), ','), 9) << row; // nothing of what the engine prints
+    EXPECT_EQ(rows, 202U);
+  }
+  for (const char *line : {"$drumlin --help >&-", "$drumlin --version >&-", "$drumlin --help | head -n 1"})
+    EXPECT_TRUE(shell(line).ok()) << line;
+  for (const char *line : {"$drumlin --help >/dev/full", "$drumlin --version >/dev/full",
+                           "$drumlin advise --error 1e-3 >/dev/full"}) {
+    const Outcome outcome = shell(line);
+    EXPECT_NE(outcome.status, 0) << line;
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << line << "\n"
+                                                                                 << outcome.output;
+  }
 }
 
 TEST_F(FrontScript, FindsTheIncludesOfALinkedDeck) {
