@@ -17,6 +17,10 @@ Function find_function(const char *name) {
 /// Ends the run on every rank: each calls this, rank 0 speaks.
 [[noreturn]] inline void stop(const std::string &why) {
   int rank = 0;
+  int begun = 1;
+  if (auto *initialized = find_function<int (*)(int *)>("MPI_Initialized")) initialized(&begun);
+  if (auto *init = find_function<int (*)(int *, char ***)>("MPI_Init"); init && begun == 0)
+    init(nullptr, nullptr);
   void *world = dlsym(RTLD_DEFAULT, "ompi_mpi_comm_world");
   if (auto *comm_rank = find_function<int (*)(void *, int *)>("MPI_Comm_rank"); comm_rank && world)
     comm_rank(world, &rank);

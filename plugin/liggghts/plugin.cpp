@@ -34,6 +34,8 @@
 #include "liggghts/contact_table.h"
 #include "liggghts/fix_keep_history.h"
 #include "liggghts/model_settings.h"
+#include "liggghts/registration.h"
+#include "stub.h"
 
 #include <algorithm>
 #include <map>
@@ -262,13 +264,15 @@ void add_commands(LAMMPS *lmp) {
 
 } // namespace
 
-extern "C" __attribute__((visibility("default"))) void drumlin_register_again(void *engine) {
-  add_fixes(static_cast<LAMMPS *>(engine));
-}
+void drumlin_register_again(void *engine) { add_fixes(static_cast<LAMMPS *>(engine)); }
 
-extern "C" __attribute__((visibility("default"))) void drumlin_register(void *input,
-                                                                        const char *engine_version) {
+void drumlin_register(void *input) {
   LAMMPS *lmp = PointersAccess::engine_of(*static_cast<Input *>(input));
+  const std::string version = lmp->universe->version; // "Version LIGGGHTS-PUBLIC 3.8.0, compiled ..."
+  if (version.find(" " LIGGGHTS_VERSION ",") == std::string::npos)
+    drumlin::stop("built for LIGGGHTS " LIGGGHTS_VERSION ", but this process runs '" +
+                  version.substr(0, version.find(',')) +
+                  "'; build drumlin against the source of this version");
   static LAMMPS *known = nullptr;
   if (known == lmp) return;
   if (known == nullptr) add_contact_models();
@@ -277,6 +281,5 @@ extern "C" __attribute__((visibility("default"))) void drumlin_register(void *in
   add_commands(lmp);
   drumlin::define_here(lmp);
   drumlin::engine::say(lmp, std::string("drumlin " DRUMLIN_VERSION ", plugin for LIGGGHTS " LIGGGHTS_VERSION
-                                        ", loaded in LIGGGHTS ") +
-                                engine_version + "\n");
+                                        ", loaded in LIGGGHTS " LIGGGHTS_VERSION "\n"));
 }

@@ -45,10 +45,22 @@ bool ends_with(const std::string &text, const std::string &end) {
 
 std::string base_name(const std::string &path) { return path.substr(path.find_last_of('/') + 1); }
 
-using Register = void (*)(void *input, const char *engine_version);
+using Register = void (*)(void *input);
 using RegisterAgain = void (*)(void *engine);
 
 RegisterAgain register_again = nullptr; // once the plugin is loaded
+
+/// The plugin's library, or nullptr with the reason in `why`.
+void *open_plugin(std::string &why) {
+  const std::string self = real_file_of(reinterpret_cast<const void *>(&open_plugin));
+  const std::string plugin = self.substr(0, self.find_last_of('/') + 1) + "libdrumlin-liggghts.so";
+  void *handle = dlopen(plugin.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (handle == nullptr) {
+    const char *reason = dlerror();
+    why = std::string("cannot load the plugin: ") + (reason ? reason : "unknown reason");
+  }
+  return handle;
+}
 
 /// The plugin's entry point, or nullptr in `why` words if this process cannot take it.
 Register load_plugin(const void *engine_input_file, std::string &why) {
@@ -59,21 +71,37 @@ Register load_plugin(const void *engine_input_file, std::string &why) {
           "); take the preload away, or use 'plugin load' with the library built for LAMMPS";
     return nullptr;
   }
-  if (!ends_with(engine, std::string(".so.") + LIGGGHTS_VERSION)) {
+  // A library that one has built oneself may have no version in its name; the plugin then looks at what the engine says.
+  if (engine.find(".so.") != std::string::npos &&
+      !ends_with(engine, std::string(".so.") + LIGGGHTS_VERSION)) {
     why = "built for " + built_for + ", but this process runs " + base_name(engine) +
           "; build drumlin against the installed version";
     return nullptr;
   }
-  const std::string self = real_file_of(reinterpret_cast<const void *>(&load_plugin));
-  const std::string plugin = self.substr(0, self.find_last_of('/') + 1) + "libdrumlin-liggghts.so";
-  void *handle = dlopen(plugin.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (handle == nullptr) {
-    const char *reason = dlerror();
-    why = std::string("cannot load the plugin: ") + (reason ? reason : "unknown reason");
-    return nullptr;
-  }
+  void *handle = open_plugin(why);
+  if (handle == nullptr) return nullptr;
   register_again = reinterpret_cast<RegisterAgain>(dlsym(handle, "drumlin_register_again"));
   return reinterpret_cast<Register>(dlsym(handle, "drumlin_register"));
+}
+
+using Main = int (*)(int, char **, char **);
+
+/// Whether the engine is part of the program itself, which exports its symbols.
+bool is_engine(Main program) {
+  const void *engine = dlsym(RTLD_DEFAULT, liggghts_symbol);
+  Dl_info of_engine{};
+  Dl_info of_program{};
+  return engine != nullptr && dladdr(engine, &of_engine) != 0 &&
+         dladdr(reinterpret_cast<const void *>(program), &of_program) != 0 &&
+         of_engine.dli_fbase == of_program.dli_fbase;
+}
+
+/// The plugin's main program for such an engine.
+int run_engine(int argc, char **argv, char **) {
+  std::string why;
+  void *handle = open_plugin(why);
+  if (handle == nullptr) stop(why);
+  return reinterpret_cast<int (*)(int, char **)>(dlsym(handle, "drumlin_main"))(argc, argv);
 }
 
 /// Line buffering in the engine's processes: its error->one() texts are lost otherwise when output is redirected. Open MPI would put eight
@@ -109,7 +137,7 @@ void drumlin_input_file(void *input) {
   std::string why;
   const Register registration = load_plugin(reinterpret_cast<const void *>(engine_input_file), why);
   if (registration == nullptr) stop(why);
-  registration(input, LIGGGHTS_VERSION);
+  registration(input);
   engine_input_file(input);
   // A signal ends the reading of the deck behind the command of that moment, and the engine would exit with 0.
   const auto *quit = static_cast<const bool *>(dlsym(RTLD_DEFAULT, request_quit_symbol));
@@ -127,6 +155,17 @@ void drumlin_post_create(void *engine) {
     stop("the engine's LAMMPS::post_create() is not in a shared library; it cannot be extended");
   if (register_again != nullptr) register_again(engine);
   engine_post_create(engine);
+}
+
+// What every program calls first, met first by the dynamic linker. All but an engine that exports its symbols go on as they are.
+extern "C" __attribute__((visibility("default"))) int
+drumlin_start(Main program, int argc, char **argv, void (*init)(), void (*fini)(), void (*rtld_fini)(),
+              void *stack_end) __asm__("__libc_start_main");
+
+int drumlin_start(Main program, int argc, char **argv, void (*init)(), void (*fini)(), void (*rtld_fini)(),
+                  void *stack_end) {
+  const auto start = reinterpret_cast<decltype(&drumlin_start)>(dlsym(RTLD_NEXT, "__libc_start_main"));
+  return start(is_engine(program) ? &run_engine : program, argc, argv, init, fini, rtld_fini, stack_end);
 }
 
 // The engine's LAMMPS_NS::SpecialMessages::SpecialMessages(LAMMPS *), met first by the dynamic linker. The engine follows about one error in

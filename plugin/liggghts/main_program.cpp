@@ -1,0 +1,24 @@
+// The engine's main program with the plugin, for an engine that is one program and exports its symbols (-rdynamic): calls within it do not
+// pass the dynamic linker, so that the preloaded library cannot step in between; it runs this instead of the engine's main().
+
+#include "registration.h"
+
+#include "input.h"
+#include "lammps.h"
+#include "signal_handling.h"
+
+#include <csignal>
+
+DRUMLIN_SHOWN int drumlin_main(int argc, char **argv) {
+  namespace SignalHandler = LAMMPS_NS::SignalHandler;
+  std::signal(SIGINT, SignalHandler::int_handler); // a scheduler's SIGTERM is handled the same way
+  std::signal(SIGTERM, SignalHandler::int_handler);
+  std::signal(SIGUSR1, SignalHandler::usr1_handler);
+  MPI_Init(&argc, &argv);
+  auto *engine = new LAMMPS_NS::LAMMPS(argc, argv, MPI_COMM_WORLD);
+  drumlin_register(engine->input);
+  engine->input->file();
+  delete engine;
+  MPI_Finalize();
+  return 0;
+}

@@ -1,0 +1,29 @@
+// For an engine that the plugin is linked into, with the linker's option --wrap for the two functions below: calls of them from other
+// sources of the engine come here.
+
+#include "registration.h"
+
+#define INPUT_FILE "_ZN9LAMMPS_NS5Input4fileEv"
+#define POST_CREATE "_ZN9LAMMPS_NS6LAMMPS11post_createEv"
+
+extern "C" {
+void engine_input_file(void *input) __asm__("__real_" INPUT_FILE);
+void engine_post_create(void *engine) __asm__("__real_" POST_CREATE);
+void drumlin_input_file(void *input) __asm__("__wrap_" INPUT_FILE);
+void drumlin_post_create(void *engine) __asm__("__wrap_" POST_CREATE);
+}
+
+namespace {
+bool is_registered = false;
+}
+
+void drumlin_input_file(void *input) {
+  drumlin_register(input);
+  is_registered = true;
+  engine_input_file(input);
+}
+
+void drumlin_post_create(void *engine) {
+  if (is_registered) drumlin_register_again(engine);
+  engine_post_create(engine);
+}
