@@ -2,6 +2,7 @@
 // pass the dynamic linker, so that the preloaded library cannot step in between; it runs this instead of the engine's main().
 
 #include "registration.h"
+#include "stub.h"
 
 #include "input.h"
 #include "lammps.h"
@@ -18,6 +19,7 @@ DRUMLIN_SHOWN int drumlin_main(int argc, char **argv) {
   auto *engine = new LAMMPS_NS::LAMMPS(argc, argv, MPI_COMM_WORLD);
   drumlin_register(engine->input);
   engine->input->file();
+  if (SignalHandler::request_quit) drumlin::stop("stopped by a signal before the end of the deck");
   delete engine;
   MPI_Finalize();
   return 0;

@@ -2,6 +2,9 @@
 // sources of the engine come here.
 
 #include "registration.h"
+#include "stub.h"
+
+#include "signal_handling.h"
 
 #define INPUT_FILE "_ZN9LAMMPS_NS5Input4fileEv"
 #define POST_CREATE "_ZN9LAMMPS_NS6LAMMPS11post_createEv"
@@ -21,6 +24,7 @@ void drumlin_input_file(void *input) {
   drumlin_register(input);
   is_registered = true;
   engine_input_file(input);
+  if (LAMMPS_NS::SignalHandler::request_quit) drumlin::stop("stopped by a signal before the end of the deck");
 }
 
 void drumlin_post_create(void *engine) {
