@@ -239,6 +239,41 @@ TEST_F(FrontScript, RunsInPlacesOfAllKinds) {
   }
 }
 
+/// Two jobs make a run: the first stops at its time, the second continues; a third has nothing to do.
+TEST_F(FrontScript, JobScriptsContinueUntilTheCyclesAreDone) {
+  const fs::path place = checkout("checkout");
+  for (const auto &file : fs::directory_iterator(root / "inputs/jobs"))
+    fs::copy_file(file, folder / file.path().filename());
+  put("bin/liggghts", "#!/bin/sh\necho \"$@\" >>calls\ncase \"$*\" in\n"
+                      "*'start a/stopped.restart'*) echo 'drumlin/run: 100 %, step 2 of 2' ;;\n"
+                      "*'start none'*) echo 'ERROR: no start'; exit 1 ;;\n"
+                      "*) : >a/stopped.restart; echo 'drumlin/run: stopped at step 1 of 2' ;;\nesac\n");
+  put("bin/sbatch", "#!/bin/sh\necho sbatch \"$@\" >>calls\n");
+  fs::permissions(folder / "bin/sbatch", fs::perms::owner_all);
+  const auto job = [&](const std::string &script, const std::string &start) {
+    return run_program({"env", "PATH=" + (folder / "bin").string() + ":/usr/bin:/bin",
+                        "drumlin=" + (place / "drumlin").string(), "out=a", "start=" + start, "ranks=1",
+                        "limit=7", "SLURM_NTASKS=1", "SLURM_SUBMIT_DIR=" + folder.string(), "bash", script},
+                       {}, folder);
+  };
+  for (const char *script : {"bed.mpirun", "bed.slurm"}) {
+    SCOPED_TRACE(script);
+    const bool slurm = std::string(script) == "bed.slurm";
+    fs::remove_all(folder / "a");
+    fs::remove(folder / "calls");
+    const Outcome failed = job(script, "none");
+    EXPECT_EQ(failed.status, 1);
+    EXPECT_EQ(failed.output, "ERROR: no start\n");
+    EXPECT_EQ(job(script, "b.restart").status, slurm ? 0 : 4);
+    EXPECT_EQ(job(script, "b.restart").status, 0);
+    EXPECT_EQ(job(script, "b.restart").output, "all cycles are done: a\n");
+    const std::string calls = post::read_text(folder / "calls");
+    EXPECT_EQ(std::count(calls.begin(), calls.end(), '\n'), slurm ? 4 : 3) << calls;
+    EXPECT_EQ(calls.find("sbatch bed.slurm\n") != std::string::npos, slurm) << calls;
+    EXPECT_NE(calls.find("-var time_limit 7"), std::string::npos) << calls;
+  }
+}
+
 TEST_F(FrontScript, FindsTheIncludesOfALinkedDeck) {
   const fs::path place = checkout("checkout");
   fs::create_directories(folder / "decks");

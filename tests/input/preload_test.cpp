@@ -32,7 +32,7 @@ void expect_refusal(const Outcome &outcome, const std::vector<std::string> &says
 
 TEST(PreloadedStub, TheFakeEnginesRunWithoutIt) {
   const Scratch scratch;
-  for (const char *program : {FAKE_LAMMPS_PROGRAM, FAKE_LIGGGHTS_PROGRAM}) {
+  for (const char *program : {FAKE_LAMMPS_PROGRAM, FAKE_LIGGGHTS_PROGRAM, FAKE_ONE_PROGRAM}) {
     const Outcome outcome = run_program({program}, {}, scratch.path());
     EXPECT_TRUE(outcome.ok());
     EXPECT_EQ(outcome.output, "the engine runs\n");
@@ -50,6 +50,12 @@ TEST(PreloadedStub, RefusesAnotherLiggghts) {
   expect_refusal(run_program({FAKE_LIGGGHTS_PROGRAM}, preload(plugin_library(), scratch), scratch.path()),
                  {"built for LIGGGHTS 3.8.0", "runs libliggghts.so.3.7.0",
                   "build drumlin against the installed version"});
+}
+
+TEST(PreloadedStub, TakesThePlaceOfAProgramThatExportsTheEngine) {
+  const Scratch scratch;
+  expect_refusal(run_program({FAKE_ONE_PROGRAM}, preload(plugin_library(), scratch), scratch.path()),
+                 {"cannot load the plugin", "undefined symbol"});
 }
 
 TEST(PreloadedStub, SaysWhenThePluginIsNotBesideIt) {
