@@ -32,10 +32,17 @@ foreach(target drumlin drumlin-liggghts drumlin-lammps drumlinplugin drumlin-too
 endforeach()
 install(TARGETS ${targets} RUNTIME DESTINATION ${folder_of_parts} LIBRARY DESTINATION ${folder_of_parts})
 install(DIRECTORY inputs DESTINATION ${folder_of_shares})
-install(FILES README.md CHANGELOG.md DESTINATION ${folder_of_pages})
 install(FILES LICENSE DESTINATION ${folder_of_pages} RENAME copyright)
-install(DIRECTORY plugin/doc DESTINATION ${folder_of_pages}/plugin)
-install(DIRECTORY postprocess/ DESTINATION ${folder_of_shares}/paraview FILES_MATCHING PATTERN "*.py")
+install(FILES README.md ARCHITECTURE.md CHANGELOG.md CITATION.cff DESTINATION ${folder_of_pages})
+# Pages and their pictures, in folders as here, so that links among them hold.
+file(GLOB_RECURSE pages RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
+     inputs/*.md inputs/*.png plugin/doc/* postprocess/*.md postprocess/*.png)
+foreach(page ${pages})
+  cmake_path(GET page PARENT_PATH folder)
+  install(FILES ${page} DESTINATION ${folder_of_pages}/${folder})
+endforeach()
+file(GLOB_RECURSE scripts CONFIGURE_DEPENDS postprocess/*.py)
+install(FILES ${scripts} DESTINATION ${folder_of_shares}/paraview)
 
 # The package of this Debian, by `cpack -G DEB` in the build folder.
 set(CPACK_PACKAGE_CONTACT "drumlin developers <drumlin@localhost>")
