@@ -35,14 +35,11 @@ install(DIRECTORY inputs DESTINATION ${folder_of_shares})
 install(FILES LICENSE DESTINATION ${folder_of_pages} RENAME copyright)
 install(FILES README.md ARCHITECTURE.md CHANGELOG.md CITATION.cff DESTINATION ${folder_of_pages})
 # Pages and their pictures, in folders as here, so that links among them hold.
-file(GLOB_RECURSE pages RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
-     inputs/*.md inputs/*.png plugin/doc/* postprocess/*.md postprocess/*.png)
-foreach(page ${pages})
-  cmake_path(GET page PARENT_PATH folder)
-  install(FILES ${page} DESTINATION ${folder_of_pages}/${folder})
+foreach(folder inputs plugin/doc postprocess)
+  install(DIRECTORY ${folder}/ DESTINATION ${folder_of_pages}/${folder} FILES_MATCHING
+          PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg" PATTERN study EXCLUDE PATTERN jobs EXCLUDE)
 endforeach()
-file(GLOB_RECURSE scripts CONFIGURE_DEPENDS postprocess/*.py)
-install(FILES ${scripts} DESTINATION ${folder_of_shares}/paraview)
+install(DIRECTORY postprocess/ DESTINATION ${folder_of_shares} FILES_MATCHING PATTERN "*.py")
 
 # The package of this Debian, by `cpack -G DEB` in the build folder.
 set(CPACK_PACKAGE_CONTACT "drumlin developers <drumlin@localhost>")
@@ -54,7 +51,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON) # libraries of the release that it is built on
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "gnuplot-nox | gnuplot, openmpi-bin")
-if(DRUMLIN_LIGGGHTS) # whose library the plugin does not name, so that the list above does not have it
+if(DRUMLIN_LIGGGHTS AND NOT LIGGGHTS_SOURCE_DIR) # whose library the plugin does not name, so that the list above does not have it
   string(APPEND CPACK_DEBIAN_PACKAGE_DEPENDS ", liggghts (>= ${LIGGGHTS_VERSION}), liggghts (<< ${LIGGGHTS_VERSION}.1)")
 endif()
 include(CPack)
