@@ -16,6 +16,7 @@
 #include "comm.h"
 #include "input.h"
 #include "neighbor.h"
+#include "universe.h"
 
 #include "engine.h"
 #include "fixes/commands.h"
