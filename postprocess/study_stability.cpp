@@ -5,6 +5,7 @@
 #include "stability_page.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <stdexcept>
 #include <string>
 #include <vector>
