@@ -1,6 +1,6 @@
 #pragma once
 /// Coulomb friction with a tangential spring and dashpot (Cundall and Strack 1979, Geotechnique 29, 47-65),
-/// in the two readings of "limited by mu |Fn|" that the engines use, and without the spring.
+/// in the two readings of "limited by mu |Fn|" that the engines use, with a limit that holds, and without the spring.
 ///
 /// Sign convention: vt is the velocity of ball i's surface relative to ball j's at the contact, its
 /// tangential part; the spring xi is the tangential displacement that vt has built up; the force is the one
@@ -9,17 +9,21 @@
 #include "physics/checks.h"
 #include "physics/vec3.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 namespace drumlin::physics {
 
-/// What mu |Fn| limits.
+/// What friction is limited to, and which part of it.
 /// spring: only the spring's force kt xi. Where it slides the dashpot is dropped; just before that the force
 ///         may exceed mu |Fn| by the dashpot's share. (LIGGGHTS, tangential history.)
 /// total:  spring and dashpot together. Where it slides the spring is reset so that kt xi + ct vt has the
 ///         length mu |Fn|. (LAMMPS, gran/hooke/history.)
-enum class Cap { spring, total };
+/// coulomb: spring and dashpot, in parallel, hang on a slider that gives way at mu max(Fn, 0). The force never
+///         exceeds that, and no step creates energy, at any damping; in tension there is no friction. (The
+///         plugin's `tangential coulomb`.)
+enum class Cap { spring, total, coulomb };
 
 /// Parameters of friction.
 struct Friction {
@@ -56,6 +60,44 @@ struct FrictionStep {
   return sum(sum(relative, -dot(relative, normal), normal), -1.0, cross(turning, normal));
 }
 
+/// friction_step() of Cap::coulomb. With e the direction of the pull, L the limit, xi0 the spring before, projected on
+/// the tangent plane (and not stretched again to its length: what it loses is heat), xi the spring after:
+///   trial    xi* = xi0 + vt dt,  T = kt xi* + ct vt
+///   stick    if |T| <= L:  xi = xi*, pull T
+///   slide    else: pull p = L e, e = T/|T|, and kt xi + ct (xi - xi0)/dt = p
+/// T - p = (kt + ct/dt) (xi* - xi), so the slider's way xi* - xi is along the pull, and the work in the step is
+///   p . vt dt = p . (xi* - xi) + ct |xi - xi0|^2/dt + kt xi . (xi - xi0)
+/// where the first two, heat of slider and dashpot, are >= 0 and the last is the change of kt |xi|^2/2 plus
+/// kt |xi - xi0|^2/2: whatever kt, ct, L and vt, a step stores at most the work that is done in it. For pulls of
+/// 1e-150 to 1e150 N, or none.
+[[nodiscard]] inline FrictionStep coulomb_step(const Friction &friction, double normal_force,
+                                               const Vec3 &normal, const Vec3 &tangential_velocity,
+                                               const Vec3 &spring_before, double dt) {
+  const double kt = friction.stiffness;
+  const double ct = friction.damping;
+  const double limit = friction.coefficient * std::max(0.0, normal_force);
+  const Vec3 &vt = tangential_velocity;
+
+  const double off_plane = dot(spring_before, normal);
+  const Vec3 before = sum(spring_before, -off_plane, normal);
+  Vec3 spring = sum(before, dt, vt);
+  Vec3 pull = sum(scaled(kt, spring), ct, vt);
+  const double length = std::sqrt(dot(pull, pull));
+  const bool sliding = length > limit || limit == 0.0; // no limit, no force, however small
+  double slip_heat = 0.0;
+  if (sliding) {
+    pull = limit == 0.0 ? Vec3{} : scaled(limit / length, pull);
+    const double resistance = kt * dt + ct;
+    const bool moves = dt > 0.0 && resistance > 0.0;
+    spring = moves ? scaled(1.0 / resistance, sum(scaled(ct, before), dt, pull)) : before;
+    slip_heat = moves ? limit * (length - limit) * dt / resistance : 0.0;
+  }
+  const Vec3 stretched = sum(spring, -1.0, before);
+  const double dashpot_heat = dt > 0.0 ? ct * dot(stretched, stretched) / dt : 0.0;
+  const double dissipated = dashpot_heat + slip_heat + 0.5 * kt * off_plane * off_plane;
+  return {scaled(-1.0, pull), spring, dissipated, 0.5 * kt * dot(spring, spring), sliding};
+}
+
 /// One step of friction with history: the spring takes vt dt up, is projected on the present tangent plane
 /// and, where it slides, is reset to the limit.
 ///   trial    xi* = P (xi + vt dt)
@@ -63,8 +105,9 @@ struct FrictionStep {
 ///   slide    Cap::spring  if kt |xi*| > mu |Fn|:         F = -mu |Fn| xi* / |xi*|,       xi = -F / kt
 ///            Cap::total   if |kt xi* + ct vt| > mu |Fn|: F = -mu |Fn| (kt xi* + ct vt) / |kt xi* + ct vt|,
 ///                                                        xi = (-F - ct vt) / kt
-/// normal_force Fn in N, of either sign (its magnitude counts: under transition A a contact also rubs in
-/// tension); normal a unit vector of either sense; tangential_velocity vt in m/s, in the tangent plane;
+///            Cap::coulomb if |kt xi* + ct vt| > mu max(Fn, 0): see coulomb_step()
+/// normal_force Fn in N, of either sign (its magnitude counts but for Cap::coulomb: under transition A a contact
+/// also rubs in tension); normal a unit vector of either sense; tangential_velocity vt in m/s, in the tangent plane;
 /// spring_before xi in m, zero for a new contact; dt in s, >= 0 (0: evaluates the force without moving the
 /// spring).
 /// (One difference to LAMMPS: where the trial spring is exactly zero and the dashpot alone is beyond the
@@ -75,12 +118,14 @@ struct FrictionStep {
 /// `stored` plus `dissipated`, which is the dashpot's heat ct vt^2 dt where it acts, plus kt xi . (xi* - xi)
 /// of the slip, plus what the projection takes from the spring. In steady sliding this is exactly mu |Fn|
 /// |vt| dt, in sticking exactly the dashpot's heat; the step in which one turns into the other is right to
-/// second order in dt. dissipated >= 0 for Cap::spring always, and for Cap::total as long as ct |vt| <= mu
+/// second order in dt. dissipated >= 0 for Cap::coulomb and Cap::spring always, and for Cap::total as long as ct |vt| <= mu
 /// |Fn|. Beyond that Cap::total winds the spring up against the motion, which stores energy that no force has
 /// brought in: the law itself is not passive there, and a negative `dissipated` says so.
 [[nodiscard]] inline FrictionStep friction_step(const Friction &friction, double normal_force,
                                                 const Vec3 &normal, const Vec3 &tangential_velocity,
                                                 const Vec3 &spring_before, double dt) {
+  if (friction.cap == Cap::coulomb)
+    return coulomb_step(friction, normal_force, normal, tangential_velocity, spring_before, dt);
   const double kt = friction.stiffness;
   const double ct = friction.damping;
   const double limit = friction.coefficient * std::fabs(normal_force);

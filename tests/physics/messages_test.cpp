@@ -104,7 +104,7 @@ TEST(Messages, OfAnExcitationLeaveOutWhatIsNotUsed) {
 }
 
 TEST(Messages, OfFriction) {
-  for (const Cap cap : {Cap::spring, Cap::total}) {
+  for (const Cap cap : {Cap::spring, Cap::total, Cap::coulomb}) {
     const Friction friction{1e7, 1e4, 0.5, cap};
     expect_judged(friction, &Friction::stiffness, "tangential stiffness", "N/m", positive);
     expect_judged(friction, &Friction::damping, "tangential damping", "N s/m", not_negative);
