@@ -12,7 +12,7 @@
 
 namespace drumlin {
 
-/// Which of the engine's tangential models acts beside the normal law.
+/// Which kind of friction acts beside the normal law. history: with a tangential spring; what limits it is Friction's cap.
 enum class FrictionModel { none, no_history, history };
 
 /// The contact law in force, as the pair style applies it.

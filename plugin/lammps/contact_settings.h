@@ -14,6 +14,8 @@ constexpr DropInForms drop_in_forms = {"damping coefficient with c in pair_coeff
 /// Keywords up to the end.
 inline ContactSettings read_settings(Arguments &in) {
   ContactSettings settings;
+  bool coulomb = false;
+  std::string cap; // as given
   while (!in.empty()) {
     const std::string keyword = in.word("keyword");
     const std::string what = "keyword " + keyword;
@@ -25,16 +27,24 @@ inline ContactSettings read_settings(Arguments &in) {
                                                                         : physics::Damping::ratio;
     else if (keyword == "stepping")
       settings.stock = in.choice(what, {"second", "stock"}) == 1;
-    else if (keyword == "tangential")
-      settings.tangential = static_cast<FrictionModel>(in.choice(what, {"off", "no_history", "history"}));
-    else if (keyword == "cap")
-      settings.cap = in.choice(what, {"spring", "total"}) == 0 ? physics::Cap::spring : physics::Cap::total;
+    else if (keyword == "tangential") {
+      const int model = in.choice(what, {"off", "no_history", "history", "coulomb"});
+      coulomb = model == 3;
+      settings.tangential = coulomb ? FrictionModel::history : static_cast<FrictionModel>(model);
+    } else if (keyword == "cap")
+      cap = in.choice(what, {"spring", "total"}) == 0 ? "spring" : "total";
     else if (keyword == "NULL" || std::isfinite(parse_number(keyword)))
       in.fail("'" + keyword +
               "' is no keyword; allowed: numbers in pair_coeff, which is I J k damping [mu [kt [ct]]]");
     else
       in.fail(unknown_keyword(keyword, drop_in_forms, "transition, damping, stepping, tangential or cap"));
   }
+  if (coulomb && !cap.empty())
+    in.fail("keyword cap is '" + cap +
+            "'; allowed: no cap with tangential coulomb, which limits spring and dashpot together");
+  settings.cap = coulomb           ? physics::Cap::coulomb
+                 : cap == "spring" ? physics::Cap::spring
+                                   : physics::Cap::total;
   return settings;
 }
 

@@ -101,13 +101,16 @@ public:
   }
 
   FrictionModel friction_model() const override { return friction_model_; }
-  void set_friction_model(FrictionModel acting) { friction_model_ = acting; }
+  void set_friction_model(FrictionModel acting, physics::Cap cap) {
+    friction_model_ = acting;
+    cap_ = cap;
+  }
 
   physics::Friction friction(int itype, int jtype, double c) const override {
     const ContactCoefficients &p = table_->at(itype, jtype);
     TypePairProperty coefficient(lmp, friction_property, atom->ntypes);
     return {p.tangential_stiffness, p.tangential_damping_share * c + p.tangential_damping,
-            coefficient(itype, jtype, true), physics::Cap::spring};
+            coefficient(itype, jtype, true), cap_};
   }
 
   // The engine builds the tangential model before any other that asks for history: its spring comes first.
@@ -125,6 +128,7 @@ private:
   LAMMPS_NS::PairGran *pair_;
   bool meshes_ = false;
   FrictionModel friction_model_ = FrictionModel::none;
+  physics::Cap cap_ = physics::Cap::spring;
 };
 
 std::unique_ptr<PairSource> current_source; // one engine instance per process runs a deck
@@ -164,8 +168,8 @@ void ContactTable::read(LAMMPS *lmp, int ntypes, physics::Transition transition,
     wall_tables.push_back(this);
 }
 
-void set_friction_model(FrictionModel acting) {
-  if (current_source) current_source->set_friction_model(acting);
+void set_friction_model(FrictionModel acting, physics::Cap cap) {
+  if (current_source) current_source->set_friction_model(acting, cap);
 }
 
 void provide_friction_default(LAMMPS *lmp, int ntypes) {

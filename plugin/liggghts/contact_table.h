@@ -54,11 +54,11 @@ private:
   std::size_t stride_ = 0;
 };
 
-/// Tells the pair style's table which tangential model acts beside it.
-void set_friction_model(FrictionModel acting);
+/// Tells the pair style's table which tangential model acts beside it, and what limits one with a spring.
+void set_friction_model(FrictionModel acting, physics::Cap cap);
 
 /// Makes the property coefficientFriction, with 0.5 for all pairs of types, if the deck gives none: the
-/// engine's tangential models insist on one. One that is given is checked, which the engine does not do.
+/// tangential models insist on one. One that is given is checked, which the engine does not do.
 void provide_friction_default(LAMMPS_NS::LAMMPS *lmp, int ntypes);
 
 } // namespace drumlin

@@ -77,15 +77,19 @@ struct PointersAccess : Pointers {
   static LAMMPS *engine_of(Input &input) { return ((Pointers &)input).*(&PointersAccess::lmp); } // NOLINT
 };
 
+/// The tangential model has a spring.
+template <class Style>
+constexpr bool has_spring =
+    Style::TANGENTIAL == TANGENTIAL_HISTORY || Style::TANGENTIAL == TANGENTIAL_COULOMB;
+
 /// A combination of models keeps contact history: its shear spring or rolling torque must vanish with the
 /// contact.
 template <class Style>
-constexpr bool has_history = Style::TANGENTIAL == TANGENTIAL_HISTORY || Style::ROLLING == ROLLING_EPSD2;
+constexpr bool has_history = has_spring<Style> || Style::ROLLING == ROLLING_EPSD2;
 
 template <class Style>
-constexpr drumlin::Companions companions{Style::TANGENTIAL == TANGENTIAL_HISTORY,
-                                         Style::TANGENTIAL != TANGENTIAL_OFF, Style::ROLLING != ROLLING_OFF,
-                                         Style::ROLLING == ROLLING_EPSD2};
+constexpr drumlin::Companions companions{has_spring<Style>, Style::TANGENTIAL != TANGENTIAL_OFF,
+                                         Style::ROLLING != ROLLING_OFF, Style::ROLLING == ROLLING_EPSD2};
 
 /// What a combination of models needs of the engine before it reads its properties.
 template <class Style>
@@ -124,7 +128,7 @@ private:
     entry.normal_stiffness = contact.kn;
     entry.normal_force = contact.Fn;
     if (final_force_offset_ >= 0) entry.final_force = contact.contact_history + final_force_offset_;
-    if (Style::TANGENTIAL == TANGENTIAL_HISTORY) { // its spring is first in the history
+    if (has_spring<Style>) { // which is first in the history
       entry.tangential_stiffness = contact.kt;
       entry.spring = contact.contact_history;
     }
@@ -167,10 +171,12 @@ public:
                  "allowed: once");
     prepare<Style>(engine_);
     Base::init_granular();
-    drumlin::set_friction_model(Style::TANGENTIAL == TANGENTIAL_HISTORY ? drumlin::FrictionModel::history
+    drumlin::set_friction_model(has_spring<Style> ? drumlin::FrictionModel::history
                                 : Style::TANGENTIAL == TANGENTIAL_NO_HISTORY
                                     ? drumlin::FrictionModel::no_history
-                                    : drumlin::FrictionModel::none);
+                                    : drumlin::FrictionModel::none,
+                                Style::TANGENTIAL == TANGENTIAL_COULOMB ? drumlin::physics::Cap::coulomb
+                                                                        : drumlin::physics::Cap::spring);
   }
 
 private:
@@ -225,9 +231,11 @@ void add_rolling_combinations() {
 
 void add_contact_models() {
   Factory::instance().addNormalModel("hooke/transition", HOOKE_TRANSITION);
+  Factory::instance().addTangentialModel("coulomb", TANGENTIAL_COULOMB);
   add_rolling_combinations<TANGENTIAL_OFF>();
   add_rolling_combinations<TANGENTIAL_NO_HISTORY>();
   add_rolling_combinations<TANGENTIAL_HISTORY>();
+  add_rolling_combinations<TANGENTIAL_COULOMB>();
 }
 
 template <class FixStyle>

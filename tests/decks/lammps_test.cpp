@@ -18,6 +18,7 @@
 #include <map>
 #include <ostream>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -154,14 +155,15 @@ TEST_P(InLammpsBounce, GoesAsInLiggghtsOnRanksOneTwoAndFourWithNewtonOffAndOn) {
 
 INSTANTIATE_TEST_SUITE_P(
     Balls, InLammpsBounce,
-    ::testing::Values(Bounce{"B", {}}, Bounce{"A", {{"transition", "A"}}},
-                      Bounce{"stock", {{"stepping", "stock"}}},
-                      Bounce{"without_friction", {{"tangential", "off"}, {"mu", "-1"}}},
-                      Bounce{"without_spring", {{"tangential", "no_history"}}},
-                      Bounce{"region", {{"walls", "block"}}},
-                      Bounce{"region_A", {{"walls", "block"}, {"transition", "A"}}},
-                      Bounce{"heavy_dashpots", // c dt/m near 1: they are solved for together
-                             {{"D", "40"}, {"tangential", "off"}, {"mu", "-1"}}}),
+    ::testing::Values(
+        Bounce{"B", {}}, Bounce{"A", {{"transition", "A"}}}, Bounce{"stock", {{"stepping", "stock"}}},
+        Bounce{"without_friction", {{"tangential", "off"}, {"mu", "-1"}}},
+        Bounce{"without_spring", {{"tangential", "no_history"}}},
+        Bounce{"coulomb", {{"tangential", "coulomb"}}},
+        Bounce{"coulomb_A_stock", {{"tangential", "coulomb"}, {"transition", "A"}, {"stepping", "stock"}}},
+        Bounce{"region", {{"walls", "block"}}}, Bounce{"region_A", {{"walls", "block"}, {"transition", "A"}}},
+        Bounce{"heavy_dashpots", // c dt/m near 1: they are solved for together
+               {{"D", "40"}, {"tangential", "off"}, {"mu", "-1"}}}),
     bounce_name);
 
 // The order of balls in memory decides which of two is the first of a pair: when it changes, the contact's memory turns round.
@@ -191,14 +193,16 @@ TEST_F(InLammps, RefusesAnotherVersionOnRanksOneAndTwo) {
 }
 
 TEST_F(InLammps, GoesOnFromARestartFileBitwiseOnRanksOneAndTwoWithNewtonOffAndOn) {
-  for (const auto &[ranks, newton] : {std::pair{1, "off"}, {2, "off"}, {1, "on"}, {2, "on"}}) {
+  for (const auto &[ranks, newton, tangential] :
+       {std::tuple{1, "off", "coulomb"}, {2, "off", "history"}, {1, "on", "history"}, {2, "on", "coulomb"}}) {
     const Scratch stayed, left;
-    const Outcome whole = run_deck(test_deck("bounce.lammps"), {{"newton", newton}}, stayed.path(), ranks);
+    const Variables law = {{"newton", newton}, {"tangential", tangential}};
+    const Outcome whole = run_deck(test_deck("bounce.lammps"), law, stayed.path(), ranks);
     ASSERT_TRUE(whole.ok()) << whole.output;
     for (const char *file : {"first.restart", "during.6000"}) { // behind a run, and in it
-      const Outcome resumed =
-          run_deck(test_deck("bounce.resume.lammps"),
-                   {{"start", (stayed / file).string()}, {"newton", newton}}, left.path(), ranks);
+      Variables again = law;
+      again.emplace_back("start", (stayed / file).string());
+      const Outcome resumed = run_deck(test_deck("bounce.resume.lammps"), again, left.path(), ranks);
       ASSERT_TRUE(resumed.ok()) << resumed.output;
       const std::string all = read_text(stayed / "balls.txt"), second = read_text(left / "balls.txt");
       const std::size_t begin = all.find("ITEM: TIMESTEP\n7000\n");
@@ -501,6 +505,12 @@ TEST_F(InLammps, SaysWhatIsWrongInOneLineOnRanksOneAndTwo) {
        {coeff, "'0.4' is left over", "tangential"}},
       {"pair_style gran/hooke/transition tangential history\npair_coeff * * 1e5 0.2 nan",
        {coeff, "friction coefficient mu is 'nan'"}},
+      {"pair_style gran/hooke/transition tangential sticky",
+       {pair, "keyword tangential is 'sticky'", "off, no_history, history or coulomb"}},
+      {"pair_style gran/hooke/transition cap spring tangential coulomb",
+       {pair, "keyword cap is 'spring'", "no cap with tangential coulomb"}},
+      {"pair_style gran/hooke/transition tangential coulomb\npair_coeff * * 1e5 0.2 -1",
+       {coeff, "friction coefficient mu is '-1'", "a finite number >= 0"}},
       {good + "fix floor all wall/gran/transition 3 zplane 0 NULL",
        {wall, "type of the wall is '3'", "1 to 2"}},
       {good + "fix floor all wall/gran/transition 2 zcylinder 0 NULL",

@@ -1,0 +1,81 @@
+// Adapter of the core's friction with a limit that holds to LIGGGHTS's contact models: `tangential coulomb`.
+// (LIGGGHTS includes this file several times; the first branch only announces the model.)
+#ifdef TANGENTIAL_MODEL
+TANGENTIAL_MODEL(TANGENTIAL_COULOMB, coulomb, 21)
+#else
+#ifndef DRUMLIN_TANGENTIAL_MODEL_COULOMB_H
+#define DRUMLIN_TANGENTIAL_MODEL_COULOMB_H
+
+#include "contact_models.h"
+#include "global_properties.h"
+#include "tangential_model_base.h"
+#include "update.h"
+
+#include <algorithm>
+
+#include "physics/friction_law.h"
+
+namespace LIGGGHTS {
+namespace ContactModels {
+
+/// Spring and dashpot in parallel, in series with a slider: physics::Cap::coulomb. kt, ct and the normal force come from the
+/// normal model; the spring is three values of the contact history, as in the engine's `history`.
+template <>
+class TangentialModel<TANGENTIAL_COULOMB> : public TangentialModelBase {
+public:
+  TangentialModel(LAMMPS *lmp, IContactHistorySetup *hsetup, ContactModelBase *model)
+      : TangentialModelBase(lmp, hsetup, model), spring_offset_(hsetup->add_history_value("shearx", "1")) {
+    hsetup->add_history_value("sheary", "1");
+    hsetup->add_history_value("shearz", "1");
+  }
+
+  void registerSettings(Settings &) {}
+  void postSettings(IContactHistorySetup *, ContactModelBase *) {}
+
+  void connectToProperties(PropertyRegistry &registry) {
+    registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
+    registry.connect("coeffFrict", friction_, "tangential_model coulomb");
+  }
+
+  inline void surfacesIntersect(const SurfacesIntersectData &sidata, ForceData &i_forces,
+                                ForceData &j_forces) {
+    namespace physics = drumlin::physics;
+    if (sidata.contact_flags) *sidata.contact_flags |= CONTACT_TANGENTIAL_MODEL;
+    double *spring = sidata.contact_history + spring_offset_;
+    const bool moves = sidata.computeflag && sidata.shearupdate; // not in a set-up, nor for computes
+    const physics::Vec3 normal{sidata.en[0], sidata.en[1], sidata.en[2]};
+    const physics::FrictionStep step = physics::friction_step(
+        {sidata.kt, sidata.gammat, friction_[sidata.itype][sidata.jtype], physics::Cap::coulomb}, sidata.Fn,
+        normal, {sidata.vtr1, sidata.vtr2, sidata.vtr3}, {spring[0], spring[1], spring[2]},
+        moves ? update->dt : 0.0);
+    if (moves) std::copy(step.spring.begin(), step.spring.end(), spring);
+    const double share = sidata.is_wall ? sidata.area_ratio : 1.0;
+    const physics::Vec3 force = physics::scaled(share, step.force);
+    const physics::Vec3 moment = physics::cross(normal, force);
+    for (std::size_t a = 0; a < 3; ++a) {
+      i_forces.delta_F[a] += force[a];
+      i_forces.delta_torque[a] -= sidata.cri * moment[a];
+      if (sidata.is_wall) continue;
+      j_forces.delta_F[a] -= force[a];
+      j_forces.delta_torque[a] -= sidata.crj * moment[a];
+    }
+  }
+
+  void surfacesClose(SurfacesCloseData &scdata, ForceData &, ForceData &) {
+    if (scdata.contact_flags) *scdata.contact_flags &= ~CONTACT_TANGENTIAL_MODEL;
+    if (scdata.contact_history != nullptr) std::fill_n(scdata.contact_history + spring_offset_, 3, 0.0);
+  }
+
+  void beginPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
+  void endPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
+
+private:
+  double **friction_ = nullptr; // coefficients by types
+  int spring_offset_;           // in the contact history
+};
+
+} // namespace ContactModels
+} // namespace LIGGGHTS
+
+#endif
+#endif
