@@ -178,8 +178,6 @@ const Throw throws[] = {{"ball", Transition::A},
                         {"mesh", Transition::A},
                         {"mesh", Transition::B},
                         {"ball", Transition::A, physics::Cap::coulomb},
-                        {"plane", Transition::B, physics::Cap::coulomb},
-                        {"mesh", Transition::A, physics::Cap::coulomb},
                         {"mesh", Transition::B, physics::Cap::coulomb}};
 INSTANTIATE_TEST_SUITE_P(Obstacle, Friction, ::testing::ValuesIn(throws), [](const auto &test) {
   return test.param.obstacle + post::transition_name(test.param.transition) +
@@ -241,8 +239,8 @@ TEST_P(SmallMotions, AreOfTheOrderThatIsDocumented) {
 constexpr double kt = 2.0 / 7.0 * k;
 const double ct = 0.5 * 2 * 0.5 * std::sqrt(mass * k);
 const SmallMotion small_motions[] = {
-    {"ShearSpring",
-     {{"models", "tangential history"}, {"integrator", "nve"}, {"ct", "0"}, {"velocity2", "1e-3 0 0"}},
+    {"ShearSpring", // `history` is the same then
+     {{"models", "tangential coulomb"}, {"integrator", "nve"}, {"ct", "0"}, {"velocity2", "1e-3 0 0"}},
      1e-3,
      kt / mass,
      0,
@@ -255,13 +253,6 @@ const SmallMotion small_motions[] = {
      ct / mass,
      false,
      1},
-    {"CoulombSpring",
-     {{"models", "tangential coulomb"}, {"integrator", "nve"}, {"ct", "0"}, {"velocity2", "1e-3 0 0"}},
-     1e-3,
-     kt / mass,
-     0,
-     false,
-     2},
     {"CoulombSpringAndDashpot",
      {{"models", "tangential coulomb"}, {"integrator", "nve"}, {"velocity2", "1e-3 0 0"}},
      1e-3,
@@ -367,7 +358,22 @@ TEST_P(BooksOfASlidingBall, CloseWithDashpotsUnderCoulomb) {
   EXPECT_GT(heat.back(), 0.2 * kinetic.front());
 }
 
-TEST(FrictionRestart, OfCoulombIsBitwiseOnRanksOneAndTwo) {
+// Their order in memory decides which of two balls is the first of a contact: when it changes, the spring turns round.
+TEST(Coulomb, OutlivesAChangeOfTheOrderOfBalls) {
+  std::vector<std::vector<Frame>> frames;
+  for (const char *shuffle : {"0", "50"}) {
+    const Scratch folder;
+    const Outcome outcome =
+        run_deck(test_deck("bounce.in"), {{"tangential", "coulomb"}, {"shuffle", shuffle}}, folder.path());
+    ASSERT_TRUE(outcome.ok()) << outcome.output;
+    frames.push_back(read_dump(folder / "balls.txt"));
+  }
+  for (const auto &[id, ball] : frames[0].back().balls)
+    for (std::size_t a = 0; a < 3; ++a)
+      EXPECT_NEAR(frames[1].back().balls.at(id).x[a], ball.x[a], 1e-9) << "ball " << id;
+}
+
+TEST(Coulomb, ContinuesFromARestartFileBitwiseOnRanksOneAndTwo) {
   for (const int ranks : {1, 2})
     for (const char *stepping : {"second", "stock"}) {
       const Scratch stayed, left;

@@ -202,6 +202,7 @@ TEST_F(InLammps, GoesOnFromARestartFileBitwiseOnRanksOneAndTwoWithNewtonOffAndOn
     for (const char *file : {"first.restart", "during.6000"}) { // behind a run, and in it
       Variables again = law;
       again.emplace_back("start", (stayed / file).string());
+      again.emplace_back("law", std::string(tangential) == "coulomb" ? "restart" : "deck");
       const Outcome resumed = run_deck(test_deck("bounce.resume.lammps"), again, left.path(), ranks);
       ASSERT_TRUE(resumed.ok()) << resumed.output;
       const std::string all = read_text(stayed / "balls.txt"), second = read_text(left / "balls.txt");
