@@ -57,12 +57,12 @@ void LAMMPS_NS::FixStop::end_of_step() {
   steps_ = 0;
   end_runs_if_asked(lmp);
   if (comm->nprocs == 1) return;
-  constexpr double wanted = 0.1; // s between two questions
+  constexpr double wanted = 0.02; // s between two questions
   constexpr int most = 10000;
   const auto now = std::chrono::steady_clock::now();
   double passed = std::chrono::duration<double>(now - asked_).count();
   asked_ = now;
   MPI_Allreduce(MPI_IN_PLACE, &passed, 1, MPI_DOUBLE, MPI_MAX, world);
-  const double steps = interval_ * std::clamp(wanted / std::max(passed, 1e-9), 0.1, 10.0);
+  const double steps = interval_ * std::clamp(wanted / std::max(passed, 1e-9), 0.1, 2.0);
   interval_ = static_cast<int>(std::clamp(steps, 1.0, 1.0 * most));
 }

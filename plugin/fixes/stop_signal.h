@@ -34,8 +34,8 @@ private:
 
 namespace LAMMPS_NS {
 
-/// fix drumlin/stop: made by StopSignal, not by decks. It asks during a run: after every step on one rank, on several about ten times a
-/// second, since all ranks wait for the slowest to answer. (mpirun kills a rank a second after it has told it to stop.)
+/// fix drumlin/stop: made by StopSignal, not by decks. It asks during a run: after every step on one rank, on several about fifty times
+/// a second, since all ranks wait for the slowest to answer. (mpirun kills a rank a second after it has told it to stop.)
 class FixStop : public Fix {
 public:
   FixStop(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) { nevery = 1; }
