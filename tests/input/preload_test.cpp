@@ -118,11 +118,15 @@ TEST(PreloadedStub, LeavesErrorsOneLine) {
     return lines_of(outcome.output);
   };
   const std::string with_plugin = plugin_library() + ":" ALWAYS_JESTS;
+  const bool silent = run_program({"mpirun", "--version"}, {}, scratch.path()).says("(Open MPI) 4.");
   for (const std::vector<std::string> &words : {std::vector<std::string>{"-in", "in.error", "-var"},
                                                 {"-nonsense"},
                                                 {"-in", "nowhere"},
                                                 {"-in", "in.error", "-log", "/nowhere/log"}}) {
     const std::vector<std::string> lines = without_lines_of_mpi(lines_of_error(with_plugin, words));
+    if (silent) {
+      EXPECT_EQ(lines, lines_of_error(with_plugin, words)) << words.back();
+    }
     ASSERT_EQ(lines.size(), 1U) << words.back() << lines.back();
     EXPECT_EQ(lines.front().rfind("ERROR", 0), 0U) << lines.front();
     EXPECT_GT(lines_of_error(ALWAYS_JESTS, words).size(), 1U) << words.back();
