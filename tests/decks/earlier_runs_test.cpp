@@ -106,12 +106,16 @@ TEST(EarlierRuns, OfARunAreItsOwnUntilASignalEndsIt) {
   for (std::thread &one : side_by_side)
     one.join();
   ::unsetenv("OMPI_MCA_odls_base_sigkill_timeout");
+  // Open MPI 5 hands on nothing more of what its ranks write once it has had a signal itself.
+  const bool mpirun_hands_on =
+      run_program({"mpirun", "--version"}, {}, Scratch().path()).says("(Open MPI) 4.");
   for (const Ended &run : runs) {
     EXPECT_EQ(run.second.status, 1) << run.deck;
     EXPECT_TRUE(run.second.says(", into which another run writes; allowed: ")) << run.second.output;
     EXPECT_EQ(errors_in(run.second.output), 1) << run.second.output;
     EXPECT_TRUE(run.first.timed_out) << run.deck;
     EXPECT_EQ(run.first.status, 1) << run.deck;
+    if (run.ranks > 1 && !mpirun_hands_on) continue;
     EXPECT_TRUE(run.first.says("ERROR: drumlin/run: stopped by a signal at step ")) << run.first.output;
     EXPECT_EQ(errors_in(run.first.output), 1) << run.first.output;
   }
