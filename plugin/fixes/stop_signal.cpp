@@ -58,7 +58,7 @@ void LAMMPS_NS::FixStop::end_of_step() {
   end_runs_if_asked(lmp);
   if (comm->nprocs == 1) return;
   constexpr double wanted = 0.02; // s between two questions
-  constexpr int most = 10000;
+  constexpr int most = 200;       // steps: they may suddenly take long, when other work comes to the machine
   const auto now = std::chrono::steady_clock::now();
   double passed = std::chrono::duration<double>(now - asked_).count();
   asked_ = now;

@@ -92,7 +92,7 @@ void run_until_a_signal(Ended &run) {
   runner.join();
 }
 
-TEST(EarlierRuns, OfARunAreItsOwnUntilASignalEndsIt) {
+TEST(EarlierRuns, OfARunAreItsOwnUntilASignalEndsItOnRanksOneAndTwo) {
   std::vector<Ended> runs = {
       {"in.chain", {{"cycles", "1000000"}}, 2, {}, {}},
       {"in.impact", {{"contacts", "1000"}, {"steps_per_contact", "1000000"}}, 1, {}, {}}};
