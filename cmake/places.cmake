@@ -1,5 +1,5 @@
-# Where the parts lie, in the build folder and under the prefix of an installation. The file `places`, beside the program drumlin-tools,
-# says it to that program and to the front script; paths in it count from its own folder, so that either tree can be moved.
+# Installation, and the file `places`, which tells drumlin-tools and the front script where decks, plugin and engines are. It lies beside
+# drumlin-tools, and its paths are relative to its own folder, so that a build folder or an installation can be moved.
 set(folder_of_parts lib/drumlin)
 set(folder_of_shares share/drumlin)
 set(folder_of_pages share/doc/drumlin)

@@ -100,7 +100,9 @@ std::vector<int> coordination(std::size_t balls, const std::vector<BallContact> 
 std::vector<double> ball_pressures(const std::vector<Ball> &balls, const BedContacts &contacts) {
   std::vector<double> pressures(balls.size(), 0.0);
   for (const BallContact &contact : contacts.balls) {
-    const double normal = force_parts(contact).normal; // -f . r is this times the arm, on either side
+    const double normal =
+        force_parts(contact)
+            .normal; // for either ball, -f . r is the normal force times the distance from its centre to the contact point
     for (const std::size_t b : {contact.i, contact.j})
       pressures[b] += normal * (balls[b].radius - 0.5 * contact.overlap);
   }

@@ -72,9 +72,12 @@ struct BedContacts {
 /// Contacts of each ball with other balls.
 std::vector<int> coordination(std::size_t balls, const std::vector<BallContact> &contacts);
 
-/// Pressure in each ball, Pa, compression positive, by the forces f of all its contacts, those with drum and walls included:
-///   p = -1/(d V) sum f . r,    d dimensions, V volume of the ball, r from its centre to the middle of the overlap or to the wall.
-/// It is the mean over the ball's own volume of the pressure inside, exactly if the ball does not spin; pores have no share in it.
+/// Mean pressure inside each ball, Pa, compression positive:
+///   p = -1/(d V) sum_c f_c . r_c
+/// summed over all contacts c of the ball, those with drum and walls included, where f_c (N) is the contact force on the ball, r_c (m) the
+/// vector from its centre to the contact point (the middle of the overlap, or the point on the wall), d the number of dimensions (2 or 3)
+/// and V (m3) the volume of the ball. The mean is exact for a ball that does not spin. It is taken over the ball alone, without the pores
+/// around it, so that it is larger than the pressure of the soil as a continuum (BedFields).
 std::vector<double> ball_pressures(const std::vector<Ball> &balls, const BedContacts &contacts);
 
 /// The force of a contact along its normal, positive in compression, and the magnitude of what remains, N.

@@ -40,8 +40,8 @@ void replace_file(const std::filesystem::path &finished, const std::filesystem::
 /// then taken off again where that is possible.
 void append_text(const std::filesystem::path &file, const std::string &text);
 
-/// A folder PARENT/PREFIX and the number of this process, for results under way. It goes away with this object and all that is left in it;
-/// those of killed processes are cleared away first.
+/// A temporary folder for results that are not finished yet, PARENT/PREFIX followed by the number of this process. The destructor removes it
+/// with all that is still in it. The constructor first removes such folders of processes that were killed.
 class TemporaryFolder {
 public:
   TemporaryFolder(const std::filesystem::path &parent, const std::string &prefix);

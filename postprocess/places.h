@@ -1,5 +1,5 @@
-// Where the decks, the plugin and the engines are. A file says it that lies beside the program: in a build folder, under a prefix or in
-// either when it has been moved. No path is compiled in.
+// Where the decks, the plugin and the engines are. No path is compiled in: the file `places`, beside the program, lists them relative to its
+// own folder, so that a build folder or an installation can be moved.
 #pragma once
 
 #include <filesystem>
@@ -7,17 +7,19 @@
 
 namespace drumlin::post {
 
-/// Lines `NAME=VALUE` of the file `places`; cmake/places.cmake writes it. Paths count from its folder.
+/// The entries of the file `places`, which cmake/places.cmake writes. Relative paths in it are taken from the folder of the file.
 struct Places {
-  std::filesystem::path inputs;          ///< folder of the decks
-  std::filesystem::path liggghts_plugin; ///< the preloaded library; empty if it is not built
-  std::filesystem::path lammps_plugin;   ///< what LAMMPS's `plugin load` takes; empty if it is not built
-  std::string liggghts;                  ///< the engine's program, by its path or by the name that PATH finds
-  std::string lammps;                    ///< the same; empty without LAMMPS
+  std::filesystem::path inputs; ///< folder of the decks
+  std::filesystem::path
+      liggghts_plugin; ///< library for LD_PRELOAD with LIGGGHTS; empty if the plugin was built without LIGGGHTS
+  std::filesystem::path
+      lammps_plugin;    ///< library for `plugin load` of LAMMPS; empty if the plugin was built without LAMMPS
+  std::string liggghts; ///< the program liggghts: its path, or its name if it is found by PATH
+  std::string lammps;   ///< the program lmp, in the same form; empty if the plugin was built without LAMMPS
 };
 
-/// Those of this program: of the file that the environment variable DRUMLIN_PLACES names, else of the one in the program's folder.
-/// std::runtime_error if it cannot be read.
+/// Reads the file that the environment variable DRUMLIN_PLACES names or, without that variable, the one in the folder of this program.
+/// Throws std::runtime_error if the file cannot be read.
 const Places &places();
 
 } // namespace drumlin::post

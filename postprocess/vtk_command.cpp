@@ -93,7 +93,8 @@ StepValues values_of_step(double time, const RunParameters &run, const std::vect
                           const std::optional<BedContacts> &contacts) {
   StepValues values;
   if (run.omega) {
-    const double turns = std::round(1e9 * *run.omega * time / (2.0 * pi)) / 1e9; // a whole cycle is one
+    const double turns = std::round(1e9 * *run.omega * time / (2.0 * pi)) /
+                         1e9; // rounded, so that the end of a cycle does not count as 359.99999 degrees
     values.emplace_back("cycle", std::floor(turns) + 1.0);
     values.emplace_back("phase", 360.0 * (turns - std::floor(turns)));
     if (run.F_drive) values.emplace_back("F_excitation", *run.F_drive * std::sin(2.0 * pi * turns));
@@ -110,8 +111,8 @@ StepValues values_of_step(double time, const RunParameters &run, const std::vect
   return values;
 }
 
-/// How large the values of an array become. One ball that was thrown up does not set the colours of a picture: the quantile is the
-/// largest, over the steps, of that which 99 % of the step's values do not exceed.
+/// Range of an array over all steps. For colour scales there is a quantile besides the largest value, so that a single fast ball does not
+/// set the scale: in each step 99 % of the values do not exceed the step's quantile, and this is the largest of these.
 class Sizes {
 public:
   void add(const std::string &array, std::vector<double> values) {

@@ -38,7 +38,7 @@ bool same_value(const std::string &a, const std::string &b) {
   return std::fabs(x - y) <= rounding * std::fabs(x);
 }
 
-/// Whether a comma-separated list contains a name.
+/// Whether `name` is one of the entries of `list`, which are separated by commas.
 bool is_listed(const std::string &list, const std::string &name) {
   return ("," + list + ",").find("," + name + ",") != std::string::npos;
 }

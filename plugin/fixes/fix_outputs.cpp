@@ -22,7 +22,7 @@ void FixOutputs::end_of_step() {
 }
 
 void FixOutputs::commit() {
-  check_numbered(); // a full disk may have cut the first
+  check_numbered(); // the first dumps may have been cut short by a full disk
   committed_ = true;
   if (set_ != nullptr) set_->commit();
 }

@@ -7,7 +7,7 @@ namespace {
 
 volatile std::sig_atomic_t signals = 0;
 
-/// The first two only count: mpirun follows Ctrl-C, which has reached the ranks as well, with a SIGTERM.
+/// The first two signals are only counted, because Ctrl-C reaches the ranks twice: from the terminal, and as SIGTERM from mpirun.
 void count_signal(int number) {
   signals = signals + 1;
   if (signals < 3) return;
@@ -33,7 +33,7 @@ drumlin::StopSignal::StopSignal(engine::LAMMPS *lmp) : lmp_(lmp) {
   signals = 0;
   struct sigaction counting {};
   counting.sa_handler = count_signal;
-  counting.sa_flags = SA_RESTART; // writes of files under way are not cut
+  counting.sa_flags = SA_RESTART; // a signal does not interrupt a write to a file
   for (const int number : {SIGINT, SIGTERM}) {
     Handler &handler = handlers_.emplace_back();
     handler.number = number;
@@ -57,8 +57,9 @@ void LAMMPS_NS::FixStop::end_of_step() {
   steps_ = 0;
   end_runs_if_asked(lmp);
   if (comm->nprocs == 1) return;
-  constexpr double wanted = 0.02; // s between two questions
-  constexpr int most = 200;       // steps: they may suddenly take long, when other work comes to the machine
+  constexpr double wanted = 0.02; // s between two checks
+  constexpr int most =
+      200; // time steps between two checks; a step may become slow when the machine gets other work
   const auto now = std::chrono::steady_clock::now();
   double passed = std::chrono::duration<double>(now - asked_).count();
   asked_ = now;

@@ -9,8 +9,9 @@
 
 namespace drumlin {
 
-/// While an object lives, a signal does no more than ask for the end of the run, which the engine then ends after a step, on all ranks after
-/// the same one, some tenth of a second later. The third signal ends the process at once. Handlers of before come back with the end of the object. One at a time.
+/// While an object of this class exists, SIGINT and SIGTERM do not end the process: they ask the engine to stop the run, which it does within
+/// about a tenth of a second, on all ranks after the same time step. The third signal ends the process at once. The destructor restores the
+/// earlier signal handlers. There may be only one object at a time.
 class StopSignal {
 public:
   explicit StopSignal(engine::LAMMPS *lmp);
@@ -34,8 +35,9 @@ private:
 
 namespace LAMMPS_NS {
 
-/// fix drumlin/stop: made by StopSignal, not by decks. It asks during a run: after every step on one rank, on several about fifty times
-/// a second, since all ranks wait for the slowest to answer. (mpirun kills a rank a second after it has told it to stop.)
+/// fix drumlin/stop, which StopSignal adds to the run; decks do not use it. On one rank it checks for a signal after every time step. On
+/// several ranks each check is a collective call that costs all of them time, so it checks about fifty times a second. That is often enough:
+/// mpirun kills a rank one second after it has sent it SIGTERM.
 class FixStop : public Fix {
 public:
   FixStop(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) { nevery = 1; }
@@ -45,8 +47,8 @@ public:
   static constexpr const char *style_name = "drumlin/stop";
 
 private:
-  int interval_ = 1; ///< steps from one question to the next, the same on all ranks
-  int steps_ = 0;    ///< since the last
+  int interval_ = 1; ///< time steps between two checks, the same on all ranks
+  int steps_ = 0;    ///< time steps since the last check
   std::chrono::steady_clock::time_point asked_ = std::chrono::steady_clock::now();
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// Where releases of LAMMPS differ, from 29 Sep 2021 on. What a release has is read in its headers by plugin/lammps/CMakeLists.txt, which
-// defines DRUMLIN_LAMMPS_... as 1 or 0.
+// Functions whose names or parameters differ between releases of LAMMPS, from 29 Sep 2021 on. plugin/lammps/CMakeLists.txt looks into the
+// headers of the release that the plugin is built for, and defines each DRUMLIN_LAMMPS_... as 1 if the release has the feature, else as 0.
 
 #include "comm.h"
 #include "domain.h"

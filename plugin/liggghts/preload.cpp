@@ -50,7 +50,7 @@ using RegisterAgain = void (*)(void *engine);
 
 RegisterAgain register_again = nullptr; // once the plugin is loaded
 
-/// The plugin's library, or nullptr with the reason in `why`.
+/// Loads the plugin's library and returns its handle. On failure it returns nullptr and sets `why` to the reason.
 void *open_plugin(std::string &why) {
   const std::string self = real_file_of(reinterpret_cast<const void *>(&open_plugin));
   const std::string plugin = self.substr(0, self.find_last_of('/') + 1) + "libdrumlin-liggghts.so";
@@ -71,7 +71,7 @@ Register load_plugin(const void *engine_input_file, std::string &why) {
           "); take the preload away, or use 'plugin load' with the library built for LAMMPS";
     return nullptr;
   }
-  // A library that one has built oneself may have no version in its name; the plugin then looks at what the engine says.
+  // The file name of a library that users have built themselves may have no version; the plugin then asks the engine for it.
   if (engine.find(".so.") != std::string::npos &&
       !ends_with(engine, std::string(".so.") + LIGGGHTS_VERSION)) {
     why = "built for " + built_for + ", but this process runs " + base_name(engine) +
@@ -112,7 +112,7 @@ __attribute__((constructor)) void keep_error_texts() {
   ::setenv("OMPI_MCA_orte_execute_quiet", "1", 0); // NOLINT(concurrency-mt-unsafe): before main()
 }
 
-/// An engine of which its SpecialMessages read no more than the version of its `universe`.
+/// A stand-in for the engine, with the only thing that SpecialMessages reads of it: the version in its `universe`.
 LAMMPS_NS::LAMMPS *without_version() {
   alignas(LAMMPS_NS::Universe) static char universe[sizeof(LAMMPS_NS::Universe)] = {};
   alignas(LAMMPS_NS::LAMMPS) static char engine[sizeof(LAMMPS_NS::LAMMPS)] = {};
@@ -139,7 +139,7 @@ void drumlin_input_file(void *input) {
   if (registration == nullptr) stop(why);
   registration(input);
   engine_input_file(input);
-  // A signal ends the reading of the deck behind the command of that moment, and the engine would exit with 0.
+  // After a signal the engine finishes the present command, ignores the rest of the deck and exits with status 0. That must be an error.
   const auto *quit = static_cast<const bool *>(dlsym(RTLD_DEFAULT, request_quit_symbol));
   if (quit != nullptr && *quit) stop("stopped by a signal before the end of the deck");
 }
@@ -157,7 +157,8 @@ void drumlin_post_create(void *engine) {
   engine_post_create(engine);
 }
 
-// What every program calls first, met first by the dynamic linker. All but an engine that exports its symbols go on as they are.
+// Every program starts by calling this function of the C library, and the dynamic linker finds ours first. Programs other than an engine
+// that exports its symbols run on unchanged.
 extern "C" __attribute__((visibility("default"))) int
 drumlin_start(Main program, int argc, char **argv, void (*init)(), void (*fini)(), void (*rtld_fini)(),
               void *stack_end) __asm__("__libc_start_main");
@@ -178,7 +179,7 @@ drumlin_special_messages(void *messages,
 void drumlin_special_messages(void *messages, void *engine) {
   using Construct = void (*)(void *, void *);
   static const auto engine_construct = reinterpret_cast<Construct>(dlsym(RTLD_NEXT, special_messages_symbol));
-  if (engine_construct == nullptr) return; // nobody else has it, so nobody has called this
+  if (engine_construct == nullptr) return; // only the engine has this function, so nothing has called it
   const bool known = ends_with(real_file_of(reinterpret_cast<const void *>(engine_construct)),
                                std::string(".so.") + LIGGGHTS_VERSION);
   engine_construct(messages, known ? without_version() : engine);

@@ -20,7 +20,7 @@ namespace drumlin::physics {
 ///         may exceed mu |Fn| by the dashpot's share. (LIGGGHTS, tangential history.)
 /// total:  spring and dashpot together. Where it slides the spring is reset so that kt xi + ct vt has the
 ///         length mu |Fn|. (LAMMPS, gran/hooke/history.)
-/// coulomb: spring and dashpot, in parallel, hang on a slider that gives way at mu max(Fn, 0). The force never
+/// coulomb: spring and dashpot in parallel, in series with a slider that slips at mu max(Fn, 0). The force never
 ///         exceeds that, and no step creates energy, at any damping; in tension there is no friction. (The
 ///         plugin's `tangential coulomb`.)
 enum class Cap { spring, total, coulomb };
@@ -65,7 +65,7 @@ struct FrictionStep {
 ///   trial    xi* = xi0 + vt dt,  T = kt xi* + ct vt
 ///   stick    if |T| <= L:  xi = xi*, pull T
 ///   slide    else: pull p = L e, e = T/|T|, and kt xi + ct (xi - xi0)/dt = p
-/// T - p = (kt + ct/dt) (xi* - xi), so the slider's way xi* - xi is along the pull, and the work in the step is
+/// T - p = (kt + ct/dt) (xi* - xi), so the slider's displacement xi* - xi is along the pull, and the work in the step is
 ///   p . vt dt = p . (xi* - xi) + ct |xi - xi0|^2/dt + kt xi . (xi - xi0)
 /// where the first two, heat of slider and dashpot, are >= 0 and the last is the change of kt |xi|^2/2 plus
 /// kt |xi - xi0|^2/2: whatever kt, ct, L and vt, a step stores at most the work that is done in it. For pulls of
@@ -83,7 +83,8 @@ struct FrictionStep {
   Vec3 spring = sum(before, dt, vt);
   Vec3 pull = sum(scaled(kt, spring), ct, vt);
   const double length = std::sqrt(dot(pull, pull));
-  const bool sliding = length > limit || limit == 0.0; // no limit, no force, however small
+  const bool sliding =
+      length > limit || limit == 0.0; // without a normal force there is no friction, not even of a zero pull
   double slip_heat = 0.0;
   if (sliding) {
     pull = limit == 0.0 ? Vec3{} : scaled(limit / length, pull);

@@ -100,16 +100,18 @@ protected:
     return run(bed_folder() / "in.bed", folder, more, ranks);
   }
 
-  /// Names that a shell or a glob would read as something else; dumps of another run stay, those of an earlier run into the same folder go.
+  /// Output folders whose names a shell would interpret or expand, such as `B[1]` and `x$(touch pwned)`: a run removes the dumps of an earlier
+  /// run in the same folder, and leaves those of other runs.
   static void expect_dumps_into_folders_of_any_name(const char *deck, const Variables &more) {
     const Scratch folder;
     const auto shaken = [&](const std::string &out, const char *dumps) {
-      Variables variables = {{"cycles", "1"},
-                             {"omega", "3141.6"}, // few steps, no longer than usual
-                             {"steps_per_cycle", "100"},
-                             {"samples_per_cycle", "10"},
-                             {"dumps_per_cycle", dumps},
-                             {"out", (folder / out).string()}};
+      Variables variables = {
+          {"cycles", "1"},
+          {"omega", "3141.6"}, // a high frequency: a cycle of few steps of the usual length
+          {"steps_per_cycle", "100"},
+          {"samples_per_cycle", "10"},
+          {"dumps_per_cycle", dumps},
+          {"out", (folder / out).string()}};
       variables.insert(variables.end(), more.begin(), more.end());
       return run(bed_folder() / deck, folder, variables);
     };

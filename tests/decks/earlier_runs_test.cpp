@@ -97,8 +97,9 @@ TEST(EarlierRuns, OfARunAreItsOwnUntilASignalEndsItOnRanksOneAndTwo) {
       {"in.chain", {{"cycles", "1000000"}}, 2, {}, {}},
       {"in.impact", {{"contacts", "1000"}, {"steps_per_contact", "1000000"}}, 1, {}, {}}};
   if (post::has_lammps()) runs.push_back({"in.chain.lammps", {{"cycles", "1000000"}}, 1, {}, {}});
-  ::setenv("OMPI_MCA_odls_base_sigkill_timeout", "2",
-           1); // s that mpirun leaves its ranks, on a loaded machine
+  ::setenv(
+      "OMPI_MCA_odls_base_sigkill_timeout", "2",
+      1); // s from SIGTERM to SIGKILL for the ranks: one, the default, can be too short on a busy machine
   std::vector<std::thread> side_by_side;
   side_by_side.reserve(runs.size());
   for (Ended &run : runs)
@@ -106,7 +107,7 @@ TEST(EarlierRuns, OfARunAreItsOwnUntilASignalEndsItOnRanksOneAndTwo) {
   for (std::thread &one : side_by_side)
     one.join();
   ::unsetenv("OMPI_MCA_odls_base_sigkill_timeout");
-  // Open MPI 5 hands on nothing more of what its ranks write once it has had a signal itself.
+  // When mpirun of Open MPI 5 has received a signal, it no longer prints what its ranks write.
   const bool mpirun_hands_on =
       run_program({"mpirun", "--version"}, {}, Scratch().path()).says("(Open MPI) 4.");
   for (const Ended &run : runs) {

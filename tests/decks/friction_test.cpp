@@ -302,7 +302,8 @@ class BooksOfASlidingBall : public BothEngines {};
 /// spring up, a quarter of an oscillation at most, slides at mu N until it stops, and swings on the spring for good.
 TEST_P(BooksOfASlidingBall, TellHeatOfFrictionFromTheEnergyOfItsSpring) {
   const std::string stepping = std::get<1>(GetParam());
-  const Scratch folder; // at D = 0 the two laws with a spring are one: one for each stepping
+  const Scratch
+      folder; // at D = 0 `history` and `coulomb` are the same law, so each stepping is tested with one of them
   const Outcome outcome =
       run("slide", folder, {{"tangential", stepping == "second" ? "coulomb" : "history"}});
   ASSERT_TRUE(outcome.ok()) << outcome.output;
@@ -340,7 +341,8 @@ TEST_P(BooksOfASlidingBall, TellHeatOfFrictionFromTheEnergyOfItsSpring) {
 
 INSTANTIATE_TEST_SUITE_P(Decks, BooksOfASlidingBall, engines_and_steppings(), engine_and_stepping);
 
-/// With dashpots there is no closed form, but an account: what the ball loses is heat, and heat never turns back.
+/// With dashpots there is no closed form, but energy is conserved: the mechanical energy that the ball loses is the dissipated energy, which
+/// never decreases.
 TEST_P(BooksOfASlidingBall, CloseWithDashpotsUnderCoulomb) {
   const Scratch folder;
   const Outcome outcome = run("slide", folder, {{"tangential", "coulomb"}, {"D", "0.5"}, {"every", "10"}});

@@ -1,4 +1,5 @@
-// Runs a deck, or, with the name of a library, loads that as `plugin load` does.
+// The program of the fake engines. Without arguments it calls Input::file() as an engine does to read its deck; given the file name of a
+// library, it first loads that library as the command `plugin load` of LAMMPS does.
 #include <cstdio>
 #include <dlfcn.h>
 

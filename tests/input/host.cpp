@@ -1,7 +1,6 @@
 #include "host.h"
 
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 namespace drumlin::test {
@@ -56,14 +55,6 @@ Outcome run_host(const std::string &pair, const std::string &lines, const fs::pa
   write_text(folder / "pair", pair + "\n"); // the engine ignores a last line without its end
   write_text(folder / "lines", lines + "\n");
   return run_engine(fs::path(DRUMLIN_SOURCE_DIR) / "tests/input/in.host", {}, folder, ranks);
-}
-
-std::vector<std::string> lines_of(const std::string &text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);)
-    lines.push_back(line);
-  return lines;
 }
 
 void write_text(const fs::path &file, const std::string &text) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "decks/engine.h"
+#include "support/lines.h"
 
 #include <string>
 #include <vector>
@@ -28,7 +29,6 @@ Outcome run_host(const std::string &pair, const std::string &lines, const std::f
 /// to `folder`.
 std::vector<std::string> mpi_environment(const std::filesystem::path &folder);
 
-std::vector<std::string> lines_of(const std::string &text);
 void write_text(const std::filesystem::path &file, const std::string &text);
 
 } // namespace drumlin::test

@@ -103,8 +103,8 @@ std::vector<std::string> without_lines_of_mpi(const std::vector<std::string> &li
   return others;
 }
 
-// Neither a jest of the engine's nor what Open MPI 4 has to say on errors of one rank. (Open MPI 5 cannot be silenced: what it writes to
-// standard error between lines of dashes is left out here.)
+// An error is one line: neither the joke or tip that LIGGGHTS adds at random nor the text of MPI_Abort follows it. (The text of Open MPI 5 cannot be
+// switched off; it stands between two lines of dashes and is left out here.)
 TEST(PreloadedStub, LeavesErrorsOneLine) {
   const Scratch scratch;
   write_text(scratch / "in.error", "units nowhere\n");
@@ -131,7 +131,8 @@ TEST(PreloadedStub, LeavesErrorsOneLine) {
     EXPECT_EQ(lines.front().rfind("ERROR", 0), 0U) << lines.front();
     EXPECT_GT(lines_of_error(ALWAYS_JESTS, words).size(), 1U) << words.back();
   }
-  EXPECT_EQ(lines_of_error(with_plugin, {"-in", "in.error"}).size(), 3U); // with two that greet
+  EXPECT_EQ(lines_of_error(with_plugin, {"-in", "in.error"}).size(),
+            3U); // the first two lines name engine and plugin
 }
 
 TEST(PreloadedStub, WithoutItTheEngineDoesNotKnowTheCommands) {

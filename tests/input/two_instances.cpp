@@ -20,7 +20,7 @@ int main(int narg, char **arg) {
     for (std::size_t n = 0; n < words.size(); ++n)
       pointers.at(n) = words.at(n).data();
     void *instance = open(12, pointers.data(), nullptr);
-    file(instance, arg[3]); // ends the process at an error, or, since 2024, comes back
+    file(instance, arg[3]); // at an error LAMMPS ends the process; since 2024 it returns instead
     if (failed(instance) != 0) std::exit(1);
     return instance;
   };

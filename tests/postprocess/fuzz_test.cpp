@@ -7,6 +7,7 @@
 #include "engine_run.h"
 #include "run_folders.h"
 #include "spoil.h"
+#include "support/lines.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -16,7 +17,6 @@
 #include <filesystem>
 #include <fstream>
 #include <ostream>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -150,14 +150,6 @@ protected:
 
   fs::path folder;
 };
-
-std::vector<std::string> lines_of(const std::string &text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);)
-    lines.push_back(line);
-  return lines;
-}
 
 /// What is wrong with how a command ended; empty if nothing.
 std::string fault_of(const Outcome &outcome, const fs::path &place) {

@@ -1,21 +1,13 @@
 #include "spoil.h"
+#include "support/lines.h"
 
 #include <algorithm>
 #include <functional>
-#include <sstream>
 #include <utility>
 #include <vector>
 
 namespace drumlin::test {
 namespace {
-
-std::vector<std::string> lines_of(const std::string &text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);)
-    lines.push_back(line);
-  return lines;
-}
 
 std::string joined(const std::vector<std::string> &lines) {
   std::string text;

@@ -201,7 +201,7 @@ TEST_F(VtkCommand, TellsThePhaseAndTheForcesOnTheDrum) {
   EXPECT_EQ(value("F_contact"), 400.0);
 }
 
-// For the colours of a picture: the soil's faster ball, 6 m/s, does not count, and the drum never does.
+// The colour scale of a picture: the 99 % quantile leaves out the single fast soil ball of 6 m/s, and the drum is not part of it at all.
 TEST_F(VtkCommand, TellsHowLargeValuesBecome) {
   put("run/parameters.csv", "name,value\ntimestep,0.125\nomega,0.31415926535897931\n");
   ASSERT_TRUE(run({"run"}).ok());
