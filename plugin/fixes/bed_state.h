@@ -1,7 +1,7 @@
 #pragma once
 // State of a bed of soil balls at one instant: energies and their losses, contacts, walls, void ratio.
 
-#include "fixes/contact_ledger.h"
+#include "contact/contact_ledger.h"
 
 #include <array>
 #include <vector>

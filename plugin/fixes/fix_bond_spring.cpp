@@ -1,8 +1,8 @@
 #include "fixes/fix_bond_spring.h"
 
-#include "fixes/arguments.h"
-#include "fixes/fix_stepping.h"
-#include "fixes/restart_record.h"
+#include "support/arguments.h"
+#include "contact/fix_stepping.h"
+#include "support/restart_record.h"
 
 #include "physics/stepping.h"
 

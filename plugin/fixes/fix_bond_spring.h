@@ -2,7 +2,7 @@
 // fix bond/spring: a bonded spring-dashpot between two balls. See plugin/doc/fix_bond_spring.md.
 
 #include "engine.h"
-#include "fixes/contact_watch.h"
+#include "contact/contact_watch.h"
 #include "physics/bond_law.h"
 
 #include <optional>

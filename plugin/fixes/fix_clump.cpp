@@ -1,6 +1,6 @@
 #include "fixes/fix_clump.h"
 
-#include "fixes/arguments.h"
+#include "support/arguments.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 #include "fixes/fix_contact_events.h"
 
-#include "fixes/arguments.h"
-#include "fixes/pair_motion.h"
-#include "fixes/restart_record.h"
+#include "support/arguments.h"
+#include "contact/pair_motion.h"
+#include "support/restart_record.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -3,9 +3,9 @@
 // plugin/doc/fix_contact_events.md.
 
 #include "engine.h"
-#include "fixes/clock.h"
-#include "fixes/contact_source.h"
-#include "fixes/output_file.h"
+#include "support/clock.h"
+#include "contact/contact_source.h"
+#include "support/output_file.h"
 #include "physics/event_location.h"
 
 #include <map>

@@ -1,7 +1,7 @@
 #include "fixes/fix_contact_local.h"
 
-#include "fixes/arguments.h"
-#include "fixes/contact_source.h"
+#include "support/arguments.h"
+#include "contact/contact_source.h"
 
 using namespace LAMMPS_NS;
 namespace engine = drumlin::engine;

@@ -2,7 +2,7 @@
 // fix contact/local: the contacts of a step, walls' included, for dump local. See plugin/doc/fix_contact_local.md.
 
 #include "engine.h"
-#include "fixes/contact_ledger.h"
+#include "contact/contact_ledger.h"
 
 #include <optional>
 

@@ -2,7 +2,7 @@
 // fix drum/excite: the excitation force of the vibratory drum. See plugin/doc/fix_drum_excite.md.
 
 #include "engine.h"
-#include "fixes/clock.h"
+#include "support/clock.h"
 #include "physics/excitation.h"
 
 #include <optional>

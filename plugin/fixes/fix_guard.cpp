@@ -1,6 +1,6 @@
 #include "fixes/fix_guard.h"
 
-#include "fixes/arguments.h"
+#include "support/arguments.h"
 
 #include <algorithm>
 #include <climits>

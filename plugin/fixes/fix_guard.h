@@ -2,7 +2,7 @@
 // fix guard: stops a run whose numbers have gone bad or soon will. See plugin/doc/fix_guard.md.
 
 #include "engine.h"
-#include "fixes/contact_watch.h"
+#include "contact/contact_watch.h"
 
 #include <limits>
 #include <string>

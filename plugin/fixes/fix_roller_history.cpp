@@ -1,9 +1,9 @@
 #include "fixes/fix_roller_history.h"
 
-#include "fixes/arguments.h"
+#include "support/arguments.h"
 #include "fixes/fix_bond_spring.h"
 #include "fixes/fix_drum_excite.h"
-#include "fixes/restart_record.h"
+#include "support/restart_record.h"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -4,10 +4,10 @@
 
 #include "engine.h"
 #include "fixes/bed_state.h"
-#include "fixes/clock.h"
-#include "fixes/contact_source.h"
-#include "fixes/output_file.h"
-#include "fixes/pair_motion.h"
+#include "support/clock.h"
+#include "contact/contact_source.h"
+#include "support/output_file.h"
+#include "contact/pair_motion.h"
 
 #include <optional>
 

@@ -1,8 +1,8 @@
 #pragma once
 // Words of pair_style gran/hooke/transition and pair_coeff, checked.
 
-#include "fixes/arguments.h"
-#include "fixes/drop_in_words.h"
+#include "support/arguments.h"
+#include "support/replaced_keywords.h"
 #include "lammps/contact_terms.h"
 
 namespace drumlin {

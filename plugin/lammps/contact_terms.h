@@ -2,9 +2,9 @@
 // One contact of two balls, or of a ball and a wall: what pair_style gran/hooke/transition and fix wall/gran/transition have in
 // common. The laws are the core's; the choice among them is made at compile time.
 
-#include "fixes/contact_ledger.h"
-#include "fixes/contact_source.h"
-#include "fixes/stepped_contact.h"
+#include "contact/contact_ledger.h"
+#include "contact/contact_source.h"
+#include "contact/stepped_contact.h"
 #include "physics/contact_law.h"
 #include "physics/friction_law.h"
 

@@ -121,4 +121,4 @@ double inertia_share(const LAMMPS *lmp);
 
 } // namespace drumlin::engine
 
-#include "fixes/both_engines.h"
+#include "support/engine_functions.h"

@@ -1,6 +1,6 @@
 #include "lammps/fix_wall_gran_transition.h"
 
-#include "fixes/arguments.h"
+#include "support/arguments.h"
 #include "lammps/pair_gran_hooke_transition.h"
 
 #include <algorithm>

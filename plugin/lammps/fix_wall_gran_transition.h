@@ -2,7 +2,7 @@
 // fix wall/gran/transition: see plugin/doc/fix_wall_gran_transition.md.
 
 #include "engine.h"
-#include "fixes/arguments.h"
+#include "support/arguments.h"
 #include "lammps/contact_terms.h"
 
 namespace LAMMPS_NS {

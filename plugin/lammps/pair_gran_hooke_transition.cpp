@@ -1,9 +1,9 @@
 #include "lammps/pair_gran_hooke_transition.h"
 
 #include "fix_dummy.h"
-#include "fixes/arguments.h"
+#include "support/arguments.h"
 #include "fixes/fix_clump.h"
-#include "fixes/pair_motion.h"
+#include "contact/pair_motion.h"
 #include "lammps/contact_settings.h"
 #include "lammps/fix_neigh_history_transition.h"
 #include "lammps/fix_wall_gran_transition.h"

@@ -2,7 +2,7 @@
 // pair_style gran/hooke/transition: see plugin/doc/pair_gran_hooke_transition.md.
 
 #include "engine.h"
-#include "fixes/contact_source.h"
+#include "contact/contact_source.h"
 #include "lammps/contact_terms.h"
 
 #include <algorithm>

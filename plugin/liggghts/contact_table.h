@@ -1,7 +1,7 @@
 #pragma once
 // Coefficients of the contact law for each pair of types, read from the deck's `fix property/global` values.
 
-#include "fixes/contact_source.h"
+#include "contact/contact_source.h"
 #include "lammps.h"
 #include "physics/contact_law.h"
 

@@ -113,4 +113,4 @@ inline double inertia_share(const LAMMPS *lmp) { return lmp->domain->dimension =
 
 } // namespace drumlin::engine
 
-#include "fixes/both_engines.h"
+#include "support/engine_functions.h"

@@ -1,7 +1,7 @@
 // The engine's main program with the plugin, for an engine that is one program and exports its symbols (-rdynamic): calls within it do not
 // pass the dynamic linker, so that the preloaded library cannot step in between; it runs this instead of the engine's main().
 
-#include "registration.h"
+#include "liggghts/registration.h"
 #include "stub.h"
 
 #include "input.h"

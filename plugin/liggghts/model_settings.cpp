@@ -1,7 +1,7 @@
 #include "liggghts/model_settings.h"
 
-#include "fixes/arguments.h"
-#include "fixes/drop_in_words.h"
+#include "support/arguments.h"
+#include "support/replaced_keywords.h"
 
 namespace drumlin {
 namespace {

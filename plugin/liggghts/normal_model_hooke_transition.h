@@ -20,10 +20,10 @@ NORMAL_MODEL(HOOKE_TRANSITION, hooke / transition, 21)
 #include <cmath>
 #include <limits>
 
-#include "fixes/contact_source.h"
+#include "contact/contact_source.h"
 #include "fixes/fix_clump.h"
-#include "fixes/fix_stepping.h"
-#include "fixes/stepped_contact.h"
+#include "contact/fix_stepping.h"
+#include "contact/stepped_contact.h"
 #include "liggghts/contact_table.h"
 #include "physics/contact_law.h"
 #include "physics/stepping.h"

@@ -1,7 +1,7 @@
 // For an engine that the plugin is linked into, with the linker's option --wrap for the two functions below: calls of them from other
 // sources of the engine come here.
 
-#include "registration.h"
+#include "liggghts/registration.h"
 #include "stub.h"
 
 #include "signal_handling.h"

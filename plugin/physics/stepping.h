@@ -69,7 +69,7 @@ struct StepForce {
 
 /// Whether a contact's dashpot must be solved for together with the others of its balls: see CoupledDashpot.
 ///
-/// Each on its own costs less, lags by nothing, and is stable up to 0.7 of the limit of the springs (tests/physics/time_step_test.cpp)
+/// Each on its own costs less, lags by nothing, and is stable up to 0.7 of the limit of the springs (tests/plugin/physics/time_step_test.cpp)
 /// as long as dt sum c/m <= 0.25, or <= 0.75 and dt^2 sum k/m <= 0.5, the springs far from their limit. sum k/m is taken as k/c sum c/m, as
 /// where contacts are alike. A contact without a dashpot has nothing to be solved for.
 /// \param all_c_over_m sum of c/m over all contacts of both balls, 1/s

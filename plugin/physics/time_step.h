@@ -75,7 +75,7 @@ struct LinkModes {
 /// where balls roll and by up to 15 % for a free pair of unlike masses.
 ///
 /// Second-order stepping solves for the normal dashpots (normal_dashpot = 0): the springs alone limit it. That no damping
-/// shortens the step then is not proved for a packing; tests/physics/time_step_test.cpp searches for a counterexample.
+/// shortens the step then is not proved for a packing; tests/plugin/physics/time_step_test.cpp searches for a counterexample.
 class LoadedBall {
 public:
   void add(const LinkModes &link) {

@@ -1,6 +1,5 @@
-/// The boundaries of the project, read from its sources: the physics core knows the standard library only,
-/// the oracles know nothing of the plugin, the fixes know an engine only through engine.h, and every source
-/// is named in a CMakeLists.txt.
+/// The boundaries of the project, read from its sources: the include rule of ARCHITECTURE.md, and that every source is named in a
+/// CMakeLists.txt.
 
 #include <gtest/gtest.h>
 
@@ -10,6 +9,7 @@
 #include <functional>
 #include <initializer_list>
 #include <iterator>
+#include <map>
 #include <regex>
 #include <set>
 #include <string>
@@ -127,31 +127,44 @@ bool fits_physics(const Include &include) {
                                   include.name.find("..") == std::string::npos);
 }
 
-/// Engine headers come through engine.h alone; libraries that are no engine's are named here.
-bool fits_fixes(const Include &include) {
-  if (include.name.find("..") != std::string::npos) return false;
-  if (include.quoted)
-    return include.name == "engine.h" || starts_with(include.name, "physics/") ||
-           starts_with(include.name, "fixes/");
+/// How high a room stands: it may include rooms below it, and itself.
+using Heights = std::map<std::string, int>;
+const Heights plugin_rooms{{"physics", 0},  {"support", 1},  {"contact", 2}, {"fixes", 3},
+                           {"commands", 3}, {"liggghts", 4}, {"lammps", 4}};
+const Heights postprocess_rooms{{"support", 0}, {"chain", 1},   {"bed", 1},    {"engine", 1},
+                                {"record", 1},  {"pages", 1},   {"roller", 2}, {"report", 3},
+                                {"studies", 3}, {"commands", 4}};
+
+/// Whether a file of `room` may include a header by its path from the top of the rooms, "ROOM/...".
+bool fits_room(const std::string &room, const std::string &header, const Heights &rooms) {
+  const auto other = rooms.find(header.substr(0, header.find('/')));
+  if (other == rooms.end() || header.find("..") != std::string::npos) return false;
+  return other->first == room || other->second < rooms.at(room);
+}
+
+/// Rooms between the core and the adapters know an engine through engine.h alone; libraries that are no engine's are named here.
+bool fits_shared(const std::string &room, const Include &include) {
+  if (include.quoted) return include.name == "engine.h" || fits_room(room, include.name, plugin_rooms);
   return is_standard(include) || starts_with(include.name, "fmt/") || starts_with(include.name, "sys/") ||
          include.name == "unistd.h" || include.name == "fcntl.h";
 }
 
-/// Nothing of plugin/: by its name from there or from the root, through "..", or by a bare name that only
-/// plugin/ has.
-bool fits_oracle(const Include &include, const fs::path &folder) {
+/// An adapter may include any header of its engine as well, which the plugin does not have, but not the other adapter.
+bool fits_adapter(const std::string &room, const Include &include) {
+  if (include.name.find("..") != std::string::npos) return false;
+  if (!include.quoted || include.name == "stub.h") return true;
+  if (plugin_rooms.count(include.name.substr(0, include.name.find('/'))) == 1)
+    return fits_room(room, include.name, plugin_rooms);
+  return !fs::exists(root / "plugin" / include.name);
+}
+
+/// The post-processor judges what the plugin does, and so do the oracles: they share no code with it.
+bool fits_judge(const Include &include) {
   if (!include.quoted) return !starts_with(include.name, "physics/") && !starts_with(include.name, "plugin/");
-  if (fs::exists(folder / include.name)) {
-    const fs::path target = fs::weakly_canonical(folder / include.name);
-    const fs::path inside = target.lexically_relative(fs::weakly_canonical(root / "plugin"));
-    return inside.empty() || *inside.begin() == "..";
-  }
-  if (starts_with(include.name, "plugin/") || fs::exists(root / "plugin" / include.name)) return false;
-  for (const char *part : {"physics", "fixes", "liggghts", "lammps"})
-    if (starts_with(include.name, std::string(part) + "/") ||
-        fs::exists(root / "plugin" / part / include.name))
-      return fs::exists(root / "postprocess" / include.name);
-  return true;
+  if (include.name.find("..") != std::string::npos) return false;
+  if (starts_with(include.name, "tests/support/") || starts_with(include.name, "tests/postprocess/"))
+    return fs::exists(root / include.name);
+  return fs::exists(root / "postprocess" / include.name);
 }
 
 std::string without_comments(const std::string &cmake) { // "#" to the end of its line
@@ -196,18 +209,26 @@ std::vector<fs::path> files(const fs::path &folder, const std::function<bool(con
   return found;
 }
 
-void expect_includes(const fs::path &folder,
-                     const std::function<bool(const Include &, const fs::path &)> &fit) {
-  for (const fs::path &file : files(folder, is_source))
+void expect_includes(const fs::path &folder, const std::function<bool(const Include &)> &fit) {
+  const std::vector<fs::path> sources = files(folder, is_source);
+  ASSERT_FALSE(sources.empty()) << folder;
+  for (const fs::path &file : sources)
     for (const Include &include : includes_of(text_of(file)))
-      EXPECT_TRUE(fit(include, file.parent_path()))
-          << file.lexically_relative(root).string() << " includes " << include.name;
+      EXPECT_TRUE(fit(include)) << file.lexically_relative(root).string() << " includes " << include.name;
+}
+
+/// Folders below `folder` that hold sources, at any depth, by their first name.
+std::set<std::string> rooms_of(const fs::path &folder) {
+  std::set<std::string> rooms;
+  for (const fs::path &file : files(folder, is_source)) {
+    const fs::path inside = file.lexically_relative(root / folder);
+    if (std::distance(inside.begin(), inside.end()) > 1) rooms.insert(inside.begin()->string());
+  }
+  return rooms;
 }
 
 TEST(Boundaries, ThePhysicsCoreIncludesTheStandardLibraryOnly) {
-  ASSERT_GE(files("plugin/physics", is_source).size(), 5U);
-  expect_includes("plugin/physics",
-                  [](const Include &include, const fs::path &) { return fits_physics(include); });
+  expect_includes("plugin/physics", fits_physics);
   for (const fs::path &file : files("plugin/physics", is_source))
     for (const Include &include : includes_of(text_of(file)))
       if (include.quoted) {
@@ -215,28 +236,25 @@ TEST(Boundaries, ThePhysicsCoreIncludesTheStandardLibraryOnly) {
       }
 }
 
+TEST(Boundaries, RoomsOfThePluginIncludeWhatIsBelowThem) {
+  for (const std::string &room : rooms_of("plugin")) {
+    ASSERT_EQ(plugin_rooms.count(room), 1U) << room;
+    const bool adapter = room == "liggghts" || room == "lammps";
+    expect_includes(fs::path("plugin") / room, [&](const Include &include) {
+      return adapter ? fits_adapter(room, include) : fits_shared(room, include);
+    });
+  }
+}
+
 TEST(Boundaries, TheDirectSolverAndThePostprocessorKnowNothingOfThePlugin) {
-  for (const char *folder : {"tests/direct", "tests/postprocess", "postprocess"})
-    expect_includes(folder, fits_oracle);
-  for (const char *folder : {"tests/direct", "tests/postprocess", "postprocess"})
+  for (const char *folder : {"tests/postprocess", "postprocess", "tests/support"})
+    expect_includes(folder, fits_judge);
+  for (const char *folder : {"tests/postprocess", "postprocess"})
     for (const fs::path &file : files(folder, is_cmake)) {
       const std::string text = without_comments(text_of(file));
       EXPECT_EQ(text.find("drumlin_physics"), std::string::npos) << file;
       EXPECT_EQ(text.find("/plugin"), std::string::npos) << file;
     }
-}
-
-TEST(Boundaries, TheOracleOfThePhysicsTestsKnowsNothingOfThePlugin) {
-  for (const char *name : {"tests/physics/ode.h", "tests/physics/ode.cpp", "tests/physics/oscillator.h"}) {
-    ASSERT_TRUE(fs::exists(root / name)) << name;
-    for (const Include &include : includes_of(text_of(root / name)))
-      EXPECT_TRUE(fits_oracle(include, (root / name).parent_path())) << name << " includes " << include.name;
-  }
-}
-
-TEST(Boundaries, TheFixesKnowAnEngineThroughEngineHOnly) {
-  expect_includes("plugin/fixes",
-                  [](const Include &include, const fs::path &) { return fits_fixes(include); });
 }
 
 TEST(Boundaries, EverySourceIsNamedNotGlobbed) {
@@ -266,21 +284,27 @@ TEST(BoundaryChecks, RefuseWhatDoesNotFit) {
   for (const char *name : {"engine.h", "fixes/clock.h", "../fixes/clock.h", "physics/../engine.h", "cmath"})
     EXPECT_FALSE(fits_physics({name, true})) << name;
 
-  EXPECT_TRUE(fits_fixes({"engine.h", true}));
-  EXPECT_TRUE(fits_fixes({"physics/contact_law.h", true}));
-  for (const char *name :
-       {"atom.h", "liggghts/engine.h", "lammps/engine.h", "../liggghts/engine.h", "fix.h"}) {
-    EXPECT_FALSE(fits_fixes({name, true})) << name;
-    EXPECT_FALSE(fits_fixes({name, false})) << name;
+  EXPECT_TRUE(fits_shared("fixes", {"engine.h", true}));
+  EXPECT_TRUE(fits_shared("fixes", {"physics/contact_law.h", true}));
+  EXPECT_TRUE(fits_shared("fixes", {"fixes/fix_guard.h", true}));
+  for (const char *name : {"atom.h", "liggghts/engine.h", "lammps/engine.h", "../liggghts/engine.h", "fix.h",
+                           "commands/commands.h"}) {
+    EXPECT_FALSE(fits_shared("fixes", {name, true})) << name;
+    EXPECT_FALSE(fits_shared("fixes", {name, false})) << name;
   }
+  EXPECT_FALSE(fits_shared("support", {"contact/pair_motion.h", true}));
 
-  const fs::path folder = root / "tests/direct";
-  EXPECT_TRUE(fits_oracle({"cvode/cvode.h", false}, folder));
-  EXPECT_TRUE(fits_oracle({"oracle.h", true}, folder));
+  EXPECT_TRUE(fits_adapter("lammps", {"pair.h", true}));
+  EXPECT_TRUE(fits_adapter("lammps", {"fixes/fix_guard.h", true}));
+  EXPECT_FALSE(fits_adapter("lammps", {"liggghts/contact_table.h", true}));
+
+  EXPECT_TRUE(fits_judge({"cvode/cvode.h", false}));
+  EXPECT_TRUE(fits_judge({"tests/support/ode.h", true}));
+  EXPECT_TRUE(fits_judge({"chain/direct_solver.h", true}));
   for (const char *name : {"physics/contact_law.h", "contact_law.h", "plugin/physics/contact_law.h",
-                           "../../plugin/physics/contact_law.h", "fixes/anything.h"})
-    EXPECT_FALSE(fits_oracle({name, true}, folder)) << name;
-  EXPECT_FALSE(fits_oracle({"physics/contact_law.h", false}, folder));
+                           "../../plugin/physics/contact_law.h", "fixes/anything.h", "support/arguments.h"})
+    EXPECT_FALSE(fits_judge({name, true})) << name;
+  EXPECT_FALSE(fits_judge({"physics/contact_law.h", false}));
 
   EXPECT_TRUE(globs("file(GLOB sources *.cpp)"));
   EXPECT_TRUE(globs("file( glob_recurse s *.cpp)"));

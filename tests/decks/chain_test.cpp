@@ -1,9 +1,9 @@
 // The chain of in.chain in the engine against the direct solver: the four cases under A and B, the order of
 // the stepping, the equilibrium that it starts from, and Eq. (1) in every recorded row.
-#include "engine.h"
+#include "tests/support/engine_runs.h"
 
-#include "analysis.h"
-#include "direct_solver.h"
+#include "chain/analysis.h"
+#include "chain/direct_solver.h"
 
 #include <gtest/gtest.h>
 

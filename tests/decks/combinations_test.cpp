@@ -1,9 +1,9 @@
 // All combinations of tangential and rolling models that the plugin promises, between balls, on primitive
 // planes and on a mesh: they run, stay finite, hold the balls in the box, take energy out, and agree on 1 and
 // 2 ranks.
-#include "scene.h"
+#include "tests/support/balls_run.h"
 
-#include "text_dump.h"
+#include "bed/text_dump.h"
 
 #include <gtest/gtest.h>
 

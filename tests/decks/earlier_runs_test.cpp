@@ -1,6 +1,6 @@
 // The files of a run: earlier results stay until a new run has passed its first steps, two runs do not mix, signals and full disks are
 // errors, and nothing but regular files is replaced.
-#include "engine.h"
+#include "tests/support/engine_runs.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // The energy ledger of the chain: what the exciter gives is what contact and bond dissipate plus what bodies
 // and springs hold more than at the start. The sums close up to the scheme's error, which falls with the
 // step.
-#include "engine.h"
+#include "tests/support/engine_runs.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Free balls under fix drum/excite: velocity and position against fine quadrature of the force that the
 // documentation promises, computed here anew.
-#include "scene.h"
+#include "tests/support/balls_run.h"
 
 #include <gtest/gtest.h>
 

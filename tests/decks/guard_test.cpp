@@ -1,5 +1,5 @@
 // fix guard in the engine: the critical step of scenes whose limit is known in closed form, and the runs that it stops.
-#include "scene.h"
+#include "tests/support/balls_run.h"
 
 #include <gtest/gtest.h>
 

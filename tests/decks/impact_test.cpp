@@ -1,8 +1,8 @@
 // A single impact without gravity, on the fixed ball of in.impact and on plane and mesh walls, against the
 // closed forms.
-#include "scene.h"
+#include "tests/support/balls_run.h"
 
-#include "analysis.h"
+#include "chain/analysis.h"
 
 #include <gtest/gtest.h>
 

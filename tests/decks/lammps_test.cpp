@@ -1,11 +1,11 @@
 // LAMMPS against LIGGGHTS: the same fixes and laws under another pair style, walls and neighbour history of its own. The difference
 // that is allowed is rounding: what grows of it is the scene's doing.
-#include "engine.h"
+#include "tests/support/engine_runs.h"
 
-#include "analysis.h"
-#include "direct_solver.h"
-#include "text_dump.h"
-#include "vtk_files.h"
+#include "chain/analysis.h"
+#include "chain/direct_solver.h"
+#include "bed/text_dump.h"
+#include "bed/vtk_files.h"
 
 #include <gtest/gtest.h>
 
@@ -540,7 +540,7 @@ TEST_F(InLammps, SaysWhatIsWrongInOneLineOnRanksOneAndTwo) {
     for (const int ranks : count++ % 3 == 0 ? std::vector<int>{1, 2} : std::vector<int>{1}) {
       const Scratch folder;
       std::ofstream(folder / "lines") << input.line << "\nrun 1\n";
-      const Outcome outcome = run_deck(fs::path(DRUMLIN_SOURCE_DIR) / "tests/input/host.lammps",
+      const Outcome outcome = run_deck(fs::path(DRUMLIN_SOURCE_DIR) / "tests/support/host.lammps",
                                        {{"lines", (folder / "lines").string()}}, folder.path(), ranks);
       EXPECT_EQ(outcome.status, 1) << input.line << ", ranks " << ranks << "\n" << outcome.output;
       const std::string error = post::engine_error(outcome.output);

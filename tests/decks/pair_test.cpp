@@ -1,8 +1,8 @@
 // Two balls: momentum, the effective mass, mirror images, the two ways to give damping, and the bond.
-#include "both_engines.h"
-#include "scene.h"
+#include "tests/support/engine_and_scheme.h"
+#include "tests/support/balls_run.h"
 
-#include "analysis.h"
+#include "chain/analysis.h"
 
 #include <gtest/gtest.h>
 

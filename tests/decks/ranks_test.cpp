@@ -1,5 +1,5 @@
 // The chain on several ranks must be the chain on one, with the contact's two balls on different ranks.
-#include "engine.h"
+#include "tests/support/engine_runs.h"
 
 #include <gtest/gtest.h>
 

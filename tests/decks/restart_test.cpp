@@ -1,6 +1,6 @@
 // A run that leaves the process in the middle of a cycle and goes on from its restart file must write the
 // same files, byte for byte, as one that stayed.
-#include "engine.h"
+#include "tests/support/engine_runs.h"
 
 #include <gtest/gtest.h>
 

@@ -1,2 +1,2 @@
 // The normal models that this plugin combines; the engine's own list is not part of its development package.
-#include "normal_model_hooke_transition.h"
+#include "liggghts/normal_model_hooke_transition.h"

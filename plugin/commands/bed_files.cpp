@@ -1,0 +1,355 @@
+#include "commands/bed_files.h"
+
+#include "support/arguments.h"
+#include "support/whole_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <sstream>
+#include <sys/mman.h>
+#include <unistd.h>
+#include <unordered_set>
+
+namespace drumlin {
+
+namespace {
+
+// In a restart file the notes stand behind what the engine reads, which is as many bytes as their last line says:
+//   drumlin restart notes
+//   NAME VALUE
+//   ...
+//   end COUNT of bytes, by which the engine knows that a file is whole
+//   bytes COUNT
+//   crc32 SUM of these bytes
+// and those of the end again. In a data file each note is a comment of the header, which engines skip:
+//   # drumlin note NAME VALUE
+constexpr const char *data_note = "# drumlin note ";
+constexpr const char *notes_begin = "\ndrumlin restart notes\n";
+constexpr std::streamoff longest_notes = 4096;
+
+std::string notes_text(const RestartNotes &notes) {
+  std::string text = notes_begin;
+  for (const auto &[name, value] : notes)
+    text += fmt::format("{} {}\n", name, value);
+  return text;
+}
+
+/// Checksum of gzip and PNG.
+std::uint32_t crc32(const std::string &bytes) {
+  std::array<std::uint32_t, 256> of_byte{};
+  for (std::uint32_t n = 0; n < of_byte.size(); ++n) {
+    of_byte[n] = n;
+    for (int bit = 0; bit < 8; ++bit)
+      of_byte[n] = (of_byte[n] >> 1) ^ ((of_byte[n] & 1U) != 0 ? 0xedb88320U : 0U);
+  }
+  std::uint32_t sum = ~0U;
+  for (const char c : bytes)
+    sum = (sum >> 8) ^ of_byte[(sum ^ static_cast<unsigned char>(c)) & 0xffU];
+  return ~sum;
+}
+
+/// What the last two notes say of these bytes.
+RestartNotes sum_notes(const std::string &bytes) {
+  return {{"bytes", std::to_string(bytes.size())}, {"crc32", fmt::format("{:08x}", crc32(bytes))}};
+}
+
+std::string contents_of(const std::string &file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Notes of a restart file that is whole; none of another.
+RestartNotes notes_of_restart(const std::string &file) {
+  const std::string all = contents_of(file);
+  const std::size_t begin = all.rfind(notes_begin);
+  if (begin == std::string::npos) return {};
+  std::istringstream lines(all.substr(begin + std::string(notes_begin).size()));
+  RestartNotes notes;
+  std::size_t end_mark = 0;
+  for (std::string name, value; name != "crc32" && lines >> name >> value;) {
+    notes.emplace_back(name, value);
+    if (name == "end") end_mark = std::strtoul(value.c_str(), nullptr, 10);
+  }
+  if (lines.get() != '\n') return {};
+  const std::string end{std::istreambuf_iterator<char>(lines), {}};
+  if (end.size() != end_mark || begin < end_mark || all.compare(begin - end_mark, end_mark, end) != 0)
+    return {};
+  const RestartNotes last = sum_notes(all.substr(0, begin));
+  if (notes.size() < last.size() || !std::equal(last.rbegin(), last.rend(), notes.rbegin())) return {};
+  return notes;
+}
+
+/// Notes in the header of a data file.
+RestartNotes notes_of_data_file(const std::string &file) {
+  std::ifstream in(file);
+  RestartNotes notes;
+  const std::string mark = data_note;
+  std::string line;
+  std::getline(in, line); // the title
+  while (std::getline(in, line) && line.rfind("Atoms", 0) != 0) {
+    if (line.rfind(mark, 0) != 0) continue;
+    std::istringstream words(line.substr(mark.size()));
+    std::string name, value;
+    if (words >> name >> value) notes.emplace_back(name, value);
+  }
+  return notes;
+}
+
+/// Engines do not read each other's restart files.
+RestartNotes with_engine(const RestartNotes &notes) {
+  const std::string engine = engine::name_and_version();
+  RestartNotes all = {{"engine", engine.substr(0, engine.find(' '))}};
+  all.insert(all.end(), notes.begin(), notes.end());
+  return all;
+}
+
+} // namespace
+
+RestartNotes read_notes(LAMMPS_NS::LAMMPS *lmp, Arguments &in) {
+  RestartNotes notes;
+  while (!in.empty()) {
+    const std::string name = in.word("a note's name");
+    if (name == "values_of") break;
+    notes.emplace_back(name, in.word("the value of note " + name));
+  }
+  while (!in.empty()) {
+    std::string name = in.word("a variable's name");
+    const char *value = lmp->input->variable->retrieve(name.data());
+    if (value == nullptr || *value == '\0' || std::string(value).find_first_of(" \n") != std::string::npos)
+      in.fail("keyword values_of is '" + name + "'; allowed: the names of variables that are one word");
+    notes.emplace_back(name, value);
+  }
+  return notes;
+}
+
+bool is_restart_name(const std::string &file) {
+  return file.find_first_of("*%") == std::string::npos && is_output_file(file);
+}
+
+void check_restart_name(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const std::string &command) {
+  int bad = lmp->comm->me == 0 && !is_restart_name(file) ? 1 : 0;
+  MPI_Bcast(&bad, 1, MPI_INT, 0, lmp->world);
+  if (bad != 0)
+    lmp->error->all(FLERR, engine::as_is(fmt::format("{}: cannot write '{}'; allowed: {}", command, file,
+                                                     restart_name_allowed)));
+}
+
+namespace {
+
+/// A file in memory, by a name that the engine can open.
+class MemoryFile {
+public:
+  MemoryFile() : file_(memfd_create("drumlin", MFD_CLOEXEC)) {}
+  ~MemoryFile() {
+    if (file_ >= 0) close(file_);
+  }
+  MemoryFile(const MemoryFile &) = delete;
+  MemoryFile &operator=(const MemoryFile &) = delete;
+  std::string name() const { return fmt::format("/proc/self/fd/{}", file_); }
+
+private:
+  int file_;
+};
+
+/// Has the engine write a file, completes its contents on rank 0 and puts them on the disk. The engine does not look whether its
+/// writes succeed, as they do not on a full disk: it writes to memory, and what goes to the disk from there is checked.
+/// \param complete takes the engine's file, gives that which is written; nothing if the engine's was not whole
+template <class Complete>
+void write_checked(LAMMPS_NS::LAMMPS *lmp, const std::string &engine_command, const std::string &file,
+                   const std::string &command, Complete &&complete) {
+  check_restart_name(lmp, file, command);
+  const MemoryFile memory;
+  lmp->input->one((engine_command + " " + memory.name()).c_str());
+  int failed = 0;
+  if (lmp->comm->me == 0) {
+    const std::optional<std::string> contents = complete(contents_of(memory.name()));
+    failed = contents && write_whole_file(file, *contents) ? 0 : 1;
+  }
+  MPI_Bcast(&failed, 1, MPI_INT, 0, lmp->world);
+  if (failed != 0)
+    lmp->error->all(FLERR, engine::as_is(fmt::format(
+                               "{}: cannot write '{}'; allowed: a file on a disk with room", command, file)));
+}
+
+} // namespace
+
+void write_noted_restart(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const RestartNotes &notes,
+                         const std::string &command) {
+  write_checked(lmp, "write_restart", file, command,
+                [&notes](const std::string &bytes) -> std::optional<std::string> {
+                  if (bytes.empty()) return {};
+                  const std::string end = bytes.substr(bytes.size() - engine::restart_end_mark);
+                  RestartNotes all = with_engine(notes);
+                  all.emplace_back("end", std::to_string(engine::restart_end_mark));
+                  for (const auto &note : sum_notes(bytes))
+                    all.push_back(note);
+                  return bytes + notes_text(all) + end;
+                });
+}
+
+void write_noted_data(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const RestartNotes &notes,
+                      const std::string &command) {
+  write_checked(lmp, "write_data", file, command, [&notes](std::string text) -> std::optional<std::string> {
+    std::string header;
+    for (const auto &[name, value] : notes)
+      header += fmt::format("{}{} {}\n", data_note, name, value);
+    const std::size_t title_end = text.find('\n');
+    if (title_end == std::string::npos) return {};
+    return text.insert(title_end + 1, header);
+  });
+}
+
+RestartNotes notes_of(const std::string &file) {
+  const RestartNotes notes = notes_of_restart(file);
+  return notes.empty() ? notes_of_data_file(file) : notes;
+}
+
+std::string restart_fault(const std::string &file, const RestartNotes &notes) {
+  const RestartNotes found = notes_of_restart(file);
+  if (found.empty())
+    return fmt::format("; allowed: a whole restart file of drumlin/write_restart or drumlin/run{}, and this "
+                       "one is cut short, damaged or none",
+                       engine::beside_restart);
+  for (const auto &[name, value] : with_engine(notes)) {
+    const auto same_name = [&name = name](const auto &note) { return note.first == name; };
+    const auto note = std::find_if(found.begin(), found.end(), same_name);
+    const std::string was = note == found.end() ? "nothing" : note->second;
+    if (was != value)
+      return fmt::format(", made with {} {}; allowed: made with {} {}", name, was, name, value);
+  }
+  return "";
+}
+
+namespace {
+
+/// The bounds of a data file's box along one axis, m.
+struct Bounds {
+  double low = 0.0, high = 0.0;
+  /// Whether a ball may be there: the engine puts balls beyond a periodic boundary back into the box, one box length at a time.
+  bool near(double x) const { return x >= 2.0 * low - high && x <= 2.0 * high - low; }
+};
+
+/// Reader of a data file that judges it.
+class DataFile {
+public:
+  explicit DataFile(const std::string &file) : in_(file) {}
+
+  std::string fault() {
+    std::getline(in_, line_); // the title
+    while (next_line()) {
+      const std::string word = words_.front();
+      if (const std::string why = word == "Atoms"        ? atoms()
+                                  : word == "Velocities" ? velocities()
+                                                         : header();
+          !why.empty())
+        return "; allowed: " + why;
+    }
+    return has_atoms_ ? "" : "; allowed: a data file with atoms";
+  }
+
+private:
+  /// The next line that is neither empty nor a comment, in words.
+  bool next_line() {
+    while (std::getline(in_, line_)) {
+      std::istringstream text(line_.substr(0, line_.find('#')));
+      words_.assign(std::istream_iterator<std::string>(text), {});
+      if (!words_.empty()) return true;
+    }
+    return false;
+  }
+
+  std::string header() {
+    if (words_.size() == 2 && words_[1] == "atoms") count_ = parse_number(words_[0]);
+    if (words_.size() == 3 && words_[1] == "atom" && words_[2] == "types") types_ = parse_number(words_[0]);
+    const char *const axes[3][2] = {{"xlo", "xhi"}, {"ylo", "yhi"}, {"zlo", "zhi"}};
+    for (std::size_t a = 0; a < 3; ++a)
+      if (words_.size() == 4 && words_[2] == axes[a][0] && words_[3] == axes[a][1]) {
+        box_[a] = {parse_number(words_[0]), parse_number(words_[1])};
+        if (!(box_[a].high > box_[a].low) || box_[a].high - box_[a].low > largest_box)
+          return fmt::format("a box with bounds in order, at most {:.0e} m apart, and this one has '{}'",
+                             largest_box, line_);
+        return "";
+      }
+    constexpr std::array<const char *, 3> known = {"atoms", "types",
+                                                   "space"}; // of the header, last in a line
+    const bool is_known = std::find(known.begin(), known.end(), words_.back()) != known.end() &&
+                          std::isfinite(parse_number(words_.front()));
+    if (!has_atoms_ && !is_known)
+      return fmt::format("a data file with a box, atoms and their types, and this one has '{}'", shown());
+    if (has_atoms_)
+      return fmt::format("one data file, and this one goes on with '{}' behind its sections", shown());
+    return "";
+  }
+
+  std::string atoms() {
+    if (has_atoms_) return "a data file with one section Atoms, and this one has two";
+    has_atoms_ = true;
+    if (!(count_ >= 1.0)) return "a data file with atoms";
+    return section("Atoms", [this](const std::vector<double> &row) { // id type diameter density x y z
+      if (row.size() < 7 || !(row[2] > 0.0) || !(row[3] > 0.0)) return false;
+      if (row[1] != std::floor(row[1]) || row[1] < 1.0 || row[1] > types_) return false;
+      for (std::size_t a = 0; a < 3; ++a)
+        if (!box_[a].near(row[4 + a])) return false;
+      return ids_.insert(row[0]).second;
+    });
+  }
+
+  std::string velocities() {
+    std::unordered_set<double> seen;
+    return section("Velocities", [this, &seen](const std::vector<double> &row) { // id vx vy vz
+      return row.size() >= 4 && ids_.count(row[0]) > 0 && seen.insert(row[0]).second;
+    });
+  }
+
+  /// Reads a row for each atom. A row is whole numbers of ID and type first; the last line must have its end, or it may be cut.
+  template <class Good>
+  std::string section(const char *name, Good &&good) {
+    double rows = 0.0;
+    std::vector<double> numbers;
+    for (; rows < count_ && next_line(); rows += 1.0) {
+      numbers.clear();
+      for (const std::string &word : words_)
+        numbers.push_back(parse_number(word));
+      const bool finite =
+          std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+      if (!finite || numbers[0] != std::floor(numbers[0]) || numbers[0] < 1.0 || numbers[0] > largest_id ||
+          in_.eof() || !good(numbers))
+        break;
+    }
+    if (rows == count_) return "";
+    return fmt::format(
+        "a whole data file of balls in their box, each ID once, and this one has {:.0f} of {:.0f} "
+        "good rows under {}, then '{}'",
+        rows, count_, name, shown());
+  }
+
+  std::string shown() const {
+    std::string text = line_.substr(0, 60);
+    for (char &c : text)
+      if (std::iscntrl(static_cast<unsigned char>(c)) != 0) c = ' ';
+    return text;
+  }
+
+  static constexpr double largest_id = 2147483647.0;
+  static constexpr double largest_box = 1e6; // m
+  std::ifstream in_;
+  std::string line_;
+  std::vector<std::string> words_;
+  double count_ = 0.0;
+  double types_ = 0.0;
+  bool has_atoms_ = false;
+  std::array<Bounds, 3> box_;
+  std::unordered_set<double> ids_;
+};
+
+} // namespace
+
+std::string data_file_fault(const std::string &file) { return DataFile(file).fault(); }
+
+} // namespace drumlin

@@ -1,0 +1,39 @@
+#pragma once
+// fix drumlin/outputs: made by the command drumlin/outputs, not by decks.
+
+#include "engine.h"
+#include "support/output_set.h"
+
+#include <memory>
+#include <optional>
+
+namespace LAMMPS_NS {
+
+/// Holds the set of output files of a run and commits it when the run has passed its first steps.
+class FixOutputs : public Fix {
+public:
+  FixOutputs(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) { nevery = 1; }
+
+  /// Adds the fix to the engine. \param set of rank 0; empty on the others
+  static void provide(LAMMPS *lammps, std::unique_ptr<drumlin::OutputSet> set);
+
+  int setmask() override { return FixConst::END_OF_STEP | FixConst::POST_RUN; }
+  void setup(int) override;
+  void end_of_step() override;
+  void post_run() override;
+
+  static constexpr const char *style_name = "drumlin/outputs";
+
+private:
+  /// Time steps after which fix guard has looked at numbers and links at least once, as the decks of the project have it.
+  static constexpr drumlin::engine::bigint first_steps = 100;
+
+  void commit();
+  /// Ends the run if a dump is cut short. Collective.
+  void check_numbered();
+  std::unique_ptr<drumlin::OutputSet> set_;
+  std::optional<drumlin::engine::bigint> first_;
+  bool committed_ = false;
+};
+
+} // namespace LAMMPS_NS

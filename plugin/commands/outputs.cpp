@@ -1,0 +1,97 @@
+#include "commands/commands.h"
+
+#include "support/arguments.h"
+#include "commands/fix_outputs.h"
+#include "support/output_set.h"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+namespace drumlin {
+namespace {
+
+/// What the words of the command ask for.
+struct Outputs {
+  std::string folder, subfolder;
+  engine::bigint step = 0; ///< of the restart file that a run continues from; 0: it begins
+  double time = 0.0;       ///< s, of that step
+  std::vector<std::string> files;
+  std::vector<std::string> restarts; ///< restart files, which a run that continues leaves alone
+  std::vector<NumberedFiles> numbered;
+};
+
+Outputs read_outputs(Arguments &in) {
+  Outputs outputs;
+  const auto in_folder = [&outputs](const std::string &name) {
+    return outputs.folder.empty() ? name : outputs.folder + '/' + name;
+  };
+  const std::vector<std::string> keywords = {"folder", "subfolder", "continue",
+                                             "files",  "restart",   "numbered"};
+  const auto is_keyword = [&keywords](const std::string &word) {
+    return std::find(keywords.begin(), keywords.end(), word) != keywords.end();
+  };
+  while (!in.empty()) {
+    const std::string keyword = in.word("keyword");
+    if (keyword == "folder")
+      outputs.folder = in.word("keyword folder: its path", "a folder, made if missing");
+    else if (keyword == "subfolder")
+      outputs.subfolder = in_folder(in.word("keyword subfolder: its name", "a folder, made if missing"));
+    else if (keyword == "continue") {
+      outputs.step = in.integer("keyword continue: its step", 0, std::numeric_limits<engine::bigint>::max());
+      outputs.time = in.number("keyword continue: its time", Range::non_negative);
+    } else if (keyword == "files")
+      while (!in.empty() && !is_keyword(in.peek()))
+        outputs.files.push_back(in_folder(in.word("file")));
+    else if (keyword == "restart")
+      outputs.restarts.push_back(in_folder(in.word("keyword restart: a file")));
+    else if (keyword == "numbered")
+      while (!in.empty() && !is_keyword(in.peek())) {
+        const std::string folder = in_folder(in.word("folder"));
+        const std::string prefix = in.word("keyword numbered: a prefix");
+        outputs.numbered.push_back({folder, prefix, in.word("keyword numbered: a suffix")});
+      }
+    else
+      in.fail("unknown keyword '" + keyword +
+              "'; allowed: folder, subfolder, continue, files, restart or numbered");
+  }
+  return outputs;
+}
+
+void make_room(OutputSet &set, const Outputs &outputs, double half_step) {
+  if (!outputs.folder.empty()) set.hold_folder(outputs.folder);
+  if (!outputs.subfolder.empty()) set.make_folder(outputs.subfolder);
+  for (const std::string &file : outputs.files)
+    if (outputs.step > 0)
+      set.cut(file, outputs.time + half_step);
+    else
+      set.replace(file);
+  if (outputs.step == 0)
+    for (const std::string &file : outputs.restarts)
+      set.replace(file);
+  set.replace_numbered(outputs.numbered, outputs.step > 0 ? static_cast<long>(outputs.step) + 1 : 0);
+}
+
+} // namespace
+
+void outputs_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) {
+  const std::string command = "drumlin/outputs";
+  Arguments in(lmp->error, command, narg, arg);
+  const Outputs outputs = read_outputs(in);
+  if (lmp->domain->box_exist == 0)
+    in.fail("there is no simulation box; allowed: after create_box, read_data or read_restart");
+  std::unique_ptr<OutputSet> set;
+  std::string fault;
+  if (lmp->comm->me == 0) {
+    try {
+      set = std::make_unique<OutputSet>();
+      make_room(*set, outputs, 0.5 * lmp->update->dt);
+    } catch (const std::runtime_error &found) {
+      fault = found.what();
+    }
+  }
+  engine::end_if(lmp, command, fault);
+  LAMMPS_NS::FixOutputs::provide(lmp, std::move(set));
+}
+
+} // namespace drumlin

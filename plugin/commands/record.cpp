@@ -1,0 +1,63 @@
+#include "commands/commands.h"
+
+#include "support/arguments.h"
+#include "support/command_line_words.h"
+#include "support/whole_file.h"
+
+#include <cstdlib>
+
+namespace drumlin {
+namespace {
+
+using LAMMPS_NS::LAMMPS;
+
+std::string quoted(const std::string &text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char c : text)
+    result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return result + "\"";
+}
+
+/// The command line of this process, with the preload that brought the plugin.
+std::string command_line() {
+  const char *preload = std::getenv("LD_PRELOAD");
+  std::string text = preload ? "LD_PRELOAD=" + std::string(preload) : "";
+  for (const std::string &word : command_line_words())
+    text += (text.empty() ? "" : " ") +
+            (word.empty() || word.find_first_of(" '\"$") != std::string::npos ? "'" + word + "'" : word);
+  return text;
+}
+
+struct Engine : LAMMPS_NS::Pointers {
+  explicit Engine(LAMMPS *engine) : Pointers(engine) {}
+  void record(int narg, char **arg) {
+    Arguments in(error, "drumlin/record", narg, arg);
+    const std::string name = in.word("the file", output_name_allowed);
+    std::vector<std::pair<std::string, std::string>> rows;
+    while (!in.empty()) {
+      const std::string key = in.word("name");
+      rows.emplace_back(key, in.word("the value of " + key));
+    }
+    rows.emplace_back("engine", engine::name_and_version());
+    rows.emplace_back("plugin", std::string("drumlin ") + DRUMLIN_VERSION);
+    rows.emplace_back("ranks", std::to_string(comm->nprocs));
+    rows.emplace_back("command", command_line());
+    int failed = 0;
+    if (comm->me == 0) {
+      std::string text = "name,value\n";
+      for (const auto &[key, value] : rows)
+        text += quoted(key) + ',' + quoted(value) + '\n';
+      failed = !is_output_file(name) || !write_whole_file(name, text);
+    }
+    MPI_Bcast(&failed, 1, MPI_INT, 0, world);
+    if (failed)
+      in.fail("cannot write '" + name + "'; allowed: " + output_name_allowed + ", on a disk with room");
+  }
+};
+
+} // namespace
+
+void record_command(LAMMPS *lmp, int narg, char **arg) { Engine(lmp).record(narg, arg); }
+
+} // namespace drumlin

@@ -1,0 +1,104 @@
+#include "commands/commands.h"
+
+#include "support/arguments.h"
+#include "commands/bed_files.h"
+#include "support/stop_signal.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fmt/format.h>
+
+namespace drumlin {
+namespace {
+
+using LAMMPS_NS::LAMMPS;
+
+/// Runs the deck's scene in pieces, each a `run` of its own.
+class Run : LAMMPS_NS::Pointers {
+public:
+  Run(LAMMPS *engine, int narg, char **arg) : Pointers(engine) {
+    Arguments in(error, "drumlin/run", narg, arg);
+    last_ = in.integer("the last step", 0, std::numeric_limits<engine::bigint>::max());
+    while (!in.empty()) {
+      const std::string keyword = in.word("keyword");
+      if (keyword == "every")
+        every_ = in.integer("keyword every", 1);
+      else if (keyword == "limit")
+        limit_ = in.number("keyword limit", Range::positive);
+      else if (keyword == "restart") {
+        restart_ = in.word("keyword restart: its file", restart_name_allowed);
+        notes_ = read_notes(lmp, in);
+      } else
+        in.fail("unknown keyword '" + keyword + "'; allowed: every, limit or restart");
+    }
+    if (domain->box_exist == 0)
+      in.fail("there is no simulation box; allowed: after create_box, read_data or read_restart");
+    if (every_ == 0) { // one piece
+      origin_ = update->ntimestep;
+      every_ = std::max<engine::bigint>(last_ - origin_, 1);
+    }
+    if (std::isfinite(limit_) && restart_.empty())
+      in.fail("keyword limit goes with keyword restart; allowed: limit SECONDS restart FILE");
+    if (!restart_.empty()) check_restart_name(lmp, restart_, "drumlin/run: keyword restart");
+    if (update->ntimestep > last_)
+      in.fail(fmt::format("the last step is '{}'; allowed: at least {}, the step of now", last_,
+                          update->ntimestep));
+  }
+
+  void run() {
+    const StopSignal signals(lmp);
+    const double begin = MPI_Wtime();
+    const engine::bigint first = update->ntimestep;
+    double longest = 0.0; // s, of the pieces
+    double before = 0.0;
+    while (update->ntimestep < last_) {
+      const engine::bigint piece =
+          std::min(every_ - (update->ntimestep - origin_) % every_, last_ - update->ntimestep);
+      input->one(fmt::format("run {} post no", piece).c_str());
+      double now = MPI_Wtime() - begin;
+      MPI_Bcast(&now, 1, MPI_DOUBLE, 0, world); // all ranks go by one clock
+      longest = std::max(longest, now - before);
+      before = now;
+      const auto done = static_cast<double>(update->ntimestep - first);
+      engine::say(lmp,
+                  fmt::format("drumlin/run: {:.0f} %, step {} of {}, {:.6g} s simulated, {:.0f} s so far, "
+                              "about {:.0f} s left\n",
+                              100.0 * static_cast<double>(update->ntimestep) / static_cast<double>(last_),
+                              update->ntimestep, last_, static_cast<double>(update->ntimestep) * update->dt,
+                              now, now / done * static_cast<double>(last_ - update->ntimestep)));
+      if (StopSignal::told(lmp)) {
+        if (!restart_.empty()) write_noted_restart(lmp, restart_, notes_, "drumlin/run: keyword restart");
+        error->all(FLERR,
+                   engine::as_is(fmt::format(
+                       "drumlin/run: stopped by a signal at step {} of {}; allowed: to {}", update->ntimestep,
+                       last_, restart_.empty() ? "run to the last step" : "go on from " + restart_)));
+      }
+      if (update->ntimestep < last_ && now + longest > limit_) return stop();
+    }
+  }
+
+private:
+  /// There is no time for another piece.
+  void stop() {
+    write_noted_restart(lmp, restart_, notes_, "drumlin/run: keyword restart");
+    engine::say(lmp, fmt::format("drumlin/run: stopped at step {} of {} by limit {:.6g} s; go on from {}\n",
+                                 update->ntimestep, last_, limit_, restart_));
+    // Not the engine's `quit`, which exits with 1: nothing went wrong.
+    MPI_Barrier(world);
+    MPI_Finalize();
+    std::exit(0); // NOLINT(concurrency-mt-unsafe): as the engine ends itself
+  }
+
+  engine::bigint last_ = 0;
+  engine::bigint every_ = 0;
+  engine::bigint origin_ = 0;                              // pieces end a multiple of every_ behind this step
+  double limit_ = std::numeric_limits<double>::infinity(); // s of wall time
+  std::string restart_;
+  RestartNotes notes_;
+};
+
+} // namespace
+
+void run_command(LAMMPS *lmp, int narg, char **arg) { Run(lmp, narg, arg).run(); }
+
+} // namespace drumlin

@@ -1,0 +1,18 @@
+#include "commands/commands.h"
+
+#include "support/arguments.h"
+#include "commands/bed_files.h"
+
+namespace drumlin {
+
+void write_restart_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) {
+  const std::string command = "drumlin/write_restart";
+  Arguments in(lmp->error, command, narg, arg);
+  const std::string file = in.word("the file", restart_name_allowed);
+  const RestartNotes notes = read_notes(lmp, in);
+  if (lmp->domain->box_exist == 0)
+    in.fail("there is no simulation box; allowed: after create_box, read_data or read_restart");
+  write_noted_restart(lmp, file, notes, command);
+}
+
+} // namespace drumlin

@@ -1,0 +1,393 @@
+#include "contact/fix_stepping.h"
+
+#include "contact/contact_source.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+using namespace LAMMPS_NS;
+
+namespace {
+
+constexpr const char *helper_id = "drumlin_stepping";
+constexpr int exchanged = 5;     // that a ball takes to another rank
+constexpr int most_gathered = 6; // that a ghost has for its owner
+
+/// Constraints that share forces among the balls of a group, over all ranks, which must all call them.
+bool joins(const std::string &style) { return style == "aveforce" || style == "clump"; }
+
+} // namespace
+
+namespace {
+
+/// In use or not. \param modify nullptr while the engine ends
+FixStepping *helper_of(Modify *modify) {
+  return modify == nullptr ? nullptr
+                           : dynamic_cast<FixStepping *>(drumlin::engine::find_fix(modify, helper_id));
+}
+
+} // namespace
+
+FixStepping *FixStepping::find(LAMMPS *lammps) {
+  FixStepping *helper = helper_of(lammps->modify);
+  return helper != nullptr && helper->in_use_ ? helper : nullptr;
+}
+
+FixStepping *FixStepping::provide(LAMMPS *lammps) {
+  if (helper_of(lammps->modify) == nullptr) {
+    std::string words[] = {helper_id, "all", "drumlin/stepping"};
+    char *arg[] = {words[0].data(), words[1].data(), words[2].data()};
+    lammps->modify->add_fix(3, arg);
+  }
+  FixStepping *helper = helper_of(lammps->modify);
+  helper->in_use_ = true;
+  return helper;
+}
+
+void FixStepping::dismiss(LAMMPS *lammps) {
+  if (FixStepping *helper = helper_of(lammps->modify)) helper->in_use_ = false;
+}
+
+FixStepping::FixStepping(LAMMPS *lammps, int narg, char **arg) : GhostFix(lammps, narg, arg) {
+  nevery = 1;
+  comm_forward = shared;
+  FixStepping::grow_arrays(atom->nmax);
+  atom->add_callback(0);
+  for (int i = 0; i < atom->nlocal; ++i)
+    FixStepping::set_arrays(i);
+}
+
+FixStepping::~FixStepping() {
+  atom->delete_callback(id, 0);
+  memory->destroy(velocity_);
+}
+
+int FixStepping::setmask() {
+  return FixConst::POST_INTEGRATE | FixConst::PRE_EXCHANGE | FixConst::PRE_FORCE |
+         drumlin::engine::closes_forces | FixConst::END_OF_STEP;
+}
+
+void FixStepping::init() {
+  comm_reverse =
+      most_gathered; // for which the engine makes room at the begin of each run; gather() may ask for less
+  constraints_.clear();
+  for (int n = 0; n < modify->nfix; ++n)
+    for (const char *name : {"setforce", "freeze", "lineforce", "planeforce", "aveforce", "clump"})
+      if (std::string(modify->fix[n]->style) == name)
+        constraints_.push_back({modify->fix[n], drumlin::engine::reaction(modify->fix[n]), joins(name)});
+}
+
+void FixStepping::setup_pre_force(int) {
+  if (!in_use_) return;
+  in_setup_ = true;
+  light_ = false;
+  coupled_.clear();
+  coupled_links_.clear();
+  later_.clear();
+  shifts_.clear();
+  std::fill(damping_.begin(), damping_.end(), 0.0);
+  for (int i = 0; i < atom->nlocal; ++i) {
+    set_arrays(i);
+    std::copy_n(atom->v[i], 3, velocity_[i]);
+  }
+  expect_contacts();
+}
+
+void FixStepping::post_integrate() {
+  if (!in_use_) return;
+  for (const Later &item : shifts_) {
+    double *v = atom->v[item.i];
+    const double *before = velocity_[item.i];
+    if (v[0] == before[0] && v[1] == before[1] && v[2] == before[2])
+      continue; // not integrated: it took no kick
+    for (std::size_t a = 0; a < 3; ++a)
+      v[a] -= 0.5 * update->dt * item.shift[a] / atom->rmass[item.i];
+  }
+  shifts_.clear();
+  in_setup_ = false;
+  dt_ = update->dt;
+  counted_ = counting_;
+  if (!counted_) return;
+  if (force->newton_pair) {
+    gather(1);
+    std::copy_n(damping_.begin() + atom->nlocal, atom->nghost, gathered_.begin() + atom->nlocal);
+    drumlin::engine::reverse_comm(comm, this);
+    for (int i = 0; i < atom->nlocal; ++i)
+      damping_[static_cast<std::size_t>(i)] += gathered_[static_cast<std::size_t>(i)];
+  }
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    row(i)[sum] = damping_[n] * inverse_mass_[n];
+    damping_[n] = 0.0;
+  }
+  std::fill_n(damping_.begin() + atom->nlocal, atom->nghost, 0.0);
+}
+
+void FixStepping::setup_pre_exchange() { expected_.clear(); }
+void FixStepping::pre_exchange() { expected_.clear(); }
+
+void FixStepping::pre_force(int) {
+  if (!in_use_) return;
+  if (neighbor->ago == 0 || update->dt != expected_dt_) expect_contacts();
+  light_ = !counted_ && !counting_;
+  if (comm->nprocs > 1 || atom->nghost > 0) drumlin::engine::forward_comm(comm, this);
+}
+
+/// Contacts are counted only if one could need coupling, were all neighbours, walls and links to act at once. needs_coupling()
+/// grows with the sum and with k/c: what it denies for these it denies for all contacts until the next search for neighbours,
+/// and the choice changes no result.
+void FixStepping::expect_contacts() {
+  const drumlin::ContactSource *source = drumlin::contact_source(lmp);
+  const NeighList *list = source->contact_list();
+  std::vector<drumlin::physics::Dashpots> balls(static_cast<std::size_t>(atom->nlocal + atom->nghost));
+  const auto ball = [&](int i) -> drumlin::physics::Dashpots & { return balls[static_cast<std::size_t>(i)]; };
+  for (int ii = 0; ii < list->inum; ++ii) {
+    const int i = list->ilist[ii];
+    for (int jj = 0; jj < list->numneigh[i]; ++jj) {
+      const int j = drumlin::engine::neighbour_index(list->firstneigh[i][jj]);
+      const double m_eff = source->effective_mass(i, j);
+      if (std::isinf(m_eff)) continue;
+      const drumlin::physics::LinearContact &law = source->law(atom->type[i], atom->type[j]);
+      const double c = drumlin::physics::damping_coefficient(law, m_eff);
+      ball(i).add(law.stiffness, c);
+      ball(j).add(law.stiffness, c);
+    }
+  }
+  std::array<double, 2> mine{}; // greatest sum of c/m, and k/c
+  if (force->newton_pair) {
+    gather(1);
+    for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; ++i) {
+      gathered_[static_cast<std::size_t>(i)] = ball(i).sum;
+      mine[1] = std::max(mine[1], ball(i).stiffest);
+    }
+    drumlin::engine::reverse_comm(comm, this);
+    for (int i = 0; i < atom->nlocal; ++i)
+      ball(i).sum += gathered_[static_cast<std::size_t>(i)];
+  }
+  for (const Expected &link : expected_)
+    ball(link.i).add(link.k, link.c);
+
+  for (int i = 0; i < atom->nlocal; ++i) {
+    double &inverse_mass = inverse_mass_[static_cast<std::size_t>(i)];
+    if (inverse_mass < 0.0) inverse_mass = 1.0 / source->mass(i);
+    if (inverse_mass == 0.0) continue;
+    ball(i).add(source->wall_dashpots(i));
+    mine = {std::max(mine[0], ball(i).sum * inverse_mass), std::max(mine[1], ball(i).stiffest)};
+  }
+  std::array<double, 2> all = mine;
+  if (comm->nprocs > 1) MPI_Allreduce(mine.data(), all.data(), 2, MPI_DOUBLE, MPI_MAX, world);
+  counting_ = drumlin::physics::needs_coupling(update->dt, all[1], 1.0, 2.0 * all[0]);
+  expected_dt_ = update->dt;
+}
+
+/// Makes room for what ghosts have for their owners, of each ball.
+void FixStepping::gather(std::size_t numbers) {
+  comm_reverse = static_cast<int>(numbers);
+  gathered_.assign(numbers * static_cast<std::size_t>(atom->nlocal + atom->nghost), 0.0);
+}
+
+void FixStepping::close_forces() {
+  if (!in_use_) return;
+  constexpr int couples = 1, sends = 2;
+  const auto of_a_ghost = [this](const Later &item) { return item.i >= atom->nlocal; };
+  int any = coupled_.empty() && coupled_links_.empty() ? 0 : couples;
+  if (force->newton_pair && std::any_of(later_.begin(), later_.end(), of_a_ghost)) any |= sends;
+  if (comm->nprocs > 1) {
+    const int mine = any;
+    MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_BOR, world);
+  }
+  if (any & sends) send_later();
+  if (any & couples) solve_coupled();
+}
+
+/// Hands what is to be exerted on ghosts after the closing half kick to their owners.
+void FixStepping::send_later() {
+  gather(most_gathered);
+  const auto gathered = [this](int i) {
+    return gathered_.begin() + static_cast<std::ptrdiff_t>(i) * most_gathered;
+  };
+  std::vector<Later> kept;
+  for (const Later &item : later_)
+    if (item.i < atom->nlocal)
+      kept.push_back(item);
+    else
+      for (std::size_t a = 0; a < 3; ++a) {
+        gathered(item.i)[static_cast<std::ptrdiff_t>(a)] += item.rest[a];
+        gathered(item.i)[static_cast<std::ptrdiff_t>(a) + 3] += item.shift[a];
+      }
+  drumlin::engine::reverse_comm(comm, this);
+  later_.swap(kept);
+  for (int i = 0; i < atom->nlocal; ++i) {
+    Later item{i, {}, {}};
+    std::copy_n(gathered(i), 3, item.rest.begin());
+    std::copy_n(gathered(i) + 3, 3, item.shift.begin());
+    if (std::any_of(gathered(i), gathered(i) + most_gathered, [](double value) { return value != 0.0; }))
+      later_.push_back(item);
+  }
+}
+
+void FixStepping::solve_coupled() {
+  double **f = atom->f;
+  const int nlocal = atom->nlocal;
+  for (int i = 0; i < nlocal; ++i) {
+    const double *v = atom->v[i];
+    double *star = velocity_[i]; // in the place of v(t), which this step needs no more
+    const bool rests = v[0] == star[0] && v[1] == star[1] && v[2] == star[2]; // forces do not move it
+    const double kick = rests ? 0.0 : 0.5 * update->dt / atom->rmass[i];
+    for (std::size_t a = 0; a < 3; ++a)
+      star[a] = v[a] + kick * f[i][a];
+  }
+  if (comm->nprocs > 1 || atom->nghost > 0) drumlin::engine::forward_comm(comm, this);
+  if (force->newton_pair) gather(3);
+  for (const Coupled &p : coupled_) {
+    const auto along = [&](int ball) {
+      const double *v = velocity_[ball];
+      return v[0] * p.normal[0] + v[1] * p.normal[1] + v[2] * p.normal[2];
+    };
+    const double rate = (p.j < 0 ? 0.0 : along(p.j)) - along(p.i);
+    const double acting = drumlin::physics::coupled_force(p.dashpot, rate);
+    const double change = p.share * (acting - p.dashpot.first);
+    add_force(p.i, change, p.normal);
+    if (p.j >= 0 && p.j < nlocal)
+      add_force(p.j, -change, p.normal);
+    else if (takes(p.j))
+      for (std::size_t a = 0; a < 3; ++a)
+        gathered_[static_cast<std::size_t>(p.j) * 3 + a] -= change * p.normal[a];
+    *p.force = acting;
+  }
+  coupled_.clear();
+  if (force->newton_pair) {
+    drumlin::engine::reverse_comm(comm, this);
+    for (int i = 0; i < nlocal; ++i) {
+      const double *change = gathered_.data() + static_cast<std::ptrdiff_t>(i) * 3;
+      if (change[0] != 0.0 || change[1] != 0.0 || change[2] != 0.0)
+        add_force(i, 1.0, {change[0], change[1], change[2]});
+    }
+  }
+  for (const std::function<void()> &close : coupled_links_)
+    close();
+  coupled_links_.clear();
+  constrain(true);
+}
+
+/// One entry per ball: constraints act on its forces as a whole, and what is taken back later is the difference that all
+/// its shifts together make.
+void FixStepping::merge_later() {
+  std::stable_sort(later_.begin(), later_.end(), [](const Later &a, const Later &b) { return a.i < b.i; });
+  std::size_t kept = 0;
+  for (const Later &item : later_)
+    if (kept > 0 && later_[kept - 1].i == item.i)
+      for (std::size_t a = 0; a < 3; ++a) {
+        later_[kept - 1].rest[a] += item.rest[a];
+        later_[kept - 1].shift[a] += item.shift[a];
+      }
+    else
+      later_[kept++] = item;
+  later_.resize(kept);
+}
+
+void FixStepping::end_of_step() {
+  if (!in_use_) return;
+  // What one ball of a body gets or gives back all of them do.
+  for (const Constraint &constraint : constraints_)
+    if (constraint.joins)
+      for (int i = 0; i < atom->nlocal; ++i)
+        if (atom->mask[i] & constraint.fix->groupbit) later_.push_back({i, {}, {}});
+  merge_later();
+  double **v = atom->v;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    double *before = row(i);
+    before[0] = v[i][0];
+    before[1] = v[i][1];
+    before[2] = v[i][2];
+  }
+  double **f = atom->f;
+  for (const Later &item : later_)
+    add_force(item.i, 1.0, item.rest);
+  constrain(!later_.empty());
+  // What the constraints leave of a shift is the difference that it makes to the constrained force.
+  shifts_.swap(later_);
+  later_.clear();
+  for (Later &item : shifts_)
+    for (std::size_t a = 0; a < 3; ++a) {
+      item.rest[a] = f[item.i][a];
+      f[item.i][a] += item.shift[a];
+    }
+  constrain(!shifts_.empty());
+  for (Later &item : shifts_)
+    for (std::size_t a = 0; a < 3; ++a)
+      item.shift[a] = f[item.i][a] - item.rest[a];
+}
+
+void FixStepping::add_force(int i, double factor, const std::array<double, 3> &vector) {
+  for (std::size_t a = 0; a < 3; ++a)
+    atom->f[i][a] += factor * vector[a];
+  for (const Constraint &constraint : constraints_)
+    if (constraint.reaction != nullptr && (atom->mask[i] & constraint.fix->groupbit))
+      for (std::size_t a = 0; a < 3; ++a)
+        constraint.reaction[a] += factor * vector[a];
+}
+
+/// Constraints are projections: acting again on what has passed them changes nothing else. But they would say that they took
+/// what they find now.
+void FixStepping::constrain(bool any) const {
+  for (const Constraint &constraint : constraints_) {
+    if (!any && !constraint.joins) continue;
+    std::array<double, 3> taken{};
+    if (constraint.reaction != nullptr) std::copy_n(constraint.reaction, 3, taken.begin());
+    constraint.fix->post_force(0);
+    if (constraint.reaction != nullptr) std::copy_n(taken.begin(), 3, constraint.reaction);
+  }
+}
+
+void FixStepping::grow_arrays(int nmax) {
+  memory->grow(velocity_, nmax, shared, "drumlin/stepping:velocity");
+  for (std::vector<double> *values : {&inverse_mass_, &damping_})
+    values->resize(static_cast<std::size_t>(nmax));
+}
+
+void FixStepping::copy_arrays(int i, int j, int) {
+  std::array<double, exchanged> ball{};
+  FixStepping::pack_exchange(i, ball.data());
+  FixStepping::unpack_exchange(j, ball.data());
+}
+
+void FixStepping::set_arrays(int i) {
+  std::array<double, exchanged> ball{};
+  ball.back() = -1.0;
+  FixStepping::unpack_exchange(i, ball.data());
+}
+
+int FixStepping::pack_exchange(int i, double *buf) {
+  FixStepping::pack_ghosts(1, &i, buf);
+  buf[shared] = inverse_mass_[static_cast<std::size_t>(i)];
+  return exchanged;
+}
+
+int FixStepping::unpack_exchange(int i, double *buf) {
+  FixStepping::unpack_ghosts(1, i, buf);
+  inverse_mass_[static_cast<std::size_t>(i)] = buf[shared];
+  return exchanged;
+}
+
+void FixStepping::pack_ghosts(int n, const int *list, double *buf) {
+  for (int m = 0; m < n; ++m)
+    buf = std::copy_n(row(list[m]), shared, buf);
+}
+
+void FixStepping::unpack_ghosts(int n, int begin, double *buf) { std::copy_n(buf, n * shared, row(begin)); }
+
+void FixStepping::pack_gathered(int n, int begin, double *buf) {
+  std::copy_n(gathered_.begin() + static_cast<std::ptrdiff_t>(begin) * comm_reverse, n * comm_reverse, buf);
+}
+
+void FixStepping::join_gathered(int n, const int *list, const double *buf) {
+  for (int m = 0; m < n; ++m) {
+    const auto ball = gathered_.begin() + static_cast<std::ptrdiff_t>(list[m]) * comm_reverse;
+    std::transform(ball, ball + comm_reverse, buf, ball, std::plus<>());
+    buf += comm_reverse;
+  }
+}
+
+double FixStepping::memory_usage() { return static_cast<double>(atom->nmax) * 6 * sizeof(double); }

@@ -1,0 +1,238 @@
+#include "bed/packing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <random>
+#include <stdexcept>
+#include <utility>
+
+namespace drumlin::post {
+
+namespace {
+
+constexpr double pi = 3.141592653589793;
+/// Cells that the search for neighbours may have, 8 bytes each.
+constexpr double most_cells = 5e7;
+/// Pairs of balls that may be looked at while the balls are placed: about an hour.
+constexpr double most_pairs = 1e12;
+/// Height of the box above the soil balls, m: room for drum and frame.
+constexpr double room_above = 2.0;
+/// Soil, drum, frame: a box knows the number of its types for good.
+constexpr int types = 3;
+constexpr std::array<std::pair<Grading, const char *>, 2> gradings = {
+    {{Grading::uniform, "uniform"}, {Grading::mass, "mass"}}};
+
+/// Numbers from 0 to 1, 1 left out. The standard fixes the bits of the engine, but not what its distributions make of them.
+class Random {
+public:
+  explicit Random(std::uint64_t seed) : bits_(seed) {}
+  double operator()() { return static_cast<double>(bits_() >> 11U) * 0x1p-53; }
+  double between(double low, double high) { return low + (*this)() * (high - low); }
+
+private:
+  std::mt19937_64 bits_;
+};
+
+/// Inverse of the distribution of radii. Mass goes with the area or the volume of a ball, so that the same mass in equal
+/// intervals means a density of numbers ~ r^-2 or r^-3. No pow(): only what IEEE 754 rounds correctly.
+double radius(const PackingOptions &options, double share) {
+  const double low = options.radius_min;
+  const double high = options.radius_max;
+  if (options.grading == Grading::uniform) return low + share * (high - low);
+  if (options.dimensions() == 2) return 1.0 / (1.0 / low - share * (1.0 / low - 1.0 / high));
+  const double few = 1.0 / (low * low);
+  return 1.0 / std::sqrt(few - share * (few - 1.0 / (high * high)));
+}
+
+/// Balls by the cell that holds their centre; a cell is as wide as the largest ball, so that only neighbour cells count.
+class Cells {
+public:
+  Cells(const std::array<double, 3> &size, double cell) : cell_(cell) {
+    std::size_t cells = 1;
+    for (std::size_t a = 0; a < 3; ++a) {
+      count_[a] = static_cast<long>(size[a] / cell) + 1;
+      cells *= static_cast<std::size_t>(count_[a]);
+    }
+    first_.assign(cells, -1);
+  }
+
+  void add(const std::vector<PackedBall> &balls) {
+    const std::array<long, 3> at = place(balls.back().centre);
+    next_.push_back(std::exchange(first_[index(at)], static_cast<long>(balls.size()) - 1));
+  }
+
+  bool is_free(const PackedBall &ball, const std::vector<PackedBall> &balls) const {
+    const std::array<long, 3> at = place(ball.centre);
+    std::array<long, 3> from{}, to{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      from[a] = std::max(0L, at[a] - 1);
+      to[a] = std::min(count_[a] - 1, at[a] + 1);
+    }
+    for (long i = from[0]; i <= to[0]; ++i)
+      for (long j = from[1]; j <= to[1]; ++j)
+        for (long k = from[2]; k <= to[2]; ++k)
+          for (long n = first_[index({i, j, k})]; n >= 0; n = next_[static_cast<std::size_t>(n)])
+            if (touch(ball, balls[static_cast<std::size_t>(n)])) return false;
+    return true;
+  }
+
+private:
+  static bool touch(const PackedBall &a, const PackedBall &b) {
+    const double x = a.centre[0] - b.centre[0];
+    const double y = a.centre[1] - b.centre[1];
+    const double z = a.centre[2] - b.centre[2];
+    const double reach = a.radius + b.radius;
+    return x * x + y * y + z * z <= reach * reach;
+  }
+  std::array<long, 3> place(const std::array<double, 3> &centre) const {
+    return {static_cast<long>(centre[0] / cell_), static_cast<long>(centre[1] / cell_),
+            static_cast<long>(centre[2] / cell_)};
+  }
+  std::size_t index(const std::array<long, 3> &at) const {
+    return static_cast<std::size_t>((at[0] * count_[1] + at[1]) * count_[2] + at[2]);
+  }
+
+  double cell_;
+  std::array<long, 3> count_{};
+  std::vector<long> first_, next_; // chains of balls; -1 ends one
+};
+
+/// Area of a disc or volume of a ball, m2 or m3.
+double content(double radius, int dimensions) {
+  return dimensions == 2 ? pi * radius * radius : 4.0 / 3.0 * pi * radius * radius * radius;
+}
+
+} // namespace
+
+std::string grading_name(Grading grading) {
+  return std::find_if(gradings.begin(), gradings.end(),
+                      [grading](const auto &g) { return g.first == grading; })
+      ->second;
+}
+
+Grading grading_from_name(const std::string &name) {
+  for (const auto &[grading, known] : gradings)
+    if (name == known) return grading;
+  throw std::invalid_argument(refusal("grading", name, "uniform, mass"));
+}
+
+double largest_share(int dimensions) { return dimensions == 2 ? 0.5 : 0.34; }
+double default_share(int dimensions) { return dimensions == 2 ? 0.45 : 0.28; }
+
+std::string PackingOptions::invalid() const {
+  if (balls < 1 || balls > most_balls)
+    return refusal("balls", balls, fmt::format("a whole number from 1 to {}", most_balls));
+  if (!radius_range.holds(radius_min)) return refusal("radius-min", radius_min, radius_range.words());
+  if (!(radius_max >= radius_min && radius_max <= most_spread * radius_min && radius_range.holds(radius_max)))
+    return refusal(
+        "radius-max", radius_max,
+        fmt::format("a number from radius-min, which is {}, to {:g} times it [m]", radius_min, most_spread));
+  const Range room = {2.0 * radius_max, length_range.most, "m"};
+  const Range or_zero = {2.0 * radius_max, length_range.most, "m", true};
+  if (!room.holds(width)) return refusal("width", width, room.words() + ": room for the largest ball");
+  if (!or_zero.holds(depth))
+    return refusal("depth", depth,
+                   or_zero.words() + ": 0 makes two dimensions, else room for the largest ball");
+  if (!or_zero.holds(height))
+    return refusal("height", height, or_zero.words() + ": 0 is as needed, else room for the largest ball");
+  return {};
+}
+
+Packing pack_balls(const PackingOptions &options, const std::function<void(std::size_t)> &progress,
+                   int attempts) {
+  if (const std::string fault = options.invalid(); !fault.empty()) throw std::invalid_argument(fault);
+  const int dimensions = options.dimensions();
+  const auto count = static_cast<std::size_t>(options.balls);
+  Random random(options.seed);
+
+  std::vector<double> radii(count);
+  double all = 0.0;
+  for (double &r : radii) {
+    r = radius(options, random());
+    all += content(r, dimensions);
+  }
+  const double base = options.width * (dimensions == 2 ? 1.0 : options.depth);
+  const double least = all / (base * largest_share(dimensions));
+  double height = options.height;
+  if (height == 0.0) { // along the walls a strip is not as full
+    const double strip = options.radius_max;
+    const double free_base = (options.width - strip) * (dimensions == 2 ? 1.0 : options.depth - strip);
+    height = std::max(all / (free_base * default_share(dimensions)) + strip, 2.0 * options.radius_max);
+  } else if (height < least)
+    throw std::invalid_argument(refusal(
+        "height", height,
+        fmt::format("0 (as needed) or at least {:.3f} [m], in which {} balls of radius {} to {} m fit "
+                    "without touching",
+                    least, count, options.radius_min, options.radius_max)));
+
+  // Known before any work: how many cells the box has, and how many balls are looked at for every try.
+  const double side = 2.0 * options.radius_max;
+  const double cell_number =
+      (options.width / side + 1.0) * (options.depth / side + 1.0) * (height / side + 1.0);
+  if (cell_number > most_cells)
+    throw std::invalid_argument(
+        refusal(options.height > options.width ? "height" : "width", std::max(options.height, options.width),
+                fmt::format("a box of at most {:g} times the largest ball's volume (area in two dimensions)",
+                            most_cells)));
+  constexpr double tries = 5.0; // per ball, about
+  const double neighbours =
+      (dimensions == 2 ? 9.0 : 27.0) * std::min(1.0, 1.0 / cell_number) * static_cast<double>(count);
+  if (tries * neighbours * static_cast<double>(count) > most_pairs)
+    throw std::invalid_argument(
+        refusal("balls", options.balls,
+                fmt::format("at most {:.0f} with radii from {} to {} m in this box, else it takes hours",
+                            std::sqrt(most_pairs / (tries * neighbours / static_cast<double>(count))),
+                            options.radius_min, options.radius_max)));
+
+  std::vector<PackedBall> balls;
+  balls.reserve(count);
+  std::size_t all_tries = 0;
+  Cells cells({options.width, options.depth, height}, 2.0 * options.radius_max);
+  for (const double r : radii) {
+    PackedBall ball{{}, r};
+    int failed = 0;
+    do {
+      constexpr std::size_t now_and_then = 4096;
+      if (progress && ++all_tries % now_and_then == 0) progress(balls.size());
+      if (++failed > attempts)
+        throw std::invalid_argument(refusal(
+            "balls", options.balls,
+            fmt::format(
+                "fewer balls, or a wider or higher box (width {}, height {:.3f} m): {} found a place and "
+                "the next none in {} tries",
+                options.width, height, balls.size(), attempts)));
+      ball.centre[0] = random.between(r, options.width - r);
+      if (dimensions == 3) ball.centre[1] = random.between(r, options.depth - r);
+      ball.centre[2] = random.between(r, height - r);
+    } while (!cells.is_free(ball, balls));
+    balls.push_back(ball);
+    cells.add(balls);
+  }
+  return {std::move(balls), height};
+}
+
+std::string bed_data(const PackingOptions &options, double density, const Packing &packing) {
+  const bool flat = options.dimensions() == 2;
+  const double depth = flat ? 2.0 * options.radius_max : options.depth;
+  const double top = packing.height + room_above;
+  std::string text = fmt::format(
+      "# {} balls at random: radius {} to {} m, grading {}, {} m wide, {} m deep, filled to {} m, "
+      "seed {} (drumlin bed)\n\n{} atoms\n{} atom types\n\n",
+      packing.balls.size(), options.radius_min, options.radius_max, grading_name(options.grading),
+      options.width, options.depth, packing.height, options.seed, packing.balls.size(), types);
+  auto out = std::back_inserter(text);
+  fmt::format_to(out, "{:.17g} {:.17g} xlo xhi\n0 {:.17g} ylo yhi\n{:.17g} {:.17g} zlo zhi\n",
+                 -0.5 * options.width, 0.5 * options.width, top, -0.5 * depth, 0.5 * depth);
+  fmt::format_to(out, "\nAtoms\n\n"); // ID, type, diameter, density, x, y, z
+  std::size_t id = 0;
+  for (const PackedBall &ball : packing.balls)
+    fmt::format_to(out, "{} 1 {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", ++id, 2.0 * ball.radius, density,
+                   ball.centre[0] - 0.5 * options.width, ball.centre[2],
+                   flat ? 0.0 : ball.centre[1] - 0.5 * depth);
+  return text;
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,74 @@
+// Soil balls placed at random in a box, none touching another: what a bed is before it settles.
+#pragma once
+
+#include "support/range.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+/// How radii are spread from the smallest to the largest.
+enum class Grading {
+  uniform, ///< every radius as often as any other
+  mass     ///< the same mass of balls in equal intervals of radius: a straight grading curve
+};
+
+std::string grading_name(Grading grading);
+/// From "uniform" or "mass"; else std::invalid_argument.
+Grading grading_from_name(const std::string &name);
+
+struct PackingOptions {
+  int balls = 2500;    ///< >= 1
+  double width = 2.0;  ///< m, > 0, of the box, wall to wall
+  double depth = 0.0;  ///< m; 0: two dimensions, the balls are discs
+  double height = 0.0; ///< m, of the part of the box that is filled; 0: as high as default_share() wants
+  double radius_min = 0.016; ///< m, > 0
+  double radius_max = 0.024; ///< m, >= radius_min
+  std::uint64_t seed = 1;
+  Grading grading = Grading::uniform;
+
+  static constexpr int most_balls = 10'000'000;
+  static constexpr Range radius_range = {1e-6, 1e3, "m"};
+  static constexpr Range length_range = {1e-6, 1e5, "m"}; ///< of the sides of the box
+  static constexpr double most_spread = 1000.0;           ///< of the largest radius over the smallest
+
+  int dimensions() const { return depth > 0.0 ? 3 : 2; }
+  /// Empty if every value is allowed, else what is wrong: name, value, what is allowed.
+  std::string invalid() const;
+};
+
+/// The largest share of area (or volume) that balls may take of the box. Balls placed at random one after the other
+/// jam at 0.547 in two dimensions and near 0.38 in three (Feder 1980, J. Theor. Biol. 87, 237-254); on the way there the
+/// number of attempts per ball grows without bound.
+double largest_share(int dimensions);
+/// The share with which the filled height is chosen: a few attempts per ball.
+double default_share(int dimensions);
+
+struct PackedBall {
+  std::array<double, 3> centre; ///< m, across, into the picture (0 in two dimensions), up from the floor
+  double radius;                ///< m
+};
+
+struct Packing {
+  std::vector<PackedBall> balls;
+  double height; ///< m, of the filled part
+};
+
+/// Places the balls. The same options give the same balls, bit for bit, on any machine: random bits become numbers by
+/// exact operations only.
+/// \param progress is called every few thousand tries with the number of balls placed
+/// Throws std::invalid_argument with what() naming the option, its value and what is allowed: before any ball is placed if
+/// their area is too much for the box, else when a ball has found no place in `attempts` tries.
+Packing pack_balls(const PackingOptions &options, const std::function<void(std::size_t)> &progress = {},
+                   int attempts = 100'000);
+
+/// The data file that the engine's read_data takes: balls of type 1, of three (soil, drum, frame), in a box with room for the
+/// roller above them. y is up; x = 0 and z = 0 are the middle. Density of a ball in kg/m3, of a disc 1 m thick.
+std::string bed_data(const PackingOptions &options, double density, const Packing &packing);
+
+} // namespace drumlin::post

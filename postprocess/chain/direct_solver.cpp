@@ -1,0 +1,795 @@
+#include "chain/direct_solver.h"
+
+#include <cvode/cvode.h>
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_context.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+
+namespace drumlin::post {
+
+namespace {
+
+// SUNDIALS 6 has both names for its numbers, later ones only this, earlier ones only realtype.
+static_assert(std::is_same_v<sunrealtype, double>, "SUNDIALS must be built in double precision");
+
+constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+// Position and velocity of the drum, position and velocity of the frame.
+enum Component : std::size_t { x_drum, v_drum, x_frame, v_frame };
+using State = std::array<double, 4>;
+
+// The smooth pieces of the motion. `clamped` is condition B's overlap without force: d > 0, k d + c d' <= 0.
+enum class Phase { contact, free, clamped };
+
+// A way out of a phase: `value` is negative inside the phase and crosses zero upwards on leaving it.
+struct Exit {
+  double value = -1.0;
+  double rate = 0.0;
+};
+
+// Which exits a phase has, in the order of Exits. `gap` closes a contact of A or opens one from a free drum;
+// `force` breaks or re-makes a contact of B; `apart` is the end of an overlap without force.
+constexpr std::size_t max_exits = 2;
+using Exits = std::array<Exit, max_exits>;
+
+class Chain {
+public:
+  explicit Chain(const ChainParameters &parameters) : p_(parameters), c_(parameters.damping()) {}
+
+  const ChainParameters &parameters() const { return p_; }
+  double c() const { return c_; }
+
+  double excitation(double t) const { return p_.Fw * std::sin(p_.omega * t); }
+  double bond(const State &y) const {
+    return p_.c23 * (y[v_frame] - y[v_drum]) + p_.k23 * (y[x_frame] - y[x_drum]);
+  }
+  // k d + c d', whether it acts or not.
+  double law(const State &y) const { return -(p_.k * y[x_drum] + c_ * y[v_drum]); }
+  double contact_force(Phase phase, const State &y) const { return phase == Phase::contact ? law(y) : 0.0; }
+
+  // The same for the record: beside a break condition B's force is zero up to rounding, and never below.
+  double recorded_force(Phase phase, const State &y) const {
+    const double force = contact_force(phase, y);
+    return p_.transition == Transition::B ? std::max(0.0, force) : force;
+  }
+
+  // y' = f(t, y)
+  State derivative(Phase phase, double t, const State &y) const {
+    const double bond_force = bond(y);
+    return {y[v_drum], (contact_force(phase, y) + bond_force - excitation(t)) / p_.m2 - p_.g, y[v_frame],
+            -bond_force / p_.m3 - p_.g};
+  }
+
+  // The row of df/dy that belongs to the drum's (m = m2, sign +) or the frame's acceleration (m3, sign -).
+  State drum_row(Phase phase) const {
+    const double k = phase == Phase::contact ? p_.k : 0.0;
+    const double c = phase == Phase::contact ? c_ : 0.0;
+    return {-(k + p_.k23) / p_.m2, -(c + p_.c23) / p_.m2, p_.k23 / p_.m2, p_.c23 / p_.m2};
+  }
+  State frame_row() const { return {p_.k23 / p_.m3, p_.c23 / p_.m3, -p_.k23 / p_.m3, -p_.c23 / p_.m3}; }
+
+  // Rate of the drum's acceleration, from y' at the same time.
+  double drum_jerk(Phase phase, double t, const State &rate) const {
+    const State row = drum_row(phase);
+    double jerk = -p_.omega * p_.Fw * std::cos(p_.omega * t) / p_.m2;
+    for (std::size_t i = 0; i < row.size(); ++i)
+      jerk += row[i] * rate[i];
+    return jerk;
+  }
+
+  std::size_t exit_count(Phase phase) const { return phase == Phase::clamped ? 2 : 1; }
+
+  Exits exits(Phase phase, const State &y, const State &rate) const {
+    const Exit overlap_begins = {-y[x_drum], -y[v_drum]};
+    const Exit overlap_ends = {y[x_drum], y[v_drum]};
+    const Exit force_begins = {law(y), law(rate)};
+    const Exit force_ends = {-law(y), -law(rate)};
+    switch (phase) {
+    case Phase::contact:
+      return {p_.transition == Transition::A ? overlap_ends : force_ends, Exit{}};
+    case Phase::free:
+      return {overlap_begins, Exit{}};
+    case Phase::clamped:
+      break;
+    }
+    return {overlap_ends, force_begins};
+  }
+
+  // Whether the fastest decay of the phase is so much faster than everything worth following that BDF pays.
+  // Adams' steps are bound by the decay rate (a few tenths of its inverse), BDF's at tight tolerances by
+  // accuracy (some thousand steps per radian of the motion's own time), so the two cost the same at a ratio
+  // near 10^2 to 10^3.
+  bool stiff(Phase phase) const {
+    constexpr double bdf_pays = 300.0;
+    const Rates found = rates(phase);
+    return found.decay > bdf_pays * found.motion;
+  }
+
+  // Radians per second that the integrator's steps must resolve, over all phases.
+  double fastest() const {
+    double fastest = 0.0;
+    for (const Phase phase : {Phase::contact, Phase::free}) {
+      const Rates found = rates(phase);
+      fastest = std::max(fastest, stiff(phase) ? found.motion : std::max(found.motion, found.decay));
+    }
+    return fastest;
+  }
+
+private:
+  struct Rates {
+    double decay = 0.0;  // of the fastest overdamped pair, 1/s
+    double motion = 0.0; // fastest oscillation or excitation, rad/s
+  };
+  Rates rates(Phase phase) const {
+    Rates rates = {0.0, p_.omega};
+    const auto include = [&rates](double k, double c, double m) {
+      const double beta = 0.5 * c / m;
+      const double square = k / m;
+      if (beta * beta > square)
+        rates.decay = std::max(rates.decay, beta + std::sqrt(beta * beta - square));
+      else
+        rates.motion = std::max(rates.motion, std::sqrt(square));
+    };
+    if (phase == Phase::contact) include(p_.k, c_, p_.m2);
+    include(p_.k23, p_.c23, p_.m2 * p_.m3 / (p_.m2 + p_.m3));
+    return rates;
+  }
+
+  ChainParameters p_;
+  double c_;
+};
+
+// Absolute tolerances far below what any component contributes to the forces: rtol alone would demand the
+// impossible wherever a component passes through zero.
+State absolute_tolerances(const ChainParameters &p, const DirectOptions &options) {
+  const double c = p.damping();
+  const double root = std::sqrt(p.m2 * p.k);
+  double force = std::max({p.Fw, (p.m2 + p.m3) * p.g, options.impact_speed * root});
+  if (force <= 0.0) force = 1.0;
+  const double part = 1e-2 * options.rtol * force;
+  return {part / p.k, part * std::min(1.0 / (c + root), p.omega / p.k),
+          part / std::max({p.k23, p.c23 * p.omega, p.m3 * p.omega * p.omega}),
+          part / std::max({p.c23, p.k23 / p.omega, p.m3 * p.omega})};
+}
+
+// ---- CVODE
+// ---------------------------------------------------------------------------------------------------
+
+struct FreeContext {
+  void operator()(SUNContext context) const { SUNContext_Free(&context); }
+};
+struct FreeVector {
+  void operator()(N_Vector vector) const { N_VDestroy(vector); }
+};
+struct FreeMatrix {
+  void operator()(SUNMatrix matrix) const { SUNMatDestroy(matrix); }
+};
+struct FreeLinearSolver {
+  void operator()(SUNLinearSolver solver) const { SUNLinSolFree(solver); }
+};
+struct FreeIntegrator {
+  void operator()(void *memory) const { CVodeFree(&memory); }
+};
+using ContextPointer = std::unique_ptr<std::remove_pointer_t<SUNContext>, FreeContext>;
+using VectorPointer = std::unique_ptr<std::remove_pointer_t<N_Vector>, FreeVector>;
+using MatrixPointer = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, FreeMatrix>;
+using LinearSolverPointer = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, FreeLinearSolver>;
+using IntegratorPointer = std::unique_ptr<void, FreeIntegrator>;
+
+State state_of(N_Vector vector) {
+  const double *data = N_VGetArrayPointer(vector);
+  return {data[0], data[1], data[2], data[3]};
+}
+
+void put_state(const State &state, N_Vector vector) {
+  std::copy(state.begin(), state.end(), N_VGetArrayPointer(vector));
+}
+
+// Where a step of the integrator ended.
+struct Reached {
+  double elapsed = 0.0;                     // since the start of the piece
+  bool at_end = false;                      // at the stop time
+  std::array<bool, max_exits> leaving = {}; // the exits that CVODE found crossed here
+};
+
+// One method of CVODE for one chain, started anew for every smooth piece. Time runs from 0 within a piece, so
+// that events are located to the rounding of the piece's length rather than of the whole run's.
+class Integrator {
+public:
+  Integrator(SUNContext context, const Chain &chain, const DirectOptions &options, bool bdf)
+      : chain_(chain), state_(N_VNew_Serial(4, context)), tolerance_(N_VNew_Serial(4, context)),
+        dense_(N_VNew_Serial(4, context)), matrix_(SUNDenseMatrix(4, 4, context)),
+        linear_(SUNLinSol_Dense(state_.get(), matrix_.get(), context)),
+        memory_(CVodeCreate(bdf ? CV_BDF : CV_ADAMS, context)) {
+    if (!state_ || !tolerance_ || !dense_ || !matrix_ || !linear_ || !memory_)
+      throw std::runtime_error("CVODE could not be set up");
+    put_state({0.0, 0.0, 0.0, 0.0}, state_.get());
+    put_state(absolute_tolerances(chain.parameters(), options), tolerance_.get());
+    void *memory = memory_.get();
+    check(CVodeInit(memory, &Integrator::right_hand_side, 0.0, state_.get()), "CVodeInit");
+#if SUNDIALS_VERSION_MAJOR >= 7
+    check(SUNContext_PushErrHandler(context, &Integrator::note_error, this), "SUNContext_PushErrHandler");
+#else
+    check(CVodeSetErrHandlerFn(memory, &Integrator::note_error, this), "CVodeSetErrHandlerFn");
+#endif
+    check(CVodeSetUserData(memory, this), "CVodeSetUserData");
+    check(CVodeSVtolerances(memory, options.rtol, tolerance_.get()), "CVodeSVtolerances");
+    check(CVodeSetLinearSolver(memory, linear_.get(), matrix_.get()), "CVodeSetLinearSolver");
+    check(CVodeSetJacFn(memory, &Integrator::jacobian), "CVodeSetJacFn");
+    // The pieces are linear: with the matrix always fresh one Newton iteration is exact.
+    check(CVodeSetDeltaGammaMaxLSetup(memory, 0.0), "CVodeSetDeltaGammaMaxLSetup");
+    check(CVodeSetMaxNumSteps(memory, -1), "CVodeSetMaxNumSteps");
+    check(CVodeSetMaxErrTestFails(memory, 20), "CVodeSetMaxErrTestFails");
+    check(CVodeSetMaxStep(memory, chain.parameters().period() / 40.0), "CVodeSetMaxStep");
+    check(CVodeSetNoInactiveRootWarn(memory), "CVodeSetNoInactiveRootWarn");
+  }
+
+  // Starts a piece at time t0 that lasts no longer than `length`.
+  void start(Phase phase, double t0, const State &state, double length) {
+    phase_ = phase;
+    t0_ = t0;
+    length_ = length;
+    put_state(state, state_.get());
+    void *memory = memory_.get();
+    check(CVodeReInit(memory, 0.0, state_.get()), "CVodeReInit");
+    const std::size_t exits = chain_.exit_count(phase);
+    check(CVodeRootInit(memory, static_cast<int>(exits), &Integrator::root_functions), "CVodeRootInit");
+    // Exits count upwards only: at the start of a piece the function that fired last is zero up to rounding
+    // and on its way down.
+    std::array<int, max_exits> direction = {1, 1};
+    check(CVodeSetRootDirection(memory, direction.data()), "CVodeSetRootDirection");
+    check(CVodeSetStopTime(memory, length), "CVodeSetStopTime");
+  }
+
+  // Goes on by one step, or less if a root lies within it.
+  Reached step() {
+    Reached reached;
+    const int flag = CVode(memory_.get(), length_, state_.get(), &reached.elapsed, CV_ONE_STEP);
+    check(flag, "CVode");
+    reached.at_end = flag == CV_TSTOP_RETURN;
+    if (flag == CV_ROOT_RETURN) {
+      std::array<int, max_exits> found = {};
+      check(CVodeGetRootInfo(memory_.get(), found.data()), "CVodeGetRootInfo");
+      for (std::size_t i = 0; i < chain_.exit_count(phase_); ++i)
+        reached.leaving[i] = found[i] > 0;
+    }
+    return reached;
+  }
+
+  // The state where step() ended.
+  State state() const { return state_of(state_.get()); }
+
+  // The state at any time within the last step.
+  State state_at(double elapsed) {
+    check(CVodeGetDky(memory_.get(), elapsed, 0, dense_.get()), "CVodeGetDky");
+    return state_of(dense_.get());
+  }
+
+  // Steps in the piece so far.
+  long steps() const {
+    long steps = 0;
+    CVodeGetNumSteps(memory_.get(), &steps);
+    return steps;
+  }
+
+private:
+  static int right_hand_side(sunrealtype elapsed, N_Vector y, N_Vector rate, void *user) {
+    const auto &self = *static_cast<Integrator *>(user);
+    put_state(self.chain_.derivative(self.phase_, self.t0_ + elapsed, state_of(y)), rate);
+    return 0;
+  }
+
+  static int jacobian(sunrealtype /*elapsed*/, N_Vector /*y*/, N_Vector /*rate*/, SUNMatrix matrix,
+                      void *user, N_Vector /*work1*/, N_Vector /*work2*/, N_Vector /*work3*/) {
+    const auto &self = *static_cast<Integrator *>(user);
+    const std::array<State, 4> rows = {{{0.0, 1.0, 0.0, 0.0},
+                                        self.chain_.drum_row(self.phase_),
+                                        {0.0, 0.0, 0.0, 1.0},
+                                        self.chain_.frame_row()}};
+    for (std::size_t column = 0; column < 4; ++column) {
+      double *entries = SUNDenseMatrix_Column(matrix, static_cast<sunindextype>(column));
+      for (std::size_t row = 0; row < 4; ++row)
+        entries[row] = rows[row][column];
+    }
+    return 0;
+  }
+
+  static int root_functions(sunrealtype elapsed, N_Vector y, sunrealtype *values, void *user) {
+    const auto &self = *static_cast<Integrator *>(user);
+    const State state = state_of(y);
+    const Exits exits =
+        self.chain_.exits(self.phase_, state, self.chain_.derivative(self.phase_, self.t0_ + elapsed, state));
+    for (std::size_t i = 0; i < self.chain_.exit_count(self.phase_); ++i)
+      values[i] = exits[i].value;
+    return 0;
+  }
+
+#if SUNDIALS_VERSION_MAJOR >= 7
+  static void note_error(int /*line*/, const char * /*function*/, const char * /*file*/, const char *message,
+                         SUNErrCode /*code*/, void *user, SUNContext /*context*/) {
+    if (message != nullptr) static_cast<Integrator *>(user)->message_ = message;
+  }
+#else
+  static void note_error(int code, const char * /*module*/, const char * /*function*/, char *message,
+                         void *user) {
+    if (code < 0) static_cast<Integrator *>(user)->message_ = message;
+  }
+#endif
+
+  void check(int flag, const char *function) const {
+    if (flag >= 0) return;
+    std::string text =
+        fmt::format("the direct solver failed at t = {} s: {} returned {}", t0_, function, flag);
+    if (!message_.empty()) text += ": " + message_;
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    throw std::runtime_error(text);
+  }
+
+  const Chain &chain_;
+  Phase phase_ = Phase::contact;
+  double t0_ = 0.0;
+  double length_ = 0.0;
+  std::string message_;
+  VectorPointer state_;
+  VectorPointer tolerance_;
+  VectorPointer dense_;
+  MatrixPointer matrix_;
+  LinearSolverPointer linear_;
+  IntegratorPointer memory_;
+};
+
+// ---- what is recorded
+// ----------------------------------------------------------------------------------------
+
+// Smallest and largest value of a smooth function that is known with its rate at successive points.
+class Extremes {
+public:
+  void point(double value) {
+    min_ = std::min(min_, value);
+    max_ = std::max(max_, value);
+  }
+
+  // Between two points `h` apart: the turn of the cubic through both values and rates, if a rate changes
+  // sign.
+  void between(double value0, double rate0, double value1, double rate1, double h) {
+    if (rate0 * rate1 >= 0.0) return;
+    const double slope = (value1 - value0) / h;
+    const double a = 3.0 * (rate0 + rate1 - 2.0 * slope);
+    const double b = 2.0 * (3.0 * slope - 2.0 * rate0 - rate1);
+    const double root = std::sqrt(std::max(0.0, b * b - 4.0 * a * rate0));
+    const double q = -0.5 * (b + std::copysign(root, b));
+    // a s^2 + b s + rate0 = 0 changes sign between s = 0 and 1, so exactly one of its roots lies there.
+    const double s1 = q / a;
+    const double s = (a != 0.0 && s1 >= 0.0 && s1 <= 1.0) ? s1 : rate0 / q;
+    if (s >= 0.0 && s <= 1.0) point(value0 + h * s * (rate0 + s * (0.5 * b + s * a / 3.0)));
+  }
+
+  double min() const { return min_; }
+  double max() const { return max_; }
+
+private:
+  double min_ = no_limit;
+  double max_ = -no_limit;
+};
+
+// A moment of the motion: time, state, and what the extremes need.
+struct Moment {
+  double time = 0.0;
+  double acceleration = 0.0;
+  double jerk = 0.0;
+  double force = 0.0;
+  double force_rate = 0.0;
+};
+
+// Samples at equal times, extremes per cycle. Its grid refines the samples to at least 2000 points per cycle.
+class Recorder {
+public:
+  Recorder(const Chain &chain, const DirectOptions &options)
+      : chain_(chain), per_sample_((2000 + options.samples_per_cycle - 1) / options.samples_per_cycle),
+        per_cycle_(static_cast<long>(options.samples_per_cycle) * per_sample_),
+        last_(std::llround(options.cycles * static_cast<double>(per_cycle_))),
+        cycles_(static_cast<std::size_t>(last_ / per_cycle_) + 1) {}
+
+  double end() const { return time_of(last_); }
+  // The next point of the grid that awaits recording; infinity after the last.
+  double next() const { return next_ <= last_ ? time_of(next_) : no_limit; }
+
+  // A piece begins: the extremes do not connect it to the piece before.
+  void begin_piece(Phase phase, double t, const State &y) {
+    before_ = moment(phase, t, y, chain_.derivative(phase, t, y));
+    take(before_);
+  }
+
+  // The motion goes on smoothly to t, which lies no further than next().
+  void follow(Phase phase, double t, const State &y) {
+    const State rate = chain_.derivative(phase, t, y);
+    const Moment now = moment(phase, t, y, rate);
+    take(now);
+    const double h = now.time - before_.time;
+    if (h > 0.0) {
+      Cycle &cycle = current();
+      cycle.a.between(before_.acceleration, before_.jerk, now.acceleration, now.jerk, h);
+      cycle.F.between(before_.force, before_.force_rate, now.force, now.force_rate, h);
+    }
+    before_ = now;
+  }
+
+  // Records the grid's next point with the state there.
+  void grid_point(Phase phase, const State &y) {
+    const double t = time_of(next_);
+    if (next_ % per_sample_ == 0) {
+      const State rate = chain_.derivative(phase, t, y);
+      history_.time.push_back(t);
+      history_.x_drum.push_back(y[x_drum]);
+      history_.v_drum.push_back(y[v_drum]);
+      history_.a_drum.push_back(rate[v_drum]);
+      history_.x_frame.push_back(y[x_frame]);
+      history_.v_frame.push_back(y[v_frame]);
+      history_.a_frame.push_back(rate[v_frame]);
+      history_.F_contact.push_back(chain_.recorded_force(phase, y));
+      history_.F_excitation.push_back(chain_.excitation(t));
+      history_.F_bond.push_back(chain_.bond(y));
+    }
+    ++next_;
+    take(moment(phase, t, y, chain_.derivative(phase, t, y))); // a border of cycles belongs to both
+  }
+
+  // The contact lasted from `from` to `to`.
+  void contact(double from, double to) {
+    for (std::size_t i = cycle_at(from); i < cycles_.size() && time_of_cycle(i) < to; ++i)
+      cycles_[i].contact +=
+          std::max(0.0, std::min(to, time_of_cycle(i + 1)) - std::max(from, time_of_cycle(i)));
+  }
+
+  void event(const ContactEvent &event) {
+    Cycle &cycle = cycles_[cycle_at(event.time)];
+    ++(event.make ? cycle.makes : cycle.breaks);
+  }
+
+  ChainHistory take_history() { return std::move(history_); }
+
+  std::vector<CycleSummary> summaries() const {
+    std::vector<CycleSummary> rows;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(last_ / per_cycle_); ++i) {
+      const Cycle &cycle = cycles_[i];
+      rows.push_back(
+          {static_cast<int>(i) + 1, time_of_cycle(i), cycle.a.min(), cycle.a.max(),
+           chain_.parameters().transition == Transition::B ? std::max(0.0, cycle.F.min()) : cycle.F.min(),
+           cycle.F.max(), std::min(1.0, cycle.contact / chain_.parameters().period()), cycle.makes,
+           cycle.breaks});
+    }
+    return rows;
+  }
+
+private:
+  struct Cycle {
+    Extremes a;
+    Extremes F;
+    double contact = 0.0;
+    int makes = 0;
+    int breaks = 0;
+  };
+
+  double time_of(long point) const {
+    return static_cast<double>(point) * chain_.parameters().period() / static_cast<double>(per_cycle_);
+  }
+  double time_of_cycle(std::size_t cycle) const { return time_of(static_cast<long>(cycle) * per_cycle_); }
+
+  std::size_t cycle_at(double t) const {
+    const auto cycle = static_cast<std::size_t>(std::max(0.0, t / chain_.parameters().period()));
+    return std::min(cycle, cycles_.size() - 1);
+  }
+
+  // The cycle between the last point recorded and the next.
+  Cycle &current() { return cycles_[static_cast<std::size_t>(std::max(0L, next_ - 1) / per_cycle_)]; }
+
+  Moment moment(Phase phase, double t, const State &y, const State &rate) const {
+    return {t, rate[v_drum], chain_.drum_jerk(phase, t, rate), chain_.contact_force(phase, y),
+            chain_.contact_force(phase, rate)};
+  }
+
+  void take(const Moment &now) {
+    Cycle &cycle = current();
+    cycle.a.point(now.acceleration);
+    cycle.F.point(now.force);
+  }
+
+  const Chain &chain_;
+  long per_sample_;
+  long per_cycle_;
+  long last_;
+  long next_ = 0;
+  std::vector<Cycle> cycles_;
+  ChainHistory history_;
+  Moment before_;
+};
+
+// ---- the run
+// -------------------------------------------------------------------------------------------------
+
+class Run {
+public:
+  Run(const ChainParameters &parameters, const DirectOptions &options, const SolverProgress &progress)
+      : chain_(parameters), options_(options), progress_(progress), recorder_(chain_, options) {
+    SUNContext context = nullptr;
+#if SUNDIALS_VERSION_MAJOR >= 7
+    const auto no_ranks = SUN_COMM_NULL;
+#else
+    void *const no_ranks = nullptr;
+#endif
+    if (SUNContext_Create(no_ranks, &context) != 0) throw std::runtime_error("SUNDIALS could not be set up");
+    context_.reset(context);
+  }
+
+  DirectResult solve() {
+    begin();
+    const double end = recorder_.end();
+    recorder_.begin_piece(phase_, t_, y_);
+    recorder_.grid_point(phase_, y_);
+    // What is left after an event beside the end is below the rounding of the period: nothing moves in it.
+    const double nothing = 1e-14 * chain_.parameters().period();
+    bool at_end = false;
+    while (!at_end && end - t_ > nothing)
+      at_end = piece(end);
+    while (recorder_.next() <= end)
+      recorder_.grid_point(phase_, y_);
+    if (phase_ == Phase::contact) recorder_.contact(made_at_, end);
+
+    result_.history = recorder_.take_history();
+    result_.cycles = recorder_.summaries();
+    return std::move(result_);
+  }
+
+private:
+  void begin() {
+    const ChainParameters &p = chain_.parameters();
+    if (options_.impact_speed > 0.0) {
+      y_ = {0.0, -options_.impact_speed, 0.0, -options_.impact_speed};
+    } else {
+      const double x2 = p.g > 0.0 ? -(p.m2 + p.m3) * p.g / p.k : 0.0;
+      y_ = {x2, 0.0, p.g > 0.0 ? x2 - p.m3 * p.g / p.k23 : x2, 0.0};
+    }
+    if (y_[x_drum] < 0.0) {
+      phase_ = Phase::contact;
+    } else if (options_.impact_speed > 0.0 || p.Fw > 0.0) {
+      make(chain_.c() * -y_[v_drum]); // touching, and moving or about to be pushed down
+    } else {
+      phase_ = Phase::free; // touching, and nothing acts
+    }
+  }
+
+  // One smooth piece, from event to event; true if it reached the end of the run.
+  bool piece(double end) {
+    const double start = t_;
+    const bool stiff = chain_.stiff(phase_);
+    Integrator &integrator = method(stiff);
+    integrator.start(phase_, start, y_, end - start);
+    ++result_.cost.restarts;
+    result_.cost.bdf = result_.cost.bdf || stiff;
+    if (start > 0.0) recorder_.begin_piece(phase_, start, y_);
+
+    // Adams takes few long steps: look between their ends for extremes. BDF's steps are short.
+    const int parts = stiff ? 1 : 4;
+    double elapsed = 0.0;
+    while (true) {
+      const Reached reached = integrator.step();
+      constexpr long now_and_then = 1024; // steps: some milliseconds
+      if (++steps_ % now_and_then == 0 && progress_) progress_((start + reached.elapsed) / end);
+      constexpr long most_steps = 200'000'000; // minutes: rounding can make steps short without end
+      if (steps_ > most_steps)
+        throw std::runtime_error(fmt::format("the direct solver took more than {} steps up to t = {} s",
+                                             most_steps, start + reached.elapsed));
+      const Departure departure = first_departure(integrator, start, elapsed, reached);
+      const double until = departure.exit ? departure.elapsed : reached.elapsed;
+      const State y = until < reached.elapsed ? integrator.state_at(until) : integrator.state();
+      for (int part = 1; part <= parts; ++part) {
+        const double to = elapsed + (until - elapsed) * part / parts;
+        while (recorder_.next() <= start + to) {
+          const double grid = recorder_.next();
+          const State there = integrator.state_at(std::min(std::max(grid - start, elapsed), until));
+          recorder_.follow(phase_, grid, there);
+          recorder_.grid_point(phase_, there);
+        }
+        recorder_.follow(phase_, start + to, part == parts ? y : integrator.state_at(to));
+      }
+      elapsed = until;
+      if (departure.exit || reached.at_end) {
+        result_.cost.steps += integrator.steps();
+        t_ = departure.exit ? start + elapsed : end;
+        y_ = y;
+        if (departure.exit) leave(*departure.exit);
+        return !departure.exit;
+      }
+    }
+  }
+
+  // Where the phase ends within the last step, if it does.
+  struct Departure {
+    std::optional<std::size_t> exit;
+    double elapsed = no_limit;
+  };
+
+  // CVODE finds the crossings that change a sign from one end of the step to the other. Two kinds it cannot
+  // see: there and back within the step, and of a function that is zero, or beyond by rounding, where the
+  // piece starts.
+  Departure first_departure(Integrator &integrator, double start, double from, const Reached &reached) const {
+    const auto exits_at = [&](double elapsed) {
+      const State y = integrator.state_at(elapsed);
+      return chain_.exits(phase_, y, chain_.derivative(phase_, start + elapsed, y));
+    };
+    const Exits before = exits_at(from);
+    const Exits now = exits_at(reached.elapsed);
+    Departure first;
+    for (std::size_t i = 0; i < chain_.exit_count(phase_); ++i) {
+      double lo = from;
+      double hi = reached.elapsed;
+      if (reached.leaving[i]) {
+        lo = hi;
+      } else {
+        // Narrows lo and hi to where `negative` turns false.
+        const auto bisect = [&lo, &hi](const auto &negative) {
+          for (double middle = 0.5 * (lo + hi); lo < middle && middle < hi; middle = 0.5 * (lo + hi))
+            (negative(middle) ? lo : hi) = middle;
+        };
+        if (now[i].value > 0.0) {
+          if (before[i].rate < 0.0) { // inwards at first: out again only after a turn
+            if (now[i].rate <= 0.0) continue;
+            bisect([&](double elapsed) { return exits_at(elapsed)[i].rate < 0.0; });
+            hi = reached.elapsed;
+          }
+        } else if (before[i].rate > 0.0 && now[i].rate < 0.0) { // there and back: how far?
+          bisect([&](double elapsed) { return exits_at(elapsed)[i].rate > 0.0; });
+          if (exits_at(hi)[i].value <= 0.0) continue;
+          lo = from;
+        } else {
+          continue;
+        }
+        if (exits_at(lo)[i].value < 0.0)
+          bisect([&](double elapsed) { return exits_at(elapsed)[i].value < 0.0; });
+      }
+      if (lo < first.elapsed) first = {i, lo};
+    }
+    return first;
+  }
+
+  void leave(std::size_t exit) {
+    switch (phase_) {
+    case Phase::free:
+      y_[x_drum] = 0.0;
+      make(chain_.c() * -y_[v_drum]);
+      break;
+    case Phase::clamped:
+      if (exit == 0) {
+        y_[x_drum] = 0.0;
+        phase_ = Phase::free;
+      } else {
+        make(0.0);
+      }
+      break;
+    case Phase::contact:
+      if (chain_.parameters().transition == Transition::A) {
+        y_[x_drum] = 0.0;
+        end_contact(Phase::free, chain_.c() * -y_[v_drum]);
+      } else if (chain_.c() > 0.0 && y_[x_drum] < 0.0) {
+        end_contact(Phase::clamped, 0.0);
+      } else { // without damping F_c = 0 and d = 0 are one
+        y_[x_drum] = 0.0;
+        end_contact(Phase::free, 0.0);
+      }
+      break;
+    }
+  }
+
+  void make(double force) {
+    phase_ = Phase::contact;
+    made_at_ = t_;
+    log(true, force);
+  }
+
+  void end_contact(Phase next, double force) {
+    phase_ = next;
+    recorder_.contact(made_at_, t_);
+    log(false, force);
+  }
+
+  void log(bool made, double force) {
+    // 0 - x rather than -x: an overlap of zero is written "0", not "-0".
+    const ContactEvent event = {t_, made, 0.0 - y_[x_drum], 0.0 - y_[v_drum], force + 0.0, 1, 2};
+    result_.events.push_back(event);
+    recorder_.event(event);
+    constexpr std::size_t per_cycle = 100000;
+    constexpr std::size_t most = 5'000'000; // a quarter of a gigabyte
+    if (result_.events.size() > most)
+      throw std::runtime_error(fmt::format(
+          "the direct solver met more than {} contacts made and broken up to t = {} s", most, t_));
+    if (result_.events.size() > per_cycle * (1 + static_cast<std::size_t>(t_ / chain_.parameters().period())))
+      throw std::runtime_error(
+          fmt::format("the direct solver met more than {} contacts made and broken per cycle up to t = {} s",
+                      per_cycle, t_));
+  }
+
+  Integrator &method(bool stiff) {
+    std::unique_ptr<Integrator> &integrator = stiff ? bdf_ : adams_;
+    if (!integrator) integrator = std::make_unique<Integrator>(context_.get(), chain_, options_, stiff);
+    return *integrator;
+  }
+
+  Chain chain_;
+  DirectOptions options_;
+  const SolverProgress &progress_;
+  long steps_ = 0;
+  Recorder recorder_;
+  ContextPointer context_;
+  std::unique_ptr<Integrator> adams_;
+  std::unique_ptr<Integrator> bdf_;
+  Phase phase_ = Phase::contact;
+  double t_ = 0.0;
+  State y_ = {};
+  double made_at_ = 0.0;
+  DirectResult result_;
+};
+
+} // namespace
+
+const Range DirectOptions::cycles_range = {0.0, 25000.0, "", false, true};
+const Range DirectOptions::rtol_range = {1e-14, 1e-3};
+const Range DirectOptions::impact_speed_range = {1e-12, 1e6, "m/s", true};
+
+std::string DirectOptions::invalid() const {
+  if (!cycles_range.holds(cycles)) return refusal("cycles", cycles, cycles_range.words());
+  if (samples_per_cycle < 1 || samples_per_cycle > most_samples)
+    return refusal("samples-per-cycle", samples_per_cycle,
+                   fmt::format("a whole number from 1 to {}", most_samples));
+  constexpr double most_rows = 5e6; // some 2 GB of memory while they are written
+  if (cycles * samples_per_cycle > most_rows)
+    return refusal("cycles", cycles,
+                   fmt::format("with {} samples per cycle at most {:g}", samples_per_cycle,
+                               most_rows / samples_per_cycle));
+  if (!rtol_range.holds(rtol)) return refusal("rtol", rtol, rtol_range.words());
+  if (!impact_speed_range.holds(impact_speed))
+    return refusal("impact-speed", impact_speed, impact_speed_range.words());
+  return {};
+}
+
+double most_cycles(const ChainParameters &parameters) {
+  // A few steps each: about a minute.
+  constexpr double most_radians = 1e7;
+  return most_radians / (Chain(parameters).fastest() * parameters.period());
+}
+
+std::string too_much_work(const ChainParameters &parameters, const DirectOptions &options) {
+  const double most = most_cycles(parameters);
+  if (options.cycles <= most) return {};
+  return refusal(
+      "cycles", options.cycles,
+      fmt::format("at most {:.3g} of this chain, which moves at up to {:.3g} rad/s against {:g} of "
+                  "the excitation",
+                  most, Chain(parameters).fastest(), parameters.omega));
+}
+
+DirectResult solve_direct(const ChainParameters &parameters, const DirectOptions &options,
+                          const SolverProgress &progress) {
+  std::string fault = parameters.invalid();
+  if (fault.empty()) fault = options.invalid();
+  if (fault.empty()) fault = too_much_work(parameters, options);
+  if (!fault.empty()) throw std::invalid_argument(fault);
+  return Run(parameters, options, progress).solve();
+}
+
+std::string direct_solver_name() { return "CVODE " SUNDIALS_VERSION; }
+
+} // namespace drumlin::post

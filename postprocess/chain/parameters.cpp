@@ -1,0 +1,81 @@
+#include "chain/parameters.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+namespace drumlin::post {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+struct NamedCase {
+  const char *name;
+  double k;
+  double D;
+  double omega;
+};
+
+// Table 1 of the paper: what differs between the cases.
+constexpr std::array<NamedCase, 4> table1 = {{
+    {"I", 5e6, 0.5, 40.0 * pi},
+    {"II", 100e6, 0.5, 40.0 * pi},
+    {"III", 100e6, 0.5, 80.0 * pi},
+    {"IV", 100e6, 2.0, 80.0 * pi},
+}};
+
+} // namespace
+
+std::string transition_name(Transition transition) { return transition == Transition::A ? "A" : "B"; }
+
+Transition transition_from_name(const std::string &name) {
+  if (name == "A") return Transition::A;
+  if (name == "B") return Transition::B;
+  throw std::invalid_argument(refusal("transition", name, "A, B"));
+}
+
+double ChainParameters::damping() const { return 2.0 * D * std::sqrt(m2 * k); }
+
+double ChainParameters::period() const { return 2.0 * pi / omega; }
+
+const std::array<ChainNumber, 9> chain_numbers = {{
+    {"k", &ChainParameters::k, {1e-6, 1e15, "N/m"}, "contact stiffness [N/m]"},
+    {"D", &ChainParameters::D, {1e-12, 1e6, "", true}, "contact damping ratio [-], c = 2 D sqrt(m2 k)"},
+    {"omega", &ChainParameters::omega, {1e-6, 1e9, "rad/s"}, "angular frequency of the excitation [rad/s]"},
+    {"Fw", &ChainParameters::Fw, {1e-9, 1e15, "N", true}, "amplitude of the excitation force [N]"},
+    {"m2", &ChainParameters::m2, {1e-6, 1e12, "kg"}, "mass of the drum [kg]"},
+    {"m3", &ChainParameters::m3, {1e-6, 1e12, "kg"}, "mass of the frame [kg]"},
+    {"k23", &ChainParameters::k23, {1e-6, 1e13, "N/m", true}, "stiffness of the bond drum - frame [N/m]"},
+    {"c23", &ChainParameters::c23, {1e-9, 1e15, "N s/m", true}, "damping of the bond drum - frame [N s/m]"},
+    {"g", &ChainParameters::g, {1e-9, 1e6, "m/s2", true}, "gravity [m/s2]"},
+}};
+
+std::string ChainParameters::invalid() const {
+  for (const ChainNumber &number : chain_numbers)
+    if (const double value = this->*number.value; !number.range.holds(value))
+      return refusal(number.name, value, number.range.words());
+  if (k23 == 0.0 && g > 0.0)
+    return refusal("k23", k23,
+                   fmt::format("numbers above 0 [N/m], or 0 with g = 0: with g = {} the frame has nothing to "
+                               "rest on",
+                               g));
+  return {};
+}
+
+ChainParameters table1_case(const std::string &name, Transition transition) {
+  for (const NamedCase &entry : table1) {
+    if (name != entry.name) continue;
+    ChainParameters parameters;
+    parameters.k = entry.k;
+    parameters.D = entry.D;
+    parameters.omega = entry.omega;
+    parameters.transition = transition;
+    return parameters;
+  }
+  throw std::invalid_argument(refusal("case", name, "I, II, III, IV"));
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,133 @@
+#include "commands/exact.h"
+
+#include "chain/run_files.h"
+#include "chain/parameters.h"
+#include "commands/chain_options.h"
+#include "chain/direct_solver.h"
+#include "support/options.h"
+#include "support/files.h"
+#include "support/progress.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// The options as given. Numbers stay text until all are judged by one rule with one kind of message.
+struct Arguments {
+  ChainArguments chain;
+  std::string cycles = "30";
+  std::string samples_per_cycle = "200";
+  std::string rtol = "1e-12";
+  std::string impact_speed = "0";
+  std::string out;
+};
+
+struct Task {
+  ChainParameters parameters;
+  DirectOptions options;
+  fs::path out;
+};
+
+constexpr std::array<const char *, 4> file_names = {"chain.csv", "events.csv", "cycles.csv",
+                                                    "parameters.csv"};
+
+Task judge(const Arguments &arguments) {
+  Task task;
+  task.parameters = judged(arguments.chain);
+  DirectOptions &options = task.options;
+  options.cycles = number_option("--cycles", arguments.cycles, DirectOptions::cycles_range);
+  options.samples_per_cycle =
+      count_option("--samples-per-cycle", arguments.samples_per_cycle, 1, DirectOptions::most_samples);
+  options.rtol = number_option("--rtol", arguments.rtol, DirectOptions::rtol_range);
+  options.impact_speed =
+      number_option("--impact-speed", arguments.impact_speed, DirectOptions::impact_speed_range);
+  std::string fault = options.invalid();
+  if (fault.empty()) fault = too_much_work(task.parameters, options);
+  if (!fault.empty()) throw UsageError("--" + fault);
+  task.out = output_folder_option("--out", arguments.out);
+  for (const char *name : file_names)
+    try {
+      check_output_file(task.out / name);
+    } catch (const std::runtime_error &error) {
+      throw UsageError(fmt::format("--out is '{}': {} {}", task.out.string(), name, error.what()));
+    }
+  return task;
+}
+
+std::vector<std::pair<std::string, std::string>> record(const Arguments &arguments, const Task &task,
+                                                        const DirectCost &cost, const std::string &command) {
+  const ChainParameters &p = task.parameters;
+  std::vector<std::pair<std::string, std::string>> values = parameter_values(p);
+  values.insert(values.begin(), {"case", arguments.chain.chain_case});
+  values.insert(values.end(),
+                {{"c", number_text(p.damping())},
+                 {"impact_speed", number_text(task.options.impact_speed)},
+                 {"cycles", number_text(task.options.cycles)},
+                 {"samples_per_cycle", fmt::format("{}", task.options.samples_per_cycle)},
+                 {"solver", fmt::format("{} {}", direct_solver_name(), cost.bdf ? "Adams and BDF" : "Adams")},
+                 {"rtol", number_text(task.options.rtol)},
+                 {"command", command}});
+  return values;
+}
+
+void run(const Arguments &arguments, const std::string &command) {
+  const Task task = judge(arguments);
+  TimedProgress progress;
+  const DirectResult result = solve_direct(task.parameters, task.options, [&](double share) {
+    progress.tell("solved to cycle {:.1f} of {:g}", share * task.options.cycles, task.options.cycles);
+  });
+  try {
+    make_output_folder(task.out);
+  } catch (const std::runtime_error &error) {
+    throw UsageError(fmt::format("--out is '{}': {}", task.out.string(), error.what()));
+  }
+  write_files({{task.out / file_names[0], chain_text(result.history)},
+               {task.out / file_names[1], events_text(result.events)},
+               {task.out / file_names[2], cycles_text(result.cycles)},
+               {task.out / file_names[3], parameters_text(record(arguments, task, result.cost, command))}});
+  fmt::print("{}: {} samples, {} events, {} cycles (case {}, transition {}; {} steps)\n", task.out.string(),
+             result.history.size(), result.events.size(), result.cycles.size(), arguments.chain.chain_case,
+             arguments.chain.transition, result.cost.steps);
+}
+
+} // namespace
+
+void add_exact_command(CLI::App &app, Session &session) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App *exact = app.add_subcommand(
+      "exact",
+      "Solve the chain soil - drum - frame directly, without an engine: the truth beside engine runs. Writes "
+      "chain.csv, events.csv, cycles.csv and parameters.csv.");
+  add_chain_options(*exact, arguments->chain);
+  exact->add_option("--cycles", arguments->cycles, "cycles of the excitation")
+      ->type_name("NUMBER")
+      ->capture_default_str();
+  exact->add_option("--samples-per-cycle", arguments->samples_per_cycle, "rows of chain.csv per cycle")
+      ->type_name("COUNT")
+      ->capture_default_str();
+  exact->add_option("--rtol", arguments->rtol, "relative tolerance of the integrator, 1e-14 to 1e-3")
+      ->type_name("NUMBER")
+      ->capture_default_str();
+  exact
+      ->add_option(
+          "--impact-speed", arguments->impact_speed,
+          "if positive: start touching and moving down at this speed [m/s] instead of at equilibrium")
+      ->type_name("NUMBER")
+      ->capture_default_str();
+  exact->add_option("--out", arguments->out, "folder for the files, made if missing")
+      ->type_name("DIR")
+      ->required();
+  exact->callback([arguments, &session] { run(*arguments, session.command); });
+}
+
+} // namespace drumlin::post

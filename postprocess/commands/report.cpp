@@ -1,0 +1,64 @@
+#include "commands/report.h"
+
+#include "support/options.h"
+#include "report/report.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+namespace {
+
+struct Arguments {
+  std::vector<std::string> folders;
+  std::string out = "report";
+};
+
+void run(const Arguments &arguments) {
+  ReportOptions options;
+  for (const std::string &folder : arguments.folders)
+    options.folders.push_back(path_option("DIR", folder));
+  options.out = output_folder_option("--out", arguments.out);
+  options.version = DRUMLIN_VERSION;
+  options.progress = [](const std::string &line) {
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+  };
+  const ReportOutcome outcome = write_report(options);
+  if (outcome.checks.all > 0)
+    fmt::print("{} of {} checks against reference values agree\n", outcome.checks.agree, outcome.checks.all);
+  if (outcome.checks.not_judged > 0)
+    fmt::print("{} values are not judged, for their runs are too short; these are long enough:\n",
+               outcome.checks.not_judged);
+  for (const std::string &command : outcome.judging_commands)
+    fmt::print("  {}\n", command);
+  fmt::print("{}\n", outcome.page.string());
+}
+
+} // namespace
+
+void add_report_command(CLI::App &app, Session &) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App *report = app.add_subcommand("report", "Figures, tables and checks against reference values from "
+                                                  "runs of the chain, of single impacts and of a "
+                                                  "roller on a bed, as pages that open from disk.");
+  report
+      ->add_option("dir", arguments->folders,
+                   "run folders (with chain.csv or bed.csv), studies (their pages are copied and linked), or "
+                   "parents of "
+                   "either")
+      ->type_name("DIR")
+      ->required();
+  report->add_option("--out", arguments->out, "folder for the report; an earlier report there is replaced")
+      ->type_name("DIR")
+      ->capture_default_str();
+  report->callback([arguments] { run(*arguments); });
+}
+
+} // namespace drumlin::post

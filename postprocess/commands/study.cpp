@@ -1,0 +1,101 @@
+#include "commands/study.h"
+
+#include "support/usage_error.h"
+#include "support/options.h"
+#include "studies/study.h"
+#include "studies/accuracy/study.h"
+#include "studies/cost/study.h"
+#include "studies/fidelity/study.h"
+#include "studies/speed/study.h"
+#include "studies/stability/study.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+namespace {
+
+/// Runs at the same time, each a process of its own.
+constexpr int most_jobs = 1000;
+
+struct Study {
+  const char *name;
+  const char *summary;
+  void (*run)(const StudyOptions &);
+  bool parallel = false; ///< its runs may share the machine
+};
+
+// A new study is one line here.
+constexpr std::array studies = {
+    Study{"accuracy",
+          "Error of the chain and of single impacts against step size and wall time, for both steppings and "
+          "the "
+          "engine's own contact law; tests what `drumlin advise` says. About half an hour.",
+          &run_accuracy_study},
+    Study{"cost",
+          "What a step costs on the chain and on settled beds, and what each optional piece adds, as ratios "
+          "within interleaved rounds. About twenty minutes, on a quiet machine.",
+          &run_cost_study},
+    Study{"fidelity",
+          "What each ingredient of a bed changes and costs, over five seeds: condition, friction, rolling, "
+          "stiffness, step, number, size and "
+          "packing of the balls, kind of drum, frequency, two dimensions or three. About five hours of "
+          "processor "
+          "time.",
+          &run_fidelity_study, true},
+    Study{"speed",
+          "Steps of balls per second from 2500 balls to a quarter of a million, on one rank and on two, "
+          "beside the "
+          "engine's own law; memory; a projection to 1e8. About twenty minutes, on a quiet machine.",
+          &run_speed_study},
+    Study{"stability",
+          "The longest stable step over damping, for both steppings; runs at the edges of what can be asked. "
+          "About ten minutes.",
+          &run_stability_study},
+};
+
+} // namespace
+
+void add_study_command(CLI::App &app, Session &) {
+  CLI::App *command = app.add_subcommand("study", "Measures what steps, laws and options cost and what they "
+                                                  "bring. An interrupted study goes on where it was.");
+  for (const Study &study : studies) {
+    const auto options = std::make_shared<StudyOptions>();
+    const auto out = std::make_shared<std::string>(std::string("results/study/") + study.name);
+    CLI::App *one = command->add_subcommand(study.name, study.summary);
+    one->add_option("--out", *out, "folder of the results")->type_name("DIR")->capture_default_str();
+    one->add_flag("--fresh", options->fresh, "forget the points of an earlier call");
+    one->add_flag("--quick", options->quick, "few points: to see that it works");
+    const auto jobs = std::make_shared<std::string>("1");
+    if (study.parallel)
+      one->add_option("--jobs", *jobs, "runs at the same time, one processor each")
+          ->type_name("COUNT")
+          ->capture_default_str();
+    one->callback([options, out, jobs, run = study.run] {
+      options->jobs = count_option("--jobs", *jobs, 1, most_jobs);
+      options->out = output_folder_option("--out", *out);
+      open_study(*options);
+      run(*options);
+    });
+  }
+  command->allow_extras(); // to name a study that does not exist
+  command->callback([command] {
+    if (!command->get_subcommands().empty()) return;
+    std::vector<std::string> names;
+    names.reserve(studies.size());
+    for (const Study &study : studies)
+      names.emplace_back(study.name);
+    const std::vector<std::string> given = command->remaining();
+    throw UsageError(
+        refusal("NAME", given.empty() ? "" : given.front(), fmt::format("{}", fmt::join(names, ", "))));
+  });
+}
+
+} // namespace drumlin::post

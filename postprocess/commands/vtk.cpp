@@ -1,0 +1,400 @@
+#include "commands/vtk.h"
+
+#include "bed/coarse_graining.h"
+#include "chain/run_files.h"
+#include "support/options.h"
+#include "support/files.h"
+#include "support/progress.h"
+#include "bed/vtk_files.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <regex>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Side of a cell of the fields in mean diameters of the soil balls, unless the user gives one: some nine balls in a cell.
+constexpr double default_cell = 3.0;
+
+constexpr double pi = 3.141592653589793;
+
+/// Sides of cells that are not absurd, m.
+constexpr Range cell_range = {1e-9, 1e9, "m"};
+
+struct Arguments {
+  std::string folder;
+  std::optional<std::string> out, cell;
+};
+
+/// What the command writes, as names from the folder of the results.
+constexpr std::array<const char *, 3> collections = {"balls.pvd", "contacts.pvd", "fields.pvd"};
+/// What a picture needs to know of all steps at once, for postprocess/paraview/bed.py.
+constexpr const char *scene_name = "scene.json";
+
+bool is_ours(const std::string &name) {
+  static const std::regex pattern(R"((balls|contacts)(_\d+\.vtp|\.pvd)|fields(_\d+\.vti|\.pvd)|scene\.json)");
+  return std::regex_match(name, pattern);
+}
+
+/// What the run was made with.
+struct RunParameters {
+  double dt = 0.0; ///< time step, s
+  std::optional<double> omega,
+      F_drive; ///< of the excitation: angular frequency, rad/s, and amplitude, N; where the run has one
+};
+
+RunParameters run_parameters(const fs::path &folder) {
+  const fs::path file = folder / "parameters.csv";
+  const std::map<std::string, std::string> parameters = read_parameters(file);
+  const auto number = [&](const char *name, double least, const char *expected) -> std::optional<double> {
+    const auto found = parameters.find(name);
+    if (found == parameters.end()) return std::nullopt;
+    try {
+      if (const double value = number_from_text(found->second); value >= least) return value;
+    } catch (const std::invalid_argument &) {
+    }
+    throw std::runtime_error(
+        fmt::format("{}: {} is '{}', expected {}", file.string(), name, found->second, expected));
+  };
+  constexpr double positive = std::numeric_limits<double>::min();
+  const std::optional<double> dt = number("timestep", positive, "a number > 0 in s");
+  if (!dt)
+    throw std::runtime_error(
+        fmt::format("{}: has no 'timestep'; expected the time step of the run in s", file.string()));
+  return {*dt, number("omega", positive, "a number > 0 in rad/s"), number("Fw", 0.0, "a number >= 0 in N")};
+}
+
+/// The phase of the excitation at a time, and the vertical forces on the drum, named as in bed.csv.
+StepValues values_of_step(double time, const RunParameters &run, const std::vector<Ball> &balls,
+                          const std::optional<BedContacts> &contacts) {
+  StepValues values;
+  if (run.omega) {
+    const double turns = std::round(1e9 * *run.omega * time / (2.0 * pi)) /
+                         1e9; // rounded, so that the end of a cycle does not count as 359.99999 degrees
+    values.emplace_back("cycle", std::floor(turns) + 1.0);
+    values.emplace_back("phase", 360.0 * (turns - std::floor(turns)));
+    if (run.F_drive) values.emplace_back("F_excitation", *run.F_drive * std::sin(2.0 * pi * turns));
+  }
+  if (!contacts) return values;
+  double on_drum = 0.0;
+  for (const BallContact &contact : contacts->balls) {
+    if (balls[contact.i].type == drum_type) on_drum += contact.force[1];
+    if (balls[contact.j].type == drum_type) on_drum -= contact.force[1];
+  }
+  for (const WallContact &contact : contacts->walls)
+    if (balls[contact.i].type == drum_type) on_drum += contact.force[1];
+  values.emplace_back("F_contact", on_drum);
+  return values;
+}
+
+/// Range of an array over all steps. For colour scales there is a quantile besides the largest value, so that a single fast ball does not
+/// set the scale: in each step 99 % of the values do not exceed the step's quantile, and this is the largest of these.
+class Sizes {
+public:
+  void add(const std::string &array, std::vector<double> values) {
+    if (values.empty()) return;
+    auto &[quantile, largest] = sizes_[array];
+    const auto place =
+        values.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), place, values.end());
+    quantile = std::max(quantile, *place);
+    largest = std::max(largest, *std::max_element(place, values.end()));
+  }
+  nlohmann::json json() const {
+    nlohmann::json all = nlohmann::json::object();
+    for (const auto &[array, size] : sizes_)
+      all[array] = {{"quantile_99", size.first}, {"largest", size.second}};
+    return all;
+  }
+
+private:
+  std::map<std::string, std::pair<double, double>> sizes_;
+};
+
+double magnitude(const Vector &vector) { return std::hypot(vector[0], vector[1], vector[2]); }
+
+/// Of the soil balls, and of all contacts.
+void add_sizes(Sizes &sizes, const std::vector<Ball> &balls, const ContactSums &sums,
+               const std::optional<BedContacts> &contacts) {
+  const auto of_soil = [&](const char *array, const auto &value) {
+    std::vector<double> values;
+    for (std::size_t b = 0; b < balls.size(); ++b)
+      if (balls[b].type == soil_type) values.push_back(value(b));
+    sizes.add(array, std::move(values));
+  };
+  of_soil("velocity", [&](std::size_t b) { return magnitude(balls[b].velocity); });
+  of_soil("angular_velocity", [&](std::size_t b) { return magnitude(balls[b].spin); });
+  if (!contacts) return;
+  of_soil("coordination", [&](std::size_t b) { return static_cast<double>(sums.coordination[b]); });
+  of_soil("pressure", [&](std::size_t b) { return sums.pressure[b]; });
+  std::vector<double> forces;
+  for (const BallContact &contact : contacts->balls)
+    forces.push_back(force_parts(contact).normal);
+  for (const WallContact &contact : contacts->walls)
+    forces.push_back(force_parts(contact).normal);
+  sizes.add("normal_force", std::move(forces));
+}
+
+/// Results under way, in a folder inside that of the results.
+class Workshop {
+public:
+  explicit Workshop(const fs::path &out) : out_(out) {}
+  ~Workshop() {
+    folder_.reset();
+    std::error_code ignored;
+    if (made_) fs::remove(out_, ignored); // if nothing was put there
+  }
+  Workshop(const Workshop &) = delete;
+  Workshop &operator=(const Workshop &) = delete;
+
+  fs::path operator/(const std::string &name) const { return folder_->path() / name; }
+
+  /// Moves the files to the results, and removes those of an earlier call which these do not replace.
+  void hand_over(const std::vector<std::string> &names) const {
+    for (const std::string &name : names)
+      check_output_file(out_ / name); // all of them, before the first is replaced
+    for (const std::string &name : names)
+      replace_file(*this / name, out_ / name);
+    const std::set<std::string> fresh(names.begin(), names.end());
+    for (const fs::directory_entry &entry : fs::directory_iterator(out_)) {
+      const std::string name = entry.path().filename().string();
+      if (is_ours(name) && fresh.count(name) == 0 && fs::is_regular_file(entry.symlink_status()))
+        fs::remove(entry.path());
+    }
+  }
+
+private:
+  fs::path out_;
+  bool made_ = fs::create_directories(out_);
+  std::optional<TemporaryFolder> folder_{std::in_place, out_, "unfinished."};
+};
+
+/// What is the same for all steps.
+struct Bed {
+  Bounds soil, all;
+  double mean_diameter = 0.0; ///< of the soil balls of the first step, m
+  bool flat = true;           ///< all balls stay in z = 0
+};
+
+/// Reads all steps once. Takes those out whose dump was cut short, as by a run that was stopped or is still going on, and says so.
+Bed survey(std::map<long, StepDump> &steps) {
+  Bed bed;
+  TimedProgress progress;
+  const std::size_t all = steps.size();
+  std::size_t done = 0;
+  for (auto step = steps.begin(); step != steps.end();) {
+    const fs::path &file = step->second.balls;
+    double diameters = 0.0, soil = 0.0;
+    std::vector<Ball> balls;
+    try {
+      balls = read_ball_dump(file);
+    } catch (const CutShort &fault) {
+      if (all == 1) throw;
+      fmt::print("step {} left out: {}\n", step->first, fault.what());
+      step = steps.erase(step);
+      continue;
+    }
+    bed.flat = bed.flat && in_a_plane(balls);
+    for (const Ball &ball : balls) {
+      bed.all.add(ball);
+      if (ball.type != soil_type) continue;
+      bed.soil.add(ball);
+      diameters += 2.0 * ball.radius;
+      soil += 1.0;
+    }
+    if (soil == 0.0)
+      throw std::runtime_error(
+          fmt::format("{}: holds no soil balls (type {})", file.string(), int{soil_type}));
+    if (bed.mean_diameter == 0.0) bed.mean_diameter = diameters / soil;
+    progress.tell("{} of {} steps read", ++done, all);
+    ++step;
+  }
+  if (steps.empty()) throw std::runtime_error("the dumps of all steps are cut short");
+  return bed;
+}
+
+/// The contacts of a step; none if there is no dump of them, or one that was cut short, which is said.
+std::optional<BedContacts> contacts_of(const StepDump &dump, long step, const std::vector<Ball> &balls) {
+  if (dump.contacts.empty()) return std::nullopt;
+  try {
+    return read_contact_dump(dump.contacts, balls);
+  } catch (const CutShort &fault) {
+    fmt::print("contacts of step {} left out: {}\n", step, fault.what());
+    return std::nullopt;
+  }
+}
+
+/// One sentence on steps that a run with dumps at equal distances would have had; empty if none is missing.
+std::string missing_steps(const std::map<long, StepDump> &steps) {
+  long distance = std::numeric_limits<long>::max();
+  for (auto step = steps.begin(); step != steps.end() && std::next(step) != steps.end(); ++step)
+    distance = std::min(distance, std::next(step)->first - step->first);
+  long missing = 0, first = -1;
+  for (auto step = steps.begin(); step != steps.end() && std::next(step) != steps.end(); ++step) {
+    const long gap = std::next(step)->first - step->first;
+    if (gap % distance != 0) return {}; // not at equal distances
+    if (gap > distance && first < 0) first = step->first + distance;
+    missing += gap / distance - 1;
+  }
+  if (missing == 0) return {};
+  return fmt::format("{} step{} of the dumps every {} {} missing, from step {} on", missing,
+                     missing == 1 ? "" : "s", distance, missing == 1 ? "is" : "are", first);
+}
+
+/// Refuses folders whose files are not an earlier result: the names are those of the dumps.
+void check_out(const fs::path &out) {
+  if (!fs::is_directory(out) || fs::exists(out / collections[0])) return;
+  for (const fs::directory_entry &entry : fs::directory_iterator(out))
+    if (is_ours(entry.path().filename().string()))
+      throw UsageError(
+          fmt::format("--out is '{}': has {}, but no {}; allowed: a new folder or that of an earlier result",
+                      out.string(), entry.path().filename().string(), collections[0]));
+}
+
+FieldGrid grid_for(const Arguments &arguments, const Bed &bed) {
+  double side = default_cell * bed.mean_diameter;
+  if (arguments.cell) side = number_option("--cell", *arguments.cell, cell_range);
+  try {
+    return fitted_grid(bed.soil, side, bed.flat);
+  } catch (const std::invalid_argument &fault) {
+    throw UsageError(fmt::format("--cell is '{:g}': {}; allowed: larger cells", side, fault.what()));
+  }
+}
+
+std::string scene_text(const Bed &bed, const RunParameters &run, const Sizes &sizes) {
+  const auto corners = [](const Bounds &bounds) { return nlohmann::json{bounds.low, bounds.high}; };
+  nlohmann::json scene = {{"dimension", bed.flat ? 2 : 3},
+                          {"mean_diameter", bed.mean_diameter},
+                          {"bounds", corners(bed.all)},
+                          {"soil_bounds", corners(bed.soil)},
+                          {"sizes", sizes.json()}};
+  if (run.omega) scene["period"] = 2.0 * pi / *run.omega;
+  return scene.dump(1) + "\n";
+}
+
+void run(const Arguments &arguments) {
+  if (arguments.cell) number_option("--cell", *arguments.cell, cell_range);
+  const fs::path folder = path_option("DIR", arguments.folder);
+  const fs::path out = output_folder_option("--out", arguments.out.value_or((folder / "vtk").string()));
+  std::map<long, StepDump> steps = dumped_steps(folder / "dump");
+  if (steps.empty())
+    throw UsageError(refusal("DIR", folder.string(),
+                             "the folder of a bed run with dumps, with dump/balls_STEP.vtp or .dump"));
+  std::optional<Bed> bed;
+  RunParameters parameters;
+  try {
+    parameters = run_parameters(folder);
+    check_out(out);
+    bed = survey(steps);
+  } catch (const UsageError &) {
+    throw;
+  } catch (const std::runtime_error &fault) {
+    throw UsageError(fault.what());
+  }
+  const FieldGrid grid = grid_for(arguments, *bed);
+
+  std::vector<std::string> names;
+  std::array<std::vector<std::pair<double, std::string>>, 3> series; // as in `collections`
+  Sizes sizes;
+  try {
+    const Workshop workshop(out);
+    TimedProgress progress;
+    std::size_t done = 0;
+    for (const auto &[step, dump] : steps) {
+      const double time = static_cast<double>(step) * parameters.dt;
+      const auto add = [&, step = step](std::size_t collection, const std::string &name) {
+        names.push_back(name);
+        series[collection].emplace_back(time, name);
+        return workshop / name;
+      };
+      const std::vector<Ball> balls = read_ball_dump(dump.balls);
+      const std::optional<BedContacts> contacts = contacts_of(dump, step, balls);
+      ContactSums sums;
+      if (contacts) sums = {coordination(balls.size(), contacts->balls), ball_pressures(balls, *contacts)};
+      write_ball_points(add(0, fmt::format("balls_{}.vtp", step)), balls, sums,
+                        values_of_step(time, parameters, balls, contacts));
+      add_sizes(sizes, balls, sums, contacts);
+      if (contacts) {
+        write_contact_lines(add(1, fmt::format("contacts_{}.vtp", step)), balls, *contacts);
+        write_field_image(add(2, fmt::format("fields_{}.vti", step)), grid,
+                          coarse_grained(balls, contacts->balls, grid));
+      }
+      progress.tell("{} of {} steps written", ++done, steps.size());
+    }
+    std::vector<FileText> texts;
+    for (std::size_t i = 0; i < collections.size(); ++i)
+      if (!series[i].empty()) {
+        names.emplace_back(collections[i]);
+        texts.emplace_back(workshop / collections[i], collection_text(series[i]));
+      }
+    names.emplace_back(scene_name);
+    texts.emplace_back(workshop / scene_name, scene_text(*bed, parameters, sizes));
+    write_files(texts);
+    workshop.hand_over(names);
+  } catch (const fs::filesystem_error &fault) {
+    throw UsageError(fmt::format("--out is '{}': {}; allowed: a folder that can be made and written to",
+                                 out.string(), fault.code().message()));
+  } catch (const std::runtime_error &fault) {
+    throw UsageError(fault.what());
+  }
+  for (std::size_t i = 0; i < collections.size(); ++i)
+    if (!series[i].empty())
+      fmt::print("{}: {} steps, {:g} to {:g} s\n", (out / collections[i]).string(), series[i].size(),
+                 series[i].front().first, series[i].back().first);
+  if (series[1].size() < series[0].size())
+    fmt::print("no contacts and no fields where the dump of the contacts is missing: {} of {} steps\n",
+               series[0].size() - series[1].size(), series[0].size());
+  if (const std::string missing = missing_steps(steps); !missing.empty()) fmt::print("{}\n", missing);
+  if (!series[2].empty())
+    fmt::print("fields on {} cells of {:.3g} m by {:.3g} m\n", grid.size(), grid.sides[0], grid.sides[1]);
+}
+
+} // namespace
+
+void add_vtk_command(CLI::App &app, Session &) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App *vtk = app.add_subcommand("vtk", "Balls, contacts and coarse-grained fields of a bed run as time "
+                                            "series for ParaView: balls.pvd, contacts.pvd, "
+                                            "fields.pvd, from the dumps of a run with dumps.");
+  vtk->add_option("dir", arguments->folder, "folder of the run, with dump/ and parameters.csv")
+      ->type_name("DIR")
+      ->required();
+  const auto optional = [vtk](const char *name, std::optional<std::string> &value, const std::string &help) {
+    return vtk->add_option_function<std::string>(
+        name, [&value](const std::string &text) { value = text; }, help);
+  };
+  optional("--out", arguments->out, "folder for the results, made if missing; DIR/vtk if not given")
+      ->type_name("DIR");
+  optional("--cell", arguments->cell,
+           fmt::format("side of the cells of the fields [m], fitted to the bed; {:g} mean diameters "
+                       "of the soil balls if not given",
+                       default_cell))
+      ->type_name("NUMBER");
+  vtk->callback([arguments] { run(*arguments); });
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,20 @@
+// What a study judges: promises about what it measures.
+#pragma once
+
+#include "report/chain_tables.h"
+
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+/// A promise with its bound, what was measured of it, and whether it is kept.
+struct Promise {
+  std::string promise, measured;
+  bool holds;
+};
+
+/// data/promises.csv and the table on the study's page.
+ReportTable promise_table(const std::vector<Promise> &promises);
+
+} // namespace drumlin::post

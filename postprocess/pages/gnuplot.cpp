@@ -1,0 +1,267 @@
+#include "pages/gnuplot.h"
+
+#include "engine/engine_run.h"
+#include "support/files.h"
+#include "support/text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string_view>
+
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// What follows `using x:y` for a curve.
+std::string style_words(const Curve &curve) {
+  switch (curve.style) {
+  case CurveStyle::condition_a:
+    return "with lines lw 2.4 dt (12,6) lc rgb '#D55E00'";
+  case CurveStyle::condition_b:
+    return "with lines lw 2.2 dt solid lc rgb '#0072B2'";
+  case CurveStyle::direct_a:
+    return "with points pt 6 ps 0.75 lw 1.1 lc rgb '#000000'";
+  case CurveStyle::direct_b:
+    return "with points pt 8 ps 0.75 lw 1.1 lc rgb '#000000'";
+  case CurveStyle::direct_line:
+    return "with lines lw 1.2 dt (3,7) lc rgb '#000000'";
+  case CurveStyle::measured_a:
+    return "with points pt 7 ps 1.1 lc rgb '#D55E00'";
+  case CurveStyle::measured_b:
+    return "with points pt 5 ps 1.1 lc rgb '#0072B2'";
+  case CurveStyle::plain:
+    return "with lines lw 1.6 dt solid lc rgb '#000000'";
+  case CurveStyle::spread:
+    return "with yerrorbars pt 5 ps 0.9 lw 1.6 lc rgb '#0072B2'";
+  case CurveStyle::limit:
+    return "with lines lw 1.2 dt (24,8,4,8) lc rgb '#666666'";
+  case CurveStyle::series_1:
+    return "with linespoints lw 2.0 dt solid pt 7 ps 0.7 lc rgb '#0072B2'";
+  case CurveStyle::series_2:
+    return "with linespoints lw 1.6 dt (20,10) pt 6 ps 1.4 lc rgb '#D55E00'";
+  case CurveStyle::series_3:
+    return "with linespoints lw 2.0 dt (4,8) pt 5 ps 0.7 lc rgb '#009E73'";
+  case CurveStyle::series_4:
+    return "with linespoints lw 1.6 dt (24,8,4,8) pt 4 ps 1.4 lc rgb '#CC79A7'";
+  case CurveStyle::series_5:
+    return "with linespoints lw 1.0 dt solid pt 8 ps 1.9 lc rgb '#000000'";
+  case CurveStyle::series_6:
+    return "with linespoints lw 1.6 dt (24,8,4,8,4,8) pt 12 ps 1.4 lc rgb '#E69F00'";
+  case CurveStyle::line_1:
+    return "with lines lw 2.2 dt solid lc rgb '#0072B2'";
+  case CurveStyle::line_2:
+    return "with lines lw 2.2 dt (12,6) lc rgb '#D55E00'";
+  case CurveStyle::line_3:
+    return "with lines lw 2.0 dt (4,5) lc rgb '#009E73'";
+  case CurveStyle::line_4:
+    return "with lines lw 2.0 dt (18,5,4,5) lc rgb '#CC79A7'";
+  case CurveStyle::line_5:
+    return "with lines lw 1.2 dt solid lc rgb '#000000'";
+  case CurveStyle::discs:
+    return "with circles lc palette fill solid border lc rgb '#777777'";
+  case CurveStyle::circles:
+    return "with circles lc rgb '#000000' lw 1.6 fill empty border";
+  case CurveStyle::segments:
+    return fmt::format("with vectors nohead lw {:.3g} lc rgb '#000000'", curve.width);
+  }
+  return "with lines";
+}
+
+/// A gnuplot string in double quotes; words come from us and from run folders' names. Other control characters than the line end
+/// are left out: they would stand in the SVG, which they make unreadable.
+std::string gnuplot_string(const std::string &text) {
+  std::string out = "\"";
+  for (const char c : valid_utf8(text)) {
+    if (c == '\n') {
+      out += "\\n";
+      continue;
+    }
+    if (static_cast<unsigned char>(c) < 0x20) continue;
+    if (c == '"' || c == '\\') out += '\\';
+    out += c == '`' ? '\'' : c; // gnuplot would run what stands between backquotes
+  }
+  return out + "\"";
+}
+
+/// The label of a tic. Gnuplot takes it for a format of the tic's number, in which % begins a conversion.
+std::string tic_label(const std::string &name) {
+  constexpr std::size_t most = 40; // letters: a longer label would take the whole figure
+  std::string label;
+  for (const char c : shortened(valid_utf8(name), most))
+    label += c == '%' ? "%%" : std::string(1, c);
+  return label;
+}
+
+std::string panel_script(const Panel &panel) {
+  std::string s;
+  s += panel.title.empty() ? "  unset title\n"
+                           : fmt::format("  set title {} noenhanced\n", gnuplot_string(panel.title));
+  s += fmt::format("  set xlabel {}\n  set ylabel {}\n", gnuplot_string(panel.x_label),
+                   gnuplot_string(panel.y_label));
+  s += "  unset logscale\n";
+  s += panel.log_x ? "  set logscale x\n  set format x '10^{%T}'\n" : "  set format x '%g'\n";
+  s += panel.log_y ? "  set logscale y\n  set format y '10^{%T}'\n" : "  set format y '%g'\n";
+  s += fmt::format("  set yrange {}\n", panel.y_range.empty() ? "[*:*]" : panel.y_range);
+  constexpr double line_per_letter = 0.45; // a letter's width over the height of a line
+  std::size_t longest = 0;
+  for (const std::string &name : panel.x_ticks)
+    longest = std::max(longest, tic_label(name).size());
+  s += fmt::format("  set bmargin {}\n  set key maxrows {} width {}\n",
+                   (longest == 0 ? 4.5 : 2.5) + panel.legend_rows +
+                       line_per_letter * static_cast<double>(longest),
+                   panel.legend_rows, panel.legend_rows > 1 ? 1 : -2);
+  if (panel.x_ticks.empty()) {
+    s += "  set xtics autofreq norotate\n  set autoscale x\n";
+    s += panel.tight_x ? "  set autoscale xfix\n  set offsets 0, 0, 0, 0\n"
+                       : "  set offsets graph 0.04, graph 0.04, 0, 0\n";
+    if (!panel.x_range.empty())
+      s += fmt::format("  set xrange {}\n  set offsets 0, 0, 0, 0\n", panel.x_range);
+  } else {
+    s += "  set xtics rotate by 90 right noenhanced (";
+    for (std::size_t i = 0; i < panel.x_ticks.size(); ++i)
+      s += fmt::format("{}{} {}", i == 0 ? "" : ", ", gnuplot_string(tic_label(panel.x_ticks[i])), i + 1);
+    s += fmt::format(")\n  set xrange [0.5:{}]\n", static_cast<double>(panel.x_ticks.size()) + 0.5);
+  }
+  if (panel.equal_scales) s += "  set size ratio -1\n";
+  if (!panel.color_label.empty()) {
+    s += fmt::format("  set colorbox\n  set rmargin 8.5\n  set cblabel {}\n  set cbrange {}\n",
+                     gnuplot_string(panel.color_label),
+                     panel.color_range.empty() ? "[*:*]" : panel.color_range);
+    s += panel.color_whole
+             ? "  set palette defined (0 '#ffffff', 1 '#faeed5', 2 '#f3d9a0', 3 '#d3e8f5', 4 '#9dcdea', "
+               "5 '#5ba9d6', 6 '#0072B2') maxcolors 7\n  set cbtics 1\n"
+             : "  set palette defined (0 '#fffdf5', 1 '#f6d78b', 2 '#E69F00', 3 '#D55E00')\n"
+               "  set cbtics autofreq\n";
+  }
+  s += "  plot ";
+  bool first = true;
+  for (const Curve &curve : panel.curves) {
+    if (!first) s += ", \\\n       ";
+    first = false;
+    std::string every;
+    if (curve.every > 1 || curve.offset > 0) every = fmt::format(" every {}::{}", curve.every, curve.offset);
+    const std::string title =
+        curve.title.empty() ? "notitle" : fmt::format("title {} noenhanced", gnuplot_string(curve.title));
+    s += fmt::format("{} skip 1{} using {}:{} {} {}", gnuplot_string(curve.data), every, curve.x, curve.y,
+                     style_words(curve), title);
+  }
+  s += "\n";
+  if (panel.equal_scales) s += "  set size noratio\n";
+  if (!panel.color_label.empty()) s += "  unset colorbox\n  set rmargin -1\n";
+  return s;
+}
+
+int columns_of(const Figure &figure) {
+  return std::clamp(figure.columns, 1, std::max(1, static_cast<int>(figure.panels.size())));
+}
+
+int rows_of(const Figure &figure) {
+  const int columns = columns_of(figure);
+  return (static_cast<int>(figure.panels.size()) + columns - 1) / columns;
+}
+
+} // namespace
+
+fs::path find_gnuplot() {
+  const char *path = std::getenv("PATH");
+  std::string_view rest = path != nullptr ? path : "";
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find(':'), rest.size());
+    const fs::path candidate = fs::path(rest.substr(0, end)) / "gnuplot";
+    if (end > 0 && ::access(candidate.c_str(), X_OK) == 0) return fs::absolute(candidate);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  throw std::runtime_error("the program gnuplot is not on PATH; install the Debian package gnuplot-nox");
+}
+
+std::string axis_range(double low, double high) {
+  const std::string from = fmt::format("{:.6g}", low);
+  const std::string to = fmt::format("{:.6g}", high);
+  return std::isfinite(low) && std::isfinite(high) && low < high && from != to
+             ? fmt::format("[{}:{}]", from, to)
+             : "";
+}
+
+int figure_width(const Figure &figure) { return columns_of(figure) * figure.panel_width; }
+
+int figure_height(const Figure &figure) {
+  return rows_of(figure) * figure.panel_height + (figure.panels.size() > 1 ? 40 : 0);
+}
+
+std::string gnuplot_script(const Figure &figure) {
+  const int rows = rows_of(figure);
+  const int columns = columns_of(figure);
+  const bool many = figure.panels.size() > 1;
+  const int width = figure_width(figure);
+  const int height = figure_height(figure);
+  std::string s = fmt::format("# {}\n# Run in this folder: gnuplot {}.gp\n", figure.title, figure.name);
+  s += "set encoding utf8\n"
+       "set datafile separator comma\n"
+       "set datafile missing ''\n"
+       "set grid lc rgb '#dddddd' lt 1 lw 0.6\n"
+       "set border lw 1.0\n"
+       "set tics nomirror out\n"
+       "set xzeroaxis lt 1 lw 0.8 dt solid lc rgb '#999999'\n"
+       "set key bmargin center horizontal Left reverse samplen 2.5\n";
+  s += fmt::format("do for [kind in \"{4}\"] {{\n"
+                   "  if (kind eq \"svg\") {{ set terminal svg size {0},{1} enhanced rounded font 'DejaVu "
+                   "Sans,Helvetica,Arial,15' "
+                   "background '#ffffff' }}\n"
+                   "  else {{ set terminal pngcairo size {2},{3} enhanced rounded fontscale 1.5 linewidth "
+                   "1.5 pointscale 1.5 font "
+                   "'DejaVu Sans,11.5' background '#ffffff' }}\n",
+                   width, height, width * 3 / 2, height * 3 / 2, figure.only_png ? "png" : "svg png");
+  s += fmt::format("  set output \"{}.\".kind\n", figure.name);
+  if (many)
+    s += fmt::format("  set multiplot layout {},{} title {} noenhanced\n", rows, columns,
+                     gnuplot_string(figure.title));
+  for (const Panel &panel : figure.panels)
+    s += panel_script(panel);
+  if (many) s += "  unset multiplot\n";
+  return s + "  unset output\n}\n";
+}
+
+bool is_whole_picture(const fs::path &file) {
+  using namespace std::string_view_literals;
+  std::ifstream in(file, std::ios::binary);
+  const std::string all(std::istreambuf_iterator<char>(in), {});
+  const bool png = file.extension() == ".png";
+  const std::string_view begin = png ? "\x89PNG\r\n\x1a\n"sv : "<?xml"sv;
+  const std::string_view end = png ? "\0\0\0\0IEND\xae\x42\x60\x82"sv : "</svg>"sv;
+  std::string_view rest = all;
+  if (!png) rest = rest.substr(0, rest.find_last_not_of(" \r\n") + 1);
+  return rest.size() >= begin.size() + end.size() && rest.substr(0, begin.size()) == begin &&
+         rest.substr(rest.size() - end.size()) == end;
+}
+
+void render(const fs::path &gnuplot, const fs::path &folder, const Figure &figure) {
+  const fs::path script = folder / (figure.name + ".gp");
+  write_files({{script, gnuplot_script(figure)}});
+  // Settings of the user must not change the report: --default-settings reads none of them.
+  constexpr double limit = 600.0; // s: the largest pictures take some ten
+  const Outcome outcome =
+      run_program({gnuplot.string(), "--default-settings", figure.name + ".gp"}, {}, folder, limit);
+  std::error_code ignored;
+  fs::remove(folder / program_output_file, ignored);
+  if (!outcome.ok())
+    throw std::runtime_error(fmt::format("gnuplot failed on {}: {}", script.string(), outcome.output));
+  for (const char *kind : {".svg", ".png"}) {
+    if (figure.only_png && std::string_view(kind) == ".svg") continue;
+    const fs::path picture = folder / (figure.name + kind);
+    if (!is_whole_picture(picture))
+      throw std::runtime_error(
+          fmt::format("{} is cut short; allowed: a disk with room for what gnuplot draws", picture.string()));
+  }
+}
+
+} // namespace drumlin::post

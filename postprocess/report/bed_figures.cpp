@@ -1,0 +1,263 @@
+#include "report/bed_figures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "report/bed_snapshots.h"
+#include "pages/figure_data.h"
+
+namespace drumlin::post {
+
+namespace {
+
+constexpr int shown_cycles = 3;
+constexpr int loop_cycles = 2;
+
+std::string label(const BedResult &result) { return transition_name(result.run.transition()); }
+
+/// A single letter would be overrun by its neighbour in the legend.
+std::string legend(const BedResult &result) { return "condition " + label(result); }
+
+bool is_a(const BedResult &result) { return result.run.transition() == Transition::A; }
+
+CurveStyle line_style(const BedResult &result) {
+  return is_a(result) ? CurveStyle::condition_a : CurveStyle::condition_b;
+}
+
+/// The last complete cycles, the rows at both ends included.
+TimeWindow last_cycles(const BedResult &result, int count) {
+  const double period = result.run.chain.period();
+  TimeWindow window = last_cycles_window(result.run.complete, count, period);
+  window.end += 1.0e-6 * period;
+  window.begin -= 1.0e-6 * period;
+  return window;
+}
+
+/// Calls visit(row) for the rows of a window.
+template <class Visit>
+void for_rows(const BedResult &result, TimeWindow window, const Visit &visit) {
+  const std::vector<double> &time = result.run.history.time;
+  for (std::size_t i = 0; i < time.size(); ++i)
+    if (time[i] >= window.begin && time[i] <= window.end) visit(i);
+}
+
+/// One group's figures under way.
+class Group {
+public:
+  Group(const BedGroup &group, std::size_t number, FigurePlan &plan)
+      : group_(group), section_(bed_section(number)), stem_(fmt::format("bed{}_", number + 1)), plan_(plan) {}
+
+  void plan() {
+    motion();
+    loop();
+    settlement();
+    state();
+    energies();
+    walls();
+    plan_bed_pictures(group_, stem_, section_, plan_);
+  }
+
+private:
+  const std::vector<const BedResult *> &runs() const { return group_.runs; }
+
+  void add(const std::string &name, const std::string &title, const std::vector<Panel> &panels,
+           const CurveTable &table, const std::string &caption, int columns, int width, int height) {
+    PlannedFigure figure{section_, "", caption, {}, table.text()};
+    figure.figure = {stem_ + name, title, panels, columns, width, height};
+    plan_.figures.push_back(std::move(figure));
+  }
+
+  /// One curve for each run.
+  void curves(Panel &panel, const std::string &name, const std::string &x, const std::string &y) const {
+    for (const BedResult *run : runs()) {
+      panel.curves.push_back(curve(stem_ + name, label(*run), x, y, line_style(*run)));
+      panel.curves.back().title = legend(*run);
+    }
+  }
+
+  /// Whether a run lasted for a cycle; else the figure is absent.
+  bool has_cycles(const std::string &what) {
+    for (const BedResult *run : runs())
+      if (run->measures.cycles < 1) {
+        plan_.absent.push_back(
+            {section_, what, fmt::format("{} ends before its first complete cycle", run->run.name)});
+        return false;
+      }
+    return true;
+  }
+
+  void motion() {
+    if (!has_cycles("Motion")) return;
+    CurveTable table("time (s),time in window (s),drum acceleration (m/s2),contact force (N)");
+    for (const BedResult *run : runs()) {
+      const ChainHistory &h = run->run.history;
+      const TimeWindow window = last_cycles(*run, shown_cycles);
+      for_rows(*run, window, [&](std::size_t i) {
+        table.row(label(*run), {h.time[i], h.time[i] - window.begin, h.a_drum[i], h.F_contact[i]});
+      });
+    }
+    const std::string time = fmt::format("time since the start of the last {} cycles (ms)", shown_cycles);
+    Panel acceleration{"drum acceleration", time, "drum acceleration (m/s²)", {}};
+    Panel force{"contact force", time, "contact force on the drum (kN)", {}};
+    acceleration.tight_x = force.tight_x = true;
+    curves(acceleration, "motion", "$3*1e3", "4");
+    curves(force, "motion", "$3*1e3", "($5*1e-3)");
+    add("motion", "Drum acceleration and contact force", {acceleration, force}, table,
+        fmt::format("Acceleration of the drum and force of the soil on it over the last {} cycles. The force "
+                    "is the sum over all balls that touch the drum, their friction included: it can pull "
+                    "under B, too.",
+                    shown_cycles),
+        1, 960, 400);
+  }
+
+  void loop() {
+    if (!has_cycles("The force loop")) return;
+    CurveTable table("time (s),drum position (m),contact force (N)");
+    Panel panel{"Contact force against drum position",
+                "drum position (mm), 0 at the start",
+                "contact force on the drum (kN)",
+                {}};
+    for (const BedResult *run : runs()) {
+      const ChainHistory &h = run->run.history;
+      for_rows(*run, last_cycles(*run, loop_cycles), [&](std::size_t i) {
+        table.row(label(*run), {h.time[i], h.x_drum[i], h.F_contact[i]});
+      });
+    }
+    curves(panel, "loop", "$3*1e3", "($4*1e-3)");
+    add("loop", panel.title, {panel}, table,
+        fmt::format("Contact force against the height of the drum over the last {} cycles. The area within a "
+                    "loop is the energy that the bed takes per cycle.",
+                    loop_cycles),
+        1, 960, 540);
+  }
+
+  void settlement() {
+    if (!has_cycles("Settlement")) return;
+    CurveTable table("cycle (-),settlement (m),largest drum acceleration (m/s2),largest contact force (N)");
+    Panel panel{"Settlement", "cycle (-)", "settlement (mm)", {}};
+    panel.x_range = "[0:*]";
+    for (const BedResult *run : runs()) {
+      const CycleColumns &c = *run->run.cycles;
+      for (std::size_t i = 0; i < c.rows; ++i)
+        table.row(label(*run), {static_cast<double>(i), c.at("settlement")[i], c.at("a_drum_max")[i],
+                                c.at("F_contact_max")[i]});
+      panel.curves.push_back(curve(stem_ + "settlement", label(*run), "$2", "($3*1e3)",
+                                   is_a(*run) ? CurveStyle::series_2 : CurveStyle::series_1));
+      panel.curves.back().title = legend(*run);
+    }
+    add("settlement", panel.title, {panel}, table,
+        "How far the drum has sunk below where it lay at rest: mean of its position over each cycle.", 1, 960,
+        440);
+  }
+
+  void state() {
+    CurveTable table("time (s),coordination (-),void ratio (-)");
+    for (const BedResult *run : runs())
+      for (std::size_t i = 0; i < run->run.history.size(); ++i)
+        table.row(label(*run), {run->run.history.time[i], run->bed.coordination[i], run->bed.void_ratio[i]});
+    Panel coordination{"contacts per soil ball", "time (s)", "coordination (-)", {}};
+    Panel voids{"void ratio", "time (s)", "void ratio (-)", {}};
+    coordination.tight_x = voids.tight_x = true;
+    curves(coordination, "state", "$2", "3");
+    curves(voids, "state", "$2", "4");
+    add("state", "Coordination and void ratio", {coordination, voids}, table,
+        "Mean number of contacts of a soil ball, and volume of voids over that of balls below the height at "
+        "which the soil's centre of mass was at the start.",
+        1, 960, 360);
+  }
+
+  void energies() {
+    CurveTable table("time (s),work of the exciter (J),dissipated (J),potential (J),kinetic (J),elastic (J),"
+                     "imbalance (J)");
+    const std::string name = stem_ + "energy";
+    std::vector<Panel> sums;
+    std::vector<Panel> stores;
+    for (const BedResult *run : runs()) {
+      const BedHistory &b = run->bed;
+      const std::vector<double> imbalance = energy_imbalance(b);
+      for (std::size_t i = 0; i < run->run.history.size(); ++i)
+        table.row(label(*run), {run->run.history.time[i], b.work_excitation[i], b.dissipated[i],
+                                b.potential[i], b.kinetic[i], b.elastic[i], imbalance[i]});
+      Panel sum{fmt::format("{}: since the start", label(*run)), "time (s)", "energy (J)", {}};
+      Panel store{fmt::format("{}: stored", label(*run)), "time (s)", "energy (J)", {}};
+      const auto line = [&](Panel &panel, const std::string &y, const char *title, CurveStyle style) {
+        panel.curves.push_back(curve(name, label(*run), "$2", y, style));
+        panel.curves.back().title = title;
+      };
+      line(sum, "3", "work of the exciter", CurveStyle::line_1);
+      line(sum, "4", "dissipated", CurveStyle::line_2);
+      line(sum, "5", "potential", CurveStyle::line_3);
+      line(sum, "8", "imbalance", CurveStyle::line_5);
+      line(store, "7", "elastic", CurveStyle::line_4);
+      line(store, "6", "kinetic", CurveStyle::line_5);
+      sum.tight_x = store.tight_x = true;
+      sum.legend_rows = runs().size() > 1 ? 2 : 1;
+      sums.push_back(sum);
+      stores.push_back(store);
+    }
+    sums.insert(sums.end(), stores.begin(), stores.end());
+    const bool pair = runs().size() > 1;
+    add("energy", "Energies", sums, table,
+        "Energies of drum, frame and bed. Imbalance: kinetic + potential + elastic + dissipated - work of "
+        "the "
+        "exciter, less its value at the start; 0 where the books balance. A drum that sinks brings in "
+        "potential "
+        "energy beside the exciter's work.",
+        pair ? 2 : 1, pair ? 570 : 960, 380);
+  }
+
+  void walls() {
+    if (!has_cycles("Forces of the walls")) return;
+    CurveTable table(
+        "time (s),time in window (s),floor (N),friction of the sides (N),thrust of the sides (N)");
+    const std::string name = stem_ + "walls";
+    std::vector<Panel> panels;
+    for (const BedResult *run : runs()) {
+      const BedHistory &b = run->bed;
+      const std::vector<double> &time = run->run.history.time;
+      const TimeWindow window = last_cycles(*run, shown_cycles);
+      for_rows(*run, window, [&](std::size_t i) {
+        table.row(label(*run), {time[i], time[i] - window.begin, b.F_floor[i], b.F_sides[i], b.F_thrust[i]});
+      });
+      Panel panel{
+          label(*run), fmt::format("time in the last {} cycles (ms)", shown_cycles), "force (kN)", {}};
+      panel.tight_x = true;
+      for (const auto &[y, title, style] : {std::tuple{"($4*1e-3)", "floor", CurveStyle::line_1},
+                                            {"($6*1e-3)", "side thrust", CurveStyle::line_3},
+                                            {"($5*1e-3)", "side friction", CurveStyle::line_2}}) {
+        panel.curves.push_back(curve(name, label(*run), "$3*1e3", y, style));
+        panel.curves.back().title = title;
+      }
+      panels.push_back(panel);
+    }
+    const bool pair = runs().size() > 1;
+    add("walls", "Forces of the walls", panels, table,
+        "Forces of floor and side walls on the balls: what of the roller's blows comes through the bed. "
+        "Side thrust "
+        "is the sum of the normal forces of both side walls, side friction positive where it carries balls.",
+        2, pair ? 570 : 960, 400);
+  }
+
+  const BedGroup &group_;
+  std::string section_;
+  std::string stem_;
+  FigurePlan &plan_;
+};
+
+} // namespace
+
+std::string bed_section(std::size_t group) { return fmt::format("bed-{}", group + 1); }
+
+FigurePlan plan_bed_figures(const std::vector<BedGroup> &groups) {
+  FigurePlan plan;
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    Group(groups[i], i, plan).plan();
+  int number = 0;
+  for (PlannedFigure &figure : plan.figures)
+    figure.label = fmt::format("Fig. {}", ++number);
+  return plan;
+}
+
+} // namespace drumlin::post

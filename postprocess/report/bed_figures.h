@@ -1,0 +1,19 @@
+// The figures of bed runs: histories, loops, settlement, energies, walls, and pictures of the bed from the run's dumps.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/bed_measures.h"
+#include "report/chain_figures.h"
+
+namespace drumlin::post {
+
+/// Id of the page's section that shows a group; groups count from 0.
+std::string bed_section(std::size_t group);
+
+/// All figures of the groups, numbered through. Reads the dumps that the pictures need: std::runtime_error for a dump that
+/// cannot be understood.
+FigurePlan plan_bed_figures(const std::vector<BedGroup> &groups);
+
+} // namespace drumlin::post

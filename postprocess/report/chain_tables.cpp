@@ -1,0 +1,483 @@
+#include "report/chain_tables.h"
+
+#include "report/engine_comparison.h"
+#include "support/text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string dash = "–";
+
+/// A value that is a ratio, as text; a dash where its denominator is zero.
+std::string finite(const char *format, double value) {
+  return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : dash;
+}
+
+std::string scientific(double value) { return finite("{:.2e}", value); }
+
+std::string steps_text(const Run &run) {
+  if (run.direct) return "adaptive";
+  if (run.kind == RunKind::impact) return run.text("steps_per_contact", dash) + " per contact";
+  return run.steps_per_cycle > 0 ? fmt::format("{}", run.steps_per_cycle) : dash;
+}
+
+std::string engine_text(const Run &run) {
+  return run.direct ? run.text("solver", run.text("engine", dash)) : run.text("engine", dash);
+}
+
+std::string transition_text(const Run &run) {
+  return run.kind == RunKind::unknown ? dash : transition_name(run.transition());
+}
+
+std::string case_text(const Run &run) {
+  if (run.kind == RunKind::impact) return fmt::format("impact, D = {:g}", run.impact.damping_ratio);
+  if (run.kind == RunKind::unknown) return dash;
+  if (run.case_name.empty()) return "own";
+  return run.case_name + (run.at_case ? "" : ", changed");
+}
+
+/// "0.8600" or "0.8600 to 0.8612".
+std::string range_text(const std::optional<Extremes> &extremes, double scale, int decimals) {
+  if (!extremes) return dash;
+  const std::string low = fmt::format("{:.{}f}", extremes->min * scale, decimals);
+  const std::string high = fmt::format("{:.{}f}", extremes->max * scale, decimals);
+  return low == high ? low : low + " to " + high;
+}
+
+std::string agreement_text(const Check &check) {
+  std::string words;
+  switch (check.agreement) {
+  case Agreement::same_digits:
+    words = "to all digits";
+    break;
+  case Agreement::tolerance:
+    words = "in tolerance";
+    break;
+  case Agreement::differs:
+    words = "no";
+    break;
+  case Agreement::not_measured:
+    words = "not measured";
+    break;
+  case Agreement::not_judged:
+    words = "not judged (short run)";
+    break;
+  }
+  return words;
+}
+
+/// Digits after the point of a number's text.
+int decimals_of(const std::string &text) {
+  const std::size_t point = text.find('.');
+  return point == std::string::npos ? 0 : static_cast<int>(text.size() - point - 1);
+}
+
+void add_check(ReportTable &table, const ReportResults &results, const Check &check) {
+  const Run &run = results.runs[check.run].run;
+  const bool valued = check.agreement != Agreement::not_measured;
+  const bool number = valued && std::isfinite(check.difference) && check.measured != "no rebound";
+  std::string direct = dash;
+  std::string from_direct = dash;
+  if (check.direct && number) {
+    direct = check.measured == "none" && *check.direct == 0.0
+                 ? "none"
+                 : fmt::format("{:.{}f}", *check.direct, decimals_of(check.measured));
+    from_direct = fmt::format("{:.1e}", check.value - *check.direct);
+  }
+  table.add({run.name, case_text(run), transition_text(run), check.quantity, check.unit, check.reference,
+             valued ? check.measured : dash, number ? fmt::format("{:.2g}", check.difference) : dash,
+             number && std::isfinite(check.relative_difference)
+                 ? fmt::format("{:.1e}", check.relative_difference)
+                 : dash,
+             check.tolerance, agreement_text(check), direct, from_direct, check.note, check.source},
+            check.agrees()                             ? RowState::agrees
+            : check.agreement == Agreement::not_judged ? RowState::plain
+                                                       : RowState::differs);
+}
+
+ReportTable check_table(const std::string &section, const std::string &name, const std::string &title) {
+  ReportTable table;
+  table.section = section;
+  table.name = name;
+  table.title = title;
+  table.header = {"run",
+                  "case",
+                  "transition",
+                  "quantity",
+                  "unit",
+                  "reference",
+                  "measured",
+                  "difference",
+                  "relative (-)",
+                  "tolerance",
+                  "agrees",
+                  "direct solution",
+                  "run minus direct",
+                  "remark",
+                  "reference from"};
+  table.shown_columns = 14;
+  table.text_columns = 5;
+  return table;
+}
+
+ReportTable runs_table(const ReportResults &results) {
+  ReportTable table;
+  table.section = "summary";
+  table.name = "runs";
+  table.title = "Runs";
+  table.header = {"run",    "case",  "transition", "stepping",          "steps per cycle", "cycles (-)",
+                  "engine", "ranks", "plugin",     "checks that agree", "command"};
+  table.shown_columns = 10;
+  table.text_columns = 4;
+  for (std::size_t i = 0; i < results.runs.size(); ++i) {
+    const Run &run = results.runs[i].run;
+    const CheckCount count = count_checks(results, i);
+    const std::string cycles =
+        run.kind == RunKind::chain
+            ? fmt::format("{}{}", run.complete, run.complete < long_run_cycles ? " (short run)" : "")
+            : dash;
+    table.add({run.name, case_text(run), transition_text(run),
+               run.direct ? "exact" : run.text("stepping", dash), steps_text(run), cycles, engine_text(run),
+               run.direct ? dash : run.text("ranks", dash), run.direct ? dash : run.text("plugin", dash),
+               count.all > 0          ? fmt::format("{} of {}", count.agree, count.all)
+               : count.not_judged > 0 ? "not judged"
+                                      : dash,
+               run.text("command", dash)},
+              count.all == 0             ? RowState::plain
+              : count.agree == count.all ? RowState::agrees
+                                         : RowState::differs);
+    if (run.kind == RunKind::chain && !run.at_case)
+      table.notes.push_back(
+          fmt::format("{} is not judged by reference values: {}.", run.name, run.not_at_case));
+    if (count.not_judged > 0)
+      table.notes.push_back(
+          fmt::format("{}: {} values are not judged, for it has {} cycles of the {} that the "
+                      "reference values need. This run is judged: {}",
+                      run.name, count.not_judged, run.complete, long_run_cycles, judging_command(run)));
+    for (const std::string &missing : run.missing)
+      table.notes.push_back(fmt::format("{}: {}", run.name, missing));
+  }
+  return table;
+}
+
+ReportTable events_table(const ReportResults &results) {
+  ReportTable table;
+  table.section = "events";
+  table.name = "event_table";
+  table.title = "Makes and breaks";
+  table.header = {"run",
+                  "case",
+                  "transition",
+                  "makes",
+                  "breaks",
+                  "makes per cycle (-)",
+                  "breaks per cycle (-)",
+                  "force at make (kN)",
+                  "force at break (kN)",
+                  "overlap at break (mm)",
+                  "events of direct solution",
+                  "paired",
+                  "largest time difference (µs)",
+                  "the same (steps)",
+                  "at time (s)"};
+  table.shown_columns = table.header.size();
+  table.text_columns = 3;
+  for (const RunResult &result : results.runs) {
+    if (!result.chain || !result.run.has_events) continue;
+    const Run &run = result.run;
+    const ChainMeasures &m = *result.chain;
+    const EventMatch &match = m.match;
+    const bool paired = match.matched > 0;
+    table.add({run.name, case_text(run), transition_text(run), fmt::format("{}", m.makes),
+               fmt::format("{}", m.breaks), fmt::format("{:g}", m.makes_per_cycle),
+               fmt::format("{:g}", m.breaks_per_cycle), range_text(m.force_at_make, 1e-3, 3),
+               range_text(m.force_at_break, 1e-3, 3), range_text(m.overlap_at_break, 1e3, 4),
+               fmt::format("{}", match.truth_count), fmt::format("{}", match.matched),
+               paired ? fmt::format("{:.3g}", match.largest_difference * 1e6) : dash,
+               paired && run.timestep > 0.0 && !run.direct
+                   ? fmt::format("{:.3g}", match.largest_difference / run.timestep)
+                   : dash,
+               paired ? fmt::format("{:.4f}", match.at_time) : dash});
+    if (match.run_count != match.truth_count || match.matched != match.run_count)
+      table.notes.push_back(
+          fmt::format("{}: {} events against {} of the direct solution; the first {} were paired.", run.name,
+                      match.run_count, match.truth_count, match.matched));
+  }
+  table.notes.insert(
+      table.notes.begin(),
+      fmt::format(
+          "Forces, overlap and counts per cycle: last {} cycles of each run. Time differences: all events "
+          "of the run, paired by order with those of the direct solution.",
+          steady_cycles));
+  return table;
+}
+
+ReportTable meters_table(const ReportResults &results) {
+  ReportTable table;
+  table.section = "reference";
+  table.name = "meter_values";
+  table.title = "Compaction meter values";
+  table.header = {"run",         "case",    "transition", "A1 (m/s²)",      "A2 (m/s²)",
+                  "A0.5 (m/s²)", "CMV (-)", "RMV (-)",    "integrated over"};
+  table.shown_columns = table.header.size();
+  table.text_columns = 3;
+  for (const RunResult &result : results.runs) {
+    if (!result.chain) continue;
+    const HarmonicAmplitudes &a = result.chain->amplitudes;
+    table.add({result.run.name, case_text(result.run), transition_text(result.run),
+               fmt::format("{:.4f}", a.fundamental), fmt::format("{:.4f}", a.second),
+               fmt::format("{:.2e}", a.half), finite("{:.2f}", compaction_meter_value(a)),
+               finite("{:.2g}", resonance_meter_value(a)),
+               result.chain->amplitudes_every_step ? "every step" : "samples and events"});
+  }
+  table.notes.push_back(fmt::format(
+      "CMV = 300 A2 / A1 and RMV = 100 A0.5 / A1 from the amplitudes of drum acceleration at 1, 2 and "
+      "1/2 times the excitation frequency, over the last {} cycles.",
+      steady_cycles));
+  return table;
+}
+
+ReportTable errors_table(const ReportResults &results) {
+  ReportTable table;
+  table.section = "direct";
+  table.name = "error_table";
+  table.title = "Relative RMS error of drum velocity against the direct solution";
+  table.header = {"run",
+                  "case",
+                  "transition",
+                  "stepping",
+                  "steps per cycle",
+                  "cycles (-)",
+                  "last 5 cycles (-)",
+                  "cycles 25 to 30 (-)",
+                  "known: second-order stepping (-)",
+                  "known: stock stepping (-)"};
+  table.shown_columns = table.header.size();
+  table.text_columns = 4;
+  bool interpolated = false;
+  for (const RunResult &result : results.runs) {
+    if (!result.chain) continue;
+    const Run &run = result.run;
+    const ChainMeasures &m = *result.chain;
+    const bool comparable = run.at_case && run.chain.transition == Transition::B;
+    const std::optional<double> known = comparable || run.case_name == "I"
+                                            ? reference_velocity_error(run.case_name, run.steps_per_cycle)
+                                            : std::nullopt;
+    const std::optional<double> stock =
+        comparable ? reference_stock_velocity_error(run.case_name, run.steps_per_cycle) : std::nullopt;
+    table.add({run.name, case_text(run), transition_text(run),
+               run.direct ? "exact" : run.text("stepping", dash), steps_text(run),
+               fmt::format("{}", run.complete), scientific(m.velocity_error_last),
+               m.velocity_error_25_to_30 ? scientific(*m.velocity_error_25_to_30) : dash,
+               known ? scientific(*known) : dash, stock ? scientific(*stock) : dash});
+    interpolated = interpolated || m.truth_interpolated;
+  }
+  table.notes.emplace_back(
+      "The known errors are those of the reference, cycles 25 to 30, condition B, where the number of "
+      "steps per cycle is one of its columns (200, 400, ... 6400).");
+  if (interpolated)
+    table.notes.emplace_back(
+        "Times of some runs are not on the direct solution's grid; it was interpolated there.");
+  return table;
+}
+
+ReportTable energy_table(const ReportResults &results) {
+  ReportTable table;
+  table.section = "energy";
+  table.name = "energy_table";
+  table.title = "Energy ledger (J)";
+  table.header = {"run",
+                  "cycles",
+                  "work of the exciter (J)",
+                  "dissipated by contact (J)",
+                  "dissipated by bond (J)",
+                  "change of kinetic (J)",
+                  "of potential (J)",
+                  "of stored in contact (J)",
+                  "of stored in bond (J)",
+                  "closure (J)",
+                  "closure (% of work)"};
+  table.shown_columns = table.header.size();
+  table.text_columns = 2;
+  for (const RunResult &result : results.runs) {
+    if (!result.chain) continue;
+    if (!result.chain->energy) {
+      table.notes.push_back(
+          fmt::format("{}: no ledger, missing: {}.", result.run.name, result.chain->energy_missing));
+      continue;
+    }
+    const EnergyLedger &e = *result.chain->energy;
+    const auto joule = [](double value) { return fmt::format("{:.4f}", value); };
+    table.add({result.run.name, fmt::format("{:g} to {:g}", e.first_cycle, e.last_cycle),
+               joule(e.work_excitation), joule(e.dissipated_contact), joule(e.dissipated_bond),
+               joule(e.change_kinetic), joule(e.change_potential), joule(e.change_stored_contact),
+               joule(e.change_stored_bond), scientific(e.closure()), scientific(e.closure_percent())});
+  }
+  if (!table.rows.empty())
+    table.notes.insert(table.notes.begin(),
+                       "Between the ends of the two cycles named; cycle 0 is the start of the excitation. "
+                       "Closure is the work of the exciter minus everything that it went into.");
+  return table;
+}
+
+ReportTable roller_table(const ReportResults &results) {
+  ReportTable table;
+  table.section = "roller";
+  table.name = "roller_table";
+  table.title = "Contact force by differences of positions against the law's";
+  table.header = {"run",
+                  "case",
+                  "transition",
+                  "largest difference (N)",
+                  "largest contact force (N)",
+                  "difference over force (-)",
+                  "at time (s)",
+                  "rows compared"};
+  table.shown_columns = table.header.size();
+  table.text_columns = 3;
+  for (const RunResult &result : results.runs) {
+    if (!result.chain) continue;
+    if (!result.chain->roller) {
+      table.notes.push_back(fmt::format("{}: chain.csv has no frame, or its rows are not equally far apart: "
+                                        "nothing to compare.",
+                                        result.run.name));
+      continue;
+    }
+    const RollerForce &force = *result.chain->roller;
+    table.add({result.run.name, case_text(result.run), transition_text(result.run),
+               fmt::format("{:.3g}", force.largest_difference), fmt::format("{:.6g}", force.largest_force),
+               scientific(force.largest_difference / force.largest_force),
+               fmt::format("{:.5f}", force.at_time), fmt::format("{}", force.rows)});
+  }
+  if (!table.rows.empty())
+    table.notes.insert(table.notes.begin(),
+                       "Accelerations of drum and frame are differences of the positions in five rows of "
+                       "chain.csv, whose error is of fourth order in the time between rows. Rows with a make "
+                       "or break among the five are left out: the force jumps there.");
+  return table;
+}
+
+void count(CheckCount &sum, const Check &check) {
+  if (check.agreement == Agreement::not_judged) {
+    ++sum.not_judged;
+    return;
+  }
+  ++sum.all;
+  if (check.agrees()) ++sum.agree;
+  if (check.agreement == Agreement::same_digits) ++sum.same_digits;
+}
+
+} // namespace
+
+void ReportTable::add(std::vector<std::string> row, RowState state) {
+  rows.push_back(std::move(row));
+  states.push_back(state);
+}
+
+CheckCount count_checks(const ReportResults &results) {
+  CheckCount sum;
+  for (const std::vector<Check> *checks : {&results.checks, &results.restitution, &results.words})
+    for (const Check &check : *checks)
+      count(sum, check);
+  return sum;
+}
+
+CheckCount count_checks(const ReportResults &results, std::size_t run) {
+  CheckCount sum;
+  for (const std::vector<Check> *checks : {&results.checks, &results.restitution})
+    for (const Check &check : *checks)
+      if (check.run == run) count(sum, check);
+  return sum;
+}
+
+std::string judging_command(const Run &run) {
+  constexpr int cycles = 120;
+  static_assert(cycles >= long_run_cycles);
+  const std::string out =
+      (fs::canonical(run.folder).parent_path() /
+       fmt::format("{}-{}-{}-cycles", run.case_name, transition_name(run.transition()), cycles))
+          .string();
+  if (run.direct)
+    return fmt::format("./drumlin exact --case {} --transition {} --cycles {} --out {}", run.case_name,
+                       transition_name(run.transition()), cycles, shell_word(out));
+  std::string command = fmt::format("./drumlin run inputs/chain/in.chain{} -var case {} -var transition {}",
+                                    run.text("engine", "").rfind("LAMMPS", 0) == 0 ? ".lammps" : "",
+                                    run.case_name, transition_name(run.transition()));
+  if (const std::string stepping = run.text("stepping", ""); stepping == "second" || stepping == "stock")
+    command += " -var stepping " + stepping;
+  if (run.steps_per_cycle > 0) command += fmt::format(" -var steps_per_cycle {}", run.steps_per_cycle);
+  if (run.steps_per_cycle > 0 && run.samples_per_cycle > 0 &&
+      run.steps_per_cycle % run.samples_per_cycle == 0)
+    command += fmt::format(" -var samples_per_cycle {}", run.samples_per_cycle);
+  return command + fmt::format(" -var cycles {} -var out {}", cycles, shell_word(out));
+}
+
+std::vector<ReportTable> make_tables(const ReportResults &results) {
+  std::vector<ReportTable> tables;
+  tables.push_back(runs_table(results));
+
+  ReportTable restitution = check_table("impact", "restitution", "Restitution of single impacts");
+  for (const Check &check : results.restitution)
+    add_check(restitution, results, check);
+  tables.push_back(std::move(restitution));
+
+  ReportTable steady =
+      check_table("reference", "checks", "Steady states and meter values against the reference");
+  for (const Check &check : results.checks)
+    add_check(steady, results, check);
+  steady.notes.push_back(
+      fmt::format("Measured over the last {} cycles. Forces and accelerations at a make "
+                  "are those of the located events; the share "
+                  "of time in contact follows from event times. \"To all digits\" means "
+                  "that the measured value rounds to the reference. The tolerance is one unit of "
+                  "the last digit given or, for accelerations and forces, 2e-4 of the value: the "
+                  "reference table's states had not settled further than that. The direct "
+                  "solution of the same cycles, measured by the same means, stands beside it.",
+                  steady_cycles));
+  if (count_checks(results).not_judged > 0)
+    steady.notes.push_back(fmt::format("Short run: fewer than {} cycles, so the state need not be steady to "
+                                       "the digits given.",
+                                       long_run_cycles));
+  tables.push_back(std::move(steady));
+
+  ReportTable words = check_table("reference", "paper_words", "What the paper says in words");
+  for (const Check &check : results.words)
+    add_check(words, results, check);
+  tables.push_back(std::move(words));
+
+  tables.push_back(engine_table(results));
+  tables.push_back(meters_table(results));
+  tables.push_back(events_table(results));
+  tables.push_back(errors_table(results));
+  tables.push_back(energy_table(results));
+  tables.push_back(roller_table(results));
+  tables.erase(
+      std::remove_if(tables.begin(), tables.end(),
+                     [](const ReportTable &table) { return table.rows.empty() && table.notes.empty(); }),
+      tables.end());
+  return tables;
+}
+
+std::string table_csv(const ReportTable &table) {
+  std::string text;
+  const auto line = [&text](const std::vector<std::string> &cells) {
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      text += (i == 0 ? "" : ",") + csv_cell(cells[i] == dash ? "" : cells[i]);
+    text += '\n';
+  };
+  line(table.header);
+  for (const std::vector<std::string> &row : table.rows)
+    line(row);
+  return text;
+}
+
+} // namespace drumlin::post

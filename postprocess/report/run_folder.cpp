@@ -1,0 +1,338 @@
+#include "report/run_folder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "support/usage_error.h"
+#include "chain/reference_values.h"
+#include "support/text.h"
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_study_folder(const fs::path &folder) {
+  return fs::is_regular_file(folder / "study.txt") && fs::is_regular_file(folder / "index.html");
+}
+
+/// The record of a run: chain.csv, or bed.csv of a bed.
+fs::path record_of(const fs::path &folder) {
+  const fs::path bed = folder / "bed.csv";
+  const fs::path chain = folder / "chain.csv";
+  return !fs::is_regular_file(chain) && fs::is_regular_file(bed) ? bed : chain;
+}
+
+bool is_run_folder(const fs::path &folder) { return fs::is_regular_file(record_of(folder)); }
+
+/// The parameter as a number, if it is there. Throws for text that is no number.
+std::optional<double> number(const Run &run, const std::string &name) {
+  const auto found = run.parameters.find(name);
+  if (found == run.parameters.end() || found->second.empty()) return std::nullopt;
+  try {
+    return number_from_text(found->second);
+  } catch (const std::invalid_argument &) {
+    throw std::runtime_error(fmt::format("{}: {} is '{}', not a number",
+                                         (run.folder / "parameters.csv").string(), name, found->second));
+  }
+}
+
+/// Takes a parameter over; says so in `absent` if it is not there.
+void take(const Run &run, const std::string &name, double &value, std::vector<std::string> &absent) {
+  if (const std::optional<double> given = number(run, name))
+    value = *given;
+  else
+    absent.push_back(name);
+}
+
+std::string joined(const std::vector<std::string> &words) {
+  std::string out;
+  for (const std::string &word : words)
+    out += (out.empty() ? "" : ", ") + word;
+  return out;
+}
+
+void check_parameters(const Run &run, const std::string &complaint) {
+  if (!complaint.empty())
+    throw std::runtime_error(fmt::format("{}: {}", (run.folder / "parameters.csv").string(), complaint));
+}
+
+/// Takes the transition, the last of the parameters, and says whether none is absent.
+bool take_transition(Run &run, Transition &transition, std::vector<std::string> absent) {
+  if (!run.parameters.count("transition")) absent.emplace_back("transition");
+  if (!absent.empty()) {
+    run.missing.push_back(
+        fmt::format("parameters.csv lacks {}: not judged and not compared.", joined(absent)));
+    return false;
+  }
+  try {
+    transition = transition_from_name(run.parameters.at("transition"));
+  } catch (const std::invalid_argument &error) {
+    check_parameters(run, error.what());
+  }
+  return true;
+}
+
+/// Fills Run::at_case: whether each parameter is the named case's.
+void compare_with_case(Run &run) {
+  const std::optional<ReferenceCase> known = reference_case(run.case_name);
+  if (!known) {
+    run.not_at_case =
+        run.case_name.empty() ? "no case is named" : "case '" + run.case_name + "' has no reference";
+    return;
+  }
+  const ReferenceCommon common;
+  const ChainParameters &p = run.chain;
+  struct Pair {
+    const char *name;
+    double value;
+    double expected;
+  };
+  for (const Pair &pair : {Pair{"k", p.k, known->stiffness}, Pair{"D", p.D, known->damping_ratio},
+                           Pair{"omega", p.omega, known->omega}, Pair{"Fw", p.Fw, common.excitation},
+                           Pair{"m2", p.m2, common.drum_mass}, Pair{"m3", p.m3, common.frame_mass},
+                           Pair{"k23", p.k23, common.bond_stiffness}, Pair{"c23", p.c23, common.bond_damping},
+                           Pair{"g", p.g, common.gravity}}) {
+    if (std::abs(pair.value - pair.expected) > 1.0e-6 * std::abs(pair.expected)) {
+      run.not_at_case =
+          fmt::format("{} = {:g}, case {} has {:g}", pair.name, pair.value, run.case_name, pair.expected);
+      return;
+    }
+  }
+  run.at_case = true;
+}
+
+/// Fills Run::chain; says whether all of it is there.
+bool take_chain(Run &run) {
+  std::vector<std::string> absent;
+  ChainParameters &p = run.chain;
+  take(run, "k", p.k, absent);
+  take(run, "D", p.D, absent);
+  take(run, "omega", p.omega, absent);
+  take(run, "Fw", p.Fw, absent);
+  take(run, "m2", p.m2, absent);
+  take(run, "m3", p.m3, absent);
+  take(run, "k23", p.k23, absent);
+  take(run, "c23", p.c23, absent);
+  take(run, "g", p.g, absent);
+  if (!take_transition(run, p.transition, absent)) return false;
+  check_parameters(run, p.invalid());
+  return true;
+}
+
+/// Fills Run::complete and Run::samples_per_cycle.
+void count_cycles(Run &run) {
+  if (run.history.size() < 3) return;
+  const double period = run.chain.period();
+  const double rows = static_cast<double>(run.history.size() - 1);
+  const double step = (run.history.time.back() - run.history.time.front()) / rows;
+  constexpr double most_per_cycle = 1.0e6; // as the direct solver's
+  const double samples = std::min(std::round(period / step), most_per_cycle);
+  if (!(samples >= 1.0) || !(run.history.time.back() / period < 2.0 * rows))
+    throw std::runtime_error(fmt::format(
+        "{}: {} rows over {:g} s with omega = {:g} rad/s; allowed is a row or more per cycle",
+        record_of(run.folder).string(), run.history.size(), run.history.time.back(), run.chain.omega));
+  run.complete = complete_cycles(run.history.time.back(), period);
+  run.samples_per_cycle = static_cast<int>(samples);
+  if (const std::optional<double> asked = number(run, "cycles"); asked && run.complete < *asked)
+    run.missing.push_back(fmt::format("a partial run, {} of {:g} cycles: it was stopped, or is not done yet.",
+                                      run.complete, *asked));
+}
+
+void read_chain_parameters(Run &run) {
+  if (!take_chain(run)) return;
+  run.kind = RunKind::chain;
+  run.case_name = run.text("case", "");
+  if (const std::optional<double> speed = number(run, "impact_speed")) run.impact_speed = *speed;
+  compare_with_case(run);
+  count_cycles(run);
+}
+
+/// Of a bed nothing may be missing: its deck writes all of it.
+void read_bed_parameters(Run &run) {
+  const std::string deck = run.text("deck", "");
+  check_parameters(run,
+                   deck == "bed" ? "" : fmt::format("deck is '{}'; allowed beside bed.csv is bed", deck));
+  if (!take_chain(run))
+    throw std::runtime_error(fmt::format("{}: {}", run.folder.string(), run.missing.back()));
+  run.kind = RunKind::bed;
+  run.case_name = run.text("case", "");
+  count_cycles(run);
+}
+
+void read_impact_parameters(Run &run) {
+  std::vector<std::string> absent;
+  ImpactParameters &p = run.impact;
+  take(run, "k", p.stiffness, absent);
+  take(run, "D", p.damping_ratio, absent);
+  take(run, "m2", p.mass, absent);
+  take(run, "speed", p.speed, absent);
+  if (!take_transition(run, p.transition, absent)) return;
+  for (const auto &[name, value] :
+       {std::pair{"k", p.stiffness}, std::pair{"m2", p.mass}, std::pair{"speed", p.speed}})
+    if (value <= 0.0)
+      check_parameters(run, fmt::format("{} is {:g}; allowed is a number above 0", name, value));
+  if (p.damping_ratio < 0.0)
+    check_parameters(run, fmt::format("D is {:g}; allowed is a number of 0 or more", p.damping_ratio));
+  run.kind = RunKind::impact;
+}
+
+/// Columns of cycles.csv that the report knows; any of them may be missing.
+constexpr const char *cycle_columns[] = {
+    "cycle",           "time",          "a_drum_min", "a_drum_max",      "F_contact_min",
+    "F_contact_max",   "contact_share", "a1_cos",     "a1_sin",          "a2_cos",
+    "a2_sin",          "ah_cos",        "ah_sin",     "work_excitation", "dissipated_contact",
+    "dissipated_bond", "kinetic",       "potential",  "stored_contact",  "stored_bond",
+    "settlement"};
+
+} // namespace
+
+std::string Run::text(const std::string &parameter, const std::string &fallback) const {
+  const auto found = parameters.find(parameter);
+  return found == parameters.end() || found->second.empty() ? fallback : found->second;
+}
+
+ReportFolders find_report_folders(const std::vector<fs::path> &arguments) {
+  ReportFolders folders;
+  std::set<fs::path> seen;
+  const auto take = [&](const fs::path &folder, std::vector<fs::path> &into) {
+    if (seen.insert(fs::canonical(folder)).second) into.push_back(folder);
+  };
+  for (const fs::path &argument : arguments) {
+    if (!fs::is_directory(argument))
+      throw UsageError(fmt::format("'{}' is no folder; allowed are run folders (with chain.csv or bed.csv), "
+                                   "studies and parents of them",
+                                   argument.string()));
+    std::vector<fs::path> runs;
+    std::vector<fs::path> studies;
+    if (is_study_folder(argument))
+      studies.push_back(argument);
+    else if (is_run_folder(argument))
+      runs.push_back(argument);
+    else
+      for (fs::recursive_directory_iterator entry(argument, fs::directory_options::skip_permission_denied),
+           end;
+           entry != end; ++entry) {
+        if (!entry->is_directory()) continue;
+        if (is_study_folder(entry->path())) {
+          studies.push_back(entry->path());
+          entry.disable_recursion_pending();
+        } else if (is_run_folder(entry->path())) {
+          runs.push_back(entry->path());
+        }
+      }
+    if (runs.empty() && studies.empty())
+      throw UsageError(fmt::format(
+          "'{}' has no chain.csv, no bed.csv and no study in it or below it; allowed are run folders, "
+          "studies and parents of them",
+          argument.string()));
+    for (auto [found, into] : {std::pair{&runs, &folders.runs}, std::pair{&studies, &folders.studies}}) {
+      std::sort(found->begin(), found->end());
+      for (const fs::path &folder : *found)
+        take(folder, *into);
+    }
+  }
+  return folders;
+}
+
+CycleColumns read_cycle_columns(const fs::path &file) {
+  const Table table = read_table(file);
+  CycleColumns cycles;
+  cycles.rows = table.rows();
+  for (const char *name : cycle_columns)
+    if (table.has(name)) cycles.columns[name] = table.numbers(name);
+  return cycles;
+}
+
+Run read_run(const fs::path &folder) {
+  Run run;
+  run.folder = folder;
+  const fs::path record = record_of(folder);
+  const bool bed = record.filename() == "bed.csv";
+  run.history = read_chain(record);
+  if (run.history.size() < 3)
+    throw std::runtime_error(
+        fmt::format("{}: {} rows; allowed are 3 or more", record.string(), run.history.size()));
+  if (fs::is_regular_file(folder / "events.csv")) {
+    run.events = read_events(folder / "events.csv");
+    run.has_events = true;
+  } else {
+    run.missing.emplace_back(
+        "events.csv is missing: no events table; jumps, force at make and contact share come "
+        "from samples.");
+  }
+  if (bed || fs::is_regular_file(folder / "parameters.csv"))
+    for (const auto &[name, value] : read_parameters(folder / "parameters.csv"))
+      run.parameters.emplace(valid_utf8(name), valid_utf8(value));
+  else
+    run.missing.emplace_back("parameters.csv is missing: not judged and not compared.");
+
+  const std::string deck = run.text("deck", "");
+  const bool impact = deck == "impact" || (deck.empty() && run.parameters.count("speed") != 0);
+  if (bed) {
+    read_bed_parameters(run);
+  } else if (!run.parameters.empty()) {
+    if (impact)
+      read_impact_parameters(run);
+    else
+      read_chain_parameters(run);
+  }
+  const std::string engine = run.text("engine", "");
+  run.direct = engine.find("CVODE") != std::string::npos || engine.find("direct") != std::string::npos ||
+               deck == "exact" || deck == "direct" || run.parameters.count("solver") != 0;
+
+  if (fs::is_regular_file(folder / "cycles.csv")) {
+    run.cycles = read_cycle_columns(folder / "cycles.csv");
+    if (!run.cycles->has("a_drum_min") || !run.cycles->has("F_contact_max"))
+      run.missing.emplace_back(
+          "cycles.csv lacks a_drum_min ... F_contact_max: extremes come from samples and events.");
+    if (!run.cycles->has("a1_cos"))
+      run.missing.emplace_back(
+          "cycles.csv lacks a1_cos ... ah_sin: meter values come from samples and events.");
+    if (!run.cycles->has("work_excitation"))
+      run.missing.emplace_back("cycles.csv lacks the energies: no energy ledger.");
+  } else if (run.kind == RunKind::chain) {
+    run.missing.emplace_back(
+        "cycles.csv is missing: extremes and meter values come from samples and events; no "
+        "energy ledger.");
+  }
+  if (const std::optional<double> steps = number(run, "steps_per_cycle")) {
+    if (!(*steps >= 0.0 && *steps <= std::numeric_limits<int>::max()))
+      check_parameters(run,
+                       fmt::format("steps_per_cycle is {:g}; allowed is a whole number above 0", *steps));
+    run.steps_per_cycle = static_cast<int>(std::lround(*steps));
+  }
+  if (const std::optional<double> step = number(run, "timestep")) run.timestep = *step;
+  if (run.timestep <= 0.0 && run.steps_per_cycle > 0 && run.kind == RunKind::chain)
+    run.timestep = run.chain.period() / run.steps_per_cycle;
+  if (run.kind == RunKind::chain && !run.history.has_frame())
+    run.missing.emplace_back("chain.csv has no frame: no roller-measured force.");
+  return run;
+}
+
+void name_runs(std::vector<Run> &runs) {
+  // Tails of one more part each round, until all differ.
+  std::vector<std::vector<std::string>> parts(runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    for (const fs::path &part : fs::canonical(runs[i].folder))
+      parts[i].push_back(part.string());
+  for (std::size_t length = 1; length < 64; ++length) {
+    std::map<std::string, int> uses;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      std::string tail;
+      for (std::size_t j = parts[i].size() - std::min(length, parts[i].size()); j < parts[i].size(); ++j)
+        tail += (tail.empty() || tail == "/" ? "" : "/") + parts[i][j];
+      runs[i].name = valid_utf8(tail);
+      ++uses[tail];
+    }
+    if (std::all_of(uses.begin(), uses.end(), [](const auto &use) { return use.second == 1; })) return;
+  }
+}
+
+} // namespace drumlin::post

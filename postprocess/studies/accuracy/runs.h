@@ -1,0 +1,48 @@
+// The runs of the accuracy study: the chain and single impacts at many step sizes, each against its truth.
+#pragma once
+
+#include "chain/parameters.h"
+#include "chain/direct_solver.h"
+#include "engine/engine_run.h"
+
+#include <string>
+
+namespace drumlin::post {
+
+/// What the chain's runs have in common.
+constexpr int accuracy_cycles = 30;  ///< of each run
+constexpr int accuracy_window = 5;   ///< the last cycles, over which errors count
+constexpr int accuracy_samples = 50; ///< rows per cycle
+
+/// The errors of a run of the chain; NaN where they were not measured.
+struct ChainErrors {
+  double velocity;     ///< relative RMS of the drum's velocity over the window
+  double force;        ///< of the peak contact force over the window, relative
+  double acceleration; ///< of the largest magnitude of the drum's acceleration over the window, relative
+  long events;         ///< makes and breaks in the run
+  long events_truth;   ///< in the truth
+  double event_time_s; ///< largest error of the time of an event; NaN if the events do not match one by one
+  double energy;       ///< what the energy ledger of the run misses, over the work of the exciter, >= 0
+  double loop_s;       ///< time of the cycles, by the engine's clock
+  double wall_s;       ///< time of the whole process, with finding the equilibrium
+};
+
+/// The direct solution that the runs of a chain are measured against.
+DirectResult accuracy_truth(const ChainParameters &parameters, const SolverProgress &progress = {});
+
+/// Runs in.chain. \param stepping "second" or "stock"
+ChainErrors measure_chain(const ChainParameters &parameters, const std::string &stepping, int steps_per_cycle,
+                          const DirectResult &truth);
+
+/// Runs a case of Table 1 by the engine's own contact law: velocity error and times only.
+ChainErrors measure_reference(const std::string &case_name, int steps_per_cycle, const DirectResult &truth);
+
+/// Errors of the restitution over the phases of the onset, absolute.
+struct ImpactErrors {
+  double worst;
+  double rms;
+};
+ImpactErrors measure_impacts(Transition transition, double damping_ratio, const std::string &stepping,
+                             double steps_per_contact, int phases);
+
+} // namespace drumlin::post

@@ -1,0 +1,175 @@
+#include "studies/fidelity/page.h"
+
+#include "pages/figure_data.h"
+#include "pages/page.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace drumlin::post {
+
+namespace {
+
+/// A change within it, scatter included, is said not to matter.
+constexpr double tolerance = 0.1;
+
+std::string percent(const MeanError &change) {
+  return fmt::format("{:+.1f} ± {:.1f}", 100.0 * change.mean, 100.0 * change.half_width);
+}
+
+std::string without_unit(BedQuantity quantity) {
+  const std::string name = bed_quantity_name(quantity);
+  return name.substr(0, name.find(" ("));
+}
+
+/// What a bed's answer to each question needs, from what is known of each comparison.
+ReportTable conclusion_table(const std::vector<Effect> &effects) {
+  ReportTable table;
+  table.name = "needs";
+  table.title = "What a scene needs for which question";
+  table.text_columns = 4;
+  table.header = {"question", "it changes with", "free to choose: changes it by less than 10 %",
+                  "not decided by these seeds"};
+  for (std::size_t q = 0; q < bed_quantities.size(); ++q) {
+    std::array<std::vector<std::string>, 3> cells;
+    for (const Effect &effect : effects) {
+      const MeanError &change = effect.change[q];
+      const std::string text = fmt::format("{} ({:+.0f} %, time x {:.2g})", effect.compared.what,
+                                           100.0 * change.mean, effect.cost);
+      cells[change.within(tolerance) ? 1 : change.beyond_scatter() ? 0 : 2].push_back(text);
+    }
+    std::vector<std::string> row = {without_unit(bed_quantities[q])};
+    for (const std::vector<std::string> &cell : cells)
+      row.push_back(cell.empty() ? "-" : fmt::format("{}", fmt::join(cell, "; ")));
+    table.add(std::move(row));
+  }
+  table.notes = {
+      "In brackets: the mean change, and the processor time over that of what it is compared with.",
+      "A change belongs to the first column if zero lies outside of its 95 % interval, to the second if "
+      "the whole interval lies within 10 %, else to the third."};
+  return table;
+}
+
+ReportTable effect_table(const std::vector<Effect> &effects) {
+  ReportTable table;
+  table.name = "effects";
+  table.title = "What an ingredient changes";
+  table.text_columns = 3;
+  table.header = {"row", "ingredient", "matters for", "seeds"};
+  for (const BedQuantity quantity : bed_quantities)
+    table.header.push_back(without_unit(quantity) + " (%)");
+  table.header.emplace_back("processor time (ratio)");
+  for (const Effect &effect : effects) {
+    std::vector<std::string> matters;
+    for (std::size_t q = 0; q < bed_quantities.size(); ++q)
+      if (effect.change[q].beyond_scatter()) matters.push_back(without_unit(bed_quantities[q]));
+    std::vector<std::string> row = {std::to_string(table.rows.size() + 1), effect.compared.what,
+                                    matters.empty() ? "nothing beyond the scatter"
+                                                    : fmt::format("{}", fmt::join(matters, ", ")),
+                                    std::to_string(effect.seeds)};
+    for (const MeanError &change : effect.change)
+      row.push_back(percent(change));
+    row.push_back(fmt::format("{:.2f}", effect.cost));
+    table.add(std::move(row));
+  }
+  table.notes = {
+      "Change seed by seed: mean and half of its 95 % interval (Student's t), in percent of the mean of what "
+      "it is compared with. A bed is chaotic: what the interval does not exclude is not claimed, and of "
+      "twenty claims scatter alone makes one.",
+      "Acceleration and force: largest values of a cycle; all means over the second half of the run."};
+  return table;
+}
+
+ReportTable run_table(const std::vector<FidelityRun> &runs) {
+  ReportTable table;
+  table.name = "means";
+  table.title = "Means over the seeds";
+  table.header = {"variant", "seeds"};
+  for (const BedQuantity quantity : bed_quantities)
+    table.header.push_back(bed_quantity_name(quantity));
+  table.header.emplace_back("processor time (s)");
+  std::vector<std::string> names;
+  for (const FidelityRun &run : runs)
+    if (std::find(names.begin(), names.end(), run.variant) == names.end()) names.push_back(run.variant);
+  for (const std::string &name : names) {
+    std::array<std::vector<double>, bed_quantities.size()> values;
+    std::vector<double> cpu;
+    for (const FidelityRun &run : runs) {
+      if (run.variant != name) continue;
+      for (std::size_t q = 0; q < bed_quantities.size(); ++q)
+        values[q].push_back(run.values[q]);
+      cpu.push_back(run.cpu_s);
+    }
+    std::vector<std::string> row = {name, std::to_string(cpu.size())};
+    for (const std::vector<double> &quantity : values) {
+      const MeanError mean = mean_error(quantity);
+      row.push_back(fmt::format("{:.4g} ± {:.2g}", mean.mean, mean.half_width));
+    }
+    row.push_back(fmt::format("{:.3g}", mean_error(cpu).mean));
+    table.add(std::move(row));
+  }
+  table.notes = {"Behind the ±: half of the 95 % interval of the mean."};
+  return table;
+}
+
+PlannedFigure effect_figure(const std::vector<Effect> &effects) {
+  const std::string name = "changes";
+  PlannedFigure figure;
+  figure.label = "Fig. 1";
+  figure.caption = "Change, mean over the seeds and its 95 % interval: bars that "
+                   "cross zero say nothing.";
+  figure.figure = {name, "What an ingredient changes", {}, 2, 900, 520};
+  CurveTable table("ingredient,change (%),low (%),high (%)");
+  for (std::size_t q = 0; q < bed_quantities.size(); ++q) {
+    const std::string title = without_unit(bed_quantities[q]);
+    Panel panel;
+    panel.title = title;
+    panel.y_label = "change (%)";
+    panel.curves = {curve(name, title, "$2", "3:4:5", CurveStyle::spread)};
+    panel.curves.back().title.clear();
+    panel.x_label = "row of the table of effects";
+    double lowest = 0.0, highest = 0.0;
+    for (std::size_t n = 0; n < effects.size(); ++n) {
+      panel.x_ticks.push_back(std::to_string(n + 1));
+      const MeanError &change = effects[n].change[q];
+      table.row(title,
+                {static_cast<double>(n + 1), 100.0 * change.mean, 100.0 * (change.mean - change.half_width),
+                 100.0 * (change.mean + change.half_width)});
+      if (!std::isfinite(change.half_width)) continue; // one seed
+      lowest = std::min(lowest, change.mean - change.half_width);
+      highest = std::max(highest, change.mean + change.half_width);
+    }
+    // Each panel its own: gnuplot would take the range of all rows for each.
+    panel.y_range = fmt::format("[{:.4g}:{:.4g}]", 110.0 * lowest - 1.0, 110.0 * highest + 1.0);
+    figure.figure.panels.push_back(panel);
+  }
+  figure.csv = table.text();
+  return figure;
+}
+
+} // namespace
+
+void write_fidelity_page(const std::filesystem::path &out, const std::vector<FidelityRun> &runs,
+                         const std::vector<Effect> &effects, const std::vector<std::string> &failures) {
+  StudyPage page(out, "What a bed needs");
+  page.paragraph("Each ingredient of a bed is put in, left out or set otherwise, on beds of the same seeds, "
+                 "and compared with the finest of its kind. The base: 2500 discs, drum a ball, condition B, "
+                 "friction 0.5, second-order stepping, 2500 steps per cycle, 20 Hz, ten cycles.");
+  for (const std::string &failure : failures)
+    page.paragraph("Missing: " + failure);
+  page.section("Conclusions");
+  page.table(conclusion_table(effects));
+  page.section("Effects");
+  page.table(effect_table(effects));
+  page.figure(effect_figure(effects));
+  page.section("Means");
+  page.table(run_table(runs));
+  page.write();
+}
+
+} // namespace drumlin::post

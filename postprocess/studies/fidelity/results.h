@@ -1,0 +1,71 @@
+// What the fidelity study measures: its file runs.csv, row by row, and the effects that follow.
+#pragma once
+
+#include "chain/run_files.h"
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+/// What is asked of a bed, from the second half of a run.
+enum class BedQuantity {
+  acceleration, ///< largest of the drum, mean over the cycles, m/s2
+  force,        ///< largest contact force, mean over the cycles, N per metre of width
+  settlement,   ///< of the drum per cycle, m
+  contact       ///< share of steps with contact
+};
+constexpr std::array<BedQuantity, 4> bed_quantities = {BedQuantity::acceleration, BedQuantity::force,
+                                                       BedQuantity::settlement, BedQuantity::contact};
+/// Name with unit, for headers.
+std::string bed_quantity_name(BedQuantity quantity);
+
+/// In the order of `bed_quantities`.
+using BedValues = std::array<double, bed_quantities.size()>;
+
+/// What a run's cycles.csv says of its second half. \param width of the bed, m \pre at least two cycles behind the row of the start
+BedValues bed_values(const Table &cycles, double width);
+
+/// One row of runs.csv. The first two name the run.
+struct FidelityRun {
+  std::string variant;
+  int seed;
+  BedValues values;
+  double cpu_s; ///< processor time of the engine, excitation only: what a machine of one's own would take
+};
+
+extern const std::vector<std::string> fidelity_run_columns;
+constexpr std::size_t fidelity_run_keys = 2;
+std::vector<std::string> cells(const FidelityRun &run);
+/// The rows of a file in order. std::runtime_error for one that cannot be understood.
+std::vector<FidelityRun> read_fidelity_runs(const std::filesystem::path &file);
+
+/// Mean over seeds and half the width of its 95 % interval, by Student's t; infinite for one seed.
+struct MeanError {
+  double mean, half_width;
+  /// Whether zero lies outside of the interval: a claim that scatter alone makes once in twenty times.
+  bool beyond_scatter() const;
+  /// Whether the whole interval lies within +-bound.
+  bool within(double bound) const;
+};
+MeanError mean_error(const std::vector<double> &values);
+
+/// What is compared with what.
+struct BedComparison {
+  std::string what, variant, base;
+};
+
+/// A variant over its base: differences seed by seed, so that what a seed's bed does to both falls out.
+struct Effect {
+  BedComparison compared;
+  int seeds;
+  std::array<MeanError, bed_quantities.size()> change; ///< relative to the mean of the base
+  double cost; ///< processor time over the base's, median over the seeds
+};
+/// Nothing if the two share no seed.
+std::optional<Effect> effect_of(const std::vector<FidelityRun> &runs, const BedComparison &compared);
+
+} // namespace drumlin::post

@@ -1,0 +1,256 @@
+#include "studies/fidelity/study.h"
+
+#include "bed/packing.h"
+#include "chain/run_files.h"
+#include "studies/settled_bed.h"
+#include "studies/fidelity/page.h"
+#include "studies/fidelity/results.h"
+#include "studies/study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double density = 2650.0; // kg/m3
+
+/// A bed with a roller on it, made once for each seed, and what is run on it.
+struct Bed {
+  std::string name; ///< of its files
+  PackingOptions packing;
+  Variables scene;       ///< of all its decks
+  std::string ratio;     ///< unbalanced force at which it counts as at rest: see in.settle
+  Variables settle = {}; ///< of in.settle alone, before `scene`
+};
+
+/// One run on a bed of each seed.
+struct Variant {
+  std::string name;   ///< without commas
+  Variables run = {}; ///< of in.bed alone
+};
+
+struct BedVariants {
+  Bed bed;
+  std::vector<Variant> variants;
+};
+
+struct Plan {
+  std::vector<BedVariants> beds;
+  std::vector<BedComparison> comparisons;
+  int seeds, cycles;
+};
+
+/// The same bed with other values.
+Bed with(Bed bed, const std::string &name, const Variables &scene, const Variables &settle = {}) {
+  bed.name = name;
+  bed.scene.insert(bed.scene.begin(), scene.begin(), scene.end()); // the engine takes the first of a name
+  bed.settle = settle;
+  return bed;
+}
+
+/// Other balls in it.
+Bed of_balls(Bed bed, int balls, double smallest, double largest) {
+  bed.packing.balls = balls;
+  bed.packing.radius_min = smallest;
+  bed.packing.radius_max = largest;
+  return bed;
+}
+
+Plan quick_plan() {
+  Bed bed{"gravel", {}, {}, "1e-2"};
+  bed.packing.balls = 150;
+  bed.packing.width = 0.6;
+  bed.scene = {{"m2", "100"}, {"m3", "50"}, {"r2", "0.1"}, {"r3", "0.05"}, {"k23", "5e4"}, {"c23", "500"}};
+  const std::pair<std::string, std::string> force = {"Fw", "2940"};
+  return {{{bed, {{"base", {force}}, {"A", {force, {"transition", "A"}}}}},
+           {with(bed, "rolling", {{"rolling", "0.1"}}), {{"rolling", {force}}}}},
+          {{"A instead of B", "A", "base"}, {"rolling friction", "rolling", "base"}},
+          2,
+          4};
+}
+
+Plan full_plan() {
+  // Excitation shakes a bed by far more than what a ratio of 1e-3 leaves.
+  const Bed gravel{"gravel", {}, {{"stepping", "second"}}, "1e-3"};
+  // The time step follows the contact time: sqrt(m/k), m ~ r^2.
+  const auto stiffness = [&gravel](const char *name, const char *k, const char *dt) {
+    return with(gravel, name, {{"k", k}, {"dt", dt}});
+  };
+  const Bed coarse = with(of_balls(gravel, 625, 0.032, 0.048), "coarse", {{"dt", "4e-5"}});
+  const Bed fine = with(of_balls(gravel, 10000, 0.008, 0.012), "fine", {{"dt", "1e-5"}});
+  Bed wide = with(of_balls(gravel, 2500, 0.010, 0.030), "wide", {{"dt", "1e-5"}});
+  wide.packing.grading = Grading::mass;
+  wide.packing.height = 3.5; // m: with small balls everywhere, large ones find a place less easily
+  // As wide, as high and as loose as each other, the drum a clump in both.
+  Bed plane = with(of_balls(gravel, 460, 0.016, 0.024), "plane", {{"drum", "clump"}});
+  plane.packing.width = 1.0;
+  Bed space = with(of_balls(gravel, 2500, 0.016, 0.024), "space", {{"case", "gravel3d"}});
+  space.packing.width = 1.0;
+  space.packing.depth = 0.2;
+  const auto frequency = [](double hertz, const char *steps) -> Variables {
+    return {{"omega", number_text(2.0 * 3.14159265358979323846 * hertz)}, {"steps_per_cycle", steps}};
+  };
+  return {{{gravel,
+            {{"base"},
+             {"steps x 2", {{"steps_per_cycle", "5000"}}},
+             {"steps x 4", {{"steps_per_cycle", "10000"}}},
+             {"A", {{"transition", "A"}}},
+             {"no friction", {{"friction", "0"}, {"allow_change", "friction"}, {"balance", "1e30"}}},
+             {"30 Hz", frequency(30.0, "1750")},
+             {"40 Hz", frequency(40.0, "1250")}}},
+           {with(gravel, "stock", {{"stepping", "stock"}}),
+            {{"stock"}, {"stock steps x 4", {{"steps_per_cycle", "10000"}}}}},
+           {with(gravel, "rolling", {{"rolling", "0.1"}}), {{"rolling"}}},
+           {stiffness("soft10", "1e7", "6e-5"), {{"k / 10", {{"steps_per_cycle", "750"}}}}},
+           {stiffness("soft100", "1e6", "2e-4"), {{"k / 100", {{"steps_per_cycle", "250"}}}}},
+           {coarse, {{"625 balls", {{"steps_per_cycle", "1250"}}}}},
+           {with(of_balls(gravel, 2500, 0.02, 0.02), "one_size", {}), {{"one size"}}},
+           {wide, {{"wide grading", {{"steps_per_cycle", "5000"}}}}},
+           {with(gravel, "dense", {}, {{"pour_friction", "0.1"}}), {{"dense"}}},
+           {with(gravel, "clump", {{"drum", "clump"}}), {{"clump"}}},
+           {plane, {{"plane"}}},
+           {space, {{"space", {{"steps_per_cycle", "4000"}}}}},
+           {fine, {{"10000 balls", {{"steps_per_cycle", "5000"}}}}}},
+          {{"A instead of B", "A", "base"},
+           {"friction off, shaken only", "no friction", "base"},
+           {"rolling friction 0.1", "rolling", "base"},
+           {"k / 10 and 1/3.3 of the steps", "k / 10", "base"},
+           {"k / 100 and 1/10 of the steps", "k / 100", "base"},
+           {"2500 steps a cycle instead of 10000", "base", "steps x 4"},
+           {"5000 steps a cycle instead of 10000", "steps x 2", "steps x 4"},
+           {"stock: 2500 steps instead of 10000", "stock", "stock steps x 4"},
+           {"stock instead of second: 10000 steps", "stock steps x 4", "steps x 4"},
+           {"625 balls instead of 10000", "625 balls", "10000 balls"},
+           {"2500 balls instead of 10000", "base", "10000 balls"},
+           {"balls of one size", "one size", "base"},
+           {"radii 10 to 30 mm instead of 16 to 24", "wide grading", "base"},
+           {"dense: settled with friction 0.1", "dense", "base"},
+           {"30 Hz instead of 20", "30 Hz", "base"},
+           {"40 Hz instead of 20", "40 Hz", "base"},
+           {"drum a clump instead of a ball", "clump", "base"},
+           {"two dimensions instead of three", "plane", "space"}},
+          5,
+          10};
+}
+
+Variables joined(Variables first, const Variables &second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+/// The restart file of a bed with its roller at rest, made if an earlier call did not finish it.
+fs::path made(const Bed &bed, int seed, const fs::path &out) {
+  const fs::path folder = fs::absolute(out / "beds");
+  const std::string stem = fmt::format("{}_{}", bed.name, seed);
+  fs::path done = folder / (stem + ".restart");
+  if (fs::exists(done)) return done;
+  PackingOptions packing = bed.packing;
+  packing.seed = static_cast<std::uint64_t>(seed);
+  const fs::path balls = folder / (stem + ".balls"), soil = folder / (stem + ".soil"),
+                 roller = folder / (stem + ".roller");
+  write_files({{balls, bed_data(packing, density, pack_balls(packing))}});
+  Variables settling = joined(bed.settle, bed.scene);
+  settling.insert(settling.end(), {{"ratio", bed.ratio}, {"balls", balls.string()}, {"bed", soil.string()}});
+  DeckRun("bed/in.settle", settling).must_succeed();
+  Variables placing = bed.scene;
+  placing.insert(placing.end(), {{"ratio", bed.ratio}, {"bed", soil.string()}, {"start", roller.string()}});
+  DeckRun("bed/in.place", placing).must_succeed();
+  fs::rename(roller, done);
+  fs::remove(balls);
+  fs::remove(soil);
+  fs::remove(roller.string() + ".data"); // for LAMMPS
+  return done;
+}
+
+FidelityRun measure(const Bed &bed, const Variant &variant, int seed, const fs::path &out, int cycles) {
+  Variables variables = joined(variant.run, bed.scene);
+  variables.insert(variables.end(), {{"start", made(bed, seed, out).string()},
+                                     {"cycles", std::to_string(cycles)},
+                                     {"samples_per_cycle", "250"}});
+  const DeckRun run("bed/in.bed", variables);
+  run.must_succeed();
+  const double width = bed.packing.dimensions() == 3 ? bed.packing.depth : 1.0; // m
+  return {variant.name, seed, bed_values(read_table(run.file("cycles.csv")), width),
+          run.outcome().cpu_seconds};
+}
+
+/// Runs the tasks, `jobs` at a time. What a task throws is its own affair.
+void in_parallel(const std::vector<std::function<void()>> &tasks, int jobs) {
+  std::atomic<std::size_t> next = 0;
+  std::vector<std::thread> workers;
+  const std::size_t count = std::min(static_cast<std::size_t>(jobs), tasks.size());
+  workers.reserve(count);
+  for (std::size_t worker = 0; worker < count; ++worker)
+    workers.emplace_back([&] {
+      for (std::size_t task = next++; task < tasks.size(); task = next++)
+        tasks[task]();
+    });
+  for (std::thread &worker : workers)
+    worker.join();
+}
+
+} // namespace
+
+void run_fidelity_study(const StudyOptions &options) {
+  check_engine_path(options.out);
+  const Plan plan = options.quick ? quick_plan() : full_plan();
+  StudyResults results(options.out / "runs.csv", fidelity_run_columns, fidelity_run_keys);
+  std::size_t variants = 0;
+  for (const BedVariants &one : plan.beds)
+    variants += one.variants.size();
+  StudyProgress progress(static_cast<std::size_t>(plan.seeds) * variants);
+  fs::create_directories(options.out / "beds");
+
+  std::mutex mutex; // of results, progress and failures
+  std::vector<std::string> failures;
+  std::vector<std::function<void()>> tasks;
+  for (int seed = 1; seed <= plan.seeds; ++seed)
+    for (const BedVariants &one : plan.beds)
+      tasks.emplace_back([&, seed] {
+        for (const Variant &variant : one.variants) {
+          {
+            const std::lock_guard lock(mutex);
+            if (results.find({variant.name, std::to_string(seed)}) != nullptr) {
+              progress.found();
+              continue;
+            }
+          }
+          try {
+            const FidelityRun run = measure(one.bed, variant, seed, options.out, plan.cycles);
+            const std::lock_guard lock(mutex);
+            results.add(cells(run));
+            progress.measured(fmt::format("seed {}, {}: {:.3g} m/s2, {:.3g} mm per cycle, {:.3g} s", seed,
+                                          run.variant, run.values[0], 1e3 * run.values[2], run.cpu_s));
+          } catch (const std::exception &fault) { // a bed that fails does not stop the others
+            const std::lock_guard lock(mutex);
+            failures.push_back(fmt::format("seed {}, {}: {}", seed, variant.name, fault.what()));
+            progress.measured(failures.back());
+          }
+        }
+      });
+  in_parallel(tasks, options.jobs);
+
+  std::vector<Effect> effects;
+  const std::vector<FidelityRun> runs = read_fidelity_runs(results.file());
+  for (const BedComparison &comparison : plan.comparisons)
+    if (const std::optional<Effect> effect = effect_of(runs, comparison)) effects.push_back(*effect);
+  write_fidelity_page(options.out, runs, effects, failures);
+  fmt::print("{}\n", (options.out / "index.html").string());
+  if (!failures.empty())
+    throw std::runtime_error(fmt::format("{} of the runs failed; the page tells which", failures.size()));
+}
+
+} // namespace drumlin::post

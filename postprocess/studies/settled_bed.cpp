@@ -1,0 +1,55 @@
+#include "studies/settled_bed.h"
+
+#include "support/usage_error.h"
+#include "studies/study.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+std::string CostBed::name() const { return fmt::format("bed {}", balls()); }
+
+Variables CostBed::sides() const { return {{"sides", layers > 1 ? "p" : "f"}}; }
+
+fs::path settled(const CostBed &bed, const fs::path &folder) {
+  fs::path file = folder / fmt::format("bed_{}.data", bed.balls());
+  if (fs::exists(file)) return file;
+  const fs::path unfinished = folder / "unfinished.data";
+  Variables variables = bed.sides();
+  variables.emplace_back("data", fs::absolute(unfinished).string());
+  if (bed.copies_x * bed.copies_y > 1) {
+    CostBed cell = bed;
+    cell.copies_x = cell.copies_y = 1;
+    variables.insert(variables.end(), {{"from", "copies"},
+                                       {"cell", fs::absolute(settled(cell, folder)).string()},
+                                       {"copies_x", std::to_string(bed.copies_x)},
+                                       {"copies_y", std::to_string(bed.copies_y)},
+                                       {"steps", "0"}});
+  } else {
+    fmt::print("settling {}: {} steps\n", bed.name(), bed.settling);
+    std::fflush(stdout);
+    variables.insert(variables.end(), {{"from", "lattice"},
+                                       {"columns", std::to_string(bed.columns)},
+                                       {"layers", std::to_string(bed.layers)},
+                                       {"rows", std::to_string(bed.rows + 1)},
+                                       {"steps", std::to_string(bed.settling)},
+                                       {"D", "0.5"}});
+  }
+  DeckRun("study/in.cost_bed", variables).must_succeed();
+  fs::rename(unfinished, file);
+  return file;
+}
+
+std::string engine_law(const std::string &models) {
+  return "hooke/stiffness " + models + " limitForce on absolute_damping on";
+}
+
+std::string plugin_law(const std::string &models, const std::string &stepping) {
+  return fmt::format("hooke/transition {} stepping {} damping coefficient", models, stepping);
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,30 @@
+// The settled beds that the studies of cost and speed run on, and the laws that they compare there: inputs/study/in.cost_bed.
+#pragma once
+
+#include "engine/engine_run.h"
+
+#include <filesystem>
+#include <string>
+
+namespace drumlin::post {
+
+/// A bed on a lattice, settled; or copies of it, side by side.
+struct CostBed {
+  int columns, layers, rows; ///< one layer: a bed in the plane
+  int settling;              ///< steps that settle it
+  int copies_x = 1;
+  int copies_y = 1;
+
+  int balls() const { return columns * layers * rows * copies_x * copies_y; } ///< that move
+  std::string name() const;
+  Variables sides() const; ///< what all runs on it need
+};
+
+/// The bed's data file in a folder, made if an earlier call did not finish it.
+std::filesystem::path settled(const CostBed &bed, const std::filesystem::path &folder);
+
+/// Words of the pair style: the engine's own law and the plugin's with the same dashpots, ball for ball.
+std::string engine_law(const std::string &models);
+std::string plugin_law(const std::string &models, const std::string &stepping);
+
+} // namespace drumlin::post

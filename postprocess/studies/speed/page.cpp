@@ -1,0 +1,198 @@
+#include "studies/speed/page.h"
+
+#include "pages/figure_data.h"
+#include "studies/speed/results.h"
+#include "pages/page.h"
+#include "pages/acceptance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+namespace {
+
+const Throughput &find(const std::vector<Throughput> &all, const std::string &scene, const std::string &law,
+                       int ranks) {
+  for (const Throughput &one : all)
+    if (one.scene == scene && one.law == law && one.ranks == ranks) return one;
+  throw std::runtime_error(fmt::format("{}: no run of {} on {} ranks", scene, law, ranks));
+}
+
+std::string quartiles(const Spread &spread) {
+  return fmt::format("{:.3g} [{:.3g}, {:.3g}]", spread.median, spread.lower, spread.upper);
+}
+
+ReportTable speed_table(const std::vector<Throughput> &all) {
+  ReportTable table;
+  table.name = "speed";
+  table.title = "Million steps of balls per second";
+  table.text_columns = 2;
+  table.header = {"scene",
+                  "law",
+                  "ranks",
+                  "rounds",
+                  "million balls x steps per s [quartiles]",
+                  "time over the engine's law (-) [quartiles]",
+                  "efficiency (-) [quartiles]",
+                  "memory of the largest rank (MB)"};
+  for (const Throughput &one : all)
+    table.add({one.scene, one.law, std::to_string(one.ranks), std::to_string(one.rounds),
+               quartiles(one.million_per_second), quartiles(one.over_engine),
+               one.ranks == 1 ? "-" : quartiles(one.efficiency),
+               fmt::format("{:.1f}", 1e-6 * one.peak_bytes)});
+  table.notes = {"Medians over the rounds; ratios within a round and an engine. The law of the engine is "
+                 "hooke/stiffness "
+                 "with limitForce on, in LAMMPS gran/hooke/history with limit_damping; all have friction. "
+                 "The decks of beds have stepping stock by default. "
+                 "The last bed is "
+                 "copies of the second one."};
+  return table;
+}
+
+std::vector<Promise> promises(const std::vector<Throughput> &all, const SpeedScenes &scenes,
+                              const EngineLaws &laws) {
+  // What the scatter of a ratio leaves to be told, where nothing is to be added.
+  constexpr double nothing = 1.02, least_efficiency = 0.85;
+  std::vector<Promise> kept;
+  for (const std::string &scene : {scenes.plane, scenes.cell, scenes.copies}) {
+    const Spread ratio = find(all, scene, laws.stock, 1).over_engine; // the default of the beds' decks
+    kept.push_back(
+        {fmt::format("{}: {} takes at most {:.2f} of the engine's law", scene, laws.stock, nothing),
+         quartiles(ratio), ratio.median <= nothing});
+  }
+  for (const char *law : laws.all()) {
+    const Spread efficiency = find(all, scenes.cell, law, 2).efficiency;
+    kept.push_back(
+        {fmt::format("{}, {}: efficiency on 2 ranks at least {:.2f}", scenes.cell, law, least_efficiency),
+         quartiles(efficiency), efficiency.median >= least_efficiency});
+  }
+  return kept;
+}
+
+/// On paper: what the figures above say of 1e8 balls.
+ReportTable projection_table(const std::vector<Throughput> &all, const SpeedScenes &scenes) {
+  constexpr double balls = 1e8, rows = 20.0, cycles = 10.0, steps_per_cycle = 4000.0;
+  constexpr double ghost_rows =
+      2.4; // of balls beyond each border: largest diameter and skin, over the mean diameter
+  ReportTable table;
+  table.name = "projection";
+  table.title = "On paper: 1e8 balls, 20 balls high";
+  table.header = {"balls per rank", "ranks",          "memory per rank (GB)",    "ghosts per ball (-)",
+                  "step (ms)",      "ten cycles (h)", "efficiency of a rank (-)"};
+  const double bytes = bytes_per_ball(all, "stock", scenes.cell, scenes.copies);
+  const Throughput alone = find(all, scenes.copies, "stock", 1);
+  const Throughput shared = find(all, scenes.copies, "stock", 2);
+  // A rank has what the ranks of its node leave it of the memory's bandwidth, and computes its ghosts' contacts once more.
+  const double speed = 1e6 * alone.million_per_second.median * std::min(1.0, shared.efficiency.median);
+  for (const double share : {1e4, 3e4, 1e5, 3e5, 1e6}) {
+    const double side = std::sqrt(share / rows);
+    const double ghosts = (std::pow(side + 2.0 * ghost_rows, 2.0) - side * side) / (side * side);
+    const double step = share * (1.0 + 0.5 * ghosts) / speed;
+    table.add({fmt::format("{:.0e}", share), fmt::format("{:.0f}", balls / share),
+               fmt::format("{:.2g}", 1e-9 * bytes * share * (1.0 + ghosts)), fmt::format("{:.2f}", ghosts),
+               fmt::format("{:.3g}", 1e3 * step),
+               fmt::format("{:.2g}", cycles * steps_per_cycle * step / 3600.0),
+               fmt::format("{:.2f}", 1.0 / (1.0 + 0.5 * ghosts))});
+  }
+  table.notes = {fmt::format(
+      "{:.0f} bytes a ball and {:.3g} million steps of balls per second and rank, as measured above with "
+      "stock stepping; ten cycles of 4000 steps. A contact across a border is computed on both sides: "
+      "half of the ghosts' work comes on top. Messages are not in the figures.",
+      bytes, 1e-6 * speed)};
+  return table;
+}
+
+PlannedFigure speed_figure(const std::vector<Throughput> &all, const SpeedScenes &scenes,
+                           const std::vector<EngineLaws> &engines) {
+  const std::string name = "throughput";
+  PlannedFigure figure;
+  figure.label = "Fig. 1";
+  figure.caption =
+      "Steps of balls per second: median over the rounds and quartiles; from left to right the engine's "
+      "law, stock and second on one rank, then on two; then those of LAMMPS.";
+  figure.figure = {name, "Steps of balls per second", {}, 3, 420, 460};
+  CurveTable table("place,million per s,lower quartile,upper quartile");
+  for (const std::string &scene : {scenes.plane, scenes.cell, scenes.copies}) {
+    Panel panel;
+    panel.title = scene;
+    panel.y_label = "million balls x steps per s";
+    panel.y_range = "[0:*]";
+    panel.curves = {curve(name, scene, "$2", "3:4:5", CurveStyle::spread)};
+    panel.curves.back().title.clear();
+    for (const EngineLaws &laws : engines)
+      for (const int ranks : {1, 2})
+        for (const char *law : laws.all()) {
+          const Spread speed = find(all, scene, law, ranks).million_per_second;
+          panel.x_ticks.push_back(fmt::format("{}, {}", law, ranks));
+          table.row(scene,
+                    {static_cast<double>(panel.x_ticks.size()), speed.median, speed.lower, speed.upper});
+        }
+    figure.figure.panels.push_back(panel);
+  }
+  figure.csv = table.text();
+  return figure;
+}
+
+} // namespace
+
+void write_speed_page(const std::filesystem::path &out, const SpeedScenes &scenes) {
+  std::vector<Throughput> all;
+  std::vector<EngineLaws> engines; // that ran
+  std::vector<Promise> kept;
+  for (const EngineLaws &laws : engine_laws) {
+    std::vector<SpeedRun> runs = read_speed_runs(out / "runs.csv");
+    const auto of_another = [names = laws.all()](const SpeedRun &run) {
+      return std::find(names.begin(), names.end(), run.law) == names.end();
+    };
+    runs.erase(std::remove_if(runs.begin(), runs.end(), of_another), runs.end());
+    if (runs.empty()) continue;
+    engines.push_back(laws);
+    const std::vector<Throughput> of_engine = throughputs(runs, laws.own);
+    all.insert(all.end(), of_engine.begin(), of_engine.end());
+    const std::vector<Promise> promised = promises(of_engine, scenes, laws);
+    kept.insert(kept.end(), promised.begin(), promised.end());
+  }
+  StudyPage page(out, "Speed");
+  page.paragraph("A step of a settled bed, from 2500 balls in the plane to a quarter of a million in three "
+                 "dimensions, by the "
+                 "engine's own law and by the plugin's, on one rank and on two, in LIGGGHTS and, if it is "
+                 "set up, in LAMMPS. Runs of one round are "
+                 "interleaved. Times by "
+                 "the engine's own clock, without starting and reading.");
+  page.section("Promises");
+  page.table(promise_table(kept));
+  page.section("Throughput");
+  page.table(speed_table(all));
+  page.figure(speed_figure(all, scenes, engines));
+  page.section("Towards 1e8 balls");
+  page.table(projection_table(all, scenes));
+  page.paragraph("Decomposition: a bed is wide and flat, so ranks share it along x and z, never along y: "
+                 "processors * 1 *, "
+                 "which the decks have. Each rank then has the same columns of soil from floor to surface, "
+                 "and no balancing is "
+                 "needed. The roller lies on few ranks: as a clump its balls are soil-sized and add a few "
+                 "per cent there; as "
+                 "one ball much larger than the soil it would widen every rank's ghosts to its own size.");
+  page.paragraph("What limits it: (1) ghosts, from some ten thousand balls per rank on: the column of the "
+                 "table that falls. (2) "
+                 "Messages: each step forwards positions and velocities of the ghosts, second-order stepping "
+                 "those of coupled "
+                 "balls once more, and every record reduces some forty numbers over all ranks: give "
+                 "samples_per_cycle and "
+                 "dumps sparingly. (3) The memory's bandwidth of a node, of which the efficiency on two "
+                 "ranks tells a first "
+                 "part. (4) Files: the engine gathers a restart file on one rank. (5) The copies: in.tile "
+                 "runs on one rank and "
+                 "must hold the whole bed there, as the engine gives IDs twice on more; a bed larger than "
+                 "one node's memory has to be settled "
+                 "from ./drumlin bed, or read in pieces. (6) Whole numbers: an ID has 31 bits, 2.1e9 balls.");
+  page.write();
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,48 @@
+// What the speed study measures: its file runs.csv, row by row, and throughput, efficiency and memory that follow.
+#pragma once
+
+#include "studies/cost/results.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+/// One row of runs.csv. The first four name the run.
+struct SpeedRun {
+  std::string scene, law;
+  int ranks;
+  int round; ///< from 1; runs of one round were interleaved
+  int balls; ///< that move
+  int steps;
+  double loop_s;     ///< by the engine's clock
+  double peak_bytes; ///< of the rank that held most memory
+  double place;      ///< height of the bed at the end, m: tells whether runs did the same work
+
+  double million_per_second() const { return 1e-6 * balls * steps / loop_s; } ///< steps of balls
+};
+
+extern const std::vector<std::string> speed_run_columns;
+constexpr std::size_t speed_run_keys = 4;
+std::vector<std::string> cells(const SpeedRun &run);
+/// The rows of a file in order. std::runtime_error for one that cannot be understood.
+std::vector<SpeedRun> read_speed_runs(const std::filesystem::path &file);
+
+/// A law in a scene on a number of ranks, over the rounds; ratios are taken within a round.
+struct Throughput {
+  std::string scene, law;
+  int ranks, balls, rounds;
+  Spread million_per_second; ///< steps of balls
+  Spread over_engine;        ///< time of a step over that of the law `base` on as many ranks
+  Spread efficiency;         ///< over `ranks` times the throughput on one rank
+  double peak_bytes;         ///< median
+};
+/// In the order in which they first appear. Rounds without their counterpart do not count in a ratio; a ratio without any is 0.
+std::vector<Throughput> throughputs(const std::vector<SpeedRun> &runs, const std::string &base);
+
+/// Bytes that one more ball takes, from two scenes on one rank. std::invalid_argument if one of them is missing or they are equally large.
+double bytes_per_ball(const std::vector<Throughput> &all, const std::string &law, const std::string &small,
+                      const std::string &large);
+
+} // namespace drumlin::post

@@ -1,0 +1,44 @@
+// What the project does at the edges of what can be asked: rows that must run and agree with an oracle, and rows that must stop
+// with an error that names the limit.
+#pragma once
+
+#include "studies/study.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+/// One run and what is asked of it.
+struct Extreme {
+  std::string group; ///< title of its table
+  std::string name;
+  std::string deck; ///< relative to inputs/
+  Variables variables;
+  int ranks = 1;
+  double limit = 120.0; ///< s of wall time, after which it counts as hung
+  std::string expected; ///< in words, without commas
+  double allowed = 0.0; ///< largest error
+  /// What the run missed its oracle by, in the unit that `expected` states. May throw std::runtime_error: the row then fails.
+  std::function<double(const DeckRun &)> error;
+};
+
+/// The command that makes a row's run by hand.
+std::string command_of(const Extreme &row);
+
+/// All rows; few and short ones if quick.
+std::vector<Extreme> extremes(bool quick);
+
+/// A row's outcome.
+struct ExtremeVerdict {
+  Extreme row;
+  double error;      ///< not finite if the run did not come to its end
+  std::string found; ///< the engine's ERROR line; empty if there was none
+  bool holds;
+};
+
+/// Runs what options.out/extremes.csv does not have yet.
+std::vector<ExtremeVerdict> measure_extremes(const StudyOptions &options);
+
+} // namespace drumlin::post

@@ -1,0 +1,181 @@
+#include "studies/stability/map.h"
+
+#include "chain/run_files.h"
+#include "studies/stability/boundary.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace drumlin::post {
+
+namespace {
+
+constexpr double lowest = 1e-6; // w0 dt
+constexpr double highest = 4.0;
+constexpr double first_push = 1e-6;  // m, of the deck
+constexpr double growth_limit = 1e3; // a motion beyond so many first pushes has grown
+// With heavy damping and second-order stepping an unstable motion grows by as little as 1e-7 of itself per step. It shows in the part
+// of the motion that changes sign every step, measured at half time and at the end.
+constexpr double fast_growth = 1.0 + 1e-4;
+constexpr double fast_noise = 1e-11; // m: above what rounding stirs up
+
+/// Fourth difference, largest over the window: 16 times what changes sign every step, next to nothing of what is slow.
+double fast_part(const std::vector<double> &x) {
+  double most = 0.0;
+  for (std::size_t n = 4; n < x.size(); ++n)
+    most = std::max(most, std::fabs(x[n] - 4.0 * x[n - 1] + 6.0 * x[n - 2] - 4.0 * x[n - 3] + x[n - 4]));
+  return most;
+}
+
+/// A ball in the deck's two windows, along one direction.
+struct Watched {
+  std::vector<double> half_time, end;
+};
+
+bool has_grown(const Watched &ball, bool damped) {
+  for (const std::vector<double> *window : {&ball.half_time, &ball.end})
+    for (const double x : *window)
+      if (!(std::fabs(x) < growth_limit * first_push)) return true;
+  const double fast = fast_part(ball.end);
+  return damped && fast > fast_noise && fast > fast_growth * fast_part(ball.half_time);
+}
+
+/// Which balls of a run of the deck are stable. A ball that is lost is not.
+std::vector<bool> stable_balls(const std::filesystem::path &looks, int balls, bool damped) {
+  std::ifstream in(looks);
+  if (!in) throw std::runtime_error("cannot read " + looks.string());
+  std::vector<std::array<Watched, 2>> watched(static_cast<std::size_t>(balls)); // x and z
+  std::size_t count = 0;
+  long step = 0;
+  long last_step = 0;
+  bool second_window = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line == "ITEM: TIMESTEP") {
+      in >> step;
+      second_window = second_window || (count > 0 && step != last_step + 1);
+      last_step = step;
+      ++count;
+    } else if (line.rfind("ITEM:", 0) != 0) {
+      std::istringstream cells(line);
+      std::size_t id = 0;
+      std::string x, z, more;
+      if (!(cells >> id >> x >> z) || cells >> more) continue; // lines of the header have one or two numbers
+      std::array<Watched, 2> &ball = watched.at(id - 1);
+      (second_window ? ball[0].end : ball[0].half_time).push_back(std::strtod(x.c_str(), nullptr));
+      (second_window ? ball[1].end : ball[1].half_time).push_back(std::strtod(z.c_str(), nullptr));
+    }
+  }
+  if (!second_window) throw std::runtime_error(looks.string() + " has not two windows");
+  std::vector<bool> stable;
+  stable.reserve(watched.size());
+  for (const std::array<Watched, 2> &ball : watched)
+    stable.push_back(ball[0].half_time.size() + ball[0].end.size() == count && !has_grown(ball[0], damped) &&
+                     !has_grown(ball[1], damped));
+  return stable;
+}
+
+std::vector<double> damping_ratios(bool quick) {
+  if (quick) return {0.0, 2.0, 1e4};
+  std::vector<double> values = {0.0};
+  for (int n = 0; n <= 12; ++n) // two to a decade
+    values.push_back(std::pow(10.0, -2.0 + n / 2.0));
+  values.push_back(2.0); // Table 1, case IV
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+} // namespace
+
+const std::vector<HeldScene> &held_scenes() {
+  static const std::vector<HeldScene> scenes = {
+      {"one", "one contact, pressed", 1},
+      {"two", "between two walls", 2},
+      {"cross", "between two pairs of walls at right angles", 2},
+      {"four", "four contacts on one line", 4},
+  };
+  return scenes;
+}
+
+double MapPoint::middle() const { return std::isfinite(unstable) ? std::sqrt(stable * unstable) : stable; }
+
+double MapPoint::miss() const { return middle() / limit - 1.0; }
+
+std::vector<MapPoint> measure_stability_map(const StudyOptions &options) {
+  StudyResults results(options.out / "map.csv",
+                       {"scene", "stepping", "D", "w0dt_stable", "w0dt_unstable", "w0dt_theory", "single"},
+                       3);
+  const std::vector<double> ratios = damping_ratios(options.quick);
+  const int balls = 160;
+  const int half = options.quick ? 2000 : 4000;
+  const double width = options.quick ? 1e-2 : 1e-3;
+  std::vector<const HeldScene *> scenes;
+  for (const HeldScene &scene : held_scenes())
+    if (!options.quick || scenes.size() < 2) scenes.push_back(&scene);
+  StudyProgress progress(2 * scenes.size() * ratios.size());
+  std::vector<MapPoint> map;
+  for (const HeldScene *scene : scenes)
+    for (const std::string stepping : {"second", "stock"})
+      for (const double D : ratios) {
+        const StudyResults::Row key = {scene->name, stepping, number_text(D)};
+        const StudyResults::Row *row = results.find(key);
+        if (row != nullptr) {
+          progress.found();
+        } else {
+          const auto trials = [&](double low, double high, int count) {
+            const DeckRun run("study/in.stability", {{"scene", scene->name},
+                                                     {"D", number_text(D)},
+                                                     {"stepping", stepping},
+                                                     {"balls", std::to_string(count)},
+                                                     {"lowest", number_text(low)},
+                                                     {"highest", number_text(high)},
+                                                     {"half", std::to_string(half)}});
+            return stable_balls(run.must_succeed().file("looks.dump"), count, D > 0.0);
+          };
+          const StabilityBoundary boundary = find_stability_boundary(trials, lowest, highest, balls, width);
+          const double limit = stepping == "stock" ? stock_stability_limit(scene->contacts, D)
+                                                   : spring_stability_limit(scene->contacts);
+          results.add({key[0], key[1], key[2], number_text(boundary.stable), number_text(boundary.unstable),
+                       number_text(limit), boundary.single ? "yes" : "no"});
+          row = results.find(key);
+          progress.measured(fmt::format("{}, {} stepping, D = {:.3g}: w0 dt = {:.4g}, theory {:.4g}",
+                                        scene->name, stepping, D, boundary.middle(), limit));
+        }
+        map.push_back({scene, stepping, D, results.number(*row, "w0dt_stable"),
+                       results.number(*row, "w0dt_unstable"), results.number(*row, "w0dt_theory")});
+      }
+  return map;
+}
+
+std::vector<Promise> judge_stability_map(const std::vector<MapPoint> &map) {
+  const MapPoint *worst = nullptr;      // stock, farthest from theory
+  const MapPoint *lowest_one = nullptr; // second
+  const MapPoint *two_at_2 = nullptr;
+  const auto miss = [](const MapPoint &p) { return std::fabs(p.miss()); };
+  for (const MapPoint &p : map) {
+    if (p.stepping == "stock" && (worst == nullptr || miss(p) > miss(*worst))) worst = &p;
+    if (p.stepping != "second") continue;
+    const std::string scene = p.scene->name;
+    if (scene == "one" && (lowest_one == nullptr || p.stable < lowest_one->stable)) lowest_one = &p;
+    if (scene == "two" && p.D == 2.0) two_at_2 = &p;
+  }
+  if (worst == nullptr || lowest_one == nullptr || two_at_2 == nullptr)
+    throw std::logic_error("a stability map without the points that it is judged by");
+  return {
+      {"stock stepping: boundary within 1 % of theory, every scene and D",
+       fmt::format("worst {:.2g} % at {} and D = {:.3g}", 100.0 * miss(*worst), worst->scene->name, worst->D),
+       miss(*worst) < 0.01},
+      {"second stepping: one contact stable up to w0 dt = 1.95 at every D",
+       fmt::format("lowest {:.4f} at D = {:.3g}", lowest_one->stable, lowest_one->D),
+       lowest_one->stable >= 1.95},
+      {"second stepping: between two walls at D = 2 stable up to w0 dt = 1.4",
+       fmt::format("{:.4f}", two_at_2->stable), two_at_2->stable >= 1.4},
+  };
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,30 @@
+#include "studies/stability/study.h"
+
+#include "studies/stability/extremes.h"
+#include "studies/stability/map.h"
+#include "studies/stability/page.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+void run_stability_study(const StudyOptions &options) {
+  const std::vector<MapPoint> map = measure_stability_map(options);
+  const std::vector<ExtremeVerdict> extremes = measure_extremes(options);
+  write_stability_page(options.out, map, extremes);
+  fmt::print("{}\n", (options.out / "index.html").string());
+
+  std::vector<std::string> failing;
+  for (const Promise &p : judge_stability_map(map))
+    if (!p.holds) failing.push_back(p.promise + ": " + p.measured);
+  for (const ExtremeVerdict &verdict : extremes)
+    if (!verdict.holds) failing.push_back(verdict.row.name);
+  if (!failing.empty())
+    throw std::runtime_error(fmt::format("{} rows fail: {}", failing.size(), fmt::join(failing, "; ")));
+}
+
+} // namespace drumlin::post

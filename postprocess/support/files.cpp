@@ -1,0 +1,265 @@
+#include "support/files.h"
+
+#include <fmt/format.h>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <cstring>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char *allowed_folders = "a folder that can be made and written to";
+constexpr const char *allowed_files = "a file that can be written";
+
+[[noreturn]] void fail(const fs::path &file, const std::string &why) {
+  throw std::runtime_error(fmt::format("{}: cannot be written: {}", file.string(), why));
+}
+
+/// Where a path leads, with all symbolic links followed; std::filesystem::filesystem_error where they go in a circle.
+fs::path real_path(const fs::path &path) { return fs::weakly_canonical(fs::absolute(path)); }
+
+bool below_a_system_folder(const fs::path &real) {
+  constexpr std::array<const char *, 3> system_folders = {"/dev", "/proc", "/sys"};
+  return std::any_of(system_folders.begin(), system_folders.end(), [&real](const char *name) {
+    const fs::path folder = name;
+    return std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first == folder.end();
+  });
+}
+
+bool leads_nowhere(const fs::path &path) { return fs::is_symlink(path) && !fs::exists(path); }
+
+/// Why nothing can be put into a folder; empty if it can.
+std::string fault_of_folder(const fs::path &folder) {
+  if (leads_nowhere(folder)) return "is a symbolic link to nothing";
+  const fs::path real = real_path(folder);
+  if (below_a_system_folder(real)) return fmt::format("{} belongs to the system", real.string());
+  fs::path existing = real;
+  while (!fs::exists(existing) && existing.has_relative_path())
+    existing = existing.parent_path();
+  if (!fs::is_directory(existing)) return fmt::format("{} is not a folder", existing.string());
+  if (::access(existing.c_str(), W_OK | X_OK) != 0)
+    return fmt::format("{} cannot be written to", existing.string());
+  return {};
+}
+
+/// Why a file cannot be written; empty if it can.
+std::string fault_of_file(const fs::path &file) {
+  if (file.filename().empty()) return "is the name of a folder";
+  if (leads_nowhere(file)) return "is a symbolic link to nothing";
+  const fs::path real = real_path(file);
+  if (std::string fault = fault_of_folder(real.parent_path()); !fault.empty()) return fault;
+  struct stat found = {};
+  if (::lstat(real.c_str(), &found) != 0) return errno == ENOENT ? "" : std::strerror(errno);
+  if (S_ISDIR(found.st_mode)) return "is a folder";
+  if (!S_ISREG(found.st_mode)) return "is a device, a pipe or a socket, no regular file";
+  // The super-user may write whatever the mode says; a file that nobody may write is meant to stay.
+  constexpr mode_t anybody = S_IWUSR | S_IWGRP | S_IWOTH;
+  if ((found.st_mode & anybody) == 0 || ::access(real.c_str(), W_OK) != 0) return "is read-only";
+  return {};
+}
+
+template <class Fault>
+void check(const fs::path &path, const char *allowed, Fault fault_of) {
+  std::string fault;
+  try {
+    fault = fault_of(path);
+  } catch (const fs::filesystem_error &error) {
+    fault = "cannot be used: " + error.code().message();
+  }
+  if (!fault.empty()) throw std::runtime_error(fmt::format("{}; allowed: {}", fault, allowed));
+}
+
+void make_folders(const fs::path &real) {
+  std::error_code code;
+  fs::create_directories(real, code);
+  if (code)
+    throw std::runtime_error(fmt::format("cannot be made: {}; allowed: {}", code.message(), allowed_folders));
+}
+
+/// A file under way, removed with this object unless it was given its name.
+class Temporary {
+public:
+  explicit Temporary(const fs::path &file) : place_(real_path(file)) {
+    constexpr int most_tries = 100; // a killed call of the same process number may have left some
+    for (int i = 0; i < most_tries && file_ < 0; ++i) {
+      name_ = fmt::format("{}.tmp.{}.{}", place_.string(), ::getpid(), i);
+      file_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (file_ < 0 && errno != EEXIST) break;
+    }
+    if (file_ < 0) throw std::system_error(errno, std::generic_category());
+    struct stat earlier = {};
+    if (::stat(place_.c_str(), &earlier) == 0) {
+      constexpr mode_t permissions = 07777;
+      ::fchmod(file_, earlier.st_mode & permissions);
+    }
+  }
+  ~Temporary() {
+    if (file_ >= 0) ::close(file_);
+    if (!name_.empty()) ::unlink(name_.c_str());
+  }
+  Temporary(const Temporary &) = delete;
+  Temporary &operator=(const Temporary &) = delete;
+  Temporary(Temporary &&other) noexcept
+      : place_(std::move(other.place_)), name_(std::exchange(other.name_, {})),
+        file_(std::exchange(other.file_, -1)) {}
+  Temporary &operator=(Temporary &&) = delete;
+
+  /// Some file systems tell of a full disk only when the file is closed.
+  void write_and_close(std::string_view text) {
+    write_all(file_, text);
+    if (::close(std::exchange(file_, -1)) != 0) throw std::system_error(errno, std::generic_category());
+  }
+  void give_name() {
+    fs::rename(name_, place_);
+    name_.clear();
+  }
+
+  static void write_all(int file, std::string_view text) {
+    while (!text.empty()) {
+      const ssize_t written = ::write(file, text.data(), text.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) throw std::system_error(errno, std::generic_category());
+      text.remove_prefix(static_cast<std::size_t>(written));
+    }
+  }
+
+private:
+  fs::path place_;
+  std::string name_;
+  int file_ = -1;
+};
+
+/// Whether a name is the prefix and the number of a process that is no more.
+bool is_leftover(const std::string &name, const std::string &prefix) {
+  if (name.size() <= prefix.size() || name.compare(0, prefix.size(), prefix) != 0) return false;
+  pid_t process = 0;
+  const char *end = name.data() + name.size();
+  const auto [stop, code] = std::from_chars(name.data() + prefix.size(), end, process);
+  return code == std::errc() && stop == end && process > 0 && ::kill(process, 0) != 0 && errno == ESRCH;
+}
+
+std::vector<fs::path> leftovers(const fs::path &parent, const std::string &prefix) {
+  std::vector<fs::path> found;
+  std::error_code ignored;
+  for (fs::directory_iterator entry(parent, ignored), end; entry != end; entry.increment(ignored))
+    if (entry->symlink_status(ignored).type() == fs::file_type::directory &&
+        is_leftover(entry->path().filename().string(), prefix))
+      found.push_back(entry->path());
+  return found;
+}
+
+void must_be_writable(const fs::path &file) {
+  if (const std::string fault = fault_of_file(file); !fault.empty()) fail(file, fault);
+}
+
+} // namespace
+
+void check_output_folder(const fs::path &folder) {
+  check(folder, allowed_folders, [](const fs::path &path) {
+    return real_path(path) == real_path("/") ? std::string("is the root folder") : fault_of_folder(path);
+  });
+}
+
+void check_output_file(const fs::path &file) { check(file, allowed_files, fault_of_file); }
+
+void make_output_folder(const fs::path &folder) {
+  check_output_folder(folder);
+  make_folders(real_path(folder));
+}
+
+void make_parent_folder(const fs::path &file) {
+  check_output_file(file);
+  make_folders(real_path(file).parent_path());
+}
+
+void write_files(const std::vector<FileText> &files) {
+  const fs::path *current = nullptr;
+  try {
+    std::vector<Temporary> temporaries;
+    temporaries.reserve(files.size());
+    for (const auto &[file, text] : files) {
+      current = &file;
+      must_be_writable(file);
+      temporaries.emplace_back(file);
+      temporaries.back().write_and_close(text);
+    }
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      current = &files[i].first;
+      temporaries[i].give_name();
+    }
+  } catch (const std::system_error &error) {
+    fail(*current, error.code().message());
+  }
+}
+
+void replace_file(const fs::path &finished, const fs::path &file) {
+  try {
+    must_be_writable(file);
+    fs::rename(finished, real_path(file));
+  } catch (const std::system_error &error) {
+    fail(file, error.code().message());
+  }
+}
+
+void append_text(const fs::path &file, const std::string &text) {
+  try {
+    must_be_writable(file);
+    const int descriptor = ::open(file.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+    if (descriptor < 0) throw std::system_error(errno, std::generic_category());
+    const off_t before = ::lseek(descriptor, 0, SEEK_END);
+    try {
+      Temporary::write_all(descriptor, text);
+    } catch (const std::system_error &) {
+      if (before >= 0) static_cast<void>(::ftruncate(descriptor, before) == 0);
+      ::close(descriptor);
+      throw;
+    }
+    if (::close(descriptor) != 0) throw std::system_error(errno, std::generic_category());
+  } catch (const std::system_error &error) {
+    fail(file, error.code().message());
+  }
+}
+
+TemporaryFolder::TemporaryFolder(const fs::path &parent, const std::string &prefix)
+    : path_(parent / own_name(prefix)) {
+  remove_leftovers(parent, prefix);
+  fs::remove_all(path_);
+  fs::create_directory(path_);
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+std::string own_name(const std::string &prefix) { return fmt::format("{}{}", prefix, ::getpid()); }
+
+void remove_leftovers(const fs::path &parent, const std::string &prefix) {
+  std::error_code ignored;
+  for (const fs::path &folder : leftovers(parent, prefix))
+    fs::remove_all(folder, ignored);
+}
+
+fs::path leftover(const fs::path &parent, const std::string &prefix) {
+  const std::vector<fs::path> found = leftovers(parent, prefix);
+  return found.empty() ? fs::path() : found.front();
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,37 @@
+// The one reader of the command line's options: they stay text until it judges them, with one form of message.
+//
+// Every function throws UsageError "OPTION is 'TEXT'; allowed: WHAT" for a text that is empty or not allowed.
+#pragma once
+
+#include "support/range.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+
+namespace drumlin::post {
+
+/// The number that an option's text holds.
+double number_option(const char *option, const std::string &text, const Range &range);
+
+/// The whole number from `least` to `most`.
+int count_option(const char *option, const std::string &text, int least, int most);
+
+/// The seed of random numbers: any whole number of 64 bits.
+std::uint64_t seed_option(const char *option, const std::string &text);
+
+/// The text itself, which must be one of the words.
+const std::string &choice_option(const char *option, const std::string &text,
+                                 std::initializer_list<const char *> words);
+
+/// The name of a file or folder that exists or will be made: not empty, no part of it longer than file systems take.
+std::filesystem::path path_option(const char *option, const std::string &text);
+
+/// A folder for results (see check_output_folder in output_files.h).
+std::filesystem::path output_folder_option(const char *option, const std::string &text);
+
+/// A file for a result (see check_output_file in output_files.h).
+std::filesystem::path output_file_option(const char *option, const std::string &text);
+
+} // namespace drumlin::post

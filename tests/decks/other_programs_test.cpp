@@ -1,0 +1,43 @@
+// The preloaded library speaks in the engine's process and keeps silent in any other.
+#include "tests/support/engine_runs.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+namespace drumlin::test {
+namespace {
+
+TEST(Preload, LeavesOtherProgramsAlone) {
+  const Scratch scratch;
+  const std::string preload = "LD_PRELOAD=" + plugin_library();
+  const Outcome echo = run_program({"/bin/echo", "untouched"}, {preload}, scratch.path());
+  EXPECT_EQ(echo.status, 0);
+  EXPECT_EQ(echo.output, "untouched\n");
+  const std::vector<std::string> failing = {"/bin/ls",
+                                            "no-such-file"}; // its text is not the same in every release
+  const Outcome alone = run_program(failing, {"LC_ALL=C"}, scratch.path());
+  const Outcome fails = run_program(failing, {preload, "LC_ALL=C"}, scratch.path());
+  EXPECT_EQ(alone.status, 2);
+  EXPECT_EQ(fails.status, 2);
+  EXPECT_EQ(fails.output, alone.output);
+  const Outcome child =
+      run_program({"/bin/sh", "-c", "/bin/sh -c '/bin/echo grandchild; exit 3'"}, {preload}, scratch.path());
+  EXPECT_EQ(child.status, 3);
+  EXPECT_EQ(child.output, "grandchild\n");
+}
+
+TEST(Preload, StartLineNamesBothVersions) {
+  const Scratch scratch;
+  std::ofstream(scratch / "in.empty") << "print \"here is ${here}\"\n";
+  const Outcome outcome = run_deck(scratch / "in.empty", {}, scratch.path());
+  EXPECT_TRUE(outcome.ok()) << outcome.output;
+  EXPECT_TRUE(outcome.says(std::string("drumlin ") + DRUMLIN_VERSION +
+                           ", plugin for LIGGGHTS 3.8.0, loaded in LIGGGHTS 3.8.0\n"))
+      << outcome.output;
+  EXPECT_TRUE(outcome.says("here is " + scratch.path().string() + "\n")) << outcome.output;
+}
+
+} // namespace
+} // namespace drumlin::test

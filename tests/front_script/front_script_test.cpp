@@ -1,0 +1,301 @@
+// The front script ./drumlin with hostile names, from strange places: what a user gives reaches the engine as it is, or one line says
+// what is wrong.
+#include "engine/engine_run.h"
+
+#include "tests/support/engine_runs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+using post::Outcome;
+using post::run_program;
+
+const fs::path root = DRUMLIN_SOURCE_DIR;
+
+/// A checkout of any name, in which the plugin is built already, and an engine that prints its arguments.
+class FrontScript : public ::testing::Test {
+protected:
+  FrontScript() : folder(fs::canonical(scratch.path())) {
+    fs::create_directories(folder / "bin");
+    put("bin/liggghts", "#!/bin/sh\nprintf '<%s>' \"$LD_PRELOAD\" \"$@\"\n");
+    fs::permissions(folder / "bin/liggghts", fs::perms::owner_all);
+  }
+
+  void put(const std::string &file, const std::string &text) const { std::ofstream(folder / file) << text; }
+
+  fs::path checkout(const std::string &name) const {
+    fs::path place = folder / name;
+    fs::create_directories(place / "build/release/bin");
+    for (const char *file : {"drumlin", "CMakeLists.txt"})
+      fs::copy_file(root / file, place / file);
+    fs::create_directory_symlink(fs::path(post::plugin_library()).parent_path(), place / "build/release/lib");
+    fs::create_symlink(DRUMLIN_TOOLS, place / "build/release/bin/drumlin-tools");
+    std::ofstream(place / "build/release/bin/places")
+        << "inputs=../../../inputs\nliggghts_plugin=../lib/libdrumlin.so\nliggghts=liggghts\n";
+    fs::copy(root / "inputs", place / "inputs", fs::copy_options::recursive);
+    return place;
+  }
+
+  /// Calls the script of a checkout in a folder, without HOME, with the engine that prints, or the real one.
+  Outcome call(const fs::path &script, const std::vector<std::string> &arguments, const fs::path &where,
+               bool real_engine = false) const {
+    std::vector<std::string> words = {"env", "-u", "HOME", "-u", "XDG_CACHE_HOME"};
+    if (!real_engine) words.push_back("PATH=" + (folder / "bin").string() + ":/usr/bin:/bin");
+    words.push_back(script.string());
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return run_program(words, {}, where, 60.0);
+  }
+
+  static void expect_one_line(const Outcome &outcome, const std::string &text) {
+    EXPECT_EQ(outcome.status, 2) << outcome.output;
+    EXPECT_EQ(outcome.output.rfind("ERROR: drumlin", 0), 0u) << outcome.output;
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
+    EXPECT_TRUE(outcome.says(text)) << outcome.output;
+  }
+
+  Scratch scratch;
+  fs::path folder;
+};
+
+const std::vector<std::string> hostile = {"B[1]",
+                                          "x$(touch pwned)",
+                                          "x;echo pwned;",
+                                          "`touch pwned`",
+                                          "A&B",
+                                          "-x",
+                                          "run(1)",
+                                          "100%",
+                                          "{}",
+                                          "it's",
+                                          "a\"b",
+                                          "b\\",
+                                          "x y",
+                                          "two\nlines",
+                                          "*",
+                                          "",
+                                          "~"};
+
+TEST_F(FrontScript, HandsArgumentsToTheEngineAsTheyAre) {
+  const fs::path script = checkout("checkout") / "drumlin";
+  put("my.deck", "run 0\n");
+  for (const char *ranks : {"1", "2"}) {
+    std::vector<std::string> arguments = {"run", "-np", ranks, "my.deck"};
+    std::string printed = "<-in><my.deck>";
+    for (const std::string &name : hostile) {
+      arguments.insert(arguments.end(), {"-var", "name", name});
+      printed += "<-var><name><" + name + ">";
+    }
+    const Outcome outcome = call(script, arguments, folder);
+    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    EXPECT_TRUE(outcome.says(printed)) << outcome.output;
+  }
+  EXPECT_FALSE(fs::exists(folder / "pwned"));
+}
+
+TEST_F(FrontScript, HandsArgumentsToTheToolsAsTheyAre) {
+  const fs::path script = checkout("checkout") / "drumlin";
+  for (const std::string &name : hostile) {
+    for (const char *command : {"report", "vtk"})
+      expect_one_line(call(script, {command, "--", "none/" + name}, folder),
+                      name == "two\nlines" ? "lines" : name);
+    if (name != "-x" && !name.empty()) expect_one_line(call(script, {name}, folder), "");
+    expect_one_line(call(script, {"run", name.empty() ? "." : name}, folder), "cannot be read");
+  }
+  expect_one_line(call(script, {"report", "--", "-x"}, folder), "'-x' is no folder");
+  expect_one_line(call(script, {"setup", "x$(touch pwned)"}, folder), "is unknown");
+  expect_one_line(call(script, {"setup", "lammps", "x;touch pwned"}, folder), "is no release");
+  EXPECT_FALSE(fs::exists(folder / "pwned"));
+}
+
+TEST_F(FrontScript, RunsWithoutHome) {
+  const fs::path script = checkout("checkout") / "drumlin";
+  const Outcome help = call(script, {"--help"}, folder);
+  EXPECT_TRUE(help.ok()) << help.output;
+  const Outcome version = call(script, {"report", "--help"}, folder);
+  EXPECT_TRUE(version.ok()) << version.output;
+}
+
+const std::vector<std::string> short_chain = {"run", "chain/in.chain", "-var", "cycles",
+                                              "1",   "-var",           "out",  "out"};
+
+/// The same with another deck and another folder for results.
+std::vector<std::string> short_run(const std::string &deck, const std::string &out) {
+  std::vector<std::string> words = short_chain;
+  words[1] = deck;
+  words.back() = out;
+  return words;
+}
+
+TEST_F(FrontScript, RunsInACheckoutWhosePathHasSpaces) {
+  const fs::path place = checkout("my check out");
+  for (const std::string deck :
+       {"inputs/chain/in.chain", "chain/in.chain", "../my check out/inputs/chain/in.chain"}) {
+    fs::remove_all(folder / "work here");
+    fs::create_directory(folder / "work here");
+    const Outcome outcome = call(place / "drumlin", short_run(deck, "of a/run"), folder / "work here", true);
+    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    EXPECT_TRUE(fs::is_regular_file(folder / "work here/of a/run/chain.csv")) << outcome.output;
+  }
+  fs::create_directory_symlink(place, folder / "link");
+  const Outcome linked = call(folder / "link/drumlin", short_chain, folder, true);
+  EXPECT_TRUE(linked.ok()) << linked.output;
+  EXPECT_TRUE(fs::is_regular_file(folder / "out/chain.csv")) << linked.output;
+  EXPECT_TRUE(linked.says("LD_PRELOAD=" + (folder / "link/build/release/lib/libdrumlin.so").string()))
+      << linked.output;
+}
+
+TEST_F(FrontScript, TakesFilesInFoldersWithSpaces) {
+  const fs::path place = checkout("checkout");
+  fs::create_directory(folder / "a bed");
+  Outcome outcome =
+      call(place / "drumlin",
+           {"run", "bed/in.settle", "-var", "balls", "a bed/balls.data", "-var", "bed", "b/soil.restart"},
+           folder, false);
+  EXPECT_TRUE(outcome.ok()) << outcome.output;
+  const std::size_t begin = outcome.output.find("<balls><") + 8;
+  const fs::path handed = outcome.output.substr(begin, outcome.output.find('>', begin) - begin);
+  EXPECT_EQ(handed.string().find(' '), std::string::npos) << outcome.output;
+  EXPECT_EQ(fs::canonical(handed.parent_path()) / handed.filename(), folder / "a bed/balls.data");
+  EXPECT_TRUE(outcome.says("<b/soil.restart>")) << outcome.output;
+  expect_one_line(call(place / "drumlin", {"run", "bed/in.bed", "-var", "start", "a bed/of mine"}, folder),
+                  "-var start is 'a bed/of mine'; allowed: ");
+}
+
+/// Where the working folder is the only one that can be written, and the user is no longer who built it all.
+TEST_F(FrontScript, RunsInstalledFromAReadOnlyPrefixThatWasMoved) {
+  const Outcome installing = run_program(
+      {"cmake", "--install", DRUMLIN_BINARY_DIR, "--prefix", (folder / "first").string()}, {}, folder, 60.0);
+  ASSERT_TRUE(installing.ok()) << installing.output;
+  const fs::path prefix = folder / "moved pre fix";
+  fs::rename(folder / "first", prefix);
+  const auto writable = [&](bool yes) {
+    return run_program({"chmod", "-R", yes ? "u+w" : "a-w", prefix.string()}, {}, folder);
+  };
+  writable(false);
+  const fs::path script = prefix / "bin/drumlin";
+  fs::create_directory(folder / "work here");
+  for (const char *deck : {"chain/in.chain", "inputs/chain/in.impact"}) {
+    const Outcome outcome =
+        call(script, {"run", deck, "-var", "out", "of a/run"}, folder / "work here", true);
+    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    EXPECT_TRUE(fs::is_regular_file(folder / "work here/of a/run/chain.csv")) << outcome.output;
+    EXPECT_FALSE(outcome.says(root.string())) << outcome.output;
+  }
+  const Outcome advice = call(script, {"advise", "--error", "1e-3", "--case", "II"}, folder / "work here");
+  EXPECT_TRUE(advice.ok()) << advice.output;
+  for (const char *command : {"setup", "test", "check"})
+    expect_one_line(call(script, {command}, folder),
+                    std::string("allowed: ./drumlin ") + command + " in a checkout");
+  fs::create_symlink(script, folder / "bin/drumlin-link");
+  EXPECT_TRUE(call(folder / "bin/drumlin-link", {"run", "chain/in.chain"}, folder).says("<-in>"));
+  const Outcome help = call(script, {"--help"}, folder);
+  EXPECT_FALSE(help.says("./drumlin")) << help.output;
+  EXPECT_FALSE(help.says("setup")) << help.output;
+  writable(true);
+}
+
+/// A shell line around the script, which it has as $drumlin.
+TEST_F(FrontScript, RunsInPlacesOfAllKinds) {
+  const fs::path place = checkout("checkout");
+  const auto shell = [&](const std::string &line) {
+    fs::remove_all(folder / "out");
+    return run_program(
+        {"bash", "-c", line},
+        {"drumlin=" + (place / "drumlin").string(), "run=run chain/in.chain -var cycles 1 -var out out"},
+        folder, 60.0);
+  };
+  for (const char *line :
+       {"$drumlin $run >&-", "$drumlin $run >&- 2>&-", "$drumlin $run <&-", "$drumlin $run >/dev/full",
+        "set -o pipefail; $drumlin $run | head -n 2", "umask 077; $drumlin $run",
+        "LC_ALL=de_DE.UTF-8 $drumlin $run", "LC_NUMERIC=de_DE.UTF-8 $drumlin $run",
+        "cd / && cd - >/dev/null && env -u HOME -u PWD $drumlin $run"}) {
+    SCOPED_TRACE(line);
+    const Outcome outcome = shell(line);
+    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    std::size_t rows = 0;
+    std::ifstream table(folder / "out/chain.csv");
+    for (std::string row; std::getline(table, row); ++rows)
+      EXPECT_EQ(std::count(row.begin(), row.end(), ','), 9) << row; // nothing of what the engine prints
+    EXPECT_EQ(rows, 202U);
+  }
+  for (const char *line : {"$drumlin --help >&-", "$drumlin --version >&-", "$drumlin --help | head -n 1"})
+    EXPECT_TRUE(shell(line).ok()) << line;
+  for (const char *line : {"$drumlin --help >/dev/full", "$drumlin --version >/dev/full",
+                           "$drumlin advise --error 1e-3 >/dev/full"}) {
+    const Outcome outcome = shell(line);
+    EXPECT_NE(outcome.status, 0) << line;
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << line << "\n"
+                                                                                 << outcome.output;
+  }
+}
+
+/// Two jobs make a run: the first stops at its time, the second continues; a third has nothing to do.
+TEST_F(FrontScript, JobScriptsContinueUntilTheCyclesAreDone) {
+  const fs::path place = checkout("checkout");
+  for (const auto &file : fs::directory_iterator(root / "inputs/jobs"))
+    fs::copy_file(file, folder / file.path().filename());
+  put("bin/liggghts", "#!/bin/sh\necho \"$@\" >>calls\ncase \"$*\" in\n"
+                      "*'start a/stopped.restart'*) echo 'drumlin/run: 100 %, step 2 of 2' ;;\n"
+                      "*'start none'*) echo 'ERROR: no start'; exit 1 ;;\n"
+                      "*) : >a/stopped.restart; echo 'drumlin/run: stopped at step 1 of 2' ;;\nesac\n");
+  put("bin/sbatch", "#!/bin/sh\necho sbatch \"$@\" >>calls\n");
+  fs::permissions(folder / "bin/sbatch", fs::perms::owner_all);
+  const auto job = [&](const std::string &script, const std::string &start) {
+    return run_program({"env", "PATH=" + (folder / "bin").string() + ":/usr/bin:/bin",
+                        "drumlin=" + (place / "drumlin").string(), "out=a", "start=" + start, "ranks=1",
+                        "limit=7", "SLURM_NTASKS=1", "SLURM_SUBMIT_DIR=" + folder.string(), "bash", script},
+                       {}, folder);
+  };
+  for (const char *script : {"bed.mpirun", "bed.slurm"}) {
+    SCOPED_TRACE(script);
+    const bool slurm = std::string(script) == "bed.slurm";
+    fs::remove_all(folder / "a");
+    fs::remove(folder / "calls");
+    const Outcome failed = job(script, "none");
+    EXPECT_EQ(failed.status, 1);
+    EXPECT_EQ(failed.output, "ERROR: no start\n");
+    EXPECT_EQ(job(script, "b.restart").status, slurm ? 0 : 4);
+    EXPECT_EQ(job(script, "b.restart").status, 0);
+    EXPECT_EQ(job(script, "b.restart").output, "all cycles are done: a\n");
+    const std::string calls = post::read_text(folder / "calls");
+    EXPECT_EQ(std::count(calls.begin(), calls.end(), '\n'), slurm ? 4 : 3) << calls;
+    EXPECT_EQ(calls.find("sbatch bed.slurm\n") != std::string::npos, slurm) << calls;
+    EXPECT_NE(calls.find("-var time_limit 7"), std::string::npos) << calls;
+  }
+}
+
+TEST_F(FrontScript, FindsTheIncludesOfALinkedDeck) {
+  const fs::path place = checkout("checkout");
+  fs::create_directories(folder / "decks");
+  fs::create_symlink(place / "inputs/chain/in.chain", folder / "decks/mine");
+  fs::create_symlink("mine", folder / "decks/of mine");
+  for (const char *deck : {"decks/mine", "decks/of mine"}) {
+    fs::remove_all(folder / "out");
+    const Outcome outcome =
+        call(place / "drumlin", {"run", deck, "-var", "cycles", "1", "-var", "out", "out"}, folder, true);
+    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    EXPECT_TRUE(fs::is_regular_file(folder / "out/chain.csv")) << outcome.output;
+  }
+}
+
+TEST_F(FrontScript, IsFoundThroughALinkToIt) {
+  const fs::path place = checkout("checkout");
+  fs::create_symlink(place / "drumlin", folder / "bin/drumlin-link");
+  put("my.deck", "run 0\n");
+  const Outcome outcome = call(folder / "bin/drumlin-link", {"run", "my.deck"}, folder);
+  EXPECT_TRUE(outcome.ok()) << outcome.output;
+  EXPECT_TRUE(outcome.says((place / "build/release/lib/libdrumlin.so").string())) << outcome.output;
+}
+
+} // namespace
+} // namespace drumlin::test

@@ -1,0 +1,198 @@
+#include "tests/plugin/bad_input/bad_input.h"
+
+namespace drumlin::test {
+namespace {
+
+const char *const positive = "allowed: a finite number > 0";
+const char *const non_negative = "allowed: a finite number >= 0";
+const char *const whole = "allowed: a whole number from ";
+
+/// A value that a variable may not have.
+BadInput variable(const std::string &name, const std::string &value, const std::string &allowed,
+                  bool two_ranks = false) {
+  BadInput input{name + " '" + value + "'",
+                 "",
+                 {"drumlin/check: ", "variable " + name + " is '" + value + "'; ", allowed}};
+  input.variables = {{name, value}};
+  input.two_ranks = two_ranks;
+  return input;
+}
+
+BadInput variables(const std::string &name, const Variables &values, const std::vector<std::string> &says,
+                   bool two_ranks = false) {
+  BadInput input{name, "", says};
+  input.variables = values;
+  input.two_ranks = two_ranks;
+  return input;
+}
+
+BadGroup chain_choices() {
+  return {"ChainChoices",
+          "chain/in.chain",
+          {
+              variable("case", "V", "allowed: I, II, III or IV", true),
+              variable("case", "ii", "allowed: I, II, III or IV"),
+              variable("case", "2", "allowed: I, II, III or IV"),
+              variable("transition", "C", "allowed: A or B", true),
+              variable("transition", "AB", "allowed: A or B"),
+              variable("stepping", "exact", "allowed: second or stock", true),
+              variable("guard", "yes", "allowed: on or off", true),
+              variables("two values", {{"k", "1e8 2e8"}},
+                        {"drumlin/variables: variable k is '1e8 2e8'", "a value without blanks"}),
+              variables("empty value", {{"k", ""}},
+                        {"drumlin/variables: variable k is ''", "one value that is not empty"}),
+              variables("a quoted number", {{"cycles", "\"5\""}},
+                        {"drumlin/variables: variable cycles is '\"5\"'", "a value without blanks, quotes"},
+                        true),
+              variables("a command", {{"out", "x$(touch pwned)"}},
+                        {"drumlin/variables: variable out is 'x$(touch pwned)'", "a value without blanks"}),
+              variables("a line end", {{"out", "x\ny"}},
+                        {"drumlin/variables: variable out is 'x?y'", "a value without blanks"}),
+              variables("a long value", {{"out", std::string(5000, 'x')}},
+                        {"drumlin/variables: variable out is 'xxx", "a value of at most 1000 characters"}),
+              variables("another case of letters", {{"Case", "III"}},
+                        {"drumlin/variables: -var Case is 'III'", "allowed: case, the nearest of case, k, D"},
+                        true),
+              variables("a misspelt name", {{"step_per_cycle", "1000"}},
+                        {"-var step_per_cycle is '1000'", "allowed: steps_per_cycle, the nearest of "}),
+          }};
+}
+
+BadGroup chain_numbers() {
+  BadGroup group{"ChainNumbers", "chain/in.chain", {}};
+  for (const char *name : {"k", "omega", "m2", "m3", "k23"})
+    for (const char *value : {"0", "-1", "nan", "inf"})
+      group.inputs.push_back(variable(name, value, positive, std::string(value) == "-1"));
+  for (const char *name : {"D", "Fw", "c23", "g"})
+    for (const char *value : {"-0.5", "NaN", "-inf"})
+      group.inputs.push_back(variable(name, value, non_negative));
+  group.inputs.push_back(variable("k", "stiff", positive, true));
+  group.inputs.push_back(variable("k", "100MN/m", positive));
+  group.inputs.push_back(variable("k", "1e999", positive));
+  for (const char *name : {"k", "omega", "m2"})
+    for (const char *value : {"1e-308", "1e308"})
+      group.inputs.push_back(variable(name, value, "between 1e-30 and 1e30 in size"));
+  group.inputs.push_back(variable("Fw", "58,800", non_negative));
+  return group;
+}
+
+BadGroup chain_counts() {
+  BadGroup group{"ChainCounts", "chain/in.chain", {}};
+  for (const char *name : {"cycles", "steps_per_cycle", "samples_per_cycle", "settle_limit"})
+    for (const char *value : {"0", "-5", "2.5", "many", "nan", "1e30"})
+      group.inputs.push_back(variable(name, value, whole, std::string(value) == "0"));
+  group.inputs.push_back(variable("samples_per_cycle", "300", "allowed"));
+  group.inputs.back().says = {"variable steps_per_cycle is '2000'",
+                              "allowed: a multiple of samples_per_cycle, which is 300"};
+  group.inputs.back().two_ranks = true;
+  group.inputs.push_back(variable("samples_per_cycle", "4000", "allowed"));
+  group.inputs.back().says = {"variable steps_per_cycle is '2000'",
+                              "allowed: a multiple of samples_per_cycle, which is 4000"};
+  return group;
+}
+
+BadGroup chain_folder() {
+  const std::string allowed = "allowed: a folder that can be made or written";
+  return {"ChainFolder",
+          "chain/in.chain",
+          {
+              variable("out", "out/chain.csv", allowed, true), // a file of the earlier run
+              variable("out", "out/chain.csv/below", allowed),
+              variable("out", "/dev/null/results", allowed),
+              variable("out", "/dev/drumlin", allowed),
+              variable("out", "/proc", allowed),
+              variable("out", "/", allowed),
+              variable("out", "x*", allowed),
+          }};
+}
+
+BadGroup chain_equilibrium() {
+  return {
+      "ChainEquilibrium",
+      "chain/in.chain",
+      {
+          variables("no damping",
+                    {{"D", "0"}, {"c23", "0"}, {"k", "5.8e4"}, {"guard", "off"}, {"settle_limit", "20000"}},
+                    {"drumlin/settle: no equilibrium: unbalanced ratio ", "after 20000 steps",
+                     "within 20000 steps", "without damping"},
+                    true),
+          variables(
+              "too soft to carry", {{"k", "1000"}},
+              {"fix guard: the overlap of balls ", " of the smaller radius at step ", "at most 1 of it"}),
+      }};
+}
+
+BadGroup impact() {
+  BadGroup group{"Impact", "chain/in.impact", {}};
+  group.inputs.push_back(variable("transition", "c", "allowed: A or B", true));
+  group.inputs.push_back(variable("stepping", "half", "allowed: second or stock"));
+  group.inputs.push_back(variable("guard", "1", "allowed: on or off"));
+  for (const char *name : {"k", "m2", "speed"})
+    for (const char *value : {"0", "-1", "nan"})
+      group.inputs.push_back(variable(name, value, positive));
+  group.inputs.push_back(variable("D", "-0.5", non_negative, true));
+  group.inputs.push_back(variable("onset", "-1", non_negative));
+  for (const char *name : {"steps_per_contact", "contacts", "samples"})
+    for (const char *value : {"0", "1.5"})
+      group.inputs.push_back(variable(name, value, whole));
+  group.inputs.push_back(variable("samples", "3", ""));
+  group.inputs.back().says = {"variable steps_per_contact is '2000'",
+                              "allowed: a multiple of samples, which is 3"};
+  group.inputs.push_back(variable("out", "out/events.csv", "allowed: a folder that can be made or written"));
+  return group;
+}
+
+/// What all decks of the bed share, tried on the first of them.
+BadGroup bed_settle() {
+  BadGroup group{"BedSettle", "bed/in.settle", {}};
+  group.inputs.push_back(variable("transition", "C", "allowed: A or B", true));
+  group.inputs.push_back(variable("stepping", "half", "allowed: second or stock"));
+  group.inputs.push_back(variable("guard", "1", "allowed: on or off"));
+  for (const char *name : {"k", "m2", "m3", "r2", "r3", "k23", "dt", "ratio"})
+    for (const char *value : {"0", "-1", "nan"})
+      group.inputs.push_back(variable(name, value, positive));
+  for (const char *name : {"D", "friction", "rolling", "g", "c23", "drag", "fall"})
+    group.inputs.push_back(variable(name, "-0.5", non_negative));
+  group.inputs.push_back(variable("settle_limit", "-1", whole));
+  group.inputs.push_back(
+      variable("balls", "none.data",
+               "allowed: a file that can be read, which './drumlin bed --out none.data' makes", true));
+  return group;
+}
+
+BadGroup bed_place() {
+  BadGroup group{"BedPlace", "bed/in.place", {}};
+  group.inputs.push_back(variable("settle_limit", "1.5", whole));
+  group.inputs.push_back(variable("sink", "-1", non_negative));
+  group.inputs.push_back(variable("ratio", "0", positive));
+  group.inputs.push_back(
+      variable("bed", "none.restart", "./drumlin run inputs/bed/in.settle -var bed none.restart", true));
+  return group;
+}
+
+BadGroup bed() {
+  BadGroup group{"Bed", "bed/in.bed", {}};
+  for (const char *name : {"omega", "time_limit"})
+    for (const char *value : {"0", "-1", "nan"})
+      group.inputs.push_back(variable(name, value, positive));
+  group.inputs.push_back(variable("Fw", "-1", non_negative));
+  for (const char *name : {"cycles", "steps_per_cycle", "samples_per_cycle"})
+    for (const char *value : {"0", "1.5"})
+      group.inputs.push_back(variable(name, value, whole));
+  group.inputs.push_back(variable("dumps_per_cycle", "-1", whole));
+  group.inputs.push_back(variable("dumps_per_cycle", "3", ""));
+  group.inputs.back().says = {"variable steps_per_cycle is '2500'",
+                              "allowed: a multiple of dumps_per_cycle, which is 3"};
+  group.inputs.push_back(
+      variable("start", "none.restart", "./drumlin run inputs/bed/in.place -var start none.restart", true));
+  return group;
+}
+
+} // namespace
+
+std::vector<BadGroup> bad_variables() {
+  return {chain_choices(), chain_numbers(), chain_counts(), chain_folder(), chain_equilibrium(),
+          impact(),        bed_settle(),    bed_place(),    bed()};
+}
+
+} // namespace drumlin::test

@@ -1,0 +1,43 @@
+// The tables of bad input, and what the engine must say to each.
+#pragma once
+
+#include "tests/support/engine_runs.h"
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+
+/// Whose words the error line is in. Ours names command, keyword, value and what is allowed ("allowed:");
+/// where the engine's own check comes first, its text is all there is (the pages of plugin/doc say where).
+enum class Text { ours, engine };
+
+/// One mistake.
+struct BadInput {
+  std::string name;
+  std::string lines;             ///< lines of the host deck; not used for a project deck
+  std::vector<std::string> says; ///< all of them stand in the one error line
+  Variables variables = {};      ///< of a project deck
+  bool two_ranks = false;        ///< is among those that are tried under 2 ranks, too
+  Text text = Text::ours;
+  bool runs = false;     ///< the mistake shows in the run, after the output files were opened
+  std::string pair = {}; ///< pair style and properties instead of the host's
+};
+
+/// Mistakes of one kind. They share a test, one engine run after the other.
+struct BadGroup {
+  std::string name;
+  std::string deck; ///< of inputs; empty: the host deck
+  std::vector<BadInput> inputs;
+};
+
+/// How a test's listing shows a group.
+inline void PrintTo(const BadGroup &group, std::ostream *out) { *out << group.inputs.size() << " inputs"; }
+
+/// Lines in the host deck, command by command.
+std::vector<BadGroup> bad_lines();
+/// Variables of the decks of inputs/chain and inputs/bed.
+std::vector<BadGroup> bad_variables();
+
+} // namespace drumlin::test

@@ -1,0 +1,198 @@
+// Each mistake of the tables, on one rank and on two: the engine ends within seconds with a status other than
+// 0 and with one line that says what is wrong, and leaves the files of an earlier run as they were.
+
+#include "tests/plugin/bad_input/bad_input.h"
+#include "tests/support/host_deck.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <map>
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *earlier_files[] = {"chain.csv", "events.csv", "cycles.csv", "parameters.csv"};
+
+/// The folder `out` of an earlier run.
+class EarlierRun {
+public:
+  explicit EarlierRun(const fs::path &folder) : folder_(folder / "out") {
+    fs::create_directory(folder_);
+    for (const char *name : earlier_files) {
+      write_text(folder_ / name, std::string("the earlier ") + name + "\n");
+      fs::last_write_time(folder_ / name, written_);
+    }
+  }
+  void expect_untouched() const {
+    for (const char *name : earlier_files) {
+      EXPECT_EQ(read_text(folder_ / name), std::string("the earlier ") + name + "\n");
+      EXPECT_EQ(fs::last_write_time(folder_ / name), written_) << name;
+    }
+  }
+
+private:
+  fs::path folder_;
+  fs::file_time_type written_ = fs::file_time_type::clock::now() - std::chrono::hours(1);
+};
+
+/// What a user's deck has besides the mistake: outputs into the folder of the earlier run.
+constexpr const char *outputs =
+    "\nfix out_events all contact/events file out/events.csv types 1 2\n"
+    "fix out_history drum roller/history file out/chain.csv every 10 cycles out/cycles.csv 10\n";
+
+void expect_one_error(const BadInput &input, const Outcome &outcome) {
+  EXPECT_FALSE(outcome.timed_out);
+  EXPECT_NE(outcome.status, 0);
+  std::vector<std::string> errors;
+  for (const std::string &line : lines_of(outcome.output))
+    if (line.rfind("ERROR", 0) == 0)
+      errors.push_back(line); // mpirun may add lines of its own when a rank ends
+  ASSERT_EQ(errors.size(), 1U) << outcome.output;
+  // The engine by itself adds a line to one error in five, by chance, with the same place in its source at its end.
+  const std::string place = errors.front().substr(errors.front().rfind(" ("));
+  EXPECT_EQ(outcome.output.find(place), outcome.output.rfind(place)) << outcome.output;
+  for (const std::string &words : input.says)
+    EXPECT_NE(errors.front().find(words), std::string::npos) << words << "\n" << errors.front();
+  if (input.text == Text::engine) return;
+  EXPECT_NE(errors.front().find("; allowed: "), std::string::npos) << errors.front();
+}
+
+/// What in.place and in.bed want before they judge their other variables: a file with the notes of a bed. The engine never reads it.
+const std::string &bed_file(const std::string &stage) {
+  static std::map<std::string, std::string> files;
+  std::string &text = files[stage];
+  if (text.empty()) {
+    const Scratch scratch;
+    const Outcome made = run_host(
+        host_pair_style() + host_properties(),
+        "drumlin/write_restart bed.restart bed " + stage +
+            " case gravel dimension 2 walls 1 stepping stock g 9.81 rolling_history 0 k 1e8 D 0.3 friction "
+            "0.5 rolling 0 drum ball m2 2000 m3 1000 r2 0.35 r3 0.25 rc 0.02 k23 1e6 c23 1e4\n",
+        scratch.path(), 1);
+    EXPECT_TRUE(made.ok()) << made.output;
+    text = read_text(scratch / "bed.restart");
+  }
+  return text;
+}
+
+void try_input(const BadGroup &group, const BadInput &input, int ranks) {
+  SCOPED_TRACE(group.name + ", " + input.name + ", ranks: " + std::to_string(ranks));
+  const Scratch scratch;
+  const EarlierRun earlier(scratch.path());
+  Outcome outcome;
+  if (group.deck.empty()) {
+    const std::string pair = input.pair.empty() ? host_pair_style() + host_properties() : input.pair;
+    outcome = run_host(pair, input.lines + outputs, scratch.path(), ranks);
+  } else {
+    std::vector<std::string> words;
+    for (const auto &[name, value] : input.variables)
+      words.insert(words.end(), {"-var", name, value});
+    // The first of two counts: a mistake in these variables stays.
+    if (group.deck == "bed/in.place") {
+      write_text(scratch / "soil", bed_file("soil"));
+      words.insert(words.end(), {"-var", "bed", "soil"});
+    } else if (group.deck == "bed/in.bed") {
+      write_text(scratch / "roller", bed_file("roller"));
+      words.insert(words.end(), {"-var", "start", "roller"});
+    }
+    if (group.deck != "bed/in.place" && group.deck != "bed/in.settle")
+      words.insert(words.end(), {"-var", "out", "out"});
+    outcome = run_engine(chain_deck("../" + group.deck), words, scratch.path(), ranks);
+  }
+  expect_one_error(input, outcome);
+  if (!input.runs) earlier.expect_untouched();
+}
+
+std::vector<BadGroup> all_groups() {
+  std::vector<BadGroup> groups = bad_lines();
+  const std::vector<BadGroup> more = bad_variables();
+  groups.insert(groups.end(), more.begin(), more.end());
+  return groups;
+}
+
+/// The inputs named for two ranks, and every third of the others.
+std::vector<BadGroup> groups_for_two_ranks() {
+  std::vector<BadGroup> groups;
+  for (const BadGroup &group : all_groups()) {
+    groups.push_back({group.name, group.deck, {}});
+    for (std::size_t n = 0; n < group.inputs.size(); ++n)
+      if (group.inputs[n].two_ranks || n % 3 == 0) groups.back().inputs.push_back(group.inputs[n]);
+  }
+  return groups;
+}
+
+class BadInputTest : public ::testing::TestWithParam<BadGroup> {};
+class BadInputRanksTest : public ::testing::TestWithParam<BadGroup> {};
+
+TEST_P(BadInputTest, EndsInOneClearLine) {
+  for (const BadInput &input : GetParam().inputs)
+    try_input(GetParam(), input, 1);
+}
+
+TEST_P(BadInputRanksTest, EndsInOneClearLine) {
+  for (const BadInput &input : GetParam().inputs)
+    try_input(GetParam(), input, 2);
+}
+
+std::string group_name(const ::testing::TestParamInfo<BadGroup> &info) { return info.param.name; }
+
+INSTANTIATE_TEST_SUITE_P(OneRank, BadInputTest, ::testing::ValuesIn(all_groups()), group_name);
+INSTANTIATE_TEST_SUITE_P(TwoRanks, BadInputRanksTest, ::testing::ValuesIn(groups_for_two_ranks()),
+                         group_name);
+
+// The engine's error->all() takes words for a format, in which {} stands for an argument, unless it is kept from it.
+TEST(BadInput, BracesStayAsTheyAreInLammps) {
+  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  const Scratch scratch;
+  const auto decks = std::filesystem::path(DRUMLIN_SOURCE_DIR) / "inputs";
+  for (const auto &[deck, name] : {std::pair("chain/in.chain.lammps", "k"),
+                                   {"chain/in.chain.lammps", "case"},
+                                   {"bed/in.bed.lammps", "start"}})
+    for (const std::string value : {"{}", "{0}", "{"}) {
+      const Outcome outcome = post::run_deck(decks / deck, {{name, value}}, scratch.path());
+      EXPECT_EQ(outcome.status, 1);
+      EXPECT_TRUE(outcome.says("ERROR: drumlin/check: variable " + std::string(name) + " is '" + value +
+                               "'; allowed: "))
+          << outcome.output;
+    }
+}
+
+// A misspelt name is an error in every deck, LAMMPS's included.
+TEST(BadInputDecks, KnowTheirVariables) {
+  std::size_t decks = 0;
+  for (const char *room : {"chain", "bed", "study"})
+    for (const auto &entry : fs::directory_iterator(fs::path(DRUMLIN_SOURCE_DIR) / "inputs" / room)) {
+      const std::string name = entry.path().filename().string();
+      const bool lammps = entry.path().extension() == ".lammps";
+      if (name.rfind("in.", 0) != 0 || (lammps && !post::has_lammps())) continue;
+      const Scratch scratch;
+      const Outcome outcome = lammps ? post::run_deck(entry.path(), {{"stepz", "1"}}, scratch.path())
+                                     : run_engine(entry.path(), {"-var", "stepz", "1"}, scratch.path(), 1);
+      ++decks;
+      EXPECT_EQ(outcome.status, 1) << name;
+      EXPECT_TRUE(
+          outcome.says("ERROR: drumlin/variables: -var stepz is '1', a variable that this deck does not "
+                       "have; allowed: "))
+          << name << outcome.output;
+    }
+  EXPECT_GE(decks, 12u);
+}
+
+// The tests above would pass for any mistake if the host deck itself failed: it runs, and writes.
+TEST(BadInputHost, RunsWithoutAMistake) {
+  for (const int ranks : {1, 2}) {
+    const Scratch scratch;
+    const EarlierRun earlier(scratch.path());
+    const Outcome outcome = run_host(host_pair_style() + host_properties(), outputs, scratch.path(), ranks);
+    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    EXPECT_FALSE(outcome.says("ERROR")) << outcome.output;
+    for (const char *name : {"chain.csv", "events.csv", "cycles.csv"})
+      EXPECT_EQ(read_text(scratch.path() / "out" / name).find("earlier"), std::string::npos) << name;
+  }
+}
+
+} // namespace
+} // namespace drumlin::test

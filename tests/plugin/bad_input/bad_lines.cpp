@@ -1,0 +1,742 @@
+#include "tests/plugin/bad_input/bad_input.h"
+#include "tests/support/host_deck.h"
+
+namespace drumlin::test {
+namespace {
+
+BadInput line(const std::string &name, const std::string &lines, const std::vector<std::string> &says) {
+  return {name, lines, says};
+}
+
+BadInput on_two_ranks(BadInput input) {
+  input.two_ranks = true;
+  return input;
+}
+
+BadInput in_the_run(BadInput input) {
+  input.runs = true;
+  return input;
+}
+
+BadInput in_engine_words(BadInput input) {
+  input.text = Text::engine;
+  return input;
+}
+
+/// A mistake in the pair style: settings after `model hooke/transition`, then properties.
+BadInput pair(const std::string &name, const std::string &settings, const std::string &properties,
+              const std::vector<std::string> &says) {
+  BadInput input = line(name, "", says);
+  input.pair = "pair_style gran model hooke/transition " + settings + "\npair_coeff * *\n" + properties;
+  return input;
+}
+
+/// A value that one property of the contact law may not have.
+BadInput value(const std::string &property_name, const std::string &text, const std::string &settings = "") {
+  const std::string given = property(property_name, text);
+  return pair(property_name + " " + text, settings, given + host_properties(given),
+              {"model hooke/transition", "property " + property_name, "types 1 and 1", "is " + text,
+               "a finite number >"});
+}
+
+BadInput twice_in_a_hybrid() {
+  BadInput input =
+      line("twice in a hybrid", "",
+           {"pair_style gran model hooke/transition: pair_style hybrid has gran more than once", "once"});
+  input.pair = "pair_style hybrid gran model hooke/transition gran model hooke/transition\n"
+               "pair_coeff * * gran 1\npair_coeff 3 3 gran 2\n" +
+               host_properties();
+  return input;
+}
+
+BadGroup pair_style() {
+  const std::string command = "pair_style gran model hooke/transition: ";
+  const std::string good = host_properties();
+  const std::string kn = property("kn", "1e7");
+  const std::string ratio = property("dampingRatio", "0.5");
+  return {
+      "PairStyle",
+      "",
+      {
+          on_two_ranks(pair("unknown transition", "transition C", good,
+                            {command + "keyword transition is 'C'", "A or B"})),
+          pair("small transition", "transition a", good, {command + "keyword transition is 'a'", "A or B"}),
+          pair("transition without value", "transition", good,
+               {command + "keyword transition has no value", "A or B"}),
+          pair("unknown damping", "damping high", good,
+               {command + "keyword damping is 'high'", "coefficient or ratio"}),
+          pair("damping without value", "damping", good,
+               {command + "keyword damping has no value", "coefficient or ratio"}),
+          pair("damping as a number", "damping 0.5", good,
+               {command + "keyword damping is '0.5'", "coefficient or ratio"}),
+          pair("unknown stepping", "stepping third", good,
+               {command + "keyword stepping is 'third'", "stock or second"}),
+          pair("stepping without value", "stepping", good,
+               {command + "keyword stepping has no value", "stock or second"}),
+          pair("unknown keyword", "limit on", good,
+               {command + "unknown keyword 'limit'", "transition, damping or stepping"}),
+          pair("the engine's limitForce", "limitForce on", good,
+               {command + "unknown keyword 'limitForce'", "transition B in place of 'limitForce on'",
+                "transition A in place of 'limitForce off'"}),
+          pair("the engine's absolute_damping", "transition A absolute_damping on", good,
+               {command + "unknown keyword 'absolute_damping'",
+                "damping coefficient with property gamman_abs"}),
+          pair("the engine's tangential_damping", "tangential_damping off", good,
+               {command + "unknown keyword 'tangential_damping'", "property gammat_abs of 0"}),
+          pair("the engine's viscous", "viscous on", good,
+               {command + "unknown keyword 'viscous'", "damping ratio with property dampingRatio"}),
+          pair("LAMMPS's limit_damping", "limit_damping", good,
+               {command + "unknown keyword 'limit_damping'", "transition B in place of it"}),
+          pair("the engine's energies", "computeDissipatedEnergy on", good,
+               {command + "unknown keyword 'computeDissipatedEnergy'", "the energies of fix roller/history"}),
+          on_two_ranks(twice_in_a_hybrid()),
+          pair("cap", "tangential coulomb cap spring", good, {command + "unknown keyword 'cap'"}),
+          pair("a word left over", "transition A B", good, {command + "unknown keyword 'B'"}),
+          pair("torsion without rolling", "torsionTorque on", good,
+               {command + "unknown keyword 'torsionTorque'"}),
+          pair("torsion without value", "rolling_friction cdt torsionTorque", good,
+               {command + "keyword torsionTorque has no value", "on or off"}),
+          pair("unknown torsion", "rolling_friction epsd2 torsionTorque yes", good,
+               {command + "keyword torsionTorque is 'yes'", "on or off"}),
+          pair("model too late", "transition A tangential history", good,
+               {command + "'tangential' comes too late"}),
+          pair("model without name", "tangential", good,
+               {command + "'tangential' comes too late or lacks its value"}),
+          in_engine_words(
+              pair("unknown tangential model", "tangential sticky", good, {"Invalid model specified"})),
+          in_engine_words(pair("cohesion", "cohesion sjkr", good, {"Unknown normal model"})),
+          on_two_ranks(
+              pair("no kn", "", ratio,
+                   {"property kn (normal stiffness, N/m) is missing; allowed: 'fix ID all property/global kn",
+                    "9 values"})),
+          pair("no damping ratio", "", kn,
+               {"property dampingRatio (damping ratio D", "is missing", "9 values"}),
+          pair("no damping coefficient", "damping coefficient", kn + ratio,
+               {"property gamman_abs (normal damping coefficient, N s/m", "is missing", "9 values"}),
+      }};
+}
+
+BadGroup properties() {
+  const std::string damping = property("dampingRatio", "0.5");
+  const auto engine_value = [&damping](const std::string &text) {
+    return in_engine_words(pair("kn " + text, "", property("kn", text) + damping,
+                                {"Expected floating point parameter", "fix_property_global"}));
+  };
+  return {
+      "Properties",
+      "",
+      {
+          on_two_ranks(value("kn", "-5")),
+          value("kn", "0"),
+          value("dampingRatio", "-1"),
+          value("gamman_abs", "-1", "damping coefficient"),
+          value("kt", "-1"),
+          value("gammat_abs", "-1"),
+          value("coefficientFriction", "-1", "tangential history"),
+          value("coefficientFriction", "-0.5", "tangential no_history"),
+          value("coefficientFriction", "-0.5", "tangential coulomb"),
+          pair("kn beyond a double", "", property("kn", "1e400") + damping,
+               {"property kn of types 1 and 1 is inf", "> 0"}),
+          engine_value("nan"),
+          engine_value("inf"),
+          engine_value("stiff"),
+          in_engine_words(pair("kn for two types", "",
+                               "fix kn all property/global kn peratomtypepair 2 1e7 1e7 1e7 1e7\n" + damping,
+                               {"kn", "property/global"})),
+          in_engine_words(pair("rolling friction missing", "rolling_friction cdt",
+                               property("kn", "1e7") + damping,
+                               {"coefficientRollingFriction", "rolling_model cdt"})),
+      }};
+}
+
+/// Lines in the host deck with another pair style.
+BadInput beside(const std::string &name, const std::string &pair_style_line, const std::string &lines,
+                const std::vector<std::string> &says) {
+  BadInput input = line(name, lines, says);
+  input.pair = pair_style_line + "\npair_coeff * *\n" + host_properties();
+  return input;
+}
+
+BadGroup wall() {
+  const std::string command = "fix wall/gran model hooke/transition: ";
+  const std::string fix = "fix wall all wall/gran model hooke/transition ";
+  const std::string plane = "primitive type 1 zplane -1.8 ";
+  return {
+      "Wall",
+      "",
+      {
+          on_two_ranks(line("unknown transition", fix + plane + "transition C",
+                            {command + "keyword transition is 'C'", "A or B"})),
+          line("transition without value", fix + plane + "transition",
+               {command + "keyword transition has no value", "A or B"}),
+          line("unknown damping", fix + plane + "damping 1e5",
+               {command + "keyword damping is '1e5'", "coefficient or ratio"}),
+          line("unknown keyword", fix + plane + "limit on", {command + "unknown keyword 'limit'"}),
+          line("the engine's limitForce", fix + plane + "limitForce on",
+               {command + "unknown keyword 'limitForce'", "transition B in place of 'limitForce on'"}),
+          on_two_ranks(line("stock beside a pair style with second", fix + plane + "stepping stock",
+                            {command + "keyword stepping is 'stock' and that of the pair style is 'second'",
+                             "the same stepping for both"})),
+          on_two_ranks(
+              beside("second beside a pair style with stock",
+                     "pair_style gran model hooke/transition stepping stock", fix + plane,
+                     {command + "keyword stepping is 'second' (its default) and that of the pair style is "
+                                "'stock'",
+                      "the same stepping for both"})),
+          beside("stock, and a pair style behind it that changes to second",
+                 "pair_style gran model hooke/transition stepping stock",
+                 fix + plane + "stepping stock\npair_style gran model hooke/transition\npair_coeff * *",
+                 {command + "keyword stepping is 'stock' and that of the pair style is 'second'"}),
+          beside("second beside the engine's law", "pair_style gran model hooke/stiffness", fix + plane,
+                 {command + "keyword stepping is 'second' (its default)",
+                  "there is no pair_style gran model hooke/transition yet"}),
+          line("unknown stepping", fix + plane + "stepping 2",
+               {command + "keyword stepping is '2'", "stock or second"}),
+          line("settings before the wall", fix + "transition A " + plane,
+               {command + "'primitive' comes too late"}),
+          line("model after the wall", fix + plane + "tangential history",
+               {command + "'tangential' comes too late"}),
+          in_engine_words(line("no wall", fix, {"wall/gran", "'mesh' or 'primitive'"})),
+          in_engine_words(line("type", fix + "primitive type 9 zplane -1.8", {"wall/gran", "type"})),
+      }};
+}
+
+BadGroup drum_excite() {
+  const std::string command = "fix drum/excite: ";
+  const auto with = [](const std::string &words) { return "fix excite drum drum/excite " + words; };
+  const auto more = [&with](const std::string &words) { return with("amplitude 1e3 omega 100 " + words); };
+  return {
+      "DrumExcite",
+      "",
+      {
+          on_two_ranks(line("nothing", with(""),
+                            {command + "the amplitude is missing", "amplitude Fw or eccentric me re"})),
+          line("no frequency", with("amplitude 1e3"),
+               {command + "the frequency is missing", "omega w or frequency f"}),
+          line("no amplitude", with("omega 100"), {command + "the amplitude is missing"}),
+          line("amplitude without value", with("omega 100 amplitude"),
+               {command + "keyword amplitude has no value", ">= 0"}),
+          line("amplitude a word", with("amplitude big omega 100"),
+               {command + "keyword amplitude is 'big'", "a finite number >= 0"}),
+          line("amplitude a number and more", with("amplitude 58.8kN omega 100"),
+               {command + "keyword amplitude is '58.8kN'"}),
+          on_two_ranks(line("amplitude negative", with("amplitude -1 omega 100"),
+                            {command + "keyword amplitude is '-1'", ">= 0"})),
+          line("amplitude NaN", with("amplitude nan omega 100"),
+               {command + "keyword amplitude is 'nan'", "finite"}),
+          line("amplitude infinite", with("amplitude inf omega 100"),
+               {command + "keyword amplitude is 'inf'", "finite"}),
+          line("amplitude beyond a double", with("amplitude 1e999 omega 100"),
+               {command + "keyword amplitude is '1e999'", "finite"}),
+          line("two amplitudes", with("amplitude 1 amplitude 2 omega 100"),
+               {command + "keyword amplitude", "twice", "once"}),
+          line("amplitude and eccentric", with("amplitude 1 eccentric 1 1 omega 100"),
+               {command + "keyword eccentric", "twice"}),
+          line("eccentric with one value", with("eccentric 10 omega 100"),
+               {command + "keyword eccentric, radius is 'omega'", "> 0"}),
+          line("eccentric of no mass", with("eccentric 0 0.1 omega 100"),
+               {command + "keyword eccentric, mass is '0'", "> 0"}),
+          on_two_ranks(line("omega without value", with("amplitude 1 omega"),
+                            {command + "keyword omega has no value", "> 0"})),
+          line("omega zero", with("amplitude 1 omega 0"), {command + "keyword omega is '0'", "> 0"}),
+          line("omega negative", with("amplitude 1 omega -100"),
+               {command + "keyword omega is '-100'", "> 0"}),
+          line("omega NaN", with("amplitude 1 omega NaN"), {command + "keyword omega is 'NaN'", "> 0"}),
+          line("frequency infinite", with("amplitude 1 frequency -inf"),
+               {command + "keyword frequency is '-inf'", "> 0"}),
+          line("two frequencies", with("amplitude 1 omega 100 frequency 20"),
+               {command + "keyword frequency", "twice", "once"}),
+          line("phase without value", more("phase"),
+               {command + "keyword phase has no value", "a finite number"}),
+          line("phase a word", more("phase pi"), {command + "keyword phase is 'pi'", "a finite number"}),
+          line("start negative", more("start -1"), {command + "keyword start is '-1'", ">= 0"}),
+          line("ramp negative", more("ramp -1"), {command + "keyword ramp is '-1'", ">= 0"}),
+          on_two_ranks(line("sweep with one value", more("sweep 200"),
+                            {command + "keyword sweep, duration has no value", "> 0"})),
+          line("sweep without value", more("sweep"),
+               {command + "keyword sweep, end frequency has no value", "> 0"}),
+          line("sweep in no time", more("sweep 200 0"), {command + "keyword sweep, duration is '0'", "> 0"}),
+          line("direction with two", more("direction 0 1"),
+               {command + "keyword direction, z has no value", "a finite number"}),
+          line("direction with a word", more("direction 0 0 down"),
+               {command + "keyword direction, z is 'down'", "a finite number"}),
+          line("direction of no length", more("direction 0 0 0"),
+               {command + "keyword direction is '0 0 0'", "a length"}),
+          line("unknown mode", more("mode circular"),
+               {command + "keyword mode is 'circular'", "directed or rotating"}),
+          line("mode without value", more("mode"),
+               {command + "keyword mode has no value", "directed or rotating"}),
+          line("rotating without axis", more("mode rotating"),
+               {command + "keyword mode is 'rotating'", "axis is missing", "axis x y z"}),
+          line("axis along the force", more("mode rotating axis 0 0 1"),
+               {command + "keyword axis", "cosine", "right angles"}),
+          line("axis without rotation", more("axis 0 1 0"),
+               {command + "keyword axis", "'directed'", "mode rotating"}),
+          line("unknown keyword", more("amplitud 5"),
+               {command + "unknown keyword 'amplitud'", "amplitude", "axis"}),
+          on_two_ranks(line("empty group", "fix excite nobody drum/excite amplitude 1 omega 100",
+                            {command + "group nobody is empty", "at least one ball"})),
+          line("no direction and no gravity", "unfix gravity\n" + more(""),
+               {command + "keyword direction is missing", "direction x y z"}),
+          in_engine_words(line("unknown group", "fix excite nogroup drum/excite amplitude 1 omega 100",
+                               {"Could not find fix group ID"})),
+          in_engine_words(line("no style", "fix excite drum", {"Illegal fix command"})),
+      }};
+}
+
+BadGroup bond_spring() {
+  const std::string command = "fix bond/spring: ";
+  const auto with = [](const std::string &words) { return "fix bond all bond/spring " + words; };
+  return {
+      "BondSpring",
+      "",
+      {
+          line("nothing", with(""), {command + "ball i has no value", "a whole number from 1"}),
+          line("one ball", with("2"), {command + "ball j has no value", "a whole number from 1"}),
+          line("no stiffness", with("2 3"), {command + "stiffness k has no value", "> 0"}),
+          line("no damping", with("2 3 1e6"), {command + "damping c has no value", ">= 0"}),
+          line("ball zero", with("0 3 1e6 1e4"), {command + "ball i is '0'", "a whole number from 1"}),
+          line("a fraction of a ball", with("2 2.5 1e6 1e4"),
+               {command + "ball j is '2.5'", "a whole number from 1"}),
+          line("ball by name", with("drum 3 1e6 1e4"),
+               {command + "ball i is 'drum'", "a whole number from 1"}),
+          on_two_ranks(line("to itself", with("2 2 1e6 1e4"),
+                            {command + "ball j is 2, the same as ball i", "another ball"})),
+          on_two_ranks(line("missing ball", with("2 99 1e6 1e4"),
+                            {command + "ball 99 is missing", "the ID of a ball"})),
+          line("stiffness zero", with("2 3 0 1e4"), {command + "stiffness k is '0'", "> 0"}),
+          on_two_ranks(
+              line("stiffness negative", with("2 3 -1e6 1e4"), {command + "stiffness k is '-1e6'", "> 0"})),
+          line("stiffness NaN", with("2 3 nan 1e4"), {command + "stiffness k is 'nan'", "> 0"}),
+          line("stiffness infinite", with("2 3 inf 1e4"), {command + "stiffness k is 'inf'", "> 0"}),
+          line("damping negative", with("2 3 1e6 -1"), {command + "damping c is '-1'", ">= 0"}),
+          line("damping a word", with("2 3 1e6 none"), {command + "damping c is 'none'", ">= 0"}),
+          line("strength without value", with("2 3 1e6 1e4 strength"),
+               {command + "keyword strength has no value", "> 0"}),
+          line("strength zero", with("2 3 1e6 1e4 strength 0"), {command + "keyword strength is '0'", "> 0"}),
+          line("strength negative", with("2 3 1e6 1e4 strength -5"),
+               {command + "keyword strength is '-5'", "> 0"}),
+          line("strength NaN", with("2 3 1e6 1e4 strength nan"),
+               {command + "keyword strength is 'nan'", "> 0"}),
+          line("length without value", with("2 3 1e6 1e4 length"),
+               {command + "keyword length", "has no value", "> 0"}),
+          line("length a word", with("2 3 1e6 1e4 length now"),
+               {command + "keyword length ('current' or) is 'now'", "> 0"}),
+          line("length negative", with("2 3 1e6 1e4 length -1"),
+               {command + "keyword length", "is '-1'", "> 0"}),
+          line("unknown keyword", with("2 3 1e6 1e4 1e5"),
+               {command + "unknown keyword '1e5'", "length or strength"}),
+          on_two_ranks(
+              in_the_run(line("a ball gets lost", with("2 3 1e6 1e4") + "\nvelocity frame set 0 0 -1e6",
+                              {command + "ball 3 was lost at step 1", "both balls in the box"}))),
+      }};
+}
+
+BadGroup clump() {
+  const std::string command = "fix clump: ";
+  return {
+      "Clump",
+      "",
+      {
+          line("a word too many", "fix body drum clump rigid",
+               {command + "'rigid' is left over", "fix ID group clump"}),
+          line("group all", "fix body all clump", {command + "its group is 'all'", "the balls of the body"}),
+          on_two_ranks(line("empty group", "fix body nobody clump",
+                            {command + "group nobody is empty", "balls of the body"})),
+          on_two_ranks(line("a ball in two", "fix one drum clump\nfix two roller clump",
+                            {command + "1 balls of group ", "a ball in one clump"})),
+          line("a force behind it", "fix body drum clump\nfix bond all bond/spring 2 3 1e6 1e4",
+               {command + "fix bond (bond/spring) stands behind it", "group drum", "behind all fixes"}),
+      }};
+}
+
+BadGroup contact_events() {
+  const std::string command = "fix contact/events: ";
+  const auto with = [](const std::string &words) { return "fix events all contact/events " + words; };
+  return {"ContactEvents",
+          "",
+          {
+              line("nothing", with(""), {command + "keyword file is missing", "file NAME"}),
+              line("file not first", with("types 1 2 file out/x.csv"),
+                   {command + "keyword file is missing", "as the first keyword"}),
+              line("file without name", with("file"),
+                   {command + "keyword file: its name is missing", "a folder that exists"}),
+              on_two_ranks(line("file in no folder", with("file nowhere/x.csv"),
+                                {command + "keyword file: cannot write 'nowhere/x.csv'",
+                                 "a file in a folder that exists"})),
+              line("a folder as file", with("file out"),
+                   {command + "keyword file: cannot write 'out'", "a file in a folder that exists"}),
+              line("one type", with("file out/x.csv types 1"),
+                   {command + "keyword types has no value", "a whole number from 1 to 3"}),
+              line("type 0", with("file out/x.csv types 0 1"),
+                   {command + "keyword types is '0'", "a whole number from 1 to 3"}),
+              line("type 4", with("file out/x.csv types 1 4"),
+                   {command + "keyword types is '4'", "a whole number from 1 to 3"}),
+              line("types by star", with("file out/x.csv types * 2"),
+                   {command + "keyword types is '*'", "a whole number from 1 to 3"}),
+              line("append without value", with("file out/x.csv append"),
+                   {command + "keyword append has no value", "yes or no"}),
+              line("append a number", with("file out/x.csv append 1"),
+                   {command + "keyword append is '1'", "yes or no"}),
+              line("unknown keyword", with("file out/x.csv every 10"),
+                   {command + "unknown keyword 'every'", "types or append"}),
+          }};
+}
+
+BadGroup contact_local() {
+  const std::string command = "fix contact/local: ";
+  const auto with = [](const std::string &words) { return "fix contacts all contact/local " + words; };
+  return {
+      "ContactLocal",
+      "",
+      {
+          line("nothing", with(""), {command + "keyword has no value", "every"}),
+          line("no number", with("every"), {command + "keyword every has no value", "a whole number from 1"}),
+          line("every zero", with("every 0"), {command + "keyword every is '0'", "a whole number from 1"}),
+          line("every a fraction", with("every 0.5"),
+               {command + "keyword every is '0.5'", "a whole number from 1"}),
+          on_two_ranks(
+              line("another keyword", with("file out/x.csv"), {command + "keyword is 'file'", "every"})),
+          line("a word too many", with("every 10 append yes"),
+               {command + "'append' is left over", "every N"}),
+      }};
+}
+
+BadInput with_the_stock_law(const std::string &lines, const std::string &command) {
+  BadInput input = line("the stock law, " + command, lines,
+                        {command + ": the pair style is another", "pair_style gran model hooke/transition"});
+  input.pair = "pair_style gran model hooke/stiffness\npair_coeff * *\n" + property("kn", "1e7") +
+               property("kt", "1e7") + property("gamman", "1") + property("gammat", "1");
+  return input;
+}
+
+BadGroup roller_history() {
+  const std::string command = "fix roller/history: ";
+  const auto with = [](const std::string &words) { return "fix history drum roller/history " + words; };
+  const auto more = [&with](const std::string &words) { return with("file out/x.csv every 10 " + words); };
+  return {
+      "RollerHistory",
+      "",
+      {
+          line("nothing", with(""), {command + "keyword file is missing", "file NAME every N"}),
+          line("no interval", with("file out/x.csv"),
+               {command + "keyword every is missing", "file NAME every N"}),
+          line("file without name", with("every 10 file"),
+               {command + "keyword file: its name is missing", "a folder that exists"}),
+          line("every without value", with("file out/x.csv every"),
+               {command + "keyword every has no value", "a whole number from 1"}),
+          line("every zero", with("file out/x.csv every 0"),
+               {command + "keyword every is '0'", "a whole number from 1"}),
+          line("every negative", with("file out/x.csv every -10"),
+               {command + "keyword every is '-10'", "a whole number from 1"}),
+          line("every a fraction", with("file out/x.csv every 0.5"),
+               {command + "keyword every is '0.5'", "a whole number from 1"}),
+          line("every beyond an int", with("file out/x.csv every 3000000000"),
+               {command + "keyword every is '3000000000'", "2147483647"}),
+          on_two_ranks(line(
+              "file in no folder", with("file nowhere/x.csv every 10"),
+              {command + "keyword file: cannot write 'nowhere/x.csv'", "a file in a folder that exists"})),
+          line("file in no folder, after a good one",
+               "fix events all contact/events file out/events.csv\n" + with("file nowhere/x.csv every 10"),
+               {command + "keyword file: cannot write 'nowhere/x.csv'"}),
+          line("a folder as cycles file", more("cycles out 10"),
+               {command + "keyword cycles: cannot write 'out'", "a folder that exists"}),
+          line("cycles without steps", more("cycles out/y.csv"),
+               {command + "keyword cycles, steps per cycle has no value", "from 1"}),
+          line("cycles of no steps", more("cycles out/y.csv 0"),
+               {command + "keyword cycles, steps per cycle is '0'", "from 1"}),
+          line("unknown frame group", more("frame top"),
+               {command + "keyword frame is 'top'", "the name of a group"}),
+          line("frame without group", more("frame"),
+               {command + "keyword frame: its group is missing", "the name of a group"}),
+          line("empty frame group", more("frame nobody"),
+               {command + "keyword frame: group nobody is empty", "frame's balls"}),
+          line("unknown soil group", more("soil mud"),
+               {command + "keyword soil is 'mud'", "the name of a group"}),
+          line("soil without group", more("soil"),
+               {command + "keyword soil: its group is missing", "the name of a group"}),
+          line("soil without cycles", more("frame frame soil soil"),
+               {command + "keyword soil goes with keywords frame and cycles", "all three"}),
+          line("empty soil group", more("frame frame soil nobody cycles out/y.csv 10"),
+               {command + "keyword soil: its group is empty", "the soil balls"}),
+          on_two_ranks(line("unknown excite", more("excite motor"),
+                            {command + "keyword excite is 'motor'", "ID of a fix drum/excite"})),
+          line("excite of another style", more("excite gravity"),
+               {command + "keyword excite is 'gravity'", "ID of a fix drum/excite"}),
+          line("excite without ID", more("excite"),
+               {command + "keyword excite: its fix is missing", "ID of a fix drum/excite"}),
+          line("unknown bond", more("bond spring"),
+               {command + "keyword bond is 'spring'", "ID of a fix bond/spring"}),
+          line("bond without ID", more("bond"),
+               {command + "keyword bond: its fix is missing", "ID of a fix bond/spring"}),
+          line("axis with two", more("axis 0 1"),
+               {command + "keyword axis, z has no value", "a finite number"}),
+          line("axis of no length", more("axis 0 0 0"), {command + "keyword axis is '0 0 0'", "a length"}),
+          line("origin with one", more("origin 0.75"),
+               {command + "keyword origin, of the frame has no value", "a finite number"}),
+          line("append a word", more("append always"), {command + "keyword append is 'always'", "yes or no"}),
+          line("unknown keyword", more("types 1 2"),
+               {command + "unknown keyword 'types'", "file, every", "append"}),
+          line("empty group", "fix history nobody roller/history file out/x.csv every 10",
+               {command + "group nobody is empty", "the drum's balls"}),
+          line("no axis and no gravity", "unfix gravity\n" + more(""),
+               {command + "keyword axis is missing", "axis x y z"}),
+          with_the_stock_law(with("file out/x.csv every 10"), "fix roller/history"),
+          on_two_ranks(
+              with_the_stock_law("fix events all contact/events file out/x.csv", "fix contact/events")),
+          with_the_stock_law("fix contacts all contact/local every 10", "fix contact/local"),
+      }};
+}
+
+BadGroup guard() {
+  const std::string command = "fix guard: ";
+  // No formula of the engine makes a NaN from words; an overflow does.
+  const std::string undefined = "variable undefined equal (1e300*1e300)*0\n";
+  const std::string addforce = undefined + "fix wrong drum addforce 0 0 v_undefined\n";
+  return {
+      "Guard",
+      "",
+      {
+          line("every zero", "fix guard all guard every 0",
+               {command + "keyword every is '0'", "a whole number from 1"}),
+          line("every without value", "fix guard all guard every",
+               {command + "keyword every has no value", "a whole number from 1"}),
+          line("unknown watch", "fix guard all guard watch maybe",
+               {command + "keyword watch is 'maybe'", "on or off"}),
+          line("unknown keyword", "fix guard all guard on",
+               {command + "unknown keyword 'on'", "every, links, step, overlap or watch"}),
+          line("links zero", "fix guard all guard links 0",
+               {command + "keyword links is '0'", "a whole number from 1"}),
+          line("step without value", "fix guard all guard step",
+               {command + "keyword step has no value", "a finite number > 0"}),
+          line("step zero", "fix guard all guard step 0",
+               {command + "keyword step is '0'", "a finite number > 0"}),
+          line("overlap is no number", "fix guard all guard overlap half",
+               {command + "keyword overlap is 'half'", "a finite number > 0"}),
+          on_two_ranks(in_the_run(line(
+              "step beyond the critical one", "fix bond all bond/spring 2 3 1e15 0\nfix guard all guard",
+              {command + "time step 1e-05 s, critical step 1.531e-06 s of ball 3 at step 0 (most of it by "
+                         "balls 2 and 3)",
+               "at most 1.531e-06 s"}))),
+          on_two_ranks(in_the_run(line("a ball in a ball",
+                                       "displace_atoms drum move 0 0 -0.6 units box\nfix guard all guard",
+                                       {command + "the overlap of balls ",
+                                        " is 1.2 of the smaller radius at step 0", "at most 0.5"}))),
+          on_two_ranks(in_the_run(line("NaN at the start", addforce + "fix guard all guard",
+                                       {command + "ball 2 is not finite at step 0", "finite numbers"}))),
+          on_two_ranks(in_the_run(
+              line("NaN in the run",
+                   "fix guard all guard\n" + undefined +
+                       "fix wrong drum addforce 0 0 0\nrun 5\nunfix wrong\nfix wrong drum addforce 0 0 "
+                       "v_undefined",
+                   {command + "ball 2 is not finite at step 6", "force 0 0 ", "finite numbers"}))),
+          in_the_run(line("NaN seen by the history", "fix guard all guard every 7\n" + addforce,
+                          {"fix roller/history: the drum is at ", " at step 1", "finite numbers"})),
+          in_the_run(line("infinite velocity",
+                          "fix guard all guard\nvelocity drum set 0 0 1e308 units box\nvelocity drum set "
+                          "0 0 1e308 sum yes units box",
+                          {command + "ball 2 is not finite at step 0", "velocity 0 0 inf"})),
+      }};
+}
+
+BadGroup check() {
+  const std::string command = "drumlin/check: ";
+  return {
+      "Check",
+      "",
+      {
+          line("nothing", "drumlin/check", {command + "the variable's name is missing"}),
+          line("no value", "drumlin/check k", {command + "the value of variable k is missing"}),
+          line("no rule", "drumlin/check k 1", {command + "the rule for variable k is missing", "one_of"}),
+          on_two_ranks(line("unknown rule", "drumlin/check k 1 small",
+                            {command + "unknown rule 'small' for variable k", "multiple_of"})),
+          line("no choice", "drumlin/check k 1 one_of",
+               {command + "rule one_of for variable k has no choice"}),
+          line("another choice", "drumlin/check k z one_of x y", {command + "variable k is 'z'", "x or y"}),
+          line("words left over", "drumlin/check k 1 positive 2",
+               {command + "variable k: '2' is left over", "one value and one rule"}),
+          line("not positive", "drumlin/check k 0 positive",
+               {command + "variable k is '0'", "a finite number > 0"}),
+          line("not non-negative", "drumlin/check k -1e-9 non_negative",
+               {command + "variable k is '-1e-9'", "a finite number >= 0"}),
+          line("not finite", "drumlin/check k inf finite",
+               {command + "variable k is 'inf'", "a finite number"}),
+          line("not a number", "drumlin/check k 0x10 finite",
+               {command + "variable k is '0x10'", "a finite number"}),
+          line("integer without range", "drumlin/check k 1 integer",
+               {command + "rule integer, lowest has no value"}),
+          line("integer without end", "drumlin/check k 1 integer 1",
+               {command + "rule integer, highest has no value"}),
+          line("out of range", "drumlin/check k 11 integer 1 10",
+               {command + "variable k is '11'", "a whole number from 1 to 10"}),
+          line("a fraction", "drumlin/check k 2.5 integer 1 10",
+               {command + "variable k is '2.5'", "a whole number from 1 to 10"}),
+          line("multiple of nothing", "drumlin/check k 1 multiple_of",
+               {command + "rule multiple_of, the other variable's name is missing"}),
+          line("no multiple", "drumlin/check k 10 multiple_of n 4",
+               {command + "variable k is '10'", "a multiple of n, which is 4"}),
+          line("multiple of zero", "drumlin/check k 10 multiple_of n 0",
+               {command + "variable k is '10'", "a multiple of n, which is 0"}),
+          on_two_ranks(line("no restart file", "drumlin/check start nowhere restart stage ten",
+                            {command + "variable start is 'nowhere'", "a whole restart file"})),
+          line("note without value", "drumlin/check start nowhere restart stage",
+               {command + "the value of note stage is missing"}),
+          line("no data file", "drumlin/check balls nowhere data_file",
+               {command + "variable balls is 'nowhere'", "a data file with atoms"}),
+          on_two_ranks(line("no name of a restart file", "drumlin/check bed nowhere/x restart_name",
+                            {command + "variable bed is 'nowhere/x'", "a file in a folder that exists"})),
+          on_two_ranks(line("a file as folder", "drumlin/check out pair/x directory",
+                            {command + "variable out is 'pair/x'", "a folder that can be made or written"})),
+          in_engine_words(
+              line("unknown command", "drumlin/chek k 1 positive", {"Unknown command: drumlin/chek"})),
+      }};
+}
+
+BadGroup record() {
+  const std::string command = "drumlin/record: ";
+  return {
+      "Record",
+      "",
+      {
+          line("nothing", "drumlin/record",
+               {command + "the file is missing", "a file in a folder that exists"}),
+          line("name without value", "drumlin/record out/x.csv k", {command + "the value of k is missing"}),
+          on_two_ranks(line("file in no folder", "drumlin/record nowhere/x.csv k 1",
+                            {command + "cannot write 'nowhere/x.csv'", "a file in a folder that exists"})),
+      }};
+}
+
+BadGroup run() {
+  const std::string command = "drumlin/run: ";
+  return {
+      "Run",
+      "",
+      {
+          line("nothing", "drumlin/run", {command + "the last step has no value", "a whole number from 0"}),
+          line("last step a word", "drumlin/run soon every 10",
+               {command + "the last step is 'soon'", "a whole number from 0"}),
+          line("last step behind", "run 20\ndrumlin/run 10 every 10",
+               {command + "the last step is '10'", "at least 20, the step of now"}),
+          line("every zero", "drumlin/run 10 every 0",
+               {command + "keyword every is '0'", "a whole number from 1"}),
+          line("limit zero", "drumlin/run 10 every 10 limit 0", {command + "keyword limit is '0'", "> 0"}),
+          line("limit without restart", "drumlin/run 10 every 10 limit 60",
+               {command + "keyword limit goes with keyword restart", "limit SECONDS restart FILE"}),
+          line("restart without file", "drumlin/run 10 every 10 restart",
+               {command + "keyword restart: its file is missing", "a file in a folder that exists"}),
+          on_two_ranks(line(
+              "restart in no folder", "drumlin/run 10 every 10 limit 60 restart nowhere/x",
+              {command + "keyword restart: cannot write 'nowhere/x'", "a file in a folder that exists"})),
+          line("unknown keyword", "drumlin/run 10 every 10 for 3",
+               {command + "unknown keyword 'for'", "every, limit or restart"}),
+      }};
+}
+
+BadGroup write_restart() {
+  const std::string command = "drumlin/write_restart: ";
+  return {"WriteRestart",
+          "",
+          {
+              line("nothing", "drumlin/write_restart",
+                   {command + "the file is missing", "a file in a folder that exists"}),
+              line("name without value", "drumlin/write_restart out/x bed",
+                   {command + "the value of note bed is missing"}),
+              line("name with a star", "drumlin/write_restart out/x.*",
+                   {command + "cannot write 'out/x.*'", "without * and %"}),
+              on_two_ranks(line("file in no folder", "drumlin/write_restart nowhere/x bed soil",
+                                {command + "cannot write 'nowhere/x'", "a file in a folder that exists"})),
+          }};
+}
+
+BadGroup write_data() {
+  const std::string command = "drumlin/write_data: ";
+  return {"WriteData",
+          "",
+          {
+              line("nothing", "drumlin/write_data",
+                   {command + "the file is missing", "a file in a folder that exists"}),
+              line("unknown variable", "drumlin/write_data out/x values_of depth",
+                   {command + "keyword values_of is 'depth'", "the names of variables"}),
+              on_two_ranks(line("file in no folder", "drumlin/write_data nowhere/x bed soil",
+                                {command + "cannot write 'nowhere/x'", "a file in a folder that exists"})),
+          }};
+}
+
+BadGroup outputs() {
+  const std::string command = "drumlin/outputs: ";
+  return {"Outputs",
+          "",
+          {
+              line("unknown keyword", "drumlin/outputs empty out",
+                   {command + "unknown keyword 'empty'",
+                    "folder, subfolder, continue, files, restart or numbered"}),
+              line("folder without path", "drumlin/outputs folder",
+                   {command + "keyword folder: its path is missing", "a folder"}),
+              line("continue without time", "drumlin/outputs continue 5",
+                   {command + "keyword continue: its time has no value", ">= 0"}),
+              line("numbered without suffix", "drumlin/outputs numbered out/dump balls_",
+                   {command + "keyword numbered: a suffix is missing"}),
+              on_two_ranks(line("a file as folder", "drumlin/outputs folder out/chain.csv files x.csv",
+                                {command + "folder is 'out/chain.csv'", "one that can be made"})),
+              on_two_ranks(line("a folder as file", "drumlin/outputs files out",
+                                {command + "cannot write 'out'", "a file in a folder that exists"})),
+              on_two_ranks(line("a folder with other files", "drumlin/outputs numbered out balls_ .vtp",
+                                {command + "folder 'out' has '", "a folder with nothing but dumps"})),
+          }};
+}
+
+BadGroup take() {
+  const std::string command = "drumlin/take: ";
+  return {"Take",
+          "",
+          {
+              line("nothing", "drumlin/take", {command + "the file is missing"}),
+              line("no decks", "drumlin/take out/x", {command + "the list of decks is missing"}),
+              on_two_ranks(line("no notes", "drumlin/take out/chain.csv in.settle none fixed k",
+                                {command + "'out/chain.csv' does not tell the k of its bed", "in.settle"})),
+              line("a change that is not free", "drumlin/take out/chain.csv in.settle m2 fixed m2 free k",
+                   {command + "variable allow_change is 'm2'", "none, or names between commas out of k"}),
+          }};
+}
+
+BadGroup variables() {
+  return {
+      "Variables", "", {line("nothing", "drumlin/variables", {"drumlin/variables: the names are missing"})}};
+}
+
+BadGroup settle() {
+  const std::string command = "drumlin/settle: ";
+  return {
+      "Settle",
+      "",
+      {
+          line("ratio without value", "drumlin/settle ratio",
+               {command + "keyword ratio has no value", "> 0"}),
+          line("ratio zero", "drumlin/settle ratio 0", {command + "keyword ratio is '0'", "> 0"}),
+          line("ratio a word", "drumlin/settle ratio small", {command + "keyword ratio is 'small'", "> 0"}),
+          line("every zero", "drumlin/settle every 0",
+               {command + "keyword every is '0'", "a whole number from 1"}),
+          line("limit negative", "drumlin/settle limit -1",
+               {command + "keyword limit is '-1'", "a whole number from 0"}),
+          line("fixed without group", "drumlin/settle fixed",
+               {command + "keyword fixed: its group is missing", "the name of a group"}),
+          line("unknown fixed group", "drumlin/settle fixed rock",
+               {command + "keyword fixed is 'rock'", "the name of a group"}),
+          line("unknown keyword", "drumlin/settle steps 10",
+               {command + "unknown keyword 'steps'", "ratio, every, limit or fixed"}),
+          on_two_ranks(line("limit too short", "drumlin/settle limit 10 fixed soil",
+                            {command + "no equilibrium: unbalanced ratio", "after 10 steps",
+                             "at most 1e-10 within 10 steps"})),
+      }};
+}
+
+} // namespace
+
+std::vector<BadGroup> bad_lines() {
+  return {pair_style(), properties(),     wall(),          drum_excite(),    bond_spring(),
+          clump(),      contact_events(), contact_local(), roller_history(), guard(),
+          check(),      record(),         run(),           settle(),         write_restart(),
+          write_data(), outputs(),        take(),          variables()};
+}
+
+} // namespace drumlin::test

@@ -1,0 +1,225 @@
+// The examples of the documentation run. A fenced block whose first line says `run` after the language is an
+// example:
+// ```liggghts run: lines of a deck, run in the host deck in.host; a pair_style or a property in it replaces
+// the host's.
+// ```lammps run: the same in host.lammps; not run where LAMMPS is not set up.
+// ```liggghts deck, ```lammps deck: a complete deck, run as it is.
+// ```sh run: a command line, run in a folder that has `inputs` and `build/release/lib` as the project's own.
+
+#include "tests/support/host_deck.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <regex>
+#include <sstream>
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path root = DRUMLIN_SOURCE_DIR;
+
+struct Example {
+  std::string language;
+  std::string text;
+  std::size_t line; ///< of the page, where it begins
+  bool is_deck;     ///< a complete deck
+};
+
+std::vector<Example> examples_of(const std::string &page) {
+  std::vector<Example> examples;
+  bool inside = false;
+  bool wanted = false;
+  std::size_t number = 0;
+  for (const std::string &line : lines_of(page)) {
+    ++number;
+    if (line.rfind("```", 0) == 0) {
+      inside = !inside;
+      const std::vector<std::string> kinds = {"```liggghts run", "```lammps run", "```sh run",
+                                              "```liggghts deck", "```lammps deck"};
+      wanted = inside && std::find(kinds.begin(), kinds.end(), line) != kinds.end();
+      const std::string language = wanted ? line.substr(3, line.find(' ') - 3) : "";
+      const bool deck = line.find(" deck") != std::string::npos;
+      if (wanted) examples.push_back({language, "", number, deck});
+    } else if (inside && wanted) {
+      examples.back().text += line + "\n";
+    }
+  }
+  return examples;
+}
+
+/// Text under a heading, up to the next one of the same level.
+std::string section(const std::string &page, const std::string &heading) {
+  const std::size_t begin = page.find("\n## " + heading + "\n");
+  return begin == std::string::npos ? "" : page.substr(begin + 1, page.find("\n## ", begin + 1) - begin);
+}
+
+/// Files that an example names as output.
+std::vector<std::string> outputs_of(const std::string &text) {
+  static const std::regex keyword(R"re((?:[ \t](?:file|cycles)|drumlin/record)[ \t]+([^ \t\n]+))re");
+  std::vector<std::string> files;
+  for (std::sregex_iterator i(text.begin(), text.end(), keyword), end; i != end; ++i)
+    files.push_back((*i)[1].str());
+  return files;
+}
+
+Outcome run_example(const Example &example, const fs::path &folder) {
+  if (example.language == "sh") {
+    fs::create_directories(folder / "build/release");
+    fs::create_directory_symlink(fs::path(plugin_library()).parent_path(), folder / "build/release/lib");
+    fs::create_directory_symlink(fs::path(DRUMLIN_TOOLS).parent_path(), folder / "build/release/bin");
+    fs::create_directory_symlink(root / "inputs", folder / "inputs");
+    return run_program({"/bin/sh", "-ec", example.text}, mpi_environment(folder), folder, 60.0);
+  }
+  if (example.is_deck) {
+    const fs::path deck = folder / (example.language == "lammps" ? "own.lammps" : "own.in");
+    write_text(deck, example.text);
+    return run_deck(deck, {}, folder);
+  }
+  fs::create_directory(folder / "results");
+  if (example.language == "lammps") {
+    write_text(folder / "lines", example.text + "run 20\n");
+    return run_deck(root / "tests/support/host.lammps", {{"lines", (folder / "lines").string()}}, folder);
+  }
+  const bool own_pair_style = example.text.find("pair_style") != std::string::npos;
+  return run_host((own_pair_style ? "" : host_pair_style()) + host_properties(example.text), example.text,
+                  folder, 1);
+}
+
+class DocExamplesTest : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(DocExamplesTest, Run) {
+  const std::string page = read_text(root / GetParam());
+  const std::vector<Example> examples = examples_of(page);
+  EXPECT_FALSE(examples.empty()) << GetParam() << " has no example that runs";
+  for (const Example &example : examples) {
+    SCOPED_TRACE(GetParam() + ", line " + std::to_string(example.line));
+    if (example.language == "lammps" && !post::has_lammps()) {
+      std::puts("SKIPPED: LAMMPS is not set up (./drumlin setup lammps)");
+      continue;
+    }
+    const Scratch scratch;
+    const Outcome outcome = run_example(example, scratch.path());
+    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    EXPECT_FALSE(outcome.says("ERROR")) << outcome.output;
+    if (example.language != "sh")
+      for (const std::string &file : outputs_of(example.text)) {
+        std::error_code none;
+        EXPECT_GT(fs::file_size(scratch / file, none), 0U) << file;
+        EXPECT_FALSE(none) << file;
+      }
+  }
+}
+
+/// Every engine command's page has its parts, and its section Examples an example that runs.
+TEST_P(DocExamplesTest, HaveTheirPlace) {
+  if (GetParam().rfind("plugin/doc/", 0) != 0 || GetParam() == "plugin/doc/in_your_own_deck.md")
+    return; // no command's page
+  const std::string page = read_text(root / GetParam());
+  for (const char *part :
+       {"Syntax", "Examples", "Description", "Restart and output", "Restrictions", "Default", "Verification"})
+    EXPECT_FALSE(section(page, part).empty()) << GetParam() << " has no section " << part;
+  EXPECT_FALSE(examples_of(section(page, "Examples")).empty()) << GetParam();
+}
+
+/// The state at the end of a deck of "In your own deck".
+std::string last_state(const std::string &deck, const std::string &name) {
+  const Scratch scratch;
+  write_text(scratch / name, deck);
+  const Outcome outcome = run_deck(scratch / name, {}, scratch.path());
+  EXPECT_TRUE(outcome.ok()) << outcome.output;
+  const std::string text = read_text(scratch / "end.txt");
+  return text.substr(text.rfind("ITEM: ATOMS"));
+}
+
+std::string replaced(std::string text, const std::string &from, const std::string &to) {
+  EXPECT_NE(text.find(from), std::string::npos) << from;
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+// The ball rolls at 5/7 of the speed at which it slid; the engine's own law gives the same to the last bit.
+TEST(InYourOwnDeck, RollsAndIsTheEnginesOwnLaw) {
+  for (const Example &example : examples_of(read_text(root / "plugin/doc/in_your_own_deck.md"))) {
+    const bool lammps = example.language == "lammps";
+    if (lammps && !post::has_lammps()) continue;
+    const std::string state = last_state(example.text, lammps ? "own.lammps" : "own.in");
+    std::istringstream numbers(state.substr(state.find('\n') + 1));
+    double id = 0, x = 0, y = 0, z = 0, vx = 0;
+    numbers >> id >> x >> y >> z >> vx;
+    EXPECT_NEAR(vx, 5.0 / 7.0, 1e-3) << example.language;
+    if (lammps) continue;
+    const std::string own =
+        replaced(replaced(example.text, "hooke/transition", "hooke/stiffness"),
+                 "transition B damping coefficient stepping stock", "limitForce on absolute_damping on");
+    EXPECT_EQ(last_state(own, "own.in"), state);
+  }
+}
+
+// Links and pictures of every page are there.
+TEST(DocPages, LinkToWhatIsThere) {
+  static const std::regex link(R"re(\]\(([^)#:]+)\))re");
+  std::vector<fs::path> files = {root / "README.md", root / "ARCHITECTURE.md", root / "CHANGELOG.md"};
+  for (const char *folder : {"inputs", "plugin", "postprocess"})
+    for (const fs::directory_entry &entry : fs::recursive_directory_iterator(root / folder))
+      if (entry.path().extension() == ".md") files.push_back(entry.path());
+  std::size_t links = 0;
+  for (const fs::path &file : files) {
+    const std::string page = read_text(file);
+    for (std::sregex_iterator i(page.begin(), page.end(), link), end; i != end; ++i, ++links)
+      EXPECT_TRUE(fs::exists(file.parent_path() / (*i)[1].str())) << file << ": " << (*i)[1];
+  }
+  EXPECT_GT(links, 50U);
+}
+
+std::vector<std::string> pages() {
+  std::vector<std::string> names;
+  for (const fs::directory_entry &entry : fs::directory_iterator(root / "plugin/doc"))
+    if (entry.path().extension() == ".md") names.push_back("plugin/doc/" + entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  for (const char *name : {"README.md", "inputs/chain/README.md", "postprocess/README.md"})
+    names.emplace_back(name);
+  return names;
+}
+
+std::string page_name(const ::testing::TestParamInfo<std::string> &info) {
+  std::string name = fs::path(info.param).replace_extension().string();
+  if (const std::string folder = "plugin/doc/"; name.rfind(folder, 0) == 0) name.erase(0, folder.size());
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Pages, DocExamplesTest, ::testing::ValuesIn(pages()), page_name);
+
+TEST(DocPages, AreThereForEveryCommand) {
+  for (const char *name : {"drumlin_check",
+                           "drumlin_outputs",
+                           "drumlin_record",
+                           "drumlin_run",
+                           "drumlin_settle",
+                           "drumlin_take",
+                           "drumlin_variables",
+                           "drumlin_write_data",
+                           "drumlin_write_restart",
+                           "fix_bond_spring",
+                           "fix_clump",
+                           "fix_contact_events",
+                           "fix_drum_excite",
+                           "fix_guard",
+                           "fix_roller_history",
+                           "fix_wall_gran_transition",
+                           "lammps",
+                           "pair_gran_hooke_transition",
+                           "pair_gran_model_hooke_transition",
+                           "preload"})
+    EXPECT_TRUE(fs::exists(root / "plugin/doc" / (std::string(name) + ".md"))) << name;
+}
+
+} // namespace
+} // namespace drumlin::test

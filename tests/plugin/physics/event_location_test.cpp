@@ -1,0 +1,127 @@
+// Makes and breaks located within a step, against exact free flight and the closed form of the damped
+// oscillator.
+
+#include "physics/event_location.h"
+
+#include "tests/support/oscillator.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+using namespace drumlin::physics;
+
+constexpr double k = 1e8;
+constexpr double m = 2000.0;
+const double w0 = std::sqrt(k / m);
+double damping(double D) { return 2.0 * D * std::sqrt(m * k); }
+
+/// Overlap and its rate in an impact from d(0) = 0, d'(0) = 1: closed form.
+OverlapState in_impact(double c, double t) {
+  const oracle::Motion motion = oracle::Oscillator{m, k, c}.at(t, 0.0, 1.0);
+  return {motion.x, motion.v};
+}
+
+/// Time of the break by bisection of the closed form between two times of known signs.
+template <typename Sum>
+double root_between(double low, double high, const Sum &sum) {
+  const bool rising = sum(low) < 0.0;
+  for (int n = 0; n < 200; ++n) {
+    const double middle = 0.5 * (low + high);
+    ((sum(middle) < 0.0) == rising ? low : high) = middle;
+  }
+  return low;
+}
+
+TEST(EventLocation, MakeOutOfFreeFlightIsExact) {
+  // d(t) = d0 + v t + g t^2 / 2 through zero, upwards, at any place of the step and also with an approach
+  // that slows down.
+  for (const double g : {9.81, -9.81, 0.0})
+    for (const double share : {0.0, 1e-9, 0.1, 0.5, 0.999}) {
+      const double dt = 1e-3;
+      const double s = share * dt;
+      const double rate = 0.7; // at the event
+      const auto at = [&](double t) { return OverlapState{rate * t + 0.5 * g * t * t, rate + g * t}; };
+      const OverlapState before = at(-s);
+      const auto event = locate_transition(Transition::B, k, damping(0.5), dt, before, at(dt - s));
+      ASSERT_TRUE(event.has_value());
+      EXPECT_TRUE(event->make);
+      EXPECT_NEAR(event->since, s, 1e-12 * dt + 1e-16);
+      EXPECT_NEAR(event->rate, rate, 1e-9);
+      EXPECT_EQ(event->overlap, 0.0);
+      EXPECT_NEAR(event->force, damping(0.5) * rate, 1e-3);
+    }
+}
+
+TEST(EventLocation, ABallThatTurnsRoundIntoContactIsFound) {
+  // It moves away from the other, is pulled back and meets it within the same step.
+  const double dt = 1.0;
+  const auto at = [](double t) { return OverlapState{-1.0 - t + 4.0 * t * t, -1.0 + 8.0 * t}; };
+  const auto event = locate_transition(Transition::A, k, 0.0, dt, at(0.0), at(dt));
+  ASSERT_TRUE(event.has_value());
+  EXPECT_NEAR(event->since, (1.0 + std::sqrt(17.0)) / 8.0, 1e-12);
+}
+
+class BreakError : public ::testing::TestWithParam<Transition> {};
+
+/// Largest error of the located break over many places within the step.
+double worst_error(Transition transition, double D, double dt) {
+  const double c = damping(D);
+  const auto sum = [&](double t) {
+    const OverlapState s = in_impact(c, t);
+    return transition == Transition::A ? s.overlap : k * s.overlap + c * s.rate;
+  };
+  const double exact =
+      root_between(0.3 * M_PI / w0, (transition == Transition::A ? 1.1 : 1.0) * M_PI / w0, sum);
+  double worst = 0.0;
+  for (int n = 0; n < 50; ++n) {
+    const double begin = exact - (n + 0.5) / 50.0 * dt;
+    const auto event = locate_transition(transition, k, c, dt, in_impact(c, begin), in_impact(c, begin + dt));
+    if (!event || event->make) return INFINITY;
+    worst = std::max(worst, std::fabs(begin + event->since - exact));
+    if (transition == Transition::B) {
+      EXPECT_EQ(event->force, 0.0);
+      EXPECT_NEAR(event->rate, -k * event->overlap / c, 1e-12); // Eq. (7)
+    } else {
+      EXPECT_NEAR(event->force, c * event->rate, 1e-9 * c); // Eq. (5)
+      EXPECT_LT(event->force, 0.0);
+    }
+  }
+  return worst;
+}
+
+TEST_P(BreakError, FallsAtLeastWithTheSquareOfTheStep) {
+  const double dt = M_PI / w0 / 50.0;
+  const double coarse = worst_error(GetParam(), 0.2, dt);
+  const double fine = worst_error(GetParam(), 0.2, dt / 4.0);
+  EXPECT_LT(coarse, 0.05 * dt);
+  EXPECT_LT(fine, coarse / 14.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(AB, BreakError, ::testing::Values(Transition::A, Transition::B),
+                         [](const auto &row) { return row.param == Transition::A ? "A" : "B"; });
+
+TEST(EventLocation, RemakeUnderBHappensWithOverlap) {
+  // k d + c d' crosses zero upwards while d > 0: the clamp lets go without a gap.
+  const double c = damping(0.5);
+  const double dt = 1e-5;
+  const OverlapState before{1e-3, -k * 1e-3 / c - 0.01};
+  const OverlapState after{1e-3 - 1e-5 * 0.2, -k * 1e-3 / c + 0.02};
+  const auto event = locate_transition(Transition::B, k, c, dt, before, after);
+  ASSERT_TRUE(event.has_value());
+  EXPECT_TRUE(event->make);
+  EXPECT_GT(event->overlap, 0.0);
+  EXPECT_EQ(event->force, 0.0);
+  EXPECT_FALSE(locate_transition(Transition::A, k, c, dt, before, after).has_value());
+}
+
+TEST(EventLocation, NothingHappensWithinAContactOrAFlight) {
+  const double c = damping(0.5);
+  EXPECT_FALSE(locate_transition(Transition::B, k, c, 1e-5, {1e-3, 0.1}, {1.001e-3, 0.1}).has_value());
+  EXPECT_FALSE(locate_transition(Transition::B, k, c, 1e-5, {-1e-3, 0.1}, {-0.999e-3, 0.1}).has_value());
+}
+
+} // namespace

@@ -1,0 +1,559 @@
+/// Friction: closed forms, CVODE with a mode for sticking and one for sliding, the readings of the limit, energy;
+/// of Cap::coulomb limit and energy in every step, and the impulse of oblique impacts.
+
+#include "tests/support/ode.h"
+#include "tests/support/oscillator.h"
+#include "physics/contact_law.h"
+#include "physics/friction_law.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace {
+
+using namespace drumlin::physics;
+
+constexpr double kt = 1e4, ct = 40.0, mu = 0.5;
+const Vec3 up{0.0, 0.0, 1.0};
+const Vec3 none{};
+
+double dot(const Vec3 &a, const Vec3 &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double length(const Vec3 &a) { return std::sqrt(dot(a, a)); }
+Vec3 times(double s, const Vec3 &a) { return {s * a[0], s * a[1], s * a[2]}; }
+Vec3 cross(const Vec3 &a, const Vec3 &b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+const char *name_of(Cap cap) {
+  return cap == Cap::spring ? "spring" : cap == Cap::total ? "total" : "coulomb";
+}
+
+class EitherCap : public testing::TestWithParam<Cap> {
+protected:
+  Friction friction{kt, ct, mu, GetParam()};
+};
+INSTANTIATE_TEST_SUITE_P(, EitherCap, testing::Values(Cap::spring, Cap::total, Cap::coulomb),
+                         [](const auto &row) { return name_of(row.param); });
+
+TEST_P(EitherCap, SticksAsADampedOscillator) { // the spring follows the closed form, the force is its m x''
+  const oracle::Oscillator closed{1.0, kt, ct};
+  const Vec3 along{1.0 / 3.0, 2.0 / 3.0, -2.0 / 3.0}, normal{2.0 / 3.0, 1.0 / 3.0, 2.0 / 3.0};
+  const double dt = 1e-5;
+  Vec3 spring{};
+  for (int n = 0; n < 10000; ++n) {
+    const oracle::Motion middle = closed.at((n + 0.5) * dt, 0.0, 1.0);
+    const FrictionStep step = friction_step(friction, 1e6, normal, times(middle.v, along), spring, dt);
+    ASSERT_FALSE(step.sliding);
+    spring = step.spring;
+    const oracle::Motion now = closed.at((n + 1) * dt, 0.0, 1.0);
+    const FrictionStep still = friction_step(friction, 1e6, normal, times(now.v, along), spring, 0.0);
+    ASSERT_NEAR(dot(still.force, along), now.a, 1e-4);
+    ASSERT_NEAR(length(still.force), std::fabs(now.a), 1e-4);
+    ASSERT_NEAR(still.stored, 0.5 * kt * now.x * now.x, 1e-5);
+  }
+}
+
+TEST_P(EitherCap, SlidesWithTheCoulombForce) {
+  const Vec3 v{0.3, -0.4, 0.0};
+  for (const double normal_force : {100.0, -100.0}) { // in tension too
+    if (GetParam() == Cap::coulomb && normal_force < 0.0) continue;
+    Vec3 spring{};
+    for (int n = 0; n < 5000; ++n)
+      spring = friction_step(friction, normal_force, up, v, spring, 1e-4).spring;
+    const FrictionStep step = friction_step(friction, normal_force, up, v, spring, 1e-4);
+    EXPECT_TRUE(step.sliding);
+    EXPECT_NEAR(length(step.force), 50.0, 1e-10);
+    EXPECT_NEAR(dot(step.force, v), -50.0 * 0.5, 1e-10); // straight against the motion
+    EXPECT_NEAR(step.dissipated, 50.0 * 0.5 * 1e-4, 1e-14);
+    // What the spring holds: the whole limit, or what the dashpot leaves of it.
+    const double spring_force = GetParam() == Cap::total ? 50.0 - ct * 0.5 : 50.0;
+    EXPECT_NEAR(kt * length(step.spring), spring_force, 1e-9);
+    EXPECT_NEAR(step.stored, 0.5 * spring_force * spring_force / kt, 1e-10);
+  }
+}
+
+TEST_P(EitherCap, HasNoForceWithoutNormalForce) {
+  const FrictionStep step = friction_step(friction, 0.0, up, {1.0, 0.0, 0.0}, {1e-3, 2e-3, 0.0}, 1e-5);
+  EXPECT_EQ(length(step.force), 0.0);
+  EXPECT_TRUE(step.sliding);
+  const FrictionStep rest = friction_step(friction, 0.0, up, none, none, 1e-5);
+  EXPECT_EQ(length(rest.force), 0.0);
+  EXPECT_EQ(length(rest.spring), 0.0);
+}
+
+TEST_P(EitherCap, KeepsTheSpringInTheTangentPlane) {
+  const double tilt = 0.1;
+  const Vec3 normal{std::sin(tilt), 0.0, std::cos(tilt)};
+  const FrictionStep step = friction_step(friction, 1e6, normal, none, {1e-3, 2e-3, 0.0}, 1e-5);
+  EXPECT_NEAR(dot(step.spring, normal), 0.0, 1e-18);
+  EXPECT_NEAR(dot(step.force, normal), 0.0, 1e-12);
+  EXPECT_NEAR(step.spring[1], 2e-3, 1e-18);
+  EXPECT_NEAR(length(step.spring), std::hypot(1e-3 * std::cos(tilt), 2e-3), 1e-16);
+  const FrictionStep flipped =
+      friction_step(friction, 1e6, times(-1.0, normal), none, {1e-3, 2e-3, 0.0}, 1e-5);
+  EXPECT_EQ(step.force, flipped.force);
+  const double before = 0.5 * kt * 5e-6;
+  EXPECT_NEAR(step.stored + step.dissipated, before, 1e-15);
+}
+
+TEST_P(EitherCap, DoesNotMoveTheSpringInNoTime) {
+  const Vec3 spring{1e-3, 0.0, 0.0};
+  const FrictionStep step = friction_step(friction, 1e6, up, {0.5, 0.0, 0.0}, spring, 0.0);
+  EXPECT_EQ(step.spring, spring);
+  EXPECT_NEAR(step.force[0], -10.0 - 20.0, 1e-12);
+  EXPECT_EQ(step.dissipated, 0.0);
+}
+
+TEST(Caps, DifferWhereOnlyTheDashpotIsBeyondTheLimit) {
+  // Spring 40 N, dashpot 20 N, limit 50 N.
+  const Vec3 spring{4e-3, 0.0, 0.0}, v{0.5, 0.0, 0.0};
+  const FrictionStep lig = friction_step({kt, ct, mu, Cap::spring}, 100.0, up, v, spring, 0.0);
+  EXPECT_FALSE(lig.sliding);
+  EXPECT_NEAR(lig.force[0], -60.0, 1e-12); // beyond mu Fn
+  EXPECT_EQ(lig.spring, spring);
+  const FrictionStep lmp = friction_step({kt, ct, mu, Cap::total}, 100.0, up, v, spring, 0.0);
+  EXPECT_TRUE(lmp.sliding);
+  EXPECT_NEAR(lmp.force[0], -50.0, 1e-12);
+  EXPECT_NEAR(lmp.spring[0], 3e-3, 1e-15); // 30 N, and the dashpot's 20
+}
+
+TEST(Caps, DifferWhereTheSpringSlidesAgainstTheDashpot) {
+  // Spring 60 N one way, dashpot 20 N the other way, limit 50 N: only the spring alone is beyond it.
+  const Vec3 spring{6e-3, 0.0, 0.0}, v{-0.5, 0.0, 0.0};
+  const FrictionStep lig = friction_step({kt, ct, mu, Cap::spring}, 100.0, up, v, spring, 0.0);
+  EXPECT_TRUE(lig.sliding);
+  EXPECT_NEAR(lig.force[0], -50.0, 1e-12); // the dashpot is dropped
+  EXPECT_NEAR(lig.spring[0], 5e-3, 1e-15);
+  const FrictionStep lmp = friction_step({kt, ct, mu, Cap::total}, 100.0, up, v, spring, 0.0);
+  EXPECT_FALSE(lmp.sliding);
+  EXPECT_NEAR(lmp.force[0], -40.0, 1e-12);
+}
+
+TEST(Caps, CoincideWithoutDashpotAndFarFromTheLimit) {
+  std::mt19937 random(15485863);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  int sliding = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 v{unit(random), unit(random), 0.0}, spring{1e-2 * unit(random), 1e-2 * unit(random), 0.0};
+    const FrictionStep a = friction_step({kt, 0.0, mu, Cap::spring}, 100.0, up, v, spring, 1e-5);
+    const FrictionStep b = friction_step({kt, 0.0, mu, Cap::total}, 100.0, up, v, spring, 1e-5);
+    ASSERT_EQ(a.sliding, b.sliding);
+    for (std::size_t j = 0; j < 3; ++j) {
+      ASSERT_NEAR(a.force[j], b.force[j], 1e-10);
+      ASSERT_NEAR(a.spring[j], b.spring[j], 1e-14);
+    }
+    ASSERT_NEAR(a.dissipated, b.dissipated, 1e-14);
+    if (a.sliding) ++sliding;
+    const FrictionStep c = friction_step({kt, ct, mu, Cap::spring}, 1e6, up, v, spring, 1e-5);
+    const FrictionStep d = friction_step({kt, ct, mu, Cap::total}, 1e6, up, v, spring, 1e-5);
+    ASSERT_EQ(c.force, d.force);
+    ASSERT_EQ(c.spring, d.spring);
+  }
+  EXPECT_GT(sliding, 200);
+  EXPECT_LT(sliding, 1800);
+}
+
+/// A block of 1 kg thrown at 1 m/s on the spring and dashpot of friction (limit 50 N): sticks, slides, sticks
+/// and swings out.
+struct Thrown {
+  double x, v;
+};
+
+Thrown thrown_core(const Friction &friction, double t) {
+  const int steps = 400000;
+  const double dt = t / steps;
+  Thrown block{0.0, 1.0};
+  Vec3 spring{};
+  for (int n = 0; n < steps; ++n) {
+    const FrictionStep step = friction_step(friction, 100.0, up, {block.v, 0.0, 0.0}, spring, dt);
+    spring = step.spring;
+    block.x += dt * block.v;
+    block.v += dt * step.force[0];
+  }
+  return block;
+}
+
+/// An event that is zero where its mode begins happens this far below zero.
+constexpr double just = 1e-9;
+
+Thrown thrown_cvode(Cap cap, double damping, double t) {
+  const double limit = 50.0;
+  bool sliding = false;
+  oracle::Ode block( // y = place, velocity, spring
+      [&](double, const oracle::State &y, oracle::State &f) {
+        f[0] = y[1];
+        f[1] = sliding ? -limit : -(kt * y[2] + damping * y[1]);
+        if (!sliding)
+          f[2] = y[1];
+        else if (cap == Cap::coulomb)
+          f[2] = damping > 0.0 ? (limit - kt * y[2]) / damping : 0.0; // holds kt xi + ct xi' at the limit
+        else
+          f[2] = cap == Cap::spring ? 0.0
+                                    : damping * limit / kt; // holds kt xi + ct v at the limit, v' = -limit/m
+      },
+      0.0, {0.0, 1.0, 0.0}, {1e-2, 1.0, 1e-2});
+  const auto pull = [&](const oracle::State &y) {
+    return cap == Cap::spring ? kt * y[2] : kt * y[2] + damping * y[1];
+  };
+  int slides = 0;
+  while (block.time() < t) {
+    const oracle::Event next =
+        sliding ? oracle::Event([&](double, const oracle::State &y) { // the trial pull stops growing
+          if (cap == Cap::coulomb && damping > 0.0) return y[1] - (limit - kt * y[2]) / damping + just;
+          return cap == Cap::total ? y[1] - damping * limit / kt : y[1];
+        })
+                : oracle::Event([&](double, const oracle::State &y) { return pull(y) - limit; });
+    // After the one slide of this throw the block swings within the limit.
+    const int event = slides == 1 && !sliding ? block.advance(t) : block.advance(t, {next});
+    if (event < 0) break;
+    sliding = !sliding;
+    if (sliding) ++slides;
+    block.restart(block.state());
+  }
+  EXPECT_EQ(slides, 1);
+  return {block.state()[0], block.state()[1]};
+}
+
+TEST_P(EitherCap, ThrowsABlockAsCvodeDoes) {
+  for (const double t : {0.01, 0.02, 0.05}) {
+    const Thrown core = thrown_core(friction, t), exact = thrown_cvode(GetParam(), ct, t);
+    EXPECT_NEAR(core.x, exact.x, 2e-7) << t;
+    EXPECT_NEAR(core.v, exact.v, 2e-5) << t;
+  }
+}
+
+TEST_P(EitherCap, ThrowsABlockAsTheClosedFormDoes) {
+  // Without dashpot: w = 100/s, sticks until sin wt = 1/2, slides from v = sqrt(3)/2 with 50 m/s2, then
+  // swings about the place where the spring is unstretched, 5 mm short of where it stopped.
+  friction.damping = 0.0;
+  const double v1 = std::sqrt(0.75), t1 = std::asin(0.5) / 100.0, t2 = t1 + v1 / 50.0;
+  const double stop = 5e-3 + v1 * v1 / 100.0;
+  const double t = t2 + 0.013;
+  const Thrown core = thrown_core(friction, t);
+  EXPECT_NEAR(core.x, stop - 5e-3 * (1.0 - std::cos(1.3)), 2e-7);
+  EXPECT_NEAR(core.v, -0.5 * std::sin(1.3), 2e-5);
+  const Thrown exact = thrown_cvode(GetParam(), 0.0, t);
+  EXPECT_NEAR(exact.x, stop - 5e-3 * (1.0 - std::cos(1.3)), 1e-10);
+}
+
+/// A smooth path on a surface that turns, from stick to slide and back. Returns work - heat - stored, and the
+/// least heat of a step.
+struct Balance {
+  double missing, heat, least;
+  int sticking, sliding;
+};
+
+Balance balance(const Friction &friction, int steps) {
+  const double dt = 0.2 / steps;
+  Vec3 spring{};
+  Balance sum{0.0, 0.0, 1.0, 0, 0};
+  double stored = 0.0;
+  for (int n = 0; n < steps; ++n) {
+    const double t = (n + 0.5) * dt;
+    const Vec3 normal{std::sin(2.0 * t), 0.0, std::cos(2.0 * t)};
+    const Vec3 east = cross({0.0, 1.0, 0.0}, normal);
+    const double v1 = 0.8 * std::cos(60.0 * t), v2 = 0.5 * std::sin(37.0 * t);
+    const Vec3 v{v1 * east[0], v2, v1 * east[2]};
+    const FrictionStep step =
+        friction_step(friction, 100.0 + 30.0 * std::sin(90.0 * t), normal, v, spring, dt);
+    spring = step.spring;
+    stored = step.stored;
+    sum.missing -= dot(step.force, v) * dt;
+    sum.heat += step.dissipated;
+    sum.least = std::min(sum.least, step.dissipated);
+    ++(step.sliding ? sum.sliding : sum.sticking);
+  }
+  sum.missing -= sum.heat + stored;
+  return sum;
+}
+
+TEST_P(EitherCap, FindsTheWorkAsHeatAndInTheSpring) {
+  const Balance coarse = balance(friction, 20000), fine = balance(friction, 40000);
+  EXPECT_GT(fine.sliding, 4000);
+  EXPECT_GT(fine.sticking, 4000);
+  EXPECT_GE(fine.least, 0.0); // ct |vt| <= mu |Fn| here
+  EXPECT_GT(fine.heat, 1.0);
+  EXPECT_LT(std::fabs(fine.missing), 1e-3 * fine.heat);
+  EXPECT_NEAR(coarse.missing / fine.missing, 2.0,
+              0.2); // the force of a step is the one at its end: first order
+}
+
+TEST(FrictionEnergy, IsNeverMadeByCapSpring) {
+  std::mt19937 random(49979687);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 v{unit(random), unit(random), 0.0},
+        spring{1e-2 * unit(random), 1e-2 * unit(random), 1e-3 * unit(random)};
+    const double fn = 100.0 * unit(random);
+    ASSERT_GE(friction_step({kt, 10.0 * ct, mu, Cap::spring}, fn, up, v, spring, 1e-3).dissipated, 0.0);
+    const bool within = ct * length(v) <= mu * std::fabs(fn);
+    if (within) {
+      ASSERT_GE(friction_step({kt, ct, mu, Cap::total}, fn, up, v, spring, 1e-3).dissipated, 0.0);
+    }
+  }
+}
+
+TEST(FrictionEnergy, IsMadeByCapTotalWhereTheDashpotAloneIsBeyondTheLimit) {
+  // No normal force: no force, no work; yet the spring is wound up against the motion, to be paid out later.
+  // The step says so.
+  const FrictionStep step = friction_step({kt, ct, mu, Cap::total}, 0.0, up, {0.5, 0.0, 0.0}, none, 1e-6);
+  EXPECT_EQ(length(step.force), 0.0);
+  EXPECT_NEAR(step.stored, 0.5 * 20.0 * 20.0 / kt, 1e-12);
+  EXPECT_LT(step.dissipated, 0.0);
+}
+
+/// 10^x with x uniform between the decades.
+double decades(std::mt19937 &random, double lowest, double highest) {
+  return std::pow(10.0, std::uniform_real_distribution<double>(lowest, highest)(random));
+}
+
+TEST(Coulomb, KeepsTheLimitAndMakesNoEnergyInAnyStep) {
+  std::mt19937 random(32452843);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const auto vector = [&] { return Vec3{unit(random), unit(random), unit(random)}; };
+  int sliding = 0, sticking = 0;
+  for (int contact = 0; contact < 20000; ++contact) {
+    const Friction friction{decades(random, 0, 8), contact % 5 == 0 ? 0.0 : decades(random, -4, 6),
+                            contact % 7 == 0 ? 0.0 : decades(random, -2, 1), Cap::coulomb};
+    const double dt = decades(random, -7, -2), size = decades(random, -3, 6), speed = decades(random, -4, 1);
+    Vec3 normal = vector(), turn = vector(), spring{};
+    double stored = 0.0;
+    for (int n = 0; n < 50; ++n) {
+      normal = drumlin::physics::sum(normal, 0.1, turn); // rolls
+      normal = times(1.0 / length(normal), normal);
+      const Vec3 any = times(speed, vector());
+      const Vec3 v = drumlin::physics::sum(any, -dot(any, normal), normal);
+      const double normal_force = size * (unit(random) + 0.5);
+      const FrictionStep step = friction_step(friction, normal_force, normal, v, spring, dt);
+      const double limit = friction.coefficient * std::max(0.0, normal_force);
+      ASSERT_LE(length(step.force), limit * (1.0 + 1e-14));
+      ASSERT_GE(step.dissipated, 0.0);
+      // The work is not less than what is stored and what the step says is heat.
+      const double work = -dot(step.force, v) * dt, change = step.stored - stored;
+      const double noise = 1e-13 * (std::fabs(work) + step.stored + stored + step.dissipated);
+      ASSERT_GE(work - change - step.dissipated, -noise);
+      ASSERT_EQ(step.stored, 0.5 * friction.stiffness * dot(step.spring, step.spring));
+      spring = step.spring;
+      stored = step.stored;
+      ++(step.sliding ? sliding : sticking);
+    }
+  }
+  EXPECT_GT(sliding, 100000);
+  EXPECT_GT(sticking, 100000);
+}
+
+TEST(Coulomb,
+     LetsTheSpringFollowTheLimit) { // at rest, the limit falls: kt xi + ct xi' = L, xi from 10 to 5 mm
+  const double dt = 1e-5, t = 4e-3;
+  Vec3 spring{1e-2, 0.0, 0.0};
+  for (int n = 0; n < 400; ++n) {
+    const FrictionStep step = friction_step({kt, ct, mu, Cap::coulomb}, 100.0, up, none, spring, dt);
+    ASSERT_NEAR(step.force[0], -50.0, 1e-12);
+    spring = step.spring;
+  }
+  EXPECT_NEAR(spring[0], 5e-3 + 5e-3 * std::exp(-kt / ct * t), 5e-6);
+}
+
+TEST(Coulomb, HasNumbersAtTheEndsOfItsRange) {
+  const Vec3 tiny{1e-300, 0.0, 0.0}, v{0.5, -0.2, 0.0};
+  for (const double stiffness : {0.0, 1e-12, 1e30})
+    for (const double damping : {0.0, 1e-12, 1e30})
+      for (const double coefficient : {0.0, 0.5, 1e10})
+        for (const double normal_force : {0.0, -100.0, 1e-100, 1e10})
+          for (const Vec3 &velocity : {none, tiny, v})
+            for (const Vec3 &spring : {none, tiny, Vec3{1e-3, 0.0, 0.0}})
+              for (const double dt : {0.0, 1e-12, 1e-3}) {
+                const FrictionStep step = friction_step({stiffness, damping, coefficient, Cap::coulomb},
+                                                        normal_force, up, velocity, spring, dt);
+                for (const double value :
+                     {length(step.force), length(step.spring), step.dissipated, step.stored})
+                  ASSERT_TRUE(std::isfinite(value));
+                ASSERT_LE(length(step.force), coefficient * std::max(0.0, normal_force) * (1.0 + 1e-14));
+                if (dt == 0.0) {
+                  ASSERT_EQ(step.spring, spring);
+                }
+              }
+}
+
+/// A ball of 1 kg that strikes a plane with a given angle from the normal at 1 m/s: impulses until the force between them ends,
+/// and what the step keeps.
+struct Impulses {
+  double normal, tangential, slip_after; // N s, N s, m/s
+};
+
+constexpr double kn = 1e5, slip_mass = 2.0 / 7.0; // N/m, kg of a ball's contact point
+
+Friction friction_of(double D, double coefficient,
+                     Cap cap) { // kt and ct as both engines take them by default
+  return {2.0 / 7.0 * kn, D * std::sqrt(kn), coefficient, cap};
+}
+
+Impulses core_impact(double degrees, double D, const Friction &friction, int steps_per_contact) {
+  const double angle = degrees / 180.0 * std::acos(-1.0), w = std::sqrt(kn), c = 2.0 * D * w;
+  const double dt = std::acos(-1.0) / w / steps_per_contact;
+  double d = 0.0, rate = std::cos(angle), slip = std::sin(angle);
+  double fn = 0.0, ft = 0.0;
+  Vec3 spring{};
+  Impulses all{};
+  for (int n = 0; n < 100 * steps_per_contact; ++n) {
+    rate -= 0.5 * dt * fn;
+    slip += 0.5 * dt * ft / slip_mass;
+    d += dt * rate;
+    fn = std::max(0.0, kn * d + c * rate);
+    if (d <= 0.0 || (n > 0 && fn == 0.0)) break;
+    const FrictionStep step = friction_step(friction, fn, up, {slip, 0.0, 0.0}, spring, dt);
+    spring = step.spring;
+    ft = step.force[0];
+    rate -= 0.5 * dt * fn;
+    slip += 0.5 * dt * ft / slip_mass;
+    all.normal += fn * dt;
+    all.tangential -= ft * dt;
+  }
+  all.slip_after = slip;
+  return all;
+}
+
+/// The same from the differential equations: a slider in series with spring and dashpot, spring rate free while it sticks.
+Impulses cvode_impact(double degrees, double D, const Friction &friction) {
+  const double angle = degrees / 180.0 * std::acos(-1.0), w = std::sqrt(kn), c = 2.0 * D * w;
+  const double k_t = friction.stiffness, c_t = friction.damping, coefficient = friction.coefficient;
+  enum { overlap, rate, slip, stretch, normal, tangential };
+  double slides = 0.0; // +1, -1: the way of the slider
+  const auto push = [=](const oracle::State &y) { return kn * y[overlap] + c * y[rate]; };
+  const auto sticking_pull = [=](const oracle::State &y) { return k_t * y[stretch] + c_t * y[slip]; };
+  const auto stretch_rate = [=](const oracle::State &y, double way) { // while it slides
+    return c_t > 0.0 ? (way * coefficient * push(y) - k_t * y[stretch]) / c_t
+                     : way * coefficient * (kn * y[rate] - c * push(y)) / k_t;
+  };
+  oracle::Ode impact(
+      [&](double, const oracle::State &y, oracle::State &f) {
+        const double fn = push(y), pull = slides != 0.0 ? slides * coefficient * fn : sticking_pull(y);
+        f[overlap] = y[rate];
+        f[rate] = -fn;
+        f[slip] = -pull / slip_mass;
+        f[stretch] = slides != 0.0 ? stretch_rate(y, slides) : y[slip];
+        f[normal] = fn;
+        f[tangential] = pull;
+      },
+      0.0, {0.0, std::cos(angle), std::sin(angle), 0.0, 0.0, 0.0}, {1.0 / w, 1.0, 1.0, 1.0 / w, 1.0, 1.0});
+  // Slides from the start if the pull, or where nothing acts yet its growth, is beyond the limit.
+  const double v_n = std::cos(angle), v_t = std::sin(angle);
+  if (c_t > 0.0 ? c_t * v_t > coefficient * c * v_n : k_t * v_t > coefficient * kn * v_n) slides = 1.0;
+  while (true) {
+    std::vector<oracle::Event> events{[&](double, const oracle::State &y) { return push(y); }};
+    if (slides != 0.0)
+      events.emplace_back([&](double, const oracle::State &y) {
+        return slides * (y[slip] - stretch_rate(y, slides)) + just;
+      });
+    else {
+      for (const double way : {1.0, -1.0})
+        events.emplace_back([&, way](double, const oracle::State &y) {
+          return way * sticking_pull(y) - coefficient * push(y) - just;
+        });
+    }
+    const int event = impact.advance(100.0 / w, events);
+    if (event <= 0) break;
+    slides = slides != 0.0 ? 0.0 : event == 1 ? 1.0 : -1.0;
+    impact.restart(impact.state());
+  }
+  const oracle::State &y = impact.state();
+  return {y[normal], y[tangential], y[slip]};
+}
+
+TEST(CoulombImpact, HasTheImpulseOfTheDifferentialEquations) {
+  for (const double D : {0.0, 0.1, 0.5, 2.0})
+    for (const double coefficient : {0.05, 0.5, 2.0})
+      for (const double degrees : {0.0, 10.0, 35.0, 60.0, 76.0, 89.0}) {
+        const Friction friction = friction_of(D, coefficient, Cap::coulomb);
+        const Impulses core = core_impact(degrees, D, friction, 4000),
+                       exact = cvode_impact(degrees, D, friction);
+        const double scale = 2e-3 * (std::fabs(exact.normal) + std::fabs(exact.tangential));
+        EXPECT_NEAR(core.normal, exact.normal, scale) << D << ' ' << coefficient << ' ' << degrees;
+        EXPECT_NEAR(core.tangential, exact.tangential, scale) << D << ' ' << coefficient << ' ' << degrees;
+        EXPECT_NEAR(core.slip_after, exact.slip_after, 4.0 * scale)
+            << D << ' ' << coefficient << ' ' << degrees;
+      }
+}
+
+TEST(CoulombImpact, OfASlidingBallHasMuTimesTheNormalImpulse) {
+  const auto ratio = [](double degrees, double D, Cap cap) {
+    const Impulses all = core_impact(degrees, D, friction_of(D, mu, cap), 400);
+    return all.tangential / (mu * all.normal);
+  };
+  for (const double D : {0.0, 0.3, 0.5, 2.0})
+    for (const double degrees : {72.0, 76.0, 80.0, 85.0})
+      EXPECT_NEAR(ratio(degrees, D, Cap::coulomb), 1.0, 0.01) << D << ' ' << degrees;
+  EXPECT_NEAR(ratio(76.0, 0.3, Cap::spring), 1.49, 0.03); // what the engine's rule does
+  EXPECT_NEAR(ratio(76.0, 2.0, Cap::spring), 2.24, 0.03);
+}
+
+TEST(CoulombImpact, GainsNoEnergyByFriction) {
+  std::mt19937 random(15485867);
+  std::uniform_real_distribution<double> angle(0.0, 89.0), damping(0.0, 10.0), coefficient(0.0, 10.0);
+  double most = 0.0;
+  for (int n = 0; n < 2000; ++n) {
+    const double degrees = angle(random), D = n % 4 == 0 ? 0.0 : damping(random);
+    const Impulses after = core_impact(degrees, D, friction_of(D, coefficient(random), Cap::coulomb), 200);
+    most = std::max(most, std::fabs(after.slip_after) / std::sin(degrees / 180.0 * std::acos(-1.0)));
+  }
+  EXPECT_LT(most, 1.0 + 1e-3);
+}
+
+/// How the error of slip behind an impact shrinks with the step, where the slider acts: twice the steps divide it by 2^order. Normal
+/// dashpot none, so that the order is that of friction. Steps fall anywhere beside the turns from stick to slide: means of many.
+double order_of_impact(double degrees, const Friction &friction) {
+  const double exact = cvode_impact(degrees, 0.0, friction).slip_after;
+  const auto error = [&](int steps) {
+    double sum = 0.0;
+    for (int n = 0; n < 20; ++n)
+      sum += std::fabs(core_impact(degrees, 0.0, friction, steps + 7 * n).slip_after - exact);
+    return sum;
+  };
+  return std::log2(error(200) / error(850)) / std::log2(917.0 / 267.0);
+}
+
+TEST(CoulombImpact, IsOfFirstOrderWithADashpotAndOfSecondWithout) {
+  for (const double degrees : {20.0, 45.0, 60.0}) // the last two slide and stick
+    for (const double damping : {0.0, 0.3}) {
+      Friction friction = friction_of(damping, mu, Cap::coulomb);
+      friction.stiffness = 0.6 * kn; // with 2/7 kn both directions swing alike, and errors cancel
+      EXPECT_NEAR(order_of_impact(degrees, friction), damping > 0.0 ? 1.0 : 2.0, 0.15)
+          << degrees << ' ' << damping;
+    }
+}
+
+TEST(FrictionWithoutHistory, IsADashpotUpToTheLimit) {
+  const Friction friction{0.0, ct, mu, Cap::spring};
+  const FrictionStep slow = friction_step_without_history(friction, 100.0, {0.6, 0.8, 0.0}, 1e-3);
+  EXPECT_FALSE(slow.sliding);
+  EXPECT_NEAR(slow.force[0], -24.0, 1e-12);
+  EXPECT_NEAR(slow.force[1], -32.0, 1e-12);
+  EXPECT_NEAR(slow.dissipated, 40.0 * 1e-3, 1e-15);
+  const FrictionStep fast = friction_step_without_history(friction, -100.0, {6.0, 8.0, 0.0}, 1e-3);
+  EXPECT_TRUE(fast.sliding);
+  EXPECT_NEAR(fast.force[0], -30.0, 1e-12);
+  EXPECT_NEAR(fast.force[1], -40.0, 1e-12);
+  EXPECT_NEAR(fast.dissipated, 500.0 * 1e-3, 1e-12);
+  for (const FrictionStep &step : {slow, fast}) {
+    EXPECT_EQ(step.stored, 0.0);
+    EXPECT_EQ(step.spring, none);
+  }
+  EXPECT_EQ(length(friction_step_without_history(friction, 100.0, none, 1e-3).force), 0.0);
+  EXPECT_EQ(length(friction_step_without_history(friction, 0.0, none, 1e-3).force), 0.0);
+}
+
+TEST(FrictionWithoutHistory, StopsABlockAsTheClosedFormDoes) {
+  // Slides with 50 m/s2 from 2 m/s down to mu Fn / ct = 1.25 m/s, then creeps to rest with the time 1/40 s.
+  const Friction friction{0.0, ct, mu, Cap::spring};
+  const int steps = 400000;
+  const double end = 0.1, dt = end / steps, slide = (2.0 - 1.25) / 50.0;
+  double v = 2.0;
+  for (int n = 0; n < steps; ++n)
+    v += dt * friction_step_without_history(friction, 100.0, {v, 0.0, 0.0}, dt).force[0];
+  EXPECT_NEAR(v, 1.25 * std::exp(-40.0 * (end - slide)), 1e-5);
+}
+
+} // namespace

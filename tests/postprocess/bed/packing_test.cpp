@@ -1,0 +1,162 @@
+// The random bed before it settles: what it promises, against closed forms.
+#include "bed/packing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+using post::Grading;
+using post::PackedBall;
+using post::Packing;
+using post::PackingOptions;
+
+PackingOptions cube() {
+  PackingOptions options;
+  options.balls = 800;
+  options.width = 0.3;
+  options.depth = 0.4;
+  return options;
+}
+
+void expect_apart_and_inside(const PackingOptions &options) {
+  const Packing packing = post::pack_balls(options);
+  ASSERT_EQ(packing.balls.size(), static_cast<std::size_t>(options.balls));
+  const std::array<double, 3> size = {options.width, options.depth, packing.height};
+  for (std::size_t i = 0; i < packing.balls.size(); ++i) {
+    const PackedBall &a = packing.balls[i];
+    EXPECT_GE(a.radius, options.radius_min);
+    EXPECT_LE(a.radius, options.radius_max);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (axis == 1 && options.depth == 0.0) {
+        EXPECT_EQ(a.centre[axis], 0.0);
+        continue;
+      }
+      EXPECT_GE(a.centre[axis], a.radius);
+      EXPECT_LE(a.centre[axis], size[axis] - a.radius);
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      const PackedBall &b = packing.balls[j];
+      const double distance =
+          std::hypot(a.centre[0] - b.centre[0], a.centre[1] - b.centre[1], a.centre[2] - b.centre[2]);
+      ASSERT_GT(distance, a.radius + b.radius) << i << " and " << j;
+    }
+  }
+}
+
+TEST(BedPacking, BallsAreApartAndInsideTheBox) {
+  expect_apart_and_inside({});
+  expect_apart_and_inside(cube());
+}
+
+TEST(BedPacking, IsTheSameEveryTimeAndAnotherForAnotherSeed) {
+  const auto centres = [](std::uint64_t seed) {
+    PackingOptions options;
+    options.seed = seed;
+    std::vector<double> out;
+    for (const PackedBall &ball : post::pack_balls(options).balls)
+      out.insert(out.end(), {ball.centre[0], ball.centre[2], ball.radius});
+    return out;
+  };
+  EXPECT_EQ(centres(7), centres(7));
+  EXPECT_NE(centres(7), centres(8));
+}
+
+/// Largest distance between the shares of radii below r, found and by the closed form (Kolmogorov and Smirnov).
+template <class Share>
+double farthest(const PackingOptions &options, const Share &share) {
+  std::vector<double> radii;
+  for (const PackedBall &ball : post::pack_balls(options).balls)
+    radii.push_back(ball.radius);
+  std::sort(radii.begin(), radii.end());
+  double most = 0.0;
+  for (std::size_t i = 0; i < radii.size(); ++i)
+    most = std::max(most, std::fabs((static_cast<double>(i) + 0.5) / static_cast<double>(radii.size()) -
+                                    share(radii[i])));
+  return most;
+}
+
+TEST(BedPacking, RadiiFollowTheGrading) {
+  for (PackingOptions options : {PackingOptions{}, cube()}) {
+    options.radius_min = 0.006;
+    options.radius_max = 0.012;
+    const double low = options.radius_min, high = options.radius_max;
+    // 1.95 / sqrt(N) is passed once in a thousand times
+    const double bound = 1.95 / std::sqrt(options.balls);
+    EXPECT_LT(farthest(options, [&](double r) { return (r - low) / (high - low); }), bound);
+    options.grading = Grading::mass;
+    // numbers ~ r^-n, so that mass ~ r^n of them is even: the integral of r^-n
+    const double n = options.dimensions();
+    const auto sum = [&](double r) { return (std::pow(low, 1.0 - n) - std::pow(r, 1.0 - n)) / (n - 1.0); };
+    EXPECT_LT(farthest(options, [&](double r) { return sum(r) / sum(high); }), bound);
+  }
+}
+
+std::string refusal(const PackingOptions &options, int attempts = 1000) {
+  try {
+    post::pack_balls(options, {}, attempts);
+  } catch (const std::invalid_argument &error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(BedPacking, RefusesWhatCannotBePackedAndSaysWhatCan) {
+  const auto with = [](double PackingOptions::*value, double given) {
+    PackingOptions options;
+    options.*value = given;
+    return refusal(options);
+  };
+  EXPECT_EQ(with(&PackingOptions::width, 0.04),
+            "width is '0.04'; allowed: a number from 0.048 to 100000 [m]: room for the largest ball");
+  EXPECT_EQ(with(&PackingOptions::radius_min, 0.0),
+            "radius-min is '0'; allowed: a number from 1e-06 to 1000 [m]");
+  EXPECT_EQ(with(&PackingOptions::radius_max, 0.01),
+            "radius-max is '0.01'; allowed: a number from radius-min, which is 0.016, to 1000 times it [m]");
+  EXPECT_NE(with(&PackingOptions::depth, 0.01).find("depth is '0.01'; allowed: 0, or a number from 0.048"),
+            std::string::npos);
+  EXPECT_NE(with(&PackingOptions::height, std::nan("")).find("height is 'nan'"), std::string::npos);
+  PackingOptions none;
+  none.balls = 0;
+  EXPECT_EQ(refusal(none), "balls is '0'; allowed: a whole number from 1 to 10000000");
+}
+
+// Cells for the search of neighbours, and pairs to look at, are counted before any is made.
+TEST(BedPacking, BoundsItsWorkBeforeItBegins) {
+  PackingOptions wide;
+  wide.width = 1e5;
+  wide.depth = 1e4;
+  wide.height = 1e3;
+  EXPECT_EQ(refusal(wide).rfind("width is '100000'; allowed: a box of at most ", 0), 0u) << refusal(wide);
+  PackingOptions mixed;
+  mixed.balls = PackingOptions::most_balls;
+  mixed.depth = 2.0;
+  mixed.radius_min = 1e-3;
+  mixed.radius_max = 1.0;
+  mixed.grading = post::Grading::mass;
+  EXPECT_EQ(refusal(mixed).rfind("balls is '10000000'; allowed: at most ", 0), 0u) << refusal(mixed);
+}
+
+// Too much for the box is said before the first ball; what the least height allows is then packed.
+TEST(BedPacking, SaysAtOnceHowHighTheBoxMustBe) {
+  PackingOptions options;
+  options.height = 1.0;
+  const std::string fault = refusal(options);
+  const std::string before = "allowed: 0 (as needed) or at least ";
+  ASSERT_NE(fault.find(before), std::string::npos) << fault;
+  const double least = std::stod(fault.substr(fault.find(before) + before.size()));
+  EXPECT_NEAR(least, 2500 * 3.141592653589793 * 4.053e-4 / (2.0 * 0.5),
+              0.02 * least); // mean of r^2: 4.053e-4 m2
+  options.height = 1.05 * least;
+  EXPECT_EQ(refusal(options, 100'000), "accepted");
+}
+
+} // namespace
+} // namespace drumlin::test

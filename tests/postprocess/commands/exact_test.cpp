@@ -1,0 +1,197 @@
+// `drumlin exact` as a user meets it: the program itself, its files, its messages, its exit status.
+#include "chain/run_files.h"
+#include "chain/direct_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+
+namespace drumlin::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int status = -1;
+  std::string out;
+  std::string err;
+};
+
+class ExactCommand : public ::testing::Test {
+protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("drumlin-exact-" + std::to_string(::getpid()) + "-" +
+                                           ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  static std::string get(const fs::path &path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  }
+
+  // Runs the tool in the test's folder, through the shell.
+  Outcome run(const std::string &arguments) const {
+    const std::string command =
+        "cd '" + folder_.string() + "' && '" DRUMLIN_TOOLS "' " + arguments + " >.out 2>.err";
+    const int status = std::system(command.c_str());
+    Outcome outcome = {WIFEXITED(status) ? WEXITSTATUS(status) : -1, get(folder_ / ".out"),
+                       get(folder_ / ".err")};
+    fs::remove(folder_ / ".out");
+    fs::remove(folder_ / ".err");
+    return outcome;
+  }
+
+  // Every file below the folder with its text.
+  std::map<std::string, std::string> files() const {
+    std::map<std::string, std::string> texts;
+    for (const fs::directory_entry &entry : fs::recursive_directory_iterator(folder_))
+      texts[entry.path().string()] = entry.is_directory() ? "(folder)" : get(entry.path());
+    return texts;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(ExactCommand, WritesWhatTheSolverFound) {
+  const Outcome outcome =
+      run("exact --case III --transition A --D 0.4 --cycles 6 --samples-per-cycle 100 --out 'a/b c'");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 1) << outcome.out;
+
+  post::ChainParameters parameters = post::table1_case("III", post::Transition::A);
+  parameters.D = 0.4;
+  post::DirectOptions options;
+  options.cycles = 6;
+  options.samples_per_cycle = 100;
+  const post::DirectResult expected = post::solve_direct(parameters, options);
+  const fs::path out = folder_ / "a" / "b c";
+  const post::ChainHistory history = post::read_chain(out / "chain.csv");
+  EXPECT_EQ(history.size(), 601U);
+  EXPECT_EQ(history.v_drum, expected.history.v_drum);
+  EXPECT_EQ(history.a_frame, expected.history.a_frame);
+  EXPECT_EQ(get(out / "events.csv"), post::events_text(expected.events));
+  EXPECT_EQ(get(out / "cycles.csv"), post::cycles_text(expected.cycles));
+  EXPECT_EQ(post::read_cycles(out / "cycles.csv").size(), 6U);
+
+  const std::map<std::string, std::string> record = post::read_parameters(out / "parameters.csv");
+  for (const char *name : {"case", "transition", "k", "D", "c", "omega", "Fw", "m2", "m3", "k23", "c23", "g",
+                           "cycles", "samples_per_cycle", "solver", "rtol", "command"})
+    EXPECT_EQ(record.count(name), 1U) << name;
+  EXPECT_EQ(record.at("case"), "III");
+  EXPECT_EQ(post::number_from_text(record.at("D")), 0.4);
+  EXPECT_EQ(post::number_from_text(record.at("c")), parameters.damping());
+  EXPECT_NE(record.at("command").find("drumlin exact --case III"), std::string::npos);
+  EXPECT_EQ(std::distance(fs::directory_iterator(out), fs::directory_iterator()), 4);
+}
+
+TEST_F(ExactCommand, EveryOverrideArrives) {
+  const Outcome outcome =
+      run("exact --k 2e7 --D 0.3 --omega 100 --Fw 5e4 --m2 1500 --m3 700 --k23 2e6 --c23 2e4 --g 1.62 "
+          "--rtol 1e-9 --impact-speed 0.25 --cycles 1.5 --out o");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::map<std::string, std::string> record = post::read_parameters(folder_ / "o" / "parameters.csv");
+  const std::map<std::string, double> expected = {
+      {"k", 2e7},   {"D", 0.3},   {"omega", 100}, {"Fw", 5e4},    {"m2", 1500},           {"m3", 700},
+      {"k23", 2e6}, {"c23", 2e4}, {"g", 1.62},    {"rtol", 1e-9}, {"impact_speed", 0.25}, {"cycles", 1.5}};
+  for (const auto &[name, value] : expected)
+    EXPECT_EQ(post::number_from_text(record.at(name)), value) << name;
+  EXPECT_EQ(post::read_chain(folder_ / "o" / "chain.csv").size(), 301U);
+  EXPECT_EQ(post::read_chain(folder_ / "o" / "chain.csv").v_drum.front(), -0.25);
+  EXPECT_EQ(post::read_cycles(folder_ / "o" / "cycles.csv").size(), 1U);
+}
+
+TEST_F(ExactCommand, BadInputIsOneLineAndTouchesNothing) {
+  ASSERT_EQ(run("exact --cycles 1 --out kept").status, 0);
+  std::ofstream(folder_ / "file") << "not a folder";
+  const std::map<std::string, std::string> before = files();
+
+  struct Bad {
+    std::string arguments;
+    std::vector<std::string> said;
+  };
+  const std::vector<Bad> table = {
+      {"--case V --out kept", {"--case", "'V'", "I, II, III, IV"}},
+      {"--case '' --out kept", {"--case", "''"}},
+      {"--transition C --out kept", {"--transition", "'C'", "A, B"}},
+      {"--k -5 --out kept", {"--k is '-5'; allowed: a number from 1e-06 to 1e+15 [N/m]"}},
+      {"--k 0 --out kept", {"--k is '0'"}},
+      {"--D nan --out kept", {"--D is 'nan'; allowed: 0, or a number"}},
+      {"--D -0.1 --out kept", {"--D is '-0.1'"}},
+      {"--omega inf --out kept", {"--omega is 'inf'", "[rad/s]"}},
+      {"--Fw many --out kept", {"--Fw is 'many'", "[N]"}},
+      {"--m2 0 --out kept", {"--m2 is '0'", "[kg]"}},
+      {"--m3 1e999 --out kept", {"--m3", "'1e999'"}},
+      {"--k23 0 --out kept", {"--k23 is '0'", "g = 0"}},
+      {"--c23 12x --out kept", {"--c23", "'12x'"}},
+      {"--g -9.81 --out kept", {"--g is '-9.81'", "[m/s2]"}},
+      {"--cycles 0 --out kept", {"--cycles is '0'", "above 0"}},
+      {"--cycles 1e9 --out kept", {"--cycles is '1e9'", "25000"}},
+      {"--samples-per-cycle 2.5 --out kept", {"--samples-per-cycle", "'2.5'", "whole number"}},
+      {"--samples-per-cycle 0 --out kept", {"--samples-per-cycle", "'0'", "whole number from 1 to 1000000"}},
+      {"--samples-per-cycle 1000001 --out kept", {"--samples-per-cycle is '1000001'", "1 to 1000000"}},
+      {"--rtol 0 --out kept", {"--rtol", "0", "1e-14"}},
+      {"--impact-speed -1 --out kept", {"--impact-speed is '-1'", "[m/s]"}},
+      {"--k '' --out kept", {"--k is ''"}},
+      {"--k 1e18 --out kept", {"--k is '1e18'", "1e+15"}},
+      {"--k 1e-308 --out kept", {"--k is '1e-308'"}},
+      {"--D 1e18 --out kept", {"--D is '1e18'", "1e+06"}},
+      {"--omega 1e-308 --out kept", {"--omega is '1e-308'", "1e-06"}},
+      {"--omega 1e-6 --out kept", {"--cycles is '30'", "at most"}},
+      {"--cycles 20000 --samples-per-cycle 1000 --out kept", {"--cycles is '20000'", "at most 5000"}},
+      {"--impact-speed 1e308 --out kept", {"--impact-speed is '1e308'"}},
+      {"--rtol '' --out kept", {"--rtol is ''"}},
+      {"--case " + std::string(5000, 'x') + " --out kept", {"--case is 'xxx", "(5000 characters)"}},
+      {"--out " + std::string(5000, 'x'),
+       {"--out is 'xxx", "(5000 characters)", "none of its parts longer than"}},
+      {"--out ''", {"--out", "''"}},
+      {"--out file", {"--out", "'file'", "not a folder"}},
+      {"--out file/below", {"--out", "'file/below'", "not a folder"}},
+      {"--out /proc/drumlin", {"--out", "'/proc/drumlin'", "belongs to the system"}},
+      {"", {"--out", "required"}},
+      {"--out kept --colour red", {"--colour"}},
+      {"--out kept --k", {"--k"}},
+      {"--out kept stray", {"stray"}},
+  };
+  for (const Bad &bad : table) {
+    const Outcome outcome = run("exact " + bad.arguments);
+    EXPECT_EQ(outcome.status, 2) << bad.arguments;
+    EXPECT_EQ(outcome.out, "") << bad.arguments;
+    EXPECT_EQ(outcome.err.rfind("ERROR: drumlin exact: ", 0), 0U) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    for (const std::string &said : bad.said)
+      EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err << "  misses: " << said;
+  }
+  EXPECT_EQ(files(), before);
+}
+
+TEST_F(ExactCommand, HelpAndVersionAnswer) {
+  for (const char *arguments : {"--help", "exact --help", "--version"}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, 0) << arguments;
+    EXPECT_EQ(outcome.err, "") << arguments;
+    EXPECT_NE(outcome.out, "") << arguments;
+  }
+  EXPECT_NE(run("exact --help").out.find("--samples-per-cycle"), std::string::npos);
+  const Outcome unknown = run("precise");
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_EQ(unknown.err.rfind("ERROR: drumlin: ", 0), 0U) << unknown.err;
+  EXPECT_NE(unknown.err.find("'precise'"), std::string::npos);
+  EXPECT_EQ(run("").status, 2);
+}
+
+} // namespace
+
+} // namespace drumlin::test

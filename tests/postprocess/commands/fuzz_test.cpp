@@ -1,0 +1,216 @@
+// Spoilt files: cut, shuffled, swapped, with absurd numbers, with the line ends of another system. Every command that reads them
+// ends within 20 s in a result or in one line that says what is wrong, and touches nothing else. Built with the sanitizers, so that
+// a fault that would pass unseen ends the command.
+//
+// The number of a mutant is the seed of everything that is random in it: a failure names it, and the same number spoils alike.
+#include "chain/run_files.h"
+#include "engine/engine_run.h"
+#include "tests/support/run_folders.h"
+#include "tests/support/damaged_files.h"
+#include "tests/support/lines.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+using post::Outcome;
+using post::Transition;
+
+// -- What is spoilt -----------------------------------------------------------------------------------------
+
+/// A command and the files that it reads. Another command, or a deck, is another one of these in `subjects`.
+struct Subject {
+  const char *name;
+  int mutants; ///< how many are tried
+  void (*write)(const fs::path &folder);
+  std::vector<std::string> files; ///< of these one or two are spoilt
+  /// Runs the command in the folder of the files. It may write to `out` there, and nowhere else.
+  Outcome (*run)(const fs::path &folder, int mutant);
+};
+
+/// The name of a test with this subject, rather than its bytes.
+void PrintTo(const Subject &subject, std::ostream *out) { *out << subject.name; }
+
+constexpr double most_seconds = 20.0;
+
+/// A gnuplot whose pictures are whole and empty: most mutants need not wait for drawn ones.
+void write_quick_gnuplot(const fs::path &folder) {
+  fs::create_directories(folder);
+  std::ofstream(folder / "gnuplot") << R"sh(#!/bin/sh
+name=${2%.gp}
+printf '<?xml version="1.0"?><svg></svg>' >"$name.svg"
+printf '\211PNG\r\n\032\n\000\000\000\000IEND\256B`\202' >"$name.png"
+)sh";
+  fs::permissions(folder / "gnuplot", fs::perms::owner_all);
+}
+
+Outcome run_tools(const fs::path &folder, std::vector<std::string> words, const std::string &path = "") {
+  words.insert(words.begin(), DRUMLIN_TOOLS);
+  const char *usual = std::getenv("PATH");
+  return post::run_program(
+      words,
+      {"PATH=" + (path.empty() ? "" : path + ":") + (usual == nullptr ? "/usr/bin:/bin" : usual),
+       "ASAN_OPTIONS=exitcode=99", "UBSAN_OPTIONS=exitcode=99"},
+      folder, most_seconds);
+}
+
+Outcome run_report(const fs::path &folder, int mutant) {
+  constexpr int really_drawn = 12; // one in so many
+  if (mutant % really_drawn == 0) return run_tools(folder, {"report", "run", "--out", "out"});
+  const fs::path quick = folder.parent_path() / "quick";
+  write_quick_gnuplot(quick);
+  return run_tools(folder, {"report", "run", "--out", "out"}, quick.string());
+}
+
+Outcome run_vtk(const fs::path &folder, int /*mutant*/) {
+  return run_tools(folder, {"vtk", "run", "--out", "out"});
+}
+
+Outcome run_advise(const fs::path &folder, int mutant) {
+  const std::vector<std::string> own = {"advise", "--from", "run", "--case", "II", "--k", "2e8"};
+  const std::vector<std::string> measured = {"advise", "--from",     "run",  "--case",
+                                             "IV",     "--stepping", "stock"};
+  return run_tools(folder, mutant % 4 == 0 ? own : measured); // the first solves the chain seven times
+}
+
+void write_chain(const fs::path &folder) {
+  write_chain_run(folder / "run", "II", Transition::B, 4);
+  // The engine's cycles.csv has energies and harmonics besides.
+  const post::Table table = post::read_table(folder / "run" / "cycles.csv");
+  std::string text =
+      "cycle,a_drum_min,a_drum_max,F_contact_min,F_contact_max,a1_cos,a1_sin,a2_cos,a2_sin,ah_cos,ah_sin,"
+      "work_excitation,dissipated_contact,dissipated_bond,kinetic,potential,stored_contact,stored_bond\n";
+  for (int cycle = 0; cycle <= 4; ++cycle)
+    text += fmt::format("{0},-9.5,{0},-1e3,1e5,3,4,0.5,0,0.1,0,{1},{0},5,100.5,20,7,8\n", cycle, 120 * cycle);
+  std::ofstream(folder / "run" / "cycles.csv", std::ios::binary) << text;
+}
+
+void write_bed(const fs::path &folder) {
+  write_bed_run(folder / "run", Transition::B, 3);
+  write_bed_dumps(folder / "run");
+}
+
+void write_curves(const fs::path &folder) {
+  fs::create_directories(folder / "run");
+  for (const char *file : {"chain.csv", "scaling.csv"})
+    fs::copy_file(fs::path(DRUMLIN_SOURCE_DIR) / "inputs/study/accuracy" / file, folder / "run" / file);
+}
+
+const std::vector<std::string> csv_files = {"chain.csv", "events.csv", "cycles.csv", "parameters.csv",
+                                            "parameters.csv"};
+const std::vector<std::string> dump_files = {"dump/balls_0.vtp",       "dump/balls_800.vtp",
+                                             "dump/contacts_0.dump",   "dump/contacts_800.dump",
+                                             "dump/contacts_700.dump", "parameters.csv"};
+
+const std::vector<Subject> &subjects() {
+  static const std::vector<Subject> all = {
+      {"chain", 100, write_chain, csv_files, run_report},
+      {"impact",
+       80,
+       [](const fs::path &folder) { write_impact_run(folder / "run", Transition::B, 0.5); },
+       {"chain.csv", "events.csv", "parameters.csv", "parameters.csv"},
+       run_report},
+      {"bed",
+       100,
+       write_bed,
+       {"bed.csv", "events.csv", "cycles.csv", "parameters.csv", "parameters.csv"},
+       run_report},
+      {"dumps", 100, write_bed, dump_files, run_report},
+      {"vtk", 250, write_bed, dump_files, run_vtk},
+      {"advise", 40, write_curves, {"chain.csv", "scaling.csv"}, run_advise},
+  };
+  return all;
+}
+
+// -- The test -----------------------------------------------------------------------------------------------
+
+class Fuzz : public ::testing::TestWithParam<Subject> {
+protected:
+  Fuzz() {
+    std::string name = (fs::temp_directory_path() / "drumlin-fuzz-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
+    folder = name;
+  }
+  ~Fuzz() override {
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+  }
+
+  fs::path folder;
+};
+
+/// What is wrong with how a command ended; empty if nothing.
+std::string fault_of(const Outcome &outcome, const fs::path &place) {
+  if (outcome.timed_out) return fmt::format("no end within {} s", most_seconds);
+  if (outcome.status != 0 && outcome.status != 1 && outcome.status != 2)
+    return fmt::format("ended with {}", outcome.status);
+  const std::vector<std::string> lines = lines_of(outcome.output);
+  const auto errors = std::count_if(lines.begin(), lines.end(), [](const std::string &line) {
+    return line.rfind("ERROR: drumlin ", 0) == 0;
+  });
+  if (outcome.status == 0) return errors == 0 ? "" : "an error, but status 0";
+  if (errors != 1) return fmt::format("status {} with {} lines of error", outcome.status, errors);
+  if (outcome.says("std::")) return "an error of the language, not of the input";
+  for (const fs::directory_entry &entry : fs::directory_iterator(place))
+    if (const std::string name = entry.path().filename().string();
+        name != "run" && name != post::program_output_file)
+      return "left behind: " + name;
+  return "";
+}
+
+TEST_P(Fuzz, EndsInAResultOrInOneLine) {
+  const Subject &subject = GetParam();
+  subject.write(folder / "sound");
+  ASSERT_TRUE(subject.run(folder / "sound", 0).ok()) << subject.run(folder / "sound", 0).output;
+  fs::remove_all(folder / "sound" / "out");
+  fs::remove(folder / "sound" / post::program_output_file);
+  int results = 0;
+  for (int mutant = 0; mutant < subject.mutants; ++mutant) {
+    const fs::path place = folder / "spoilt";
+    fs::remove_all(place);
+    fs::copy(folder / "sound", place, fs::copy_options::recursive);
+    Choice choice(static_cast<unsigned>(mutant));
+    std::string spoilt_files;
+    for (std::size_t n = 1 + choice.below(2); n > 0; --n) {
+      const std::string &file = choice.of(subject.files);
+      spoilt_files += ' ' + file;
+      const std::string text = spoilt(post::read_text(place / "run" / file), choice);
+      std::ofstream(place / "run" / file, std::ios::binary) << text;
+    }
+    const Outcome outcome = subject.run(place, mutant);
+    if (outcome.ok()) ++results;
+    if (const std::string fault = fault_of(outcome, place); !fault.empty()) {
+      const fs::path kept =
+          fs::temp_directory_path() / fmt::format("drumlin-fuzz-{}-{}", subject.name, mutant);
+      fs::remove_all(kept);
+      fs::copy(place, kept, fs::copy_options::recursive);
+      ADD_FAILURE() << subject.name << ", mutant " << mutant << " (" << spoilt_files.substr(1)
+                    << "): " << fault << "; kept in " << kept << "\n"
+                    << outcome.output.substr(0, 3000);
+    }
+  }
+  // Both ends happen, else nothing is tried.
+  EXPECT_GT(results, subject.mutants / 20);
+  EXPECT_LT(results, subject.mutants);
+  RecordProperty("results", results);
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, Fuzz, ::testing::ValuesIn(subjects()),
+                         [](const ::testing::TestParamInfo<Subject> &subject) {
+                           return std::string(subject.param.name);
+                         });
+
+} // namespace
+} // namespace drumlin::test

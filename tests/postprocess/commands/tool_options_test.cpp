@@ -1,0 +1,138 @@
+// Options that no run of a tool can use: each is refused at once, in one line that names it, and nothing is written.
+#include "engine/engine_run.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ToolOptions : public ::testing::Test {
+protected:
+  ToolOptions() {
+    std::string name = (fs::temp_directory_path() / "drumlin-options-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
+    folder_ = name;
+  }
+  ~ToolOptions() override {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  post::Outcome run(std::vector<std::string> words) const {
+    words.insert(words.begin(), DRUMLIN_TOOLS);
+    return post::run_program(words, {}, folder_);
+  }
+  fs::path folder_;
+};
+
+const std::string long_name(5000, 'x');
+
+struct Bad {
+  std::vector<std::string> words;
+  std::string says;
+};
+
+TEST_F(ToolOptions, AbsurdValuesAreRefusedAtOnce) {
+  const std::vector<Bad> table = {
+      {{"exact", "--k", "", "--out", "o"}, "exact: --k is ''; allowed: a number from 1e-06 to 1e+15 [N/m]"},
+      {{"exact", "--omega", "1e-308", "--out", "o"},
+       "exact: --omega is '1e-308'; allowed: a number from 1e-06"},
+      {{"exact", "--k", "1e18", "--out", "o"}, "exact: --k is '1e18'; allowed: "},
+      {{"exact", "--cycles", "", "--out", "o"}, "exact: --cycles is ''; allowed: "},
+      {{"exact", "--out", long_name}, "(5000 characters)'; allowed: a path of at most "},
+      {{"exact", "--out", "a\nb\x01", "--k", "1\n2"}, "exact: --k is '1?2'; allowed: "},
+      {{"advise", "--omega", "1e-308"}, "advise: --omega is '1e-308'; allowed: a number from 1e-06"},
+      {{"advise", "--omega", "1e-6"}, "advise: --omega is '1e-06'; allowed: at least "},
+      {{"advise", "--D", "1e18"}, "advise: --D is '1e18'; allowed: 0, or a number from 1e-12 to 1e+06"},
+      {{"advise", "--m2", "inf"}, "advise: --m2 is 'inf'; allowed: "},
+      {{"advise", "--error", ""}, "advise: --error is ''; allowed: "},
+      {{"advise", "--error", "1e-308"}, "advise: --error is '1e-308'; allowed: "},
+      {{"advise", "--cycles", "1e9"},
+       "advise: --cycles is '1e9'; allowed: a whole number from 1 to 10000000"},
+      {{"advise", "--from", ""}, "advise: --from is ''; allowed: "},
+      {{"advise", "--from", long_name}, "(5000 characters)'; allowed: "},
+      {{"advise", "--case", long_name}, "(5000 characters)'; allowed: I, II, III, IV"},
+      {{"bed", "--width", "1e18"}, "bed: --width is '1e18'; allowed: a number from 1e-06 to 100000 [m]"},
+      {{"bed", "--width", "1e5", "--depth", "1e5", "--height", "1e5"},
+       "bed: --width is '100000'; allowed: a box"},
+      {{"bed", "--depth", "1e-300"}, "bed: --depth is '1e-300'; allowed: 0, or "},
+      {{"bed", "--height", "nan"}, "bed: --height is 'nan'; allowed: 0, or "},
+      {{"bed", "--radius-min", "1e-300"}, "bed: --radius-min is '1e-300'; allowed: "},
+      {{"bed", "--radius-max", "1e300"}, "bed: --radius-max is '1e300'; allowed: "},
+      {{"bed", "--radius-min", "1e-5"}, "bed: --radius-max is '0.024'; allowed: "},
+      {{"bed", "--balls", "1e18"}, "bed: --balls is '1e18'; allowed: a whole number from 1 to 10000000"},
+      {{"bed", "--balls", ""}, "bed: --balls is ''; allowed: "},
+      {{"bed", "--density", "1e308"},
+       "bed: --density is '1e308'; allowed: a number from 0.001 to 1e+06 [kg/m3]"},
+      {{"bed", "--seed", "-1"},
+       "bed: --seed is '-1'; allowed: a whole number from 0 to 18446744073709551615"},
+      {{"bed", "--grading", ""}, "bed: --grading is ''; allowed: uniform, mass"},
+      {{"bed", "--out", ""}, "bed: --out is ''; allowed: "},
+      {{"report", long_name}, "report: DIR is 'x"},
+      {{"report", "", "--out", "o"}, "report: DIR is ''; allowed: "},
+      {{"report", ".", "--out", ""}, "report: --out is ''; allowed: "},
+      {{"report", ".", "--out", long_name}, "(5000 characters)'; allowed: "},
+      {{"bed", "--out", long_name}, "(5000 characters)'; allowed: "},
+      {{"study", "fidelity", "--jobs", "1e9"},
+       "study: --jobs is '1e9'; allowed: a whole number from 1 to 1000"},
+      {{"study", "fidelity", "--jobs", ""}, "study: --jobs is ''; allowed: "},
+      {{"study", "fidelity", "--out", ""}, "study: --out is ''; allowed: "},
+      {{"study", "speed", "--out", long_name}, "(5000 characters)'; allowed: "},
+      {{"study", long_name}, "(5000 characters)'; allowed: accuracy, cost, "},
+      {{"vtk", ""}, "vtk: DIR is ''; allowed: "},
+      {{"vtk", long_name}, "(5000 characters)'; allowed: "},
+      {{"vtk", ".", "--out", long_name}, "(5000 characters)'; allowed: "},
+      {{"vtk", ".", "--cell", "1e-308"}, "vtk: --cell is '1e-308'; allowed: a number from 1e-09"},
+  };
+  for (const Bad &bad : table) {
+    SCOPED_TRACE(bad.says);
+    const auto begin = std::chrono::steady_clock::now();
+    const post::Outcome outcome = run(bad.words);
+    EXPECT_EQ(outcome.status, 2) << outcome.output;
+    EXPECT_EQ(outcome.output.rfind("ERROR: drumlin ", 0), 0u) << outcome.output;
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
+    EXPECT_TRUE(outcome.says(bad.says)) << outcome.output;
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+    fs::remove(folder_ / "screen.txt");
+    EXPECT_TRUE(fs::is_empty(folder_));
+  }
+}
+
+// Beside the ends of what is allowed there is an answer, or one line.
+TEST_F(ToolOptions, TheEndsOfTheRangesHaveAnAnswer) {
+  const std::vector<std::vector<std::string>> table = {
+      {"--k", "1e-6"},  {"--k", "1e15"},   {"--D", "1e-12"},   {"--D", "1e6"},    {"--omega", "1e9"},
+      {"--Fw", "1e-9"}, {"--Fw", "1e15"},  {"--m2", "1e12"},   {"--m2", "1e-6"},  {"--m3", "1e-6"},
+      {"--m3", "1e12"}, {"--k23", "1e-6"}, {"--k23", "1e13"},  {"--c23", "1e-9"}, {"--c23", "1e15"},
+      {"--g", "1e-9"},  {"--g", "1e6"},    {"--rtol", "1e-14"}};
+  for (std::vector<std::string> words : table) {
+    SCOPED_TRACE(words[0] + " " + words[1]);
+    words.insert(words.begin(), "exact");
+    words.insert(words.end(), {"--cycles", "1", "--out", "o"});
+    const post::Outcome outcome = run(words);
+    const bool answer = outcome.status == 0;
+    EXPECT_TRUE(answer || outcome.says("ERROR: drumlin exact: ")) << outcome.output;
+    EXPECT_TRUE(outcome.status <= 2) << outcome.status;
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
+  }
+}
+
+// A solution of seconds says how far it is.
+TEST_F(ToolOptions, LongWorkShowsProgress) {
+  const post::Outcome outcome = run({"exact", "--omega", "0.01", "--cycles", "9", "--out", "o"});
+  EXPECT_EQ(outcome.status, 0) << outcome.output;
+  EXPECT_TRUE(outcome.says("solved to cycle ")) << outcome.output;
+}
+
+} // namespace
+} // namespace drumlin::test

@@ -1,0 +1,503 @@
+// ./drumlin vtk on dumps written by hand: what it makes of them, and what it says of dumps that are none.
+#include "bed/coarse_graining.h"
+#include "chain/run_files.h"
+#include "tests/support/dump_texts.h"
+#include "engine/engine_run.h"
+#include "bed/vtk_files.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkXMLImageDataReader.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+using post::Outcome;
+using post::read_text;
+
+class VtkCommand : public ::testing::Test {
+protected:
+  VtkCommand() {
+    std::string name = (fs::temp_directory_path() / "drumlin-vtk-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
+    folder_ = name;
+    put("run/parameters.csv", "name,value\ndeck,bed\ntimestep,0.125\n");
+    for (const char *step : {"0", "1000", "200"}) {
+      put(std::string("run/dump/balls_") + step + ".vtp", ball_dump());
+      put(std::string("run/dump/contacts_") + step + ".dump", contact_dump());
+      put(std::string("run/dump/balls_boundingBox_") + step + ".vtr", "of no interest");
+    }
+  }
+  ~VtkCommand() override {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+
+  void put(const std::string &file, const std::string &text) const {
+    fs::create_directories((folder_ / file).parent_path());
+    std::ofstream(folder_ / file) << text;
+  }
+  Outcome run(std::vector<std::string> words) const {
+    words.insert(words.begin(), {DRUMLIN_TOOLS, "vtk"});
+    return post::run_program(words, {}, folder_);
+  }
+  /// Every file below a folder, with its text.
+  std::map<std::string, std::string> files(const std::string &name) const {
+    std::map<std::string, std::string> texts;
+    if (fs::exists(folder_ / name))
+      for (const auto &entry : fs::recursive_directory_iterator(folder_ / name))
+        texts[entry.path().lexically_relative(folder_ / name).string()] =
+            entry.is_directory() ? "(folder)" : read_text(entry.path());
+    return texts;
+  }
+  std::vector<std::string> names(const std::string &name) const {
+    std::vector<std::string> all;
+    for (const auto &file : files(name))
+      all.push_back(file.first);
+    return all;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(VtkCommand, WritesThreeCollections) {
+  const Outcome outcome = run({"run"});
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  EXPECT_EQ(
+      names("run/vtk"),
+      (std::vector<std::string>{"balls.pvd", "balls_0.vtp", "balls_1000.vtp", "balls_200.vtp", "contacts.pvd",
+                                "contacts_0.vtp", "contacts_1000.vtp", "contacts_200.vtp", "fields.pvd",
+                                "fields_0.vti", "fields_1000.vti", "fields_200.vti", "scene.json"}));
+  EXPECT_EQ(read_text(folder_ / "run/vtk/fields.pvd"),
+            "<?xml version=\"1.0\"?>\n"
+            "<VTKFile type=\"Collection\" version=\"0.1\">\n"
+            "  <Collection>\n"
+            "    <DataSet timestep=\"0\" file=\"fields_0.vti\"/>\n"
+            "    <DataSet timestep=\"25\" file=\"fields_200.vti\"/>\n"
+            "    <DataSet timestep=\"125\" file=\"fields_1000.vti\"/>\n"
+            "  </Collection>\n"
+            "</VTKFile>\n");
+  EXPECT_TRUE(outcome.says("run/vtk/contacts.pvd: 3 steps, 0 to 125 s\n")) << outcome.output;
+}
+
+TEST_F(VtkCommand, WritesWhatTheDumpsHold) {
+  ASSERT_TRUE(run({"run", "--cell", "4", "--out", "new/here"}).ok());
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName((folder_ / "new/here/balls_200.vtp").c_str());
+  reader->Update();
+  vtkPointData *balls = reader->GetOutput()->GetPointData();
+  ASSERT_EQ(reader->GetOutput()->GetNumberOfPoints(), 3);
+  const auto column = [&balls](const char *name) {
+    std::vector<double> values;
+    vtkDataArray *array = balls->GetArray(name);
+    for (vtkIdType row = 0; row < array->GetNumberOfTuples(); ++row)
+      for (int c = 0; c < array->GetNumberOfComponents(); ++c)
+        values.push_back(array->GetComponent(row, c));
+    return values;
+  };
+  using Values = std::vector<double>;
+  EXPECT_EQ(column("id"), (Values{1, 2, 9}));
+  EXPECT_EQ(column("type"), (Values{1, 1, 2}));
+  EXPECT_EQ(column("radius"), (Values{1, 1, 2}));
+  EXPECT_EQ(column("diameter"), (Values{2, 2, 4}));
+  EXPECT_EQ(column("mass"), (Values{10, 20, 500}));
+  EXPECT_EQ(column("velocity"), (Values{3, 0, 0, 0, 6, 0, 0, 0, 0}));
+  EXPECT_EQ(column("angular_velocity"), (Values{0, 0, 1, 0, 0, 2, 0, 0, 0}));
+  EXPECT_EQ(column("force"), (Values{1, 2, 3, 0, 0, 0, 0, 7, 0}));
+  EXPECT_EQ(column("coordination"), (Values{2, 1, 1}));
+  const double by_hand = 100 * 0.9 + 400 * 0.95 + 430 * 0.95; // ball 1: its neighbour, the drum, the floor
+  const Values pressure = column("pressure");
+  EXPECT_NEAR(pressure[0], by_hand / (2.0 * 3.141592653589793), 1e-9);
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfVerts(), 3); // or ParaView shows nothing
+
+  vtkNew<vtkXMLPolyDataReader> lines;
+  lines->SetFileName((folder_ / "new/here/contacts_200.vtp").c_str());
+  lines->Update();
+  ASSERT_EQ(lines->GetOutput()->GetNumberOfLines(), 3);
+  vtkCellData *contacts = lines->GetOutput()->GetCellData();
+  const auto row = [&contacts](const char *name, vtkIdType contact) {
+    const double *tuple = contacts->GetArray(name)->GetTuple(contact);
+    return Values(tuple, tuple + contacts->GetArray(name)->GetNumberOfComponents());
+  };
+  EXPECT_EQ(row("id1", 0), (Values{1}));
+  EXPECT_EQ(row("id2", 0), (Values{2}));
+  EXPECT_EQ(row("force", 0), (Values{-100, -30, 0})); // on ball 1, by its neighbour on the right
+  EXPECT_DOUBLE_EQ(row("normal_force", 0)[0], 100);
+  EXPECT_DOUBLE_EQ(row("tangential_force", 0)[0], 30);
+  EXPECT_EQ(row("overlap", 0), (Values{0.2}));
+  EXPECT_EQ(row("id2", 1), (Values{9}));
+  EXPECT_DOUBLE_EQ(row("normal_force", 1)[0], 400);
+  EXPECT_NEAR(row("tangential_force", 1)[0], 0.0, 1e-12);
+  EXPECT_EQ(row("id1", 2), (Values{1})); // on the floor
+  EXPECT_EQ(row("id2", 2), (Values{0}));
+  EXPECT_EQ(row("force", 2), (Values{5, 430, 0}));
+  EXPECT_DOUBLE_EQ(row("normal_force", 2)[0], 430);
+  EXPECT_DOUBLE_EQ(row("tangential_force", 2)[0], 5);
+  EXPECT_EQ(row("overlap", 2), (Values{0.05}));
+  double end[3];
+  lines->GetOutput()->GetPoint(1, end);
+  EXPECT_FLOAT_EQ(static_cast<float>(end[0]), 2.8F);
+  lines->GetOutput()->GetPoint(5, end);
+  EXPECT_NEAR(end[0], 1.0, 1e-6);
+  EXPECT_NEAR(end[1], 0.05, 1e-6); // radius 1 and overlap 0.05 below the centre at 1
+
+  vtkNew<vtkXMLImageDataReader> image;
+  image->SetFileName((folder_ / "new/here/fields_200.vti").c_str());
+  image->Update();
+  ASSERT_EQ(image->GetOutput()->GetNumberOfCells(), 1); // of 3.8 m by 2 m: soil alone
+  vtkCellData *fields = image->GetOutput()->GetCellData();
+  const double area = 3.8 * 2.0;
+  EXPECT_NEAR(fields->GetArray("solid_fraction")->GetTuple1(0), 2.0 * 3.141592653589793 / area, 1e-6);
+  EXPECT_NEAR(fields->GetArray("bulk_density")->GetTuple1(0), 30.0 / area, 1e-6);
+  EXPECT_NEAR(fields->GetArray("velocity")->GetComponent(0, 0), 1.0, 1e-14);
+  EXPECT_NEAR(fields->GetArray("velocity")->GetComponent(0, 1), 4.0, 1e-14);
+  EXPECT_NEAR(fields->GetArray("stress")->GetComponent(0, 0), 100.0 * 1.8 / area, 1e-5); // f_x l_x
+  EXPECT_NEAR(fields->GetArray("stress")->GetComponent(0, 3), 30.0 * 1.8 / area, 1e-5);  // f_y l_x
+  EXPECT_NEAR(fields->GetArray("stress")->GetComponent(0, 4), 0.0, 1e-12); // the drum's is not soil's
+  EXPECT_NEAR(fields->GetArray("pressure")->GetTuple1(0), 50.0 * 1.8 / area, 1e-5);
+  EXPECT_NEAR(fields->GetArray("fabric")->GetComponent(0, 0), 1.0, 1e-14);
+  EXPECT_NEAR(fields->GetArray("coordination")->GetTuple1(0), 1.0, 1e-14);
+}
+
+// A quarter of a turn into the second cycle of 20 s. Contacts push the drum up by 400 N.
+TEST_F(VtkCommand, TellsThePhaseAndTheForcesOnTheDrum) {
+  put("run/parameters.csv", "name,value\ntimestep,0.125\nomega,0.31415926535897931\nFw,1000\n");
+  ASSERT_TRUE(run({"run"}).ok());
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName((folder_ / "run/vtk/balls_200.vtp").c_str());
+  reader->Update();
+  const auto value = [&reader](const char *name) {
+    return reader->GetOutput()->GetFieldData()->GetArray(name)->GetTuple1(0);
+  };
+  EXPECT_EQ(value("cycle"), 2.0);
+  EXPECT_NEAR(value("phase"), 90.0, 1e-6);
+  EXPECT_NEAR(value("F_excitation"), 1000.0, 1e-9);
+  EXPECT_EQ(value("F_contact"), 400.0);
+}
+
+// The colour scale of a picture: the 99 % quantile leaves out the single fast soil ball of 6 m/s, and the drum is not part of it at all.
+TEST_F(VtkCommand, TellsHowLargeValuesBecome) {
+  put("run/parameters.csv", "name,value\ntimestep,0.125\nomega,0.31415926535897931\n");
+  ASSERT_TRUE(run({"run"}).ok());
+  const nlohmann::json scene = nlohmann::json::parse(read_text(folder_ / "run/vtk/scene.json"));
+  EXPECT_EQ(scene["dimension"], 2);
+  EXPECT_NEAR(scene["period"].get<double>(), 20.0, 1e-12);
+  EXPECT_EQ(scene["sizes"]["velocity"]["quantile_99"], 3.0);
+  EXPECT_EQ(scene["sizes"]["velocity"]["largest"], 6.0);
+  EXPECT_EQ(scene["sizes"]["coordination"]["largest"], 2.0);
+  EXPECT_EQ(scene["sizes"]["normal_force"]["largest"], 430.0);
+  EXPECT_NEAR(scene["bounds"][1][1].get<double>(), 5.9, 1e-6); // top of the drum
+  EXPECT_NEAR(scene["soil_bounds"][1][1].get<double>(), 2.0, 1e-6);
+}
+
+// Ball 1 on the left presses on ball 2 on the right through a periodic side.
+TEST_F(VtkCommand, JoinsABallToTheImageOfAnother) {
+  put("run/dump/contacts_200.dump", contact_dump("1 2 50 0 0 1 0 0 0.2\n"));
+  ASSERT_TRUE(run({"run", "--cell", "4"}).ok());
+  vtkNew<vtkXMLPolyDataReader> lines;
+  lines->SetFileName((folder_ / "run/vtk/contacts_200.vtp").c_str());
+  lines->Update();
+  ASSERT_EQ(lines->GetOutput()->GetNumberOfLines(), 1);
+  EXPECT_NEAR(lines->GetOutput()->GetPoint(0)[0], 1.0, 1e-6);
+  EXPECT_NEAR(lines->GetOutput()->GetPoint(1)[0], 1.0 - 1.8, 1e-6);
+  EXPECT_DOUBLE_EQ(lines->GetOutput()->GetCellData()->GetArray("normal_force")->GetTuple1(0), 50.0);
+  vtkNew<vtkXMLImageDataReader> image;
+  image->SetFileName((folder_ / "run/vtk/fields_200.vti").c_str());
+  image->Update();
+  EXPECT_NEAR(image->GetOutput()->GetCellData()->GetArray("stress")->GetComponent(0, 0),
+              50.0 * 1.8 / (3.8 * 2.0), 1e-5);
+}
+
+TEST_F(VtkCommand, MakesDoWithoutContacts) {
+  ASSERT_TRUE(run({"run"}).ok());
+  for (const char *step : {"0", "1000", "200"})
+    fs::remove(folder_ / "run/dump" / (std::string("contacts_") + step + ".dump"));
+  const Outcome outcome = run({"run"});
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  EXPECT_TRUE(outcome.says("no contacts and no fields")) << outcome.output;
+  EXPECT_EQ(names("run/vtk"), (std::vector<std::string>{"balls.pvd", "balls_0.vtp", "balls_1000.vtp",
+                                                        "balls_200.vtp", "scene.json"}));
+  EXPECT_EQ(read_text(folder_ / "run/vtk/balls_0.vtp").find("coordination"), std::string::npos);
+}
+
+TEST_F(VtkCommand, TakesTheRoomOfAnEarlierResultAndOfNothingElse) {
+  ASSERT_TRUE(run({"run"}).ok());
+  put("run/vtk/view.pvsm", "the user's");
+  fs::remove(folder_ / "run/dump/balls_1000.vtp");
+  const Outcome outcome = run({"run"});
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  EXPECT_EQ(names("run/vtk"),
+            (std::vector<std::string>{"balls.pvd", "balls_0.vtp", "balls_200.vtp", "contacts.pvd",
+                                      "contacts_0.vtp", "contacts_200.vtp", "fields.pvd", "fields_0.vti",
+                                      "fields_200.vti", "scene.json", "view.pvsm"}));
+}
+
+struct Bad {
+  std::string name;
+  std::map<std::string, std::string> files; ///< replaced in the folder of the run; removed if "-"
+  std::vector<std::string> words;           ///< of the call, behind vtk
+  std::vector<std::string> says;
+  int skipped = 0; ///< lines on steps that are left out, before the error
+};
+
+TEST_F(VtkCommand, BadInputIsOneLineAndTouchesNothing) {
+  ASSERT_TRUE(run({"run"}).ok());
+  const std::string balls = "dump/balls_200.vtp", contacts = "dump/contacts_200.dump";
+  const auto with = [](std::map<std::string, Array> arrays, const std::string &name, const Array &array) {
+    arrays[name] = array;
+    return arrays;
+  };
+  const auto without = [](std::map<std::string, Array> arrays, const std::string &name) {
+    arrays.erase(name);
+    return arrays;
+  };
+  const std::string text_head = "ITEM: TIMESTEP\n300\nITEM: NUMBER OF ATOMS\n2\nITEM: ATOMS ";
+  put("file", "not a folder");
+  const std::vector<Bad> table = {
+      {"no folder", {}, {}, {"dir is required"}},
+      {"unknown folder", {}, {"nowhere"}, {"'nowhere'", "dump/balls_STEP.vtp", "allowed"}},
+      {"no dumps",
+       {{"dump/balls_0.vtp", "-"}, {"dump/balls_200.vtp", "-"}, {"dump/balls_1000.vtp", "-"}},
+       {"run"},
+       {"'run'", "dump/balls_STEP.vtp"}},
+      {"no parameters", {{"parameters.csv", "-"}}, {"run"}, {"parameters.csv", "cannot be read"}},
+      {"no time step", {{"parameters.csv", "name,value\nk,1\n"}}, {"run"}, {"parameters.csv", "timestep"}},
+      {"time step of words", {{"parameters.csv", "name,value\ntimestep,soon\n"}}, {"run"}, {"'soon'", "> 0"}},
+      {"time step of zero", {{"parameters.csv", "name,value\ntimestep,0\n"}}, {"run"}, {"'0'", "> 0"}},
+      {"endless time step", {{"parameters.csv", "name,value\ntimestep,inf\n"}}, {"run"}, {"'inf'", "> 0"}},
+      {"angular frequency of words",
+       {{"parameters.csv", "name,value\ntimestep,1\nomega,fast\n"}},
+       {"run"},
+       {"omega is 'fast'", "> 0"}},
+      {"negative amplitude",
+       {{"parameters.csv", "name,value\ntimestep,1\nomega,1\nFw,-1\n"}},
+       {"run"},
+       {"Fw is '-1'", ">= 0"}},
+      {"cell of zero", {}, {"run", "--cell", "0"}, {"--cell", "'0'", "from 1e-09"}},
+      {"negative cell", {}, {"run", "--cell=-1"}, {"--cell", "'-1'", "from 1e-09"}},
+      {"cell of words", {}, {"run", "--cell", "big"}, {"--cell", "'big'", "a number"}},
+      {"empty cell", {}, {"run", "--cell", ""}, {"--cell", "''", "a number"}},
+      {"absurd cell", {}, {"run", "--cell", "1e300"}, {"--cell", "'1e300'", "a number"}},
+      {"empty out", {}, {"run", "--out", ""}, {"--out", "''", "allowed"}},
+      {"too many cells", {}, {"run", "--cell", "1e-5"}, {"--cell", "larger cells"}},
+      {"out is a file", {}, {"run", "--out", "file"}, {"--out", "'file'", "allowed"}},
+      {"out below a file", {}, {"run", "--out", "file/x"}, {"--out", "'file/x'", "allowed"}},
+      {"out is the dumps", {}, {"run", "--out", "run/dump"}, {"--out", "'run/dump'", "balls.pvd", "allowed"}},
+      {"text dump of words", {{"dump/balls_300.dump", "hello"}}, {"run"}, {"balls_300.dump", "no text dump"}},
+      {"text dump with a short row",
+       {{"dump/balls_300.dump", text_head + "id type\n1 1\n2\n"}},
+       {"run"},
+       {"balls_300.dump", "row 2 has 1 numbers, expected 2"}},
+      {"text dump with a word",
+       {{"dump/balls_300.dump", text_head + "id type\n1 soil\n2 1\n"}},
+       {"run"},
+       {"balls_300.dump", "'soil' is no number"}},
+      {"text dump that is not finite",
+       {{"dump/balls_300.dump", text_head + "id type\n1 1\n2 nan\n"}},
+       {"run"},
+       {"balls_300.dump", "'type' holds nan"}},
+      {"text dump without radius",
+       {{"dump/balls_300.dump", text_head + "id type\n1 1\n2 1\n"}},
+       {"run"},
+       {"balls_300.dump", "column 'radius' is missing"}},
+      {"text dump of two steps",
+       {{"dump/balls_300.dump", text_head + "id type\n1 1\n2 1\n" + text_head + "id type\n1 1\n2 1\n"}},
+       {"run"},
+       {"balls_300.dump", "more than one step"}},
+      {"all balls cut short",
+       {{"dump/balls_0.vtp", ""}, {balls, ""}, {"dump/balls_1000.vtp", "<?xml"}},
+       {"run"},
+       {"cut short"},
+       3},
+      {"balls of words", {{balls, "hello"}}, {"run"}, {"balls_200.vtp", "no whole VTK file"}},
+      {"no balls", {{balls, point_data(0, "", {})}}, {"run"}, {"balls_200.vtp", "no balls"}},
+      {"points without data", {{balls, point_data(1, "0 0 0", {})}}, {"run"}, {"balls_200.vtp", "'id'"}},
+      {"no radius",
+       {{balls, ball_dump(without(ball_arrays(), "radius"))}},
+       {"run"},
+       {"balls_200.vtp", "'radius'"}},
+      {"flat velocity",
+       {{balls, ball_dump(with(ball_arrays(), "v", {"v", 1, "1 2 3"}))}},
+       {"run"},
+       {"balls_200.vtp", "'v'"}},
+      {"radius of zero",
+       {{balls, ball_dump(with(ball_arrays(), "radius", {"radius", 1, "2 0 1"}))}},
+       {"run"},
+       {"ball 2", "> 0"}},
+      {"mass of nan",
+       {{balls, ball_dump(with(ball_arrays(), "mass", {"mass", 1, "2 nan 1"}))}},
+       {"run"},
+       {"'mass'", "nan"}},
+      {"an id twice",
+       {{balls, ball_dump(with(ball_arrays(), "id", {"id", 1, "9 1 1"}))}},
+       {"run"},
+       {"two balls", "1"}},
+      {"no soil",
+       {{balls, ball_dump(with(ball_arrays(), "type", {"type", 1, "2 3 3"}))}},
+       {"run"},
+       {"balls_200.vtp", "no soil"}},
+      {"contacts of words", {{contacts, "hello"}}, {"run"}, {"contacts_200.dump", "no text dump"}},
+      {"contacts of another fix",
+       {{contacts, std::regex_replace(contact_dump(), std::regex("f_contacts"), "f_mine")}},
+       {"run"},
+       {"contacts_200.dump", "'f_contacts[1]'"}},
+      {"contact of a stranger",
+       {{contacts, contact_dump("7 1 1 0 0 1 0 0 0.1\n")}},
+       {"run"},
+       {"contacts_200.dump", "ball 7"}},
+      {"a stranger on the floor",
+       {{contacts, contact_dump("7 0 0 1 0 0 1 0 0.1\n")}},
+       {"run"},
+       {"contacts_200.dump", "ball 7"}},
+      {"a contact twice",
+       {{contacts, contact_dump("2 1 1 0 0 1 0 0 0.1\n1 2 -1 0 0 -1 0 0 0.1\n")}},
+       {"run"},
+       {"contacts_200.dump", "1 and 2", "twice"}},
+  };
+  const auto before = files("run/vtk");
+  ASSERT_EQ(before.size(), 13U);
+  for (const Bad &bad : table) {
+    SCOPED_TRACE(bad.name);
+    std::map<std::string, std::string> saved;
+    for (const auto &[file, text] : bad.files) {
+      saved[file] = fs::exists(folder_ / "run" / file) ? read_text(folder_ / "run" / file) : "-";
+      if (text == "-")
+        fs::remove(folder_ / "run" / file);
+      else
+        put("run/" + file, text);
+    }
+    const Outcome outcome = run(bad.words);
+    EXPECT_EQ(outcome.status, 2) << outcome.output;
+    EXPECT_TRUE(outcome.says("ERROR: drumlin vtk: ")) << outcome.output;
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1 + bad.skipped)
+        << outcome.output;
+    for (const std::string &said : bad.says)
+      EXPECT_TRUE(outcome.says(said)) << said << " is not in " << outcome.output;
+    EXPECT_EQ(files("run/vtk"), before);
+    for (const auto &[file, text] : saved)
+      if (text == "-")
+        fs::remove(folder_ / "run" / file);
+      else
+        put("run/" + file, text);
+  }
+  EXPECT_TRUE(run({"run"}).ok()); // all is as it was
+}
+
+// A run that was stopped leaves its last dumps cut short; the other steps are shown, and one line tells of each that is not.
+TEST_F(VtkCommand, LeavesOutWhatWasCutShortAndSaysSo) {
+  const std::string whole = ball_dump();
+  const std::string text_dump = "ITEM: TIMESTEP\n400\nITEM: NUMBER OF ATOMS\n2\nITEM: ATOMS id type\n1 1\n";
+  struct Cut {
+    const char *file;
+    std::string text;
+    const char *says;
+    std::size_t balls, contacts; // steps that are left
+  };
+  const std::vector<Cut> table = {
+      {"run/dump/balls_1000.vtp", "", "step 1000 left out: run/dump/balls_1000.vtp: is cut short", 2, 2},
+      {"run/dump/balls_1000.vtp", whole.substr(0, whole.size() / 2), "step 1000 left out: ", 2, 2},
+      {"run/dump/balls_400.dump", text_dump, "balls_400.dump: is cut short: it has 1 rows, expected 2", 3, 3},
+      {"run/dump/balls_400.dump", text_dump + "2 1", "it has 1 rows, expected 2", 3, 3}, // 12, perhaps
+      {"run/dump/balls_400.dump", text_dump.substr(0, 30), "it ends before its rows begin", 3, 3},
+      {"run/dump/balls_400.dump", "", "it ends before its rows begin", 3, 3},
+      {"run/dump/contacts_200.dump", contact_dump().substr(0, contact_dump().size() - 24),
+       "contacts of step 200 left out: run/dump/contacts_200.dump: is cut short", 3, 2},
+  };
+  for (const Cut &cut : table) {
+    SCOPED_TRACE(cut.says);
+    const fs::path file = folder_ / cut.file;
+    const std::string saved = fs::exists(file) ? read_text(file) : "-";
+    put(cut.file, cut.text);
+    const Outcome outcome = run({"run"});
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_TRUE(outcome.says(cut.says)) << outcome.output;
+    EXPECT_TRUE(outcome.says(fmt::format("balls.pvd: {} steps", cut.balls))) << outcome.output;
+    EXPECT_TRUE(outcome.says(fmt::format("contacts.pvd: {} steps", cut.contacts))) << outcome.output;
+    if (saved == "-")
+      fs::remove(file);
+    else
+      put(cut.file, saved);
+  }
+}
+
+TEST_F(VtkCommand, TellsOfMissingSteps) {
+  EXPECT_TRUE(
+      run({"run"}).says("3 steps of the dumps every 200 are missing, from step 400 on")); // 0, 200, 1000
+  put("run/dump/balls_500.vtp", ball_dump());
+  EXPECT_FALSE(run({"run"}).says("missing, from")); // 0, 200, 500, 1000: not at equal distances
+}
+
+// Debian 12's ParaView cannot read VTK's appended data: the arrays stand in the XML.
+TEST_F(VtkCommand, WritesNoAppendedData) {
+  ASSERT_TRUE(run({"run"}).ok());
+  for (const char *name : {"run/vtk/balls_0.vtp", "run/vtk/contacts_0.vtp", "run/vtk/fields_0.vti"}) {
+    const std::string text = read_text(folder_ / name);
+    EXPECT_EQ(text.find("<AppendedData"), std::string::npos) << name;
+    EXPECT_NE(text.find("format=\"binary\""), std::string::npos) << name;
+  }
+}
+
+// A first call that fails leaves no folder.
+TEST_F(VtkCommand, TakesHostileNames) {
+  for (const char *name : {"100%", "%s%n", "a\"b", "it's", "{}", "b\\n", "x y", "$(touch pwned)",
+                           "x;touch pwned;", "-x", "B[1]", "run(1)", "A&B", "bad\xff"}) {
+    const fs::path run_folder = folder_ / "hostile" / name;
+    fs::create_directories(run_folder.parent_path());
+    fs::copy(folder_ / "run", run_folder, fs::copy_options::recursive);
+    const Outcome outcome = run({"--", "hostile/" + std::string(name)});
+    EXPECT_TRUE(outcome.ok()) << name << ": " << outcome.output;
+    EXPECT_TRUE(fs::is_regular_file(run_folder / "vtk" / "balls.pvd")) << name;
+  }
+  fs::copy(folder_ / "run", folder_ / "-x", fs::copy_options::recursive);
+  EXPECT_TRUE(run({"--", "-x"}).ok());
+  EXPECT_TRUE(fs::is_regular_file(folder_ / "-x" / "vtk" / "balls.pvd"));
+  EXPECT_FALSE(fs::exists(folder_ / "pwned"));
+}
+
+TEST_F(VtkCommand, ClearsAwayWhatAKilledCallLeft) {
+  const pid_t child = fork(); // a process that is no more
+  if (child == 0) _exit(0);
+  ASSERT_EQ(waitpid(child, nullptr, 0), child);
+  const std::string killed = "run/vtk/unfinished." + std::to_string(child);
+  const std::string running = "run/vtk/unfinished." + std::to_string(getppid());
+  put(killed + "/balls_0.vtp", "half a file");
+  put(running + "/balls_0.vtp", "half a file");
+  ASSERT_TRUE(run({"run"}).ok());
+  EXPECT_FALSE(fs::exists(folder_ / killed));
+  EXPECT_TRUE(fs::exists(folder_ / running));
+}
+
+TEST_F(VtkCommand, AFailureLeavesNothingBehind) {
+  put("run/dump/contacts_1000.dump", "hello");
+  EXPECT_EQ(run({"run"}).status, 2);
+  EXPECT_FALSE(fs::exists(folder_ / "run/vtk"));
+}
+
+} // namespace
+} // namespace drumlin::test

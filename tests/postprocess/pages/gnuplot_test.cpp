@@ -1,0 +1,136 @@
+// Names of run folders reach gnuplot scripts: they must stay text there.
+#include "pages/gnuplot.h"
+
+#include "pages/figure_data.h"
+#include "engine/engine_run.h"
+#include "tests/support/page.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace {
+
+using namespace drumlin::post;
+namespace fs = std::filesystem;
+
+TEST(Script, KeepsHostileNamesAsText) {
+  Figure figure;
+  figure.name = "f";
+  figure.title = "t";
+  Panel panel;
+  panel.x_label = "x (m)";
+  panel.y_label = "y (m)";
+  panel.x_ticks = {"a\"; system(\"touch /tmp/x\") #", "b\\", "`date`"};
+  figure.panels = {panel};
+  const std::string script = gnuplot_script(figure);
+  EXPECT_NE(script.find("\\\"; system(\\\"touch"), std::string::npos);
+  EXPECT_NE(script.find("\"b\\\\\""), std::string::npos);
+  EXPECT_EQ(script.find('`'), std::string::npos); // gnuplot runs what stands between backquotes
+}
+
+/// What gnuplot draws of names along an axis, as the texts of the SVG.
+TEST(Script, DrawsHostileNamesAsTheyAre) {
+  const fs::path folder = fs::temp_directory_path() / fmt::format("drumlin-gnuplot 100% {}", ::getpid());
+  fs::create_directories(folder);
+  std::ofstream(folder / "it's.csv") << "curve,x,y\n\"it's\",1,2\n\"it's\",2,3\n";
+  Figure figure;
+  figure.name = "f";
+  figure.title = "100% {t}";
+  Panel panel;
+  panel.title = "%s {a}_b^c @d";
+  panel.x_label = "x (m)";
+  panel.y_label = "y (m)";
+  panel.x_ticks = {
+      "100%", "%s%n", "{}", "a_b^c", "a\"b", "it's", "a\\nb", "x y", "c\x01", "\xff", std::string(300, 'w')};
+  panel.curves = {{"it's.csv", of_curve("it's", "$2"), "3", "%d_{}", CurveStyle::plain}};
+  figure.panels = {panel, panel};
+  render(find_gnuplot(), folder, figure);
+  const std::string svg = read_text(folder / "f.svg");
+  for (const char *text : {"100%", "%s%n", "{}", "a_b^c", "a\"b", "it's", "a\\nb", "x y", ">c<",
+                           "%s {a}_b^c @d", "%d_{}", "100% {t}"})
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
+  EXPECT_TRUE(drumlin::test::parse(svg).well_formed);
+  EXPECT_FALSE(fs::exists(folder / program_output_file));
+  fs::remove_all(folder);
+}
+
+// On a full disk gnuplot leaves a part of a picture and ends with 0.
+TEST(Picture, ThatIsCutShortIsAnError) {
+  const fs::path folder = fs::temp_directory_path() / fmt::format("drumlin-cut-{}", ::getpid());
+  fs::create_directories(folder);
+  std::ofstream(folder / "f.csv") << "x,y\n1,2\n2,3\n";
+  Figure figure;
+  figure.name = "f";
+  figure.panels = {Panel()};
+  figure.panels[0].curves = {{"f.csv", "1", "2", "", CurveStyle::plain}};
+  for (const char *cut : {"f.svg", "f.png"}) {
+    const fs::path half = folder / "half-gnuplot";
+    std::ofstream(half) << fmt::format("#!/bin/sh\n'{}' \"$@\" && truncate -s -9 {}\n",
+                                       find_gnuplot().string(), cut);
+    fs::permissions(half, fs::perms::owner_all);
+    EXPECT_NO_THROW(render(find_gnuplot(), folder, figure));
+    EXPECT_TRUE(is_whole_picture(folder / cut));
+    try {
+      render(half, folder, figure);
+      ADD_FAILURE() << cut;
+    } catch (const std::runtime_error &fault) {
+      EXPECT_EQ(fault.what(),
+                (folder / cut).string() + " is cut short; allowed: a disk with room for what gnuplot draws");
+    }
+    EXPECT_FALSE(is_whole_picture(folder / cut));
+  }
+  fs::remove_all(folder);
+}
+
+TEST(Script, HasNoRangeWithoutExtent) {
+  EXPECT_EQ(axis_range(-1.0, 2.5), "[-1:2.5]");
+  EXPECT_EQ(axis_range(1.0, 1.0), "");
+  EXPECT_EQ(axis_range(1.0, 1.0 + 1e-9), "");
+  EXPECT_EQ(axis_range(1.0, 0.0), "");
+  EXPECT_EQ(axis_range(0.0, std::numeric_limits<double>::infinity()), "");
+  EXPECT_EQ(axis_range(std::nan(""), 1.0), "");
+}
+
+TEST(Script, DrawsPicturesToScaleAndOnlyAsPixels) {
+  Figure figure;
+  figure.name = "f";
+  figure.only_png = true;
+  Panel picture;
+  picture.equal_scales = true;
+  picture.color_label = "speed (m/s)";
+  picture.curves = {{"f.csv", "1", "2:3:4", "", CurveStyle::discs},
+                    {"f.csv", "1", "2:5:6", "", CurveStyle::segments}};
+  picture.curves.back().width = 2.5;
+  figure.panels = {picture, Panel()};
+  const std::string script = gnuplot_script(figure);
+  EXPECT_NE(script.find("[kind in \"png\"]"), std::string::npos);
+  EXPECT_NE(script.find("with vectors nohead lw 2.5"), std::string::npos);
+  // What the picture sets does not reach the next panel.
+  const std::size_t set = script.find("set size ratio -1");
+  ASSERT_NE(set, std::string::npos);
+  EXPECT_LT(set, script.find("set size noratio"));
+  EXPECT_LT(script.find("set colorbox"), script.find("unset colorbox"));
+  figure.only_png = false;
+  EXPECT_NE(gnuplot_script(figure).find("[kind in \"svg png\"]"), std::string::npos);
+}
+
+TEST(Size, OfPanelsInRows) {
+  Figure figure;
+  figure.panels.resize(3);
+  figure.columns = 2;
+  figure.panel_width = 100;
+  figure.panel_height = 50;
+  EXPECT_EQ(figure_width(figure), 200);
+  EXPECT_EQ(figure_height(figure), 140);
+}
+
+} // namespace

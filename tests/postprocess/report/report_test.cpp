@@ -1,0 +1,536 @@
+// A report made from direct solutions, as a reader meets it: strictly parsed, every file followed.
+#include "report/report.h"
+
+#include "chain/run_files.h"
+#include "support/usage_error.h"
+#include "chain/direct_solver.h"
+#include "report/chain_page.h"
+#include "report/run_folder.h"
+#include "support/text.h"
+#include "tests/support/page.h"
+#include "tests/support/run_folders.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <regex>
+#include <set>
+
+namespace {
+
+using namespace drumlin::post;
+using drumlin::test::parse;
+using drumlin::test::Parsed;
+using drumlin::test::write_chain_run;
+using drumlin::test::write_impact_run;
+namespace fs = std::filesystem;
+
+std::string read(const fs::path &file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+void write(const fs::path &file, const std::string &text) { std::ofstream(file, std::ios::binary) << text; }
+
+class Report : public ::testing::Test {
+protected:
+  static void SetUpTestSuite() {
+    root = fs::temp_directory_path() / fmt::format("drumlin-report-{}", ::getpid());
+    fs::remove_all(root);
+    write_chain_run(root / "runs" / "II-B", "II", Transition::B, 110, "drumlin run <in.chain> & \"more\"");
+    write_chain_run(root / "runs" / "I-A", "I", Transition::A, 110);
+    write_impact_run(root / "runs" / "impact-A", Transition::A, 0.5);
+    write_impact_run(root / "runs" / "impact-B", Transition::B, 0.5);
+    // A study has a chain.csv of its own, which is no run.
+    for (const char *name : {"runs/study", "runs/more/study"}) {
+      fs::create_directories(root / name / "figures");
+      write(root / name / "study.txt", "drumlin\n");
+      write(root / name / "index.html",
+            fmt::format("<html><title>Cost of {} &amp; more</title></html>", name));
+      write(root / name / "chain.csv", "case,steps_per_cycle\nI,50\n");
+      write(root / name / "figures" / "f.svg", "<svg/>");
+    }
+    ReportOptions options;
+    options.folders = {root / "runs"};
+    options.out = root / "report";
+    outcome = write_report(options);
+    page = parse(read(root / "report" / "index.html"));
+  }
+  static void TearDownTestSuite() { fs::remove_all(root); }
+
+  /// A run folder copied to `name`, to be spoilt.
+  static fs::path copy(const std::string &name) {
+    fs::path to = root / name;
+    fs::remove_all(to);
+    fs::copy(root / "runs" / "II-B", to);
+    return to;
+  }
+
+  /// `drumlin-tools report ARGUMENTS`: exit status and what came on standard error.
+  static std::pair<int, std::string> command(const std::string &arguments,
+                                             const std::string &environment = "") {
+    const fs::path errors = root / "stderr";
+    const std::string line = fmt::format("{} '{}' report {} >/dev/null 2>'{}'", environment, DRUMLIN_TOOLS,
+                                         arguments, errors.string());
+    const int status = std::system(line.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(errors)};
+  }
+
+  /// The command fails with status 2 and one line holding `words`; the report made before is as it was.
+  static void expect_refusal(const std::string &arguments, const std::string &words,
+                             const std::string &environment = "") {
+    const std::string before = read(root / "report" / "index.html");
+    const auto [status, errors] = command(arguments, environment);
+    EXPECT_EQ(status, 2) << errors;
+    EXPECT_EQ(errors.rfind("ERROR: drumlin report: ", 0), 0u) << errors;
+    EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << errors;
+    EXPECT_NE(errors.find(words), std::string::npos) << errors;
+    EXPECT_EQ(read(root / "report" / "index.html"), before);
+    EXPECT_TRUE(fs::is_regular_file(root / "report" / "figures" / "fig5_case_II.png"));
+    for (const fs::directory_entry &entry : fs::directory_iterator(root))
+      EXPECT_NE(entry.path().filename().string().front(), '.') << "left behind: " << entry.path();
+  }
+
+  static std::string out() { return "--out '" + (root / "report").string() + "'"; }
+  static std::string quote(const fs::path &path) { return "'" + path.string() + "'"; }
+
+  static fs::path root;
+  static ReportOutcome outcome;
+  static Parsed page;
+};
+fs::path Report::root;
+ReportOutcome Report::outcome;
+Parsed Report::page;
+
+TEST_F(Report, IsWellFormed) {
+  EXPECT_TRUE(page.well_formed) << page.error;
+  EXPECT_EQ(page.doubled_ids, 0u);
+  EXPECT_EQ(page.scripts, 0u);
+}
+
+TEST_F(Report, LoadsNothingFromTheNetwork) {
+  for (const std::vector<std::string> *all : {&page.images, &page.links, &page.resources})
+    for (const std::string &address : *all) {
+      EXPECT_EQ(address.find("//"), std::string::npos) << address;
+      EXPECT_EQ(address.find("http"), std::string::npos) << address;
+    }
+  const std::string text = read(root / "report" / "index.html");
+  EXPECT_EQ(text.find("url("), std::string::npos);
+  EXPECT_EQ(text.find("@import"), std::string::npos);
+  for (const std::string &image : page.images) {
+    const std::string picture = read(root / "report" / image);
+    EXPECT_EQ(picture.find("href=\"http"), std::string::npos) << image;
+    EXPECT_EQ(picture.find("<script"), std::string::npos) << image;
+  }
+}
+
+TEST_F(Report, HasEveryPictureItShows) {
+  // Figs. 3, 4, 5, 8, restitution, two orbits, roller force. (Exact runs have no error to draw.)
+  EXPECT_EQ(page.images.size(), 8u);
+  for (const std::string &image : page.images) {
+    const fs::path svg = root / "report" / image;
+    ASSERT_TRUE(fs::is_regular_file(svg)) << svg;
+    EXPECT_EQ(svg.extension(), ".svg");
+    const Parsed drawing = parse(read(svg));
+    EXPECT_TRUE(drawing.well_formed) << svg << drawing.error;
+    fs::path png = svg;
+    png.replace_extension(".png");
+    const std::string bytes = read(png);
+    EXPECT_GT(bytes.size(), 5000u) << png;
+    EXPECT_EQ(bytes.substr(0, 8), "\x89PNG\r\n\x1a\n") << png;
+    fs::path script = svg;
+    script.replace_extension(".gp");
+    EXPECT_TRUE(fs::is_regular_file(script));
+  }
+}
+
+TEST_F(Report, HasDataWithUnitsBesideEveryFigure) {
+  for (const std::string &image : page.images) {
+    const fs::path csv = root / "report" / "data" / (fs::path(image).stem().string() + ".csv");
+    ASSERT_TRUE(fs::is_regular_file(csv)) << csv;
+    const Table table = read_table(csv); // refuses ragged rows
+    EXPECT_GT(table.rows(), 1u);
+    for (const std::string &name : table.header()) {
+      const bool words = name == "curve" || name == "case";
+      EXPECT_TRUE(words || name.find(" (") != std::string::npos) << csv << ": " << name;
+    }
+  }
+}
+
+TEST_F(Report, HasEveryFileAndEveryPlaceThatItLinksTo) {
+  EXPECT_GT(page.links.size(), 40u);
+  for (const std::string &link : page.links) {
+    const bool found = link.front() == '#'
+                           ? page.ids.count(link.substr(1)) != 0
+                           : fs::is_regular_file(root / "report" / drumlin::test::file_of(link));
+    EXPECT_TRUE(found) << link;
+  }
+}
+
+TEST_F(Report, TakesStudiesAlong) {
+  const std::string text = read(root / "report" / "index.html");
+  for (const auto &[place, title] :
+       {std::pair{"studies/study", "runs/more/study"}, {"studies/study-2", "runs/study"}}) {
+    EXPECT_TRUE(fs::is_regular_file(root / "report" / place / "figures" / "f.svg")) << place;
+    EXPECT_NE(text.find(fmt::format("<a href=\"{}/index.html\">Cost of {} &amp; more</a>", place, title)),
+              std::string::npos);
+  }
+}
+
+TEST_F(Report, IsMadeOfAStudyAlone) {
+  ReportOptions options;
+  options.folders = {root / "runs" / "study"};
+  options.out = root / "study-report";
+  const std::string text = read(write_report(options).page);
+  EXPECT_TRUE(parse(text).well_formed);
+  EXPECT_NE(text.find("studies/study/index.html"), std::string::npos);
+}
+
+TEST_F(Report, PrintsCommandsAsTextAndSaysWhatIsLeftOut) {
+  const std::string text = read(root / "report" / "index.html");
+  EXPECT_NE(
+      text.find(
+          "<span>run</span> <span>&lt;in.chain&gt;</span> <span>&amp;</span> <span>&quot;more&quot;</span>"),
+      std::string::npos);
+  EXPECT_NE(text.find("Fig. 6 is left out"), std::string::npos);
+  EXPECT_NE(text.find("cycles.csv lacks the energies"), std::string::npos);
+}
+
+TEST_F(Report, OfTheDirectSolutionAgreesWithEveryReferenceValue) {
+  // I A: 7, II B: 8, two impacts.
+  EXPECT_EQ(outcome.checks.all, 17u);
+  EXPECT_EQ(outcome.checks.agree, 17u);
+  const Table checks = read_table(root / "report" / "data" / "checks.csv");
+  EXPECT_EQ(checks.rows(), 15u);
+  for (const std::string &agrees : checks.text("agrees"))
+    EXPECT_NE(agrees, "no");
+}
+
+TEST_F(Report, DoesNotJudgeAShortRunAndNamesTheCommandOfALongOne) {
+  write_chain_run(root / "it's short", "I", Transition::B, 12);
+  ReportOptions options;
+  options.folders = {root / "it's short"};
+  options.out = root / "short-report";
+  const ReportOutcome short_outcome = write_report(options);
+  EXPECT_EQ(short_outcome.checks.all, 0u);
+  EXPECT_EQ(short_outcome.checks.not_judged, 7u);
+  const std::string text = read(short_outcome.page);
+  EXPECT_TRUE(parse(text).well_formed);
+  EXPECT_NE(text.find("not judged (short run)"), std::string::npos);
+  EXPECT_NE(text.find("7 values are not judged"), std::string::npos);
+  EXPECT_EQ(text.find("class=\"differs"), std::string::npos);
+  const std::string command = fmt::format(
+      "./drumlin run inputs/chain/in.chain -var case I -var transition B -var steps_per_cycle 2000 "
+      "-var samples_per_cycle 200 -var cycles 120 -var out {}",
+      (fs::canonical(root) / "I-B-120-cycles").string());
+  EXPECT_EQ(short_outcome.judging_commands, (std::vector<std::string>{command}));
+  EXPECT_NE(text.find(command), std::string::npos);
+  const std::string json = read(root / "short-report" / "report.json");
+  EXPECT_NE(json.find("\"not_judged\": 7"), std::string::npos);
+  EXPECT_EQ(json.find("\"agrees\": false"), std::string::npos);
+}
+
+TEST_F(Report, CountsEachKindOfWorkToAnEndThatIsKnown) {
+  ReportOptions options;
+  options.folders = {root / "runs" / "II-B", root / "runs" / "impact-A"};
+  options.out = root / "counted-report";
+  std::map<std::string, std::vector<std::pair<int, int>>> counts; // done and all, by kind of work
+  options.progress = [&counts](const std::string &line) {
+    std::smatch parts;
+    ASSERT_TRUE(std::regex_match(line, parts, std::regex(R"((\w+) \[ *(\d+)/(\d+)\] .*)"))) << line;
+    counts[parts[1]].emplace_back(std::stoi(parts[2]), std::stoi(parts[3]));
+  };
+  write_report(options);
+  EXPECT_EQ(counts.size(), 2u);
+  for (const auto &[kind, steps] : counts)
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      EXPECT_EQ(steps[i].first, static_cast<int>(i) + 1) << kind;
+      EXPECT_EQ(steps[i].second, static_cast<int>(steps.size())) << kind;
+    }
+}
+
+TEST_F(Report, KeepsHostileNamesAsText) {
+  const std::vector<std::string> names = {"100%",
+                                          "%s%n",
+                                          "a\"b",
+                                          "it's",
+                                          "{}",
+                                          "{0:d}",
+                                          "b\\n\\",
+                                          "x y",
+                                          "`id`",
+                                          "$(touch pwned)",
+                                          "x;touch pwned;",
+                                          "-x",
+                                          "B[1]",
+                                          "run(1)",
+                                          "A&B",
+                                          "<b>",
+                                          "a#b?c",
+                                          "bad\xff\xfe\xc3",
+                                          "ctl\x01\x1b[1m",
+                                          "new\nline",
+                                          "^_@~",
+                                          "\xef\xbf\xbf",
+                                          std::string(200, 'w')};
+  const fs::path hostile = root / "hostile";
+  const fs::path seed = root / "seed";
+  write_chain_run(seed, "II", Transition::B, 6);
+  ReportOptions options;
+  for (const std::string &name : names) {
+    fs::create_directories(hostile / name);
+    for (const char *file : {"chain.csv", "events.csv"})
+      fs::copy(seed / file, hostile / name / file);
+    std::string parameters = read(seed / "parameters.csv");
+    parameters += csv_cell("note " + name) + "," + csv_cell(name) + "\n";
+    parameters.replace(parameters.find("a test"), 6, csv_cell(name + " LAMMPS"));
+    parameters.replace(parameters.find("D,0.5"), 5, "D,0.5000001"); // an error to draw
+    write(hostile / name / "parameters.csv", parameters);
+    options.folders.push_back(hostile / name);
+    const fs::path study = hostile / "studies" / name;
+    fs::create_directories(study);
+    write(study / "study.txt", "drumlin\n");
+    write(study / "index.html", "<html><title>Of " + html_escaped(name) + "</title></html>");
+    options.folders.push_back(study);
+  }
+  options.out = hostile / "100% <{\"%s\xff'";
+  const fs::path before = fs::current_path();
+  fs::current_path(hostile);
+  const ReportOutcome hostile_outcome = write_report(options);
+  fs::current_path(before);
+  const std::string text = read(hostile_outcome.page);
+  EXPECT_EQ(text, valid_utf8(text));
+  const Parsed shown = parse(text);
+  EXPECT_TRUE(shown.well_formed) << shown.error;
+  for (const char *shown_name : {"<td class=\"word\">100%</td>", "<td class=\"word\">%s%n</td>", "&lt;b&gt;",
+                                 "a&quot;b", "it&#39;s", "bad\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd"})
+    EXPECT_NE(text.find(shown_name), std::string::npos) << shown_name;
+  for (const std::string &link : shown.links)
+    EXPECT_TRUE(link.front() == '#' || fs::is_regular_file(options.out / drumlin::test::file_of(link)))
+        << link;
+  for (const std::string &image : shown.images) {
+    const Parsed drawing = parse(read(options.out / image));
+    EXPECT_TRUE(drawing.well_formed) << image << drawing.error;
+  }
+  const std::string ticks = read(options.out / "figures" / "figR6_velocity_error.svg");
+  for (const char *label : {">100%<", ">%s%n<", ">{}<", ">x y<"})
+    EXPECT_NE(ticks.find(label), std::string::npos) << label;
+  for (const fs::path &place : {hostile, options.out / "figures", before})
+    EXPECT_FALSE(fs::exists(place / "pwned")) << place;
+}
+
+TEST_F(Report, PrintsNoNumberThatIsNone) {
+  for (const auto &[name, parameter] :
+       {std::pair{"no-force", &ChainParameters::Fw}, {"no-weight", &ChainParameters::g}}) {
+    ChainParameters p = table1_case("II", Transition::B);
+    p.*parameter = 0.0;
+    DirectOptions solver;
+    solver.cycles = 12;
+    const DirectResult result = solve_direct(p, solver);
+    const fs::path folder = root / "none" / name;
+    fs::create_directories(folder);
+    write_chain(folder / "chain.csv", result.history);
+    write_events(folder / "events.csv", result.events);
+    // The energies and harmonics of a roller at rest are all zero.
+    write(folder / "cycles.csv",
+          "cycle,work_excitation,dissipated_contact,dissipated_bond,kinetic,potential,stored_contact,"
+          "stored_bond,a1_cos,a1_sin,a2_cos,a2_sin,ah_cos,ah_sin\n"
+          "0,0,0,0,0,0,0,0,0,0,0,0,0,0\n1,0,0,0,1,0,0,0,0,0,0,0,0,0\n2,0,0,0,1,0,0,0,0,0,0,0,0,0\n");
+    std::vector<std::pair<std::string, std::string>> values = parameter_values(p);
+    values.insert(values.end(), {{"deck", "chain"}, {"case", "II"}, {"engine", "a test"}});
+    write_parameters(folder / "parameters.csv", values);
+  }
+  // An impact whose mass turns away before it reaches the ball.
+  write_impact_run(root / "none" / "miss", Transition::A, 2.0);
+  write(root / "none" / "miss" / "chain.csv", "time,x_drum,v_drum,a_drum,F_contact,F_excitation\n"
+                                              "0,1,-1,0,0,0\n0.001,0.999,-1,0,0,0\n0.002,0.998,-1,0,0,0\n");
+  write(root / "none" / "miss" / "events.csv", "time,event,overlap,overlap_rate,force,id_i,id_j\n");
+  ReportOptions options;
+  options.folders = {root / "none"};
+  options.out = root / "none-report";
+  const std::string text = read(write_report(options).page);
+  EXPECT_TRUE(parse(text).well_formed);
+  for (const char *word : {">nan", ">-nan", ">inf", ">-inf", " nan", " inf", "nan "})
+    EXPECT_EQ(text.find(word), std::string::npos) << word;
+  for (const fs::directory_entry &data : fs::directory_iterator(options.out / "data")) {
+    const std::string cells = read(data.path());
+    EXPECT_EQ(cells.find(",nan"), std::string::npos) << data.path();
+    EXPECT_EQ(cells.find(",-nan"), std::string::npos) << data.path();
+    EXPECT_EQ(cells.find(",inf"), std::string::npos) << data.path();
+    EXPECT_EQ(cells.find(",-inf"), std::string::npos) << data.path();
+  }
+  EXPECT_NE(text.find("the mass does not reach the ball within the record"), std::string::npos);
+  EXPECT_NE(text.find("Fig. 3 is left out"), std::string::npos);
+}
+
+TEST_F(Report, GivesThePapersTitlesToThePapersParametersOnly) {
+  write_chain_run(root / "own", "II", Transition::B, 12);
+  std::string parameters = read(root / "own" / "parameters.csv");
+  parameters.replace(parameters.find("m2,2000"), 7, "m2,2100");
+  write(root / "own" / "parameters.csv", parameters);
+  ReportOptions options;
+  options.folders = {root / "own"};
+  options.out = root / "own-report";
+  const std::string text = read(write_report(options).page);
+  EXPECT_NE(text.find("own parameters after case II"), std::string::npos);
+  EXPECT_NE(text.find("m2 = 2100, case II has 2000"), std::string::npos);
+  EXPECT_EQ(text.find("fig5_case_II"), std::string::npos);
+  EXPECT_NE(text.find("own_after_case_II.svg"), std::string::npos);
+  const std::string page_of_paper = read(root / "report" / "index.html");
+  EXPECT_EQ(page_of_paper.find("own parameters"), std::string::npos);
+}
+
+TEST_F(Report, ClearsAwayWhatAKilledReportLeft) {
+  // A process that is no more.
+  const pid_t child = ::fork();
+  if (child == 0) ::_exit(0);
+  ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+  const fs::path place = root / "killed" / "a report";
+  const auto beside = [&](const std::string &name) { return root / "killed" / name; };
+  const fs::path half = beside(fmt::format(".a report.new-{}", child));
+  const fs::path old = beside(fmt::format(".a report.old-{}", child));
+  const fs::path running = beside(fmt::format(".a report.new-{}", ::getppid()));
+  const fs::path other = beside(fmt::format(".another.new-{}", child));
+  const fs::path file = beside(fmt::format(".a report.new-{}0000000", child));
+  for (const fs::path &folder : {half, old, running, other})
+    fs::create_directories(folder / "figures");
+  write(file, "of no report");
+  write(old / "report.json", "{}");
+  write(old / "thesis.txt", "years");
+  // Killed between its two renames: the earlier report comes back, and stays if the next one fails, too.
+  write(root / "killed" / "gnuplot", "#!/bin/sh\nexit 1\n");
+  fs::permissions(root / "killed" / "gnuplot", fs::perms::owner_all);
+  const auto [status, errors] =
+      command(quote(root / "runs" / "I-A") + " --out " + quote(place), "PATH=" + quote(root / "killed"));
+  EXPECT_EQ(status, 1) << errors;
+  EXPECT_TRUE(fs::is_regular_file(place / "thesis.txt"));
+  ReportOptions options;
+  options.folders = {root / "runs" / "I-A"};
+  options.out = place;
+  write_report(options);
+  EXPECT_TRUE(fs::is_regular_file(place / "index.html"));
+  EXPECT_FALSE(fs::exists(half));
+  EXPECT_FALSE(fs::exists(old));
+  EXPECT_TRUE(fs::exists(running));
+  EXPECT_TRUE(fs::exists(other));
+  EXPECT_TRUE(fs::exists(file));
+}
+
+TEST_F(Report, DoesWithoutOptionalFiles) {
+  const fs::path bare = copy("bare");
+  fs::remove(bare / "events.csv");
+  fs::remove(bare / "cycles.csv");
+  const fs::path nameless = copy("nameless");
+  fs::remove(nameless / "parameters.csv");
+  ReportOptions options;
+  options.folders = {bare, nameless};
+  options.out = root / "bare-report";
+  const std::string text = read(write_report(options).page);
+  EXPECT_TRUE(parse(text).well_formed);
+  EXPECT_NE(text.find("events.csv is missing"), std::string::npos);
+  EXPECT_NE(text.find("cycles.csv is missing"), std::string::npos);
+  EXPECT_NE(text.find("parameters.csv is missing"), std::string::npos);
+}
+
+TEST_F(Report, ReplacesAnEarlierReportAsAWhole) {
+  const fs::path place = root / "again";
+  ReportOptions options;
+  options.folders = {root / "runs" / "I-A"};
+  options.out = place;
+  write_report(options);
+  write(place / "data" / "stale.csv", "x\n");
+  write_report(options);
+  EXPECT_FALSE(fs::exists(place / "data" / "stale.csv"));
+  EXPECT_TRUE(fs::exists(place / "index.html"));
+}
+
+TEST_F(Report, RefusesFoldersThatAreNoRuns) {
+  expect_refusal(quote(root / "nowhere") + " " + out(), "nowhere");
+  fs::create_directories(root / "empty");
+  expect_refusal(quote(root / "empty") + " " + out(), "no chain.csv");
+  expect_refusal(out(), "dir");
+}
+
+TEST_F(Report, RefusesFilesThatItCannotRead) {
+  const fs::path broken = copy("broken");
+  write(broken / "chain.csv", "time,x_drum\n0,what\n");
+  expect_refusal(quote(broken) + " " + out(), "chain.csv");
+  const fs::path unequal = copy("broken");
+  write(unequal / "cycles.csv", "cycle,a_drum_min\n1\n");
+  expect_refusal(quote(unequal) + " " + out(), "cycles.csv");
+  const fs::path wrong = copy("broken");
+  std::string text = read(wrong / "parameters.csv");
+  text.replace(text.find("transition,B"), 12, "transition,C");
+  write(wrong / "parameters.csv", text);
+  expect_refusal(quote(wrong) + " " + out(), "'C'");
+}
+
+TEST_F(Report, RefusesToReplaceWhatIsNoReport) {
+  fs::create_directories(root / "mine");
+  write(root / "mine" / "thesis.txt", "years\n");
+  expect_refusal(quote(root / "runs") + " --out " + quote(root / "mine"), "holds other files");
+  EXPECT_EQ(read(root / "mine" / "thesis.txt"), "years\n");
+  expect_refusal(quote(root / "runs") + " --out " + quote(root / "mine" / "thesis.txt"), "is not a folder");
+}
+
+TEST_F(Report, NamesThePackageOfAMissingGnuplot) {
+  expect_refusal(quote(root / "runs") + " " + out(), "gnuplot-nox", "PATH=/nonexistent");
+}
+
+TEST(Names, AreTheShortestTailsThatDiffer) {
+  const fs::path root = fs::temp_directory_path() / fmt::format("drumlin-names-{}", ::getpid());
+  for (const char *name : {"stock/II-B", "second/II-B"})
+    fs::create_directories(root / name);
+  std::vector<drumlin::post::Run> runs(2);
+  runs[0].folder = root / "stock" / "II-B";
+  runs[1].folder = root / "second" / "II-B";
+  name_runs(runs);
+  EXPECT_EQ(runs[0].name, "stock/II-B");
+  EXPECT_EQ(runs[1].name, "second/II-B");
+  fs::remove_all(root);
+}
+
+TEST(Text, IsMadeUtf8) {
+  EXPECT_EQ(valid_utf8("µ\n"), "µ\n");
+  EXPECT_EQ(valid_utf8("a\xffz"), "a\xef\xbf\xbdz");
+  EXPECT_EQ(valid_utf8("\xef\xbf\xbe"), "\xef\xbf\xbd");
+}
+
+TEST(Text, IsShortenedByWholeLetters) {
+  EXPECT_EQ(shortened("µµµµµ", 5), "µµµµµ");
+  EXPECT_EQ(shortened("µµ1234µµ", 5), "µµ…µµ");
+}
+
+TEST(Text, IsOneWordOfAShell) {
+  EXPECT_EQ(shell_word("results/B-1"), "results/B-1");
+  for (const char *text : {"", "a b", "it's", "$(id)", "`id`", "*", "a\nb", "\\", "~", "!"}) {
+    const std::string line = "printf %s " + shell_word(text);
+    const std::unique_ptr<std::FILE, int (*)(std::FILE *)> pipe(::popen(line.c_str(), "r"), &::pclose);
+    std::string printed;
+    for (int c = std::fgetc(pipe.get()); c != EOF; c = std::fgetc(pipe.get()))
+      printed += static_cast<char>(c);
+    EXPECT_EQ(printed, text);
+  }
+}
+
+TEST(Text, IsALink) { EXPECT_EQ(link_to("a b/100%#?\xff"), "a%20b/100%25%23%3F%FF"); }
+
+TEST(Html, IsUnescaped) {
+  const std::string text = "a<b>&\"c'&lt;&x;";
+  EXPECT_EQ(html_unescaped(html_escaped(text)), text);
+}
+
+TEST(Html, EscapesWhatXmlForbids) { EXPECT_EQ(html_escaped("a<b>&\"c'\x01"), "a&lt;b&gt;&amp;&quot;c&#39;"); }
+
+} // namespace

@@ -1,0 +1,78 @@
+// What the fidelity study claims: against numbers worked out by hand.
+#include "studies/fidelity/results.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+using post::FidelityRun;
+using post::MeanError;
+
+TEST(MeanError, IsTheMeanAndItsInterval) {
+  const MeanError some = post::mean_error({1.0, 2.0, 3.0, 6.0}); // squares about 3: 4 + 1 + 0 + 9
+  EXPECT_DOUBLE_EQ(some.mean, 3.0);
+  // t for 3 degrees of freedom leaves 2.5 % to either side
+  EXPECT_NEAR(some.half_width, 3.18245 * std::sqrt(14.0 / (4.0 * 3.0)), 1e-3);
+  EXPECT_FALSE(some.beyond_scatter());
+  EXPECT_FALSE(post::mean_error({-1.0, 1.5}).beyond_scatter());
+  EXPECT_TRUE(post::mean_error({-2.0, -2.1, -1.9}).beyond_scatter());
+  EXPECT_TRUE((MeanError{-0.04, 0.05}.within(0.1)));
+  EXPECT_FALSE((MeanError{-0.06, 0.05}.within(0.1)));
+}
+
+TEST(MeanError, OfOneSeedClaimsNothing) {
+  const MeanError one = post::mean_error({5.0});
+  EXPECT_EQ(one.mean, 5.0);
+  EXPECT_FALSE(one.beyond_scatter());
+  EXPECT_THROW(post::mean_error({}), std::invalid_argument);
+}
+
+// Four cycles behind the start; what counts are the last two, and settlement from the end of the second on.
+TEST(BedValues, AreOfTheSecondHalfAndPerMetreOfWidth) {
+  const post::Table cycles("cycles.csv",
+                           {"cycle", "a_drum_max", "F_contact_max", "contact_share", "settlement"},
+                           {{"0", "900", "9000", "1", "0"},
+                            {"1", "90", "900", "0.25", "0.5"},
+                            {"2", "70", "700", "0.25", "0.6"},
+                            {"3", "20", "200", "0.5", "0.65"},
+                            {"4", "30", "600", "1", "0.8"}},
+                           {2, 3, 4, 5, 6});
+  const post::BedValues plane = post::bed_values(cycles, 1.0);
+  EXPECT_DOUBLE_EQ(plane[0], 25.0);
+  EXPECT_DOUBLE_EQ(plane[1], 400.0);
+  EXPECT_NEAR(plane[2], 0.1, 1e-15);
+  EXPECT_DOUBLE_EQ(plane[3], 0.75);
+  const post::BedValues space = post::bed_values(cycles, 0.2);
+  EXPECT_DOUBLE_EQ(space[1], 2000.0); // N/m
+  EXPECT_EQ(space[0], plane[0]);
+}
+
+// The seeds differ by far more than the variant changes them: only differences seed by seed show it.
+TEST(Effect, ComparesSeedBySeed) {
+  const std::vector<FidelityRun> runs = {
+      {"base", 1, {10.0, 100.0, 1e-3, 1.0}, 2.0}, {"base", 2, {20.0, 300.0, 3e-3, 0.5}, 4.0},
+      {"base", 3, {90.0, 500.0, 5e-3, 0.6}, 3.0}, {"A", 2, {21.0, 290.0, 3e-3, 0.5}, 8.0},
+      {"A", 1, {11.0, 110.0, 1e-3, 1.0}, 6.0},    {"A", 4, {7.0, 7.0, 7.0, 7.0}, 7.0}};
+  const std::optional<post::Effect> found = post::effect_of(runs, {"A instead of B", "A", "base"});
+  ASSERT_TRUE(found.has_value());
+  const post::Effect &effect = *found;
+  EXPECT_EQ(effect.seeds, 2);
+  EXPECT_DOUBLE_EQ(effect.change[0].mean, 1.0 / 15.0);
+  EXPECT_DOUBLE_EQ(effect.change[0].half_width, 0.0);
+  EXPECT_TRUE(effect.change[0].beyond_scatter());
+  EXPECT_DOUBLE_EQ(effect.change[1].mean, 0.0);
+  // of +10 and -10, over the mean of 100 and 300; t for 1 degree of freedom
+  EXPECT_NEAR(effect.change[1].half_width, 12.7062 * 10.0 / 200.0, 1e-3);
+  EXPECT_FALSE(effect.change[2].beyond_scatter());
+  EXPECT_DOUBLE_EQ(effect.cost, 2.5); // of 3 and 2
+  EXPECT_FALSE(post::effect_of(runs, {"", "A", "B"}).has_value());
+}
+
+} // namespace
+} // namespace drumlin::test

@@ -1,0 +1,132 @@
+#include "tests/support/engine_runs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+
+namespace drumlin::test {
+
+namespace fs = std::filesystem;
+
+Scratch::Scratch() {
+  std::string name = (fs::temp_directory_path() / "drumlin-test-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
+  path_ = name;
+}
+
+Scratch::~Scratch() {
+  if (::testing::Test::HasFailure()) {
+    std::fprintf(stderr, "kept for inspection: %s\n", path_.c_str());
+    return;
+  }
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+std::string number(double value) { return post::number_text(value); }
+
+fs::path chain_deck(const std::string &name) { return fs::path(DRUMLIN_SOURCE_DIR) / "inputs/chain" / name; }
+fs::path test_deck(const std::string &name) { return fs::path(DRUMLIN_SOURCE_DIR) / "tests/decks" / name; }
+
+std::vector<Frame> read_dump(const fs::path &file) {
+  std::ifstream in(file);
+  if (!in) throw std::runtime_error("cannot read " + file.string());
+  const std::string columns = "ITEM: ATOMS id x y z vx vy vz fx fy fz omegax omegay omegaz tqx tqy tqz";
+  std::vector<Frame> frames;
+  long balls = 0;
+  for (std::string line; std::getline(in, line);) {
+    if (line == "ITEM: TIMESTEP") {
+      frames.emplace_back();
+      in >> frames.back().step;
+    } else if (line == "ITEM: NUMBER OF ATOMS") {
+      in >> balls;
+    } else if (line.rfind("ITEM: ATOMS", 0) == 0) {
+      if (line != columns && line != columns + " ")
+        throw std::runtime_error(file.string() + ": unexpected columns: " + line);
+      for (long n = 0; n < balls; ++n) {
+        long id = 0;
+        Ball ball;
+        in >> id;
+        for (auto *part : {&ball.x, &ball.v, &ball.f, &ball.omega, &ball.torque})
+          for (double &component : *part)
+            in >> component;
+        if (!in) throw std::runtime_error(file.string() + ": a ball is cut short");
+        frames.back().balls[id] = ball;
+      }
+    }
+  }
+  return frames;
+}
+
+ChainRun read_run(const fs::path &folder) {
+  return {post::read_chain(folder / "chain.csv"), post::read_events(folder / "events.csv")};
+}
+
+ChainRun run_chain(const std::string &name, post::Transition transition, int steps_per_cycle,
+                   int samples_per_cycle, const Variables &more) {
+  const Scratch scratch;
+  Variables variables = {{"case", name},
+                         {"transition", post::transition_name(transition)},
+                         {"steps_per_cycle", std::to_string(steps_per_cycle)},
+                         {"samples_per_cycle", std::to_string(samples_per_cycle)}};
+  variables.insert(variables.end(), more.begin(), more.end());
+  variables.emplace_back("stepping",
+                         "stock"); // the engine takes the first value of a variable: `more` goes before
+  const Outcome outcome = run_deck(chain_deck("in.chain"), variables, scratch.path());
+  if (!outcome.ok()) throw std::runtime_error("in.chain failed:\n" + outcome.output);
+  return read_run(scratch.path());
+}
+
+fs::path chain_with_bottom(const fs::path &folder, double bottom) {
+  fs::path copy = folder / "chain";
+  fs::copy(chain_deck(""), copy);
+  std::string text = read_text(copy / "two_balls");
+  const std::string own = "block -1 1 -1 1 -1.5 4";
+  const std::size_t found = text.find(own);
+  if (found == std::string::npos) throw std::runtime_error("two_balls has another box than '" + own + "'");
+  text.replace(found, own.size(), "block -1 1 -1 1 " + number(bottom) + " 4");
+  std::ofstream(copy / "two_balls") << text;
+  return copy;
+}
+
+double fitted_order(const std::vector<double> &steps, const std::vector<double> &errors) {
+  double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const double x = std::log(steps[i]);
+    const double y = std::log(errors[i]);
+    n += 1.0, sx += x, sy += y, sxx += x * x, sxy += x * y;
+  }
+  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+double relative_difference(const std::vector<double> &a, const std::vector<double> &b) {
+  if (a.size() != b.size() || b.empty()) return std::numeric_limits<double>::infinity();
+  double largest = 0.0;
+  double scale = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (!std::isfinite(a[i] - b[i])) return std::numeric_limits<double>::infinity();
+    largest = std::max(largest, std::fabs(a[i] - b[i]));
+    scale = std::max(scale, std::fabs(b[i]));
+  }
+  return largest == 0.0 ? 0.0 : largest / scale;
+}
+
+Outcome on_small_disk(const fs::path &folder, const std::string &script) {
+  fs::create_directory(folder / "small");
+  return run_program(
+      {"unshare", "-m", "sh", "-c", "mount -t tmpfs -o size=600k tmpfs small || exit 77\n" + script},
+      {"DRUMLIN_PRELOAD=" + plugin_library(), "DECKS=" + chain_deck("").string()}, folder, 60.0);
+}
+
+bool can_mount_small_disk() {
+  const Scratch folder;
+  return on_small_disk(folder.path(), "true").ok();
+}
+
+} // namespace drumlin::test

@@ -1,0 +1,34 @@
+// The host deck of these tests, and what every run of it has in common.
+#pragma once
+
+#include "tests/support/engine_runs.h"
+#include "tests/support/lines.h"
+
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+
+/// The pair style and pair_coeff of the host deck.
+std::string host_pair_style();
+/// A property for all pairs of the host's three types.
+std::string property(const std::string &name, const std::string &value);
+/// All properties that the contact law may ask for, but those that `text` gives itself.
+std::string host_properties(const std::string &text = "");
+
+/// Runs a deck with the plugin, output in a file; `words` follow the deck on the command line. Standard
+/// limit: 20 s.
+Outcome run_engine(const std::filesystem::path &deck, const std::vector<std::string> &words,
+                   const std::filesystem::path &folder, int ranks);
+
+/// Runs the host deck with a pair style (and properties) and the lines under test.
+Outcome run_host(const std::string &pair, const std::string &lines, const std::filesystem::path &folder,
+                 int ranks);
+
+/// What MPI needs of the environment to run as root, with more ranks than cores and at once; its own files go
+/// to `folder`.
+std::vector<std::string> mpi_environment(const std::filesystem::path &folder);
+
+void write_text(const std::filesystem::path &file, const std::string &text);
+
+} // namespace drumlin::test

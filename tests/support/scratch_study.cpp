@@ -1,0 +1,40 @@
+#include "tests/support/scratch_study.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+namespace drumlin::test {
+
+namespace fs = std::filesystem;
+
+ScratchStudy::ScratchStudy(std::string name)
+    : name_(std::move(name)),
+      folder_(fs::temp_directory_path() / fmt::format("drumlin-{}-{}", name_, ::getpid())) {
+  fs::create_directories(folder_);
+}
+
+ScratchStudy::~ScratchStudy() {
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+}
+
+post::Outcome ScratchStudy::run() const {
+  return post::run_program({DRUMLIN_TOOLS, "study", name_, "--quick", "--out", "out"}, {}, folder_, 200);
+}
+
+void interrupt(const fs::path &file) {
+  std::istringstream in(post::read_text(file));
+  std::string line, kept;
+  for (int row = 0; std::getline(in, line); ++row)
+    if (row == 0 || row % 2 == 1) kept += line + '\n';
+  kept.resize(kept.size() - 3);
+  std::ofstream(file) << kept;
+}
+
+} // namespace drumlin::test

@@ -1,0 +1,31 @@
+// A study in a scratch folder, run as a user runs it.
+#pragma once
+
+#include "engine/engine_run.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+
+class ScratchStudy {
+public:
+  explicit ScratchStudy(std::string name);
+  ~ScratchStudy();
+  ScratchStudy(const ScratchStudy &) = delete;
+  ScratchStudy &operator=(const ScratchStudy &) = delete;
+
+  /// `drumlin study NAME --quick --out out`, from the scratch folder.
+  post::Outcome run() const;
+  std::filesystem::path out() const { return folder_ / "out"; }
+
+private:
+  std::string name_;
+  std::filesystem::path folder_;
+};
+
+/// Every second row of a file away, and the last one cut short, as a kill leaves it.
+void interrupt(const std::filesystem::path &file);
+
+} // namespace drumlin::test
