@@ -1,8 +1,8 @@
 #include "bed/vtk_files.h"
 
-#include "chain/run_files.h"
-#include "support/files.h"
 #include "bed/text_dump.h"
+#include "support/csv.h"
+#include "support/files.h"
 
 #include <fmt/format.h>
 

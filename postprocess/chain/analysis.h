@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "chain/run_files.h"
 #include "chain/parameters.h"
+#include "chain/run_files.h"
 
 namespace drumlin::post {
 
@@ -62,14 +62,6 @@ double resonance_meter_value(const HarmonicAmplitudes &amplitudes);
 /// over the window. Two rows at one time are a jump. The window should span an even whole number of cycles.
 HarmonicAmplitudes harmonic_amplitudes(const std::vector<double> &time, const std::vector<double> &value,
                                        double omega, TimeWindow window);
-
-/// Numeric columns of a cycles.csv by name; rows are excitation cycles in order.
-struct CycleColumns {
-  std::map<std::string, std::vector<double>> columns;
-  std::size_t rows = 0;
-  bool has(const std::string &name) const { return columns.count(name) != 0; }
-  const std::vector<double> &at(const std::string &name) const { return columns.at(name); }
-};
 
 /// Amplitudes from the per-cycle integrals a1_cos ... ah_sin (m/s2) of the last `count` rows; `count` is
 /// reduced to an even number of rows that exist. Nothing if columns or rows are missing.

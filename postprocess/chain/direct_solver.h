@@ -3,8 +3,8 @@
 // it.
 #pragma once
 
-#include "chain/run_files.h"
 #include "chain/parameters.h"
+#include "chain/run_files.h"
 
 #include <functional>
 #include <string>

@@ -1,19 +1,14 @@
 // The CSV files of a chain run: chain.csv, events.csv, cycles.csv, parameters.csv. One reader and one writer
-// per file, for the engine's output and for the direct solver's alike.
-//
-// Readers find columns by the names in the header line and throw std::runtime_error with file, line, column
-// and what was found. Writers put the whole text into a temporary file beside the target and rename it, so
-// that no reader ever meets a file half written. Numbers have 17 digits and come back bit for bit.
+// per file, for the engine's output and for the direct solver's alike. Errors and numbers are as in support/csv.h.
 #pragma once
 
 #include "chain/parameters.h"
-#include "support/files.h"
+#include "support/csv.h"
 
 #include <cstddef>
 #include <filesystem>
 #include <map>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -62,38 +57,13 @@ struct CycleSummary {
   int breaks = 0;             ///< contacts broken in the cycle
 };
 
-/// A small CSV table, all cells as text. RFC 4180 quotes are taken off: a quoted cell may hold commas,
-/// doubled quotes and line ends.
-class Table {
-public:
-  Table(std::filesystem::path file, std::vector<std::string> header,
-        std::vector<std::vector<std::string>> rows, std::vector<std::size_t> lines);
-
-  const std::filesystem::path &file() const { return file_; }
-  const std::vector<std::string> &header() const { return header_; }
-  std::size_t rows() const { return rows_.size(); }
-  /// Line of the file where a row (counted from 0) starts, counted from 1.
-  std::size_t line(std::size_t row) const { return lines_.at(row); }
-  /// Whether the header names `column`.
-  bool has(std::string_view column) const;
-  /// Cells of the column as text.
-  std::vector<std::string> text(std::string_view column) const;
-  /// Cells of the column as finite numbers.
-  std::vector<double> numbers(std::string_view column) const;
-  /// Cells of the column as whole numbers.
-  std::vector<long> integers(std::string_view column) const;
-
-private:
-  std::size_t index_of(std::string_view column) const;
-
-  std::filesystem::path file_;
-  std::vector<std::string> header_;
-  std::vector<std::vector<std::string>> rows_;
-  std::vector<std::size_t> lines_; // where each row starts in the file
+/// Numeric columns of a cycles.csv by name; rows are excitation cycles in order.
+struct CycleColumns {
+  std::map<std::string, std::vector<double>> columns;
+  std::size_t rows = 0;
+  bool has(const std::string &name) const { return columns.count(name) != 0; }
+  const std::vector<double> &at(const std::string &name) const { return columns.at(name); }
 };
-
-/// Reads any CSV file with a header line and as many cells in every row as names in the header.
-Table read_table(const std::filesystem::path &file);
 
 /// Reads chain.csv. The frame's four columns may be missing (all of them), so may F_excitation (then zeros).
 ChainHistory read_chain(const std::filesystem::path &file);
@@ -101,6 +71,8 @@ ChainHistory read_chain(const std::filesystem::path &file);
 std::vector<ContactEvent> read_events(const std::filesystem::path &file);
 /// Reads cycles.csv; makes and breaks may be missing (then 0).
 std::vector<CycleSummary> read_cycles(const std::filesystem::path &file);
+/// Reads the columns of a cycles.csv that are known; any may be missing.
+CycleColumns read_cycle_columns(const std::filesystem::path &file);
 /// Reads parameters.csv, header name,value.
 std::map<std::string, std::string> read_parameters(const std::filesystem::path &file);
 
@@ -118,14 +90,5 @@ void write_events(const std::filesystem::path &file, const std::vector<ContactEv
 void write_cycles(const std::filesystem::path &file, const std::vector<CycleSummary> &cycles);
 void write_parameters(const std::filesystem::path &file,
                       const std::vector<std::pair<std::string, std::string>> &parameters);
-
-/// One cell of CSV: `text` itself, or quoted if it holds a comma, a quote or a line end.
-std::string csv_cell(std::string_view text);
-
-/// The number that `text` holds, all of it and nothing else, finite; else std::invalid_argument.
-double number_from_text(std::string_view text);
-
-/// The number with 17 digits, which come back bit for bit.
-std::string number_text(double value);
 
 } // namespace drumlin::post

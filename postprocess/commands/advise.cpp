@@ -2,9 +2,9 @@
 
 #include "chain/run_files.h"
 #include "commands/chain_options.h"
-#include "support/options.h"
 #include "studies/step_advice.h"
 #include "studies/study.h"
+#include "support/options.h"
 #include "support/progress.h"
 
 #include <CLI/CLI.hpp>

@@ -1,10 +1,10 @@
 #include "commands/bed.h"
 
 #include "bed/packing.h"
-#include "support/usage_error.h"
-#include "support/options.h"
 #include "support/files.h"
+#include "support/options.h"
 #include "support/progress.h"
+#include "support/usage_error.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "commands/chain_options.h"
 
-#include "support/usage_error.h"
 #include "support/options.h"
+#include "support/usage_error.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,11 +1,11 @@
 #include "commands/exact.h"
 
-#include "chain/run_files.h"
-#include "chain/parameters.h"
-#include "commands/chain_options.h"
 #include "chain/direct_solver.h"
-#include "support/options.h"
+#include "chain/parameters.h"
+#include "chain/run_files.h"
+#include "commands/chain_options.h"
 #include "support/files.h"
+#include "support/options.h"
 #include "support/progress.h"
 
 #include <CLI/CLI.hpp>

@@ -1,11 +1,11 @@
 // The tool behind ./drumlin: one program, one subcommand per job.
 #include "commands/advise.h"
 #include "commands/bed.h"
-#include "support/usage_error.h"
 #include "commands/exact.h"
 #include "commands/report.h"
 #include "commands/study.h"
 #include "commands/vtk.h"
+#include "support/usage_error.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "commands/report.h"
 
-#include "support/options.h"
 #include "report/report.h"
+#include "support/options.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,13 +1,13 @@
 #include "commands/study.h"
 
-#include "support/usage_error.h"
-#include "support/options.h"
-#include "studies/study.h"
 #include "studies/accuracy/study.h"
 #include "studies/cost/study.h"
 #include "studies/fidelity/study.h"
 #include "studies/speed/study.h"
 #include "studies/stability/study.h"
+#include "studies/study.h"
+#include "support/options.h"
+#include "support/usage_error.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,11 +1,11 @@
 #include "commands/vtk.h"
 
 #include "bed/coarse_graining.h"
-#include "chain/run_files.h"
-#include "support/options.h"
-#include "support/files.h"
-#include "support/progress.h"
 #include "bed/vtk_files.h"
+#include "chain/run_files.h"
+#include "support/files.h"
+#include "support/options.h"
+#include "support/progress.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // What a study judges: promises about what it measures.
 #pragma once
 
-#include "report/chain_tables.h"
+#include "pages/table.h"
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "pages/figure_data.h"
 
-#include "chain/run_files.h"
+#include "support/csv.h"
 
 #include <cmath>
 

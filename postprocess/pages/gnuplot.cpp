@@ -1,7 +1,7 @@
 #include "pages/gnuplot.h"
 
-#include "engine/engine_run.h"
 #include "support/files.h"
+#include "support/process.h"
 #include "support/text.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "pages/page.h"
 
-#include "chain/run_files.h"
 #include "pages/gnuplot.h"
-#include "report/chain_page.h"
+#include "pages/html.h"
+#include "support/files.h"
 
 #include <ctime>
 #include <utility>

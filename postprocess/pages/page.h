@@ -1,8 +1,8 @@
 // The page of a study: what it says in words, tables and figures, in the look of the report.
 #pragma once
 
-#include "report/chain_figures.h"
-#include "report/chain_tables.h"
+#include "pages/figure.h"
+#include "pages/table.h"
 
 #include <filesystem>
 #include <string>

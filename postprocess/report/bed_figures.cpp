@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "report/bed_snapshots.h"
 #include "pages/figure_data.h"
+#include "report/bed_snapshots.h"
 
 namespace drumlin::post {
 

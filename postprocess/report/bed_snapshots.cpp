@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 #include "bed/coarse_graining.h"
-#include "pages/figure_data.h"
 #include "bed/vtk_files.h"
+#include "pages/figure_data.h"
 
 namespace drumlin::post {
 

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string dash = "–";
+const std::string dash = no_value;
 
 /// A value that is a ratio, as text; a dash where its denominator is zero.
 std::string finite(const char *format, double value) {
@@ -378,11 +378,6 @@ void count(CheckCount &sum, const Check &check) {
 
 } // namespace
 
-void ReportTable::add(std::vector<std::string> row, RowState state) {
-  rows.push_back(std::move(row));
-  states.push_back(state);
-}
-
 CheckCount count_checks(const ReportResults &results) {
   CheckCount sum;
   for (const std::vector<Check> *checks : {&results.checks, &results.restitution, &results.words})
@@ -465,19 +460,6 @@ std::vector<ReportTable> make_tables(const ReportResults &results) {
                      [](const ReportTable &table) { return table.rows.empty() && table.notes.empty(); }),
       tables.end());
   return tables;
-}
-
-std::string table_csv(const ReportTable &table) {
-  std::string text;
-  const auto line = [&text](const std::vector<std::string> &cells) {
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      text += (i == 0 ? "" : ",") + csv_cell(cells[i] == dash ? "" : cells[i]);
-    text += '\n';
-  };
-  line(table.header);
-  for (const std::vector<std::string> &row : table.rows)
-    line(row);
-  return text;
 }
 
 } // namespace drumlin::post

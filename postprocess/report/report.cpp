@@ -12,19 +12,19 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "report/bed_figures.h"
-#include "report/bed_page.h"
-#include "report/bed_measures.h"
-#include "support/usage_error.h"
 #include "chain/direct_solver.h"
-#include "engine/engine_run.h"
 #include "pages/gnuplot.h"
-#include "support/files.h"
+#include "report/bed_figures.h"
+#include "report/bed_measures.h"
+#include "report/bed_page.h"
 #include "report/chain_figures.h"
-#include "report/chain_page.h"
 #include "report/chain_measures.h"
+#include "report/chain_page.h"
 #include "report/run_folder.h"
+#include "support/files.h"
+#include "support/process.h"
 #include "support/text.h"
+#include "support/usage_error.h"
 
 namespace drumlin::post {
 

@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "support/usage_error.h"
 #include "chain/reference_values.h"
 #include "support/text.h"
+#include "support/usage_error.h"
 
 namespace drumlin::post {
 
@@ -183,14 +183,6 @@ void read_impact_parameters(Run &run) {
   run.kind = RunKind::impact;
 }
 
-/// Columns of cycles.csv that the report knows; any of them may be missing.
-constexpr const char *cycle_columns[] = {
-    "cycle",           "time",          "a_drum_min", "a_drum_max",      "F_contact_min",
-    "F_contact_max",   "contact_share", "a1_cos",     "a1_sin",          "a2_cos",
-    "a2_sin",          "ah_cos",        "ah_sin",     "work_excitation", "dissipated_contact",
-    "dissipated_bond", "kinetic",       "potential",  "stored_contact",  "stored_bond",
-    "settlement"};
-
 } // namespace
 
 std::string Run::text(const std::string &parameter, const std::string &fallback) const {
@@ -239,15 +231,6 @@ ReportFolders find_report_folders(const std::vector<fs::path> &arguments) {
     }
   }
   return folders;
-}
-
-CycleColumns read_cycle_columns(const fs::path &file) {
-  const Table table = read_table(file);
-  CycleColumns cycles;
-  cycles.rows = table.rows();
-  for (const char *name : cycle_columns)
-    if (table.has(name)) cycles.columns[name] = table.numbers(name);
-  return cycles;
 }
 
 Run read_run(const fs::path &folder) {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "chain/analysis.h"
-#include "chain/run_files.h"
 #include "chain/parameters.h"
+#include "chain/run_files.h"
 
 namespace drumlin::post {
 
@@ -61,9 +61,6 @@ struct ReportFolders {
 /// Run and study folders among `arguments`: each is one itself or the parent of some at any depth below. What is within a
 /// study belongs to it. Sorted below a parent, each folder once. Throws UsageError naming the folder that is none.
 ReportFolders find_report_folders(const std::vector<std::filesystem::path> &arguments);
-
-/// Reads the columns of a cycles.csv that are known; any may be missing.
-CycleColumns read_cycle_columns(const std::filesystem::path &file);
 
 /// Reads a run folder. Throws std::runtime_error with file and line for a file that cannot be understood.
 Run read_run(const std::filesystem::path &folder);

@@ -1,7 +1,7 @@
 #include "studies/settled_bed.h"
 
-#include "support/usage_error.h"
 #include "studies/study.h"
+#include "support/usage_error.h"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 #include "studies/step_advice.h"
 
 #include "chain/analysis.h"
-#include "support/usage_error.h"
 #include "chain/direct_solver.h"
 #include "studies/study.h"
+#include "support/usage_error.h"
 
 #include <algorithm>
 #include <array>

@@ -9,9 +9,9 @@
 // differs between them by the damping, the share of contact and chance: the margin covers that.
 #pragma once
 
-#include "studies/accuracy/results.h"
-#include "chain/parameters.h"
 #include "chain/direct_solver.h"
+#include "chain/parameters.h"
+#include "studies/accuracy/results.h"
 
 #include <functional>
 #include <string>

@@ -1,8 +1,7 @@
 #include "studies/study.h"
 
-#include "support/usage_error.h"
 #include "support/files.h"
-#include "engine/places.h"
+#include "support/usage_error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -156,45 +155,5 @@ void StudyProgress::measured(const std::string &what) {
              left);
   std::fflush(stdout);
 }
-
-DeckRun::DeckRun(const std::string &deck, const Variables &variables, int ranks, double limit) : deck_(deck) {
-  std::string name = (fs::temp_directory_path() / "drumlin-study-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
-  folder_ = name;
-  const auto begin = std::chrono::steady_clock::now();
-  outcome_ = run_deck(input_file(deck), variables, folder_, ranks, limit);
-  wall_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-DeckRun::~DeckRun() {
-  std::error_code ignored;
-  fs::remove_all(folder_, ignored);
-}
-
-const DeckRun &DeckRun::must_succeed() const {
-  if (outcome_.ok()) return *this;
-  std::string why = outcome_.timed_out ? "was stopped at its time limit" : engine_error(outcome_.output);
-  if (why.empty()) why = fmt::format("exit status {}", outcome_.status);
-  throw std::runtime_error(fmt::format("{}: {}", deck_, why));
-}
-
-double DeckRun::printed(const std::string &text) const {
-  const std::size_t found = outcome_.output.rfind(text);
-  if (found == std::string::npos)
-    throw std::runtime_error(fmt::format("{}: the engine did not print '{}'", deck_, text));
-  return std::strtod(outcome_.output.c_str() + found + text.size(), nullptr);
-}
-
-double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  const double place = share * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, values.size() - 1);
-  return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
-}
-
-double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
-
-fs::path input_file(const std::string &name) { return places().inputs / name; }
 
 } // namespace drumlin::post

@@ -1,7 +1,8 @@
 // What every study shares: results that survive an interruption, a progress display, runs of decks in folders of their own.
 #pragma once
 
-#include "engine/engine_run.h"
+#include "engine/deck_run.h"
+#include "support/statistics.h"
 
 #include <chrono>
 #include <cstddef>
@@ -71,42 +72,5 @@ private:
   std::size_t measured_ = 0;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
-
-/// A run of a deck in a temporary folder, which lives as long as this object.
-class DeckRun {
-public:
-  /// \param deck relative to inputs/, e.g. "chain/in.chain"
-  /// \param limit seconds after which the run is stopped
-  DeckRun(const std::string &deck, const Variables &variables, int ranks = 1, double limit = 3600.0);
-  ~DeckRun();
-  DeckRun(const DeckRun &) = delete;
-  DeckRun &operator=(const DeckRun &) = delete;
-
-  const Outcome &outcome() const { return outcome_; }
-  /// Throws std::runtime_error with the engine's ERROR line, or its last line, if the run failed.
-  const DeckRun &must_succeed() const;
-  /// What the run wrote.
-  std::filesystem::path file(const std::string &name) const { return folder_ / name; }
-  /// The number behind the last place of a text in what the engine printed. Throws std::runtime_error if there is none.
-  double printed(const std::string &text) const;
-  /// Seconds that the last `run` of the deck took, by the engine's own clock.
-  double loop_seconds() const { return printed("Loop time of "); }
-  /// Wall time of the whole process, s.
-  double wall_seconds() const { return wall_seconds_; }
-
-private:
-  std::string deck_;
-  std::filesystem::path folder_;
-  Outcome outcome_;
-  double wall_seconds_ = 0.0;
-};
-
-/// Middle value; of an even number the mean of the two in the middle. values not empty.
-double median(std::vector<double> values);
-/// Value below which a share (0 to 1) of the values lies, linear between neighbours: 0.25 gives the lower quartile. values not empty.
-double quantile(std::vector<double> values, double share);
-
-/// inputs/NAME of the project.
-std::filesystem::path input_file(const std::string &name);
 
 } // namespace drumlin::post

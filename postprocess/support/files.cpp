@@ -1,5 +1,7 @@
 #include "support/files.h"
 
+#include <iterator>
+#include <fstream>
 #include <fmt/format.h>
 
 #include <fcntl.h>
@@ -260,6 +262,12 @@ void remove_leftovers(const fs::path &parent, const std::string &prefix) {
 fs::path leftover(const fs::path &parent, const std::string &prefix) {
   const std::vector<fs::path> found = leftovers(parent, prefix);
   return found.empty() ? fs::path() : found.front();
+}
+
+std::string read_text(const fs::path &file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw std::runtime_error("cannot read " + file.string());
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 } // namespace drumlin::post

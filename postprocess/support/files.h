@@ -24,6 +24,9 @@ void make_output_folder(const std::filesystem::path &folder);
 /// Makes the folder of a file that is to be written; the same errors.
 void make_parent_folder(const std::filesystem::path &file);
 
+/// A whole file as text.
+std::string read_text(const std::filesystem::path &file);
+
 /// A name of a file and the text to go into it.
 using FileText = std::pair<std::filesystem::path, std::string>;
 

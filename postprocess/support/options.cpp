@@ -1,8 +1,8 @@
 #include "support/options.h"
 
-#include "chain/run_files.h"
-#include "support/usage_error.h"
+#include "support/csv.h"
 #include "support/files.h"
+#include "support/usage_error.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -246,6 +246,15 @@ TEST(Boundaries, RoomsOfThePluginIncludeWhatIsBelowThem) {
   }
 }
 
+TEST(Boundaries, RoomsOfThePostprocessorIncludeWhatIsBelowThem) {
+  for (const std::string &room : rooms_of("postprocess")) {
+    ASSERT_EQ(postprocess_rooms.count(room), 1U) << room;
+    expect_includes(fs::path("postprocess") / room, [&](const Include &include) {
+      return !include.quoted || fits_room(room, include.name, postprocess_rooms);
+    });
+  }
+}
+
 TEST(Boundaries, TheDirectSolverAndThePostprocessorKnowNothingOfThePlugin) {
   for (const char *folder : {"tests/postprocess", "postprocess", "tests/support"})
     expect_includes(folder, fits_judge);
@@ -297,6 +306,12 @@ TEST(BoundaryChecks, RefuseWhatDoesNotFit) {
   EXPECT_TRUE(fits_adapter("lammps", {"pair.h", true}));
   EXPECT_TRUE(fits_adapter("lammps", {"fixes/fix_guard.h", true}));
   EXPECT_FALSE(fits_adapter("lammps", {"liggghts/contact_table.h", true}));
+
+  EXPECT_TRUE(fits_room("report", "chain/analysis.h", postprocess_rooms));
+  EXPECT_TRUE(fits_room("studies", "studies/accuracy/page.h", postprocess_rooms));
+  EXPECT_FALSE(fits_room("chain", "report/run_folder.h", postprocess_rooms));
+  EXPECT_FALSE(fits_room("studies", "report/run_folder.h", postprocess_rooms));
+  EXPECT_FALSE(fits_room("chain", "nowhere/run_folder.h", postprocess_rooms));
 
   EXPECT_TRUE(fits_judge({"cvode/cvode.h", false}));
   EXPECT_TRUE(fits_judge({"tests/support/ode.h", true}));

@@ -1,8 +1,8 @@
 // The bed: made, settled, put under a roller, shaken. A small one, with all that the large one has.
 #include "tests/support/engine_runs.h"
 
-#include "chain/run_files.h"
 #include "bed/vtk_files.h"
+#include "chain/run_files.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

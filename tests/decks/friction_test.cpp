@@ -1,7 +1,7 @@
 // Friction as the engine's tangential history and our tangential coulomb apply it to our contact: the core's law along recorded
 // paths, closed forms of sticking and sliding, the defaults, that a broken contact keeps nothing, and impulses of oblique impacts.
-#include "tests/support/engine_and_scheme.h"
 #include "tests/support/balls_run.h"
+#include "tests/support/engine_and_scheme.h"
 
 #include "physics/friction_law.h"
 

@@ -2,10 +2,10 @@
 // that is allowed is rounding: what grows of it is the scene's doing.
 #include "tests/support/engine_runs.h"
 
-#include "chain/analysis.h"
-#include "chain/direct_solver.h"
 #include "bed/text_dump.h"
 #include "bed/vtk_files.h"
+#include "chain/analysis.h"
+#include "chain/direct_solver.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Two balls: momentum, the effective mass, mirror images, the two ways to give damping, and the bond.
-#include "tests/support/engine_and_scheme.h"
 #include "tests/support/balls_run.h"
+#include "tests/support/engine_and_scheme.h"
 
 #include "chain/analysis.h"
 

@@ -1,6 +1,7 @@
 // The front script ./drumlin with hostile names, from strange places: what a user gives reaches the engine as it is, or one line says
 // what is wrong.
 #include "engine/engine_run.h"
+#include "support/files.h"
 
 #include "tests/support/engine_runs.h"
 

@@ -1,4 +1,5 @@
 #include "tests/support/engine_runs.h"
+#include "support/files.h"
 
 #include <gtest/gtest.h>
 

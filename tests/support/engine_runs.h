@@ -1,9 +1,10 @@
 // What tests ask of runs of the stock engine, and read of what they wrote.
 #pragma once
 
-#include "chain/run_files.h"
 #include "chain/parameters.h"
+#include "chain/run_files.h"
 #include "engine/engine_run.h"
+#include "support/files.h"
 
 #include <array>
 #include <filesystem>

@@ -1,6 +1,6 @@
 #include "tests/support/page.h"
 
-#include "engine/engine_run.h"
+#include "support/files.h"
 
 #include <expat.h>
 #include <fmt/format.h>

@@ -3,8 +3,8 @@
 // integration anywhere.
 #pragma once
 
-#include "chain/run_files.h"
 #include "chain/parameters.h"
+#include "chain/run_files.h"
 
 #include <vector>
 

@@ -1,8 +1,8 @@
 #include "tests/support/run_folders.h"
 
 #include "chain/analysis.h"
-#include "chain/run_files.h"
 #include "chain/direct_solver.h"
+#include "chain/run_files.h"
 #include "tests/support/dump_texts.h"
 
 #include <fmt/format.h>

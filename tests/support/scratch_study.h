@@ -1,7 +1,7 @@
 // A study in a scratch folder, run as a user runs it.
 #pragma once
 
-#include "engine/engine_run.h"
+#include "support/process.h"
 
 #include <filesystem>
 #include <string>

@@ -1,11 +1,13 @@
 #include "studies/accuracy/page.h"
 
-#include "studies/accuracy/results.h"
-#include "support/convergence.h"
-#include "pages/figure_data.h"
-#include "studies/step_advice.h"
-#include "pages/page.h"
+#include "support/files.h"
+
 #include "pages/acceptance.h"
+#include "pages/figure_data.h"
+#include "pages/page.h"
+#include "studies/accuracy/results.h"
+#include "studies/step_advice.h"
+#include "support/convergence.h"
 
 #include "chain/run_files.h"
 

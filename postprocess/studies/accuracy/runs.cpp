@@ -1,9 +1,9 @@
 #include "studies/accuracy/runs.h"
+#include "support/files.h"
 
 #include "chain/analysis.h"
-#include "chain/run_files.h"
 #include "chain/reference_values.h"
-#include "report/run_folder.h"
+#include "chain/run_files.h"
 #include "studies/study.h"
 
 #include <algorithm>

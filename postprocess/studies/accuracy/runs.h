@@ -1,9 +1,8 @@
 // The runs of the accuracy study: the chain and single impacts at many step sizes, each against its truth.
 #pragma once
 
-#include "chain/parameters.h"
 #include "chain/direct_solver.h"
-#include "engine/engine_run.h"
+#include "chain/parameters.h"
 
 #include <string>
 

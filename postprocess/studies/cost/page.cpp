@@ -1,8 +1,8 @@
 #include "studies/cost/page.h"
 
-#include "studies/cost/results.h"
 #include "pages/figure_data.h"
 #include "pages/page.h"
+#include "studies/cost/results.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,6 @@
 #include "studies/cost/results.h"
 
 #include "chain/run_files.h"
-#include "engine/engine_run.h"
 #include "studies/study.h"
 
 #include <algorithm>

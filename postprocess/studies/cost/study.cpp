@@ -1,8 +1,8 @@
 #include "studies/cost/study.h"
 
-#include "studies/settled_bed.h"
 #include "studies/cost/page.h"
 #include "studies/cost/results.h"
+#include "studies/settled_bed.h"
 #include "studies/study.h"
 
 #include <cmath>

@@ -2,10 +2,11 @@
 
 #include "bed/packing.h"
 #include "chain/run_files.h"
-#include "studies/settled_bed.h"
 #include "studies/fidelity/page.h"
 #include "studies/fidelity/results.h"
+#include "studies/settled_bed.h"
 #include "studies/study.h"
+#include "support/files.h"
 
 #include <fmt/format.h>
 

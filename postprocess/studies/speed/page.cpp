@@ -1,9 +1,9 @@
 #include "studies/speed/page.h"
 
-#include "pages/figure_data.h"
-#include "studies/speed/results.h"
-#include "pages/page.h"
 #include "pages/acceptance.h"
+#include "pages/figure_data.h"
+#include "pages/page.h"
+#include "studies/speed/results.h"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 #include "studies/stability/extremes.h"
 
 #include "chain/analysis.h"
-#include "chain/run_files.h"
-#include "chain/parameters.h"
 #include "chain/direct_solver.h"
+#include "chain/parameters.h"
+#include "chain/run_files.h"
 #include "studies/stability/bed.h"
 
 #include <algorithm>

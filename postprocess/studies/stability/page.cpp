@@ -1,8 +1,8 @@
 #include "studies/stability/page.h"
 
 #include "pages/figure_data.h"
-#include "studies/stability/boundary.h"
 #include "pages/page.h"
+#include "studies/stability/boundary.h"
 
 #include <algorithm>
 #include <array>

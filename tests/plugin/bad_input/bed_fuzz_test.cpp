@@ -1,7 +1,7 @@
 // Spoilt files given to the decks of the bed, as tests/postprocess/commands/fuzz_test.cpp gives them to the tools: each deck ends within 20 s in a
 // result or in one line of error, and leaves nothing half-written. The number of a mutant is the seed of its faults.
-#include "tests/support/host_deck.h"
 #include "tests/support/damaged_files.h"
+#include "tests/support/host_deck.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 /// The bond against the damped oscillator, in closed form and by CVODE.
 
+#include "physics/bond_law.h"
 #include "tests/support/ode.h"
 #include "tests/support/oscillator.h"
-#include "physics/bond_law.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 /// The contact law instant by instant: closed forms, definitions and identities. Whole impacts are in
 /// restitution_test.
 
-#include "tests/support/ode.h"
-#include "tests/support/oscillator.h"
 #include "physics/contact_law.h"
 #include "tests/plugin/physics/stock_stepping.h"
+#include "tests/support/ode.h"
+#include "tests/support/oscillator.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// The exciter against the turning of its rotor, by CVODE, and closed forms.
 
-#include "tests/support/ode.h"
 #include "physics/excitation.h"
+#include "tests/support/ode.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 /// Friction: closed forms, CVODE with a mode for sticking and one for sliding, the readings of the limit, energy;
 /// of Cap::coulomb limit and energy in every step, and the impulse of oblique impacts.
 
-#include "tests/support/ode.h"
-#include "tests/support/oscillator.h"
 #include "physics/contact_law.h"
 #include "physics/friction_law.h"
+#include "tests/support/ode.h"
+#include "tests/support/oscillator.h"
 
 #include <gtest/gtest.h>
 

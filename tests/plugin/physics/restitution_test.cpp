@@ -1,9 +1,9 @@
 /// One impact on a fixed ball without gravity, under both transition conditions: closed form, CVODE with root
 /// finding, and the core's law stepped as the engines step it.
 
-#include "tests/support/ode.h"
 #include "physics/contact_law.h"
 #include "tests/plugin/physics/stock_stepping.h"
+#include "tests/support/ode.h"
 
 #include <gtest/gtest.h>
 

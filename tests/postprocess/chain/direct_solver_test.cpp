@@ -277,9 +277,9 @@ void PrintTo(const ImpactCase &value, std::ostream *out) {
   *out << post::transition_name(value.transition) << ", D = " << value.D;
 }
 
-class Impact : public ::testing::TestWithParam<ImpactCase> {};
+class DirectImpact : public ::testing::TestWithParam<ImpactCase> {};
 
-TEST_P(Impact, ReboundsByTheClosedForm) {
+TEST_P(DirectImpact, ReboundsByTheClosedForm) {
   const ImpactCase &impact = GetParam();
   ChainParameters p;
   p.transition = impact.transition;
@@ -316,7 +316,7 @@ TEST_P(Impact, ReboundsByTheClosedForm) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Restitution, Impact,
+    Restitution, DirectImpact,
     ::testing::Values(ImpactCase{Transition::A, 0.2, 0.526621}, ImpactCase{Transition::A, 0.5, 0.163034},
                       ImpactCase{Transition::A, 0.8, 0.015165}, ImpactCase{Transition::A, 2.0, 0.0},
                       ImpactCase{Transition::B, 0.2, 0.571740}, ImpactCase{Transition::B, 0.5, 0.298436},

@@ -1,6 +1,7 @@
 // The CSV files: what is written comes back bit for bit; what is malformed is named with file, line and
 // column.
 #include "chain/run_files.h"
+#include "support/files.h"
 
 #include <gtest/gtest.h>
 

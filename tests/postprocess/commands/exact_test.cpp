@@ -1,6 +1,6 @@
 // `drumlin exact` as a user meets it: the program itself, its files, its messages, its exit status.
-#include "chain/run_files.h"
 #include "chain/direct_solver.h"
+#include "chain/run_files.h"
 
 #include <gtest/gtest.h>
 

@@ -4,10 +4,11 @@
 //
 // The number of a mutant is the seed of everything that is random in it: a failure names it, and the same number spoils alike.
 #include "chain/run_files.h"
-#include "engine/engine_run.h"
-#include "tests/support/run_folders.h"
+#include "support/files.h"
+#include "support/process.h"
 #include "tests/support/damaged_files.h"
 #include "tests/support/lines.h"
+#include "tests/support/run_folders.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Options that no run of a tool can use: each is refused at once, in one line that names it, and nothing is written.
-#include "engine/engine_run.h"
+#include "support/process.h"
 
 #include <gtest/gtest.h>
 

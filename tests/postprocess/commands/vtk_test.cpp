@@ -1,9 +1,10 @@
 // ./drumlin vtk on dumps written by hand: what it makes of them, and what it says of dumps that are none.
 #include "bed/coarse_graining.h"
-#include "chain/run_files.h"
-#include "tests/support/dump_texts.h"
-#include "engine/engine_run.h"
 #include "bed/vtk_files.h"
+#include "chain/run_files.h"
+#include "support/files.h"
+#include "support/process.h"
+#include "tests/support/dump_texts.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

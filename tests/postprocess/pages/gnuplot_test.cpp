@@ -2,7 +2,8 @@
 #include "pages/gnuplot.h"
 
 #include "pages/figure_data.h"
-#include "engine/engine_run.h"
+#include "support/files.h"
+#include "support/process.h"
 #include "tests/support/page.h"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #include "pages/page.h"
 
 #include "pages/figure_data.h"
-#include "engine/engine_run.h"
+#include "support/files.h"
 #include "tests/support/page.h"
 
 #include <fmt/format.h>

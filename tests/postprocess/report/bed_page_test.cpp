@@ -1,15 +1,15 @@
 // The report of bed runs: its numbers against those worked out by hand from small records, its pages as a reader meets them.
 #include "report/bed_page.h"
 
+#include "chain/direct_solver.h"
+#include "chain/run_files.h"
 #include "report/bed_figures.h"
 #include "report/bed_measures.h"
-#include "chain/run_files.h"
-#include "support/usage_error.h"
-#include "chain/direct_solver.h"
-#include "tests/support/dump_texts.h"
-#include "engine/engine_run.h"
-#include "tests/support/page.h"
 #include "report/report.h"
+#include "support/files.h"
+#include "support/usage_error.h"
+#include "tests/support/dump_texts.h"
+#include "tests/support/page.h"
 #include "tests/support/run_folders.h"
 
 #include <fmt/format.h>

@@ -1,12 +1,12 @@
 // A report made from direct solutions, as a reader meets it: strictly parsed, every file followed.
 #include "report/report.h"
 
-#include "chain/run_files.h"
-#include "support/usage_error.h"
 #include "chain/direct_solver.h"
+#include "chain/run_files.h"
 #include "report/chain_page.h"
 #include "report/run_folder.h"
 #include "support/text.h"
+#include "support/usage_error.h"
 #include "tests/support/page.h"
 #include "tests/support/run_folders.h"
 

@@ -1,8 +1,8 @@
 // The verdicts on a stability map, and the page of made-up results.
-#include "engine/engine_run.h"
-#include "tests/support/page.h"
 #include "studies/stability/boundary.h"
 #include "studies/stability/page.h"
+#include "support/files.h"
+#include "tests/support/page.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

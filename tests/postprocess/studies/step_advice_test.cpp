@@ -2,8 +2,9 @@
 #include "studies/step_advice.h"
 
 #include "chain/run_files.h"
+#include "support/files.h"
+#include "support/process.h"
 #include "support/usage_error.h"
-#include "engine/engine_run.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // The finished points of a study, as an interruption or a fault leaves them: what is whole counts, the rest is measured again.
 #include "studies/study.h"
 
+#include "support/files.h"
 #include "support/usage_error.h"
-#include "engine/engine_run.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // Where the tools write, and what they do where they cannot: every node is made in a scratch folder, every full disk is a small one of
 // the test's own.
-#include "tests/support/dump_texts.h"
-#include "engine/engine_run.h"
 #include "support/files.h"
+#include "support/process.h"
+#include "tests/support/dump_texts.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

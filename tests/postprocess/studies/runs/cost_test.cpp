@@ -1,6 +1,7 @@
 // `drumlin study cost --quick`: every variant runs, an interrupted call measures what is missing and nothing twice. Times are not judged.
 #include "studies/cost/results.h"
-#include "engine/engine_run.h"
+#include "support/files.h"
+#include "support/process.h"
 #include "tests/support/page.h"
 
 #include <fmt/format.h>

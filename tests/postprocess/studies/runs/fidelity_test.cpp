@@ -1,5 +1,6 @@
 // `drumlin study fidelity --quick`: every variant runs on every seed, and an interrupted call makes no bed and no run twice.
 #include "studies/fidelity/results.h"
+#include "support/files.h"
 #include "tests/support/page.h"
 #include "tests/support/scratch_study.h"
 

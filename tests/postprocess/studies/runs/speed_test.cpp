@@ -1,9 +1,9 @@
 // `drumlin study speed --quick`: every law runs on one rank and on two, does the same work, and nothing is measured twice. Times
 // are not judged.
 #include "engine/engine_run.h"
+#include "studies/speed/results.h"
 #include "tests/support/page.h"
 #include "tests/support/scratch_study.h"
-#include "studies/speed/results.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,277 @@
+#include "support/csv.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+void csv_fault(const fs::path &file, std::size_t line, std::string_view column, std::string_view what) {
+  std::string where = file.string();
+  if (line > 0) where += fmt::format(", line {}", line);
+  if (!column.empty()) where += fmt::format(", column '{}'", column);
+  throw std::runtime_error(fmt::format("{}: {}", where, what));
+}
+
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::string read_whole_file(const fs::path &file) {
+  std::error_code code;
+  if (fs::is_directory(file, code)) csv_fault(file, 0, {}, "cannot be read: it is a folder");
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) csv_fault(file, 0, {}, fmt::format("cannot be read: {}", std::strerror(errno)));
+  std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  if (stream.bad()) csv_fault(file, 0, {}, "reading stopped before the end of the file");
+  return text;
+}
+
+// Walks through a CSV text row by row. Cells are plain or quoted (RFC 4180); empty lines are passed over.
+class RowScanner {
+public:
+  RowScanner(fs::path file, std::string text) : file_(std::move(file)), text_(std::move(text)) {
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (text_.compare(0, byte_order_mark.size(), byte_order_mark) == 0) at_ = byte_order_mark.size();
+  }
+
+  // The next row's cells; false at the end of the text. The cells' memory is used again from row to row.
+  bool next(std::vector<std::string> &cells) {
+    while (at_ < text_.size() && (text_[at_] == '\n' || text_[at_] == '\r')) {
+      if (text_[at_] == '\n') ++reached_line_;
+      ++at_;
+    }
+    if (at_ >= text_.size()) return false;
+    line_ = reached_line_;
+    std::size_t count = 0;
+    bool more = true;
+    while (more) {
+      if (count == cells.size()) cells.emplace_back();
+      more = read_cell(cells[count]);
+      ++count;
+    }
+    cells.resize(count);
+    return true;
+  }
+
+  const fs::path &file() const { return file_; }
+  // Where the row that next() gave starts, counted from 1.
+  std::size_t line() const { return line_; }
+
+private:
+  // Takes one cell and what ends it; true if another cell follows in this row.
+  bool read_cell(std::string &cell) {
+    cell.clear();
+    if (at_ < text_.size() && text_[at_] == '"') {
+      read_quoted(cell);
+    } else {
+      const std::size_t end = std::min(text_.find_first_of(",\n", at_), text_.size());
+      cell.assign(trimmed(std::string_view(text_).substr(at_, end - at_)));
+      at_ = end;
+    }
+    if (at_ < text_.size() && text_[at_] == '\r') ++at_;
+    if (at_ >= text_.size()) return false;
+    const char ending = text_[at_++];
+    if (ending == ',') return true;
+    if (ending != '\n')
+      csv_fault(file_, reached_line_, {},
+                fmt::format("found '{}' after a closing quote, expected a comma or line end", ending));
+    ++reached_line_;
+    return false;
+  }
+
+  void read_quoted(std::string &cell) {
+    const std::size_t opened = reached_line_;
+    for (++at_; at_ < text_.size(); ++at_) {
+      if (text_[at_] == '"') {
+        ++at_;
+        if (at_ >= text_.size() || text_[at_] != '"') return;
+      } else if (text_[at_] == '\n') {
+        ++reached_line_;
+      }
+      cell += text_[at_];
+    }
+    csv_fault(file_, opened, {}, "a quote opened here is never closed");
+  }
+
+  fs::path file_;
+  std::string text_;
+  std::size_t at_ = 0;
+  std::size_t reached_line_ = 1;
+  std::size_t line_ = 0;
+};
+
+std::vector<std::string> read_header(RowScanner &scanner) {
+  std::vector<std::string> header;
+  if (!scanner.next(header)) csv_fault(scanner.file(), 1, {}, "the file is empty, expected a header line");
+  for (std::size_t i = 0; i < header.size(); ++i) {
+    if (header[i].empty())
+      csv_fault(scanner.file(), scanner.line(), {},
+                fmt::format("column {} of the header has no name", i + 1));
+    if (std::find(header.begin(), header.begin() + static_cast<std::ptrdiff_t>(i), header[i]) !=
+        header.begin() + static_cast<std::ptrdiff_t>(i))
+      csv_fault(scanner.file(), scanner.line(), header[i], "the header names this column twice");
+  }
+  return header;
+}
+
+std::optional<std::size_t> find_column(const std::vector<std::string> &header, std::string_view column) {
+  const auto found = std::find(header.begin(), header.end(), column);
+  if (found == header.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - header.begin());
+}
+
+void check_width(const RowScanner &scanner, const std::vector<std::string> &header,
+                 const std::vector<std::string> &cells) {
+  if (cells.size() != header.size())
+    csv_fault(scanner.file(), scanner.line(), {},
+              fmt::format("found {} cells, expected {} as in the header", cells.size(), header.size()));
+}
+
+[[noreturn]] void missing_column(const fs::path &file, std::string_view column,
+                                 const std::vector<std::string> &header) {
+  csv_fault(file, 1, column,
+            fmt::format("the header does not name this column; found {}", fmt::join(header, ",")));
+}
+
+} // namespace
+
+double csv_number(const fs::path &file, std::size_t line, std::string_view column, const std::string &cell) {
+  try {
+    return number_from_text(cell);
+  } catch (const std::invalid_argument &) {
+    csv_fault(file, line, column, fmt::format("found '{}', expected a finite number", cell));
+  }
+}
+
+double number_from_text(std::string_view text) {
+  std::string_view digits = trimmed(text);
+  if (digits.size() > 1 && digits.front() == '+' && digits[1] != '-') digits.remove_prefix(1);
+  double value = 0.0;
+  const char *end = digits.data() + digits.size();
+  const auto [stop, code] = std::from_chars(digits.data(), end, value);
+  if (digits.empty() || code != std::errc() || stop != end || !std::isfinite(value))
+    throw std::invalid_argument(fmt::format("'{}' is not a finite number", text));
+  return value;
+}
+
+std::string number_text(double value) { return fmt::format("{:.17g}", value); }
+
+std::string csv_cell(std::string_view text) {
+  // Blanks at the ends are quoted too: readers take them off plain cells.
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos && trimmed(text).size() == text.size())
+    return std::string(text);
+  std::string cell = "\"";
+  for (const char letter : text) {
+    if (letter == '"') cell += '"';
+    cell += letter;
+  }
+  return cell + '"';
+}
+
+Table::Table(fs::path file, std::vector<std::string> header, std::vector<std::vector<std::string>> rows,
+             std::vector<std::size_t> lines)
+    : file_(std::move(file)), header_(std::move(header)), rows_(std::move(rows)), lines_(std::move(lines)) {}
+
+bool Table::has(std::string_view column) const { return find_column(header_, column).has_value(); }
+
+std::size_t Table::index_of(std::string_view column) const {
+  const std::optional<std::size_t> index = find_column(header_, column);
+  if (!index) missing_column(file_, column, header_);
+  return *index;
+}
+
+std::vector<std::string> Table::text(std::string_view column) const {
+  const std::size_t index = index_of(column);
+  std::vector<std::string> cells;
+  cells.reserve(rows_.size());
+  for (const std::vector<std::string> &row : rows_)
+    cells.push_back(row[index]);
+  return cells;
+}
+
+std::vector<double> Table::numbers(std::string_view column) const {
+  const std::size_t index = index_of(column);
+  std::vector<double> values;
+  values.reserve(rows_.size());
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    values.push_back(csv_number(file_, lines_[i], column, rows_[i][index]));
+  return values;
+}
+
+std::vector<long> Table::integers(std::string_view column) const {
+  const std::size_t index = index_of(column);
+  std::vector<long> values;
+  values.reserve(rows_.size());
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const std::string &cell = rows_[i][index];
+    long value = 0;
+    const char *end = cell.data() + cell.size();
+    const auto [stop, code] = std::from_chars(cell.data(), end, value);
+    if (cell.empty() || code != std::errc() || stop != end)
+      csv_fault(file_, lines_[i], column, fmt::format("found '{}', expected a whole number", cell));
+    values.push_back(value);
+  }
+  return values;
+}
+
+struct CsvRows::State {
+  RowScanner scanner;
+  std::vector<std::string> header;
+};
+
+CsvRows::CsvRows(const fs::path &file)
+    : state_(std::make_unique<State>(State{RowScanner(file, read_whole_file(file)), {}})) {
+  state_->header = read_header(state_->scanner);
+}
+
+CsvRows::~CsvRows() = default;
+
+std::optional<std::size_t> CsvRows::find(std::string_view column) const {
+  return find_column(state_->header, column);
+}
+
+void CsvRows::missing(std::string_view column) const {
+  missing_column(state_->scanner.file(), column, state_->header);
+}
+
+bool CsvRows::next(std::vector<std::string> &cells) {
+  if (!state_->scanner.next(cells)) return false;
+  check_width(state_->scanner, state_->header, cells);
+  return true;
+}
+
+std::size_t CsvRows::line() const { return state_->scanner.line(); }
+
+Table read_table(const fs::path &file) {
+  RowScanner scanner(file, read_whole_file(file));
+  std::vector<std::string> header = read_header(scanner);
+  std::vector<std::vector<std::string>> rows;
+  std::vector<std::size_t> lines;
+  std::vector<std::string> cells;
+  while (scanner.next(cells)) {
+    check_width(scanner, header, cells);
+    rows.push_back(cells);
+    lines.push_back(scanner.line());
+  }
+  return {file, std::move(header), std::move(rows), std::move(lines)};
+}
+
+} // namespace drumlin::post

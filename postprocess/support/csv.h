@@ -1,0 +1,89 @@
+// CSV files: one reader and one writer for all.
+//
+// Readers find columns by the names in the header line and throw std::runtime_error with file, line, column
+// and what was found. Numbers are written with 17 digits and come back bit for bit.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace drumlin::post {
+
+/// A small CSV table, all cells as text. RFC 4180 quotes are taken off: a quoted cell may hold commas,
+/// doubled quotes and line ends.
+class Table {
+public:
+  Table(std::filesystem::path file, std::vector<std::string> header,
+        std::vector<std::vector<std::string>> rows, std::vector<std::size_t> lines);
+
+  const std::filesystem::path &file() const { return file_; }
+  const std::vector<std::string> &header() const { return header_; }
+  std::size_t rows() const { return rows_.size(); }
+  /// Line of the file where a row (counted from 0) starts, counted from 1.
+  std::size_t line(std::size_t row) const { return lines_.at(row); }
+  /// Whether the header names `column`.
+  bool has(std::string_view column) const;
+  /// Cells of the column as text.
+  std::vector<std::string> text(std::string_view column) const;
+  /// Cells of the column as finite numbers.
+  std::vector<double> numbers(std::string_view column) const;
+  /// Cells of the column as whole numbers.
+  std::vector<long> integers(std::string_view column) const;
+
+private:
+  std::size_t index_of(std::string_view column) const;
+
+  std::filesystem::path file_;
+  std::vector<std::string> header_;
+  std::vector<std::vector<std::string>> rows_;
+  std::vector<std::size_t> lines_; // where each row starts in the file
+};
+
+/// Reads any CSV file with a header line and as many cells in every row as names in the header.
+Table read_table(const std::filesystem::path &file);
+
+/// The rows of a CSV file one after the other, for records of millions of cells that need no Table of text.
+class CsvRows {
+public:
+  explicit CsvRows(const std::filesystem::path &file);
+  ~CsvRows();
+  CsvRows(const CsvRows &) = delete;
+  CsvRows &operator=(const CsvRows &) = delete;
+
+  /// Place of a column in every row; nothing if the header does not name it.
+  std::optional<std::size_t> find(std::string_view column) const;
+  /// Throws the fault that the header does not name a column.
+  [[noreturn]] void missing(std::string_view column) const;
+  /// The next row, as many cells as names in the header; false at the end of the file.
+  bool next(std::vector<std::string> &cells);
+  /// Line of the file where the row that next() gave starts, counted from 1.
+  std::size_t line() const;
+
+private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// The finite number in a cell; a fault that names file, line and column if it holds none.
+double csv_number(const std::filesystem::path &file, std::size_t line, std::string_view column,
+                  const std::string &cell);
+
+/// Throws std::runtime_error "FILE, line LINE, column 'COLUMN': WHAT"; line 0 and an empty column are left out.
+[[noreturn]] void csv_fault(const std::filesystem::path &file, std::size_t line, std::string_view column,
+                            std::string_view what);
+
+/// One cell of CSV: `text` itself, or quoted if it holds a comma, a quote or a line end.
+std::string csv_cell(std::string_view text);
+
+/// The number that `text` holds, all of it and nothing else, finite; else std::invalid_argument.
+double number_from_text(std::string_view text);
+
+/// The number with 17 digits, which come back bit for bit.
+std::string number_text(double value);
+
+} // namespace drumlin::post
