@@ -1,4 +1,4 @@
-// What a study judges: promises about what it measures.
+// Acceptance criteria: what a study asks of its results.
 #pragma once
 
 #include "pages/table.h"
@@ -8,13 +8,16 @@
 
 namespace drumlin::post {
 
-/// A promise with its bound, what was measured of it, and whether it is kept.
-struct Promise {
-  std::string promise, measured;
+/// An acceptance criterion with its bound, the measured value, and whether the value meets it.
+struct Acceptance {
+  std::string criterion, measured;
   bool holds;
 };
 
-/// data/promises.csv and the table on the study's page.
-ReportTable promise_table(const std::vector<Promise> &promises);
+/// The table of all criteria on a study's page, and data/acceptance.csv.
+PageTable acceptance_table(const std::vector<Acceptance> &criteria);
+
+/// "7 of 8 acceptance criteria hold.", with the criteria that do not.
+std::string acceptance_words(const std::vector<Acceptance> &criteria);
 
 } // namespace drumlin::post

@@ -8,8 +8,8 @@
 
 namespace drumlin::post {
 
-/// Rows of a tidy CSV: the first column names the curve (without commas, which gnuplot would split at), blank
-/// cells are values that a row does not have.
+/// Rows of a tidy CSV file: the first column is the name of the curve, without commas, since gnuplot would
+/// split the name there. A value that is not finite becomes an empty cell.
 class CurveTable {
 public:
   /// \param columns header of the other columns, with units
@@ -21,14 +21,15 @@ private:
   std::string text_;
 };
 
-/// Where a figure's script finds its CSV.
+/// Path of a figure's CSV file, relative to the folder of its script.
 std::string data_path(const std::string &figure);
 
-/// Gnuplot expression: `value` in rows of the named curve, nothing in others. Markers take each stride-th
-/// row.
+/// Gnuplot expression that is `value` in rows of the named curve and undefined in all others. With a stride
+/// above 1 only each stride-th row of the file counts, beginning with row `phase`.
 std::string of_curve(const std::string &curve, const std::string &value, int stride = 1, int phase = 0);
 
-/// The named curve of a figure, with its name in the legend; x and y as in Curve.
+/// The named curve of a figure, with its name in the legend; x and y as in Curve, stride and phase as in
+/// of_curve().
 Curve curve(const std::string &figure, const std::string &name, const std::string &x, const std::string &y,
             CurveStyle style, int stride = 1, int phase = 0);
 

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What follows `using x:y` for a curve.
+/// The part of gnuplot's plot command after `using x:y`.
 std::string style_words(const Curve &curve) {
   switch (curve.style) {
   case CurveStyle::condition_a:
@@ -77,8 +77,8 @@ std::string style_words(const Curve &curve) {
   return "with lines";
 }
 
-/// A gnuplot string in double quotes; words come from us and from run folders' names. Other control characters than the line end
-/// are left out: they would stand in the SVG, which they make unreadable.
+/// Text as a gnuplot string in double quotes. Names of run folders can hold any character; control characters
+/// other than the line end are left out, since XML forbids them in the SVG file.
 std::string gnuplot_string(const std::string &text) {
   std::string out = "\"";
   for (const char c : valid_utf8(text)) {
@@ -88,21 +88,91 @@ std::string gnuplot_string(const std::string &text) {
     }
     if (static_cast<unsigned char>(c) < 0x20) continue;
     if (c == '"' || c == '\\') out += '\\';
-    out += c == '`' ? '\'' : c; // gnuplot would run what stands between backquotes
+    out += c == '`' ? '\'' : c; // gnuplot runs text between backquotes as a command
   }
   return out + "\"";
 }
 
-/// The label of a tic. Gnuplot takes it for a format of the tic's number, in which % begins a conversion.
+/// The label of a tic. gnuplot reads it as a format for the tic's number, so % has to be doubled.
 std::string tic_label(const std::string &name) {
-  constexpr std::size_t most = 40; // letters: a longer label would take the whole figure
+  constexpr std::size_t most = 40; // letters; a longer label would leave no room for the graph
   std::string label;
   for (const char c : shortened(valid_utf8(name), most))
     label += c == '%' ? "%%" : std::string(1, c);
   return label;
 }
 
-std::string panel_script(const Panel &panel) {
+/// Letters of the longest tic label that is a name; 0 if the tics are numbers.
+std::size_t longest_tic(const Panel &panel) {
+  std::size_t longest = 0;
+  for (const std::string &name : panel.x_ticks)
+    longest = std::max(longest, tic_label(name).size());
+  return longest;
+}
+
+/// Height of an upright tic label, in lines of text.
+double tic_lines(const Panel &panel) {
+  constexpr double line_per_letter = 0.45; // a letter's width over the height of a line
+  return line_per_letter * static_cast<double>(longest_tic(panel));
+}
+
+std::string x_axis_script(const Panel &panel) {
+  std::string s;
+  if (panel.x_ticks.empty()) {
+    s += "  set xtics autofreq norotate\n  set autoscale x\n";
+    s += panel.tight_x ? "  set autoscale xfix\n  set offsets 0, 0, 0, 0\n"
+                       : "  set offsets graph 0.04, graph 0.04, 0, 0\n";
+    if (!panel.x_range.empty())
+      s += fmt::format("  set xrange {}\n  set offsets 0, 0, 0, 0\n", panel.x_range);
+    return s;
+  }
+  s += "  set xtics rotate by 90 right noenhanced (";
+  for (std::size_t i = 0; i < panel.x_ticks.size(); ++i)
+    s += fmt::format("{}{} {}", i == 0 ? "" : ", ", gnuplot_string(tic_label(panel.x_ticks[i])), i + 1);
+  return s + fmt::format(")\n  set xrange [0.5:{}]\n", static_cast<double>(panel.x_ticks.size()) + 0.5);
+}
+
+std::string color_script(const Panel &panel) {
+  if (panel.color_label.empty()) return {};
+  return fmt::format("  set colorbox\n  set rmargin 8.5\n  set cblabel {}\n  set cbrange {}\n",
+                     gnuplot_string(panel.color_label),
+                     panel.color_range.empty() ? "[*:*]" : panel.color_range) +
+         (panel.color_whole
+              ? "  set palette defined (0 '#ffffff', 1 '#faeed5', 2 '#f3d9a0', 3 '#d3e8f5', 4 '#9dcdea', "
+                "5 '#5ba9d6', 6 '#0072B2') maxcolors 7\n  set cbtics 1\n"
+              : "  set palette defined (0 '#fffdf5', 1 '#f6d78b', 2 '#E69F00', 3 '#D55E00')\n"
+                "  set cbtics autofreq\n");
+}
+
+std::string curve_script(const Curve &curve) {
+  std::string every;
+  if (curve.every > 1 || curve.offset > 0) every = fmt::format(" every {}::{}", curve.every, curve.offset);
+  const std::string title =
+      curve.title.empty() ? "notitle" : fmt::format("title {} noenhanced", gnuplot_string(curve.title));
+  return fmt::format("{} skip 1{} using {}:{} {} {}", gnuplot_string(curve.data), every, curve.x, curve.y,
+                     style_words(curve), title);
+}
+
+/// Rows that the legend of a panel needs below axes of a width in px. Keys have columns as wide as the
+/// longest name.
+int legend_rows(const Panel &panel, int width) {
+  constexpr double letter = 8.8;    // px
+  constexpr std::size_t sample = 6; // letters that line sample and gap take
+  constexpr double margins = 90.0;  // px, left and right of the axes
+  std::size_t longest = 0;
+  int names = 0;
+  for (const Curve &curve : panel.curves) {
+    if (curve.title.empty()) continue;
+    longest = std::max(longest, curve.title.size());
+    ++names;
+  }
+  const int per_row =
+      std::max(1, static_cast<int>((width - margins) / (letter * static_cast<double>(longest + sample))));
+  return std::max(1, (names + per_row - 1) / per_row);
+}
+
+/// \param width of the panel in px
+std::string panel_script(const Panel &panel, int width) {
   std::string s;
   s += panel.title.empty() ? "  unset title\n"
                            : fmt::format("  set title {} noenhanced\n", gnuplot_string(panel.title));
@@ -112,49 +182,17 @@ std::string panel_script(const Panel &panel) {
   s += panel.log_x ? "  set logscale x\n  set format x '10^{%T}'\n" : "  set format x '%g'\n";
   s += panel.log_y ? "  set logscale y\n  set format y '10^{%T}'\n" : "  set format y '%g'\n";
   s += fmt::format("  set yrange {}\n", panel.y_range.empty() ? "[*:*]" : panel.y_range);
-  constexpr double line_per_letter = 0.45; // a letter's width over the height of a line
-  std::size_t longest = 0;
-  for (const std::string &name : panel.x_ticks)
-    longest = std::max(longest, tic_label(name).size());
+  const int rows = legend_rows(panel, width);
+  const double tics_and_label = panel.x_ticks.empty() ? 4.0 : 2.0; // lines of text
+  const double row = 1.4;
   s += fmt::format("  set bmargin {}\n  set key maxrows {} width {}\n",
-                   (longest == 0 ? 4.5 : 2.5) + panel.legend_rows +
-                       line_per_letter * static_cast<double>(longest),
-                   panel.legend_rows, panel.legend_rows > 1 ? 1 : -2);
-  if (panel.x_ticks.empty()) {
-    s += "  set xtics autofreq norotate\n  set autoscale x\n";
-    s += panel.tight_x ? "  set autoscale xfix\n  set offsets 0, 0, 0, 0\n"
-                       : "  set offsets graph 0.04, graph 0.04, 0, 0\n";
-    if (!panel.x_range.empty())
-      s += fmt::format("  set xrange {}\n  set offsets 0, 0, 0, 0\n", panel.x_range);
-  } else {
-    s += "  set xtics rotate by 90 right noenhanced (";
-    for (std::size_t i = 0; i < panel.x_ticks.size(); ++i)
-      s += fmt::format("{}{} {}", i == 0 ? "" : ", ", gnuplot_string(tic_label(panel.x_ticks[i])), i + 1);
-    s += fmt::format(")\n  set xrange [0.5:{}]\n", static_cast<double>(panel.x_ticks.size()) + 0.5);
-  }
+                   tics_and_label + row * rows + tic_lines(panel), rows, rows > 1 ? 1 : -2);
+  s += x_axis_script(panel);
   if (panel.equal_scales) s += "  set size ratio -1\n";
-  if (!panel.color_label.empty()) {
-    s += fmt::format("  set colorbox\n  set rmargin 8.5\n  set cblabel {}\n  set cbrange {}\n",
-                     gnuplot_string(panel.color_label),
-                     panel.color_range.empty() ? "[*:*]" : panel.color_range);
-    s += panel.color_whole
-             ? "  set palette defined (0 '#ffffff', 1 '#faeed5', 2 '#f3d9a0', 3 '#d3e8f5', 4 '#9dcdea', "
-               "5 '#5ba9d6', 6 '#0072B2') maxcolors 7\n  set cbtics 1\n"
-             : "  set palette defined (0 '#fffdf5', 1 '#f6d78b', 2 '#E69F00', 3 '#D55E00')\n"
-               "  set cbtics autofreq\n";
-  }
+  s += color_script(panel);
   s += "  plot ";
-  bool first = true;
-  for (const Curve &curve : panel.curves) {
-    if (!first) s += ", \\\n       ";
-    first = false;
-    std::string every;
-    if (curve.every > 1 || curve.offset > 0) every = fmt::format(" every {}::{}", curve.every, curve.offset);
-    const std::string title =
-        curve.title.empty() ? "notitle" : fmt::format("title {} noenhanced", gnuplot_string(curve.title));
-    s += fmt::format("{} skip 1{} using {}:{} {} {}", gnuplot_string(curve.data), every, curve.x, curve.y,
-                     style_words(curve), title);
-  }
+  for (std::size_t i = 0; i < panel.curves.size(); ++i)
+    s += (i == 0 ? "" : ", \\\n       ") + curve_script(panel.curves[i]);
   s += "\n";
   if (panel.equal_scales) s += "  set size noratio\n";
   if (!panel.color_label.empty()) s += "  unset colorbox\n  set rmargin -1\n";
@@ -192,10 +230,23 @@ std::string axis_range(double low, double high) {
              : "";
 }
 
-int figure_width(const Figure &figure) { return columns_of(figure) * figure.panel_width; }
+int figure_width(const Figure &figure) {
+  const int width = figure.half ? 540 : 1080;
+  return width / columns_of(figure) * columns_of(figure);
+}
 
 int figure_height(const Figure &figure) {
-  return rows_of(figure) * figure.panel_height + (figure.panels.size() > 1 ? 40 : 0);
+  constexpr int graph = 430;
+  constexpr int picture = 680;
+  constexpr double line = 17.0; // px, of tic labels
+  constexpr double usual = 6.0; // lines of tic labels for which a graph has room
+  int panel_height = graph;
+  for (const Panel &panel : figure.panels) {
+    const double more = std::max(0.0, tic_lines(panel) - usual) * line;
+    panel_height =
+        std::max(panel_height, panel.equal_scales && !figure.half ? picture : graph + static_cast<int>(more));
+  }
+  return rows_of(figure) * panel_height + (figure.panels.size() > 1 ? 40 : 0);
 }
 
 std::string gnuplot_script(const Figure &figure) {
@@ -226,7 +277,7 @@ std::string gnuplot_script(const Figure &figure) {
     s += fmt::format("  set multiplot layout {},{} title {} noenhanced\n", rows, columns,
                      gnuplot_string(figure.title));
   for (const Panel &panel : figure.panels)
-    s += panel_script(panel);
+    s += panel_script(panel, width / columns);
   if (many) s += "  unset multiplot\n";
   return s + "  unset output\n}\n";
 }
@@ -247,7 +298,7 @@ bool is_whole_picture(const fs::path &file) {
 void render(const fs::path &gnuplot, const fs::path &folder, const Figure &figure) {
   const fs::path script = folder / (figure.name + ".gp");
   write_files({{script, gnuplot_script(figure)}});
-  // Settings of the user must not change the report: --default-settings reads none of them.
+  // --default-settings: a .gnuplot file of the user must not change the report.
   constexpr double limit = 600.0; // s: the largest pictures take some ten
   const Outcome outcome =
       run_program({gnuplot.string(), "--default-settings", figure.name + ".gp"}, {}, folder, limit);

@@ -7,13 +7,13 @@
 
 namespace drumlin::post {
 
-/// The looks that a curve can have. Each differs in dash or marker as well as in colour (Okabe-Ito), so that
-/// a black and white print still tells them apart.
+/// Styles of a curve. Each has a dash or a marker of its own as well as a colour of its own (palette of Okabe
+/// and Ito), so that curves can be told apart in a black and white print.
 enum class CurveStyle {
   condition_a, ///< dashed line, vermilion
   condition_b, ///< solid line, blue
-  direct_a,    ///< thin, open circles, black
-  direct_b,    ///< thin, open triangles, black
+  direct_a,    ///< open circles, black: reference solution under A
+  direct_b,    ///< open triangles, black: reference solution under B
   direct_line, ///< thin dotted black line
   measured_a,  ///< filled circles, vermilion
   measured_b,  ///< filled squares, blue
@@ -31,7 +31,7 @@ enum class CurveStyle {
   line_3,
   line_4,
   line_5,
-  discs,    ///< filled circles in their true size; y names ordinate, radius and colour, e.g. "4:5:6"
+  discs,    ///< filled circles, radius in units of the axes; y names ordinate, radius and colour: "4:5:6"
   circles,  ///< the same as outlines, black; y names ordinate and radius
   segments, ///< black line segments of Curve::width; y names ordinate and the extents along both axes
 };
@@ -55,30 +55,30 @@ struct Panel {
   std::string y_label; ///< with unit
   std::vector<Curve> curves;
   bool log_y = false;
-  bool tight_x = false;                  ///< the axis ends with the data, as a time axis does
-  std::string x_range = {};              ///< as gnuplot writes it, e.g. "[-0.1:*]"; empty: what the data need
+  bool tight_x = false;     ///< the axis ends where the data end, as a time axis does
+  std::string x_range = {}; ///< as gnuplot writes it, e.g. "[-0.1:*]"; empty: the range of the data
   std::vector<std::string> x_ticks = {}; ///< names at x = 1, 2, ... instead of numbers
   bool log_x = false;
   std::string y_range = {};     ///< as x_range
-  int legend_rows = 1;          ///< lines that the legend may take
-  bool equal_scales = false;    ///< one unit is as long on both axes: a picture rather than a graph
+  bool equal_scales = false;    ///< a picture: a metre is as long on the vertical as on the horizontal axis
   std::string color_label = {}; ///< of the colour box of discs, with unit; empty: no colour box
   std::string color_range = {}; ///< as x_range
   bool color_whole = false;     ///< one colour per whole number
 };
 
-/// A figure: panels in rows of `columns`. The legend stands below each panel, outside of the axes.
+/// A figure: panels in rows of `columns`. All figures have one width, rows of panels one height, and the
+/// legend is below each panel, outside of the axes.
 struct Figure {
   std::string name;  ///< file stem of script, SVG and PNG
   std::string title; ///< printed above the panels when there is more than one
   std::vector<Panel> panels;
-  int columns = 1;
-  int panel_width = 900;  ///< px
-  int panel_height = 520; ///< px
-  bool only_png = false;  ///< no SVG: thousands of circles make many MB of it
+  int columns = 1;   ///< 1 to 3
+  bool half = false; ///< half as wide as the others, and as high as a row of graphs: two stand side by side
+  bool only_png = false; ///< no SVG, which would take many MB with thousands of circles
 };
 
-/// "[low:high]" with six digits for Panel::x_range and the like; empty, so that the data decide, if that is no range.
+/// "[low:high]" with six digits, for Panel::x_range and similar; empty, which stands for the range of the
+/// data, unless low < high and both are finite.
 std::string axis_range(double low, double high);
 
 /// Size of the whole figure in CSS pixels.
@@ -88,13 +88,15 @@ int figure_height(const Figure &figure);
 /// Full path of the gnuplot program. Throws std::runtime_error naming the Debian package if there is none.
 std::filesystem::path find_gnuplot();
 
-/// The gnuplot script of a figure; it writes NAME.svg, unless only_png, and NAME.png into the folder that it runs in.
+/// The gnuplot script of a figure. Run in a folder, it writes NAME.svg, unless only_png, and NAME.png there.
 std::string gnuplot_script(const Figure &figure);
 
-/// Whether a PNG or SVG file begins and ends as such a file does: one that gnuplot wrote onto a full disk does not, and gnuplot ends with 0.
+/// Whether a PNG or SVG file has the beginning and the end of its format. gnuplot ends with status 0 even if
+/// the disk is full and the picture is cut short.
 bool is_whole_picture(const std::filesystem::path &file);
 
-/// Writes folder/NAME.gp and runs it there. Throws std::runtime_error with gnuplot's own words on failure, or if a picture is not whole.
+/// Writes folder/NAME.gp and runs it in that folder. Throws std::runtime_error with gnuplot's message if
+/// gnuplot fails, or if a picture is cut short.
 void render(const std::filesystem::path &gnuplot, const std::filesystem::path &folder, const Figure &figure);
 
 } // namespace drumlin::post

@@ -10,26 +10,51 @@
 
 namespace drumlin::post {
 
-/// Text with &, <, >, " and ' replaced, control characters left out, and what is not UTF-8 replaced by U+FFFD.
+/// Text with &, <, >, " and ' replaced. Control characters are left out, and bytes that are not UTF-8 become
+/// U+FFFD.
 std::string html_escaped(const std::string &text);
 
-/// The text that html_escaped() would give as `html`.
+/// The text whose html_escaped() is `html`.
 std::string html_unescaped(const std::string &html);
 
-/// A whole page: head with the styles of all pages of this project, title, a line on how it was made (plain text, may be
-/// empty), then `body` as it stands.
-std::string html_page(const std::string &title, const std::string &made, const std::string &body);
+/// A line of the contents list.
+struct PageLink {
+  std::string href; ///< "#id" of a section, or a file relative to the page
+  std::string text; ///< plain text
+};
 
-/// A table with its title, its notes and a link to data/NAME.csv.
-std::string table_html(const ReportTable &table);
+/// A whole page: head with the styles that all pages of this project share, title, a line with date and
+/// version (plain text), a contents list that stays in view on wide screens (empty: none), then `body` as the
+/// page's main part.
+std::string html_page(const std::string &title, const std::string &made,
+                      const std::vector<PageLink> &contents, const std::string &body);
+
+/// What a page's opening paragraph amounts to; decides its mark.
+enum class Verdict { none, good, bad };
+
+/// A sentence or a few of the opening paragraph, plain text.
+struct Sentence {
+  std::string text;
+  std::string lead = {}; ///< words in bold before it, which say what it is about; may be empty
+};
+
+/// The opening of a page: sentences as one paragraph, with the drawing of the scene beside it.
+/// \param scene scene_html()
+std::string answer_html(const std::vector<Sentence> &sentences, Verdict verdict, const std::string &scene);
+
+/// Figures side by side, each linked to the whole figure.
+std::string key_figures_html(const std::vector<KeyFigure> &figures);
+
+/// A table with its title, how many of its rows are good, its notes and a link to data/NAME.csv.
+std::string table_html(const PageTable &table);
 
 /// A figure with its caption and links to figures/NAME.svg, .png, .gp and data/NAME.csv.
-std::string figure_html(const PlannedFigure &figure);
+std::string figure_html(const PageFigure &figure);
 
 /// The figures of a section in order, then those left out and why. Empty if the plan has none of either.
 std::string section_html(const FigurePlan &plan, const std::string &section);
 
-/// A heading, then the commands of runs, each with the name of its run.
+/// A heading, then the commands of the runs, each with the name of its run.
 std::string commands_html(const std::vector<std::pair<std::string, std::string>> &commands);
 
 } // namespace drumlin::post

@@ -14,10 +14,13 @@ namespace {
 
 constexpr int shown_cycles = 3;
 constexpr int loop_cycles = 2;
+// The page opens with the picture of the bed under load, then the settlement; without dumps also the motion.
+constexpr double settlement_weight = 5.0;
+constexpr double motion_weight = 4.0;
 
 std::string label(const BedResult &result) { return transition_name(result.run.transition()); }
 
-/// A single letter would be overrun by its neighbour in the legend.
+/// In full: gnuplot sets single letters so close that the next key covers them.
 std::string legend(const BedResult &result) { return "condition " + label(result); }
 
 bool is_a(const BedResult &result) { return result.run.transition() == Transition::A; }
@@ -43,7 +46,7 @@ void for_rows(const BedResult &result, TimeWindow window, const Visit &visit) {
     if (time[i] >= window.begin && time[i] <= window.end) visit(i);
 }
 
-/// One group's figures under way.
+/// Plans the figures of one group of runs.
 class Group {
 public:
   Group(const BedGroup &group, std::size_t number, FigurePlan &plan)
@@ -63,9 +66,9 @@ private:
   const std::vector<const BedResult *> &runs() const { return group_.runs; }
 
   void add(const std::string &name, const std::string &title, const std::vector<Panel> &panels,
-           const CurveTable &table, const std::string &caption, int columns, int width, int height) {
-    PlannedFigure figure{section_, "", caption, {}, table.text()};
-    figure.figure = {stem_ + name, title, panels, columns, width, height};
+           const CurveTable &table, const std::string &caption, int columns, double weight = 0.0) {
+    PageFigure figure{section_, "", caption, {}, table.text(), weight};
+    figure.figure = {stem_ + name, title, panels, columns};
     plan_.figures.push_back(std::move(figure));
   }
 
@@ -77,7 +80,7 @@ private:
     }
   }
 
-  /// Whether a run lasted for a cycle; else the figure is absent.
+  /// Whether every run has a complete cycle. If not, notes the figure as absent.
   bool has_cycles(const std::string &what) {
     for (const BedResult *run : runs())
       if (run->measures.cycles < 1) {
@@ -98,18 +101,19 @@ private:
         table.row(label(*run), {h.time[i], h.time[i] - window.begin, h.a_drum[i], h.F_contact[i]});
       });
     }
-    const std::string time = fmt::format("time since the start of the last {} cycles (ms)", shown_cycles);
+    const std::string time = fmt::format("time in the last {} cycles (ms)", shown_cycles);
     Panel acceleration{"drum acceleration", time, "drum acceleration (m/s²)", {}};
     Panel force{"contact force", time, "contact force on the drum (kN)", {}};
     acceleration.tight_x = force.tight_x = true;
     curves(acceleration, "motion", "$3*1e3", "4");
     curves(force, "motion", "$3*1e3", "($5*1e-3)");
     add("motion", "Drum acceleration and contact force", {acceleration, force}, table,
-        fmt::format("Acceleration of the drum and force of the soil on it over the last {} cycles. The force "
-                    "is the sum over all balls that touch the drum, their friction included: it can pull "
-                    "under B, too.",
-                    shown_cycles),
-        1, 960, 400);
+        fmt::format(
+            "Acceleration of the drum, and force of the soil on the drum, over the last {} cycles. The "
+            "force is the vertical sum over all balls in contact with the drum. It includes their "
+            "friction, so it can be tensile under condition B, too.",
+            shown_cycles),
+        2, motion_weight);
   }
 
   void loop() {
@@ -128,9 +132,9 @@ private:
     curves(panel, "loop", "$3*1e3", "($4*1e-3)");
     add("loop", panel.title, {panel}, table,
         fmt::format("Contact force against the height of the drum over the last {} cycles. The area within a "
-                    "loop is the energy that the bed takes per cycle.",
+                    "loop is the energy that the drum gives to the bed in one cycle.",
                     loop_cycles),
-        1, 960, 540);
+        1);
   }
 
   void settlement() {
@@ -148,8 +152,9 @@ private:
       panel.curves.back().title = legend(*run);
     }
     add("settlement", panel.title, {panel}, table,
-        "How far the drum has sunk below where it lay at rest: mean of its position over each cycle.", 1, 960,
-        440);
+        "Settlement of the drum: how far its mean position over a cycle lies below its position at rest "
+        "before the excitation.",
+        1, settlement_weight);
   }
 
   void state() {
@@ -163,9 +168,10 @@ private:
     curves(coordination, "state", "$2", "3");
     curves(voids, "state", "$2", "4");
     add("state", "Coordination and void ratio", {coordination, voids}, table,
-        "Mean number of contacts of a soil ball, and volume of voids over that of balls below the height at "
-        "which the soil's centre of mass was at the start.",
-        1, 960, 360);
+        "Coordination: mean number of contacts of a soil ball. Void ratio: volume of the voids over volume "
+        "of "
+        "the balls, in the part of the bed below the height of the soil's centre of mass at the start.",
+        2);
   }
 
   void energies() {
@@ -189,23 +195,19 @@ private:
       line(sum, "3", "work of the exciter", CurveStyle::line_1);
       line(sum, "4", "dissipated", CurveStyle::line_2);
       line(sum, "5", "potential", CurveStyle::line_3);
-      line(sum, "8", "imbalance", CurveStyle::line_5);
+      line(sum, "8", "energy error", CurveStyle::line_5);
       line(store, "7", "elastic", CurveStyle::line_4);
       line(store, "6", "kinetic", CurveStyle::line_5);
       sum.tight_x = store.tight_x = true;
-      sum.legend_rows = runs().size() > 1 ? 2 : 1;
       sums.push_back(sum);
       stores.push_back(store);
     }
     sums.insert(sums.end(), stores.begin(), stores.end());
-    const bool pair = runs().size() > 1;
     add("energy", "Energies", sums, table,
-        "Energies of drum, frame and bed. Imbalance: kinetic + potential + elastic + dissipated - work of "
-        "the "
-        "exciter, less its value at the start; 0 where the books balance. A drum that sinks brings in "
-        "potential "
-        "energy beside the exciter's work.",
-        pair ? 2 : 1, pair ? 570 : 960, 380);
+        "Energies of drum, frame and bed. Energy error: kinetic + potential + elastic + dissipated energy - "
+        "work of the exciter, less its value at the start. It would be 0 without any numerical error. While "
+        "the drum sinks, its potential energy drives the bed in addition to the exciter.",
+        2);
   }
 
   void walls() {
@@ -232,12 +234,12 @@ private:
       }
       panels.push_back(panel);
     }
-    const bool pair = runs().size() > 1;
     add("walls", "Forces of the walls", panels, table,
-        "Forces of floor and side walls on the balls: what of the roller's blows comes through the bed. "
-        "Side thrust "
-        "is the sum of the normal forces of both side walls, side friction positive where it carries balls.",
-        2, pair ? 570 : 960, 400);
+        "Forces of floor and side walls on the balls: the part of the roller's load that reaches the "
+        "boundaries of the bed. Side thrust is the sum of the normal forces of both side walls; side "
+        "friction "
+        "is positive where it acts upwards on the balls.",
+        2);
   }
 
   const BedGroup &group_;
@@ -255,7 +257,7 @@ FigurePlan plan_bed_figures(const std::vector<BedGroup> &groups) {
   for (std::size_t i = 0; i < groups.size(); ++i)
     Group(groups[i], i, plan).plan();
   int number = 0;
-  for (PlannedFigure &figure : plan.figures)
+  for (PageFigure &figure : plan.figures)
     figure.label = fmt::format("Fig. {}", ++number);
   return plan;
 }

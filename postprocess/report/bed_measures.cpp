@@ -30,7 +30,7 @@ double mean(const std::vector<double> &time, const std::vector<double> &value, T
   return sum / rows;
 }
 
-/// The even number of cycles at the end that count as steady.
+/// Number of cycles at the end that count as steady; even if there are two or more.
 int steady_part(int cycles) {
   if (cycles < 2) return cycles;
   return std::min(steady_cycles, (cycles / 2 + 1) / 2 * 2);
@@ -41,7 +41,7 @@ BedMeasures measure(const Run &run, const BedHistory &bed) {
   const CycleColumns &cycles = *run.cycles;
   const double period = run.chain.period();
   BedMeasures m;
-  m.cycles = std::min(run.complete, static_cast<int>(cycles.rows) - 1); // cycle 0 is the start
+  m.cycles = std::min(run.complete, static_cast<int>(cycles.rows) - 1); // row 0 is the start
   m.coordination_start = bed.coordination.front();
   m.void_ratio_start = bed.void_ratio.front();
   m.imbalance_percent = 100.0 * energy_imbalance(bed).back() / std::abs(bed.work_excitation.back());
@@ -52,7 +52,7 @@ BedMeasures measure(const Run &run, const BedHistory &bed) {
   m.steady_count = steady_part(m.cycles);
   m.steady = last_cycles_window(m.cycles, m.steady_count, period);
   const auto count = static_cast<std::size_t>(m.steady_count);
-  // No events: those of a bed are of single balls, the drum feels the sum of all.
+  // Without events: those of a bed are of single balls, but the force on the drum is the sum over all balls.
   m.extremes = steady_extremes(run.history, {}, run.cycles, run.chain, m.steady, count);
   m.amplitudes = harmonic_amplitudes(cycles, count);
   for (std::size_t i = cycles.rows - count; i < cycles.rows; ++i)
@@ -68,7 +68,8 @@ BedMeasures measure(const Run &run, const BedHistory &bed) {
   return m;
 }
 
-/// Whether two runs differ in nothing but their transition, their start and how they were run.
+/// Whether two runs have equal parameters apart from transition, restart file, number of cycles and how they
+/// were run.
 bool alike(const Run &a, const Run &b) {
   const auto told = [](const Run &run) {
     std::map<std::string, std::string> parameters = run.parameters;

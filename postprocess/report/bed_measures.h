@@ -1,5 +1,5 @@
-// What the report measures in a run of the roller on a bed of balls, and which runs stand beside each other.
-// SI units; in two dimensions masses, forces and energies are per metre out of the picture.
+// Measured values of runs of the roller on a bed of balls, and the pairs of runs that are shown together.
+// SI units; in two dimensions masses, forces and energies are per metre perpendicular to the picture.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace drumlin::post {
 
-/// What bed.csv has beside the columns of a chain: the state of the bed, one row per row of Run::history.
+/// The columns of bed.csv that a chain does not have: the state of the bed, one row per row of Run::history.
 struct BedHistory {
   std::vector<double> coordination;    ///< -
   std::vector<double> void_ratio;      ///< -
@@ -30,45 +30,48 @@ struct BedHistory {
 /// Reads these columns of a bed.csv. Throws std::runtime_error with file, line and column.
 BedHistory read_bed_history(const std::filesystem::path &file);
 
-/// kinetic + potential + elastic + dissipated - work_excitation in each row, less that of the first row (J): 0 where the books of
-/// the run balance.
+/// Energy error in each row (J): kinetic + potential + elastic + dissipated - work_excitation, less the same
+/// in the first row.
 std::vector<double> energy_imbalance(const BedHistory &bed);
 
-/// What was measured in a bed run. The steady part is about the second half of its cycles, an even number of them and at most
-/// steady_cycles, since the state may alternate; one cycle for a run of one, none for a shorter run.
+/// Measured values of a bed run. Its steady part is about the second half of its cycles: an even number of
+/// them, since the state may alternate from cycle to cycle, and at most steady_cycles; one cycle for a run of
+/// one cycle, none for a shorter run.
 struct BedMeasures {
   int cycles = 0;          ///< complete, with a row in cycles.csv
   int steady_count = 0;    ///< cycles of the steady part
-  TimeWindow steady;       ///< the same in time, s
+  TimeWindow steady;       ///< the steady part in time, s
   SteadyExtremes extremes; ///< over every step of the steady part
   double contact_share = 0.0;
   double settlement = 0.0;           ///< of the last cycle, m
   double settlement_per_cycle = 0.0; ///< in the steady part, m
   std::optional<HarmonicAmplitudes>
       amplitudes;                  ///< m/s2, over the steady part; nothing for less than two cycles
-  double imbalance_percent = 0.0;  ///< of the books at the end, in % of the work done until then
+  double imbalance_percent = 0.0;  ///< energy error at the end, in % of the exciter's work until then
   double coordination_start = 0.0; ///< first row
   double coordination_end = 0.0;   ///< mean over the last cycle
   double void_ratio_start = 0.0;   ///< first row
   double void_ratio_end = 0.0;     ///< mean over the last cycle
 };
 
-/// A bed run with everything that was found out about it.
+/// A bed run with its measured values.
 struct BedResult {
   Run run;
   BedHistory bed;
   BedMeasures measures;
 };
 
-/// Reads the rest of a run of kind bed and measures it. Throws std::runtime_error as the readers do.
+/// Reads the columns of the bed of a run of kind bed and measures the run. Throws std::runtime_error with
+/// file and line for a file that cannot be read, or if cycles.csv is missing.
 BedResult analyse_bed(Run run);
 
-/// Bed runs that the figures show together: one, or A and B with all else alike.
+/// Bed runs that the figures show together: one, or one under A and one under B that are equal otherwise.
 struct BedGroup {
-  std::vector<const BedResult *> runs; ///< B before A, as they are drawn
+  std::vector<const BedResult *> runs; ///< B before A, the order of drawing
 };
 
-/// The groups, in the order of their first runs. A partner from the same start is preferred.
+/// The groups, in the order of their first runs. If a run has several partners, one from the same restart
+/// file is preferred.
 std::vector<BedGroup> group_beds(const std::vector<BedResult> &beds);
 
 } // namespace drumlin::post

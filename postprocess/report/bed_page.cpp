@@ -4,44 +4,44 @@
 
 #include <fmt/format.h>
 
+#include "pages/scene.h"
+#include "report/answer.h"
 #include "report/bed_figures.h"
 
 namespace drumlin::post {
 
 namespace {
 
-const std::string dash = "–";
+const std::string dash = no_value;
 
 std::string fixed(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : dash;
 }
 
-/// "B: bed/B" or "B: bed/B and A: bed/A".
+/// "Run bed/B (condition B)" or "Runs bed/B (condition B) and bed/A (condition A)".
 std::string title_of(const BedGroup &group) {
-  std::string title;
+  std::string title = group.runs.size() > 1 ? "Runs" : "Run";
   for (const BedResult *result : group.runs)
-    title += fmt::format("{}{}: {}", title.empty() ? "" : " and ", transition_name(result->run.transition()),
-                         result->run.name);
+    title += fmt::format("{} {} (condition {})", result == group.runs.front() ? "" : " and", result->run.name,
+                         transition_name(result->run.transition()));
   return title;
 }
 
 std::string words_of(const BedGroup &group) {
   const Run &run = group.runs.front()->run;
   const double frequency = 1.0 / run.chain.period();
-  return fmt::format("{} soil balls, friction {}, damping ratio {:g}; {:g} kN at {:g} Hz on a drum of {:g} "
-                     "kg with a frame of "
-                     "{:g} kg.",
-                     run.text("balls", "?"), run.text("friction", "?"), run.chain.D, run.chain.Fw * 1e-3,
-                     frequency, run.chain.m2, run.chain.m3);
+  return fmt::format(
+      "{} soil balls, friction {}, damping ratio {:g}. The exciter's force is {:g} kN at {:g} Hz, "
+      "the mass of the drum {:g} kg and of the frame {:g} kg.",
+      run.text("balls", "?"), run.text("friction", "?"), run.chain.D, run.chain.Fw * 1e-3, frequency,
+      run.chain.m2, run.chain.m3);
 }
 
-} // namespace
-
-std::vector<ReportTable> bed_tables(const std::vector<BedResult> &beds) {
-  ReportTable motion;
+PageTable motion_table(const std::vector<BedResult> &beds) {
+  PageTable motion;
   motion.section = "bed";
   motion.name = "bed_runs";
-  motion.title = "Runs of the roller on a bed";
+  motion.title = "Motion of the roller";
   motion.text_columns = 2;
   motion.header = {"run",
                    "transition",
@@ -60,11 +60,40 @@ std::vector<ReportTable> bed_tables(const std::vector<BedResult> &beds) {
                    "ranks",
                    "command"};
   motion.shown_columns = motion.header.size() - 4;
-  ReportTable state;
+  for (const BedResult &result : beds) {
+    const Run &run = result.run;
+    const BedMeasures &m = result.measures;
+    const bool any = m.cycles > 0;
+    const auto steady = [any](double value, int decimals) { return any ? fixed(value, decimals) : dash; };
+    motion.add(
+        {run.name, transition_name(run.transition()), run.text("friction", dash), run.text("balls", dash),
+         fmt::format("{:g}", 1.0 / run.chain.period()), fmt::format("{}", m.cycles),
+         any ? fmt::format("{} to {}", m.cycles - m.steady_count + 1, m.cycles) : dash,
+         steady(m.extremes.acceleration.max, 2), steady(m.extremes.force.max * 1e-3, 2),
+         steady(m.extremes.force.min * 1e-3, 2), steady(m.contact_share, 4),
+         m.amplitudes ? fixed(compaction_meter_value(*m.amplitudes), 2) : dash, run.text("stepping", dash),
+         run.steps_per_cycle > 0 ? fmt::format("{}", run.steps_per_cycle) : dash, run.text("ranks", dash),
+         run.text("command", dash)});
+    if (!any) motion.notes.push_back(fmt::format("{}: ends before its first complete cycle.", run.name));
+    for (const std::string &missing : run.missing)
+      motion.notes.push_back(fmt::format("{}: {}", run.name, missing));
+  }
+  motion.notes.emplace_back(
+      "Steady cycles: about the second half of the run, an even number of cycles. Acceleration, forces, "
+      "share "
+      "of time in contact and CMV are of every time step in these cycles. Compaction meter value CMV = 300 "
+      "A2 "
+      "/ A1, of the amplitudes of drum acceleration at twice and once the excitation frequency.");
+  return motion;
+}
+
+PageTable state_table(const std::vector<BedResult> &beds) {
+  PageTable state;
   state.section = "bed";
   state.name = "bed_states";
-  state.title = "What the roller does to the bed";
+  state.title = "State of the bed";
   state.text_columns = 2;
+  state.criterion = "runs have an energy error of at most 1 % of the exciter's work";
   state.header = {"run",
                   "transition",
                   "settlement at the end (mm)",
@@ -74,68 +103,69 @@ std::vector<ReportTable> bed_tables(const std::vector<BedResult> &beds) {
                   "void ratio at the start (-)",
                   "void ratio at the end (-)",
                   "imbalance of energy (% of work)"};
-  state.shown_columns = state.header.size();
   for (const BedResult &result : beds) {
-    const Run &run = result.run;
     const BedMeasures &m = result.measures;
-    const std::string transition = transition_name(run.transition());
     const bool any = m.cycles > 0;
     const auto steady = [any](double value, int decimals) { return any ? fixed(value, decimals) : dash; };
-    motion.add({run.name, transition, run.text("friction", dash), run.text("balls", dash),
-                fmt::format("{:g}", 1.0 / run.chain.period()), fmt::format("{}", m.cycles),
-                any ? fmt::format("{} to {}", m.cycles - m.steady_count + 1, m.cycles) : dash,
-                steady(m.extremes.acceleration.max, 2), steady(m.extremes.force.max * 1e-3, 2),
-                steady(m.extremes.force.min * 1e-3, 2), steady(m.contact_share, 4),
-                m.amplitudes ? fixed(compaction_meter_value(*m.amplitudes), 2) : dash,
-                run.text("stepping", dash),
-                run.steps_per_cycle > 0 ? fmt::format("{}", run.steps_per_cycle) : dash,
-                run.text("ranks", dash), run.text("command", dash)});
-    state.add({run.name, transition, steady(m.settlement * 1e3, 3), steady(m.settlement_per_cycle * 1e3, 3),
-               fixed(m.coordination_start, 3), fixed(m.coordination_end, 3), fixed(m.void_ratio_start, 4),
-               fixed(m.void_ratio_end, 4), fixed(m.imbalance_percent, 3)});
-    if (!any) motion.notes.push_back(fmt::format("{}: ends before its first complete cycle.", run.name));
-    for (const std::string &missing : run.missing)
-      motion.notes.push_back(fmt::format("{}: {}", run.name, missing));
+    state.add({result.run.name, transition_name(result.run.transition()), steady(m.settlement * 1e3, 3),
+               steady(m.settlement_per_cycle * 1e3, 3), fixed(m.coordination_start, 3),
+               fixed(m.coordination_end, 3), fixed(m.void_ratio_start, 4), fixed(m.void_ratio_end, 4),
+               fixed(m.imbalance_percent, 3)},
+              !std::isfinite(m.imbalance_percent) ? RowState::plain
+              : energy_is_good(m)                 ? RowState::agrees
+                                                  : RowState::differs);
   }
-  motion.notes.emplace_back("From acceleration to CMV: of the steady cycles, about the second half of the "
-                            "run, an even number of them, "
-                            "every step. CMV = 300 A2 / A1 of the drum's acceleration.");
   state.notes.emplace_back(
-      "Settlement: mean of the drum's position over a cycle, below where it lay at rest; per cycle in the "
-      "steady "
-      "cycles. Coordination and void ratio at the end are means over the last cycle. Imbalance: kinetic + "
-      "potential + elastic + dissipated energy - work of the exciter at the end, less its value at the "
-      "start.");
-  return {motion, state};
+      "Settlement: mean position of the drum over a cycle, below its position at rest; per cycle: mean over "
+      "the "
+      "steady cycles. Coordination: mean number of contacts of a soil ball. Coordination and void ratio at "
+      "the "
+      "end are means over the last cycle. Imbalance of energy is the energy error: kinetic + potential + "
+      "elastic "
+      "+ dissipated energy - work of the exciter at the end, less the same at the start.");
+  return state;
 }
 
-std::string bed_page(const std::vector<BedResult> &beds, const std::vector<BedGroup> &groups,
-                     const std::vector<ReportTable> &tables, const FigurePlan &plan,
-                     const ReportVersions &versions) {
-  std::string s = "<nav>\n<p><a href=\"index.html\">Report of the runs</a></p>\n<ol>\n"
-                  "<li><a href=\"#summary\">Summary</a></li>\n";
-  for (std::size_t i = 0; i < groups.size(); ++i)
-    s += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", bed_section(i), html_escaped(title_of(groups[i])));
-  s += "</ol>\n</nav>\n<main>\n<section id=\"summary\">\n<h2>1. Summary</h2>\n"
-       "<p>Drum and frame stand on a bed of balls in two dimensions and move up and down only; the exciter "
-       "acts "
-       "on the drum. Masses, forces and energies are per metre out of the picture. Condition A dashed, "
-       "condition B solid.</p>\n";
-  for (const ReportTable &table : tables)
+} // namespace
+
+std::vector<PageTable> bed_tables(const std::vector<BedResult> &beds) {
+  return {motion_table(beds), state_table(beds)};
+}
+
+std::string bed_page(const ReportContent &content) {
+  const Answer answer = bed_answer(content.groups);
+  std::vector<PageLink> links = {{"index.html", "Report of the runs"}, {"#answer", "Answer"}};
+  std::string s = answer_html(answer.sentences, answer.verdict, scene_html(Scene::bed)) +
+                  key_figures_html(content.bed_keys);
+  int number = 0;
+  const auto begin = [&](const std::string &id, const std::string &title) {
+    const std::string numbered = fmt::format("{}. {}", ++number, title);
+    links.push_back({"#" + id, numbered});
+    s += fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", id, html_escaped(numbered));
+  };
+  begin("numbers", "Numbers");
+  s +=
+      "<p>Drum and frame stand on a bed of balls and move up and down only; the exciter acts on the drum. In "
+      "two dimensions masses, forces and energies are per metre perpendicular to the picture. Condition A "
+      "dashed, condition B (no-tension limit) solid.</p>\n";
+  for (const PageTable &table : content.bed_tables)
     s += table_html(table);
-  std::vector<std::pair<std::string, std::string>> commands;
-  commands.reserve(beds.size());
-  for (const BedResult &result : beds)
-    commands.emplace_back(result.run.name, result.run.text("command"));
-  s += commands_html(commands) + fmt::format("<p>Report by drumlin {}; figures by {}.</p>\n</section>\n",
-                                             html_escaped(versions.drumlin), html_escaped(versions.gnuplot));
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    const std::string id = bed_section(i);
-    s += fmt::format("<section id=\"{}\">\n<h2>{}. {}</h2>\n<p>{}</p>\n", id, i + 2,
-                     html_escaped(title_of(groups[i])), html_escaped(words_of(groups[i])));
-    s += section_html(plan, id) + "</section>\n";
+  s += "</section>\n";
+  for (std::size_t i = 0; i < content.groups.size(); ++i) {
+    begin(bed_section(i), title_of(content.groups[i]));
+    s += fmt::format("<p>{}</p>\n", html_escaped(words_of(content.groups[i])));
+    s += section_html(content.bed_figures, bed_section(i)) + "</section>\n";
   }
-  return html_page("Roller on a bed of balls", made_line(versions), s + "</main>\n");
+  begin("runs", "Commands and versions");
+  std::vector<std::pair<std::string, std::string>> commands;
+  commands.reserve(content.beds.size());
+  for (const BedResult &result : content.beds)
+    commands.emplace_back(result.run.name, result.run.text("command"));
+  s += commands_html(commands) +
+       fmt::format("<h3 id=\"versions\">Versions</h3>\n<p>Report by drumlin {}; figures by "
+                   "{}.</p>\n</section>\n",
+                   html_escaped(content.versions.drumlin), html_escaped(content.versions.gnuplot));
+  return html_page("Roller on a bed of balls", made_line(content.versions), links, s);
 }
 
 } // namespace drumlin::post

@@ -38,10 +38,11 @@ struct Views {
   std::vector<Ball> last; ///< at the last dump; empty with a single one
 };
 
-constexpr double bright_share = 0.98; ///< of the soil balls are slower than the end of the scale of colours
-constexpr int force_classes = 5;      ///< of contacts, each up to twice the force of the one before
-constexpr double widest = 6.0;        ///< line of the largest force, pt
-constexpr double layer = 2.0;         ///< of the profile, in mean diameters of the soil balls
+constexpr double bright_share = 0.98; ///< share of soil balls whose speed is within the scale of colours
+constexpr int force_classes = 5; ///< classes of contact forces, each up to twice the force of the class below
+constexpr double widest = 6.0;   ///< line width of the largest force, pt
+constexpr double layer = 2.0;    ///< height of a layer of the profile, in mean diameters of the soil balls
+constexpr double peak_weight = 10.0; ///< the page opens with the bed under the largest force
 
 /// Row of bed.csv nearest to a time.
 std::size_t row_near(const ChainHistory &history, double time) {
@@ -61,13 +62,15 @@ Instant read_instant(const BedResult &result, long step, const StepDump &dump) {
   return instant;
 }
 
-/// Settled is the first dump; peak and least are those with the largest and the smallest force on the drum of the others.
+/// The first dump is the bed at rest. Of the later dumps, `peak` has the largest and `least` the smallest
+/// force on the drum. Nothing if the run has no dumps.
 std::optional<Views> read_views(const BedResult &result) {
   const std::map<long, StepDump> steps = dumped_steps(result.run.folder / "dump");
   if (steps.empty()) return std::nullopt;
   if (!(result.run.timestep > 0.0))
-    throw std::runtime_error(fmt::format("{}: timestep is missing or not above 0, and dumps need it",
-                                         (result.run.folder / "parameters.csv").string()));
+    throw std::runtime_error(
+        fmt::format("{}: timestep is missing or not above 0; the time of a dump follows from it",
+                    (result.run.folder / "parameters.csv").string()));
   Views out;
   out.result = &result;
   out.views[settled] = read_instant(result, steps.begin()->first, steps.begin()->second);
@@ -87,16 +90,17 @@ std::optional<Views> read_views(const BedResult &result) {
 
 double speed(const Ball &ball) { return std::hypot(ball.velocity[0], ball.velocity[1], ball.velocity[2]); }
 
-/// What all pictures of a group share, so that they can be compared.
+/// Scales that all pictures of a group share, so that they can be compared.
 struct Scales {
   Bounds bounds;
   double fastest = 0.0;   ///< end of the scale of colours, m/s
   double strongest = 0.0; ///< largest normal force of a contact, N
   bool flat = true;       ///< two dimensions
 
-  /// Where three dimensions are cut through, z in m.
+  /// Height z of the section through a bed in three dimensions, m.
   double middle() const { return 0.5 * (bounds.low[2] + bounds.high[2]); }
-  /// Radius, m, of the circle that the picture shows of a ball: in three dimensions of the section; 0 if it is not there.
+  /// Radius of a ball's circle in the picture, m: in three dimensions that of the section through the ball, 0
+  /// if the section misses it.
   double shown_radius(const Ball &ball) const {
     const double off = flat ? 0.0 : ball.position[2] - middle();
     return std::sqrt(std::max(0.0, ball.radius * ball.radius - off * off));
@@ -125,7 +129,7 @@ Scales scales_of(const std::vector<Views> &all) {
     std::nth_element(speeds.begin(), place, speeds.end());
     scales.fastest = *place;
   }
-  // Two digits: the numbers of the scale are read by people.
+  // Rounded up to two digits, for the labels of the scale.
   for (double *value : {&scales.fastest, &scales.strongest})
     if (*value > 0.0) {
       const double unit = std::pow(10.0, std::floor(std::log10(*value)) - 1.0);
@@ -174,7 +178,6 @@ Panel instant_panel(const std::string &figure, const std::string &label, const I
   };
   panel.x_range = range(0);
   panel.y_range = range(1);
-  panel.legend_rows = 2;
   if (by_contacts) {
     panel.color_label = "contacts of a ball (-)";
     panel.color_range = "[-0.5:6.5]";
@@ -203,29 +206,31 @@ std::string picture_caption(Which which, const Scales &scales, bool by_contacts)
   std::string words;
   switch (which) {
   case settled:
-    words = "The bed at the first dump";
+    words = "The bed at rest, before the excitation (first dump)";
     break;
   case peak:
-    words = "The dump with the largest force on the drum";
+    words = "The bed at the dump with the largest force on the drum";
     break;
   default:
-    words = "The dump with the smallest force on the drum";
+    words = "The bed at the dump with the smallest force on the drum";
   }
   words += by_contacts ? "; colours: contacts of each soil ball with other balls"
-                       : "; colours: speed of the soil balls (the fastest 2 % are off the scale)";
+                       : "; colours: speed of the soil balls (the fastest 2 % exceed the scale)";
   if (scales.strongest > 0.0)
     words +=
-        ". Black lines join the centres of balls that press on each other, or one with the wall that it "
-        "presses on, their width in proportion to the normal force; forces below the smallest of the legend "
-        "are not drawn";
+        ". Black lines are the force chains: they join the centres of two balls in contact, or a ball and a "
+        "wall, and their width grows with the normal force. Forces below the smallest class of the legend "
+        "are "
+        "not drawn";
   if (!scales.flat)
-    words += fmt::format(". The section z = {:.3g} m of the bed: of a ball its circle there, and the lines "
-                         "of balls that are both cut",
+    words += fmt::format(". The picture is the section z = {:.3g} m of the bed: the circles in which it cuts "
+                         "the balls, and the contacts between balls that it cuts",
                          scales.middle());
-  return words + ". Circles: drum, and the frame above it, of which only the mass counts.";
+  return words + ". Open circles: the drum and, above it, the frame, which has a mass but touches no soil.";
 }
 
-/// Solid fraction of the soil over the depth, from x = low to high, and in three dimensions across the bed. Returns the largest.
+/// Adds the solid fraction of the soil over the depth, between x = low and x = high (m), to a table. Returns
+/// the largest value.
 double put_profile(CurveTable &table, const std::string &label, const std::vector<Ball> &balls,
                    const Bounds &soil, double low, double high, double diameter) {
   FieldGrid grid;
@@ -280,20 +285,19 @@ void plan_profile(const std::vector<Views> &all, const std::string &stem, const 
     add("after", views.last, a ? CurveStyle::series_2 : CurveStyle::series_1);
   }
   if (whole.curves.empty()) return;
-  PlannedFigure figure{section, "", "", {}, table.text()};
-  figure.figure = {name, "Solid fraction over the depth", {}, 2, 570, 560};
+  PageFigure figure{section, "", "", {}, table.text()};
+  figure.figure = {name, "Solid fraction over the depth", {}, 2};
   for (Panel *panel : {&whole, &below}) {
     if (panel->curves.empty()) continue;
     panel->y_range = "[*:*] reverse";
-    panel->x_range = axis_range(0.8 * densest, 1.03 * densest); // else nothing is seen to change
-    panel->legend_rows = 2;
+    panel->x_range = axis_range(0.8 * densest, 1.03 * densest); // the changes are small
     figure.figure.panels.push_back(*panel);
   }
   figure.caption = fmt::format(
-      "Area (in three dimensions volume) of the soil balls over that of the bed at the first and at the last "
-      "dump, in layers of "
-      "some {:g} mean diameters: across the whole box, and where the drum is overhead. Layers that are "
-      "partly air or drum are off the scale; the CSV has them.",
+      "Solid fraction: area (in three dimensions volume) of the soil balls over that of the layer, at the "
+      "first dump (before) and at the last (after), in layers of about {:g} mean diameters. Left: across the "
+      "whole box; right: below the drum. Layers that hold air or a part of the drum lie outside of the "
+      "scale; the CSV file has them.",
       layer);
   plan.figures.push_back(std::move(figure));
 }
@@ -332,9 +336,10 @@ void plan_bed_pictures(const BedGroup &group, const std::string &stem, const std
       panels.push_back(instant_panel(name, label, *instant, scales, by_contacts));
     }
     if (panels.empty()) continue;
-    PlannedFigure figure{section, "", picture_caption(which, scales, by_contacts), {}, table.text()};
-    figure.figure = {name, names[which].second, panels, 2, 640, 760};
+    PageFigure figure{section, "", picture_caption(which, scales, by_contacts), {}, table.text()};
+    figure.figure = {name, names[which].second, panels, 2};
     figure.figure.only_png = true;
+    if (which == peak) figure.weight = peak_weight;
     plan.figures.push_back(std::move(figure));
   }
   plan_profile(all, stem, section, plan);

@@ -1,4 +1,5 @@
-// Pictures of the bed at three instants, with the force chains, and how dense it lies over the depth: from a run's dumps.
+// Pictures of the bed with its force chains at three instants, and the profile of its solid fraction: from a
+// run's dumps.
 #pragma once
 
 #include <string>
@@ -8,9 +9,10 @@
 
 namespace drumlin::post {
 
-/// Adds the pictures of a group to a plan. Labels are left to the caller.
-/// \param stem   what the names of its files begin with
-/// \param section id of the page's section
+/// Adds the pictures of a group to a plan, without labels, which the caller gives. Throws std::runtime_error
+/// for a dump that cannot be read.
+/// \param stem   beginning of the names of its files
+/// \param section id of the section that shows them
 void plan_bed_pictures(const BedGroup &group, const std::string &stem, const std::string &section,
                        FigurePlan &plan);
 

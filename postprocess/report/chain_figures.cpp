@@ -15,17 +15,24 @@ namespace {
 constexpr const char *case_names[] = {"I", "II", "III", "IV"};
 constexpr int shown_cycles = 3;
 
-/// Markers along a record: about 24 a cycle.
+// The report opens with its two figures of largest weight: if the runs allow, with Fig. 5 (case II, where
+// contact is lost) and Fig. 8 (DEM against the reference solution).
+constexpr double case_weights[] = {7.0, 10.0, 8.0, 9.0};
+constexpr double fig_8_weight = 9.5;
+constexpr double impact_weight = 5.0;
+
+/// Distance of markers along a record, in rows: about 24 markers per cycle.
 int stride_of(const Run &run) { return std::max(1, run.samples_per_cycle / 24); }
 
 TimeWindow shown(const Run &run) {
   return last_cycles_window(run.complete, shown_cycles, run.chain.period());
 }
 
-/// "A DEM" or, for a folder of the direct solver, "A direct run".
+/// Name of a run's curve: "A DEM" or, for a run of the direct solver, "A direct run".
 std::string run_label(const RunResult &result) {
   return transition_name(result.run.transition()) + (result.run.direct ? " direct run" : " DEM");
 }
+/// Name of the curve of the reference solution in the CSV file.
 std::string direct_label(const RunResult &result) {
   return transition_name(result.run.transition()) + " direct";
 }
@@ -37,10 +44,16 @@ CurveStyle marker_style(Transition transition) {
   return transition == Transition::A ? CurveStyle::direct_a : CurveStyle::direct_b;
 }
 
-/// The direct solution as markers, dropped for a run that is a direct solution itself.
+/// The same in the legend.
+std::string direct_legend(const RunResult &result) {
+  return transition_name(result.run.transition()) + " reference";
+}
+
+/// Whether the reference solution is drawn beside the run. Not if the run is by the direct solver itself.
 bool shows_direct(const RunResult &result) { return !result.run.direct && result.truth != nullptr; }
 
-/// Steady histories of a run and its direct solution, time counted from the window's start.
+/// Adds the histories of a run and its reference solution in a window; their second column is the time since
+/// its start.
 void put_history(CurveTable &table, const RunResult &result, TimeWindow window) {
   const Run &run = result.run;
   const EventSeries series = with_events(run.history, run.events, run.chain, window);
@@ -59,7 +72,7 @@ constexpr const char *since_ms = "$3*1e3";
 const std::string last_cycles_label =
     fmt::format("time since the start of the last {} cycles (ms)", shown_cycles);
 
-/// Curves of runs in drawing order: B under A, markers on top.
+/// Curves in drawing order: B, then A above it, then the markers of the reference solution.
 void add_curves(Panel &panel, const std::string &figure, const std::vector<const RunResult *> &runs,
                 const std::string &x, const std::string &y) {
   for (const RunResult *result : runs)
@@ -70,6 +83,7 @@ void add_curves(Panel &panel, const std::string &figure, const std::vector<const
     const int stride = stride_of(result->run);
     panel.curves.push_back(curve(figure, direct_label(*result), x, y, marker_style(result->run.transition()),
                                  stride, phase % stride));
+    panel.curves.back().title = direct_legend(*result);
     phase = stride / 2;
   }
 }
@@ -113,18 +127,17 @@ std::string case_words(const std::string &name, const std::vector<const RunResul
     if (!run->run.at_case)
       own += fmt::format("{}{}: {}", own.empty() ? "" : "; ", run->run.name, run->run.not_at_case);
   if (!own.empty()) return fmt::format("Not at the paper's parameters: {}.", own);
-  if (name == "I") return "The drum never leaves the soil, so A and B coincide.";
+  if (name == "I") return "The drum never loses contact with the soil, so A and B coincide.";
   if (name == "II")
-    return "The drum lifts off in every cycle. Under A the force jumps to tension before it lets go; under B "
-           "it "
-           "leaves the soil at zero force, and hits it harder.";
+    return "The drum loses contact in every cycle. Under A the contact force is tensile until the overlap is "
+           "zero, and jumps to zero there. Under B contact ends at zero force, and the next blow is harder.";
   if (name == "III")
-    return "Twice the frequency of case II: shapes are alike, the peak is less than half as high. (The "
-           "paper's "
-           "caption of Fig. 6 says Case II; it is III.)";
-  return "Under A the tension of the strong damper holds the drum on the soil: a sine. Under B it lifts off, "
-         "and "
-         "the acceleration jumps at every make. (The paper's caption of Fig. 7 says Case II; it is IV.)";
+    return "At twice the frequency of case II the curves have the same shape, and the peak is less than half "
+           "as high. (The paper's caption of Fig. 6 names case II; the figure shows case III.)";
+  return "Under A the tensile force of the strong damper keeps the drum in contact, and the acceleration is "
+         "a "
+         "sine. Under B the drum loses contact, and the acceleration jumps at every make of contact. (The "
+         "paper's caption of Fig. 7 names case II; the figure shows case IV.)";
 }
 
 // ---------------------------------------------------------------------------------------------------------
@@ -135,7 +148,7 @@ struct ImpactPair {
   const RunResult *b = nullptr;
 };
 
-/// The impacts under A and B that Fig. 3 shows: of one damping ratio, nearest to 0.5.
+/// The impacts under A and B that Fig. 3 shows: both of one damping ratio, as near as possible to 0.5.
 ImpactPair impact_pair(const ReportResults &results) {
   ImpactPair best;
   double best_rank = std::numeric_limits<double>::infinity();
@@ -161,7 +174,7 @@ ImpactPair impact_pair(const ReportResults &results) {
   return best;
 }
 
-/// Time from make to break by the closed form, cut at the record's end (s).
+/// Time from make to break of contact by the closed form, at most until the end of the record (s).
 double contact_time(const RunResult &result) {
   return std::min(impact_duration(result.run.impact),
                   result.run.history.time.back() - result.impact->make_time);
@@ -172,7 +185,7 @@ void plan_impact(const ReportResults &results, FigurePlan &plan) {
   if (pair.a == nullptr && pair.b == nullptr) {
     plan.absent.push_back(
         {"impact", "Fig. 3",
-         "no run folder of an impact (deck=impact in parameters.csv) that meets the soil was given"});
+         "no run of an impact (deck=impact in parameters.csv) in which the mass hits the soil was given"});
     return;
   }
   const std::string name = "fig3_single_impact";
@@ -183,7 +196,7 @@ void plan_impact(const ReportResults &results, FigurePlan &plan) {
   Panel over_overlap{"force against overlap", "overlap (mm)", "contact force (kN)", {}};
   Panel over_time{"force against time", "time since make (ms)", "contact force (kN)", {}};
   std::string words;
-  double longest = 0.0; // both are shown as long as the longer contact lasts, and a little more
+  double longest = 0.0; // both are shown until a little after the end of the longer contact
   for (const RunResult *result : runs)
     longest = std::max(longest, contact_time(*result));
   for (const RunResult *result : runs) {
@@ -208,25 +221,26 @@ void plan_impact(const ReportResults &results, FigurePlan &plan) {
       panel->curves.push_back(
           curve(name, run_label(*result), x, "($4*1e-3)", line_style(result->run.transition())));
   for (const RunResult *result : runs)
-    for (auto &[panel, x] : {std::pair(&over_overlap, "$3*1e3"), std::pair(&over_time, "$2*1e3")})
+    for (auto &[panel, x] : {std::pair(&over_overlap, "$3*1e3"), std::pair(&over_time, "$2*1e3")}) {
       panel->curves.push_back(
           curve(name, direct_label(*result), x, "($4*1e-3)", marker_style(result->run.transition())));
+      panel->curves.back().title = transition_name(result->run.transition()) + " closed form";
+    }
   over_time.x_range = axis_range(-0.05 * longest * 1e3, 1.15 * longest * 1e3);
   const ImpactParameters &p = runs.front()->run.impact;
-  PlannedFigure figure{"impact", "Fig. 3", "", {}, table.text()};
-  figure.figure = {name, "Fig. 3  Single impact without gravity", {over_overlap, over_time}, 2, 640, 540};
-  figure.caption =
-      fmt::format("Contact force of a single impact (D = {:g}, {:g} m/s) against overlap and against time. "
-                  "Both conditions jump to "
-                  "the same force at make. A ends at zero overlap after a tensile branch; B ends where the "
-                  "force reaches zero, "
-                  "while drum and soil still overlap. Markers: closed-form solution. {}. Runs: {}.",
-                  p.damping_ratio, p.speed, words, names_of(runs));
+  PageFigure figure{"impact", "Fig. 3", "", {}, table.text(), impact_weight};
+  figure.figure = {name, "Fig. 3  Single impact without gravity", {over_overlap, over_time}, 2};
+  figure.caption = fmt::format(
+      "Contact force of a single impact (D = {:g}, {:g} m/s) against overlap and against time. "
+      "At the make of contact the force jumps to the same value under both. Under A contact ends "
+      "at zero overlap, after a tensile phase; under B it ends when the force reaches zero, while "
+      "drum and soil still overlap. Markers: closed-form solution. {}. Runs: {}.",
+      p.damping_ratio, p.speed, words, names_of(runs));
   plan.figures.push_back(std::move(figure));
 }
 
 // ---------------------------------------------------------------------------------------------------------
-// Figs. 4 to 8 and what goes beyond the paper
+// Figs. 4 to 8 of the paper, and figures that the paper does not have
 
 void plan_case(const ReportResults &results, std::size_t index, FigurePlan &plan) {
   const std::string case_name = case_names[index];
@@ -252,17 +266,18 @@ void plan_case(const ReportResults &results, std::size_t index, FigurePlan &plan
     ranges += (ranges.empty() ? "" : "; ") + range_words(*result);
   }
   add_curves(panel, name, runs, since_ms, "6");
-  PlannedFigure figure{"steady", of_paper ? label : "Own parameters", "", {}, table.text()};
-  figure.figure = {name, panel.title, {panel}, 1, 960, 540};
+  PageFigure figure{"steady", of_paper ? label : "Own parameters", "", {}, table.text(), case_weights[index]};
+  figure.figure = {name, panel.title, {panel}, 1};
   figure.caption = fmt::format(
-      "Drum acceleration over the last {} cycles, {}. {} {}. Markers: direct solution. Runs: {}.",
+      "Drum acceleration over the last {} cycles, {}. {} {}. Markers: reference solution. Runs: {}.",
       shown_cycles, case_title(case_name, runs), case_words(case_name, runs), ranges, names_of(runs));
   plan.figures.push_back(std::move(figure));
 }
 
-/// Four panels, one per case, of B runs.
+/// A figure with a panel for each case, of runs under condition B. `fill` adds a run's rows and curves; it
+/// returns false if the run lacks the data.
 template <class Fill>
-void plan_panels(const ReportResults &results, FigurePlan &plan, PlannedFigure figure,
+void plan_panels(const ReportResults &results, FigurePlan &plan, PageFigure figure,
                  const std::string &columns, Fill fill) {
   CurveTable table(columns);
   std::string absent;
@@ -294,12 +309,15 @@ void plan_panels(const ReportResults &results, FigurePlan &plan, PlannedFigure f
 
 void plan_dem_and_direct(const ReportResults &results, FigurePlan &plan) {
   const std::string name = "fig8_dem_and_direct";
-  PlannedFigure figure{"direct", "Fig. 8", "", {}, ""};
-  figure.figure = {name, "Fig. 8  Drum acceleration by DEM and by direct solution, condition B", {}, 2, 570,
-                   380};
+  PageFigure figure{"direct", "Fig. 8", "", {}, ""};
+  figure.figure = {
+      name, "Fig. 8  Drum acceleration by DEM and by the reference solution, condition B", {}, 2};
+  figure.weight = fig_8_weight;
+  figure.key_panel = 1; // case II, if all are there
   figure.caption = fmt::format(
-      "Drum acceleration over the last {} cycles under condition B: the run (line) and the direct solution "
-      "of the same equations (markers). The table of errors below tells how far they are apart.",
+      "Drum acceleration over the last {} cycles under condition B: the run (line), and the reference "
+      "solution "
+      "by the direct solver (markers). The differences are too small to be seen; the table below has them.",
       shown_cycles);
   plan_panels(
       results, plan, std::move(figure), "case,time (s),time in window (s),drum acceleration (m/s2)",
@@ -323,13 +341,13 @@ void plan_dem_and_direct(const ReportResults &results, FigurePlan &plan) {
         panel.curves = {curve(name, line, "$4*1e3", "5", CurveStyle::condition_b),
                         curve(name, marks, "$4*1e3", "5", CurveStyle::direct_b, stride_of(run))};
         panel.curves[0].title = run.direct ? "direct run" : "DEM";
-        panel.curves[1].title = "direct solution";
+        panel.curves[1].title = "reference solution";
         return true;
       });
 }
 
-/// One cycle of a state that repeats itself, else two: a second orbit on top of the first would fill its
-/// dashes.
+/// Number of cycles to draw: 1 if the last cycle repeats the one before, else 2. A second, equal orbit would
+/// fill the gaps of the dashed line.
 int orbit_cycles(const Run &run) {
   const std::vector<double> &x = run.history.x_drum;
   const auto cycle = static_cast<std::size_t>(run.samples_per_cycle);
@@ -368,25 +386,24 @@ void plan_loops(const ReportResults &results, std::size_t index, FigurePlan &pla
   add_curves(phase, name, runs, "(-$4*1e3)", "5");
   add_curves(loop, name, runs, "$4*1e3", "($7*1e-3)");
   loop.x_range = axis_range(-0.12 * largest * 1e3, 1.08 * largest * 1e3);
-  PlannedFigure figure{"loops", label, "", {}, table.text()};
-  figure.figure = {
-      name,          fmt::format("{}  Orbits at steady state, {}", label, case_title(case_name, runs)),
-      {phase, loop}, 2,
-      570,           500};
+  PageFigure figure{"loops", label, "", {}, table.text()};
+  figure.figure = {name,
+                   fmt::format("{}  Orbits at steady state, {}", label, case_title(case_name, runs)),
+                   {phase, loop},
+                   2};
   figure.caption = fmt::format(
-      "Steady state, {}: last cycle (the last two where the state alternates). Left: drum velocity against "
-      "position. "
-      "Right: contact force against overlap; "
-      "the "
-      "area of the loop is the energy that the contact takes per cycle, a vertical line is the jump at make"
-      "{}. The right panel leaves out most of the flight, where the force is zero. Runs: {}.",
+      "Steady state, {}: the last cycle, or the last two if the state alternates. Left: drum velocity "
+      "against "
+      "drum position. Right: contact force against overlap; the area of the loop is the energy that the "
+      "contact dissipates per cycle, and a vertical line is the jump of the force at a make{}. Most of the "
+      "time without contact is outside of the right panel. Runs: {}.",
       case_title(case_name, runs), " or, under A, at break", names_of(runs));
   if (case_name == "I" && all_at_case(runs))
-    figure.caption =
-        fmt::format("Case I, last cycle. Left: drum velocity against position. Right: contact force against "
-                    "overlap; the area of the loop is the energy that the contact takes per cycle. A and B "
-                    "coincide. Runs: {}.",
-                    names_of(runs));
+    figure.caption = fmt::format(
+        "Case I, last cycle. Left: drum velocity against drum position. Right: contact force against "
+        "overlap; the area of the loop is the energy that the contact dissipates per cycle. A and B "
+        "coincide. Runs: {}.",
+        names_of(runs));
   plan.figures.push_back(std::move(figure));
 }
 
@@ -405,7 +422,8 @@ void plan_restitution(const ReportResults &results, FigurePlan &plan) {
               {result.run.impact.damping_ratio, result.impact->ended ? result.impact->restitution() : 0.0});
   }
   if (!any_a && !any_b) {
-    plan.absent.push_back({"impact", "Fig. R5", "no run folder of an impact that meets the soil was given"});
+    plan.absent.push_back(
+        {"impact", "Fig. R5", "no run of an impact in which the mass hits the soil was given"});
     return;
   }
   constexpr int points = 200;
@@ -420,20 +438,19 @@ void plan_restitution(const ReportResults &results, FigurePlan &plan) {
                   curve(name, "A closed form", "$2", "3", CurveStyle::condition_a)};
   if (any_b) panel.curves.push_back(curve(name, "B DEM", "$2", "3", CurveStyle::measured_b));
   if (any_a) panel.curves.push_back(curve(name, "A DEM", "$2", "3", CurveStyle::measured_a));
-  PlannedFigure figure{"impact", "Fig. R5", "", {}, table.text()};
-  figure.figure = {name, panel.title, {panel}, 1, 960, 500};
+  PageFigure figure{"impact", "Fig. R5", "", {}, table.text()};
+  figure.figure = {name, panel.title, {panel}, 1};
   figure.caption =
-      "Share of the impact speed that a single impact returns, against the damping ratio: closed forms "
-      "(lines) and "
-      "the given runs (markers). B returns more than A, since no tension holds the drum back; under A "
-      "nothing rebounds for D of 1 and more.";
+      "Restitution (rebound speed over impact speed) against the damping ratio: closed forms (lines) and the "
+      "given runs (markers). It is larger under B, since no tensile force holds the drum back; under A there "
+      "is no rebound for D of 1 and more.";
   plan.figures.push_back(std::move(figure));
 }
 
 void plan_errors(const ReportResults &results, FigurePlan &plan) {
   const std::string name = "figR6_velocity_error";
   CurveTable table("run number (-),relative RMS error of drum velocity (-)");
-  Panel panel{"Fig. R6  Error of drum velocity against the direct solution",
+  Panel panel{"Fig. R6  Error of drum velocity against the reference solution",
               "",
               "relative RMS error, last 5 cycles (-)",
               {}};
@@ -450,29 +467,28 @@ void plan_errors(const ReportResults &results, FigurePlan &plan) {
   }
   if (panel.x_ticks.empty()) {
     plan.absent.push_back(
-        {"direct", "Fig. R6", "no engine run of the chain with an error to show was given"});
+        {"direct", "Fig. R6", "no run of the chain in an engine was given whose error is above 0"});
     return;
   }
   if (any_a) panel.curves.push_back(curve(name, "A DEM", "$2", "3", CurveStyle::measured_a));
   if (any_b) panel.curves.push_back(curve(name, "B DEM", "$2", "3", CurveStyle::measured_b));
-  PlannedFigure figure{"direct", "Fig. R6", "", {}, table.text()};
-  figure.figure = {name, panel.title, {panel}, 1, 960, 560};
-  figure.caption = "Relative RMS error of the drum velocity over the last five cycles of each run against "
-                   "the direct solution at "
-                   "equal times, on a logarithmic scale.";
+  PageFigure figure{"direct", "Fig. R6", "", {}, table.text()};
+  figure.figure = {name, panel.title, {panel}, 1};
+  figure.caption =
+      "Relative RMS error of the drum velocity of each run over its last five cycles, against the "
+      "reference solution at equal times; logarithmic scale.";
   plan.figures.push_back(std::move(figure));
 }
 
 void plan_roller(const ReportResults &results, FigurePlan &plan) {
   const std::string name = "figR7_roller_force";
-  PlannedFigure figure{"roller", "Fig. R7", "", {}, ""};
-  figure.figure = {
-      name, "Fig. R7  Contact force: the law's and as a roller measures it, condition B", {}, 2, 600, 390};
+  PageFigure figure{"roller", "Fig. R7", "", {}, ""};
+  figure.figure = {name, "Fig. R7  Contact force: of the law, and from measured motion, condition B", {}, 2};
   figure.caption =
-      fmt::format("Contact force over the last {} cycles under condition B: what the law gave (line) and "
-                  "what follows from accelerations by differences of the recorded positions, weights and "
-                  "excitation, m2 a2 + m3 a3 + (m2 + m3) g + Fe (markers; none beside a make or break, where "
-                  "the force jumps).",
+      fmt::format("Contact force over the last {} cycles under condition B: from the contact law (line), and "
+                  "from the equation of motion, m2 a2 + m3 a3 + (m2 + m3) g + Fe, with accelerations by "
+                  "differences of the recorded positions (markers; none beside a make or break of contact, "
+                  "where the force jumps).",
                   shown_cycles);
   plan_panels(
       results, plan, std::move(figure), "case,time (s),time in window (s),contact force (N)",
@@ -497,7 +513,7 @@ void plan_roller(const ReportResults &results, FigurePlan &plan) {
         panel.curves = {curve(name, law, "$4*1e3", "($5*1e-3)", CurveStyle::condition_b),
                         curve(name, roller, "$4*1e3", "($5*1e-3)", CurveStyle::direct_a, stride_of(run))};
         panel.curves[0].title = "contact law";
-        panel.curves[1].title = "roller-measured";
+        panel.curves[1].title = "from measured motion";
         return true;
       });
 }

@@ -1,4 +1,4 @@
-// The report's figures: data, looks and captions. Planning needs no gnuplot; drawing does.
+// The figures of chains and single impacts: data, panels and captions. Planning them needs no gnuplot.
 #pragma once
 
 #include <string>
@@ -9,6 +9,7 @@
 
 namespace drumlin::post {
 
+/// All figures that the runs allow, in order, and those that they do not.
 FigurePlan plan_figures(const ReportResults &results);
 
 } // namespace drumlin::post

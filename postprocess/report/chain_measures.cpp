@@ -18,7 +18,8 @@ std::size_t row_at(const std::vector<double> &time, double t) {
   return static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), t) - time.begin());
 }
 
-/// Drum velocity of the direct solution at the run's times.
+/// Drum velocity of the reference solution at the times of the run, by cubic interpolation where it has no
+/// row at that time.
 std::vector<double> truth_velocity(const ChainHistory &run, const ChainHistory &truth, double period,
                                    bool &interpolated) {
   std::vector<double> out;
@@ -30,7 +31,7 @@ std::vector<double> truth_velocity(const ChainHistory &run, const ChainHistory &
       ++r;
     const double h = truth.time[r + 1] - truth.time[r];
     const double s = (t - truth.time[r]) / h;
-    if (s > 1.0 + 1.0e-6) break; // the run goes on after its last complete cycle
+    if (s > 1.0 + 1.0e-6) break; // rows of the run after its last complete cycle
     if (std::abs(s) * h < 1.0e-9 * period) {
       out.push_back(truth.v_drum[r]);
     } else if (std::abs(1.0 - s) * h < 1.0e-9 * period) {
@@ -74,7 +75,7 @@ double share_from_samples(const ChainHistory &history, TimeWindow window) {
   return all == 0 ? not_a_number : static_cast<double>(touching) / static_cast<double>(all);
 }
 
-/// Fills what compares a run with its direct solution.
+/// Fills the values that compare a run with its reference solution.
 void compare_with_truth(ChainMeasures &m, const Run &run, const DirectResult &truth) {
   const double period = run.chain.period();
   const std::vector<double> exact = truth_velocity(run.history, truth.history, period, m.truth_interpolated);
@@ -86,7 +87,7 @@ void compare_with_truth(ChainMeasures &m, const Run &run, const DirectResult &tr
   m.match = match_events(events_in(run.events, all), events_in(truth.events, all));
 }
 
-/// \param truth the direct solution; nullptr if there is none
+/// \param truth the reference solution; nullptr if there is none
 ChainMeasures measure_chain(const Run &run, const DirectResult *truth) {
   ChainMeasures m;
   const ChainParameters &p = run.chain;
@@ -136,7 +137,7 @@ ChainMeasures measure_chain(const Run &run, const DirectResult *truth) {
   return m;
 }
 
-/// The direct solution as if it were a run, to be measured by the same means.
+/// The reference solution in the form of a run, so that it is measured in the same way.
 Run as_run(const Run &run, const DirectResult &truth) {
   Run out;
   out.kind = RunKind::chain;
@@ -206,7 +207,7 @@ void judge(Check &check, double value, double low, double high, double tolerance
   else if (off <= tolerance + rounding)
     check.agreement = Agreement::tolerance;
   else
-    check.agreement = Agreement::differs; // not a number comes here, too
+    check.agreement = Agreement::differs; // also if the value is not a number
 }
 
 Check steady_check(std::size_t index, const RunResult &result, const ReferenceValue &reference) {
@@ -380,13 +381,14 @@ RunResult analyse(Run run, DirectSolutions &direct) {
     try {
       result.truth = direct.solve(r.chain, r.complete, r.samples_per_cycle, r.impact_speed);
     } catch (const std::exception &failure) {
-      result.run.missing.push_back(
-          fmt::format("the direct solver failed, so nothing is compared with it: {}.", failure.what()));
+      result.run.missing.push_back(fmt::format(
+          "no comparison with the reference solution, since the direct solver failed: {}.", failure.what()));
     }
     result.chain = measure_chain(r, result.truth.get());
     if (result.truth) result.truth_chain = measure_chain(as_run(r, *result.truth), result.truth.get());
   } else if (r.kind == RunKind::chain) {
-    result.run.missing.emplace_back("chain.csv ends before the first complete cycle: nothing is measured.");
+    result.run.missing.emplace_back(
+        "nothing is measured, since chain.csv ends before the first complete cycle.");
   } else if (r.kind == RunKind::impact) {
     result.impact = measure_impact(r.history, r.events);
   }

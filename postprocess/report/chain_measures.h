@@ -1,5 +1,5 @@
-// What the report says of the runs, before anything is drawn: measures of each run, the direct solution
-// beside it, and the checks against the reference values.
+// Measured values of chains and single impacts, the reference solution of each chain by the direct solver,
+// and the comparison with the reference values of the paper's cases.
 #pragma once
 
 #include <limits>
@@ -16,16 +16,17 @@
 
 namespace drumlin::post {
 
-/// Cycles at the end of a run that count as its steady state; even, since the state may alternate.
+/// Number of cycles at the end of a run that count as its steady state. Even, since a state may alternate
+/// from cycle to cycle.
 constexpr int steady_cycles = 10;
 
-/// What was measured in a chain run.
+/// Measured values of a chain run.
 struct ChainMeasures {
   TimeWindow steady;    ///< the last cycles, s
-  int steady_count = 0; ///< how many
+  int steady_count = 0; ///< number of these cycles
   SteadyExtremes extremes;
   double contact_share = 0.0;   ///< -
-  bool share_exact = false;     ///< from located events
+  bool share_exact = false;     ///< whether it follows from located events
   double makes_per_cycle = 0.0; ///< in the steady window
   double breaks_per_cycle = 0.0;
   std::size_t makes = 0; ///< in the whole run
@@ -34,26 +35,27 @@ struct ChainMeasures {
   std::optional<Extremes> force_at_break;   ///< N
   std::optional<Extremes> overlap_at_break; ///< m
   HarmonicAmplitudes amplitudes;            ///< m/s2
-  bool amplitudes_every_step = false;       ///< integrated by the run over every step
+  bool amplitudes_every_step = false;       ///< whether the run integrated them over every step
   std::optional<EnergyLedger> energy;
   std::string energy_missing;
   std::optional<RollerForce> roller;
 
-  // Against the direct solution of the same parameters, if there is one.
+  // Comparison with the reference solution (`truth`: the direct solver at the same parameters), if there is
+  // one.
   double velocity_error_last =
       std::numeric_limits<double>::quiet_NaN();  ///< relative RMS of drum velocity, last five cycles
   std::optional<double> velocity_error_25_to_30; ///< the same, cycles 25 to 30
-  bool truth_interpolated = false;               ///< the run's times are not on the direct solution's grid
-  EventMatch match;                              ///< all events
+  bool truth_interpolated = false; ///< whether the run has rows between those of the reference solution
+  EventMatch match;                ///< all events
 };
 
-/// How a measured value stands to its reference.
+/// How a measured value compares with its reference value.
 enum class Agreement {
   same_digits, ///< rounds to the digits given, or lies in the range given
   tolerance,   ///< within the stated tolerance
   differs,
   not_measured,
-  not_judged ///< the run is shorter than the reference values ask for
+  not_judged ///< the run has too few cycles for the reference values
 };
 
 /// One comparison, in the reference's unit.
@@ -62,11 +64,11 @@ struct Check {
   std::string quantity;
   std::string unit;
   std::string reference;            ///< as the reference gives it
-  std::string measured;             ///< with two digits more
+  std::string measured;             ///< with two digits more than the reference
   double value = 0.0;               ///< measured
   double difference = 0.0;          ///< measured minus reference (0 inside a range)
   double relative_difference = 0.0; ///< NaN for a reference of 0
-  std::optional<double> direct;     ///< the same quantity of the direct solution, same cycles
+  std::optional<double> direct;     ///< the same quantity of the reference solution, over the same cycles
   std::string tolerance;            ///< in words
   std::string source;
   Agreement agreement = Agreement::not_measured;
@@ -74,28 +76,30 @@ struct Check {
   bool agrees() const { return agreement == Agreement::same_digits || agreement == Agreement::tolerance; }
 };
 
-/// A run with everything that was found out about it.
+/// A run with its measured values.
 struct RunResult {
   Run run;
   std::optional<ChainMeasures> chain;
   std::optional<ImpactMeasure> impact;
-  std::optional<ChainMeasures> truth_chain; ///< the same measures of the direct solution
+  std::optional<ChainMeasures> truth_chain; ///< the same values of the reference solution
   std::shared_ptr<const DirectResult>
-      truth; ///< direct solution of the same chain; empty for impacts and if it failed
+      truth; ///< reference solution of the same chain; empty for impacts, and if the direct solver failed
 };
 
-/// Everything that the report prints.
+/// Everything that the report says about chains and single impacts.
 struct ReportResults {
   std::vector<RunResult> runs;
   std::vector<Check> checks;      ///< steady states and meter values
   std::vector<Check> restitution; ///< impacts
-  std::vector<Check> words;       ///< what the paper says in words
+  std::vector<Check> words;       ///< statements that the paper makes in words
 };
 
-/// Solves the chains directly, each set of parameters once (with rows at the run's own times).
+/// Computes reference solutions with the direct solver, each set of parameters once.
 class DirectSolutions {
 public:
-  /// impact_speed in m/s; 0 starts from equilibrium.
+  /// \param samples_per_cycle rows per cycle, as in the run
+  /// \param impact_speed m/s; 0: start from equilibrium
+  /// Throws std::runtime_error if the solver fails, or if the parameters ask for more work than it allows.
   std::shared_ptr<const DirectResult> solve(const ChainParameters &parameters, int cycles,
                                             int samples_per_cycle, double impact_speed);
 
@@ -103,14 +107,15 @@ private:
   std::map<std::string, std::shared_ptr<const DirectResult>> known_;
 };
 
-/// Measures a run; `direct` supplies its truth.
+/// Measures a run; `direct` computes its reference solution.
 RunResult analyse(Run run, DirectSolutions &direct);
 
-/// Compares all runs with the reference values. Fills checks, restitution and words.
+/// Compares all runs with the reference values: fills checks, restitution and words.
 void compare(ReportResults &results);
 
-/// The run that stands for a case and a transition in the figures: at the case's parameters and long before
-/// short, engine before direct solver, then the smallest velocity error. nullptr if there is none.
+/// The run that the figures show for a case and a transition. Preferred are, in this order: runs with the
+/// parameters of the case, long runs, runs in an engine, and the smallest velocity error. nullptr if there is
+/// no such run.
 const RunResult *best_run(const ReportResults &results, const std::string &case_name, Transition transition);
 
 } // namespace drumlin::post

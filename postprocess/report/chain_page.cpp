@@ -1,12 +1,9 @@
 #include "report/chain_page.h"
 
+#include "pages/scene.h"
+#include "report/answer.h"
 #include "report/engine_comparison.h"
-#include "support/text.h"
 
-#include <algorithm>
-#include <array>
-#include <map>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -22,106 +19,102 @@ struct Section {
 };
 
 constexpr Section sections[] = {
-    {"summary", "Summary", ""},
-    {"impact", "Single impact",
-     "A mass hits the fixed ball once, without gravity: the paper's Fig. 3, and how much of the speed comes "
-     "back."},
     {"steady", "Steady drum acceleration, cases I to IV",
-     "The paper's Figs. 4 to 7, where the parameters are the paper's. Condition A dashed, condition B solid, "
-     "direct solution as markers."},
-    {"direct", "Runs against the direct solution",
-     "The paper's Fig. 8, and what cannot be seen in it. The direct solution integrates the same equations "
-     "between "
-     "located events, without any engine."},
-    {"engines", "Engine against engine", "The same chains in LIGGGHTS and in LAMMPS."},
-    {"loops", "Orbits and force-displacement loops",
-     "Beyond the paper: the same steady states, seen without time."},
-    {"events", "Contact events", ""},
+     "Figs. 4 to 7 of the paper, where the parameters are those of the paper. Condition A dashed, condition "
+     "B "
+     "(no-tension limit) solid, reference solution as markers."},
     {"reference", "Reference values",
-     "Every value of the reference table, the compaction meter values, and the paper's words."},
-    {"energy", "Energy", "Where the work of the exciter goes."},
-    {"roller", "Contact force as a roller measures it",
-     "A roller cannot see the contact law. What it can measure is motion: Fc = m2 a2 + m3 a3 + (m2 + m3) g + "
-     "Fe, here with accelerations by differences of the positions that the engine integrated, must equal the "
-     "force of the law."},
+     "Every measured value that has a reference value, the compaction meter values, and what the paper "
+     "states "
+     "in words."},
+    {"direct", "Error against the reference solution",
+     "The reference solution is that of the direct solver: it integrates the equations of motion of the same "
+     "chain between located events, without an engine. Tables call it the direct solution. Fig. 8 is that of "
+     "the paper."},
+    {"engines", "LIGGGHTS against LAMMPS", "The same chains in both engines."},
+    {"impact", "Single impact",
+     "A mass hits a fixed ball once, without gravity (Fig. 3 of the paper). The restitution is the rebound "
+     "speed over the impact speed."},
+    {"loops", "Phase portraits and force loops",
+     "The same steady states as in Figs. 4 to 7, in other coordinates. The paper has no such figures."},
+    {"events", "Makes and breaks of contact", ""},
+    {"energy", "Energy balance", "Where the work of the exciter goes."},
+    {"roller", "Contact force from measured motion",
+     "A roller cannot measure the contact force itself, but motion: the equation of motion gives Fc = m2 a2 "
+     "+ "
+     "m3 a3 + (m2 + m3) g + Fe. Here the accelerations are differences of the positions in chain.csv, and "
+     "the "
+     "result must equal the force of the contact law."},
     {"bed", "Roller on a bed of balls", ""},
     {"studies", "Studies",
-     "What steps, laws and options cost and what they bring, each on a page of its own."},
+     "What time steps, laws and options cost and what they bring, each on its own page."},
+    {"runs", "Runs, commands and versions", ""},
 };
 
-/// Whether a section has anything to do with the given runs: those of beds only have a page of their own.
-bool belongs(const std::string &section, const ReportResults &results, const std::vector<std::string> &beds) {
-  if (section == "bed") return !beds.empty();
-  if (section == "engines") return !engine_pairs(results).empty();
-  return beds.empty() || !results.runs.empty() || section == "summary" || section == "studies";
+/// Whether a section has a subject in this report: runs on beds have their own page, and the last section is
+/// always there.
+bool belongs(const std::string &section, const ReportContent &content) {
+  if (section == "bed") return !content.beds.empty();
+  if (section == "engines") return !engine_pairs(content.results).empty();
+  if (section == "studies") return !content.studies.empty() || content.beds.empty();
+  return !content.results.runs.empty() || section == "runs";
 }
 
-std::string beds_html(const std::vector<std::string> &beds) {
-  std::string s = "<p><a href=\"bed.html\">Figures of these runs</a> are on a page of their own: ";
+Scene scene_of(const ReportContent &content) {
+  return content.results.runs.empty() && !content.beds.empty() ? Scene::bed : Scene::chain;
+}
+
+std::string opening_html(const ReportContent &content) {
+  Answer answer = chain_answer(content.results);
+  answer.add(bed_answer(content.groups));
+  if (const std::size_t studies = content.studies.size(); studies > 0)
+    answer.sentences.push_back(
+        {fmt::format("{} {}.", studies,
+                     studies == 1 ? "study has a page of its own" : "studies have pages of their own"),
+         "Studies."});
+  return answer_html(answer.sentences, answer.verdict, scene_html(scene_of(content))) +
+         key_figures_html(content.keys);
+}
+
+std::string beds_html(const std::vector<BedResult> &beds) {
+  std::string s =
+      "<p><a href=\"bed.html\">Figures and commands of these runs</a> are on a page of their own: ";
   for (std::size_t i = 0; i < beds.size(); ++i)
-    s += (i == 0 ? "" : ", ") + html_escaped(beds[i]);
+    s += (i == 0 ? "" : ", ") + html_escaped(beds[i].run.name);
   return s + ".</p>\n";
 }
 
-std::string summary_html(const ReportResults &results) {
-  const CheckCount count = count_checks(results);
-  std::size_t chains = 0;
-  std::size_t impacts = 0;
-  for (const RunResult &result : results.runs) {
-    if (result.run.kind == RunKind::chain) ++chains;
-    if (result.run.kind == RunKind::impact) ++impacts;
-  }
-  std::string s = fmt::format(
-      "<p>{} run folders were read: {} of the chain soil – drum – frame, {} of a single impact{}.</p>\n",
-      results.runs.size(), chains, impacts,
-      chains + impacts < results.runs.size()
-          ? fmt::format(", {} without usable parameters", results.runs.size() - chains - impacts)
-          : "");
-  if (count.all + count.not_judged == 0)
-    return s + "<p class=\"verdict\">No run is at the parameters of a case with reference values, so none "
-               "was judged.</p>\n";
-  if (count.all > 0)
+std::string studies_html(const std::vector<StudyLink> &studies) {
+  if (studies.empty()) return {};
+  std::string s = "<ul>\n";
+  for (const StudyLink &study : studies)
     s +=
-        fmt::format("<p class=\"verdict{}\"><strong>{} of {} checks against reference values agree</strong>, "
-                    "{} of them to every digit given.</p>\n",
-                    count.agree == count.all ? "" : " bad", count.agree, count.all, count.same_digits);
-  if (count.not_judged > 0)
-    s += fmt::format("<p class=\"verdict\"><strong>{} values are not judged</strong>: the reference values "
-                     "need steady states, of runs with {} cycles or more. <a href=\"#table-runs\">The table "
-                     "of runs</a> names the command that makes such a run.</p>\n",
-                     count.not_judged, long_run_cycles);
-  if (count.all == 0) return s;
-  // Which stepping the checks were made with says most about why some differ.
-  std::map<std::string, std::pair<std::size_t, std::size_t>> by_stepping;
-  for (std::size_t i = 0; i < results.runs.size(); ++i) {
-    const Run &run = results.runs[i].run;
-    const CheckCount own = count_checks(results, i);
-    if (own.all == 0) continue;
-    auto &[agree, all] = by_stepping[run.direct ? "exact" : run.text("stepping")];
-    agree += own.agree;
-    all += own.all;
-  }
-  s += "<p>By stepping of the runs:";
-  const char *separator = " ";
-  for (const auto &[stepping, sum] : by_stepping) {
-    s += fmt::format("{}{} {} of {}", separator, html_escaped(stepping), sum.first, sum.second);
-    separator = "; ";
-  }
-  s += ". What differs is marked in <a href=\"#reference\">the table of reference values</a>, beside what "
-       "the direct "
-       "solution gives.</p>\n";
-  return s;
+        fmt::format("<li><a href=\"{}\">{}</a></li>\n", html_escaped(study.place), html_escaped(study.title));
+  return s + "</ul>\n";
 }
 
-std::string versions_html(const ReportResults &results, const ReportVersions &versions) {
+std::string versions_html(const ReportContent &content) {
   std::vector<std::pair<std::string, std::string>> commands;
-  commands.reserve(results.runs.size());
-  for (const RunResult &result : results.runs)
+  commands.reserve(content.results.runs.size());
+  for (const RunResult &result : content.results.runs)
     commands.emplace_back(result.run.name, result.run.text("command"));
-  return commands_html(commands) + "<p>" +
-         html_escaped(fmt::format("Report by drumlin {}; direct solution by {}; figures by {}.",
+  const ReportVersions &versions = content.versions;
+  return (commands.empty() ? "" : commands_html(commands)) + "<h3 id=\"versions\">Versions</h3>\n<p>" +
+         html_escaped(fmt::format("Report by drumlin {}; reference solutions by {}; figures by {}.",
                                   versions.drumlin, versions.direct_solver, versions.gnuplot)) +
          "</p>\n";
+}
+
+std::string contents_of(const Section &section, const ReportContent &content) {
+  const std::string id = section.id;
+  std::string s;
+  if (id == "bed") s += beds_html(content.beds);
+  s += section_html(content.figures, id);
+  for (const PageTable &table : content.tables)
+    if (table.section == id) s += table_html(table);
+  if (id == "studies") s += studies_html(content.studies);
+  if (id == "runs") s += versions_html(content);
+  return s.empty() ? "<p class=\"absent\">The given runs have nothing for this section.</p>\n" : s;
 }
 
 } // namespace
@@ -130,48 +123,20 @@ std::string made_line(const ReportVersions &versions) {
   return fmt::format("Made on {} by drumlin {}.", versions.made_at, versions.drumlin);
 }
 
-std::string report_page(const ReportResults &results, const std::vector<ReportTable> &tables,
-                        const FigurePlan &plan, const std::vector<std::string> &beds,
-                        const std::vector<StudyLink> &studies, const ReportVersions &versions) {
-  std::string s;
-  s += "<nav>\n<ol>\n";
-  for (const Section &section : sections)
-    if (belongs(section.id, results, beds))
-      s += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", section.id, html_escaped(section.title));
-  s += "</ol>\n</nav>\n<main>\n";
+std::string report_page(const ReportContent &content) {
+  std::vector<PageLink> links = {{"#answer", "Answer"}};
+  std::string s = opening_html(content);
   int number = 0;
   for (const Section &section : sections) {
-    const std::string id = section.id;
-    if (!belongs(id, results, beds)) continue;
-    s += fmt::format("<section id=\"{}\">\n<h2>{}. {}</h2>\n", id, ++number, html_escaped(section.title));
+    if (!belongs(section.id, content)) continue;
+    const std::string title = fmt::format("{}. {}", ++number, section.title);
+    links.push_back({fmt::format("#{}", section.id), title});
+    s += fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", section.id, html_escaped(title));
     if (section.words[0] != '\0') s += fmt::format("<p>{}</p>\n", html_escaped(section.words));
-    if (id == "summary")
-      s +=
-          belongs("direct", results, beds)
-              ? summary_html(results)
-              : fmt::format("<p>{} run folders were read, of a roller on a bed of balls.</p>\n", beds.size());
-    if (id == "bed") s += beds_html(beds);
-    const std::string figures = section_html(plan, id);
-    s += figures;
-    bool any = id == "summary" || id == "bed" || !figures.empty();
-    for (const ReportTable &table : tables)
-      if (table.section == id) {
-        s += table_html(table);
-        any = true;
-      }
-    if (id == "studies" && !studies.empty()) {
-      s += "<ul>\n";
-      for (const StudyLink &study : studies)
-        s += fmt::format("<li><a href=\"{}\">{}</a></li>\n", html_escaped(study.place),
-                         html_escaped(study.title));
-      s += "</ul>\n";
-      any = true;
-    }
-    if (!any) s += "<p class=\"absent\">The given runs have nothing to show here.</p>\n";
-    if (id == "summary" && belongs("direct", results, beds)) s += versions_html(results, versions);
-    s += "</section>\n";
+    s += contents_of(section, content) + "</section>\n";
   }
-  return html_page("Roller on soil: report of the runs", made_line(versions), s + "</main>\n");
+  if (!content.beds.empty()) links.push_back({"bed.html", "Page on the beds"});
+  return html_page("Roller on soil: report of the runs", made_line(content.versions), links, s);
 }
 
 } // namespace drumlin::post

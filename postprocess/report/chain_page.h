@@ -1,4 +1,5 @@
-// The report's page: one XHTML5 file without scripts that needs no network.
+// The report's first page: the answer, then chains and single impacts in full, with links to the pages on
+// beds and studies.
 #pragma once
 
 #include <string>
@@ -6,13 +7,14 @@
 #include <vector>
 
 #include "pages/html.h"
+#include "report/bed_measures.h"
 #include "report/chain_figures.h"
 #include "report/chain_measures.h"
 #include "report/chain_tables.h"
 
 namespace drumlin::post {
 
-/// Programs that the report was made with, for the record.
+/// Versions of the programs that made the report.
 struct ReportVersions {
   std::string drumlin;
   std::string direct_solver;
@@ -29,11 +31,23 @@ struct StudyLink {
   std::string title; ///< plain text
 };
 
-/// The page of the report. Figures are expected at figures/NAME.svg and .png, data at data/NAME.csv beside it. With bed runs it
-/// links their page, bed.html, and without any other runs it has no sections on these.
-/// \param beds names of the bed runs
-std::string report_page(const ReportResults &results, const std::vector<ReportTable> &tables,
-                        const FigurePlan &plan, const std::vector<std::string> &beds,
-                        const std::vector<StudyLink> &studies, const ReportVersions &versions);
+/// What a report is made of. With runs on beds only, `results` and `figures` are empty.
+struct ReportContent {
+  ReportResults results;
+  FigurePlan figures;
+  std::vector<BedResult> beds;
+  std::vector<BedGroup> groups; ///< of `beds`, which must stay where they are
+  FigurePlan bed_figures;
+  std::vector<KeyFigure> keys;     ///< of the first page: with chains and beds one of each
+  std::vector<KeyFigure> bed_keys; ///< of the page on beds
+  std::vector<PageTable> bed_tables;
+  std::vector<PageTable> tables; ///< all, those of beds included
+  std::vector<StudyLink> studies;
+  ReportVersions versions;
+};
+
+/// The page. Figures are expected at figures/NAME.svg and .png, data at data/NAME.csv, the page on beds at
+/// bed.html beside it. Sections to which the content has nothing are left out.
+std::string report_page(const ReportContent &content);
 
 } // namespace drumlin::post

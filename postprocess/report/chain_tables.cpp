@@ -17,7 +17,7 @@ namespace {
 
 const std::string dash = no_value;
 
-/// A value that is a ratio, as text; a dash where its denominator is zero.
+/// A ratio as text; a dash where it is not finite, since its denominator is zero.
 std::string finite(const char *format, double value) {
   return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : dash;
 }
@@ -43,6 +43,13 @@ std::string case_text(const Run &run) {
   if (run.kind == RunKind::unknown) return dash;
   if (run.case_name.empty()) return "own";
   return run.case_name + (run.at_case ? "" : ", changed");
+}
+
+/// Whether an error is small enough to be marked as good; plain if it was not measured.
+RowState state_of_error(double relative) {
+  return std::isnan(relative)               ? RowState::plain
+         : std::abs(relative) <= good_error ? RowState::agrees
+                                            : RowState::differs;
 }
 
 /// "0.8600" or "0.8600 to 0.8612".
@@ -81,7 +88,7 @@ int decimals_of(const std::string &text) {
   return point == std::string::npos ? 0 : static_cast<int>(text.size() - point - 1);
 }
 
-void add_check(ReportTable &table, const ReportResults &results, const Check &check) {
+void add_check(PageTable &table, const ReportResults &results, const Check &check) {
   const Run &run = results.runs[check.run].run;
   const bool valued = check.agreement != Agreement::not_measured;
   const bool number = valued && std::isfinite(check.difference) && check.measured != "no rebound";
@@ -104,8 +111,8 @@ void add_check(ReportTable &table, const ReportResults &results, const Check &ch
                                                        : RowState::differs);
 }
 
-ReportTable check_table(const std::string &section, const std::string &name, const std::string &title) {
-  ReportTable table;
+PageTable check_table(const std::string &section, const std::string &name, const std::string &title) {
+  PageTable table;
   table.section = section;
   table.name = name;
   table.title = title;
@@ -126,18 +133,27 @@ ReportTable check_table(const std::string &section, const std::string &name, con
                   "reference from"};
   table.shown_columns = 14;
   table.text_columns = 5;
+  table.verdict = "agrees";
+  table.criterion = "values agree with the reference within the tolerance";
   return table;
 }
 
-ReportTable runs_table(const ReportResults &results) {
-  ReportTable table;
-  table.section = "summary";
+PageTable runs_table(const ReportResults &results) {
+  PageTable table;
+  table.section = "runs";
   table.name = "runs";
+  table.verdict = "checks that agree";
+  table.criterion = "judged runs agree with all their reference values";
   table.title = "Runs";
   table.header = {"run",    "case",  "transition", "stepping",          "steps per cycle", "cycles (-)",
                   "engine", "ranks", "plugin",     "checks that agree", "command"};
   table.shown_columns = 10;
   table.text_columns = 4;
+  table.notes.emplace_back(
+      "stepping is the scheme by which the engine integrates a time step: second is the second-order scheme, "
+      "which knows the part of a step during which balls are in contact; stock is the engine's velocity "
+      "Verlet "
+      "scheme; exact is the direct solver.");
   for (std::size_t i = 0; i < results.runs.size(); ++i) {
     const Run &run = results.runs[i].run;
     const CheckCount count = count_checks(results, i);
@@ -156,12 +172,11 @@ ReportTable runs_table(const ReportResults &results) {
               : count.agree == count.all ? RowState::agrees
                                          : RowState::differs);
     if (run.kind == RunKind::chain && !run.at_case)
-      table.notes.push_back(
-          fmt::format("{} is not judged by reference values: {}.", run.name, run.not_at_case));
+      table.notes.push_back(fmt::format("{} has no reference values: {}.", run.name, run.not_at_case));
     if (count.not_judged > 0)
       table.notes.push_back(
-          fmt::format("{}: {} values are not judged, for it has {} cycles of the {} that the "
-                      "reference values need. This run is judged: {}",
+          fmt::format("{}: {} values are not judged, since the run has {} cycles and the reference values "
+                      "need {}. This command makes a run that is long enough: {}",
                       run.name, count.not_judged, run.complete, long_run_cycles, judging_command(run)));
     for (const std::string &missing : run.missing)
       table.notes.push_back(fmt::format("{}: {}", run.name, missing));
@@ -169,11 +184,12 @@ ReportTable runs_table(const ReportResults &results) {
   return table;
 }
 
-ReportTable events_table(const ReportResults &results) {
-  ReportTable table;
+PageTable events_table(const ReportResults &results) {
+  PageTable table;
   table.section = "events";
   table.name = "event_table";
-  table.title = "Makes and breaks";
+  table.title = "Makes and breaks of contact";
+  table.criterion = "runs have the same events as the reference solution, one by one";
   table.header = {"run",
                   "case",
                   "transition",
@@ -206,23 +222,26 @@ ReportTable events_table(const ReportResults &results) {
                paired && run.timestep > 0.0 && !run.direct
                    ? fmt::format("{:.3g}", match.largest_difference / run.timestep)
                    : dash,
-               paired ? fmt::format("{:.4f}", match.at_time) : dash});
+               paired ? fmt::format("{:.4f}", match.at_time) : dash},
+              !result.truth                                                              ? RowState::plain
+              : match.run_count == match.truth_count && match.matched == match.run_count ? RowState::agrees
+                                                                                         : RowState::differs);
     if (match.run_count != match.truth_count || match.matched != match.run_count)
       table.notes.push_back(
-          fmt::format("{}: {} events against {} of the direct solution; the first {} were paired.", run.name,
+          fmt::format("{}: {} events, {} in the reference solution; the first {} were paired.", run.name,
                       match.run_count, match.truth_count, match.matched));
   }
-  table.notes.insert(
-      table.notes.begin(),
-      fmt::format(
-          "Forces, overlap and counts per cycle: last {} cycles of each run. Time differences: all events "
-          "of the run, paired by order with those of the direct solution.",
-          steady_cycles));
+  table.notes.insert(table.notes.begin(), fmt::format("Forces, overlap and counts per cycle: over the last "
+                                                      "{} cycles of each run. Time differences: of all "
+                                                      "events of the run to those of the reference solution "
+                                                      "(direct solution), paired in their order; also "
+                                                      "in time steps of the run.",
+                                                      steady_cycles));
   return table;
 }
 
-ReportTable meters_table(const ReportResults &results) {
-  ReportTable table;
+PageTable meters_table(const ReportResults &results) {
+  PageTable table;
   table.section = "reference";
   table.name = "meter_values";
   table.title = "Compaction meter values";
@@ -239,18 +258,21 @@ ReportTable meters_table(const ReportResults &results) {
                finite("{:.2g}", resonance_meter_value(a)),
                result.chain->amplitudes_every_step ? "every step" : "samples and events"});
   }
-  table.notes.push_back(fmt::format(
-      "CMV = 300 A2 / A1 and RMV = 100 A0.5 / A1 from the amplitudes of drum acceleration at 1, 2 and "
-      "1/2 times the excitation frequency, over the last {} cycles.",
-      steady_cycles));
+  table.notes.push_back(fmt::format("Compaction meter value CMV = 300 A2 / A1 and resonance meter value RMV "
+                                    "= 100 A0.5 / A1. A1, A2 and A0.5 "
+                                    "are the amplitudes of drum acceleration at 1, 2 and 1/2 times the "
+                                    "excitation frequency, over the last {} "
+                                    "cycles.",
+                                    steady_cycles));
   return table;
 }
 
-ReportTable errors_table(const ReportResults &results) {
-  ReportTable table;
+PageTable errors_table(const ReportResults &results) {
+  PageTable table;
   table.section = "direct";
   table.name = "error_table";
-  table.title = "Relative RMS error of drum velocity against the direct solution";
+  table.title = "Relative RMS error of drum velocity against the reference solution";
+  table.criterion = "runs have an error of at most 1 % over their last five cycles";
   table.header = {"run",
                   "case",
                   "transition",
@@ -278,23 +300,25 @@ ReportTable errors_table(const ReportResults &results) {
                run.direct ? "exact" : run.text("stepping", dash), steps_text(run),
                fmt::format("{}", run.complete), scientific(m.velocity_error_last),
                m.velocity_error_25_to_30 ? scientific(*m.velocity_error_25_to_30) : dash,
-               known ? scientific(*known) : dash, stock ? scientific(*stock) : dash});
+               known ? scientific(*known) : dash, stock ? scientific(*stock) : dash},
+              state_of_error(m.velocity_error_last));
     interpolated = interpolated || m.truth_interpolated;
   }
   table.notes.emplace_back(
-      "The known errors are those of the reference, cycles 25 to 30, condition B, where the number of "
-      "steps per cycle is one of its columns (200, 400, ... 6400).");
+      "Known: errors that the reference values give for cycles 25 to 30 under condition B, at 200, 400, 800, "
+      "1600, 3200 and 6400 steps per cycle.");
   if (interpolated)
-    table.notes.emplace_back(
-        "Times of some runs are not on the direct solution's grid; it was interpolated there.");
+    table.notes.emplace_back("Some runs have rows at times between those of the reference solution, which "
+                             "was interpolated there.");
   return table;
 }
 
-ReportTable energy_table(const ReportResults &results) {
-  ReportTable table;
+PageTable energy_table(const ReportResults &results) {
+  PageTable table;
   table.section = "energy";
   table.name = "energy_table";
-  table.title = "Energy ledger (J)";
+  table.title = "Energy balance (J)";
+  table.criterion = "runs close their energy balance within 1 % of the exciter's work";
   table.header = {"run",
                   "cycles",
                   "work of the exciter (J)",
@@ -311,8 +335,8 @@ ReportTable energy_table(const ReportResults &results) {
   for (const RunResult &result : results.runs) {
     if (!result.chain) continue;
     if (!result.chain->energy) {
-      table.notes.push_back(
-          fmt::format("{}: no ledger, missing: {}.", result.run.name, result.chain->energy_missing));
+      table.notes.push_back(fmt::format("{}: no energy balance, since the run lacks {}.", result.run.name,
+                                        result.chain->energy_missing));
       continue;
     }
     const EnergyLedger &e = *result.chain->energy;
@@ -320,20 +344,24 @@ ReportTable energy_table(const ReportResults &results) {
     table.add({result.run.name, fmt::format("{:g} to {:g}", e.first_cycle, e.last_cycle),
                joule(e.work_excitation), joule(e.dissipated_contact), joule(e.dissipated_bond),
                joule(e.change_kinetic), joule(e.change_potential), joule(e.change_stored_contact),
-               joule(e.change_stored_bond), scientific(e.closure()), scientific(e.closure_percent())});
+               joule(e.change_stored_bond), scientific(e.closure()), scientific(e.closure_percent())},
+              state_of_error(0.01 * e.closure_percent()));
   }
   if (!table.rows.empty())
-    table.notes.insert(table.notes.begin(),
-                       "Between the ends of the two cycles named; cycle 0 is the start of the excitation. "
-                       "Closure is the work of the exciter minus everything that it went into.");
+    table.notes.insert(
+        table.notes.begin(),
+        "From the end of the first to the end of the last cycle named; cycle 0 is the start of the "
+        "excitation. Closure is the energy error: work of the exciter minus dissipated energy "
+        "minus changes of kinetic, potential and stored energy.");
   return table;
 }
 
-ReportTable roller_table(const ReportResults &results) {
-  ReportTable table;
+PageTable roller_table(const ReportResults &results) {
+  PageTable table;
   table.section = "roller";
   table.name = "roller_table";
-  table.title = "Contact force by differences of positions against the law's";
+  table.title = "Contact force from measured motion against that of the law";
+  table.criterion = "runs have a largest difference of at most 1 % of the largest force";
   table.header = {"run",
                   "case",
                   "transition",
@@ -347,22 +375,25 @@ ReportTable roller_table(const ReportResults &results) {
   for (const RunResult &result : results.runs) {
     if (!result.chain) continue;
     if (!result.chain->roller) {
-      table.notes.push_back(fmt::format("{}: chain.csv has no frame, or its rows are not equally far apart: "
-                                        "nothing to compare.",
-                                        result.run.name));
+      table.notes.push_back(
+          fmt::format("{}: nothing to compare, since chain.csv has no frame, or its rows are "
+                      "not equally spaced in time.",
+                      result.run.name));
       continue;
     }
     const RollerForce &force = *result.chain->roller;
     table.add({result.run.name, case_text(result.run), transition_text(result.run),
                fmt::format("{:.3g}", force.largest_difference), fmt::format("{:.6g}", force.largest_force),
                scientific(force.largest_difference / force.largest_force),
-               fmt::format("{:.5f}", force.at_time), fmt::format("{}", force.rows)});
+               fmt::format("{:.5f}", force.at_time), fmt::format("{}", force.rows)},
+              state_of_error(force.largest_difference / force.largest_force));
   }
   if (!table.rows.empty())
-    table.notes.insert(table.notes.begin(),
-                       "Accelerations of drum and frame are differences of the positions in five rows of "
-                       "chain.csv, whose error is of fourth order in the time between rows. Rows with a make "
-                       "or break among the five are left out: the force jumps there.");
+    table.notes.insert(
+        table.notes.begin(),
+        "Accelerations of drum and frame are differences of the positions in five successive rows "
+        "of chain.csv; their error is of fourth order in the time between rows. Five rows with a "
+        "make or break of contact among them are left out, since the force jumps there.");
   return table;
 }
 
@@ -416,35 +447,34 @@ std::string judging_command(const Run &run) {
   return command + fmt::format(" -var cycles {} -var out {}", cycles, shell_word(out));
 }
 
-std::vector<ReportTable> make_tables(const ReportResults &results) {
-  std::vector<ReportTable> tables;
+std::vector<PageTable> make_tables(const ReportResults &results) {
+  std::vector<PageTable> tables;
   tables.push_back(runs_table(results));
 
-  ReportTable restitution = check_table("impact", "restitution", "Restitution of single impacts");
+  PageTable restitution = check_table("impact", "restitution", "Restitution of single impacts");
   for (const Check &check : results.restitution)
     add_check(restitution, results, check);
   tables.push_back(std::move(restitution));
 
-  ReportTable steady =
+  PageTable steady =
       check_table("reference", "checks", "Steady states and meter values against the reference");
   for (const Check &check : results.checks)
     add_check(steady, results, check);
-  steady.notes.push_back(
-      fmt::format("Measured over the last {} cycles. Forces and accelerations at a make "
-                  "are those of the located events; the share "
-                  "of time in contact follows from event times. \"To all digits\" means "
-                  "that the measured value rounds to the reference. The tolerance is one unit of "
-                  "the last digit given or, for accelerations and forces, 2e-4 of the value: the "
-                  "reference table's states had not settled further than that. The direct "
-                  "solution of the same cycles, measured by the same means, stands beside it.",
-                  steady_cycles));
+  steady.notes.push_back(fmt::format(
+      "Measured over the last {} cycles. Forces and accelerations at a make of contact are those of "
+      "the located events; the share of time in contact follows from the times of the events. To all "
+      "digits: the measured value rounds to the reference value. The tolerance is one unit of the last "
+      "digit given or, for accelerations and forces, 2e-4 of the value, since the states of the "
+      "reference were not closer to steady than that. Direct solution: the reference solution (direct "
+      "solver) over the same cycles, evaluated in the same way.",
+      steady_cycles));
   if (count_checks(results).not_judged > 0)
-    steady.notes.push_back(fmt::format("Short run: fewer than {} cycles, so the state need not be steady to "
+    steady.notes.push_back(fmt::format("Short run: fewer than {} cycles. Its state may not yet be steady to "
                                        "the digits given.",
                                        long_run_cycles));
   tables.push_back(std::move(steady));
 
-  ReportTable words = check_table("reference", "paper_words", "What the paper says in words");
+  PageTable words = check_table("reference", "paper_words", "What the paper says in words");
   for (const Check &check : results.words)
     add_check(words, results, check);
   tables.push_back(std::move(words));
@@ -457,7 +487,7 @@ std::vector<ReportTable> make_tables(const ReportResults &results) {
   tables.push_back(roller_table(results));
   tables.erase(
       std::remove_if(tables.begin(), tables.end(),
-                     [](const ReportTable &table) { return table.rows.empty() && table.notes.empty(); }),
+                     [](const PageTable &table) { return table.rows.empty() && table.notes.empty(); }),
       tables.end());
   return tables;
 }

@@ -13,13 +13,13 @@ namespace drumlin::post {
 
 namespace {
 
-/// Of "LAMMPS 29 Sep 2021" the first word.
+/// The first word of "LAMMPS 29 Sep 2021".
 std::string engine_name(const Run &run) {
   const std::string engine = run.text("engine", "");
   return engine.substr(0, engine.find(' '));
 }
 
-/// What may differ between runs of one chain.
+/// Whether two runs have the same parameters, apart from those that say where and how they ran.
 bool same_chain(const Run &one, const Run &other) {
   const auto chain = [](std::map<std::string, std::string> parameters) {
     for (const char *name : {"engine", "plugin", "ranks", "command"})
@@ -29,7 +29,7 @@ bool same_chain(const Run &one, const Run &other) {
   return chain(one.parameters) == chain(other.parameters);
 }
 
-/// Largest |a - b| over the largest |b|; infinite for unlike lengths.
+/// Largest |a - b| over the largest |b|; infinite for different lengths.
 double difference(const std::vector<double> &a, const std::vector<double> &b) {
   if (a.size() != b.size()) return std::numeric_limits<double>::infinity();
   double largest = 0.0;
@@ -41,7 +41,8 @@ double difference(const std::vector<double> &a, const std::vector<double> &b) {
   return apart == 0.0 ? 0.0 : apart / largest;
 }
 
-/// Largest distance in time of events one by one, s; infinite if they are not the same.
+/// Largest difference in time between corresponding events, s; infinite if kind or number of the events
+/// differ.
 double event_distance(const Run &one, const Run &other) {
   if (one.events.size() != other.events.size()) return std::numeric_limits<double>::infinity();
   double apart = 0.0;
@@ -70,7 +71,7 @@ std::vector<std::pair<std::size_t, std::size_t>> engine_pairs(const ReportResult
   return pairs;
 }
 
-ReportTable engine_table(const ReportResults &results) {
+PageTable engine_table(const ReportResults &results) {
   using Column = std::vector<double> ChainHistory::*;
   struct Named {
     const char *name;
@@ -84,10 +85,12 @@ ReportTable engine_table(const ReportResults &results) {
                                              {"a_frame", &ChainHistory::a_frame},
                                              {"F_contact", &ChainHistory::F_contact},
                                              {"F_bond", &ChainHistory::F_bond}}};
-  ReportTable table;
+  PageTable table;
   table.section = "engines";
   table.name = "engines";
   table.title = "Largest difference over the largest value";
+  table.verdict = "agree";
+  table.criterion = fmt::format("pairs of runs agree within {:g}", engines_agree_to);
   table.header = {"run", "against", "engines", "case", "transition", "stepping"};
   for (const Named &column : columns)
     table.header.push_back(std::string(column.name) + " (-)");
@@ -118,8 +121,9 @@ ReportTable engine_table(const ReportResults &results) {
   }
   if (!table.rows.empty())
     table.notes.push_back(fmt::format(
-        "The same fixes and laws, under another pair style and another neighbour list: all that may "
-        "differ is rounding, and what the chain makes of it. They agree within {:g}.",
+        "Both engines use the same fixes and contact laws; pair styles and neighbour lists are their own. "
+        "Only "
+        "rounding errors, and their growth in the motion of the chain, can make a difference. Allowed: {:g}.",
         engines_agree_to));
   return table;
 }

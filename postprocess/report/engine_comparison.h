@@ -1,4 +1,5 @@
-// Engine against engine: runs of one chain in LIGGGHTS and in LAMMPS, which differ by rounding if all is well.
+// Runs of one chain in LIGGGHTS and in LAMMPS, compared with each other. They should differ by rounding
+// errors only.
 #pragma once
 
 #include "report/chain_measures.h"
@@ -10,13 +11,14 @@
 
 namespace drumlin::post {
 
-/// Relative difference that rounding leaves between two engines.
+/// Largest relative difference at which two engines count as equal but for rounding.
 constexpr double engines_agree_to = 1e-9;
 
-/// Chain runs of different engines whose parameters are the same: places in ReportResults::runs.
+/// Pairs of chain runs in different engines with the same parameters: indices into ReportResults::runs.
 std::vector<std::pair<std::size_t, std::size_t>> engine_pairs(const ReportResults &results);
 
-/// One row for each pair: the largest difference of every column over its largest value, and events. Without rows if there is no pair.
-ReportTable engine_table(const ReportResults &results);
+/// A row for each pair: the largest difference of each column over the column's largest value, and the
+/// largest difference of event times. No rows if there is no pair.
+PageTable engine_table(const ReportResults &results);
 
 } // namespace drumlin::post

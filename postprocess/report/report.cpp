@@ -1,26 +1,21 @@
 #include "report/report.h"
 
 #include <algorithm>
-#include <cmath>
 #include <ctime>
-#include <fstream>
 #include <stdexcept>
-
-#include <unistd.h>
+#include <utility>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "chain/direct_solver.h"
 #include "pages/gnuplot.h"
 #include "report/bed_figures.h"
-#include "report/bed_measures.h"
 #include "report/bed_page.h"
-#include "report/chain_figures.h"
-#include "report/chain_measures.h"
 #include "report/chain_page.h"
+#include "report/draft.h"
 #include "report/run_folder.h"
+#include "report/summary.h"
 #include "support/files.h"
 #include "support/process.h"
 #include "support/text.h"
@@ -32,75 +27,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char *summary_file = "report.json";
+using Say = std::function<void(const std::string &)>;
 
-/// The place of the report, absolute and without a trailing slash. Throws if it may not be replaced.
-fs::path checked_place(const fs::path &out, const ReportFolders &folders) {
-  fs::path place = fs::absolute(out).lexically_normal();
-  if (!place.has_filename()) place = place.parent_path();
-  const auto refuse = [&out](const std::string &why) {
-    throw UsageError(
-        fmt::format("--out = '{}' {}; allowed are new folders and earlier reports", out.string(), why));
-  };
-  if (fs::exists(place)) {
-    if (!fs::is_directory(place)) refuse("is not a folder");
-    if (!fs::is_empty(place) && !fs::is_regular_file(place / summary_file)) refuse("holds other files");
-    const std::string inside = fs::canonical(place).string() + "/";
-    for (const std::vector<fs::path> *all : {&folders.runs, &folders.studies})
-      for (const fs::path &folder : *all)
-        if ((fs::canonical(folder).string() + "/").rfind(inside, 0) == 0)
-          refuse("holds the folder " + folder.string() + " that is to be reported on");
-  }
-  try {
-    make_output_folder(place.parent_path());
-  } catch (const std::runtime_error &error) {
-    throw UsageError(fmt::format("--out = '{}': {}", out.string(), error.what()));
-  }
-  return place;
-}
-
-/// A report under way, beside its place. What a killed report of the same place left is cleared away first.
-class Draft {
-public:
-  explicit Draft(const fs::path &place) : place_(place) {
-    fs::create_directories(folder() / "figures");
-    fs::create_directories(folder() / "data");
-  }
-  const fs::path &folder() const { return folder_.path(); }
-
-  /// Swaps the draft in; an earlier report comes back if that fails.
-  void publish() {
-    const fs::path old = beside(own_name(prefix("old")));
-    const bool replaces = fs::exists(place_);
-    if (replaces) fs::rename(place_, old);
-    std::error_code error;
-    fs::rename(folder(), place_, error);
-    if (error) {
-      if (replaces) fs::rename(old, place_);
-      throw std::runtime_error(
-          fmt::format("cannot move the report to {}: {}", place_.string(), error.message()));
-    }
-    std::error_code ignored;
-    fs::remove_all(old, ignored);
-  }
-
-private:
-  std::string prefix(const char *what) const {
-    return fmt::format(".{}.{}-", place_.filename().string(), what);
-  }
-  fs::path beside(const std::string &name) const { return place_.parent_path() / name; }
-  /// Killed between its two renames, a report leaves the earlier one under its other name.
-  std::string prefix_after_rescue() const {
-    const fs::path earlier = leftover(place_.parent_path(), prefix("old"));
-    if (!earlier.empty() && !fs::exists(place_)) fs::rename(earlier, place_);
-    remove_leftovers(place_.parent_path(), prefix("old"));
-    return prefix("new");
-  }
-  fs::path place_;
-  TemporaryFolder folder_{place_.parent_path(), prefix_after_rescue()};
-};
-
-/// The first line that `gnuplot --version` prints.
+/// The first line that `gnuplot --version` prints; `scratch` is a folder for the program's output.
 std::string gnuplot_version(const fs::path &gnuplot, const fs::path &scratch) {
   std::string text = run_program({gnuplot.string(), "--version"}, {}, scratch).output;
   fs::remove(scratch / program_output_file);
@@ -108,82 +37,7 @@ std::string gnuplot_version(const fs::path &gnuplot, const fs::path &scratch) {
   return text.empty() ? "gnuplot" : text;
 }
 
-nlohmann::ordered_json check_json(const ReportResults &results, const Check &check) {
-  nlohmann::ordered_json json;
-  const Run &run = results.runs[check.run].run;
-  const bool valued = check.agreement != Agreement::not_measured && std::isfinite(check.value);
-  json["run"] = run.name;
-  json["case"] = run.case_name;
-  json["transition"] = transition_name(run.transition());
-  json["quantity"] = check.quantity;
-  json["unit"] = check.unit;
-  json["reference"] = check.reference;
-  json["measured"] = valued ? nlohmann::ordered_json(check.value) : nlohmann::ordered_json(nullptr);
-  json["difference"] = valued ? nlohmann::ordered_json(check.difference) : nlohmann::ordered_json(nullptr);
-  json["tolerance"] = check.tolerance;
-  const bool judged = check.agreement != Agreement::not_judged;
-  json["agrees"] = judged ? nlohmann::ordered_json(check.agrees()) : nlohmann::ordered_json(nullptr);
-  json["short_run"] = !judged;
-  json["from"] = check.source;
-  return json;
-}
-
-nlohmann::ordered_json bed_json(const BedResult &bed) {
-  const BedMeasures &m = bed.measures;
-  const auto number = [](double value) {
-    return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
-  };
-  nlohmann::ordered_json json;
-  json["name"] = bed.run.name;
-  json["parameters"] = bed.run.parameters;
-  json["cycles"] = m.cycles;
-  json["steady_cycles"] = m.steady_count;
-  if (m.cycles > 0) {
-    json["largest_drum_acceleration"] = number(m.extremes.acceleration.max);
-    json["largest_contact_force"] = number(m.extremes.force.max);
-    json["smallest_contact_force"] = number(m.extremes.force.min);
-    json["contact_share"] = number(m.contact_share);
-    json["settlement"] = number(m.settlement);
-    json["settlement_per_cycle"] = number(m.settlement_per_cycle);
-  }
-  if (m.amplitudes) json["compaction_meter_value"] = number(compaction_meter_value(*m.amplitudes));
-  json["imbalance_percent"] = number(m.imbalance_percent);
-  json["coordination"] = {number(m.coordination_start), number(m.coordination_end)};
-  json["void_ratio"] = {number(m.void_ratio_start), number(m.void_ratio_end)};
-  return json;
-}
-
-std::string summary_json(const ReportResults &results, const std::vector<BedResult> &beds,
-                         const ReportVersions &versions) {
-  const CheckCount count = count_checks(results);
-  nlohmann::ordered_json json;
-  json["made_at"] = versions.made_at;
-  json["drumlin"] = versions.drumlin;
-  json["direct_solver"] = versions.direct_solver;
-  json["gnuplot"] = versions.gnuplot;
-  json["checks"] = count.all;
-  json["agree"] = count.agree;
-  json["agree_to_digits_given"] = count.same_digits;
-  json["not_judged"] = count.not_judged;
-  json["runs"] = nlohmann::ordered_json::array();
-  for (const RunResult &result : results.runs) {
-    nlohmann::ordered_json run;
-    run["name"] = result.run.name;
-    run["parameters"] = result.run.parameters;
-    run["missing"] = result.run.missing;
-    json["runs"].push_back(run);
-  }
-  for (const BedResult &bed : beds)
-    json["beds"].push_back(bed_json(bed));
-  json["comparisons"] = nlohmann::ordered_json::array();
-  for (const std::vector<Check> *checks : {&results.checks, &results.restitution, &results.words})
-    for (const Check &check : *checks)
-      json["comparisons"].push_back(check_json(results, check));
-  // Names of folders need not be UTF-8; the report must come out all the same.
-  return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
-
-/// Counts the pieces of one kind of work, whose number is known before the first, and says which one begins.
+/// Reports pieces of one kind of work as they begin: "runs [2/8] NAME".
 class Progress {
 public:
   Progress(const std::function<void(const std::string &)> &say, std::string kind, std::size_t all)
@@ -201,7 +55,7 @@ private:
   std::size_t done_ = 0;
 };
 
-/// Reading what others wrote: whatever is wrong with it is the input's fault.
+/// Reads all run folders. Throws UsageError for whatever cannot be read, since the input is at fault then.
 std::vector<Run> read_runs(const std::vector<fs::path> &folders) {
   std::vector<Run> runs;
   try {
@@ -224,7 +78,8 @@ std::string title_of(const fs::path &study) {
   return html_unescaped(page.substr(begin + open.size(), end - begin - open.size()));
 }
 
-/// Copies the studies into the report, each to a folder of its name.
+/// Copies the studies into the report, each to studies/NAME, with a number added to the name if several have
+/// it.
 std::vector<StudyLink> copy_studies(const std::vector<fs::path> &studies, const fs::path &report) {
   std::vector<StudyLink> links;
   for (const fs::path &study : studies) {
@@ -239,105 +94,127 @@ std::vector<StudyLink> copy_studies(const std::vector<fs::path> &studies, const 
   return links;
 }
 
+/// Calls `work`. Whatever goes wrong in it is the fault of an input file or of the system: becomes a
+/// UsageError.
+template <class Work>
+void as_usage(const Work &work) {
+  try {
+    work();
+  } catch (const std::runtime_error &error) {
+    throw UsageError(error.what());
+  } catch (const std::invalid_argument &error) {
+    throw UsageError(error.what());
+  }
+}
+
+/// Measures the runs and plans tables and figures.
+ReportContent make_content(std::vector<Run> runs, const Say &say) {
+  const bool any_beds =
+      std::any_of(runs.begin(), runs.end(), [](const Run &run) { return run.kind == RunKind::bed; });
+  Progress reading(say, "runs", runs.size() + (any_beds ? 1 : 0));
+  ReportContent content;
+  DirectSolutions direct;
+  for (Run &run : runs) {
+    reading(run.kind == RunKind::chain ? fmt::format("{}: reference solution and measured values", run.name)
+                                       : fmt::format("{}: measured values", run.name));
+    as_usage([&] {
+      if (run.kind == RunKind::bed)
+        content.beds.push_back(analyse_bed(std::move(run)));
+      else
+        content.results.runs.push_back(analyse(std::move(run), direct));
+    });
+  }
+  compare(content.results);
+  const bool only_beds = content.results.runs.empty() && any_beds;
+  if (!only_beds) {
+    content.figures = plan_figures(content.results);
+    content.tables = make_tables(content.results);
+  }
+  if (!any_beds) return content;
+  content.bed_tables = bed_tables(content.beds);
+  content.tables.insert(content.tables.end(), content.bed_tables.begin(), content.bed_tables.end());
+  content.groups = group_beds(content.beds);
+  reading("dumps of the beds");
+  as_usage([&] { content.bed_figures = plan_bed_figures(content.groups); });
+  return content;
+}
+
+/// Chooses the figures that the pages open with.
+void choose_keys(ReportContent &content) {
+  content.keys = key_figures(content.figures.figures);
+  content.bed_keys = key_figures(content.bed_figures.figures);
+  const std::vector<KeyFigure> of_beds = key_figures(content.bed_figures.figures, "bed.html");
+  constexpr std::size_t most = 2;
+  if (!of_beds.empty()) content.keys.resize(std::min(content.keys.size(), most - 1));
+  for (const KeyFigure &key : of_beds)
+    if (content.keys.size() < most) content.keys.push_back(key);
+}
+
+/// Draws the figures into the folder, with the data of figures and tables.
+void draw(const ReportContent &content, const fs::path &gnuplot, const fs::path &folder, Progress &drawing) {
+  for (const auto &[plan, page] :
+       {std::pair<const FigurePlan *, const char *>(&content.figures, ""), {&content.bed_figures, "bed: "}}) {
+    for (const AbsentFigure &absent : plan->absent)
+      drawing(fmt::format("{}{} left out: {}", page, absent.label, absent.reason));
+    for (const PageFigure &figure : plan->figures) {
+      drawing(fmt::format("{}{} {}", page, figure.label, figure.figure.name));
+      write_files({{folder / "data" / (figure.figure.name + ".csv"), figure.csv}});
+      render(gnuplot, folder / "figures", figure.figure);
+    }
+  }
+  drawing("opening pictures, tables and text");
+  for (const std::vector<KeyFigure> *keys : {&content.keys, &content.bed_keys})
+    for (const KeyFigure &key : *keys)
+      if (!fs::exists(folder / "figures" /
+                      (key.figure.name + ".gp"))) // both pages may open with the same picture
+        render(gnuplot, folder / "figures", key.figure);
+  for (const PageTable &table : content.tables)
+    if (!table.rows.empty()) write_files({{folder / "data" / (table.name + ".csv"), table_csv(table)}});
+}
+
+ReportVersions find_versions(const std::string &drumlin, const fs::path &gnuplot, const fs::path &scratch) {
+  return {drumlin, direct_solver_name(), gnuplot_version(gnuplot, scratch),
+          fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)))};
+}
+
+/// The commands that repeat runs that were too short to be judged, each once.
+std::vector<std::string> judging_commands(const ReportResults &results) {
+  std::vector<std::string> commands;
+  for (std::size_t i = 0; i < results.runs.size(); ++i) {
+    if (count_checks(results, i).not_judged == 0) continue;
+    const std::string command = judging_command(results.runs[i].run);
+    if (std::find(commands.begin(), commands.end(), command) == commands.end()) commands.push_back(command);
+  }
+  return commands;
+}
+
 } // namespace
 
 ReportOutcome write_report(const ReportOptions &options) {
   fs::path gnuplot;
-  try {
-    gnuplot = find_gnuplot();
-  } catch (const std::runtime_error &error) {
-    throw UsageError(error.what());
-  }
   ReportFolders folders;
   fs::path place;
-  try {
+  as_usage([&] {
+    gnuplot = find_gnuplot();
     folders = find_report_folders(options.folders);
     place = checked_place(options.out, folders);
-  } catch (const fs::filesystem_error &error) {
-    throw UsageError(error.what());
-  }
-  std::vector<Run> runs = read_runs(folders.runs);
-
-  const bool any_beds =
-      std::any_of(runs.begin(), runs.end(), [](const Run &run) { return run.kind == RunKind::bed; });
-  Progress reading(options.progress, "runs", runs.size() + (any_beds ? 1 : 0));
-  ReportResults results;
-  DirectSolutions direct;
-  std::vector<BedResult> beds;
-  for (Run &run : runs) {
-    reading(run.kind == RunKind::chain ? fmt::format("{}: direct solution and measures", run.name)
-                                       : fmt::format("{}: measures", run.name));
-    try {
-      if (run.kind == RunKind::bed)
-        beds.push_back(analyse_bed(std::move(run)));
-      else
-        results.runs.push_back(analyse(std::move(run), direct));
-    } catch (const std::runtime_error &error) {
-      throw UsageError(error.what());
-    } catch (const std::invalid_argument &error) {
-      throw UsageError(error.what());
-    }
-  }
-  compare(results);
-  const bool only_beds = results.runs.empty() && !beds.empty();
-  const FigurePlan plan = only_beds ? FigurePlan() : plan_figures(results);
-  std::vector<ReportTable> tables;
-  if (!only_beds) tables = make_tables(results);
-  std::vector<ReportTable> of_beds;
-  if (!beds.empty()) of_beds = bed_tables(beds);
-  tables.insert(tables.end(), of_beds.begin(), of_beds.end());
-  const std::vector<BedGroup> groups = group_beds(beds);
-  FigurePlan bed_plan;
-  if (any_beds) reading("dumps of the beds");
-  try {
-    bed_plan = plan_bed_figures(groups);
-  } catch (const std::runtime_error &error) {
-    throw UsageError(error.what());
-  }
+  });
+  ReportContent content = make_content(read_runs(folders.runs), options.progress);
+  choose_keys(content);
   Progress drawing(options.progress, "pages",
-                   plan.figures.size() + plan.absent.size() + bed_plan.figures.size() +
-                       bed_plan.absent.size() + 1);
-
+                   content.figures.figures.size() + content.figures.absent.size() +
+                       content.bed_figures.figures.size() + content.bed_figures.absent.size() + 1);
   Draft draft(place);
-  for (const auto &[figures, page] :
-       {std::pair<const FigurePlan *, const char *>(&plan, ""), {&bed_plan, "bed: "}}) {
-    for (const AbsentFigure &absent : figures->absent)
-      drawing(fmt::format("{}{} left out: {}", page, absent.label, absent.reason));
-    for (const PlannedFigure &figure : figures->figures) {
-      drawing(fmt::format("{}{} {}", page, figure.label, figure.figure.name));
-      write_files({{draft.folder() / "data" / (figure.figure.name + ".csv"), figure.csv}});
-      render(gnuplot, draft.folder() / "figures", figure.figure);
-    }
-  }
-  drawing("tables and text");
-  for (const ReportTable &table : tables)
-    if (!table.rows.empty())
-      write_files({{draft.folder() / "data" / (table.name + ".csv"), table_csv(table)}});
-  const std::vector<StudyLink> studies = copy_studies(folders.studies, draft.folder());
-  ReportVersions versions;
-  versions.drumlin = options.version;
-  versions.direct_solver = direct_solver_name();
-  versions.gnuplot = gnuplot_version(gnuplot, draft.folder());
-  versions.made_at = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)));
-  std::vector<std::string> bed_names;
-  bed_names.reserve(beds.size());
-  for (const BedResult &bed : beds)
-    bed_names.push_back(bed.run.name);
-  std::vector<FileText> pages = {
-      {draft.folder() / "index.html", report_page(results, tables, plan, bed_names, studies, versions)},
-      {draft.folder() / summary_file, summary_json(results, beds, versions)}};
-  if (!beds.empty())
-    pages.emplace_back(draft.folder() / "bed.html", bed_page(beds, groups, of_beds, bed_plan, versions));
+  const fs::path &folder = draft.folder();
+  draw(content, gnuplot, folder, drawing);
+  content.studies = copy_studies(folders.studies, folder);
+  content.versions = find_versions(options.version, gnuplot, folder);
+  std::vector<FileText> pages = {{folder / "index.html", report_page(content)},
+                                 {folder / summary_file, summary_json(content)}};
+  if (!content.beds.empty()) pages.emplace_back(folder / "bed.html", bed_page(content));
   write_files(pages);
   draft.publish();
-  ReportOutcome outcome{place / "index.html", count_checks(results), {}};
-  for (std::size_t i = 0; i < results.runs.size(); ++i) {
-    if (count_checks(results, i).not_judged == 0) continue;
-    const std::string command = judging_command(results.runs[i].run);
-    std::vector<std::string> &all = outcome.judging_commands;
-    if (std::find(all.begin(), all.end(), command) == all.end()) all.push_back(command);
-  }
-  return outcome;
+  return {place / "index.html", count_checks(content.results), judging_commands(content.results)};
 }
 
 } // namespace drumlin::post

@@ -1,4 +1,5 @@
-// `drumlin report`: from run folders to a folder with index.html, bed.html if there are runs of beds, figures and data.
+// `drumlin report`: makes a folder with index.html, bed.html if there are runs on beds, figures and data from
+// run folders.
 #pragma once
 
 #include <filesystem>
@@ -10,24 +11,25 @@
 
 namespace drumlin::post {
 
-/// What to report on, and where to.
+/// Input and place of a report.
 struct ReportOptions {
-  std::vector<std::filesystem::path> folders;        ///< run and study folders or parents of them
-  std::filesystem::path out = "report";              ///< replaced as a whole if it is an earlier report
-  std::string version = "unknown";                   ///< of this project, printed in the report
-  std::function<void(const std::string &)> progress; ///< gets one line per piece of work; may be empty
+  std::vector<std::filesystem::path> folders; ///< run and study folders or parents of them
+  std::filesystem::path out = "report";       ///< replaced as a whole if it is an earlier report
+  std::string version = "unknown";            ///< of this program, printed in the report
+  std::function<void(const std::string &)>
+      progress; ///< is called with a line for each piece of work; may be empty
 };
 
-/// What came of it.
+/// Result of a report.
 struct ReportOutcome {
   std::filesystem::path page; ///< index.html
   CheckCount checks;
-  std::vector<std::string> judging_commands; ///< of runs that are too short to be judged, each once
+  std::vector<std::string> judging_commands; ///< that repeat runs which are too short to be judged, each once
 };
 
-/// Makes the report in a folder beside `out` and moves it there when it is whole. Throws UsageError for
-/// folders or files that cannot be used (an earlier report then stays as it was), std::runtime_error for
-/// other failures.
+/// Makes the report in a folder beside `out` and moves it there when it is complete. Throws UsageError for
+/// folders or files that cannot be used, std::runtime_error for other failures; an earlier report then stays
+/// as it was.
 ReportOutcome write_report(const ReportOptions &options);
 
 } // namespace drumlin::post

@@ -22,7 +22,7 @@ bool is_study_folder(const fs::path &folder) {
   return fs::is_regular_file(folder / "study.txt") && fs::is_regular_file(folder / "index.html");
 }
 
-/// The record of a run: chain.csv, or bed.csv of a bed.
+/// The history file of a run: chain.csv, or bed.csv of a bed.
 fs::path record_of(const fs::path &folder) {
   const fs::path bed = folder / "bed.csv";
   const fs::path chain = folder / "chain.csv";
@@ -43,7 +43,7 @@ std::optional<double> number(const Run &run, const std::string &name) {
   }
 }
 
-/// Takes a parameter over; says so in `absent` if it is not there.
+/// Sets `value` to a parameter; adds its name to `absent` if the run does not have it.
 void take(const Run &run, const std::string &name, double &value, std::vector<std::string> &absent) {
   if (const std::optional<double> given = number(run, name))
     value = *given;
@@ -63,12 +63,13 @@ void check_parameters(const Run &run, const std::string &complaint) {
     throw std::runtime_error(fmt::format("{}: {}", (run.folder / "parameters.csv").string(), complaint));
 }
 
-/// Takes the transition, the last of the parameters, and says whether none is absent.
+/// Sets the transition. Returns whether no parameter is absent.
 bool take_transition(Run &run, Transition &transition, std::vector<std::string> absent) {
   if (!run.parameters.count("transition")) absent.emplace_back("transition");
   if (!absent.empty()) {
-    run.missing.push_back(
-        fmt::format("parameters.csv lacks {}: not judged and not compared.", joined(absent)));
+    run.missing.push_back(fmt::format(
+        "parameters.csv lacks {}: the run is not compared with reference values or the reference solution.",
+        joined(absent)));
     return false;
   }
   try {
@@ -108,7 +109,7 @@ void compare_with_case(Run &run) {
   run.at_case = true;
 }
 
-/// Fills Run::chain; says whether all of it is there.
+/// Fills Run::chain. Returns whether no parameter is absent.
 bool take_chain(Run &run) {
   std::vector<std::string> absent;
   ChainParameters &p = run.chain;
@@ -154,7 +155,7 @@ void read_chain_parameters(Run &run) {
   count_cycles(run);
 }
 
-/// Of a bed nothing may be missing: its deck writes all of it.
+/// A bed must have all parameters, since its deck writes them.
 void read_bed_parameters(Run &run) {
   const std::string deck = run.text("deck", "");
   check_parameters(run,
@@ -181,6 +182,76 @@ void read_impact_parameters(Run &run) {
   if (p.damping_ratio < 0.0)
     check_parameters(run, fmt::format("D is {:g}; allowed is a number of 0 or more", p.damping_ratio));
   run.kind = RunKind::impact;
+}
+
+/// Fills Run::parameters. Without parameters.csv, which a bed must have, says so in Run::missing.
+void read_parameter_texts(Run &run, bool bed) {
+  const fs::path file = run.folder / "parameters.csv";
+  if (!bed && !fs::is_regular_file(file)) {
+    run.missing.emplace_back("parameters.csv is missing: the run is not compared with reference values or "
+                             "the reference solution.");
+    return;
+  }
+  for (const auto &[name, value] : read_parameters(file))
+    run.parameters.emplace(valid_utf8(name), valid_utf8(value));
+}
+
+/// Takes the parameters over, by the kind of run.
+void read_parameter_values(Run &run, bool bed) {
+  const std::string deck = run.text("deck", "");
+  const bool impact = deck == "impact" || (deck.empty() && run.parameters.count("speed") != 0);
+  if (bed)
+    read_bed_parameters(run);
+  else if (!run.parameters.empty() && impact)
+    read_impact_parameters(run);
+  else if (!run.parameters.empty())
+    read_chain_parameters(run);
+  const std::string engine = run.text("engine", "");
+  run.direct = engine.find("CVODE") != std::string::npos || engine.find("direct") != std::string::npos ||
+               deck == "exact" || deck == "direct" || run.parameters.count("solver") != 0;
+}
+
+void read_event_file(Run &run) {
+  const fs::path file = run.folder / "events.csv";
+  run.has_events = fs::is_regular_file(file);
+  if (run.has_events)
+    run.events = read_events(file);
+  else
+    run.missing.emplace_back(
+        "events.csv is missing: there is no table of events, and jumps, force at make and "
+        "share of time in contact are taken from samples.");
+}
+
+void read_cycle_file(Run &run) {
+  const fs::path file = run.folder / "cycles.csv";
+  if (!fs::is_regular_file(file)) {
+    if (run.kind == RunKind::chain)
+      run.missing.emplace_back("cycles.csv is missing: extremes and meter values are taken from samples and "
+                               "events, and there is no energy balance.");
+    return;
+  }
+  run.cycles = read_cycle_columns(file);
+  if (!run.cycles->has("a_drum_min") || !run.cycles->has("F_contact_max"))
+    run.missing.emplace_back(
+        "cycles.csv lacks a_drum_min ... F_contact_max: extremes are taken from samples and events.");
+  if (!run.cycles->has("a1_cos"))
+    run.missing.emplace_back(
+        "cycles.csv lacks a1_cos ... ah_sin: meter values are taken from samples and events.");
+  if (!run.cycles->has("work_excitation"))
+    run.missing.emplace_back("cycles.csv lacks the energies: there is no energy balance.");
+}
+
+/// Fills Run::steps_per_cycle and Run::timestep.
+void take_steps(Run &run) {
+  if (const std::optional<double> steps = number(run, "steps_per_cycle")) {
+    if (!(*steps >= 0.0 && *steps <= std::numeric_limits<int>::max()))
+      check_parameters(run,
+                       fmt::format("steps_per_cycle is {:g}; allowed is a whole number above 0", *steps));
+    run.steps_per_cycle = static_cast<int>(std::lround(*steps));
+  }
+  if (const std::optional<double> step = number(run, "timestep")) run.timestep = *step;
+  if (run.timestep <= 0.0 && run.steps_per_cycle > 0 && run.kind == RunKind::chain)
+    run.timestep = run.chain.period() / run.steps_per_cycle;
 }
 
 } // namespace
@@ -242,65 +313,18 @@ Run read_run(const fs::path &folder) {
   if (run.history.size() < 3)
     throw std::runtime_error(
         fmt::format("{}: {} rows; allowed are 3 or more", record.string(), run.history.size()));
-  if (fs::is_regular_file(folder / "events.csv")) {
-    run.events = read_events(folder / "events.csv");
-    run.has_events = true;
-  } else {
-    run.missing.emplace_back(
-        "events.csv is missing: no events table; jumps, force at make and contact share come "
-        "from samples.");
-  }
-  if (bed || fs::is_regular_file(folder / "parameters.csv"))
-    for (const auto &[name, value] : read_parameters(folder / "parameters.csv"))
-      run.parameters.emplace(valid_utf8(name), valid_utf8(value));
-  else
-    run.missing.emplace_back("parameters.csv is missing: not judged and not compared.");
-
-  const std::string deck = run.text("deck", "");
-  const bool impact = deck == "impact" || (deck.empty() && run.parameters.count("speed") != 0);
-  if (bed) {
-    read_bed_parameters(run);
-  } else if (!run.parameters.empty()) {
-    if (impact)
-      read_impact_parameters(run);
-    else
-      read_chain_parameters(run);
-  }
-  const std::string engine = run.text("engine", "");
-  run.direct = engine.find("CVODE") != std::string::npos || engine.find("direct") != std::string::npos ||
-               deck == "exact" || deck == "direct" || run.parameters.count("solver") != 0;
-
-  if (fs::is_regular_file(folder / "cycles.csv")) {
-    run.cycles = read_cycle_columns(folder / "cycles.csv");
-    if (!run.cycles->has("a_drum_min") || !run.cycles->has("F_contact_max"))
-      run.missing.emplace_back(
-          "cycles.csv lacks a_drum_min ... F_contact_max: extremes come from samples and events.");
-    if (!run.cycles->has("a1_cos"))
-      run.missing.emplace_back(
-          "cycles.csv lacks a1_cos ... ah_sin: meter values come from samples and events.");
-    if (!run.cycles->has("work_excitation"))
-      run.missing.emplace_back("cycles.csv lacks the energies: no energy ledger.");
-  } else if (run.kind == RunKind::chain) {
-    run.missing.emplace_back(
-        "cycles.csv is missing: extremes and meter values come from samples and events; no "
-        "energy ledger.");
-  }
-  if (const std::optional<double> steps = number(run, "steps_per_cycle")) {
-    if (!(*steps >= 0.0 && *steps <= std::numeric_limits<int>::max()))
-      check_parameters(run,
-                       fmt::format("steps_per_cycle is {:g}; allowed is a whole number above 0", *steps));
-    run.steps_per_cycle = static_cast<int>(std::lround(*steps));
-  }
-  if (const std::optional<double> step = number(run, "timestep")) run.timestep = *step;
-  if (run.timestep <= 0.0 && run.steps_per_cycle > 0 && run.kind == RunKind::chain)
-    run.timestep = run.chain.period() / run.steps_per_cycle;
+  read_event_file(run);
+  read_parameter_texts(run, bed);
+  read_parameter_values(run, bed);
+  read_cycle_file(run);
+  take_steps(run);
   if (run.kind == RunKind::chain && !run.history.has_frame())
-    run.missing.emplace_back("chain.csv has no frame: no roller-measured force.");
+    run.missing.emplace_back("chain.csv has no frame: there is no contact force from measured motion.");
   return run;
 }
 
 void name_runs(std::vector<Run> &runs) {
-  // Tails of one more part each round, until all differ.
+  // Try names of one path part, then of two, and so on, until all differ.
   std::vector<std::vector<std::string>> parts(runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i)
     for (const fs::path &part : fs::canonical(runs[i].folder))

@@ -1,4 +1,4 @@
-// Run folders as the report sees them: what was run, its histories, and what is missing from it.
+// Run folders as the report reads them: parameters, histories, and the files or columns that are missing.
 #pragma once
 
 #include <filesystem>
@@ -18,24 +18,24 @@ enum class RunKind {
   chain,  ///< the three-ball chain under excitation
   impact, ///< a single impact without gravity
   bed,    ///< the roller on a bed of balls
-  unknown ///< no parameters.csv, or one that does not tell the parameters: listed, not judged
+  unknown ///< parameters.csv is missing or incomplete: the run is listed, but not judged
 };
 
 /// One run folder, read.
 struct Run {
   std::filesystem::path folder;
-  std::string name; ///< the folder, as short as tells the runs apart
+  std::string name; ///< end of the folder's path, as short as distinguishes the runs
   RunKind kind = RunKind::unknown;
-  std::map<std::string, std::string> parameters; ///< parameters.csv as it stands
-  std::vector<std::string> missing;              ///< sentences on what is missing and what is lost by it
+  std::map<std::string, std::string> parameters; ///< all of parameters.csv, as text
+  std::vector<std::string> missing; ///< sentences: what is missing, and what the report lacks because of it
 
-  std::string case_name;     ///< "I" to "IV", or what parameters.csv says; empty if it says nothing
+  std::string case_name;     ///< "I" to "IV", or another name from parameters.csv; empty if it has none
   ChainParameters chain;     ///< of a chain, or of the contacts, roller and excitation of a bed
   double impact_speed = 0.0; ///< of a chain that starts by falling onto the soil, m/s; 0: from equilibrium
   ImpactParameters impact;   ///< of an impact
-  bool direct = false;       ///< written by the direct solver rather than by an engine
-  bool at_case = false;      ///< the parameters are those of the named case
-  std::string not_at_case;   ///< which parameter is not, if so
+  bool direct = false;       ///< whether the direct solver made it rather than an engine
+  bool at_case = false;      ///< whether the parameters are those of the named case
+  std::string not_at_case;   ///< if not: which parameter differs
 
   ChainHistory history;
   std::vector<ContactEvent> events;
@@ -44,31 +44,32 @@ struct Run {
 
   int complete = 0;          ///< complete excitation cycles in chain.csv or bed.csv
   int samples_per_cycle = 0; ///< rows of it per cycle
-  int steps_per_cycle = 0;   ///< 0 if not told
-  double timestep = 0.0;     ///< s; 0 if not told
+  int steps_per_cycle = 0;   ///< 0 if not recorded
+  double timestep = 0.0;     ///< s; 0 if not recorded
 
   /// A parameter's text, or `fallback`.
   std::string text(const std::string &parameter, const std::string &fallback = "not recorded") const;
   Transition transition() const { return kind == RunKind::impact ? impact.transition : chain.transition; }
 };
 
-/// What a report is about.
+/// The folders that a report is made from.
 struct ReportFolders {
   std::vector<std::filesystem::path> runs;    ///< hold chain.csv or bed.csv
   std::vector<std::filesystem::path> studies; ///< hold study.txt and index.html
 };
 
-/// Run and study folders among `arguments`: each is one itself or the parent of some at any depth below. What is within a
-/// study belongs to it. Sorted below a parent, each folder once. Throws UsageError naming the folder that is none.
+/// Run and study folders: each argument is such a folder, or has some below it at any depth. Runs within a
+/// study folder belong to the study and are left out. Sorted below each argument, each folder once. Throws
+/// UsageError naming an argument without any.
 ReportFolders find_report_folders(const std::vector<std::filesystem::path> &arguments);
 
-/// Reads a run folder. Throws std::runtime_error with file and line for a file that cannot be understood.
+/// Reads a run folder. Throws std::runtime_error with file and line for a file that cannot be read.
 Run read_run(const std::filesystem::path &folder);
 
-/// Gives every run the shortest tail of its path that no other run shares.
+/// Names every run by the end of its path; all names have the fewest path parts that make them distinct.
 void name_runs(std::vector<Run> &runs);
 
-/// Fewest cycles that the reference values may be measured from.
+/// Smallest number of cycles of a run that is compared with the reference values.
 constexpr int long_run_cycles = 100;
 
 } // namespace drumlin::post

@@ -16,6 +16,8 @@ Parsed parse(const std::string &text) {
     Parsed &page = *static_cast<Parsed *>(data);
     const std::string element = name;
     if (element == "script") ++page.scripts;
+    if (element == "svg") ++page.drawings;
+    if (element == "nav") page.in_nav = true;
     for (; *attributes != nullptr; attributes += 2) {
       const std::string attribute = attributes[0];
       const std::string value = attributes[1];
@@ -23,10 +25,13 @@ Parsed parse(const std::string &text) {
       if (element == "img" && attribute == "src")
         page.images.push_back(value);
       else if (element == "a" && attribute == "href")
-        page.links.push_back(value);
+        (page.in_nav ? page.contents : page.links).push_back(value);
       else if (attribute == "src" || attribute == "srcset" || attribute == "href" || attribute == "data")
         page.resources.push_back(value);
     }
+  });
+  XML_SetEndElementHandler(parser, [](void *data, const XML_Char *name) {
+    if (std::string(name) == "nav") static_cast<Parsed *>(data)->in_nav = false;
   });
   out.well_formed = XML_Parse(parser, text.data(), static_cast<int>(text.size()), XML_TRUE) == XML_STATUS_OK;
   if (!out.well_formed)
@@ -53,7 +58,9 @@ Parsed expect_sound_page(const std::filesystem::path &out, std::size_t images, c
   EXPECT_EQ(page.scripts, 0u);
   EXPECT_TRUE(page.resources.empty());
   EXPECT_GE(page.images.size(), images);
-  for (const std::vector<std::string> *links : {&page.images, &page.links})
+  EXPECT_EQ(page.drawings, 1u) << "the scene";
+  EXPECT_GT(page.contents.size(), 1u);
+  for (const std::vector<std::string> *links : {&page.images, &page.links, &page.contents})
     for (const std::string &link : *links)
       EXPECT_TRUE(link.front() == '#' ? page.ids.count(link.substr(1)) != 0
                                       : std::filesystem::is_regular_file(out / file_of(link)))

@@ -19,6 +19,9 @@ struct Parsed {
   std::set<std::string> ids;
   std::size_t doubled_ids = 0;
   std::size_t scripts = 0;
+  std::vector<std::string> contents; ///< links within nav
+  std::size_t drawings = 0;          ///< svg elements
+  bool in_nav = false;
 };
 
 Parsed parse(const std::string &text);
@@ -26,7 +29,8 @@ Parsed parse(const std::string &text);
 /// The file that a link of a page leads to: %XX decoded, a place within the file left out.
 std::string file_of(const std::string &link);
 
-/// Expects a page in `out` to be strict XML with at least so many images, and a file or a place behind every link and image.
+/// Expects a page in `out` to be strict XML with at least so many images, and a file or a place behind every
+/// link and image.
 Parsed expect_sound_page(const std::filesystem::path &out, std::size_t images,
                          const std::string &file = "index.html");
 

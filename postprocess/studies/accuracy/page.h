@@ -5,8 +5,8 @@
 
 namespace drumlin::post {
 
-/// Writes orders.csv, the figures and index.html from chain.csv, impacts.csv and scaling.csv in the study's folder, as far as
-/// they are there.
+/// Writes orders.csv, the figures and index.html from chain.csv, impacts.csv and scaling.csv in the study's
+/// folder, as far as they are there.
 void write_accuracy_page(const std::filesystem::path &out);
 
 } // namespace drumlin::post

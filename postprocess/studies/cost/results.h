@@ -50,8 +50,8 @@ struct Comparison {
   const char *piece;
   const char *variant;
   const char *base;
-  double most;                 ///< largest ratio that was promised; 0: none was
-  const char *where = nullptr; ///< scene that the promise is about; nullptr: all
+  double most;                 ///< acceptance criterion: largest ratio; 0: there is none
+  const char *where = nullptr; ///< scene that the criterion is about; nullptr: all
 };
 
 /// The median over the rounds of the ratio within a round: neighbours in time share the machine's mood.
@@ -60,11 +60,11 @@ struct PieceCost {
   Comparison comparison;
   Spread ratio;
   double extra_us_per_step; ///< median of the difference within a round
-  /// Largest ratio that was promised here; 0: none was.
-  double promised() const {
+  /// The acceptance criterion of this scene: the largest ratio allowed; 0: there is none.
+  double allowed() const {
     return comparison.where == nullptr || comparison.where == scene ? comparison.most : 0.0;
   }
-  bool holds() const { return promised() == 0.0 || ratio.median <= promised(); }
+  bool holds() const { return allowed() == 0.0 || ratio.median <= allowed(); }
 };
 /// The comparisons that the scenes allow, scene by scene. Rounds that lack one of the two do not count.
 std::vector<PieceCost> piece_costs(const std::vector<CostRun> &runs,

@@ -15,7 +15,7 @@ namespace drumlin::post {
 
 namespace {
 
-/// A change within it, scatter included, is said not to matter.
+/// A change whose whole confidence interval is within it counts as negligible.
 constexpr double tolerance = 0.1;
 
 std::string percent(const MeanError &change) {
@@ -27,11 +27,11 @@ std::string without_unit(BedQuantity quantity) {
   return name.substr(0, name.find(" ("));
 }
 
-/// What a bed's answer to each question needs, from what is known of each comparison.
-ReportTable conclusion_table(const std::vector<Effect> &effects) {
-  ReportTable table;
+/// For each quantity: the ingredients that change it, those that do not, and those that are not decided.
+PageTable conclusion_table(const std::vector<Effect> &effects) {
+  PageTable table;
   table.name = "needs";
-  table.title = "What a scene needs for which question";
+  table.title = "Which ingredients a question needs";
   table.text_columns = 4;
   table.header = {"question", "it changes with", "free to choose: changes it by less than 10 %",
                   "not decided by these seeds"};
@@ -49,16 +49,17 @@ ReportTable conclusion_table(const std::vector<Effect> &effects) {
     table.add(std::move(row));
   }
   table.notes = {
-      "In brackets: the mean change, and the processor time over that of what it is compared with.",
-      "A change belongs to the first column if zero lies outside of its 95 % interval, to the second if "
-      "the whole interval lies within 10 %, else to the third."};
+      "In brackets: the mean change, and the processor time over that of the model it is compared with.",
+      "A change is in the first column if its 95 % confidence interval does not contain zero, in the second "
+      "if the whole "
+      "interval is within 10 %, else in the third."};
   return table;
 }
 
-ReportTable effect_table(const std::vector<Effect> &effects) {
-  ReportTable table;
+PageTable effect_table(const std::vector<Effect> &effects) {
+  PageTable table;
   table.name = "effects";
-  table.title = "What an ingredient changes";
+  table.title = "Change by each ingredient";
   table.text_columns = 3;
   table.header = {"row", "ingredient", "matters for", "seeds"};
   for (const BedQuantity quantity : bed_quantities)
@@ -69,7 +70,7 @@ ReportTable effect_table(const std::vector<Effect> &effects) {
     for (std::size_t q = 0; q < bed_quantities.size(); ++q)
       if (effect.change[q].beyond_scatter()) matters.push_back(without_unit(bed_quantities[q]));
     std::vector<std::string> row = {std::to_string(table.rows.size() + 1), effect.compared.what,
-                                    matters.empty() ? "nothing beyond the scatter"
+                                    matters.empty() ? "nothing significant"
                                                     : fmt::format("{}", fmt::join(matters, ", ")),
                                     std::to_string(effect.seeds)};
     for (const MeanError &change : effect.change)
@@ -78,15 +79,31 @@ ReportTable effect_table(const std::vector<Effect> &effects) {
     table.add(std::move(row));
   }
   table.notes = {
-      "Change seed by seed: mean and half of its 95 % interval (Student's t), in percent of the mean of what "
-      "it is compared with. A bed is chaotic: what the interval does not exclude is not claimed, and of "
-      "twenty claims scatter alone makes one.",
+      "Change seed by seed: mean and half of its 95 % confidence interval (Student's t), in percent of the "
+      "mean of the model it "
+      "is compared with. If the interval contains zero, the change is not significant. The motion of a bed "
+      "is chaotic: of "
+      "twenty comparisons without any effect one is significant by chance.",
       "Acceleration and force: largest values of a cycle; all means over the second half of the run."};
   return table;
 }
 
-ReportTable run_table(const std::vector<FidelityRun> &runs) {
-  ReportTable table;
+/// Which ingredients change a quantity significantly.
+std::string effects_words(const std::vector<Effect> &effects) {
+  std::vector<std::string> names;
+  for (const Effect &effect : effects)
+    if (std::any_of(effect.change.begin(), effect.change.end(),
+                    [](const MeanError &change) { return change.beyond_scatter(); }))
+      names.push_back(effect.compared.what);
+  if (effects.empty()) return "There is no comparison yet.";
+  return fmt::format(
+      "{} of {} ingredients change at least one quantity significantly (95 % confidence interval without "
+      "zero){}{}.",
+      names.size(), effects.size(), names.empty() ? "" : ": ", fmt::join(names, ", "));
+}
+
+PageTable run_table(const std::vector<FidelityRun> &runs) {
+  PageTable table;
   table.name = "means";
   table.title = "Means over the seeds";
   table.header = {"variant", "seeds"};
@@ -113,17 +130,18 @@ ReportTable run_table(const std::vector<FidelityRun> &runs) {
     row.push_back(fmt::format("{:.3g}", mean_error(cpu).mean));
     table.add(std::move(row));
   }
-  table.notes = {"Behind the ±: half of the 95 % interval of the mean."};
+  table.notes = {"After the ±: half of the 95 % confidence interval of the mean."};
   return table;
 }
 
-PlannedFigure effect_figure(const std::vector<Effect> &effects) {
+PageFigure effect_figure(const std::vector<Effect> &effects) {
   const std::string name = "changes";
-  PlannedFigure figure;
+  PageFigure figure;
   figure.label = "Fig. 1";
-  figure.caption = "Change, mean over the seeds and its 95 % interval: bars that "
-                   "cross zero say nothing.";
-  figure.figure = {name, "What an ingredient changes", {}, 2, 900, 520};
+  figure.weight = 1.0;
+  figure.caption = "Change: mean over the seeds and its 95 % confidence interval. A bar that crosses zero is "
+                   "not significant.";
+  figure.figure = {name, "Change by each ingredient", {}, 2};
   CurveTable table("ingredient,change (%),low (%),high (%)");
   for (std::size_t q = 0; q < bed_quantities.size(); ++q) {
     const std::string title = without_unit(bed_quantities[q]);
@@ -144,7 +162,7 @@ PlannedFigure effect_figure(const std::vector<Effect> &effects) {
       lowest = std::min(lowest, change.mean - change.half_width);
       highest = std::max(highest, change.mean + change.half_width);
     }
-    // Each panel its own: gnuplot would take the range of all rows for each.
+    // A range for each panel: by default gnuplot takes that of all rows of the file.
     panel.y_range = fmt::format("[{:.4g}:{:.4g}]", 110.0 * lowest - 1.0, 110.0 * highest + 1.0);
     figure.figure.panels.push_back(panel);
   }
@@ -156,12 +174,15 @@ PlannedFigure effect_figure(const std::vector<Effect> &effects) {
 
 void write_fidelity_page(const std::filesystem::path &out, const std::vector<FidelityRun> &runs,
                          const std::vector<Effect> &effects, const std::vector<std::string> &failures) {
-  StudyPage page(out, "What a bed needs");
-  page.paragraph("Each ingredient of a bed is put in, left out or set otherwise, on beds of the same seeds, "
-                 "and compared with the finest of its kind. The base: 2500 discs, drum a ball, condition B, "
-                 "friction 0.5, second-order stepping, 2500 steps per cycle, 20 Hz, ten cycles.");
+  Page page(out, "What a bed needs", Scene::bed);
+  page.answer("Each ingredient of a bed is added, left out or changed, on beds of the same seeds, and "
+              "compared with the finest "
+              "model of its kind. The base: 2500 discs, drum a ball, condition B, friction 0.5, second-order "
+              "scheme, 2500 "
+              "steps per cycle, 20 Hz, ten cycles.");
+  page.answer(effects_words(effects));
   for (const std::string &failure : failures)
-    page.paragraph("Missing: " + failure);
+    page.answer("Missing: " + failure);
   page.section("Conclusions");
   page.table(conclusion_table(effects));
   page.section("Effects");

@@ -28,8 +28,8 @@ std::string quartiles(const Spread &spread) {
   return fmt::format("{:.3g} [{:.3g}, {:.3g}]", spread.median, spread.lower, spread.upper);
 }
 
-ReportTable speed_table(const std::vector<Throughput> &all) {
-  ReportTable table;
+PageTable speed_table(const std::vector<Throughput> &all) {
+  PageTable table;
   table.name = "speed";
   table.title = "Million steps of balls per second";
   table.text_columns = 2;
@@ -46,49 +46,51 @@ ReportTable speed_table(const std::vector<Throughput> &all) {
                quartiles(one.million_per_second), quartiles(one.over_engine),
                one.ranks == 1 ? "-" : quartiles(one.efficiency),
                fmt::format("{:.1f}", 1e-6 * one.peak_bytes)});
-  table.notes = {"Medians over the rounds; ratios within a round and an engine. The law of the engine is "
-                 "hooke/stiffness "
-                 "with limitForce on, in LAMMPS gran/hooke/history with limit_damping; all have friction. "
-                 "The decks of beds have stepping stock by default. "
-                 "The last bed is "
-                 "copies of the second one."};
+  table.notes = {"Medians over the rounds; ratios are within a round and an engine. The law of the engine is "
+                 "hooke/stiffness with "
+                 "limitForce on, in LAMMPS gran/hooke/history with limit_damping; all have friction. Stock "
+                 "(velocity Verlet) is "
+                 "the default of the decks of beds, second the second-order scheme. The last bed is made of "
+                 "copies of the "
+                 "second one."};
   return table;
 }
 
-std::vector<Promise> promises(const std::vector<Throughput> &all, const SpeedScenes &scenes,
+std::vector<Acceptance> judge(const std::vector<Throughput> &all, const SpeedScenes &scenes,
                               const EngineLaws &laws) {
-  // What the scatter of a ratio leaves to be told, where nothing is to be added.
+  // Allowed ratio where no cost is to be added: the scatter of the ratios is about 2 %.
   constexpr double nothing = 1.02, least_efficiency = 0.85;
-  std::vector<Promise> kept;
+  std::vector<Acceptance> criteria;
   for (const std::string &scene : {scenes.plane, scenes.cell, scenes.copies}) {
     const Spread ratio = find(all, scene, laws.stock, 1).over_engine; // the default of the beds' decks
-    kept.push_back(
+    criteria.push_back(
         {fmt::format("{}: {} takes at most {:.2f} of the engine's law", scene, laws.stock, nothing),
          quartiles(ratio), ratio.median <= nothing});
   }
   for (const char *law : laws.all()) {
     const Spread efficiency = find(all, scenes.cell, law, 2).efficiency;
-    kept.push_back(
+    criteria.push_back(
         {fmt::format("{}, {}: efficiency on 2 ranks at least {:.2f}", scenes.cell, law, least_efficiency),
          quartiles(efficiency), efficiency.median >= least_efficiency});
   }
-  return kept;
+  return criteria;
 }
 
-/// On paper: what the figures above say of 1e8 balls.
-ReportTable projection_table(const std::vector<Throughput> &all, const SpeedScenes &scenes) {
+/// Estimate for 1e8 balls from the measured values.
+PageTable projection_table(const std::vector<Throughput> &all, const SpeedScenes &scenes) {
   constexpr double balls = 1e8, rows = 20.0, cycles = 10.0, steps_per_cycle = 4000.0;
   constexpr double ghost_rows =
       2.4; // of balls beyond each border: largest diameter and skin, over the mean diameter
-  ReportTable table;
+  PageTable table;
   table.name = "projection";
-  table.title = "On paper: 1e8 balls, 20 balls high";
+  table.title = "Estimate for 1e8 balls in a bed of 20 layers";
   table.header = {"balls per rank", "ranks",          "memory per rank (GB)",    "ghosts per ball (-)",
                   "step (ms)",      "ten cycles (h)", "efficiency of a rank (-)"};
   const double bytes = bytes_per_ball(all, "stock", scenes.cell, scenes.copies);
   const Throughput alone = find(all, scenes.copies, "stock", 1);
   const Throughput shared = find(all, scenes.copies, "stock", 2);
-  // A rank has what the ranks of its node leave it of the memory's bandwidth, and computes its ghosts' contacts once more.
+  // Ranks of a node share its memory bandwidth, and each rank computes the contacts of its ghosts in
+  // addition.
   const double speed = 1e6 * alone.million_per_second.median * std::min(1.0, shared.efficiency.median);
   for (const double share : {1e4, 3e4, 1e5, 3e5, 1e6}) {
     const double side = std::sqrt(share / rows);
@@ -100,23 +102,25 @@ ReportTable projection_table(const std::vector<Throughput> &all, const SpeedScen
                fmt::format("{:.2g}", cycles * steps_per_cycle * step / 3600.0),
                fmt::format("{:.2f}", 1.0 / (1.0 + 0.5 * ghosts))});
   }
-  table.notes = {fmt::format(
-      "{:.0f} bytes a ball and {:.3g} million steps of balls per second and rank, as measured above with "
-      "stock stepping; ten cycles of 4000 steps. A contact across a border is computed on both sides: "
-      "half of the ghosts' work comes on top. Messages are not in the figures.",
-      bytes, 1e-6 * speed)};
+  table.notes = {fmt::format("{:.0f} bytes per ball and {:.3g} million steps of balls per second and rank, "
+                             "as measured above with stock stepping; ten "
+                             "cycles of 4000 steps. A contact across a border is computed on both sides, so "
+                             "half of the ghosts' work is added. "
+                             "Messages are not included.",
+                             bytes, 1e-6 * speed)};
   return table;
 }
 
-PlannedFigure speed_figure(const std::vector<Throughput> &all, const SpeedScenes &scenes,
-                           const std::vector<EngineLaws> &engines) {
+PageFigure speed_figure(const std::vector<Throughput> &all, const SpeedScenes &scenes,
+                        const std::vector<EngineLaws> &engines) {
   const std::string name = "throughput";
-  PlannedFigure figure;
+  PageFigure figure;
   figure.label = "Fig. 1";
-  figure.caption =
-      "Steps of balls per second: median over the rounds and quartiles; from left to right the engine's "
-      "law, stock and second on one rank, then on two; then those of LAMMPS.";
-  figure.figure = {name, "Steps of balls per second", {}, 3, 420, 460};
+  figure.weight = 1.0;
+  figure.caption = "Steps of balls per second: median over the rounds and quartiles. From left to right: the "
+                   "engine's law, stock "
+                   "and second on one rank, then the same on two; then those of LAMMPS.";
+  figure.figure = {name, "Steps of balls per second", {}, 3};
   CurveTable table("place,million per s,lower quartile,upper quartile");
   for (const std::string &scene : {scenes.plane, scenes.cell, scenes.copies}) {
     Panel panel;
@@ -144,7 +148,7 @@ PlannedFigure speed_figure(const std::vector<Throughput> &all, const SpeedScenes
 void write_speed_page(const std::filesystem::path &out, const SpeedScenes &scenes) {
   std::vector<Throughput> all;
   std::vector<EngineLaws> engines; // that ran
-  std::vector<Promise> kept;
+  std::vector<Acceptance> criteria;
   for (const EngineLaws &laws : engine_laws) {
     std::vector<SpeedRun> runs = read_speed_runs(out / "runs.csv");
     const auto of_another = [names = laws.all()](const SpeedRun &run) {
@@ -155,43 +159,46 @@ void write_speed_page(const std::filesystem::path &out, const SpeedScenes &scene
     engines.push_back(laws);
     const std::vector<Throughput> of_engine = throughputs(runs, laws.own);
     all.insert(all.end(), of_engine.begin(), of_engine.end());
-    const std::vector<Promise> promised = promises(of_engine, scenes, laws);
-    kept.insert(kept.end(), promised.begin(), promised.end());
+    const std::vector<Acceptance> of_laws = judge(of_engine, scenes, laws);
+    criteria.insert(criteria.end(), of_laws.begin(), of_laws.end());
   }
-  StudyPage page(out, "Speed");
-  page.paragraph("A step of a settled bed, from 2500 balls in the plane to a quarter of a million in three "
-                 "dimensions, by the "
-                 "engine's own law and by the plugin's, on one rank and on two, in LIGGGHTS and, if it is "
-                 "set up, in LAMMPS. Runs of one round are "
-                 "interleaved. Times by "
-                 "the engine's own clock, without starting and reading.");
-  page.section("Promises");
-  page.table(promise_table(kept));
+  Page page(out, "Speed", Scene::bed);
+  page.answer(
+      "Time of a step of settled beds, from 2500 balls in two dimensions to a quarter of a million in three, "
+      "by the "
+      "engine's own law and by the plugin's, on one rank and on two, in LIGGGHTS and, if it is set up, in "
+      "LAMMPS. The runs of a round alternate. Times by the engine's own clock, without starting and "
+      "reading.");
+  page.answer(criteria);
+  page.section("Acceptance criteria");
+  page.table(acceptance_table(criteria));
   page.section("Throughput");
   page.table(speed_table(all));
   page.figure(speed_figure(all, scenes, engines));
-  page.section("Towards 1e8 balls");
+  page.section("Estimate for 1e8 balls");
   page.table(projection_table(all, scenes));
-  page.paragraph("Decomposition: a bed is wide and flat, so ranks share it along x and z, never along y: "
-                 "processors * 1 *, "
-                 "which the decks have. Each rank then has the same columns of soil from floor to surface, "
-                 "and no balancing is "
-                 "needed. The roller lies on few ranks: as a clump its balls are soil-sized and add a few "
-                 "per cent there; as "
-                 "one ball much larger than the soil it would widen every rank's ghosts to its own size.");
-  page.paragraph("What limits it: (1) ghosts, from some ten thousand balls per rank on: the column of the "
-                 "table that falls. (2) "
-                 "Messages: each step forwards positions and velocities of the ghosts, second-order stepping "
-                 "those of coupled "
-                 "balls once more, and every record reduces some forty numbers over all ranks: give "
-                 "samples_per_cycle and "
-                 "dumps sparingly. (3) The memory's bandwidth of a node, of which the efficiency on two "
-                 "ranks tells a first "
-                 "part. (4) Files: the engine gathers a restart file on one rank. (5) The copies: in.tile "
-                 "runs on one rank and "
-                 "must hold the whole bed there, as the engine gives IDs twice on more; a bed larger than "
-                 "one node's memory has to be settled "
-                 "from ./drumlin bed, or read in pieces. (6) Whole numbers: an ID has 31 bits, 2.1e9 balls.");
+  page.paragraph("Decomposition: a bed is wide and flat, so ranks share it along x and z, never along y "
+                 "(processors * 1 * in "
+                 "the decks). Each rank then has columns of soil of the same height, from floor to surface, "
+                 "and needs no "
+                 "balancing. The roller is on few ranks. As a clump its balls are as small as soil balls and "
+                 "add a few per "
+                 "cent of work there; as one ball much larger than the soil it would widen the ghost layer "
+                 "of every rank "
+                 "to its own size.");
+  page.paragraph(
+      "Limits: (1) ghosts, from about ten thousand balls per rank on: the column of the table that "
+      "decreases. (2) "
+      "Messages: each step sends positions and velocities of the ghosts, the second-order scheme those of "
+      "coupled balls once more, and every record sums about forty numbers over all ranks: choose "
+      "samples_per_cycle and dumps no larger than needed. (3) The memory bandwidth of a node, of which the "
+      "efficiency on two ranks shows the beginning. (4) Files: the engine gathers a restart file on one "
+      "rank. "
+      "(5) Copies: in.tile runs on one rank and must hold the whole bed there, since on more ranks the "
+      "engine "
+      "gives IDs twice; a bed larger than the memory of one node has to be made by ./drumlin bed and "
+      "settled, "
+      "or read in parts. (6) Integers: an ID has 31 bits, 2.1e9 balls.");
   page.write();
 }
 

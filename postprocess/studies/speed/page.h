@@ -7,8 +7,8 @@
 
 namespace drumlin::post {
 
-/// How runs.csv names the engine's own law.
-/// Laws that are compared in one engine: its own, and the plugin's by its stepping.
+/// Laws that are compared in one engine, as runs.csv names them: the engine's own, and the plugin's with
+/// stock and with second stepping.
 struct EngineLaws {
   const char *own, *stock, *second;
   std::array<const char *, 3> all() const { return {own, stock, second}; }
@@ -16,7 +16,7 @@ struct EngineLaws {
 constexpr std::array<EngineLaws, 2> engine_laws = {
     {{"engine law", "stock", "second"}, {"LAMMPS's law", "LAMMPS stock", "LAMMPS second"}}};
 
-/// The scenes that the page speaks of, as runs.csv names them.
+/// The beds of the study, as runs.csv names them.
 struct SpeedScenes {
   std::string plane, cell, copies;
 };

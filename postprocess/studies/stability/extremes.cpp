@@ -126,8 +126,8 @@ Extreme rest_row(const std::string &name, ChainPlan plan, double steps) {
   return row;
 }
 
-/// A drum kept in contact by an excitation that is slow beside the contact, at the longest step that is promised to be stable. The
-/// bond is to the contact what it is in case II: the promise is about the contact, and a stiffer bond has a limit of its own.
+/// A drum kept in contact by an excitation that is slow beside the contact, at the longest step that the acceptance criterion names as stable. The
+/// bond is to the contact what it is in case II: the criterion is about the contact, and a stiffer bond has a limit of its own.
 Extreme edge_row(const std::string &name, ChainPlan plan, int cycles) {
   ChainParameters &p = plan.parameters;
   const double softer = p.k / ChainParameters().k;

@@ -152,7 +152,7 @@ std::vector<MapPoint> measure_stability_map(const StudyOptions &options) {
   return map;
 }
 
-std::vector<Promise> judge_stability_map(const std::vector<MapPoint> &map) {
+std::vector<Acceptance> judge_stability_map(const std::vector<MapPoint> &map) {
   const MapPoint *worst = nullptr;      // stock, farthest from theory
   const MapPoint *lowest_one = nullptr; // second
   const MapPoint *two_at_2 = nullptr;

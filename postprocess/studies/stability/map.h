@@ -31,6 +31,6 @@ struct MapPoint {
 
 /// Measures what options.out/map.csv does not have yet.
 std::vector<MapPoint> measure_stability_map(const StudyOptions &options);
-std::vector<Promise> judge_stability_map(const std::vector<MapPoint> &map);
+std::vector<Acceptance> judge_stability_map(const std::vector<MapPoint> &map);
 
 } // namespace drumlin::post

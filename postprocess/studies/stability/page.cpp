@@ -16,18 +16,19 @@ namespace drumlin::post {
 namespace {
 
 constexpr std::array<const char *, 2> steppings = {"second", "stock"};
-constexpr double no_damping = 1e-3; // where D = 0 is drawn on the logarithmic axis
+constexpr double no_damping = 1e-3; // D = 0 is drawn here on the logarithmic axis
 
-PlannedFigure map_figure(const std::vector<MapPoint> &map) {
+PageFigure map_figure(const std::vector<MapPoint> &map) {
   const std::string name = "stability_map";
-  PlannedFigure figure;
+  PageFigure figure;
   figure.label = "Fig. 1";
-  figure.caption = fmt::format("The longest stable step over the damping ratio of one contact: a ball is "
-                               "stable below the points. The line is "
-                               "theory for stock stepping, the dash-dotted one the limit of the springs "
-                               "alone. D = 0 is drawn at {:g}.",
-                               no_damping);
-  figure.figure = {name, "Longest stable step over damping", {}, 2, 640, 470};
+  figure.weight = 1.0;
+  figure.caption =
+      fmt::format("The longest stable step over the damping ratio of one contact: a step is stable below "
+                  "the points. Solid line: theory for stock stepping; dash-dotted line: limit of the "
+                  "undamped springs. D = 0 is drawn at {:g}.",
+                  no_damping);
+  figure.figure = {name, "Longest stable step over damping", {}, 2};
   CurveTable table("D drawn at (-),measured w0 dt (-),theory w0 dt (-)");
   for (const HeldScene &scene : held_scenes()) {
     Panel panel;
@@ -37,7 +38,6 @@ PlannedFigure map_figure(const std::vector<MapPoint> &map) {
     panel.log_x = panel.log_y = true;
     panel.x_range = "[5e-4:2e4]";
     panel.y_range = "[1e-5:4]";
-    panel.legend_rows = 2;
     for (const std::string stepping : steppings) {
       const std::string curve_name = fmt::format("{} {}", scene.name, stepping);
       bool any = false;
@@ -61,10 +61,10 @@ PlannedFigure map_figure(const std::vector<MapPoint> &map) {
   return figure;
 }
 
-ReportTable boundary_table(const std::vector<MapPoint> &map) {
-  ReportTable table;
+PageTable boundary_table(const std::vector<MapPoint> &map) {
+  PageTable table;
   table.name = "boundaries";
-  table.title = "Where the step becomes unstable";
+  table.title = "Limits of stability";
   table.text_columns = 2;
   table.header = {
       "scene",         "stepping", "lowest stable w0 dt (-)", "at D (-)", "farthest from theory (%)",
@@ -84,18 +84,20 @@ ReportTable boundary_table(const std::vector<MapPoint> &map) {
                    fmt::format("{:.3g}", farthest->D)});
     }
   table.notes = {
-      "w0 = sqrt(k/m) and D are of one contact of the ball. Theory is the boundary of the scene for stock "
-      "stepping, "
-      "and the limit of its springs, 2/sqrt(contacts on a line), for second. Every point: map.csv."};
+      "w0 = sqrt(k/m) and D are those of one contact of the ball. Theory: for stock stepping the limit of "
+      "the "
+      "scene with its dampers, for second the limit of its springs, 2/sqrt(contacts on a line). All points "
+      "are in map.csv."};
   return table;
 }
 
-ReportTable extremes_table(const std::string &group, const std::vector<ExtremeVerdict> &verdicts,
-                           std::size_t number) {
-  ReportTable table;
+PageTable extremes_table(const std::string &group, const std::vector<ExtremeVerdict> &verdicts,
+                         std::size_t number) {
+  PageTable table;
   table.name = fmt::format("extremes_{}", number);
   table.title = group;
   table.text_columns = 1;
+  table.verdict = "agrees";
   table.header = {"run", "error (-)", "allowed", "agrees", "remark", "command"};
   for (const ExtremeVerdict &verdict : verdicts) {
     if (verdict.row.group != group) continue;
@@ -114,22 +116,25 @@ ReportTable extremes_table(const std::string &group, const std::vector<ExtremeVe
 
 void write_stability_page(const std::filesystem::path &out, const std::vector<MapPoint> &map,
                           const std::vector<ExtremeVerdict> &extremes) {
-  StudyPage page(out, "Stability and extremes");
-  page.paragraph(
-      "How long a step may be before the motion grows without bound, found by running the engine on balls of "
-      "graded mass held between walls; and runs at the edges of what can be asked, each against an oracle. "
-      "Second "
-      "is the plugin's second-order stepping, stock the engine's velocity Verlet with the plugin's contact "
-      "law.");
-  page.section("The longest stable step");
-  page.table(promise_table(judge_stability_map(map)));
-  page.figure(map_figure(map));
-  page.table(boundary_table(map));
-  page.section("Extremes");
+  Page page(out, "Stability and extremes", Scene::held);
+  page.answer(
+      "The longest time step at which the motion stays bounded, found by runs of balls of graded mass that "
+      "are confined between walls; and runs at the limits of the permitted parameters, each compared with an "
+      "independent solution. Second is the plugin's second-order scheme, stock the engine's velocity Verlet "
+      "scheme with the plugin's contact law.");
+  const std::vector<Acceptance> criteria = judge_stability_map(map);
+  page.answer(criteria);
   const auto held =
       std::count_if(extremes.begin(), extremes.end(), [](const ExtremeVerdict &v) { return v.holds; });
-  page.paragraph(fmt::format("{} of {} runs do what is asked. Each can be repeated by its command.", held,
-                             extremes.size()));
+  page.answer(
+      fmt::format("At the limits of the parameters {} of {} runs behave as asked.", held, extremes.size()));
+  page.section("The longest stable step");
+  page.table(acceptance_table(criteria));
+  page.figure(map_figure(map));
+  page.table(boundary_table(map));
+  page.section("Runs at the limits of the parameters");
+  page.paragraph(
+      fmt::format("{} of {} runs behave as asked. The command repeats a run.", held, extremes.size()));
   std::vector<std::string> groups;
   for (const ExtremeVerdict &verdict : extremes)
     if (std::find(groups.begin(), groups.end(), verdict.row.group) == groups.end())

@@ -19,8 +19,8 @@ void run_stability_study(const StudyOptions &options) {
   fmt::print("{}\n", (options.out / "index.html").string());
 
   std::vector<std::string> failing;
-  for (const Promise &p : judge_stability_map(map))
-    if (!p.holds) failing.push_back(p.promise + ": " + p.measured);
+  for (const Acceptance &p : judge_stability_map(map))
+    if (!p.holds) failing.push_back(p.criterion + ": " + p.measured);
   for (const ExtremeVerdict &verdict : extremes)
     if (!verdict.holds) failing.push_back(verdict.row.name);
   if (!failing.empty())

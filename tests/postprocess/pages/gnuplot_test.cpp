@@ -128,10 +128,40 @@ TEST(Size, OfPanelsInRows) {
   Figure figure;
   figure.panels.resize(3);
   figure.columns = 2;
-  figure.panel_width = 100;
-  figure.panel_height = 50;
-  EXPECT_EQ(figure_width(figure), 200);
-  EXPECT_EQ(figure_height(figure), 140);
+  const int row = 430;
+  const int title = 40;
+  EXPECT_EQ(figure_height(figure), 2 * row + title);
+  // All figures are of one width.
+  const int width = figure_width(figure);
+  for (const int columns : {1, 3}) {
+    figure.columns = columns;
+    EXPECT_EQ(figure_width(figure), width);
+  }
+  EXPECT_EQ(figure_height(figure), row + title);
+  figure.panels.resize(1);
+  EXPECT_EQ(figure_height(figure), row);
+  figure.half = true;
+  EXPECT_EQ(2 * figure_width(figure), width);
+  figure.panels[0].equal_scales = true;
+  EXPECT_EQ(figure_height(figure), row);
+  figure.half = false;
+  EXPECT_GT(figure_height(figure), row);
+}
+
+// Names that one line below the axes cannot hold would be written across the axis label.
+TEST(Legend, HasTheRowsThatItsNamesNeed) {
+  Figure figure;
+  figure.name = "f";
+  Panel panel;
+  for (const char *name : {"A DEM", "B DEM", "A reference", "B reference"})
+    panel.curves.push_back({"f.csv", "1", "2", name, CurveStyle::plain});
+  figure.panels = {panel};
+  EXPECT_NE(gnuplot_script(figure).find("set key maxrows 1 "), std::string::npos);
+  figure.half = true;
+  EXPECT_NE(gnuplot_script(figure).find("set key maxrows 2 "), std::string::npos);
+  for (Curve &curve : figure.panels[0].curves)
+    curve.title.clear();
+  EXPECT_NE(gnuplot_script(figure).find("set key maxrows 1 "), std::string::npos);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "pages/page.h"
 
 #include "pages/figure_data.h"
+#include "pages/html.h"
 #include "support/files.h"
 #include "tests/support/page.h"
 
@@ -15,12 +16,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(StudyPage, IsStrictXmlWithFilesBehindItsLinks) {
+TEST(Page, IsStrictXmlWithFilesBehindItsLinks) {
   const fs::path out = fs::temp_directory_path() / fmt::format("drumlin-page-{}", ::getpid());
-  post::StudyPage page(out, "Steps & <errors>");
+  post::Page page(out, "Steps & <errors>", post::Scene::chain);
+  page.answer("Steps < errors.");
   page.paragraph("a < b & c");
   page.section("First");
-  post::ReportTable table;
+  post::PageTable table;
   table.name = "numbers";
   table.title = "Numbers";
   table.header = {"case", "error (-)"};
@@ -38,9 +40,101 @@ TEST(StudyPage, IsStrictXmlWithFilesBehindItsLinks) {
   page.figure({"", "Fig. 1", "Errors.", {"errors", "Errors", {panel}}, curves.text()});
   page.write();
 
-  EXPECT_EQ(expect_sound_page(out, 1).links.size(), 6u);
+  const Parsed parsed = expect_sound_page(out, 1);
+  EXPECT_EQ(parsed.links.size(), 6u);
+  EXPECT_EQ(parsed.contents, (std::vector<std::string>{"#answer", "#section-1", "#section-2"}));
   EXPECT_EQ(post::read_text(out / "data/numbers.csv"), "case,error (-)\nI,1e-3\n");
   fs::remove_all(out);
+}
+
+std::size_t count(const std::string &text, const std::string &part) {
+  std::size_t number = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++number;
+  return number;
+}
+
+// A reader of a black and white print sees the mark and the word, not the shade.
+TEST(Table, MarksGoodAndBadRowsInItsFirstColumn) {
+  post::PageTable table;
+  table.name = "numbers";
+  table.title = "Numbers";
+  table.criterion = "are small";
+  table.header = {"run", "error (-)"};
+  table.add({"a", "1"}, post::RowState::agrees);
+  table.add({"b", "2"}, post::RowState::differs);
+  table.add({"c", "3"});
+  const std::string html = post::table_html(table);
+  EXPECT_NE(html.find("<b>✗ 1 of 2</b> are small"), std::string::npos) << html;
+  EXPECT_NE(html.find("<tr class=\"agrees\"><td class=\"word\">✓ yes</td><td class=\"word\">a</td>"),
+            std::string::npos)
+      << html;
+  EXPECT_NE(html.find("<tr class=\"differs\"><td class=\"word\">✗ no</td><td class=\"word\">b</td>"),
+            std::string::npos)
+      << html;
+  EXPECT_NE(html.find("<tr><td class=\"word\">–</td><td class=\"word\">c</td>"), std::string::npos) << html;
+  // A column with words of its own moves to the front; the CSV file keeps its order.
+  table.header = {"run", "agrees"};
+  table.verdict = "agrees";
+  table.rows = {{"a", "to all digits"}, {"b", "no"}, {"c", "not judged"}};
+  const std::string worded = post::table_html(table);
+  EXPECT_NE(worded.find("<td class=\"word\">✓ to all digits</td><td class=\"word\">a</td>"),
+            std::string::npos);
+  EXPECT_NE(worded.find("<td class=\"word\">✗ no</td><td class=\"word\">b</td>"), std::string::npos);
+  EXPECT_NE(worded.find("<td class=\"word\">not judged</td><td class=\"word\">c</td>"), std::string::npos);
+  EXPECT_EQ(count(worded, "to all digits"), 1u);
+  EXPECT_EQ(post::table_csv(table), "run,agrees\na,to all digits\nb,no\nc,not judged\n");
+  table.states.assign(3, post::RowState::agrees);
+  EXPECT_NE(post::table_html(table).find("<p class=\"tally\"><b>✓ 3 of 3</b>"), std::string::npos);
+}
+
+TEST(Acceptance, IsSaidInTheAnswerAndMarksIt) {
+  const fs::path out = fs::temp_directory_path() / fmt::format("drumlin-answer-{}", ::getpid());
+  for (const bool holds : {true, false}) {
+    const std::vector<post::Acceptance> criteria = {{"error at most 1", "0.5", true},
+                                                    {"order at least 2", "1.5", holds}};
+    post::Page page(out, "Steps", post::Scene::bed);
+    page.answer("Many runs.");
+    page.answer(criteria);
+    page.section("Acceptance criteria");
+    page.table(post::acceptance_table(criteria));
+    page.write();
+    const std::string text = post::read_text(out / "index.html");
+    EXPECT_NE(text.find(holds ? "<p class=\"verdict good\">✓ Many runs. <strong>Acceptance.</strong> 2 of 2 "
+                                "acceptance criteria hold.</p>"
+                              : "<p class=\"verdict bad\">✗ Many runs. <strong>Acceptance.</strong> 1 of 2 "
+                                "acceptance criteria hold. Not met: order at least 2 (measured 1.5).</p>"),
+              std::string::npos)
+        << text;
+    EXPECT_EQ(
+        post::read_text(out / "data/acceptance.csv"),
+        fmt::format("acceptance criterion,measured,holds\nerror at most 1,0.5,yes\norder at least 2,1.5,{}\n",
+                    holds ? "yes" : "no"));
+  }
+  fs::remove_all(out);
+}
+
+TEST(KeyFigures, AreTheTwoOfLargestWeight) {
+  std::vector<post::PageFigure> figures(4);
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    figures[i].label = fmt::format("Fig. {}", i);
+    figures[i].figure.name = fmt::format("f{}", i);
+    figures[i].figure.title = fmt::format("Fig. {}  Title {}", i, i);
+    figures[i].figure.panels.resize(2);
+    figures[i].figure.panels[1].title = "second";
+  }
+  figures[1].weight = 1.0;
+  figures[2].weight = 3.0;
+  figures[2].key_panel = 1;
+  figures[3].weight = 2.0;
+  const std::vector<post::KeyFigure> keys = post::key_figures(figures, "bed.html");
+  ASSERT_EQ(keys.size(), 2u);
+  EXPECT_EQ(keys[0].figure.name, "f2_key");
+  EXPECT_EQ(keys[0].caption, "Title 2");
+  EXPECT_EQ(keys[0].href, "bed.html#f2");
+  ASSERT_EQ(keys[0].figure.panels.size(), 1u);
+  EXPECT_EQ(keys[0].figure.panels[0].title, "second");
+  EXPECT_EQ(keys[1].figure.name, "f3_key");
 }
 
 } // namespace

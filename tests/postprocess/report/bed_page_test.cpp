@@ -1,4 +1,5 @@
-// The report of bed runs: its numbers against those worked out by hand from small records, its pages as a reader meets them.
+// The report of bed runs: its numbers against those worked out by hand from small records, its pages as a
+// reader meets them.
 #include "report/bed_page.h"
 
 #include "chain/direct_solver.h"
@@ -128,7 +129,7 @@ TEST_F(BedReport, MarksAPartialRun) {
 }
 
 TEST_F(BedReport, PrintsTheMeasures) {
-  const std::vector<ReportTable> tables = bed_tables({result("B")});
+  const std::vector<PageTable> tables = bed_tables({result("B")});
   const std::vector<std::vector<std::string>> rows = {
       {"B", "B", "0.5", "2", "20", "6", "3 to 6", "16.00", "6.00", "-0.60", "0.7500", "30.00", "second",
        "800"},
@@ -140,6 +141,30 @@ TEST_F(BedReport, PrintsTheMeasures) {
     for (std::size_t i = 0; i < rows[t].size(); ++i)
       EXPECT_EQ(tables[t].rows[0][i], rows[t][i]) << tables[t].header[i];
   }
+}
+
+TEST_F(BedReport, OpensWithTheNumbersOfItsTables) {
+  write_dumps("A");
+  const fs::path out = report({"A", "B"});
+  // The energy error of the records is 9 % of the work, which is not good.
+  const std::string words =
+      "<p class=\"verdict bad\">✗ <strong>Bed.</strong> A roller on 2 balls (B and A): drum 2000 kg, frame "
+      "1000 "
+      "kg, exciter 58.8 kN at 20 Hz. After 6 cycles the drum has settled by 36.000 mm; the largest contact "
+      "force "
+      "on it in the steady cycles is 6.00 kN. The void ratio of the bed goes from 0.2500 to 0.2000, the "
+      "number of "
+      "contacts per ball from 3.300 to 5.000. The energy error is 9.000 % of the exciter&#39;s work.";
+  for (const char *page : {"index.html", "bed.html"})
+    EXPECT_NE(read_text(out / page).find(words), std::string::npos)
+        << page << read_text(out / page).substr(6000, 2500);
+  const std::string text = read_text(out / "bed.html");
+  const std::size_t commands = text.find("id=\"commands\"");
+  EXPECT_GT(commands, text.rfind("<figure"));
+  EXPECT_GT(commands, text.rfind("<table"));
+  EXPECT_LT(text.find("figures/bed1_peak_key.png"), text.find("<h2>"));
+  EXPECT_NE(text.find("<tr class=\"differs\"><td class=\"word\">✗ no</td><td class=\"word\">A</td>"),
+            std::string::npos);
 }
 
 TEST_F(BedReport, PairsAWithBWhereAllElseIsAlike) {
@@ -162,7 +187,8 @@ TEST_F(BedReport, IsSoundWithBedsOnly) {
   // Motion, loop, settlement, state, energies, walls, three pictures, profile.
   const test::Parsed page = test::expect_sound_page(out, 10, "bed.html");
   for (const std::string &image : page.images) {
-    const Table data = read_table(out / "data" / (fs::path(image).stem().string() + ".csv"));
+    const std::string stem = fs::path(image).stem().string();
+    const Table data = read_table(out / "data" / (stem.substr(0, stem.rfind("_key")) + ".csv"));
     EXPECT_GT(data.rows(), 1u) << image;
     for (const std::string &name : data.header())
       EXPECT_TRUE(name == "curve" || name.find(" (") != std::string::npos) << image << ": " << name;
@@ -200,8 +226,8 @@ TEST_F(BedReport, ShowsTheBedAtRestAndAtTheExtremesOfTheForce) {
   write_dumps("A");
   const std::vector<BedResult> beds = {result("A")};
   const FigurePlan plan = plan_bed_figures(group_beds(beds));
-  std::map<std::string, const PlannedFigure *> figures;
-  for (const PlannedFigure &figure : plan.figures)
+  std::map<std::string, const PageFigure *> figures;
+  for (const PageFigure &figure : plan.figures)
     figures[figure.figure.name] = &figure;
   const auto title = [&](const std::string &name) { return figures.at(name)->figure.panels.at(0).title; };
   EXPECT_EQ(title("bed1_settled"), "A: 0 s, 0.0 kN on the drum");
@@ -225,10 +251,10 @@ TEST_F(BedReport, CutsABedOfThreeDimensionsInTheMiddle) {
         test::ball_dump(test::ball_arrays(), "1 3.9 0.5 2.8 1 1.2 1 1 0"));
   const std::vector<BedResult> beds = {result("A")};
   const FigurePlan plan = plan_bed_figures(group_beds(beds));
-  std::map<std::string, const PlannedFigure *> figures;
-  for (const PlannedFigure &figure : plan.figures)
+  std::map<std::string, const PageFigure *> figures;
+  for (const PageFigure &figure : plan.figures)
     figures[figure.figure.name] = &figure;
-  const PlannedFigure &picture = *figures.at("bed1_peak");
+  const PageFigure &picture = *figures.at("bed1_peak");
   for (const char *circle : {"A soil,1,1,0.86602", "A soil,2.8,1,0.71414", "A roller,1,3.9,2,"})
     EXPECT_NE(picture.csv.find(circle), std::string::npos) << picture.csv;
   EXPECT_NE(picture.caption.find("section z = 0.5 m"), std::string::npos) << picture.caption;
@@ -244,7 +270,7 @@ TEST_F(BedReport, DrawsOneProfileBelowADrumOfManyBalls) {
     put(std::string("A/dump/balls_") + step + ".vtp", test::ball_dump(arrays));
   const std::vector<BedResult> beds = {result("A")};
   const FigurePlan plan = plan_bed_figures(group_beds(beds));
-  for (const PlannedFigure &figure : plan.figures) {
+  for (const PageFigure &figure : plan.figures) {
     if (figure.figure.name != "bed1_profile") continue;
     ASSERT_EQ(figure.figure.panels.size(), 2u);
     EXPECT_EQ(figure.figure.panels[1].curves.size(), 2u); // before and after

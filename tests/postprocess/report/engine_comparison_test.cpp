@@ -42,7 +42,7 @@ TEST(EngineTable, PairsRunsOfOneChainInTwoEngines) {
   ASSERT_EQ(pairs.size(), 2u);
   EXPECT_EQ(pairs[0], (std::pair<std::size_t, std::size_t>{3, 0}));
   EXPECT_EQ(pairs[1], (std::pair<std::size_t, std::size_t>{3, 4}));
-  const post::ReportTable table = post::engine_table(all);
+  const post::PageTable table = post::engine_table(all);
   ASSERT_EQ(table.rows.size(), 2u);
   EXPECT_EQ(table.states[0], post::RowState::agrees);
   EXPECT_TRUE(post::engine_table(results({chain("here", "LIGGGHTS 3")})).rows.empty());
@@ -52,7 +52,7 @@ TEST(EngineTable, TellsTheLargestDifferenceOverTheLargestValue) {
   const post::Run here = chain("here", "LIGGGHTS 3");
   post::Run there = chain("there", "LAMMPS 1");
   there.history.F_contact[0] += 4e-8;
-  const post::ReportTable apart = post::engine_table(results({here, there}));
+  const post::PageTable apart = post::engine_table(results({here, there}));
   ASSERT_EQ(apart.rows.size(), 1u);
   EXPECT_EQ(apart.states[0], post::RowState::differs);
   EXPECT_EQ(apart.header[12], "F_contact (-)");

@@ -120,7 +120,7 @@ TEST_F(Report, IsWellFormed) {
 }
 
 TEST_F(Report, LoadsNothingFromTheNetwork) {
-  for (const std::vector<std::string> *all : {&page.images, &page.links, &page.resources})
+  for (const std::vector<std::string> *all : {&page.images, &page.links, &page.resources, &page.contents})
     for (const std::string &address : *all) {
       EXPECT_EQ(address.find("//"), std::string::npos) << address;
       EXPECT_EQ(address.find("http"), std::string::npos) << address;
@@ -136,8 +136,9 @@ TEST_F(Report, LoadsNothingFromTheNetwork) {
 }
 
 TEST_F(Report, HasEveryPictureItShows) {
-  // Figs. 3, 4, 5, 8, restitution, two orbits, roller force. (Exact runs have no error to draw.)
-  EXPECT_EQ(page.images.size(), 8u);
+  // Figs. 5 and 8 in small; Figs. 3, 4, 5, 8, restitution, two orbits, roller force. (Exact runs have no
+  // error to draw.)
+  EXPECT_EQ(page.images.size(), 10u);
   for (const std::string &image : page.images) {
     const fs::path svg = root / "report" / image;
     ASSERT_TRUE(fs::is_regular_file(svg)) << svg;
@@ -157,13 +158,14 @@ TEST_F(Report, HasEveryPictureItShows) {
 
 TEST_F(Report, HasDataWithUnitsBesideEveryFigure) {
   for (const std::string &image : page.images) {
-    const fs::path csv = root / "report" / "data" / (fs::path(image).stem().string() + ".csv");
+    const std::string name = fs::path(image).stem().string();
+    const fs::path csv = root / "report" / "data" / (name.substr(0, name.rfind("_key")) + ".csv");
     ASSERT_TRUE(fs::is_regular_file(csv)) << csv;
     const Table table = read_table(csv); // refuses ragged rows
     EXPECT_GT(table.rows(), 1u);
-    for (const std::string &name : table.header()) {
-      const bool words = name == "curve" || name == "case";
-      EXPECT_TRUE(words || name.find(" (") != std::string::npos) << csv << ": " << name;
+    for (const std::string &column : table.header()) {
+      const bool words = column == "curve" || column == "case";
+      EXPECT_TRUE(words || column.find(" (") != std::string::npos) << csv << ": " << column;
     }
   }
 }
@@ -176,6 +178,95 @@ TEST_F(Report, HasEveryFileAndEveryPlaceThatItLinksTo) {
                            : fs::is_regular_file(root / "report" / drumlin::test::file_of(link));
     EXPECT_TRUE(found) << link;
   }
+}
+
+/// The opening paragraph of a page.
+std::string opening(const std::string &text) {
+  const std::size_t begin = text.find("<p class=\"verdict");
+  return text.substr(begin, text.find("</p>", begin) - begin);
+}
+
+/// The number in `text` that the first group of a regular expression matches.
+double number_in(const std::string &text, const std::string &expression) {
+  std::smatch parts;
+  if (std::regex_search(text, parts, std::regex(expression))) return std::stod(parts[1]);
+  ADD_FAILURE() << expression << " is not in: " << text;
+  return std::nan("");
+}
+
+TEST_F(Report, OpensWithTheAnswer) {
+  const std::string text = read(root / "report" / "index.html");
+  EXPECT_EQ(text.find("<section"), text.find("<section id=\"answer\""));
+  const std::string answer = opening(text);
+  EXPECT_EQ(answer.rfind("<p class=\"verdict good\">✓", 0), 0u) << answer;
+  EXPECT_NE(answer.find("2 runs of the chain soil – drum – frame (cases I and II) and 2 single impacts"),
+            std::string::npos)
+      << answer;
+  EXPECT_EQ(number_in(answer, "(\\d+) of 17 values agree"), 17.0);
+  const Table restitution = read_table(root / "report" / "data" / "restitution.csv");
+  for (std::size_t i = 0; i < restitution.rows(); ++i)
+    EXPECT_NEAR(number_in(answer, "([0-9.]+) under " + restitution.text("transition")[i]),
+                restitution.numbers("measured")[i], 0.51e-4);
+  for (const char *key : {"figures/fig5_case_II_key.svg", "figures/fig8_dem_and_direct_key.svg"})
+    EXPECT_LT(text.find(key), text.find("<h2>")) << key;
+}
+
+TEST_F(Report, OpensWithTheNumbersOfItsTables) {
+  for (const Transition transition : {Transition::A, Transition::B})
+    write_chain_run(root / "pair" / (transition == Transition::A ? "II-A" : "II-B"), "II", transition, 12);
+  std::string parameters = read(root / "pair" / "II-A" / "parameters.csv");
+  parameters.replace(parameters.find("D,0.5"), 5, "D,0.5000001"); // an error to tell
+  write(root / "pair" / "II-A" / "parameters.csv", parameters);
+  ReportOptions options;
+  options.folders = {root / "pair"};
+  options.out = root / "pair-report";
+  const std::string answer = opening(read(write_report(options).page));
+  EXPECT_EQ(answer.rfind("<p class=\"verdict\">", 0), 0u) << "nothing was judged: " << answer;
+  const Table checks = read_table(options.out / "data" / "checks.csv");
+  for (std::size_t i = 0; i < checks.rows(); ++i)
+    if (checks.text("quantity")[i] == "contact force, max") {
+      const std::string transition = checks.text("transition")[i];
+      EXPECT_NEAR(number_in(answer, "([0-9.]+) kN under " + transition),
+                  std::stod(checks.text("measured")[i]), 0.0051);
+    }
+  const Table errors = read_table(options.out / "data" / "error_table.csv");
+  const std::vector<double> last = errors.numbers("last 5 cycles (-)");
+  EXPECT_EQ(number_in(answer, "by at most ([0-9.e-]+)"), *std::max_element(last.begin(), last.end()));
+  EXPECT_NE(answer.find("II-A"), std::string::npos);
+}
+
+TEST_F(Report, HasAContentsListThatStaysInView) {
+  EXPECT_EQ(page.contents.front(), "#answer");
+  const std::string text = read(root / "report" / "index.html");
+  std::vector<std::string> sections;
+  const std::regex expression("<section id=\"([a-z]+)\"");
+  for (std::sregex_iterator found(text.begin(), text.end(), expression), end; found != end; ++found)
+    sections.push_back("#" + (*found)[1].str());
+  EXPECT_EQ(page.contents, sections);
+  EXPECT_NE(text.find("nav { position: sticky; top: 0;"), std::string::npos);
+  EXPECT_EQ(page.drawings, 1u) << "the scene";
+}
+
+TEST_F(Report, MarksTheRowsOfItsTables) {
+  const std::string text = read(root / "report" / "index.html");
+  const std::regex row("<tr class=\"agrees[^>]*><td class=\"word\">✓ (to all digits|in tolerance)<");
+  const auto rows =
+      std::distance(std::sregex_iterator(text.begin(), text.end(), row), std::sregex_iterator());
+  std::size_t judged = 0;
+  for (const char *table : {"checks.csv", "restitution.csv"})
+    judged += read_table(root / "report" / "data" / table).rows();
+  EXPECT_EQ(judged, 17u);
+  EXPECT_EQ(static_cast<std::size_t>(rows), judged);
+  EXPECT_EQ(text.find("✗"), std::string::npos);
+}
+
+TEST_F(Report, HasItsCommandsAtTheEnd) {
+  const std::string text = read(root / "report" / "index.html");
+  const std::size_t commands = text.find("id=\"commands\"");
+  ASSERT_NE(commands, std::string::npos);
+  EXPECT_GT(commands, text.rfind("<figure"));
+  EXPECT_GT(commands, text.rfind("<table"));
+  EXPECT_GT(text.find("id=\"versions\""), commands);
 }
 
 TEST_F(Report, TakesStudiesAlong) {

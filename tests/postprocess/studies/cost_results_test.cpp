@@ -42,13 +42,13 @@ TEST(CostResults, ScenesDoNotMixAndNeedNotHaveEveryVariant) {
   EXPECT_NEAR(pieces[0].ratio.median, 1.5, 1e-12);
 }
 
-TEST(CostResults, PromiseIsKeptUpToItsLimit) {
+TEST(CostResults, CriterionIsMetUpToItsLimit) {
   const std::vector<CostRun> runs = {run("bed", "without", 1, 1.0), run("bed", "with", 1, 1.1)};
-  EXPECT_TRUE(post::piece_costs(runs, {{"piece", "with", "without", 0.0}})[0].holds()) << "nothing promised";
+  EXPECT_TRUE(post::piece_costs(runs, {{"piece", "with", "without", 0.0}})[0].holds()) << "no criterion";
   EXPECT_TRUE(post::piece_costs(runs, {{"piece", "with", "without", 1.11}})[0].holds());
   EXPECT_FALSE(post::piece_costs(runs, {{"piece", "with", "without", 1.09, "bed"}})[0].holds());
   EXPECT_TRUE(post::piece_costs(runs, {{"piece", "with", "without", 1.09, "chain"}})[0].holds())
-      << "promised elsewhere";
+      << "criterion of another scene";
   EXPECT_FALSE(post::piece_costs(runs, {{"piece", "with", "without", 1.09}})[0].holds());
 }
 

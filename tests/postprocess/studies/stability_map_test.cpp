@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using post::MapPoint;
 
-/// A map that keeps what is promised.
+/// A map that meets every acceptance criterion.
 std::vector<MapPoint> good_map() {
   std::vector<MapPoint> map;
   for (const post::HeldScene &scene : post::held_scenes())
@@ -39,12 +39,12 @@ MapPoint &point(std::vector<MapPoint> &map, const char *scene, const char *stepp
 
 std::vector<bool> verdicts(const std::vector<MapPoint> &map) {
   std::vector<bool> holds;
-  for (const post::Promise &verdict : post::judge_stability_map(map))
+  for (const post::Acceptance &verdict : post::judge_stability_map(map))
     holds.push_back(verdict.holds);
   return holds;
 }
 
-TEST(StabilityMap, EachPromiseFailsByItsOwnPoint) {
+TEST(StabilityMap, EachCriterionFailsByItsOwnPoint) {
   EXPECT_EQ(verdicts(good_map()), (std::vector<bool>{true, true, true}));
   std::vector<MapPoint> map = good_map();
   MapPoint &stock = point(map, "four", "stock", 1e4);

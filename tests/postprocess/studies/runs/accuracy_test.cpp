@@ -55,7 +55,7 @@ TEST(AccuracyStudy, GoesOnWhereItWasInterrupted) {
   EXPECT_LT(std::count(rest.output.begin(), rest.output.end(), '\n'), 20) << "nothing is measured twice";
   EXPECT_EQ(errors_of(out), errors);
 
-  // What was measured is what the stepping promises, and the law of the engine is the plugin's with stock stepping.
+  // What was measured is within the acceptance criteria, and the law of the engine is the plugin's with stock stepping.
   for (const Transition transition : {Transition::A, Transition::B}) {
     const auto at_400 = [&](const char *stepping, auto error) {
       for (const post::ErrorPoint &point :

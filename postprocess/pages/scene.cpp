@@ -1,0 +1,153 @@
+#include "pages/scene.h"
+
+#include "pages/html.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace drumlin::post {
+
+namespace {
+
+std::string line(double x0, double y0, double x1, double y1) {
+  return fmt::format("M{:g} {:g} L{:g} {:g} ", x0, y0, x1, y1);
+}
+
+/// Upright spring of six windings from (x, top) to (x, bottom).
+std::string spring(double x, double top, double bottom) {
+  constexpr int corners = 12;
+  const double straight = 0.15 * (bottom - top);
+  std::string path = fmt::format("M{:g} {:g} V{:g} ", x, top, top + straight);
+  for (int i = 1; i < corners; ++i)
+    path += fmt::format("L{:g} {:g} ", x + (i % 2 == 0 ? -9.0 : 9.0),
+                        top + straight + (bottom - top - 2.0 * straight) * i / corners);
+  return path + fmt::format("L{:g} {:g} V{:g} ", x, bottom - straight, bottom);
+}
+
+/// Upright dashpot from (x, top) to (x, bottom).
+std::string dashpot(double x, double top, double bottom) {
+  const double middle = 0.5 * (top + bottom);
+  return line(x, top, x, middle - 2.0) + line(x - 8.0, middle - 2.0, x + 8.0, middle - 2.0) +
+         fmt::format("M{0:g} {1:g} V{2:g} H{3:g} V{1:g} ", x - 12.0, middle - 12.0, middle + 10.0, x + 12.0) +
+         line(x, middle + 10.0, x, bottom);
+}
+
+/// Ground line with hatching below it.
+std::string ground(double x0, double x1, double y) {
+  std::string path = line(x0, y, x1, y);
+  for (double x = x0 + 6.0; x <= x1; x += 12.0)
+    path += line(x, y, x - 8.0, y + 10.0);
+  return path;
+}
+
+/// Upright arrow that ends at (x, tip).
+std::string arrow(double x, double from, double tip) {
+  const double head = tip > from ? -9.0 : 9.0;
+  return line(x, from, x, tip) +
+         fmt::format("M{:g} {:g} L{:g} {:g} L{:g} {:g} ", x - 5.0, tip + head, x, tip, x + 5.0, tip + head);
+}
+
+std::string strokes(const std::string &path, double width = 1.8, const char *color = "#1a1a1a") {
+  return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{:g}\" "
+                     "stroke-linejoin=\"round\"/>\n",
+                     path, color, width);
+}
+
+std::string text(double x, double y, const std::string &words, const char *anchor = "start",
+                 const char *color = "#1a1a1a") {
+  return fmt::format("<text x=\"{:g}\" y=\"{:g}\" text-anchor=\"{}\" fill=\"{}\">{}</text>\n", x, y, anchor,
+                     color, html_escaped(words));
+}
+
+std::string disc(double x, double y, double radius, const char *fill) {
+  return fmt::format("<circle cx=\"{:g}\" cy=\"{:g}\" r=\"{:g}\" fill=\"{}\" stroke=\"#1a1a1a\" "
+                     "stroke-width=\"1.2\"/>\n",
+                     x, y, radius, fill);
+}
+
+std::string box(double x, double y, double width, double height, const char *fill) {
+  return fmt::format("<rect x=\"{:g}\" y=\"{:g}\" width=\"{:g}\" height=\"{:g}\" rx=\"4\" fill=\"{}\" "
+                     "stroke=\"#1a1a1a\" stroke-width=\"1.8\"/>\n",
+                     x, y, width, height, fill);
+}
+
+constexpr const char *steel = "#dce6f0";
+constexpr const char *sand = "#f0e4cc";
+constexpr const char *red = "#b03a00";
+
+/// Frame, suspension and drum with its exciter; the drum touches y = 215.
+std::string roller() {
+  return box(60, 12, 130, 44, steel) + text(125, 39, "frame m₃", "middle") +
+         strokes(spring(100, 56, 122) + dashpot(150, 56, 122)) + text(180, 93, "k₂₃, c₂₃ suspension") +
+         disc(125, 165, 50, steel) + text(125, 170, "drum m₂", "middle") +
+         strokes(arrow(192, 165, 135) + arrow(192, 165, 195), 2.4, red) +
+         text(203, 170, "Fw sin ωt", "start", red);
+}
+
+std::string chain_drawing() {
+  return roller() + strokes(line(85, 217, 165, 217), 3.0) +
+         strokes(spring(105, 217, 280) + dashpot(150, 217, 280) + ground(60, 195, 280)) +
+         text(180, 243, "k, D contact,") + text(180, 259, "condition A or B") +
+         text(203, 292, "soil, fixed") + strokes(arrow(285, 20, 55)) + text(293, 42, "g");
+}
+
+std::string bed_drawing() {
+  std::string s = roller();
+  constexpr double radius = 9.0;
+  const double height = radius * std::sqrt(3.0);
+  for (int row = 0; row < 5; ++row)
+    for (int column = 0; column < 13 - row % 2; ++column) {
+      const double x = 17.0 + radius + 2.0 * radius * column + (row % 2 == 0 ? 0.0 : radius);
+      s += disc(x, 225.0 + height * row, radius - 0.5 * (row * 5 + column * 3 % 4 % 3) / 5.0, sand);
+    }
+  return s + strokes(line(17, 205, 17, 297) + line(251, 205, 251, 297) + ground(17, 251, 297)) +
+         text(262, 262, "soil balls") + strokes(arrow(285, 20, 55)) + text(293, 42, "g");
+}
+
+std::string held_drawing() {
+  const auto wall = [](double x, double side) {
+    std::string path = line(x, 30, x, 130);
+    for (double y = 36; y <= 130; y += 12.0)
+      path += line(x, y, x + side * 10.0, y - 8.0);
+    return path;
+  };
+  return strokes(wall(90, -1) + wall(210, 1)) + disc(150, 80, 61.5, steel) + text(150, 78, "ball", "middle") +
+         text(150, 96, "mass m", "middle") + text(18, 160, "each contact: stiffness k, damping ratio D,") +
+         text(18, 178, "ω₀ = √(k/m); step dt");
+}
+
+} // namespace
+
+std::string scene_html(Scene scene) {
+  const char *title = "";
+  const char *caption = "";
+  std::string drawing;
+  double height = 310;
+  switch (scene) {
+  case Scene::chain:
+    title = "The chain of soil, drum and frame";
+    caption = "The model: frame and drum move up and down only. The contact with the soil is a spring and a "
+              "dashpot that act while drum and soil overlap.";
+    drawing = chain_drawing();
+    break;
+  case Scene::bed:
+    title = "Drum and frame on a bed of balls";
+    caption = "The model: frame and drum move up and down only, on soil of balls in a box. Every contact is "
+              "a spring and a dashpot.";
+    drawing = bed_drawing();
+    break;
+  case Scene::held:
+    title = "A ball confined between two walls";
+    caption = "The model of the stability map: one ball in contact with one, two or four walls.";
+    drawing = held_drawing();
+    height = 190;
+    break;
+  }
+  return fmt::format("<figure class=\"scene\">\n<svg xmlns=\"http://www.w3.org/2000/svg\" "
+                     "viewBox=\"0 0 340 {:g}\" role=\"img\" aria-label=\"{}\" font-size=\"14\">\n"
+                     "{}</svg>\n<figcaption>{}</figcaption>\n</figure>\n",
+                     height, title, drawing, html_escaped(caption));
+}
+
+} // namespace drumlin::post
