@@ -106,7 +106,7 @@ TEST(GuardStops, AtTheShareThatItIsTold) {
       run(1.001 * share * critical);
       ADD_FAILURE() << "ran beyond the limit";
     } catch (const std::runtime_error &error) {
-      EXPECT_NE(std::string(error.what()).find("critical step 0.008944 s of ball 1 at step 0"),
+      EXPECT_NE(std::string(error.what()).find("at step 0, where ball 1 has the critical step 0.008944 s"),
                 std::string::npos)
           << error.what();
     }
