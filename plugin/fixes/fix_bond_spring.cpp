@@ -32,11 +32,12 @@ FixBondSpring::FixBondSpring(LAMMPS *lammps, int narg, char **arg) : GhostFix(la
   while (!in.empty()) {
     const std::string keyword = in.word("keyword");
     if (keyword == "length") {
-      current_length_ = !in.empty() && in.peek() == "current";
-      if (current_length_)
-        in.word("length");
-      else
-        bond_.length = in.number("keyword length", Range::positive); // the error says the range of the number
+      const std::string allowed = std::string("current or ") + drumlin::allowed_text(Range::positive);
+      const std::string length = in.word("keyword length", allowed);
+      current_length_ = length == "current";
+      if (current_length_) continue;
+      bond_.length = drumlin::parse_number(length);
+      if (!drumlin::in_range(bond_.length, Range::positive)) in.fail("keyword length", length, allowed);
     } else if (keyword == "strength") {
       bond_.strength = in.number("keyword strength", Range::positive);
     } else {

@@ -58,7 +58,7 @@ void prepare(LAMMPS *engine) {
   if (Style::TANGENTIAL != TANGENTIAL_OFF) drumlin::provide_friction_default(engine, engine->atom->ntypes);
 }
 
-/// The engine's combination of models, which records each contact in the open ledgers.
+/// The engine's combination of models, which records each contact for the observers.
 template <class Style>
 class EnteredContact : public ContactModel<Style> {
   using Base = ContactModel<Style>;

@@ -128,7 +128,8 @@ protected:
     const std::string before = read_text(folder / "B1/bed.csv");
     const Outcome mixed = shaken("B1", "10");
     EXPECT_EQ(mixed.status, 1);
-    EXPECT_TRUE(mixed.says("with the file 'thesis.txt', which is no dump of a run; allowed: ")) << mixed.output;
+    EXPECT_TRUE(mixed.says("with the file 'thesis.txt', which is no dump of a run; allowed: "))
+        << mixed.output;
     EXPECT_EQ(read_text(folder / "B1/bed.csv"), before);
     EXPECT_EQ(post::dumped_steps(folder / "B1/dump").size(), 6u);
     for (const char *out : {"x$(touch pwned)", "B*", "100%", "a b"}) {
@@ -577,7 +578,8 @@ TEST_F(Bed, WantsWhatTheDecksBeforeItMake) {
 // The engine would hang on two ranks, or go on with other laws than the contacts remember.
 TEST_F(Bed, RefusesFilesThatAreCutShortOrOfAnotherSceneOnRanksOneAndTwo) {
   const std::string whole = read_text(*scratch / "ball.restart"), balls = read_text(*scratch / "balls.data");
-  const std::string cut = ", which is incomplete, damaged or no restart file; allowed: a restart file of drumlin/write_restart or drumlin/run";
+  const std::string cut = ", which is incomplete, damaged or no restart file; allowed: a restart file of "
+                          "drumlin/write_restart or drumlin/run";
   const auto refused = [](const char *deck, const Variables &variables, const std::string &says, int ranks) {
     const Scratch folder;
     const Outcome outcome = run(bed_folder() / deck, folder, variables, ranks);
@@ -739,7 +741,8 @@ TEST_F(Bed, ALostBallIsAnErrorOnRanksOneAndTwo) {
     const Scratch folder;
     const Outcome roller = shake(folder, {{"guard", "off"}, {"Fw", "1e12"}}, ranks);
     EXPECT_EQ(roller.status, 1) << roller.output;
-    EXPECT_TRUE(roller.says("ERROR: fix bond/spring: ball is '151', which was lost at step ")) << roller.output;
+    EXPECT_TRUE(roller.says("ERROR: fix bond/spring: ball is '151', which was lost at step "))
+        << roller.output;
     const Outcome soil = run(bed_folder() / "in.settle", folder,
                              {{"guard", "off"},
                               {"k", "1e12"},
@@ -962,7 +965,8 @@ TEST_F(BedInLammps, RefusesWhatItDoesNotHaveOnRanksOneAndTwo) {
     refused({{"start", (files / "alone.restart").string()}},
             ", made with engine LIGGGHTS; allowed: made with engine LAMMPS", ranks);
     refused({{"start", (*scratch / "balls.data").string()}},
-            ", which is incomplete, damaged or no restart file; allowed: a restart file of drumlin/write_restart or "
+            ", which is incomplete, damaged or no restart file; allowed: a restart file of "
+            "drumlin/write_restart or "
             "drumlin/run, or a data file NAME.data in the same folder",
             ranks);
     refused({{"newton", "maybe"}}, "variable newton is 'maybe'; allowed: on or off", ranks);
