@@ -1,5 +1,6 @@
 #pragma once
-// What the two libraries that an engine loads first have in common. They link neither engine nor MPI, and reach both by name.
+// Functions of the two small libraries that an engine loads first (liggghts/preload.cpp, lammps/load.cpp).
+// They are linked neither to the engine nor to MPI, and find the functions of both by name.
 
 #include <cstdio>
 #include <cstdlib>
@@ -8,13 +9,13 @@
 
 namespace drumlin {
 
-/// A function of the process by its name; nullptr if there is none.
+/// A function of this process by its name; nullptr if there is none.
 template <class Function>
 Function find_function(const char *name) {
   return reinterpret_cast<Function>(dlsym(RTLD_DEFAULT, name));
 }
 
-/// Ends the run on every rank: each calls this, rank 0 speaks.
+/// Ends the process with status 1; rank 0 prints "ERROR: drumlin VERSION: WHY". To be called on all ranks.
 [[noreturn]] inline void stop(const std::string &why) {
   int rank = 0;
   int begun = 1;

@@ -20,14 +20,16 @@ namespace drumlin {
 
 namespace {
 
-// In a restart file the notes stand behind what the engine reads, which is as many bytes as their last line says:
+// In a restart file the notes follow the part that the engine reads:
 //   drumlin restart notes
 //   NAME VALUE
 //   ...
-//   end COUNT of bytes, by which the engine knows that a file is whole
-//   bytes COUNT
-//   crc32 SUM of these bytes
-// and those of the end again. In a data file each note is a comment of the header, which engines skip:
+//     end COUNT        number of bytes at the end of the engine's part by which the engine recognizes a
+//     complete file
+//   bytes COUNT      number of bytes of the engine's part
+//   crc32 SUM        its checksum
+// and then those bytes of the end once more, since the engine looks for them at the end of the file. In a
+// data file each note is a comment of the header, which engines skip:
 //   # drumlin note NAME VALUE
 constexpr const char *data_note = "# drumlin note ";
 constexpr const char *notes_begin = "\ndrumlin restart notes\n";
@@ -40,7 +42,7 @@ std::string notes_text(const RestartNotes &notes) {
   return text;
 }
 
-/// Checksum of gzip and PNG.
+/// The checksum CRC-32 of gzip and PNG.
 std::uint32_t crc32(const std::string &bytes) {
   std::array<std::uint32_t, 256> of_byte{};
   for (std::uint32_t n = 0; n < of_byte.size(); ++n) {
@@ -54,8 +56,8 @@ std::uint32_t crc32(const std::string &bytes) {
   return ~sum;
 }
 
-/// What the last two notes say of these bytes.
-RestartNotes sum_notes(const std::string &bytes) {
+/// The last two notes: number and checksum of these bytes.
+RestartNotes checksum_notes(const std::string &bytes) {
   return {{"bytes", std::to_string(bytes.size())}, {"crc32", fmt::format("{:08x}", crc32(bytes))}};
 }
 
@@ -64,7 +66,7 @@ std::string contents_of(const std::string &file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Notes of a restart file that is whole; none of another.
+/// Notes of a restart file that is complete; none of any other file.
 RestartNotes notes_of_restart(const std::string &file) {
   const std::string all = contents_of(file);
   const std::size_t begin = all.rfind(notes_begin);
@@ -80,7 +82,7 @@ RestartNotes notes_of_restart(const std::string &file) {
   const std::string end{std::istreambuf_iterator<char>(lines), {}};
   if (end.size() != end_mark || begin < end_mark || all.compare(begin - end_mark, end_mark, end) != 0)
     return {};
-  const RestartNotes last = sum_notes(all.substr(0, begin));
+  const RestartNotes last = checksum_notes(all.substr(0, begin));
   if (notes.size() < last.size() || !std::equal(last.rbegin(), last.rend(), notes.rbegin())) return {};
   return notes;
 }
@@ -101,7 +103,7 @@ RestartNotes notes_of_data_file(const std::string &file) {
   return notes;
 }
 
-/// Engines do not read each other's restart files.
+/// The notes with the name of this engine as the first: engines do not read each other's restart files.
 RestartNotes with_engine(const RestartNotes &notes) {
   const std::string engine = engine::name_and_version();
   RestartNotes all = {{"engine", engine.substr(0, engine.find(' '))}};
@@ -132,17 +134,17 @@ bool is_restart_name(const std::string &file) {
   return file.find_first_of("*%") == std::string::npos && is_output_file(file);
 }
 
-void check_restart_name(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const std::string &command) {
+void check_restart_name(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const std::string &what) {
   int bad = lmp->comm->me == 0 && !is_restart_name(file) ? 1 : 0;
   MPI_Bcast(&bad, 1, MPI_INT, 0, lmp->world);
   if (bad != 0)
-    lmp->error->all(FLERR, engine::as_is(fmt::format("{}: cannot write '{}'; allowed: {}", command, file,
-                                                     restart_name_allowed)));
+    lmp->error->all(FLERR, engine::error_text(fmt::format("{} is '{}', which cannot be written; allowed: {}",
+                                                          what, file, restart_name_allowed)));
 }
 
 namespace {
 
-/// A file in memory, by a name that the engine can open.
+/// A file in memory that the engine can open by its name.
 class MemoryFile {
 public:
   MemoryFile() : file_(memfd_create("drumlin", MFD_CLOEXEC)) {}
@@ -157,13 +159,16 @@ private:
   int file_;
 };
 
-/// Has the engine write a file, completes its contents on rank 0 and puts them on the disk. The engine does not look whether its
-/// writes succeed, as they do not on a full disk: it writes to memory, and what goes to the disk from there is checked.
-/// \param complete takes the engine's file, gives that which is written; nothing if the engine's was not whole
+/// Lets the engine write a file to memory, completes it on rank 0 and writes it to the disk. The engine
+/// itself does not check whether its writes succeed, which they do not on a full disk.
+/// \param engine_command write_restart or write_data
+/// \param what command and keyword that gave the name, for the error
+/// \param complete function from the bytes of the engine's file to those to be written; nothing if the
+/// engine's file is incomplete
 template <class Complete>
 void write_checked(LAMMPS_NS::LAMMPS *lmp, const std::string &engine_command, const std::string &file,
-                   const std::string &command, Complete &&complete) {
-  check_restart_name(lmp, file, command);
+                   const std::string &what, Complete &&complete) {
+  check_restart_name(lmp, file, what);
   const MemoryFile memory;
   lmp->input->one((engine_command + " " + memory.name()).c_str());
   int failed = 0;
@@ -173,29 +178,30 @@ void write_checked(LAMMPS_NS::LAMMPS *lmp, const std::string &engine_command, co
   }
   MPI_Bcast(&failed, 1, MPI_INT, 0, lmp->world);
   if (failed != 0)
-    lmp->error->all(FLERR, engine::as_is(fmt::format(
-                               "{}: cannot write '{}'; allowed: a file on a disk with room", command, file)));
+    lmp->error->all(
+        FLERR, engine::error_text(fmt::format(
+                   "{} is '{}', which cannot be written; allowed: a file on a disk with room", what, file)));
 }
 
 } // namespace
 
 void write_noted_restart(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const RestartNotes &notes,
-                         const std::string &command) {
-  write_checked(lmp, "write_restart", file, command,
+                         const std::string &what) {
+  write_checked(lmp, "write_restart", file, what,
                 [&notes](const std::string &bytes) -> std::optional<std::string> {
                   if (bytes.empty()) return {};
                   const std::string end = bytes.substr(bytes.size() - engine::restart_end_mark);
                   RestartNotes all = with_engine(notes);
                   all.emplace_back("end", std::to_string(engine::restart_end_mark));
-                  for (const auto &note : sum_notes(bytes))
+                  for (const auto &note : checksum_notes(bytes))
                     all.push_back(note);
                   return bytes + notes_text(all) + end;
                 });
 }
 
 void write_noted_data(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const RestartNotes &notes,
-                      const std::string &command) {
-  write_checked(lmp, "write_data", file, command, [&notes](std::string text) -> std::optional<std::string> {
+                      const std::string &what) {
+  write_checked(lmp, "write_data", file, what, [&notes](std::string text) -> std::optional<std::string> {
     std::string header;
     for (const auto &[name, value] : notes)
       header += fmt::format("{}{} {}\n", data_note, name, value);
@@ -213,9 +219,9 @@ RestartNotes notes_of(const std::string &file) {
 std::string restart_fault(const std::string &file, const RestartNotes &notes) {
   const RestartNotes found = notes_of_restart(file);
   if (found.empty())
-    return fmt::format("; allowed: a whole restart file of drumlin/write_restart or drumlin/run{}, and this "
-                       "one is cut short, damaged or none",
-                       engine::beside_restart);
+    return fmt::format(", which is incomplete, damaged or no restart file; allowed: a restart file of "
+                       "drumlin/write_restart or drumlin/run{}",
+                       engine::restart_alternative);
   for (const auto &[name, value] : with_engine(notes)) {
     const auto same_name = [&name = name](const auto &note) { return note.first == name; };
     const auto note = std::find_if(found.begin(), found.end(), same_name);
@@ -228,14 +234,15 @@ std::string restart_fault(const std::string &file, const RestartNotes &notes) {
 
 namespace {
 
-/// The bounds of a data file's box along one axis, m.
+/// The bounds of the box of a data file along one axis, m.
 struct Bounds {
   double low = 0.0, high = 0.0;
-  /// Whether a ball may be there: the engine puts balls beyond a periodic boundary back into the box, one box length at a time.
+  /// Whether a ball may be at a coordinate, m: in the box, or at most one length of the box outside, from
+  /// where the engine moves it into the box if the boundary is periodic.
   bool near(double x) const { return x >= 2.0 * low - high && x <= 2.0 * high - low; }
 };
 
-/// Reader of a data file that judges it.
+/// Reader of a data file that looks for the first fault.
 class DataFile {
 public:
   explicit DataFile(const std::string &file) : in_(file) {}
@@ -254,7 +261,7 @@ public:
   }
 
 private:
-  /// The next line that is neither empty nor a comment, in words.
+  /// Reads the next line that is neither empty nor a comment into words_; false at the end of the file.
   bool next_line() {
     while (std::getline(in_, line_)) {
       std::istringstream text(line_.substr(0, line_.find('#')));
@@ -272,8 +279,8 @@ private:
       if (words_.size() == 4 && words_[2] == axes[a][0] && words_[3] == axes[a][1]) {
         box_[a] = {parse_number(words_[0]), parse_number(words_[1])};
         if (!(box_[a].high > box_[a].low) || box_[a].high - box_[a].low > largest_box)
-          return fmt::format("a box with bounds in order, at most {:.0e} m apart, and this one has '{}'",
-                             largest_box, line_);
+          return fmt::format("a box with bounds in order, at most {:.0e} m apart, not with '{}'", largest_box,
+                             line_);
         return "";
       }
     constexpr std::array<const char *, 3> known = {"atoms", "types",
@@ -281,14 +288,14 @@ private:
     const bool is_known = std::find(known.begin(), known.end(), words_.back()) != known.end() &&
                           std::isfinite(parse_number(words_.front()));
     if (!has_atoms_ && !is_known)
-      return fmt::format("a data file with a box, atoms and their types, and this one has '{}'", shown());
+      return fmt::format("a data file with a box, atoms and their types, not with '{}'", shown());
     if (has_atoms_)
-      return fmt::format("one data file, and this one goes on with '{}' behind its sections", shown());
+      return fmt::format("one data file, which ends behind its sections, not with '{}'", shown());
     return "";
   }
 
   std::string atoms() {
-    if (has_atoms_) return "a data file with one section Atoms, and this one has two";
+    if (has_atoms_) return "a data file with one section Atoms, not two";
     has_atoms_ = true;
     if (!(count_ >= 1.0)) return "a data file with atoms";
     return section("Atoms", [this](const std::vector<double> &row) { // id type diameter density x y z
@@ -307,7 +314,9 @@ private:
     });
   }
 
-  /// Reads a row for each atom. A row is whole numbers of ID and type first; the last line must have its end, or it may be cut.
+  /// Reads a row of numbers for each atom. The last line must have a line end: without it the file may be
+  /// incomplete.
+  /// \param good whether the numbers of a row, the first of which is the ID, are allowed
   template <class Good>
   std::string section(const char *name, Good &&good) {
     double rows = 0.0;
@@ -323,12 +332,13 @@ private:
         break;
     }
     if (rows == count_) return "";
-    return fmt::format(
-        "a whole data file of balls in their box, each ID once, and this one has {:.0f} of {:.0f} "
-        "good rows under {}, then '{}'",
-        rows, count_, name, shown());
+    return fmt::format("a complete data file of balls in their box, each ID once; this one has {:.0f} of "
+                       "{:.0f} good rows under {}, then "
+                       "'{}'",
+                       rows, count_, name, shown());
   }
 
+  /// The beginning of the present line, for an error.
   std::string shown() const {
     std::string text = line_.substr(0, 60);
     for (char &c : text)

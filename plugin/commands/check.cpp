@@ -4,6 +4,7 @@
 #include "commands/bed_files.h"
 #include "support/whole_file.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -13,123 +14,159 @@ namespace {
 
 using LAMMPS_NS::LAMMPS;
 
-struct Engine : LAMMPS_NS::Pointers {
-  explicit Engine(LAMMPS *engine) : Pointers(engine) {}
-  LAMMPS_NS::Error *errors() { return error; }
-  int rank() { return comm->me; }
-  MPI_Comm ranks() { return world; }
-};
-
-/// Whether output files can be written into a folder, which is there or can be made.
+/// Whether output files can be written into a folder that exists or can be made.
 bool can_be_folder(const std::string &folder) {
   namespace fs = std::filesystem;
   if (folder.find_first_of("*%") != std::string::npos || !is_output_folder(folder)) return false;
   std::error_code code;
-  fs::path there = fs::absolute(folder, code);
-  while (!fs::exists(there, code) && there.has_relative_path())
-    there = there.parent_path();
-  return fs::is_directory(there, code) && access(there.c_str(), W_OK | X_OK) == 0;
+  fs::path existing = fs::absolute(folder, code);
+  while (!fs::exists(existing, code) && existing.has_relative_path())
+    existing = existing.parent_path();
+  return fs::is_directory(existing, code) && access(existing.c_str(), W_OK | X_OK) == 0;
 }
 
-bool whole_number(const std::string &text, double &value) {
+bool is_whole_number(const std::string &text, double &value) {
   value = parse_number(text);
   return std::isfinite(value) && value == std::floor(value) && std::fabs(value) < 1e15;
 }
 
-} // namespace
+/// The command: a variable, its value and a rule, which is a member function of its name.
+class Check {
+public:
+  Check(LAMMPS *lmp, int narg, char **arg) : lmp_(lmp), in_(lmp->error, "drumlin/check", narg, arg) {
+    name_ = in_.word("the variable's name");
+    value_ = in_.word("the value of variable " + name_);
+  }
 
-void check_command(LAMMPS *lmp, int narg, char **arg) {
-  Engine engine(lmp);
-  Arguments in(engine.errors(), "drumlin/check", narg, arg);
-  const std::string name = in.word("the variable's name");
-  const std::string value = in.word("the value of variable " + name);
-  constexpr const char *rules = "one_of, positive, non_negative, finite, integer, multiple_of, directory, "
-                                "output_folder, file, data_file, restart, restart_name or one_rank";
-  const std::string rule = in.word("the rule for variable " + name, rules);
-  const auto reject = [&](const std::string &allowed) {
-    in.fail("variable " + name + " is '" + value + "'; allowed: " + allowed);
-  };
+  void run() {
+    using Rule = void (Check::*)();
+    const std::vector<std::pair<std::string, Rule>> rules = {{"one_of", &Check::one_of},
+                                                             {"positive", &Check::positive},
+                                                             {"non_negative", &Check::non_negative},
+                                                             {"finite", &Check::finite},
+                                                             {"integer", &Check::integer},
+                                                             {"multiple_of", &Check::multiple_of},
+                                                             {"directory", &Check::directory},
+                                                             {"output_folder", &Check::output_folder},
+                                                             {"file", &Check::file},
+                                                             {"data_file", &Check::data_file},
+                                                             {"restart", &Check::restart},
+                                                             {"restart_name", &Check::restart_name},
+                                                             {"one_rank", &Check::one_rank}};
+    std::vector<std::string> names;
+    for (const auto &rule : rules)
+      names.push_back(rule.first);
+    const std::string what = "rule for variable " + name_;
+    const std::string word = in_.word("the " + what, join_choices(names));
+    const auto rule =
+        std::find_if(rules.begin(), rules.end(), [&word](const auto &one) { return one.first == word; });
+    if (rule == rules.end()) in_.fail(what, word, join_choices(names));
+    (this->*rule->second)();
+    if (!in_.empty()) in_.fail("argument behind the " + what, in_.peek(), "one value and one rule");
+  }
 
-  if (rule == "one_of") {
+private:
+  [[noreturn]] void reject(const std::string &allowed) const {
+    in_.fail("variable " + name_, value_, allowed);
+  }
+
+  /// Rejects the value on all ranks if rank 0 has found it bad. Collective.
+  void reject_if(bool bad_on_rank_0, const std::string &allowed) const {
+    int bad = bad_on_rank_0 ? 1 : 0;
+    MPI_Bcast(&bad, 1, MPI_INT, 0, lmp_->world);
+    if (bad != 0) reject(allowed);
+  }
+  bool is_rank_0() const { return lmp_->comm->me == 0; }
+
+  void one_of() {
     std::vector<std::string> choices;
-    while (!in.empty())
-      choices.push_back(in.word("choice"));
-    bool found = false;
-    for (const std::string &choice : choices)
-      found = found || choice == value;
+    while (!in_.empty())
+      choices.push_back(in_.word("choice"));
     if (choices.empty())
-      in.fail("rule one_of for variable " + name + " has no choice; allowed: at least one word");
-    if (!found) reject(join_choices(choices));
-  } else if (rule == "positive" || rule == "non_negative" || rule == "finite") {
-    const Range range = rule == "positive" ? Range::positive
-                        : rule == "finite" ? Range::any
-                                           : Range::non_negative;
-    // Beyond these bounds products of quantities leave the range of a double.
+      in_.fail("word of rule one_of for variable " + name_ + " is missing; allowed: at least one word");
+    if (std::find(choices.begin(), choices.end(), value_) == choices.end()) reject(join_choices(choices));
+  }
+
+  void positive() { in(Range::positive); }
+  void non_negative() { in(Range::non_negative); }
+  void finite() { in(Range::any); }
+  void in(Range range) {
+    // With numbers outside of these bounds products of quantities could overflow or underflow.
     constexpr double smallest = 1e-30;
     constexpr double largest = 1e30;
-    const double number = parse_number(value);
+    const double number = parse_number(value_);
     const double size = std::fabs(number);
     if (!in_range(number, range) || size > largest || (size != 0.0 && size < smallest))
       reject(std::string(allowed_text(range)) +
              (std::isfinite(number) && in_range(number, range) ? ", between 1e-30 and 1e30 in size" : ""));
-  } else if (rule == "integer") {
-    const auto lowest = in.integer("rule integer, lowest", INT_MIN);
-    const auto highest = in.integer("rule integer, highest", lowest);
+  }
+
+  void integer() {
+    const auto lowest = in_.integer("rule integer, lowest", INT_MIN);
+    const auto highest = in_.integer("rule integer, highest", lowest);
     double number = 0.0;
-    if (!whole_number(value, number) || number < static_cast<double>(lowest) ||
+    if (!is_whole_number(value_, number) || number < static_cast<double>(lowest) ||
         number > static_cast<double>(highest))
       reject(fmt::format("a whole number from {} to {}", lowest, highest));
-  } else if (rule == "multiple_of") {
-    const std::string other = in.word("rule multiple_of, the other variable's name");
-    const std::string other_value = in.word("rule multiple_of, the other variable's value");
+  }
+
+  void multiple_of() {
+    const std::string other = in_.word("rule multiple_of, the other variable's name");
+    const std::string other_value = in_.word("rule multiple_of, the other variable's value");
     double a = 0.0;
     double b = 0.0;
-    if (!whole_number(value, a) || !whole_number(other_value, b) || b <= 0.0 || a <= 0.0 ||
+    if (!is_whole_number(value_, a) || !is_whole_number(other_value, b) || b <= 0.0 || a <= 0.0 ||
         std::fmod(a, b) != 0.0)
       reject(fmt::format("a multiple of {}, which is {}", other, other_value));
-  } else if (rule == "directory" || rule == "output_folder") {
-    int bad = 0;
-    if (engine.rank() == 0) {
-      std::error_code failed;
-      bad = !can_be_folder(value);
-      if (!bad && rule == "directory")
-        bad = !std::filesystem::create_directories(value, failed) && !std::filesystem::is_directory(value);
-    }
-    MPI_Bcast(&bad, 1, MPI_INT, 0, engine.ranks());
-    if (bad)
-      reject("a folder that can be made or written, without * and % in its path, and not /, /dev, /proc or "
-             "/sys");
-  } else if (rule == "file") {
-    std::string maker;
-    while (!in.empty())
-      maker += (maker.empty() ? "" : " ") + in.word("command that makes the file");
-    int bad = 0;
-    if (engine.rank() == 0) {
-      std::error_code failed;
-      bad = !std::filesystem::is_regular_file(value, failed) || access(value.c_str(), R_OK) != 0;
-    }
-    MPI_Bcast(&bad, 1, MPI_INT, 0, engine.ranks());
-    if (bad) reject("a file that can be read" + (maker.empty() ? "" : ", which '" + maker + "' makes"));
-  } else if (rule == "restart_name") {
-    int bad = engine.rank() == 0 && !is_restart_name(value) ? 1 : 0;
-    MPI_Bcast(&bad, 1, MPI_INT, 0, engine.ranks());
-    if (bad) reject(restart_name_allowed);
-  } else if (rule == "one_rank") {
-    int ranks = 0;
-    MPI_Comm_size(engine.ranks(), &ranks);
-    if (ranks > 1)
-      in.fail(fmt::format("variable {} is '{}' on {} ranks; allowed: one rank", name, value, ranks));
-  } else if (rule == "data_file" || rule == "restart") {
-    const RestartNotes notes = rule == "restart" ? read_notes(lmp, in) : RestartNotes{};
-    std::string fault;
-    if (engine.rank() == 0) fault = rule == "restart" ? restart_fault(value, notes) : data_file_fault(value);
-    if (!fault.empty()) fault = "variable " + name + " is '" + value + "'" + fault;
-    engine::end_if(lmp, "drumlin/check", fault);
-  } else {
-    in.fail("unknown rule '" + rule + "' for variable " + name + "; allowed: " + rules);
   }
-  if (!in.empty())
-    in.fail("variable " + name + ": '" + in.peek() + "' is left over; allowed: one value and one rule");
-}
+
+  static constexpr const char *folder_allowed =
+      "a folder that can be made or written, without * and % in its path, and not /, /dev, /proc or /sys";
+  void output_folder() { reject_if(is_rank_0() && !can_be_folder(value_), folder_allowed); }
+  void directory() {
+    output_folder();
+    std::error_code failed;
+    reject_if(is_rank_0() && !std::filesystem::create_directories(value_, failed) &&
+                  !std::filesystem::is_directory(value_),
+              folder_allowed);
+  }
+
+  void file() {
+    std::string maker;
+    while (!in_.empty())
+      maker += (maker.empty() ? "" : " ") + in_.word("command that makes the file");
+    std::error_code failed;
+    reject_if(is_rank_0() &&
+                  (!std::filesystem::is_regular_file(value_, failed) || access(value_.c_str(), R_OK) != 0),
+              "a file that can be read" + (maker.empty() ? "" : ", which '" + maker + "' makes"));
+  }
+
+  void data_file() { stop_on(is_rank_0() ? data_file_fault(value_) : ""); }
+  void restart() {
+    const RestartNotes notes = read_notes(lmp_, in_);
+    stop_on(is_rank_0() ? restart_fault(value_, notes) : "");
+  }
+  /// \param fault text behind the value, "; allowed: ..." or more; empty: none
+  void stop_on(const std::string &fault) const {
+    engine::stop_on_fault(lmp_, "drumlin/check",
+                          fault.empty() ? "" : "variable " + name_ + " is '" + value_ + "'" + fault);
+  }
+
+  void restart_name() { reject_if(is_rank_0() && !is_restart_name(value_), restart_name_allowed); }
+
+  void one_rank() {
+    if (lmp_->comm->nprocs > 1)
+      in_.fail(fmt::format("variable {} is '{}' on {} ranks; allowed: one rank", name_, value_,
+                           lmp_->comm->nprocs));
+  }
+
+  LAMMPS *lmp_;
+  Arguments in_;
+  std::string name_, value_;
+};
+
+} // namespace
+
+void check_command(LAMMPS *lmp, int narg, char **arg) { Check(lmp, narg, arg).run(); }
 
 } // namespace drumlin

@@ -1,38 +1,62 @@
 #pragma once
-// Commands that the plugin adds to decks. Each has a page of its name in plugin/doc.
+// The commands that the plugin adds to decks. Each has a page of its name in plugin/doc, and ends the run
+// with one line if its arguments are wrong.
 
 #include "engine.h"
 
 namespace drumlin {
 
-/// drumlin/variables NAME ...: ends the run if the command line gives a variable that is none of these, or a value that the engine's
-/// parser would not take as it is.
+/// drumlin/variables NAME ...: ends the run if the command line gives a variable that is none of these, or a
+/// value that the engine's parser would change.
 void variables_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
-/// drumlin/check NAME VALUE rule ...: judges a deck variable before anything is built.
+/// drumlin/check NAME VALUE RULE ...: ends the run if the value of a variable breaks a rule.
 void check_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
-/// drumlin/outputs [folder F] [continue STEP TIME] files NAME ... [numbered FOLDER PREFIX SUFFIX ...]: makes room for the files that a run
-/// writes; those of an earlier run come back if the new one fails in its first steps.
+/// drumlin/outputs [folder F] [continue STEP TIME] files NAME ... [numbered FOLDER PREFIX SUFFIX ...]: backs
+/// up the files of an earlier run, which are restored if the new run fails in its first steps.
 void outputs_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
-/// drumlin/take FILE DECKS ALLOWED fixed NAME ... free NAME ... if_noted NAME ...: sets variables to the values that a bed was made with, and ends
-/// the run if one of them was given another value.
+/// drumlin/take FILE DECKS ALLOWED fixed NAME ... free NAME ... if_noted NAME ...: sets variables to the
+/// values with which a bed was made, and ends the run if one of them has another value already.
 void take_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
-/// drumlin/record FILE name value ...: writes what a run was made with, for the report.
+/// drumlin/record FILE NAME VALUE ...: writes parameters.csv, the parameters of a run.
 void record_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
-/// drumlin/run STEP [every N] [limit S] [restart FILE [name value ...]]: runs to a step in pieces, with progress and a limit of wall time.
+/// drumlin/run STEP [every N] [limit S] [restart FILE [NAME VALUE ...]]: runs to a step in pieces, with
+/// progress and a limit of wall time.
 void run_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
-/// drumlin/write_restart FILE [name value ...]: a restart file, whole or not at all, that says what it was made with.
+/// drumlin/write_restart FILE [NAME VALUE ...]: writes a restart file, complete or not at all, with notes on
+/// how the scene was made.
 void write_restart_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
-/// drumlin/write_data FILE [name value ...]: the same for a data file.
+/// drumlin/write_data FILE [NAME VALUE ...]: the same for a data file.
 void write_data_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
-/// drumlin/settle [ratio r] [every n] [limit n]: runs until static equilibrium.
+/// drumlin/settle [ratio r] [every n] [limit N]: runs until static equilibrium.
 void settle_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
+
+/// A command as a type, for engines that want a class for each.
+template <void (*run)(LAMMPS_NS::LAMMPS *, int, char **)>
+struct CommandType {
+  static constexpr auto function = run;
+};
+
+/// Calls add(CommandType, name, description) for each command: the list from which both engines register
+/// them.
+template <class Add>
+void for_each_command(Add &&add) {
+  add(CommandType<check_command>(), "drumlin/check", "checks the value of a variable");
+  add(CommandType<variables_command>(), "drumlin/variables", "checks the variables of the command line");
+  add(CommandType<outputs_command>(), "drumlin/outputs", "backs up the files of an earlier run");
+  add(CommandType<take_command>(), "drumlin/take", "takes the values with which a bed was made");
+  add(CommandType<write_data_command>(), "drumlin/write_data", "writes a data file with notes");
+  add(CommandType<record_command>(), "drumlin/record", "writes the parameters of a run");
+  add(CommandType<run_command>(), "drumlin/run", "runs with progress and a limit of wall time");
+  add(CommandType<settle_command>(), "drumlin/settle", "runs to static equilibrium");
+  add(CommandType<write_restart_command>(), "drumlin/write_restart", "writes a restart file with notes");
+}
 
 } // namespace drumlin

@@ -22,7 +22,7 @@ void FixOutputs::end_of_step() {
 }
 
 void FixOutputs::commit() {
-  check_numbered(); // the first dumps may have been cut short by a full disk
+  check_numbered(); // a full disk may have made the first dumps incomplete
   committed_ = true;
   if (set_ != nullptr) set_->commit();
 }
@@ -36,7 +36,7 @@ void FixOutputs::check_numbered() {
       fault = found.what();
     }
   }
-  drumlin::engine::end_if(lmp, "drumlin/outputs", fault);
+  drumlin::engine::stop_on_fault(lmp, "drumlin/outputs", fault);
 }
 
 void FixOutputs::post_run() { committed_ ? check_numbered() : commit(); }

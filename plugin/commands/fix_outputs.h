@@ -1,5 +1,5 @@
 #pragma once
-// fix drumlin/outputs: made by the command drumlin/outputs, not by decks.
+// fix drumlin/outputs, which the command drumlin/outputs adds; decks do not use it.
 
 #include "engine.h"
 #include "support/output_set.h"
@@ -9,12 +9,12 @@
 
 namespace LAMMPS_NS {
 
-/// Holds the set of output files of a run and commits it when the run has passed its first steps.
+/// Owns the set of output files of a run and commits it when the run has passed its first steps.
 class FixOutputs : public Fix {
 public:
   FixOutputs(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) { nevery = 1; }
 
-  /// Adds the fix to the engine. \param set of rank 0; empty on the others
+  /// Adds the fix to the engine, or replaces it. \param set on rank 0; nullptr on the others
   static void provide(LAMMPS *lammps, std::unique_ptr<drumlin::OutputSet> set);
 
   int setmask() override { return FixConst::END_OF_STEP | FixConst::POST_RUN; }
@@ -25,11 +25,12 @@ public:
   static constexpr const char *style_name = "drumlin/outputs";
 
 private:
-  /// Time steps after which fix guard has looked at numbers and links at least once, as the decks of the project have it.
+  /// Time steps after which fix guard, with the settings of the project's decks, has made each of its checks
+  /// at least once.
   static constexpr drumlin::engine::bigint first_steps = 100;
 
   void commit();
-  /// Ends the run if a dump is cut short. Collective.
+  /// Ends the run if a dump is incomplete. Collective.
   void check_numbered();
   std::unique_ptr<drumlin::OutputSet> set_;
   std::optional<drumlin::engine::bigint> first_;

@@ -11,13 +11,13 @@
 namespace drumlin {
 namespace {
 
-/// What the words of the command ask for.
+/// The arguments of the command.
 struct Outputs {
   std::string folder, subfolder;
-  engine::bigint step = 0; ///< of the restart file that a run continues from; 0: it begins
-  double time = 0.0;       ///< s, of that step
+  engine::bigint step = 0; ///< step from which the run continues; 0: a new run
+  double time = 0.0;       ///< s, at that step
   std::vector<std::string> files;
-  std::vector<std::string> restarts; ///< restart files, which a run that continues leaves alone
+  std::vector<std::string> restarts; ///< restart files, which a run that continues does not back up
   std::vector<NumberedFiles> numbered;
 };
 
@@ -34,36 +34,37 @@ Outputs read_outputs(Arguments &in) {
   while (!in.empty()) {
     const std::string keyword = in.word("keyword");
     if (keyword == "folder")
-      outputs.folder = in.word("keyword folder: its path", "a folder, made if missing");
+      outputs.folder = in.word("keyword folder", "a folder, made if missing");
     else if (keyword == "subfolder")
-      outputs.subfolder = in_folder(in.word("keyword subfolder: its name", "a folder, made if missing"));
+      outputs.subfolder = in_folder(in.word("keyword subfolder", "a folder, made if missing"));
     else if (keyword == "continue") {
-      outputs.step = in.integer("keyword continue: its step", 0, std::numeric_limits<engine::bigint>::max());
-      outputs.time = in.number("keyword continue: its time", Range::non_negative);
+      outputs.step = in.integer("keyword continue, step", 0, std::numeric_limits<engine::bigint>::max());
+      outputs.time = in.number("keyword continue, time", Range::non_negative);
     } else if (keyword == "files")
       while (!in.empty() && !is_keyword(in.peek()))
         outputs.files.push_back(in_folder(in.word("file")));
     else if (keyword == "restart")
-      outputs.restarts.push_back(in_folder(in.word("keyword restart: a file")));
+      outputs.restarts.push_back(in_folder(in.word("keyword restart")));
     else if (keyword == "numbered")
       while (!in.empty() && !is_keyword(in.peek())) {
         const std::string folder = in_folder(in.word("folder"));
-        const std::string prefix = in.word("keyword numbered: a prefix");
-        outputs.numbered.push_back({folder, prefix, in.word("keyword numbered: a suffix")});
+        const std::string prefix = in.word("keyword numbered, prefix");
+        outputs.numbered.push_back({folder, prefix, in.word("keyword numbered, suffix")});
       }
     else
-      in.fail("unknown keyword '" + keyword +
-              "'; allowed: folder, subfolder, continue, files, restart or numbered");
+      in.fail("keyword", keyword, "folder, subfolder, continue, files, restart or numbered");
   }
   return outputs;
 }
 
-void make_room(OutputSet &set, const Outputs &outputs, double half_step) {
-  if (!outputs.folder.empty()) set.hold_folder(outputs.folder);
+/// Makes the folders and backs up the files of an earlier run. \param half_step s, half of the time step:
+/// rows up to the step stay, whatever rounding has done to their time
+void prepare(OutputSet &set, const Outputs &outputs, double half_step) {
+  if (!outputs.folder.empty()) set.lock_folder(outputs.folder);
   if (!outputs.subfolder.empty()) set.make_folder(outputs.subfolder);
   for (const std::string &file : outputs.files)
     if (outputs.step > 0)
-      set.cut(file, outputs.time + half_step);
+      set.truncate_table(file, outputs.time + half_step);
     else
       set.replace(file);
   if (outputs.step == 0)
@@ -79,18 +80,18 @@ void outputs_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) {
   Arguments in(lmp->error, command, narg, arg);
   const Outputs outputs = read_outputs(in);
   if (lmp->domain->box_exist == 0)
-    in.fail("there is no simulation box; allowed: after create_box, read_data or read_restart");
+    in.fail("simulation box is missing; allowed: the command after create_box, read_data or read_restart");
   std::unique_ptr<OutputSet> set;
   std::string fault;
   if (lmp->comm->me == 0) {
     try {
       set = std::make_unique<OutputSet>();
-      make_room(*set, outputs, 0.5 * lmp->update->dt);
+      prepare(*set, outputs, 0.5 * lmp->update->dt);
     } catch (const std::runtime_error &found) {
       fault = found.what();
     }
   }
-  engine::end_if(lmp, command, fault);
+  engine::stop_on_fault(lmp, command, fault);
   LAMMPS_NS::FixOutputs::provide(lmp, std::move(set));
 }
 

@@ -1,7 +1,7 @@
 #include "commands/commands.h"
 
 #include "support/arguments.h"
-#include "support/command_line_words.h"
+#include "support/command_line.h"
 #include "support/whole_file.h"
 
 #include <cstdlib>
@@ -11,6 +11,7 @@ namespace {
 
 using LAMMPS_NS::LAMMPS;
 
+/// A cell of a CSV file, in quotes if it needs them (RFC 4180).
 std::string quoted(const std::string &text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string result = "\"";
@@ -19,45 +20,41 @@ std::string quoted(const std::string &text) {
   return result + "\"";
 }
 
-/// The command line of this process, with the preload that brought the plugin.
+/// The command line of this process, with its LD_PRELOAD, which has loaded the plugin.
 std::string command_line() {
   const char *preload = std::getenv("LD_PRELOAD");
   std::string text = preload ? "LD_PRELOAD=" + std::string(preload) : "";
-  for (const std::string &word : command_line_words())
+  for (const std::string &word : command_line_arguments())
     text += (text.empty() ? "" : " ") +
             (word.empty() || word.find_first_of(" '\"$") != std::string::npos ? "'" + word + "'" : word);
   return text;
 }
 
-struct Engine : LAMMPS_NS::Pointers {
-  explicit Engine(LAMMPS *engine) : Pointers(engine) {}
-  void record(int narg, char **arg) {
-    Arguments in(error, "drumlin/record", narg, arg);
-    const std::string name = in.word("the file", output_name_allowed);
-    std::vector<std::pair<std::string, std::string>> rows;
-    while (!in.empty()) {
-      const std::string key = in.word("name");
-      rows.emplace_back(key, in.word("the value of " + key));
-    }
-    rows.emplace_back("engine", engine::name_and_version());
-    rows.emplace_back("plugin", std::string("drumlin ") + DRUMLIN_VERSION);
-    rows.emplace_back("ranks", std::to_string(comm->nprocs));
-    rows.emplace_back("command", command_line());
-    int failed = 0;
-    if (comm->me == 0) {
-      std::string text = "name,value\n";
-      for (const auto &[key, value] : rows)
-        text += quoted(key) + ',' + quoted(value) + '\n';
-      failed = !is_output_file(name) || !write_whole_file(name, text);
-    }
-    MPI_Bcast(&failed, 1, MPI_INT, 0, world);
-    if (failed)
-      in.fail("cannot write '" + name + "'; allowed: " + output_name_allowed + ", on a disk with room");
-  }
-};
-
 } // namespace
 
-void record_command(LAMMPS *lmp, int narg, char **arg) { Engine(lmp).record(narg, arg); }
+void record_command(LAMMPS *lmp, int narg, char **arg) {
+  Arguments in(lmp->error, "drumlin/record", narg, arg);
+  const std::string name = in.word("file", output_name_allowed);
+  std::vector<std::pair<std::string, std::string>> rows;
+  while (!in.empty()) {
+    const std::string key = in.word("name");
+    rows.emplace_back(key, in.word("the value of " + key));
+  }
+  rows.emplace_back("engine", engine::name_and_version());
+  rows.emplace_back("plugin", std::string("drumlin ") + DRUMLIN_VERSION);
+  rows.emplace_back("ranks", std::to_string(lmp->comm->nprocs));
+  rows.emplace_back("command", command_line());
+  int failed = 0;
+  if (lmp->comm->me == 0) {
+    std::string text = "name,value\n";
+    for (const auto &[key, value] : rows)
+      text += quoted(key) + ',' + quoted(value) + '\n';
+    failed = !is_output_file(name) || !write_whole_file(name, text);
+  }
+  MPI_Bcast(&failed, 1, MPI_INT, 0, lmp->world);
+  if (failed)
+    in.fail("file is '" + name + "', which cannot be written; allowed: " + output_name_allowed +
+            ", on a disk with room");
+}
 
 } // namespace drumlin

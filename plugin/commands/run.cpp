@@ -13,7 +13,7 @@ namespace {
 
 using LAMMPS_NS::LAMMPS;
 
-/// Runs the deck's scene in pieces, each a `run` of its own.
+/// Runs the scene of the deck in pieces, each of which is a command `run`.
 class Run : LAMMPS_NS::Pointers {
 public:
   Run(LAMMPS *engine, int narg, char **arg) : Pointers(engine) {
@@ -26,22 +26,22 @@ public:
       else if (keyword == "limit")
         limit_ = in.number("keyword limit", Range::positive);
       else if (keyword == "restart") {
-        restart_ = in.word("keyword restart: its file", restart_name_allowed);
+        restart_ = in.word("keyword restart", restart_name_allowed);
         notes_ = read_notes(lmp, in);
       } else
-        in.fail("unknown keyword '" + keyword + "'; allowed: every, limit or restart");
+        in.fail("keyword", keyword, "every, limit or restart");
     }
     if (domain->box_exist == 0)
-      in.fail("there is no simulation box; allowed: after create_box, read_data or read_restart");
+      in.fail("simulation box is missing; allowed: the command after create_box, read_data or read_restart");
     if (every_ == 0) { // one piece
       origin_ = update->ntimestep;
       every_ = std::max<engine::bigint>(last_ - origin_, 1);
     }
     if (std::isfinite(limit_) && restart_.empty())
-      in.fail("keyword limit goes with keyword restart; allowed: limit SECONDS restart FILE");
+      in.fail("keyword restart is missing beside keyword limit; allowed: limit SECONDS restart FILE");
     if (!restart_.empty()) check_restart_name(lmp, restart_, "drumlin/run: keyword restart");
     if (update->ntimestep > last_)
-      in.fail(fmt::format("the last step is '{}'; allowed: at least {}, the step of now", last_,
+      in.fail(fmt::format("the last step is '{}'; allowed: at least {}, the present step", last_,
                           update->ntimestep));
   }
 
@@ -56,34 +56,36 @@ public:
           std::min(every_ - (update->ntimestep - origin_) % every_, last_ - update->ntimestep);
       input->one(fmt::format("run {} post no", piece).c_str());
       double now = MPI_Wtime() - begin;
-      MPI_Bcast(&now, 1, MPI_DOUBLE, 0, world); // all ranks go by one clock
+      MPI_Bcast(&now, 1, MPI_DOUBLE, 0,
+                world); // all ranks use the clock of rank 0, to come to the same decision
       longest = std::max(longest, now - before);
       before = now;
       const auto done = static_cast<double>(update->ntimestep - first);
-      engine::say(lmp,
-                  fmt::format("drumlin/run: {:.0f} %, step {} of {}, {:.6g} s simulated, {:.0f} s so far, "
-                              "about {:.0f} s left\n",
-                              100.0 * static_cast<double>(update->ntimestep) / static_cast<double>(last_),
-                              update->ntimestep, last_, static_cast<double>(update->ntimestep) * update->dt,
-                              now, now / done * static_cast<double>(last_ - update->ntimestep)));
-      if (StopSignal::told(lmp)) {
+      engine::log_message(
+          lmp, fmt::format("drumlin/run: {:.0f} %, step {} of {}, {:.6g} s simulated, {:.0f} s so far, "
+                           "about {:.0f} s left\n",
+                           100.0 * static_cast<double>(update->ntimestep) / static_cast<double>(last_),
+                           update->ntimestep, last_, static_cast<double>(update->ntimestep) * update->dt, now,
+                           now / done * static_cast<double>(last_ - update->ntimestep)));
+      if (StopSignal::received(lmp)) {
         if (!restart_.empty()) write_noted_restart(lmp, restart_, notes_, "drumlin/run: keyword restart");
         error->all(FLERR,
-                   engine::as_is(fmt::format(
+                   engine::error_text(fmt::format(
                        "drumlin/run: stopped by a signal at step {} of {}; allowed: to {}", update->ntimestep,
-                       last_, restart_.empty() ? "run to the last step" : "go on from " + restart_)));
+                       last_, restart_.empty() ? "run to the last step" : "continue from " + restart_)));
       }
       if (update->ntimestep < last_ && now + longest > limit_) return stop();
     }
   }
 
 private:
-  /// There is no time for another piece.
+  /// Ends the engine because there is no time for another piece.
   void stop() {
     write_noted_restart(lmp, restart_, notes_, "drumlin/run: keyword restart");
-    engine::say(lmp, fmt::format("drumlin/run: stopped at step {} of {} by limit {:.6g} s; go on from {}\n",
-                                 update->ntimestep, last_, limit_, restart_));
-    // Not the engine's `quit`, which exits with 1: nothing went wrong.
+    engine::log_message(
+        lmp, fmt::format("drumlin/run: stopped at step {} of {} by limit {:.6g} s; continue from {}\n",
+                         update->ntimestep, last_, limit_, restart_));
+    // The engine's command `quit` would exit with status 1, but this is no error.
     MPI_Barrier(world);
     MPI_Finalize();
     std::exit(0); // NOLINT(concurrency-mt-unsafe): as the engine ends itself
@@ -91,7 +93,7 @@ private:
 
   engine::bigint last_ = 0;
   engine::bigint every_ = 0;
-  engine::bigint origin_ = 0;                              // pieces end a multiple of every_ behind this step
+  engine::bigint origin_ = 0;                              // pieces end at this step plus multiples of every_
   double limit_ = std::numeric_limits<double>::infinity(); // s of wall time
   std::string restart_;
   RestartNotes notes_;

@@ -11,7 +11,7 @@ namespace {
 
 using LAMMPS_NS::LAMMPS;
 
-/// Runs the deck's scene in pieces and looks at the unbalanced ratio between them.
+/// Runs the scene of the deck in pieces and computes the unbalanced ratio after each.
 class Settle : LAMMPS_NS::Pointers {
 public:
   Settle(LAMMPS *engine, int narg, char **arg) : Pointers(engine) {
@@ -25,15 +25,12 @@ public:
       else if (keyword == "limit")
         limit_ = in.integer("keyword limit", 0);
       else if (keyword == "fixed") {
-        const std::string name = in.word("keyword fixed: its group", "the name of a group");
-        const int index = group->find(name.c_str());
-        if (index < 0) in.fail("keyword fixed is '" + name + "'; allowed: the name of a group");
-        fixed_groupbit_ = group->bitmask[index];
+        fixed_groupbit_ = group->bitmask[in.group("keyword fixed", group)];
       } else
-        in.fail("unknown keyword '" + keyword + "'; allowed: ratio, every, limit or fixed");
+        in.fail("keyword", keyword, "ratio, every, limit or fixed");
     }
     if (domain->box_exist == 0)
-      in.fail("there is no simulation box; allowed: after create_box and create_atoms");
+      in.fail("simulation box is missing; allowed: the command after create_box and create_atoms");
   }
 
   void run() {
@@ -54,16 +51,16 @@ public:
       update->integrate->run(piece);
       ratio = unbalanced_ratio();
       if (!std::isfinite(ratio)) break;
-      if (StopSignal::told(lmp))
-        error->all(FLERR, engine::as_is(fmt::format(
+      if (StopSignal::received(lmp))
+        error->all(FLERR, engine::error_text(fmt::format(
                               "drumlin/settle: stopped by a signal after {} steps, unbalanced ratio {:.3g}; "
                               "allowed: to run until it has settled",
                               update->ntimestep - first, ratio)));
       const engine::bigint done = update->ntimestep - first;
       if (done / every_ % pieces_per_line == 0)
-        engine::say(lmp,
-                    fmt::format("drumlin/settle: unbalanced ratio {:.3g} after {} steps, wanted {:.3g}\n",
-                                ratio, done, ratio_));
+        engine::log_message(
+            lmp, fmt::format("drumlin/settle: unbalanced ratio {:.3g} after {} steps, limit {:.3g}\n", ratio,
+                             done, ratio_));
     }
     update->integrate->cleanup();
     update->whichflag = 0;
@@ -71,28 +68,26 @@ public:
     update->beginstep = update->endstep = 0;
     const engine::bigint steps = update->ntimestep - first;
     if (!(ratio <= ratio_))
-      error->all(
-          FLERR,
-          engine::as_is(
-              limit_ == 0
-                  ? fmt::format(
-                        "drumlin/settle: the scene is not in equilibrium: unbalanced ratio {:.3g}; allowed: "
-                        "at most {:.3g}",
-                        ratio, ratio_)
-                  : fmt::format(
-                        "drumlin/settle: no equilibrium: unbalanced ratio {:.3g} after {} steps; allowed: "
-                        "at most {:.3g} within {} steps (without damping a scene never settles)",
-                        ratio, steps, ratio_, limit_)));
-    engine::say(lmp, fmt::format("drumlin/settle: unbalanced ratio {:.3g} after {} steps\n", ratio, steps));
+      error->all(FLERR, engine::error_text(
+                            limit_ == 0
+                                ? fmt::format("drumlin/settle: unbalanced ratio is '{:.3g}', the scene is "
+                                              "not in equilibrium; allowed: at most "
+                                              "{:.3g}",
+                                              ratio, ratio_)
+                                : fmt::format("drumlin/settle: unbalanced ratio is '{:.3g}' after {} steps, "
+                                              "no equilibrium; allowed: at most {:.3g} "
+                                              "within {} steps (a scene without damping never comes to rest)",
+                                              ratio, steps, ratio_, limit_)));
+    engine::log_message(
+        lmp, fmt::format("drumlin/settle: unbalanced ratio {:.3g} after {} steps\n", ratio, steps));
   }
 
 private:
   static constexpr engine::bigint pieces_per_line = 10;
 
-  /// Largest unbalanced force on a ball over the mean weight of a ball. The force that would bring a ball to
-  /// rest within one piece counts as unbalanced too: a ball passing its equilibrium has no net force but has
-  /// not settled. Without gravity, over the largest force itself: only a scene without any force is settled
-  /// then.
+  /// Largest net force on a ball over the mean weight of a ball. The force that would stop a ball within one
+  /// piece counts like a net force: a ball that moves through its equilibrium has no net force but is not at
+  /// rest. Without gravity the ratio is 1, or 0 if there are neither forces nor motion. Collective.
   double unbalanced_ratio() {
     const std::array<double, 3> g = engine::gravity(modify);
     const double gravity = std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
@@ -120,8 +115,8 @@ private:
     return weight > 0.0 ? largest / weight : 1.0;
   }
 
-  /// Whether a step moves the ball at all: with short steps a last velocity, held up by a dashpot, is too
-  /// small to change the position's last digit, and would never die out.
+  /// Whether a time step changes the ball's position. With short steps a velocity that a dashpot slows down
+  /// ever less becomes too small to change the last digit of the position; it would never become 0.
   bool is_moving(int i) const {
     const double *x = atom->x[i];
     const double *v = atom->v[i];

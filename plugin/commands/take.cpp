@@ -12,7 +12,7 @@ namespace {
 
 using LAMMPS_NS::LAMMPS;
 
-/// The notes of a file, read by rank 0 and known to all.
+/// The notes of a file, which rank 0 reads and sends to all ranks. Collective.
 RestartNotes shared_notes(LAMMPS *lmp, const std::string &file) {
   std::string text;
   if (lmp->comm->me == 0)
@@ -29,7 +29,8 @@ RestartNotes shared_notes(LAMMPS *lmp, const std::string &file) {
   return notes;
 }
 
-/// Words as they are, numbers to rounding: a value may have gone through a formula of the deck.
+/// Whether two values are the same: words exactly, numbers to rounding, since a value may come from a formula
+/// of the deck.
 bool same_value(const std::string &a, const std::string &b) {
   if (a == b) return true;
   const double x = parse_number(a);
@@ -38,7 +39,7 @@ bool same_value(const std::string &a, const std::string &b) {
   return std::fabs(x - y) <= rounding * std::fabs(x);
 }
 
-/// Whether `name` is one of the entries of `list`, which are separated by commas.
+/// Whether `name` is an entry of `list`, whose entries are separated by commas.
 bool is_listed(const std::string &list, const std::string &name) {
   return ("," + list + ",").find("," + name + ",") != std::string::npos;
 }
@@ -48,7 +49,7 @@ bool is_listed(const std::string &list, const std::string &name) {
 void take_command(LAMMPS *lmp, int narg, char **arg) {
   Arguments in(lmp->error, "drumlin/take", narg, arg);
   const std::string file =
-      in.word("the file", "a file of drumlin/write_restart, drumlin/write_data or drumlin/run");
+      in.word("file", "a file of drumlin/write_restart, drumlin/write_data or drumlin/run");
   const std::string decks =
       in.word("the list of decks", "the names of the decks that make the file, between commas");
   const std::string allow_change = in.word("the variables that may change", "names between commas, or none");
@@ -81,9 +82,9 @@ void take_command(LAMMPS *lmp, int narg, char **arg) {
                                    [&name = name](const auto &one) { return one.first == name; });
     if (note == notes.end()) {
       if (kind == Kind::if_noted) continue;
-      in.fail(fmt::format(
-          "'{}' does not tell the {} of its bed; allowed: a whole file that {} of this version made", file,
-          name, decks));
+      in.fail(fmt::format("file is '{}', which does not note the value of {}; allowed: a complete file that "
+                          "{} of this version have made",
+                          file, name, decks));
     }
     std::string words[] = {name, "index", note->second};
     const char *given = variables.find(words[0].data()) >= 0 ? variables.retrieve(words[0].data()) : nullptr;
@@ -93,7 +94,7 @@ void take_command(LAMMPS *lmp, int narg, char **arg) {
     } else if (!same_value(given, note->second) && !(kind == Kind::free && is_listed(allow_change, name)))
       in.fail(fmt::format(
           "variable {} is '{}'; allowed: {}, with which '{}' was made; for another value {}{}", name, given,
-          note->second, file, kind == Kind::if_noted ? "begin a run of its own" : "run " + decks + " again",
+          note->second, file, kind == Kind::if_noted ? "begin a new run" : "run " + decks + " again",
           kind == Kind::free ? ", or change it on purpose by -var allow_change " + name : ""));
   }
 }

@@ -1,7 +1,7 @@
 #include "commands/commands.h"
 
 #include "support/arguments.h"
-#include "support/command_line_words.h"
+#include "support/command_line.h"
 
 #include <algorithm>
 #include <cctype>
@@ -17,8 +17,8 @@ struct GivenVariable {
   std::vector<std::string> values;
 };
 
-/// Variables given by -var or -v: as the engines have it, one value, whatever it is, and more up to the next word that begins with a
-/// minus sign.
+/// Variables that -var or -v give, read as the engines read them: the word behind the name is a value in any
+/// case; further words are values up to the next that begins with a minus sign.
 std::vector<GivenVariable> given_variables(const std::vector<std::string> &words) {
   std::vector<GivenVariable> given;
   for (std::size_t n = 1; n + 2 < words.size(); ++n) {
@@ -38,7 +38,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// Levenshtein's distance: how many letters have to be put in, left out or changed.
+/// Levenshtein distance: the number of letters that have to be inserted, deleted or changed.
 std::size_t edits(const std::string &from, const std::string &to) {
   std::vector<std::size_t> row(to.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -64,7 +64,8 @@ bool is_in(const std::vector<std::string> &names, const std::string &name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// A value without the characters that would stop it from reading on: line ends and other control characters.
+/// A value for an error text: control characters, such as line ends, replaced by '?', and at most 60
+/// characters.
 std::string printable(std::string value) {
   for (char &c : value)
     if (std::iscntrl(static_cast<unsigned char>(c)) != 0) c = '?';
@@ -72,8 +73,8 @@ std::string printable(std::string value) {
   return value.size() <= longest_shown ? value : value.substr(0, longest_shown) + "...";
 }
 
-/// What is wrong with a value for the engine's parser, as the words behind "allowed:"; empty if nothing is.
-/// \param of_words whether the value may be several words
+/// Empty if the engine's parser takes a value as it is; else what is allowed.
+/// \param of_words whether the value may have blanks
 std::string value_fault(const std::vector<std::string> &values, bool of_words) {
   constexpr std::size_t longest_value = 1000;
   if (values.size() != 1 || values[0].empty()) return "one value that is not empty";
@@ -84,8 +85,8 @@ std::string value_fault(const std::vector<std::string> &values, bool of_words) {
   if (unprintable || value.find_first_of("\"'$#\\") != std::string::npos ||
       (!of_words && value.find(' ') != std::string::npos) || value.back() == '&')
     return "a value without blanks, quotes, backslashes, control characters, $, # and a & at its end, which "
-           "the "
-           "engine's parser takes for something else";
+           "the engine's "
+           "parser takes for something else";
   return "";
 }
 
@@ -105,8 +106,8 @@ void variables_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) {
     if (words) of_words.push_back(name);
   }
   if (known.empty()) in.fail("the names are missing; allowed: the names of the deck's variables");
-  // Every rank was started with the same words, so that all of them come to the same end.
-  for (const GivenVariable &given : given_variables(command_line_words())) {
+  // Every rank was started with the same command line, so that all find the same fault.
+  for (const GivenVariable &given : given_variables(command_line_arguments())) {
     const std::string shown = printable(joined(given.values, " "));
     const bool of_front_script = given.name == "here" || given.name == "plugin";
     if (of_front_script) continue;

@@ -8,11 +8,11 @@ namespace drumlin {
 void write_data_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) {
   const std::string command = "drumlin/write_data";
   Arguments in(lmp->error, command, narg, arg);
-  const std::string file = in.word("the file", restart_name_allowed);
+  const std::string file = in.word("file", restart_name_allowed);
   const RestartNotes notes = read_notes(lmp, in);
   if (lmp->domain->box_exist == 0)
-    in.fail("there is no simulation box; allowed: after create_box, read_data or read_restart");
-  write_noted_data(lmp, file, notes, command);
+    in.fail("simulation box is missing; allowed: the command after create_box, read_data or read_restart");
+  write_noted_data(lmp, file, notes, command + ": file");
 }
 
 } // namespace drumlin

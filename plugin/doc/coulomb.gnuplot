@@ -1,4 +1,4 @@
-# Draws coulomb.svg: gnuplot coulomb.gnuplot. Columns: D, ratio with history at 72, 76, 80, 85 degrees, with coulomb at the same, of balls 1 to 4
+# Draws coulomb.svg. Columns: D, ratio with history at 72, 76, 80, 85 degrees, with coulomb at the same, of balls 1 to 4
 # of tests/decks/oblique.scene (second-order stepping, B, mu = 0.5).
 $ratio << END
 0 1.0000 1.0000 1.0000 1.0000 1.0000 1.0000 1.0000 1.0000
@@ -19,12 +19,11 @@ $ratio << END
 1.75 1.7154 2.2190 3.1157 6.0234 0.9985 0.9983 1.0009 1.0025
 2 1.7236 2.2321 3.1383 6.1891 0.9983 0.9980 1.0010 1.0028
 END
-set terminal svg size 640,400 font "sans-serif,13" background "white"
+load "style.gnuplot"
 set output "coulomb.svg"
 set xlabel "damping ratio D"
 set ylabel "tangential over {/Symbol m} times normal impulse"
 set key left top
 set yrange [0:7]
-set grid lc rgb "#dddddd"
 plot for [n=1:4] $ratio using 1:(column(n+1)) with linespoints lw 1.5 pt 7 ps 0.4 lc n title "history, ".word("72 76 80 85", n)." degrees", \
      for [n=1:4] $ratio using 1:(column(n+5)) with lines lw 2 lc rgb "black" title n == 1 ? "coulomb, all four" : ""

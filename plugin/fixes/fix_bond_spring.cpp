@@ -26,21 +26,22 @@ FixBondSpring::FixBondSpring(LAMMPS *lammps, int narg, char **arg) : GhostFix(la
   tags_[0] = static_cast<int>(in.integer("ball i", 1));
   tags_[1] = static_cast<int>(in.integer("ball j", 1));
   if (tags_[0] == tags_[1])
-    in.fail(fmt::format("ball j is {}, the same as ball i; allowed: another ball", tags_[1]));
+    in.fail(fmt::format("ball j is '{}', the same as ball i; allowed: another ball", tags_[1]));
   bond_.stiffness = in.number("stiffness k", Range::positive);
   bond_.damping = in.number("damping c", Range::non_negative);
   while (!in.empty()) {
     const std::string keyword = in.word("keyword");
     if (keyword == "length") {
-      current_length_ = !in.empty() && in.peek() == "current";
-      if (current_length_)
-        in.word("length");
-      else
-        bond_.length = in.number("keyword length ('current' or)", Range::positive);
+      const std::string allowed = std::string("current or ") + drumlin::allowed_text(Range::positive);
+      const std::string length = in.word("keyword length", allowed);
+      current_length_ = length == "current";
+      if (current_length_) continue;
+      bond_.length = drumlin::parse_number(length);
+      if (!drumlin::in_range(bond_.length, Range::positive)) in.fail("keyword length", length, allowed);
     } else if (keyword == "strength") {
       bond_.strength = in.number("keyword strength", Range::positive);
     } else {
-      in.fail("unknown keyword '" + keyword + "'; allowed: length or strength");
+      in.fail("keyword", keyword, "length or strength");
     }
   }
 }
@@ -56,9 +57,11 @@ void FixBondSpring::init() {
     int all = 0;
     MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_SUM, world);
     if (all != 1)
-      error->all(FLERR,
-                 drumlin::engine::as_is(fmt::format(
-                     "fix bond/spring: ball {} is missing; allowed: the ID of a ball in the box", tag)));
+      error->all(
+          FLERR,
+          drumlin::engine::error_text(fmt::format(
+              "fix bond/spring: ball is '{}', which is not in the box; allowed: the ID of a ball in the box",
+              tag)));
   }
 }
 
@@ -75,8 +78,8 @@ void FixBondSpring::find_balls() {
       }
 }
 
-FixBondSpring::State FixBondSpring::share_state() {
-  struct Ball { // as every rank shall know it
+FixBondSpring::State FixBondSpring::gather_state() {
+  struct Ball { // what all ranks know of a ball; numbers only, for MPI
     double x[3], v[3], v_before[3], inverse_mass, damping_over_mass, found;
   };
   constexpr int numbers = sizeof(Ball) / sizeof(double);
@@ -95,9 +98,10 @@ FixBondSpring::State FixBondSpring::share_state() {
   Ball all[2] = {mine[0], mine[1]};
   if (comm->nprocs > 1) MPI_Allreduce(mine, all, 2 * numbers, MPI_DOUBLE, MPI_SUM, world);
   if (all[0].found != 1.0 || all[1].found != 1.0)
-    error->all(FLERR, drumlin::engine::as_is(fmt::format(
-                          "fix bond/spring: ball {} was lost at step {}; allowed: both balls in the box",
-                          tags_[all[0].found != 1.0 ? 0 : 1], update->ntimestep)));
+    error->all(FLERR,
+               drumlin::engine::error_text(fmt::format(
+                   "fix bond/spring: ball is '{}', which was lost at step {}; allowed: both balls in the box",
+                   tags_[all[0].found != 1.0 ? 0 : 1], update->ntimestep)));
   std::array<double, 3> d{all[1].x[0] - all[0].x[0], all[1].x[1] - all[0].x[1], all[1].x[2] - all[0].x[2]};
   drumlin::engine::minimum_image(domain, d);
   State s{};
@@ -112,15 +116,15 @@ FixBondSpring::State FixBondSpring::share_state() {
   return s;
 }
 
-/// The bond under a tension that its dashpot made up for.
-physics::BondForce FixBondSpring::under(double tension) const {
+/// The bond with the rate of its stretch at which spring and dashpot together exert a tension, N.
+physics::BondForce FixBondSpring::bond_under(double tension) const {
   const double stretch = state_.distance - bond_.length;
   const double rate =
       bond_.damping > 0.0 ? (tension - bond_.stiffness * stretch) / bond_.damping : state_.rate;
   return physics::bond_force(bond_, state_.distance, rate);
 }
 
-/// Of the bond to its ball of this mass.
+/// Stiffness and damping of the bond as they count for its ball of this mass, kg.
 physics::LinkModes FixBondSpring::modes(double mass) const {
   physics::LinkModes modes;
   modes.burden = physics::link_burden(1.0 / mass, state_.inverse_masses - 1.0 / mass);
@@ -132,23 +136,23 @@ physics::LinkModes FixBondSpring::modes(double mass) const {
 
 physics::BondForce FixBondSpring::evaluate() {
   if (!whole_) return {};
-  const State s = share_state();
+  const State s = gather_state();
   return physics::bond_force(bond_, s.distance, s.rate);
 }
 
 void FixBondSpring::setup(int vflag) {
   if (current_length_) {
-    bond_.length = share_state().distance;
+    bond_.length = gather_state().distance;
     current_length_ = false;
   }
   if (const std::string wrong = bond_.invalid(); !wrong.empty())
-    error->all(FLERR, drumlin::engine::as_is("fix bond/spring: " + wrong));
+    error->all(FLERR, drumlin::engine::error_text("fix bond/spring: " + wrong));
   if (!echoed_ && comm->me == 0) {
     const std::string text = fmt::format(
         "fix bond/spring {}: balls {} and {}, k = {:.6g} N/m, c = {:.6g} N s/m, length = {:.9g} m, "
         "strength = {:.6g} N\n",
         id, tags_[0], tags_[1], bond_.stiffness, bond_.damping, bond_.length, bond_.strength);
-    drumlin::engine::say(lmp, text);
+    drumlin::engine::log_message(lmp, text);
   }
   echoed_ = true;
   post_force(vflag);
@@ -157,34 +161,38 @@ void FixBondSpring::setup(int vflag) {
 void FixBondSpring::post_force(int vflag) {
   begin_virial(vflag);
   if (!whole_) return;
-  state_ = share_state();
+  state_ = gather_state();
   for (std::size_t b = 0; b < 2; ++b)
     if (const int i = local_[b]; i >= 0) {
       if (stepping_ && stepping_->counting()) stepping_->add_damping(i, bond_.damping);
       for (drumlin::ContactWatch *watch : drumlin::ContactWatch::looking())
         watch->see(i, tags_[1 - b], modes(atom->rmass[i]), 0.0);
     }
-  if (stepping_ == nullptr || update->setupflag) {
-    take_note(physics::bond_force(bond_, state_.distance, state_.rate));
-    pull(acted_.force);
-    return;
-  }
+  if (stepping_ != nullptr && !update->setupflag) return post_force_second_order();
+  store(physics::bond_force(bond_, state_.distance, state_.rate));
+  apply(acted_.force);
+}
+
+/// The force under second-order stepping. The formulas are those of a contact, see physics/stepping.h.
+void FixBondSpring::post_force_second_order() {
   const physics::StepMotion motion{state_.distance - bond_.length, state_.rate, state_.rate_before,
                                    update->dt};
-  // A light dashpot on its own: together with a far heavier one it would lag behind by many steps.
+  // A light dashpot is solved for alone: solved for together with a far heavier one its force would lag
+  // behind by many steps.
   const double c_over_m = bond_.damping * state_.inverse_masses;
   if (!physics::needs_coupling(motion.dt, bond_.stiffness, bond_.damping, c_over_m)) {
-    take_note(under(physics::second_order_spring_dashpot(bond_.stiffness, bond_.damping, motion, acted_.force,
-                                                         c_over_m)));
-    pull(acted_.force);
+    store(bond_under(physics::second_order_spring_dashpot(bond_.stiffness, bond_.damping, motion,
+                                                          acted_.force, c_over_m)));
+    apply(acted_.force);
     return;
   }
-  // There is no make and no clamp: A is the law without them.
+  // A bond has no make, and its force is not limited to compression: transition A is the law without this
+  // limit.
   const physics::CoupledDashpot coupled = physics::coupled_dashpot(
       physics::Transition::A, bond_.stiffness, bond_.damping, motion, acted_.force, state_.damping_over_mass);
-  pull(coupled.first);
+  apply(coupled.first);
   stepping_->couple([this, coupled] {
-    take_note(under(physics::coupled_force(coupled, predicted_rate())));
+    store(bond_under(physics::coupled_force(coupled, predicted_rate())));
     tally(acted_.force - coupled.first);
     for (std::size_t b = 0; b < 2; ++b)
       if (const int i = local_[b]; i >= 0)
@@ -192,7 +200,8 @@ void FixBondSpring::post_force(int vflag) {
   });
 }
 
-/// Rate of the length with the velocities that FixStepping predicts.
+/// Rate of the stretch, m/s, with the velocities that FixStepping predicts for the end of the step.
+/// Collective.
 double FixBondSpring::predicted_rate() const {
   double mine = 0.0;
   for (std::size_t b = 0; b < 2; ++b)
@@ -204,7 +213,7 @@ double FixBondSpring::predicted_rate() const {
   return rate;
 }
 
-void FixBondSpring::pull(double tension) {
+void FixBondSpring::apply(double tension) {
   for (std::size_t b = 0; b < 2; ++b)
     if (const int i = local_[b]; i >= 0)
       for (std::size_t a = 0; a < 3; ++a)
@@ -212,7 +221,8 @@ void FixBondSpring::pull(double tension) {
   tally(tension);
 }
 
-/// Adds the share of this rank's balls in the sum of x f over both, J, xx, yy, zz, xy, xz, yz, to the virial.
+/// Adds this rank's share of the bond's virial: the sum of x f over both balls, J, with the components xx,
+/// yy, zz, xy, xz, yz.
 void FixBondSpring::tally(double tension) {
   if (!evflag) return;
   std::array<int, 2> mine{};
@@ -225,13 +235,14 @@ void FixBondSpring::tally(double tension) {
   v_tally(n, mine.data(), 2.0, both.data());
 }
 
-void FixBondSpring::take_note(const physics::BondForce &acting) {
+/// Keeps the force that acts in this step; a bond that breaks exerts none from the next step on.
+void FixBondSpring::store(const physics::BondForce &acting) {
   acted_ = acting;
   if (!acted_.breaks) return;
   whole_ = false;
   if (comm->me == 0)
     error->warning(FLERR,
-                   drumlin::engine::as_is(fmt::format(
+                   drumlin::engine::error_text(fmt::format(
                        "fix bond/spring {}: the bond of balls {} and {} broke at step {} under {:.6g} N", id,
                        tags_[0], tags_[1], update->ntimestep, acted_.force)));
   acted_ = {};

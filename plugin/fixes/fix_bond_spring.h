@@ -9,8 +9,9 @@
 
 namespace LAMMPS_NS {
 
-/// Spring k and dashpot c along the line of two balls, given by tag; tension positive. The two balls'
-/// positions and velocities are shared over all ranks, so any distance and decomposition will do.
+/// Spring and dashpot in parallel along the line of centres of two balls, which are given by their IDs. All
+/// ranks know the positions and velocities of the two balls, so that these may be at any distance and on any
+/// ranks.
 class FixBondSpring : public drumlin::engine::GhostFix {
 public:
   FixBondSpring(LAMMPS *, int, char **);
@@ -25,40 +26,41 @@ public:
   void restart(char *) override;
   /// Energy in the spring, J.
   double compute_scalar() override { return acted_.stored; }
-  /// 0: stretch, m; 1: its rate as the force saw it, m/s; 2: force that acted in this step, N, tension positive; 3: power of the
-  /// dashpot, W; 4: 1 while whole.
+  /// 0: stretch, m; 1: its rate with which the force was computed, m/s; 2: force that acted in this step, N,
+  /// positive in tension; 3: power of the dashpot, W; 4: 1 while the bond is not broken.
   double compute_vector(int) override;
 
-  /// Force and power at the positions and velocities of now; collective.
+  /// Force and power at the present positions and velocities; zero when the bond is broken. Collective.
   drumlin::physics::BondForce evaluate();
-  /// Distance of now over the length without force, m; collective.
-  double stretch() { return current_length_ ? 0.0 : share_state().distance - bond_.length; }
+  /// Present distance less the length without force, m; 0 before the length is known. Collective.
+  double stretch() { return current_length_ ? 0.0 : gather_state().distance - bond_.length; }
 
 private:
   struct State {
     double distance;
-    double rate;                     // with the velocities of now: half-step ones while forces are computed
-    double rate_before;              // with the velocities at the begin of the step
-    double inverse_masses;           // sum of both balls
+    double rate; // with the present velocities: those of the middle of the step while forces are computed
+    double rate_before;              // with the velocities at the beginning of the step
+    double inverse_masses;           // sum of 1/m over both balls
     double damping_over_mass;        // sum of c/m over the links of both balls
     std::array<double, 3> direction; // from i to j
   };
-  drumlin::physics::BondForce under(double tension) const;
+  drumlin::physics::BondForce bond_under(double tension) const;
   drumlin::physics::LinkModes modes(double mass) const;
-  State share_state();
+  State gather_state();
   double predicted_rate() const;
-  void pull(double tension);
+  void post_force_second_order();
+  void apply(double tension);
   void tally(double tension);
-  void take_note(const drumlin::physics::BondForce &acting);
+  void store(const drumlin::physics::BondForce &acting);
   void find_balls();
 
   static constexpr std::array<double, 2> sign_{1.0, -1.0}; // tension pulls i towards j and j towards i
   std::array<int, 2> tags_{};
-  std::array<int, 2> local_{-1, -1}; // indices of owned balls, -1 for those of other ranks
+  std::array<int, 2> local_{-1, -1}; // indices of the balls; -1 if another rank owns the ball
   drumlin::physics::Bond bond_;
   bool current_length_ = true; // the length is the distance at the first set-up
   bool whole_ = true;
-  class FixStepping *stepping_ = nullptr; // none under stock stepping
+  class FixStepping *stepping_ = nullptr; // nullptr under stock stepping
   bool echoed_ = false;
   State state_{};
   drumlin::physics::BondForce acted_{};

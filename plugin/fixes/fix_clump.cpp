@@ -15,8 +15,8 @@ FixClump::FixClump(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg
   extvector = 0;
   global_freq = 1;
   drumlin::Arguments in(error, "fix clump", narg - 3, arg + 3);
-  if (!in.empty()) in.fail("'" + in.peek() + "' is left over; allowed: fix ID group clump");
-  if (igroup == 0) in.fail("its group is 'all'; allowed: a group that is not all, the balls of the body");
+  in.expect_end("fix ID group clump");
+  if (igroup == 0) in.fail("group", "all", "a group with the balls of the body, which is not all");
   list().push_back(this);
 }
 
@@ -32,39 +32,42 @@ int FixClump::setmask() { return FixConst::POST_FORCE; }
 void FixClump::init() {
   const double balls = static_cast<double>(group->count(igroup));
   if (balls == 0.0)
-    error->all(FLERR, drumlin::engine::as_is(fmt::format(
-                          "fix clump: group {} is empty; allowed: the group of the balls of the body",
-                          group->names[igroup])));
+    error->all(FLERR,
+               drumlin::engine::error_text(fmt::format(
+                   "fix clump: group is '{}', which is empty; allowed: a group with the balls of the body",
+                   group->names[igroup])));
   mass_ = group->mass(igroup);
   for (const FixClump *other : list())
-    if (const int common = shared_with(*other); other != this && common > 0)
-      error->all(FLERR,
-                 drumlin::engine::as_is(fmt::format(
-                     "fix clump: {} balls of group {} are in group {} too; allowed: a ball in one clump",
-                     common, group->names[igroup], group->names[other->igroup])));
-  // Forces that come after this fix would act on single balls of the body.
+    if (const int common = common_balls(*other); other != this && common > 0)
+      error->all(FLERR, drumlin::engine::error_text(
+                            fmt::format("fix clump: group is '{}', of which {} balls are in the clump '{}'; "
+                                        "allowed: each ball in one clump only",
+                                        group->names[igroup], common, group->names[other->igroup])));
+  // A force that a later fix exerts would act on single balls of the body. These styles keep the balls'
+  // accelerations equal.
   constexpr std::array<const char *, 6> harmless = {"lineforce", "planeforce",  "setforce",
                                                     "freeze",    "drum/excite", "clump"};
-  bool behind = false;
+  bool later = false;
   for (int n = 0; n < modify->nfix; ++n) {
     const Fix &other = *modify->fix[n];
-    const bool forces = behind && (modify->fmask[n] & FixConst::POST_FORCE);
-    behind = behind || &other == this;
+    const bool forces = later && (modify->fmask[n] & FixConst::POST_FORCE);
+    later = later || &other == this;
     if (forces && std::find(harmless.begin(), harmless.end(), std::string(other.style)) == harmless.end() &&
-        shared_with(other) > 0)
-      error->all(FLERR,
-                 drumlin::engine::as_is(fmt::format(
-                     "fix clump: fix {} ({}) stands behind it and exerts forces on group {}; allowed: fix "
-                     "clump behind all fixes that exert forces on its balls",
-                     other.id, other.style, group->names[igroup])));
+        common_balls(other) > 0)
+      error->all(FLERR, drumlin::engine::error_text(
+                            fmt::format("fix clump: group is '{}', on which the later fix {} ({}) exerts "
+                                        "forces; allowed: fix clump after all "
+                                        "fixes that exert forces on its balls",
+                                        group->names[igroup], other.id, other.style)));
   }
   if (!echoed_)
-    drumlin::engine::say(lmp, fmt::format("fix clump {}: {:.0f} balls, {:.9g} kg\n", id, balls, mass_));
+    drumlin::engine::log_message(lmp,
+                                 fmt::format("fix clump {}: {:.0f} balls, {:.9g} kg\n", id, balls, mass_));
   echoed_ = true;
 }
 
-/// Balls of the body in the group of another fix; collective.
-int FixClump::shared_with(const Fix &other) const {
+/// Number of balls of the body that are also in the group of another fix. Collective.
+int FixClump::common_balls(const Fix &other) const {
   int mine = 0;
   for (int i = 0; i < atom->nlocal; ++i)
     mine += (atom->mask[i] & groupbit) && (atom->mask[i] & other.groupbit) ? 1 : 0;

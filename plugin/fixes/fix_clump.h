@@ -7,7 +7,8 @@
 
 namespace LAMMPS_NS {
 
-/// Shares the force on the body by mass, so that all its balls get one acceleration, and gives its mass to their contacts.
+/// Distributes the sum of the forces on the balls over them in proportion to their masses, so that all have
+/// one acceleration. The contacts of the balls take the mass of the body.
 class FixClump : public Fix {
 public:
   FixClump(LAMMPS *, int, char **);
@@ -16,14 +17,15 @@ public:
   int setmask() override;
   void init() override;
   void setup(int) override;
-  /// A projection: what it has shared once it leaves as it is. Collective.
+  /// Distributes the forces. A second call in the same step changes nothing. Collective.
   void post_force(int) override;
-  /// 0: mass, kg; 1-3: force on the body, N, before it is shared.
+  /// 0: mass, kg; 1-3: force on the body, N.
   double compute_vector(int) override;
 
-  /// The clumps of this engine instance.
+  /// All fixes clump.
   static const std::vector<FixClump *> &all() { return list(); }
-  /// Mass (kg) that contacts of ball i (owned or ghost) feel: its body's if it belongs to one, else `own`. Valid from init() on.
+  /// Mass, kg, of ball i (owned or ghost) in its contacts: that of its body if it belongs to a clump, else
+  /// `own`. Valid from init() on.
   static double mass_of(const Atom &atom, int i, double own) {
     for (const FixClump *clump : list())
       if (atom.mask[i] & clump->groupbit) return clump->mass_;
@@ -31,7 +33,7 @@ public:
   }
 
 private:
-  int shared_with(const Fix &other) const;
+  int common_balls(const Fix &other) const;
   static std::vector<FixClump *> &list();
 
   double mass_ = 0.0;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char *command = "fix contact/events";
 constexpr const char *file_keyword = "fix contact/events: keyword file";
-/// Steps between collective writes: an event waits in memory at most this long.
+/// Steps between two writes, which are collective: an event stays in memory for at most as many steps.
 constexpr int write_interval = 1000;
 
 std::string file_argument(Error *error, int narg, char **arg) {
@@ -24,7 +24,7 @@ std::string file_argument(Error *error, int narg, char **arg) {
   if (in.empty() || in.peek() != "file")
     in.fail("keyword file is missing; allowed: file NAME as the first keyword");
   in.word("keyword");
-  return in.word("keyword file: its name", drumlin::output_name_allowed);
+  return in.word("keyword file", drumlin::output_name_allowed);
 }
 
 bool append_argument(int narg, char **arg) {
@@ -54,7 +54,7 @@ FixContactEvents::FixContactEvents(LAMMPS *lammps, int narg, char **arg)
     } else if (keyword == "append") {
       in.choice("keyword append", {"yes", "no"});
     } else {
-      in.fail("unknown keyword '" + keyword + "'; allowed: types or append");
+      in.fail("keyword", keyword, "types or append");
     }
   }
 }
@@ -65,68 +65,67 @@ int FixContactEvents::setmask() {
 
 void FixContactEvents::init() {
   source_ = drumlin::contact_source(lmp);
-  if (source_ == nullptr)
-    error->all(FLERR, engine::as_is(fmt::format("fix contact/events: the pair style is another; allowed: {}",
-                                                engine::pair_style)));
+  if (source_ == nullptr) error->all(FLERR, engine::error_text(engine::other_pair_style(lmp, command)));
   drumlin::OutputFile::check(file_.name(), comm, error, world, file_keyword);
 }
 
 void FixContactEvents::setup(int) {
   clock_.set_up(update->ntimestep, update->dt);
   file_.open(comm, error, world, file_keyword, "time,event,overlap,overlap_rate,force,id_i,id_j");
-  carried_.clear(); // the set-up state is known from positions and velocities alone
-  rebuild();
+  states_.clear(); // at set-up positions and velocities tell whether a contact acts
+  list_pairs();
 }
 
-bool FixContactEvents::is_watched(int i, int j) const {
+bool FixContactEvents::is_selected(int i, int j) const {
   const int *mask = atom->mask;
   if (!(mask[i] & groupbit) || !(mask[j] & groupbit)) return false;
-  if (!engine::speaks_for(lmp, i, j)) return false;
+  if (!engine::owns_pair(lmp, i, j)) return false;
   if (types_[0] == 0) return true;
   const int a = atom->type[i];
   const int b = atom->type[j];
   return (a == types_[0] && b == types_[1]) || (a == types_[1] && b == types_[0]);
 }
 
-void FixContactEvents::rebuild() {
-  watched_.clear();
+void FixContactEvents::list_pairs() {
+  pairs_.clear();
   const NeighList *list = source_->contact_list();
   for (int ii = 0; ii < list->inum; ++ii) {
     const int i = list->ilist[ii];
     for (int jj = 0; jj < list->numneigh[i]; ++jj) {
       const int j = engine::neighbour_index(list->firstneigh[i][jj]);
-      if (!is_watched(i, j)) continue;
+      if (!is_selected(i, j)) continue;
       const physics::LinearContact &law = source_->law(atom->type[i], atom->type[j]);
-      Watched pair{};
+      Pair pair{};
       pair.i = i;
       pair.j = j;
       pair.tags = std::minmax(atom->tag[i], atom->tag[j]);
       pair.k = law.stiffness;
       pair.c = physics::damping_coefficient(law, source_->effective_mass(i, j));
       pair.transition = law.transition;
-      if (const auto known = carried_.find(pair.tags); known != carried_.end()) {
+      if (const auto known = states_.find(pair.tags); known != states_.end()) {
         pair.state = known->second;
       } else {
         const drumlin::PairMotion now = drumlin::pair_motion(*atom, i, j);
         pair.state = {now.overlap, now.rate};
-        // New in the list during a run: the balls were apart by the neighbour skin one step ago.
+        // A pair that is new in the list during a run. One step earlier the gap between the balls was about
+        // the neighbour skin.
         if (!update->setupflag) pair.state.overlap -= update->dt * now.rate;
       }
-      watched_.push_back(pair);
+      pairs_.push_back(pair);
     }
   }
-  carried_.clear();
-  stale_ = false;
+  states_.clear();
+  pairs_outdated_ = false;
 }
 
 void FixContactEvents::pre_exchange() {
-  // Balls may change ranks now: each rank learns the states of all watched pairs.
+  // Balls change ranks after this: each rank gets the states of all pairs.
   struct Entry {
     int tag_i, tag_j;
     physics::OverlapState state;
   };
   std::vector<Entry> mine;
-  for (const Watched &pair : watched_)
+  for (const Pair &pair : pairs_)
     mine.push_back({pair.tags.first, pair.tags.second, pair.state});
   std::vector<int> bytes(static_cast<std::size_t>(comm->nprocs));
   std::vector<int> offsets(bytes.size());
@@ -137,12 +136,12 @@ void FixContactEvents::pre_exchange() {
     offsets[rank] = total;
   std::vector<Entry> all(static_cast<std::size_t>(total) / sizeof(Entry));
   MPI_Allgatherv(mine.data(), my_bytes, MPI_BYTE, all.data(), bytes.data(), offsets.data(), MPI_BYTE, world);
-  carried_.clear();
+  states_.clear();
   for (const Entry &entry : all)
-    carried_[{entry.tag_i, entry.tag_j}] = entry.state;
+    states_[{entry.tag_i, entry.tag_j}] = entry.state;
 }
 
-void FixContactEvents::pre_neighbor() { stale_ = true; }
+void FixContactEvents::pre_neighbor() { pairs_outdated_ = true; }
 
 void FixContactEvents::refresh_ghost_velocities() {
   if (comm->nprocs > 1 || atom->nghost > 0) engine::forward_comm(comm, this);
@@ -157,9 +156,9 @@ void FixContactEvents::unpack_ghosts(int n, int first, double *buf) {
 
 void FixContactEvents::end_of_step() {
   refresh_ghost_velocities();
-  if (stale_) rebuild();
+  if (pairs_outdated_) list_pairs();
   const double dt = update->dt;
-  for (Watched &pair : watched_) {
+  for (Pair &pair : pairs_) {
     const drumlin::PairMotion motion = drumlin::pair_motion(*atom, pair.i, pair.j);
     const physics::OverlapState now{motion.overlap, motion.rate};
     if (const auto event = physics::locate_transition(pair.transition, pair.k, pair.c, dt, pair.state, now))
@@ -184,7 +183,7 @@ void FixContactEvents::write_out() {
   MPI_Gatherv(pending_.data(), my_bytes, MPI_BYTE, all.data(), bytes.data(), offsets.data(), MPI_BYTE, 0,
               world);
   pending_.clear();
-  // The order of the file must not depend on which rank saw an event.
+  // Sorted, so that the file does not depend on which rank has found an event.
   std::sort(all.begin(), all.end(), [](const Event &a, const Event &b) {
     return std::tie(a.time, a.tag_i, a.tag_j) < std::tie(b.time, b.tag_i, b.tag_j);
   });

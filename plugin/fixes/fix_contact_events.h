@@ -12,8 +12,8 @@
 
 namespace LAMMPS_NS {
 
-/// Watches the pairs of two types (or of the whole group) and writes each make and break once, on any number
-/// of ranks.
+/// Compares, for each pair of two types (or of the group), whether the contact law acts with whether it did
+/// one step earlier, and writes each make and break once, on any number of ranks.
 class FixContactEvents : public drumlin::engine::GhostFix {
 public:
   FixContactEvents(LAMMPS *, int, char **);
@@ -29,17 +29,17 @@ public:
   void unpack_ghosts(int, int, double *) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
-  /// Events seen so far.
+  /// Number of events written so far.
   double compute_scalar() override;
 
 private:
   using Tags = std::pair<int, int>; // lower first
-  struct Watched {
+  struct Pair {
     int i, j;
     Tags tags;
     double k, c;
     drumlin::physics::Transition transition;
-    drumlin::physics::OverlapState state;
+    drumlin::physics::OverlapState state; // at the end of the last step
   };
   struct Event {
     double time;
@@ -48,8 +48,8 @@ private:
     int tag_i, tag_j;
   };
 
-  bool is_watched(int i, int j) const;
-  void rebuild();
+  bool is_selected(int i, int j) const;
+  void list_pairs();
   void refresh_ghost_velocities();
   void write_out();
 
@@ -57,9 +57,10 @@ private:
   drumlin::OutputFile file_;
   const drumlin::ContactSource *source_ = nullptr;
   drumlin::Clock clock_;
-  std::vector<Watched> watched_;
-  std::map<Tags, drumlin::physics::OverlapState> carried_; // states over a rebuild, known on every rank
-  bool stale_ = true;
+  std::vector<Pair> pairs_;
+  std::map<Tags, drumlin::physics::OverlapState>
+      states_;                 // of all ranks' pairs, while the neighbour list is built
+  bool pairs_outdated_ = true; // the neighbour list was built since list_pairs()
   std::vector<Event> pending_; // not yet written
   bigint count_ = 0;
 };

@@ -16,9 +16,10 @@ FixContactLocal::FixContactLocal(LAMMPS *lammps, int narg, char **arg) : Fix(lam
   drumlin::Arguments in(error, command, narg - 3, arg + 3);
   in.choice("keyword", {"every"});
   nevery = static_cast<int>(in.integer("keyword every", 1, std::numeric_limits<int>::max()));
-  if (!in.empty()) in.fail("'" + in.peek() + "' is left over; allowed: every N");
+  in.expect_end("every N");
   local_flag = 1;
-  // LIGGGHTS's compute reduce and fix ave/histo divide by the others, of a fix with local data, too.
+  // LIGGGHTS's compute reduce and fix ave/histo divide by the other two intervals even if a fix has local
+  // data only: they must not be 0.
   local_freq = peratom_freq = global_freq = nevery;
   size_local_cols = numbers;
   size_local_rows = 0;
@@ -28,28 +29,27 @@ int FixContactLocal::setmask() { return FixConst::PRE_FORCE | FixConst::END_OF_S
 
 void FixContactLocal::init() {
   if (drumlin::contact_source(lmp) == nullptr)
-    error->all(FLERR, engine::as_is(std::string(command) +
-                                    ": the pair style is another; allowed: " + engine::pair_style));
+    error->all(FLERR, engine::error_text(engine::other_pair_style(lmp, command)));
 }
 
 void FixContactLocal::setup_pre_force(int vflag) { pre_force(vflag); }
 
 void FixContactLocal::setup(int) {
-  if (book_) close_book();
+  if (recorder_) make_rows();
 }
 
 void FixContactLocal::pre_force(int) {
-  if (update->ntimestep % nevery == 0) book_.emplace();
+  if (update->ntimestep % nevery == 0) recorder_.emplace();
 }
 
-void FixContactLocal::end_of_step() { close_book(); }
+void FixContactLocal::end_of_step() { make_rows(); }
 
-void FixContactLocal::close_book() {
+void FixContactLocal::make_rows() {
   rows_.clear();
-  for (const drumlin::LedgerEntry &entry : book_->entries) {
+  for (const drumlin::LedgerEntry &entry : recorder_->entries) {
     const bool wall = entry.j < 0;
     if (!(atom->mask[entry.i] & groupbit) && (wall || !(atom->mask[entry.j] & groupbit))) continue;
-    if (!wall && !engine::speaks_for(lmp, entry.i, entry.j)) continue;
+    if (!wall && !engine::owns_pair(lmp, entry.i, entry.j)) continue;
     const double normal =
         entry.share * (entry.final_force != nullptr ? *entry.final_force : entry.normal_force);
     const auto &n = entry.normal;
@@ -58,7 +58,7 @@ void FixContactLocal::close_book() {
                      wall ? 0.0 : static_cast<double>(atom->tag[entry.j]), normal * n[0] + t[0],
                      normal * n[1] + t[1], normal * n[2] + t[2], n[0], n[1], n[2], entry.overlap});
   }
-  book_.reset();
+  recorder_.reset();
   row_pointers_.clear();
   for (Row &row : rows_)
     row_pointers_.push_back(row.data());

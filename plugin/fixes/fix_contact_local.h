@@ -1,5 +1,6 @@
 #pragma once
-// fix contact/local: the contacts of a step, walls' included, for dump local. See plugin/doc/fix_contact_local.md.
+// fix contact/local: the contacts of a step, those with walls included, for dump local. See
+// plugin/doc/fix_contact_local.md.
 
 #include "engine.h"
 #include "contact/contact_ledger.h"
@@ -8,7 +9,8 @@
 
 namespace LAMMPS_NS {
 
-/// Keeps the book of every N-th step's contacts and hands it out as local data, one row per contact, on one rank only.
+/// Records the contacts of every N-th step and provides them as local data, with one row per contact, on one
+/// rank only.
 class FixContactLocal : public Fix {
 public:
   FixContactLocal(LAMMPS *, int, char **);
@@ -22,18 +24,20 @@ public:
   double memory_usage() override;
 
 private:
-  class Book : public drumlin::ContactLedger {
+  class Recorder : public drumlin::ContactLedger {
   public:
     void enter(const drumlin::LedgerEntry &entry) override { entries.push_back(entry); }
     std::vector<drumlin::LedgerEntry> entries;
   };
-  void close_book();
+  void make_rows();
 
-  /// IDs of the balls, the force on the first and the unit vector to it, the overlap.
+  /// Columns of a row: the IDs of the two balls, the force on the first, the unit vector from the second to
+  /// it, the overlap.
   static constexpr std::size_t numbers = 9;
   using Row = std::array<double, numbers>;
 
-  std::optional<Book> book_; // open from the beginning of a step's forces to its end
+  std::optional<Recorder>
+      recorder_; // exists from the start of the force computation of a recorded step to the end of the step
   std::vector<Row> rows_;
   std::vector<double *> row_pointers_;
 };

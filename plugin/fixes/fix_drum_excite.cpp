@@ -15,17 +15,6 @@ namespace {
 
 constexpr double two_pi = 6.283185307179586;
 
-std::array<double, 3> unit(drumlin::Arguments &in, const std::string &what) {
-  std::array<double, 3> v{};
-  for (std::size_t a = 0; a < 3; ++a)
-    v[a] = in.number(what + ", " + "xyz"[a]);
-  const double length = std::hypot(v[0], v[1], v[2]);
-  if (length == 0.0) in.fail(what + " is '0 0 0'; allowed: a vector with a length");
-  for (double &component : v)
-    component /= length;
-  return v;
-}
-
 std::array<double, 3> cross(const std::array<double, 3> &a, const std::array<double, 3> &b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
@@ -40,6 +29,10 @@ FixDrumExcite::FixDrumExcite(LAMMPS *lammps, int narg, char **arg) : Fix(lammps,
   restart_global = 1;
   time_depend = 1; // the clock counts steps
 
+  parse(narg, arg);
+}
+
+void FixDrumExcite::parse(int narg, char **arg) {
   drumlin::Arguments in(error, "fix drum/excite", narg - 3, arg + 3);
   bool has_amplitude = false;
   bool has_frequency = false;
@@ -47,59 +40,67 @@ FixDrumExcite::FixDrumExcite(LAMMPS *lammps, int narg, char **arg) : Fix(lammps,
     const std::string keyword = in.word("keyword");
     if (keyword == "amplitude" || keyword == "eccentric") {
       if (has_amplitude)
-        in.fail("keyword " + keyword +
-                ": the amplitude is given twice; allowed: amplitude or eccentric, once");
+        in.fail("keyword is '" + keyword + "', a second amplitude; allowed: amplitude or eccentric, once");
       has_amplitude = true;
-      if (keyword == "amplitude") {
-        excitation_.amplitude = in.number("keyword amplitude", Range::non_negative);
-      } else {
-        excitation_.eccentric = true;
-        excitation_.eccentric_mass = in.number("keyword eccentric, mass", Range::positive);
-        excitation_.eccentric_radius = in.number("keyword eccentric, radius", Range::positive);
-      }
-    } else if (keyword == "omega" || keyword == "frequency") {
-      if (has_frequency)
-        in.fail("keyword " + keyword + ": the frequency is given twice; allowed: omega or frequency, once");
-      has_frequency = true;
-      excitation_.angular_frequency =
-          in.number("keyword " + keyword, Range::positive) * (keyword == "omega" ? 1.0 : two_pi);
-    } else if (keyword == "phase") {
-      excitation_.phase = in.number("keyword phase");
-    } else if (keyword == "start") {
-      excitation_.start = in.number("keyword start", Range::non_negative);
-    } else if (keyword == "ramp") {
-      excitation_.ramp = in.number("keyword ramp", Range::non_negative);
-    } else if (keyword == "sweep") {
-      excitation_.sweep_frequency = in.number("keyword sweep, end frequency", Range::positive);
-      excitation_.sweep_duration = in.number("keyword sweep, duration", Range::positive);
-    } else if (keyword == "direction") {
-      given_direction_ = unit(in, "keyword direction");
-    } else if (keyword == "mode") {
-      excitation_.rotating = in.choice("keyword mode", {"directed", "rotating"}) == 1;
-    } else if (keyword == "axis") {
-      axis_ = unit(in, "keyword axis");
-    } else {
-      in.fail("unknown keyword '" + keyword +
-              "'; allowed: amplitude, eccentric, omega, frequency, phase, start, ramp, sweep, direction, "
-              "mode or axis");
     }
+    if (keyword == "omega" || keyword == "frequency") {
+      if (has_frequency)
+        in.fail("keyword is '" + keyword + "', a second frequency; allowed: omega or frequency, once");
+      has_frequency = true;
+    }
+    if (keyword == "direction")
+      given_direction_ = in.direction("keyword direction");
+    else if (keyword == "axis")
+      axis_ = in.direction("keyword axis");
+    else
+      parse_excitation(in, keyword);
   }
-  if (!has_amplitude) in.fail("the amplitude is missing; allowed: amplitude Fw or eccentric me re");
-  if (!has_frequency) in.fail("the frequency is missing; allowed: omega w or frequency f");
+  if (!has_amplitude) in.fail("keyword amplitude is missing; allowed: amplitude Fw or eccentric me re");
+  if (!has_frequency) in.fail("keyword omega is missing; allowed: omega w or frequency f");
   if (excitation_.rotating && !axis_)
-    in.fail("keyword mode is 'rotating' and the axis is missing; allowed: axis x y z");
+    in.fail("keyword axis is missing beside mode rotating; allowed: axis x y z");
   if (!excitation_.rotating && axis_)
-    in.fail("keyword axis is given and keyword mode is 'directed'; allowed: axis with mode rotating only");
-  if (const std::string wrong = excitation_.invalid(); !wrong.empty()) in.fail(wrong);
+    in.fail("keyword mode is 'directed', with keyword axis; allowed: axis with mode rotating only");
+  if (const std::string fault = excitation_.invalid(); !fault.empty()) in.fail(fault);
+}
+
+/// Keywords of the force in time.
+void FixDrumExcite::parse_excitation(drumlin::Arguments &in, const std::string &keyword) {
+  if (keyword == "amplitude") {
+    excitation_.amplitude = in.number("keyword amplitude", Range::non_negative);
+  } else if (keyword == "eccentric") {
+    excitation_.eccentric = true;
+    excitation_.eccentric_mass = in.number("keyword eccentric, mass", Range::positive);
+    excitation_.eccentric_radius = in.number("keyword eccentric, radius", Range::positive);
+  } else if (keyword == "omega") {
+    excitation_.angular_frequency = in.number("keyword omega", Range::positive);
+  } else if (keyword == "frequency") {
+    excitation_.angular_frequency = in.number("keyword frequency", Range::positive) * two_pi;
+  } else if (keyword == "phase") {
+    excitation_.phase = in.number("keyword phase");
+  } else if (keyword == "start") {
+    excitation_.start = in.number("keyword start", Range::non_negative);
+  } else if (keyword == "ramp") {
+    excitation_.ramp = in.number("keyword ramp", Range::non_negative);
+  } else if (keyword == "sweep") {
+    excitation_.sweep_frequency = in.number("keyword sweep, end frequency", Range::positive);
+    excitation_.sweep_duration = in.number("keyword sweep, duration", Range::positive);
+  } else if (keyword == "mode") {
+    excitation_.rotating = in.choice("keyword mode", {"directed", "rotating"}) == 1;
+  } else {
+    in.fail("keyword", keyword,
+            "amplitude, eccentric, omega, frequency, phase, start, ramp, sweep, direction, mode or axis");
+  }
 }
 
 int FixDrumExcite::setmask() { return FixConst::POST_INTEGRATE | FixConst::POST_FORCE; }
 
 void FixDrumExcite::init() {
   if (group->count(igroup) == 0)
-    error->all(FLERR, engine::as_is(fmt::format(
-                          "fix drum/excite: group {} is empty; allowed: a group with at least one ball",
-                          group->names[igroup])));
+    error->all(FLERR,
+               engine::error_text(fmt::format(
+                   "fix drum/excite: group is '{}', which is empty; allowed: a group with at least one ball",
+                   group->names[igroup])));
   mass_ = group->mass(igroup);
   stepping_ = FixStepping::find(lmp);
   if (given_direction_) {
@@ -119,10 +120,10 @@ void FixDrumExcite::init() {
         (*axis_)[0] * direction_[0] + (*axis_)[1] * direction_[1] + (*axis_)[2] * direction_[2];
     if (std::fabs(along) > 1e-12)
       error->all(FLERR,
-                 engine::as_is(fmt::format(
-                     "fix drum/excite: keyword axis: its cosine with the direction is {:.6g}; allowed: an "
-                     "axis at right angles to the direction",
-                     along)));
+                 engine::error_text(fmt::format("fix drum/excite: keyword axis is '{:.6g} {:.6g} {:.6g}', "
+                                                "not at right angles to the direction (cosine {:.6g}); "
+                                                "allowed: an axis at right angles to the direction",
+                                                (*axis_)[0], (*axis_)[1], (*axis_)[2], along)));
     normal_ = cross(*axis_, direction_);
   }
 }
@@ -139,14 +140,14 @@ void FixDrumExcite::setup(int vflag) {
         excitation_.eccentric ? excitation_.eccentric_mass * excitation_.eccentric_radius * w * w
                               : excitation_.amplitude,
         mass_, w, w / two_pi, two_pi / (w * update->dt), direction_[0], direction_[1], direction_[2]);
-    drumlin::engine::say(lmp, text);
+    drumlin::engine::log_message(lmp, text);
   }
   echoed_ = true;
   post_force(vflag);
 }
 
-// The contact law of second-order stepping predicts the velocity at the end of the step: what the excitation will be there is
-// known beforehand.
+// Second-order stepping predicts the velocity at the end of the step from the force of the last step. The
+// force of the excitation at the end of the step is known already: its change is part of the prediction.
 void FixDrumExcite::post_integrate() {
   if (stepping_ == nullptr) return;
   const Vector F = force_now();

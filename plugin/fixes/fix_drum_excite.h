@@ -2,15 +2,20 @@
 // fix drum/excite: the excitation force of the vibratory drum. See plugin/doc/fix_drum_excite.md.
 
 #include "engine.h"
-#include "support/clock.h"
 #include "physics/excitation.h"
+#include "support/clock.h"
 
 #include <optional>
 
+namespace drumlin {
+class Arguments;
+}
+
 namespace LAMMPS_NS {
 
-/// Adds Fe(t) to a group, shared by mass. Fe is positive along `direction`, by default that of gravity, and
-/// belongs to the time of the positions in the same step.
+/// Adds the excitation force Fe(t) to a group, distributed over its balls in proportion to their masses. Fe
+/// is positive along `direction`, by default that of gravity; t is the time of the positions of the same
+/// step.
 class FixDrumExcite : public Fix {
 public:
   FixDrumExcite(LAMMPS *, int, char **);
@@ -24,11 +29,13 @@ public:
   void restart(char *) override;
   /// Fe along the direction, N.
   double compute_scalar() override;
-  /// 0-2: force components, N; 3: phase, rad; 4: frequency, rad/s; 5: own time, s.
+  /// 0-2: force components, N; 3: phase, rad; 4: angular frequency, rad/s; 5: time on the fix's clock, s.
   double compute_vector(int) override;
 
 private:
   using Vector = std::array<double, 3>;
+  void parse(int narg, char **arg);
+  void parse_excitation(drumlin::Arguments &in, const std::string &keyword);
   double now() const;
   Vector force_now() const;
 
@@ -36,8 +43,8 @@ private:
   std::optional<Vector> given_direction_;
   std::optional<Vector> axis_; // of rotation
   Vector direction_{};
-  Vector normal_{};                       // axis x direction: second component of a rotating force
-  class FixStepping *stepping_ = nullptr; // none under stock stepping
+  Vector normal_{}; // axis x direction: direction of the second component of a rotating force
+  class FixStepping *stepping_ = nullptr; // nullptr under stock stepping
   Vector acted_{};                        // force of the last step
   drumlin::Clock clock_;
   double mass_ = 0.0; // of the group

@@ -12,10 +12,11 @@ using namespace LAMMPS_NS;
 
 namespace {
 
-/// Finite if and only if all three are: a sum of finite numbers of a simulation does not overflow.
+/// Sum of the components, which is finite if and only if all three are: finite numbers of a simulation are
+/// too small for their sum to overflow.
 double sum(const double *v) { return v[0] + v[1] + v[2]; }
 
-/// Of a link that is alone in holding its two balls, s.
+/// Critical step, s, of a ball that has no other link.
 double critical_step(const drumlin::physics::LinkModes &modes) {
   drumlin::physics::LoadedBall ball;
   ball.add(modes);
@@ -23,7 +24,8 @@ double critical_step(const drumlin::physics::LinkModes &modes) {
 }
 
 std::string pair_name(double ball, double partner) {
-  const auto [first, second] = std::minmax(ball, partner); // whichever of them a rank has met first
+  const auto [first, second] =
+      std::minmax(ball, partner); // the lower ID first, for the same text on any number of ranks
   return partner > 0.0 ? fmt::format("balls {:.0f} and {:.0f}", first, second)
                        : fmt::format("ball {:.0f} and a wall", ball);
 }
@@ -49,43 +51,38 @@ FixGuard::FixGuard(LAMMPS *lammps, int narg, char **arg) : GhostFix(lammps, narg
       step_ = in.number("keyword step", drumlin::Range::positive);
     else if (keyword == "overlap")
       overlap_ = in.number("keyword overlap", drumlin::Range::positive);
-    else if (keyword == "watch")
-      watch_ = in.choice("keyword watch", {"on", "off"}) == 0;
     else
-      in.fail("unknown keyword '" + keyword + "'; allowed: every, links, step, overlap or watch");
+      in.fail("keyword", keyword, "every, links, step or overlap");
   }
 }
 
-int FixGuard::setmask() {
-  return watch_ ? FixConst::INITIAL_INTEGRATE | FixConst::PRE_FORCE | FixConst::END_OF_STEP : 0;
-}
+int FixGuard::setmask() { return FixConst::INITIAL_INTEGRATE | FixConst::PRE_FORCE | FixConst::END_OF_STEP; }
 
 void FixGuard::setup_pre_force(int) {
-  at_set_up_ = true;
-  begin_look();
+  links_of_setup_ = true;
+  begin_links();
 }
 
-void FixGuard::setup(int) {
-  if (watch_) check_numbers();
-}
+void FixGuard::setup(int) { check_numbers(); }
 
-/// The links of the set-up are complete when the set-up of every fix is over.
+/// The links of the set-up are checked here, when all fixes have been set up and all bonds have been
+/// computed.
 void FixGuard::initial_integrate(int) {
-  if (!at_set_up_) return;
-  end_look();
-  at_set_up_ = false;
+  if (!links_of_setup_) return;
+  end_links();
+  links_of_setup_ = false;
 }
 
 void FixGuard::pre_force(int) {
-  if (update->ntimestep % links_ == 0) begin_look();
+  if (update->ntimestep % links_ == 0) begin_links();
 }
 
 void FixGuard::end_of_step() {
   if (update->ntimestep % every_ == 0) check_numbers();
-  if (update->ntimestep % links_ == 0) end_look();
+  if (update->ntimestep % links_ == 0) end_links();
 }
 
-void FixGuard::begin_look() {
+void FixGuard::begin_links() {
   const int balls = atom->nlocal + (force->newton_pair ? atom->nghost : 0);
   balls_.assign(static_cast<std::size_t>(balls), {});
   start_looking();
@@ -131,11 +128,11 @@ void FixGuard::join_gathered(int n, const int *list, const double *buf) {
   }
 }
 
-void FixGuard::end_look() {
+void FixGuard::end_links() {
   stop_looking();
   if (force->newton_pair) drumlin::engine::reverse_comm(comm, this);
-  constexpr int findings = 3;
-  Finding mine[findings] = {{std::numeric_limits<double>::infinity(), 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  constexpr int extremes = 3;
+  Extreme mine[extremes] = {{std::numeric_limits<double>::infinity(), 0, 0}, {0, 0, 0}, {0, 0, 0}};
   for (int i = 0; i < atom->nlocal; ++i) {
     const Ball &ball = balls_[static_cast<std::size_t>(i)];
     if (ball.fastest == 0.0) continue;
@@ -145,49 +142,50 @@ void FixGuard::end_look() {
     if (ball.fastest > mine[1].value) mine[1] = {ball.fastest, tag, ball.fastest_partner};
     if (ball.overlap > mine[2].value) mine[2] = {ball.overlap, tag, ball.overlap_partner};
   }
-  constexpr int numbers = sizeof(Finding) / sizeof(double) * findings;
-  std::vector<std::array<Finding, findings>> all(static_cast<std::size_t>(comm->nprocs));
+  constexpr int numbers = sizeof(Extreme) / sizeof(double) * extremes;
+  std::vector<std::array<Extreme, extremes>> all(static_cast<std::size_t>(comm->nprocs));
   MPI_Allgather(mine, numbers, MPI_DOUBLE, all.data(), numbers, MPI_DOUBLE, world);
   critical_ = all[0][0];
   fastest_ = all[0][1];
   deepest_ = all[0][2];
-  for (const std::array<Finding, findings> &rank : all) {
+  for (const std::array<Extreme, extremes> &rank : all) {
     if (rank[0].value < critical_.value) critical_ = rank[0];
     if (rank[1].value > fastest_.value) fastest_ = rank[1];
     if (rank[2].value > deepest_.value) deepest_ = rank[2];
   }
 
-  judge(update->ntimestep - (at_set_up_ ? 1 : 0)); // the step that follows the set-up has begun
-  if (at_set_up_) tell_at_set_up();
+  check_limits(update->ntimestep -
+               (links_of_setup_ ? 1 : 0)); // the links of the set-up are checked one step later
+  if (links_of_setup_) log_at_setup();
 }
 
-void FixGuard::judge(bigint step) const {
+void FixGuard::check_limits(bigint step) const {
   if (deepest_.value > overlap_)
-    error->all(FLERR,
-               drumlin::engine::as_is(fmt::format(
-                   "fix guard: the overlap of {} is {:.3g} of the smaller radius at step {}; allowed: "
-                   "at most {:.3g} of it (contacts too soft for their load, or balls placed in one another)",
-                   pair_name(deepest_.ball, deepest_.partner), deepest_.value, step, overlap_)));
+    error->all(FLERR, drumlin::engine::error_text(fmt::format(
+                          "fix guard: overlap of {} is '{:.3g}' of the smaller radius at step {}; allowed: "
+                          "at most {:.3g} of it "
+                          "(usual causes: contacts too soft for their load, balls created with overlap)",
+                          pair_name(deepest_.ball, deepest_.partner), deepest_.value, step, overlap_)));
   if (update->dt > step_ * critical_.value)
-    error->all(FLERR,
-               drumlin::engine::as_is(fmt::format(
-                   "fix guard: time step {:.4g} s, critical step {:.4g} s of ball {:.0f} at step {} (most of "
-                   "it by {}); allowed: at most {:.4g} s",
-                   update->dt, critical_.value, critical_.ball, step,
-                   pair_name(critical_.ball, critical_.partner), step_ * critical_.value)));
+    error->all(FLERR, drumlin::engine::error_text(fmt::format(
+                          "fix guard: time step is '{:.4g} s' at step {}, where ball {:.0f} has the critical "
+                          "step {:.4g} s (mostly "
+                          "because of the link of {}); allowed: at most {:.4g} s",
+                          update->dt, step, critical_.ball, critical_.value,
+                          pair_name(critical_.ball, critical_.partner), step_ * critical_.value)));
 }
 
-void FixGuard::tell_at_set_up() {
+void FixGuard::log_at_setup() {
   std::string text = fmt::format("fix guard {}: no contact and no bond yet\n", id);
   if (fastest_.value > 0.0)
-    text = fmt::format(
-        "fix guard {}: critical step {:.4g} s at ball {:.0f} (most of it by {}), the step is {:.3g} of it; "
-        "pi/(w0 dt) = {:.4g} for {}; largest overlap {:.3g} of a radius\n",
-        id, critical_.value, critical_.ball, pair_name(critical_.ball, critical_.partner),
-        update->dt / critical_.value, steps_per_contact(), pair_name(fastest_.ball, fastest_.partner),
-        deepest_.value);
-  if (text != told_) drumlin::engine::say(lmp, text);
-  told_ = text;
+    text = fmt::format("fix guard {}: critical step {:.4g} s, of ball {:.0f} (mostly because of the link of "
+                       "{}), time step {:.3g} of it; "
+                       "pi/(w0 dt) = {:.4g} for {}; largest overlap {:.3g} of a radius\n",
+                       id, critical_.value, critical_.ball, pair_name(critical_.ball, critical_.partner),
+                       update->dt / critical_.value, steps_per_contact(),
+                       pair_name(fastest_.ball, fastest_.partner), deepest_.value);
+  if (text != logged_) drumlin::engine::log_message(lmp, text);
+  logged_ = text;
 }
 
 double FixGuard::steps_per_contact() const {
@@ -197,7 +195,7 @@ double FixGuard::steps_per_contact() const {
 double FixGuard::compute_vector(int n) { return n == 0 ? steps_per_contact() : deepest_.value; }
 
 void FixGuard::check_numbers() {
-  int bad = INT_MAX; // lowest tag of a ball with a number that is not finite
+  int bad = INT_MAX; // lowest ID of a ball with a number that is not finite
   for (int i = 0; i < atom->nlocal; ++i)
     if ((atom->mask[i] & groupbit) && !std::isfinite(sum(atom->x[i]) + sum(atom->v[i]) + sum(atom->f[i])) &&
         atom->tag[i] < bad)
@@ -216,10 +214,10 @@ void FixGuard::check_numbers() {
       }
   std::array<double, 9> all{};
   MPI_Allreduce(mine.data(), all.data(), 9, MPI_DOUBLE, MPI_SUM, world);
-  error->all(
-      FLERR,
-      drumlin::engine::as_is(fmt::format(
-          "fix guard: ball {} is not finite at step {}: position {} {} {} m, velocity {} {} {} m/s, force "
-          "{} {} {} N; allowed: finite numbers (too large a time step is the usual cause)",
-          worst, update->ntimestep, all[0], all[1], all[2], all[3], all[4], all[5], all[6], all[7], all[8])));
+  error->all(FLERR,
+             drumlin::engine::error_text(fmt::format("fix guard: ball {} is '{} {} {} m, {} {} {} m/s, {} {} "
+                                                     "{} N' (position, velocity, force) at step {}; allowed: "
+                                                     "finite numbers (usual cause: too large a time step)",
+                                                     worst, all[0], all[1], all[2], all[3], all[4], all[5],
+                                                     all[6], all[7], all[8], update->ntimestep)));
 }

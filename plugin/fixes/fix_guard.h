@@ -1,5 +1,6 @@
 #pragma once
-// fix guard: stops a run whose numbers have gone bad or soon will. See plugin/doc/fix_guard.md.
+// fix guard: ends a run with numbers that are not finite, with an unstable time step or with too large
+// overlaps. See plugin/doc/fix_guard.md.
 
 #include "engine.h"
 #include "contact/contact_watch.h"
@@ -9,8 +10,9 @@
 
 namespace LAMMPS_NS {
 
-/// Ends the run on all ranks, in one line, when a position, velocity or force of the group is no longer finite, when the time step
-/// is beyond the critical one of the contacts and bonds that exist, or when an overlap is too large to mean anything.
+/// Ends the run on all ranks, with one line, when a position, velocity or force of a ball of the group is not
+/// finite, when the time step is longer than the critical one of the present contacts and bonds, or when an
+/// overlap is so large that the contact law has no meaning.
 class FixGuard : public drumlin::engine::GhostFix, private drumlin::ContactWatch {
 public:
   FixGuard(LAMMPS *, int, char **);
@@ -23,23 +25,25 @@ public:
   void end_of_step() override;
   void pack_gathered(int, int, double *) override;
   void join_gathered(int, const int *, const double *) override;
-  /// Critical step at the last look, s; infinite without links.
+  /// Critical step at the last check, s; infinite without contacts and bonds.
   double compute_scalar() override { return critical_.value; }
-  /// 0: pi/(w0 dt) of the fastest link; 1: largest overlap, as a share of the smaller radius.
+  /// 0: pi/(w0 dt) of the link with the largest w0; 1: largest overlap, as a share of the smaller radius.
   double compute_vector(int) override;
 
 private:
-  /// An extreme over all balls and where it is.
-  struct Finding {
-    double value, ball, partner; // IDs; partner 0: a wall
+  /// The extreme of a quantity over all balls, with the IDs of the ball and of its partner in the link;
+  /// partner 0: a wall.
+  struct Extreme {
+    double value, ball, partner;
   };
-  /// What a ball's links do to it; numbers throughout, for other ranks.
+  /// Sums and extremes over the links of a ball. Numbers only: they are sent to other ranks.
   struct Ball {
     drumlin::physics::LoadedBall loads;
-    double fastest = 0.0;                                      // largest k/m_eff of its links, 1/s^2
-    double shortest = std::numeric_limits<double>::infinity(); // critical step of a link alone, s
-    double overlap = 0.0;                                      // largest share
-    double fastest_partner = 0.0;                              // IDs
+    double fastest = 0.0; // largest k/m_eff of its links, 1/s^2
+    double shortest =
+        std::numeric_limits<double>::infinity(); // shortest critical step of one of its links alone, s
+    double overlap = 0.0;                        // largest overlap over the smaller radius
+    double fastest_partner = 0.0;                // IDs of the partners in these links
     double shortest_partner = 0.0;
     double overlap_partner = 0.0;
 
@@ -47,22 +51,21 @@ private:
   };
 
   void see(int i, int partner, const drumlin::physics::LinkModes &modes, double overlap) override;
-  void begin_look();
-  void end_look();
+  void begin_links();
+  void end_links();
   void check_numbers();
-  void judge(bigint step) const;
+  void check_limits(bigint step) const;
   double steps_per_contact() const;
-  void tell_at_set_up();
+  void log_at_setup();
 
-  bigint every_ = 1;     // steps between looks at the numbers
-  bigint links_ = 100;   // and at the links
-  double step_ = 1.0;    // largest allowed share of the critical step
-  double overlap_ = 0.5; // and of the smaller radius
-  bool watch_ = true;    // off: the fix is there and costs nothing
-  bool at_set_up_ = false;
-  std::vector<Ball> balls_;
-  Finding critical_{}, fastest_{}, deepest_{};
-  std::string told_;
+  bigint every_ = 1;            // steps between checks of the numbers
+  bigint links_ = 100;          // steps between checks of contacts and bonds
+  double step_ = 1.0;           // largest allowed time step over the critical step
+  double overlap_ = 0.5;        // largest allowed overlap over the smaller radius
+  bool links_of_setup_ = false; // whether the links of the set-up are still to be checked
+  std::vector<Ball> balls_;     // of this rank, ghosts included with newton on
+  Extreme critical_{}, fastest_{}, deepest_{};
+  std::string logged_; // the last line of log_at_setup()
 };
 
 } // namespace LAMMPS_NS

@@ -1,6 +1,7 @@
 #pragma once
-// The thin layer under the engine-neutral fixes and commands: what they need of LAMMPS, under the names that plugin/liggghts/engine.h
-// gives as well. Nothing else in plugin/fixes knows which engine it is compiled for.
+// What fixes, commands and contact step use of LAMMPS. plugin/liggghts/engine.h defines the same names for
+// LIGGGHTS, so that the sources in plugin/{support,contact,fixes,commands} are compiled for either engine
+// without change.
 
 #include "atom.h"
 #include "comm.h"
@@ -37,25 +38,29 @@ namespace drumlin::engine {
 using LAMMPS_NS::bigint;
 using LAMMPS_NS::LAMMPS;
 
-/// Name and version of the engine, for logs and run records.
+/// Name and version of the engine, for logs and parameters.csv.
 inline std::string name_and_version() { return std::string("LAMMPS ") + LAMMPS_VERSION; }
 
-/// The pair style with the plugin's law, as a deck names it.
+/// The pair style with the plugin's contact law, as it is written in a deck.
 constexpr const char *pair_style = "pair_style gran/hooke/transition";
 
-/// A fix, with names of its own for what the engines name differently.
+/// Base class of fixes that communicate with ghosts or take part in the integration. It has one name for
+/// functions that the engines name differently.
 class GhostFix : public LAMMPS_NS::Fix {
 public:
   using Fix::Fix;
-  /// Numbers of owned balls for their ghosts, `comm_forward` for each of the n balls.
+  /// Writes `comm_forward` numbers of each of n owned balls to a buffer. (n, indices of the balls, buffer)
   virtual void pack_ghosts(int, const int *, double *) {}
+  /// Reads them for n ghosts. (n, index of the first ghost, buffer)
   virtual void unpack_ghosts(int, int, double *) {}
-  /// The way back, with newton on: what the n ghosts from `first` on have gathered, `comm_reverse` numbers for each, for their owners,
-  /// who join it to what they have.
+  /// The way back, with newton on: writes `comm_reverse` numbers of each of n ghosts to a buffer. (n, index
+  /// of the first ghost, buffer)
   virtual void pack_gathered(int, int, double *) {}
+  /// Adds them to those of their owners. (n, indices of the owned balls, buffer)
   virtual void join_gathered(int, const int *, const double *) {}
-  /// When all forces of the step are known and before the closing half kick, if setmask() has `closes_forces`. Fixes act in the order of
-  /// the deck: this one must stand before those that integrate.
+  /// Called when all forces of the step are known, before velocity Verlet computes the velocities at the end
+  /// of the step; if setmask() has `closes_forces`. LAMMPS calls fixes in the order of the deck: this fix
+  /// must be defined before those that integrate.
   virtual void close_forces() {}
 
   int pack_forward_comm(int n, int *balls, double *numbers, int, int *) final {
@@ -71,36 +76,40 @@ public:
   void final_integrate() final { close_forces(); }
 
 protected:
-  /// Lets `fix_modify` add the fix's scalar to the potential energy, and what it tallies to the pressure.
+  /// Lets `fix_modify` add the fix's scalar to the potential energy, and what it adds by v_tally() to the
+  /// pressure.
   void offer_energy_and_virial() { energy_global_flag = virial_global_flag = virial_peratom_flag = 1; }
-  /// To be called where forces are computed, before v_tally(); evflag then says whether it is wanted.
+  /// To be called when forces are computed, before v_tally(); sets `evflag` if the virial is needed in this
+  /// step.
   void begin_virial(int vflag) { v_init(vflag); }
 };
 constexpr int closes_forces = LAMMPS_NS::FixConst::FINAL_INTEGRATE;
 
-/// Bytes at the end of a restart file by which the engine knows that it is whole: a word and its zero.
+/// Number of bytes at the end of a restart file by which the engine recognizes that the file is complete.
 constexpr int restart_end_mark = 16;
-/// What the decks read as well as NAME, a restart file, for lines on bad input.
-constexpr const char *beside_restart = ", or NAME beside which a NAME.data lies";
+/// For error texts: what decks can read instead of a restart file NAME.
+constexpr const char *restart_alternative = ", or a data file NAME.data in the same folder";
 
+/// Sets up a run, as the command `run` does before its first step.
 inline void set_up_run(LAMMPS_NS::Integrate *integrate) { integrate->setup(1); }
 
-/// The words of an error as the engine's error->all() takes them: as a string, for pointers to characters are formats to it, in which {} stands
-/// for an argument.
-inline const std::string &as_is(const std::string &words) { return words; }
+/// A text in the type that error->all() takes unchanged. (It would take a pointer to characters for a format,
+/// and {} in it for an argument.)
+inline const std::string &error_text(const std::string &text) { return text; }
 
-/// Tells the engine to end each run after the step, and whether it was told so, by this or by the command `timer timeout`. To be called on
-/// all ranks alike.
+/// Lets the engine end each run after the present step. To be called on all ranks.
 inline void end_runs(LAMMPS *lmp) { lmp->timer->force_timeout(); }
+/// Whether the engine ends its runs, because of end_runs() or the command `timer timeout`. To be called on
+/// all ranks.
 inline bool runs_have_ended(const LAMMPS *lmp) { return lmp->timer->is_timeout(); }
 
-/// Copies the numbers of owned balls to their ghosts through the fix's pack_ghosts/unpack_ghosts pair.
+/// Copies numbers of owned balls to their ghosts by the fix's pack_ghosts() and unpack_ghosts().
 inline void forward_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Fix *fix) { version::forward_comm(comm, fix); }
 
-/// Takes what ghosts have gathered to their owners through the fix's pack_gathered/join_gathered pair.
+/// Sends numbers of ghosts to their owners by the fix's pack_gathered() and join_gathered().
 inline void reverse_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Fix *fix) { version::reverse_comm(comm, fix); }
 
-/// Acceleration of gravity (m/s2) as the deck's fix gravity gives it now; zero without one.
+/// Present acceleration, m/s2, of the deck's first fix gravity; zero without one.
 inline std::array<double, 3> gravity(LAMMPS_NS::Modify *modify) {
   for (int n = 0; n < modify->nfix; ++n)
     if (std::string(modify->fix[n]->style) == "gravity") {
@@ -111,12 +120,12 @@ inline std::array<double, 3> gravity(LAMMPS_NS::Modify *modify) {
   return {0.0, 0.0, 0.0};
 }
 
-/// The shortest of a vector's periodic images, m.
+/// Replaces a vector, m, by the shortest of its periodic images.
 inline void minimum_image(LAMMPS_NS::Domain *domain, std::array<double, 3> &d) {
   version::minimum_image(domain, d.data());
 }
 
-/// I / (m r^2) of balls, as fix nve/sphere turns them: a disc's with its keyword `disc`.
+/// I / (m r^2) with which fix nve/sphere rotates the balls: that of discs with its keyword `disc`.
 double inertia_share(const LAMMPS *lmp);
 
 } // namespace drumlin::engine

@@ -1,5 +1,5 @@
 #pragma once
-// What the contacts of pair_style gran/hooke/transition remember, over the command write_restart.
+// The contact history of pair_style gran/hooke/transition, kept correctly by the command write_restart.
 
 #include "engine.h"
 
@@ -7,9 +7,11 @@
 
 namespace LAMMPS_NS {
 
-/// The engine's history of contacts, but for one thing. At the end of a run it hands what contacts remember from the neighbour list to the
-/// balls, and when a restart file is written it does so again. In a run (`restart`) this is needed; the command `write_restart` has by
-/// then moved balls and ghosts on, so that contacts across ranks would be kept under the IDs of other balls.
+/// The engine's contact history with one change. At the end of a run the engine's fix copies the history from
+/// the neighbour list to the balls, and again when a restart file is written. During a run (command
+/// `restart`) the second copy is needed. The command `write_restart` after a run, however, has exchanged
+/// balls and ghosts before: the neighbour list is outdated, and the history of contacts of balls on two ranks
+/// would be stored with the IDs of other balls.
 class FixNeighHistoryTransition : public FixNeighHistory {
 public:
   using FixNeighHistory::FixNeighHistory;

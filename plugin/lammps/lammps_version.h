@@ -1,6 +1,7 @@
 #pragma once
-// Functions whose names or parameters differ between releases of LAMMPS, from 29 Sep 2021 on. plugin/lammps/CMakeLists.txt looks into the
-// headers of the release that the plugin is built for, and defines each DRUMLIN_LAMMPS_... as 1 if the release has the feature, else as 0.
+// Functions whose names or parameters differ between releases of LAMMPS, from 29 Sep 2021 on.
+// plugin/lammps/CMakeLists.txt looks into the headers of the release that the plugin is built for, and
+// defines each DRUMLIN_LAMMPS_... as 1 if the release has the feature, else as 0.
 
 #include "comm.h"
 #include "domain.h"
@@ -57,14 +58,15 @@ inline void minimum_image(LAMMPS_NS::Domain *domain, double *d) {
 #endif
 }
 
-/// Asks for the neighbour list of a pair style of balls of finite size.
+/// Requests the neighbour list of a pair style for balls of finite size. \param history whether the list goes
+/// with a contact history
 inline void request_list(LAMMPS_NS::Neighbor *neighbor, LAMMPS_NS::Pair *pair, int instance, bool history) {
 #if DRUMLIN_LAMMPS_LIST_FLAGS
   (void)instance;
   neighbor->add_request(pair,
                         LAMMPS_NS::NeighConst::REQ_SIZE | (history ? LAMMPS_NS::NeighConst::REQ_HISTORY : 0));
 #else
-  const int index = neighbor->request(pair, instance); // moves the array of requests
+  const int index = neighbor->request(pair, instance); // may reallocate the array of requests
   LAMMPS_NS::NeighRequest *request = neighbor->requests[index];
   request->size = 1;
   request->history = history ? 1 : 0;
@@ -73,7 +75,7 @@ inline void request_list(LAMMPS_NS::Neighbor *neighbor, LAMMPS_NS::Pair *pair, i
 
 } // namespace drumlin::engine::version
 
-/// The parameters of Pair::transfer_history() behind the two arrays.
+/// The parameters of Pair::transfer_history() that follow the two arrays.
 #if DRUMLIN_LAMMPS_TRANSFER_TYPES
 #define DRUMLIN_TRANSFER_TYPES , int, int
 #else

@@ -1,5 +1,7 @@
-// The library that `plugin load` takes. It carries no symbols of the engine, so that any LAMMPS can load it; it loads the plugin
-// proper where that fits, and says why where it does not. (The engine itself would only tell of an undefined symbol, and go on.)
+// The library that `plugin load` loads. It uses no symbols of the engine, so that every LAMMPS can load it.
+// If the engine is the one that the plugin is built for it loads libdrumlin-lammps.so, otherwise it ends the
+// process with the reason. (LAMMPS itself would print a warning on an undefined symbol and continue without
+// the plugin.)
 
 #include "stub.h"
 
@@ -13,7 +15,7 @@ namespace {
 using drumlin::find_function;
 using drumlin::stop;
 
-/// "29 Sep 2021" as 20210929, which is how lammps_version() tells it.
+/// The number that lammps_version() returns for a date: 20210929 for "29 Sep 2021".
 int version_number(const char *date) {
   constexpr const char *months = "JanFebMarAprMayJunJulAugSepOctNovDec";
   char *end = nullptr;
@@ -24,10 +26,11 @@ int version_number(const char *date) {
   return static_cast<int>(year * 10000 + ((found - months) / 3 + 1) * 100 + day);
 }
 
+/// Ends the process if the plugin cannot be used with this engine.
 void check_engine(void *lmp) {
   auto *version = find_function<int (*)(void *)>("lammps_version");
   auto *setting = find_function<int (*)(void *, const char *)>("lammps_extract_setting");
-  if (version == nullptr || setting == nullptr) stop("this process does not show LAMMPS's C interface");
+  if (version == nullptr || setting == nullptr) stop("this process does not export LAMMPS's C interface");
   const std::string built_for = std::string("built for LAMMPS ") + LAMMPS_VERSION;
   const int built = version_number(LAMMPS_VERSION);
   if (version(lmp) != built)

@@ -1,4 +1,4 @@
-// Registration of everything that the plugin adds to LAMMPS, called by load.cpp.
+// Registers what the plugin adds to LAMMPS: pair style, fixes and commands. Called by load.cpp.
 
 #include "lammpsplugin.h"
 
@@ -7,27 +7,22 @@
 
 #include "engine.h"
 #include "commands/commands.h"
-#include "support/deck_folder.h"
-#include "fixes/fix_bond_spring.h"
-#include "fixes/fix_clump.h"
-#include "fixes/fix_contact_events.h"
-#include "fixes/fix_contact_local.h"
-#include "fixes/fix_drum_excite.h"
-#include "fixes/fix_guard.h"
 #include "commands/fix_outputs.h"
-#include "fixes/fix_roller_history.h"
 #include "contact/fix_stepping.h"
-#include "support/stop_signal.h"
+#include "fixes/fixes.h"
 #include "lammps/fix_neigh_history_transition.h"
 #include "lammps/fix_wall_gran_transition.h"
 #include "lammps/pair_gran_hooke_transition.h"
+#include "support/deck_folder.h"
+#include "support/stop_signal.h"
 
 namespace {
 
 using LAMMPS_NS::Fix;
 using LAMMPS_NS::LAMMPS;
 
-// Not public. An explicit instantiation may name a private member; its friend hands it out.
+// A private member. C++ allows an explicit instantiation to name it as a template argument; the friend
+// function of the instance gives access to it.
 template <auto Member>
 struct NVESphereAccess {
   friend auto &inertia_of(LAMMPS_NS::FixNVESphere &fix) { return fix.*Member; }
@@ -35,7 +30,7 @@ struct NVESphereAccess {
 auto &inertia_of(LAMMPS_NS::FixNVESphere &fix);
 template struct NVESphereAccess<&LAMMPS_NS::FixNVESphere::inertia>;
 
-/// A function of the core's adapters as a command of the engine.
+/// A function of commands.h as a command of the engine.
 template <void (*function)(LAMMPS *, int, char **)>
 class EngineCommand : public LAMMPS_NS::Command {
 public:
@@ -48,7 +43,7 @@ void *create(void *lmp) {
   return new Style(static_cast<LAMMPS *>(lmp));
 }
 
-/// The engine keeps fixes by their base class.
+/// The engine wants a pointer to the base class, which may differ from that to the fix.
 template <class FixStyle>
 void *create_fix(void *lmp, int narg, char **arg) {
   return static_cast<Fix *>(new FixStyle(static_cast<LAMMPS *>(lmp), narg, arg));
@@ -57,6 +52,38 @@ void *create_fix(void *lmp, int narg, char **arg) {
 void *create_pair(void *lmp) {
   return static_cast<LAMMPS_NS::Pair *>(new LAMMPS_NS::PairGranHookeTransition(static_cast<LAMMPS *>(lmp)));
 }
+
+/// Adds styles to the list of plugins of an engine.
+class Registration {
+public:
+  Registration(void *lmp, void *handle, void *register_function)
+      : lmp_(lmp), add_(reinterpret_cast<lammpsplugin_regfunc>(register_function)) {
+    plugin_.version = LAMMPS_VERSION;
+    plugin_.author = "drumlin";
+    plugin_.handle = handle;
+  }
+
+  void add(const char *category, const char *name, const char *info, lammpsplugin_factory1 *create) {
+    plugin_.creator.v1 = create;
+    add(category, name, info);
+  }
+  void add_fix(const char *name, const char *info, lammpsplugin_factory2 *create) {
+    plugin_.creator.v2 = create;
+    add("fix", name, info);
+  }
+
+private:
+  void add(const char *category, const char *name, const char *info) {
+    plugin_.style = category;
+    plugin_.name = name;
+    plugin_.info = info;
+    add_(&plugin_, lmp_);
+  }
+
+  void *lmp_;
+  lammpsplugin_regfunc add_;
+  lammpsplugin_t plugin_{};
+};
 
 } // namespace
 
@@ -70,63 +97,30 @@ extern "C" __attribute__((visibility("default"))) void drumlin_register(void *lm
                                                                         void *register_function) {
   using namespace LAMMPS_NS;
   auto *engine = static_cast<LAMMPS *>(lmp);
-  const auto add = reinterpret_cast<lammpsplugin_regfunc>(register_function);
-  lammpsplugin_t plugin{};
-  plugin.version = LAMMPS_VERSION;
-  plugin.author = "drumlin";
-  plugin.handle = handle;
-  const auto add_v1 = [&](const char *style, const char *name, const char *info,
-                          lammpsplugin_factory1 *make) {
-    plugin.style = style;
-    plugin.name = name;
-    plugin.info = info;
-    plugin.creator.v1 = make;
-    add(&plugin, lmp);
-  };
-  const auto add_fix = [&](const char *name, const char *info, lammpsplugin_factory2 *make) {
-    plugin.style = "fix";
-    plugin.name = name;
-    plugin.info = info;
-    plugin.creator.v2 = make;
-    add(&plugin, lmp);
-  };
-  add_v1("pair", "gran/hooke/transition", "linear contact with transition A or B", create_pair);
-  // The engine keeps one list of plugins for all its instances in a process, and styles of one only in that which has loaded it. What the
-  // plugin keeps for the process (contact observers, walls, clumps) would mix the two.
+  Registration registration(lmp, handle, register_function);
+  registration.add("pair", "gran/hooke/transition", "linear contact with transition A or B", create_pair);
+  // LAMMPS has one list of plugins for all its instances in a process, but adds the styles only to the
+  // instance that has loaded the plugin first. Two instances with the plugin must not exist at a time:
+  // contact observers, walls and clumps are kept by the process.
   if (engine->force->pair_map->count("gran/hooke/transition") == 0)
     engine->error->all(
         FLERR,
         "plugin load: drumlin is loaded in another LAMMPS instance of this process; allowed: one instance "
         "with it at a time, the next when the other is closed or cleared");
-  add_fix("wall/gran/transition", "its planes", create_fix<FixWallGranTransition>);
-  add_fix(FixNeighHistoryTransition::style_name, "what contacts remember",
-          create_fix<FixNeighHistoryTransition>);
-  add_fix("drum/excite", "harmonic excitation of a drum", create_fix<FixDrumExcite>);
-  add_fix("bond/spring", "bonded spring-dashpot", create_fix<FixBondSpring>);
-  add_fix("clump", "one rigid body that does not turn", create_fix<FixClump>);
-  add_fix("contact/events", "makes and breaks of contact", create_fix<FixContactEvents>);
-  add_fix("contact/local", "contacts and their forces for dump local", create_fix<FixContactLocal>);
-  add_fix("roller/history", "motion and forces of drum and frame", create_fix<FixRollerHistory>);
-  add_fix("drumlin/stepping", "second-order stepping", create_fix<FixStepping>);
-  add_fix(FixOutputs::style_name, "the files of a run", create_fix<FixOutputs>);
-  add_fix(FixStop::style_name, "signals that end a run", create_fix<FixStop>);
-  add_fix("guard", "step, overlap and finite numbers", create_fix<FixGuard>);
-  add_v1("command", "drumlin/check", "judges a variable", create<EngineCommand<drumlin::check_command>>);
-  add_v1("command", "drumlin/variables", "the variables of a deck",
-         create<EngineCommand<drumlin::variables_command>>);
-  add_v1("command", "drumlin/outputs", "room for the files of a run",
-         create<EngineCommand<drumlin::outputs_command>>);
-  add_v1("command", "drumlin/take", "values that a bed was made with",
-         create<EngineCommand<drumlin::take_command>>);
-  add_v1("command", "drumlin/write_data", "a data file with notes",
-         create<EngineCommand<drumlin::write_data_command>>);
-  add_v1("command", "drumlin/record", "what a run was made with",
-         create<EngineCommand<drumlin::record_command>>);
-  add_v1("command", "drumlin/run", "a run with progress and a limit",
-         create<EngineCommand<drumlin::run_command>>);
-  add_v1("command", "drumlin/settle", "a run to equilibrium", create<EngineCommand<drumlin::settle_command>>);
-  add_v1("command", "drumlin/write_restart", "a restart file with notes",
-         create<EngineCommand<drumlin::write_restart_command>>);
-  drumlin::define_here(engine);
-  drumlin::engine::say(engine, "drumlin " DRUMLIN_VERSION ", plugin for LAMMPS " LAMMPS_VERSION "\n");
+  registration.add_fix("wall/gran/transition", "walls with this contact law",
+                       create_fix<FixWallGranTransition>);
+  drumlin::for_each_fix([&registration](auto fix, const char *name, const char *info) {
+    registration.add_fix(name, info, create_fix<typename decltype(fix)::type>);
+  });
+  // Helper fixes, which the pair style and the commands add; decks do not use them.
+  registration.add_fix(FixNeighHistoryTransition::style_name, "contact history",
+                       create_fix<FixNeighHistoryTransition>);
+  registration.add_fix("drumlin/stepping", "second-order stepping", create_fix<FixStepping>);
+  registration.add_fix(FixOutputs::style_name, "output files of a run", create_fix<FixOutputs>);
+  registration.add_fix(FixStop::style_name, "signals that end a run", create_fix<FixStop>);
+  drumlin::for_each_command([&registration](auto command, const char *name, const char *info) {
+    registration.add("command", name, info, create<EngineCommand<decltype(command)::function>>);
+  });
+  drumlin::define_deck_folder(engine);
+  drumlin::engine::log_message(engine, "drumlin " DRUMLIN_VERSION ", plugin for LAMMPS " LAMMPS_VERSION "\n");
 }

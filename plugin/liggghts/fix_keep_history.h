@@ -1,5 +1,5 @@
 #pragma once
-// What a contact remembers, over commands that make balls between two runs.
+// Keeps contact history through commands that create balls between two runs.
 
 #include "engine.h"
 
@@ -7,14 +7,15 @@
 
 namespace LAMMPS_NS {
 
-/// Hands the histories of contacts from the neighbour list to the balls at the end of each run, as the engine does before it writes a
-/// restart file. The engine itself waits until the next run sets up; balls made in between (create_atoms) then have the places of
-/// ghosts, and a contact across ranks loses its history on one of them. (LAMMPS does the same at the end of a run.)
+/// Copies the contact history from the neighbour list to the balls at the end of each run, as the engine does
+/// before it writes a restart file. Without this fix the engine does so at the set-up of the next run only.
+/// Balls created in between (create_atoms) have taken the indices of ghosts by then, and a contact of balls
+/// on two ranks loses its history on one of them. (LAMMPS copies it at the end of a run, too.)
 class FixKeepHistory : public Fix {
 public:
   using Fix::Fix;
 
-  /// Made by the pair style, once.
+  /// Adds the fix if it does not exist yet; for the pair style.
   static void provide(LAMMPS *lmp) {
     if (drumlin::engine::find_fix(lmp->modify, helper_id) != nullptr) return;
     std::string words[] = {helper_id, "all", style_name};

@@ -1,5 +1,6 @@
-// The engine's main program with the plugin, for an engine that is one program and exports its symbols (-rdynamic): calls within it do not
-// pass the dynamic linker, so that the preloaded library cannot step in between; it runs this instead of the engine's main().
+// The engine's main program with the plugin, for an engine that is one program and exports its symbols
+// (-rdynamic). Calls within one program do not use the dynamic linker, so that the preloaded library cannot
+// replace a function of the engine; it runs this instead of the engine's main().
 
 #include "liggghts/registration.h"
 #include "stub.h"

@@ -1,13 +1,14 @@
-// The library that users preload. It carries no engine symbols, so any program can have it in its LD_PRELOAD;
-// it acts only in a process that runs an engine, where it loads the plugin built for that engine or says why
-// it cannot.
+// The library that users preload. It uses no symbols of the engine, so that it can be in the LD_PRELOAD of
+// any program. In a process that runs an engine it loads the plugin that is built for this engine, or ends
+// the process with the reason why it cannot; other programs run unchanged.
 //
-// The engine's main program calls LAMMPS_NS::Input::file() through the dynamic linker. This library defines
-// that symbol, is found first, lets the plugin register its styles on the Input object, and then goes on to
-// the engine's own. The command `clear` makes the engine's lists of styles anew and ends with
-// LAMMPS_NS::LAMMPS::post_create(): there the plugin registers again, in the same way.
+// The engine's main program calls LAMMPS_NS::Input::file() through the dynamic linker, which finds the
+// function of that name in this library first. It lets the plugin register its styles with the Input object
+// and then calls the engine's function. The command `clear` makes new lists of styles and then calls
+// LAMMPS_NS::LAMMPS::post_create(); in the same way this library replaces that function, to register the
+// styles again.
 
-// For the layout of two classes alone.
+// Used for the layout of two classes only.
 #include "lammps.h"
 #include "pointers.h"
 #include "universe.h"
@@ -29,7 +30,8 @@ constexpr const char *special_messages_symbol = "_ZN9LAMMPS_NS15SpecialMessagesC
 constexpr const char *request_quit_symbol = "_ZN9LAMMPS_NS13SignalHandler12request_quitE";
 constexpr const char *liggghts_symbol = "_ZN8LIGGGHTS10PairStyles7Factory8instanceEv";
 
-/// File that a symbol comes from, with links resolved, so that its name ends in the engine's full version.
+/// The file that defines a symbol, with symbolic links resolved: the name of the engine's library then ends
+/// with its full version.
 std::string real_file_of(const void *address) {
   Dl_info info{};
   if (dladdr(address, &info) == 0 || info.dli_fname == nullptr) return {};
@@ -48,9 +50,10 @@ std::string base_name(const std::string &path) { return path.substr(path.find_la
 using Register = void (*)(void *input);
 using RegisterAgain = void (*)(void *engine);
 
-RegisterAgain register_again = nullptr; // once the plugin is loaded
+RegisterAgain register_again = nullptr; // nullptr before the plugin is loaded
 
-/// Loads the plugin's library and returns its handle. On failure it returns nullptr and sets `why` to the reason.
+/// Loads the plugin's library and returns its handle. On failure it returns nullptr and sets `why` to the
+/// reason.
 void *open_plugin(std::string &why) {
   const std::string self = real_file_of(reinterpret_cast<const void *>(&open_plugin));
   const std::string plugin = self.substr(0, self.find_last_of('/') + 1) + "libdrumlin-liggghts.so";
@@ -62,7 +65,8 @@ void *open_plugin(std::string &why) {
   return handle;
 }
 
-/// The plugin's entry point, or nullptr in `why` words if this process cannot take it.
+/// Loads the plugin and returns its function drumlin_register(). On failure it returns nullptr and sets `why`
+/// to the reason.
 Register load_plugin(const void *engine_input_file, std::string &why) {
   const std::string engine = real_file_of(engine_input_file);
   const std::string built_for = std::string("LIGGGHTS ") + LIGGGHTS_VERSION;
@@ -71,7 +75,8 @@ Register load_plugin(const void *engine_input_file, std::string &why) {
           "); take the preload away, or use 'plugin load' with the library built for LAMMPS";
     return nullptr;
   }
-  // The file name of a library that users have built themselves may have no version; the plugin then asks the engine for it.
+  // A library that users have built themselves may have no version in its file name; drumlin_register() then
+  // checks the engine's own.
   if (engine.find(".so.") != std::string::npos &&
       !ends_with(engine, std::string(".so.") + LIGGGHTS_VERSION)) {
     why = "built for " + built_for + ", but this process runs " + base_name(engine) +
@@ -104,15 +109,17 @@ int run_engine(int argc, char **argv, char **) {
   return reinterpret_cast<int (*)(int, char **)>(dlsym(handle, "drumlin_main"))(argc, argv);
 }
 
-/// Line buffering in the engine's processes: its error->one() texts are lost otherwise when output is redirected. Open MPI would put eight
-/// lines on MPI_Abort behind each: it reads the variable when the engine starts it, and what mpirun itself has to say is not its concern.
-__attribute__((constructor)) void keep_error_texts() {
+/// Sets standard output of an engine to line buffering: when it is redirected, the texts of error->one()
+/// would be lost otherwise. The environment variable keeps Open MPI in this process from adding eight lines
+/// on MPI_Abort to each error; messages of mpirun are not affected.
+__attribute__((constructor)) void make_errors_visible() {
   if (dlsym(RTLD_DEFAULT, liggghts_symbol) == nullptr) return;
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   ::setenv("OMPI_MCA_orte_execute_quiet", "1", 0); // NOLINT(concurrency-mt-unsafe): before main()
 }
 
-/// A stand-in for the engine, with the only thing that SpecialMessages reads of it: the version in its `universe`.
+/// A substitute for the engine that has only what SpecialMessages reads: the version in its `universe`, which
+/// is empty here.
 LAMMPS_NS::LAMMPS *without_version() {
   alignas(LAMMPS_NS::Universe) static char universe[sizeof(LAMMPS_NS::Universe)] = {};
   alignas(LAMMPS_NS::LAMMPS) static char engine[sizeof(LAMMPS_NS::LAMMPS)] = {};
@@ -125,7 +132,7 @@ LAMMPS_NS::LAMMPS *without_version() {
 
 } // namespace
 
-// The engine's LAMMPS_NS::Input::file(), met first by the dynamic linker.
+// Replaces the engine's LAMMPS_NS::Input::file().
 extern "C" __attribute__((visibility("default"))) void
 drumlin_input_file(void *input) __asm__("_ZN9LAMMPS_NS5Input4fileEv");
 
@@ -139,12 +146,14 @@ void drumlin_input_file(void *input) {
   if (registration == nullptr) stop(why);
   registration(input);
   engine_input_file(input);
-  // After a signal the engine finishes the present command, ignores the rest of the deck and exits with status 0. That must be an error.
+  // After a signal the engine finishes the present command, ignores the rest of the deck and exits with
+  // status 0. That must be an error.
   const auto *quit = static_cast<const bool *>(dlsym(RTLD_DEFAULT, request_quit_symbol));
   if (quit != nullptr && *quit) stop("stopped by a signal before the end of the deck");
 }
 
-// The engine's LAMMPS_NS::LAMMPS::post_create(), met first by the dynamic linker; before the plugin is loaded it adds nothing.
+// Replaces the engine's LAMMPS_NS::LAMMPS::post_create(). Before the plugin is loaded it only calls the
+// engine's function.
 extern "C" __attribute__((visibility("default"))) void
 drumlin_post_create(void *engine) __asm__("_ZN9LAMMPS_NS6LAMMPS11post_createEv");
 
@@ -157,8 +166,8 @@ void drumlin_post_create(void *engine) {
   engine_post_create(engine);
 }
 
-// Every program starts by calling this function of the C library, and the dynamic linker finds ours first. Programs other than an engine
-// that exports its symbols run on unchanged.
+// Replaces the function of the C library that calls main(). It starts run_engine() instead in an engine that
+// is one program and exports its symbols; in all other programs it calls their main().
 extern "C" __attribute__((visibility("default"))) int
 drumlin_start(Main program, int argc, char **argv, void (*init)(), void (*fini)(), void (*rtld_fini)(),
               void *stack_end) __asm__("__libc_start_main");
@@ -169,9 +178,9 @@ int drumlin_start(Main program, int argc, char **argv, void (*init)(), void (*fi
   return start(is_engine(program) ? &run_engine : program, argc, argv, init, fini, rtld_fini, stack_end);
 }
 
-// The engine's LAMMPS_NS::SpecialMessages::SpecialMessages(LAMMPS *), met first by the dynamic linker. The engine follows about one error in
-// five, chosen at random, with a second line (a joke or a tip) that it prints from memory it has freed, so that users see unreadable
-// characters. It does so only if the version of its `universe` says PUBLIC.
+// Replaces the engine's LAMMPS_NS::SpecialMessages::SpecialMessages(LAMMPS *). To about one error in five,
+// chosen at random, the engine adds a second line (a joke or a tip), which it prints from freed memory, so
+// that users see unreadable characters. It does so only if the version in its `universe` says PUBLIC.
 extern "C" __attribute__((visibility("default"))) void
 drumlin_special_messages(void *messages,
                          void *engine) __asm__("_ZN9LAMMPS_NS15SpecialMessagesC1EPNS_6LAMMPSE");
@@ -179,7 +188,8 @@ drumlin_special_messages(void *messages,
 void drumlin_special_messages(void *messages, void *engine) {
   using Construct = void (*)(void *, void *);
   static const auto engine_construct = reinterpret_cast<Construct>(dlsym(RTLD_NEXT, special_messages_symbol));
-  if (engine_construct == nullptr) return; // only the engine has this function, so nothing has called it
+  if (engine_construct == nullptr)
+    return; // cannot happen: only the engine calls this, and it has the function
   const bool known = ends_with(real_file_of(reinterpret_cast<const void *>(engine_construct)),
                                std::string(".so.") + LIGGGHTS_VERSION);
   engine_construct(messages, known ? without_version() : engine);

@@ -1,5 +1,5 @@
-// For an engine that the plugin is linked into, with the linker's option --wrap for the two functions below: calls of them from other
-// sources of the engine come here.
+// For an engine that the plugin is linked into. With the linker's option --wrap for the two functions below,
+// calls of them in the engine come here.
 
 #include "liggghts/registration.h"
 #include "stub.h"

@@ -1,6 +1,6 @@
 #pragma once
-/// The bond between drum and frame of Eq. (1): a spring k23 and a dashpot c23 side by side that carry tension
-/// as well as compression.
+/// The bond between drum and frame, of Eq. (1) of Wang, Sha and Hu (2018): a spring k23 and a dashpot c23 in
+/// parallel, which carry tension as well as compression.
 
 #include "physics/checks.h"
 
@@ -29,17 +29,19 @@ struct Bond {
   }
 };
 
-/// What a bond does at one instant.
+/// Force, energy and power of a bond at one instant.
 struct BondForce {
   double force;      ///< N, positive in tension (it pulls the two balls together)
   double stored;     ///< energy in the spring, J, k e^2 / 2
   double dissipated; ///< power turned into heat by the dashpot, W, c e'^2, never negative
-  bool breaks;       ///< |force| is beyond the strength; `force` is what the bond would carry if it held
+  bool breaks;       ///< |force| is above the strength; `force` is that of the bond if it did not break
 };
 
-/// F = k e + c e', e = distance - length: the bond terms of Eq. (1), with e = x3 - x2, act on the drum as +F.
-/// distance in m; distance_rate in m/s, positive while the balls part. The power F e' that the balls give to
-/// the bond is d(stored)/dt + dissipated. Whether a bond has broken before is the caller's to remember.
+/// Force of a bond, F = k e + c e' with the stretch e = distance - length: the bond terms of Eq. (1), where e
+/// = x3 - x2 and +F acts on the drum. The power F e' of the balls on the bond is d(stored)/dt + dissipated.
+/// The caller has to remember that a bond has broken.
+/// \param distance of the two centres, m, >= 0
+/// \param distance_rate m/s, positive while the distance grows
 [[nodiscard]] inline BondForce bond_force(const Bond &bond, double distance, double distance_rate) {
   const double stretch = distance - bond.length;
   const double force = bond.stiffness * stretch + bond.damping * distance_rate;

@@ -1,5 +1,5 @@
 #pragma once
-/// How the parameter structs of this folder judge their values: one wording for all of them.
+/// Checks of parameters, with one form of error text for all parameter structs of this folder.
 
 #include <array>
 #include <charconv>
@@ -20,8 +20,8 @@ inline std::string number_text(double value) {
   return {text.data(), end.ptr};
 }
 
-/// Empty if `value` is allowed, else for example "stiffness is -5 N/m; allowed: finite and > 0".
-/// `unit` may be empty for a number without dimension.
+/// Empty if `value` is allowed, else for example "stiffness is '-5 N/m'; allowed: finite and > 0".
+/// \param unit of the value; empty for a number without dimension
 inline std::string violation(const std::string &name, double value, const std::string &unit,
                              Allowed allowed) {
   bool good = false;
@@ -45,7 +45,7 @@ inline std::string violation(const std::string &name, double value, const std::s
     break;
   }
   if (good) return {};
-  return name + " is " + number_text(value) + (unit.empty() ? "" : " ") + unit + "; allowed: " + range;
+  return name + " is '" + number_text(value) + (unit.empty() ? "" : " ") + unit + "'; allowed: " + range;
 }
 
 } // namespace drumlin::physics::detail

@@ -1,9 +1,10 @@
 #pragma once
-/// The exciting force of the drum, Fe = Fw sin(w t) of Eq. (1), and what real exciters add: an eccentric mass
-/// whose force grows with w^2, a soft start, a sweep of the frequency, and a force that turns with its mass.
+/// The excitation force of the drum, Fe = Fw sin(w t) of Eq. (1) of Wang, Sha and Hu (2018), and what real
+/// exciters add: the force of an eccentric mass, proportional to w^2; a ramp of the amplitude; a sweep of the
+/// frequency; a force that rotates with its mass.
 ///
-/// Time is measured on the clock of the fix that excites, in s. Positive Fe points along gravity, as in Eq.
-/// (1) where it enters the drum's equation with a minus sign and x up.
+/// Times t are in s, on any clock. Positive Fe points along gravity: in Eq. (1), where x is positive upwards,
+/// it has a minus sign.
 
 #include "physics/checks.h"
 
@@ -60,19 +61,20 @@ struct Excitation {
   return e.angular_frequency + (e.sweep_frequency - e.angular_frequency) * (since / e.sweep_duration);
 }
 
-/// Phase, rad: `phase` plus the integral of w(t) from `start`. It is continuous with its slope, so a sweep
-/// neither starts nor ends with a jump of the force. (sin(w(t) t) would be wrong: its frequency runs ahead.)
+/// Phase, rad: `phase` plus the integral of w(t) from `start`. The phase and its slope are continuous, so a
+/// sweep neither starts nor ends with a jump of the force. (sin(w(t) t) would not be a sweep from w to w2:
+/// its frequency is d(w t)/dt = w + w' t, which ends at w2 + (w2 - w).)
 [[nodiscard]] inline double excitation_phase(const Excitation &e, double t) {
   const double since = t - e.start;
   if (e.sweep_duration <= 0.0 || since <= 0.0) return e.phase + e.angular_frequency * since;
   const double change = e.sweep_frequency - e.angular_frequency;
-  if (since >= e.sweep_duration) // the sweep ran at the mean of w and w2: w2 all along, less half the change
+  if (since >= e.sweep_duration) // during the sweep the mean frequency was w2 - change / 2
     return e.phase + e.sweep_frequency * since - 0.5 * change * e.sweep_duration;
   return e.phase + (e.angular_frequency + 0.5 * change * (since / e.sweep_duration)) * since;
 }
 
 /// Amplitude, N, >= 0: Fw, or me re w(t)^2 for an eccentric mass; grows linearly from 0 during the ramp; 0
-/// before `start`. At `start` itself it is already full if there is no ramp.
+/// before `start`. Without a ramp it has its full value from `start` on.
 [[nodiscard]] inline double excitation_amplitude(const Excitation &e, double t) {
   const double since = t - e.start;
   if (since < 0.0) return 0.0;

@@ -1,6 +1,6 @@
 #pragma once
-/// Vectors of three components, and what the laws do with them. Written out without loops: an index that varies would keep a vector in
-/// memory where it could be in registers.
+/// Vectors of three components. The functions are written out component by component: with loops over an
+/// index the compiler keeps the vectors in memory instead of in registers.
 
 #include <array>
 

@@ -1,8 +1,10 @@
 #pragma once
-// Arguments of an engine command: every one checked, and a wrong one named with what is allowed, in one line.
+// The arguments of a style or command, read from left to right. A wrong one ends the run with one line that
+// names command, keyword and value, and says what is allowed.
 
 #include "engine.h"
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -11,11 +13,11 @@
 
 namespace drumlin {
 
-/// Range of a number.
+/// Which finite numbers an argument may be.
 enum class Range { any, positive, non_negative };
 
-/// The number that a whole word means, or NaN if it is none (nan and inf are none: no quantity here may be
-/// either).
+/// The number of a word that is a decimal number as a whole; NaN for every other word, hexadecimal numbers,
+/// nan and inf included, which no argument may be.
 inline double parse_number(const std::string &word) {
   char *end = nullptr;
   const double value = std::strtod(word.c_str(), &end);
@@ -24,17 +26,18 @@ inline double parse_number(const std::string &word) {
   return whole && std::isfinite(value) ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
+/// Whether a number is finite and in the range.
 inline bool in_range(double value, Range range) {
   return std::isfinite(value) && (range != Range::positive || value > 0.0) &&
          (range != Range::non_negative || value >= 0.0);
 }
 
+/// The range in words, for an error.
 inline const char *allowed_text(Range range) {
   if (range == Range::positive) return "a finite number > 0";
   return range == Range::non_negative ? "a finite number >= 0" : "a finite number";
 }
 
-/// "I, II or III" of {"I", "II", "III"}.
 /// The words in one text. (fmt::join() has moved to a header that not every engine's copy of fmt has.)
 inline std::string joined(const std::vector<std::string> &words, const std::string &separator) {
   std::string text;
@@ -43,6 +46,7 @@ inline std::string joined(const std::vector<std::string> &words, const std::stri
   return text;
 }
 
+/// "I, II or III" of {"I", "II", "III"}.
 inline std::string join_choices(const std::vector<std::string> &choices) {
   std::string text;
   for (std::size_t n = 0; n < choices.size(); ++n)
@@ -50,62 +54,91 @@ inline std::string join_choices(const std::vector<std::string> &choices) {
   return text;
 }
 
-/// Reader of a command's words, from left to right. Ends the run through the engine's error->all() on the
-/// first mistake.
+/// Reader of the arguments of a style or command. Each function that reads ends the run through the engine's
+/// error->all() if the argument is missing or not allowed, with "ERROR: COMMAND: WHAT is 'VALUE'; allowed:
+/// ...".
 class Arguments {
 public:
-  /// \param command words for the error text, e.g. "fix drum/excite"
+  /// \param command name for the error text, e.g. "fix drum/excite"
   Arguments(LAMMPS_NS::Error *error, std::string command, int narg, char **arg)
       : error_(error), command_(std::move(command)), words_(arg, arg + narg) {}
 
   bool empty() const { return next_ >= words_.size(); }
-  std::size_t left() const { return words_.size() - next_; }
+  /// The next argument, which stays the next. Not if empty().
   const std::string &peek() const { return words_[next_]; }
 
-  /// Next word; `what` names it in the error if there is none, `allowed` says what may stand there.
+  /// The next argument as a word. \param what its name in the error \param allowed what it may be
   const std::string &word(const std::string &what, const std::string &allowed = "a word") {
     if (empty()) fail(what + " is missing; allowed: " + allowed);
     return words_[next_++];
   }
 
+  /// The next argument as a number.
   double number(const std::string &what, Range range = Range::any) {
-    const std::string text = required(what, allowed_text(range));
+    const std::string text = word(what, allowed_text(range));
     const double value = parse_number(text);
-    if (!in_range(value, range)) fail(what + " is '" + text + "'; allowed: " + allowed_text(range));
+    if (!in_range(value, range)) fail(what, text, allowed_text(range));
     return value;
   }
 
+  /// The next argument as a whole number from `lowest` to `highest`.
   engine::bigint integer(const std::string &what, engine::bigint lowest,
                          engine::bigint highest = std::numeric_limits<int>::max()) {
     const std::string allowed =
         "a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest);
-    const std::string text = required(what, allowed);
+    const std::string text = word(what, allowed);
     char *end = nullptr;
     const long long value = std::strtoll(text.c_str(), &end, 10);
-    if (text.empty() || *end != '\0' || value < lowest || value > highest)
-      fail(what + " is '" + text + "'; allowed: " + allowed);
+    if (text.empty() || *end != '\0' || value < lowest || value > highest) fail(what, text, allowed);
     return static_cast<engine::bigint>(value);
   }
 
-  /// One of some words; its index.
+  /// The next argument as one of some words; its index.
   int choice(const std::string &what, const std::vector<std::string> &choices) {
-    const std::string text = required(what, join_choices(choices));
+    const std::string text = word(what, join_choices(choices));
     for (std::size_t n = 0; n < choices.size(); ++n)
       if (text == choices[n]) return static_cast<int>(n);
-    fail(what + " is '" + text + "'; allowed: " + join_choices(choices));
+    fail(what, text, join_choices(choices));
   }
 
-  [[noreturn]] void fail(const std::string &why) const {
-    error_->all(FLERR, engine::as_is(command_ + ": " + why));
+  /// The next three arguments as a vector other than 0 0 0, scaled to length 1.
+  std::array<double, 3> direction(const std::string &what) {
+    std::array<double, 3> v{};
+    for (std::size_t a = 0; a < 3; ++a)
+      v[a] = number(what + ", " + "xyz"[a]);
+    const double length = std::hypot(v[0], v[1], v[2]);
+    if (length == 0.0) fail(what, "0 0 0", "a vector with a length");
+    for (double &component : v)
+      component /= length;
+    return v;
+  }
+
+  /// The next argument as the name of a group that exists; its index.
+  int group(const std::string &what, LAMMPS_NS::Group *groups) {
+    const std::string name = word(what, "the name of a group");
+    const int index = groups->find(name.c_str());
+    if (index < 0) fail(what, name, "the name of a group");
+    return index;
+  }
+
+  /// Ends the run if there are more arguments. \param allowed the arguments that there may be
+  void expect_end(const std::string &allowed) const {
+    if (!empty()) fail("argument is '" + peek() + "', one too many; allowed: " + allowed);
+  }
+
+  /// Ends the run with "COMMAND: WHAT is 'VALUE'; allowed: ALLOWED".
+  [[noreturn]] void fail(const std::string &what, const std::string &value,
+                         const std::string &allowed) const {
+    fail(what + " is '" + value + "'; allowed: " + allowed);
+  }
+
+  /// Ends the run with "COMMAND: FAULT".
+  [[noreturn]] void fail(const std::string &fault) const {
+    error_->all(FLERR, engine::error_text(command_ + ": " + fault));
     std::abort(); // not reached: error->all() ends the process
   }
 
 private:
-  const std::string &required(const std::string &what, const std::string &allowed) {
-    if (empty()) fail(what + " has no value; allowed: " + allowed);
-    return words_[next_++];
-  }
-
   LAMMPS_NS::Error *error_;
   std::string command_;
   std::vector<std::string> words_;

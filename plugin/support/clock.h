@@ -1,16 +1,19 @@
 #pragma once
-// The own clock of a fix: time since its first run, through several runs, restarts and changes of the time
+// The clock of a fix: time since the fix's first run, through further runs, restarts and changes of the time
 // step.
 
 #include "engine.h"
 
 namespace drumlin {
 
-/// Time = base + (step - base_step) dt. The engine's restart file keeps the step number, but neither time nor
-/// dt; a fix stores these three numbers and goes on bitwise.
+/// Time = base time + (step - base step) dt. The engine's restart file has the step, but neither time nor dt:
+/// a fix stores the three numbers of state() there, and its clock then continues with the same bits as
+/// without the restart.
 class Clock {
 public:
-  /// Starts the clock at time 0, or carries it over a change of the time step. Call at each set-up.
+  /// Starts the clock at time 0; when it runs, carries the time over a change of the time step. Call at each
+  /// set-up of a run.
+  /// \param dt s, > 0
   void set_up(engine::bigint step, double dt) {
     if (!running_) {
       running_ = true;
@@ -23,11 +26,14 @@ public:
     }
   }
 
+  /// Time at a step, s. Valid after set_up() or restore().
   double time(engine::bigint step) const { return base_time_ + static_cast<double>(step - base_step_) * dt_; }
+  /// Whether the clock has been started or restored.
   bool running() const { return running_; }
 
-  /// State as numbers for a restart file, and back.
+  /// Base time, base step and time step, for a restart file.
   std::array<double, 3> state() const { return {base_time_, static_cast<double>(base_step_), dt_}; }
+  /// \param state the three numbers of state()
   void restore(const double *state) {
     running_ = true;
     base_time_ = state[0];

@@ -1,7 +1,8 @@
 #include "support/deck_folder.h"
 
+#include "support/command_line.h"
+
 #include <filesystem>
-#include <fstream>
 #include <system_error>
 
 namespace drumlin {
@@ -25,15 +26,15 @@ std::string folder_of_deck(const std::string &deck) {
   return has_blanks(from_here.string()) ? folder.string() : from_here.string();
 }
 
-void define_here(engine::LAMMPS *lmp) {
-  std::ifstream file("/proc/self/cmdline");
+void define_deck_folder(engine::LAMMPS *lmp) {
+  const std::vector<std::string> words = command_line_arguments();
   std::string here = ".";
-  for (std::string word, previous; std::getline(file, word, '\0'); previous = word)
-    if (previous == "-in" || previous == "-i") here = folder_of_deck(word);
+  for (std::size_t n = 1; n < words.size(); ++n)
+    if (words[n - 1] == "-in" || words[n - 1] == "-i") here = folder_of_deck(words[n]);
   std::string name = "here";
   std::string style = "index";
-  char *words[] = {name.data(), style.data(), here.data()};
-  lmp->input->variable->set(3, words);
+  char *arguments[] = {name.data(), style.data(), here.data()};
+  lmp->input->variable->set(3, arguments);
 }
 
 } // namespace drumlin

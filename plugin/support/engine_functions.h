@@ -1,10 +1,12 @@
 #pragma once
-// The end of each engine's engine.h: what is the same text for both engines.
+// Functions on an engine that are the same text for LIGGGHTS and LAMMPS. Each engine's engine.h includes this
+// at its end, when the names that differ are defined.
 
 namespace drumlin::engine {
 
-/// Tells the user: on the screen and in the log file, at once. Rank 0 speaks, the others may call it too.
-inline void say(const LAMMPS *lmp, const std::string &text) {
+/// Writes a text to the screen and the log file, without delay. Any rank may call it; rank 0 writes.
+/// \param text with its line ends
+inline void log_message(const LAMMPS *lmp, const std::string &text) {
   if (lmp->comm->me != 0) return;
   for (FILE *out : {lmp->screen, lmp->logfile})
     if (out != nullptr) {
@@ -13,34 +15,49 @@ inline void say(const LAMMPS *lmp, const std::string &text) {
     }
 }
 
-/// Ends the run on all ranks with the line "ERROR: COMMAND: fault" if rank 0 has found a fault. Collective.
-inline void end_if(const LAMMPS *lmp, const std::string &command, std::string fault) {
+/// Ends the run on all ranks with the line "ERROR: COMMAND: FAULT" if rank 0 has found a fault. Collective.
+/// \param fault on rank 0 "KEYWORD is 'VALUE'; allowed: WHAT", or empty if all is well; ignored on other
+/// ranks
+inline void stop_on_fault(const LAMMPS *lmp, const std::string &command, std::string fault) {
   auto length = static_cast<int>(fault.size());
   MPI_Bcast(&length, 1, MPI_INT, 0, lmp->world);
   if (length == 0) return;
   fault.resize(static_cast<std::size_t>(length));
   MPI_Bcast(fault.data(), length, MPI_CHAR, 0, lmp->world);
-  lmp->error->all(FLERR, engine::as_is(command + ": " + fault));
+  lmp->error->all(FLERR, engine::error_text(command + ": " + fault));
 }
 
-/// A fix by its ID, or nullptr.
+/// The error text of a fix that needs the plugin's contact law, where the deck has another pair style.
+inline std::string other_pair_style(const LAMMPS *lmp, const std::string &command) {
+  const char *style = lmp->force->pair_style;
+  return command + ": pair_style is '" + (style != nullptr ? style : "none") + "'; allowed: " + pair_style;
+}
+
+/// A fix by its ID; nullptr if there is none.
 inline LAMMPS_NS::Fix *find_fix(LAMMPS_NS::Modify *modify, const std::string &id) {
   const int index =
       modify->find_fix(id.c_str()); // NOLINT(readability-redundant-string-cstr): LIGGGHTS's wants it
   return index < 0 ? nullptr : modify->fix[index];
 }
 
-/// Whether this rank speaks for a pair of the contact law's neighbour list: the only one that has it, or that which owns the ball with the lower ID.
-inline bool speaks_for(const LAMMPS *lmp, int i, int j) {
+/// Whether a pair of balls of the contact law's neighbour list is counted on this rank, so that sums and
+/// tables over all ranks have each pair once. With newton off a pair across ranks is in the lists of both: it
+/// counts where the ball with the lower ID is owned.
+/// \param i, j indices of owned balls or ghosts
+inline bool owns_pair(const LAMMPS *lmp, int i, int j) {
   const LAMMPS_NS::Atom &atom = *lmp->atom;
   return lmp->force->newton_pair || (atom.tag[i] < atom.tag[j] ? i : j) < atom.nlocal;
 }
 
-/// Index of a neighbour without the bits that the engine packs into it.
+/// Index of a neighbour from an entry of a neighbour list, without the flags that the engine packs into its
+/// highest bits.
 inline int neighbour_index(int packed) { return packed & NEIGHMASK; }
 
-/// The sums of force, N, x to z, that a fix freeze or setforce has taken from this rank's balls in this step and gives as its
-/// output; nullptr for another fix.
+/// The sum of the forces, N, x to z, that a fix freeze or setforce has removed from this rank's balls in this
+/// step, which is the fix's output; nullptr for a fix of another style.
 double *reaction(LAMMPS_NS::Fix *fix);
+
+/// Former name of error_text(), which sources of the contact laws use.
+inline decltype(auto) as_is(const std::string &text) { return error_text(text); }
 
 } // namespace drumlin::engine

@@ -1,5 +1,5 @@
 #pragma once
-// A table that rank 0 writes while a run goes on.
+// A table that rank 0 writes during a run.
 
 #include "engine.h"
 #include "support/whole_file.h"
@@ -9,10 +9,11 @@
 
 namespace drumlin {
 
-/// Opened at set-up, not while the deck is parsed: bad input further down leaves an earlier run's file
-/// untouched.
+/// The file is opened when a run is set up, not when the engine reads the fix's line: a mistake in a later
+/// line of the deck leaves the file of an earlier run as it was.
 class OutputFile {
 public:
+  /// \param append rows are added to an existing file instead of replacing it
   OutputFile(std::string name, bool append) : name_(std::move(name)), append_(append) {}
   OutputFile(const OutputFile &) = delete;
   OutputFile &operator=(const OutputFile &) = delete;
@@ -20,15 +21,18 @@ public:
     if (file_) std::fclose(file_);
   }
 
-  /// Ends the run if open() is going to fail; touches nothing. For a fix's init(): all come before the first
-  /// set-up, so that one bad name leaves the files of all fixes as they were. Collective.
+  /// Ends the run if open() would fail; changes no file. For a fix's init(): the engine initializes all fixes
+  /// before it sets up the first, so that one bad name leaves the files of all fixes as they were.
+  /// Collective.
+  /// \param what command and keyword that gave the name, for the error
   static void check(const std::string &name, LAMMPS_NS::Comm *comm, LAMMPS_NS::Error *error, MPI_Comm world,
-                    const std::string &command) {
-    end_if(comm->me == 0 && !is_output_file(name) ? 1 : 0, name, error, world, command, output_name_allowed);
+                    const std::string &what) {
+    stop_if(comm->me == 0 && !is_output_file(name) ? 1 : 0, name, error, world, what, output_name_allowed);
   }
 
-  /// Opens the file once, on rank 0; collective. Ends the run if that fails.
-  void open(LAMMPS_NS::Comm *comm, LAMMPS_NS::Error *error, MPI_Comm world, const std::string &command,
+  /// Opens the file on rank 0 and writes the header if the file is new; the second call does nothing. Ends
+  /// the run if that fails. Collective.
+  void open(LAMMPS_NS::Comm *comm, LAMMPS_NS::Error *error, MPI_Comm world, const std::string &what,
             const char *header) {
     if (opened_) return;
     opened_ = true;
@@ -38,24 +42,25 @@ public:
       if (file_ && (!append_ || std::ftell(file_) == 0)) std::fprintf(file_, "%s\n", header);
       failed = file_ == nullptr;
     }
-    end_if(failed, name_, error, world, command, output_name_allowed);
+    stop_if(failed, name_, error, world, what, output_name_allowed);
   }
 
   const std::string &name() const { return name_; }
-  FILE *get() const { return file_; } ///< nullptr on other ranks
+  FILE *get() const { return file_; } ///< nullptr on ranks other than 0, and before open()
 
-  /// Hands what was written to the system and ends the run if any of it did not reach the disk. Collective.
-  void flush(LAMMPS_NS::Error *error, MPI_Comm world, const std::string &command) const {
+  /// Flushes what was written and ends the run if any write has failed, as on a full disk. Collective.
+  void flush(LAMMPS_NS::Error *error, MPI_Comm world, const std::string &what) const {
     const int failed = file_ != nullptr && (std::fflush(file_) != 0 || std::ferror(file_) != 0) ? 1 : 0;
-    end_if(failed, name_, error, world, command, "a file on a disk with room");
+    stop_if(failed, name_, error, world, what, "a file on a disk with room");
   }
 
 private:
-  static void end_if(int failed, const std::string &name, LAMMPS_NS::Error *error, MPI_Comm world,
-                     const std::string &command, const std::string &allowed) {
+  static void stop_if(int failed, const std::string &name, LAMMPS_NS::Error *error, MPI_Comm world,
+                      const std::string &what, const std::string &allowed) {
     MPI_Bcast(&failed, 1, MPI_INT, 0, world);
     if (failed)
-      error->all(FLERR, engine::as_is(command + ": cannot write '" + name + "'; allowed: " + allowed));
+      error->all(FLERR, engine::error_text(what + " is '" + name +
+                                           "', which cannot be written; allowed: " + allowed));
   }
 
   std::string name_;

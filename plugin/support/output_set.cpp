@@ -22,14 +22,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char *aside = ".earlier";
+constexpr const char *backup_suffix = ".earlier";
 
-fs::path kept_aside(const fs::path &file) { return file.string() + aside; }
+fs::path backup_of(const fs::path &file) { return file.string() + backup_suffix; }
 
-/// Puts back what a killed process has left aside.
+/// Renames a backup, which a killed process has left, to the file.
 void recover(const fs::path &file) {
   std::error_code code;
-  if (fs::exists(kept_aside(file), code)) fs::rename(kept_aside(file), file, code);
+  if (fs::exists(backup_of(file), code)) fs::rename(backup_of(file), file, code);
 }
 
 /// The number in a file's name, if the name is of the pattern.
@@ -44,7 +44,7 @@ std::optional<long> number_of(const std::string &name, const NumberedFiles &patt
   return std::stol(digits);
 }
 
-/// What is in a folder; nothing if it is not there.
+/// The entries of a folder; none if it does not exist.
 std::vector<fs::path> files_in(const std::string &folder) {
   std::error_code code;
   std::vector<fs::path> files;
@@ -53,7 +53,8 @@ std::vector<fs::path> files_in(const std::string &folder) {
   return files;
 }
 
-/// Whether a dump is whole: a file of VTK ends with its last tag, a text has the rows that each of its headers counts.
+/// Whether a dump is complete: a VTK file ends with its closing tag, a text dump has as many rows as each of
+/// its headers says.
 bool is_whole_dump(const fs::path &file) {
   std::ifstream in(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
@@ -73,8 +74,8 @@ bool is_whole_dump(const fs::path &file) {
   return !text.empty() && text.back() == '\n' && left <= 0;
 }
 
-/// The sets of this process that are not committed: the engine ends itself by exit() when a command fails, without destroying its
-/// fixes, so that their files are put back from here.
+/// The sets of this process. When a command fails the engine calls exit() without destroying its fixes, so
+/// that a function registered for exit() restores their files.
 std::set<OutputSet *> &open_sets() {
   static std::set<OutputSet *> sets;
   return sets;
@@ -108,43 +109,44 @@ void OutputSet::make_folder(const std::string &folder) {
   made_.insert(made_.end(), missing.begin(), missing.end());
 }
 
-void OutputSet::hold_folder(const std::string &folder) {
+void OutputSet::lock_folder(const std::string &folder) {
   make_folder(folder);
   folder_lock_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder_lock_ < 0)
     throw std::runtime_error(fmt::format("folder is '{}'; allowed: one that can be made", folder));
-  // Some network file systems cannot lock a folder: there nothing is held.
+  // Some network file systems cannot lock a folder. There a second run is not refused.
   if (flock(folder_lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    throw std::runtime_error(fmt::format(
-        "folder is '{}', into which another run writes; allowed: another folder, or to wait", folder));
+    throw std::runtime_error(fmt::format("folder is '{}', into which another run writes; allowed: another "
+                                         "folder, or to wait for the end of that run",
+                                         folder));
 }
 
-void OutputSet::keep_aside(const fs::path &file) {
+void OutputSet::back_up(const fs::path &file) {
   std::error_code code;
   if (fs::symlink_status(file, code).type() == fs::file_type::not_found) {
     files_.emplace(file, false);
     return;
   }
-  fs::rename(file, kept_aside(file), code);
+  fs::rename(file, backup_of(file), code);
   if (code)
-    throw std::runtime_error(
-        fmt::format("file '{}' of an earlier run cannot be kept aside ({}); allowed: a folder "
-                    "that can be written",
-                    file.string(), code.message()));
+    throw std::runtime_error(fmt::format(
+        "file is '{}', of which no backup can be made ({}); allowed: a folder that can be written",
+        file.string(), code.message()));
   files_[file] = true;
 }
 
 void OutputSet::replace(const std::string &file) {
   recover(file);
   if (!is_output_file(file))
-    throw std::runtime_error(fmt::format("cannot write '{}'; allowed: {}", file, output_name_allowed));
-  keep_aside(file);
+    throw std::runtime_error(
+        fmt::format("file is '{}', which cannot be written; allowed: {}", file, output_name_allowed));
+  back_up(file);
 }
 
-void OutputSet::cut(const std::string &file, double time) {
+void OutputSet::truncate_table(const std::string &file, double time) {
   replace(file);
   if (!files_.at(file)) return;
-  std::ifstream in(kept_aside(file));
+  std::ifstream in(backup_of(file));
   std::string line;
   std::getline(in, line);
   std::istringstream names(line);
@@ -162,7 +164,8 @@ void OutputSet::cut(const std::string &file, double time) {
     if (std::strtod(cell.c_str(), nullptr) <= time) kept += line + '\n';
   }
   if (!write_whole_file(file, kept))
-    throw std::runtime_error(fmt::format("cannot write '{}'; allowed: a file on a disk with room", file));
+    throw std::runtime_error(
+        fmt::format("file is '{}', which cannot be written; allowed: a file on a disk with room", file));
 }
 
 void OutputSet::replace_numbered(const std::vector<NumberedFiles> &patterns, long from) {
@@ -172,7 +175,7 @@ void OutputSet::replace_numbered(const std::vector<NumberedFiles> &patterns, lon
     folders.insert(pattern.folder);
   for (const std::string &folder : folders)
     for (const fs::path &file : files_in(folder))
-      if (file.extension() == aside) recover(file.parent_path() / file.stem());
+      if (file.extension() == backup_suffix) recover(file.parent_path() / file.stem());
   for (const std::string &folder : folders)
     for (const fs::path &file : files_in(folder))
       before_.insert(file);
@@ -181,17 +184,17 @@ void OutputSet::replace_numbered(const std::vector<NumberedFiles> &patterns, lon
     for (const fs::path &file : files_in(folder)) {
       const std::optional<long> number = number_in(folder, file);
       if (!number || !fs::is_regular_file(fs::symlink_status(file)))
-        throw std::runtime_error(
-            fmt::format("folder '{}' has '{}', which is no dump of a run; allowed: a folder "
-                        "with nothing but dumps",
-                        folder, file.filename().string()));
+        throw std::runtime_error(fmt::format(
+            "folder is '{}' with the file '{}', which is no dump of a run; allowed: a folder with nothing "
+            "but dumps",
+            folder, file.filename().string()));
       if (*number >= from)
         earlier.push_back(file);
       else
         checked_.insert(file);
     }
   for (const fs::path &file : earlier)
-    keep_aside(file);
+    back_up(file);
 }
 
 std::optional<long> OutputSet::number_in(const std::string &folder, const fs::path &file) const {
@@ -207,7 +210,7 @@ void OutputSet::check_numbered() {
       if (!number_of(file.filename().string(), pattern) || checked_.count(file) != 0) continue;
       if (!is_whole_dump(file))
         throw std::runtime_error(
-            fmt::format("dump '{}' is cut short; allowed: a disk with room", file.string()));
+            fmt::format("dump is '{}', which is incomplete; allowed: a disk with room", file.string()));
       checked_.insert(file);
     }
 }
@@ -216,23 +219,23 @@ void OutputSet::commit() {
   committed_ = true;
   std::error_code code;
   for (const auto &[file, kept] : files_)
-    if (kept) fs::remove(kept_aside(file), code);
+    if (kept) fs::remove(backup_of(file), code);
 }
 
 void OutputSet::roll_back() {
   if (committed_) return;
-  committed_ = true; // once
+  committed_ = true; // not a second time, at exit()
   std::error_code code;
   for (const NumberedFiles &pattern : numbered_)
     for (const fs::path &file : files_in(pattern.folder))
       if (number_of(file.filename().string(), pattern) && before_.count(file) == 0) fs::remove(file, code);
   for (const auto &[file, kept] : files_)
     if (kept)
-      fs::rename(kept_aside(file), file, code);
+      fs::rename(backup_of(file), file, code);
     else
       fs::remove(file, code);
   for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder)
-    fs::remove(*folder, code); // one that holds something stays
+    fs::remove(*folder, code); // removes empty folders only
 }
 
 } // namespace drumlin

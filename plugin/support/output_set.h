@@ -1,5 +1,6 @@
 #pragma once
-// The files that a run writes, as one set: those of an earlier run are kept aside until the new run has passed its first steps.
+// The files that a run writes, as one set. Files of an earlier run are backed up until the new run has passed
+// its first steps.
 
 #include <filesystem>
 #include <map>
@@ -10,16 +11,18 @@
 
 namespace drumlin {
 
-/// Files with a number in their names, as dumps have: FOLDER/PREFIX NUMBER SUFFIX.
+/// Files whose names differ by a number only, as dumps have: FOLDER/PREFIX NUMBER SUFFIX.
 struct NumberedFiles {
   std::string folder, prefix, suffix;
 };
 
-/// Output files of one run. An earlier file is renamed to NAME.earlier. commit() removes what was kept aside; without it, the end of the
-/// object or of the process puts it back and removes what the failed run has written. A process that is killed leaves the earlier
-/// files aside: the next set with their names puts them back first.
+/// The output files of one run. A file that an earlier run has left is renamed to its backup NAME.earlier.
+/// commit() removes the backups. If the object is destroyed or the process ends before commit(), what the
+/// failed run has written is removed and the backups get their names back. A process that is killed leaves
+/// the backups; the next set with these names renames them back first.
 ///
-/// Functions throw std::runtime_error with the words behind "COMMAND: " of an error line. For one rank.
+/// Functions throw std::runtime_error with the part of an error line behind "COMMAND: ". To be used on one
+/// rank.
 class OutputSet {
 public:
   OutputSet();
@@ -27,40 +30,42 @@ public:
   OutputSet(const OutputSet &) = delete;
   OutputSet &operator=(const OutputSet &) = delete;
 
-  /// Makes a folder, with its parents, and holds it until the end of the object: no other process can hold it meanwhile.
-  void hold_folder(const std::string &folder);
+  /// Makes a folder, with its parents, and locks it until the end of the object: a second process cannot lock
+  /// it meanwhile.
+  void lock_folder(const std::string &folder);
 
-  /// Makes a folder, with its parents; one that this made goes again with a run that fails.
+  /// Makes a folder, with its parents. If the run fails, the folders that were made here are removed.
   void make_folder(const std::string &folder);
 
-  /// Keeps an earlier file of this name aside.
+  /// Backs up an earlier file of this name, for a run that writes it from the beginning.
   void replace(const std::string &file);
 
-  /// Keeps an earlier file aside; of a table (comma-separated values with a column `time`) it leaves a copy with the rows up to a time, s.
-  void cut(const std::string &file, double time);
+  /// Backs up an earlier file, for a run that continues it. If it is a table (comma-separated values with a
+  /// column `time`), a copy with the rows up to a time, s, takes its place.
+  void truncate_table(const std::string &file, double time);
 
-  /// Keeps numbered files from a number on aside. Their folder may be missing; if it is there, it may hold nothing but
-  /// files of these patterns.
+  /// Backs up the numbered files from a number on. Their folders need not exist; a folder that exists must
+  /// have no other files than those of the patterns.
   void replace_numbered(const std::vector<NumberedFiles> &patterns, long from);
 
-  /// Checks that the numbered files written since the last call are whole, which a full disk prevents.
+  /// Checks that the numbered files written since the last call are complete, which they are not after a full
+  /// disk.
   void check_numbered();
 
-  /// The run has passed its first steps: what was kept aside goes.
+  /// Removes the backups: the run has passed its first steps.
   void commit();
   bool committed() const { return committed_; }
 
 private:
   void roll_back();
   std::optional<long> number_in(const std::string &folder, const std::filesystem::path &file) const;
-  void keep_aside(const std::filesystem::path &file);
+  void back_up(const std::filesystem::path &file);
 
-  std::map<std::filesystem::path, bool>
-      files_;                               ///< what the run writes; whether an earlier file is kept aside
-  std::vector<std::filesystem::path> made_; ///< folders, the outermost first
+  std::map<std::filesystem::path, bool> files_; ///< what the run writes; true if an earlier file is backed up
+  std::vector<std::filesystem::path> made_;     ///< folders, the outermost first
   std::vector<NumberedFiles> numbered_;
   std::set<std::filesystem::path> before_;  ///< numbered files of earlier runs, as found at the start
-  std::set<std::filesystem::path> checked_; ///< numbered files known to be whole
+  std::set<std::filesystem::path> checked_; ///< numbered files known to be complete
   int folder_lock_ = -1;
   bool committed_ = false;
 };

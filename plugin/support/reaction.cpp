@@ -2,8 +2,8 @@
 
 namespace {
 
-// What the engine's constraints have summed is not public. An explicit instantiation may name a private member; its friend hands
-// it out.
+// The sums are private members of the engine's fixes. C++ allows an explicit instantiation to name a private
+// member as a template argument; the friend function of the instance gives access to it.
 template <auto Member>
 struct FreezeAccess {
   friend auto &reaction_of(LAMMPS_NS::FixFreeze &fix) { return fix.*Member; }

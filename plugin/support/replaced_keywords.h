@@ -1,20 +1,22 @@
 #pragma once
-// Keywords of the engines' own contact laws, and what does the same here. A deck that only exchanges the name of the law has them.
+// Keywords of the engines' own contact laws, and what replaces them in the plugin's. A deck in which only the
+// name of the law was exchanged still has them.
 
 #include <string>
 
 namespace drumlin {
 
-/// How an engine's adapter takes what the engines' own laws have keywords for.
+/// How an engine's decks give to the plugin's law what the engines' own laws have keywords for.
 struct DropInForms {
-  const char *coefficient; ///< a dashpot coefficient, N s/m
-  const char *ratio;       ///< a damping ratio
-  const char *no_tangential_dashpot;
-  const char *tangential_stiffness; ///< kt, N/m
+  const char *coefficient;           ///< a dashpot coefficient, N s/m
+  const char *ratio;                 ///< a damping ratio
+  const char *no_tangential_dashpot; ///< friction without a dashpot
+  const char *tangential_stiffness;  ///< kt, N/m
 };
 
-/// What does the same here as a keyword of the engines' own laws, for an error's "allowed:"; empty for another word.
-inline std::string in_its_place(const std::string &keyword, const DropInForms &here) {
+/// What replaces a keyword of the engines' own laws, for an error's "allowed:"; empty for a word that is no
+/// such keyword.
+inline std::string replacement_of(const std::string &keyword, const DropInForms &here) {
   const auto quoted = [&keyword](const char *value) { return "'" + keyword + " " + value + "'"; };
   if (keyword == "limitForce")
     return "transition B in place of " + quoted("on") + ", transition A in place of " + quoted("off");
@@ -34,11 +36,12 @@ inline std::string in_its_place(const std::string &keyword, const DropInForms &h
   return {};
 }
 
-/// The text behind "COMMAND: " for a keyword that is unknown. \param allowed the keywords there are
+/// The error text, behind "COMMAND: ", for a keyword that the command does not have. \param allowed the
+/// keywords that it has
 inline std::string unknown_keyword(const std::string &keyword, const DropInForms &here,
                                    const std::string &allowed) {
-  const std::string place = in_its_place(keyword, here);
-  return "unknown keyword '" + keyword + "'; allowed: " + (place.empty() ? allowed : place);
+  const std::string replacement = replacement_of(keyword, here);
+  return "keyword is '" + keyword + "'; allowed: " + (replacement.empty() ? allowed : replacement);
 }
 
 } // namespace drumlin

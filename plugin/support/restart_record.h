@@ -1,11 +1,11 @@
 #pragma once
-// Global state of a fix as a record in the engine's restart file: a count of bytes, then numbers.
+// The state of a fix in the engine's restart file: a record of the number of bytes, then the numbers.
 
 #include "engine.h"
 
 namespace drumlin {
 
-/// Writes `values` as a fix's restart record. Rank 0 of the engine calls a fix's write_restart().
+/// Writes `values` as a fix's restart record; to be called by the fix's write_restart(). Only rank 0 writes.
 inline void write_restart_record(FILE *file, int rank, const std::vector<double> &values) {
   if (rank != 0) return;
   const int bytes = static_cast<int>(values.size() * sizeof(double));

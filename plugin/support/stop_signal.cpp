@@ -7,7 +7,8 @@ namespace {
 
 volatile std::sig_atomic_t signals = 0;
 
-/// The first two signals are only counted, because Ctrl-C reaches the ranks twice: from the terminal, and as SIGTERM from mpirun.
+/// The first two signals are only counted, because Ctrl-C reaches the ranks twice: from the terminal, and as
+/// SIGTERM from mpirun.
 void count_signal(int number) {
   signals = signals + 1;
   if (signals < 3) return;
@@ -15,8 +16,8 @@ void count_signal(int number) {
   std::raise(number);
 }
 
-/// Ends the engine's runs if a rank has had a signal. Collective.
-void end_runs_if_asked(drumlin::engine::LAMMPS *lmp) {
+/// Ends the engine's runs if a rank has received a signal. Collective.
+void end_runs_after_signal(drumlin::engine::LAMMPS *lmp) {
   int stop = signals;
   if (lmp->comm->nprocs > 1) MPI_Allreduce(MPI_IN_PLACE, &stop, 1, MPI_INT, MPI_MAX, lmp->world);
   if (stop != 0) drumlin::engine::end_runs(lmp);
@@ -47,22 +48,22 @@ drumlin::StopSignal::~StopSignal() {
   if (engine::find_fix(lmp_->modify, fix_id) != nullptr) lmp_->modify->delete_fix(fix_id);
 }
 
-bool drumlin::StopSignal::told(engine::LAMMPS *lmp) {
-  end_runs_if_asked(lmp);
+bool drumlin::StopSignal::received(engine::LAMMPS *lmp) {
+  end_runs_after_signal(lmp);
   return engine::runs_have_ended(lmp);
 }
 
 void LAMMPS_NS::FixStop::end_of_step() {
   if (++steps_ < interval_) return;
   steps_ = 0;
-  end_runs_if_asked(lmp);
+  end_runs_after_signal(lmp);
   if (comm->nprocs == 1) return;
   constexpr double wanted = 0.02; // s between two checks
-  constexpr int most =
-      200; // time steps between two checks; a step may become slow when the machine gets other work
+  // Time steps between two checks: few enough for steps that become slower when the machine gets other work.
+  constexpr int most = 200;
   const auto now = std::chrono::steady_clock::now();
-  double passed = std::chrono::duration<double>(now - asked_).count();
-  asked_ = now;
+  double passed = std::chrono::duration<double>(now - last_check_).count();
+  last_check_ = now;
   MPI_Allreduce(MPI_IN_PLACE, &passed, 1, MPI_DOUBLE, MPI_MAX, world);
   const double steps = interval_ * std::clamp(wanted / std::max(passed, 1e-9), 0.1, 2.0);
   interval_ = static_cast<int>(std::clamp(steps, 1.0, 1.0 * most));

@@ -9,9 +9,10 @@
 
 namespace drumlin {
 
-/// While an object of this class exists, SIGINT and SIGTERM do not end the process: they ask the engine to stop the run, which it does within
-/// about a tenth of a second, on all ranks after the same time step. The third signal ends the process at once. The destructor restores the
-/// earlier signal handlers. There may be only one object at a time.
+/// While an object of this class exists, SIGINT and SIGTERM do not end the process: they ask the engine to
+/// stop the run, which it does within about a tenth of a second, on all ranks after the same time step. The
+/// third signal ends the process at once. The destructor restores the earlier signal handlers. There may be
+/// only one object at a time.
 class StopSignal {
 public:
   explicit StopSignal(engine::LAMMPS *lmp);
@@ -19,8 +20,8 @@ public:
   StopSignal(const StopSignal &) = delete;
   StopSignal &operator=(const StopSignal &) = delete;
 
-  /// Whether a rank has been told to stop; the engine then ends its runs. Collective.
-  static bool told(engine::LAMMPS *lmp);
+  /// Whether a rank has received a signal to stop; the engine then ends its runs. Collective.
+  static bool received(engine::LAMMPS *lmp);
 
 private:
   engine::LAMMPS *lmp_;
@@ -35,9 +36,10 @@ private:
 
 namespace LAMMPS_NS {
 
-/// fix drumlin/stop, which StopSignal adds to the run; decks do not use it. On one rank it checks for a signal after every time step. On
-/// several ranks each check is a collective call that costs all of them time, so it checks about fifty times a second. That is often enough:
-/// mpirun kills a rank one second after it has sent it SIGTERM.
+/// fix drumlin/stop, which StopSignal adds to the run; decks do not use it. On one rank it checks for a
+/// signal after every time step. On several ranks each check is a collective call that costs all of them
+/// time, so it checks about fifty times a second. That is often enough: mpirun kills a rank one second after
+/// it has sent it SIGTERM.
 class FixStop : public Fix {
 public:
   FixStop(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) { nevery = 1; }
@@ -49,7 +51,7 @@ public:
 private:
   int interval_ = 1; ///< time steps between two checks, the same on all ranks
   int steps_ = 0;    ///< time steps since the last check
-  std::chrono::steady_clock::time_point asked_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point last_check_ = std::chrono::steady_clock::now();
 };
 
 } // namespace LAMMPS_NS

@@ -47,7 +47,8 @@ bool is_output_file(const std::string &name) {
   const fs::file_status status = fs::symlink_status(name, code);
   if (status.type() == fs::file_type::not_found)
     return fs::is_directory(folder, code) && access(folder.c_str(), W_OK | X_OK) == 0;
-  // access() lets root write everywhere: the permissions say what the owner wants.
+  // access() is true for root whatever the permissions are: a file that nobody has permission to write is not
+  // replaced by root either.
   const auto writers = fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
   return status.type() == fs::file_type::regular && (status.permissions() & writers) != fs::perms::none &&
          access(name.c_str(), W_OK) == 0;

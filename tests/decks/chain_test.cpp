@@ -413,7 +413,7 @@ TEST(Settle, NamesASceneThatNeverSettles) {
                scratch.path());
   EXPECT_EQ(outcome.status, 1);
   EXPECT_FALSE(outcome.timed_out);
-  EXPECT_TRUE(outcome.says("ERROR: drumlin/settle: no equilibrium")) << outcome.output;
+  EXPECT_TRUE(outcome.says("ERROR: drumlin/settle: unbalanced ratio is '")) << outcome.output;
   EXPECT_TRUE(outcome.says("after 50000 steps")) << outcome.output;
 }
 

@@ -106,7 +106,7 @@ TEST(GuardStops, AtTheShareThatItIsTold) {
       run(1.001 * share * critical);
       ADD_FAILURE() << "ran beyond the limit";
     } catch (const std::runtime_error &error) {
-      EXPECT_NE(std::string(error.what()).find("critical step 0.008944 s of ball 1 at step 0"),
+      EXPECT_NE(std::string(error.what()).find("at step 0, where ball 1 has the critical step 0.008944 s"),
                 std::string::npos)
           << error.what();
     }
@@ -124,7 +124,9 @@ TEST(GuardStops, WhenTheContactIsMade) {
     ADD_FAILURE() << "ran beyond the limit";
   } catch (const std::runtime_error &error) {
     EXPECT_NE(std::string(error.what()).find("no contact and no bond yet"), std::string::npos);
-    EXPECT_NE(std::string(error.what()).find("of ball 1 at step 21 (most of it by ball 1 and a wall)"),
+    EXPECT_NE(std::string(error.what())
+                  .find("at step 21, where ball 1 has the critical step 0.008944 s (mostly "
+                        "because of the link of ball 1 and a wall)"),
               std::string::npos)
         << error.what();
   }

@@ -1,1 +1,2 @@
-// The cohesion models that this plugin combines; the engine's own list is not part of its development package.
+// The cohesion models that this plugin combines; the engine's own list is not part of its development
+// package.

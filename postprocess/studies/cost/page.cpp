@@ -18,7 +18,6 @@ const std::vector<Comparison> comparisons = {
     {"law", "stock", "engine law", nothing},
     {"law + friction", "stock + friction", "engine law + friction", nothing},
     {"bond and exciter", "stock", "stock alone", 0.0},
-    {"idle guard", "stock + idle guard", "stock", nothing},
     {"guard", "stock + guard", "stock", 0.0},
     {"events", "stock + events", "stock", 0.0},
     {"history", "stock + history", "stock", 0.0},

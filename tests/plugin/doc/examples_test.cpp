@@ -1,10 +1,12 @@
 // The examples of the documentation run. A fenced block whose first line says `run` after the language is an
-// example:
-// ```liggghts run: lines of a deck, run in the host deck in.host; a pair_style or a property in it replaces
-// the host's.
-// ```lammps run: the same in host.lammps; not run where LAMMPS is not set up.
-// ```liggghts deck, ```lammps deck: a complete deck, run as it is.
-// ```sh run: a command line, run in a folder that has `inputs` and `build/release/lib` as the project's own.
+// example: ```liggghts run: lines of a deck, run in the host deck in.host; a pair_style or a property in it
+// replaces the host's. ```lammps run: the same in host.lammps; not run where LAMMPS is not set up.
+// ```liggghts deck, ```lammps deck: a complete deck, run as it is. ```sh run: a command line, run in a folder
+// that has `inputs` and `build/release/lib` as the project's own.
+//
+// Command lines in indented blocks take too long or need what a test has not. A paragraph of the page that
+// begins with "Not run by a test:" says why. Of these, the decks and variables of `./drumlin run` are still
+// checked with the engine.
 
 #include "tests/support/host_deck.h"
 
@@ -161,20 +163,89 @@ TEST(InYourOwnDeck, RollsAndIsTheEnginesOwnLaw) {
   }
 }
 
-// Links and pictures of every page are there.
-TEST(DocPages, LinkToWhatIsThere) {
-  static const std::regex link(R"re(\]\(([^)#:]+)\))re");
+/// All pages of the project.
+std::vector<fs::path> all_pages() {
   std::vector<fs::path> files = {root / "README.md", root / "ARCHITECTURE.md", root / "CHANGELOG.md"};
   for (const char *folder : {"inputs", "plugin", "postprocess"})
     for (const fs::directory_entry &entry : fs::recursive_directory_iterator(root / folder))
       if (entry.path().extension() == ".md") files.push_back(entry.path());
+  return files;
+}
+
+// Links and pictures of every page are there.
+TEST(DocPages, LinkToWhatIsThere) {
+  static const std::regex link(R"re(\]\(([^)#:]+)\))re");
   std::size_t links = 0;
-  for (const fs::path &file : files) {
+  for (const fs::path &file : all_pages()) {
     const std::string page = read_text(file);
     for (std::sregex_iterator i(page.begin(), page.end(), link), end; i != end; ++i, ++links)
       EXPECT_TRUE(fs::exists(file.parent_path() / (*i)[1].str())) << file << ": " << (*i)[1];
   }
   EXPECT_GT(links, 50U);
+}
+
+/// The command lines in indented blocks of a page.
+std::vector<std::string> indented_commands(const std::string &page) {
+  static const std::regex command(
+      R"re( {4}((?:\./drumlin|cmake|mpirun|pvpython|mpicxx|LD_PRELOAD=)[^#]*).*)re");
+  std::vector<std::string> commands;
+  bool fenced = false;
+  for (const std::string &line : lines_of(page)) {
+    if (line.rfind("```", 0) == 0) fenced = !fenced;
+    if (std::smatch match; !fenced && std::regex_match(line, match, command))
+      commands.push_back(match[1].str());
+  }
+  return commands;
+}
+
+// The pages of the plugin and of the decks say why a command line is not run.
+TEST(DocPages, SayWhyCommandLinesAreNotRun) {
+  for (const fs::path &file : all_pages()) {
+    const std::string name = fs::relative(file, root).string();
+    if (name.rfind("plugin/doc", 0) != 0 && name.rfind("inputs", 0) != 0) continue;
+    const std::string page = read_text(file);
+    const bool marked = page.find("\nNot run by a test: ") != std::string::npos;
+    EXPECT_EQ(marked, !indented_commands(page).empty()) << name;
+  }
+}
+
+/// Deck and variables of `./drumlin run [-np N] DECK [-var NAME VALUE ...]`.
+std::pair<std::string, Variables> deck_of(const std::string &command) {
+  std::istringstream words(command);
+  std::string word;
+  words >> word >> word; // ./drumlin run
+  std::pair<std::string, Variables> result;
+  while (words >> word)
+    if (word == "-np")
+      words >> word;
+    else if (word == "-var") {
+      std::string name, value;
+      words >> name >> value;
+      result.second.emplace_back(name, value);
+    } else
+      result.first = word;
+  return result;
+}
+
+// A variable that no deck has is refused as the first: the deck is there, and has all the variables of the
+// command line.
+TEST(DocPages, RunDecksThatHaveTheirVariables) {
+  std::size_t runs = 0;
+  for (const fs::path &file : all_pages())
+    for (const std::string &command : indented_commands(read_text(file))) {
+      if (command.rfind("./drumlin run ", 0) != 0) continue;
+      auto [deck, variables] = deck_of(command);
+      if (deck.rfind("inputs/", 0) != 0) continue; // DECK, or one of the user
+      if (fs::path(deck).extension() == ".lammps" && !post::has_lammps()) continue;
+      variables.emplace_back("no_such_variable", "1");
+      const Scratch scratch;
+      const Outcome outcome = run_deck(root / deck, variables, scratch.path());
+      EXPECT_TRUE(outcome.says("drumlin/variables: -var no_such_variable is '1'"))
+          << file << ": " << command << "\n"
+          << outcome.output;
+      ++runs;
+    }
+  EXPECT_GT(runs, 10U);
 }
 
 std::vector<std::string> pages() {
@@ -210,6 +281,7 @@ TEST(DocPages, AreThereForEveryCommand) {
                            "fix_bond_spring",
                            "fix_clump",
                            "fix_contact_events",
+                           "fix_contact_local",
                            "fix_drum_excite",
                            "fix_guard",
                            "fix_roller_history",

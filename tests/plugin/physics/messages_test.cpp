@@ -35,9 +35,9 @@ void expect_judged(const Parameters &good, double Parameters::*member, const std
     changed.*member = value;
     std::string expected;
     if (!accepted) {
-      expected.append(name).append(" is ").append(text);
+      expected.append(name).append(" is '").append(text);
       if (!unit.empty()) expected.append(" ").append(unit);
-      expected.append("; allowed: ").append(allowed);
+      expected.append("'; allowed: ").append(allowed);
     }
     EXPECT_EQ(changed.invalid(), expected);
   };
@@ -59,7 +59,7 @@ TEST(Messages, OfAContact) {
   expect_judged(by_coefficient, &LinearContact::damping, "damping coefficient", "N s/m", not_negative);
   expect_judged(by_ratio, &LinearContact::damping, "damping ratio", "", not_negative);
   EXPECT_EQ((LinearContact{-5.0, 0.5, Damping::ratio, Transition::B}).invalid(),
-            "stiffness is -5 N/m; allowed: finite and > 0");
+            "stiffness is '-5 N/m'; allowed: finite and > 0");
 }
 
 TEST(Messages, OfABond) {

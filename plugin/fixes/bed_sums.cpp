@@ -1,4 +1,4 @@
-#include "fixes/bed_state.h"
+#include "fixes/bed_sums.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,27 +18,28 @@ Sums over_ranks(const Sums &mine, MPI_Comm world) {
   return all;
 }
 
-/// Part of a ball (as wide as its diameter) that lies below a height.
+/// Share of a ball's diameter that is below a height, 0 to 1.
 double part_below(double height, double centre, double radius) {
   return std::min(1.0, std::max(0.0, (height - centre + radius) / (2.0 * radius)));
 }
 
 } // namespace
 
-std::size_t BedState::upright(const Vec3 &axis) {
+/// Index of the component that is the largest in the axis.
+std::size_t BedSums::vertical_component(const Vec3 &axis) {
   std::size_t most = 0;
   for (std::size_t a = 1; a < 3; ++a)
     if (std::fabs(axis[a]) > std::fabs(axis[most])) most = a;
   return most;
 }
 
-ContactSums BedState::contacts(const Vec3 &axis) const {
+ContactSums BedSums::contacts(const Vec3 &axis) const {
   const LAMMPS_NS::Atom &atom = *lmp_->atom;
   const double half = lmp_->force->newton_pair ? 1.0 : 0.5;
   ContactSums mine;
   for (const LedgerEntry &e : entries_) {
     const bool wall = e.j < 0;
-    // With newton off a contact across ranks is entered on both.
+    // With newton off a contact of balls on two ranks is recorded on both: it counts half on each.
     const double weight = !wall && (e.i >= atom.nlocal || e.j >= atom.nlocal) ? half : 1.0;
     const double force = e.share * (e.final_force != nullptr ? *e.final_force : e.normal_force);
     const double *vi = atom.v[e.i];
@@ -75,7 +76,7 @@ ContactSums BedState::contacts(const Vec3 &axis) const {
   return over_ranks(mine, lmp_->world);
 }
 
-BallSums BedState::balls(const Vec3 &axis, double window_top) const {
+BallSums BedSums::balls(const Vec3 &axis, double window_top) const {
   const LAMMPS_NS::Atom &atom = *lmp_->atom;
   const bool flat = lmp_->domain->dimension == 2;
   const double inertia = engine::inertia_share(lmp_);
@@ -102,9 +103,9 @@ BallSums BedState::balls(const Vec3 &axis, double window_top) const {
   return over_ranks(mine, lmp_->world);
 }
 
-double BedState::void_ratio(const Vec3 &axis, double window_top, double solid) const {
+double BedSums::void_ratio(const Vec3 &axis, double window_top, double solid) const {
   const LAMMPS_NS::Domain &box = *lmp_->domain;
-  const std::size_t up = upright(axis);
+  const std::size_t up = vertical_component(axis);
   double window = axis[up] > 0.0 ? window_top - box.boxlo[up] : window_top + box.boxhi[up];
   for (std::size_t a = 0; a < 3; ++a)
     if (a != up && (a != 2 || box.dimension == 3)) window *= box.prd[a];

@@ -1,0 +1,68 @@
+#pragma once
+// Sums over the contacts and balls of a bed at one time: energies, heat, forces of the walls, coordination,
+// void ratio.
+
+#include "contact/contact_ledger.h"
+
+#include <array>
+#include <vector>
+
+namespace drumlin {
+
+/// Sums over all contacts of a step, those of the roller and the walls included.
+struct ContactSums {
+  double normal_heat =
+      0.0; ///< W, power of the normal dashpots; under B it includes the spring energy that is lost while the force is 0
+  double tangential_power =
+      0.0; ///< W, power taken from the balls by friction and rolling: heat, and energy stored in their springs
+  double normal_stored = 0.0;     ///< J, in normal springs
+  double tangential_stored = 0.0; ///< J, in tangential springs
+  double contacts = 0.0;          ///< number of contacts with at least one soil ball
+  double coordination = 0.0;      ///< number of contacts of each soil ball, summed over the soil balls
+  double overlap = 0.0;           ///< sum of overlap over smaller radius, of the contacts with soil balls
+  double floor_force = 0.0; ///< N, force along the axis on the balls by walls whose normal is along the axis
+  double side_force = 0.0;  ///< N, force along the axis on the balls by the other walls: their friction
+  double side_thrust = 0.0; ///< N, sum of the normal forces of these other walls
+};
+
+/// Sums over all balls.
+struct BallSums {
+  double kinetic = 0.0;     ///< J, rotation included
+  double height = 0.0;      ///< kg m, mass times coordinate along the axis
+  double soil_height = 0.0; ///< kg m, the same of the soil balls
+  double soil_mass = 0.0;   ///< kg
+  double soil_balls = 0.0;  ///< number of soil balls
+  double solid = 0.0;       ///< m3 (m2 in two dimensions) of soil balls below a given height
+};
+
+/// Records every contact that is computed in a step and sums over contacts and balls. `axis` is everywhere
+/// the unit vector that points upwards.
+class BedSums : public ContactLedger {
+public:
+  /// \param soil_groupbit bit of the group of the soil balls
+  explicit BedSums(engine::LAMMPS *lmp, int soil_groupbit) : lmp_(lmp), soil_(soil_groupbit) {}
+
+  /// Discards the recorded contacts; to be called before the forces of a step are computed.
+  void clear() { entries_.clear(); }
+  void enter(const LedgerEntry &entry) override { entries_.push_back(entry); }
+
+  /// Sums over the recorded contacts with the present velocities. Ghosts must have the velocities of their
+  /// owners. Collective.
+  ContactSums contacts(const std::array<double, 3> &axis) const;
+  /// Sums over the balls. Collective. \param window_top height, m along the axis, below which `solid` is
+  /// counted
+  BallSums balls(const std::array<double, 3> &axis, double window_top) const;
+  /// Void ratio of the soil between the lower bound of the box and `window_top`, over the whole cross-section
+  /// of the box; 0 without soil.
+  /// \param solid BallSums::solid for this window
+  double void_ratio(const std::array<double, 3> &axis, double window_top, double solid) const;
+
+private:
+  static std::size_t vertical_component(const std::array<double, 3> &axis);
+
+  engine::LAMMPS *lmp_;
+  int soil_;
+  std::vector<LedgerEntry> entries_;
+};
+
+} // namespace drumlin

@@ -1,0 +1,49 @@
+#pragma once
+// The contacts of the drum with balls that belong neither to the drum nor to the frame: their force, heat and
+// stored energy.
+
+#include "engine.h"
+#include "contact/contact_source.h"
+
+#include <array>
+#include <vector>
+
+namespace drumlin {
+
+/// Sums over the contacts of the drum.
+struct DrumContactSums {
+  double force = 0.0;      ///< N, on the drum along the axis, friction included
+  double dissipated = 0.0; ///< W, of the normal dashpots
+  double stored = 0.0;     ///< J, in the normal springs
+  bool in_contact = false; ///< whether a contact exerts a force
+};
+
+/// The pairs of the neighbour list that may become such contacts, with their coefficients.
+class DrumContacts {
+public:
+  explicit DrumContacts(engine::LAMMPS *lmp) : lmp_(lmp) {}
+
+  /// Reads the pairs from the neighbour list of the contact law. To be called after each build of that list.
+  /// \param drum, frame bits of the groups; frame 0: there is no frame
+  void list_pairs(const ContactSource &source, int drum, int frame);
+
+  /// Sums with the present positions and velocities. Ghosts must have the velocities of their owners.
+  /// Collective.
+  /// \param axis unit vector that points upwards
+  DrumContactSums sums(const std::array<double, 3> &axis) const;
+
+private:
+  struct Pair {
+    int i, j;
+    double sign; // 1: ball i belongs to the drum; -1: ball j does
+    double k, c;
+    physics::Transition transition;
+    physics::Friction friction;
+    const double *spring; // of the tangential model; nullptr if it has none
+  };
+
+  engine::LAMMPS *lmp_;
+  std::vector<Pair> pairs_;
+};
+
+} // namespace drumlin

@@ -1,0 +1,34 @@
+#pragma once
+// Motion and forces of drum and frame at one time.
+
+namespace drumlin {
+
+/// Motion of a body along the axis, which points upwards.
+struct BodyMotion {
+  double x = 0.0; ///< m
+  double v = 0.0; ///< m/s
+  double a = 0.0; ///< m/s2
+};
+
+/// Forces on the drum, N, with the powers and energies that belong to them.
+struct RollerForces {
+  double contact = 0.0;            ///< N, along the axis, positive in compression
+  double excitation = 0.0;         ///< N, positive along the direction of fix drum/excite
+  double bond = 0.0;               ///< N, positive in tension
+  double contact_dissipated = 0.0; ///< W
+  double contact_stored = 0.0;     ///< J
+  double bond_dissipated = 0.0;    ///< W
+  double bond_stored = 0.0;        ///< J
+  double excitation_power = 0.0;   ///< W, of the excitation on the drum
+  double tangential_power = 0.0;   ///< W, taken from the balls by friction and rolling; of a bed only
+  bool in_contact = false;         ///< whether a contact of the drum exerts a force
+};
+
+/// Drum, frame and forces at one time.
+struct RollerState {
+  double time = 0.0; ///< s
+  BodyMotion drum, frame;
+  RollerForces forces;
+};
+
+} // namespace drumlin

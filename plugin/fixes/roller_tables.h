@@ -1,0 +1,43 @@
+#pragma once
+// Columns and rows of the files of fix roller/history: chain.csv or bed.csv (samples), and cycles.csv (one
+// row per cycle). The page of the fix, plugin/doc/fix_roller_history.md, says what the columns mean.
+
+#include "fixes/bed_sums.h"
+#include "fixes/cycle_sums.h"
+#include "fixes/roller_state.h"
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace drumlin {
+
+/// Masses and gravity, from which energies of drum and frame follow.
+struct RollerMasses {
+  double drum = 0.0, frame = 0.0; ///< kg
+  double gravity = 0.0;           ///< m/s2, downwards along the axis
+};
+
+/// The state of a bed for one row.
+struct BedSample {
+  ContactSums contacts;
+  BallSums balls;
+  double void_ratio = 0.0;
+  double raised = 0.0;        ///< kg m, mass times rise of all balls since the first set-up
+  double friction_heat = 0.0; ///< J, of friction and rolling since the start
+};
+
+/// Header line of the samples, and a row. \param bed nullptr: not a bed; otherwise `with_frame` must be true
+std::string history_header(bool with_frame, bool with_bed);
+std::vector<double> history_row(const RollerState &state, const CycleSums &cycle, const RollerMasses &masses,
+                                bool with_frame, const BedSample *bed);
+
+/// Header line of the cycles, and a row. \param bed nullptr: not a bed
+std::string cycles_header(bool with_bed);
+std::vector<double> cycles_row(const RollerState &state, const CycleSums &cycle, const RollerMasses &masses,
+                               const BedSample *bed);
+
+/// Writes a row with 17 significant digits; nothing if there is no file.
+void write_row(FILE *file, const std::vector<double> &row);
+
+} // namespace drumlin
