@@ -23,6 +23,7 @@
 #include "report/run_folder.h"
 #include "support/files.h"
 #include "support/process.h"
+#include "support/progress.h"
 #include "support/text.h"
 #include "support/usage_error.h"
 
@@ -40,7 +41,7 @@ fs::path checked_place(const fs::path &out, const ReportFolders &folders) {
   if (!place.has_filename()) place = place.parent_path();
   const auto refuse = [&out](const std::string &why) {
     throw UsageError(
-        fmt::format("--out = '{}' {}; allowed are new folders and earlier reports", out.string(), why));
+        fmt::format("--out is '{}': {}; allowed: a new folder or an earlier report", out.string(), why));
   };
   if (fs::exists(place)) {
     if (!fs::is_directory(place)) refuse("is not a folder");
@@ -54,51 +55,10 @@ fs::path checked_place(const fs::path &out, const ReportFolders &folders) {
   try {
     make_output_folder(place.parent_path());
   } catch (const std::runtime_error &error) {
-    throw UsageError(fmt::format("--out = '{}': {}", out.string(), error.what()));
+    throw UsageError(fmt::format("--out is '{}': {}", out.string(), error.what()));
   }
   return place;
 }
-
-/// A report under way, beside its place. What a killed report of the same place left is cleared away first.
-class Draft {
-public:
-  explicit Draft(const fs::path &place) : place_(place) {
-    fs::create_directories(folder() / "figures");
-    fs::create_directories(folder() / "data");
-  }
-  const fs::path &folder() const { return folder_.path(); }
-
-  /// Swaps the draft in; an earlier report comes back if that fails.
-  void publish() {
-    const fs::path old = beside(own_name(prefix("old")));
-    const bool replaces = fs::exists(place_);
-    if (replaces) fs::rename(place_, old);
-    std::error_code error;
-    fs::rename(folder(), place_, error);
-    if (error) {
-      if (replaces) fs::rename(old, place_);
-      throw std::runtime_error(
-          fmt::format("cannot move the report to {}: {}", place_.string(), error.message()));
-    }
-    std::error_code ignored;
-    fs::remove_all(old, ignored);
-  }
-
-private:
-  std::string prefix(const char *what) const {
-    return fmt::format(".{}.{}-", place_.filename().string(), what);
-  }
-  fs::path beside(const std::string &name) const { return place_.parent_path() / name; }
-  /// Killed between its two renames, a report leaves the earlier one under its other name.
-  std::string prefix_after_rescue() const {
-    const fs::path earlier = leftover(place_.parent_path(), prefix("old"));
-    if (!earlier.empty() && !fs::exists(place_)) fs::rename(earlier, place_);
-    remove_leftovers(place_.parent_path(), prefix("old"));
-    return prefix("new");
-  }
-  fs::path place_;
-  TemporaryFolder folder_{place_.parent_path(), prefix_after_rescue()};
-};
 
 /// The first line that `gnuplot --version` prints.
 std::string gnuplot_version(const fs::path &gnuplot, const fs::path &scratch) {
@@ -183,24 +143,6 @@ std::string summary_json(const ReportResults &results, const std::vector<BedResu
   return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-/// Counts the pieces of one kind of work, whose number is known before the first, and says which one begins.
-class Progress {
-public:
-  Progress(const std::function<void(const std::string &)> &say, std::string kind, std::size_t all)
-      : say_(say), kind_(std::move(kind)), all_(all) {}
-  void operator()(const std::string &what) {
-    ++done_;
-    const std::size_t width = fmt::format("{}", all_).size();
-    if (say_) say_(fmt::format("{} [{:>{}}/{}] {}", kind_, done_, width, all_, what));
-  }
-
-private:
-  const std::function<void(const std::string &)> &say_;
-  std::string kind_;
-  std::size_t all_;
-  std::size_t done_ = 0;
-};
-
 /// Reading what others wrote: whatever is wrong with it is the input's fault.
 std::vector<Run> read_runs(const std::vector<fs::path> &folders) {
   std::vector<Run> runs;
@@ -260,13 +202,13 @@ ReportOutcome write_report(const ReportOptions &options) {
 
   const bool any_beds =
       std::any_of(runs.begin(), runs.end(), [](const Run &run) { return run.kind == RunKind::bed; });
-  Progress reading(options.progress, "runs", runs.size() + (any_beds ? 1 : 0));
+  CountedProgress reading(runs.size() + (any_beds ? 1 : 0), "runs", options.progress);
   ReportResults results;
   DirectSolutions direct;
   std::vector<BedResult> beds;
   for (Run &run : runs) {
-    reading(run.kind == RunKind::chain ? fmt::format("{}: direct solution and measures", run.name)
-                                       : fmt::format("{}: measures", run.name));
+    reading.begins(run.kind == RunKind::chain ? fmt::format("{}: direct solution and measures", run.name)
+                                              : fmt::format("{}: measures", run.name));
     try {
       if (run.kind == RunKind::bed)
         beds.push_back(analyse_bed(std::move(run)));
@@ -288,46 +230,47 @@ ReportOutcome write_report(const ReportOptions &options) {
   tables.insert(tables.end(), of_beds.begin(), of_beds.end());
   const std::vector<BedGroup> groups = group_beds(beds);
   FigurePlan bed_plan;
-  if (any_beds) reading("dumps of the beds");
+  if (any_beds) reading.begins("dumps of the beds");
   try {
     bed_plan = plan_bed_figures(groups);
   } catch (const std::runtime_error &error) {
     throw UsageError(error.what());
   }
-  Progress drawing(options.progress, "pages",
-                   plan.figures.size() + plan.absent.size() + bed_plan.figures.size() +
-                       bed_plan.absent.size() + 1);
+  CountedProgress drawing(plan.figures.size() + plan.absent.size() + bed_plan.figures.size() +
+                              bed_plan.absent.size() + 1,
+                          "pages", options.progress);
 
-  Draft draft(place);
+  FolderInProgress draft(place);
+  fs::create_directories(draft.path() / "figures");
+  fs::create_directories(draft.path() / "data");
   for (const auto &[figures, page] :
        {std::pair<const FigurePlan *, const char *>(&plan, ""), {&bed_plan, "bed: "}}) {
     for (const AbsentFigure &absent : figures->absent)
-      drawing(fmt::format("{}{} left out: {}", page, absent.label, absent.reason));
+      drawing.begins(fmt::format("{}{} left out: {}", page, absent.label, absent.reason));
     for (const PlannedFigure &figure : figures->figures) {
-      drawing(fmt::format("{}{} {}", page, figure.label, figure.figure.name));
-      write_files({{draft.folder() / "data" / (figure.figure.name + ".csv"), figure.csv}});
-      render(gnuplot, draft.folder() / "figures", figure.figure);
+      drawing.begins(fmt::format("{}{} {}", page, figure.label, figure.figure.name));
+      write_files({{draft.path() / "data" / (figure.figure.name + ".csv"), figure.csv}});
+      render(gnuplot, draft.path() / "figures", figure.figure);
     }
   }
-  drawing("tables and text");
+  drawing.begins("tables and text");
   for (const ReportTable &table : tables)
-    if (!table.rows.empty())
-      write_files({{draft.folder() / "data" / (table.name + ".csv"), table_csv(table)}});
-  const std::vector<StudyLink> studies = copy_studies(folders.studies, draft.folder());
+    if (!table.rows.empty()) write_files({{draft.path() / "data" / (table.name + ".csv"), table_csv(table)}});
+  const std::vector<StudyLink> studies = copy_studies(folders.studies, draft.path());
   ReportVersions versions;
   versions.drumlin = options.version;
   versions.direct_solver = direct_solver_name();
-  versions.gnuplot = gnuplot_version(gnuplot, draft.folder());
+  versions.gnuplot = gnuplot_version(gnuplot, draft.path());
   versions.made_at = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)));
   std::vector<std::string> bed_names;
   bed_names.reserve(beds.size());
   for (const BedResult &bed : beds)
     bed_names.push_back(bed.run.name);
   std::vector<FileText> pages = {
-      {draft.folder() / "index.html", report_page(results, tables, plan, bed_names, studies, versions)},
-      {draft.folder() / summary_file, summary_json(results, beds, versions)}};
+      {draft.path() / "index.html", report_page(results, tables, plan, bed_names, studies, versions)},
+      {draft.path() / summary_file, summary_json(results, beds, versions)}};
   if (!beds.empty())
-    pages.emplace_back(draft.folder() / "bed.html", bed_page(beds, groups, of_beds, bed_plan, versions));
+    pages.emplace_back(draft.path() / "bed.html", bed_page(beds, groups, of_beds, bed_plan, versions));
   write_files(pages);
   draft.publish();
   ReportOutcome outcome{place / "index.html", count_checks(results), {}};

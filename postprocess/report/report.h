@@ -2,20 +2,20 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "report/chain_tables.h"
+#include "support/progress.h"
 
 namespace drumlin::post {
 
 /// What to report on, and where to.
 struct ReportOptions {
-  std::vector<std::filesystem::path> folders;        ///< run and study folders or parents of them
-  std::filesystem::path out = "report";              ///< replaced as a whole if it is an earlier report
-  std::string version = "unknown";                   ///< of this project, printed in the report
-  std::function<void(const std::string &)> progress; ///< gets one line per piece of work; may be empty
+  std::vector<std::filesystem::path> folders; ///< run and study folders or parents of them
+  std::filesystem::path out = "report";       ///< replaced as a whole if it is an earlier report
+  std::string version = "unknown";            ///< of this project, printed in the report
+  ProgressSink progress;                      ///< gets one line per piece of work; may be empty
 };
 
 /// What came of it.

@@ -6,6 +6,7 @@
 #include "pages/figure_data.h"
 #include "pages/page.h"
 #include "studies/accuracy/results.h"
+#include "studies/study.h"
 #include "studies/step_advice.h"
 #include "support/convergence.h"
 
@@ -367,11 +368,37 @@ private:
   int number_ = 0;
 };
 
+void add_other_errors(Figures &figures, const Data &data) {
+  figures.add(chain_figure(
+      data, {"force_error", "Error of the peak contact force", "relative error (-)", &ChainErrors::force,
+             false, "[1e-10:1]",
+             "Peak contact force over the last five cycles, over all steps and both sides of the located "
+             "makes."}));
+  figures.add(chain_figure(
+      data, {"acceleration_error", "Error of the drum's peak acceleration", "relative error (-)",
+             &ChainErrors::acceleration, false, "[1e-10:1]",
+             "Largest magnitude of the drum's acceleration over the last five cycles, likewise."}));
+  figures.add(chain_figure(data, {"event_time_error", "Largest error of the time of a make or break",
+                                  "error (s)", &ChainErrors::event_time_s, false, "[1e-11:1e-2]",
+                                  "Largest error of the time of any event of a run whose events match the "
+                                  "truth's one by one. Cases without "
+                                  "loss of contact have none."}));
+  figures.add(
+      chain_figure(data, {"energy_residual", "What the energy ledger misses",
+                          "residual over the exciter's work (-)", &ChainErrors::energy, false, "[1e-10:1]",
+                          "Work of the exciter less heat and less what bodies and springs hold more, over "
+                          "that work. The ledger sums "
+                          "trapezoids over whole steps, also over the step of a make, where the power jumps: "
+                          "where contact is lost it "
+                          "closes in first order whatever the stepping."}));
+}
+
 } // namespace
 
 void write_accuracy_page(const fs::path &out) {
-  const Data data = {read_chain_points(out / "chain.csv"), read_impact_points(out / "impacts.csv"),
-                     read_scaling_points(out / "scaling.csv")};
+  const Data data = {read_points(out / "chain.csv", chain_points()),
+                     read_points(out / "impacts.csv", impact_points()),
+                     read_points(out / "scaling.csv", scaling_points())};
   const ReportTable orders = order_table(data);
   write_files({{out / "orders.csv", table_csv(orders)}});
 
@@ -406,28 +433,7 @@ void write_accuracy_page(const fs::path &out) {
                                   "also events, cycles and every column "
                                   "of chain.csv."}));
   page.section("Peaks, events, energy");
-  figures.add(chain_figure(
-      data, {"force_error", "Error of the peak contact force", "relative error (-)", &ChainErrors::force,
-             false, "[1e-10:1]",
-             "Peak contact force over the last five cycles, over all steps and both sides of the located "
-             "makes."}));
-  figures.add(chain_figure(
-      data, {"acceleration_error", "Error of the drum's peak acceleration", "relative error (-)",
-             &ChainErrors::acceleration, false, "[1e-10:1]",
-             "Largest magnitude of the drum's acceleration over the last five cycles, likewise."}));
-  figures.add(chain_figure(data, {"event_time_error", "Largest error of the time of a make or break",
-                                  "error (s)", &ChainErrors::event_time_s, false, "[1e-11:1e-2]",
-                                  "Largest error of the time of any event of a run whose events match the "
-                                  "truth's one by one. Cases without "
-                                  "loss of contact have none."}));
-  figures.add(
-      chain_figure(data, {"energy_residual", "What the energy ledger misses",
-                          "residual over the exciter's work (-)", &ChainErrors::energy, false, "[1e-10:1]",
-                          "Work of the exciter less heat and less what bodies and springs hold more, over "
-                          "that work. The ledger sums "
-                          "trapezoids over whole steps, also over the step of a make, where the power jumps: "
-                          "where contact is lost it "
-                          "closes in first order whatever the stepping."}));
+  add_other_errors(figures, data);
   if (!data.scaling.empty()) {
     page.section("Advice");
     page.paragraph(fmt::format("The command advise takes these curves over to other chains by the resolution "
