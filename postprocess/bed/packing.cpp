@@ -141,6 +141,54 @@ std::string PackingOptions::invalid() const {
   return {};
 }
 
+namespace {
+
+/// The height that balls of the given content (volume, area in two dimensions) fill: the one that was asked
+/// for, if they fit, or as much as they need. std::invalid_argument if they do not fit.
+double filled_height(const PackingOptions &options, double content_of_all) {
+  const int dimensions = options.dimensions();
+  if (options.height == 0.0) { // along the walls a strip is not as full
+    const double strip = options.radius_max;
+    const double free_base = (options.width - strip) * (dimensions == 2 ? 1.0 : options.depth - strip);
+    return std::max(content_of_all / (free_base * default_share(dimensions)) + strip,
+                    2.0 * options.radius_max);
+  }
+  const double base = options.width * (dimensions == 2 ? 1.0 : options.depth);
+  const double least = content_of_all / (base * largest_share(dimensions));
+  if (options.height < least)
+    throw std::invalid_argument(refusal(
+        "height", options.height,
+        fmt::format("0 (as needed) or at least {:.3f} [m], in which {} balls of radius {} to {} m fit "
+                    "without touching",
+                    least, options.balls, options.radius_min, options.radius_max)));
+  return options.height;
+}
+
+/// Refuses, before any work, boxes of too many cells and numbers of balls that would take hours.
+/// std::invalid_argument
+void check_work(const PackingOptions &options, double height) {
+  const auto count = static_cast<double>(options.balls);
+  const double side = 2.0 * options.radius_max;
+  const double cell_number =
+      (options.width / side + 1.0) * (options.depth / side + 1.0) * (height / side + 1.0);
+  if (cell_number > most_cells)
+    throw std::invalid_argument(
+        refusal(options.height > options.width ? "height" : "width", std::max(options.height, options.width),
+                fmt::format("a box of at most {:g} times the largest ball's volume (area in two dimensions)",
+                            most_cells)));
+  constexpr double tries = 5.0; // per ball, about
+  const double neighbours =
+      (options.dimensions() == 2 ? 9.0 : 27.0) * std::min(1.0, 1.0 / cell_number) * count;
+  if (tries * neighbours * count > most_pairs)
+    throw std::invalid_argument(
+        refusal("balls", options.balls,
+                fmt::format("at most {:.0f} with radii from {} to {} m in this box, else it takes hours",
+                            std::sqrt(most_pairs / (tries * neighbours / count)), options.radius_min,
+                            options.radius_max)));
+}
+
+} // namespace
+
 Packing pack_balls(const PackingOptions &options, const std::function<void(std::size_t)> &progress,
                    int attempts) {
   if (const std::string fault = options.invalid(); !fault.empty()) throw std::invalid_argument(fault);
@@ -154,38 +202,8 @@ Packing pack_balls(const PackingOptions &options, const std::function<void(std::
     r = radius(options, random());
     all += content(r, dimensions);
   }
-  const double base = options.width * (dimensions == 2 ? 1.0 : options.depth);
-  const double least = all / (base * largest_share(dimensions));
-  double height = options.height;
-  if (height == 0.0) { // along the walls a strip is not as full
-    const double strip = options.radius_max;
-    const double free_base = (options.width - strip) * (dimensions == 2 ? 1.0 : options.depth - strip);
-    height = std::max(all / (free_base * default_share(dimensions)) + strip, 2.0 * options.radius_max);
-  } else if (height < least)
-    throw std::invalid_argument(refusal(
-        "height", height,
-        fmt::format("0 (as needed) or at least {:.3f} [m], in which {} balls of radius {} to {} m fit "
-                    "without touching",
-                    least, count, options.radius_min, options.radius_max)));
-
-  // Known before any work: how many cells the box has, and how many balls are looked at for every try.
-  const double side = 2.0 * options.radius_max;
-  const double cell_number =
-      (options.width / side + 1.0) * (options.depth / side + 1.0) * (height / side + 1.0);
-  if (cell_number > most_cells)
-    throw std::invalid_argument(
-        refusal(options.height > options.width ? "height" : "width", std::max(options.height, options.width),
-                fmt::format("a box of at most {:g} times the largest ball's volume (area in two dimensions)",
-                            most_cells)));
-  constexpr double tries = 5.0; // per ball, about
-  const double neighbours =
-      (dimensions == 2 ? 9.0 : 27.0) * std::min(1.0, 1.0 / cell_number) * static_cast<double>(count);
-  if (tries * neighbours * static_cast<double>(count) > most_pairs)
-    throw std::invalid_argument(
-        refusal("balls", options.balls,
-                fmt::format("at most {:.0f} with radii from {} to {} m in this box, else it takes hours",
-                            std::sqrt(most_pairs / (tries * neighbours / static_cast<double>(count))),
-                            options.radius_min, options.radius_max)));
+  const double height = filled_height(options, all);
+  check_work(options, height);
 
   std::vector<PackedBall> balls;
   balls.reserve(count);

@@ -10,7 +10,7 @@ namespace drumlin::post {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+constexpr double PI = 3.14159265358979323846; // as the decks call it
 
 struct NamedCase {
   const char *name;
@@ -19,12 +19,9 @@ struct NamedCase {
   double omega;
 };
 
-// Table 1 of the paper: what differs between the cases.
-constexpr std::array<NamedCase, 4> table1 = {{
-    {"I", 5e6, 0.5, 40.0 * pi},
-    {"II", 100e6, 0.5, 40.0 * pi},
-    {"III", 100e6, 0.5, 80.0 * pi},
-    {"IV", 100e6, 2.0, 80.0 * pi},
+// Table 1 of the paper: what differs between the cases. CMake takes it from the decks inputs/chain/case.*.
+constexpr std::array<NamedCase, table1_cases.size()> table1 = {{
+#include <table1.inc>
 }};
 
 } // namespace
@@ -39,7 +36,7 @@ Transition transition_from_name(const std::string &name) {
 
 double ChainParameters::damping() const { return 2.0 * D * std::sqrt(m2 * k); }
 
-double ChainParameters::period() const { return 2.0 * pi / omega; }
+double ChainParameters::period() const { return 2.0 * PI / omega; }
 
 const std::array<ChainNumber, 9> chain_numbers = {{
     {"k", &ChainParameters::k, {1e-6, 1e15, "N/m"}, "contact stiffness [N/m]"},

@@ -26,8 +26,8 @@ Transition transition_from_name(const std::string &name);
 ///     m2 x2'' = -m2 g + F_c + c23 (x3' - x2') + k23 (x3 - x2) - F_e,   F_e = Fw sin(omega t)
 ///     m3 x3'' = -m3 g       - c23 (x3' - x2') - k23 (x3 - x2)
 ///     F_c = k d + c d' in contact, else 0,   d = -x2 (the soil is fixed)
-/// with 2 the drum and 3 the frame. The defaults are the paper's values common to all its cases, with case
-/// II.
+/// with 2 the drum and 3 the frame. The defaults are those of the deck inputs/chain/in.chain: the paper's
+/// values common to all its cases, with case II.
 struct ChainParameters {
   double m2 = 2000.0;                ///< mass of the drum [kg]
   double m3 = 1000.0;                ///< mass of the frame [kg]
@@ -60,6 +60,9 @@ struct ChainNumber {
 
 /// All numbers: k, D, omega, Fw, m2, m3, k23, c23, g.
 extern const std::array<ChainNumber, 9> chain_numbers;
+
+/// The names of the cases of the paper's Table 1.
+constexpr std::array<const char *, 4> table1_cases = {"I", "II", "III", "IV"};
 
 /// The case "I", "II", "III" or "IV" of Table 1; std::invalid_argument tells the value and what is allowed.
 ChainParameters table1_case(const std::string &name, Transition transition);

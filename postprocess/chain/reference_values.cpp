@@ -60,6 +60,7 @@ ReferenceValue meter(const char *name, double low, double high) {
   return {name, "B", Quantity::compaction_meter_value, low, high, 1, last_digit(1), 1.0, "", meter_source};
 }
 
+/// The table itself: longer than other functions, since it has a line for each value and nothing else.
 std::vector<ReferenceValue> make_values() {
   using Q = Quantity;
   std::vector<ReferenceValue> values;
@@ -186,15 +187,6 @@ const std::vector<ReferenceRestitution> &reference_restitutions() {
       {"B", 0.5, 0.298436, 1.0e-4, impact_source}, {"B", 0.8, 0.179783, 1.0e-4, impact_source},
       {"B", 2.0, 0.047769, 1.0e-4, impact_source}};
   return values;
-}
-
-std::optional<ReferenceCase> reference_case(const std::string &name) {
-  const double pi = std::acos(-1.0);
-  if (name == "I") return ReferenceCase{name, 5.0e6, 0.5, 40.0 * pi};
-  if (name == "II") return ReferenceCase{name, 100.0e6, 0.5, 40.0 * pi};
-  if (name == "III") return ReferenceCase{name, 100.0e6, 0.5, 80.0 * pi};
-  if (name == "IV") return ReferenceCase{name, 100.0e6, 2.0, 80.0 * pi};
-  return std::nullopt;
 }
 
 std::optional<double> reference_velocity_error(const std::string &case_name, int steps_per_cycle) {

@@ -50,32 +50,11 @@ struct ReferenceRestitution {
   std::string source;
 };
 
-/// Parameters of one column of the paper's Table 1.
-struct ReferenceCase {
-  std::string name;
-  double stiffness;     ///< k (N/m)
-  double damping_ratio; ///< D (-)
-  double omega;         ///< w (rad/s)
-};
-
 /// Every steady-state and meter value, in the order of the reference table.
 const std::vector<ReferenceValue> &reference_values();
 
 /// Every restitution given by number.
 const std::vector<ReferenceRestitution> &reference_restitutions();
-
-/// The paper's Table 1; nothing for an unknown name.
-std::optional<ReferenceCase> reference_case(const std::string &name);
-
-/// The paper's common parameters (m2 = 2000 kg, m3 = 1000 kg, k23 in N/m, c23 in N s/m, g in m/s2, Fw in N).
-struct ReferenceCommon {
-  double drum_mass = 2000.0;
-  double frame_mass = 1000.0;
-  double bond_stiffness = 1.0e6;
-  double bond_damping = 1.0e4;
-  double gravity = 9.81;
-  double excitation = 58.8e3;
-};
 
 /// Ratio of the largest drum acceleration of case III to that of case II under B: about half (0.40).
 struct ReferencePeakRatio {

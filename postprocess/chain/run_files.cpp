@@ -1,12 +1,13 @@
 #include "chain/run_files.h"
 
-#include "support/files.h"
+#include "support/csv_schema.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
-#include <limits>
 #include <optional>
 #include <stdexcept>
 
@@ -16,127 +17,110 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char *chain_header =
-    "time,x_drum,v_drum,a_drum,x_frame,v_frame,a_frame,F_contact,F_excitation,F_bond";
-constexpr const char *events_header = "time,event,overlap,overlap_rate,force,id_i,id_j";
-constexpr const char *cycles_header =
-    "cycle,time,a_drum_min,a_drum_max,F_contact_min,F_contact_max,contact_share,makes,breaks";
+/// A column of numbers that must be finite.
+template <class Row>
+CsvColumn<Row> finite(const char *name, double Row::*value) {
+  CsvColumn<Row> column = csv_column(name, value);
+  column.take = [value](Row &row, const std::string &cell) {
+    const std::optional<double> number = any_number_from_text(cell);
+    if (!number || !std::isfinite(*number)) throw std::invalid_argument("a finite number");
+    row.*value = *number;
+  };
+  return column;
+}
+
+/// One column of chain.csv. The columns of the frame are there all together or not at all.
+struct HistoryColumn {
+  const char *name;
+  std::vector<double> ChainHistory::*values;
+  bool frame = false;
+};
+constexpr std::array<HistoryColumn, 10> chain_columns = {{{"time", &ChainHistory::time},
+                                                          {"x_drum", &ChainHistory::x_drum},
+                                                          {"v_drum", &ChainHistory::v_drum},
+                                                          {"a_drum", &ChainHistory::a_drum},
+                                                          {"x_frame", &ChainHistory::x_frame, true},
+                                                          {"v_frame", &ChainHistory::v_frame, true},
+                                                          {"a_frame", &ChainHistory::a_frame, true},
+                                                          {"F_contact", &ChainHistory::F_contact},
+                                                          {"F_excitation", &ChainHistory::F_excitation},
+                                                          {"F_bond", &ChainHistory::F_bond, true}}};
+
+const CsvSchema<ContactEvent> &event_columns() {
+  const CsvColumn<ContactEvent> kind = {
+      "event", [](const ContactEvent &event) { return std::string(event.make ? "make" : "break"); },
+      [](ContactEvent &event, const std::string &cell) {
+        if (cell != "make" && cell != "break") throw std::invalid_argument("make, break");
+        event.make = cell == "make";
+      }};
+  static const CsvSchema<ContactEvent> schema(
+      {finite("time", &ContactEvent::time), kind, finite("overlap", &ContactEvent::overlap),
+       finite("overlap_rate", &ContactEvent::overlap_rate), finite("force", &ContactEvent::force),
+       csv_column("id_i", &ContactEvent::id_i), csv_column("id_j", &ContactEvent::id_j)});
+  return schema;
+}
+
+const CsvSchema<CycleSummary> &cycle_columns() {
+  static const CsvSchema<CycleSummary> schema(
+      {csv_column("cycle", &CycleSummary::cycle), csv_column("time", &CycleSummary::time),
+       csv_column("a_drum_min", &CycleSummary::a_drum_min),
+       csv_column("a_drum_max", &CycleSummary::a_drum_max),
+       csv_column("F_contact_min", &CycleSummary::F_contact_min),
+       csv_column("F_contact_max", &CycleSummary::F_contact_max),
+       csv_column("contact_share", &CycleSummary::contact_share), csv_column("makes", &CycleSummary::makes),
+       csv_column("breaks", &CycleSummary::breaks)});
+  return schema;
+}
+
 constexpr const char *parameters_header = "name,value";
 
-/// Columns of cycles.csv that are read; any of them may be missing.
-constexpr const char *cycle_columns[] = {
+/// Columns of cycles.csv that read_cycle_columns() reads; any of them may be missing.
+constexpr const char *known_cycle_columns[] = {
     "cycle",           "time",          "a_drum_min", "a_drum_max",      "F_contact_min",
     "F_contact_max",   "contact_share", "a1_cos",     "a1_sin",          "a2_cos",
     "a2_sin",          "ah_cos",        "ah_sin",     "work_excitation", "dissipated_contact",
     "dissipated_bond", "kinetic",       "potential",  "stored_contact",  "stored_bond",
     "settlement"};
 
-void append_number(fmt::memory_buffer &out, double value) {
-  fmt::format_to(std::back_inserter(out), "{:.17g}", value);
-}
-
 } // namespace
 
 ChainHistory read_chain(const fs::path &file) {
-  struct Column {
-    const char *name;
-    std::vector<double> ChainHistory::*values;
-    bool frame; // may be missing, but only together with the other columns of the frame
-    std::optional<std::size_t> index;
-  };
-  std::array<Column, 10> columns = {{
-      {"time", &ChainHistory::time, false, {}},
-      {"x_drum", &ChainHistory::x_drum, false, {}},
-      {"v_drum", &ChainHistory::v_drum, false, {}},
-      {"a_drum", &ChainHistory::a_drum, false, {}},
-      {"F_contact", &ChainHistory::F_contact, false, {}},
-      {"F_excitation", &ChainHistory::F_excitation, false, {}},
-      {"x_frame", &ChainHistory::x_frame, true, {}},
-      {"v_frame", &ChainHistory::v_frame, true, {}},
-      {"a_frame", &ChainHistory::a_frame, true, {}},
-      {"F_bond", &ChainHistory::F_bond, true, {}},
-  }};
-
   // A long record has millions of cells: they go straight into numbers, not through a Table of text.
   CsvRows rows(file);
-  bool any_of_frame = false;
-  for (Column &column : columns) {
-    column.index = rows.find(column.name);
-    any_of_frame = any_of_frame || (column.frame && column.index);
-  }
-  for (const Column &column : columns) {
+  const bool any_of_frame =
+      std::any_of(chain_columns.begin(), chain_columns.end(),
+                  [&](const HistoryColumn &column) { return column.frame && rows.find(column.name); });
+  std::vector<std::pair<const HistoryColumn *, std::size_t>> found; // with the place in a row
+  for (const HistoryColumn &column : chain_columns) {
+    const std::optional<std::size_t> place = rows.find(column.name);
     const bool optional = column.frame ? !any_of_frame : column.values == &ChainHistory::F_excitation;
-    if (!column.index && !optional) rows.missing(column.name);
+    if (place)
+      found.emplace_back(&column, *place);
+    else if (!optional)
+      rows.missing(column.name);
   }
 
   ChainHistory history;
   std::vector<std::string> cells;
   while (rows.next(cells)) {
-    for (const Column &column : columns)
-      if (column.index)
-        (history.*column.values).push_back(csv_number(file, rows.line(), column.name, cells[*column.index]));
+    for (const auto &[column, place] : found)
+      (history.*column->values).push_back(csv_number(file, rows.line(), column->name, cells[place]));
     const std::size_t count = history.size();
     if (count > 1 && !(history.time[count - 1] > history.time[count - 2]))
-      csv_fault(file, rows.line(), "time",
-                fmt::format("found {}, expected more than {} of the row before", history.time[count - 1],
-                            history.time[count - 2]));
+      csv_refusal(file, rows.line(), "time", fmt::format("{}", history.time[count - 1]),
+                  fmt::format("more than {} of the row before", history.time[count - 2]));
   }
   if (history.F_excitation.empty()) history.F_excitation.assign(history.size(), 0.0);
   return history;
 }
 
-std::vector<ContactEvent> read_events(const fs::path &file) {
-  const Table table = read_table(file);
-  const std::vector<double> time = table.numbers("time");
-  const std::vector<std::string> kind = table.text("event");
-  const std::vector<double> overlap = table.numbers("overlap");
-  const std::vector<double> overlap_rate = table.numbers("overlap_rate");
-  const std::vector<double> force = table.numbers("force");
-  const std::vector<long> id_i = table.integers("id_i");
-  const std::vector<long> id_j = table.integers("id_j");
-  std::vector<ContactEvent> events;
-  events.reserve(table.rows());
-  for (std::size_t i = 0; i < table.rows(); ++i) {
-    if (kind[i] != "make" && kind[i] != "break")
-      csv_fault(file, table.line(i), "event", fmt::format("found '{}', expected make or break", kind[i]));
-    events.push_back({time[i], kind[i] == "make", overlap[i], overlap_rate[i], force[i], id_i[i], id_j[i]});
-  }
-  return events;
-}
-
-std::vector<CycleSummary> read_cycles(const fs::path &file) {
-  const Table table = read_table(file);
-  const auto counts = [&table](const char *column) {
-    std::vector<long> values =
-        table.has(column) ? table.integers(column) : std::vector<long>(table.rows(), 0);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if (values[i] < 0 || values[i] > std::numeric_limits<int>::max())
-        csv_fault(table.file(), table.line(i), column, fmt::format("found {}, expected a count", values[i]));
-    return values;
-  };
-  const std::vector<long> cycle = counts("cycle");
-  const std::vector<long> makes = counts("makes");
-  const std::vector<long> breaks = counts("breaks");
-  table.text("cycle"); // a fault if the column is missing
-  const std::vector<double> time = table.numbers("time");
-  const std::vector<double> a_min = table.numbers("a_drum_min");
-  const std::vector<double> a_max = table.numbers("a_drum_max");
-  const std::vector<double> F_min = table.numbers("F_contact_min");
-  const std::vector<double> F_max = table.numbers("F_contact_max");
-  const std::vector<double> share = table.numbers("contact_share");
-  std::vector<CycleSummary> cycles;
-  cycles.reserve(table.rows());
-  for (std::size_t i = 0; i < table.rows(); ++i)
-    cycles.push_back({static_cast<int>(cycle[i]), time[i], a_min[i], a_max[i], F_min[i], F_max[i], share[i],
-                      static_cast<int>(makes[i]), static_cast<int>(breaks[i])});
-  return cycles;
-}
+std::vector<ContactEvent> read_events(const fs::path &file) { return event_columns().rows(read_table(file)); }
 
 CycleColumns read_cycle_columns(const fs::path &file) {
   const Table table = read_table(file);
   CycleColumns cycles;
   cycles.rows = table.rows();
-  for (const char *name : cycle_columns)
+  for (const char *name : known_cycle_columns)
     if (table.has(name)) cycles.columns[name] = table.numbers(name);
   return cycles;
 }
@@ -148,63 +132,34 @@ std::map<std::string, std::string> read_parameters(const fs::path &file) {
   std::map<std::string, std::string> parameters;
   for (std::size_t i = 0; i < table.rows(); ++i)
     if (!parameters.emplace(names[i], values[i]).second)
-      csv_fault(file, table.line(i), "name", fmt::format("found '{}' a second time", names[i]));
+      csv_refusal(file, table.line(i), "name", names[i], "each name once");
   return parameters;
 }
 
 std::string chain_text(const ChainHistory &history) {
-  const bool frame = history.has_frame();
-  using Values = std::vector<double> ChainHistory::*;
-  constexpr std::array<Values, 10> with_frame = {
-      &ChainHistory::time,         &ChainHistory::x_drum,  &ChainHistory::v_drum,  &ChainHistory::a_drum,
-      &ChainHistory::x_frame,      &ChainHistory::v_frame, &ChainHistory::a_frame, &ChainHistory::F_contact,
-      &ChainHistory::F_excitation, &ChainHistory::F_bond};
-  constexpr std::array<Values, 6> without_frame = {&ChainHistory::time,      &ChainHistory::x_drum,
-                                                   &ChainHistory::v_drum,    &ChainHistory::a_drum,
-                                                   &ChainHistory::F_contact, &ChainHistory::F_excitation};
+  std::vector<std::string> names;
   std::vector<const std::vector<double> *> columns;
-  if (frame)
-    for (const Values values : with_frame)
-      columns.push_back(&(history.*values));
-  else
-    for (const Values values : without_frame)
-      columns.push_back(&(history.*values));
-  for (const std::vector<double> *column : columns)
-    if (column->size() != history.size())
-      throw std::invalid_argument(
-          fmt::format("a chain history has columns of {} and of {} rows", history.size(), column->size()));
-
-  fmt::memory_buffer out;
-  out.append(std::string_view(frame ? chain_header : "time,x_drum,v_drum,a_drum,F_contact,F_excitation"));
-  for (std::size_t row = 0; row < history.size(); ++row) {
-    char separator = '\n';
-    for (const std::vector<double> *column : columns) {
-      out.push_back(separator);
-      append_number(out, (*column)[row]);
-      separator = ',';
-    }
+  for (const HistoryColumn &column : chain_columns) {
+    if (column.frame && !history.has_frame()) continue;
+    names.emplace_back(column.name);
+    columns.push_back(&(history.*column.values));
+    if (columns.back()->size() != history.size())
+      throw std::invalid_argument(fmt::format("a chain history has columns of {} and of {} rows",
+                                              history.size(), columns.back()->size()));
   }
-  out.push_back('\n');
+  fmt::memory_buffer out;
+  out.append(csv_line(names));
+  for (std::size_t row = 0; row < history.size(); ++row)
+    for (const std::vector<double> *column : columns) {
+      fmt::format_to(std::back_inserter(out), "{:.17g}", (*column)[row]);
+      out.push_back(column == columns.back() ? '\n' : ',');
+    }
   return fmt::to_string(out);
 }
 
-std::string events_text(const std::vector<ContactEvent> &events) {
-  std::string text = fmt::format("{}\n", events_header);
-  for (const ContactEvent &event : events)
-    text +=
-        fmt::format("{:.17g},{},{:.17g},{:.17g},{:.17g},{},{}\n", event.time, event.make ? "make" : "break",
-                    event.overlap, event.overlap_rate, event.force, event.id_i, event.id_j);
-  return text;
-}
+std::string events_text(const std::vector<ContactEvent> &events) { return event_columns().text(events); }
 
-std::string cycles_text(const std::vector<CycleSummary> &cycles) {
-  std::string text = fmt::format("{}\n", cycles_header);
-  for (const CycleSummary &cycle : cycles)
-    text += fmt::format("{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{},{}\n", cycle.cycle, cycle.time,
-                        cycle.a_drum_min, cycle.a_drum_max, cycle.F_contact_min, cycle.F_contact_max,
-                        cycle.contact_share, cycle.makes, cycle.breaks);
-  return text;
-}
+std::string cycles_text(const std::vector<CycleSummary> &cycles) { return cycle_columns().text(cycles); }
 
 std::string parameters_text(const std::vector<std::pair<std::string, std::string>> &parameters) {
   std::string text = fmt::format("{}\n", parameters_header);
@@ -218,23 +173,6 @@ std::vector<std::pair<std::string, std::string>> parameter_values(const ChainPar
   for (const ChainNumber &number : chain_numbers)
     values.emplace_back(number.name, number_text(p.*number.value));
   return values;
-}
-
-void write_chain(const fs::path &file, const ChainHistory &history) {
-  write_files({{file, chain_text(history)}});
-}
-
-void write_events(const fs::path &file, const std::vector<ContactEvent> &events) {
-  write_files({{file, events_text(events)}});
-}
-
-void write_cycles(const fs::path &file, const std::vector<CycleSummary> &cycles) {
-  write_files({{file, cycles_text(cycles)}});
-}
-
-void write_parameters(const fs::path &file,
-                      const std::vector<std::pair<std::string, std::string>> &parameters) {
-  write_files({{file, parameters_text(parameters)}});
 }
 
 } // namespace drumlin::post

@@ -69,8 +69,6 @@ struct CycleColumns {
 ChainHistory read_chain(const std::filesystem::path &file);
 /// Reads events.csv.
 std::vector<ContactEvent> read_events(const std::filesystem::path &file);
-/// Reads cycles.csv; makes and breaks may be missing (then 0).
-std::vector<CycleSummary> read_cycles(const std::filesystem::path &file);
 /// Reads the columns of a cycles.csv that are known; any may be missing.
 CycleColumns read_cycle_columns(const std::filesystem::path &file);
 /// Reads parameters.csv, header name,value.
@@ -84,11 +82,5 @@ std::string parameters_text(const std::vector<std::pair<std::string, std::string
 
 /// The chain's parameters by the names that decks, commands and parameters.csv give them, as text.
 std::vector<std::pair<std::string, std::string>> parameter_values(const ChainParameters &parameters);
-
-void write_chain(const std::filesystem::path &file, const ChainHistory &history);
-void write_events(const std::filesystem::path &file, const std::vector<ContactEvent> &events);
-void write_cycles(const std::filesystem::path &file, const std::vector<CycleSummary> &cycles);
-void write_parameters(const std::filesystem::path &file,
-                      const std::vector<std::pair<std::string, std::string>> &parameters);
 
 } // namespace drumlin::post

@@ -3,6 +3,7 @@
 #include "chain/run_files.h"
 #include "commands/chain_options.h"
 #include "studies/step_advice.h"
+#include "engine/deck_run.h"
 #include "studies/study.h"
 #include "support/options.h"
 #include "support/progress.h"
@@ -72,7 +73,7 @@ void run(const Arguments &arguments) {
                 fmt::format("at least {:.3g} rad/s with the other numbers of this chain: {} cycles "
                             "of it are solved several times",
                             least, accuracy_cycles)));
-  const std::vector<ChainPoint> points = read_chain_points(folder / "chain.csv");
+  const std::vector<ChainPoint> points = read_points(folder / "chain.csv", chain_points());
   TimedProgress progress;
   const StepAdvice advice = advise(request, points, [&](const ChainParameters &chain) {
     return sensitivity(chain, [&](double share) {
@@ -89,7 +90,7 @@ void run(const Arguments &arguments) {
   if (advice.measured) {
     fmt::print("  from       runs of {} itself: all with as many steps or more kept to it\n", curve);
   } else {
-    const std::vector<ScalingPoint> tests = read_scaling_points(folder / "scaling.csv");
+    const std::vector<ScalingPoint> tests = read_points(folder / "scaling.csv", scaling_points());
     fmt::print("  from       the curve of {}, scaled by max(sqrt(k/m2), omega) dt and by the sensitivity "
                "{:.2g} of this "
                "chain, times {:g}\n"

@@ -5,6 +5,7 @@
 #include "commands/report.h"
 #include "commands/study.h"
 #include "commands/vtk.h"
+#include "support/range.h"
 #include "support/usage_error.h"
 
 #include <CLI/CLI.hpp>
@@ -20,6 +21,7 @@
 namespace {
 
 using drumlin::post::AddCommand;
+using drumlin::post::refusal;
 
 struct Subcommand {
   const char *name;
@@ -74,13 +76,15 @@ int run(int argc, char **argv) {
     for (const Subcommand &subcommand : subcommands)
       subcommand.add(app, session);
     if (!known && !wanted.empty() && wanted.front() != '-')
-      return fail("",
-                  fmt::format("subcommand '{}' is not known; 'drumlin --help' lists those that are", wanted),
-                  bad_usage);
+      return fail("", refusal("the subcommand", wanted, "those that 'drumlin --help' lists"), bad_usage);
     app.parse(argc, argv);
   } catch (const CLI::ParseError &error) {
     if (error.get_exit_code() == 0) return app.exit(error); // help or version
-    return fail(name, error.what(), bad_usage);
+    return fail(name,
+                refusal("the command line", session.command,
+                        fmt::format("what 'drumlin{} --help' lists: {}", name.empty() ? "" : " " + name,
+                                    error.what())),
+                bad_usage);
   } catch (const drumlin::post::UsageError &error) {
     return fail(name, error.what(), bad_usage);
   } catch (const std::exception &error) {

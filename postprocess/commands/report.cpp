@@ -2,11 +2,11 @@
 
 #include "report/report.h"
 #include "support/options.h"
+#include "support/progress.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,10 +26,7 @@ void run(const Arguments &arguments) {
     options.folders.push_back(path_option("DIR", folder));
   options.out = output_folder_option("--out", arguments.out);
   options.version = DRUMLIN_VERSION;
-  options.progress = [](const std::string &line) {
-    fmt::print("{}\n", line);
-    std::fflush(stdout);
-  };
+  options.progress = print_progress;
   const ReportOutcome outcome = write_report(options);
   if (outcome.checks.all > 0)
     fmt::print("{} of {} checks against reference values agree\n", outcome.checks.agree, outcome.checks.all);

@@ -1,10 +1,6 @@
 #include "commands/study.h"
 
-#include "studies/accuracy/study.h"
-#include "studies/cost/study.h"
-#include "studies/fidelity/study.h"
-#include "studies/speed/study.h"
-#include "studies/stability/study.h"
+#include "studies/studies.h"
 #include "studies/study.h"
 #include "support/options.h"
 #include "support/usage_error.h"

@@ -1,7 +1,8 @@
 #include "commands/vtk.h"
 
 #include "bed/coarse_graining.h"
-#include "bed/vtk_files.h"
+#include "bed/dump_readers.h"
+#include "bed/vtk_writers.h"
 #include "chain/run_files.h"
 #include "support/files.h"
 #include "support/options.h"
@@ -10,8 +11,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -24,10 +23,8 @@
 #include <memory>
 #include <optional>
 #include <regex>
-#include <set>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -77,14 +74,13 @@ RunParameters run_parameters(const fs::path &folder) {
       if (const double value = number_from_text(found->second); value >= least) return value;
     } catch (const std::invalid_argument &) {
     }
-    throw std::runtime_error(
-        fmt::format("{}: {} is '{}', expected {}", file.string(), name, found->second, expected));
+    throw std::runtime_error(fmt::format("{}: {}", file.string(), refusal(name, found->second, expected)));
   };
   constexpr double positive = std::numeric_limits<double>::min();
   const std::optional<double> dt = number("timestep", positive, "a number > 0 in s");
   if (!dt)
-    throw std::runtime_error(
-        fmt::format("{}: has no 'timestep'; expected the time step of the run in s", file.string()));
+    throw std::runtime_error(fmt::format(
+        "{}: has no 'timestep'; allowed: files with the time step of the run in s", file.string()));
   return {*dt, number("omega", positive, "a number > 0 in rad/s"), number("Fw", 0.0, "a number >= 0 in N")};
 }
 
@@ -159,40 +155,6 @@ void add_sizes(Sizes &sizes, const std::vector<Ball> &balls, const ContactSums &
   sizes.add("normal_force", std::move(forces));
 }
 
-/// Results under way, in a folder inside that of the results.
-class Workshop {
-public:
-  explicit Workshop(const fs::path &out) : out_(out) {}
-  ~Workshop() {
-    folder_.reset();
-    std::error_code ignored;
-    if (made_) fs::remove(out_, ignored); // if nothing was put there
-  }
-  Workshop(const Workshop &) = delete;
-  Workshop &operator=(const Workshop &) = delete;
-
-  fs::path operator/(const std::string &name) const { return folder_->path() / name; }
-
-  /// Moves the files to the results, and removes those of an earlier call which these do not replace.
-  void hand_over(const std::vector<std::string> &names) const {
-    for (const std::string &name : names)
-      check_output_file(out_ / name); // all of them, before the first is replaced
-    for (const std::string &name : names)
-      replace_file(*this / name, out_ / name);
-    const std::set<std::string> fresh(names.begin(), names.end());
-    for (const fs::directory_entry &entry : fs::directory_iterator(out_)) {
-      const std::string name = entry.path().filename().string();
-      if (is_ours(name) && fresh.count(name) == 0 && fs::is_regular_file(entry.symlink_status()))
-        fs::remove(entry.path());
-    }
-  }
-
-private:
-  fs::path out_;
-  bool made_ = fs::create_directories(out_);
-  std::optional<TemporaryFolder> folder_{std::in_place, out_, "unfinished."};
-};
-
 /// What is the same for all steps.
 struct Bed {
   Bounds soil, all;
@@ -227,8 +189,8 @@ Bed survey(std::map<long, StepDump> &steps) {
       soil += 1.0;
     }
     if (soil == 0.0)
-      throw std::runtime_error(
-          fmt::format("{}: holds no soil balls (type {})", file.string(), int{soil_type}));
+      throw std::runtime_error(fmt::format("{}: holds no soil balls; allowed: dumps with balls of type {}",
+                                           file.string(), int{soil_type}));
     if (bed.mean_diameter == 0.0) bed.mean_diameter = diameters / soil;
     progress.tell("{} of {} steps read", ++done, all);
     ++step;
@@ -265,6 +227,23 @@ std::string missing_steps(const std::map<long, StepDump> &steps) {
                      missing == 1 ? "" : "s", distance, missing == 1 ? "is" : "are", first);
 }
 
+/// The names and times of the files of each of the `collections`.
+using Series = std::array<std::vector<std::pair<double, std::string>>, collections.size()>;
+
+void print_summary(const fs::path &out, const std::map<long, StepDump> &steps, const Series &series,
+                   const FieldGrid &grid) {
+  for (std::size_t i = 0; i < collections.size(); ++i)
+    if (!series[i].empty())
+      fmt::print("{}: {} steps, {:g} to {:g} s\n", (out / collections[i]).string(), series[i].size(),
+                 series[i].front().first, series[i].back().first);
+  if (series[1].size() < series[0].size())
+    fmt::print("no contacts and no fields where the dump of the contacts is missing: {} of {} steps\n",
+               series[0].size() - series[1].size(), series[0].size());
+  if (const std::string missing = missing_steps(steps); !missing.empty()) fmt::print("{}\n", missing);
+  if (!series[2].empty())
+    fmt::print("fields on {} cells of {:.3g} m by {:.3g} m\n", grid.size(), grid.sides[0], grid.sides[1]);
+}
+
 /// Refuses folders whose files are not an earlier result: the names are those of the dumps.
 void check_out(const fs::path &out) {
   if (!fs::is_directory(out) || fs::exists(out / collections[0])) return;
@@ -273,6 +252,21 @@ void check_out(const fs::path &out) {
       throw UsageError(
           fmt::format("--out is '{}': has {}, but no {}; allowed: a new folder or that of an earlier result",
                       out.string(), entry.path().filename().string(), collections[0]));
+}
+
+/// What the run was made with, and what is the same for all its steps; steps that were cut short are taken
+/// out of `steps`. UsageError for files that cannot be used.
+std::pair<RunParameters, Bed> read_run(const fs::path &folder, const fs::path &out,
+                                       std::map<long, StepDump> &steps) {
+  try {
+    const RunParameters parameters = run_parameters(folder);
+    check_out(out);
+    return {parameters, survey(steps)};
+  } catch (const UsageError &) {
+    throw;
+  } catch (const std::runtime_error &fault) {
+    throw UsageError(fault.what());
+  }
 }
 
 FieldGrid grid_for(const Arguments &arguments, const Bed &bed) {
@@ -304,24 +298,14 @@ void run(const Arguments &arguments) {
   if (steps.empty())
     throw UsageError(refusal("DIR", folder.string(),
                              "the folder of a bed run with dumps, with dump/balls_STEP.vtp or .dump"));
-  std::optional<Bed> bed;
-  RunParameters parameters;
-  try {
-    parameters = run_parameters(folder);
-    check_out(out);
-    bed = survey(steps);
-  } catch (const UsageError &) {
-    throw;
-  } catch (const std::runtime_error &fault) {
-    throw UsageError(fault.what());
-  }
-  const FieldGrid grid = grid_for(arguments, *bed);
+  const auto [parameters, bed] = read_run(folder, out, steps);
+  const FieldGrid grid = grid_for(arguments, bed);
 
   std::vector<std::string> names;
-  std::array<std::vector<std::pair<double, std::string>>, 3> series; // as in `collections`
+  Series series;
   Sizes sizes;
   try {
-    const Workshop workshop(out);
+    FilesInProgress files(out);
     TimedProgress progress;
     std::size_t done = 0;
     for (const auto &[step, dump] : steps) {
@@ -329,7 +313,7 @@ void run(const Arguments &arguments) {
       const auto add = [&, step = step](std::size_t collection, const std::string &name) {
         names.push_back(name);
         series[collection].emplace_back(time, name);
-        return workshop / name;
+        return files / name;
       };
       const std::vector<Ball> balls = read_ball_dump(dump.balls);
       const std::optional<BedContacts> contacts = contacts_of(dump, step, balls);
@@ -349,28 +333,19 @@ void run(const Arguments &arguments) {
     for (std::size_t i = 0; i < collections.size(); ++i)
       if (!series[i].empty()) {
         names.emplace_back(collections[i]);
-        texts.emplace_back(workshop / collections[i], collection_text(series[i]));
+        texts.emplace_back(files / collections[i], collection_text(series[i]));
       }
     names.emplace_back(scene_name);
-    texts.emplace_back(workshop / scene_name, scene_text(*bed, parameters, sizes));
+    texts.emplace_back(files / scene_name, scene_text(bed, parameters, sizes));
     write_files(texts);
-    workshop.hand_over(names);
+    files.publish(names, is_ours);
   } catch (const fs::filesystem_error &fault) {
     throw UsageError(fmt::format("--out is '{}': {}; allowed: a folder that can be made and written to",
                                  out.string(), fault.code().message()));
   } catch (const std::runtime_error &fault) {
     throw UsageError(fault.what());
   }
-  for (std::size_t i = 0; i < collections.size(); ++i)
-    if (!series[i].empty())
-      fmt::print("{}: {} steps, {:g} to {:g} s\n", (out / collections[i]).string(), series[i].size(),
-                 series[i].front().first, series[i].back().first);
-  if (series[1].size() < series[0].size())
-    fmt::print("no contacts and no fields where the dump of the contacts is missing: {} of {} steps\n",
-               series[0].size() - series[1].size(), series[0].size());
-  if (const std::string missing = missing_steps(steps); !missing.empty()) fmt::print("{}\n", missing);
-  if (!series[2].empty())
-    fmt::print("fields on {} cells of {:.3g} m by {:.3g} m\n", grid.size(), grid.sides[0], grid.sides[1]);
+  print_summary(out, steps, series, grid);
 }
 
 } // namespace

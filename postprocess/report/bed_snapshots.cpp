@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "bed/coarse_graining.h"
-#include "bed/vtk_files.h"
+#include "bed/dump_readers.h"
 #include "pages/figure_data.h"
 
 namespace drumlin::post {

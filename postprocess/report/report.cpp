@@ -13,11 +13,12 @@
 #include "report/bed_figures.h"
 #include "report/bed_page.h"
 #include "report/chain_page.h"
-#include "report/draft.h"
+#include "report/place.h"
 #include "report/run_folder.h"
 #include "report/summary.h"
 #include "support/files.h"
 #include "support/process.h"
+#include "support/progress.h"
 #include "support/text.h"
 #include "support/usage_error.h"
 
@@ -36,24 +37,6 @@ std::string gnuplot_version(const fs::path &gnuplot, const fs::path &scratch) {
   text.erase(std::min(text.find('\n'), text.size()));
   return text.empty() ? "gnuplot" : text;
 }
-
-/// Reports pieces of one kind of work as they begin: "runs [2/8] NAME".
-class Progress {
-public:
-  Progress(const std::function<void(const std::string &)> &say, std::string kind, std::size_t all)
-      : say_(say), kind_(std::move(kind)), all_(all) {}
-  void operator()(const std::string &what) {
-    ++done_;
-    const std::size_t width = fmt::format("{}", all_).size();
-    if (say_) say_(fmt::format("{} [{:>{}}/{}] {}", kind_, done_, width, all_, what));
-  }
-
-private:
-  const std::function<void(const std::string &)> &say_;
-  std::string kind_;
-  std::size_t all_;
-  std::size_t done_ = 0;
-};
 
 /// Reads all run folders. Throws UsageError for whatever cannot be read, since the input is at fault then.
 std::vector<Run> read_runs(const std::vector<fs::path> &folders) {
@@ -111,12 +94,13 @@ void as_usage(const Work &work) {
 ReportContent make_content(std::vector<Run> runs, const Say &say) {
   const bool any_beds =
       std::any_of(runs.begin(), runs.end(), [](const Run &run) { return run.kind == RunKind::bed; });
-  Progress reading(say, "runs", runs.size() + (any_beds ? 1 : 0));
+  CountedProgress reading(runs.size() + (any_beds ? 1 : 0), "runs", say);
   ReportContent content;
   DirectSolutions direct;
   for (Run &run : runs) {
-    reading(run.kind == RunKind::chain ? fmt::format("{}: reference solution and measured values", run.name)
-                                       : fmt::format("{}: measured values", run.name));
+    reading.begins(run.kind == RunKind::chain
+                       ? fmt::format("{}: reference solution and measured values", run.name)
+                       : fmt::format("{}: measured values", run.name));
     as_usage([&] {
       if (run.kind == RunKind::bed)
         content.beds.push_back(analyse_bed(std::move(run)));
@@ -134,7 +118,7 @@ ReportContent make_content(std::vector<Run> runs, const Say &say) {
   content.bed_tables = bed_tables(content.beds);
   content.tables.insert(content.tables.end(), content.bed_tables.begin(), content.bed_tables.end());
   content.groups = group_beds(content.beds);
-  reading("dumps of the beds");
+  reading.begins("dumps of the beds");
   as_usage([&] { content.bed_figures = plan_bed_figures(content.groups); });
   return content;
 }
@@ -151,18 +135,19 @@ void choose_keys(ReportContent &content) {
 }
 
 /// Draws the figures into the folder, with the data of figures and tables.
-void draw(const ReportContent &content, const fs::path &gnuplot, const fs::path &folder, Progress &drawing) {
+void draw(const ReportContent &content, const fs::path &gnuplot, const fs::path &folder,
+          CountedProgress &drawing) {
   for (const auto &[plan, page] :
        {std::pair<const FigurePlan *, const char *>(&content.figures, ""), {&content.bed_figures, "bed: "}}) {
     for (const AbsentFigure &absent : plan->absent)
-      drawing(fmt::format("{}{} left out: {}", page, absent.label, absent.reason));
+      drawing.begins(fmt::format("{}{} left out: {}", page, absent.label, absent.reason));
     for (const PageFigure &figure : plan->figures) {
-      drawing(fmt::format("{}{} {}", page, figure.label, figure.figure.name));
+      drawing.begins(fmt::format("{}{} {}", page, figure.label, figure.figure.name));
       write_files({{folder / "data" / (figure.figure.name + ".csv"), figure.csv}});
       render(gnuplot, folder / "figures", figure.figure);
     }
   }
-  drawing("opening pictures, tables and text");
+  drawing.begins("opening pictures, tables and text");
   for (const std::vector<KeyFigure> *keys : {&content.keys, &content.bed_keys})
     for (const KeyFigure &key : *keys)
       if (!fs::exists(folder / "figures" /
@@ -204,8 +189,10 @@ ReportOutcome write_report(const ReportOptions &options) {
   Progress drawing(options.progress, "pages",
                    content.figures.figures.size() + content.figures.absent.size() +
                        content.bed_figures.figures.size() + content.bed_figures.absent.size() + 1);
-  Draft draft(place);
-  const fs::path &folder = draft.folder();
+  FolderInProgress draft(place);
+  const fs::path &folder = draft.path();
+  fs::create_directories(folder / "figures");
+  fs::create_directories(folder / "data");
   draw(content, gnuplot, folder, drawing);
   content.studies = copy_studies(folders.studies, folder);
   content.versions = find_versions(options.version, gnuplot, folder);

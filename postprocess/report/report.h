@@ -3,11 +3,11 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "report/chain_tables.h"
+#include "support/progress.h"
 
 namespace drumlin::post {
 
@@ -16,8 +16,7 @@ struct ReportOptions {
   std::vector<std::filesystem::path> folders; ///< run and study folders or parents of them
   std::filesystem::path out = "report";       ///< replaced as a whole if it is an earlier report
   std::string version = "unknown";            ///< of this program, printed in the report
-  std::function<void(const std::string &)>
-      progress; ///< is called with a line for each piece of work; may be empty
+  ProgressSink progress;                      ///< is called with a line for each piece of work; may be empty
 };
 
 /// Result of a report.

@@ -1,11 +1,9 @@
 #include "studies/settled_bed.h"
 
-#include "studies/study.h"
-#include "support/usage_error.h"
+#include "engine/deck_run.h"
+#include "support/progress.h"
 
 #include <fmt/format.h>
-
-#include <cstdio>
 
 namespace drumlin::post {
 
@@ -30,8 +28,7 @@ fs::path settled(const CostBed &bed, const fs::path &folder) {
                                        {"copies_y", std::to_string(bed.copies_y)},
                                        {"steps", "0"}});
   } else {
-    fmt::print("settling {}: {} steps\n", bed.name(), bed.settling);
-    std::fflush(stdout);
+    print_progress(fmt::format("settling {}: {} steps", bed.name(), bed.settling));
     variables.insert(variables.end(), {{"from", "lattice"},
                                        {"columns", std::to_string(bed.columns)},
                                        {"layers", std::to_string(bed.layers)},

@@ -20,7 +20,7 @@ struct CostBed {
   Variables sides() const; ///< what all runs on it need
 };
 
-/// The bed's data file in a folder, made if an earlier call did not finish it.
+/// The bed's data file in a folder; it is made if no earlier call has finished it.
 std::filesystem::path settled(const CostBed &bed, const std::filesystem::path &folder);
 
 /// Words of the pair style: the engine's own law and the plugin's with the same dashpots, ball for ball.

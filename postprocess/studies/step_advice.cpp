@@ -2,7 +2,8 @@
 
 #include "chain/analysis.h"
 #include "chain/direct_solver.h"
-#include "studies/study.h"
+#include "support/range.h"
+#include "support/statistics.h"
 #include "support/usage_error.h"
 
 #include <algorithm>
@@ -17,17 +18,10 @@ namespace drumlin::post {
 
 namespace {
 
-constexpr std::array<const char *, 4> case_names = {"I", "II", "III", "IV"};
-
-constexpr std::array<double ChainParameters::*, 9> all_numbers = {
-    &ChainParameters::k,   &ChainParameters::D,   &ChainParameters::omega,
-    &ChainParameters::Fw,  &ChainParameters::m2,  &ChainParameters::m3,
-    &ChainParameters::k23, &ChainParameters::c23, &ChainParameters::g};
-
 bool same(const ChainParameters &a, const ChainParameters &b) {
   return a.transition == b.transition &&
-         std::all_of(all_numbers.begin(), all_numbers.end(), [&](auto number) {
-           return std::fabs(a.*number - b.*number) <= 1e-12 * std::fabs(b.*number);
+         std::all_of(chain_numbers.begin(), chain_numbers.end(), [&](const ChainNumber &number) {
+           return std::fabs(a.*number.value - b.*number.value) <= 1e-12 * std::fabs(b.*number.value);
          });
 }
 
@@ -122,7 +116,7 @@ StepAdvice advise(const AdviceRequest &request, const std::vector<ChainPoint> &p
   const auto curve_of = [&](const char *name) {
     return chain_curve(points, name, p.transition, request.stepping, column(request.measure));
   };
-  for (const char *name : case_names)
+  for (const char *name : table1_cases)
     if (same(p, table1_case(name, p.transition)))
       if (const std::optional<double> steps = steps_needed(curve_of(name), request.error)) {
         advice.measured = true;
@@ -132,11 +126,12 @@ StepAdvice advise(const AdviceRequest &request, const std::vector<ChainPoint> &p
   if (!advice.measured) {
     advice.sensitivity = sensitivity_of(p);
     if (!(advice.sensitivity <= most_sensitive))
-      throw UsageError(fmt::format("no step can be advised: a change of 1e-6 in k, D and m2 changes the "
-                                   "drum's velocity by {:.2g} within {} "
-                                   "cycles; allowed are chains where it grows less than {:g} times",
-                                   1e-6 * advice.sensitivity, accuracy_cycles, most_sensitive));
-    for (const char *name : case_names) {
+      throw UsageError(refusal(
+          "the sensitivity of the chain", fmt::format("{:.2g}", advice.sensitivity),
+          fmt::format("at most {:g}; no step can be advised where a relative change of k, D and m2 grows "
+                      "so much in the drum's velocity within {} cycles",
+                      most_sensitive, accuracy_cycles)));
+    for (const char *name : table1_cases) {
       const ChainParameters known = table1_case(name, p.transition);
       const std::vector<ErrorPoint> curve = curve_of(name);
       if (curve.empty()) continue;
@@ -150,14 +145,16 @@ StepAdvice advise(const AdviceRequest &request, const std::vector<ChainPoint> &p
     }
   }
   if (advice.from.empty())
-    throw UsageError(fmt::format("the study has no curve for transition {} and {} stepping",
-                                 transition_name(p.transition), request.stepping));
+    throw UsageError(refusal("--stepping", request.stepping,
+                             fmt::format("one of which the study has a curve under transition {}",
+                                         transition_name(p.transition))));
   needed = std::max(needed, stability_margin * advice.critical_steps);
   constexpr double most_steps = 1e8; // what in.chain takes
   if (!(needed <= most_steps))
     throw UsageError(
-        fmt::format("--error = '{:g}': would take {:.2g} steps per cycle; allowed are errors that {:g} reach",
-                    request.error, needed, most_steps));
+        refusal("--error", fmt::format("{:g}", request.error),
+                fmt::format("errors for which {:g} steps per cycle are enough; this one takes {:.2g}",
+                            most_steps, needed)));
   advice.steps_per_cycle = advised_multiple * static_cast<int>(std::ceil(needed / advised_multiple));
   advice.seconds_per_step = seconds_per_step(points, request.stepping);
   return advice;

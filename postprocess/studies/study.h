@@ -1,14 +1,13 @@
-// What every study shares: results that survive an interruption, a progress display, runs of decks in folders of their own.
+// What every study shares: its options, and results that survive an interruption.
 #pragma once
 
-#include "engine/deck_run.h"
-#include "support/statistics.h"
+#include "support/csv_schema.h"
 
-#include <chrono>
 #include <cstddef>
 #include <filesystem>
-#include <map>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace drumlin::post {
@@ -28,8 +27,28 @@ void check_engine_path(const std::filesystem::path &out);
 /// plugin, or of another choice of `quick`, do not mix: UsageError, unless the options say fresh, which removes them.
 void open_study(const StudyOptions &options);
 
-/// The points of a study that are finished: a CSV file, each row written when it is known. A row cut short by an
-/// interruption is forgotten, and so is one with a cell that is nan: it is measured again.
+/// The rows of a study's file without those that an interruption cut short, and without those with a cell
+/// that is NaN.
+Table finished_rows(const std::filesystem::path &file);
+
+/// Reads the points of a study that are finished, as StudyResults does; none if there is no such file.
+/// std::runtime_error for a cell that cannot be understood.
+template <class Point>
+std::vector<Point> read_points(const std::filesystem::path &file, const CsvSchema<Point> &schema) {
+  if (!std::filesystem::exists(file)) return {};
+  return schema.rows(finished_rows(file));
+}
+
+/// The point among `points` with the same key as `like`; nullptr if there is none.
+template <class Point>
+const Point *find_point(const std::vector<Point> &points, const CsvSchema<Point> &schema, const Point &like) {
+  for (const Point &point : points)
+    if (schema.key(point) == schema.key(like)) return &point;
+  return nullptr;
+}
+
+/// The points of a study that are finished: a CSV file, each row written when it is known. Rows that
+/// finished_rows() leaves out are removed, so that their points are measured again.
 class StudyResults {
 public:
   using Row = std::vector<std::string>;
@@ -37,40 +56,23 @@ public:
   /// \param columns header line, with units in the names
   /// \param keys how many columns, from the first on, name a point
   StudyResults(std::filesystem::path file, Row columns, std::size_t keys);
+  template <class Point>
+  StudyResults(std::filesystem::path file, const CsvSchema<Point> &schema)
+      : StudyResults(std::move(file), schema.header(), schema.keys()) {}
 
-  /// The point with this key, or nullptr.
-  const Row *find(const Row &key) const;
+  /// Whether the point with this key is finished.
+  bool has(const Row &key) const { return finished_.count(key) > 0; }
   /// Adds a point and writes it at once.
   void add(const Row &row);
-  /// All points in the order in which they were measured.
-  const std::vector<Row> &rows() const { return rows_; }
-  /// Place of a column; std::logic_error if there is none of that name.
-  std::size_t column(const std::string &name) const;
-  const std::string &text(const Row &row, const std::string &name) const { return row[column(name)]; }
-  /// The number in a cell, 0 for an empty one. UsageError for a cell that holds something else.
-  double number(const Row &row, const std::string &name) const;
   const std::filesystem::path &file() const { return file_; }
 
 private:
+  Row key_of(const Row &row) const { return {row.begin(), row.begin() + static_cast<std::ptrdiff_t>(keys_)}; }
+
   std::filesystem::path file_;
   Row columns_;
   std::size_t keys_;
-  std::vector<Row> rows_;
-  std::map<Row, std::size_t> places_;
-};
-
-/// One line per point on standard output: how many of how many, what, and the time left.
-class StudyProgress {
-public:
-  explicit StudyProgress(std::size_t total) : total_(total) {}
-  void found();                           ///< a point that an earlier call measured
-  void measured(const std::string &what); ///< a point that was measured now
-
-private:
-  std::size_t total_;
-  std::size_t found_ = 0;
-  std::size_t measured_ = 0;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  std::set<Row> finished_;
 };
 
 } // namespace drumlin::post

@@ -1,5 +1,7 @@
 #include "support/csv.h"
 
+#include "support/range.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -18,11 +20,24 @@ namespace drumlin::post {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+std::string place_in(const fs::path &file, std::size_t line, std::string_view column) {
+  std::string place = file.string();
+  if (line > 0) place += fmt::format(", line {}", line);
+  if (!column.empty()) place += fmt::format(", column '{}'", column);
+  return place;
+}
+
+} // namespace
+
 void csv_fault(const fs::path &file, std::size_t line, std::string_view column, std::string_view what) {
-  std::string where = file.string();
-  if (line > 0) where += fmt::format(", line {}", line);
-  if (!column.empty()) where += fmt::format(", column '{}'", column);
-  throw std::runtime_error(fmt::format("{}: {}", where, what));
+  throw std::runtime_error(fmt::format("{}: {}", place_in(file, line, column), what));
+}
+
+void csv_refusal(const fs::path &file, std::size_t line, std::string_view column, std::string_view cell,
+                 std::string_view allowed) {
+  throw std::runtime_error(refusal(place_in(file, line, column), cell, allowed));
 }
 
 namespace {
@@ -92,7 +107,7 @@ private:
     if (ending == ',') return true;
     if (ending != '\n')
       csv_fault(file_, reached_line_, {},
-                fmt::format("found '{}' after a closing quote, expected a comma or line end", ending));
+                refusal("what follows a closing quote", std::string(1, ending), "a comma or line end"));
     ++reached_line_;
     return false;
   }
@@ -142,13 +157,15 @@ void check_width(const RowScanner &scanner, const std::vector<std::string> &head
                  const std::vector<std::string> &cells) {
   if (cells.size() != header.size())
     csv_fault(scanner.file(), scanner.line(), {},
-              fmt::format("found {} cells, expected {} as in the header", cells.size(), header.size()));
+              refusal("the number of cells", fmt::format("{}", cells.size()),
+                      fmt::format("{} as in the header", header.size())));
 }
 
 [[noreturn]] void missing_column(const fs::path &file, std::string_view column,
                                  const std::vector<std::string> &header) {
-  csv_fault(file, 1, column,
-            fmt::format("the header does not name this column; found {}", fmt::join(header, ",")));
+  csv_fault(file, 1, {},
+            refusal("the header", fmt::format("{}", fmt::join(header, ",")),
+                    fmt::format("one that names '{}'", column)));
 }
 
 } // namespace
@@ -157,22 +174,43 @@ double csv_number(const fs::path &file, std::size_t line, std::string_view colum
   try {
     return number_from_text(cell);
   } catch (const std::invalid_argument &) {
-    csv_fault(file, line, column, fmt::format("found '{}', expected a finite number", cell));
+    csv_refusal(file, line, column, cell, "a finite number");
   }
 }
 
-double number_from_text(std::string_view text) {
+std::optional<double> any_number_from_text(std::string_view text) {
   std::string_view digits = trimmed(text);
   if (digits.size() > 1 && digits.front() == '+' && digits[1] != '-') digits.remove_prefix(1);
   double value = 0.0;
   const char *end = digits.data() + digits.size();
   const auto [stop, code] = std::from_chars(digits.data(), end, value);
-  if (digits.empty() || code != std::errc() || stop != end || !std::isfinite(value))
-    throw std::invalid_argument(fmt::format("'{}' is not a finite number", text));
+  if (digits.empty() || code != std::errc() || stop != end) return std::nullopt;
   return value;
 }
 
-std::string number_text(double value) { return fmt::format("{:.17g}", value); }
+double number_from_text(std::string_view text) {
+  const std::optional<double> value = any_number_from_text(text);
+  if (!value || !std::isfinite(*value))
+    throw std::invalid_argument(fmt::format("'{}' is not a finite number", text));
+  return *value;
+}
+
+std::optional<long> whole_number_from_text(std::string_view text) {
+  long value = 0;
+  const char *end = text.data() + text.size();
+  const auto [stop, code] = std::from_chars(text.data(), end, value);
+  if (text.empty() || code != std::errc() || stop != end) return std::nullopt;
+  return value;
+}
+
+std::string number_text(double value, int digits) { return fmt::format("{:.{}g}", value, digits); }
+
+std::string csv_line(const std::vector<std::string> &cells) {
+  std::string line;
+  for (const std::string &cell : cells)
+    line += (&cell == &cells.front() ? "" : ",") + csv_cell(cell);
+  return line + '\n';
+}
 
 std::string csv_cell(std::string_view text) {
   // Blanks at the ends are quoted too: readers take them off plain cells.
@@ -216,22 +254,6 @@ std::vector<double> Table::numbers(std::string_view column) const {
   return values;
 }
 
-std::vector<long> Table::integers(std::string_view column) const {
-  const std::size_t index = index_of(column);
-  std::vector<long> values;
-  values.reserve(rows_.size());
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const std::string &cell = rows_[i][index];
-    long value = 0;
-    const char *end = cell.data() + cell.size();
-    const auto [stop, code] = std::from_chars(cell.data(), end, value);
-    if (cell.empty() || code != std::errc() || stop != end)
-      csv_fault(file_, lines_[i], column, fmt::format("found '{}', expected a whole number", cell));
-    values.push_back(value);
-  }
-  return values;
-}
-
 struct CsvRows::State {
   RowScanner scanner;
   std::vector<std::string> header;
@@ -260,13 +282,16 @@ bool CsvRows::next(std::vector<std::string> &cells) {
 
 std::size_t CsvRows::line() const { return state_->scanner.line(); }
 
-Table read_table(const fs::path &file) {
-  RowScanner scanner(file, read_whole_file(file));
+Table read_table(const fs::path &file, CutRows cut) {
+  std::string text = read_whole_file(file);
+  if (cut == CutRows::forget) text.erase(text.rfind('\n') + 1); // npos + 1 is 0
+  RowScanner scanner(file, std::move(text));
   std::vector<std::string> header = read_header(scanner);
   std::vector<std::vector<std::string>> rows;
   std::vector<std::size_t> lines;
   std::vector<std::string> cells;
   while (scanner.next(cells)) {
+    if (cut == CutRows::forget && cells.size() != header.size()) continue;
     check_width(scanner, header, cells);
     rows.push_back(cells);
     lines.push_back(scanner.line());

@@ -1,7 +1,7 @@
 // CSV files: one reader and one writer for all.
 //
-// Readers find columns by the names in the header line and throw std::runtime_error with file, line, column
-// and what was found. Numbers are written with 17 digits and come back bit for bit.
+// Readers find columns by the names in the header line and throw std::runtime_error with file, line, column,
+// the cell and what is allowed. Numbers are written with 17 digits and come back bit for bit.
 #pragma once
 
 #include <cstddef>
@@ -24,6 +24,7 @@ public:
   const std::filesystem::path &file() const { return file_; }
   const std::vector<std::string> &header() const { return header_; }
   std::size_t rows() const { return rows_.size(); }
+  const std::vector<std::string> &row(std::size_t row) const { return rows_.at(row); }
   /// Line of the file where a row (counted from 0) starts, counted from 1.
   std::size_t line(std::size_t row) const { return lines_.at(row); }
   /// Whether the header names `column`.
@@ -32,8 +33,6 @@ public:
   std::vector<std::string> text(std::string_view column) const;
   /// Cells of the column as finite numbers.
   std::vector<double> numbers(std::string_view column) const;
-  /// Cells of the column as whole numbers.
-  std::vector<long> integers(std::string_view column) const;
 
 private:
   std::size_t index_of(std::string_view column) const;
@@ -44,8 +43,15 @@ private:
   std::vector<std::size_t> lines_; // where each row starts in the file
 };
 
-/// Reads any CSV file with a header line and as many cells in every row as names in the header.
-Table read_table(const std::filesystem::path &file);
+/// What happens to a row that an interrupted writer has left: one with fewer cells than names in the header,
+/// or a last one without its line end, whose last number may lack digits.
+enum class CutRows {
+  refuse, ///< a row of another length than the header is a fault; the line end of the last one may be missing
+  forget  ///< the row is left out
+};
+
+/// Reads any CSV file with a header line.
+Table read_table(const std::filesystem::path &file, CutRows cut = CutRows::refuse);
 
 /// The rows of a CSV file one after the other, for records of millions of cells that need no Table of text.
 class CsvRows {
@@ -77,13 +83,29 @@ double csv_number(const std::filesystem::path &file, std::size_t line, std::stri
 [[noreturn]] void csv_fault(const std::filesystem::path &file, std::size_t line, std::string_view column,
                             std::string_view what);
 
+/// Throws std::runtime_error "FILE, line LINE, column 'COLUMN' is 'CELL'; allowed: ALLOWED".
+[[noreturn]] void csv_refusal(const std::filesystem::path &file, std::size_t line, std::string_view column,
+                              std::string_view cell, std::string_view allowed);
+
+/// One line of CSV with its line end.
+std::string csv_line(const std::vector<std::string> &cells);
+
 /// One cell of CSV: `text` itself, or quoted if it holds a comma, a quote or a line end.
 std::string csv_cell(std::string_view text);
 
 /// The number that `text` holds, all of it and nothing else, finite; else std::invalid_argument.
 double number_from_text(std::string_view text);
 
-/// The number with 17 digits, which come back bit for bit.
-std::string number_text(double value);
+/// The number that `text` holds, which may be infinite or NaN; nothing if it holds anything else.
+std::optional<double> any_number_from_text(std::string_view text);
+
+/// The whole number that `text` holds, all of it and nothing else; nothing if it holds anything else.
+std::optional<long> whole_number_from_text(std::string_view text);
+
+/// The digits with which a number comes back bit for bit.
+constexpr int all_digits = 17;
+
+/// The number with so many significant digits, without zeros at its end.
+std::string number_text(double value, int digits = all_digits);
 
 } // namespace drumlin::post

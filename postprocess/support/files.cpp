@@ -15,7 +15,7 @@
 #include <csignal>
 #include <cstring>
 #include <cstddef>
-#include <optional>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -157,6 +157,7 @@ bool is_leftover(const std::string &name, const std::string &prefix) {
   return code == std::errc() && stop == end && process > 0 && ::kill(process, 0) != 0 && errno == ESRCH;
 }
 
+/// Folders PREFIX and a process number in `parent` whose process is no more, as a kill leaves them.
 std::vector<fs::path> leftovers(const fs::path &parent, const std::string &prefix) {
   std::vector<fs::path> found;
   std::error_code ignored;
@@ -166,6 +167,15 @@ std::vector<fs::path> leftovers(const fs::path &parent, const std::string &prefi
       found.push_back(entry->path());
   return found;
 }
+
+/// Removes them. Faults are ignored: what cannot be removed does no harm.
+void remove_leftovers(const fs::path &parent, const std::string &prefix) {
+  std::error_code ignored;
+  for (const fs::path &folder : leftovers(parent, prefix))
+    fs::remove_all(folder, ignored);
+}
+
+std::string own_name(const std::string &prefix) { return fmt::format("{}{}", prefix, ::getpid()); }
 
 void must_be_writable(const fs::path &file) {
   if (const std::string fault = fault_of_file(file); !fault.empty()) fail(file, fault);
@@ -251,17 +261,65 @@ TemporaryFolder::~TemporaryFolder() {
   fs::remove_all(path_, ignored);
 }
 
-std::string own_name(const std::string &prefix) { return fmt::format("{}{}", prefix, ::getpid()); }
+namespace {
 
-void remove_leftovers(const fs::path &parent, const std::string &prefix) {
-  std::error_code ignored;
-  for (const fs::path &folder : leftovers(parent, prefix))
-    fs::remove_all(folder, ignored);
+/// Prefix of the names of folders beside `place` that hold its new content, or its earlier one while they are
+/// exchanged.
+std::string prefix_beside(const fs::path &place, const char *which) {
+  return fmt::format(".{}.{}-", place.filename().string(), which);
 }
 
-fs::path leftover(const fs::path &parent, const std::string &prefix) {
-  const std::vector<fs::path> found = leftovers(parent, prefix);
-  return found.empty() ? fs::path() : found.front();
+/// A process that was killed between the two renames of publish() has left the earlier folder under its other
+/// name.
+std::string prefix_after_rescue(const fs::path &place) {
+  const std::string earlier = prefix_beside(place, "old");
+  const std::vector<fs::path> left = leftovers(place.parent_path(), earlier);
+  if (!left.empty() && !fs::exists(place)) fs::rename(left.front(), place);
+  remove_leftovers(place.parent_path(), earlier);
+  return prefix_beside(place, "new");
+}
+
+} // namespace
+
+FolderInProgress::FolderInProgress(const fs::path &place)
+    : place_(place), folder_(place.parent_path(), prefix_after_rescue(place)) {}
+
+void FolderInProgress::publish() {
+  const fs::path old = place_.parent_path() / own_name(prefix_beside(place_, "old"));
+  const bool replaces = fs::exists(place_);
+  if (replaces) fs::rename(place_, old);
+  std::error_code error;
+  fs::rename(path(), place_, error);
+  if (error) {
+    if (replaces) fs::rename(old, place_);
+    fail(place_, error.message());
+  }
+  std::error_code ignored;
+  fs::remove_all(old, ignored);
+}
+
+FilesInProgress::FilesInProgress(const fs::path &folder)
+    : folder_(folder), made_(fs::create_directories(folder)),
+      temporary_(std::in_place, folder, "unfinished.") {}
+
+FilesInProgress::~FilesInProgress() {
+  temporary_.reset();
+  std::error_code ignored;
+  if (made_) fs::remove(folder_, ignored); // fails unless it is empty
+}
+
+void FilesInProgress::publish(const std::vector<std::string> &names,
+                              const std::function<bool(const std::string &)> &is_ours) {
+  for (const std::string &name : names)
+    check_output_file(folder_ / name); // all of them, before the first is replaced
+  for (const std::string &name : names)
+    replace_file(*this / name, folder_ / name);
+  const std::set<std::string> fresh(names.begin(), names.end());
+  for (const fs::directory_entry &entry : fs::directory_iterator(folder_)) {
+    const std::string name = entry.path().filename().string();
+    if (is_ours(name) && fresh.count(name) == 0 && fs::is_regular_file(entry.symlink_status()))
+      fs::remove(entry.path());
+  }
 }
 
 std::string read_text(const fs::path &file) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,8 +45,8 @@ void replace_file(const std::filesystem::path &finished, const std::filesystem::
 /// then taken off again where that is possible.
 void append_text(const std::filesystem::path &file, const std::string &text);
 
-/// A temporary folder for results that are not finished yet, PARENT/PREFIX followed by the number of this process. The destructor removes it
-/// with all that is still in it. The constructor first removes such folders of processes that were killed.
+/// A temporary folder, PARENT/PREFIX followed by the number of this process. The destructor removes it with
+/// all that is still in it. The constructor first removes such folders of processes that were killed.
 class TemporaryFolder {
 public:
   TemporaryFolder(const std::filesystem::path &parent, const std::string &prefix);
@@ -57,14 +59,44 @@ private:
   std::filesystem::path path_;
 };
 
-/// PREFIX followed by the number of this process.
-std::string own_name(const std::string &prefix);
+/// Results that replace a folder as a whole once all of them are there. They are made in a temporary folder
+/// beside it. The destructor removes what was not published.
+class FolderInProgress {
+public:
+  /// \param place absolute, without a trailing slash; its parent exists. If a process was killed while it
+  /// published, the earlier folder is put back first.
+  explicit FolderInProgress(const std::filesystem::path &place);
+  /// Where the results are made.
+  const std::filesystem::path &path() const { return folder_.path(); }
+  /// Puts the results in their place. std::runtime_error if that fails; an earlier folder is then where it
+  /// was.
+  void publish();
 
-/// Folders PREFIX and a process number in `parent` whose process is no more, as a kill leaves them: removed. Those of running
-/// processes and all else stay. Faults are ignored: what cannot be removed harms nobody.
-void remove_leftovers(const std::filesystem::path &parent, const std::string &prefix);
+private:
+  std::filesystem::path place_;
+  TemporaryFolder folder_;
+};
 
-/// The first of the folders that remove_leftovers() would remove; empty if there is none.
-std::filesystem::path leftover(const std::filesystem::path &parent, const std::string &prefix);
+/// Files that go into a folder, beside others, once all of them are there. They are made in a temporary
+/// folder inside it. The destructor removes what was not published, and the folder if this object has made it
+/// and it is still empty.
+class FilesInProgress {
+public:
+  explicit FilesInProgress(const std::filesystem::path &folder);
+  ~FilesInProgress();
+  FilesInProgress(const FilesInProgress &) = delete;
+  FilesInProgress &operator=(const FilesInProgress &) = delete;
+  /// Where a file is made.
+  std::filesystem::path operator/(const std::string &name) const { return temporary_->path() / name; }
+  /// Moves the files into the folder, and removes those of an earlier call, which `is_ours` knows by name,
+  /// that they do not replace.
+  void publish(const std::vector<std::string> &names,
+               const std::function<bool(const std::string &)> &is_ours);
+
+private:
+  std::filesystem::path folder_;
+  bool made_;
+  std::optional<TemporaryFolder> temporary_;
+};
 
 } // namespace drumlin::post

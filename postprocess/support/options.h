@@ -28,10 +28,10 @@ const std::string &choice_option(const char *option, const std::string &text,
 /// The name of a file or folder that exists or will be made: not empty, no part of it longer than file systems take.
 std::filesystem::path path_option(const char *option, const std::string &text);
 
-/// A folder for results (see check_output_folder in output_files.h).
+/// A folder for results (see check_output_folder in files.h).
 std::filesystem::path output_folder_option(const char *option, const std::string &text);
 
-/// A file for a result (see check_output_file in output_files.h).
+/// A file for a result (see check_output_file in files.h).
 std::filesystem::path output_file_option(const char *option, const std::string &text);
 
 } // namespace drumlin::post

@@ -10,4 +10,23 @@ double median(std::vector<double> values);
 /// Value below which a share (0 to 1) of the values lies, linear between neighbours: 0.25 gives the lower quartile. values not empty.
 double quantile(std::vector<double> values, double share);
 
+/// Median and quartiles.
+struct Spread {
+  double median, lower, upper;
+};
+/// values not empty.
+Spread spread(const std::vector<double> &values);
+
+/// A mean and half the width of its 95 % confidence interval.
+struct MeanInterval {
+  double mean, half_width;
+  /// Whether zero lies outside of the interval. Scatter alone puts it there once in twenty times.
+  bool significant() const;
+  /// Whether the whole interval lies within +-bound.
+  bool within(double bound) const;
+};
+/// The interval by Student's t distribution; its half width is infinite for a single value.
+/// std::invalid_argument without values.
+MeanInterval mean_interval(const std::vector<double> &values);
+
 } // namespace drumlin::post

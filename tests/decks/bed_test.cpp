@@ -1,7 +1,7 @@
 // The bed: made, settled, put under a roller, shaken. A small one, with all that the large one has.
 #include "tests/support/engine_runs.h"
 
-#include "bed/vtk_files.h"
+#include "bed/dump_readers.h"
 #include "chain/run_files.h"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 // 2 ranks.
 #include "tests/support/balls_run.h"
 
-#include "bed/text_dump.h"
+#include "bed/dump_readers.h"
 
 #include <gtest/gtest.h>
 

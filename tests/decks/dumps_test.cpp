@@ -1,8 +1,7 @@
 // The dumps of a bed, as the engine writes them and as ./drumlin vtk hands them to ParaView: a drum falls on a small bed.
 #include "tests/support/engine_runs.h"
 
-#include "bed/text_dump.h"
-#include "bed/vtk_files.h"
+#include "bed/dump_readers.h"
 
 #include <gtest/gtest.h>
 

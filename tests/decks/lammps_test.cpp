@@ -2,8 +2,7 @@
 // that is allowed is rounding: what grows of it is the scene's doing.
 #include "tests/support/engine_runs.h"
 
-#include "bed/text_dump.h"
-#include "bed/vtk_files.h"
+#include "bed/dump_readers.h"
 #include "chain/analysis.h"
 #include "chain/direct_solver.h"
 

@@ -1,4 +1,6 @@
 #include "tests/support/engine_runs.h"
+
+#include "bed/dump_readers.h"
 #include "support/files.h"
 
 #include <gtest/gtest.h>
@@ -36,31 +38,21 @@ fs::path chain_deck(const std::string &name) { return fs::path(DRUMLIN_SOURCE_DI
 fs::path test_deck(const std::string &name) { return fs::path(DRUMLIN_SOURCE_DIR) / "tests/decks" / name; }
 
 std::vector<Frame> read_dump(const fs::path &file) {
-  std::ifstream in(file);
-  if (!in) throw std::runtime_error("cannot read " + file.string());
-  const std::string columns = "ITEM: ATOMS id x y z vx vy vz fx fy fz omegax omegay omegaz tqx tqy tqz";
+  const std::vector<std::string> columns = {"id", "x",  "y",      "z",      "vx",     "vy",  "vz",  "fx",
+                                            "fy", "fz", "omegax", "omegay", "omegaz", "tqx", "tqy", "tqz"};
   std::vector<Frame> frames;
-  long balls = 0;
-  for (std::string line; std::getline(in, line);) {
-    if (line == "ITEM: TIMESTEP") {
-      frames.emplace_back();
-      in >> frames.back().step;
-    } else if (line == "ITEM: NUMBER OF ATOMS") {
-      in >> balls;
-    } else if (line.rfind("ITEM: ATOMS", 0) == 0) {
-      if (line != columns && line != columns + " ")
-        throw std::runtime_error(file.string() + ": unexpected columns: " + line);
-      for (long n = 0; n < balls; ++n) {
-        long id = 0;
-        Ball ball;
-        in >> id;
-        for (auto *part : {&ball.x, &ball.v, &ball.f, &ball.omega, &ball.torque})
-          for (double &component : *part)
-            in >> component;
-        if (!in) throw std::runtime_error(file.string() + ": a ball is cut short");
-        frames.back().balls[id] = ball;
-      }
+  for (const post::TextDump &dump : post::read_text_dumps(file)) {
+    if (dump.names != columns) throw std::runtime_error(file.string() + ": unexpected columns");
+    Frame frame;
+    frame.step = dump.step;
+    for (const std::vector<double> &row : dump.rows) {
+      Ball &ball = frame.balls[std::lround(row[0])];
+      auto number = row.begin() + 1;
+      for (auto *part : {&ball.x, &ball.v, &ball.f, &ball.omega, &ball.torque})
+        for (double &component : *part)
+          component = *number++;
     }
+    frames.push_back(std::move(frame));
   }
   return frames;
 }

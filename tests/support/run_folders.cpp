@@ -3,6 +3,7 @@
 #include "chain/analysis.h"
 #include "chain/direct_solver.h"
 #include "chain/run_files.h"
+#include "support/files.h"
 #include "tests/support/dump_texts.h"
 
 #include <fmt/format.h>
@@ -29,9 +30,9 @@ void write_chain_run(const fs::path &folder, const std::string &case_name, Trans
   options.cycles = cycles;
   const DirectResult result = solve_direct(p, options);
   fs::create_directories(folder);
-  write_chain(folder / "chain.csv", result.history);
-  write_events(folder / "events.csv", result.events);
-  write_cycles(folder / "cycles.csv", result.cycles);
+  write_files({{folder / "chain.csv", chain_text(result.history)}});
+  write_files({{folder / "events.csv", events_text(result.events)}});
+  write_files({{folder / "cycles.csv", cycles_text(result.cycles)}});
   std::vector<std::pair<std::string, std::string>> values = parameter_values(p);
   values.insert(values.end(), {{"deck", "chain"},
                                {"case", case_name},
@@ -40,7 +41,7 @@ void write_chain_run(const fs::path &folder, const std::string &case_name, Trans
                                {"timestep", number_text(p.period() / 2000)},
                                {"engine", "a test"},
                                {"command", command}});
-  write_parameters(folder / "parameters.csv", values);
+  write_files({{folder / "parameters.csv", parameters_text(values)}});
 }
 
 void write_impact_run(const fs::path &folder, Transition transition, double damping_ratio) {
@@ -63,13 +64,13 @@ void write_impact_run(const fs::path &folder, Transition transition, double damp
             "time,event,overlap,overlap_rate,force,id_i,id_j\n0,make,0,{},{},1,2\n{},break,{},{},{},1,2\n",
             p.speed, impact_state(p, 0).force, duration, last.overlap, last.rate,
             transition == Transition::A ? last.force : 0.0));
-  write_parameters(folder / "parameters.csv", {{"deck", "impact"},
-                                               {"transition", transition_name(transition)},
-                                               {"k", number_text(p.stiffness)},
-                                               {"D", number_text(p.damping_ratio)},
-                                               {"m2", number_text(p.mass)},
-                                               {"speed", number_text(p.speed)},
-                                               {"steps_per_contact", "200"}});
+  write_files({{folder / "parameters.csv", parameters_text({{"deck", "impact"},
+                                                            {"transition", transition_name(transition)},
+                                                            {"k", number_text(p.stiffness)},
+                                                            {"D", number_text(p.damping_ratio)},
+                                                            {"m2", number_text(p.mass)},
+                                                            {"speed", number_text(p.speed)},
+                                                            {"steps_per_contact", "200"}})}});
 }
 
 void write_bed_run(const fs::path &folder, Transition transition, int cycles, const std::string &friction) {
@@ -106,7 +107,7 @@ void write_bed_run(const fs::path &folder, Transition transition, int cycles, co
                                {"steps_per_cycle", "800"},
                                {"timestep", number_text(period / 800)},
                                {"command", "liggghts -in <in.bed> -var out " + folder.filename().string()}});
-  write_parameters(folder / "parameters.csv", values);
+  write_files({{folder / "parameters.csv", parameters_text(values)}});
 }
 
 void write_bed_dumps(const fs::path &folder) {

@@ -6,6 +6,7 @@
 #include "pages/figure_data.h"
 #include "pages/page.h"
 #include "studies/accuracy/results.h"
+#include "studies/study.h"
 #include "studies/step_advice.h"
 #include "support/convergence.h"
 
@@ -449,8 +450,9 @@ private:
 } // namespace
 
 void write_accuracy_page(const fs::path &out) {
-  const Data data = {read_chain_points(out / "chain.csv"), read_impact_points(out / "impacts.csv"),
-                     read_scaling_points(out / "scaling.csv")};
+  const Data data = {read_points(out / "chain.csv", chain_points()),
+                     read_points(out / "impacts.csv", impact_points()),
+                     read_points(out / "scaling.csv", scaling_points())};
   const PageTable orders = order_table(data);
   write_files({{out / "orders.csv", table_csv(orders)}});
 

@@ -3,91 +3,26 @@
 #include "chain/run_files.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-
-#include <fmt/format.h>
+#include <stdexcept>
 
 namespace drumlin::post {
 
-namespace fs = std::filesystem;
-
 namespace {
 
-/// A measured number: six digits are more than any error has; nothing if there is none.
-std::string measured(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
+/// Six digits are more than any measured error has.
+constexpr int measured = 6;
 
-struct ErrorColumn {
-  const char *name;
-  double ChainErrors::*value;
-};
-constexpr std::array<ErrorColumn, 7> error_columns = {{{"velocity_error", &ChainErrors::velocity},
-                                                       {"force_error", &ChainErrors::force},
-                                                       {"acceleration_error", &ChainErrors::acceleration},
-                                                       {"event_time_error_s", &ChainErrors::event_time_s},
-                                                       {"energy_residual", &ChainErrors::energy},
-                                                       {"loop_s", &ChainErrors::loop_s},
-                                                       {"wall_s", &ChainErrors::wall_s}}};
-
-struct ParameterColumn {
-  const char *name;
-  double ChainParameters::*value;
-};
-constexpr std::array<ParameterColumn, 9> parameter_columns = {{{"k_N_per_m", &ChainParameters::k},
-                                                               {"D", &ChainParameters::D},
-                                                               {"omega_rad_per_s", &ChainParameters::omega},
-                                                               {"Fw_N", &ChainParameters::Fw},
-                                                               {"m2_kg", &ChainParameters::m2},
-                                                               {"m3_kg", &ChainParameters::m3},
-                                                               {"k23_N_per_m", &ChainParameters::k23},
-                                                               {"c23_N_s_per_m", &ChainParameters::c23},
-                                                               {"g_m_per_s2", &ChainParameters::g}}};
-
-template <typename Columns>
-std::vector<std::string> header(std::vector<std::string> first, const Columns &columns,
-                                const std::vector<std::string> &last) {
-  for (const auto &column : columns)
-    first.emplace_back(column.name);
-  first.insert(first.end(), last.begin(), last.end());
-  return first;
+/// The column "transition" of the member that `of(row)` refers to.
+template <class Row, class Of>
+CsvColumn<Row> transition_column(Of of) {
+  return {"transition", [of](const Row &row) { return transition_name(of(row)); },
+          [of](Row &row, const std::string &cell) {
+            if (cell != "A" && cell != "B") throw std::invalid_argument("A, B");
+            of(row) = transition_from_name(cell);
+          }};
 }
 
-/// The cells of a file by column, empty ones as NaN.
-class Cells {
-public:
-  explicit Cells(const fs::path &file) : table_(read_table(file)) {}
-  std::size_t rows() const { return table_.rows(); }
-  std::vector<std::string> text(const std::string &column) const { return table_.text(column); }
-  std::vector<double> numbers(const std::string &column) const {
-    std::vector<double> values;
-    for (const std::string &cell : table_.text(column))
-      try {
-        values.push_back(cell.empty() ? std::numeric_limits<double>::quiet_NaN() : number_from_text(cell));
-      } catch (const std::invalid_argument &error) {
-        throw std::runtime_error(
-            fmt::format("{}: column {}: {}", table_.file().string(), column, error.what()));
-      }
-    return values;
-  }
-  std::vector<Transition> transitions() const {
-    std::vector<Transition> values;
-    for (const std::string &cell : table_.text("transition"))
-      try {
-        values.push_back(transition_from_name(cell));
-      } catch (const std::invalid_argument &error) {
-        throw std::runtime_error(fmt::format("{}: {}", table_.file().string(), error.what()));
-      }
-    return values;
-  }
-  std::vector<int> integers(const std::string &column) const {
-    const std::vector<long> read = table_.integers(column);
-    return {read.begin(), read.end()};
-  }
-
-private:
-  Table table_;
-};
+constexpr auto own_transition = [](auto &row) -> auto & { return row.transition; };
 
 std::vector<ErrorPoint> in_order(std::vector<ErrorPoint> points) {
   std::sort(points.begin(), points.end(),
@@ -97,96 +32,59 @@ std::vector<ErrorPoint> in_order(std::vector<ErrorPoint> points) {
 
 } // namespace
 
-const std::vector<std::string> chain_point_columns =
-    header({"case", "transition", "stepping", "steps_per_cycle"}, error_columns,
-           {"events", "events_truth", "loop_s_per_cycle"});
-const std::vector<std::string> impact_point_columns = {
-    "transition", "D", "stepping", "steps_per_contact", "worst_restitution_error", "rms_restitution_error"};
-const std::vector<std::string> scaling_point_columns =
-    header({"set", "stepping", "target_error", "transition"}, parameter_columns,
-           {"steps_per_cycle", "velocity_error"});
-
-std::vector<std::string> cells(const ChainPoint &point) {
-  std::vector<std::string> row = {point.chain_case, transition_name(point.transition), point.stepping,
-                                  std::to_string(point.steps_per_cycle)};
-  for (const ErrorColumn &column : error_columns)
-    row.push_back(measured(point.errors.*column.value));
-  row.insert(row.end(), {std::to_string(point.errors.events), std::to_string(point.errors.events_truth),
-                         measured(point.errors.loop_s / accuracy_cycles)});
-  return row;
+const CsvSchema<ChainPoint> &chain_points() {
+  const auto error = [](const char *name, double ChainErrors::*value) {
+    return csv_column(name, &ChainPoint::errors, value, measured);
+  };
+  static const CsvSchema<ChainPoint> schema(
+      {csv_column("case", &ChainPoint::chain_case),
+       transition_column<ChainPoint>(own_transition),
+       csv_column("stepping", &ChainPoint::stepping),
+       csv_column("steps_per_cycle", &ChainPoint::steps_per_cycle),
+       error("velocity_error", &ChainErrors::velocity),
+       error("force_error", &ChainErrors::force),
+       error("acceleration_error", &ChainErrors::acceleration),
+       error("event_time_error_s", &ChainErrors::event_time_s),
+       error("energy_residual", &ChainErrors::energy),
+       error("loop_s", &ChainErrors::loop_s),
+       error("wall_s", &ChainErrors::wall_s),
+       csv_column("events", &ChainPoint::errors, &ChainErrors::events),
+       csv_column("events_truth", &ChainPoint::errors, &ChainErrors::events_truth),
+       {"loop_s_per_cycle",
+        [](const ChainPoint &point) { return csv_text(point.errors.loop_s / accuracy_cycles, measured); },
+        {}}},
+      4);
+  return schema;
 }
 
-std::vector<std::string> cells(const ImpactPoint &point) {
-  return {transition_name(point.transition),
-          fmt::format("{:g}", point.damping_ratio),
-          point.stepping,
-          fmt::format("{:g}", point.steps_per_contact),
-          measured(point.errors.worst),
-          measured(point.errors.rms)};
+const CsvSchema<ImpactPoint> &impact_points() {
+  static const CsvSchema<ImpactPoint> schema(
+      {transition_column<ImpactPoint>(own_transition), csv_column("D", &ImpactPoint::damping_ratio, measured),
+       csv_column("stepping", &ImpactPoint::stepping),
+       csv_column("steps_per_contact", &ImpactPoint::steps_per_contact, measured),
+       csv_column("worst_restitution_error", &ImpactPoint::errors, &ImpactErrors::worst, measured),
+       csv_column("rms_restitution_error", &ImpactPoint::errors, &ImpactErrors::rms, measured)},
+      4);
+  return schema;
 }
 
-std::vector<std::string> cells(const ScalingPoint &point) {
-  std::vector<std::string> row = {std::to_string(point.set), point.stepping,
-                                  fmt::format("{:g}", point.target),
-                                  transition_name(point.parameters.transition)};
-  for (const ParameterColumn &column : parameter_columns)
-    row.push_back(number_text(point.parameters.*column.value));
-  row.insert(row.end(), {std::to_string(point.steps_per_cycle), measured(point.error)});
-  return row;
-}
-
-std::vector<ChainPoint> read_chain_points(const fs::path &file) {
-  if (!fs::exists(file)) return {};
-  const Cells table(file);
-  std::vector<ChainPoint> points(table.rows());
-  const auto cases = table.text("case"), steppings = table.text("stepping");
-  const auto transitions = table.transitions();
-  const auto steps = table.integers("steps_per_cycle"), events = table.integers("events"),
-             truth = table.integers("events_truth");
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    points[i] = {cases[i], transitions[i], steppings[i], steps[i], {}};
-    points[i].errors.events = events[i];
-    points[i].errors.events_truth = truth[i];
-  }
-  for (const ErrorColumn &column : error_columns) {
-    const std::vector<double> values = table.numbers(column.name);
-    for (std::size_t i = 0; i < points.size(); ++i)
-      points[i].errors.*column.value = values[i];
-  }
-  return points;
-}
-
-std::vector<ImpactPoint> read_impact_points(const fs::path &file) {
-  if (!fs::exists(file)) return {};
-  const Cells table(file);
-  std::vector<ImpactPoint> points;
-  const auto steppings = table.text("stepping");
-  const auto transitions = table.transitions();
-  const auto ratios = table.numbers("D"), steps = table.numbers("steps_per_contact"),
-             worst = table.numbers("worst_restitution_error"), rms = table.numbers("rms_restitution_error");
-  for (std::size_t i = 0; i < table.rows(); ++i)
-    points.push_back({transitions[i], ratios[i], steppings[i], steps[i], {worst[i], rms[i]}});
-  return points;
-}
-
-std::vector<ScalingPoint> read_scaling_points(const fs::path &file) {
-  if (!fs::exists(file)) return {};
-  const Cells table(file);
-  std::vector<ScalingPoint> points(table.rows());
-  const auto sets = table.integers("set"), steps = table.integers("steps_per_cycle");
-  const auto steppings = table.text("stepping");
-  const auto targets = table.numbers("target_error"), errors = table.numbers("velocity_error");
-  const auto transitions = table.transitions();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    points[i] = {sets[i], steppings[i], targets[i], {}, steps[i], errors[i]};
-    points[i].parameters.transition = transitions[i];
-  }
-  for (const ParameterColumn &column : parameter_columns) {
-    const std::vector<double> values = table.numbers(column.name);
-    for (std::size_t i = 0; i < points.size(); ++i)
-      points[i].parameters.*column.value = values[i];
-  }
-  return points;
+const CsvSchema<ScalingPoint> &scaling_points() {
+  const auto parameter = [](const char *name, double ChainParameters::*value) {
+    return csv_column(name, &ScalingPoint::parameters, value);
+  };
+  static const CsvSchema<ScalingPoint> schema(
+      {csv_column("set", &ScalingPoint::set), csv_column("stepping", &ScalingPoint::stepping),
+       csv_column("target_error", &ScalingPoint::target, measured),
+       transition_column<ScalingPoint>([](auto &row) -> auto & { return row.parameters.transition; }),
+       parameter("k_N_per_m", &ChainParameters::k), parameter("D", &ChainParameters::D),
+       parameter("omega_rad_per_s", &ChainParameters::omega), parameter("Fw_N", &ChainParameters::Fw),
+       parameter("m2_kg", &ChainParameters::m2), parameter("m3_kg", &ChainParameters::m3),
+       parameter("k23_N_per_m", &ChainParameters::k23), parameter("c23_N_s_per_m", &ChainParameters::c23),
+       parameter("g_m_per_s2", &ChainParameters::g),
+       csv_column("steps_per_cycle", &ScalingPoint::steps_per_cycle),
+       csv_column("velocity_error", &ScalingPoint::error, measured)},
+      3);
+  return schema;
 }
 
 std::vector<ErrorPoint> chain_curve(const std::vector<ChainPoint> &points, const std::string &chain_case,

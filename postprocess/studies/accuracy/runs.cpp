@@ -1,16 +1,14 @@
 #include "studies/accuracy/runs.h"
-#include "support/files.h"
 
+#include "bed/dump_readers.h"
 #include "chain/analysis.h"
 #include "chain/reference_values.h"
 #include "chain/run_files.h"
-#include "studies/study.h"
+#include "engine/deck_run.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -119,20 +117,17 @@ ImpactErrors measure_impacts(Transition transition, double damping_ratio, const 
                                          {"steps_per_contact", number_text(steps_per_contact)},
                                          {"phases", std::to_string(phases)}});
   run.must_succeed();
-  const std::string dump = read_text(run.file("rebound.txt"));
-  const std::size_t table = dump.rfind("ITEM: ATOMS");
-  if (table == std::string::npos) throw std::runtime_error("in.impacts wrote no velocities");
-  std::istringstream in(dump.substr(dump.find('\n', table)));
+  const std::vector<TextDump> dumps = read_text_dumps(run.file("rebound.txt"));
+  if (dumps.empty() || dumps.back().rows.size() != static_cast<std::size_t>(phases))
+    throw std::runtime_error(fmt::format("in.impacts did not write {} velocities", phases));
   const double exact = closed_form_restitution(transition_name(transition), damping_ratio);
+  const std::size_t velocity = dumps.back().column("vz");
   ImpactErrors errors{0.0, 0.0};
-  int found = 0;
-  long id = 0;
-  for (double velocity = 0.0; in >> id >> velocity; ++found) {
-    const double error = std::fabs(velocity / speed - exact);
+  for (const std::vector<double> &row : dumps.back().rows) {
+    const double error = std::fabs(row[velocity] / speed - exact);
     errors.worst = std::max(errors.worst, error);
     errors.rms += error * error / phases;
   }
-  if (found != phases) throw std::runtime_error(fmt::format("in.impacts wrote {} velocities", found));
   errors.rms = std::sqrt(errors.rms);
   return errors;
 }

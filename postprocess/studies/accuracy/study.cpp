@@ -1,9 +1,10 @@
-#include "studies/accuracy/study.h"
+#include "studies/studies.h"
 
 #include "studies/accuracy/page.h"
 #include "studies/accuracy/results.h"
 #include "studies/step_advice.h"
 #include "studies/study.h"
+#include "support/progress.h"
 
 #include <algorithm>
 #include <cmath>
@@ -61,13 +62,6 @@ Plan plan_of(bool quick) {
   return plan;
 }
 
-template <typename Point>
-std::vector<std::string> key(const Point &point, std::size_t keys) {
-  std::vector<std::string> row = cells(point);
-  row.resize(keys);
-  return row;
-}
-
 /// The direct solutions, each made when it is first asked for.
 class Truths {
 public:
@@ -114,7 +108,7 @@ ChainParameters drawn(Draw &draw, Transition transition) {
 class Sensitivities {
 public:
   double of(const ChainParameters &parameters) {
-    const std::vector<std::string> name = cells(ScalingPoint{0, "", 0.0, parameters, 0, 0.0});
+    const std::vector<std::string> name = scaling_points().cells({0, "", 0.0, parameters, 0, 0.0});
     const auto found = known_.find(name);
     return found != known_.end() ? found->second : known_[name] = sensitivity(parameters);
   }
@@ -139,25 +133,25 @@ std::vector<ScalingPoint> scaling_plan(bool quick, Sensitivities &sensitivities)
   return plan;
 }
 
-void measure(std::vector<ImpactPoint> plan, int phases, StudyResults &results, StudyProgress &progress) {
+void measure(std::vector<ImpactPoint> plan, int phases, StudyResults &results, CountedProgress &progress) {
   for (ImpactPoint &point : plan) {
-    if (results.find(key(point, impact_point_keys)) != nullptr) {
+    if (results.has(impact_points().key(point))) {
       progress.found();
       continue;
     }
     point.errors = measure_impacts(point.transition, point.damping_ratio, point.stepping,
                                    point.steps_per_contact, phases);
-    results.add(cells(point));
+    results.add(impact_points().cells(point));
     progress.measured(fmt::format("impacts {}, D = {:g}, {}, {:g} steps per contact",
                                   transition_name(point.transition), point.damping_ratio, point.stepping,
                                   point.steps_per_contact));
   }
 }
 
-void measure(std::vector<ChainPoint> plan, StudyResults &results, StudyProgress &progress) {
+void measure(std::vector<ChainPoint> plan, StudyResults &results, CountedProgress &progress) {
   Truths truths;
   for (ChainPoint &point : plan) {
-    if (results.find(key(point, chain_point_keys)) != nullptr) {
+    if (results.has(chain_points().key(point))) {
       progress.found();
       continue;
     }
@@ -166,16 +160,16 @@ void measure(std::vector<ChainPoint> plan, StudyResults &results, StudyProgress 
                        ? measure_reference(point.chain_case, point.steps_per_cycle, truth)
                        : measure_chain(table1_case(point.chain_case, point.transition), point.stepping,
                                        point.steps_per_cycle, truth);
-    results.add(cells(point));
+    results.add(chain_points().cells(point));
     progress.measured(fmt::format("chain {} {}, {}, {} steps per cycle", point.chain_case,
                                   transition_name(point.transition), point.stepping, point.steps_per_cycle));
   }
 }
 
 void measure(std::vector<ScalingPoint> plan, const std::vector<ChainPoint> &known,
-             Sensitivities &sensitivities, StudyResults &results, StudyProgress &progress) {
+             Sensitivities &sensitivities, StudyResults &results, CountedProgress &progress) {
   for (ScalingPoint &point : plan) {
-    if (results.find(key(point, scaling_point_keys)) != nullptr) {
+    if (results.has(scaling_points().key(point))) {
       progress.found();
       continue;
     }
@@ -188,7 +182,7 @@ void measure(std::vector<ScalingPoint> plan, const std::vector<ChainPoint> &know
     point.error = measure_chain(point.parameters, point.stepping, point.steps_per_cycle,
                                 accuracy_truth(point.parameters))
                       .velocity;
-    results.add(cells(point));
+    results.add(scaling_points().cells(point));
     progress.measured(fmt::format("scaling, set {}, {}, error {:g}, {} steps per cycle", point.set,
                                   point.stepping, point.target, point.steps_per_cycle));
   }
@@ -199,15 +193,15 @@ void measure(std::vector<ScalingPoint> plan, const std::vector<ChainPoint> &know
 void run_accuracy_study(const StudyOptions &options) {
   const Plan plan = plan_of(options.quick);
   Sensitivities sensitivities;
-  const std::vector<ScalingPoint> scaling_points = scaling_plan(options.quick, sensitivities);
-  StudyResults chain(options.out / "chain.csv", chain_point_columns, chain_point_keys);
-  StudyResults impacts(options.out / "impacts.csv", impact_point_columns, impact_point_keys);
-  StudyResults scaling(options.out / "scaling.csv", scaling_point_columns, scaling_point_keys);
-  StudyProgress progress(plan.chain.size() + plan.impacts.size() + scaling_points.size());
+  const std::vector<ScalingPoint> other_chains = scaling_plan(options.quick, sensitivities);
+  StudyResults chain(options.out / "chain.csv", chain_points());
+  StudyResults impacts(options.out / "impacts.csv", impact_points());
+  StudyResults scaling(options.out / "scaling.csv", scaling_points());
+  CountedProgress progress(plan.chain.size() + plan.impacts.size() + other_chains.size());
 
   measure(plan.impacts, options.quick ? 8 : 64, impacts, progress);
   measure(plan.chain, chain, progress);
-  measure(scaling_points, read_chain_points(chain.file()), sensitivities, scaling, progress);
+  measure(other_chains, read_points(chain.file(), chain_points()), sensitivities, scaling, progress);
   write_accuracy_page(options.out);
   fmt::print("{}\n", (options.out / "index.html").string());
 }

@@ -1,10 +1,10 @@
 #include "studies/cost/results.h"
 
-#include "chain/run_files.h"
 #include "studies/study.h"
 
 #include <algorithm>
 #include <map>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -31,42 +31,22 @@ std::map<int, CostRun> rounds_of(const std::vector<CostRun> &runs, const std::st
 
 } // namespace
 
-const std::vector<std::string> cost_run_columns = {"scene", "variant", "round",  "balls",
-                                                   "steps", "loop_s",  "pair_s", "place_m"};
-
-std::vector<std::string> cells(const CostRun &run) {
-  return {run.scene,
-          run.variant,
-          std::to_string(run.round),
-          std::to_string(run.balls),
-          std::to_string(run.steps),
-          number_text(run.loop_s),
-          number_text(run.pair_s),
-          number_text(run.place)};
+const CsvSchema<CostRun> &cost_runs() {
+  static const CsvSchema<CostRun> schema(
+      {csv_column("scene", &CostRun::scene), csv_column("variant", &CostRun::variant),
+       csv_column("round", &CostRun::round), csv_column("balls", &CostRun::balls),
+       csv_column("steps", &CostRun::steps), csv_column("loop_s", &CostRun::loop_s),
+       csv_column("pair_s", &CostRun::pair_s), csv_column("place_m", &CostRun::place)},
+      3);
+  return schema;
 }
 
 std::vector<CostRun> read_cost_runs(const std::filesystem::path &file) {
-  const StudyResults rows(file, cost_run_columns, cost_run_keys);
-  std::vector<CostRun> runs;
-  for (const StudyResults::Row &row : rows.rows()) {
-    const auto whole = [&](const char *name) { return static_cast<int>(rows.number(row, name)); };
-    CostRun run = {rows.text(row, "scene"),
-                   rows.text(row, "variant"),
-                   whole("round"),
-                   whole("balls"),
-                   whole("steps"),
-                   rows.number(row, "loop_s"),
-                   rows.number(row, "pair_s"),
-                   rows.number(row, "place_m")};
+  std::vector<CostRun> runs = read_points(file, cost_runs());
+  for (const CostRun &run : runs)
     if (!(run.balls > 0 && run.steps > 0 && run.loop_s > 0.0))
       throw std::runtime_error(fmt::format("{}: a row without balls, steps or time", file.string()));
-    runs.push_back(std::move(run));
-  }
   return runs;
-}
-
-Spread spread(const std::vector<double> &values) {
-  return {median(values), quantile(values, 0.25), quantile(values, 0.75)};
 }
 
 std::vector<VariantCost> variant_costs(const std::vector<CostRun> &runs) {

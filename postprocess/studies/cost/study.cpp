@@ -1,9 +1,11 @@
-#include "studies/cost/study.h"
+#include "studies/studies.h"
 
+#include "engine/deck_run.h"
 #include "studies/cost/page.h"
 #include "studies/cost/results.h"
 #include "studies/settled_bed.h"
 #include "studies/study.h"
+#include "support/progress.h"
 
 #include <cmath>
 #include <optional>
@@ -128,21 +130,22 @@ void check_same_work(const std::vector<Scene> &all, const std::vector<CostRun> &
 void run_cost_study(const StudyOptions &options) {
   check_engine_path(options.out);
   const std::vector<Scene> all = scenes(options.quick);
-  const int rounds = options.quick ? 1 : 25; // many short ones: the machine's mood changes within minutes
-  StudyResults results(options.out / "runs.csv", cost_run_columns, cost_run_keys);
+  // Many short rounds: how busy the machine is changes within minutes.
+  const int rounds = options.quick ? 1 : 25;
+  StudyResults results(options.out / "runs.csv", cost_runs());
   std::size_t variants = 0;
   for (const Scene &scene : all)
     variants += scene.variants.size();
-  StudyProgress progress(static_cast<std::size_t>(rounds) * variants);
+  CountedProgress progress(static_cast<std::size_t>(rounds) * variants);
   for (int round = 1; round <= rounds; ++round)
     for (const Scene &scene : all)
       for (const Variant &variant : scene.variants) {
-        if (results.find({scene.name, variant.name, std::to_string(round)}) != nullptr) {
+        if (results.has({scene.name, variant.name, std::to_string(round)})) {
           progress.found();
           continue;
         }
         const CostRun run = measure(scene, variant, round, options.out);
-        results.add(cells(run));
+        results.add(cost_runs().cells(run));
         progress.measured(fmt::format("round {}, {}, {}: {:.4g} us per step", round, run.scene, run.variant,
                                       run.us_per_step()));
       }

@@ -18,7 +18,7 @@ namespace {
 /// A change whose whole confidence interval is within it counts as negligible.
 constexpr double tolerance = 0.1;
 
-std::string percent(const MeanError &change) {
+std::string percent(const MeanInterval &change) {
   return fmt::format("{:+.1f} ± {:.1f}", 100.0 * change.mean, 100.0 * change.half_width);
 }
 
@@ -38,10 +38,10 @@ PageTable conclusion_table(const std::vector<Effect> &effects) {
   for (std::size_t q = 0; q < bed_quantities.size(); ++q) {
     std::array<std::vector<std::string>, 3> cells;
     for (const Effect &effect : effects) {
-      const MeanError &change = effect.change[q];
+      const MeanInterval &change = effect.change[q];
       const std::string text = fmt::format("{} ({:+.0f} %, time x {:.2g})", effect.compared.what,
                                            100.0 * change.mean, effect.cost);
-      cells[change.within(tolerance) ? 1 : change.beyond_scatter() ? 0 : 2].push_back(text);
+      cells[change.within(tolerance) ? 1 : change.significant() ? 0 : 2].push_back(text);
     }
     std::vector<std::string> row = {without_unit(bed_quantities[q])};
     for (const std::vector<std::string> &cell : cells)
@@ -68,12 +68,12 @@ PageTable effect_table(const std::vector<Effect> &effects) {
   for (const Effect &effect : effects) {
     std::vector<std::string> matters;
     for (std::size_t q = 0; q < bed_quantities.size(); ++q)
-      if (effect.change[q].beyond_scatter()) matters.push_back(without_unit(bed_quantities[q]));
+      if (effect.change[q].significant()) matters.push_back(without_unit(bed_quantities[q]));
     std::vector<std::string> row = {std::to_string(table.rows.size() + 1), effect.compared.what,
                                     matters.empty() ? "nothing significant"
                                                     : fmt::format("{}", fmt::join(matters, ", ")),
                                     std::to_string(effect.seeds)};
-    for (const MeanError &change : effect.change)
+    for (const MeanInterval &change : effect.change)
       row.push_back(percent(change));
     row.push_back(fmt::format("{:.2f}", effect.cost));
     table.add(std::move(row));
@@ -124,10 +124,10 @@ PageTable run_table(const std::vector<FidelityRun> &runs) {
     }
     std::vector<std::string> row = {name, std::to_string(cpu.size())};
     for (const std::vector<double> &quantity : values) {
-      const MeanError mean = mean_error(quantity);
+      const MeanInterval mean = mean_interval(quantity);
       row.push_back(fmt::format("{:.4g} ± {:.2g}", mean.mean, mean.half_width));
     }
-    row.push_back(fmt::format("{:.3g}", mean_error(cpu).mean));
+    row.push_back(fmt::format("{:.3g}", mean_interval(cpu).mean));
     table.add(std::move(row));
   }
   table.notes = {"After the ±: half of the 95 % confidence interval of the mean."};
@@ -154,7 +154,7 @@ PageFigure effect_figure(const std::vector<Effect> &effects) {
     double lowest = 0.0, highest = 0.0;
     for (std::size_t n = 0; n < effects.size(); ++n) {
       panel.x_ticks.push_back(std::to_string(n + 1));
-      const MeanError &change = effects[n].change[q];
+      const MeanInterval &change = effects[n].change[q];
       table.row(title,
                 {static_cast<double>(n + 1), 100.0 * change.mean, 100.0 * (change.mean - change.half_width),
                  100.0 * (change.mean + change.half_width)});

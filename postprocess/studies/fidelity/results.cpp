@@ -4,26 +4,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <limits>
 #include <numeric>
 #include <stdexcept>
 
 namespace drumlin::post {
-
-namespace {
-
-/// Student's t that a share of 0.95 does not leave to either side, by degrees of freedom (any table of it); beyond the
-/// table the last one, which is on the safe side.
-double student_t_95(std::size_t freedom) {
-  constexpr std::array t = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228};
-  return t.at(std::min(freedom, t.size()) - 1);
-}
-
-} // namespace
 
 BedValues bed_values(const Table &cycles, double width) {
   const auto begin =
@@ -39,9 +25,20 @@ BedValues bed_values(const Table &cycles, double width) {
   return {mean("a_drum_max"), mean("F_contact_max") / width, per_cycle, mean("contact_share")};
 }
 
-const std::vector<std::string> fidelity_run_columns = {
-    "variant",       "seed", "a_drum_max_m_s2", "F_contact_max_N", "settlement_m_per_cycle",
-    "contact_share", "cpu_s"};
+const CsvSchema<FidelityRun> &fidelity_runs() {
+  const auto value = [](const char *name, BedQuantity quantity) {
+    return csv_column_of<FidelityRun, double>(
+        name, [q = static_cast<std::size_t>(quantity)](auto &run) -> auto & { return run.values[q]; },
+        all_digits);
+  };
+  static const CsvSchema<FidelityRun> schema(
+      {csv_column("variant", &FidelityRun::variant), csv_column("seed", &FidelityRun::seed),
+       value("a_drum_max_m_s2", BedQuantity::acceleration), value("F_contact_max_N", BedQuantity::force),
+       value("settlement_m_per_cycle", BedQuantity::settlement), value("contact_share", BedQuantity::contact),
+       csv_column("cpu_s", &FidelityRun::cpu_s)},
+      2);
+  return schema;
+}
 
 std::string bed_quantity_name(BedQuantity quantity) {
   switch (quantity) {
@@ -57,46 +54,14 @@ std::string bed_quantity_name(BedQuantity quantity) {
   throw std::logic_error("a quantity without a name");
 }
 
-std::vector<std::string> cells(const FidelityRun &run) {
-  std::vector<std::string> row = {run.variant, std::to_string(run.seed)};
-  for (const double value : run.values)
-    row.push_back(number_text(value));
-  row.push_back(number_text(run.cpu_s));
-  return row;
-}
-
 std::vector<FidelityRun> read_fidelity_runs(const std::filesystem::path &file) {
-  const StudyResults rows(file, fidelity_run_columns, fidelity_run_keys);
-  std::vector<FidelityRun> runs;
-  for (const StudyResults::Row &row : rows.rows()) {
-    FidelityRun run{row[0], static_cast<int>(rows.number(row, "seed")), {}, rows.number(row, "cpu_s")};
-    for (std::size_t q = 0; q < bed_quantities.size(); ++q) {
-      run.values[q] = rows.number(row, fidelity_run_columns[fidelity_run_keys + q]);
-      if (!std::isfinite(run.values[q]))
-        throw std::runtime_error(fmt::format("{}: {} of seed {} has no number in {}", file.string(),
-                                             run.variant, run.seed,
-                                             fidelity_run_columns[fidelity_run_keys + q]));
-    }
-    runs.push_back(run);
-  }
+  std::vector<FidelityRun> runs = read_points(file, fidelity_runs());
+  for (const FidelityRun &run : runs)
+    for (const BedQuantity quantity : bed_quantities)
+      if (!std::isfinite(run.values[static_cast<std::size_t>(quantity)]))
+        throw std::runtime_error(fmt::format("{}: {} of seed {} has no finite {}", file.string(), run.variant,
+                                             run.seed, bed_quantity_name(quantity)));
   return runs;
-}
-
-bool MeanError::beyond_scatter() const { return std::fabs(mean) > half_width; }
-
-bool MeanError::within(double bound) const { return std::fabs(mean) + half_width <= bound; }
-
-MeanError mean_error(const std::vector<double> &values) {
-  if (values.empty()) throw std::invalid_argument("a mean of no values");
-  const auto n = static_cast<double>(values.size());
-  double mean = 0.0;
-  for (const double value : values)
-    mean += value / n;
-  double squares = 0.0;
-  for (const double value : values)
-    squares += (value - mean) * (value - mean);
-  if (values.size() < 2) return {mean, std::numeric_limits<double>::infinity()};
-  return {mean, student_t_95(values.size() - 1) * std::sqrt(squares / (n * (n - 1.0)))};
 }
 
 std::optional<Effect> effect_of(const std::vector<FidelityRun> &runs, const BedComparison &compared) {
@@ -117,8 +82,8 @@ std::optional<Effect> effect_of(const std::vector<FidelityRun> &runs, const BedC
   effect.seeds = static_cast<int>(ratios.size());
   effect.cost = median(ratios);
   for (std::size_t q = 0; q < bed_quantities.size(); ++q) {
-    const MeanError difference = mean_error(differences[q]);
-    const double scale = std::fabs(mean_error(bases[q]).mean);
+    const MeanInterval difference = mean_interval(differences[q]);
+    const double scale = std::fabs(mean_interval(bases[q]).mean);
     effect.change[q] = {difference.mean / scale, difference.half_width / scale};
   }
   return effect;

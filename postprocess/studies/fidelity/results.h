@@ -1,7 +1,8 @@
 // What the fidelity study measures: its file runs.csv, row by row, and the effects that follow.
 #pragma once
 
-#include "chain/run_files.h"
+#include "support/csv_schema.h"
+#include "support/statistics.h"
 
 #include <array>
 #include <filesystem>
@@ -37,21 +38,11 @@ struct FidelityRun {
   double cpu_s; ///< processor time of the engine, excitation only: what a machine of one's own would take
 };
 
-extern const std::vector<std::string> fidelity_run_columns;
-constexpr std::size_t fidelity_run_keys = 2;
-std::vector<std::string> cells(const FidelityRun &run);
-/// The rows of a file in order. std::runtime_error for one that cannot be understood.
+/// The columns of runs.csv.
+const CsvSchema<FidelityRun> &fidelity_runs();
+/// The rows of a file in order. std::runtime_error for one that cannot be understood or lacks a finite
+/// number.
 std::vector<FidelityRun> read_fidelity_runs(const std::filesystem::path &file);
-
-/// Mean over seeds and half the width of its 95 % interval, by Student's t; infinite for one seed.
-struct MeanError {
-  double mean, half_width;
-  /// Whether zero lies outside of the interval: a claim that scatter alone makes once in twenty times.
-  bool beyond_scatter() const;
-  /// Whether the whole interval lies within +-bound.
-  bool within(double bound) const;
-};
-MeanError mean_error(const std::vector<double> &values);
 
 /// What is compared with what.
 struct BedComparison {
@@ -62,7 +53,7 @@ struct BedComparison {
 struct Effect {
   BedComparison compared;
   int seeds;
-  std::array<MeanError, bed_quantities.size()> change; ///< relative to the mean of the base
+  std::array<MeanInterval, bed_quantities.size()> change; ///< relative to the mean of the base
   double cost; ///< processor time over the base's, median over the seeds
 };
 /// Nothing if the two share no seed.

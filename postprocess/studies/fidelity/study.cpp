@@ -1,11 +1,13 @@
-#include "studies/fidelity/study.h"
+#include "studies/studies.h"
 
 #include "bed/packing.h"
 #include "chain/run_files.h"
+#include "engine/deck_run.h"
 #include "studies/fidelity/page.h"
 #include "studies/fidelity/results.h"
 #include "studies/settled_bed.h"
 #include "studies/study.h"
+#include "support/progress.h"
 #include "support/files.h"
 
 #include <fmt/format.h>
@@ -83,6 +85,8 @@ Plan quick_plan() {
           4};
 }
 
+/// The plan itself: longer than other functions, since it has a line for each bed, run and comparison and
+/// little else.
 Plan full_plan() {
   // Excitation shakes a bed by far more than what a ratio of 1e-3 leaves.
   const Bed gravel{"gravel", {}, {{"stepping", "second"}}, "1e-3"};
@@ -188,7 +192,7 @@ FidelityRun measure(const Bed &bed, const Variant &variant, int seed, const fs::
           run.outcome().cpu_seconds};
 }
 
-/// Runs the tasks, `jobs` at a time. What a task throws is its own affair.
+/// Runs the tasks, `jobs` at a time. A task must not throw.
 void in_parallel(const std::vector<std::function<void()>> &tasks, int jobs) {
   std::atomic<std::size_t> next = 0;
   std::vector<std::thread> workers;
@@ -208,11 +212,11 @@ void in_parallel(const std::vector<std::function<void()>> &tasks, int jobs) {
 void run_fidelity_study(const StudyOptions &options) {
   check_engine_path(options.out);
   const Plan plan = options.quick ? quick_plan() : full_plan();
-  StudyResults results(options.out / "runs.csv", fidelity_run_columns, fidelity_run_keys);
+  StudyResults results(options.out / "runs.csv", fidelity_runs());
   std::size_t variants = 0;
   for (const BedVariants &one : plan.beds)
     variants += one.variants.size();
-  StudyProgress progress(static_cast<std::size_t>(plan.seeds) * variants);
+  CountedProgress progress(static_cast<std::size_t>(plan.seeds) * variants);
   fs::create_directories(options.out / "beds");
 
   std::mutex mutex; // of results, progress and failures
@@ -224,7 +228,7 @@ void run_fidelity_study(const StudyOptions &options) {
         for (const Variant &variant : one.variants) {
           {
             const std::lock_guard lock(mutex);
-            if (results.find({variant.name, std::to_string(seed)}) != nullptr) {
+            if (results.has({variant.name, std::to_string(seed)})) {
               progress.found();
               continue;
             }
@@ -232,7 +236,7 @@ void run_fidelity_study(const StudyOptions &options) {
           try {
             const FidelityRun run = measure(one.bed, variant, seed, options.out, plan.cycles);
             const std::lock_guard lock(mutex);
-            results.add(cells(run));
+            results.add(fidelity_runs().cells(run));
             progress.measured(fmt::format("seed {}, {}: {:.3g} m/s2, {:.3g} mm per cycle, {:.3g} s", seed,
                                           run.variant, run.values[0], 1e3 * run.values[2], run.cpu_s));
           } catch (const std::exception &fault) { // a bed that fails does not stop the others

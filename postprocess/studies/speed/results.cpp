@@ -1,6 +1,5 @@
 #include "studies/speed/results.h"
 
-#include "chain/run_files.h"
 #include "studies/study.h"
 
 #include <fmt/format.h>
@@ -23,39 +22,22 @@ Spread spread_or_zero(const std::vector<double> &values) {
 
 } // namespace
 
-const std::vector<std::string> speed_run_columns = {"scene", "law",    "ranks",      "round",  "balls",
-                                                    "steps", "loop_s", "peak_bytes", "place_m"};
-
-std::vector<std::string> cells(const SpeedRun &run) {
-  return {run.scene,
-          run.law,
-          std::to_string(run.ranks),
-          std::to_string(run.round),
-          std::to_string(run.balls),
-          std::to_string(run.steps),
-          number_text(run.loop_s),
-          number_text(run.peak_bytes),
-          number_text(run.place)};
+const CsvSchema<SpeedRun> &speed_runs() {
+  static const CsvSchema<SpeedRun> schema(
+      {csv_column("scene", &SpeedRun::scene), csv_column("law", &SpeedRun::law),
+       csv_column("ranks", &SpeedRun::ranks), csv_column("round", &SpeedRun::round),
+       csv_column("balls", &SpeedRun::balls), csv_column("steps", &SpeedRun::steps),
+       csv_column("loop_s", &SpeedRun::loop_s), csv_column("peak_bytes", &SpeedRun::peak_bytes),
+       csv_column("place_m", &SpeedRun::place)},
+      4);
+  return schema;
 }
 
 std::vector<SpeedRun> read_speed_runs(const std::filesystem::path &file) {
-  const StudyResults rows(file, speed_run_columns, speed_run_keys);
-  std::vector<SpeedRun> runs;
-  for (const StudyResults::Row &row : rows.rows()) {
-    const auto whole = [&](const char *name) { return static_cast<int>(rows.number(row, name)); };
-    SpeedRun run = {rows.text(row, "scene"),
-                    rows.text(row, "law"),
-                    whole("ranks"),
-                    whole("round"),
-                    whole("balls"),
-                    whole("steps"),
-                    rows.number(row, "loop_s"),
-                    rows.number(row, "peak_bytes"),
-                    rows.number(row, "place_m")};
+  std::vector<SpeedRun> runs = read_points(file, speed_runs());
+  for (const SpeedRun &run : runs)
     if (!(run.ranks > 0 && run.balls > 0 && run.steps > 0 && run.loop_s > 0.0))
       throw std::runtime_error(fmt::format("{}: a row without ranks, balls, steps or time", file.string()));
-    runs.push_back(std::move(run));
-  }
   return runs;
 }
 

@@ -1,7 +1,8 @@
 // What the speed study measures: its file runs.csv, row by row, and throughput, efficiency and memory that follow.
 #pragma once
 
-#include "studies/cost/results.h"
+#include "support/csv_schema.h"
+#include "support/statistics.h"
 
 #include <filesystem>
 #include <string>
@@ -23,10 +24,10 @@ struct SpeedRun {
   double million_per_second() const { return 1e-6 * balls * steps / loop_s; } ///< steps of balls
 };
 
-extern const std::vector<std::string> speed_run_columns;
-constexpr std::size_t speed_run_keys = 4;
-std::vector<std::string> cells(const SpeedRun &run);
-/// The rows of a file in order. std::runtime_error for one that cannot be understood.
+/// The columns of runs.csv.
+const CsvSchema<SpeedRun> &speed_runs();
+/// The rows of a file in order. std::runtime_error for one that cannot be understood, or lacks ranks, balls,
+/// steps or time.
 std::vector<SpeedRun> read_speed_runs(const std::filesystem::path &file);
 
 /// A law in a scene on a number of ranks, over the rounds; ratios are taken within a round.

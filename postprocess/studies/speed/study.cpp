@@ -1,9 +1,11 @@
-#include "studies/speed/study.h"
+#include "studies/studies.h"
 
+#include "engine/deck_run.h"
 #include "studies/settled_bed.h"
 #include "studies/speed/page.h"
 #include "studies/speed/results.h"
 #include "studies/study.h"
+#include "support/progress.h"
 
 #include <fmt/format.h>
 
@@ -94,19 +96,18 @@ void run_speed_study(const StudyOptions &options) {
                                      {copies, options.quick ? 20 : 60}};
   const int rounds = options.quick ? 1 : 5;
   const std::vector<Law> all = laws();
-  StudyResults results(options.out / "runs.csv", speed_run_columns, speed_run_keys);
-  StudyProgress progress(2 * static_cast<std::size_t>(rounds) * scenes.size() * all.size());
+  StudyResults results(options.out / "runs.csv", speed_runs());
+  CountedProgress progress(2 * static_cast<std::size_t>(rounds) * scenes.size() * all.size());
   for (int round = 1; round <= rounds; ++round)
     for (const Scene &scene : scenes)
       for (const Law &law : all)
         for (const int ranks : {1, 2}) {
-          if (results.find({scene.bed.name(), law.name, std::to_string(ranks), std::to_string(round)}) !=
-              nullptr) {
+          if (results.has({scene.bed.name(), law.name, std::to_string(ranks), std::to_string(round)})) {
             progress.found();
             continue;
           }
           const SpeedRun run = measure(scene, law, ranks, round, options.out);
-          results.add(cells(run));
+          results.add(speed_runs().cells(run));
           progress.measured(
               fmt::format("round {}, {}, {}, {} rank{}: {:.3g} million steps of balls per second", round,
                           run.scene, run.law, ranks, ranks > 1 ? "s" : "", run.million_per_second()));

@@ -1,11 +1,12 @@
 #include "studies/stability/bed.h"
 
+#include "bed/dump_readers.h"
+#include "support/csv.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -51,19 +52,16 @@ Extreme ranks_row(const std::string &name, const Variables &variables, int ranks
 } // namespace
 
 std::vector<BedState> read_balance(const std::filesystem::path &file) {
-  std::ifstream in(file);
-  if (!in) throw std::runtime_error("cannot read " + file.string());
-  std::string line;
-  std::getline(in, line); // header
-  std::vector<BedState> states;
-  while (std::getline(in, line)) {
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream cells(line);
-    std::array<double, 6> values{};
-    std::string cell;
-    for (double &value : values)
-      value = cells >> cell ? std::strtod(cell.c_str(), nullptr) : std::nan("");
-    states.push_back({values[0], values[1], values[2], values[3], values[4], values[5]});
+  const Table table = read_table(file);
+  std::vector<BedState> states(table.rows());
+  const std::pair<const char *, double BedState::*> columns[] = {
+      {"time_s", &BedState::time},          {"balls", &BedState::balls},
+      {"weight_N", &BedState::weight},      {"floor_force_N", &BedState::floor_force},
+      {"momentum_Ns", &BedState::momentum}, {"kinetic_energy_J", &BedState::kinetic_energy}};
+  for (const auto &[name, value] : columns) {
+    const std::vector<double> numbers = table.numbers(name);
+    for (std::size_t n = 0; n < states.size(); ++n)
+      states[n].*value = numbers[n];
   }
   return states;
 }
@@ -94,16 +92,13 @@ double balance_error(const std::vector<BedState> &states, double length) {
 }
 
 BedPicture read_picture(const std::filesystem::path &file) {
-  std::ifstream in(file);
-  if (!in) throw std::runtime_error("cannot read " + file.string());
+  const std::vector<TextDump> dumps = read_text_dumps(file);
+  if (dumps.empty()) throw std::runtime_error(file.string() + ": holds no step");
+  const TextDump &last = dumps.back();
+  const std::size_t id = last.column("id"), x = last.column("x"), z = last.column("z");
   BedPicture picture;
-  for (std::string line; std::getline(in, line);) {
-    if (line == "ITEM: TIMESTEP") picture.clear();
-    std::istringstream cells(line);
-    long id = 0;
-    double x = 0.0, z = 0.0;
-    if (cells >> id >> x >> z) picture[id] = {x, z};
-  }
+  for (const std::vector<double> &row : last.rows)
+    picture[std::lround(row[id])] = {row[x], row[z]};
   return picture;
 }
 

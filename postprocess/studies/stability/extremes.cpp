@@ -5,6 +5,7 @@
 #include "chain/parameters.h"
 #include "chain/run_files.h"
 #include "studies/stability/bed.h"
+#include "support/progress.h"
 
 #include <algorithm>
 #include <cmath>
@@ -112,7 +113,7 @@ Extreme chain_row(const std::string &group, const std::string &name, const Chain
   return row;
 }
 
-/// A chain without excitation, which must stay where it is for so many steps or a few more.
+/// A chain without excitation, which must stay at rest for so many steps or a few more.
 Extreme rest_row(const std::string &name, ChainPlan plan, double steps) {
   plan.parameters.Fw = 0.0;
   plan.samples = 1;
@@ -126,8 +127,9 @@ Extreme rest_row(const std::string &name, ChainPlan plan, double steps) {
   return row;
 }
 
-/// A drum kept in contact by an excitation that is slow beside the contact, at the longest step that the acceptance criterion names as stable. The
-/// bond is to the contact what it is in case II: the criterion is about the contact, and a stiffer bond has a limit of its own.
+/// A drum kept in contact by an excitation that is slow compared with the contact, at the longest step that
+/// must be stable. The ratio of bond to contact is that of case II: the limit on the step is of the contact,
+/// and a stiffer bond has a limit of its own.
 Extreme edge_row(const std::string &name, ChainPlan plan, int cycles) {
   ChainParameters &p = plan.parameters;
   const double softer = p.k / ChainParameters().k;
@@ -370,6 +372,28 @@ std::string without_commas(std::string text) {
   return text;
 }
 
+constexpr const char *holding = "holds";
+
+/// Makes a row's run and judges it.
+ExtremeRow measure(const Extreme &extreme) {
+  const DeckRun run(extreme.deck, extreme.variables, extreme.ranks, extreme.limit);
+  double error = infinite;
+  std::string found = engine_error(run.outcome().output);
+  try {
+    error = extreme.error(run);
+  } catch (const std::runtime_error &failure) {
+    found = failure.what();
+  }
+  return {extreme.group,
+          extreme.name,
+          command_of(extreme),
+          extreme.expected,
+          error,
+          extreme.allowed,
+          error <= extreme.allowed ? holding : "fails",
+          without_commas(found)};
+}
+
 } // namespace
 
 std::string command_of(const Extreme &row) {
@@ -398,35 +422,39 @@ std::vector<Extreme> extremes(bool quick) {
   return rows;
 }
 
+const CsvSchema<ExtremeRow> &extreme_rows() {
+  const auto rounded = [](const char *name, double ExtremeRow::*value) {
+    return CsvColumn<ExtremeRow>{
+        name, [value](const ExtremeRow &row) { return number_text(row.*value, 3); },
+        [value](ExtremeRow &row, const std::string &cell) { row.*value = csv_value<double>(cell); }};
+  };
+  static const CsvSchema<ExtremeRow> schema(
+      {csv_column("table", &ExtremeRow::table), csv_column("row", &ExtremeRow::row),
+       csv_column("command", &ExtremeRow::command), csv_column("expected", &ExtremeRow::expected),
+       rounded("error", &ExtremeRow::error), rounded("allowed", &ExtremeRow::allowed),
+       csv_column("verdict", &ExtremeRow::verdict), csv_column("found", &ExtremeRow::found)},
+      3);
+  return schema;
+}
+
 std::vector<ExtremeVerdict> measure_extremes(const StudyOptions &options) {
-  StudyResults results(options.out / "extremes.csv",
-                       {"table", "row", "command", "expected", "error", "allowed", "verdict", "found"}, 3);
-  const std::vector<Extreme> rows = extremes(options.quick);
-  StudyProgress progress(rows.size());
+  StudyResults results(options.out / "extremes.csv", extreme_rows());
+  const std::vector<ExtremeRow> known = read_points(results.file(), extreme_rows());
+  const std::vector<Extreme> all = extremes(options.quick);
+  CountedProgress progress(all.size());
   std::vector<ExtremeVerdict> verdicts;
-  for (const Extreme &row : rows) {
-    const StudyResults::Row key = {row.group, row.name, command_of(row)};
-    const StudyResults::Row *known = results.find(key);
-    if (known != nullptr) {
+  for (const Extreme &extreme : all) {
+    ExtremeRow row{extreme.group, extreme.name, command_of(extreme)};
+    if (const ExtremeRow *earlier = find_point(known, extreme_rows(), row); earlier != nullptr) {
       progress.found();
+      row = *earlier;
     } else {
-      const DeckRun run(row.deck, row.variables, row.ranks, row.limit);
-      double error = infinite;
-      std::string found = engine_error(run.outcome().output);
-      try {
-        error = row.error(run);
-      } catch (const std::runtime_error &failure) {
-        found = failure.what();
-      }
-      const bool holds = error <= row.allowed;
-      results.add({key[0], key[1], key[2], row.expected, fmt::format("{:.3g}", error),
-                   fmt::format("{:.3g}", row.allowed), holds ? "holds" : "fails", without_commas(found)});
-      known = results.find(key);
-      progress.measured(fmt::format("{}: {}: {:.2g} of {:.2g} allowed: {}", row.group, row.name, error,
-                                    row.allowed, holds ? "holds" : "fails " + found));
+      row = measure(extreme);
+      results.add(extreme_rows().cells(row));
+      progress.measured(fmt::format("{}: {}: {:.2g} of {:.2g} allowed: {}{}", row.table, row.row, row.error,
+                                    row.allowed, row.verdict, row.verdict == holding ? "" : " " + row.found));
     }
-    verdicts.push_back({row, results.number(*known, "error"), results.text(*known, "found"),
-                        results.text(*known, "verdict") == "holds"});
+    verdicts.push_back({extreme, row.error, row.found, row.verdict == holding});
   }
   return verdicts;
 }

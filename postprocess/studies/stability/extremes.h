@@ -2,6 +2,7 @@
 // with an error that names the limit.
 #pragma once
 
+#include "engine/deck_run.h"
 #include "studies/study.h"
 
 #include <functional>
@@ -37,6 +38,15 @@ struct ExtremeVerdict {
   std::string found; ///< the engine's ERROR line; empty if there was none
   bool holds;
 };
+
+/// One row of extremes.csv. The first three name it.
+struct ExtremeRow {
+  std::string table, row, command, expected = {};
+  double error = 0.0, allowed = 0.0;
+  std::string verdict = {}; ///< holds or fails
+  std::string found = {};   ///< as in ExtremeVerdict
+};
+const CsvSchema<ExtremeRow> &extreme_rows();
 
 /// Runs what options.out/extremes.csv does not have yet.
 std::vector<ExtremeVerdict> measure_extremes(const StudyOptions &options);

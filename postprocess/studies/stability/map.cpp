@@ -1,15 +1,15 @@
 #include "studies/stability/map.h"
 
-#include "chain/run_files.h"
+#include "bed/dump_readers.h"
+#include "engine/deck_run.h"
 #include "studies/stability/boundary.h"
+#include "support/csv_schema.h"
+#include "support/progress.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 namespace drumlin::post {
@@ -20,12 +20,14 @@ constexpr double lowest = 1e-6; // w0 dt
 constexpr double highest = 4.0;
 constexpr double first_push = 1e-6;  // m, of the deck
 constexpr double growth_limit = 1e3; // a motion beyond so many first pushes has grown
-// With heavy damping and second-order stepping an unstable motion grows by as little as 1e-7 of itself per step. It shows in the part
-// of the motion that changes sign every step, measured at half time and at the end.
+// With heavy damping and second-order stepping an unstable motion grows by as little as a factor of 1 + 1e-7
+// per step. That is seen in the part of the motion that changes sign every step, measured at half time and at
+// the end of the run.
 constexpr double fast_growth = 1.0 + 1e-4;
 constexpr double fast_noise = 1e-11; // m: above what rounding stirs up
 
-/// Fourth difference, largest over the window: 16 times what changes sign every step, next to nothing of what is slow.
+/// The largest fourth difference over the window: 16 times the part of the motion that changes sign every
+/// step, and next to nothing of a slow motion.
 double fast_part(const std::vector<double> &x) {
   double most = 0.0;
   for (std::size_t n = 4; n < x.size(); ++n)
@@ -33,7 +35,7 @@ double fast_part(const std::vector<double> &x) {
   return most;
 }
 
-/// A ball in the deck's two windows, along one direction.
+/// Positions of a ball along one direction, in the two time windows in which the deck dumps.
 struct Watched {
   std::vector<double> half_time, end;
 };
@@ -48,35 +50,25 @@ bool has_grown(const Watched &ball, bool damped) {
 
 /// Which balls of a run of the deck are stable. A ball that is lost is not.
 std::vector<bool> stable_balls(const std::filesystem::path &looks, int balls, bool damped) {
-  std::ifstream in(looks);
-  if (!in) throw std::runtime_error("cannot read " + looks.string());
+  const std::vector<TextDump> dumps = read_text_dumps(looks);
   std::vector<std::array<Watched, 2>> watched(static_cast<std::size_t>(balls)); // x and z
-  std::size_t count = 0;
-  long step = 0;
-  long last_step = 0;
   bool second_window = false;
-  for (std::string line; std::getline(in, line);) {
-    if (line == "ITEM: TIMESTEP") {
-      in >> step;
-      second_window = second_window || (count > 0 && step != last_step + 1);
-      last_step = step;
-      ++count;
-    } else if (line.rfind("ITEM:", 0) != 0) {
-      std::istringstream cells(line);
-      std::size_t id = 0;
-      std::string x, z, more;
-      if (!(cells >> id >> x >> z) || cells >> more) continue; // lines of the header have one or two numbers
-      std::array<Watched, 2> &ball = watched.at(id - 1);
-      (second_window ? ball[0].end : ball[0].half_time).push_back(std::strtod(x.c_str(), nullptr));
-      (second_window ? ball[1].end : ball[1].half_time).push_back(std::strtod(z.c_str(), nullptr));
+  for (std::size_t n = 0; n < dumps.size(); ++n) {
+    const TextDump &dump = dumps[n];
+    second_window = second_window || (n > 0 && dump.step != dumps[n - 1].step + 1);
+    const std::size_t id = dump.column("id"), x = dump.column("x"), z = dump.column("z");
+    for (const std::vector<double> &row : dump.rows) {
+      std::array<Watched, 2> &ball = watched.at(static_cast<std::size_t>(std::lround(row[id])) - 1);
+      (second_window ? ball[0].end : ball[0].half_time).push_back(row[x]);
+      (second_window ? ball[1].end : ball[1].half_time).push_back(row[z]);
     }
   }
   if (!second_window) throw std::runtime_error(looks.string() + " has not two windows");
   std::vector<bool> stable;
   stable.reserve(watched.size());
   for (const std::array<Watched, 2> &ball : watched)
-    stable.push_back(ball[0].half_time.size() + ball[0].end.size() == count && !has_grown(ball[0], damped) &&
-                     !has_grown(ball[1], damped));
+    stable.push_back(ball[0].half_time.size() + ball[0].end.size() == dumps.size() &&
+                     !has_grown(ball[0], damped) && !has_grown(ball[1], damped));
   return stable;
 }
 
@@ -88,6 +80,26 @@ std::vector<double> damping_ratios(bool quick) {
   values.push_back(2.0); // Table 1, case IV
   std::sort(values.begin(), values.end());
   return values;
+}
+
+/// Runs the deck until the boundary is enclosed narrowly enough.
+MapRow measure(const HeldScene &scene, const std::string &stepping, double D, bool quick) {
+  const auto trials = [&](double low, double high, int count) {
+    const DeckRun run("study/in.stability", {{"scene", scene.name},
+                                             {"D", number_text(D)},
+                                             {"stepping", stepping},
+                                             {"balls", std::to_string(count)},
+                                             {"lowest", number_text(low)},
+                                             {"highest", number_text(high)},
+                                             {"half", quick ? "2000" : "4000"}});
+    return stable_balls(run.must_succeed().file("looks.dump"), count, D > 0.0);
+  };
+  constexpr int balls = 160;
+  const StabilityBoundary boundary =
+      find_stability_boundary(trials, lowest, highest, balls, quick ? 1e-2 : 1e-3);
+  const double limit =
+      stepping == "stock" ? stock_stability_limit(scene.contacts, D) : spring_stability_limit(scene.contacts);
+  return {scene.name, stepping, D, boundary.stable, boundary.unstable, limit, boundary.single ? "yes" : "no"};
 }
 
 } // namespace
@@ -106,48 +118,40 @@ double MapPoint::middle() const { return std::isfinite(unstable) ? std::sqrt(sta
 
 double MapPoint::miss() const { return middle() / limit - 1.0; }
 
+const CsvSchema<MapRow> &map_rows() {
+  static const CsvSchema<MapRow> schema(
+      {csv_column("scene", &MapRow::scene), csv_column("stepping", &MapRow::stepping),
+       csv_column("D", &MapRow::D), csv_column("w0dt_stable", &MapRow::stable),
+       csv_column("w0dt_unstable", &MapRow::unstable), csv_column("w0dt_theory", &MapRow::limit),
+       csv_column("single", &MapRow::single)},
+      3);
+  return schema;
+}
+
 std::vector<MapPoint> measure_stability_map(const StudyOptions &options) {
-  StudyResults results(options.out / "map.csv",
-                       {"scene", "stepping", "D", "w0dt_stable", "w0dt_unstable", "w0dt_theory", "single"},
-                       3);
+  StudyResults results(options.out / "map.csv", map_rows());
+  const std::vector<MapRow> known = read_points(results.file(), map_rows());
   const std::vector<double> ratios = damping_ratios(options.quick);
-  const int balls = 160;
-  const int half = options.quick ? 2000 : 4000;
-  const double width = options.quick ? 1e-2 : 1e-3;
   std::vector<const HeldScene *> scenes;
   for (const HeldScene &scene : held_scenes())
     if (!options.quick || scenes.size() < 2) scenes.push_back(&scene);
-  StudyProgress progress(2 * scenes.size() * ratios.size());
+  CountedProgress progress(2 * scenes.size() * ratios.size());
   std::vector<MapPoint> map;
   for (const HeldScene *scene : scenes)
     for (const std::string stepping : {"second", "stock"})
       for (const double D : ratios) {
-        const StudyResults::Row key = {scene->name, stepping, number_text(D)};
-        const StudyResults::Row *row = results.find(key);
-        if (row != nullptr) {
+        MapRow row{scene->name, stepping, D};
+        if (const MapRow *earlier = find_point(known, map_rows(), row); earlier != nullptr) {
           progress.found();
+          row = *earlier;
         } else {
-          const auto trials = [&](double low, double high, int count) {
-            const DeckRun run("study/in.stability", {{"scene", scene->name},
-                                                     {"D", number_text(D)},
-                                                     {"stepping", stepping},
-                                                     {"balls", std::to_string(count)},
-                                                     {"lowest", number_text(low)},
-                                                     {"highest", number_text(high)},
-                                                     {"half", std::to_string(half)}});
-            return stable_balls(run.must_succeed().file("looks.dump"), count, D > 0.0);
-          };
-          const StabilityBoundary boundary = find_stability_boundary(trials, lowest, highest, balls, width);
-          const double limit = stepping == "stock" ? stock_stability_limit(scene->contacts, D)
-                                                   : spring_stability_limit(scene->contacts);
-          results.add({key[0], key[1], key[2], number_text(boundary.stable), number_text(boundary.unstable),
-                       number_text(limit), boundary.single ? "yes" : "no"});
-          row = results.find(key);
+          row = measure(*scene, stepping, D, options.quick);
+          results.add(map_rows().cells(row));
           progress.measured(fmt::format("{}, {} stepping, D = {:.3g}: w0 dt = {:.4g}, theory {:.4g}",
-                                        scene->name, stepping, D, boundary.middle(), limit));
+                                        scene->name, stepping, D, std::sqrt(row.stable * row.unstable),
+                                        row.limit));
         }
-        map.push_back({scene, stepping, D, results.number(*row, "w0dt_stable"),
-                       results.number(*row, "w0dt_unstable"), results.number(*row, "w0dt_theory")});
+        map.push_back({scene, stepping, D, row.stable, row.unstable, row.limit});
       }
   return map;
 }

@@ -29,7 +29,17 @@ struct MapPoint {
   double miss() const;   ///< middle / limit - 1
 };
 
-/// Measures what options.out/map.csv does not have yet.
+/// One row of map.csv. The first three name the point.
+struct MapRow {
+  std::string scene, stepping;
+  double D = 0.0;
+  double stable = 0.0, unstable = 0.0, limit = 0.0; ///< w0 dt, as in MapPoint
+  std::string single = {};                          ///< whether there is one boundary: yes or no
+};
+
+const CsvSchema<MapRow> &map_rows();
+
+/// Measures what options.out/map.csv does not have yet; gives all points.
 std::vector<MapPoint> measure_stability_map(const StudyOptions &options);
 std::vector<Acceptance> judge_stability_map(const std::vector<MapPoint> &map);
 

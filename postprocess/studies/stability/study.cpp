@@ -1,8 +1,9 @@
-#include "studies/stability/study.h"
+#include "studies/studies.h"
 
 #include "studies/stability/extremes.h"
 #include "studies/stability/map.h"
 #include "studies/stability/page.h"
+#include "studies/study.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -63,7 +63,7 @@ ChainHistory awkward_history() {
 
 TEST_F(ChainCsv, HistoryComesBackBitForBit) {
   const ChainHistory written = awkward_history();
-  write_chain(file("chain.csv"), written);
+  write_files({{file("chain.csv"), chain_text(written)}});
   const ChainHistory read = read_chain(file("chain.csv"));
   for (const auto column :
        {&ChainHistory::time, &ChainHistory::x_drum, &ChainHistory::v_drum, &ChainHistory::a_drum,
@@ -88,7 +88,7 @@ TEST_F(ChainCsv, HeadersAreThoseThatScriptsStandOn) {
 TEST_F(ChainCsv, EventsAndCyclesComeBack) {
   const std::vector<ContactEvent> events = {{1.0 / 3.0, true, 0.0, 0.5, 2e5, 1, 2},
                                             {0.5, false, 1e-3, -0.2, 0, 17, 4000000000}};
-  write_events(file("events.csv"), events);
+  write_files({{file("events.csv"), events_text(events)}});
   const std::vector<ContactEvent> read = read_events(file("events.csv"));
   ASSERT_EQ(read.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -101,14 +101,18 @@ TEST_F(ChainCsv, EventsAndCyclesComeBack) {
     EXPECT_EQ(read[i].id_j, events[i].id_j);
   }
   const std::vector<CycleSummary> cycles = {{1, 0.0, -1.0 / 3.0, 2, 0, 4, 0.5, 1, 2}};
-  write_cycles(file("cycles.csv"), cycles);
-  const std::vector<CycleSummary> back = read_cycles(file("cycles.csv"));
-  ASSERT_EQ(back.size(), 1U);
-  EXPECT_EQ(back[0].cycle, 1);
-  EXPECT_EQ(back[0].a_drum_min, -1.0 / 3.0);
-  EXPECT_EQ(back[0].contact_share, 0.5);
-  EXPECT_EQ(back[0].makes, 1);
-  EXPECT_EQ(back[0].breaks, 2);
+  write_files({{file("cycles.csv"), cycles_text(cycles)}});
+  const Table back = read_table(file("cycles.csv"));
+  ASSERT_EQ(back.rows(), 1U);
+  EXPECT_EQ(back.header(),
+            (std::vector<std::string>{"cycle", "time", "a_drum_min", "a_drum_max", "F_contact_min",
+                                      "F_contact_max", "contact_share", "makes", "breaks"}));
+  EXPECT_EQ(back.numbers("cycle")[0], 1);
+  EXPECT_EQ(back.numbers("a_drum_min")[0], -1.0 / 3.0);
+  EXPECT_EQ(back.numbers("contact_share")[0], 0.5);
+  EXPECT_EQ(back.text("makes")[0], "1");
+  EXPECT_EQ(back.text("breaks")[0], "2");
+  EXPECT_EQ(read_cycle_columns(file("cycles.csv")).at("a_drum_min")[0], -1.0 / 3.0);
 }
 
 TEST_F(ChainCsv, ParametersKeepAnyText) {
@@ -118,7 +122,7 @@ TEST_F(ChainCsv, ParametersKeepAnyText) {
       {"note", "two\nlines, \"quoted\""},
       {"blank", ""},
       {"spaced", " x "}};
-  write_parameters(file("parameters.csv"), written);
+  write_files({{file("parameters.csv"), parameters_text(written)}});
   const auto read = read_parameters(file("parameters.csv"));
   ASSERT_EQ(read.size(), written.size());
   for (const auto &[name, value] : written)
@@ -134,7 +138,7 @@ TEST_F(ChainCsv, ColumnsAreFoundByName) {
   EXPECT_EQ(history.F_excitation, (std::vector<double>{0, 0}));
   EXPECT_FALSE(history.has_frame());
   EXPECT_TRUE(history.a_frame.empty());
-  write_chain(file("again.csv"), history);
+  write_files({{file("again.csv"), chain_text(history)}});
   EXPECT_EQ(read_chain(file("again.csv")).x_drum, history.x_drum);
 }
 
@@ -146,30 +150,30 @@ TEST_F(ChainCsv, MalformedFilesAreNamedWithLineAndColumn) {
   };
   const auto chain = [](const fs::path &path) { read_chain(path); };
   const auto events = [](const fs::path &path) { read_events(path); };
-  const auto cycles = [](const fs::path &path) { read_cycles(path); };
+  const auto cycles = [](const fs::path &path) { read_cycle_columns(path); };
   const auto parameters = [](const fs::path &path) { read_parameters(path); };
   const auto table = [](const fs::path &path) { read_table(path); };
   const std::string head = "time,x_drum,v_drum,a_drum,F_contact\n";
   const std::string event_head = "time,event,overlap,overlap_rate,force,id_i,id_j\n";
   const std::vector<Malformed> cases = {
       {"", chain, {"line 1", "empty"}},
-      {"time,x_drum\n0,1\n", chain, {"line 1", "'v_drum'", "found time,x_drum"}},
+      {"time,x_drum\n0,1\n", chain, {"line 1", "'v_drum'", "the header is 'time,x_drum'; allowed: "}},
       {"time,x_drum,v_drum,a_drum,F_contact,x_frame\n", chain, {"line 1", "'v_frame'"}},
       {head + "0,1,2,3,4\n1,1,word,3,4\n", chain, {"line 3", "'v_drum'", "'word'", "finite number"}},
-      {head + "0,1,2,3,\n", chain, {"line 2", "'F_contact'", "found ''"}},
+      {head + "0,1,2,3,\n", chain, {"line 2", "'F_contact'", "'F_contact' is ''; allowed: a finite number"}},
       {head + "0,1,2,3,nan\n", chain, {"line 2", "'F_contact'", "'nan'"}},
       {head + "0,1,2,3,1e999\n", chain, {"line 2", "'1e999'"}},
       {head + "0,1,2,3,4x\n", chain, {"line 2", "'4x'"}},
-      {head + "0,1,2,3\n", chain, {"line 2", "found 4 cells, expected 5"}},
-      {head + "0,1,2,3,4\n0,1,2,3,4\n", chain, {"line 3", "'time'", "found 0, expected more than 0"}},
+      {head + "0,1,2,3\n", chain, {"line 2", "the number of cells is '4'; allowed: 5"}},
+      {head + "0,1,2,3,4\n0,1,2,3,4\n", chain, {"line 3", "'time'", "is '0'; allowed: more than 0"}},
       {"time,time\n", table, {"line 1", "'time'", "twice"}},
       {"time,,x\n", table, {"line 1", "column 2", "no name"}},
       {"a,b\n1,\"open\n2,3\n", table, {"line 2", "never closed"}},
-      {"a,b\n1,\"x\"y\n", table, {"line 2", "found 'y' after a closing quote"}},
-      {event_head + "0,made,0,0,0,1,2\n", events, {"line 2", "'event'", "'made'", "make or break"}},
+      {"a,b\n1,\"x\"y\n", table, {"line 2", "closing quote is 'y'; allowed: "}},
+      {event_head + "0,made,0,0,0,1,2\n", events, {"line 2", "'event'", "'made'", "make, break"}},
       {event_head + "0,make,0,0,0,1.5,2\n", events, {"line 2", "'id_i'", "'1.5'", "whole number"}},
-      {"cycle,time\n1,0\n", cycles, {"'a_drum_min'"}},
-      {"name,value\nk,1\nD,2\nk,3\n", parameters, {"line 4", "'name'", "'k' a second time"}},
+      {"cycle,a_drum_min\n1,0\n2,word\n", cycles, {"line 3", "'a_drum_min'", "'word'", "finite number"}},
+      {"name,value\nk,1\nD,2\nk,3\n", parameters, {"line 4", "'name'", "is 'k'; allowed: each name once"}},
       {"nome,value\n", parameters, {"line 1", "'name'"}},
   };
   for (const Malformed &malformed : cases) {
@@ -195,10 +199,10 @@ TEST_F(ChainCsv, WritingIsAllOrNone) {
   EXPECT_THROW(write_files({{file("first.csv"), "new"}, {file("second.csv"), "new"}}), std::runtime_error);
   EXPECT_EQ(get(file("first.csv")), "old");
   EXPECT_EQ(files(), 2U);
-  EXPECT_THROW(write_events(folder_ / "missing" / "events.csv", {}), std::runtime_error);
+  EXPECT_THROW(write_files({{folder_ / "missing" / "events.csv", events_text({})}}), std::runtime_error);
   ChainHistory ragged = awkward_history();
   ragged.v_frame.pop_back();
-  EXPECT_THROW(write_chain(file("first.csv"), ragged), std::invalid_argument);
+  EXPECT_THROW(write_files({{file("first.csv"), chain_text(ragged)}}), std::invalid_argument);
   EXPECT_EQ(get(file("first.csv")), "old");
 }
 

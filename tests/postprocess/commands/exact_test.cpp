@@ -84,7 +84,7 @@ TEST_F(ExactCommand, WritesWhatTheSolverFound) {
   EXPECT_EQ(history.a_frame, expected.history.a_frame);
   EXPECT_EQ(get(out / "events.csv"), post::events_text(expected.events));
   EXPECT_EQ(get(out / "cycles.csv"), post::cycles_text(expected.cycles));
-  EXPECT_EQ(post::read_cycles(out / "cycles.csv").size(), 6U);
+  EXPECT_EQ(post::read_table(out / "cycles.csv").rows(), 6U);
 
   const std::map<std::string, std::string> record = post::read_parameters(out / "parameters.csv");
   for (const char *name : {"case", "transition", "k", "D", "c", "omega", "Fw", "m2", "m3", "k23", "c23", "g",
@@ -110,7 +110,7 @@ TEST_F(ExactCommand, EveryOverrideArrives) {
     EXPECT_EQ(post::number_from_text(record.at(name)), value) << name;
   EXPECT_EQ(post::read_chain(folder_ / "o" / "chain.csv").size(), 301U);
   EXPECT_EQ(post::read_chain(folder_ / "o" / "chain.csv").v_drum.front(), -0.25);
-  EXPECT_EQ(post::read_cycles(folder_ / "o" / "cycles.csv").size(), 1U);
+  EXPECT_EQ(post::read_table(folder_ / "o" / "cycles.csv").rows(), 1U);
 }
 
 TEST_F(ExactCommand, BadInputIsOneLineAndTouchesNothing) {

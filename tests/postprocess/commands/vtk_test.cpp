@@ -1,6 +1,6 @@
 // ./drumlin vtk on dumps written by hand: what it makes of them, and what it says of dumps that are none.
 #include "bed/coarse_graining.h"
-#include "bed/vtk_files.h"
+#include "bed/dump_readers.h"
 #include "chain/run_files.h"
 #include "support/files.h"
 #include "support/process.h"
@@ -314,11 +314,11 @@ TEST_F(VtkCommand, BadInputIsOneLineAndTouchesNothing) {
       {"text dump with a short row",
        {{"dump/balls_300.dump", text_head + "id type\n1 1\n2\n"}},
        {"run"},
-       {"balls_300.dump", "row 2 has 1 numbers, expected 2"}},
+       {"balls_300.dump", "row 2 has 1 numbers; allowed: 2"}},
       {"text dump with a word",
        {{"dump/balls_300.dump", text_head + "id type\n1 soil\n2 1\n"}},
        {"run"},
-       {"balls_300.dump", "'soil' is no number"}},
+       {"balls_300.dump", "a number is 'soil'; allowed: "}},
       {"text dump that is not finite",
        {{"dump/balls_300.dump", text_head + "id type\n1 1\n2 nan\n"}},
        {"run"},
@@ -423,8 +423,8 @@ TEST_F(VtkCommand, LeavesOutWhatWasCutShortAndSaysSo) {
   const std::vector<Cut> table = {
       {"run/dump/balls_1000.vtp", "", "step 1000 left out: run/dump/balls_1000.vtp: is cut short", 2, 2},
       {"run/dump/balls_1000.vtp", whole.substr(0, whole.size() / 2), "step 1000 left out: ", 2, 2},
-      {"run/dump/balls_400.dump", text_dump, "balls_400.dump: is cut short: it has 1 rows, expected 2", 3, 3},
-      {"run/dump/balls_400.dump", text_dump + "2 1", "it has 1 rows, expected 2", 3, 3}, // 12, perhaps
+      {"run/dump/balls_400.dump", text_dump, "balls_400.dump: is cut short: it has 1 rows; allowed: 2", 3, 3},
+      {"run/dump/balls_400.dump", text_dump + "2 1", "it has 1 rows; allowed: 2", 3, 3}, // 12, perhaps
       {"run/dump/balls_400.dump", text_dump.substr(0, 30), "it ends before its rows begin", 3, 3},
       {"run/dump/balls_400.dump", "", "it ends before its rows begin", 3, 3},
       {"run/dump/contacts_200.dump", contact_dump().substr(0, contact_dump().size() - 24),

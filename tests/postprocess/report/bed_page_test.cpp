@@ -208,10 +208,10 @@ TEST_F(BedReport, StandsBesideChains) {
   options.cycles = 4;
   const DirectResult direct = solve_direct(p, options);
   fs::create_directories(root / "chain");
-  write_chain(root / "chain" / "chain.csv", direct.history);
+  write_files({{root / "chain" / "chain.csv", chain_text(direct.history)}});
   std::vector<std::pair<std::string, std::string>> values = parameter_values(p);
   values.emplace_back("case", "II");
-  write_parameters(root / "chain" / "parameters.csv", values);
+  write_files({{root / "chain" / "parameters.csv", parameters_text(values)}});
   const fs::path out = report({"A", "chain"});
   const test::Parsed index = test::expect_sound_page(out, 1);
   EXPECT_EQ(index.ids.count("impact"), 1u);

@@ -5,6 +5,7 @@
 #include "chain/run_files.h"
 #include "report/chain_page.h"
 #include "report/run_folder.h"
+#include "support/files.h"
 #include "support/text.h"
 #include "support/usage_error.h"
 #include "tests/support/page.h"
@@ -431,8 +432,8 @@ TEST_F(Report, PrintsNoNumberThatIsNone) {
     const DirectResult result = solve_direct(p, solver);
     const fs::path folder = root / "none" / name;
     fs::create_directories(folder);
-    write_chain(folder / "chain.csv", result.history);
-    write_events(folder / "events.csv", result.events);
+    write_files({{folder / "chain.csv", chain_text(result.history)}});
+    write_files({{folder / "events.csv", events_text(result.events)}});
     // The energies and harmonics of a roller at rest are all zero.
     write(folder / "cycles.csv",
           "cycle,work_excitation,dissipated_contact,dissipated_bond,kinetic,potential,stored_contact,"
@@ -440,7 +441,7 @@ TEST_F(Report, PrintsNoNumberThatIsNone) {
           "0,0,0,0,0,0,0,0,0,0,0,0,0,0\n1,0,0,0,1,0,0,0,0,0,0,0,0,0\n2,0,0,0,1,0,0,0,0,0,0,0,0,0\n");
     std::vector<std::pair<std::string, std::string>> values = parameter_values(p);
     values.insert(values.end(), {{"deck", "chain"}, {"case", "II"}, {"engine", "a test"}});
-    write_parameters(folder / "parameters.csv", values);
+    write_files({{folder / "parameters.csv", parameters_text(values)}});
   }
   // An impact whose mass turns away before it reaches the ball.
   write_impact_run(root / "none" / "miss", Transition::A, 2.0);

@@ -1,5 +1,6 @@
 // `drumlin study accuracy --quick`: what it measures holds, and an interrupted call goes on to the same result.
 #include "studies/accuracy/results.h"
+#include "studies/study.h"
 #include "tests/support/page.h"
 #include "tests/support/scratch_study.h"
 
@@ -20,7 +21,7 @@ using post::Transition;
 /// Errors by point: all that does not depend on how busy the machine was.
 std::map<std::string, double> errors_of(const fs::path &out) {
   std::map<std::string, double> errors;
-  for (const post::ChainPoint &p : post::read_chain_points(out / "chain.csv")) {
+  for (const post::ChainPoint &p : post::read_points(out / "chain.csv", post::chain_points())) {
     const std::string point = fmt::format("{} {} {} {} ", p.chain_case, post::transition_name(p.transition),
                                           p.stepping, p.steps_per_cycle);
     errors[point + "velocity"] = p.errors.velocity;
@@ -30,10 +31,10 @@ std::map<std::string, double> errors_of(const fs::path &out) {
     errors[point + "events"] = p.errors.event_time_s;
     errors[point + "energy"] = p.errors.energy;
   }
-  for (const post::ImpactPoint &p : post::read_impact_points(out / "impacts.csv"))
+  for (const post::ImpactPoint &p : post::read_points(out / "impacts.csv", post::impact_points()))
     errors[fmt::format("{} {} {} {}", post::transition_name(p.transition), p.damping_ratio, p.stepping,
                        p.steps_per_contact)] = p.errors.worst;
-  for (const post::ScalingPoint &p : post::read_scaling_points(out / "scaling.csv"))
+  for (const post::ScalingPoint &p : post::read_points(out / "scaling.csv", post::scaling_points()))
     errors[fmt::format("{} {} {} {}", p.set, p.stepping, p.target, p.steps_per_cycle)] = p.error;
   return errors;
 }
@@ -44,9 +45,9 @@ TEST(AccuracyStudy, GoesOnWhereItWasInterrupted) {
   const post::Outcome whole = study.run();
   ASSERT_TRUE(whole.ok()) << whole.output;
   const std::map<std::string, double> errors = errors_of(out);
-  EXPECT_EQ(post::read_chain_points(out / "chain.csv").size(), 15u);
-  EXPECT_EQ(post::read_impact_points(out / "impacts.csv").size(), 12u);
-  EXPECT_EQ(post::read_scaling_points(out / "scaling.csv").size(), 1u);
+  EXPECT_EQ(post::read_points(out / "chain.csv", post::chain_points()).size(), 15u);
+  EXPECT_EQ(post::read_points(out / "impacts.csv", post::impact_points()).size(), 12u);
+  EXPECT_EQ(post::read_points(out / "scaling.csv", post::scaling_points()).size(), 1u);
   for (const char *file : {"chain.csv", "impacts.csv", "scaling.csv"})
     interrupt(out / file);
   fs::remove(out / "index.html");
@@ -58,8 +59,8 @@ TEST(AccuracyStudy, GoesOnWhereItWasInterrupted) {
   // What was measured is within the acceptance criteria, and the law of the engine is the plugin's with stock stepping.
   for (const Transition transition : {Transition::A, Transition::B}) {
     const auto at_400 = [&](const char *stepping, auto error) {
-      for (const post::ErrorPoint &point :
-           post::chain_curve(post::read_chain_points(out / "chain.csv"), "II", transition, stepping, error))
+      for (const post::ErrorPoint &point : post::chain_curve(
+               post::read_points(out / "chain.csv", post::chain_points()), "II", transition, stepping, error))
         if (point.steps == 400) return point.error;
       return std::nan("");
     };
@@ -73,13 +74,13 @@ TEST(AccuracyStudy, GoesOnWhereItWasInterrupted) {
       EXPECT_NEAR(at_400("reference", &post::ChainErrors::velocity),
                   at_400("stock", &post::ChainErrors::velocity), 1e-2);
     }
-    const auto impacts = post::impact_curve(post::read_impact_points(out / "impacts.csv"), transition, 0.5,
-                                            "second", &post::ImpactErrors::worst);
+    const auto impacts = post::impact_curve(post::read_points(out / "impacts.csv", post::impact_points()),
+                                            transition, 0.5, "second", &post::ImpactErrors::worst);
     ASSERT_EQ(impacts.size(), 3u);
     EXPECT_LT(impacts[1].error, 1.5e-4);
     EXPECT_NEAR(impacts[0].error / impacts[2].error, 16, 4);
   }
-  for (const post::ScalingPoint &point : post::read_scaling_points(out / "scaling.csv"))
+  for (const post::ScalingPoint &point : post::read_points(out / "scaling.csv", post::scaling_points()))
     EXPECT_LT(point.error, point.target);
 
   expect_sound_page(out, 6);

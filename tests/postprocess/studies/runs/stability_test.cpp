@@ -2,7 +2,8 @@
 #include "tests/support/page.h"
 #include "tests/support/scratch_study.h"
 
-#include "studies/study.h"
+#include "studies/stability/extremes.h"
+#include "studies/stability/map.h"
 
 #include <gtest/gtest.h>
 
@@ -10,59 +11,49 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace drumlin::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-post::StudyResults map_of(const fs::path &out) {
-  return {out / "map.csv",
-          {"scene", "stepping", "D", "w0dt_stable", "w0dt_unstable", "w0dt_theory", "single"},
-          3};
-}
-
-post::StudyResults extremes_of(const fs::path &out) {
-  return {out / "extremes.csv",
-          {"table", "row", "command", "expected", "error", "allowed", "verdict", "found"},
-          3};
+/// The rows of a file as text, in order of their keys.
+template <class Row>
+std::vector<std::vector<std::string>> cells_of(const fs::path &file, const post::CsvSchema<Row> &schema) {
+  std::vector<std::vector<std::string>> cells;
+  for (const Row &row : post::read_points(file, schema))
+    cells.push_back(schema.cells(row));
+  std::sort(cells.begin(), cells.end());
+  return cells;
 }
 
 TEST(StabilityStudy, GoesOnWhereItWasInterrupted) {
   const ScratchStudy study("stability");
   const fs::path out = study.out();
   study.run();
-  EXPECT_EQ(map_of(out).rows().size(), 12u);
-  const auto sorted = [](std::vector<post::StudyResults::Row> rows) {
-    std::sort(rows.begin(), rows.end());
-    return rows;
-  };
-  const auto map = sorted(map_of(out).rows());
-  const auto extremes = sorted(extremes_of(out).rows());
+  const auto map = cells_of(out / "map.csv", post::map_rows());
+  const auto extremes = cells_of(out / "extremes.csv", post::extreme_rows());
+  EXPECT_EQ(map.size(), 12u);
   ASSERT_GT(extremes.size(), 20u);
   for (const char *file : {"map.csv", "extremes.csv"})
     interrupt(out / file);
   fs::remove(out / "index.html");
   const post::Outcome rest = study.run();
   EXPECT_LT(std::count(rest.output.begin(), rest.output.end(), '\n'), 30) << "nothing is measured twice";
-  EXPECT_EQ(sorted(map_of(out).rows()), map);
-  EXPECT_EQ(sorted(extremes_of(out).rows()), extremes);
+  EXPECT_EQ(cells_of(out / "map.csv", post::map_rows()), map);
+  EXPECT_EQ(cells_of(out / "extremes.csv", post::extreme_rows()), extremes);
   expect_sound_page(out, 1);
 
   // The boundaries by theory: 2 and 1.414 for the springs; stock 2 (sqrt(1 + D^2) - D) for one contact.
-  const post::StudyResults found = map_of(out);
-  for (const auto &row : found.rows()) {
-    const double D = found.number(row, "D");
-    const double n = found.text(row, "scene") == "one" ? 1.0 : 2.0;
-    const double damped = found.text(row, "stepping") == "stock" ? D : 0.0;
+  for (const post::MapRow &row : post::read_points(out / "map.csv", post::map_rows())) {
+    const double n = row.scene == "one" ? 1.0 : 2.0;
+    const double damped = row.stepping == "stock" ? row.D : 0.0;
     const double limit = 2.0 / (n * damped + std::sqrt(n * n * damped * damped + n));
-    EXPECT_NEAR(found.number(row, "w0dt_stable"), limit, 0.01 * limit)
-        << found.text(row, "scene") << ' ' << found.text(row, "stepping") << ' ' << D;
+    EXPECT_NEAR(row.stable, limit, 0.01 * limit) << row.scene << ' ' << row.stepping << ' ' << row.D;
   }
-  const post::StudyResults rows = extremes_of(out);
-  for (const auto &row : rows.rows())
-    EXPECT_EQ(rows.text(row, "verdict"), "holds")
-        << rows.text(row, "row") << ": " << rows.text(row, "error") << ' ' << rows.text(row, "found");
+  for (const post::ExtremeRow &row : post::read_points(out / "extremes.csv", post::extreme_rows()))
+    EXPECT_EQ(row.verdict, "holds") << row.row << ": " << row.error << ' ' << row.found;
 }
 
 } // namespace

@@ -1,0 +1,56 @@
+// Medians, quantiles and confidence intervals against numbers worked out by hand and against tables.
+#include "support/statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace {
+
+using namespace drumlin::post;
+
+TEST(Quantiles, AreLinearBetweenNeighbours) {
+  EXPECT_DOUBLE_EQ(median({3.0, 1.0, 2.0}), 2.0);
+  EXPECT_DOUBLE_EQ(median({4.0, 1.0, 2.0, 3.0}), 2.5);
+  EXPECT_DOUBLE_EQ(quantile({10.0, 20.0, 30.0, 40.0, 50.0}, 0.25), 20.0);
+  EXPECT_DOUBLE_EQ(quantile({10.0, 20.0}, 0.75), 17.5);
+  EXPECT_DOUBLE_EQ(quantile({7.0}, 0.9), 7.0);
+  const Spread some = spread({1.0, 2.0, 3.0, 4.0, 9.0});
+  EXPECT_DOUBLE_EQ(some.median, 3.0);
+  EXPECT_DOUBLE_EQ(some.lower, 2.0);
+  EXPECT_DOUBLE_EQ(some.upper, 4.0);
+}
+
+TEST(MeanInterval, IsTheMeanAndItsInterval) {
+  const MeanInterval some = mean_interval({1.0, 2.0, 3.0, 6.0}); // squares about 3: 4 + 1 + 0 + 9
+  EXPECT_DOUBLE_EQ(some.mean, 3.0);
+  EXPECT_NEAR(some.half_width, 3.18245 * std::sqrt(14.0 / (4.0 * 3.0)), 1e-5);
+  EXPECT_FALSE(some.significant());
+  EXPECT_FALSE(mean_interval({-1.0, 1.5}).significant());
+  EXPECT_TRUE(mean_interval({-2.0, -2.1, -1.9}).significant());
+  EXPECT_TRUE((MeanInterval{-0.04, 0.05}.within(0.1)));
+  EXPECT_FALSE((MeanInterval{-0.06, 0.05}.within(0.1)));
+}
+
+// The values 1 and -1 in turn, n of them: the squares about the mean are n if n is even.
+TEST(MeanInterval, HasTheFactorsOfPrintedTables) {
+  const std::vector<std::pair<int, double>> table = {
+      {2, 12.706}, {4, 3.182}, {6, 2.571}, {12, 2.201}, {30, 2.045}};
+  for (const auto &[n, t] : table) {
+    std::vector<double> values;
+    for (int i = 0; i < n; ++i)
+      values.push_back(i % 2 == 0 ? 1.0 : -1.0);
+    EXPECT_NEAR(mean_interval(values).half_width, t / std::sqrt(n - 1.0), 5e-4) << n;
+  }
+}
+
+TEST(MeanInterval, OfOneValueIsInfinite) {
+  const MeanInterval one = mean_interval({5.0});
+  EXPECT_EQ(one.mean, 5.0);
+  EXPECT_FALSE(one.significant());
+  EXPECT_THROW(mean_interval({}), std::invalid_argument);
+}
+
+} // namespace
