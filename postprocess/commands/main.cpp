@@ -1,14 +1,21 @@
 // The tool behind ./drumlin: one program, one subcommand per job.
+#ifndef DRUMLIN_ONLY_RUN
 #include "commands/advise.h"
 #include "commands/bed.h"
+#include "commands/demo.h"
 #include "commands/exact.h"
 #include "commands/report.h"
 #include "commands/study.h"
 #include "commands/vtk.h"
+#endif
+#include "commands/run.h"
 #include "support/usage_error.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -26,15 +33,25 @@ struct Subcommand {
   AddCommand add;
 };
 
-// A new subcommand is one line here.
+// A new subcommand is one line here. A build with -DDRUMLIN_POSTPROCESS=OFF has `run` alone, which needs none of the libraries of the others.
 constexpr std::array subcommands = {
+#ifndef DRUMLIN_ONLY_RUN
     Subcommand{"advise", &drumlin::post::add_advise_command},
     Subcommand{"bed", &drumlin::post::add_bed_command},
+    Subcommand{"demo", &drumlin::post::add_demo_command},
     Subcommand{"exact", &drumlin::post::add_exact_command},
     Subcommand{"report", &drumlin::post::add_report_command},
     Subcommand{"study", &drumlin::post::add_study_command},
     Subcommand{"vtk", &drumlin::post::add_vtk_command},
+#endif
+    Subcommand{"run", &drumlin::post::add_run_command},
 };
+
+#ifdef DRUMLIN_ONLY_RUN
+constexpr const char *left_out = " in a build with -DDRUMLIN_POSTPROCESS=OFF";
+#else
+constexpr const char *left_out = "";
+#endif
 
 constexpr int bad_usage = 2;
 
@@ -57,6 +74,14 @@ int fail(const std::string &subcommand, const std::string &what, int status) {
   return status;
 }
 
+/// Opens those of standard input, output and errors that are closed, if only to nowhere: a file that is opened later would take the number of
+/// one of them, and get what is printed.
+void open_standard_streams() {
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream)
+    if (::fcntl(stream, F_GETFD) < 0)
+      static_cast<void>(::open("/dev/null", stream == STDIN_FILENO ? O_RDONLY : O_WRONLY));
+}
+
 int run(int argc, char **argv) {
   const std::string wanted = argc > 1 ? argv[1] : "";
   const bool known =
@@ -75,7 +100,8 @@ int run(int argc, char **argv) {
       subcommand.add(app, session);
     if (!known && !wanted.empty() && wanted.front() != '-')
       return fail("",
-                  fmt::format("subcommand '{}' is not known; 'drumlin --help' lists those that are", wanted),
+                  fmt::format("subcommand '{}' is not known{}; 'drumlin --help' lists those that are", wanted,
+                              left_out),
                   bad_usage);
     app.parse(argc, argv);
   } catch (const CLI::ParseError &error) {
@@ -92,6 +118,7 @@ int run(int argc, char **argv) {
 } // namespace
 
 int main(int argc, char **argv) {
+  open_standard_streams();
   try {
     const int status = run(argc, argv);
     const bool printed = std::fflush(stdout) == 0 && static_cast<bool>(std::cout.flush());

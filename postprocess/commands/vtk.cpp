@@ -45,11 +45,6 @@ constexpr double pi = 3.141592653589793;
 /// Sides of cells that are not absurd, m.
 constexpr Range cell_range = {1e-9, 1e9, "m"};
 
-struct Arguments {
-  std::string folder;
-  std::optional<std::string> out, cell;
-};
-
 /// What the command writes, as names from the folder of the results.
 constexpr std::array<const char *, 3> collections = {"balls.pvd", "contacts.pvd", "fields.pvd"};
 /// What a picture needs to know of all steps at once, for postprocess/paraview/bed.py.
@@ -275,7 +270,7 @@ void check_out(const fs::path &out) {
                       out.string(), entry.path().filename().string(), collections[0]));
 }
 
-FieldGrid grid_for(const Arguments &arguments, const Bed &bed) {
+FieldGrid grid_for(const VtkArguments &arguments, const Bed &bed) {
   double side = default_cell * bed.mean_diameter;
   if (arguments.cell) side = number_option("--cell", *arguments.cell, cell_range);
   try {
@@ -296,7 +291,9 @@ std::string scene_text(const Bed &bed, const RunParameters &run, const Sizes &si
   return scene.dump(1) + "\n";
 }
 
-void run(const Arguments &arguments) {
+} // namespace
+
+void write_vtk_series(const VtkArguments &arguments) {
   if (arguments.cell) number_option("--cell", *arguments.cell, cell_range);
   const fs::path folder = path_option("DIR", arguments.folder);
   const fs::path out = output_folder_option("--out", arguments.out.value_or((folder / "vtk").string()));
@@ -373,10 +370,8 @@ void run(const Arguments &arguments) {
     fmt::print("fields on {} cells of {:.3g} m by {:.3g} m\n", grid.size(), grid.sides[0], grid.sides[1]);
 }
 
-} // namespace
-
 void add_vtk_command(CLI::App &app, Session &) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<VtkArguments>();
   CLI::App *vtk = app.add_subcommand("vtk", "Balls, contacts and coarse-grained fields of a bed run as time "
                                             "series for ParaView: balls.pvd, contacts.pvd, "
                                             "fields.pvd, from the dumps of a run with dumps.");
@@ -394,7 +389,7 @@ void add_vtk_command(CLI::App &app, Session &) {
                        "of the soil balls if not given",
                        default_cell))
       ->type_name("NUMBER");
-  vtk->callback([arguments] { run(*arguments); });
+  vtk->callback([arguments] { write_vtk_series(*arguments); });
 }
 
 } // namespace drumlin::post

@@ -1,5 +1,6 @@
 #include "studies/speed/page.h"
 
+#include "engine/places.h"
 #include "pages/acceptance.h"
 #include "pages/figure_data.h"
 #include "pages/page.h"
@@ -191,7 +192,9 @@ void write_speed_page(const std::filesystem::path &out, const SpeedScenes &scene
                  "runs on one rank and "
                  "must hold the whole bed there, as the engine gives IDs twice on more; a bed larger than "
                  "one node's memory has to be settled "
-                 "from ./drumlin bed, or read in pieces. (6) Whole numbers: an ID has 31 bits, 2.1e9 balls.");
+                 "from " +
+                 front_command() +
+                 " bed, or read in pieces. (6) Whole numbers: an ID has 31 bits, 2.1e9 balls.");
   page.write();
 }
 
