@@ -148,9 +148,13 @@ EngineCommand engine_command(const fs::path &deck, const std::vector<std::string
 
 std::string shell_line(const EngineCommand &command) {
   std::string line;
-  for (const auto *part : {&command.environment, &command.words})
-    for (const std::string &word : *part)
-      line += (line.empty() ? "" : " ") + shell_word(word);
+  const auto add = [&line](const std::string &text) { line += (line.empty() ? "" : " ") + text; };
+  for (const std::string &entry : command.environment) { // a shell takes no quotes around the name
+    const std::size_t value = entry.find('=') + 1;
+    add(entry.substr(0, value) + shell_word(entry.substr(value)));
+  }
+  for (const std::string &word : command.words)
+    add(shell_word(word));
   return line;
 }
 
