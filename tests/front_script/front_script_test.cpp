@@ -195,6 +195,13 @@ TEST_F(FrontScript, RunsInstalledFromAReadOnlyPrefixThatWasMoved) {
   }
   const Outcome advice = call(script, {"advise", "--error", "1e-3", "--case", "II"}, folder / "work here");
   EXPECT_TRUE(advice.ok()) << advice.output;
+  EXPECT_TRUE(advice.says(" drumlin run ")) << advice.output;
+  const Outcome no_bed =
+      call(script, {"run", "bed/in.bed", "-var", "start", "none"}, folder / "work here", true);
+  EXPECT_TRUE(no_bed.says("which 'drumlin run inputs/bed/in.place -var start none' makes")) << no_bed.output;
+  expect_one_line(call(script, {"demo", "--balls", "1"}, folder / "work here"),
+                  "demo: --balls is '1'; allowed: ");
+  expect_one_line(call(script, {"run"}, folder), "allowed: drumlin run [-np N] DECK");
   for (const char *command : {"setup", "test", "check"})
     expect_one_line(call(script, {command}, folder),
                     std::string("allowed: ./drumlin ") + command + " in a checkout");
