@@ -72,7 +72,9 @@ TEST(PlainFolder, IsInTmpWhereTheCacheCannotTakeIt) {
   fs::create_directory(folder);
   std::ofstream(scratch / "file") << "no folder";
   const std::string own = "/tmp/drumlin-" + std::to_string(::getuid());
-  for (const char *cache : {"with blanks", "file"}) {
+  fs::create_directories(scratch / "linked/drumlin"); // a link for folders may have been put there by anybody
+  fs::create_directory_symlink(scratch.path(), scratch / "linked/drumlin/links");
+  for (const char *cache : {"with blanks", "file", "linked"}) {
     const Environment other("XDG_CACHE_HOME", (scratch / cache).string());
     const fs::path plain = post::plain_folder(folder);
     EXPECT_EQ(plain.parent_path(), own);
