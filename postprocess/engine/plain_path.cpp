@@ -27,7 +27,7 @@ fs::path user_cache() {
     const char *text = std::getenv(name);
     return fs::path(text == nullptr ? "" : text);
   };
-  if (const fs::path cache = value("XDG_CACHE_HOME"); !cache.empty()) return cache;
+  if (fs::path cache = value("XDG_CACHE_HOME"); !cache.empty()) return cache;
   fs::path home = value("HOME");
   if (home.empty())
     if (const passwd *user = ::getpwuid(::getuid()); user != nullptr) home = user->pw_dir;
@@ -82,7 +82,7 @@ fs::path plain_folder(const fs::path &folder) {
     if (is_split(place)) continue;
     make_private_folders(place);
     if (!is_own_folder(place)) continue;
-    const fs::path link = place / fmt::format("{:016x}", std::hash<std::string>()(target.string()));
+    fs::path link = place / fmt::format("{:016x}", std::hash<std::string>()(target.string()));
     if (make_link(target, link)) return link;
   }
   throw UsageError(fmt::format("'{}' has blanks or colons, at which engines split it, and no link to it can "

@@ -174,7 +174,7 @@ fs::path program_file(const std::string &name) {
   const char *path = std::getenv("PATH");
   std::istringstream folders(path == nullptr ? "" : path);
   for (std::string folder; std::getline(folders, folder, ':');)
-    if (const fs::path file = fs::path(folder) / name; runs(file)) return file;
+    if (fs::path file = fs::path(folder) / name; runs(file)) return file;
   return {};
 }
 
