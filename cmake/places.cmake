@@ -44,10 +44,8 @@ install(DIRECTORY postprocess/ DESTINATION ${folder_of_shares} FILES_MATCHING PA
 # Installed decks and scripts name the program as it is called there, in comments and in the messages of `drumlin/check`. The job scripts speak
 # of both.
 install(CODE "
-  set(shares \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${folder_of_shares}\")
-  file(GLOB_RECURSE files \"\${shares}/inputs/*\" \"\${shares}/*.py\")
-  list(FILTER files EXCLUDE REGEX \"\\\\.(png|svg)$|/jobs/\")
-  execute_process(COMMAND sed -i s,\\\\./drumlin,drumlin,g \${files} COMMAND_ERROR_IS_FATAL ANY)")
+  execute_process(COMMAND find \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${folder_of_shares}\" -type f ! -name *.png ! -name *.svg ! -path */jobs/*
+                          -exec sed -i s,[.]/drumlin,drumlin,g {} + COMMAND_ERROR_IS_FATAL ANY)")
 
 # The package of this Debian, by `cpack -G DEB` in the build folder.
 set(CPACK_PACKAGE_CONTACT "drumlin developers <drumlin@localhost>")
