@@ -4,8 +4,8 @@ set(folder_of_parts lib/drumlin)
 set(folder_of_shares share/drumlin)
 set(folder_of_pages share/doc/drumlin)
 
-function(write_places file inputs libraries)
-  set(text "inputs=${inputs}\n")
+function(write_places file inputs libraries installed)
+  set(text "inputs=${inputs}\ninstalled=${installed}\n")
   if(DRUMLIN_LIGGGHTS)
     string(APPEND text "liggghts_plugin=${libraries}libdrumlin.so\nliggghts=${LIGGGHTS_PROGRAM}\n")
   endif()
@@ -17,11 +17,11 @@ endfunction()
 
 file(RELATIVE_PATH inputs ${CMAKE_RUNTIME_OUTPUT_DIRECTORY} ${PROJECT_SOURCE_DIR}/inputs)
 file(RELATIVE_PATH libraries ${CMAKE_RUNTIME_OUTPUT_DIRECTORY} ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
-write_places(${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/places ${inputs} ${libraries}/)
+write_places(${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/places ${inputs} ${libraries}/ no)
 
 # What an installation has: bin/drumlin, parts, decks and pages.
 file(RELATIVE_PATH inputs /${folder_of_parts} /${folder_of_shares}/inputs)
-write_places(${PROJECT_BINARY_DIR}/places ${inputs} "")
+write_places(${PROJECT_BINARY_DIR}/places ${inputs} "" yes)
 install(PROGRAMS drumlin DESTINATION bin)
 install(FILES ${PROJECT_BINARY_DIR}/places DESTINATION ${folder_of_parts})
 set(targets "")
@@ -40,6 +40,12 @@ foreach(folder inputs plugin/doc postprocess)
           PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg" PATTERN study EXCLUDE PATTERN jobs EXCLUDE)
 endforeach()
 install(DIRECTORY postprocess/ DESTINATION ${folder_of_shares} FILES_MATCHING PATTERN "*.py")
+
+# Installed decks and scripts name the program as it is called there, in comments and in the messages of `drumlin/check`. The job scripts speak
+# of both.
+install(CODE "
+  execute_process(COMMAND find \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${folder_of_shares}\" -type f ! -name *.png ! -name *.svg ! -path */jobs/*
+                          -exec sed -i s,[.]/drumlin,drumlin,g {} + COMMAND_ERROR_IS_FATAL ANY)")
 
 # The package of this Debian, by `cpack -G DEB` in the build folder.
 set(CPACK_PACKAGE_CONTACT "drumlin developers <drumlin@localhost>")

@@ -1,3 +1,4 @@
+# shellcheck shell=bash disable=SC2154 # the script that reads this file sets limit and ranks
 # The body of both job scripts, bed.slurm and bed.mpirun: one job's share of a bed's run, from its start or from where the job before has
 # stopped. Copy the three files beside your results, set what follows here or in the environment, and submit one of the two.
 

@@ -35,14 +35,13 @@ void check_engine(void *lmp) {
   const int built = version_number(LAMMPS_VERSION);
   if (version(lmp) != built)
     stop(built_for + " (" + std::to_string(built) + "), but this is " + std::to_string(version(lmp)) +
-         "; allowed: the version that it is built for, as ./drumlin setup lammps builds it");
+         "; allowed: the version that it is built for, as ./drumlin setup lammps builds it in a checkout");
   if (setting(lmp, "tagint") != 4 || setting(lmp, "bigint") != 8)
     stop(built_for + " with -DLAMMPS_SIZES=SMALLBIG, its default, but this one has other sizes of numbers");
   auto *has_package = find_function<int (*)(const char *)>("lammps_config_has_package");
   if (has_package != nullptr && has_package("GRANULAR") == 0)
     stop("this LAMMPS has no package GRANULAR; allowed: one built with -DPKG_GRANULAR=ON, as ./drumlin setup "
-         "lammps "
-         "builds it");
+         "lammps builds it in a checkout");
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "chain/run_files.h"
 #include "commands/chain_options.h"
+#include "engine/places.h"
 #include "studies/step_advice.h"
 #include "engine/deck_run.h"
 #include "studies/study.h"
@@ -106,9 +107,9 @@ void run(const Arguments &arguments) {
              "were measured, besides the start of the engine\n",
              advice.seconds_per_step * cycles * advice.steps_per_cycle, cycles,
              1e6 * advice.seconds_per_step);
-  fmt::print("  run        ./drumlin run inputs/chain/in.chain{} -var stepping {} -var cycles {} -var "
+  fmt::print("  run        {} run inputs/chain/in.chain{} -var stepping {} -var cycles {} -var "
              "steps_per_cycle {}\n",
-             deck_words(arguments.chain), request.stepping, cycles, advice.steps_per_cycle);
+             front_command(), deck_words(arguments.chain), request.stepping, cycles, advice.steps_per_cycle);
 }
 
 } // namespace

@@ -1,6 +1,5 @@
 #include "commands/bed.h"
 
-#include "bed/packing.h"
 #include "support/files.h"
 #include "support/options.h"
 #include "support/progress.h"
@@ -38,31 +37,44 @@ constexpr std::array<Number, 5> number_options = {{
 }};
 
 struct Arguments {
-  std::string balls, density, seed, grading, out = "results/bed/balls.data";
+  std::string balls, density, seed, grading, out = BedRequest().out.string();
   std::array<std::string, number_options.size()> numbers;
 };
 
 void run(const Arguments &arguments) {
-  PackingOptions options;
+  BedRequest request;
+  PackingOptions &options = request.packing;
   options.balls = count_option("--balls", arguments.balls, 1, PackingOptions::most_balls);
   for (std::size_t i = 0; i < number_options.size(); ++i)
     options.*number_options[i].value =
         number_option(number_options[i].option, arguments.numbers[i], number_options[i].range);
   options.seed = seed_option("--seed", arguments.seed);
-  const double density = number_option("--density", arguments.density, {1e-3, 1e6, "kg/m3"});
-  const fs::path out = output_file_option("--out", arguments.out);
-  Packing packing;
+  request.density = number_option("--density", arguments.density, {1e-3, 1e6, "kg/m3"});
+  request.out = output_file_option("--out", arguments.out);
   try {
     options.grading = grading_from_name(arguments.grading);
+  } catch (const std::invalid_argument &fault) {
+    throw UsageError(fmt::format("--{}", fault.what()));
+  }
+  write_bed(request);
+}
+
+} // namespace
+
+void write_bed(const BedRequest &request) {
+  const fs::path &out = request.out;
+  Packing packing;
+  try {
     TimedProgress progress;
-    packing = pack_balls(
-        options, [&](std::size_t placed) { progress.tell("{} of {} balls placed", placed, options.balls); });
+    packing = pack_balls(request.packing, [&](std::size_t placed) {
+      progress.tell("{} of {} balls placed", placed, request.packing.balls);
+    });
   } catch (const std::invalid_argument &fault) {
     throw UsageError(fmt::format("--{}", fault.what()));
   }
   try {
     if (out.has_parent_path()) make_parent_folder(out);
-    write_files({{out, bed_data(options, density, packing)}});
+    write_files({{out, bed_data(request.packing, request.density, packing)}});
   } catch (const std::runtime_error &fault) {
     throw UsageError(
         fmt::format("--out is '{}': {}; allowed: a file that can be written", out.string(), fault.what()));
@@ -70,13 +82,12 @@ void run(const Arguments &arguments) {
   fmt::print("{}: {} balls, filled to {:.3f} m\n", out.string(), packing.balls.size(), packing.height);
 }
 
-} // namespace
-
 void add_bed_command(CLI::App &app, Session &) {
   const auto arguments = std::make_shared<Arguments>();
-  const PackingOptions defaults;
+  const BedRequest request;
+  const PackingOptions &defaults = request.packing;
   arguments->balls = fmt::format("{}", defaults.balls);
-  arguments->density = "2650";
+  arguments->density = fmt::format("{:g}", request.density);
   arguments->seed = fmt::format("{}", defaults.seed);
   arguments->grading = grading_name(defaults.grading);
   for (std::size_t i = 0; i < number_options.size(); ++i)

@@ -1,10 +1,25 @@
-// The subcommand "bed": soil balls at random in a box, as a data file for the decks in inputs/bed.
+// `drumlin bed`: soil balls at random, from which a bed is made.
 #pragma once
 
+#include "bed/packing.h"
 #include "support/usage_error.h"
+
+#include <filesystem>
 
 namespace drumlin::post {
 
+/// Balls in a box, and the file that gets them.
+struct BedRequest {
+  PackingOptions packing;
+  double density = 2650.0; ///< of a ball, kg/m3; in two dimensions of a disc 1 m thick
+  std::filesystem::path out = "results/bed/balls.data"; ///< its folder is made if missing
+};
+
+/// Packs the balls, writes the data file that inputs/bed/in.settle reads, and prints one line about it. Throws UsageError for options that
+/// no packing fulfils and for a file that cannot be written.
+void write_bed(const BedRequest &request);
+
+/// Adds `bed`, with an option for each entry of BedRequest.
 void add_bed_command(CLI::App &app, Session &session);
 
 } // namespace drumlin::post

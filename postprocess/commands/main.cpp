@@ -1,15 +1,22 @@
 // The tool behind ./drumlin: one program, one subcommand per job.
+#ifndef DRUMLIN_ONLY_RUN
 #include "commands/advise.h"
 #include "commands/bed.h"
+#include "commands/demo.h"
 #include "commands/exact.h"
 #include "commands/report.h"
 #include "commands/study.h"
 #include "commands/vtk.h"
+#endif
+#include "commands/run.h"
 #include "support/range.h"
 #include "support/usage_error.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -28,15 +35,25 @@ struct Subcommand {
   AddCommand add;
 };
 
-// A new subcommand is one line here.
+// A new subcommand is one line here. A build with -DDRUMLIN_POSTPROCESS=OFF has `run` alone, which needs none of the libraries of the others.
 constexpr std::array subcommands = {
+#ifndef DRUMLIN_ONLY_RUN
     Subcommand{"advise", &drumlin::post::add_advise_command},
     Subcommand{"bed", &drumlin::post::add_bed_command},
+    Subcommand{"demo", &drumlin::post::add_demo_command},
     Subcommand{"exact", &drumlin::post::add_exact_command},
     Subcommand{"report", &drumlin::post::add_report_command},
     Subcommand{"study", &drumlin::post::add_study_command},
     Subcommand{"vtk", &drumlin::post::add_vtk_command},
+#endif
+    Subcommand{"run", &drumlin::post::add_run_command},
 };
+
+#ifdef DRUMLIN_ONLY_RUN
+constexpr const char *left_out = " in a build with -DDRUMLIN_POSTPROCESS=OFF";
+#else
+constexpr const char *left_out = "";
+#endif
 
 constexpr int bad_usage = 2;
 
@@ -59,6 +76,14 @@ int fail(const std::string &subcommand, const std::string &what, int status) {
   return status;
 }
 
+/// Opens those of standard input, output and errors that are closed, if only to nowhere: a file that is opened later would take the number of
+/// one of them, and get what is printed.
+void open_standard_streams() {
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream)
+    if (::fcntl(stream, F_GETFD) < 0)
+      static_cast<void>(::open("/dev/null", stream == STDIN_FILENO ? O_RDONLY : O_WRONLY));
+}
+
 int run(int argc, char **argv) {
   const std::string wanted = argc > 1 ? argv[1] : "";
   const bool known =
@@ -76,7 +101,9 @@ int run(int argc, char **argv) {
     for (const Subcommand &subcommand : subcommands)
       subcommand.add(app, session);
     if (!known && !wanted.empty() && wanted.front() != '-')
-      return fail("", refusal("the subcommand", wanted, "those that 'drumlin --help' lists"), bad_usage);
+      return fail(
+          "", refusal("the subcommand", wanted, std::string("those that 'drumlin --help' lists") + left_out),
+          bad_usage);
     app.parse(argc, argv);
   } catch (const CLI::ParseError &error) {
     if (error.get_exit_code() == 0) return app.exit(error); // help or version
@@ -96,6 +123,7 @@ int run(int argc, char **argv) {
 } // namespace
 
 int main(int argc, char **argv) {
+  open_standard_streams();
   try {
     const int status = run(argc, argv);
     const bool printed = std::fflush(stdout) == 0 && static_cast<bool>(std::cout.flush());

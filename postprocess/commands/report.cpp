@@ -13,14 +13,9 @@
 
 namespace drumlin::post {
 
-namespace {
+namespace {} // namespace
 
-struct Arguments {
-  std::vector<std::string> folders;
-  std::string out = "report";
-};
-
-void run(const Arguments &arguments) {
+void print_report(const ReportArguments &arguments) {
   ReportOptions options;
   for (const std::string &folder : arguments.folders)
     options.folders.push_back(path_option("DIR", folder));
@@ -38,10 +33,8 @@ void run(const Arguments &arguments) {
   fmt::print("{}\n", outcome.page.string());
 }
 
-} // namespace
-
 void add_report_command(CLI::App &app, Session &) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ReportArguments>();
   CLI::App *report = app.add_subcommand("report", "Figures, tables and checks against reference values from "
                                                   "runs of the chain, of single impacts and of a "
                                                   "roller on a bed, as pages that open from disk.");
@@ -55,7 +48,7 @@ void add_report_command(CLI::App &app, Session &) {
   report->add_option("--out", arguments->out, "folder for the report; an earlier report there is replaced")
       ->type_name("DIR")
       ->capture_default_str();
-  report->callback([arguments] { run(*arguments); });
+  report->callback([arguments] { print_report(*arguments); });
 }
 
 } // namespace drumlin::post

@@ -42,11 +42,6 @@ constexpr double pi = 3.141592653589793;
 /// Sides of cells that are not absurd, m.
 constexpr Range cell_range = {1e-9, 1e9, "m"};
 
-struct Arguments {
-  std::string folder;
-  std::optional<std::string> out, cell;
-};
-
 /// What the command writes, as names from the folder of the results.
 constexpr std::array<const char *, 3> collections = {"balls.pvd", "contacts.pvd", "fields.pvd"};
 /// What a picture needs to know of all steps at once, for postprocess/paraview/bed.py.
@@ -269,7 +264,7 @@ std::pair<RunParameters, Bed> read_run(const fs::path &folder, const fs::path &o
   }
 }
 
-FieldGrid grid_for(const Arguments &arguments, const Bed &bed) {
+FieldGrid grid_for(const VtkArguments &arguments, const Bed &bed) {
   double side = default_cell * bed.mean_diameter;
   if (arguments.cell) side = number_option("--cell", *arguments.cell, cell_range);
   try {
@@ -290,7 +285,9 @@ std::string scene_text(const Bed &bed, const RunParameters &run, const Sizes &si
   return scene.dump(1) + "\n";
 }
 
-void run(const Arguments &arguments) {
+} // namespace
+
+void write_vtk_series(const VtkArguments &arguments) {
   if (arguments.cell) number_option("--cell", *arguments.cell, cell_range);
   const fs::path folder = path_option("DIR", arguments.folder);
   const fs::path out = output_folder_option("--out", arguments.out.value_or((folder / "vtk").string()));
@@ -348,10 +345,8 @@ void run(const Arguments &arguments) {
   print_summary(out, steps, series, grid);
 }
 
-} // namespace
-
 void add_vtk_command(CLI::App &app, Session &) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<VtkArguments>();
   CLI::App *vtk = app.add_subcommand("vtk", "Balls, contacts and coarse-grained fields of a bed run as time "
                                             "series for ParaView: balls.pvd, contacts.pvd, "
                                             "fields.pvd, from the dumps of a run with dumps.");
@@ -369,7 +364,7 @@ void add_vtk_command(CLI::App &app, Session &) {
                        "of the soil balls if not given",
                        default_cell))
       ->type_name("NUMBER");
-  vtk->callback([arguments] { run(*arguments); });
+  vtk->callback([arguments] { write_vtk_series(*arguments); });
 }
 
 } // namespace drumlin::post

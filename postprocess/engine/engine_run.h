@@ -14,7 +14,7 @@ namespace drumlin::post {
 using Variables = std::vector<std::pair<std::string, std::string>>;
 
 /// Runs a deck with the plugin on a number of ranks; `out` is set to the folder. A deck whose name ends in .lammps is run by LAMMPS,
-/// any other by LIGGGHTS. std::runtime_error without LAMMPS: see has_lammps().
+/// any other by LIGGGHTS. Throws UsageError, a std::runtime_error, if that engine cannot be started: see engine_fault().
 Outcome run_deck(const std::filesystem::path &deck, const Variables &variables,
                  const std::filesystem::path &folder, int ranks = 1, double limit = 100.0);
 

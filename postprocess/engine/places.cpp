@@ -35,6 +35,7 @@ Places read_places() {
     if (name == "inputs") found.inputs = path(value);
     if (name == "liggghts_plugin") found.liggghts_plugin = path(value);
     if (name == "lammps_plugin") found.lammps_plugin = path(value);
+    if (name == "installed") found.installed = value == "yes";
     if (name == "liggghts")
       found.liggghts = std::move(value);
     else if (name == "lammps")
@@ -49,5 +50,7 @@ const Places &places() {
   static const Places found = read_places();
   return found;
 }
+
+std::string front_command() { return places().installed ? "drumlin" : "./drumlin"; }
 
 } // namespace drumlin::post

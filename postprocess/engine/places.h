@@ -16,10 +16,14 @@ struct Places {
       lammps_plugin;    ///< library for `plugin load` of LAMMPS; empty if the plugin was built without LAMMPS
   std::string liggghts; ///< the program liggghts: its path, or its name if it is found by PATH
   std::string lammps;   ///< the program lmp, in the same form; empty if the plugin was built without LAMMPS
+  bool installed = false; ///< an installation, not a checkout that was built
 };
 
 /// Reads the file that the environment variable DRUMLIN_PLACES names or, without that variable, the one in the folder of this program.
 /// Throws std::runtime_error if the file cannot be read.
 const Places &places();
+
+/// What a user types to call this project: "drumlin" where it is installed, "./drumlin" in a checkout. For messages.
+std::string front_command();
 
 } // namespace drumlin::post

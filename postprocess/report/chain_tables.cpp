@@ -1,5 +1,6 @@
 #include "report/chain_tables.h"
 
+#include "engine/places.h"
 #include "report/engine_comparison.h"
 #include "support/text.h"
 
@@ -433,11 +434,12 @@ std::string judging_command(const Run &run) {
        fmt::format("{}-{}-{}-cycles", run.case_name, transition_name(run.transition()), cycles))
           .string();
   if (run.direct)
-    return fmt::format("./drumlin exact --case {} --transition {} --cycles {} --out {}", run.case_name,
-                       transition_name(run.transition()), cycles, shell_word(out));
-  std::string command = fmt::format("./drumlin run inputs/chain/in.chain{} -var case {} -var transition {}",
-                                    run.text("engine", "").rfind("LAMMPS", 0) == 0 ? ".lammps" : "",
-                                    run.case_name, transition_name(run.transition()));
+    return fmt::format("{} exact --case {} --transition {} --cycles {} --out {}", front_command(),
+                       run.case_name, transition_name(run.transition()), cycles, shell_word(out));
+  std::string command =
+      fmt::format("{} run inputs/chain/in.chain{} -var case {} -var transition {}", front_command(),
+                  run.text("engine", "").rfind("LAMMPS", 0) == 0 ? ".lammps" : "", run.case_name,
+                  transition_name(run.transition()));
   if (const std::string stepping = run.text("stepping", ""); stepping == "second" || stepping == "stock")
     command += " -var stepping " + stepping;
   if (run.steps_per_cycle > 0) command += fmt::format(" -var steps_per_cycle {}", run.steps_per_cycle);

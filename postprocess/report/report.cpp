@@ -28,8 +28,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Say = std::function<void(const std::string &)>;
-
 /// The first line that `gnuplot --version` prints; `scratch` is a folder for the program's output.
 std::string gnuplot_version(const fs::path &gnuplot, const fs::path &scratch) {
   std::string text = run_program({gnuplot.string(), "--version"}, {}, scratch).output;
@@ -91,7 +89,7 @@ void as_usage(const Work &work) {
 }
 
 /// Measures the runs and plans tables and figures.
-ReportContent make_content(std::vector<Run> runs, const Say &say) {
+ReportContent make_content(std::vector<Run> runs, const ProgressSink &say) {
   const bool any_beds =
       std::any_of(runs.begin(), runs.end(), [](const Run &run) { return run.kind == RunKind::bed; });
   CountedProgress reading(runs.size() + (any_beds ? 1 : 0), "runs", say);
@@ -186,9 +184,9 @@ ReportOutcome write_report(const ReportOptions &options) {
   });
   ReportContent content = make_content(read_runs(folders.runs), options.progress);
   choose_keys(content);
-  Progress drawing(options.progress, "pages",
-                   content.figures.figures.size() + content.figures.absent.size() +
-                       content.bed_figures.figures.size() + content.bed_figures.absent.size() + 1);
+  CountedProgress drawing(content.figures.figures.size() + content.figures.absent.size() +
+                              content.bed_figures.figures.size() + content.bed_figures.absent.size() + 1,
+                          "pages", options.progress);
   FolderInProgress draft(place);
   const fs::path &folder = draft.path();
   fs::create_directories(folder / "figures");

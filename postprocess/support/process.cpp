@@ -2,10 +2,14 @@
 
 #include "support/files.h"
 
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <thread>
 
@@ -38,9 +42,38 @@ struct End {
   rusage used = {};
 };
 
+/// Hands on the lines of a file while another process writes it.
+class LineFollower {
+public:
+  LineFollower(const fs::path &file, const std::function<void(const std::string &)> &line) : line_(line) {
+    if (line_) in_.open(file, std::ios::binary);
+  }
+  /// The lines that are complete by now.
+  void follow() {
+    if (!line_) return;
+    std::array<char, 4096> piece{};
+    for (;;) {
+      in_.clear(); // the end of the file is no longer where it was
+      in_.read(piece.data(), piece.size());
+      if (in_.gcount() == 0) return;
+      rest_.append(piece.data(), static_cast<std::size_t>(in_.gcount()));
+      for (std::size_t end = rest_.find('\n'); end != std::string::npos; end = rest_.find('\n')) {
+        line_(rest_.substr(0, end));
+        rest_.erase(0, end + 1);
+      }
+    }
+  }
+
+private:
+  const std::function<void(const std::string &)> &line_;
+  std::ifstream in_;
+  std::string rest_;
+};
+
 /// Waits until the process has ended or the time has come; whether it has ended.
-bool wait_until(pid_t child, End &how, steady_clock::time_point end) {
+bool wait_until(pid_t child, End &how, steady_clock::time_point end, LineFollower *follower = nullptr) {
   for (;;) {
+    if (follower != nullptr) follower->follow();
     const pid_t ended = wait4(child, &how.status, WNOHANG, &how.used);
     if (ended == child) return true;
     if (ended < 0 && errno != EINTR) throw std::runtime_error(std::string("wait4: ") + std::strerror(errno));
@@ -49,11 +82,12 @@ bool wait_until(pid_t child, End &how, steady_clock::time_point end) {
   }
 }
 
-/// Stops the child's process group: politely, so that mpirun takes its ranks along, then at once.
-void stop(pid_t child, End &how) {
-  kill(-child, SIGTERM);
+/// Stops the child, and its process group if it has one of its own: politely, so that mpirun takes its ranks along, then at once.
+void stop(pid_t child, bool own_group, End &how) {
+  const pid_t whom = own_group ? -child : child;
+  kill(whom, SIGTERM);
   if (wait_until(child, how, steady_clock::now() + std::chrono::seconds(5))) return;
-  kill(-child, SIGKILL);
+  kill(whom, SIGKILL);
   wait4(child, &how.status, 0, &how.used);
 }
 
@@ -61,13 +95,10 @@ double seconds(const timeval &time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-} // namespace
-
-Outcome run_program(const std::vector<std::string> &words, const std::vector<std::string> &environment,
-                    const fs::path &folder, double limit) {
-  const fs::path text = folder / program_output_file;
-  std::vector<std::string> arguments = words;
-  std::vector<std::string> entries = environment;
+/// Starts the program; the number of its process.
+pid_t start(const Program &program) {
+  std::vector<std::string> arguments = program.words;
+  std::vector<std::string> entries = program.environment;
   for (char **entry = environ; *entry != nullptr; ++entry)
     entries.emplace_back(*entry);
   const std::vector<char *> argv = pointers(arguments);
@@ -76,32 +107,75 @@ Outcome run_program(const std::vector<std::string> &words, const std::vector<std
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, text.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, program.output.c_str(),
+                                   O_WRONLY | O_CREAT | O_TRUNC, 0644);
   posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
-  posix_spawn_file_actions_addchdir_np(&files, folder.c_str());
+  posix_spawn_file_actions_addchdir_np(&files, program.folder.c_str());
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  sigset_t usual; // signals that this process may ignore, but its children should not
+  sigemptyset(&usual);
+  sigaddset(&usual, SIGPIPE);
+  posix_spawnattr_setsigdefault(&attributes, &usual);
   posix_spawnattr_setpgroup(&attributes, 0);
+  const int group = program.own_group ? POSIX_SPAWN_SETPGROUP : 0;
+  posix_spawnattr_setflags(&attributes, static_cast<short>(group | POSIX_SPAWN_SETSIGDEF));
   pid_t child = 0;
   const int failed = posix_spawnp(&child, argv[0], &files, &attributes, argv.data(), envp.data());
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&files);
-  if (failed != 0) throw std::runtime_error("cannot start " + words.front() + ": " + std::strerror(failed));
+  if (failed != 0)
+    throw std::runtime_error("cannot start " + program.words.front() + ": " + std::strerror(failed));
+  return child;
+}
 
+} // namespace
+
+Outcome run_program(const Program &program) {
+  const pid_t child = start(program);
   Outcome outcome;
   End how;
-  const auto end = steady_clock::now() +
-                   std::chrono::duration_cast<steady_clock::duration>(std::chrono::duration<double>(limit));
-  if (!wait_until(child, how, end)) {
-    outcome.timed_out = true;
-    stop(child, how);
+  const auto end = steady_clock::now() + std::chrono::duration_cast<steady_clock::duration>(
+                                             std::chrono::duration<double>(program.limit));
+  LineFollower follower(program.output, program.line);
+  try {
+    if (!wait_until(child, how, end, &follower)) {
+      outcome.timed_out = true;
+      stop(child, program.own_group, how);
+    }
+  } catch (...) {
+    stop(child, program.own_group, how);
+    throw;
   }
+  follower.follow(); // what was printed between the last look and the end
   outcome.status = WIFEXITED(how.status) ? WEXITSTATUS(how.status) : 128 + WTERMSIG(how.status);
   outcome.cpu_seconds = seconds(how.used.ru_utime) + seconds(how.used.ru_stime);
   outcome.peak_bytes = 1024.0 * static_cast<double>(how.used.ru_maxrss); // Linux counts it in KiB
-  outcome.output = read_text(text);
+  outcome.output = read_text(program.output);
   return outcome;
+}
+
+Outcome run_program(const std::vector<std::string> &words, const std::vector<std::string> &environment,
+                    const fs::path &folder, double limit) {
+  Program program;
+  program.words = words;
+  program.environment = environment;
+  program.folder = folder;
+  program.output = folder / program_output_file;
+  program.limit = limit;
+  return run_program(program);
+}
+
+fs::path program_file(const std::string &name) {
+  const auto runs = [](const fs::path &file) {
+    return fs::is_regular_file(file) && ::access(file.c_str(), X_OK) == 0;
+  };
+  if (name.find('/') != std::string::npos) return runs(name) ? fs::path(name) : fs::path();
+  const char *path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (fs::path file = fs::path(folder) / name; runs(file)) return file;
+  return {};
 }
 
 } // namespace drumlin::post

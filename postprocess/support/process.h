@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,29 @@ struct Outcome {
 /// The file in its folder that run_program() leaves a program's output in.
 constexpr const char *program_output_file = "screen.txt";
 
-/// Runs a program with extra environment entries ("NAME=value") in a folder, for at most `limit` seconds.
+/// A program and what it is run with.
+struct Program {
+  std::vector<std::string> words;       ///< the program, a path or a name that PATH finds, and its arguments
+  std::vector<std::string> environment; ///< entries "NAME=value" in front of those of this process
+  std::filesystem::path folder = ".";   ///< its working folder
+  std::filesystem::path output =
+      program_output_file; ///< gets its standard output and errors; from this process's working folder
+  double limit = 1e8;      ///< wall time after which it is stopped, s
+  bool own_group =
+      true; ///< a process group of its own: it can be stopped with its children, but Ctrl-C does not reach it
+  std::function<void(const std::string &)>
+      line; ///< gets each line of the output while the program runs; may be empty
+};
+
+/// Runs a program until it ends or its time is over. Throws std::runtime_error if it cannot be started. What `line` throws stops the
+/// program and is thrown on.
+Outcome run_program(const Program &program);
+
+/// The file of a program: the name itself if it has a slash, else the first file of that name in the folders of PATH that may be run.
+/// Empty if there is none.
+std::filesystem::path program_file(const std::string &name);
+
+/// The same with extra environment entries ("NAME=value") in a folder, which gets the output, for at most `limit` seconds.
 Outcome run_program(const std::vector<std::string> &words, const std::vector<std::string> &environment,
                     const std::filesystem::path &folder, double limit = 20.0);
 

@@ -8,11 +8,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <unistd.h>
 
 namespace drumlin::test {
 namespace {
@@ -194,6 +197,13 @@ TEST_F(FrontScript, RunsInstalledFromAReadOnlyPrefixThatWasMoved) {
   }
   const Outcome advice = call(script, {"advise", "--error", "1e-3", "--case", "II"}, folder / "work here");
   EXPECT_TRUE(advice.ok()) << advice.output;
+  EXPECT_TRUE(advice.says(" drumlin run ")) << advice.output;
+  const Outcome no_bed =
+      call(script, {"run", "bed/in.bed", "-var", "start", "none"}, folder / "work here", true);
+  EXPECT_TRUE(no_bed.says("which 'drumlin run inputs/bed/in.place -var start none' makes")) << no_bed.output;
+  expect_one_line(call(script, {"demo", "--balls", "1"}, folder / "work here"),
+                  "demo: --balls is '1'; allowed: ");
+  expect_one_line(call(script, {"run"}, folder), "allowed: drumlin run [-np N] DECK");
   for (const char *command : {"setup", "test", "check"})
     expect_one_line(call(script, {command}, folder),
                     std::string("allowed: ./drumlin ") + command + " in a checkout");
@@ -287,6 +297,157 @@ TEST_F(FrontScript, FindsTheIncludesOfALinkedDeck) {
     EXPECT_TRUE(outcome.ok()) << outcome.output;
     EXPECT_TRUE(fs::is_regular_file(folder / "out/chain.csv")) << outcome.output;
   }
+}
+
+/// Whether a text has these, one behind the other.
+void expect_in_order(const std::string &text, const std::vector<std::string> &parts) {
+  std::size_t at = 0;
+  for (const std::string &part : parts) {
+    const std::size_t found = text.find(part, at);
+    ASSERT_NE(found, std::string::npos) << part << " is missing or in another place of\n" << text;
+    at = found + part.size();
+  }
+}
+
+// The line that `run` prints is a whole command: a shell that reads it makes the same tables, without drumlin.
+TEST_F(FrontScript, PrintsTheCommandThatItRuns) {
+  const fs::path place = checkout("checkout");
+  for (const char *ranks : {"1", "2"}) {
+    SCOPED_TRACE(ranks);
+    const std::vector<std::string> words = {"run",  "-np", ranks, "chain/in.chain", "-var", "cycles", "1",
+                                            "-var", "out", "out"};
+    const Outcome outcome = call(place / "drumlin", words, folder, true);
+    ASSERT_TRUE(outcome.ok()) << outcome.output;
+    ASSERT_EQ(outcome.output.rfind("+ ", 0), 0u) << outcome.output;
+    const std::string line = outcome.output.substr(2, outcome.output.find('\n') - 2);
+    const std::string table = post::read_text(folder / "out/chain.csv");
+    fs::remove_all(folder / "out");
+    const Outcome again = run_program(
+        {"env", "-i", "PATH=/usr/bin:/bin", "HOME=" + folder.string(), "sh", "-c", line}, {}, folder, 60.0);
+    ASSERT_TRUE(again.ok()) << line << "\n" << again.output;
+    EXPECT_EQ(post::read_text(folder / "out/chain.csv"), table);
+    EXPECT_EQ(line.find("drumlin-tools"), std::string::npos) << line;
+    fs::remove_all(folder / "out");
+  }
+}
+
+// The tool becomes the engine: its exit status and its end by a signal are those of `run`.
+TEST_F(FrontScript, RunEndsAsTheEngineEnds) {
+  const fs::path place = checkout("checkout");
+  put("my.deck", "run 0\n");
+  const auto ends = [&](const std::string &script) {
+    put("bin/liggghts", "#!/bin/sh\n" + script + "\n");
+    return call(place / "drumlin", {"run", "my.deck"}, folder).status;
+  };
+  EXPECT_EQ(ends("exit 0"), 0);
+  EXPECT_EQ(ends("exit 7"), 7);
+  EXPECT_EQ(ends("kill -TERM $$"), 128 + 15);
+  EXPECT_EQ(ends("[ $PPID -eq " + std::to_string(::getpid()) + " ] || exit 3"),
+            0); // no process waits in between
+  fs::remove(folder / "bin/liggghts");
+  fs::create_directory(folder / "bin/liggghts");
+  std::vector<std::string> words = {"env", "PATH=" + (folder / "bin").string(), DRUMLIN_TOOLS, "run",
+                                    "my.deck"};
+  expect_one_line(run_program(words, {}, folder), "run: the engine 'liggghts' cannot be run; allowed: ");
+}
+
+/// The names of all demo runs, in their order.
+std::vector<std::string> demo_lines(bool with_lammps) {
+  std::vector<std::string> lines;
+  int done = 0;
+  const auto add = [&](const std::string &name) {
+    std::string number = std::to_string(++done);
+    if (number.size() < 2) number.insert(0, " ");
+    lines.push_back("[" + number + (with_lammps ? "/24] " : "/16] ") + name);
+  };
+  for (const char *transition : {"A", "B"}) {
+    add(std::string("impact, ") + transition);
+    for (const char *chain_case : {"I", "II", "III", "IV"}) {
+      add(std::string("chain, case ") + chain_case + ", " + transition);
+      if (with_lammps) add("in LAMMPS");
+    }
+  }
+  add("results/demo/bed/balls.data: 300 balls");
+  for (const char *name :
+       {"bed comes to rest", "roller comes to rest", "bed, 1 cycles, A", "bed, 1 cycles, B"}) {
+    add(name);
+    lines.emplace_back("        drumlin/");
+  }
+  add("report");
+  lines.emplace_back("The report: ");
+  lines.emplace_back("The bed, for ParaView: ");
+  return lines;
+}
+
+TEST_F(FrontScript, DemoOfFewCyclesAndBalls) {
+  const Outcome installing =
+      run_program({"cmake", "--install", DRUMLIN_BINARY_DIR, "--prefix", (folder / "pre fix").string()}, {},
+                  folder, 60.0);
+  ASSERT_TRUE(installing.ok()) << installing.output;
+  const fs::path script = folder / "pre fix/bin/drumlin", work = folder / "work here";
+  fs::create_directories(work / "results/demo/of an earlier call");
+  const Outcome outcome = run_program(
+      {"env", "-u", "HOME", script.string(), "demo", "--cycles", "1", "--balls", "300"}, {}, work, 280.0);
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  const bool with_lammps = post::has_lammps();
+  if (!with_lammps) std::puts("SKIPPED: the demo in LAMMPS: LAMMPS is not set up (./drumlin setup lammps)");
+  expect_in_order(outcome.output, demo_lines(with_lammps));
+  const fs::path results = work / "results/demo";
+  EXPECT_FALSE(fs::exists(results / "of an earlier call"));
+  for (const char *transition : {"A", "B"}) {
+    EXPECT_TRUE(fs::is_regular_file(results / "impact" / transition / "chain.csv"));
+    EXPECT_TRUE(fs::is_regular_file(results / "bed" / transition / "bed.csv"));
+    EXPECT_TRUE(fs::is_regular_file(results / "bed" / transition / "vtk/balls.pvd"));
+    for (const char *chain_case : {"I", "II", "III", "IV"})
+      for (const char *engine : {"chain", "lammps"}) {
+        const fs::path run = results / engine / (std::string(chain_case) + "-" + transition);
+        const bool wanted = with_lammps || std::string(engine) == "chain";
+        EXPECT_EQ(fs::is_regular_file(run / "chain.csv"), wanted) << run;
+        EXPECT_EQ(fs::is_regular_file(run / "screen.txt"), wanted) << run;
+        EXPECT_EQ(fs::is_regular_file(run / "log.liggghts"), wanted) << run;
+      }
+  }
+  for (const char *page : {"index.html", "bed.html"})
+    EXPECT_TRUE(fs::is_regular_file(work / "report" / page)) << page;
+  EXPECT_FALSE(outcome.says("./drumlin")) << outcome.output;
+}
+
+// What the engine says is in a file, of which one line tells; nothing behind the failed run is begun.
+TEST_F(FrontScript, DemoEndsAtTheFirstRunThatFails) {
+  const fs::path place = checkout("checkout");
+  const std::vector<std::string> words = {"env", "PATH=" + (folder / "bin").string() + ":/usr/bin:/bin",
+                                          DRUMLIN_TOOLS, "demo"};
+  const auto demo = [&](const std::string &engine) {
+    put("bin/liggghts", "#!/bin/sh\n" + engine + "\n");
+    return run_program(words, {"DRUMLIN_PLACES=" + (place / "build/release/bin/places").string()}, folder);
+  };
+  const Outcome failed = demo("echo going well; echo 'ERROR: too hot'; echo more; exit 5");
+  EXPECT_EQ(failed.status, 1);
+  EXPECT_EQ(failed.output, "[ 1/16] impact, A              failed\n"
+                           "ERROR: drumlin demo: impact, A failed; its output is in "
+                           "results/demo/impact/A/screen.txt: ERROR: too hot\n");
+  EXPECT_EQ(post::read_text(folder / "results/demo/impact/A/screen.txt"),
+            "going well\nERROR: too hot\nmore\n");
+  EXPECT_FALSE(fs::exists(folder / "results/demo/chain"));
+  EXPECT_TRUE(demo("exit 6").says("results/demo/impact/A/screen.txt: exit status 6\n"));
+}
+
+TEST_F(FrontScript, DemoEndsWhenNobodyReadsIt) {
+  const fs::path place = checkout("checkout");
+  put("bin/liggghts", "#!/bin/sh\nsleep 0.2\n");
+  const std::string line = "set -o pipefail; PATH=" + (folder / "bin").string() + ":/usr/bin:/bin; ";
+  const std::string places = "DRUMLIN_PLACES=" + (place / "build/release/bin/places").string();
+  const Outcome unread =
+      run_program({"bash", "-c", line + DRUMLIN_TOOLS + " demo | head -n 1"}, {places}, folder);
+  EXPECT_EQ(unread.status, 1);
+  EXPECT_TRUE(unread.says("ERROR: drumlin demo: nobody reads its output any more, so it has stopped\n"))
+      << unread.output;
+  EXPECT_FALSE(fs::exists(folder / "results/demo/bed"));
+  const Outcome full =
+      run_program({"bash", "-c", line + DRUMLIN_TOOLS + " demo >/dev/full"}, {places}, folder);
+  expect_in_order(full.output,
+                  {"ERROR: drumlin demo: standard output cannot be written; allowed: one that can\n"});
+  EXPECT_EQ(full.status, 1);
 }
 
 TEST_F(FrontScript, IsFoundThroughALinkToIt) {

@@ -1,5 +1,7 @@
 #include "tests/support/host_deck.h"
 
+#include "engine/engine_command.h"
+
 #include <fstream>
 #include <stdexcept>
 
@@ -39,16 +41,12 @@ std::vector<std::string> mpi_environment(const fs::path &folder) {
 
 Outcome run_engine(const fs::path &deck, const std::vector<std::string> &words, const fs::path &folder,
                    int ranks) {
-  const std::string preload = "LD_PRELOAD=" + plugin_library();
-  std::vector<std::string> command;
+  std::vector<std::string> arguments = {"-log", "none"};
+  arguments.insert(arguments.end(), words.begin(), words.end());
+  const post::EngineCommand command = post::engine_command(deck, arguments, ranks, post::Cores::shared);
   std::vector<std::string> environment = mpi_environment(folder);
-  if (ranks == 1)
-    environment.push_back(preload);
-  else
-    command = {"mpirun", "-np", std::to_string(ranks), "-x", preload};
-  command.insert(command.end(), {"liggghts", "-in", deck.string(), "-log", "none"});
-  command.insert(command.end(), words.begin(), words.end());
-  return run_program(command, environment, folder, 20.0);
+  environment.insert(environment.end(), command.environment.begin(), command.environment.end());
+  return run_program(command.words, environment, folder, 20.0);
 }
 
 Outcome run_host(const std::string &pair, const std::string &lines, const fs::path &folder, int ranks) {

@@ -1,6 +1,9 @@
 // What the cost study measures: its file runs.csv, row by row, and the ratios that follow.
 #pragma once
 
+#include "support/csv_schema.h"
+#include "support/statistics.h"
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -21,18 +24,11 @@ struct CostRun {
   double us_per_step() const { return 1e6 * loop_s / steps; }
 };
 
-extern const std::vector<std::string> cost_run_columns;
-constexpr std::size_t cost_run_keys = 3;
-std::vector<std::string> cells(const CostRun &run);
-/// The rows of a file in order. std::runtime_error for one that cannot be understood.
+/// The columns of runs.csv.
+const CsvSchema<CostRun> &cost_runs();
+/// The rows of a file in order. std::runtime_error for one that cannot be understood, or lacks balls, steps
+/// or time.
 std::vector<CostRun> read_cost_runs(const std::filesystem::path &file);
-
-/// Median and quartiles over the rounds.
-struct Spread {
-  double median, lower, upper;
-};
-/// values not empty.
-Spread spread(const std::vector<double> &values);
 
 /// A variant of a scene: what a step takes.
 struct VariantCost {
@@ -54,7 +50,8 @@ struct Comparison {
   const char *where = nullptr; ///< scene that the criterion is about; nullptr: all
 };
 
-/// The median over the rounds of the ratio within a round: neighbours in time share the machine's mood.
+/// The median over the rounds of the ratio within a round: runs that follow one another find the machine
+/// equally busy.
 struct PieceCost {
   std::string scene;
   Comparison comparison;

@@ -93,7 +93,7 @@ std::string effects_words(const std::vector<Effect> &effects) {
   std::vector<std::string> names;
   for (const Effect &effect : effects)
     if (std::any_of(effect.change.begin(), effect.change.end(),
-                    [](const MeanError &change) { return change.beyond_scatter(); }))
+                    [](const MeanInterval &change) { return change.significant(); }))
       names.push_back(effect.compared.what);
   if (effects.empty()) return "There is no comparison yet.";
   return fmt::format(

@@ -1,5 +1,6 @@
 #include "studies/speed/page.h"
 
+#include "engine/places.h"
 #include "pages/acceptance.h"
 #include "pages/figure_data.h"
 #include "pages/page.h"
@@ -196,9 +197,8 @@ void write_speed_page(const std::filesystem::path &out, const SpeedScenes &scene
       "rank. "
       "(5) Copies: in.tile runs on one rank and must hold the whole bed there, since on more ranks the "
       "engine "
-      "gives IDs twice; a bed larger than the memory of one node has to be made by ./drumlin bed and "
-      "settled, "
-      "or read in parts. (6) Integers: an ID has 31 bits, 2.1e9 balls.");
+      "gives IDs twice; a bed larger than the memory of one node has to be made by " +
+      front_command() + " bed and settled, or read in parts. (6) Integers: an ID has 31 bits, 2.1e9 balls.");
   page.write();
 }
 

@@ -1,6 +1,7 @@
 #include "studies/studies.h"
 
 #include "engine/deck_run.h"
+#include "engine/engine_command.h"
 #include "studies/settled_bed.h"
 #include "studies/speed/page.h"
 #include "studies/speed/results.h"
@@ -44,7 +45,7 @@ std::vector<Law> laws() {
         all.end(),
         {{lammps.own, deck, "engine"}, {lammps.stock, deck, "stock"}, {lammps.second, deck, "second"}});
   } else
-    fmt::print("SKIPPED: LAMMPS's law: LAMMPS is not set up (./drumlin setup lammps)\n");
+    fmt::print("SKIPPED: LAMMPS's law: {}\n", engine_fault(Engine::lammps));
   return all;
 }
 

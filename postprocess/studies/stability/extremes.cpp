@@ -1,5 +1,6 @@
 #include "studies/stability/extremes.h"
 
+#include "engine/places.h"
 #include "chain/analysis.h"
 #include "chain/direct_solver.h"
 #include "chain/parameters.h"
@@ -397,7 +398,7 @@ ExtremeRow measure(const Extreme &extreme) {
 } // namespace
 
 std::string command_of(const Extreme &row) {
-  std::string words = "./drumlin run";
+  std::string words = front_command() + " run";
   if (row.ranks > 1) words += fmt::format(" -np {}", row.ranks);
   words += " inputs/" + row.deck;
   for (const auto &[name, value] : row.variables)

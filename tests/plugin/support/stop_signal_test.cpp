@@ -1,5 +1,7 @@
 // Signals that meet a run outside of the plugin's own commands, and Ctrl-C inside. (A SIGTERM inside is tested with the decks.)
 
+#include "engine/engine_command.h"
+
 #include "tests/support/host_deck.h"
 
 #include <gtest/gtest.h>
@@ -16,15 +18,25 @@ int errors_in(const std::string &output) {
   return errors;
 }
 
-/// LAMMPS with the host deck, ended by a signal after 2 s.
+/// The host deck of an engine, ended by a signal after 2 s.
+Outcome run_until(const std::string &signal, const std::string &deck, const std::vector<std::string> &more,
+                  const Scratch &folder) {
+  std::vector<std::string> arguments = {"-log", "none"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const post::EngineCommand command =
+      post::engine_command(std::string(DRUMLIN_SOURCE_DIR) + "/tests/support/" + deck, arguments, 1);
+  std::vector<std::string> words = {"timeout", "--preserve-status", "-s", signal, "2"};
+  words.insert(words.end(), command.words.begin(), command.words.end());
+  std::vector<std::string> environment = mpi_environment(folder.path());
+  environment.insert(environment.end(), command.environment.begin(), command.environment.end());
+  return run_program(words, environment, folder.path(), 20.0);
+}
+
 Outcome lammps_until(const std::string &signal, const std::string &lines, const Scratch &folder) {
   write_text(folder / "lines", "pair_style gran/hooke/transition\npair_coeff * * 1e7 0.5\n"
                                "fix integrate all nve/sphere\n" +
                                    lines);
-  return run_program({"timeout", "--preserve-status", "-s", signal, "2", LAMMPS_PROGRAM, "-in",
-                      std::string(DRUMLIN_SOURCE_DIR) + "/tests/support/host.lammps", "-log", "none", "-var",
-                      "plugin", DRUMLIN_LAMMPS_PLUGIN, "-var", "lines", (folder / "lines").string()},
-                     mpi_environment(folder.path()), folder.path(), 20.0);
+  return run_until(signal, "host.lammps", {"-var", "lines", (folder / "lines").string()}, folder);
 }
 
 TEST(Signal, EndsDrumlinRunWithOneLineAndRunAsTheEngineHasItInLammps) {
@@ -41,15 +53,7 @@ TEST(Signal, EndsRunWithOneLineInLiggghts) {
   const Scratch folder;
   write_text(folder / "pair", host_pair_style() + host_properties());
   write_text(folder / "lines", for_ever);
-  const Outcome stopped = run_program(
-      {"timeout", "--preserve-status", "-s", "INT", "2", "liggghts", "-in",
-       std::string(DRUMLIN_SOURCE_DIR) + "/tests/support/in.host", "-log", "none"},
-      [&] {
-        std::vector<std::string> environment = mpi_environment(folder.path());
-        environment.push_back("LD_PRELOAD=" + plugin_library());
-        return environment;
-      }(),
-      folder.path(), 20.0);
+  const Outcome stopped = run_until("INT", "in.host", {}, folder);
   EXPECT_EQ(stopped.status, 1);
   EXPECT_TRUE(stopped.says(": stopped by a signal before the end of the deck")) << stopped.output;
   EXPECT_EQ(errors_in(stopped.output), 1) << stopped.output;

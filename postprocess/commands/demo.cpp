@@ -1,0 +1,255 @@
+#include "commands/demo.h"
+
+#include "commands/bed.h"
+#include "commands/report.h"
+#include "commands/vtk.h"
+#include "engine/engine_command.h"
+#include "engine/engine_run.h"
+#include "engine/places.h"
+#include "support/files.h"
+#include "support/options.h"
+#include "support/process.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Cycles of a run of the chain: enough for the steady state, which the report judges by reference values.
+constexpr int chain_cycles = 120;
+constexpr int bed_cycles = 10;
+constexpr int most_cycles = 10'000'000;
+/// Fewer balls would not keep the drum from the floor.
+constexpr int least_balls = 300;
+/// The narrowest box, m: the drum is 0.7 m wide.
+constexpr double least_width = 1.0;
+
+constexpr const char *page_folder = "report";
+
+struct Arguments {
+  std::optional<std::string> cycles, balls;
+};
+
+struct Plan {
+  int chain_cycles = post::chain_cycles;
+  int bed_cycles = post::bed_cycles;
+  BedRequest bed;
+};
+
+Plan plan_of(const Arguments &arguments) {
+  Plan plan;
+  if (arguments.cycles)
+    plan.chain_cycles = plan.bed_cycles = count_option("--cycles", *arguments.cycles, 1, most_cycles);
+  if (arguments.balls) {
+    PackingOptions &packing = plan.bed.packing;
+    const int usual = packing.balls;
+    packing.balls = count_option("--balls", *arguments.balls, least_balls, PackingOptions::most_balls);
+    packing.width =
+        std::max(least_width, packing.width * std::sqrt(static_cast<double>(packing.balls) / usual));
+  }
+  return plan;
+}
+
+/// Prints at once. Throws std::runtime_error if nobody gets to see it.
+void print(const std::string &text) {
+  errno = 0;
+  if (std::fputs(text.c_str(), stdout) >= 0 && std::fflush(stdout) == 0) return;
+  throw std::runtime_error(errno == EPIPE ? "nobody reads its output any more, so it has stopped"
+                                          : "standard output cannot be written; allowed: one that can");
+}
+
+/// One run of an engine.
+struct DemoRun {
+  std::string name;
+  fs::path out; ///< folder of what the engine prints
+  fs::path deck;
+  Variables variables;
+  bool shows_progress = false; ///< the engine's own lines of progress are printed
+};
+
+/// The runs of the demo, counted as they are made.
+class Demo {
+public:
+  Demo(Plan plan, fs::path decks, bool with_lammps)
+      : plan_(std::move(plan)), decks_(std::move(decks)), with_lammps_(with_lammps),
+        all_(with_lammps ? 24 : 16) {}
+
+  void run() {
+    fs::remove_all(results_);
+    for (const char *transition : {"A", "B"}) {
+      run_impact(transition);
+      for (const char *chain_case : {"I", "II", "III", "IV"})
+        run_chain(chain_case, transition);
+    }
+    make_bed();
+    for (const char *transition : {"A", "B"})
+      run_bed(transition);
+    print(fmt::format("{}report\n", next()));
+    print_report({{results_.string()}, page_folder});
+    print(fmt::format("The report: {}\n", (fs::current_path() / page_folder / "index.html").string()));
+    print(fmt::format("The bed, for ParaView: {} and {}, the .pvd files\n", (bed_ / "A/vtk").string(),
+                      (bed_ / "B/vtk").string()));
+  }
+
+private:
+  std::string next() {
+    ++done_;
+    return fmt::format("[{:2}/{:2}] ", done_, all_);
+  }
+
+  void run_impact(const std::string &transition) {
+    const fs::path out = results_ / "impact" / transition;
+    engine_run({"impact, " + transition,
+                out,
+                decks_ / "chain/in.impact",
+                {{"out", out.string()}, {"transition", transition}}});
+  }
+
+  void run_chain(const std::string &chain_case, const std::string &transition) {
+    const std::string folder = chain_case + "-" + transition;
+    const auto variables = [&](const fs::path &out) {
+      return Variables{{"out", out.string()},
+                       {"case", chain_case},
+                       {"transition", transition},
+                       {"cycles", std::to_string(plan_.chain_cycles)}};
+    };
+    fs::path out = results_ / "chain" / folder;
+    engine_run({fmt::format("chain, case {}, {}", chain_case, transition), out, decks_ / "chain/in.chain",
+                variables(out)});
+    if (!with_lammps_) return;
+    out = results_ / "lammps" / folder;
+    engine_run({"in LAMMPS", out, decks_ / "chain/in.chain.lammps", variables(out)});
+  }
+
+  /// Balls at random, which come to rest, and the roller, which comes to rest on them.
+  void make_bed() {
+    print(next());
+    plan_.bed.out = bed_ / "balls.data";
+    write_bed(plan_.bed);
+    const std::string soil = (bed_ / "soil.restart").string();
+    engine_run({"bed comes to rest",
+                bed_ / "made/soil",
+                decks_ / "bed/in.settle",
+                {{"balls", plan_.bed.out.string()}, {"bed", soil}},
+                true});
+    engine_run({"roller comes to rest",
+                bed_ / "made/roller",
+                decks_ / "bed/in.place",
+                {{"bed", soil}, {"start", start_.string()}},
+                true});
+  }
+
+  void run_bed(const std::string &transition) {
+    const fs::path out = bed_ / transition;
+    Variables variables = {{"start", start_.string()}, {"out", out.string()}, {"transition", transition}};
+    if (plan_.bed_cycles != bed_cycles) variables.emplace_back("cycles", std::to_string(plan_.bed_cycles));
+    variables.emplace_back("dumps_per_cycle", "10");
+    const std::string cycles = plan_.bed_cycles == bed_cycles ? "ten" : std::to_string(plan_.bed_cycles);
+    engine_run(
+        {fmt::format("bed, {} cycles, {}", cycles, transition), out, decks_ / "bed/in.bed", variables, true});
+    write_vtk_series({out.string(), {}, {}});
+  }
+
+  void engine_run(const DemoRun &run) {
+    fs::create_directories(run.out);
+    print(fmt::format("{}{:<22}{}", next(), run.name, run.shows_progress ? "\n" : ""));
+    std::vector<std::string> words = {"-log", (run.out / "log.liggghts").string()};
+    for (const auto &[name, value] : run.variables)
+      words.insert(words.end(), {"-var", name, value});
+    const EngineCommand command = engine_command(run.deck, words, 1);
+    Program program;
+    program.words = command.words;
+    program.environment = command.environment;
+    program.output = run.out / program_output_file;
+    program.own_group = false; // so that Ctrl-C ends it, too
+    if (run.shows_progress)
+      program.line = [](const std::string &line) {
+        for (const char *start : {"drumlin/run:", "drumlin/settle:"})
+          if (line.rfind(start, 0) == 0) print("        " + line + "\n");
+      };
+    const auto begin = std::chrono::steady_clock::now();
+    const Outcome outcome = run_program(program);
+    if (!outcome.ok()) {
+      print(" failed\n");
+      std::string why = engine_error(outcome.output);
+      if (why.empty()) why = fmt::format("exit status {}", outcome.status);
+      throw std::runtime_error(
+          fmt::format("{} failed; its output is in {}: {}", run.name, program.output.string(), why));
+    }
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+    print(fmt::format(" {:5.1f} s\n", time.count()));
+  }
+
+  const fs::path results_ = "results/demo", bed_ = results_ / "bed", start_ = bed_ / "roller.restart";
+  Plan plan_;
+  fs::path decks_;
+  bool with_lammps_;
+  int done_ = 0, all_;
+};
+
+/// The folder of the decks, named from the working folder where it is below it: a name without blanks, whatever the path of the checkout.
+fs::path decks_folder() {
+  std::error_code code;
+  return fs::equivalent(places().inputs, "inputs", code) ? fs::path("inputs") : places().inputs;
+}
+
+void run(const Arguments &arguments) {
+  const Plan plan = plan_of(arguments);
+  if (const std::string fault = engine_fault(Engine::liggghts); !fault.empty()) throw UsageError(fault);
+  if (::access(".", W_OK) != 0)
+    throw UsageError(
+        fmt::format("results and report are written to the working folder '{}'; allowed: one that "
+                    "can be written",
+                    fs::current_path().string()));
+  output_folder_option("report", page_folder);
+  std::signal(SIGPIPE, SIG_IGN); // print() tells of a reader that has gone
+  Demo(plan, decks_folder(), engine_fault(Engine::lammps).empty()).run();
+}
+
+} // namespace
+
+void add_demo_command(CLI::App &app, Session &) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App *demo = app.add_subcommand(
+      "demo",
+      "Runs the single impact, the four cases of the paper and a roller on a bed, under transition A and "
+      "B; the cases in LAMMPS, too, if it is set up. Writes results/demo and report in the working folder. "
+      "Takes some five minutes.");
+  const auto optional = [demo](const char *name, std::optional<std::string> &value, const std::string &help) {
+    demo->add_option_function<std::string>(
+            name, [&value](const std::string &text) { value = text; }, help)
+        ->type_name("COUNT");
+  };
+  optional("--cycles", arguments->cycles,
+           fmt::format(
+               "cycles of each run of chain and bed; {} and {} if not given. Below 100 the report does not "
+               "judge the chain by reference values",
+               chain_cycles, bed_cycles));
+  optional("--balls", arguments->balls,
+           fmt::format("soil balls of the bed, {} or more; {} if not given. The box gets narrower with fewer",
+                       least_balls, PackingOptions().balls));
+  demo->callback([arguments] { run(*arguments); });
+}
+
+} // namespace drumlin::post

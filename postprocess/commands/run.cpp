@@ -1,0 +1,58 @@
+#include "commands/run.h"
+
+#include "engine/engine_command.h"
+#include "engine/places.h"
+#include "support/options.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <csignal>
+#include <cstddef>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace drumlin::post {
+
+namespace {
+
+constexpr int most_ranks = 1'000'000;
+
+std::string usage() { return fmt::format("{} run [-np N] DECK [engine arguments]", front_command()); }
+
+void run(const std::vector<std::string> &words) {
+  int ranks = 1;
+  std::size_t next = 0;
+  // CLI11 knows no option of one dash and two letters, so that the words in front of the deck are read here.
+  for (; next < words.size() && words[next] == "-np"; next += 2)
+    ranks = count_option("-np", next + 1 < words.size() ? words[next + 1] : "", 1, most_ranks);
+  if (next >= words.size()) throw UsageError("the deck is missing; allowed: " + usage());
+  const std::string &deck = words[next];
+  const std::vector<std::string> rest(words.begin() + static_cast<std::ptrdiff_t>(next) + 1, words.end());
+  EngineCommand command = engine_command(find_deck(deck), plain_words(rest), ranks);
+
+  // A reader that stops reading, as `head` does, does not end the run; nor does an output that cannot be written.
+  std::signal(SIGPIPE, SIG_IGN);
+  const std::string line = "+ " + shell_line(command) + "\n";
+  std::fputs(line.c_str(), stdout);
+  std::fflush(stdout);
+  execute(std::move(command));
+}
+
+} // namespace
+
+void add_run_command(CLI::App &app, Session &) {
+  CLI::App *command = app.add_subcommand(
+      "run", "Runs a deck in the stock engine with the plugin: in LAMMPS if the deck's name ends in .lammps, "
+             "else in LIGGGHTS. Prints the plain command and then becomes it.");
+  command->prefix_command(); // the first word that CLI11 does not know, and all behind it, stay as they are
+  command->footer("Words:\n"
+                  "  -np N             number of MPI ranks, started by mpirun; 1 if not given\n"
+                  "  DECK              a file, or one of inputs by its name, such as chain/in.chain\n"
+                  "  engine arguments  all further words, as they are, such as -var NAME VALUE\n");
+  command->callback([command] { run(command->remaining()); });
+}
+
+} // namespace drumlin::post

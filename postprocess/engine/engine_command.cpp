@@ -1,0 +1,173 @@
+#include "engine/engine_command.h"
+
+#include "engine/places.h"
+#include "engine/plain_path.h"
+#include "support/files.h"
+#include "support/process.h"
+#include "support/text.h"
+#include "support/usage_error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <stdexcept>
+#include <system_error>
+#include <thread>
+
+#include <unistd.h>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Variables of the project's decks whose values are names of files, and `out`, the name of a folder.
+constexpr std::array<const char *, 3> file_variables = {"balls", "bed", "start"};
+constexpr const char *folder_variable = "out";
+
+bool has_blanks(const fs::path &path) {
+  return path.native().find_first_of(" \t\r\n\v\f") != std::string::npos;
+}
+
+const fs::path &library_of(Engine engine) {
+  return engine == Engine::lammps ? places().lammps_plugin : places().liggghts_plugin;
+}
+
+const std::string &program_of(Engine engine) {
+  return engine == Engine::lammps ? places().lammps : places().liggghts;
+}
+
+/// The value of a variable that names a file or folder, without blanks.
+std::string plain_value(const std::string &variable, const std::string &value) {
+  const bool is_folder = variable == folder_variable;
+  const fs::path path = value;
+  const fs::path folder = is_folder ? path : path.parent_path();
+  if (!is_folder && has_blanks(path.filename()))
+    throw UsageError(fmt::format(
+        "-var {} is '{}'; allowed: a file whose own name has no blanks, at which engines split it", variable,
+        value));
+  std::error_code code;
+  fs::create_directories(folder, code);
+  if (!fs::is_directory(folder, code))
+    throw UsageError(fmt::format("-var {} is '{}'; allowed: a folder that can be made", variable, value));
+  const fs::path plain = plain_folder(folder);
+  return (is_folder ? plain : plain / path.filename()).string();
+}
+
+/// The deck as the engine is told of it. A deck finds files beside it by the variable `here`, which the plugin defines and at whose blanks
+/// the engine would split the file's name.
+fs::path plain_deck(const fs::path &deck) {
+  const fs::path file = fs::is_symlink(deck) ? fs::canonical(deck) : deck;
+  if (!has_blanks(file.parent_path()) || read_text(file).find("${here}") == std::string::npos) return deck;
+  return plain_file(file);
+}
+
+/// mpirun with its options.
+std::vector<std::string> mpirun_words(int ranks, Cores cores) {
+  std::vector<std::string> words = {"mpirun"};
+  if (cores == Cores::shared)
+    words.insert(words.end(), {"--bind-to", "none", "--mca", "mpi_yield_when_idle", "1"});
+  if (::geteuid() == 0) words.emplace_back("--allow-run-as-root");
+  if (cores == Cores::shared || static_cast<unsigned>(ranks) > std::thread::hardware_concurrency())
+    words.emplace_back("--oversubscribe");
+  words.insert(words.end(), {"-np", std::to_string(ranks)});
+  return words;
+}
+
+} // namespace
+
+Engine engine_of(const fs::path &deck) {
+  return deck.extension() == ".lammps" ? Engine::lammps : Engine::liggghts;
+}
+
+std::string engine_fault(Engine engine) {
+  const bool lammps = engine == Engine::lammps;
+  const fs::path &library = library_of(engine);
+  if (library.empty() && places().installed)
+    return fmt::format("the plugin for {} is not installed; allowed: a build with -DDRUMLIN_{}=ON",
+                       lammps ? "LAMMPS" : "LIGGGHTS", lammps ? "LAMMPS" : "LIGGGHTS");
+  if (!fs::is_regular_file(library))
+    return lammps ? "LAMMPS is not set up; run ./drumlin setup lammps first"
+                  : "the plugin for LIGGGHTS is not built; run ./drumlin setup first";
+  if (program_file(program_of(engine)).empty())
+    return fmt::format("the engine '{}' cannot be run; allowed: {}", program_of(engine),
+                       lammps ? "a build with -DLAMMPS_PROGRAM=LMP"
+                              : "Debian's package liggghts, or a build with -DLIGGGHTS_PROGRAM=PROGRAM");
+  return {};
+}
+
+fs::path find_deck(const std::string &name) {
+  std::error_code code;
+  fs::path deck = name;
+  if (!deck.is_absolute() && !fs::exists(deck, code)) {
+    const std::string prefix = "inputs/";
+    const std::string inside = name.rfind(prefix, 0) == 0 ? name.substr(prefix.size()) : name;
+    if (!inside.empty() && fs::is_regular_file(places().inputs / inside, code))
+      deck = places().inputs / inside;
+  }
+  if (!fs::is_regular_file(deck, code) || ::access(deck.c_str(), R_OK) != 0)
+    throw UsageError(fmt::format("deck '{}' cannot be read; allowed: a deck such as chain/in.chain", name));
+  return deck;
+}
+
+std::vector<std::string> plain_words(std::vector<std::string> words) {
+  for (std::size_t n = 0; n + 2 < words.size(); ++n) {
+    const std::string &variable = words[n + 1];
+    const bool names_a_file =
+        std::find(file_variables.begin(), file_variables.end(), variable) != file_variables.end();
+    if ((words[n] == "-v" || words[n] == "-var") && (names_a_file || variable == folder_variable) &&
+        has_blanks(words[n + 2]))
+      words[n + 2] = plain_value(variable, words[n + 2]);
+  }
+  return words;
+}
+
+EngineCommand engine_command(const fs::path &deck, const std::vector<std::string> &words, int ranks,
+                             Cores cores) {
+  const Engine engine = engine_of(deck);
+  if (const std::string fault = engine_fault(engine); !fault.empty()) throw UsageError(fault);
+  const std::string library = plain_file(library_of(engine)).string();
+  EngineCommand command;
+  if (engine == Engine::liggghts) command.environment = {"LD_PRELOAD=" + library};
+  if (ranks > 1) {
+    command.words = mpirun_words(ranks, cores);
+    for (const std::string &entry : command.environment)
+      command.words.insert(command.words.end(), {"-x", entry});
+    command.environment.clear(); // it is for the ranks, not for mpirun
+  }
+  command.words.insert(command.words.end(), {program_of(engine), "-in", plain_deck(deck).string()});
+  if (engine == Engine::lammps) command.words.insert(command.words.end(), {"-var", "plugin", library});
+  command.words.insert(command.words.end(), words.begin(), words.end());
+  return command;
+}
+
+std::string shell_line(const EngineCommand &command) {
+  std::string line;
+  const auto add = [&line](const std::string &text) { line += (line.empty() ? "" : " ") + text; };
+  for (const std::string &entry : command.environment) { // a shell takes no quotes around the name
+    const std::size_t value = entry.find('=') + 1;
+    add(entry.substr(0, value) + shell_word(entry.substr(value)));
+  }
+  for (const std::string &word : command.words)
+    add(shell_word(word));
+  return line;
+}
+
+void execute(EngineCommand command) {
+  for (std::string &entry : command.environment)
+    ::putenv(entry.data());
+  std::vector<char *> words;
+  words.reserve(command.words.size() + 1);
+  for (std::string &word : command.words)
+    words.push_back(word.data());
+  words.push_back(nullptr);
+  ::execvp(words.front(), words.data());
+  throw std::runtime_error(fmt::format("cannot start {}: {}", command.words.front(), std::strerror(errno)));
+}
+
+} // namespace drumlin::post

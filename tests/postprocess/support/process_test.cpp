@@ -1,0 +1,73 @@
+// Programs that are run as child processes, and their lines while they run.
+#include "support/process.h"
+
+#include "tests/support/engine_runs.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+using post::Program;
+
+/// A shell line in a scratch folder, whose output goes to a file `text` there.
+Program shell(const Scratch &scratch, const std::string &line) {
+  Program program;
+  program.words = {"sh", "-c", line};
+  program.folder = scratch.path();
+  program.output = scratch / "text";
+  program.limit = 60.0;
+  return program;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+TEST(Process, HandsOnLinesWhileItRuns) {
+  const Scratch scratch;
+  // The program goes on only when its first line has been read.
+  Program program =
+      shell(scratch, "echo one; while [ ! -e seen ]; do sleep 0.01; done; printf 'two\\n\\nhalf'");
+  std::vector<std::string> lines;
+  program.line = [&](const std::string &line) {
+    if (lines.empty()) fs::create_directory(scratch / "seen");
+    lines.push_back(line);
+  };
+  const Outcome outcome = run_program(program);
+  EXPECT_TRUE(outcome.ok());
+  EXPECT_EQ(outcome.output, "one\ntwo\n\nhalf");
+  EXPECT_EQ(lines,
+            (std::vector<std::string>{"one", "two", ""})); // of a line without its end nothing is known
+}
+
+TEST(Process, IsStoppedWhenAReaderOfItsLinesFails) {
+  for (const bool own_group : {true, false}) {
+    const Scratch scratch;
+    Program program = shell(scratch, "echo $$ >number; echo one; exec sleep 50");
+    program.own_group = own_group;
+    program.line = [](const std::string &line) { throw std::runtime_error("not " + line); };
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_THROW(run_program(program), std::runtime_error);
+    EXPECT_LT(seconds_since(begin), 30.0);
+    EXPECT_NE(::kill(std::stoi(read_text(scratch / "number")), 0), 0);
+  }
+}
+
+TEST(Process, IsFoundByPath) {
+  EXPECT_EQ(post::program_file("sh").filename(), "sh");
+  EXPECT_EQ(post::program_file("/bin/sh"), "/bin/sh");
+  for (const char *name : {"", "/", "/bin", "/etc/passwd", "no-such-program"})
+    EXPECT_TRUE(post::program_file(name).empty()) << name;
+}
+
+} // namespace
+} // namespace drumlin::test
