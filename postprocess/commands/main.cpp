@@ -2,6 +2,7 @@
 #include "commands/advise.h"
 #include "commands/bed.h"
 #include "commands/exact.h"
+#include "commands/map.h"
 #include "commands/report.h"
 #include "commands/study.h"
 #include "commands/vtk.h"
@@ -31,6 +32,7 @@ constexpr std::array subcommands = {
     Subcommand{"advise", &drumlin::post::add_advise_command},
     Subcommand{"bed", &drumlin::post::add_bed_command},
     Subcommand{"exact", &drumlin::post::add_exact_command},
+    Subcommand{"map", &drumlin::post::add_map_command},
     Subcommand{"report", &drumlin::post::add_report_command},
     Subcommand{"study", &drumlin::post::add_study_command},
     Subcommand{"vtk", &drumlin::post::add_vtk_command},
