@@ -4,6 +4,7 @@
 #include "commands/bed.h"
 #include "commands/demo.h"
 #include "commands/exact.h"
+#include "commands/map.h"
 #include "commands/report.h"
 #include "commands/study.h"
 #include "commands/vtk.h"
@@ -42,6 +43,7 @@ constexpr std::array subcommands = {
     Subcommand{"bed", &drumlin::post::add_bed_command},
     Subcommand{"demo", &drumlin::post::add_demo_command},
     Subcommand{"exact", &drumlin::post::add_exact_command},
+    Subcommand{"map", &drumlin::post::add_map_command},
     Subcommand{"report", &drumlin::post::add_report_command},
     Subcommand{"study", &drumlin::post::add_study_command},
     Subcommand{"vtk", &drumlin::post::add_vtk_command},

@@ -71,6 +71,28 @@ std::string style_words(const Curve &curve) {
     return "with circles lc palette fill solid border lc rgb '#777777'";
   case CurveStyle::circles:
     return "with circles lc rgb '#000000' lw 1.6 fill empty border";
+  case CurveStyle::cells:
+    return "with boxxyerror lc palette fill solid noborder";
+  case CurveStyle::area_1:
+    return "with boxxyerror lc rgb '#eef6fb' fill solid noborder";
+  case CurveStyle::area_2:
+    return "with boxxyerror lc rgb '#56B4E9' fill pattern 4 noborder";
+  case CurveStyle::area_3:
+    return "with boxxyerror lc rgb '#F0C75E' fill solid noborder";
+  case CurveStyle::area_4:
+    return "with boxxyerror lc rgb '#009E73' fill pattern 2 noborder";
+  case CurveStyle::area_5:
+    return "with boxxyerror lc rgb '#8A3B00' fill solid noborder";
+  case CurveStyle::area_6:
+    return "with boxxyerror lc rgb '#000000' fill pattern 6 noborder";
+  case CurveStyle::dots_up:
+    return "with points pt 7 ps 0.22 lc rgb '#0072B2'";
+  case CurveStyle::dots_down:
+    return "with points pt 6 ps 0.5 lw 0.6 lc rgb '#D55E00'";
+  case CurveStyle::mark_1:
+    return "with points pt 7 ps 0.4 lc rgb '#000000'";
+  case CurveStyle::mark_2:
+    return "with points pt 4 ps 0.5 lw 0.9 lc rgb '#000000'";
   case CurveStyle::segments:
     return fmt::format("with vectors nohead lw {:.3g} lc rgb '#000000'", curve.width);
   }

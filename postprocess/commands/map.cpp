@@ -1,0 +1,328 @@
+#include "commands/map.h"
+
+#include "chain/run_files.h"
+#include "commands/chain_options.h"
+#include "roller/map_figures.h"
+#include "roller/regime_map.h"
+#include "support/csv.h"
+#include "support/files.h"
+#include "support/options.h"
+#include "support/progress.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int most_values = 2000; ///< per axis
+constexpr int most_cycles = 100000;
+constexpr int least_cycles = 100; ///< fewer do not let a motion settle
+constexpr int most_threads = 256;
+constexpr const char *points_name = "regimes.csv";
+constexpr const char *record_name = "parameters.csv";
+
+struct Arguments {
+  ChainArguments chain;
+  std::string x = "k:1e6:200e6:60:log";
+  std::string y = "D:0.02:1:50";
+  std::optional<std::string> sweep;
+  std::optional<std::string> me_re;
+  std::string cycles = "300";
+  std::string threads = "2";
+  std::string out = "results/map";
+  bool fresh = false;
+  bool axes_given = false;
+};
+
+struct Task {
+  MapGrid grid;
+  std::optional<MapAxis> sweep;
+  int threads = 1;
+  fs::path out;
+};
+
+MapAxis axis_option(const char *option, const std::string &text) {
+  try {
+    return axis_from_text(option, text, most_values);
+  } catch (const std::invalid_argument &error) {
+    throw UsageError(error.what());
+  }
+}
+
+// Refuses chains that cannot be computed, or that move so much faster than they are excited that a cycle
+// takes seconds.
+void judge_corner(const ChainParameters &parameters) {
+  if (const std::string fault = parameters.invalid(); !fault.empty()) throw UsageError("--" + fault);
+  constexpr double most_pieces = 1e4;
+  for (const bool touching : {true, false}) {
+    const PhaseDynamics dynamics(parameters, touching ? parameters.k : 0.0,
+                                 touching ? parameters.damping() : 0.0);
+    // The rate once a fast decay is over counts: it lasts.
+    if (parameters.period() / dynamics.longest_piece(1e300) > most_pieces)
+      throw UsageError(refusal(
+          "--omega", parameters.omega,
+          fmt::format("a frequency not so far below those of the chain itself: a cycle of k = {:g} N/m, m2 = "
+                      "{:g} kg, c23 = {:g} N s/m would take more than {:g} pieces",
+                      parameters.k, parameters.m2, parameters.c23, most_pieces)));
+  }
+}
+
+Task judge(const Arguments &arguments) {
+  Task task;
+  MapGrid &grid = task.grid;
+  grid.chain.base = judged(arguments.chain);
+  if (arguments.me_re) grid.chain.me_re = number_option("--me-re", *arguments.me_re, {1e-9, 1e12, "kg m"});
+  std::vector<std::pair<MapAxis, const char *>> axes;
+  if (arguments.sweep) {
+    if (arguments.axes_given)
+      throw UsageError(refusal("--sweep", *arguments.sweep, "without --x and --y, which are those of a map"));
+    task.sweep = axis_option("--sweep", *arguments.sweep);
+    axes = {{*task.sweep, "--sweep"}};
+  } else {
+    grid.x = axis_option("--x", arguments.x);
+    grid.y = axis_option("--y", arguments.y);
+    if (grid.x.name == grid.y.name)
+      throw UsageError(refusal("--y", arguments.y, "another NAME than that of --x"));
+    axes = {{grid.x, "--x"}, {grid.y, "--y"}};
+  }
+  const bool moment = arguments.me_re || std::any_of(axes.begin(), axes.end(), [](const auto &axis) {
+                        return axis.first.name == "me_re";
+                      });
+  for (std::size_t i = 0; moment && i < chain_numbers.size(); ++i)
+    if (arguments.chain.numbers[i] && std::string("Fw") == chain_numbers[i].name)
+      throw UsageError(
+          refusal("--Fw", *arguments.chain.numbers[i], "not beside me_re, from which Fw follows"));
+  for (const auto &[axis, option] : axes) {
+    if (axis.name == "Fw" && moment)
+      throw UsageError(refusal(option, "Fw", "not beside me_re, from which Fw follows"));
+    if (axis.name == "me_re" && arguments.me_re)
+      throw UsageError(refusal("--me-re", *arguments.me_re, "not beside an axis me_re"));
+  }
+  grid.cycles = count_option("--cycles", arguments.cycles, least_cycles, most_cycles);
+  task.threads = count_option("--threads", arguments.threads, 1, most_threads);
+  if (task.sweep)
+    for (const double value : {task.sweep->from, task.sweep->to})
+      judge_corner(grid.chain.with({{task.sweep->name, value}}));
+  else
+    for (const double x : {grid.x.from, grid.x.to})
+      for (const double y : {grid.y.from, grid.y.to})
+        judge_corner(grid.at(x, y));
+  task.out = output_folder_option("--out", arguments.out);
+  return task;
+}
+
+std::string settings(const Task &task) {
+  const MapGrid &grid = task.grid;
+  const auto words = [](const MapAxis &axis) {
+    return fmt::format("{}:{}:{}:{}{}", axis.name, number_text(axis.from), number_text(axis.to), axis.count,
+                       axis.log ? ":log" : "");
+  };
+  std::vector<std::pair<std::string, std::string>> values = parameter_values(grid.chain.base);
+  values.emplace_back("me_re", grid.chain.me_re ? number_text(*grid.chain.me_re) : "");
+  if (task.sweep) {
+    values.emplace_back("sweep", words(*task.sweep));
+  } else {
+    values.emplace_back("x", words(grid.x));
+    values.emplace_back("y", words(grid.y));
+  }
+  values.emplace_back("cycles", fmt::format("{}", grid.cycles));
+  return parameters_text(values);
+}
+
+std::string points_header(const MapGrid &grid) {
+  return fmt::format(
+      "{},{},regime,period [cycles],CMV [-],RMV [-],peak_force [N],contact_share [-],multiplier [-],"
+      "exponent [1/cycle],exponent_low [1/cycle],exponent_high [1/cycle]\n",
+      grid.x.label(), grid.y.label());
+}
+
+std::string point_row(const MapGrid &grid, std::size_t i, const RegimePoint &p) {
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", number_text(grid.x_of(i)),
+                     number_text(grid.y_of(i)), regime_names[static_cast<std::size_t>(p.regime)], p.period,
+                     number_text(p.meter.cmv), number_text(p.meter.rmv), number_text(p.meter.peak_force),
+                     number_text(p.meter.contact_share), number_text(p.multiplier),
+                     number_text(p.exponent.mean), number_text(p.exponent.low), number_text(p.exponent.high));
+}
+
+// The points that an interrupted call left; a last row that is not whole is forgotten.
+std::vector<RegimePoint> earlier_points(const fs::path &file, const MapGrid &grid) {
+  std::string text = read_text(file);
+  const std::size_t end = text.rfind('\n');
+  text.resize(end == std::string::npos ? 0 : end + 1);
+  const std::string header = points_header(grid);
+  if (text.compare(0, header.size(), header) != 0) text = header;
+  write_files({{file, text}});
+  const Table table = read_table(file);
+  std::vector<RegimePoint> points(std::min(table.rows(), grid.size()));
+  const std::vector<std::string> regimes = table.text("regime");
+  const std::vector<long> periods = table.integers("period [cycles]");
+  const auto column = [&](const char *name, const auto &set) {
+    const std::vector<double> values = table.numbers(name);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      set(points[i], values[i]);
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto *const found = std::find(regime_names.begin(), regime_names.end(), regimes[i]);
+    if (found == regime_names.end())
+      csv_fault(file, table.line(i), "regime", refusal("it", regimes[i], "a regime"));
+    points[i].regime = static_cast<Regime>(found - regime_names.begin());
+    points[i].period = static_cast<int>(periods[i]);
+  }
+  column("CMV [-]", [](RegimePoint &p, double v) { p.meter.cmv = v; });
+  column("RMV [-]", [](RegimePoint &p, double v) { p.meter.rmv = v; });
+  column("peak_force [N]", [](RegimePoint &p, double v) { p.meter.peak_force = v; });
+  column("contact_share [-]", [](RegimePoint &p, double v) { p.meter.contact_share = v; });
+  return points;
+}
+
+void draw(const fs::path &out, const MapFigures &figures) {
+  std::vector<FileText> files;
+  for (const auto &[name, text] : figures.data)
+    files.emplace_back(out / name, text);
+  write_files(files);
+  const fs::path gnuplot = find_gnuplot();
+  for (const Figure &figure : figures.figures)
+    render(gnuplot, out, figure);
+}
+
+// Opens the folder: new, or one that holds the same map, whose points count.
+bool holds_same(const Task &task, const std::string &record, bool fresh) {
+  const fs::path file = task.out / record_name;
+  if (!fs::exists(file)) {
+    if (fs::exists(task.out) && !fs::is_empty(task.out))
+      throw UsageError(refusal("--out", task.out.string(), "a folder that is new, empty or of a map"));
+  } else if (!fresh) {
+    if (read_text(file) == record) return true;
+    throw UsageError(
+        refusal("--out", task.out.string(),
+                "a folder of a map with the same options, --fresh, which forgets it, or another folder"));
+  }
+  try {
+    make_output_folder(task.out);
+  } catch (const std::runtime_error &error) {
+    throw UsageError(fmt::format("--out is '{}': {}", task.out.string(), error.what()));
+  }
+  return false;
+}
+
+void run_map(const Task &task, bool same, const std::string &record) {
+  const MapGrid &grid = task.grid;
+  const fs::path file = task.out / points_name;
+  std::vector<RegimePoint> points;
+  if (same && fs::exists(file))
+    points = earlier_points(file, grid);
+  else
+    write_files({{file, points_header(grid)}, {task.out / record_name, record}});
+  if (!points.empty()) fmt::print("{} of {} points are there already\n", points.size(), grid.size());
+  TimedProgress progress;
+  judge_points(grid, points.size(), task.threads, [&](const std::vector<RegimePoint> &more) {
+    std::string text;
+    for (const RegimePoint &point : more) {
+      text += point_row(grid, points.size(), point);
+      points.push_back(point);
+    }
+    append_text(file, text);
+    progress.tell("{} of {} points", points.size(), grid.size());
+  });
+  const std::vector<BoundaryPoint> boundaries =
+      find_boundaries(grid, points, task.threads,
+                      [&](double share) { progress.tell("boundaries: {:.0f} %", 100.0 * share); });
+  std::string text = fmt::format("kind,{},{}\n", grid.x.label(), grid.y.label());
+  for (const BoundaryPoint &point : boundaries)
+    text += fmt::format("{},{},{}\n", point.kind, number_text(point.x), number_text(point.y));
+  write_files({{task.out / "boundaries.csv", text}});
+  draw(task.out, map_figures(grid, points, boundaries));
+  fmt::print("{}: {} points, {} points of boundaries\n", task.out.string(), points.size(), boundaries.size());
+  std::array<std::size_t, regime_count> counts{};
+  for (const RegimePoint &point : points)
+    ++counts[static_cast<std::size_t>(point.regime)];
+  for (std::size_t i = 0; i < regime_count; ++i)
+    if (counts[i] > 0) fmt::print("  {:<20}{:>7}\n", regime_names[i], counts[i]);
+}
+
+void run_sweep(const Task &task, const std::string &record) {
+  constexpr int kept = 32;
+  TimedProgress progress;
+  const Sweep found = sweep(task.grid.chain, *task.sweep, task.grid.cycles, kept,
+                            [&](double share) { progress.tell("{:.0f} %", 100.0 * share); });
+  std::string samples = fmt::format("direction,{},x_drum [m],v_drum [m/s]\n", task.sweep->label());
+  for (const SweepSample &sample : found.samples)
+    samples += fmt::format("{},{},{},{}\n", sample.up ? "up" : "down", number_text(sample.value),
+                           number_text(sample.x_drum), number_text(sample.v_drum));
+  std::string boundaries = fmt::format("kind,{}\n", task.sweep->label());
+  for (const BoundaryPoint &point : found.boundaries) {
+    boundaries += fmt::format("{},{}\n", point.kind, number_text(point.x));
+    fmt::print("  {:<20}{} = {:.10g}\n", point.kind, task.sweep->name, point.x);
+  }
+  write_files({{task.out / "sweep.csv", samples},
+               {task.out / "boundaries.csv", boundaries},
+               {task.out / record_name, record}});
+  draw(task.out, sweep_figures(task.grid.chain, *task.sweep, found));
+  fmt::print("{}: {} samples of {} values, up and down\n", task.out.string(), found.samples.size(),
+             task.sweep->count);
+}
+
+void run(const Arguments &arguments) {
+  const Task task = judge(arguments);
+  const std::string record = settings(task);
+  const bool same = holds_same(task, record, arguments.fresh);
+  if (task.sweep)
+    run_sweep(task, record);
+  else
+    run_map(task, same, record);
+}
+
+} // namespace
+
+void add_map_command(CLI::App &app, Session & /*session*/) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App *map = app.add_subcommand("map", "Which motion a roller comes to, over two numbers of the chain "
+                                            "or along one: continuous contact, partial "
+                                            "uplift, period 2 (double jump), higher period, aperiodic; CMV, "
+                                            "RMV, peak force and share of contact. Writes CSV "
+                                            "files and plots. An interrupted map goes on where it was.");
+  add_chain_options(*map, arguments->chain);
+  CLI::Option *x =
+      map->add_option("--x", arguments->x,
+                      "axis NAME:FROM:TO:COUNT or NAME:FROM:TO:COUNT:log, NAME one of k, D, omega, Fw, "
+                      "me_re, m2, m3, k23, c23")
+          ->type_name("AXIS")
+          ->capture_default_str();
+  CLI::Option *y =
+      map->add_option("--y", arguments->y, "the other axis")->type_name("AXIS")->capture_default_str();
+  map->add_option_function<std::string>(
+         "--sweep", [arguments](const std::string &text) { arguments->sweep = text; },
+         "instead of a map: follow the motion along one axis up and down, once-per-cycle samples")
+      ->type_name("AXIS");
+  map->add_option_function<std::string>(
+         "--me-re", [arguments](const std::string &text) { arguments->me_re = text; },
+         "eccentric moment m_e r_e [kg m]: Fw = m_e r_e omega^2 instead of a fixed Fw")
+      ->type_name("NUMBER");
+  map->add_option("--cycles", arguments->cycles, "cycles of the excitation at each point, 100 or more")
+      ->type_name("COUNT")
+      ->capture_default_str();
+  map->add_option("--threads", arguments->threads, "points at the same time")
+      ->type_name("COUNT")
+      ->capture_default_str();
+  map->add_option("--out", arguments->out, "folder of the results")->type_name("DIR")->capture_default_str();
+  map->add_flag("--fresh", arguments->fresh, "forget the points of an earlier call");
+  map->callback([arguments, x, y] {
+    arguments->axes_given = x->count() > 0 || y->count() > 0;
+    run(*arguments);
+  });
+}
+
+} // namespace drumlin::post
