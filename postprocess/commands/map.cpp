@@ -168,7 +168,7 @@ std::vector<RegimePoint> earlier_points(const fs::path &file, const MapGrid &gri
   const Table table = read_table(file);
   std::vector<RegimePoint> points(std::min(table.rows(), grid.size()));
   const std::vector<std::string> regimes = table.text("regime");
-  const std::vector<long> periods = table.integers("period [cycles]");
+  const std::vector<double> periods = table.numbers("period [cycles]");
   const auto column = [&](const char *name, const auto &set) {
     const std::vector<double> values = table.numbers(name);
     for (std::size_t i = 0; i < points.size(); ++i)

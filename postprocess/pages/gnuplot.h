@@ -31,8 +31,8 @@ enum class CurveStyle {
   line_3,
   line_4,
   line_5,
-  discs,    ///< filled circles, radius in units of the axes; y names ordinate, radius and colour: "4:5:6"
-  circles,  ///< the same as outlines, black; y names ordinate and radius
+  discs,   ///< filled circles, radius in units of the axes; y names ordinate, radius and colour: "4:5:6"
+  circles, ///< the same as outlines, black; y names ordinate and radius
   cells, ///< rectangles coloured by value; y names ordinate, left, right, bottom, top and value, e.g. "2:3:4:5:6:7"
   area_1, ///< area_1 to area_6: rectangles as of cells without a value, each with a hatch or a grey level of its own besides its colour
   area_2,
@@ -44,7 +44,7 @@ enum class CurveStyle {
   dots_down, ///< small open circles, vermilion
   mark_1,    ///< small filled circles, black: points of a boundary
   mark_2,    ///< small open squares, black
-  segments, ///< black line segments of Curve::width; y names ordinate and the extents along both axes
+  segments,  ///< black line segments of Curve::width; y names ordinate and the extents along both axes
 };
 
 /// One curve of a panel, read from a CSV file with one header line.

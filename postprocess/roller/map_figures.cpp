@@ -94,7 +94,6 @@ Panel empty_panel(const MapGrid &grid, const std::string &title) {
   panel.log_y = grid.y.log;
   panel.x_range = axis_range(x.scale * grid.x.from, x.scale * grid.x.to);
   panel.y_range = axis_range(y.scale * grid.y.from, y.scale * grid.y.to);
-  panel.legend_rows = 3;
   return panel;
 }
 
@@ -149,8 +148,6 @@ MapFigures map_figures(const MapGrid &grid, const std::vector<RegimePoint> &poin
   Figure regimes;
   regimes.name = "regimes";
   regimes.title = "Motion of the roller";
-  regimes.panel_width = 1000;
-  regimes.panel_height = 720;
   regimes.only_png = true;
   Panel panel = empty_panel(grid, given);
   constexpr std::array<CurveStyle, regime_count> styles = {CurveStyle::area_1, CurveStyle::area_2,
@@ -170,7 +167,6 @@ MapFigures map_figures(const MapGrid &grid, const std::vector<RegimePoint> &poin
     figure.title = layers[i].title;
     Panel layer = empty_panel(grid, given);
     layer.color_label = layers[i].title;
-    layer.legend_rows = 1;
     layer.curves.push_back(
         {"plot_cells.csv", "1", fmt::format("2:3:4:5:6:{}", 7 + i), "", CurveStyle::cells});
     add_marks(layer);
@@ -206,8 +202,6 @@ MapFigures sweep_figures(const MapChain &chain, const MapAxis &axis, const Sweep
   Figure figure;
   figure.name = "sweep";
   figure.title = "Once-per-cycle position of the drum";
-  figure.panel_width = 1000;
-  figure.panel_height = 640;
   figure.only_png = true;
   Panel panel;
   panel.title = conditions(chain, {axis.name});
@@ -216,7 +210,6 @@ MapFigures sweep_figures(const MapChain &chain, const MapAxis &axis, const Sweep
   panel.log_x = axis.log;
   panel.x_range = axis_range(shown.scale * axis.from, shown.scale * axis.to);
   panel.y_range = axis_range(low - rim, high + rim);
-  panel.legend_rows = 3;
   panel.curves.push_back({"plot_samples.csv", "($1==0?$2:NaN)", "3", "downwards", CurveStyle::dots_down});
   panel.curves.push_back({"plot_samples.csv", "($1==1?$2:NaN)", "3", "upwards", CurveStyle::dots_up});
   constexpr std::array<CurveStyle, 3> line_styles = {CurveStyle::line_5, CurveStyle::line_3,
