@@ -149,7 +149,7 @@ void FixStepping::expect_contacts() {
       const double m_eff = source->effective_mass(i, j);
       if (std::isinf(m_eff)) continue;
       const drumlin::physics::LinearContact &law = source->law(atom->type[i], atom->type[j]);
-      const double c = drumlin::physics::damping_coefficient(law, m_eff);
+      const double c = law.damping_coefficient(m_eff);
       ball(i).add(law.stiffness, c);
       ball(j).add(law.stiffness, c);
     }

@@ -171,17 +171,17 @@ void FixBondSpring::post_force(int vflag) {
   }
   const physics::StepMotion motion{state_.distance - bond_.length, state_.rate, state_.rate_before,
                                    update->dt};
+  // There is no make and no clamp: A is the law without them.
+  const physics::LinearLaw link(bond_.stiffness, bond_.damping, physics::Transition::A);
   // A light dashpot on its own: together with a far heavier one it would lag behind by many steps.
   const double c_over_m = bond_.damping * state_.inverse_masses;
   if (!physics::needs_coupling(motion.dt, bond_.stiffness, bond_.damping, c_over_m)) {
-    take_note(under(physics::second_order_spring_dashpot(bond_.stiffness, bond_.damping, motion, acted_.force,
-                                                         c_over_m)));
+    take_note(under(physics::implicit_force(link, motion, acted_.force, c_over_m)));
     pull(acted_.force);
     return;
   }
-  // There is no make and no clamp: A is the law without them.
-  const physics::CoupledDashpot coupled = physics::coupled_dashpot(
-      physics::Transition::A, bond_.stiffness, bond_.damping, motion, acted_.force, state_.damping_over_mass);
+  const physics::CoupledDashpot coupled =
+      physics::coupled_dashpot(link, motion, acted_.force, state_.damping_over_mass);
   pull(coupled.first);
   stepping_->couple([this, coupled] {
     take_note(under(physics::coupled_force(coupled, predicted_rate())));

@@ -96,14 +96,9 @@ void FixContactEvents::rebuild() {
     for (int jj = 0; jj < list->numneigh[i]; ++jj) {
       const int j = engine::neighbour_index(list->firstneigh[i][jj]);
       if (!is_watched(i, j)) continue;
-      const physics::LinearContact &law = source_->law(atom->type[i], atom->type[j]);
-      Watched pair{};
-      pair.i = i;
-      pair.j = j;
-      pair.tags = std::minmax(atom->tag[i], atom->tag[j]);
-      pair.k = law.stiffness;
-      pair.c = physics::damping_coefficient(law, source_->effective_mass(i, j));
-      pair.transition = law.transition;
+      const physics::LinearLaw law =
+          source_->law(atom->type[i], atom->type[j]).of_mass(source_->effective_mass(i, j));
+      Watched pair{i, j, std::minmax(atom->tag[i], atom->tag[j]), law, {}};
       if (const auto known = carried_.find(pair.tags); known != carried_.end()) {
         pair.state = known->second;
       } else {
@@ -162,7 +157,7 @@ void FixContactEvents::end_of_step() {
   for (Watched &pair : watched_) {
     const drumlin::PairMotion motion = drumlin::pair_motion(*atom, pair.i, pair.j);
     const physics::OverlapState now{motion.overlap, motion.rate};
-    if (const auto event = physics::locate_transition(pair.transition, pair.k, pair.c, dt, pair.state, now))
+    if (const auto event = physics::locate_transition(pair.law, dt, pair.state, now))
       pending_.push_back({clock_.time(update->ntimestep - 1) + event->since, event->make ? 1 : 0,
                           event->overlap, event->rate, event->force, pair.tags.first, pair.tags.second});
     pair.state = now;

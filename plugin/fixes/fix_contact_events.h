@@ -37,8 +37,7 @@ private:
   struct Watched {
     int i, j;
     Tags tags;
-    double k, c;
-    drumlin::physics::Transition transition;
+    drumlin::physics::LinearLaw law;
     drumlin::physics::OverlapState state;
   };
   struct Event {

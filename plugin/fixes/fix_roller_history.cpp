@@ -205,13 +205,14 @@ void FixRollerHistory::rebuild() {
       if (i_drum == j_drum || ((i_drum ? mask[j] : mask[i]) & roller)) continue;
       // With newton off a pair across ranks is listed on both: the drum ball's owner counts it.
       if ((i_drum ? i : j) >= atom->nlocal && !force->newton_pair) continue;
-      const physics::LinearContact &law = source_->law(atom->type[i], atom->type[j]);
-      const double c = physics::damping_coefficient(law, source_->effective_mass(i, j));
+      const physics::LinearLaw law =
+          source_->law(atom->type[i], atom->type[j]).of_mass(source_->effective_mass(i, j));
       const drumlin::FrictionModel model = source_->friction_model();
       candidates_.push_back(
-          {i, j, i_drum ? 1.0 : -1.0, law.stiffness, c, law.transition,
-           model == drumlin::FrictionModel::none ? physics::Friction{}
-                                                 : source_->friction(atom->type[i], atom->type[j], c),
+          {i, j, i_drum ? 1.0 : -1.0, law,
+           model == drumlin::FrictionModel::none
+               ? physics::Friction{}
+               : source_->friction(atom->type[i], atom->type[j], law.dashpot(0.0)),
            model == drumlin::FrictionModel::history ? source_->tangential_spring(i, jj) : nullptr});
     }
   }
@@ -253,15 +254,15 @@ void FixRollerHistory::evaluate() {
   std::array<double, 4> mine{}; // contact force, dissipated power, stored energy, pairs in contact
   for (const Candidate &pair : candidates_) {
     const drumlin::PairMotion m = drumlin::pair_motion(*atom, pair.i, pair.j);
-    const double F = physics::normal_force(pair.transition, pair.k, pair.c, m.overlap, m.rate);
+    const double F = pair.law.force(m.overlap, m.rate);
     mine[0] += pair.sign * F * along(m.normal.data());
     if (m.overlap > 0.0 && pair.friction.coefficient > 0.0)
       mine[0] += pair.sign * along(drumlin::friction_force(*atom, pair.i, pair.j, m, pair.friction, F,
                                                            pair.spring, update->dt)
                                        .data());
-    mine[1] += physics::contact_power(pair.transition, pair.k, pair.c, m.overlap, m.rate).dissipated;
-    mine[2] += physics::contact_energy(pair.k, m.overlap);
-    mine[3] += physics::in_contact(pair.transition, pair.k, pair.c, m.overlap, m.rate) ? 1.0 : 0.0;
+    mine[1] += pair.law.power(m.overlap, m.rate).dissipated;
+    mine[2] += pair.law.energy(m.overlap);
+    mine[3] += pair.law.acts(m.overlap, m.rate) ? 1.0 : 0.0;
   }
   std::array<double, 4> all = mine;
   if (comm->nprocs > 1) MPI_Allreduce(mine.data(), all.data(), 4, MPI_DOUBLE, MPI_SUM, world);

@@ -49,8 +49,7 @@ private:
   struct Candidate { // a pair of the list: a ball of the drum, and one that is neither drum nor frame
     int i, j;
     double sign; // 1: ball i is the drum's; -1: ball j
-    double k, c;
-    drumlin::physics::Transition transition;
+    drumlin::physics::LinearLaw law;
     drumlin::physics::Friction friction;
     const double *spring; // of the tangential model; nullptr if it has none
   };

@@ -172,18 +172,15 @@ void FixWallGranTransition::touch(int i, int place, const physics::Vec3 &normal,
   p.normal.normal = normal;
   p.normal.overlap = atom->radius[i] - distance;
   p.normal.rate_half = -(v[0] * normal[0] + v[1] * normal[1] + v[2] * normal[2]);
-  p.normal.k = law.normal.stiffness;
-  p.normal.c = physics::damping_coefficient(law.normal, mass);
   p.normal.m_eff = mass;
   p.normal.share = 1.0;
   p.history = remembered + (settings.spring() > 0 ? 1 : 4);
+  p.in_contact = remembered[0] != 0.0;
 
   drumlin::ContactForces forces{};
   if (!touches) { // it did, a step ago
+    if constexpr (stepped) forces.force = drumlin::end_contact(law, *stepping_, p.normal, remembered[4]);
     std::fill_n(remembered, of_a_side, 0.0);
-    if constexpr (stepped)
-      if (moves && settings.transition == physics::Transition::A)
-        forces.force = drumlin::end_of_a(*stepping_, p.normal);
   } else {
     remembered[0] = 1.0;
     p.arm_i = atom->radius[i] - 0.5 * p.normal.overlap; // as between balls

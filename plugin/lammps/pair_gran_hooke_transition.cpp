@@ -243,7 +243,7 @@ physics::Dashpots PairGranHookeTransition::wall_dashpots(int i) const {
   for (const FixWallGranTransition *wall : FixWallGranTransition::all()) {
     const physics::LinearContact &law = at(atom->type[i], wall->type()).normal;
     for (int side = 0; side < wall->sides(); ++side)
-      all.add(law.stiffness, physics::damping_coefficient(law, mass(i)));
+      all.add(law.stiffness, law.damping_coefficient(mass(i)));
   }
   return all;
 }
@@ -267,7 +267,7 @@ void PairGranHookeTransition::compute_contacts() {
   const drumlin::ContactSettings settings = settings_;
   const int history_size = settings.history();
   const bool moves = update->setupflag == 0;
-  const bool a_may_end = stepped && moves && settings.transition == physics::Transition::A;
+  const int force_place = settings.spring(); // in the history
   const double dt = update->dt;
   const int nlocal = atom->nlocal;
   if (list->inum == 0) return; // there may be no arrays
@@ -325,26 +325,27 @@ void PairGranHookeTransition::compute_contacts() {
                                        arm_i * omega[i][2] + arm_j * omega[j][2]});
       double *const history =
           remembers ? memory_of_i + static_cast<std::ptrdiff_t>(history_size) * jj : nullptr;
-      const drumlin::Contact p{{i, j, normal, nullptr, overlap, -physics::dot(relative, normal),
-                                law.normal.stiffness, physics::damping_coefficient(law.normal, m_eff), m_eff,
-                                1.0},
+      const drumlin::Contact p{{i, j, normal, nullptr, overlap, -physics::dot(relative, normal), m_eff, 1.0},
                                slip,
                                arm_i,
                                arm_j,
-                               history};
+                               history,
+                               remembers && touch[jj] != 0};
 
       drumlin::ContactForces forces;
       if (touches) {
         if constexpr (remembers) touch[jj] = 1;
         forces = drumlin::exert<stepped, tangential>(settings, law, stepping_, p, dt, moves);
         if (told)
-          report({drumlin::apart(p.normal), p.slip, p.arm_i, p.arm_j, p.history},
+          report({drumlin::apart(p.normal), p.slip, p.arm_i, p.arm_j, p.history, p.in_contact},
                  {forces.normal_force, forces.force, forces.tangential_force, forces.moment});
       } else { // it did, a step ago
         forces = {};
         touch[jj] = 0;
+        if constexpr (stepped)
+          forces.force =
+              drumlin::end_contact(law, *stepping_, drumlin::apart(p.normal), history[force_place]);
         std::fill_n(history, history_size, 0.0);
-        if (a_may_end) forces.force = drumlin::end_of_a(*stepping_, drumlin::apart(p.normal));
       }
       force_i = physics::sum(force_i, 1.0, forces.force);
       if constexpr (rubs) torque_i = physics::sum(torque_i, -arm_i, forces.moment);
@@ -407,14 +408,13 @@ double PairGranHookeTransition::single(int i, int j, int itype, int jtype, doubl
   const double *remembered = settings_.history() > 0 ? history(i, j) : nullptr;
   if (now.overlap <= 0.0 || (settings_.history() > 0 && remembered == nullptr)) return 0.0;
   const ContactCoefficients &law = at(itype, jtype);
-  const double c = physics::damping_coefficient(law.normal, effective_mass(i, j));
+  const physics::LinearLaw normal = law.normal.of_mass(effective_mass(i, j));
   const double normal_force =
-      settings_.stock
-          ? physics::normal_force(settings_.transition, law.normal.stiffness, c, now.overlap, now.rate)
-          : remembered[settings_.spring()];
+      settings_.stock ? normal.force(now.overlap, now.rate) : remembered[settings_.spring()];
   force_over_distance = normal_force / (atom->radius[i] + atom->radius[j] - now.overlap);
-  const physics::Friction friction =
-      settings_.tangential == FrictionModel::none ? physics::Friction{} : law.tangential(c, settings_.cap);
+  const physics::Friction friction = settings_.tangential == FrictionModel::none
+                                         ? physics::Friction{}
+                                         : law.tangential(normal.dashpot(now.overlap), settings_.cap);
   const physics::Vec3 across = drumlin::friction_force(
       *atom, i, j, now, friction, normal_force, settings_.spring() > 0 ? remembered : nullptr, update->dt);
   const physics::Vec3 slip = drumlin::tangential_velocity(*atom, i, j, now);

@@ -92,7 +92,7 @@ public:
       for (int type = 1; type <= atom->ntypes; ++type) {
         const physics::LinearContact &law = wall->at(atom->type[i], type).normal;
         physics::Dashpots one;
-        one.add(law.stiffness, physics::damping_coefficient(law, mass(i)));
+        one.add(law.stiffness, law.damping_coefficient(mass(i)));
         strongest = {std::max(strongest.sum, one.sum), std::max(strongest.stiffest, one.stiffest)};
       }
       all.add(strongest);

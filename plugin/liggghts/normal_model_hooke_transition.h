@@ -25,8 +25,7 @@ NORMAL_MODEL(HOOKE_TRANSITION, hooke / transition, 21)
 #include "contact/fix_stepping.h"
 #include "contact/stepped_contact.h"
 #include "liggghts/contact_table.h"
-#include "physics/contact_law.h"
-#include "physics/stepping.h"
+#include "physics/contact_step.h"
 
 namespace LIGGGHTS {
 namespace ContactModels {
@@ -57,8 +56,9 @@ public:
     else if (!stepping_stock_)
       stepping_ = LAMMPS_NS::FixStepping::provide(lmp);
     if (stepping_stock_) return;
-    force_before_offset_ = history->add_history_value(drumlin::final_force_name, "0");
-    all->add_history_offset(drumlin::final_force_name, force_before_offset_);
+    state_offset_ = history->add_history_value(drumlin::final_force_name, "0");
+    history->add_history_value("normal_in_contact", "0");
+    all->add_history_offset(drumlin::final_force_name, state_offset_);
   }
 
   void connectToProperties(PropertyRegistry &registry) {
@@ -82,19 +82,20 @@ public:
     if (sidata.contact_flags) *sidata.contact_flags |= CONTACT_NORMAL_MODEL;
     const drumlin::ContactCoefficients &p = table_.at(sidata.itype, sidata.jtype);
     if (clumps_) take_body_masses(sidata);
-    const double k = p.normal.stiffness;
-    const double c = drumlin::physics::damping_coefficient(p.normal, sidata.meff);
-    sidata.kn = k;
-    sidata.gamman = c;
+    const drumlin::physics::LinearLaw law = p.normal.of_mass(sidata.meff);
+    sidata.kn = law.stiffness(sidata.deltan);
+    sidata.gamman = law.dashpot(sidata.deltan);
     sidata.kt = p.tangential_stiffness;
-    sidata.gammat = p.tangential_damping_share * c + p.tangential_damping;
+    sidata.gammat = p.tangential_damping_share * sidata.gamman + p.tangential_damping;
     const double share = sidata.is_wall ? sidata.area_ratio : 1.0;
     if (stepping_ == nullptr) {
       // The engine's vn is positive when the balls separate: overlap_rate = -vn.
-      sidata.Fn = drumlin::physics::normal_force(transition(), k, c, sidata.deltan, -sidata.vn);
+      drumlin::physics::ContactState state;
+      const double rate = -sidata.vn;
+      sidata.Fn = drumlin::physics::advance_stock(law, {sidata.deltan, rate, rate, update->dt}, state).force;
       add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);
     } else
-      second_order(sidata, k, c, share, i_forces, j_forces);
+      second_order(sidata, law, share, i_forces, j_forces);
     for (drumlin::ContactWatch *watch : drumlin::ContactWatch::looking())
       show(*watch, share, sidata);
   }
@@ -102,11 +103,9 @@ public:
   void surfacesClose(SurfacesCloseData &scdata, ForceData &i_forces, ForceData &j_forces) {
     if (scdata.contact_flags) *scdata.contact_flags &= ~CONTACT_NORMAL_MODEL;
     if (stepping_ == nullptr || !scdata.computeflag || scdata.contact_history == nullptr) return;
-    // The record says that they touched a step ago; their motion alone, along a normal that turns, may say so twice.
-    double &force_before = scdata.contact_history[force_before_offset_];
-    if (!drumlin::physics::was_contact(force_before)) return;
-    force_before = 0.0;
-    if (transition_a_ && !stepping_->in_setup()) break_of_a(scdata, i_forces, j_forces);
+    if (scdata.contact_history[state_offset_ + 1] == 0.0) return; // they did not touch a step ago
+    end_contact(scdata, i_forces, j_forces);
+    std::fill_n(scdata.contact_history + state_offset_, 2, 0.0);
   }
 
   void beginPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
@@ -150,51 +149,48 @@ private:
                                         : drumlin::physics::effective_mass(sidata.mi, sidata.mj);
   }
 
-  /// Rate of the overlap with the velocities at the begin of the step.
-  double rate_before(const SurfacesCloseData &data, const double *normal) const {
-    return drumlin::rate_before(*stepping_, data.i,
-                                data.is_wall ? data.v_j : stepping_->velocity_before(data.j),
-                                {normal[0], normal[1], normal[2]});
-  }
-
   /// Sets sidata.Fn and adds the force.
-  inline void second_order(SurfacesIntersectData &sidata, double k, double c, double share,
-                           ForceData &i_forces, ForceData &j_forces) {
-    using namespace drumlin::physics;
-    double &force_before = sidata.contact_history[force_before_offset_];
-    const StepMotion motion = motion_of(sidata);
-    if (sidata.computeflag &&
-        drumlin::hold(transition(), *stepping_, sidata.i, sidata.is_wall ? -1 : sidata.j, motion, k, c,
-                      sidata.meff, force_before)) {
-      sidata.Fn = force_before;
+  inline void second_order(SurfacesIntersectData &sidata, const drumlin::physics::LinearLaw &law,
+                           double share, ForceData &i_forces, ForceData &j_forces) {
+    double *const stored = sidata.contact_history + state_offset_; // force, N; 1 if in contact, else 0
+    drumlin::physics::ContactState state{stored[0], stored[1] != 0.0, {}};
+    if (sidata.computeflag && drumlin::hold_contact(law, *stepping_, sidata.i, sidata.is_wall ? -1 : sidata.j,
+                                                    motion_of(sidata), sidata.meff, state)) {
+      stored[0] = sidata.Fn = state.force;
       add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);
     } else
-      second_order_rare(sidata, k, c, share, i_forces, j_forces);
+      second_order_rare(sidata, law, share, i_forces, j_forces);
   }
 
   inline drumlin::physics::StepMotion motion_of(const SurfacesIntersectData &sidata) const {
-    return {sidata.deltan, -sidata.vn, rate_before(sidata, sidata.en), stepping_->dt()};
+    const double *v_j = sidata.is_wall ? sidata.v_j : stepping_->velocity_before(sidata.j);
+    return {sidata.deltan, -sidata.vn,
+            drumlin::rate_before(*stepping_, sidata.i, v_j, {sidata.en[0], sidata.en[1], sidata.en[2]}),
+            stepping_->dt()};
   }
 
-  [[gnu::noinline]] void second_order_rare(SurfacesIntersectData &sidata, double k, double c, double share,
+  [[gnu::noinline]] void second_order_rare(SurfacesIntersectData &sidata,
+                                           const drumlin::physics::LinearLaw &law, double share,
                                            ForceData &i_forces, ForceData &j_forces) {
     if (!sidata.computeflag) {
       look(sidata, share, i_forces, j_forces);
       return;
     }
-    const drumlin::SteppedContact stepped(transition(), *stepping_);
+    double *const stored = sidata.contact_history + state_offset_;
+    drumlin::physics::ContactState state{stored[0], stored[1] != 0.0, {}};
     const auto push = [&](double force) { add(force, sidata.en, sidata, i_forces, j_forces); };
-    sidata.Fn = stepped.exert({sidata.i,
-                               sidata.is_wall ? -1 : sidata.j,
-                               {sidata.en[0], sidata.en[1], sidata.en[2]},
-                               sidata.is_wall ? sidata.v_j : nullptr,
-                               sidata.deltan,
-                               -sidata.vn,
-                               k,
-                               c,
-                               sidata.meff,
-                               share},
-                              sidata.contact_history[force_before_offset_], push);
+    drumlin::exert_contact(law, *stepping_,
+                           {sidata.i,
+                            sidata.is_wall ? -1 : sidata.j,
+                            {sidata.en[0], sidata.en[1], sidata.en[2]},
+                            sidata.is_wall ? sidata.v_j : nullptr,
+                            sidata.deltan,
+                            -sidata.vn,
+                            sidata.meff,
+                            share},
+                           state, stored[0], push);
+    stored[0] = sidata.Fn = state.force;
+    stored[1] = 1.0;
   }
 
   /// What compute pair/gran/local sees behind a step, when the velocities of the step are gone: the force on record.
@@ -202,7 +198,7 @@ private:
   /// must find it above the limit, or, where the limit is zero, not damped: else it takes the contact for one that sticks
   /// and puts a dashpot on top.
   void look(SurfacesIntersectData &sidata, double share, ForceData &i_forces, ForceData &j_forces) const {
-    sidata.Fn = sidata.contact_history[force_before_offset_];
+    sidata.Fn = sidata.contact_history[state_offset_];
     add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);
     if (!tangential_spring_) return;
     constexpr double below = 1.0 - 1e-12;
@@ -223,30 +219,32 @@ private:
     j_forces.delta_F[2] -= z;
   }
 
-  /// A jump like the make: the tensile force acted for part of the step that ends with the balls apart.
-  void break_of_a(SurfacesCloseData &scdata, ForceData &i_forces, ForceData &j_forces) {
+  /// The step in which a contact ends: a force of tension has acted for part of it.
+  void end_contact(SurfacesCloseData &scdata, ForceData &i_forces, ForceData &j_forces) {
     const double r = std::sqrt(scdata.rsq);
     const double normal[3] = {scdata.delta[0] / r, scdata.delta[1] / r, scdata.delta[2] / r};
     double rate_half = 0.0;
     for (int a = 0; a < 3; ++a)
       rate_half -= (scdata.v_i[a] - scdata.v_j[a]) * normal[a];
-    const drumlin::ContactCoefficients &p = table_.at(scdata.itype, scdata.jtype);
     const double mi = LAMMPS_NS::FixClump::mass_of(*atom, scdata.i, atom->rmass[scdata.i]);
     const double m_eff = scdata.is_wall ? mi : effective_mass(scdata.i, scdata.j);
-    const double c = drumlin::physics::damping_coefficient(p.normal, m_eff);
-    const drumlin::SteppedContact stepped(transition(), *stepping_);
-    const auto push = [&](double force) { add(force, normal, scdata, i_forces, j_forces); };
-    scdata.has_force_update |= stepped.end({scdata.i,
-                                            scdata.is_wall ? -1 : scdata.j,
-                                            {normal[0], normal[1], normal[2]},
-                                            scdata.is_wall ? scdata.v_j : nullptr,
-                                            scdata.radsum - r,
-                                            rate_half,
-                                            p.normal.stiffness,
-                                            c,
-                                            m_eff,
-                                            1.0},
-                                           push);
+    double *const stored = scdata.contact_history + state_offset_;
+    drumlin::physics::ContactState state{stored[0], true, {}};
+    const auto push = [&](double force) {
+      if (force == 0.0) return;
+      add(force, normal, scdata, i_forces, j_forces);
+      scdata.has_force_update = true;
+    };
+    drumlin::exert_contact(table_.at(scdata.itype, scdata.jtype).normal.of_mass(m_eff), *stepping_,
+                           {scdata.i,
+                            scdata.is_wall ? -1 : scdata.j,
+                            {normal[0], normal[1], normal[2]},
+                            scdata.is_wall ? scdata.v_j : nullptr,
+                            std::min(scdata.radsum - r, -std::numeric_limits<double>::min()),
+                            rate_half,
+                            m_eff,
+                            1.0},
+                           state, stored[0], push);
   }
 
   /// \param share of the stiffnesses that acts
@@ -288,7 +286,7 @@ private:
   bool rolling_spring_ = false;
   LAMMPS_NS::PairGran *pair_ = nullptr;        // that knows which balls are frozen
   LAMMPS_NS::FixStepping *stepping_ = nullptr; // none under stock stepping
-  int force_before_offset_ = 0;                // in the contact history, under second-order stepping
+  int state_offset_ = 0; // of force and 'in contact' in the contact history, with the second-order scheme
   double **friction_ = nullptr; // coefficients by types, as the engine's `tangential history` has them
   drumlin::ContactTable table_;
 };

@@ -2,7 +2,7 @@
 /// finding, and the core's law stepped as the engines step it.
 
 #include "physics/contact_law.h"
-#include "tests/plugin/physics/stock_stepping.h"
+#include "tests/plugin/physics/velocity_verlet.h"
 #include "tests/support/ode.h"
 
 #include <gtest/gtest.h>
@@ -58,16 +58,16 @@ double by_cvode(Transition transition, double ratio) {
 }
 
 double by_stepping(Transition transition, double ratio, double w0_dt) {
-  const double c = damping_coefficient({stiffness, ratio, Damping::ratio, transition}, mass);
+  const double c = LinearContact{stiffness, ratio, Damping::ratio, transition}.damping_coefficient(mass);
   const double dt = w0_dt / std::sqrt(stiffness / mass);
   // The wall is at x = 0, the ball comes from above: d = -x.
-  stepping::Balls<1> ball{{mass}, {0.0}, {-speed}};
+  verlet::Balls<1> ball{{mass}, {0.0}, {-speed}};
   const auto forces = [&](double, const std::array<double, 1> &x, const std::array<double, 1> &v) {
-    return std::array<double, 1>{normal_force(transition, stiffness, c, -x[0], -v[0])};
+    return std::array<double, 1>{LinearLaw(stiffness, c, transition).force(-x[0], -v[0])};
   };
   const int longest = static_cast<int>(60.0 / w0_dt);
   for (int n = 0; n < longest; ++n) {
-    stepping::stock_step(ball, 0.0, dt, forces);
+    verlet::stock_step(ball, 0.0, dt, forces);
     if (ball.x[0] > 0.0) return ball.v[0] / speed;
   }
   return 0.0;
