@@ -2,7 +2,6 @@
 // The second-order scheme in an engine's loop over contacts: what a contact needs of FixStepping, and what becomes of the result of
 // physics::advance(). The part of an engine's adapter that does not depend on the engine.
 
-#include "contact/contact_watch.h"
 #include "contact/fix_stepping.h"
 #include "physics/contact_step.h"
 
@@ -107,46 +106,6 @@ void exert_contact(const Law &law, LAMMPS_NS::FixStepping &stepping, const StepC
   exert_later(stepping, p, step);
   if (step.coupled) couple(stepping, p, step.dashpot, stored_force);
   if (state.in_contact) count(stepping, p.i, p.j, law.dashpot(p.overlap));
-}
-
-/// One contact for those who watch.
-struct ShownContact {
-  int i, j;                      ///< j < 0: a wall
-  int tag_i, tag_j;              ///< 0 for a wall
-  bool tells_j;                  ///< of ball j, too: it is no ghost whose owner tells of the contact
-  double inverse_mi, inverse_mj; ///< 1/kg, 0 if fixed
-  double ri, rj;                 ///< m; of a wall the ball's
-  double overlap;                ///< m
-  const double *normal;
-  double mass_over_inertia; ///< m r^2 / I of the balls
-  // What acts in the contact, 0 if nothing does: N/m, N s/m
-  double normal_spring, normal_dashpot, tangential_spring, tangential_dashpot;
-  double rolling_spring_share; ///< of kt r_eff^2, N m
-};
-
-inline void show(ContactWatch &watch, const ShownContact &p) {
-  const double inverse_masses = p.inverse_mi + p.inverse_mj;
-  if (inverse_masses == 0.0) return;
-  const double inverse_mt = 1.0 / physics::tangential_mass(p.inverse_mi, p.inverse_mj, p.mass_over_inertia);
-  physics::LinkModes modes;
-  std::copy_n(p.normal, 3, modes.normal.begin());
-  modes.normal_spring = p.normal_spring * inverse_masses;
-  modes.normal_dashpot = p.normal_dashpot * inverse_masses;
-  modes.tangential_spring = p.tangential_spring * inverse_mt;
-  modes.tangential_dashpot = p.tangential_dashpot * inverse_mt;
-  if (p.rolling_spring_share != 0.0) {
-    const double r_eff = p.j < 0 ? p.ri : p.ri * p.rj / (p.ri + p.rj);
-    modes.rolling_spring = p.rolling_spring_share * r_eff * r_eff * p.mass_over_inertia *
-                           (p.inverse_mi / (p.ri * p.ri) + p.inverse_mj / (p.rj * p.rj));
-  }
-  const double overlap = p.overlap / std::min(p.ri, p.rj);
-  const auto see = [&](int ball, int partner, double own, double other, double r_own, double r_other) {
-    modes.burden = physics::link_burden(own, other);
-    modes.rolling_burden = physics::link_burden(own / (r_own * r_own), other / (r_other * r_other));
-    watch.see(ball, partner, modes, overlap);
-  };
-  if (p.inverse_mi > 0.0) see(p.i, p.tag_j, p.inverse_mi, p.inverse_mj, p.ri, p.rj);
-  if (p.inverse_mj > 0.0 && p.tells_j) see(p.j, p.tag_i, p.inverse_mj, p.inverse_mi, p.rj, p.ri);
 }
 
 } // namespace drumlin

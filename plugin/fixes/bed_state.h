@@ -1,7 +1,7 @@
 #pragma once
 // State of a bed of soil balls at one instant: energies and their losses, contacts, walls, void ratio.
 
-#include "contact/contact_ledger.h"
+#include "contact/contact_observer.h"
 
 #include <array>
 #include <vector>
@@ -33,13 +33,13 @@ struct BallSums {
   double solid = 0.0; ///< m3 (m2 in two dimensions) of soil in the window
 };
 
-class BedState : public ContactLedger {
+class BedState {
 public:
   explicit BedState(engine::LAMMPS *lmp, int soil_groupbit) : lmp_(lmp), soil_(soil_groupbit) {}
 
   /// Before the forces of a step are computed.
-  void clear() { entries_.clear(); }
-  void enter(const LedgerEntry &entry) override { entries_.push_back(entry); }
+  void clear() { records_.clear(); }
+  void add(const ContactRecord &record) { records_.push_back(record); }
 
   /// Sums over the contacts of the step with the velocities of now, which ghosts must have too. Collective.
   ContactSums contacts(const std::array<double, 3> &axis) const;
@@ -53,7 +53,7 @@ private:
 
   engine::LAMMPS *lmp_;
   int soil_;
-  std::vector<LedgerEntry> entries_;
+  std::vector<ContactRecord> records_;
 };
 
 } // namespace drumlin

@@ -49,6 +49,7 @@ int FixBondSpring::setmask() { return FixConst::PRE_NEIGHBOR | FixConst::POST_FO
 
 void FixBondSpring::init() {
   stepping_ = FixStepping::find(lmp);
+  observers_.find(*modify);
   for (const int tag : tags_) {
     int mine = 0;
     for (int i = 0; i < atom->nlocal; ++i)
@@ -161,8 +162,7 @@ void FixBondSpring::post_force(int vflag) {
   for (std::size_t b = 0; b < 2; ++b)
     if (const int i = local_[b]; i >= 0) {
       if (stepping_ && stepping_->counting()) stepping_->add_damping(i, bond_.damping);
-      for (drumlin::ContactWatch *watch : drumlin::ContactWatch::looking())
-        watch->see(i, tags_[1 - b], modes(atom->rmass[i]), 0.0);
+      if (observers_.any()) observers_.tell_bond(i, tags_[1 - b], modes(atom->rmass[i]));
     }
   if (stepping_ == nullptr || update->setupflag) {
     take_note(physics::bond_force(bond_, state_.distance, state_.rate));

@@ -17,14 +17,6 @@ FixClump::FixClump(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg
   drumlin::Arguments in(error, "fix clump", narg - 3, arg + 3);
   if (!in.empty()) in.fail("'" + in.peek() + "' is left over; allowed: fix ID group clump");
   if (igroup == 0) in.fail("its group is 'all'; allowed: a group that is not all, the balls of the body");
-  list().push_back(this);
-}
-
-FixClump::~FixClump() { list().erase(std::remove(list().begin(), list().end(), this), list().end()); }
-
-std::vector<FixClump *> &FixClump::list() {
-  static std::vector<FixClump *> clumps; // one engine instance per process runs a deck
-  return clumps;
 }
 
 int FixClump::setmask() { return FixConst::POST_FORCE; }
@@ -36,7 +28,9 @@ void FixClump::init() {
                           "fix clump: group {} is empty; allowed: the group of the balls of the body",
                           group->names[igroup])));
   mass_ = group->mass(igroup);
-  for (const FixClump *other : list())
+  Clumps clumps;
+  clumps.find(*modify);
+  for (const FixClump *other : clumps.all())
     if (const int common = shared_with(*other); other != this && common > 0)
       error->all(FLERR,
                  drumlin::engine::as_is(fmt::format(

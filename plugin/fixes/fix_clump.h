@@ -11,7 +11,6 @@ namespace LAMMPS_NS {
 class FixClump : public Fix {
 public:
   FixClump(LAMMPS *, int, char **);
-  ~FixClump() override;
 
   int setmask() override;
   void init() override;
@@ -21,22 +20,36 @@ public:
   /// 0: mass, kg; 1-3: force on the body, N, before it is shared.
   double compute_vector(int) override;
 
-  /// The clumps of this engine instance.
-  static const std::vector<FixClump *> &all() { return list(); }
-  /// Mass (kg) that contacts of ball i (owned or ghost) feel: its body's if it belongs to one, else `own`. Valid from init() on.
-  static double mass_of(const Atom &atom, int i, double own) {
-    for (const FixClump *clump : list())
-      if (atom.mask[i] & clump->groupbit) return clump->mass_;
-    return own;
-  }
+  double mass() const { return mass_; } ///< of the body, kg; valid from init() on
 
 private:
   int shared_with(const Fix &other) const;
-  static std::vector<FixClump *> &list();
 
   double mass_ = 0.0;
   std::array<double, 3> force_{};
   bool echoed_ = false;
+};
+
+/// The clumps of an engine instance, for what asks for the masses of their balls.
+class Clumps {
+public:
+  /// In the initialization of each run.
+  void find(const Modify &modify) {
+    all_.clear();
+    for (int n = 0; n < modify.nfix; ++n)
+      if (const auto *clump = dynamic_cast<const FixClump *>(modify.fix[n])) all_.push_back(clump);
+  }
+  bool empty() const { return all_.empty(); }
+  const std::vector<const FixClump *> &all() const { return all_; }
+  /// Mass (kg) that contacts of ball i (owned or ghost) feel: its body's if it belongs to one, else `own`.
+  double mass_of(const Atom &atom, int i, double own) const {
+    for (const FixClump *clump : all_)
+      if (atom.mask[i] & clump->groupbit) return clump->mass();
+    return own;
+  }
+
+private:
+  std::vector<const FixClump *> all_;
 };
 
 } // namespace LAMMPS_NS

@@ -2,14 +2,12 @@
 // fix contact/local: the contacts of a step, walls' included, for dump local. See plugin/doc/fix_contact_local.md.
 
 #include "engine.h"
-#include "contact/contact_ledger.h"
-
-#include <optional>
+#include "contact/contact_observer.h"
 
 namespace LAMMPS_NS {
 
-/// Keeps the book of every N-th step's contacts and hands it out as local data, one row per contact, on one rank only.
-class FixContactLocal : public Fix {
+/// Hands out the contacts of every N-th step as local data, one row per contact, on one rank only.
+class FixContactLocal : public Fix, public drumlin::ContactObserver {
 public:
   FixContactLocal(LAMMPS *, int, char **);
 
@@ -20,20 +18,16 @@ public:
   void pre_force(int) override;
   void end_of_step() override;
   double memory_usage() override;
+  void see_contact(const drumlin::ContactRecord &record) override { records_.push_back(record); }
 
 private:
-  class Book : public drumlin::ContactLedger {
-  public:
-    void enter(const drumlin::LedgerEntry &entry) override { entries.push_back(entry); }
-    std::vector<drumlin::LedgerEntry> entries;
-  };
-  void close_book();
+  void fill_rows();
 
   /// IDs of the balls, the force on the first and the unit vector to it, the overlap.
   static constexpr std::size_t numbers = 9;
   using Row = std::array<double, numbers>;
 
-  std::optional<Book> book_; // open from the beginning of a step's forces to its end
+  std::vector<drumlin::ContactRecord> records_; // from the beginning of a step's forces to its end
   std::vector<Row> rows_;
   std::vector<double *> row_pointers_;
 };

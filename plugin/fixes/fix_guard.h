@@ -2,7 +2,8 @@
 // fix guard: stops a run whose numbers have gone bad or soon will. See plugin/doc/fix_guard.md.
 
 #include "engine.h"
-#include "contact/contact_watch.h"
+#include "contact/contact_observer.h"
+#include "contact/contact_source.h"
 
 #include <limits>
 #include <string>
@@ -11,7 +12,7 @@ namespace LAMMPS_NS {
 
 /// Ends the run on all ranks, in one line, when a position, velocity or force of the group is no longer finite, when the time step
 /// is beyond the critical one of the contacts and bonds that exist, or when an overlap is too large to mean anything.
-class FixGuard : public drumlin::engine::GhostFix, private drumlin::ContactWatch {
+class FixGuard : public drumlin::engine::GhostFix, public drumlin::ContactObserver {
 public:
   FixGuard(LAMMPS *, int, char **);
 
@@ -27,6 +28,10 @@ public:
   double compute_scalar() override { return critical_.value; }
   /// 0: pi/(w0 dt) of the fastest link; 1: largest overlap, as a share of the smaller radius.
   double compute_vector(int) override;
+  void see_contact(const drumlin::ContactRecord &) override;
+  void see_bond(int ball, int partner, const drumlin::physics::LinkModes &modes) override {
+    see(ball, partner, modes, 0.0);
+  }
 
 private:
   /// An extreme over all balls and where it is.
@@ -46,7 +51,7 @@ private:
     void join(const Ball &other);
   };
 
-  void see(int i, int partner, const drumlin::physics::LinkModes &modes, double overlap) override;
+  void see(int i, int partner, const drumlin::physics::LinkModes &modes, double overlap);
   void begin_look();
   void end_look();
   void check_numbers();
@@ -63,6 +68,7 @@ private:
   std::vector<Ball> balls_;
   Finding critical_{}, fastest_{}, deepest_{};
   std::string told_;
+  const drumlin::ContactSource *source_ = nullptr; // of the masses that contacts feel
 };
 
 } // namespace LAMMPS_NS

@@ -82,6 +82,7 @@ void FixRollerHistory::parse(int narg, char **arg) {
     if (frame_.groupbit == 0 || steps_per_cycle_ == 0)
       in.fail("keyword soil goes with keywords frame and cycles; allowed: all three, or no soil");
     bed_.emplace(lmp, soil_groupbit_);
+    observe(true);
   }
   drum_.groupbit = groupbit;
   nevery = steps_per_cycle_ > 0 ? 1 : every_; // cycle sums need every step

@@ -2,8 +2,8 @@
 // One contact of two balls, or of a ball and a wall: what pair_style gran/hooke/transition and fix wall/gran/transition have in
 // common. The laws are the core's; the choice among them is made at compile time.
 
-#include "contact/contact_ledger.h"
-#include "contact/contact_source.h"
+#include "contact/contact_observer.h"
+#include "contact/contact_settings.h"
 #include "contact/stepped_contact.h"
 #include "physics/contact_law.h"
 #include "physics/friction_law.h"
@@ -14,32 +14,6 @@
 #include <type_traits>
 
 namespace drumlin {
-
-/// Coefficients of a pair of types.
-struct ContactCoefficients {
-  physics::LinearContact normal;
-  double friction = 0.0;                 ///< mu
-  double tangential_stiffness = 0.0;     ///< kt, N/m
-  double tangential_damping = 0.0;       ///< ct, N s/m
-  double tangential_damping_share = 0.5; ///< or this share of the normal c on top
-
-  physics::Friction tangential(double c, physics::Cap cap) const {
-    return {tangential_stiffness, tangential_damping_share * c + tangential_damping, friction, cap};
-  }
-};
-
-/// What pair style and walls are told by keywords.
-struct ContactSettings {
-  physics::Transition transition = physics::Transition::B;
-  physics::Damping damping = physics::Damping::ratio;
-  bool stock = false; ///< stepping
-  FrictionModel tangential = FrictionModel::none;
-  physics::Cap cap = physics::Cap::total;
-
-  /// Numbers that a contact remembers: the tangential spring, then under second-order stepping the normal force.
-  int history() const { return spring() + (stock ? 0 : 1); }
-  int spring() const { return tangential == FrictionModel::history ? 3 : 0; }
-};
 
 /// A contact in one step.
 struct Contact {
@@ -150,43 +124,44 @@ void with_models(const ContactSettings &settings, Run &&run) {
   }
 }
 
-/// Enters a contact into the ledgers that are open.
-inline void enter(const ContactSettings &settings, const ContactCoefficients &law, const Contact &p,
-                  const ContactForces &forces, double smaller_radius) {
-  LedgerEntry entry{};
-  entry.i = p.normal.i;
-  entry.j = p.normal.j;
-  entry.normal = p.normal.normal;
-  entry.overlap = p.normal.overlap;
-  entry.radius = smaller_radius;
-  entry.share = p.normal.share;
-  const auto normal = law.normal.of_mass(p.normal.m_eff);
-  entry.normal_stiffness = normal.stiffness(p.normal.overlap);
-  entry.normal_force = forces.normal_force;
-  if (!settings.stock) entry.final_force = p.history + settings.spring();
+/// A contact as observers see it. \param radius of the smaller ball, m
+inline ContactRecord record_of(const ContactSettings &settings, const ContactCoefficients &coefficients,
+                               const Contact &p, const ContactForces &forces, double radius) {
+  const auto law = coefficients.normal.of_mass(p.normal.m_eff);
+  ContactRecord record{};
+  record.i = p.normal.i;
+  record.j = p.normal.j;
+  record.normal = p.normal.normal;
+  record.overlap = p.normal.overlap;
+  record.radius = radius;
+  record.share = p.normal.share;
+  record.spring_force = law.spring(p.normal.overlap);
+  record.spring_energy = law.energy(p.normal.overlap);
+  record.normal_stiffness = law.stiffness(p.normal.overlap);
+  if (settings.stock) record.normal_dashpot = law.dashpot(p.normal.overlap);
+  if (settings.tangential != FrictionModel::none)
+    record.tangential_dashpot = coefficients.tangential_dashpot(law.dashpot(p.normal.overlap));
   if (settings.spring() > 0) {
-    entry.tangential_stiffness = law.tangential_stiffness;
-    entry.spring = p.history;
+    record.tangential_stiffness = coefficients.tangential_stiffness;
+    record.spring = p.history;
   }
-  entry.tangential_force = forces.tangential_force;
-  entry.torque_i = physics::scaled(-p.arm_i, forces.moment);
-  entry.torque_j = physics::scaled(-p.arm_j, forces.moment);
-  for (ContactLedger *ledger : ContactLedger::open())
-    ledger->enter(entry);
+  record.normal_force = forces.normal_force;
+  if (!settings.stock) record.final_force = p.history + settings.spring();
+  record.tangential_force = forces.tangential_force;
+  record.torque_i = physics::scaled(-p.arm_i, forces.moment);
+  record.torque_j = physics::scaled(-p.arm_j, forces.moment);
+  return record;
 }
 
-/// Tells the watchers of a contact what acts in it. \param shown with kinematics, masses and IDs; takes the stiffnesses
-inline void tell(const ContactSettings &settings, const ContactCoefficients &law, const Contact &p,
-                 ShownContact shown) {
-  const auto normal = law.normal.of_mass(p.normal.m_eff);
-  const double c = normal.dashpot(p.normal.overlap);
-  shown.normal_spring = p.normal.share * normal.stiffness(p.normal.overlap);
-  if (settings.stock) shown.normal_dashpot = p.normal.share * c;
-  if (settings.tangential != FrictionModel::none)
-    shown.tangential_dashpot = p.normal.share * law.tangential(c, settings.cap).damping;
-  if (settings.spring() > 0) shown.tangential_spring = p.normal.share * law.tangential_stiffness;
-  for (ContactWatch *watch : ContactWatch::looking())
-    show(*watch, shown);
-}
+/// A fix that is walls with the law of the pair style.
+class Walls {
+public:
+  virtual int wall_type() const = 0;
+  /// How many contacts a ball may have with it at once.
+  virtual int sides() const = 0;
+
+protected:
+  ~Walls() = default;
+};
 
 } // namespace drumlin

@@ -35,7 +35,6 @@ FixWallGranTransition::FixWallGranTransition(LAMMPS *lammps, int narg, char **ar
   atom->add_callback(Atom::RESTART);
   for (int i = 0; i < atom->nlocal; ++i)
     FixWallGranTransition::set_arrays(i);
-  list().push_back(this);
 }
 
 void FixWallGranTransition::read_planes(drumlin::Arguments &in, int axis) {
@@ -65,12 +64,6 @@ FixWallGranTransition::~FixWallGranTransition() {
   atom->delete_callback(id, Atom::GROW);
   atom->delete_callback(id, Atom::RESTART);
   memory->destroy(memory_);
-  list().erase(std::remove(list().begin(), list().end(), this), list().end());
-}
-
-std::vector<FixWallGranTransition *> &FixWallGranTransition::list() {
-  static std::vector<FixWallGranTransition *> walls; // one engine instance per process runs a deck
-  return walls;
 }
 
 int FixWallGranTransition::setmask() { return FixConst::POST_FORCE; }
@@ -81,6 +74,7 @@ void FixWallGranTransition::init() {
     error->all(FLERR, drumlin::engine::as_is(std::string(command) + ": the pair style is another; allowed: " +
                                              drumlin::engine::pair_style));
   check_coefficients();
+  observers_.find(*modify);
   stepping_ = pair_->contact_settings().stock ? nullptr : FixStepping::find(lmp);
   if (region_id_.empty()) return;
   const auto refuse = [this](const char *why) {
@@ -190,19 +184,7 @@ void FixWallGranTransition::touch(int i, int place, const physics::Vec3 &normal,
                                       {p.arm_i * w[0], p.arm_i * w[1], p.arm_i * w[2]});
     }
     forces = drumlin::exert<stepped, tangential>(settings, law, stepping_, p, update->dt, moves);
-    if (!drumlin::ContactLedger::open().empty() || !drumlin::ContactWatch::looking().empty()) {
-      drumlin::enter(settings, law, p, forces, atom->radius[i]);
-      drumlin::ShownContact shown{};
-      shown.i = i;
-      shown.j = -1;
-      shown.tag_i = static_cast<int>(atom->tag[i]);
-      shown.inverse_mi = 1.0 / pair_->mass(i);
-      shown.ri = shown.rj = atom->radius[i];
-      shown.overlap = p.normal.overlap;
-      shown.normal = normal.data();
-      shown.mass_over_inertia = 1.0 / drumlin::engine::inertia_share(lmp);
-      drumlin::tell(settings, law, p, shown);
-    }
+    if (observers_.any()) observers_.tell(drumlin::record_of(settings, law, p, forces, atom->radius[i]));
   }
   for (std::size_t a = 0; a < 3; ++a) {
     atom->f[i][a] += forces.force[a];

@@ -2,11 +2,9 @@
 
 #include "fix_dummy.h"
 #include "support/arguments.h"
-#include "fixes/fix_clump.h"
 #include "contact/pair_motion.h"
-#include "lammps/contact_settings.h"
+#include "lammps/pair_words.h"
 #include "lammps/fix_neigh_history_transition.h"
-#include "lammps/fix_wall_gran_transition.h"
 
 #include <algorithm>
 #include <cmath>
@@ -150,9 +148,14 @@ void PairGranHookeTransition::init_style() {
   if (remembers) history_->pair = this;
   stepping_ = settings_.stock ? nullptr : FixStepping::find(lmp);
 
+  observers_.find(*modify);
+  clumps_.find(*modify);
+  walls_.clear();
   rigid_.clear();
-  for (int n = 0; n < modify->nfix; ++n)
+  for (int n = 0; n < modify->nfix; ++n) {
     if (modify->fix[n]->rigid_flag) rigid_.push_back(modify->fix[n]);
+    if (const auto *wall = dynamic_cast<const drumlin::Walls *>(modify->fix[n])) walls_.push_back(wall);
+  }
   if (rigid_.empty()) rigid_mass_.clear();
 
   freeze_groupbit_ = 0;
@@ -204,7 +207,7 @@ double PairGranHookeTransition::mass(int i) const {
 double PairGranHookeTransition::mass_unless_frozen(int i) const {
   const auto n = static_cast<std::size_t>(i);
   const bool of_rigid = n < rigid_mass_.size() && rigid_mass_[n] > 0.0;
-  return FixClump::mass_of(*atom, i, of_rigid ? rigid_mass_[n] : atom->rmass[i]);
+  return clumps_.mass_of(*atom, i, of_rigid ? rigid_mass_[n] : atom->rmass[i]);
 }
 
 /// Asks the fixes rigid for the masses of their bodies, for owned balls and ghosts. Collective.
@@ -240,8 +243,8 @@ void PairGranHookeTransition::unpack_forward_comm(int n, int first, double *numb
 
 physics::Dashpots PairGranHookeTransition::wall_dashpots(int i) const {
   physics::Dashpots all;
-  for (const FixWallGranTransition *wall : FixWallGranTransition::all()) {
-    const physics::LinearContact &law = at(atom->type[i], wall->type()).normal;
+  for (const drumlin::Walls *wall : walls_) {
+    const physics::LinearContact &law = at(atom->type[i], wall->wall_type()).normal;
     for (int side = 0; side < wall->sides(); ++side)
       all.add(law.stiffness, law.damping_coefficient(mass(i)));
   }
@@ -283,8 +286,8 @@ void PairGranHookeTransition::compute_contacts() {
   const int *mask = atom->mask;
   const Rows<double> f{atom->f[0]};
   const Rows<double> torque{atom->torque[0]};
-  const bool bodies = !FixClump::all().empty() || !rigid_.empty();
-  const bool told = !drumlin::ContactLedger::open().empty() || !drumlin::ContactWatch::looking().empty();
+  const bool bodies = !clumps_.empty() || !rigid_.empty();
+  const bool observed = observers_.any();
 
   for (int ii = 0; ii < list->inum; ++ii) {
     const int i = list->ilist[ii];
@@ -336,7 +339,7 @@ void PairGranHookeTransition::compute_contacts() {
       if (touches) {
         if constexpr (remembers) touch[jj] = 1;
         forces = drumlin::exert<stepped, tangential>(settings, law, stepping_, p, dt, moves);
-        if (told)
+        if (observed)
           report({drumlin::apart(p.normal), p.slip, p.arm_i, p.arm_j, p.history, p.in_contact},
                  {forces.normal_force, forces.force, forces.tangential_force, forces.moment});
       } else { // it did, a step ago
@@ -373,22 +376,8 @@ void PairGranHookeTransition::compute_contacts() {
 void PairGranHookeTransition::report(const drumlin::Contact &p, const drumlin::ContactForces &forces) const {
   const int i = p.normal.i;
   const int j = p.normal.j;
-  const ContactCoefficients &law = at(atom->type[i], atom->type[j]);
-  drumlin::enter(settings_, law, p, forces, std::min(atom->radius[i], atom->radius[j]));
-  drumlin::ShownContact shown{};
-  shown.i = i;
-  shown.j = j;
-  shown.tag_i = static_cast<int>(atom->tag[i]);
-  shown.tag_j = static_cast<int>(atom->tag[j]);
-  shown.tells_j = j < atom->nlocal || force->newton_pair;
-  shown.inverse_mi = 1.0 / mass(i);
-  shown.inverse_mj = 1.0 / mass(j);
-  shown.ri = atom->radius[i];
-  shown.rj = atom->radius[j];
-  shown.overlap = p.normal.overlap;
-  shown.normal = p.normal.normal.data();
-  shown.mass_over_inertia = 1.0 / engine::inertia_share(lmp);
-  drumlin::tell(settings_, law, p, shown);
+  observers_.tell(drumlin::record_of(settings_, at(atom->type[i], atom->type[j]), p, forces,
+                                     std::min(atom->radius[i], atom->radius[j])));
 }
 
 const double *PairGranHookeTransition::history(int i, int j) const {

@@ -3,6 +3,7 @@
 
 #include "engine.h"
 #include "contact/contact_source.h"
+#include "fixes/fix_clump.h"
 #include "lammps/contact_terms.h"
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 namespace LAMMPS_NS {
 
 class FixNeighHistory;
-class FixWallGranTransition;
 
 /// The transition law between balls: the core's laws, with the neighbour history of gran/hooke/history.
 class PairGranHookeTransition : public Pair, public drumlin::ContactSource {
@@ -80,6 +80,9 @@ private:
   FixNeighHistory *history_ = nullptr;
   FixStepping *stepping_ = nullptr;
   int freeze_groupbit_ = 0;
+  drumlin::ContactObservers observers_;
+  Clumps clumps_;
+  std::vector<const drumlin::Walls *> walls_;
   std::vector<Fix *> rigid_;
   std::vector<double>
       rigid_mass_; // of owned balls and ghosts, kg, 0: of no rigid body; empty without fix rigid

@@ -1,5 +1,6 @@
 // Registration of everything that the plugin adds to LAMMPS, called by load.cpp.
 
+#include "PLUGIN/plugin.h"
 #include "lammpsplugin.h"
 
 #include "command.h"
@@ -54,6 +55,12 @@ void *create_fix(void *lmp, int narg, char **arg) {
   return static_cast<Fix *>(new FixStyle(static_cast<LAMMPS *>(lmp), narg, arg));
 }
 
+/// Enters a style into a list of the engine. Its plugin interface, too, takes the functions that make styles for those of its lists.
+template <class Styles, class Make>
+void enter(Styles &styles, const char *name, Make *make) {
+  styles[name] = reinterpret_cast<typename Styles::mapped_type>(reinterpret_cast<void (*)()>(make));
+}
+
 void *create_pair(void *lmp) {
   return static_cast<LAMMPS_NS::Pair *>(new LAMMPS_NS::PairGranHookeTransition(static_cast<LAMMPS *>(lmp)));
 }
@@ -75,29 +82,33 @@ extern "C" __attribute__((visibility("default"))) void drumlin_register(void *lm
   plugin.version = LAMMPS_VERSION;
   plugin.author = "drumlin";
   plugin.handle = handle;
+  // The engine keeps one list of plugins for all its instances in a process, and takes a style of a plugin that is in it in no other
+  // instance: there it is entered into the instance's own lists, as the engine would.
+  const bool listed = plugin_find("pair", "gran/hooke/transition") >= 0;
   const auto add_v1 = [&](const char *style, const char *name, const char *info,
                           lammpsplugin_factory1 *make) {
     plugin.style = style;
     plugin.name = name;
     plugin.info = info;
     plugin.creator.v1 = make;
-    add(&plugin, lmp);
+    if (!listed)
+      add(&plugin, lmp);
+    else if (std::string(style) == "pair")
+      enter(*engine->force->pair_map, name, make);
+    else
+      enter(*engine->input->command_map, name, make);
   };
   const auto add_fix = [&](const char *name, const char *info, lammpsplugin_factory2 *make) {
     plugin.style = "fix";
     plugin.name = name;
     plugin.info = info;
     plugin.creator.v2 = make;
-    add(&plugin, lmp);
+    if (!listed)
+      add(&plugin, lmp);
+    else
+      enter(*engine->modify->fix_map, name, make);
   };
   add_v1("pair", "gran/hooke/transition", "linear contact with transition A or B", create_pair);
-  // The engine keeps one list of plugins for all its instances in a process, and styles of one only in that which has loaded it. What the
-  // plugin keeps for the process (contact observers, walls, clumps) would mix the two.
-  if (engine->force->pair_map->count("gran/hooke/transition") == 0)
-    engine->error->all(
-        FLERR,
-        "plugin load: drumlin is loaded in another LAMMPS instance of this process; allowed: one instance "
-        "with it at a time, the next when the other is closed or cleared");
   add_fix("wall/gran/transition", "its planes", create_fix<FixWallGranTransition>);
   add_fix(FixNeighHistoryTransition::style_name, "what contacts remember",
           create_fix<FixNeighHistoryTransition>);

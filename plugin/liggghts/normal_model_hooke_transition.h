@@ -44,8 +44,6 @@ public:
     settings.registerOnOff("damping_coefficient", damping_coefficient_, false);
     settings.registerOnOff("stepping_stock", stepping_stock_, false);
     settings.registerOnOff("tangential_spring", tangential_spring_, false);
-    settings.registerOnOff("tangential_dashpot", tangential_dashpot_, false);
-    settings.registerOnOff("rolling_spring", rolling_spring_, false);
   }
 
   // While the deck is parsed: a fix added later, in the initialization of a run, would miss that run. A wall is a fix under
@@ -62,16 +60,17 @@ public:
   }
 
   void connectToProperties(PropertyRegistry &registry) {
-    const auto damping =
-        damping_coefficient_ ? drumlin::physics::Damping::coefficient : drumlin::physics::Damping::ratio;
-    table_.read(lmp, registry.max_type(), transition(), damping, is_wall_);
+    drumlin::ContactSettings settings;
+    if (transition_a_) settings.transition = drumlin::physics::Transition::A;
+    if (damping_coefficient_) settings.damping = drumlin::physics::Damping::coefficient;
+    table_.read(lmp, registry.max_type(), settings, is_wall_);
     if (tangential_spring_) {
       registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
       registry.connect("coeffFrict", friction_, "model hooke/transition");
     }
     if (is_wall_) take_stepping_of_pair(); // a pair_style line behind the wall may have changed it
     pair_ = drumlin::gran_pair(lmp);
-    clumps_ = !LAMMPS_NS::FixClump::all().empty();
+    clumps_.find(*lmp->modify);
     // The step in which contact ends needs a call although the balls no longer overlap: see surfacesClose().
     if (stepping_) neighbor->register_contact_dist_factor(drumlin::contact_distance_factor);
   }
@@ -81,12 +80,12 @@ public:
   inline void surfacesIntersect(SurfacesIntersectData &sidata, ForceData &i_forces, ForceData &j_forces) {
     if (sidata.contact_flags) *sidata.contact_flags |= CONTACT_NORMAL_MODEL;
     const drumlin::ContactCoefficients &p = table_.at(sidata.itype, sidata.jtype);
-    if (clumps_) take_body_masses(sidata);
+    if (!clumps_.empty()) take_body_masses(sidata);
     const drumlin::physics::LinearLaw law = p.normal.of_mass(sidata.meff);
     sidata.kn = law.stiffness(sidata.deltan);
     sidata.gamman = law.dashpot(sidata.deltan);
     sidata.kt = p.tangential_stiffness;
-    sidata.gammat = p.tangential_damping_share * sidata.gamman + p.tangential_damping;
+    sidata.gammat = p.tangential_dashpot(sidata.gamman);
     const double share = sidata.is_wall ? sidata.area_ratio : 1.0;
     if (stepping_ == nullptr) {
       // The engine's vn is positive when the balls separate: overlap_rate = -vn.
@@ -96,8 +95,6 @@ public:
       add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);
     } else
       second_order(sidata, law, share, i_forces, j_forces);
-    for (drumlin::ContactWatch *watch : drumlin::ContactWatch::looking())
-      show(*watch, share, sidata);
   }
 
   void surfacesClose(SurfacesCloseData &scdata, ForceData &i_forces, ForceData &j_forces) {
@@ -112,14 +109,6 @@ public:
   void endPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
 
 private:
-  drumlin::physics::Transition transition() const {
-    return transition_a_ ? drumlin::physics::Transition::A : drumlin::physics::Transition::B;
-  }
-
-  /// Mass of ball i as its contacts feel it, kg.
-  double mass(int i, double own) const {
-    return is_frozen(i) ? std::numeric_limits<double>::infinity() : own;
-  }
   bool is_frozen(int i) const { return pair_ != nullptr && (atom->mask[i] & pair_->freeze_group_bit()); }
 
   /// Ends the run where the stepping of a wall is not that of the pair style.
@@ -140,10 +129,10 @@ private:
 
   /// A ball of a clump has the clump's mass in its contacts.
   void take_body_masses(SurfacesIntersectData &sidata) const {
-    sidata.mi = LAMMPS_NS::FixClump::mass_of(*atom, sidata.i, sidata.mi);
+    sidata.mi = clumps_.mass_of(*atom, sidata.i, sidata.mi);
     sidata.meff = sidata.mi;
     if (sidata.is_wall) return;
-    sidata.mj = LAMMPS_NS::FixClump::mass_of(*atom, sidata.j, sidata.mj);
+    sidata.mj = clumps_.mass_of(*atom, sidata.j, sidata.mj);
     sidata.meff = is_frozen(sidata.j)   ? sidata.mi
                   : is_frozen(sidata.i) ? sidata.mj
                                         : drumlin::physics::effective_mass(sidata.mi, sidata.mj);
@@ -226,7 +215,7 @@ private:
     double rate_half = 0.0;
     for (int a = 0; a < 3; ++a)
       rate_half -= (scdata.v_i[a] - scdata.v_j[a]) * normal[a];
-    const double mi = LAMMPS_NS::FixClump::mass_of(*atom, scdata.i, atom->rmass[scdata.i]);
+    const double mi = clumps_.mass_of(*atom, scdata.i, atom->rmass[scdata.i]);
     const double m_eff = scdata.is_wall ? mi : effective_mass(scdata.i, scdata.j);
     double *const stored = scdata.contact_history + state_offset_;
     drumlin::physics::ContactState state{stored[0], true, {}};
@@ -247,29 +236,6 @@ private:
                            state, stored[0], push);
   }
 
-  /// \param share of the stiffnesses that acts
-  void show(drumlin::ContactWatch &watch, double share, const SurfacesIntersectData &sidata) const {
-    drumlin::ShownContact p{};
-    p.i = sidata.i;
-    p.j = sidata.is_wall ? -1 : sidata.j;
-    p.tag_i = atom->tag[sidata.i];
-    p.tag_j = sidata.is_wall ? 0 : atom->tag[sidata.j];
-    p.tells_j = p.j >= 0 && p.j < atom->nlocal;
-    p.inverse_mi = 1.0 / mass(sidata.i, sidata.mi);
-    p.inverse_mj = sidata.is_wall ? 0.0 : 1.0 / mass(sidata.j, sidata.mj);
-    p.ri = sidata.radi;
-    p.rj = sidata.is_wall ? sidata.radi : sidata.radj;
-    p.overlap = sidata.deltan;
-    p.normal = sidata.en;
-    p.mass_over_inertia = 1.0 / drumlin::engine::inertia_share(lmp);
-    p.normal_spring = share * sidata.kn;
-    if (!stepping_) p.normal_dashpot = share * sidata.gamman;
-    if (tangential_spring_) p.tangential_spring = share * sidata.kt;
-    if (tangential_dashpot_) p.tangential_dashpot = share * sidata.gammat;
-    if (rolling_spring_) p.rolling_spring_share = share * sidata.kt; // kr = kt r_eff^2, of the engine's epsd2
-    drumlin::show(watch, p);
-  }
-
   double effective_mass(int i, int j) const {
     const auto *source = drumlin::contact_source(lmp);
     return source ? source->effective_mass(i, j)
@@ -280,10 +246,8 @@ private:
   bool transition_a_ = false;
   bool damping_coefficient_ = false;
   bool stepping_stock_ = false;
-  bool clumps_ = false;            // whether there is any fix clump
-  bool tangential_spring_ = false; // what the models beside this one have
-  bool tangential_dashpot_ = false;
-  bool rolling_spring_ = false;
+  LAMMPS_NS::Clumps clumps_;
+  bool tangential_spring_ = false;             // what the tangential model beside this one has
   LAMMPS_NS::PairGran *pair_ = nullptr;        // that knows which balls are frozen
   LAMMPS_NS::FixStepping *stepping_ = nullptr; // none under stock stepping
   int state_offset_ = 0; // of force and 'in contact' in the contact history, with the second-order scheme
