@@ -70,12 +70,28 @@ template <class Law>
   return {acting, theta * (first + acting), slowed * theta * c * motion.overlap / motion.dt - 0.5 * acting};
 }
 
+/// The step of a make, of a law whose force begins with 0. The first force gets the law's weight in the closing half kick, and
+/// no position correction, which would be of higher order than the scheme:
+///   F = E + C (d'_pred - dt/2 kick / m),   kick = weight F.
+template <class Law>
+[[nodiscard]] inline StepResult made_from_zero(const Law &law, const StepMotion &motion, double theta,
+                                               double c_over_m) {
+  const double weight = law.first_weight(theta);
+  const double s = 0.5 * motion.dt * c_over_m;
+  const double force = law.spring_and_dashpot(motion.overlap, motion.rate_predicted()) / (1.0 + s * weight);
+  const double acting = law.limited(force);
+  return {acting, weight * acting, 0.0};
+}
+
 /// The step of a make, of any law: the contact has acted for the share theta of the step.
 template <class Law>
 [[nodiscard]] inline StepResult made(const Law &law, const StepMotion &motion, double c_over_m) {
   // A ball at rest that just touches has neither overlap nor rate.
   const double theta = motion.overlap > 0.0 ? motion.overlap / (motion.dt * motion.rate_half) : 0.0;
-  return made_with_jump(law, motion, theta, c_over_m);
+  if constexpr (Law::begins_with_jump)
+    return made_with_jump(law, motion, theta, c_over_m);
+  else
+    return made_from_zero(law, motion, theta, c_over_m);
 }
 
 /// Tension in the step whose end finds the contact broken: it acted for the share of the step before d = 0,
@@ -87,7 +103,9 @@ template <class Law>
   if (!law.ends_in_tension() || before <= 0.0 || law.dashpot(before) == 0.0) return {0.0, 0.0, 0.0};
   const double share = before / (before - motion.overlap);
   const double tensile = law.force(before, motion.rate_before);
-  return {0.0, (law.first_weight(share) - 1.0) * tensile, -(1.0 - share) * (1.0 - share) * tensile};
+  const double kick = (law.first_weight(share) - 1.0) * tensile;
+  if constexpr (Law::begins_with_jump) return {0.0, kick, -(1.0 - share) * (1.0 - share) * tensile};
+  return {0.0, kick, 0.0};
 }
 
 } // namespace detail
