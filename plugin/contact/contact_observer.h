@@ -1,6 +1,6 @@
 #pragma once
-// What contacts and bonds report to the fixes that observe them: energy balance, guard, dumps. The observers are fixes, so that each
-// engine instance has its own.
+// What contacts and bonds report to the fixes that observe them: energy balance, guard, dumps. The observers
+// are fixes, so that each engine instance has its own.
 
 #include "engine.h"
 #include "physics/time_step.h"
@@ -10,8 +10,8 @@
 
 namespace drumlin {
 
-/// One contact of two balls, or of a ball and a wall, in one step. Stiffnesses, damping coefficients and energies are those
-/// of the whole law: `share` of them acts.
+/// One contact of two balls, or of a ball and a wall, in one step. Stiffnesses, damping coefficients and
+/// energies are those of the whole law: `share` of them acts.
 struct ContactRecord {
   int i, j;                     ///< indices of the balls; j < 0: a wall at rest
   std::array<double, 3> normal; ///< from j to i
@@ -21,14 +21,13 @@ struct ContactRecord {
   double spring_force;          ///< N, of the normal spring alone
   double spring_energy;         ///< J, in the normal spring
   double normal_stiffness;      ///< N/m
-  double
-      normal_dashpot; ///< N s/m, as far as it limits the time step: 0 with the second-order scheme, which solves for it
-  double tangential_stiffness; ///< N/m; 0 without a tangential spring
-  double tangential_dashpot;   ///< N s/m; 0 without a tangential dashpot
-  double rolling_stiffness;    ///< N m; 0 without a rolling spring
-  double normal_force;         ///< N, positive when it pushes
-  const double *final_force;   ///< where it is when all forces of the step are known; nullptr: it is known
-  const double *spring;        ///< tangential spring, m, three components; nullptr: none
+  double normal_dashpot;        ///< N s/m, as far as it limits the step: 0 with the second-order scheme
+  double tangential_stiffness;  ///< N/m; 0 without a tangential spring
+  double tangential_dashpot;    ///< N s/m; 0 without a tangential dashpot
+  double rolling_stiffness;     ///< N m; 0 without a rolling spring
+  double normal_force;          ///< N, positive when it pushes
+  const double *final_force;    ///< where it is when all forces of the step are known; nullptr: it is known
+  const double *spring;         ///< tangential spring, m, three components; nullptr: none
   std::array<double, 3> tangential_force;   ///< on ball i, N
   std::array<double, 3> torque_i, torque_j; ///< N m
 };
@@ -55,8 +54,8 @@ private:
   bool observing_ = false;
 };
 
-/// The observers of an engine instance, for a pair style, wall or bond that reports to them. Few scenes have any and few steps are
-/// observed, so that a contact pays for one comparison or two.
+/// The observers of an engine instance, for a pair style, wall or bond that reports to them. Few scenes have
+/// any and few steps are observed, so that a contact pays for one comparison or two.
 class ContactObservers {
 public:
   /// In the initialization of each run.

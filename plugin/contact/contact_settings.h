@@ -4,6 +4,7 @@
 #include "contact/contact_source.h"
 #include "physics/contact_law.h"
 #include "physics/friction_law.h"
+#include "physics/restitution.h"
 #include "support/arguments.h"
 
 #include <string>
@@ -19,7 +20,8 @@ struct ContactCoefficients {
   double tangential_damping = 0.0;       ///< ct, N s/m
   double tangential_damping_share = 0.5; ///< of the normal damping coefficient, on top of ct
 
-  /// Takes kt as 2/7 of the normal stiffness and ct as half of the normal damping coefficient, where a deck gives neither.
+  /// Takes kt as 2/7 of the normal stiffness and ct as half of the normal damping coefficient, where a deck
+  /// gives neither.
   static ContactCoefficients with_defaults(const physics::LinearContact &normal) {
     ContactCoefficients p;
     p.normal = normal;
@@ -38,21 +40,33 @@ struct ContactCoefficients {
   }
 };
 
+/// What a deck gives for the normal dashpot: c, D, or the restitution e of an impact without gravity.
+enum class DampingInput { coefficient, ratio, restitution };
+
 /// What pair style and walls are told by keywords.
 struct ContactSettings {
   physics::Transition transition = physics::Transition::B;
-  physics::Damping damping = physics::Damping::ratio;
+  DampingInput damping = DampingInput::ratio;
   bool stock = false; ///< the scheme: the engine's own, else the second-order one
   FrictionModel tangential = FrictionModel::none;
   physics::Cap cap = physics::Cap::total;
 
-  /// Numbers that a contact remembers: the tangential spring, then with the second-order scheme the normal force.
+  /// Numbers that a contact remembers: the tangential spring, then with the second-order scheme the normal
+  /// force.
   int history() const { return spring() + (stock ? 0 : 1); }
   int spring() const { return tangential == FrictionModel::history ? 3 : 0; }
 
-  /// The parameters of a normal law whose stiffness and damping a deck gives.
-  physics::LinearContact normal(double stiffness, double damping_value) const {
-    return {stiffness, damping_value, damping, transition};
+  /// The parameters of a normal law from what a deck gives. A restitution, > 0 and <= 1, becomes the D that
+  /// gives it under the transition condition.
+  physics::LinearContact normal(double stiffness, double given) const {
+    const double damping_value = damping == DampingInput::restitution
+                                     ? physics::damping_ratio_of_restitution(transition, given)
+                                     : given;
+    return {stiffness, damping_value, kind(), transition};
+  }
+  /// What the damping of normal() means.
+  physics::Damping kind() const {
+    return damping == DampingInput::coefficient ? physics::Damping::coefficient : physics::Damping::ratio;
   }
 };
 
@@ -65,8 +79,7 @@ inline bool read_setting(Arguments &in, const std::string &keyword, ContactSetti
   if (keyword == "transition")
     settings.transition = in.choice(what, {"A", "B"}) == 0 ? physics::Transition::A : physics::Transition::B;
   else if (keyword == "damping")
-    settings.damping = in.choice(what, {"coefficient", "ratio"}) == 0 ? physics::Damping::coefficient
-                                                                      : physics::Damping::ratio;
+    settings.damping = static_cast<DampingInput>(in.choice(what, {"coefficient", "ratio", "restitution"}));
   else if (keyword == "stepping")
     settings.stock = in.choice(what, {"stock", "second"}) == 0;
   else

@@ -1,6 +1,7 @@
 #pragma once
-// The second-order scheme in an engine's loop over contacts: what a contact needs of FixStepping, and what becomes of the result of
-// physics::advance(). The part of an engine's adapter that does not depend on the engine.
+// The second-order scheme in an engine's loop over contacts: what a contact needs of FixStepping, and what
+// becomes of the result of physics::advance(). The part of an engine's adapter that does not depend on the
+// engine.
 
 #include "contact/fix_stepping.h"
 #include "physics/contact_step.h"
@@ -95,8 +96,10 @@ inline void exert_later(LAMMPS_NS::FixStepping &stepping, const StepContact &p,
 }
 
 /// Any contact in any step. \param state from the step before; takes that of this step
-/// \param stored_force where the contact's history keeps ContactState::force: a coupled contact gets it when all forces are known
-/// \param push takes the force, N, of the closing half kick along the normal on both balls, scaled with nothing
+/// \param stored_force where the contact's history keeps ContactState::force: a coupled contact gets it when
+/// all forces are known
+/// \param push takes the force, N, of the closing half kick along the normal on both balls, scaled with
+/// nothing
 template <class Law, class Push>
 void exert_contact(const Law &law, LAMMPS_NS::FixStepping &stepping, const StepContact &p,
                    physics::ContactState &state, double &stored_force, Push &&push) {

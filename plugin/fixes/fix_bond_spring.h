@@ -25,8 +25,8 @@ public:
   void restart(char *) override;
   /// Energy in the spring, J.
   double compute_scalar() override { return acted_.stored; }
-  /// 0: stretch, m; 1: its rate as the force saw it, m/s; 2: force that acted in this step, N, tension positive; 3: power of the
-  /// dashpot, W; 4: 1 while whole.
+  /// 0: stretch, m; 1: its rate as the force saw it, m/s; 2: force that acted in this step, N, tension
+  /// positive; 3: power of the dashpot, W; 4: 1 while whole.
   double compute_vector(int) override;
 
   /// Force and power at the positions and velocities of now; collective.

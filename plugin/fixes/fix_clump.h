@@ -7,7 +7,8 @@
 
 namespace LAMMPS_NS {
 
-/// Shares the force on the body by mass, so that all its balls get one acceleration, and gives its mass to their contacts.
+/// Shares the force on the body by mass, so that all its balls get one acceleration, and gives its mass to
+/// their contacts.
 class FixClump : public Fix {
 public:
   FixClump(LAMMPS *, int, char **);

@@ -1,5 +1,6 @@
 #pragma once
-// fix contact/local: the contacts of a step, walls' included, for dump local. See plugin/doc/fix_contact_local.md.
+// fix contact/local: the contacts of a step, walls' included, for dump local. See
+// plugin/doc/fix_contact_local.md.
 
 #include "engine.h"
 #include "contact/contact_observer.h"

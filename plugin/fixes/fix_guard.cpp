@@ -92,7 +92,8 @@ void FixGuard::begin_look() {
   observe(true);
 }
 
-/// A contact is a link on each of its balls. The rank of a ghost's owner sees the contact too, but with newton on.
+/// A contact is a link on each of its balls. The rank of a ghost's owner sees the contact too, but with
+/// newton on.
 void FixGuard::see_contact(const drumlin::ContactRecord &p) {
   const bool wall = p.j < 0;
   const double inverse_i = 1.0 / source_->mass(p.i);

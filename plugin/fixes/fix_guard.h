@@ -10,8 +10,9 @@
 
 namespace LAMMPS_NS {
 
-/// Ends the run on all ranks, in one line, when a position, velocity or force of the group is no longer finite, when the time step
-/// is beyond the critical one of the contacts and bonds that exist, or when an overlap is too large to mean anything.
+/// Ends the run on all ranks, in one line, when a position, velocity or force of the group is no longer
+/// finite, when the time step is beyond the critical one of the contacts and bonds that exist, or when an
+/// overlap is too large to mean anything.
 class FixGuard : public drumlin::engine::GhostFix, public drumlin::ContactObserver {
 public:
   FixGuard(LAMMPS *, int, char **);

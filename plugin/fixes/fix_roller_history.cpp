@@ -358,7 +358,8 @@ void FixRollerHistory::count_step(const Forces &before, double v_before) {
   cycle_.tangential_work += half * (before.tangential_power + forces_.tangential_power);
   cycle_.sinking -= drum_.x;
 
-  // The change of the velocity is the integral of the acceleration, through the jumps of the contact force too.
+  // The change of the velocity is the integral of the acceleration, through the jumps of the contact force
+  // too.
   const double change = 2.0 / (steps_per_cycle_ * update->dt) * (drum_.v - v_before);
   const double middle = 2.0 * pi * (time() / update->dt - 0.5) / steps_per_cycle_;
   constexpr std::array<double, 3> orders{1.0, 2.0, 0.5};

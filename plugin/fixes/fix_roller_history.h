@@ -16,9 +16,9 @@ namespace LAMMPS_NS {
 class FixDrumExcite;
 class FixBondSpring;
 
-/// Writes chain.csv or bed.csv (samples) and cycles.csv (extremes, harmonics and energies over every step). The forces
-/// and accelerations in a row are the right-hand sides of Eq. (1) at the positions and velocities of that
-/// row.
+/// Writes chain.csv or bed.csv (samples) and cycles.csv (extremes, harmonics and energies over every step).
+/// The forces and accelerations in a row are the right-hand sides of Eq. (1) at the positions and velocities
+/// of that row.
 class FixRollerHistory : public drumlin::engine::GhostFix, public drumlin::ContactObserver {
 public:
   FixRollerHistory(LAMMPS *, int, char **);

@@ -1,6 +1,7 @@
 #pragma once
-// One contact of two balls, or of a ball and a wall: what pair_style gran/hooke/transition and fix wall/gran/transition have in
-// common. The laws are the core's; the choice among them is made at compile time.
+// One contact of two balls, or of a ball and a wall: what pair_style gran/hooke/transition and fix
+// wall/gran/transition have in common. The laws are the core's; the choice among them is made at compile
+// time.
 
 #include "contact/contact_observer.h"
 #include "contact/contact_settings.h"
@@ -24,14 +25,16 @@ struct Contact {
   bool in_contact; ///< in the step before
 };
 
-/// What a contact exerts: the force on ball i, of which j takes the opposite, and on each ball the torque -arm times moment.
+/// What a contact exerts: the force on ball i, of which j takes the opposite, and on each ball the torque
+/// -arm times moment.
 struct ContactForces {
   double normal_force; ///< N, as friction takes it
   physics::Vec3 force, tangential_force;
   physics::Vec3 moment; ///< N, normal x tangential force
 };
 
-/// A copy, number by number, for what is out of line: an inner loop whose contact is copied as a whole keeps it in memory.
+/// A copy, number by number, for what is out of line: an inner loop whose contact is copied as a whole keeps
+/// it in memory.
 inline StepContact apart(const StepContact &p) {
   return {p.i,     p.j,    {p.normal[0], p.normal[1], p.normal[2]}, p.wall_velocity, p.overlap, p.rate_half,
           p.m_eff, p.share};
@@ -48,8 +51,8 @@ template <class Law>
   return push;
 }
 
-/// Exerts the laws on one contact with an overlap. \param stepping nullptr under stock stepping \param moves whether the springs move on:
-/// not in a set-up
+/// Exerts the laws on one contact with an overlap. \param stepping nullptr under stock stepping \param moves
+/// whether the springs move on: not in a set-up
 template <bool stepped, FrictionModel tangential>
 inline ContactForces exert(const ContactSettings &settings, const ContactCoefficients &coefficients,
                            LAMMPS_NS::FixStepping *stepping, const Contact &p, double dt, bool moves) {

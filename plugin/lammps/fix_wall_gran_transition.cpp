@@ -88,7 +88,8 @@ void FixWallGranTransition::init() {
   near_.resize(static_cast<std::size_t>(places_));
 }
 
-/// Beside other pair styles in a hybrid one the law need not have all pairs of types; those of the wall with its balls it must.
+/// Beside other pair styles in a hybrid one the law need not have all pairs of types; those of the wall with
+/// its balls it must.
 void FixWallGranTransition::check_coefficients() const {
   std::vector<int> mine(static_cast<std::size_t>(atom->ntypes) + 1, 0);
   for (int i = 0; i < atom->nlocal; ++i)
@@ -131,7 +132,8 @@ void FixWallGranTransition::touch_balls() {
   }
 }
 
-/// Calls touch(place, normal, distance) for each face of the region that a ball may have left in this step or nearer.
+/// Calls touch(place, normal, distance) for each face of the region that a ball may have left in this step or
+/// nearer.
 template <class Touch>
 void FixWallGranTransition::surfaces_of_region(int i, Touch &&touch) {
   constexpr double near = 1.1; // of the radius: what a ball has left in a step is not farther

@@ -10,8 +10,8 @@ namespace LAMMPS_NS {
 class PairGranHookeTransition;
 class Region;
 
-/// A pair of planes at rest across an axis of the box, or the surface of a region at rest, with the law of the pair style between balls
-/// and a type.
+/// A pair of planes at rest across an axis of the box, or the surface of a region at rest, with the law of
+/// the pair style between balls and a type.
 class FixWallGranTransition : public Fix, public drumlin::Walls {
 public:
   FixWallGranTransition(LAMMPS *, int, char **);

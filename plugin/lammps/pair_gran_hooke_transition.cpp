@@ -20,8 +20,8 @@ namespace {
 
 constexpr const char *style_name = "gran/hooke/transition";
 
-// The same for every object of the style, of which an engine has one: a restart file is read for fixes of these IDs, whatever pair styles its
-// deck has made before.
+// The same for every object of the style, of which an engine has one: a restart file is read for fixes of
+// these IDs, whatever pair styles its deck has made before.
 const std::string history_id = "DRUMLIN_HISTORY0";
 const std::string placeholder_id = "DRUMLIN_HISTORY_PLACE";
 
@@ -71,7 +71,8 @@ void PairGranHookeTransition::settings(int narg, char **arg) {
   drumlin::Arguments in(error, std::string("pair_style ") + style_name, narg, arg);
   const int history_before = settings_.history();
   settings_ = drumlin::read_settings(in);
-  // A second pair_style line: coefficients mean something else under other settings, and contacts may remember other numbers.
+  // A second pair_style line: coefficients mean something else under other settings, and contacts may
+  // remember other numbers.
   if (allocated)
     for (int i = 1; i <= atom->ntypes; ++i)
       std::fill_n(setflag[i] + 1, atom->ntypes, 0);
@@ -387,8 +388,8 @@ const double *PairGranHookeTransition::history(int i, int j) const {
   return nullptr;
 }
 
-/// For computes. There is no energy, as in pair gran. Extra values on ball i: tangential force (3), its magnitude, normal (3) and tangential
-/// (3) part of the relative velocity, overlap.
+/// For computes. There is no energy, as in pair gran. Extra values on ball i: tangential force (3), its
+/// magnitude, normal (3) and tangential (3) part of the relative velocity, overlap.
 double PairGranHookeTransition::single(int i, int j, int itype, int jtype, double, double, double,
                                        double &force_over_distance) {
   force_over_distance = 0.0;
@@ -434,7 +435,7 @@ void PairGranHookeTransition::read_restart_settings(FILE *file) {
   int words[5] = {};
   if (comm->me == 0) utils::sfread(FLERR, words, sizeof(int), 5, file, nullptr, error);
   MPI_Bcast(words, 5, MPI_INT, 0, world);
-  settings_ = {static_cast<physics::Transition>(words[0]), static_cast<physics::Damping>(words[1]),
+  settings_ = {static_cast<physics::Transition>(words[0]), static_cast<drumlin::DampingInput>(words[1]),
                words[2] != 0, static_cast<FrictionModel>(words[3]), static_cast<physics::Cap>(words[4])};
   if (!settings_.stock) FixStepping::provide(lmp);
 }
@@ -465,7 +466,7 @@ void PairGranHookeTransition::read_restart(FILE *file) {
       MPI_Bcast(numbers, 7, MPI_DOUBLE, 0, world);
       setflag[i][j] = static_cast<int>(numbers[0]);
       ContactCoefficients p;
-      p.normal = {numbers[1], numbers[2], settings_.damping, settings_.transition};
+      p.normal = {numbers[1], numbers[2], settings_.kind(), settings_.transition};
       p.friction = numbers[3];
       p.tangential_stiffness = numbers[4];
       p.tangential_damping = numbers[5];

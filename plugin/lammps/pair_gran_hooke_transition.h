@@ -51,7 +51,8 @@ public:
   const double *tangential_spring(int i, int jj) const override;
   const NeighList *contact_list() const override { return list; }
 
-  /// The pair style of this engine instance, or the one part of a hybrid pair style that is this; nullptr: there is none, or more than one.
+  /// The pair style of this engine instance, or the one part of a hybrid pair style that is this; nullptr:
+  /// there is none, or more than one.
   static PairGranHookeTransition *find(LAMMPS *lmp);
   /// Whether a pair_coeff line has given the coefficients of a pair of types, in either order.
   bool has_coefficients(int itype, int jtype) const {

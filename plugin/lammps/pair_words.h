@@ -46,9 +46,14 @@ inline ContactSettings read_settings(Arguments &in) {
 /// k, damping and, with friction, mu and at will kt and ct up to the end.
 inline ContactCoefficients read_coefficients(Arguments &in, const ContactSettings &settings) {
   const double stiffness = in.number("normal stiffness k", Range::positive);
-  const double damping =
-      in.number(settings.damping == physics::Damping::ratio ? "damping ratio D" : "damping coefficient c",
-                Range::non_negative);
+  const bool restitution = settings.damping == DampingInput::restitution;
+  const std::string word = in.empty() ? "" : in.peek();
+  const double damping = in.number(restitution                               ? "restitution e"
+                                   : settings.damping == DampingInput::ratio ? "damping ratio D"
+                                                                             : "damping coefficient c",
+                                   restitution ? Range::positive : Range::non_negative);
+  if (restitution && damping > 1.0)
+    in.fail("restitution e is '" + word + "'; allowed: a finite number > 0 and <= 1");
   ContactCoefficients p = ContactCoefficients::with_defaults(settings.normal(stiffness, damping));
   if (settings.tangential != FrictionModel::none) {
     p.friction = in.number("friction coefficient mu", Range::non_negative);

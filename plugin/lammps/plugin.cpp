@@ -55,7 +55,8 @@ void *create_fix(void *lmp, int narg, char **arg) {
   return static_cast<Fix *>(new FixStyle(static_cast<LAMMPS *>(lmp), narg, arg));
 }
 
-/// Enters a style into a list of the engine. Its plugin interface, too, takes the functions that make styles for those of its lists.
+/// Enters a style into a list of the engine. Its plugin interface, too, takes the functions that make styles
+/// for those of its lists.
 template <class Styles, class Make>
 void enter(Styles &styles, const char *name, Make *make) {
   styles[name] = reinterpret_cast<typename Styles::mapped_type>(reinterpret_cast<void (*)()>(make));
@@ -82,8 +83,9 @@ extern "C" __attribute__((visibility("default"))) void drumlin_register(void *lm
   plugin.version = LAMMPS_VERSION;
   plugin.author = "drumlin";
   plugin.handle = handle;
-  // The engine keeps one list of plugins for all its instances in a process, and takes a style of a plugin that is in it in no other
-  // instance: there it is entered into the instance's own lists, as the engine would.
+  // The engine keeps one list of plugins for all its instances in a process, and takes a style of a plugin
+  // that is in it in no other instance: there it is entered into the instance's own lists, as the engine
+  // would.
   const bool listed = plugin_find("pair", "gran/hooke/transition") >= 0;
   const auto add_v1 = [&](const char *style, const char *name, const char *info,
                           lammpsplugin_factory1 *make) {

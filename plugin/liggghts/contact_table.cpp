@@ -22,6 +22,7 @@ using LAMMPS_NS::Pointers;
 
 constexpr const char *model = "model hooke/transition";
 constexpr double default_friction = 0.5;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr const char *friction_property =
     "coefficientFriction"; // as the engine's tangential models ask for it
 
@@ -35,12 +36,13 @@ public:
 
   bool given() const { return fix_ != nullptr; }
 
-  double operator()(int i, int j, bool zero_allowed) {
+  double operator()(int i, int j, bool zero_allowed, double most = infinity) {
     const double value = fix_->compute_array(i - 1, j - 1);
-    if (!std::isfinite(value) || value < 0.0 || (value == 0.0 && !zero_allowed))
+    if (!std::isfinite(value) || value < 0.0 || (value == 0.0 && !zero_allowed) || value > most)
       error->all(FLERR, engine::as_is(fmt::format(
-                            "{}: property {} of types {} and {} is {}; allowed: a finite number {} 0", model,
-                            name_, i, j, value, zero_allowed ? ">=" : ">")));
+                            "{}: property {} of types {} and {} is {}; allowed: a finite number {} 0{}",
+                            model, name_, i, j, value, zero_allowed ? ">=" : ">",
+                            most < infinity ? fmt::format(" and <= {}", most) : "")));
     return value;
   }
 
@@ -59,8 +61,8 @@ private:
   FixPropertyGlobal *fix_;
 };
 
-// The engine's pair style keeps what it does behind a private pointer. An explicit instantiation may name a private member; its
-// friend hands it out.
+// The engine's pair style keeps what it does behind a private pointer. An explicit instantiation may name a
+// private member; its friend hands it out.
 template <auto Member>
 struct ProxyAccess {
   friend auto &style_of(LAMMPS_NS::PairGranProxy &proxy) { return proxy.*Member; }
@@ -133,14 +135,20 @@ void ContactTable::read(LAMMPS *lmp, int ntypes, const ContactSettings &settings
   TypePairProperty kn(lmp, "kn", ntypes);
   TypePairProperty kt(lmp, "kt", ntypes);
   TypePairProperty ct(lmp, "gammat_abs", ntypes);
-  TypePairProperty c(lmp, settings.damping == physics::Damping::ratio ? "dampingRatio" : "gamman_abs",
-                     ntypes);
+  struct Input {
+    const char *property, *meaning;
+  };
+  const Input input =
+      settings.damping == DampingInput::coefficient
+          ? Input{"gamman_abs", "normal damping coefficient, N s/m, keyword damping coefficient"}
+      : settings.damping == DampingInput::ratio
+          ? Input{"dampingRatio", "damping ratio D, keyword damping ratio"}
+          : Input{"coefficientRestitution", "restitution e, keyword damping restitution"};
+  const bool restitution = settings.damping == DampingInput::restitution;
+  TypePairProperty c(lmp, input.property, ntypes);
   TypePairProperty mu(lmp, friction_property, ntypes);
   kn.require("normal stiffness, N/m", ntypes);
-  c.require(settings.damping == physics::Damping::ratio
-                ? "damping ratio D, keyword damping ratio"
-                : "normal damping coefficient, N s/m, keyword damping coefficient",
-            ntypes);
+  c.require(input.meaning, ntypes);
 
   stride_ = static_cast<std::size_t>(ntypes) + 1;
   coefficients_.assign(stride_ * stride_, {});
@@ -148,7 +156,8 @@ void ContactTable::read(LAMMPS *lmp, int ntypes, const ContactSettings &settings
     for (int j = 1; j <= ntypes; ++j) {
       ContactCoefficients &p =
           coefficients_[static_cast<std::size_t>(i) * stride_ + static_cast<std::size_t>(j)];
-      p = ContactCoefficients::with_defaults(settings.normal(kn(i, j, false), c(i, j, true)));
+      p = ContactCoefficients::with_defaults(
+          settings.normal(kn(i, j, false), c(i, j, !restitution, restitution ? 1.0 : infinity)));
       if (kt.given()) p.tangential_stiffness = kt(i, j, true);
       if (ct.given()) p.set_tangential_damping(ct(i, j, true));
       if (mu.given()) p.friction = mu(i, j, true);

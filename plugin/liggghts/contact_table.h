@@ -22,7 +22,8 @@ constexpr double contact_distance_factor = 1.01;
 /// Name in the contact history of the normal force that acted in the step, N, under second-order stepping.
 constexpr const char *final_force_name = "normal_force_before";
 
-/// The pair style gran, or the one part of a hybrid pair style that is gran; nullptr if there is none, or more than one.
+/// The pair style gran, or the one part of a hybrid pair style that is gran; nullptr if there is none, or
+/// more than one.
 LAMMPS_NS::PairGran *gran_pair(LAMMPS_NS::LAMMPS *lmp);
 
 /// Table over pairs of types. Defaults where the deck gives nothing: kt = 2/7 kn, tangential damping = c / 2.
@@ -45,8 +46,8 @@ private:
   std::size_t stride_ = 0;
 };
 
-/// What the pair style, which derives from it, tells walls, helper and fixes of itself. It collects the tables anew in the
-/// initialization of each run: the pair style's own first, then those of the walls.
+/// What the pair style, which derives from it, tells walls, helper and fixes of itself. It collects the
+/// tables anew in the initialization of each run: the pair style's own first, then those of the walls.
 class PairContacts : public ContactSource {
 public:
   explicit PairContacts(LAMMPS_NS::LAMMPS *lmp) : lmp_(lmp) {}

@@ -40,7 +40,8 @@ ModelSettings::ModelSettings(LAMMPS_NS::Error *error, const std::string &command
     }
   }
   add("transition_A", settings.transition == physics::Transition::A);
-  add("damping_coefficient", settings.damping == physics::Damping::coefficient);
+  add("damping_coefficient", settings.damping == DampingInput::coefficient);
+  add("damping_restitution", settings.damping == DampingInput::restitution);
   add("stepping_stock", settings.stock);
   add("tangential_spring", companions.tangential_spring);
   for (std::string &word : words_)

@@ -20,7 +20,8 @@ struct Companions {
 class ModelSettings {
 public:
   /// \param command for error texts, e.g. "pair_style gran model hooke/transition"
-  /// \param companions a rolling model takes `torsionTorque on|off`; the normal model is told of the tangential spring
+  /// \param companions a rolling model takes `torsionTorque on|off`; the normal model is told of the
+  /// tangential spring
   ModelSettings(LAMMPS_NS::Error *error, const std::string &command, const Companions &companions, int narg,
                 char **arg);
 

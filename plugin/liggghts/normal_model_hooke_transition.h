@@ -42,12 +42,13 @@ public:
   void registerSettings(Settings &settings) {
     settings.registerOnOff("transition_A", transition_a_, false);
     settings.registerOnOff("damping_coefficient", damping_coefficient_, false);
+    settings.registerOnOff("damping_restitution", damping_restitution_, false);
     settings.registerOnOff("stepping_stock", stepping_stock_, false);
     settings.registerOnOff("tangential_spring", tangential_spring_, false);
   }
 
-  // While the deck is parsed: a fix added later, in the initialization of a run, would miss that run. A wall is a fix under
-  // construction and cannot add another.
+  // While the deck is parsed: a fix added later, in the initialization of a run, would miss that run. A wall
+  // is a fix under construction and cannot add another.
   void postSettings(IContactHistorySetup *history, ContactModelBase *all) {
     if (is_wall_)
       take_stepping_of_pair();
@@ -62,7 +63,8 @@ public:
   void connectToProperties(PropertyRegistry &registry) {
     drumlin::ContactSettings settings;
     if (transition_a_) settings.transition = drumlin::physics::Transition::A;
-    if (damping_coefficient_) settings.damping = drumlin::physics::Damping::coefficient;
+    if (damping_coefficient_) settings.damping = drumlin::DampingInput::coefficient;
+    if (damping_restitution_) settings.damping = drumlin::DampingInput::restitution;
     table_.read(lmp, registry.max_type(), settings, is_wall_);
     if (tangential_spring_) {
       registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
@@ -182,10 +184,10 @@ private:
     stored[1] = 1.0;
   }
 
-  /// What compute pair/gran/local sees behind a step, when the velocities of the step are gone: the force on record.
-  /// The step left the spring of a contact that slid at the friction limit, to rounding. The engine's `tangential history`
-  /// must find it above the limit, or, where the limit is zero, not damped: else it takes the contact for one that sticks
-  /// and puts a dashpot on top.
+  /// What compute pair/gran/local sees behind a step, when the velocities of the step are gone: the force on
+  /// record. The step left the spring of a contact that slid at the friction limit, to rounding. The engine's
+  /// `tangential history` must find it above the limit, or, where the limit is zero, not damped: else it
+  /// takes the contact for one that sticks and puts a dashpot on top.
   void look(SurfacesIntersectData &sidata, double share, ForceData &i_forces, ForceData &j_forces) const {
     sidata.Fn = sidata.contact_history[state_offset_];
     add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);
@@ -245,6 +247,7 @@ private:
   const bool is_wall_;
   bool transition_a_ = false;
   bool damping_coefficient_ = false;
+  bool damping_restitution_ = false;
   bool stepping_stock_ = false;
   LAMMPS_NS::Clumps clumps_;
   bool tangential_spring_ = false;             // what the tangential model beside this one has

@@ -57,7 +57,8 @@ using LAMMPS_NS::Pointers;
 static_assert(sizeof(SurfacesIntersectData) == 368,
               "contact data of this LIGGGHTS differ from the stock binary's");
 
-// The engine's style maps are not public. An explicit instantiation may name a private member; its friend hands it out.
+// The engine's style maps are not public. An explicit instantiation may name a private member; its friend
+// hands it out.
 template <auto Member>
 struct ModifyAccess {
   friend auto &fix_map_of(Modify &modify) { return modify.*Member; }
@@ -227,7 +228,8 @@ void drumlin_register(void *input) {
     drumlin::stop("built for LIGGGHTS " LIGGGHTS_VERSION ", but this process runs '" +
                   version.substr(0, version.find(',')) +
                   "'; build drumlin against the source of this version");
-  // The engine calls this for each file of a deck. Its list of contact models is one for the process, that of fixes for the instance.
+  // The engine calls this for each file of a deck. Its list of contact models is one for the process, that of
+  // fixes for the instance.
   if (fix_map_of(*lmp->modify)->count("drum/excite") != 0) return;
   if (Factory::instance().getNormalModelId("hooke/transition") != HOOKE_TRANSITION) add_contact_models();
   add_fixes(lmp);

@@ -43,15 +43,16 @@ public:
     return self().spring(overlap) + self().dashpot(overlap) * rate;
   }
 
-  /// What the transition condition leaves of a force, N, of spring and dashpot: B has no tension. Any other part of
-  /// the program asks this function; none has a condition of its own.
+  /// What the transition condition leaves of a force, N, of spring and dashpot: B has no tension. Any other
+  /// part of the program asks this function; none has a condition of its own.
   [[nodiscard]] double limited(double force) const {
     return transition_ == Transition::B && force < 0.0 ? 0.0 : force;
   }
 
-  /// Contact force Fc, N, positive in compression, Eq. (2). overlap d in m, rate d' in m/s, positive while approaching.
-  /// B is a clamp while the balls overlap and keeps no memory: Eqs. (8)-(9) read as a latch (re-made only
-  /// through d = 0) would let a drum that turns round before the gap opens fall through the soil.
+  /// Contact force Fc, N, positive in compression, Eq. (2). overlap d in m, rate d' in m/s, positive while
+  /// approaching. B is a clamp while the balls overlap and keeps no memory: Eqs. (8)-(9) read as a latch
+  /// (re-made only through d = 0) would let a drum that turns round before the gap opens fall through the
+  /// soil.
   [[nodiscard]] double force(double overlap, double rate) const {
     return overlap <= 0.0 ? 0.0 : limited(spring_and_dashpot(overlap, rate));
   }
@@ -62,7 +63,8 @@ public:
     return overlap > 0.0 && (transition_ == Transition::A || spring_and_dashpot(overlap, rate) > 0.0);
   }
 
-  /// Whether a contact still carries a force, of tension, when the overlap has gone: then its end is a jump of the force.
+  /// Whether a contact still carries a force, of tension, when the overlap has gone: then its end is a jump
+  /// of the force.
   [[nodiscard]] bool ends_in_tension() const { return transition_ == Transition::A; }
 
   /// Energy in the contact's spring, J; 0 for d <= 0.
@@ -72,7 +74,8 @@ public:
   /// dissipated is C d'^2 where the law is not clamped. Where B clamps, Fc = 0 and E < -C d', the balls part
   /// faster than the soil can follow: spring and dashpot relax against each other, and the spring's energy
   /// turns into heat at the rate -E d' > 0, less than C d'^2. Summed over time with energy() this closes the
-  /// energy balance contact by contact, through clamp, make and break: d runs continuously, and so does the energy.
+  /// energy balance contact by contact, through clamp, make and break: d runs continuously, and so does the
+  /// energy.
   [[nodiscard]] ContactPower power(double overlap, double rate) const {
     if (overlap <= 0.0) return {0.0, 0.0};
     const double stored = self().spring(overlap) * rate;
@@ -109,8 +112,9 @@ public:
 
   /// The force begins with a jump, to c d'.
   static constexpr bool begins_with_jump = true;
-  /// Weight of the first force of a contact in the closing half kick of the step in which it is made, and of the last but
-  /// one more: see made() in contact_step.h. \param share of a step, 0 to 1, that the contact has lasted
+  /// Weight of the first force of a contact in the closing half kick of the step in which it is made. The
+  /// last force under A gets this less 1 in the step in which the contact ends. \param share of a step, 0 to
+  /// 1, that the force has acted
   [[nodiscard]] static double first_weight(double share) { return 2.0 * share; }
 
 private:

@@ -1,9 +1,9 @@
 #pragma once
 /// What a time step does with a contact: advance(), for every law and both engines.
 ///
-/// The second-order scheme treats the five situations of a contact: set-up, a contact that goes on, one that is made in the
-/// step, one that ends in it, and heavily damped contacts that share a ball. The stock scheme, the engines' own, has one.
-/// The law alone knows its transition condition (ContactLaw::limited()).
+/// The second-order scheme treats the five situations of a contact: set-up, a contact that goes on, one that
+/// is made in the step, one that ends in it, and heavily damped contacts that share a ball. The stock scheme,
+/// the engines' own, has one. The law alone knows its transition condition (ContactLaw::limited()).
 
 #include "physics/contact_law.h"
 #include "physics/stepping.h"
@@ -29,10 +29,9 @@ struct StepContext {
 
 /// What a contact does in a step.
 struct StepResult {
-  double force; ///< N, physical, at t+dt; the next opening half kick gets it
-  double kick;  ///< N, for the closing half kick of this step
-  double
-      shift; ///< N: moves the balls by what dt/2 of it would in the next step's drift, and leaves their velocities
+  double force;         ///< N, physical, at t+dt; the next opening half kick gets it
+  double kick;          ///< N, for the closing half kick of this step
+  double shift;         ///< N: dt/2 of it moves the balls in the next drift, their velocities stay
   bool coupled = false; ///< the force is coupled_force() of `dashpot`, once all forces of the step are known;
                         ///< `force` is then what the contact would have alone, which friction takes
   CoupledDashpot dashpot{}; ///< if coupled
@@ -43,14 +42,16 @@ struct StepResult {
 
 namespace detail {
 
-/// The step of a make, of a law whose force begins with a jump: the contact acts for theta dt, theta = d / (dt d'+), between
-/// F0 = c d' at d = 0 (Eq. 4) and F. The impulse theta dt (F0 + F) / 2 is given to the closing half kick, which makes v(t+dt) physical:
+/// The step of a make, of a law whose force begins with a jump: the contact acts for theta dt, theta = d /
+/// (dt d'+), between F0 = c d' at d = 0 (Eq. 4) and F. The impulse theta dt (F0 + F) / 2 is given to the
+/// closing half kick, which makes v(t+dt) physical:
 ///   F = k d + c (d'_pred - dt/2 kick / m),   kick = theta (F0 + F).
-/// The drift of the step knew nothing of the contact: the overlap is too large by about theta s d (s = c dt / (2 m)), taken as
-/// d theta s / (1 + theta s), which stays below d at any damping. And from a jump of force on, the drift with the acceleration at
-/// the begin of each step leaves the positions behind the sum of the velocities by dt^2/4 of the jump of the acceleration (the
-/// boundary term of the trapezoidal sum). Both are position corrections; they matter for heavy damping, where d soon stops
-/// growing and the rebound goes with d.
+/// The drift of the step knew nothing of the contact: the overlap is too large by about theta s d (s = c dt /
+/// (2 m)), taken as d theta s / (1 + theta s), which stays below d at any damping. And from a jump of force
+/// on, the drift with the acceleration at the begin of each step leaves the positions behind the sum of the
+/// velocities by dt^2/4 of the jump of the acceleration (the boundary term of the trapezoidal sum). Both are
+/// position corrections; they matter for heavy damping, where d soon stops growing and the rebound goes with
+/// d.
 template <class Law>
 [[nodiscard]] inline StepResult made_with_jump(const Law &law, const StepMotion &motion, double theta,
                                                double c_over_m) {
@@ -60,8 +61,8 @@ template <class Law>
   const double rate_at_make = motion.rate_before + (1.0 - theta) * (rate_predicted - motion.rate_before);
   const double s_step = 0.5 * motion.dt * c_over_m;
   const double s = theta * s_step;
-  // A dashpot so strong that it stops the ball within a half kick, this one or the next opening one, takes no more than the
-  // ball has: else it would throw it back.
+  // A dashpot so strong that it stops the ball within a half kick, this one or the next opening one, takes no
+  // more than the ball has: else it would throw it back.
   const double first = c * std::max(0.0, rate_at_make) / std::max(1.0, s);
   const double slowed = 1.0 / (1.0 + s);
   const double force =
@@ -70,8 +71,8 @@ template <class Law>
   return {acting, theta * (first + acting), slowed * theta * c * motion.overlap / motion.dt - 0.5 * acting};
 }
 
-/// The step of a make, of a law whose force begins with 0. The first force gets the law's weight in the closing half kick, and
-/// no position correction, which would be of higher order than the scheme:
+/// The step of a make, of a law whose force begins with 0. The first force gets the law's weight in the
+/// closing half kick, and no position correction, which would be of higher order than the scheme:
 ///   F = E + C (d'_pred - dt/2 kick / m),   kick = weight F.
 template <class Law>
 [[nodiscard]] inline StepResult made_from_zero(const Law &law, const StepMotion &motion, double theta,
@@ -95,8 +96,8 @@ template <class Law>
 }
 
 /// Tension in the step whose end finds the contact broken: it acted for the share of the step before d = 0,
-/// and the opening half kick has given half a step of it already. Nothing where the force does not jump, which is under B and without
-/// a dashpot, and if there was no contact at the begin of the step.
+/// and the opening half kick has given half a step of it already. Nothing under B, which has no tension,
+/// without a dashpot, and if there was no contact at the begin of the step.
 template <class Law>
 [[nodiscard]] inline StepResult broken(const Law &law, const StepMotion &motion) {
   const double before = motion.overlap_before();
@@ -110,8 +111,8 @@ template <class Law>
 
 } // namespace detail
 
-/// Whether a contact only goes on in this step, which is what nearly all contacts of nearly all steps do: then
-/// going_on() is advance(), for inner loops.
+/// Whether a contact only goes on in this step, which is what nearly all contacts of nearly all steps do:
+/// then going_on() is advance(), for inner loops.
 template <class Law>
 [[nodiscard]] inline bool goes_on(const Law &law, const StepMotion &motion, const ContactState &state,
                                   const StepContext &context) {
@@ -127,8 +128,8 @@ template <class Law>
   return law.limited(implicit_force(law, motion, force_before, law.dashpot(motion.overlap) / m_eff));
 }
 
-/// One contact, one step of the second-order scheme. Takes the state that the step before has left and leaves its own. The
-/// force of a coupled contact is known later: it then replaces ContactState::force.
+/// One contact, one step of the second-order scheme. Takes the state that the step before has left and leaves
+/// its own. The force of a coupled contact is known later: it then replaces ContactState::force.
 /// \param motion with any overlap: one < 0 is no contact, or the end of one
 template <class Law>
 [[nodiscard]] inline StepResult advance(const Law &law, const StepMotion &motion, ContactState &state,
@@ -143,8 +144,8 @@ template <class Law>
     state.force = law.force(motion.overlap, motion.rate_half);
     return {state.force, state.force, 0.0};
   }
-  // A contact that is not new may seem to come from apart: behind a make its balls get a position correction, and other contacts
-  // of theirs that barely overlap get it, too.
+  // A contact that is not new may seem to come from apart: behind a make its balls get a position correction,
+  // and other contacts of theirs that barely overlap get it, too.
   if (!was_in_contact && came_from_apart(motion)) {
     const StepResult result = detail::made(law, motion, law.dashpot(motion.overlap) / context.m_eff);
     state.force = result.force;
@@ -160,7 +161,8 @@ template <class Law>
   return {state.force, dashpot.first, 0.0, true, dashpot};
 }
 
-/// The same with the stock scheme, the engines' own: the dashpot sees the half-step velocity, and a force acts on the whole step.
+/// The same with the stock scheme, the engines' own: the dashpot sees the half-step velocity, and a force
+/// acts on the whole step.
 template <class Law>
 [[nodiscard]] inline StepResult advance_stock(const Law &law, const StepMotion &motion, ContactState &state) {
   state.in_contact = motion.overlap > 0.0;

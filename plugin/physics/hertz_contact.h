@@ -1,8 +1,10 @@
 #pragma once
-/// Hertz contact of spheres with a dashpot that fits it (Tsuji, Tanaka and Ishida 1992, Powder Technology 71, 239-250):
+/// Hertz contact of spheres with a dashpot that fits it (Tsuji, Tanaka and Ishida 1992, Powder Technology 71,
+/// 239-250):
 ///   Fc = k d^(3/2) + c d^(1/4) d'.
-/// y = d^(5/4) obeys the linear law in the speed u = d':  5/4 u du/dy = -(k y + c u) / m.  With D = c / (2 sqrt(5/4 k m)) the
-/// restitution is therefore that of the linear law with the same D, under A and B and at any impact speed.
+/// y = d^(5/4) obeys the linear law in the speed u = d':  5/4 u du/dy = -(k y + c u) / m.  With D = c / (2
+/// sqrt(5/4 k m)) the restitution is therefore that of the linear law with the same D, under A and B and at
+/// any impact speed.
 
 #include "physics/contact_law.h"
 
@@ -14,8 +16,8 @@ namespace drumlin::physics {
 
 namespace detail {
 
-/// Hurwitz zeta function, the sum of (n + a)^(-s) over n >= 0 continued to s < 1: Euler-Maclaurin from the sixth
-/// term on. For -1 < s < 0 and 1 <= a <= 2 it has 10 digits.
+/// Hurwitz zeta function, the sum of (n + a)^(-s) over n >= 0 continued to s < 1: Euler-Maclaurin from the
+/// sixth term on. For -1 < s < 0 and 1 <= a <= 2 it has 10 digits.
 [[nodiscard]] inline double hurwitz_zeta(double s, double a) {
   double sum = 0.0;
   constexpr int terms = 6;
@@ -48,9 +50,9 @@ public:
 
   /// The force begins with 0, but not smoothly: with the time since the make to the power 1/4.
   static constexpr bool begins_with_jump = false;
-  /// What a sum over steps of dt makes of an integral of t^(1/4) from a time inside a step on: by the Euler-Maclaurin formula the
-  /// sum misses it by dt zeta(-1/4, share) times the force at dt. The first force, at share dt, gets a weight in the closing
-  /// half kick that makes up for it.
+  /// What a sum over steps of dt makes of an integral of t^(1/4) from a time inside a step on: by the
+  /// Euler-Maclaurin formula the sum misses it by dt zeta(-1/4, share) times the force at dt. The first
+  /// force, at share dt, gets a weight in the closing half kick that makes up for it.
   [[nodiscard]] static double first_weight(double share) {
     const double at_least = std::max(share, 1e-12); // the force is 0 at 0, the weight infinite
     return -2.0 * detail::hurwitz_zeta(-0.25, 1.0 + share) / std::sqrt(std::sqrt(at_least)) - 1.0;

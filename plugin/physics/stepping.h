@@ -1,9 +1,11 @@
 #pragma once
-// The second-order scheme: what a step of velocity Verlet does with the dashpot of a link, a contact or a bond.
+// The second-order scheme: what a step of velocity Verlet does with the dashpot of a link, a contact or a
+// bond.
 //
 // The engines' step is  v+ = v + dt/2 a(t),  x(t+dt) = x(t) + dt v+,  forces,  v(t+dt) = v+ + dt/2 a(t+dt).
-// Their own force laws put the half-step velocity v+ into the dashpot, which is an error of first order. Here the dashpot
-// sees v(t+dt), solved for implicitly. contact_step.h adds what a contact needs when it begins and ends.
+// Their own force laws put the half-step velocity v+ into the dashpot, which is an error of first order. Here
+// the dashpot sees v(t+dt), solved for implicitly. contact_step.h adds what a contact needs when it begins
+// and ends.
 
 #include "physics/contact_law.h"
 
@@ -28,9 +30,10 @@ struct StepMotion {
 /// Force at t+dt of a spring and dashpot that acted through the step, the dashpot at the velocity of t+dt.
 ///
 /// With v_pred = v+ + (v+ - v(t)), the velocity that unchanged forces would give,
-///   v(t+dt) = v_pred + dt/2 (F - F_old) / m   hence   F = (E + C d'_pred + s F_old) / (1 + s),   s = C dt / (2 m_eff).
-/// For one contact this is the implicit solution, stable for w0 dt < 2 at any damping. The other contacts of the two balls change
-/// their velocities too, which it does not see: an error of second order, but heavy damping in a packing needs coupled_force().
+///   v(t+dt) = v_pred + dt/2 (F - F_old) / m   hence   F = (E + C d'_pred + s F_old) / (1 + s),   s = C dt /
+/// (2 m_eff). For one contact this is the implicit solution, stable for w0 dt < 2 at any damping. The other
+/// contacts of the two balls change their velocities too, which it does not see: an error of second order,
+/// but heavy damping in a packing needs coupled_force().
 /// \param force_before F_old, N: the force that the opening half kick had
 /// \param c_over_m C / m_eff, 1/s
 template <class Law>
@@ -43,9 +46,10 @@ template <class Law>
 
 /// Whether a link's dashpot must be solved for together with the others of its balls: see CoupledDashpot.
 ///
-/// Each on its own costs less, lags by nothing, and is stable up to 0.7 of the limit of the springs (tests/plugin/physics/time_step_test.cpp)
-/// as long as dt sum c/m <= 0.25, or <= 0.75 and dt^2 sum k/m <= 0.5, the springs far from their limit. sum k/m is taken as k/c sum c/m, as
-/// where contacts are alike. A contact without a dashpot has nothing to be solved for.
+/// Each on its own costs less, lags by nothing, and is stable up to 0.7 of the limit of the springs
+/// (tests/plugin/physics/time_step_test.cpp) as long as dt sum c/m <= 0.25, or <= 0.75 and dt^2 sum k/m <=
+/// 0.5, the springs far from their limit. sum k/m is taken as k/c sum c/m, as where contacts are alike. A
+/// contact without a dashpot has nothing to be solved for.
 /// \param all_c_over_m sum of c/m over all contacts of both balls, 1/s
 [[nodiscard]] inline bool needs_coupling(double dt, double k, double c, double all_c_over_m) {
   const double dashpots = dt * all_c_over_m;
@@ -67,12 +71,14 @@ struct Dashpots {
   }
 };
 
-/// Heavily damped links that share a ball are solved for together, in two passes: first every link gives what changes with the
-/// positions,  F_old + E - E_old;  then, with v* = v+ + dt/2 a, a of these forces and all others that act, each dashpot takes
-///   f = (C d'* + s f_old) / (1 + s),   f_old = F_old - E_old,   s = dt/2 sum of c/m over all links of both balls.
-/// The exact solution has the matrix B_ab = dt/2 n_a.n_b / m of all links of a ball in the place of s/C, f = C (d'* - B (f - f_old)).
-/// By Cauchy-Schwarz the diagonal s/C is not less than B: the dashpots lag by a step at most, which cannot create energy, and
-/// any damping leaves the limit of the springs as it is. For one link both are the same.
+/// Heavily damped links that share a ball are solved for together, in two passes: first every link gives what
+/// changes with the positions,  F_old + E - E_old;  then, with v* = v+ + dt/2 a, a of these forces and all
+/// others that act, each dashpot takes
+///   f = (C d'* + s f_old) / (1 + s),   f_old = F_old - E_old,   s = dt/2 sum of c/m over all links of both
+/// balls. The exact solution has the matrix B_ab = dt/2 n_a.n_b / m of all links of a ball in the place of
+/// s/C, f = C (d'* - B (f - f_old)). By Cauchy-Schwarz the diagonal s/C is not less than B: the dashpots lag
+/// by a step at most, which cannot create energy, and any damping leaves the limit of the springs as it is.
+/// For one link both are the same.
 struct CoupledDashpot {
   double first;    ///< F_old + E - E_old, N: what the first pass gives
   double at_rest;  ///< E + s f_old / (1 + s), N: force without d'*

@@ -35,8 +35,8 @@ TEST_P(ClearCommand, LeavesADeckThatLoopsItsRuns) {
   }
 }
 
-/// Runs scenes in LAMMPS instances of one process: with walls, a clump, a bond and all that observes contacts. The two differ in
-/// their laws, so that what one took from the other would be seen.
+/// Runs scenes in LAMMPS instances of one process: with walls, a clump, a bond and all that observes
+/// contacts. The two differ in their laws, so that what one took from the other would be seen.
 Outcome run_instances(const Scratch &folder, const std::string &how) {
   const auto scene = [&](const std::string &name, const std::string &law, const std::string &lines) {
     write_text(folder / (name + ".lines"),

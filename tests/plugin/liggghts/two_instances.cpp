@@ -1,6 +1,7 @@
-// LAMMPS instances in one process, through the library interface. Arguments: liblammps.so, plugin, deck, how. The deck reads the lines of
-// an instance from NAME.lines and is told its NAME: first or second. how: one of the names, that instance alone; `after`, the second when
-// the first is closed; `beside`, both open, their runs in turns.
+// LAMMPS instances in one process, through the library interface. Arguments: liblammps.so, plugin, deck, how.
+// The deck reads the lines of an instance from NAME.lines and is told its NAME: first or second. how: one of
+// the names, that instance alone; `after`, the second when the first is closed; `beside`, both open, their
+// runs in turns.
 #include <array>
 #include <cstdio>
 #include <cstdlib>

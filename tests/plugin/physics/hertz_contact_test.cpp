@@ -1,5 +1,5 @@
-/// The Hertz law: its definitions, and whole impacts with the second-order scheme against the closed form of e, which is that of
-/// the linear law with the same D, and against CVODE.
+/// The Hertz law: its definitions, and whole impacts with the second-order scheme against the closed form of
+/// e, which is that of the linear law with the same D, and against CVODE.
 
 #include "physics/hertz_contact.h"
 #include "physics/restitution.h"

@@ -1,4 +1,5 @@
-// Second-order stepping: order and error of a single impact against the closed form, and stability at the extremes.
+// Second-order stepping: order and error of a single impact against the closed form, and stability at the
+// extremes.
 
 #include "tests/plugin/physics/velocity_verlet.h"
 
@@ -101,8 +102,8 @@ TEST(SecondOrderStep, SlowImpactOfAnUndampedBallKeepsItsEnergy) {
   EXPECT_NEAR(ball.v, 1.0, 2e-3);
 }
 
-/// Whether an oscillation about rest between n walls stays bounded. A pre-load keeps all contacts closed, so that the motion is
-/// linear as in the theory.
+/// Whether an oscillation about rest between n walls stays bounded. A pre-load keeps all contacts closed, so
+/// that the motion is linear as in the theory.
 bool stays_bounded(int walls, double D, double w0_dt) {
   const double dt = w0_dt / w0;
   const double depth = 1.0;
@@ -175,7 +176,8 @@ TEST(SecondOrderStep, SetUpTakesTheVelocitiesAsTheyAre) {
   EXPECT_TRUE(state.in_contact);
 }
 
-// Under B a contact may be without a force and still be one: in its next step it goes on and is not made again.
+// Under B a contact may be without a force and still be one: in its next step it goes on and is not made
+// again.
 TEST(SecondOrderStep, ContactWithoutForceStaysOne) {
   const double dt = 1e-4, c = coefficient(0.5);
   ContactState state{0.0, true, {}};
@@ -200,7 +202,8 @@ TEST(SecondOrderStep, ContactThatHadAForceIsNotMadeAgain) {
   }
 }
 
-// A ball that goes over to the next triangle of a mesh has overlapped with it for longer than a step, without a state.
+// A ball that goes over to the next triangle of a mesh has overlapped with it for longer than a step, without
+// a state.
 TEST(SecondOrderStep, ContactThatIsOlderThanItsStateGoesOn) {
   const double dt = 1e-5, rate = 0.1, overlap = 1e-3, c = coefficient(0.5);
   const LinearLaw law(k, c, Transition::B);
@@ -230,7 +233,8 @@ TEST(SecondOrderStep, BallAtRestThatJustTouchesFeelsNothing) {
   }
 }
 
-// What a bound on sum and k/c denies is denied for every contact below it: FixStepping leaves the counting on that.
+// What a bound on sum and k/c denies is denied for every contact below it: FixStepping leaves the counting on
+// that.
 TEST(SecondOrderStep, NeedOfCouplingGrowsWithTheSumOfDampingsAndWithTheSpring) {
   std::mt19937 random(20251121);
   std::uniform_real_distribution<double> exponent(-3.0, 1.0);
@@ -265,8 +269,9 @@ TEST(SecondOrderStep, BreakOfAEndsTheTensileForceWithinTheStep) {
   }
 }
 
-// Without a dashpot the force falls to zero at d = 0, continuously: where A ends a contact B does. The ball bounces between two
-// undamped walls; in the second scene a damped contact, heavy enough to be solved for apart, holds it too.
+// Without a dashpot the force falls to zero at d = 0, continuously: where A ends a contact B does. The ball
+// bounces between two undamped walls; in the second scene a damped contact, heavy enough to be solved for
+// apart, holds it too.
 TEST(SecondOrderStep, WithoutDashpotAAndBAreOneLaw) {
   const double dt = M_PI / (w0 * 40.0);
   for (const bool damped : {false, true}) {

@@ -215,8 +215,8 @@ TEST(CriticalStep, NeverExceedsTheTrueLimitOfRandomChains) {
 
 TEST(CriticalStep, WithoutLinksIsUnlimited) { EXPECT_EQ(LoadedBall().critical_step(), infinity); }
 
-/// Balls in a plane that touch and rub: normal springs and dashpots by second-order stepping, shear springs and dashpots by the
-/// half-step velocity, as in the engine.
+/// Balls in a plane that touch and rub: normal springs and dashpots by second-order stepping, shear springs
+/// and dashpots by the half-step velocity, as in the engine.
 struct Packing {
   struct Contact {
     int one, other; ///< other -1: a fixed partner

@@ -1,5 +1,6 @@
 #pragma once
-/// The engines' part of a step, for tests of laws and of advance(): velocity Verlet as in fix nve/sphere, of balls on a line.
+/// The engines' part of a step, for tests of laws and of advance(): velocity Verlet as in fix nve/sphere, of
+/// balls on a line.
 
 #include "physics/contact_step.h"
 
@@ -19,8 +20,8 @@ struct Balls {
   std::array<double, N> force{}; ///< of the last step; zero before the first
 };
 
-/// One step of dt to time t_end. forces(t_end, x, v) returns the force on every ball from the new positions and the
-/// half-step velocities, as the stock scheme has it.
+/// One step of dt to time t_end. forces(t_end, x, v) returns the force on every ball from the new positions
+/// and the half-step velocities, as the stock scheme has it.
 template <std::size_t N, typename Forces>
 void stock_step(Balls<N> &balls, double t_end, double dt, const Forces &forces) {
   for (std::size_t i = 0; i < N; ++i) {
@@ -32,8 +33,8 @@ void stock_step(Balls<N> &balls, double t_end, double dt, const Forces &forces) 
     balls.v[i] += 0.5 * dt * balls.force[i] / balls.mass[i];
 }
 
-/// A ball on a line among fixed partners, with the second-order scheme. What the contacts do is advance()'s; here are the half
-/// kicks and the drift, and what FixStepping does in the engines with a StepResult.
+/// A ball on a line among fixed partners, with the second-order scheme. What the contacts do is advance()'s;
+/// here are the half kicks and the drift, and what FixStepping does in the engines with a StepResult.
 template <class Law>
 class SecondOrderBall {
 public:
