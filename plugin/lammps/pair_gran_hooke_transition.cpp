@@ -151,12 +151,9 @@ void PairGranHookeTransition::init_style() {
 
   observers_.find(*modify);
   clumps_.find(*modify);
-  walls_.clear();
   rigid_.clear();
-  for (int n = 0; n < modify->nfix; ++n) {
+  for (int n = 0; n < modify->nfix; ++n)
     if (modify->fix[n]->rigid_flag) rigid_.push_back(modify->fix[n]);
-    if (const auto *wall = dynamic_cast<const drumlin::Walls *>(modify->fix[n])) walls_.push_back(wall);
-  }
   if (rigid_.empty()) rigid_mass_.clear();
 
   freeze_groupbit_ = 0;
@@ -182,6 +179,10 @@ void PairGranHookeTransition::init_style() {
   const auto middle = all.begin() + static_cast<std::ptrdiff_t>(ntypes) + 1;
   reach_.assign(all.begin(), middle);
   frozen_reach_.assign(middle, all.end());
+
+  walls_.clear();
+  for (int n = 0; n < modify->nfix; ++n)
+    if (const auto *wall = dynamic_cast<const drumlin::Walls *>(modify->fix[n])) walls_.push_back(wall);
 }
 
 std::string PairGranHookeTransition::missing_coefficients(int itype, int jtype) {
