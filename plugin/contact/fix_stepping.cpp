@@ -134,9 +134,9 @@ void FixStepping::pre_force(int) {
   if (comm->nprocs > 1 || atom->nghost > 0) drumlin::engine::forward_comm(comm, this);
 }
 
-/// Contacts are counted only if one could need coupling, were all neighbours, walls and links to act at once. needs_coupling()
-/// grows with the sum and with k/c: what it denies for these it denies for all contacts until the next search for neighbours,
-/// and the choice changes no result.
+/// Contacts are counted only if one could need coupling, were all neighbours, walls and links to act at once.
+/// needs_coupling() grows with the sum and with k/c: what it denies for these it denies for all contacts
+/// until the next search for neighbours, and the choice changes no result.
 void FixStepping::expect_contacts() {
   const drumlin::ContactSource *source = drumlin::contact_source(lmp);
   const NeighList *list = source->contact_list();
@@ -149,7 +149,7 @@ void FixStepping::expect_contacts() {
       const double m_eff = source->effective_mass(i, j);
       if (std::isinf(m_eff)) continue;
       const drumlin::physics::LinearContact &law = source->law(atom->type[i], atom->type[j]);
-      const double c = drumlin::physics::damping_coefficient(law, m_eff);
+      const double c = law.damping_coefficient(m_eff);
       ball(i).add(law.stiffness, c);
       ball(j).add(law.stiffness, c);
     }
@@ -271,8 +271,8 @@ void FixStepping::solve_coupled() {
   constrain(true);
 }
 
-/// One entry per ball: constraints act on its forces as a whole, and what is taken back later is the difference that all
-/// its shifts together make.
+/// One entry per ball: constraints act on its forces as a whole, and what is taken back later is the
+/// difference that all its shifts together make.
 void FixStepping::merge_later() {
   std::stable_sort(later_.begin(), later_.end(), [](const Later &a, const Later &b) { return a.i < b.i; });
   std::size_t kept = 0;
@@ -329,8 +329,8 @@ void FixStepping::add_force(int i, double factor, const std::array<double, 3> &v
         constraint.reaction[a] += factor * vector[a];
 }
 
-/// Constraints are projections: acting again on what has passed them changes nothing else. But they would say that they took
-/// what they find now.
+/// Constraints are projections: acting again on what has passed them changes nothing else. But they would say
+/// that they took what they find now.
 void FixStepping::constrain(bool any) const {
   for (const Constraint &constraint : constraints_) {
     if (!any && !constraint.joins) continue;

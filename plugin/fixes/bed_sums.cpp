@@ -37,7 +37,7 @@ ContactSums BedSums::contacts(const Vec3 &axis) const {
   const LAMMPS_NS::Atom &atom = *lmp_->atom;
   const double half = lmp_->force->newton_pair ? 1.0 : 0.5;
   ContactSums mine;
-  for (const LedgerEntry &e : entries_) {
+  for (const ContactRecord &e : records_) {
     const bool wall = e.j < 0;
     // With newton off a contact of balls on two ranks is recorded on both: it counts half on each.
     const double weight = !wall && (e.i >= atom.nlocal || e.j >= atom.nlocal) ? half : 1.0;
@@ -47,9 +47,8 @@ ContactSums BedSums::contacts(const Vec3 &axis) const {
     const double *vj = wall ? still.data() : atom.v[e.j];
     const Vec3 v{vi[0] - vj[0], vi[1] - vj[1], vi[2] - vj[2]};
     const double rate = -dot(e.normal, v.data());
-    const double stiffness = e.share * e.normal_stiffness;
-    mine.normal_heat += weight * (force - stiffness * e.overlap) * rate;
-    mine.normal_stored += weight * 0.5 * stiffness * e.overlap * e.overlap;
+    mine.normal_heat += weight * (force - e.share * e.spring_force) * rate;
+    mine.normal_stored += weight * e.share * e.spring_energy;
     mine.tangential_power -= weight * (dot(e.tangential_force, v.data()) + dot(e.torque_i, atom.omega[e.i]) +
                                        (wall ? 0.0 : dot(e.torque_j, atom.omega[e.j])));
     if (e.spring != nullptr)

@@ -2,7 +2,7 @@
 // Sums over the contacts and balls of a bed at one time: energies, heat, forces of the walls, coordination,
 // void ratio.
 
-#include "contact/contact_ledger.h"
+#include "contact/contact_observer.h"
 
 #include <array>
 #include <vector>
@@ -35,16 +35,16 @@ struct BallSums {
   double solid = 0.0;       ///< m3 (m2 in two dimensions) of soil balls below a given height
 };
 
-/// Records every contact that is computed in a step and sums over contacts and balls. `axis` is everywhere
-/// the unit vector that points upwards.
-class BedSums : public ContactLedger {
+/// Sums over the contacts of a step, which are added one by one, and over balls. `axis` is everywhere the unit
+/// vector that points upwards.
+class BedSums {
 public:
   /// \param soil_groupbit bit of the group of the soil balls
   explicit BedSums(engine::LAMMPS *lmp, int soil_groupbit) : lmp_(lmp), soil_(soil_groupbit) {}
 
   /// Discards the recorded contacts; to be called before the forces of a step are computed.
-  void clear() { entries_.clear(); }
-  void enter(const LedgerEntry &entry) override { entries_.push_back(entry); }
+  void clear() { records_.clear(); }
+  void add(const ContactRecord &record) { records_.push_back(record); }
 
   /// Sums over the recorded contacts with the present velocities. Ghosts must have the velocities of their
   /// owners. Collective.
@@ -62,7 +62,7 @@ private:
 
   engine::LAMMPS *lmp_;
   int soil_;
-  std::vector<LedgerEntry> entries_;
+  std::vector<ContactRecord> records_;
 };
 
 } // namespace drumlin

@@ -20,12 +20,13 @@ void DrumContacts::list_pairs(const ContactSource &source, int drum, int frame) 
       // With newton off a pair of balls on two ranks is in the lists of both: it counts where the drum's ball
       // is owned.
       if ((i_drum ? i : j) >= atom.nlocal && !lmp_->force->newton_pair) continue;
-      const physics::LinearContact &law = source.law(atom.type[i], atom.type[j]);
-      const double c = physics::damping_coefficient(law, source.effective_mass(i, j));
+      const physics::LinearLaw law =
+          source.law(atom.type[i], atom.type[j]).of_mass(source.effective_mass(i, j));
       const FrictionModel model = source.friction_model();
-      pairs_.push_back({i, j, i_drum ? 1.0 : -1.0, law.stiffness, c, law.transition,
-                        model == FrictionModel::none ? physics::Friction{}
-                                                     : source.friction(atom.type[i], atom.type[j], c),
+      pairs_.push_back({i, j, i_drum ? 1.0 : -1.0, law,
+                        model == FrictionModel::none
+                            ? physics::Friction{}
+                            : source.friction(atom.type[i], atom.type[j], law.dashpot(0.0)),
                         model == FrictionModel::history ? source.tangential_spring(i, jj) : nullptr});
     }
   }
@@ -37,15 +38,15 @@ DrumContactSums DrumContacts::sums(const std::array<double, 3> &axis) const {
   std::array<double, 4> mine{}; // force, dissipated power, stored energy, number of contacts
   for (const Pair &pair : pairs_) {
     const PairMotion m = pair_motion(atom, pair.i, pair.j);
-    const double F = physics::normal_force(pair.transition, pair.k, pair.c, m.overlap, m.rate);
+    const double F = pair.law.force(m.overlap, m.rate);
     mine[0] += pair.sign * F * along(m.normal.data());
     if (m.overlap > 0.0 && pair.friction.coefficient > 0.0)
       mine[0] += pair.sign * along(friction_force(atom, pair.i, pair.j, m, pair.friction, F, pair.spring,
                                                   lmp_->update->dt)
                                        .data());
-    mine[1] += physics::contact_power(pair.transition, pair.k, pair.c, m.overlap, m.rate).dissipated;
-    mine[2] += physics::contact_energy(pair.k, m.overlap);
-    mine[3] += physics::in_contact(pair.transition, pair.k, pair.c, m.overlap, m.rate) ? 1.0 : 0.0;
+    mine[1] += pair.law.power(m.overlap, m.rate).dissipated;
+    mine[2] += pair.law.energy(m.overlap);
+    mine[3] += pair.law.acts(m.overlap, m.rate) ? 1.0 : 0.0;
   }
   std::array<double, 4> all = mine;
   if (lmp_->comm->nprocs > 1) MPI_Allreduce(mine.data(), all.data(), 4, MPI_DOUBLE, MPI_SUM, lmp_->world);

@@ -36,8 +36,7 @@ private:
   struct Pair {
     int i, j;
     double sign; // 1: ball i belongs to the drum; -1: ball j does
-    double k, c;
-    physics::Transition transition;
+    physics::LinearLaw law;
     physics::Friction friction;
     const double *spring; // of the tangential model; nullptr if it has none
   };

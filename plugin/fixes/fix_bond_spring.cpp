@@ -50,6 +50,7 @@ int FixBondSpring::setmask() { return FixConst::PRE_NEIGHBOR | FixConst::POST_FO
 
 void FixBondSpring::init() {
   stepping_ = FixStepping::find(lmp);
+  observers_.find(*modify);
   for (const int tag : tags_) {
     int mine = 0;
     for (int i = 0; i < atom->nlocal; ++i)
@@ -165,8 +166,7 @@ void FixBondSpring::post_force(int vflag) {
   for (std::size_t b = 0; b < 2; ++b)
     if (const int i = local_[b]; i >= 0) {
       if (stepping_ && stepping_->counting()) stepping_->add_damping(i, bond_.damping);
-      for (drumlin::ContactWatch *watch : drumlin::ContactWatch::looking())
-        watch->see(i, tags_[1 - b], modes(atom->rmass[i]), 0.0);
+      if (observers_.any()) observers_.tell_bond(i, tags_[1 - b], modes(atom->rmass[i]));
     }
   if (stepping_ != nullptr && !update->setupflag) return post_force_second_order();
   store(physics::bond_force(bond_, state_.distance, state_.rate));
@@ -177,19 +177,19 @@ void FixBondSpring::post_force(int vflag) {
 void FixBondSpring::post_force_second_order() {
   const physics::StepMotion motion{state_.distance - bond_.length, state_.rate, state_.rate_before,
                                    update->dt};
+  // A bond has no make, and its force is not limited to compression: transition A is the law without this
+  // limit.
+  const physics::LinearLaw law(bond_.stiffness, bond_.damping, physics::Transition::A);
   // A light dashpot is solved for alone: solved for together with a far heavier one its force would lag
   // behind by many steps.
   const double c_over_m = bond_.damping * state_.inverse_masses;
   if (!physics::needs_coupling(motion.dt, bond_.stiffness, bond_.damping, c_over_m)) {
-    store(bond_under(physics::second_order_spring_dashpot(bond_.stiffness, bond_.damping, motion,
-                                                          acted_.force, c_over_m)));
+    store(bond_under(physics::implicit_force(law, motion, acted_.force, c_over_m)));
     apply(acted_.force);
     return;
   }
-  // A bond has no make, and its force is not limited to compression: transition A is the law without this
-  // limit.
-  const physics::CoupledDashpot coupled = physics::coupled_dashpot(
-      physics::Transition::A, bond_.stiffness, bond_.damping, motion, acted_.force, state_.damping_over_mass);
+  const physics::CoupledDashpot coupled =
+      physics::coupled_dashpot(law, motion, acted_.force, state_.damping_over_mass);
   apply(coupled.first);
   stepping_->couple([this, coupled] {
     store(bond_under(physics::coupled_force(coupled, predicted_rate())));

@@ -2,7 +2,7 @@
 // fix bond/spring: a bonded spring-dashpot between two balls. See plugin/doc/fix_bond_spring.md.
 
 #include "engine.h"
-#include "contact/contact_watch.h"
+#include "contact/contact_observer.h"
 #include "physics/bond_law.h"
 
 #include <optional>
@@ -63,6 +63,7 @@ private:
   class FixStepping *stepping_ = nullptr; // nullptr under stock stepping
   bool echoed_ = false;
   State state_{};
+  drumlin::ContactObservers observers_;
   drumlin::physics::BondForce acted_{};
 };
 

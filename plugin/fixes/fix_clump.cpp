@@ -17,14 +17,6 @@ FixClump::FixClump(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg
   drumlin::Arguments in(error, "fix clump", narg - 3, arg + 3);
   in.expect_end("fix ID group clump");
   if (igroup == 0) in.fail("group", "all", "a group with the balls of the body, which is not all");
-  list().push_back(this);
-}
-
-FixClump::~FixClump() { list().erase(std::remove(list().begin(), list().end(), this), list().end()); }
-
-std::vector<FixClump *> &FixClump::list() {
-  static std::vector<FixClump *> clumps; // one engine instance per process runs a deck
-  return clumps;
 }
 
 int FixClump::setmask() { return FixConst::POST_FORCE; }
@@ -37,7 +29,9 @@ void FixClump::init() {
                    "fix clump: group is '{}', which is empty; allowed: a group with the balls of the body",
                    group->names[igroup])));
   mass_ = group->mass(igroup);
-  for (const FixClump *other : list())
+  Clumps clumps;
+  clumps.find(*modify);
+  for (const FixClump *other : clumps.all())
     if (const int common = common_balls(*other); other != this && common > 0)
       error->all(FLERR, drumlin::engine::error_text(
                             fmt::format("fix clump: group is '{}', of which {} balls are in the clump '{}'; "

@@ -12,7 +12,6 @@ namespace LAMMPS_NS {
 class FixClump : public Fix {
 public:
   FixClump(LAMMPS *, int, char **);
-  ~FixClump() override;
 
   int setmask() override;
   void init() override;
@@ -22,23 +21,37 @@ public:
   /// 0: mass, kg; 1-3: force on the body, N.
   double compute_vector(int) override;
 
-  /// All fixes clump.
-  static const std::vector<FixClump *> &all() { return list(); }
-  /// Mass, kg, of ball i (owned or ghost) in its contacts: that of its body if it belongs to a clump, else
-  /// `own`. Valid from init() on.
-  static double mass_of(const Atom &atom, int i, double own) {
-    for (const FixClump *clump : list())
-      if (atom.mask[i] & clump->groupbit) return clump->mass_;
-    return own;
-  }
+  /// Mass of the body, kg; valid from init() on.
+  double mass() const { return mass_; }
 
 private:
   int common_balls(const Fix &other) const;
-  static std::vector<FixClump *> &list();
 
   double mass_ = 0.0;
   std::array<double, 3> force_{};
   bool echoed_ = false;
+};
+
+/// The clumps of an engine instance, for what asks for the masses of their balls.
+class Clumps {
+public:
+  /// In the initialization of each run.
+  void find(const Modify &modify) {
+    all_.clear();
+    for (int n = 0; n < modify.nfix; ++n)
+      if (const auto *clump = dynamic_cast<const FixClump *>(modify.fix[n])) all_.push_back(clump);
+  }
+  bool empty() const { return all_.empty(); }
+  const std::vector<const FixClump *> &all() const { return all_; }
+  /// Mass (kg) that contacts of ball i (owned or ghost) feel: its body's if it belongs to one, else `own`.
+  double mass_of(const Atom &atom, int i, double own) const {
+    for (const FixClump *clump : all_)
+      if (atom.mask[i] & clump->groupbit) return clump->mass();
+    return own;
+  }
+
+private:
+  std::vector<const FixClump *> all_;
 };
 
 } // namespace LAMMPS_NS

@@ -94,14 +94,11 @@ void FixContactEvents::list_pairs() {
     for (int jj = 0; jj < list->numneigh[i]; ++jj) {
       const int j = engine::neighbour_index(list->firstneigh[i][jj]);
       if (!is_selected(i, j)) continue;
-      const physics::LinearContact &law = source_->law(atom->type[i], atom->type[j]);
-      Pair pair{};
-      pair.i = i;
-      pair.j = j;
-      pair.tags = std::minmax(atom->tag[i], atom->tag[j]);
-      pair.k = law.stiffness;
-      pair.c = physics::damping_coefficient(law, source_->effective_mass(i, j));
-      pair.transition = law.transition;
+      Pair pair{i,
+                j,
+                std::minmax(atom->tag[i], atom->tag[j]),
+                source_->law(atom->type[i], atom->type[j]).of_mass(source_->effective_mass(i, j)),
+                {}};
       if (const auto known = states_.find(pair.tags); known != states_.end()) {
         pair.state = known->second;
       } else {
@@ -161,7 +158,7 @@ void FixContactEvents::end_of_step() {
   for (Pair &pair : pairs_) {
     const drumlin::PairMotion motion = drumlin::pair_motion(*atom, pair.i, pair.j);
     const physics::OverlapState now{motion.overlap, motion.rate};
-    if (const auto event = physics::locate_transition(pair.transition, pair.k, pair.c, dt, pair.state, now))
+    if (const auto event = physics::locate_transition(pair.law, dt, pair.state, now))
       pending_.push_back({clock_.time(update->ntimestep - 1) + event->since, event->make ? 1 : 0,
                           event->overlap, event->rate, event->force, pair.tags.first, pair.tags.second});
     pair.state = now;

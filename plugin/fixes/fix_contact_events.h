@@ -37,8 +37,7 @@ private:
   struct Pair {
     int i, j;
     Tags tags;
-    double k, c;
-    drumlin::physics::Transition transition;
+    drumlin::physics::LinearLaw law;
     drumlin::physics::OverlapState state; // at the end of the last step
   };
   struct Event {

@@ -35,30 +35,32 @@ void FixContactLocal::init() {
 void FixContactLocal::setup_pre_force(int vflag) { pre_force(vflag); }
 
 void FixContactLocal::setup(int) {
-  if (recorder_) make_rows();
+  if (observing()) make_rows();
 }
 
 void FixContactLocal::pre_force(int) {
-  if (update->ntimestep % nevery == 0) recorder_.emplace();
+  records_.clear();
+  observe(update->ntimestep % nevery == 0);
 }
 
 void FixContactLocal::end_of_step() { make_rows(); }
 
 void FixContactLocal::make_rows() {
   rows_.clear();
-  for (const drumlin::LedgerEntry &entry : recorder_->entries) {
-    const bool wall = entry.j < 0;
-    if (!(atom->mask[entry.i] & groupbit) && (wall || !(atom->mask[entry.j] & groupbit))) continue;
-    if (!wall && !engine::owns_pair(lmp, entry.i, entry.j)) continue;
+  for (const drumlin::ContactRecord &record : records_) {
+    const bool wall = record.j < 0;
+    if (!(atom->mask[record.i] & groupbit) && (wall || !(atom->mask[record.j] & groupbit))) continue;
+    if (!wall && !engine::owns_pair(lmp, record.i, record.j)) continue;
     const double normal =
-        entry.share * (entry.final_force != nullptr ? *entry.final_force : entry.normal_force);
-    const auto &n = entry.normal;
-    const auto &t = entry.tangential_force;
-    rows_.push_back({static_cast<double>(atom->tag[entry.i]),
-                     wall ? 0.0 : static_cast<double>(atom->tag[entry.j]), normal * n[0] + t[0],
-                     normal * n[1] + t[1], normal * n[2] + t[2], n[0], n[1], n[2], entry.overlap});
+        record.share * (record.final_force != nullptr ? *record.final_force : record.normal_force);
+    const auto &n = record.normal;
+    const auto &t = record.tangential_force;
+    rows_.push_back({static_cast<double>(atom->tag[record.i]),
+                     wall ? 0.0 : static_cast<double>(atom->tag[record.j]), normal * n[0] + t[0],
+                     normal * n[1] + t[1], normal * n[2] + t[2], n[0], n[1], n[2], record.overlap});
   }
-  recorder_.reset();
+  records_.clear();
+  observe(false);
   row_pointers_.clear();
   for (Row &row : rows_)
     row_pointers_.push_back(row.data());

@@ -3,15 +3,13 @@
 // plugin/doc/fix_contact_local.md.
 
 #include "engine.h"
-#include "contact/contact_ledger.h"
-
-#include <optional>
+#include "contact/contact_observer.h"
 
 namespace LAMMPS_NS {
 
 /// Records the contacts of every N-th step and provides them as local data, with one row per contact, on one
 /// rank only.
-class FixContactLocal : public Fix {
+class FixContactLocal : public Fix, public drumlin::ContactObserver {
 public:
   FixContactLocal(LAMMPS *, int, char **);
 
@@ -22,13 +20,9 @@ public:
   void pre_force(int) override;
   void end_of_step() override;
   double memory_usage() override;
+  void see_contact(const drumlin::ContactRecord &record) override { records_.push_back(record); }
 
 private:
-  class Recorder : public drumlin::ContactLedger {
-  public:
-    void enter(const drumlin::LedgerEntry &entry) override { entries.push_back(entry); }
-    std::vector<drumlin::LedgerEntry> entries;
-  };
   void make_rows();
 
   /// Columns of a row: the IDs of the two balls, the force on the first, the unit vector from the second to
@@ -36,8 +30,8 @@ private:
   static constexpr std::size_t numbers = 9;
   using Row = std::array<double, numbers>;
 
-  std::optional<Recorder>
-      recorder_; // exists from the start of the force computation of a recorded step to the end of the step
+  std::vector<drumlin::ContactRecord>
+      records_; // from the start of the force computation of a step to its end
   std::vector<Row> rows_;
   std::vector<double *> row_pointers_;
 };

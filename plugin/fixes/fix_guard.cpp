@@ -85,7 +85,39 @@ void FixGuard::end_of_step() {
 void FixGuard::begin_links() {
   const int balls = atom->nlocal + (force->newton_pair ? atom->nghost : 0);
   balls_.assign(static_cast<std::size_t>(balls), {});
-  start_looking();
+  source_ = drumlin::contact_source(lmp);
+  observe(true);
+}
+
+/// A contact is a link on each of its balls. The rank of a ghost's owner sees the contact too, but with
+/// newton on.
+void FixGuard::see_contact(const drumlin::ContactRecord &p) {
+  const bool wall = p.j < 0;
+  const double inverse_i = 1.0 / source_->mass(p.i);
+  const double inverse_j = wall ? 0.0 : 1.0 / source_->mass(p.j);
+  const double inverse_masses = inverse_i + inverse_j;
+  if (inverse_masses == 0.0) return;
+  const double ri = atom->radius[p.i];
+  const double rj = wall ? ri : atom->radius[p.j];
+  const double mass_over_inertia = 1.0 / drumlin::engine::inertia_share(lmp); // m r^2 / I
+  const double mt = drumlin::physics::tangential_mass(inverse_i, inverse_j, mass_over_inertia);
+  drumlin::physics::LinkModes modes;
+  modes.normal = p.normal;
+  modes.normal_spring = p.share * p.normal_stiffness * inverse_masses;
+  modes.normal_dashpot = p.share * p.normal_dashpot * inverse_masses;
+  modes.tangential_spring = p.share * p.tangential_stiffness / mt;
+  modes.tangential_dashpot = p.share * p.tangential_dashpot / mt;
+  modes.rolling_spring =
+      p.share * p.rolling_stiffness * mass_over_inertia * (inverse_i / (ri * ri) + inverse_j / (rj * rj));
+  const auto see_side = [&](int ball, int partner, double own, double other, double r_own, double r_other) {
+    modes.burden = drumlin::physics::link_burden(own, other);
+    modes.rolling_burden = drumlin::physics::link_burden(own / (r_own * r_own), other / (r_other * r_other));
+    see(ball, partner, modes, p.overlap / p.radius);
+  };
+  if (inverse_i > 0.0)
+    see_side(p.i, wall ? 0 : static_cast<int>(atom->tag[p.j]), inverse_i, inverse_j, ri, rj);
+  if (inverse_j > 0.0 && (p.j < atom->nlocal || force->newton_pair))
+    see_side(p.j, static_cast<int>(atom->tag[p.i]), inverse_j, inverse_i, rj, ri);
 }
 
 void FixGuard::see(int i, int partner, const drumlin::physics::LinkModes &modes, double overlap) {
@@ -129,7 +161,7 @@ void FixGuard::join_gathered(int n, const int *list, const double *buf) {
 }
 
 void FixGuard::end_links() {
-  stop_looking();
+  observe(false);
   if (force->newton_pair) drumlin::engine::reverse_comm(comm, this);
   constexpr int extremes = 3;
   Extreme mine[extremes] = {{std::numeric_limits<double>::infinity(), 0, 0}, {0, 0, 0}, {0, 0, 0}};

@@ -3,7 +3,8 @@
 // overlaps. See plugin/doc/fix_guard.md.
 
 #include "engine.h"
-#include "contact/contact_watch.h"
+#include "contact/contact_observer.h"
+#include "contact/contact_source.h"
 
 #include <limits>
 #include <string>
@@ -13,7 +14,7 @@ namespace LAMMPS_NS {
 /// Ends the run on all ranks, with one line, when a position, velocity or force of a ball of the group is not
 /// finite, when the time step is longer than the critical one of the present contacts and bonds, or when an
 /// overlap is so large that the contact law has no meaning.
-class FixGuard : public drumlin::engine::GhostFix, private drumlin::ContactWatch {
+class FixGuard : public drumlin::engine::GhostFix, public drumlin::ContactObserver {
 public:
   FixGuard(LAMMPS *, int, char **);
 
@@ -29,6 +30,10 @@ public:
   double compute_scalar() override { return critical_.value; }
   /// 0: pi/(w0 dt) of the link with the largest w0; 1: largest overlap, as a share of the smaller radius.
   double compute_vector(int) override;
+  void see_contact(const drumlin::ContactRecord &) override;
+  void see_bond(int ball, int partner, const drumlin::physics::LinkModes &modes) override {
+    see(ball, partner, modes, 0.0);
+  }
 
 private:
   /// The extreme of a quantity over all balls, with the IDs of the ball and of its partner in the link;
@@ -50,7 +55,7 @@ private:
     void join(const Ball &other);
   };
 
-  void see(int i, int partner, const drumlin::physics::LinkModes &modes, double overlap) override;
+  void see(int i, int partner, const drumlin::physics::LinkModes &modes, double overlap);
   void begin_links();
   void end_links();
   void check_numbers();
@@ -65,7 +70,8 @@ private:
   bool links_of_setup_ = false; // whether the links of the set-up are still to be checked
   std::vector<Ball> balls_;     // of this rank, ghosts included with newton on
   Extreme critical_{}, fastest_{}, deepest_{};
-  std::string logged_; // the last line of log_at_setup()
+  std::string logged_;                             // the last line of log_at_setup()
+  const drumlin::ContactSource *source_ = nullptr; // of the masses that contacts feel
 };
 
 } // namespace LAMMPS_NS

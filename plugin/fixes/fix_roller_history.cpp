@@ -73,6 +73,7 @@ void FixRollerHistory::parse(int narg, char **arg) {
     if (frame_.groupbit == 0 || steps_per_cycle_ == 0)
       in.fail("keyword frame or cycles is missing beside keyword soil; allowed: all three, or no soil");
     bed_.emplace(lmp, soil_groupbit_);
+    observe(true);
   }
   drum_.groupbit = groupbit;
   nevery = steps_per_cycle_ > 0 ? 1 : every_; // sums over a cycle need every step

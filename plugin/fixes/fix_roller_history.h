@@ -23,7 +23,7 @@ class FixBondSpring;
 /// Writes samples (chain.csv or bed.csv) and, for each cycle, extremes, harmonics and energies over every
 /// step (cycles.csv). Forces and accelerations in a row are the right-hand sides of Eq. (1) at the positions
 /// and velocities of that row.
-class FixRollerHistory : public drumlin::engine::GhostFix {
+class FixRollerHistory : public drumlin::engine::GhostFix, public drumlin::ContactObserver {
 public:
   FixRollerHistory(LAMMPS *, int, char **);
 
@@ -34,6 +34,7 @@ public:
   void pre_neighbor() override;
   void pre_force(int) override;
   void end_of_step() override;
+  void see_contact(const drumlin::ContactRecord &record) override { bed_->add(record); }
   void post_run() override;
   void pack_ghosts(int, const int *, double *) override;
   void unpack_ghosts(int, int, double *) override;

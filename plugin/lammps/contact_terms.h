@@ -1,43 +1,20 @@
 #pragma once
-// One contact of two balls, or of a ball and a wall: what pair_style gran/hooke/transition and fix wall/gran/transition have in
-// common. The laws are the core's; the choice among them is made at compile time.
+// One contact of two balls, or of a ball and a wall: what pair_style gran/hooke/transition and fix
+// wall/gran/transition have in common. The laws are the core's; the choice among them is made at compile
+// time.
 
-#include "contact/contact_ledger.h"
-#include "contact/contact_source.h"
+#include "contact/contact_observer.h"
+#include "contact/contact_settings.h"
 #include "contact/stepped_contact.h"
 #include "physics/contact_law.h"
 #include "physics/friction_law.h"
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <type_traits>
 
 namespace drumlin {
-
-/// Coefficients of a pair of types.
-struct ContactCoefficients {
-  physics::LinearContact normal;
-  double friction = 0.0;                 ///< mu
-  double tangential_stiffness = 0.0;     ///< kt, N/m
-  double tangential_damping = 0.0;       ///< ct, N s/m
-  double tangential_damping_share = 0.5; ///< or this share of the normal c on top
-
-  physics::Friction tangential(double c, physics::Cap cap) const {
-    return {tangential_stiffness, tangential_damping_share * c + tangential_damping, friction, cap};
-  }
-};
-
-/// What pair style and walls are told by keywords.
-struct ContactSettings {
-  physics::Transition transition = physics::Transition::B;
-  physics::Damping damping = physics::Damping::ratio;
-  bool stock = false; ///< stepping
-  FrictionModel tangential = FrictionModel::none;
-  physics::Cap cap = physics::Cap::total;
-
-  /// Numbers that a contact remembers: the tangential spring, then under second-order stepping the normal force.
-  int history() const { return spring() + (stock ? 0 : 1); }
-  int spring() const { return tangential == FrictionModel::history ? 3 : 0; }
-};
 
 /// A contact in one step.
 struct Contact {
@@ -45,61 +22,64 @@ struct Contact {
   physics::Vec3 slip; ///< m/s, of ball i's surface relative to j's
   double arm_i, arm_j;
   double *history; ///< see ContactSettings::history(); nullptr if there is none
+  bool in_contact; ///< in the step before
 };
 
-/// What a contact exerts: the force on ball i, of which j takes the opposite, and on each ball the torque -arm times moment.
+/// What a contact exerts: the force on ball i, of which j takes the opposite, and on each ball the torque
+/// -arm times moment.
 struct ContactForces {
   double normal_force; ///< N, as friction takes it
   physics::Vec3 force, tangential_force;
   physics::Vec3 moment; ///< N, normal x tangential force
 };
 
-/// A copy, number by number, for what is out of line: an inner loop whose contact is copied as a whole keeps it in memory.
+/// A copy, number by number, for what is out of line: an inner loop whose contact is copied as a whole keeps
+/// it in memory.
 inline StepContact apart(const StepContact &p) {
-  return {p.i,
-          p.j,
-          {p.normal[0], p.normal[1], p.normal[2]},
-          p.wall_velocity,
-          p.overlap,
-          p.rate_half,
-          p.k,
-          p.c,
-          p.m_eff,
-          p.share};
+  return {p.i,     p.j,    {p.normal[0], p.normal[1], p.normal[2]}, p.wall_velocity, p.overlap, p.rate_half,
+          p.m_eff, p.share};
 }
 
-/// What makes, breaks and heavy damping need, out of line. \param push takes the force that acts along the normal, N \returns the force that friction takes, N
-[[gnu::noinline]] inline double exert_rare(physics::Transition transition, LAMMPS_NS::FixStepping &stepping,
-                                           const StepContact &contact, double &record, double &push) {
-  return SteppedContact(transition, stepping).exert(contact, record, [&push](double force) {
-    push += force;
-  });
+/// What begins, ends and heavy damping need, out of line. \param state takes that of this step
+/// \returns the force that acts along the normal, N
+template <class Law>
+[[gnu::noinline]] double exert_rare(const Law &law, LAMMPS_NS::FixStepping &stepping,
+                                    const StepContact &contact, physics::ContactState &state,
+                                    double &stored_force) {
+  double push = 0.0;
+  exert_contact(law, stepping, contact, state, stored_force, [&push](double force) { push += force; });
+  return push;
 }
 
-/// Exerts the laws on one contact with an overlap. \param stepping nullptr under stock stepping \param moves whether the springs move on:
-/// not in a set-up
+/// Exerts the laws on one contact with an overlap. \param stepping nullptr under stock stepping \param moves
+/// whether the springs move on: not in a set-up
 template <bool stepped, FrictionModel tangential>
-inline ContactForces exert(const ContactSettings &settings, const ContactCoefficients &law,
+inline ContactForces exert(const ContactSettings &settings, const ContactCoefficients &coefficients,
                            LAMMPS_NS::FixStepping *stepping, const Contact &p, double dt, bool moves) {
   const StepContact &n = p.normal;
+  const auto law = coefficients.normal.of_mass(n.m_eff);
   ContactForces out{};
+  physics::ContactState state;
   double push = 0.0; // along the normal, N
   if constexpr (!stepped) {
-    out.normal_force = push = physics::normal_force(settings.transition, n.k, n.c, n.overlap, n.rate_half);
+    push = physics::advance_stock(law, {n.overlap, n.rate_half, n.rate_half, dt}, state).kick;
   } else {
-    constexpr int record_place = tangential == FrictionModel::history ? 3 : 0;
-    double &record = p.history[record_place];
-    const physics::StepMotion motion = SteppedContact(settings.transition, *stepping).motion(n);
-    if (hold(settings.transition, *stepping, n.i, n.j, motion, n.k, n.c, n.m_eff, record))
-      out.normal_force = push = record;
+    constexpr int force_place = tangential == FrictionModel::history ? 3 : 0;
+    double &stored_force = p.history[force_place];
+    state.force = stored_force;
+    state.in_contact = p.in_contact;
+    if (hold_contact(law, *stepping, n.i, n.j, step_motion(*stepping, n), n.m_eff, state))
+      push = state.force;
     else {
-      double acting = 0.0;
-      out.normal_force = exert_rare(settings.transition, *stepping, apart(n), record, acting);
-      push = acting;
+      physics::ContactState rare{state.force, state.in_contact, {}};
+      push = exert_rare(law, *stepping, apart(n), rare, stored_force);
+      state.force = rare.force;
     }
+    stored_force = state.force;
   }
+  out.normal_force = state.force;
   if constexpr (tangential != FrictionModel::none) {
-    const physics::Friction friction = law.tangential(n.c, settings.cap);
+    const physics::Friction friction = coefficients.tangential(law.dashpot(n.overlap), settings.cap);
     if constexpr (tangential == FrictionModel::history) {
       const physics::FrictionStep step =
           physics::friction_step(friction, out.normal_force, n.normal, p.slip,
@@ -119,11 +99,15 @@ inline ContactForces exert(const ContactSettings &settings, const ContactCoeffic
   return out;
 }
 
-/// Force, N, on ball i of a contact under A that ended in this step.
-[[gnu::noinline]] inline physics::Vec3 end_of_a(LAMMPS_NS::FixStepping &stepping,
-                                                const StepContact &contact) {
-  double push = 0.0;
-  SteppedContact(physics::Transition::A, stepping).end(contact, [&push](double force) { push += force; });
+/// The step in which a contact ends. \param contact by value: its overlap is made one that is surely none
+/// \returns the force on ball i, N
+[[gnu::noinline]] inline physics::Vec3 end_contact(const ContactCoefficients &coefficients,
+                                                   LAMMPS_NS::FixStepping &stepping, StepContact contact,
+                                                   double stored_force) {
+  contact.overlap = std::min(contact.overlap, -std::numeric_limits<double>::min()); // rounding may leave 0
+  physics::ContactState state{stored_force, true, {}};
+  const double push =
+      exert_rare(coefficients.normal.of_mass(contact.m_eff), stepping, contact, state, stored_force);
   return {push * contact.normal[0], push * contact.normal[1], push * contact.normal[2]};
 }
 
@@ -143,40 +127,44 @@ void with_models(const ContactSettings &settings, Run &&run) {
   }
 }
 
-/// Enters a contact into the ledgers that are open.
-inline void enter(const ContactSettings &settings, const ContactCoefficients &law, const Contact &p,
-                  const ContactForces &forces, double smaller_radius) {
-  LedgerEntry entry{};
-  entry.i = p.normal.i;
-  entry.j = p.normal.j;
-  entry.normal = p.normal.normal;
-  entry.overlap = p.normal.overlap;
-  entry.radius = smaller_radius;
-  entry.share = p.normal.share;
-  entry.normal_stiffness = p.normal.k;
-  entry.normal_force = forces.normal_force;
-  if (!settings.stock) entry.final_force = p.history + settings.spring();
+/// A contact as observers see it. \param radius of the smaller ball, m
+inline ContactRecord record_of(const ContactSettings &settings, const ContactCoefficients &coefficients,
+                               const Contact &p, const ContactForces &forces, double radius) {
+  const auto law = coefficients.normal.of_mass(p.normal.m_eff);
+  ContactRecord record{};
+  record.i = p.normal.i;
+  record.j = p.normal.j;
+  record.normal = p.normal.normal;
+  record.overlap = p.normal.overlap;
+  record.radius = radius;
+  record.share = p.normal.share;
+  record.spring_force = law.spring(p.normal.overlap);
+  record.spring_energy = law.energy(p.normal.overlap);
+  record.normal_stiffness = law.stiffness(p.normal.overlap);
+  if (settings.stock) record.normal_dashpot = law.dashpot(p.normal.overlap);
+  if (settings.tangential != FrictionModel::none)
+    record.tangential_dashpot = coefficients.tangential_dashpot(law.dashpot(p.normal.overlap));
   if (settings.spring() > 0) {
-    entry.tangential_stiffness = law.tangential_stiffness;
-    entry.spring = p.history;
+    record.tangential_stiffness = coefficients.tangential_stiffness;
+    record.spring = p.history;
   }
-  entry.tangential_force = forces.tangential_force;
-  entry.torque_i = physics::scaled(-p.arm_i, forces.moment);
-  entry.torque_j = physics::scaled(-p.arm_j, forces.moment);
-  for (ContactLedger *ledger : ContactLedger::open())
-    ledger->enter(entry);
+  record.normal_force = forces.normal_force;
+  if (!settings.stock) record.final_force = p.history + settings.spring();
+  record.tangential_force = forces.tangential_force;
+  record.torque_i = physics::scaled(-p.arm_i, forces.moment);
+  record.torque_j = physics::scaled(-p.arm_j, forces.moment);
+  return record;
 }
 
-/// Tells the watchers of a contact what acts in it. \param shown with kinematics, masses and IDs; takes the stiffnesses
-inline void tell(const ContactSettings &settings, const ContactCoefficients &law, const Contact &p,
-                 ShownContact shown) {
-  shown.normal_spring = p.normal.share * p.normal.k;
-  if (settings.stock) shown.normal_dashpot = p.normal.share * p.normal.c;
-  if (settings.tangential != FrictionModel::none)
-    shown.tangential_dashpot = p.normal.share * law.tangential(p.normal.c, settings.cap).damping;
-  if (settings.spring() > 0) shown.tangential_spring = p.normal.share * law.tangential_stiffness;
-  for (ContactWatch *watch : ContactWatch::looking())
-    show(*watch, shown);
-}
+/// A fix that is walls with the law of the pair style.
+class Walls {
+public:
+  virtual int wall_type() const = 0;
+  /// How many contacts a ball may have with it at once.
+  virtual int sides() const = 0;
+
+protected:
+  ~Walls() = default;
+};
 
 } // namespace drumlin

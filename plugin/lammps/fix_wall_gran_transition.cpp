@@ -35,7 +35,6 @@ FixWallGranTransition::FixWallGranTransition(LAMMPS *lammps, int narg, char **ar
   atom->add_callback(Atom::RESTART);
   for (int i = 0; i < atom->nlocal; ++i)
     FixWallGranTransition::set_arrays(i);
-  list().push_back(this);
 }
 
 void FixWallGranTransition::read_planes(drumlin::Arguments &in, int axis) {
@@ -65,12 +64,6 @@ FixWallGranTransition::~FixWallGranTransition() {
   atom->delete_callback(id, Atom::GROW);
   atom->delete_callback(id, Atom::RESTART);
   memory->destroy(memory_);
-  list().erase(std::remove(list().begin(), list().end(), this), list().end());
-}
-
-std::vector<FixWallGranTransition *> &FixWallGranTransition::list() {
-  static std::vector<FixWallGranTransition *> walls; // one engine instance per process runs a deck
-  return walls;
 }
 
 int FixWallGranTransition::setmask() { return FixConst::POST_FORCE; }
@@ -78,13 +71,16 @@ int FixWallGranTransition::setmask() { return FixConst::POST_FORCE; }
 void FixWallGranTransition::init() {
   pair_ = PairGranHookeTransition::find(lmp);
   if (pair_ == nullptr)
-    error->all(FLERR, drumlin::engine::as_is(std::string(command) + ": the pair style is another; allowed: " +
-                                             drumlin::engine::pair_style));
+    error->all(FLERR,
+               drumlin::engine::error_text(std::string(command) + ": the pair style is another; allowed: " +
+                                           drumlin::engine::pair_style));
   check_coefficients();
+  observers_.find(*modify);
   stepping_ = pair_->contact_settings().stock ? nullptr : FixStepping::find(lmp);
   if (region_id_.empty()) return;
   const auto refuse = [this](const char *why) {
-    error->all(FLERR, drumlin::engine::as_is(std::string(command) + ": region '" + region_id_ + "' " + why));
+    error->all(FLERR,
+               drumlin::engine::error_text(std::string(command) + ": region '" + region_id_ + "' " + why));
   };
   region_ = drumlin::engine::version::find_region(domain, region_id_);
   if (region_ == nullptr) refuse("is gone; allowed: a region that stays while the fix does");
@@ -94,7 +90,8 @@ void FixWallGranTransition::init() {
   near_.resize(static_cast<std::size_t>(places_));
 }
 
-/// Beside other pair styles in a hybrid one the law need not have all pairs of types; those of the wall with its balls it must.
+/// Beside other pair styles in a hybrid one the law need not have all pairs of types; those of the wall with
+/// its balls it must.
 void FixWallGranTransition::check_coefficients() const {
   std::vector<int> mine(static_cast<std::size_t>(atom->ntypes) + 1, 0);
   for (int i = 0; i < atom->nlocal; ++i)
@@ -103,8 +100,9 @@ void FixWallGranTransition::check_coefficients() const {
   MPI_Allreduce(mine.data(), all.data(), static_cast<int>(all.size()), MPI_INT, MPI_MAX, world);
   for (int type = 1; type <= atom->ntypes; ++type)
     if (all[static_cast<std::size_t>(type)] != 0 && !pair_->has_coefficients(type, type_))
-      error->all(FLERR, drumlin::engine::as_is(std::string(command) + ": " +
-                                               PairGranHookeTransition::missing_coefficients(type, type_)));
+      error->all(FLERR,
+                 drumlin::engine::error_text(std::string(command) + ": " +
+                                             PairGranHookeTransition::missing_coefficients(type, type_)));
 }
 
 void FixWallGranTransition::setup(int vflag) { post_force(vflag); }
@@ -137,7 +135,8 @@ void FixWallGranTransition::touch_balls() {
   }
 }
 
-/// Calls touch(place, normal, distance) for each face of the region that a ball may have left in this step or nearer.
+/// Calls touch(place, normal, distance) for each face of the region that a ball may have left in this step or
+/// nearer.
 template <class Touch>
 void FixWallGranTransition::surfaces_of_region(int i, Touch &&touch) {
   constexpr double near = 1.1; // of the radius: what a ball has left in a step is not farther
@@ -172,18 +171,15 @@ void FixWallGranTransition::touch(int i, int place, const physics::Vec3 &normal,
   p.normal.normal = normal;
   p.normal.overlap = atom->radius[i] - distance;
   p.normal.rate_half = -(v[0] * normal[0] + v[1] * normal[1] + v[2] * normal[2]);
-  p.normal.k = law.normal.stiffness;
-  p.normal.c = physics::damping_coefficient(law.normal, mass);
   p.normal.m_eff = mass;
   p.normal.share = 1.0;
   p.history = remembered + (settings.spring() > 0 ? 1 : 4);
+  p.in_contact = remembered[0] != 0.0;
 
   drumlin::ContactForces forces{};
   if (!touches) { // it did, a step ago
+    if constexpr (stepped) forces.force = drumlin::end_contact(law, *stepping_, p.normal, remembered[4]);
     std::fill_n(remembered, of_a_side, 0.0);
-    if constexpr (stepped)
-      if (moves && settings.transition == physics::Transition::A)
-        forces.force = drumlin::end_of_a(*stepping_, p.normal);
   } else {
     remembered[0] = 1.0;
     p.arm_i = atom->radius[i] - 0.5 * p.normal.overlap; // as between balls
@@ -193,19 +189,7 @@ void FixWallGranTransition::touch(int i, int place, const physics::Vec3 &normal,
                                       {p.arm_i * w[0], p.arm_i * w[1], p.arm_i * w[2]});
     }
     forces = drumlin::exert<stepped, tangential>(settings, law, stepping_, p, update->dt, moves);
-    if (!drumlin::ContactLedger::open().empty() || !drumlin::ContactWatch::looking().empty()) {
-      drumlin::enter(settings, law, p, forces, atom->radius[i]);
-      drumlin::ShownContact shown{};
-      shown.i = i;
-      shown.j = -1;
-      shown.tag_i = static_cast<int>(atom->tag[i]);
-      shown.inverse_mi = 1.0 / pair_->mass(i);
-      shown.ri = shown.rj = atom->radius[i];
-      shown.overlap = p.normal.overlap;
-      shown.normal = normal.data();
-      shown.mass_over_inertia = 1.0 / drumlin::engine::inertia_share(lmp);
-      drumlin::tell(settings, law, p, shown);
-    }
+    if (observers_.any()) observers_.tell(drumlin::record_of(settings, law, p, forces, atom->radius[i]));
   }
   for (std::size_t a = 0; a < 3; ++a) {
     atom->f[i][a] += forces.force[a];
@@ -249,9 +233,9 @@ void FixWallGranTransition::unpack_restart(int i, int nth) {
   for (int n = 0; n < nth; ++n)
     values += static_cast<int>(values[0]);
   if (static_cast<int>(values[0]) != 1 + numbers())
-    error->one(FLERR, drumlin::engine::as_is(std::string(command) +
-                                             ": the restart file holds another wall under the ID '" + id +
-                                             "'; allowed: the wall that it was, or another ID"));
+    error->one(FLERR, drumlin::engine::error_text(std::string(command) +
+                                                  ": the restart file holds another wall under the ID '" +
+                                                  id + "'; allowed: the wall that it was, or another ID"));
   std::copy_n(values + 1, numbers(), memory_[i]);
 }
 

@@ -10,9 +10,9 @@ namespace LAMMPS_NS {
 class PairGranHookeTransition;
 class Region;
 
-/// A pair of planes at rest across an axis of the box, or the surface of a region at rest, with the law of the pair style between balls
-/// and a type.
-class FixWallGranTransition : public Fix {
+/// A pair of planes at rest across an axis of the box, or the surface of a region at rest, with the law of
+/// the pair style between balls and a type.
+class FixWallGranTransition : public Fix, public drumlin::Walls {
 public:
   FixWallGranTransition(LAMMPS *, int, char **);
   ~FixWallGranTransition() override;
@@ -35,16 +35,12 @@ public:
   int size_restart(int) override { return 1 + numbers(); }
   double memory_usage() override;
 
-  int type() const { return type_; }
-  /// How many contacts a ball may have with it at once.
-  int sides() const { return region_id_.empty() ? (has_[0] ? 1 : 0) + (has_[1] ? 1 : 0) : places_; }
-  /// The walls of this engine instance.
-  static const std::vector<FixWallGranTransition *> &all() { return list(); }
+  int wall_type() const override { return type_; }
+  int sides() const override { return region_id_.empty() ? (has_[0] ? 1 : 0) + (has_[1] ? 1 : 0) : places_; }
 
 private:
   static constexpr int of_a_side = 5; // touch, spring, force
   int numbers() const { return places_ * of_a_side; }
-  static std::vector<FixWallGranTransition *> &list();
   double *row(int i, int place) { return memory_[i] + static_cast<std::ptrdiff_t>(place) * of_a_side; }
   void check_coefficients() const;
   void read_planes(drumlin::Arguments &, int axis);
@@ -67,6 +63,7 @@ private:
   double **memory_ = nullptr;     // of each ball, for each side
   std::array<double, 3> force_{}; // N, of this rank
   const PairGranHookeTransition *pair_ = nullptr;
+  drumlin::ContactObservers observers_;
   FixStepping *stepping_ = nullptr;
 };
 

@@ -2,11 +2,9 @@
 
 #include "fix_dummy.h"
 #include "support/arguments.h"
-#include "fixes/fix_clump.h"
 #include "contact/pair_motion.h"
-#include "lammps/contact_settings.h"
+#include "lammps/pair_words.h"
 #include "lammps/fix_neigh_history_transition.h"
-#include "lammps/fix_wall_gran_transition.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +20,8 @@ namespace {
 
 constexpr const char *style_name = "gran/hooke/transition";
 
-// The same for every object of the style, of which an engine has one: a restart file is read for fixes of these IDs, whatever pair styles its
-// deck has made before.
+// The same for every object of the style, of which an engine has one: a restart file is read for fixes of
+// these IDs, whatever pair styles its deck has made before.
 const std::string history_id = "DRUMLIN_HISTORY0";
 const std::string placeholder_id = "DRUMLIN_HISTORY_PLACE";
 
@@ -73,7 +71,8 @@ void PairGranHookeTransition::settings(int narg, char **arg) {
   drumlin::Arguments in(error, std::string("pair_style ") + style_name, narg, arg);
   const int history_before = settings_.history();
   settings_ = drumlin::read_settings(in);
-  // A second pair_style line: coefficients mean something else under other settings, and contacts may remember other numbers.
+  // A second pair_style line: coefficients mean something else under other settings, and contacts may
+  // remember other numbers.
   if (allocated)
     for (int i = 1; i <= atom->ntypes; ++i)
       std::fill_n(setflag[i] + 1, atom->ntypes, 0);
@@ -120,7 +119,7 @@ void PairGranHookeTransition::coeff(int narg, char **arg) {
 
 void PairGranHookeTransition::check_engine() const {
   const auto refuse = [this](const std::string &why) {
-    error->all(FLERR, engine::as_is(std::string("pair_style ") + style_name + ": " + why));
+    error->all(FLERR, engine::error_text(std::string("pair_style ") + style_name + ": " + why));
   };
   if (find(lmp) != this) refuse("pair_style hybrid has it more than once; allowed: once");
   if (!atom->radius_flag || !atom->rmass_flag)
@@ -150,6 +149,8 @@ void PairGranHookeTransition::init_style() {
   if (remembers) history_->pair = this;
   stepping_ = settings_.stock ? nullptr : FixStepping::find(lmp);
 
+  observers_.find(*modify);
+  clumps_.find(*modify);
   rigid_.clear();
   for (int n = 0; n < modify->nfix; ++n)
     if (modify->fix[n]->rigid_flag) rigid_.push_back(modify->fix[n]);
@@ -178,6 +179,10 @@ void PairGranHookeTransition::init_style() {
   const auto middle = all.begin() + static_cast<std::ptrdiff_t>(ntypes) + 1;
   reach_.assign(all.begin(), middle);
   frozen_reach_.assign(middle, all.end());
+
+  walls_.clear();
+  for (int n = 0; n < modify->nfix; ++n)
+    if (const auto *wall = dynamic_cast<const drumlin::Walls *>(modify->fix[n])) walls_.push_back(wall);
 }
 
 std::string PairGranHookeTransition::missing_coefficients(int itype, int jtype) {
@@ -189,8 +194,8 @@ std::string PairGranHookeTransition::missing_coefficients(int itype, int jtype) 
 
 double PairGranHookeTransition::init_one(int i, int j) {
   if (!has_coefficients(i, j))
-    error->all(FLERR,
-               engine::as_is(std::string("pair_style ") + style_name + ": " + missing_coefficients(i, j)));
+    error->all(FLERR, engine::error_text(std::string("pair_style ") + style_name + ": " +
+                                         missing_coefficients(i, j)));
   const auto a = static_cast<std::size_t>(i);
   const auto b = static_cast<std::size_t>(j);
   return std::max({reach_[a] + reach_[b], frozen_reach_[a] + reach_[b], reach_[a] + frozen_reach_[b]});
@@ -204,7 +209,7 @@ double PairGranHookeTransition::mass(int i) const {
 double PairGranHookeTransition::mass_unless_frozen(int i) const {
   const auto n = static_cast<std::size_t>(i);
   const bool of_rigid = n < rigid_mass_.size() && rigid_mass_[n] > 0.0;
-  return FixClump::mass_of(*atom, i, of_rigid ? rigid_mass_[n] : atom->rmass[i]);
+  return clumps_.mass_of(*atom, i, of_rigid ? rigid_mass_[n] : atom->rmass[i]);
 }
 
 /// Asks the fixes rigid for the masses of their bodies, for owned balls and ghosts. Collective.
@@ -219,7 +224,7 @@ void PairGranHookeTransition::share_rigid_masses() {
     if (body == nullptr || mass == nullptr)
       error->all(
           FLERR,
-          engine::as_is(
+          engine::error_text(
               std::string("pair_style ") + style_name + ": fix " + fix->id + " (" + fix->style +
               ") does not tell the masses of its bodies; allowed: fix rigid, fix rigid/small or fix clump"));
     for (int i = 0; i < atom->nlocal; ++i)
@@ -240,10 +245,10 @@ void PairGranHookeTransition::unpack_forward_comm(int n, int first, double *numb
 
 physics::Dashpots PairGranHookeTransition::wall_dashpots(int i) const {
   physics::Dashpots all;
-  for (const FixWallGranTransition *wall : FixWallGranTransition::all()) {
-    const physics::LinearContact &law = at(atom->type[i], wall->type()).normal;
+  for (const drumlin::Walls *wall : walls_) {
+    const physics::LinearContact &law = at(atom->type[i], wall->wall_type()).normal;
     for (int side = 0; side < wall->sides(); ++side)
-      all.add(law.stiffness, physics::damping_coefficient(law, mass(i)));
+      all.add(law.stiffness, law.damping_coefficient(mass(i)));
   }
   return all;
 }
@@ -267,7 +272,7 @@ void PairGranHookeTransition::compute_contacts() {
   const drumlin::ContactSettings settings = settings_;
   const int history_size = settings.history();
   const bool moves = update->setupflag == 0;
-  const bool a_may_end = stepped && moves && settings.transition == physics::Transition::A;
+  const int force_place = settings.spring(); // in the history
   const double dt = update->dt;
   const int nlocal = atom->nlocal;
   if (list->inum == 0) return; // there may be no arrays
@@ -283,8 +288,8 @@ void PairGranHookeTransition::compute_contacts() {
   const int *mask = atom->mask;
   const Rows<double> f{atom->f[0]};
   const Rows<double> torque{atom->torque[0]};
-  const bool bodies = !FixClump::all().empty() || !rigid_.empty();
-  const bool told = !drumlin::ContactLedger::open().empty() || !drumlin::ContactWatch::looking().empty();
+  const bool bodies = !clumps_.empty() || !rigid_.empty();
+  const bool observed = observers_.any();
 
   for (int ii = 0; ii < list->inum; ++ii) {
     const int i = list->ilist[ii];
@@ -325,26 +330,27 @@ void PairGranHookeTransition::compute_contacts() {
                                        arm_i * omega[i][2] + arm_j * omega[j][2]});
       double *const history =
           remembers ? memory_of_i + static_cast<std::ptrdiff_t>(history_size) * jj : nullptr;
-      const drumlin::Contact p{{i, j, normal, nullptr, overlap, -physics::dot(relative, normal),
-                                law.normal.stiffness, physics::damping_coefficient(law.normal, m_eff), m_eff,
-                                1.0},
+      const drumlin::Contact p{{i, j, normal, nullptr, overlap, -physics::dot(relative, normal), m_eff, 1.0},
                                slip,
                                arm_i,
                                arm_j,
-                               history};
+                               history,
+                               remembers && touch[jj] != 0};
 
       drumlin::ContactForces forces;
       if (touches) {
         if constexpr (remembers) touch[jj] = 1;
         forces = drumlin::exert<stepped, tangential>(settings, law, stepping_, p, dt, moves);
-        if (told)
-          report({drumlin::apart(p.normal), p.slip, p.arm_i, p.arm_j, p.history},
+        if (observed)
+          report({drumlin::apart(p.normal), p.slip, p.arm_i, p.arm_j, p.history, p.in_contact},
                  {forces.normal_force, forces.force, forces.tangential_force, forces.moment});
       } else { // it did, a step ago
         forces = {};
         touch[jj] = 0;
+        if constexpr (stepped)
+          forces.force =
+              drumlin::end_contact(law, *stepping_, drumlin::apart(p.normal), history[force_place]);
         std::fill_n(history, history_size, 0.0);
-        if (a_may_end) forces.force = drumlin::end_of_a(*stepping_, drumlin::apart(p.normal));
       }
       force_i = physics::sum(force_i, 1.0, forces.force);
       if constexpr (rubs) torque_i = physics::sum(torque_i, -arm_i, forces.moment);
@@ -372,22 +378,8 @@ void PairGranHookeTransition::compute_contacts() {
 void PairGranHookeTransition::report(const drumlin::Contact &p, const drumlin::ContactForces &forces) const {
   const int i = p.normal.i;
   const int j = p.normal.j;
-  const ContactCoefficients &law = at(atom->type[i], atom->type[j]);
-  drumlin::enter(settings_, law, p, forces, std::min(atom->radius[i], atom->radius[j]));
-  drumlin::ShownContact shown{};
-  shown.i = i;
-  shown.j = j;
-  shown.tag_i = static_cast<int>(atom->tag[i]);
-  shown.tag_j = static_cast<int>(atom->tag[j]);
-  shown.tells_j = j < atom->nlocal || force->newton_pair;
-  shown.inverse_mi = 1.0 / mass(i);
-  shown.inverse_mj = 1.0 / mass(j);
-  shown.ri = atom->radius[i];
-  shown.rj = atom->radius[j];
-  shown.overlap = p.normal.overlap;
-  shown.normal = p.normal.normal.data();
-  shown.mass_over_inertia = 1.0 / engine::inertia_share(lmp);
-  drumlin::tell(settings_, law, p, shown);
+  observers_.tell(drumlin::record_of(settings_, at(atom->type[i], atom->type[j]), p, forces,
+                                     std::min(atom->radius[i], atom->radius[j])));
 }
 
 const double *PairGranHookeTransition::history(int i, int j) const {
@@ -397,8 +389,8 @@ const double *PairGranHookeTransition::history(int i, int j) const {
   return nullptr;
 }
 
-/// For computes. There is no energy, as in pair gran. Extra values on ball i: tangential force (3), its magnitude, normal (3) and tangential
-/// (3) part of the relative velocity, overlap.
+/// For computes. There is no energy, as in pair gran. Extra values on ball i: tangential force (3), its
+/// magnitude, normal (3) and tangential (3) part of the relative velocity, overlap.
 double PairGranHookeTransition::single(int i, int j, int itype, int jtype, double, double, double,
                                        double &force_over_distance) {
   force_over_distance = 0.0;
@@ -407,14 +399,13 @@ double PairGranHookeTransition::single(int i, int j, int itype, int jtype, doubl
   const double *remembered = settings_.history() > 0 ? history(i, j) : nullptr;
   if (now.overlap <= 0.0 || (settings_.history() > 0 && remembered == nullptr)) return 0.0;
   const ContactCoefficients &law = at(itype, jtype);
-  const double c = physics::damping_coefficient(law.normal, effective_mass(i, j));
+  const physics::LinearLaw normal = law.normal.of_mass(effective_mass(i, j));
   const double normal_force =
-      settings_.stock
-          ? physics::normal_force(settings_.transition, law.normal.stiffness, c, now.overlap, now.rate)
-          : remembered[settings_.spring()];
+      settings_.stock ? normal.force(now.overlap, now.rate) : remembered[settings_.spring()];
   force_over_distance = normal_force / (atom->radius[i] + atom->radius[j] - now.overlap);
-  const physics::Friction friction =
-      settings_.tangential == FrictionModel::none ? physics::Friction{} : law.tangential(c, settings_.cap);
+  const physics::Friction friction = settings_.tangential == FrictionModel::none
+                                         ? physics::Friction{}
+                                         : law.tangential(normal.dashpot(now.overlap), settings_.cap);
   const physics::Vec3 across = drumlin::friction_force(
       *atom, i, j, now, friction, normal_force, settings_.spring() > 0 ? remembered : nullptr, update->dt);
   const physics::Vec3 slip = drumlin::tangential_velocity(*atom, i, j, now);
@@ -445,7 +436,7 @@ void PairGranHookeTransition::read_restart_settings(FILE *file) {
   int words[5] = {};
   if (comm->me == 0) utils::sfread(FLERR, words, sizeof(int), 5, file, nullptr, error);
   MPI_Bcast(words, 5, MPI_INT, 0, world);
-  settings_ = {static_cast<physics::Transition>(words[0]), static_cast<physics::Damping>(words[1]),
+  settings_ = {static_cast<physics::Transition>(words[0]), static_cast<drumlin::DampingInput>(words[1]),
                words[2] != 0, static_cast<FrictionModel>(words[3]), static_cast<physics::Cap>(words[4])};
   if (!settings_.stock) FixStepping::provide(lmp);
 }
@@ -476,7 +467,7 @@ void PairGranHookeTransition::read_restart(FILE *file) {
       MPI_Bcast(numbers, 7, MPI_DOUBLE, 0, world);
       setflag[i][j] = static_cast<int>(numbers[0]);
       ContactCoefficients p;
-      p.normal = {numbers[1], numbers[2], settings_.damping, settings_.transition};
+      p.normal = {numbers[1], numbers[2], settings_.kind(), settings_.transition};
       p.friction = numbers[3];
       p.tangential_stiffness = numbers[4];
       p.tangential_damping = numbers[5];

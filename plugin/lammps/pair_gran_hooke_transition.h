@@ -3,6 +3,7 @@
 
 #include "engine.h"
 #include "contact/contact_source.h"
+#include "fixes/fix_clump.h"
 #include "lammps/contact_terms.h"
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 namespace LAMMPS_NS {
 
 class FixNeighHistory;
-class FixWallGranTransition;
 
 /// The transition law between balls: the core's laws, with the neighbour history of gran/hooke/history.
 class PairGranHookeTransition : public Pair, public drumlin::ContactSource {
@@ -51,7 +51,8 @@ public:
   const double *tangential_spring(int i, int jj) const override;
   const NeighList *contact_list() const override { return list; }
 
-  /// The pair style of this engine instance, or the one part of a hybrid pair style that is this; nullptr: there is none, or more than one.
+  /// The pair style of this engine instance, or the one part of a hybrid pair style that is this; nullptr:
+  /// there is none, or more than one.
   static PairGranHookeTransition *find(LAMMPS *lmp);
   /// Whether a pair_coeff line has given the coefficients of a pair of types, in either order.
   bool has_coefficients(int itype, int jtype) const {
@@ -80,6 +81,9 @@ private:
   FixNeighHistory *history_ = nullptr;
   FixStepping *stepping_ = nullptr;
   int freeze_groupbit_ = 0;
+  drumlin::ContactObservers observers_;
+  Clumps clumps_;
+  std::vector<const drumlin::Walls *> walls_;
   std::vector<Fix *> rigid_;
   std::vector<double>
       rigid_mass_; // of owned balls and ghosts, kg, 0: of no rigid body; empty without fix rigid

@@ -1,5 +1,6 @@
 // Registers what the plugin adds to LAMMPS: pair style, fixes and commands. Called by load.cpp.
 
+#include "PLUGIN/plugin.h"
 #include "lammpsplugin.h"
 
 #include "command.h"
@@ -49,27 +50,45 @@ void *create_fix(void *lmp, int narg, char **arg) {
   return static_cast<Fix *>(new FixStyle(static_cast<LAMMPS *>(lmp), narg, arg));
 }
 
+/// Enters a style into a list of the engine. Its plugin interface, too, takes the functions that make styles
+/// for those of its lists.
+template <class Styles, class Make>
+void enter(Styles &styles, const char *name, Make *make) {
+  styles[name] = reinterpret_cast<typename Styles::mapped_type>(reinterpret_cast<void (*)()>(make));
+}
+
 void *create_pair(void *lmp) {
   return static_cast<LAMMPS_NS::Pair *>(new LAMMPS_NS::PairGranHookeTransition(static_cast<LAMMPS *>(lmp)));
 }
 
-/// Adds styles to the list of plugins of an engine.
+/// Adds styles to an engine instance. LAMMPS has one list of plugins for all its instances in a process, and adds
+/// a style that is in this list already to no other instance: there it is entered into the instance's own lists.
 class Registration {
 public:
   Registration(void *lmp, void *handle, void *register_function)
-      : lmp_(lmp), add_(reinterpret_cast<lammpsplugin_regfunc>(register_function)) {
+      : lmp_(lmp), add_(reinterpret_cast<lammpsplugin_regfunc>(register_function)),
+        listed_(LAMMPS_NS::plugin_find("pair", "gran/hooke/transition") >= 0) {
     plugin_.version = LAMMPS_VERSION;
     plugin_.author = "drumlin";
     plugin_.handle = handle;
   }
 
   void add(const char *category, const char *name, const char *info, lammpsplugin_factory1 *create) {
+    const LAMMPS &engine = *static_cast<LAMMPS *>(lmp_);
     plugin_.creator.v1 = create;
-    add(category, name, info);
+    if (!listed_)
+      add(category, name, info);
+    else if (std::string(category) == "pair")
+      enter(*engine.force->pair_map, name, create);
+    else
+      enter(*engine.input->command_map, name, create);
   }
   void add_fix(const char *name, const char *info, lammpsplugin_factory2 *create) {
     plugin_.creator.v2 = create;
-    add("fix", name, info);
+    if (!listed_)
+      add("fix", name, info);
+    else
+      enter(*static_cast<LAMMPS *>(lmp_)->modify->fix_map, name, create);
   }
 
 private:
@@ -82,6 +101,7 @@ private:
 
   void *lmp_;
   lammpsplugin_regfunc add_;
+  bool listed_; // by another instance
   lammpsplugin_t plugin_{};
 };
 
@@ -99,14 +119,6 @@ extern "C" __attribute__((visibility("default"))) void drumlin_register(void *lm
   auto *engine = static_cast<LAMMPS *>(lmp);
   Registration registration(lmp, handle, register_function);
   registration.add("pair", "gran/hooke/transition", "linear contact with transition A or B", create_pair);
-  // LAMMPS has one list of plugins for all its instances in a process, but adds the styles only to the
-  // instance that has loaded the plugin first. Two instances with the plugin must not exist at a time:
-  // contact observers, walls and clumps are kept by the process.
-  if (engine->force->pair_map->count("gran/hooke/transition") == 0)
-    engine->error->all(
-        FLERR,
-        "plugin load: drumlin is loaded in another LAMMPS instance of this process; allowed: one instance "
-        "with it at a time, the next when the other is closed or cleared");
   registration.add_fix("wall/gran/transition", "walls with this contact law",
                        create_fix<FixWallGranTransition>);
   drumlin::for_each_fix([&registration](auto fix, const char *name, const char *info) {

@@ -16,11 +16,11 @@
 #include "neighbor.h"
 
 #include "engine.h"
-#include "contact/contact_ledger.h"
 #include "contact/fix_stepping.h"
 #include "liggghts/contact_table.h"
 #include "liggghts/fix_keep_history.h"
 #include "liggghts/model_settings.h"
+#include "liggghts/observed_contact.h"
 #include "liggghts/registration.h"
 
 #include <algorithm>
@@ -37,19 +37,13 @@ using LAMMPS_NS::PairGran;
 static_assert(sizeof(SurfacesIntersectData) == 368,
               "contact data of this LIGGGHTS differ from the stock binary's");
 
-/// Whether the tangential model of a combination has a spring.
-template <class Style>
-constexpr bool has_spring =
-    Style::TANGENTIAL == TANGENTIAL_HISTORY || Style::TANGENTIAL == TANGENTIAL_COULOMB;
-
 /// Whether a combination keeps a tangential spring or a rolling torque as contact history, which has to be
 /// reset when the contact ends.
 template <class Style>
-constexpr bool has_history = has_spring<Style> || Style::ROLLING == ROLLING_EPSD2;
+constexpr bool has_history = drumlin::has_spring<Style> || Style::ROLLING == ROLLING_EPSD2;
 
 template <class Style>
-constexpr drumlin::Companions companions{has_spring<Style>, Style::TANGENTIAL != TANGENTIAL_OFF,
-                                         Style::ROLLING != ROLLING_OFF, Style::ROLLING == ROLLING_EPSD2};
+constexpr drumlin::Companions companions{drumlin::has_spring<Style>, Style::ROLLING != ROLLING_OFF};
 
 /// Prepares the engine for a combination, before that reads its properties.
 template <class Style>
@@ -58,63 +52,14 @@ void prepare(LAMMPS *engine) {
   if (Style::TANGENTIAL != TANGENTIAL_OFF) drumlin::provide_friction_default(engine, engine->atom->ntypes);
 }
 
-/// The engine's combination of models, which records each contact for the observers.
 template <class Style>
-class EnteredContact : public ContactModel<Style> {
-  using Base = ContactModel<Style>;
-
-public:
-  using Base::Base;
-
-  void connectToProperties(PropertyRegistry &registry) {
-    Base::connectToProperties(registry);
-    final_force_offset_ = this->get_history_offset(drumlin::final_force_name);
-  }
-
-  void surfacesIntersect(SurfacesIntersectData &contact, ForceData &i_forces, ForceData &j_forces) {
-    Base::surfacesIntersect(contact, i_forces, j_forces);
-    if (!drumlin::ContactLedger::open().empty() && contact.computeflag) enter(contact, i_forces, j_forces);
-  }
-
-private:
-  [[gnu::noinline]] void enter(const SurfacesIntersectData &contact, const ForceData &i_forces,
-                               const ForceData &j_forces) const {
-    drumlin::LedgerEntry entry{};
-    entry.i = contact.i;
-    entry.j = contact.is_wall ? -1 : contact.j;
-    entry.overlap = contact.deltan;
-    entry.radius = contact.is_wall ? contact.radi : std::min(contact.radi, contact.radj);
-    entry.share = contact.is_wall ? contact.area_ratio : 1.0;
-    entry.normal_stiffness = contact.kn;
-    entry.normal_force = contact.Fn;
-    if (final_force_offset_ >= 0) entry.final_force = contact.contact_history + final_force_offset_;
-    if (has_spring<Style>) { // the spring comes first in the contact history
-      entry.tangential_stiffness = contact.kt;
-      entry.spring = contact.contact_history;
-    }
-    double along = 0.0;
-    for (std::size_t a = 0; a < 3; ++a)
-      along += i_forces.delta_F[a] * contact.en[a];
-    for (std::size_t a = 0; a < 3; ++a) {
-      entry.normal[a] = contact.en[a];
-      entry.tangential_force[a] = i_forces.delta_F[a] - along * contact.en[a];
-      entry.torque_i[a] = i_forces.delta_torque[a];
-      entry.torque_j[a] = j_forces.delta_torque[a];
-    }
-    for (drumlin::ContactLedger *ledger : drumlin::ContactLedger::open())
-      ledger->enter(entry);
-  }
-
-  int final_force_offset_ = -1;
-};
-
-template <class Style>
-class TransitionPair : public LIGGGHTS::PairStyles::Granular<EnteredContact<Style>> {
-  using Base = LIGGGHTS::PairStyles::Granular<EnteredContact<Style>>;
+class TransitionPair : public LIGGGHTS::PairStyles::Granular<drumlin::ObservedContact<Style>>,
+                       public drumlin::PairContacts {
+  using Base = LIGGGHTS::PairStyles::Granular<drumlin::ObservedContact<Style>>;
 
 public:
   TransitionPair(LAMMPS *engine, PairGran *pair, int64_t hash)
-      : Base(engine, pair, hash), engine_(engine), pair_(pair) {}
+      : Base(engine, pair, hash), PairContacts(engine), engine_(engine), pair_(pair) {}
   ~TransitionPair() override { LAMMPS_NS::FixStepping::dismiss(engine_); }
 
   void settings(int narg, char **arg, LIGGGHTS::IContactHistorySetup *history) override {
@@ -130,13 +75,13 @@ public:
           FLERR, "pair_style gran model hooke/transition: pair_style hybrid has gran more than once; "
                  "allowed: once");
     prepare<Style>(engine_);
+    PairContacts::begin(pair_,
+                        drumlin::has_spring<Style>                   ? drumlin::FrictionModel::history
+                        : Style::TANGENTIAL == TANGENTIAL_NO_HISTORY ? drumlin::FrictionModel::no_history
+                                                                     : drumlin::FrictionModel::none,
+                        Style::TANGENTIAL == TANGENTIAL_COULOMB ? drumlin::physics::Cap::coulomb
+                                                                : drumlin::physics::Cap::spring);
     Base::init_granular();
-    drumlin::set_friction_model(has_spring<Style> ? drumlin::FrictionModel::history
-                                : Style::TANGENTIAL == TANGENTIAL_NO_HISTORY
-                                    ? drumlin::FrictionModel::no_history
-                                    : drumlin::FrictionModel::none,
-                                Style::TANGENTIAL == TANGENTIAL_COULOMB ? drumlin::physics::Cap::coulomb
-                                                                        : drumlin::physics::Cap::spring);
   }
 
 private:
@@ -145,8 +90,8 @@ private:
 };
 
 template <class Style>
-class TransitionWall : public LIGGGHTS::Walls::Granular<EnteredContact<Style>> {
-  using Base = LIGGGHTS::Walls::Granular<EnteredContact<Style>>;
+class TransitionWall : public LIGGGHTS::Walls::Granular<drumlin::ObservedContact<Style>> {
+  using Base = LIGGGHTS::Walls::Granular<drumlin::ObservedContact<Style>>;
 
 public:
   TransitionWall(LAMMPS *engine, FixWallGran *wall, int64_t hash)
@@ -192,6 +137,8 @@ void add_rolling_combinations() {
 } // namespace
 
 void drumlin::add_contact_models() {
+  // The engine's list of models is one for all instances in the process.
+  if (Factory::instance().getNormalModelId("hooke/transition") == HOOKE_TRANSITION) return;
   Factory::instance().addNormalModel("hooke/transition", HOOKE_TRANSITION);
   Factory::instance().addTangentialModel("coulomb", TANGENTIAL_COULOMB);
   add_rolling_combinations<TANGENTIAL_OFF>();

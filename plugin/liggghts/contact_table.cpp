@@ -1,18 +1,16 @@
 #include "liggghts/contact_table.h"
 
 #include "engine.h"
-#include "fixes/fix_clump.h"
 #include "fix_property_global.h"
 #include "fix_rigid.h"
 #include "fix_wall_gran.h"
 #include "global_properties.h"
-#include "pair_gran.h"
+#include "pair_gran_proxy.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <memory>
 #include <vector>
 
 namespace drumlin {
@@ -24,6 +22,7 @@ using LAMMPS_NS::Pointers;
 
 constexpr const char *model = "model hooke/transition";
 constexpr double default_friction = 0.5;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr const char *friction_property =
     "coefficientFriction"; // as the engine's tangential models ask for it
 
@@ -37,12 +36,13 @@ public:
 
   bool given() const { return fix_ != nullptr; }
 
-  double operator()(int i, int j, bool zero_allowed) {
+  double operator()(int i, int j, bool zero_allowed, double most = infinity) {
     const double value = fix_->compute_array(i - 1, j - 1);
-    if (!std::isfinite(value) || value < 0.0 || (value == 0.0 && !zero_allowed))
-      error->all(FLERR, engine::as_is(fmt::format(
-                            "{}: property {} of types {} and {} is {}; allowed: a finite number {} 0", model,
-                            name_, i, j, value, zero_allowed ? ">=" : ">")));
+    if (!std::isfinite(value) || value < 0.0 || (value == 0.0 && !zero_allowed) || value > most)
+      error->all(FLERR, engine::error_text(fmt::format(
+                            "{}: property {} of types {} and {} is {}; allowed: a finite number {} 0{}",
+                            model, name_, i, j, value, zero_allowed ? ">=" : ">",
+                            most < infinity ? fmt::format(" and <= {}", most) : "")));
     return value;
   }
 
@@ -50,7 +50,7 @@ public:
     if (given()) return;
     error->all(
         FLERR,
-        engine::as_is(fmt::format(
+        engine::error_text(fmt::format(
             "{}: property {} ({}) is missing; allowed: 'fix ID all property/global {} peratomtypepair {}' "
             "and {} values",
             model, name_, meaning, name_, ntypes, ntypes * ntypes)));
@@ -61,77 +61,14 @@ private:
   FixPropertyGlobal *fix_;
 };
 
-std::vector<const ContactTable *> wall_tables; // one for each wall
-
-/// The pair style's table as the fixes see it.
-class PairSource final : public ContactSource, Pointers {
-public:
-  PairSource(LAMMPS *engine, const ContactTable *table)
-      : Pointers(engine), table_(table), pair_(gran_pair(engine)) {
-    for (int n = 0; n < modify->nfix; ++n)
-      if (const auto *wall = dynamic_cast<const LAMMPS_NS::FixWallGran *>(modify->fix[n]))
-        meshes_ = meshes_ || wall->is_mesh_wall();
-  }
-
-  const physics::LinearContact &law(int itype, int jtype) const override {
-    return table_->at(itype, jtype).normal;
-  }
-
-  double mass(int i) const override {
-    if (atom->mask[i] & pair_->freeze_group_bit()) return std::numeric_limits<double>::infinity();
-    const double own =
-        pair_->fr_pair() != nullptr && pair_->mr_pair()[i] > 0.0 ? pair_->mr_pair()[i] : atom->rmass[i];
-    return LAMMPS_NS::FixClump::mass_of(*atom, i, own);
-  }
-
-  physics::Dashpots wall_dashpots(int i) const override {
-    physics::Dashpots all;
-    if (meshes_) all.sum = std::numeric_limits<double>::infinity();
-    for (const ContactTable *wall : wall_tables) {
-      physics::Dashpots strongest;
-      for (int type = 1; type <= atom->ntypes; ++type) {
-        const physics::LinearContact &law = wall->at(atom->type[i], type).normal;
-        physics::Dashpots one;
-        one.add(law.stiffness, physics::damping_coefficient(law, mass(i)));
-        strongest = {std::max(strongest.sum, one.sum), std::max(strongest.stiffest, one.stiffest)};
-      }
-      all.add(strongest);
-    }
-    return all;
-  }
-
-  FrictionModel friction_model() const override { return friction_model_; }
-  void set_friction_model(FrictionModel acting, physics::Cap cap) {
-    friction_model_ = acting;
-    cap_ = cap;
-  }
-
-  physics::Friction friction(int itype, int jtype, double c) const override {
-    const ContactCoefficients &p = table_->at(itype, jtype);
-    TypePairProperty coefficient(lmp, friction_property, atom->ntypes);
-    return {p.tangential_stiffness, p.tangential_damping_share * c + p.tangential_damping,
-            coefficient(itype, jtype, true), cap_};
-  }
-
-  // The engine builds the tangential model before any other that asks for history: its spring comes first.
-  const double *tangential_spring(int i, int jj) const override {
-    return pair_->listgranhistory->firstdouble[i] + static_cast<std::ptrdiff_t>(pair_->dnum()) * jj;
-  }
-
-  const LAMMPS_NS::NeighList *contact_list() const override { return pair_->list; }
-
-  bool serves(const LAMMPS *engine) const { return lmp == engine; }
-  bool reads(const ContactTable *table) const { return table_ == table; }
-
-private:
-  const ContactTable *table_;
-  LAMMPS_NS::PairGran *pair_;
-  bool meshes_ = false;
-  FrictionModel friction_model_ = FrictionModel::none;
-  physics::Cap cap_ = physics::Cap::spring;
+// The engine's pair style keeps what it does behind a private pointer. An explicit instantiation may name a
+// private member; its friend hands it out.
+template <auto Member>
+struct ProxyAccess {
+  friend auto &style_of(LAMMPS_NS::PairGranProxy &proxy) { return proxy.*Member; }
 };
-
-std::unique_ptr<PairSource> current_source; // one engine instance per process runs a deck
+auto &style_of(LAMMPS_NS::PairGranProxy &proxy);
+template struct ProxyAccess<&LAMMPS_NS::PairGranProxy::impl>;
 
 } // namespace
 
@@ -139,17 +76,79 @@ LAMMPS_NS::PairGran *gran_pair(LAMMPS *lmp) {
   return dynamic_cast<LAMMPS_NS::PairGran *>(lmp->force->pair_match("gran", 1));
 }
 
-void ContactTable::read(LAMMPS *lmp, int ntypes, physics::Transition transition, physics::Damping damping,
-                        bool is_wall) {
+PairContacts *pair_contacts(LAMMPS *lmp) {
+  auto *proxy = dynamic_cast<LAMMPS_NS::PairGranProxy *>(gran_pair(lmp));
+  return proxy == nullptr ? nullptr : dynamic_cast<PairContacts *>(style_of(*proxy));
+}
+
+const ContactSource *contact_source(LAMMPS *lmp) {
+  const PairContacts *contacts = pair_contacts(lmp);
+  return contacts != nullptr && contacts->has_table() ? contacts : nullptr;
+}
+
+void PairContacts::begin(LAMMPS_NS::PairGran *pair, FrictionModel friction_model, physics::Cap cap) {
+  pair_ = pair;
+  table_ = nullptr;
+  wall_tables_.clear();
+  clumps_.find(*lmp_->modify);
+  friction_model_ = friction_model;
+  cap_ = cap;
+  meshes_ = false;
+  for (int n = 0; n < lmp_->modify->nfix; ++n)
+    if (const auto *wall = dynamic_cast<const LAMMPS_NS::FixWallGran *>(lmp_->modify->fix[n]))
+      meshes_ = meshes_ || wall->is_mesh_wall();
+}
+
+double PairContacts::mass(int i) const {
+  const LAMMPS_NS::Atom &atom = *lmp_->atom;
+  if (atom.mask[i] & pair_->freeze_group_bit()) return std::numeric_limits<double>::infinity();
+  const double own =
+      pair_->fr_pair() != nullptr && pair_->mr_pair()[i] > 0.0 ? pair_->mr_pair()[i] : atom.rmass[i];
+  return clumps_.mass_of(atom, i, own);
+}
+
+physics::Dashpots PairContacts::wall_dashpots(int i) const {
+  const LAMMPS_NS::Atom &atom = *lmp_->atom;
+  physics::Dashpots all;
+  if (meshes_) all.sum = std::numeric_limits<double>::infinity();
+  for (const ContactTable *wall : wall_tables_) {
+    physics::Dashpots strongest;
+    for (int type = 1; type <= atom.ntypes; ++type) {
+      const physics::LinearContact &law = wall->at(atom.type[i], type).normal;
+      physics::Dashpots one;
+      one.add(law.stiffness, law.damping_coefficient(mass(i)));
+      strongest = {std::max(strongest.sum, one.sum), std::max(strongest.stiffest, one.stiffest)};
+    }
+    all.add(strongest);
+  }
+  return all;
+}
+
+const LAMMPS_NS::NeighList *PairContacts::contact_list() const { return pair_->list; }
+
+// The engine builds the tangential model before any other that asks for history: its spring comes first.
+const double *PairContacts::tangential_spring(int i, int jj) const {
+  return pair_->listgranhistory->firstdouble[i] + static_cast<std::ptrdiff_t>(pair_->dnum()) * jj;
+}
+
+void ContactTable::read(LAMMPS *lmp, int ntypes, const ContactSettings &settings, bool is_wall) {
   TypePairProperty kn(lmp, "kn", ntypes);
   TypePairProperty kt(lmp, "kt", ntypes);
   TypePairProperty ct(lmp, "gammat_abs", ntypes);
-  TypePairProperty c(lmp, damping == physics::Damping::ratio ? "dampingRatio" : "gamman_abs", ntypes);
+  struct Input {
+    const char *property, *meaning;
+  };
+  const Input input =
+      settings.damping == DampingInput::coefficient
+          ? Input{"gamman_abs", "normal damping coefficient, N s/m, keyword damping coefficient"}
+      : settings.damping == DampingInput::ratio
+          ? Input{"dampingRatio", "damping ratio D, keyword damping ratio"}
+          : Input{"coefficientRestitution", "restitution e, keyword damping restitution"};
+  const bool restitution = settings.damping == DampingInput::restitution;
+  TypePairProperty c(lmp, input.property, ntypes);
+  TypePairProperty mu(lmp, friction_property, ntypes);
   kn.require("normal stiffness, N/m", ntypes);
-  c.require(damping == physics::Damping::ratio
-                ? "damping ratio D, keyword damping ratio"
-                : "normal damping coefficient, N s/m, keyword damping coefficient",
-            ntypes);
+  c.require(input.meaning, ntypes);
 
   stride_ = static_cast<std::size_t>(ntypes) + 1;
   coefficients_.assign(stride_ * stride_, {});
@@ -157,19 +156,13 @@ void ContactTable::read(LAMMPS *lmp, int ntypes, physics::Transition transition,
     for (int j = 1; j <= ntypes; ++j) {
       ContactCoefficients &p =
           coefficients_[static_cast<std::size_t>(i) * stride_ + static_cast<std::size_t>(j)];
-      p.normal = {kn(i, j, false), c(i, j, true), damping, transition};
-      p.tangential_stiffness = kt.given() ? kt(i, j, true) : 2.0 / 7.0 * p.normal.stiffness;
-      p.tangential_damping = ct.given() ? ct(i, j, true) : 0.0;
-      p.tangential_damping_share = ct.given() ? 0.0 : 0.5;
+      p = ContactCoefficients::with_defaults(
+          settings.normal(kn(i, j, false), c(i, j, !restitution, restitution ? 1.0 : infinity)));
+      if (kt.given()) p.tangential_stiffness = kt(i, j, true);
+      if (ct.given()) p.set_tangential_damping(ct(i, j, true));
+      if (mu.given()) p.friction = mu(i, j, true);
     }
-  if (!is_wall)
-    current_source = std::make_unique<PairSource>(lmp, this);
-  else if (std::find(wall_tables.begin(), wall_tables.end(), this) == wall_tables.end())
-    wall_tables.push_back(this);
-}
-
-void set_friction_model(FrictionModel acting, physics::Cap cap) {
-  if (current_source) current_source->set_friction_model(acting, cap);
+  if (PairContacts *contacts = pair_contacts(lmp)) is_wall ? contacts->take_wall(this) : contacts->take(this);
 }
 
 void provide_friction_default(LAMMPS *lmp, int ntypes) {
@@ -189,15 +182,6 @@ void provide_friction_default(LAMMPS *lmp, int ntypes) {
   for (std::string &word : words)
     arg.push_back(word.data());
   lmp->modify->add_fix(static_cast<int>(arg.size()), arg.data());
-}
-
-ContactTable::~ContactTable() {
-  wall_tables.erase(std::remove(wall_tables.begin(), wall_tables.end(), this), wall_tables.end());
-  if (current_source && current_source->reads(this)) current_source.reset();
-}
-
-const ContactSource *contact_source(LAMMPS *lmp) {
-  return current_source && current_source->serves(lmp) ? current_source.get() : nullptr;
 }
 
 } // namespace drumlin

@@ -1,5 +1,6 @@
 #include "liggghts/model_settings.h"
 
+#include "contact/contact_settings.h"
 #include "support/arguments.h"
 #include "support/replaced_keywords.h"
 
@@ -14,25 +15,19 @@ constexpr DropInForms drop_in_forms = {"damping coefficient with property gamman
 
 ModelSettings::ModelSettings(LAMMPS_NS::Error *error, const std::string &command,
                              const Companions &companions, int narg, char **arg) {
-  std::vector<std::string> keywords = {"transition", "damping", "stepping"};
+  std::vector<std::string> keywords = common_keywords();
+  ContactSettings settings;
+  const auto add = [this](const char *word, bool on) {
+    words_.insert(words_.end(), {word, on ? "on" : "off"});
+  };
   if (companions.rolling) keywords.emplace_back("torsionTorque");
 
   Arguments in(error, command, narg, arg);
   while (!in.empty()) {
     const std::string keyword = in.word("keyword");
-    if (keyword == "transition") {
-      words_.insert(words_.end(),
-                    {"transition_A", in.choice("keyword " + keyword, {"A", "B"}) == 0 ? "on" : "off"});
-    } else if (keyword == "damping") {
-      words_.insert(words_.end(),
-                    {"damping_coefficient",
-                     in.choice("keyword " + keyword, {"coefficient", "ratio"}) == 0 ? "on" : "off"});
-    } else if (keyword == "stepping") {
-      words_.insert(words_.end(), {"stepping_stock",
-                                   in.choice("keyword " + keyword, {"stock", "second"}) == 0 ? "on" : "off"});
-    } else if (keyword == "torsionTorque" && companions.rolling) {
-      words_.insert(words_.end(),
-                    {keyword, in.choice("keyword " + keyword, {"on", "off"}) == 0 ? "on" : "off"});
+    if (read_setting(in, keyword, settings)) continue;
+    if (keyword == "torsionTorque" && companions.rolling) {
+      add("torsionTorque", in.choice("keyword " + keyword, {"on", "off"}) == 0);
     } else if (keyword == "tangential" || keyword == "rolling_friction" || keyword == "cohesion" ||
                keyword == "surface" || keyword == "primitive" || keyword == "mesh") {
       in.fail(
@@ -44,10 +39,11 @@ ModelSettings::ModelSettings(LAMMPS_NS::Error *error, const std::string &command
       in.fail(unknown_keyword(keyword, drop_in_forms, join_choices(keywords)));
     }
   }
-  for (const auto &[word, given] : {std::pair{"tangential_spring", companions.tangential_spring},
-                                    std::pair{"tangential_dashpot", companions.tangential_dashpot},
-                                    std::pair{"rolling_spring", companions.rolling_spring}})
-    words_.insert(words_.end(), {word, given ? "on" : "off"});
+  add("transition_A", settings.transition == physics::Transition::A);
+  add("damping_coefficient", settings.damping == DampingInput::coefficient);
+  add("damping_restitution", settings.damping == DampingInput::restitution);
+  add("stepping_stock", settings.stock);
+  add("tangential_spring", companions.tangential_spring);
   for (std::string &word : words_)
     pointers_.push_back(word.data());
 }

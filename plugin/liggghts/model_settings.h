@@ -12,15 +12,16 @@ namespace drumlin {
 
 /// The models beside the normal one.
 struct Companions {
-  bool tangential_spring, tangential_dashpot;
-  bool rolling, rolling_spring;
+  bool tangential_spring;
+  bool rolling;
 };
 
 /// Words that the engine's settings parser gets, in its form.
 class ModelSettings {
 public:
   /// \param command for error texts, e.g. "pair_style gran model hooke/transition"
-  /// \param companions a rolling model takes `torsionTorque on|off`; the normal model is told of the others' springs and dashpots
+  /// \param companions a rolling model takes `torsionTorque on|off`; the normal model is told of the
+  /// tangential spring
   ModelSettings(LAMMPS_NS::Error *error, const std::string &command, const Companions &companions, int narg,
                 char **arg);
 

@@ -25,8 +25,7 @@ NORMAL_MODEL(HOOKE_TRANSITION, hooke / transition, 21)
 #include "contact/fix_stepping.h"
 #include "contact/stepped_contact.h"
 #include "liggghts/contact_table.h"
-#include "physics/contact_law.h"
-#include "physics/stepping.h"
+#include "physics/contact_step.h"
 
 namespace LIGGGHTS {
 namespace ContactModels {
@@ -43,35 +42,37 @@ public:
   void registerSettings(Settings &settings) {
     settings.registerOnOff("transition_A", transition_a_, false);
     settings.registerOnOff("damping_coefficient", damping_coefficient_, false);
+    settings.registerOnOff("damping_restitution", damping_restitution_, false);
     settings.registerOnOff("stepping_stock", stepping_stock_, false);
     settings.registerOnOff("tangential_spring", tangential_spring_, false);
-    settings.registerOnOff("tangential_dashpot", tangential_dashpot_, false);
-    settings.registerOnOff("rolling_spring", rolling_spring_, false);
   }
 
-  // While the deck is parsed: a fix added later, in the initialization of a run, would miss that run. A wall is a fix under
-  // construction and cannot add another.
+  // While the deck is parsed: a fix added later, in the initialization of a run, would miss that run. A wall
+  // is a fix under construction and cannot add another.
   void postSettings(IContactHistorySetup *history, ContactModelBase *all) {
     if (is_wall_)
       take_stepping_of_pair();
     else if (!stepping_stock_)
       stepping_ = LAMMPS_NS::FixStepping::provide(lmp);
     if (stepping_stock_) return;
-    force_before_offset_ = history->add_history_value(drumlin::final_force_name, "0");
-    all->add_history_offset(drumlin::final_force_name, force_before_offset_);
+    state_offset_ = history->add_history_value(drumlin::final_force_name, "0");
+    history->add_history_value("normal_in_contact", "0");
+    all->add_history_offset(drumlin::final_force_name, state_offset_);
   }
 
   void connectToProperties(PropertyRegistry &registry) {
-    const auto damping =
-        damping_coefficient_ ? drumlin::physics::Damping::coefficient : drumlin::physics::Damping::ratio;
-    table_.read(lmp, registry.max_type(), transition(), damping, is_wall_);
+    drumlin::ContactSettings settings;
+    if (transition_a_) settings.transition = drumlin::physics::Transition::A;
+    if (damping_coefficient_) settings.damping = drumlin::DampingInput::coefficient;
+    if (damping_restitution_) settings.damping = drumlin::DampingInput::restitution;
+    table_.read(lmp, registry.max_type(), settings, is_wall_);
     if (tangential_spring_) {
       registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
       registry.connect("coeffFrict", friction_, "model hooke/transition");
     }
     if (is_wall_) take_stepping_of_pair(); // a pair_style line behind the wall may have changed it
     pair_ = drumlin::gran_pair(lmp);
-    clumps_ = !LAMMPS_NS::FixClump::all().empty();
+    clumps_.find(*lmp->modify);
     // The step in which contact ends needs a call although the balls no longer overlap: see surfacesClose().
     if (stepping_) neighbor->register_contact_dist_factor(drumlin::contact_distance_factor);
   }
@@ -81,46 +82,35 @@ public:
   inline void surfacesIntersect(SurfacesIntersectData &sidata, ForceData &i_forces, ForceData &j_forces) {
     if (sidata.contact_flags) *sidata.contact_flags |= CONTACT_NORMAL_MODEL;
     const drumlin::ContactCoefficients &p = table_.at(sidata.itype, sidata.jtype);
-    if (clumps_) take_body_masses(sidata);
-    const double k = p.normal.stiffness;
-    const double c = drumlin::physics::damping_coefficient(p.normal, sidata.meff);
-    sidata.kn = k;
-    sidata.gamman = c;
+    if (!clumps_.empty()) take_body_masses(sidata);
+    const drumlin::physics::LinearLaw law = p.normal.of_mass(sidata.meff);
+    sidata.kn = law.stiffness(sidata.deltan);
+    sidata.gamman = law.dashpot(sidata.deltan);
     sidata.kt = p.tangential_stiffness;
-    sidata.gammat = p.tangential_damping_share * c + p.tangential_damping;
+    sidata.gammat = p.tangential_dashpot(sidata.gamman);
     const double share = sidata.is_wall ? sidata.area_ratio : 1.0;
     if (stepping_ == nullptr) {
       // The engine's vn is positive when the balls separate: overlap_rate = -vn.
-      sidata.Fn = drumlin::physics::normal_force(transition(), k, c, sidata.deltan, -sidata.vn);
+      drumlin::physics::ContactState state;
+      const double rate = -sidata.vn;
+      sidata.Fn = drumlin::physics::advance_stock(law, {sidata.deltan, rate, rate, update->dt}, state).force;
       add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);
     } else
-      second_order(sidata, k, c, share, i_forces, j_forces);
-    for (drumlin::ContactWatch *watch : drumlin::ContactWatch::looking())
-      show(*watch, share, sidata);
+      second_order(sidata, law, share, i_forces, j_forces);
   }
 
   void surfacesClose(SurfacesCloseData &scdata, ForceData &i_forces, ForceData &j_forces) {
     if (scdata.contact_flags) *scdata.contact_flags &= ~CONTACT_NORMAL_MODEL;
     if (stepping_ == nullptr || !scdata.computeflag || scdata.contact_history == nullptr) return;
-    // The record says that they touched a step ago; their motion alone, along a normal that turns, may say so twice.
-    double &force_before = scdata.contact_history[force_before_offset_];
-    if (!drumlin::physics::was_contact(force_before)) return;
-    force_before = 0.0;
-    if (transition_a_ && !stepping_->in_setup()) break_of_a(scdata, i_forces, j_forces);
+    if (scdata.contact_history[state_offset_ + 1] == 0.0) return; // they did not touch a step ago
+    end_contact(scdata, i_forces, j_forces);
+    std::fill_n(scdata.contact_history + state_offset_, 2, 0.0);
   }
 
   void beginPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
   void endPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
 
 private:
-  drumlin::physics::Transition transition() const {
-    return transition_a_ ? drumlin::physics::Transition::A : drumlin::physics::Transition::B;
-  }
-
-  /// Mass of ball i as its contacts feel it, kg.
-  double mass(int i, double own) const {
-    return is_frozen(i) ? std::numeric_limits<double>::infinity() : own;
-  }
   bool is_frozen(int i) const { return pair_ != nullptr && (atom->mask[i] & pair_->freeze_group_bit()); }
 
   /// Ends the run where the stepping of a wall is not that of the pair style.
@@ -134,75 +124,72 @@ private:
         stepping_stock_ || law
             ? "and that of the pair style is " + std::string(stepping_stock_ ? "'second'" : "'stock'")
             : "and there is no pair_style gran model hooke/transition yet";
-    error->all(FLERR, drumlin::engine::as_is("fix wall/gran model hooke/transition: keyword stepping is " +
-                                             own + " " + pair +
-                                             "; allowed: the same stepping for both, the pair style first"));
+    error->all(FLERR, drumlin::engine::error_text(
+                          "fix wall/gran model hooke/transition: keyword stepping is " + own + " " + pair +
+                          "; allowed: the same stepping for both, the pair style first"));
   }
 
   /// A ball of a clump has the clump's mass in its contacts.
   void take_body_masses(SurfacesIntersectData &sidata) const {
-    sidata.mi = LAMMPS_NS::FixClump::mass_of(*atom, sidata.i, sidata.mi);
+    sidata.mi = clumps_.mass_of(*atom, sidata.i, sidata.mi);
     sidata.meff = sidata.mi;
     if (sidata.is_wall) return;
-    sidata.mj = LAMMPS_NS::FixClump::mass_of(*atom, sidata.j, sidata.mj);
+    sidata.mj = clumps_.mass_of(*atom, sidata.j, sidata.mj);
     sidata.meff = is_frozen(sidata.j)   ? sidata.mi
                   : is_frozen(sidata.i) ? sidata.mj
                                         : drumlin::physics::effective_mass(sidata.mi, sidata.mj);
   }
 
-  /// Rate of the overlap with the velocities at the begin of the step.
-  double rate_before(const SurfacesCloseData &data, const double *normal) const {
-    return drumlin::rate_before(*stepping_, data.i,
-                                data.is_wall ? data.v_j : stepping_->velocity_before(data.j),
-                                {normal[0], normal[1], normal[2]});
-  }
-
   /// Sets sidata.Fn and adds the force.
-  inline void second_order(SurfacesIntersectData &sidata, double k, double c, double share,
-                           ForceData &i_forces, ForceData &j_forces) {
-    using namespace drumlin::physics;
-    double &force_before = sidata.contact_history[force_before_offset_];
-    const StepMotion motion = motion_of(sidata);
-    if (sidata.computeflag &&
-        drumlin::hold(transition(), *stepping_, sidata.i, sidata.is_wall ? -1 : sidata.j, motion, k, c,
-                      sidata.meff, force_before)) {
-      sidata.Fn = force_before;
+  inline void second_order(SurfacesIntersectData &sidata, const drumlin::physics::LinearLaw &law,
+                           double share, ForceData &i_forces, ForceData &j_forces) {
+    double *const stored = sidata.contact_history + state_offset_; // force, N; 1 if in contact, else 0
+    drumlin::physics::ContactState state{stored[0], stored[1] != 0.0, {}};
+    if (sidata.computeflag && drumlin::hold_contact(law, *stepping_, sidata.i, sidata.is_wall ? -1 : sidata.j,
+                                                    motion_of(sidata), sidata.meff, state)) {
+      stored[0] = sidata.Fn = state.force;
       add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);
     } else
-      second_order_rare(sidata, k, c, share, i_forces, j_forces);
+      second_order_rare(sidata, law, share, i_forces, j_forces);
   }
 
   inline drumlin::physics::StepMotion motion_of(const SurfacesIntersectData &sidata) const {
-    return {sidata.deltan, -sidata.vn, rate_before(sidata, sidata.en), stepping_->dt()};
+    const double *v_j = sidata.is_wall ? sidata.v_j : stepping_->velocity_before(sidata.j);
+    return {sidata.deltan, -sidata.vn,
+            drumlin::rate_before(*stepping_, sidata.i, v_j, {sidata.en[0], sidata.en[1], sidata.en[2]}),
+            stepping_->dt()};
   }
 
-  [[gnu::noinline]] void second_order_rare(SurfacesIntersectData &sidata, double k, double c, double share,
+  [[gnu::noinline]] void second_order_rare(SurfacesIntersectData &sidata,
+                                           const drumlin::physics::LinearLaw &law, double share,
                                            ForceData &i_forces, ForceData &j_forces) {
     if (!sidata.computeflag) {
       look(sidata, share, i_forces, j_forces);
       return;
     }
-    const drumlin::SteppedContact stepped(transition(), *stepping_);
+    double *const stored = sidata.contact_history + state_offset_;
+    drumlin::physics::ContactState state{stored[0], stored[1] != 0.0, {}};
     const auto push = [&](double force) { add(force, sidata.en, sidata, i_forces, j_forces); };
-    sidata.Fn = stepped.exert({sidata.i,
-                               sidata.is_wall ? -1 : sidata.j,
-                               {sidata.en[0], sidata.en[1], sidata.en[2]},
-                               sidata.is_wall ? sidata.v_j : nullptr,
-                               sidata.deltan,
-                               -sidata.vn,
-                               k,
-                               c,
-                               sidata.meff,
-                               share},
-                              sidata.contact_history[force_before_offset_], push);
+    drumlin::exert_contact(law, *stepping_,
+                           {sidata.i,
+                            sidata.is_wall ? -1 : sidata.j,
+                            {sidata.en[0], sidata.en[1], sidata.en[2]},
+                            sidata.is_wall ? sidata.v_j : nullptr,
+                            sidata.deltan,
+                            -sidata.vn,
+                            sidata.meff,
+                            share},
+                           state, stored[0], push);
+    stored[0] = sidata.Fn = state.force;
+    stored[1] = 1.0;
   }
 
-  /// What compute pair/gran/local sees behind a step, when the velocities of the step are gone: the force on record.
-  /// The step left the spring of a contact that slid at the friction limit, to rounding. The engine's `tangential history`
-  /// must find it above the limit, or, where the limit is zero, not damped: else it takes the contact for one that sticks
-  /// and puts a dashpot on top.
+  /// What compute pair/gran/local sees behind a step, when the velocities of the step are gone: the force on
+  /// record. The step left the spring of a contact that slid at the friction limit, to rounding. The engine's
+  /// `tangential history` must find it above the limit, or, where the limit is zero, not damped: else it
+  /// takes the contact for one that sticks and puts a dashpot on top.
   void look(SurfacesIntersectData &sidata, double share, ForceData &i_forces, ForceData &j_forces) const {
-    sidata.Fn = sidata.contact_history[force_before_offset_];
+    sidata.Fn = sidata.contact_history[state_offset_];
     add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);
     if (!tangential_spring_) return;
     constexpr double below = 1.0 - 1e-12;
@@ -223,53 +210,32 @@ private:
     j_forces.delta_F[2] -= z;
   }
 
-  /// A jump like the make: the tensile force acted for part of the step that ends with the balls apart.
-  void break_of_a(SurfacesCloseData &scdata, ForceData &i_forces, ForceData &j_forces) {
+  /// The step in which a contact ends: a force of tension has acted for part of it.
+  void end_contact(SurfacesCloseData &scdata, ForceData &i_forces, ForceData &j_forces) {
     const double r = std::sqrt(scdata.rsq);
     const double normal[3] = {scdata.delta[0] / r, scdata.delta[1] / r, scdata.delta[2] / r};
     double rate_half = 0.0;
     for (int a = 0; a < 3; ++a)
       rate_half -= (scdata.v_i[a] - scdata.v_j[a]) * normal[a];
-    const drumlin::ContactCoefficients &p = table_.at(scdata.itype, scdata.jtype);
-    const double mi = LAMMPS_NS::FixClump::mass_of(*atom, scdata.i, atom->rmass[scdata.i]);
+    const double mi = clumps_.mass_of(*atom, scdata.i, atom->rmass[scdata.i]);
     const double m_eff = scdata.is_wall ? mi : effective_mass(scdata.i, scdata.j);
-    const double c = drumlin::physics::damping_coefficient(p.normal, m_eff);
-    const drumlin::SteppedContact stepped(transition(), *stepping_);
-    const auto push = [&](double force) { add(force, normal, scdata, i_forces, j_forces); };
-    scdata.has_force_update |= stepped.end({scdata.i,
-                                            scdata.is_wall ? -1 : scdata.j,
-                                            {normal[0], normal[1], normal[2]},
-                                            scdata.is_wall ? scdata.v_j : nullptr,
-                                            scdata.radsum - r,
-                                            rate_half,
-                                            p.normal.stiffness,
-                                            c,
-                                            m_eff,
-                                            1.0},
-                                           push);
-  }
-
-  /// \param share of the stiffnesses that acts
-  void show(drumlin::ContactWatch &watch, double share, const SurfacesIntersectData &sidata) const {
-    drumlin::ShownContact p{};
-    p.i = sidata.i;
-    p.j = sidata.is_wall ? -1 : sidata.j;
-    p.tag_i = atom->tag[sidata.i];
-    p.tag_j = sidata.is_wall ? 0 : atom->tag[sidata.j];
-    p.tells_j = p.j >= 0 && p.j < atom->nlocal;
-    p.inverse_mi = 1.0 / mass(sidata.i, sidata.mi);
-    p.inverse_mj = sidata.is_wall ? 0.0 : 1.0 / mass(sidata.j, sidata.mj);
-    p.ri = sidata.radi;
-    p.rj = sidata.is_wall ? sidata.radi : sidata.radj;
-    p.overlap = sidata.deltan;
-    p.normal = sidata.en;
-    p.mass_over_inertia = 1.0 / drumlin::engine::inertia_share(lmp);
-    p.normal_spring = share * sidata.kn;
-    if (!stepping_) p.normal_dashpot = share * sidata.gamman;
-    if (tangential_spring_) p.tangential_spring = share * sidata.kt;
-    if (tangential_dashpot_) p.tangential_dashpot = share * sidata.gammat;
-    if (rolling_spring_) p.rolling_spring_share = share * sidata.kt; // kr = kt r_eff^2, of the engine's epsd2
-    drumlin::show(watch, p);
+    double *const stored = scdata.contact_history + state_offset_;
+    drumlin::physics::ContactState state{stored[0], true, {}};
+    const auto push = [&](double force) {
+      if (force == 0.0) return;
+      add(force, normal, scdata, i_forces, j_forces);
+      scdata.has_force_update = true;
+    };
+    drumlin::exert_contact(table_.at(scdata.itype, scdata.jtype).normal.of_mass(m_eff), *stepping_,
+                           {scdata.i,
+                            scdata.is_wall ? -1 : scdata.j,
+                            {normal[0], normal[1], normal[2]},
+                            scdata.is_wall ? scdata.v_j : nullptr,
+                            std::min(scdata.radsum - r, -std::numeric_limits<double>::min()),
+                            rate_half,
+                            m_eff,
+                            1.0},
+                           state, stored[0], push);
   }
 
   double effective_mass(int i, int j) const {
@@ -281,14 +247,13 @@ private:
   const bool is_wall_;
   bool transition_a_ = false;
   bool damping_coefficient_ = false;
+  bool damping_restitution_ = false;
   bool stepping_stock_ = false;
-  bool clumps_ = false;            // whether there is any fix clump
-  bool tangential_spring_ = false; // what the models beside this one have
-  bool tangential_dashpot_ = false;
-  bool rolling_spring_ = false;
+  LAMMPS_NS::Clumps clumps_;
+  bool tangential_spring_ = false;             // what the tangential model beside this one has
   LAMMPS_NS::PairGran *pair_ = nullptr;        // that knows which balls are frozen
   LAMMPS_NS::FixStepping *stepping_ = nullptr; // none under stock stepping
-  int force_before_offset_ = 0;                // in the contact history, under second-order stepping
+  int state_offset_ = 0; // of force and 'in contact' in the contact history, with the second-order scheme
   double **friction_ = nullptr; // coefficients by types, as the engine's `tangential history` has them
   drumlin::ContactTable table_;
 };

@@ -1,6 +1,6 @@
 #pragma once
 /// The linear contact of the paper, Eq. (2), with its two transition conditions, A of Eqs. (3)-(5) and
-/// B of Eqs. (6)-(9).
+/// B of Eqs. (6)-(9), and what every contact law has in common.
 ///
 /// Sign convention: the overlap d = x1 - x2 is positive while the surfaces overlap, its rate d' is positive
 /// while they approach, and the force Fc is positive in compression (it pushes the balls apart). SI units.
@@ -22,8 +22,119 @@ enum class Transition { A, B };
 /// How a damping value is meant: the dashpot coefficient c in N s/m, or the damping ratio D of Eq. (10).
 enum class Damping { coefficient, ratio };
 
-/// Parameters of one kind of contact.
+/// Where the power Fc d' that the balls give to a contact goes, W.
+struct ContactPower {
+  double dissipated; ///< heat in the dashpot, never negative
+  double stored;     ///< rate of the energy in the spring, of either sign
+};
+
+/// What follows from a law's spring and dashpot under a transition condition: for any law whose force is
+///   Fc = E(d) + C(d) d'  for d > 0, else 0.
+/// `Law` gives the functions of the overlap d > 0, in m:
+///   spring(d)     E, N, 0 at d = 0
+///   dashpot(d)    C, N s/m, >= 0
+///   stiffness(d)  dE/dd, N/m
+///   stored(d)     energy in the spring, J, the integral of E
+template <class Law>
+class ContactLaw {
+public:
+  /// Force, N, of spring and dashpot together, whatever the transition condition; d > 0 in m, d' in m/s.
+  [[nodiscard]] double spring_and_dashpot(double overlap, double rate) const {
+    return self().spring(overlap) + self().dashpot(overlap) * rate;
+  }
+
+  /// What the transition condition leaves of a force, N, of spring and dashpot: B has no tension. Any other
+  /// part of the program asks this function; none has a condition of its own.
+  [[nodiscard]] double limited(double force) const {
+    return transition_ == Transition::B && force < 0.0 ? 0.0 : force;
+  }
+
+  /// Contact force Fc, N, positive in compression, Eq. (2). overlap d in m, rate d' in m/s, positive while
+  /// approaching. B is a clamp while the balls overlap and keeps no memory: Eqs. (8)-(9) read as a latch
+  /// (re-made only through d = 0) would let a drum that turns round before the gap opens fall through the
+  /// soil.
+  [[nodiscard]] double force(double overlap, double rate) const {
+    return overlap <= 0.0 ? 0.0 : limited(spring_and_dashpot(overlap, rate));
+  }
+
+  /// True while the contact carries its law: d > 0, and under B also a force > 0. Makes and breaks are the
+  /// instants at which this changes.
+  [[nodiscard]] bool acts(double overlap, double rate) const {
+    return overlap > 0.0 && (transition_ == Transition::A || spring_and_dashpot(overlap, rate) > 0.0);
+  }
+
+  /// Whether a contact still carries a force, of tension, when the overlap has gone: then its end is a jump
+  /// of the force.
+  [[nodiscard]] bool ends_in_tension() const { return transition_ == Transition::A; }
+
+  /// Energy in the contact's spring, J; 0 for d <= 0.
+  [[nodiscard]] double energy(double overlap) const { return overlap <= 0.0 ? 0.0 : self().stored(overlap); }
+
+  /// Splits Fc d' into spring and dashpot: stored = E d', dissipated = (Fc - E) d', both 0 for d <= 0.
+  /// dissipated is C d'^2 where the law is not clamped. Where B clamps, Fc = 0 and E < -C d', the balls part
+  /// faster than the soil can follow: spring and dashpot relax against each other, and the spring's energy
+  /// turns into heat at the rate -E d' > 0, less than C d'^2. Summed over time with energy() this closes the
+  /// energy balance contact by contact, through clamp, make and break: d runs continuously, and so does the
+  /// energy.
+  [[nodiscard]] ContactPower power(double overlap, double rate) const {
+    if (overlap <= 0.0) return {0.0, 0.0};
+    const double stored = self().spring(overlap) * rate;
+    const bool clamped = transition_ == Transition::B && spring_and_dashpot(overlap, rate) < 0.0;
+    return {clamped ? -stored : self().dashpot(overlap) * rate * rate, stored};
+  }
+
+  [[nodiscard]] Transition transition() const { return transition_; }
+
+protected:
+  explicit ContactLaw(Transition transition) : transition_(transition) {}
+  ~ContactLaw() = default;
+  ContactLaw(const ContactLaw &) = default;
+  ContactLaw &operator=(const ContactLaw &) = default;
+
+private:
+  [[nodiscard]] const Law &self() const { return static_cast<const Law &>(*this); }
+
+  Transition transition_;
+};
+
+/// The linear law of one contact: Fc = k d + c d', Eq. (2).
+class LinearLaw : public ContactLaw<LinearLaw> {
+public:
+  /// \param k stiffness, N/m \param c damping coefficient, N s/m
+  LinearLaw(double k, double c, Transition transition) : ContactLaw(transition), k_(k), c_(c) {}
+
+  [[nodiscard]] double spring(double overlap) const { return k_ * overlap; }
+  [[nodiscard]] double dashpot(double) const { return c_; }
+  [[nodiscard]] double stiffness(double) const { return k_; }
+  [[nodiscard]] double stored(double overlap) const { return 0.5 * k_ * overlap * overlap; }
+  /// Change, N, of spring() in a time dt, s, in which the overlap has grown at a rate, m/s, to d.
+  [[nodiscard]] double spring_change(double, double rate, double dt) const { return k_ * dt * rate; }
+
+  /// The force begins with a jump, to c d'.
+  static constexpr bool begins_with_jump = true;
+  /// Weight of the first force of a contact in the closing half kick of the step in which it is made. The
+  /// last force under A gets this less 1 in the step in which the contact ends. \param share of a step, 0 to
+  /// 1, that the force has acted
+  [[nodiscard]] static double first_weight(double share) { return 2.0 * share; }
+
+private:
+  double k_, c_;
+};
+
+/// Mass, kg, that the relative motion of two balls sees: m_eff = mi mj / (mi + mj).
+/// A fixed partner is an infinite mass, and m_eff is then the other ball's mass (m2 in Eq. (10)).
+/// Valid for masses > 0 of which at most one is infinite.
+[[nodiscard]] inline double effective_mass(double mi, double mj) {
+  const double lighter = mi < mj ? mi : mj;
+  const double heavier = mi < mj ? mj : mi;
+  const double sum = lighter + heavier;
+  return std::isinf(sum) ? lighter : lighter * (heavier / sum);
+}
+
+/// Parameters of one kind of contact, for balls of any masses.
 struct LinearContact {
+  using Law = LinearLaw;
+
   double stiffness = 0.0;                      ///< k, N/m, finite and > 0
   double damping = 0.0;                        ///< c in N s/m or D without dimension, finite and >= 0
   Damping damping_kind = Damping::coefficient; ///< which of the two `damping` is
@@ -37,67 +148,18 @@ struct LinearContact {
                ? detail::violation("damping ratio", damping, "", detail::Allowed::not_negative)
                : detail::violation("damping coefficient", damping, "N s/m", detail::Allowed::not_negative);
   }
+
+  /// Dashpot coefficient c, N s/m: c = 2 D sqrt(m_eff k), Eq. (10), or the coefficient itself if that was
+  /// given. m_eff in kg, > 0; see effective_mass().
+  [[nodiscard]] double damping_coefficient(double m_eff) const {
+    if (damping_kind == Damping::coefficient) return damping;
+    return 2.0 * damping * std::sqrt(m_eff * stiffness);
+  }
+
+  /// The law of the contact of two balls.
+  [[nodiscard]] LinearLaw of_mass(double m_eff) const {
+    return {stiffness, damping_coefficient(m_eff), transition};
+  }
 };
-
-/// Mass, kg, that the relative motion of two balls sees: m_eff = mi mj / (mi + mj).
-/// A fixed partner is an infinite mass, and m_eff is then the other ball's mass (m2 in Eq. (10)).
-/// Valid for masses > 0 of which at most one is infinite.
-[[nodiscard]] inline double effective_mass(double mi, double mj) {
-  const double lighter = mi < mj ? mi : mj;
-  const double heavier = mi < mj ? mj : mi;
-  const double sum = lighter + heavier;
-  return std::isinf(sum) ? lighter : lighter * (heavier / sum);
-}
-
-/// Dashpot coefficient c, N s/m: c = 2 D sqrt(m_eff k), Eq. (10), or the coefficient itself if that was
-/// given. m_eff in kg, > 0; see effective_mass().
-[[nodiscard]] inline double damping_coefficient(const LinearContact &contact, double m_eff) {
-  if (contact.damping_kind == Damping::coefficient) return contact.damping;
-  return 2.0 * contact.damping * std::sqrt(m_eff * contact.stiffness);
-}
-
-/// Contact force Fc, N, positive in compression, Eq. (2): k d + c d' for d > 0, else 0.
-/// k in N/m, c in N s/m, overlap d in m, overlap_rate d' in m/s, positive while approaching.
-/// B is a clamp while the balls overlap, Fc = max(0, k d + c d'), and keeps no memory: Eqs. (8)-(9) read as a
-/// latch (re-made only through d = 0) would let a drum that turns round before the gap opens fall through
-/// the soil.
-[[nodiscard]] inline double normal_force(Transition transition, double k, double c, double overlap,
-                                         double overlap_rate) {
-  if (overlap <= 0.0) return 0.0;
-  const double force = k * overlap + c * overlap_rate;
-  return transition == Transition::B && force < 0.0 ? 0.0 : force;
-}
-
-/// True while the contact carries its law: d > 0, and under B also k d + c d' > 0. Makes and breaks are the
-/// instants at which this changes. Arguments as in normal_force().
-[[nodiscard]] inline bool in_contact(Transition transition, double k, double c, double overlap,
-                                     double overlap_rate) {
-  return overlap > 0.0 && (transition == Transition::A || k * overlap + c * overlap_rate > 0.0);
-}
-
-/// Energy in the contact's spring, J: k d^2 / 2 for d > 0, else 0.
-[[nodiscard]] inline double contact_energy(double k, double overlap) {
-  return overlap <= 0.0 ? 0.0 : 0.5 * k * overlap * overlap;
-}
-
-/// Where the power Fc d' that the balls give to a contact goes, W.
-struct ContactPower {
-  double dissipated; ///< heat in the dashpot, never negative
-  double stored;     ///< rate of contact_energy(), of either sign
-};
-
-/// Splits Fc d' into spring and dashpot: stored = k d d', dissipated = (Fc - k d) d', both 0 for d <= 0.
-/// dissipated is c d'^2 where the law is not clamped. Where B clamps, Fc = 0 and k d < -c d', the balls part
-/// faster than the soil can follow: spring and dashpot relax against each other, and the spring's energy
-/// turns into heat at the rate -k d d' > 0, less than c d'^2. Summed over time with contact_energy() this
-/// closes the energy ledger contact by contact, through clamp, make and break: d runs continuously, and so
-/// does the energy. Arguments as in normal_force().
-[[nodiscard]] inline ContactPower contact_power(Transition transition, double k, double c, double overlap,
-                                                double overlap_rate) {
-  if (overlap <= 0.0) return {0.0, 0.0};
-  const double stored = k * overlap * overlap_rate;
-  const bool clamped = transition == Transition::B && k * overlap + c * overlap_rate < 0.0;
-  return {clamped ? -stored : c * overlap_rate * overlap_rate, stored};
-}
 
 } // namespace drumlin::physics

@@ -2,9 +2,9 @@
 // When, within a step, a contact is made or broken.
 //
 // A step advances the positions as x(t+s) = x(t) + v(t) s + q s^2 with x(t+dt) given, so the overlap between
-// two steps is the parabola through d(t), d'(t) and d(t+dt): exact for what the stepping did, third order in
-// dt for the motion itself. Events on the line k d + c d' = 0 (condition B) are located by linear
-// interpolation of that sum.
+// two steps is the parabola through d(t), d'(t) and d(t+dt): exact for what the step did, third order in
+// dt for the motion itself. Events at which spring and dashpot balance (condition B) are located by linear
+// interpolation of the sum of their forces.
 
 #include "physics/contact_law.h"
 
@@ -44,30 +44,29 @@ inline double first_crossing(double d0, double r, double q, double dt) {
 } // namespace detail
 
 /// The event between two consecutive steps, if the contact changed.
-/// \param k, c stiffness (N/m) and damping coefficient (N s/m) of the contact
-/// \param before, after states at the two steps; whether there is contact in each follows from in_contact()
+/// \param before, after states at the two steps; whether there is contact in each follows from the law
 /// A second event within the same step goes unseen: steps are far shorter than a contact.
-[[nodiscard]] inline std::optional<ContactTransition> locate_transition(Transition transition, double k,
-                                                                        double c, double dt,
-                                                                        const OverlapState &before,
-                                                                        const OverlapState &after) {
-  const bool was = in_contact(transition, k, c, before.overlap, before.rate);
-  const bool is = in_contact(transition, k, c, after.overlap, after.rate);
+template <class Law>
+[[nodiscard]] inline std::optional<ContactTransition>
+locate_transition(const Law &law, double dt, const OverlapState &before, const OverlapState &after) {
+  const bool was = law.acts(before.overlap, before.rate);
+  const bool is = law.acts(after.overlap, after.rate);
   if (was == is) return std::nullopt;
 
   const double q = (after.overlap - before.overlap - before.rate * dt) / (dt * dt);
-  const bool through_gap = is ? before.overlap <= 0.0 : transition == Transition::A;
+  const bool through_gap = is ? before.overlap <= 0.0 : law.ends_in_tension();
   ContactTransition event{is, 0.0, 0.0, 0.0, 0.0};
   if (through_gap) { // d = 0
     event.since = detail::first_crossing(before.overlap, before.rate, q, dt);
     event.rate = before.rate + 2.0 * q * event.since;
-    event.force = c * event.rate;
-  } else { // k d + c d' = 0
-    const double sum_before = k * before.overlap + c * before.rate;
-    const double sum_after = k * after.overlap + c * after.rate;
+    event.force = law.dashpot(0.0) * event.rate;
+  } else { // spring and dashpot balance
+    const double sum_before = law.spring_and_dashpot(before.overlap, before.rate);
+    const double sum_after = law.spring_and_dashpot(after.overlap, after.rate);
     event.since = std::clamp(dt * sum_before / (sum_before - sum_after), 0.0, dt);
     event.overlap = before.overlap + (before.rate + q * event.since) * event.since;
-    event.rate = c > 0.0 ? -k * event.overlap / c : before.rate + 2.0 * q * event.since;
+    const double c = law.dashpot(event.overlap);
+    event.rate = c > 0.0 ? -law.spring(event.overlap) / c : before.rate + 2.0 * q * event.since;
   }
   return event;
 }

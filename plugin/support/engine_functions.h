@@ -57,7 +57,4 @@ inline int neighbour_index(int packed) { return packed & NEIGHMASK; }
 /// step, which is the fix's output; nullptr for a fix of another style.
 double *reaction(LAMMPS_NS::Fix *fix);
 
-/// Former name of error_text(), which sources of the contact laws use.
-inline decltype(auto) as_is(const std::string &text) { return error_text(text); }
-
 } // namespace drumlin::engine

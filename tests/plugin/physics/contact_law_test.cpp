@@ -2,7 +2,7 @@
 /// restitution_test.
 
 #include "physics/contact_law.h"
-#include "tests/plugin/physics/stock_stepping.h"
+#include "tests/plugin/physics/velocity_verlet.h"
 #include "tests/support/ode.h"
 #include "tests/support/oscillator.h"
 
@@ -23,16 +23,16 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 TEST(ContactLaw, DeceleratesAMassAsTheClosedFormOfAnImpactDoes) {
   const double m = 2000.0, k = 1e8, v = 0.4;
   for (const double ratio : {0.0, 0.2, 0.5, 0.8, 2.0}) {
-    const double c = damping_coefficient({k, ratio, Damping::ratio, Transition::A}, m);
+    const double c = LinearContact{k, ratio, Damping::ratio, Transition::A}.damping_coefficient(m);
     const oracle::Oscillator impact{m, k, 2.0 * ratio * std::sqrt(m * k)};
     const double w0 = std::sqrt(k / m);
     for (int i = 1; i < 400; ++i) {
       const oracle::Motion now = impact.at(0.01 * i / w0, 0.0, v);
       const double closed = now.x > 0.0 ? -m * now.a : 0.0;
       const double scale = 1e-12 * (1.0 + 2.0 * ratio) * v * std::sqrt(k * m);
-      EXPECT_NEAR(normal_force(Transition::A, k, c, now.x, now.v), closed, scale)
+      EXPECT_NEAR(LinearLaw(k, c, Transition::A).force(now.x, now.v), closed, scale)
           << "D " << ratio << " i " << i;
-      EXPECT_NEAR(normal_force(Transition::B, k, c, now.x, now.v), closed > 0.0 ? closed : 0.0, scale);
+      EXPECT_NEAR(LinearLaw(k, c, Transition::B).force(now.x, now.v), closed > 0.0 ? closed : 0.0, scale);
     }
   }
 }
@@ -41,37 +41,37 @@ TEST(ContactLaw, IsZeroWithoutOverlap) {
   for (const Transition transition : {Transition::A, Transition::B})
     for (const double overlap : {0.0, -1e-9, -1.0})
       for (const double rate : {-2.0, 0.0, 2.0}) {
-        EXPECT_EQ(normal_force(transition, 1e8, 1e6, overlap, rate), 0.0);
-        EXPECT_FALSE(in_contact(transition, 1e8, 1e6, overlap, rate));
-        EXPECT_EQ(contact_energy(1e8, overlap), 0.0);
-        EXPECT_EQ(contact_power(transition, 1e8, 1e6, overlap, rate).dissipated, 0.0);
-        EXPECT_EQ(contact_power(transition, 1e8, 1e6, overlap, rate).stored, 0.0);
+        EXPECT_EQ(LinearLaw(1e8, 1e6, transition).force(overlap, rate), 0.0);
+        EXPECT_FALSE(LinearLaw(1e8, 1e6, transition).acts(overlap, rate));
+        EXPECT_EQ(LinearLaw(1e8, 0.0, Transition::B).energy(overlap), 0.0);
+        EXPECT_EQ(LinearLaw(1e8, 1e6, transition).power(overlap, rate).dissipated, 0.0);
+        EXPECT_EQ(LinearLaw(1e8, 1e6, transition).power(overlap, rate).stored, 0.0);
       }
 }
 
 TEST(ContactLaw, JumpsToTheDashpotForceAtMake) { // Eq. (4)
   for (const Transition transition : {Transition::A, Transition::B})
-    EXPECT_NEAR(normal_force(transition, 1e8, 4e5, 1e-15, 0.5), 2e5, 1e-6);
+    EXPECT_NEAR(LinearLaw(1e8, 4e5, transition).force(1e-15, 0.5), 2e5, 1e-6);
 }
 
 TEST(ContactLaw, PullsAtBreakUnderAOnly) { // Eq. (5)
-  EXPECT_NEAR(normal_force(Transition::A, 1e8, 4e5, 1e-15, -0.5), -2e5, 1e-6);
-  EXPECT_TRUE(in_contact(Transition::A, 1e8, 4e5, 1e-15, -0.5));
-  EXPECT_EQ(normal_force(Transition::B, 1e8, 4e5, 1e-15, -0.5), 0.0);
-  EXPECT_FALSE(in_contact(Transition::B, 1e8, 4e5, 1e-15, -0.5));
+  EXPECT_NEAR(LinearLaw(1e8, 4e5, Transition::A).force(1e-15, -0.5), -2e5, 1e-6);
+  EXPECT_TRUE(LinearLaw(1e8, 4e5, Transition::A).acts(1e-15, -0.5));
+  EXPECT_EQ(LinearLaw(1e8, 4e5, Transition::B).force(1e-15, -0.5), 0.0);
+  EXPECT_FALSE(LinearLaw(1e8, 4e5, Transition::B).acts(1e-15, -0.5));
 }
 
 TEST(ContactLaw, BreaksContinuouslyUnderB) { // Eqs. (6)-(7): Fc = 0 at d = -c d'/k
   const double k = 1e8, c = 4e5, d = 1e-3;
   const double rate_at_break = -0.25;
   for (const double off : {1e-3, 1e-6, 1e-9}) {
-    const double before = normal_force(Transition::B, k, c, d, rate_at_break * (1.0 - off));
+    const double before = LinearLaw(k, c, Transition::B).force(d, rate_at_break * (1.0 - off));
     EXPECT_NEAR(before, 1e5 * off, 1e-9 * 1e5);
     EXPECT_GT(before, 0.0);
-    EXPECT_TRUE(in_contact(Transition::B, k, c, d, rate_at_break * (1.0 - off)));
-    EXPECT_EQ(normal_force(Transition::B, k, c, d, rate_at_break * (1.0 + off)), 0.0);
-    EXPECT_FALSE(in_contact(Transition::B, k, c, d, rate_at_break * (1.0 + off)));
-    EXPECT_TRUE(in_contact(Transition::A, k, c, d, rate_at_break * (1.0 + off)));
+    EXPECT_TRUE(LinearLaw(k, c, Transition::B).acts(d, rate_at_break * (1.0 - off)));
+    EXPECT_EQ(LinearLaw(k, c, Transition::B).force(d, rate_at_break * (1.0 + off)), 0.0);
+    EXPECT_FALSE(LinearLaw(k, c, Transition::B).acts(d, rate_at_break * (1.0 + off)));
+    EXPECT_TRUE(LinearLaw(k, c, Transition::A).acts(d, rate_at_break * (1.0 + off)));
   }
 }
 
@@ -81,8 +81,8 @@ TEST(ContactLaw, BNeverPullsAndElseEqualsA) {
   int clamped = 0, equal = 0;
   for (int i = 0; i < 20000; ++i) {
     const double d = overlap(random), r = rate(random);
-    const double a = normal_force(Transition::A, 1e8, 2e5, d, r);
-    const double b = normal_force(Transition::B, 1e8, 2e5, d, r);
+    const double a = LinearLaw(1e8, 2e5, Transition::A).force(d, r);
+    const double b = LinearLaw(1e8, 2e5, Transition::B).force(d, r);
     ASSERT_GE(b, 0.0);
     if (a < 0.0) {
       ASSERT_EQ(b, 0.0);
@@ -91,7 +91,7 @@ TEST(ContactLaw, BNeverPullsAndElseEqualsA) {
       ASSERT_EQ(b, a);
       if (a > 0.0) ++equal;
     }
-    ASSERT_EQ(in_contact(Transition::B, 1e8, 2e5, d, r), b > 0.0);
+    ASSERT_EQ(LinearLaw(1e8, 2e5, Transition::B).acts(d, r), b > 0.0);
   }
   EXPECT_GT(clamped, 1000);
   EXPECT_GT(equal, 1000);
@@ -145,15 +145,15 @@ TEST(ContactLaw, IsMadeAgainAtZeroForceWhileStillOverlapping) {
   const double dt = end / steps;
   const auto forces = [&](double t, const std::array<double, 2> &x, const std::array<double, 2> &v) {
     const double bond = c23 * (v[1] - v[0]) + k23 * (x[1] - x[0]);
-    const double contact = normal_force(Transition::B, k, c, -x[0], -v[0]);
+    const double contact = LinearLaw(k, c, Transition::B).force(-x[0], -v[0]);
     return std::array<double, 2>{-m2 * g + contact + bond - Fw * std::sin(w * t), -m3 * g - bond};
   };
-  stepping::Balls<2> balls{{m2, m3}, {-d0, -d0 - m3 * g / k23}, {0.0, 0.0}};
+  verlet::Balls<2> balls{{m2, m3}, {-d0, -d0 - m3 * g / k23}, {0.0, 0.0}};
   int makes = 0;
   bool was = true;
   for (int n = 1; n <= steps; ++n) {
-    stepping::stock_step(balls, n * dt, dt, forces);
-    const bool is = in_contact(Transition::B, k, c, -balls.x[0], -balls.v[0]);
+    verlet::stock_step(balls, n * dt, dt, forces);
+    const bool is = LinearLaw(k, c, Transition::B).acts(-balls.x[0], -balls.v[0]);
     if (is && !was) ++makes;
     was = is;
   }
@@ -166,10 +166,10 @@ TEST(ContactLaw, IsMadeAgainAtZeroForceWhileStillOverlapping) {
 TEST(ContactLaw, PropagatesNaN) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const Transition transition : {Transition::A, Transition::B}) {
-    EXPECT_TRUE(std::isnan(normal_force(transition, 1e8, 1e5, nan, 0.0)));
-    EXPECT_TRUE(std::isnan(normal_force(transition, 1e8, 1e5, 1e-3, nan)));
+    EXPECT_TRUE(std::isnan(LinearLaw(1e8, 1e5, transition).force(nan, 0.0)));
+    EXPECT_TRUE(std::isnan(LinearLaw(1e8, 1e5, transition).force(1e-3, nan)));
   }
-  EXPECT_TRUE(std::isnan(contact_energy(1e8, nan)));
+  EXPECT_TRUE(std::isnan(LinearLaw(1e8, 0.0, Transition::B).energy(nan)));
 }
 
 TEST(ContactPower, IsTheBallsPowerAndNeverHeatsBackwards) {
@@ -178,8 +178,8 @@ TEST(ContactPower, IsTheBallsPowerAndNeverHeatsBackwards) {
   for (const Transition transition : {Transition::A, Transition::B})
     for (int i = 0; i < 20000; ++i) {
       const double k = 1e8, c = 2e5, d = overlap(random), r = rate(random);
-      const ContactPower power = contact_power(transition, k, c, d, r);
-      const double given = normal_force(transition, k, c, d, r) * r;
+      const ContactPower power = LinearLaw(k, c, transition).power(d, r);
+      const double given = LinearLaw(k, c, transition).force(d, r) * r;
       ASSERT_NEAR(power.dissipated + power.stored, given, 1e-12 * (c + k * d));
       ASSERT_GE(power.dissipated, 0.0);
       ASSERT_LE(power.dissipated,
@@ -191,32 +191,36 @@ TEST(ContactPower, StoredIsTheRateOfTheContactEnergy) {
   const double k = 1e8, h = 1e-7;
   for (const double d : {1e-4, 5e-4, 1e-3})
     for (const double r : {-0.9, 0.3}) {
-      const double slope = (contact_energy(k, d + r * h) - contact_energy(k, d - r * h)) / (2.0 * h);
-      EXPECT_NEAR(contact_power(Transition::A, k, 1e5, d, r).stored, slope, 1e-6 * std::fabs(slope));
+      const double slope = (LinearLaw(k, 0.0, Transition::B).energy(d + r * h) -
+                            LinearLaw(k, 0.0, Transition::B).energy(d - r * h)) /
+                           (2.0 * h);
+      EXPECT_NEAR(LinearLaw(k, 1e5, Transition::A).power(d, r).stored, slope, 1e-6 * std::fabs(slope));
     }
-  EXPECT_DOUBLE_EQ(contact_energy(1e8, 1e-3), 50.0);
+  EXPECT_DOUBLE_EQ(LinearLaw(1e8, 0.0, Transition::B).energy(1e-3), 50.0);
 }
 
 TEST(ContactPower, IsTheDashpotsOnlyWhereTheLawIsNotClamped) {
-  EXPECT_DOUBLE_EQ(contact_power(Transition::A, 1e8, 2e5, 1e-4, -0.5).dissipated, 5e4);
-  EXPECT_DOUBLE_EQ(contact_power(Transition::B, 1e8, 2e5, 1e-3, -0.4).dissipated, 3.2e4);
-  EXPECT_DOUBLE_EQ(contact_power(Transition::B, 1e8, 2e5, 1e-4, -0.5).dissipated, 5e3); // = k d |d'|, clamped
+  EXPECT_DOUBLE_EQ(LinearLaw(1e8, 2e5, Transition::A).power(1e-4, -0.5).dissipated, 5e4);
+  EXPECT_DOUBLE_EQ(LinearLaw(1e8, 2e5, Transition::B).power(1e-3, -0.4).dissipated, 3.2e4);
+  EXPECT_DOUBLE_EQ(LinearLaw(1e8, 2e5, Transition::B).power(1e-4, -0.5).dissipated,
+                   5e3); // = k d |d'|, clamped
 }
 
 TEST(Damping, RatioAndCoefficientGiveTheSameForce) {
   for (const double ratio : {0.0, 0.5, 2.0}) {
     const double m = 2000.0, k = 1e8;
     const LinearContact by_ratio{k, ratio, Damping::ratio, Transition::B};
-    const double c = damping_coefficient(by_ratio, m);
+    const double c = by_ratio.damping_coefficient(m);
     const LinearContact by_coefficient{k, c, Damping::coefficient, Transition::B};
-    EXPECT_EQ(damping_coefficient(by_coefficient, m), c);
-    EXPECT_EQ(damping_coefficient(by_coefficient, 7.0 * m), c); // a coefficient does not ask for the mass
+    EXPECT_EQ(by_coefficient.damping_coefficient(m), c);
+    EXPECT_EQ(by_coefficient.damping_coefficient(7.0 * m), c); // a coefficient does not ask for the mass
   }
 }
 
 TEST(Damping, GivesTheCoefficientsOfTheTable) { // Table 1, to its digits
   const auto c = [](double k, double ratio) {
-    return damping_coefficient({k, ratio, Damping::ratio, Transition::B}, effective_mass(infinity, 2000.0));
+    return LinearContact{k, ratio, Damping::ratio, Transition::B}.damping_coefficient(
+        effective_mass(infinity, 2000.0));
   };
   EXPECT_NEAR(c(5e6, 0.5), 0.1e6, 0.0005e6);
   EXPECT_NEAR(c(1e8, 0.5), 0.447e6, 0.0005e6);

@@ -5,7 +5,7 @@
 #include "physics/bond_law.h"
 #include "physics/contact_law.h"
 #include "physics/excitation.h"
-#include "tests/plugin/physics/stock_stepping.h"
+#include "tests/plugin/physics/velocity_verlet.h"
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ class Roller {
 public:
   explicit Roller(const Case &row)
       : transition_(row.transition), k_(row.k),
-        c_(damping_coefficient({row.k, row.ratio, Damping::ratio, row.transition}, m2)) {
+        c_(LinearContact{row.k, row.ratio, Damping::ratio, row.transition}.damping_coefficient(m2)) {
     exciter_.amplitude = 58.8e3;
     exciter_.angular_frequency = row.w;
   }
@@ -48,21 +48,22 @@ public:
 
   [[nodiscard]] Pair forces(double t, const Pair &x, const Pair &v) const { // Eq. (1)
     const double pull = bond_force(bond, x[1] - x[0], v[1] - v[0]).force;
-    const double contact = normal_force(transition_, k_, c_, -x[0], -v[0]);
+    const double contact = LinearLaw(k_, c_, transition_).force(-x[0], -v[0]);
     return {-m2 * g + contact + pull - excitation_force(exciter_, t), -m3 * g - pull};
   }
 
   /// Powers: what the exciter gives, what contact and bond turn into heat.
   [[nodiscard]] Ledger powers(double t, const Pair &x, const Pair &v) const {
     return {-excitation_force(exciter_, t) * v[0],
-            contact_power(transition_, k_, c_, -x[0], -v[0]).dissipated,
+            LinearLaw(k_, c_, transition_).power(-x[0], -v[0]).dissipated,
             bond_force(bond, x[1] - x[0], v[1] - v[0]).dissipated};
   }
 
   [[nodiscard]] double energy(const Pair &x, const Pair &v) const {
     const double kinetic = 0.5 * m2 * v[0] * v[0] + 0.5 * m3 * v[1] * v[1];
     const double height = m2 * g * x[0] + m3 * g * x[1];
-    return kinetic + height + contact_energy(k_, -x[0]) + bond_force(bond, x[1] - x[0], v[1] - v[0]).stored;
+    return kinetic + height + LinearLaw(k_, 0.0, Transition::B).energy(-x[0]) +
+           bond_force(bond, x[1] - x[0], v[1] - v[0]).stored;
   }
 
 private:
@@ -85,12 +86,12 @@ Result closed(const Roller &roller, const Ledger &sums, const Pair &x, const Pai
 Result stock(const Case &row, int steps_per_cycle) {
   const Roller roller(row);
   const double dt = 2.0 * pi / row.w / steps_per_cycle;
-  stepping::Balls<2> balls{{m2, m3}, roller.equilibrium(), {0.0, 0.0}};
+  verlet::Balls<2> balls{{m2, m3}, roller.equilibrium(), {0.0, 0.0}};
   Ledger sums, before = roller.powers(0.0, balls.x, balls.v);
   const int steps = steps_per_cycle * 13 / 3;
   for (int n = 1; n <= steps; ++n) {
-    stepping::stock_step(balls, n * dt, dt,
-                         [&](double t, const Pair &x, const Pair &v) { return roller.forces(t, x, v); });
+    verlet::stock_step(balls, n * dt, dt,
+                       [&](double t, const Pair &x, const Pair &v) { return roller.forces(t, x, v); });
     const Ledger now = roller.powers(n * dt, balls.x, balls.v);
     sums.input += 0.5 * dt * (before.input + now.input);
     sums.contact_heat += 0.5 * dt * (before.contact_heat + now.contact_heat);
@@ -185,17 +186,17 @@ TEST(EnergyLedger, FindsTheLossOfAnImpactAsHeat) {
   const double e_a = std::exp(-pi * b_over_w);
   const double e_b = std::exp(-std::atan2(2.0 * 0.5 * std::sqrt(0.75), 2.0 * 0.25 - 1.0) * b_over_w);
   for (const Transition transition : {Transition::A, Transition::B}) {
-    const double c = damping_coefficient({k, 0.5, Damping::ratio, transition}, m);
-    stepping::Balls<1> ball{{m}, {0.0}, {-v}};
+    const double c = LinearContact{k, 0.5, Damping::ratio, transition}.damping_coefficient(m);
+    verlet::Balls<1> ball{{m}, {0.0}, {-v}};
     double heat = 0.0, heat_after_break = 0.0, before = 0.0;
     for (int n = 0; n < 5000000 && ball.x[0] <= 0.0; ++n) {
-      stepping::stock_step(ball, 0.0, dt,
-                           [&](double, const std::array<double, 1> &x, const std::array<double, 1> &u) {
-                             return std::array<double, 1>{normal_force(transition, k, c, -x[0], -u[0])};
-                           });
-      const double power = contact_power(transition, k, c, -ball.x[0], -ball.v[0]).dissipated;
+      verlet::stock_step(ball, 0.0, dt,
+                         [&](double, const std::array<double, 1> &x, const std::array<double, 1> &u) {
+                           return std::array<double, 1>{LinearLaw(k, c, transition).force(-x[0], -u[0])};
+                         });
+      const double power = LinearLaw(k, c, transition).power(-ball.x[0], -ball.v[0]).dissipated;
       heat += 0.5 * dt * (before + power);
-      if (!in_contact(transition, k, c, -ball.x[0], -ball.v[0])) heat_after_break += dt * power;
+      if (!LinearLaw(k, c, transition).acts(-ball.x[0], -ball.v[0])) heat_after_break += dt * power;
       before = power;
     }
     ASSERT_GT(ball.x[0], 0.0); // it came off

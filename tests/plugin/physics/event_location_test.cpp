@@ -46,7 +46,7 @@ TEST(EventLocation, MakeOutOfFreeFlightIsExact) {
       const double rate = 0.7; // at the event
       const auto at = [&](double t) { return OverlapState{rate * t + 0.5 * g * t * t, rate + g * t}; };
       const OverlapState before = at(-s);
-      const auto event = locate_transition(Transition::B, k, damping(0.5), dt, before, at(dt - s));
+      const auto event = locate_transition(LinearLaw(k, damping(0.5), Transition::B), dt, before, at(dt - s));
       ASSERT_TRUE(event.has_value());
       EXPECT_TRUE(event->make);
       EXPECT_NEAR(event->since, s, 1e-12 * dt + 1e-16);
@@ -60,7 +60,7 @@ TEST(EventLocation, ABallThatTurnsRoundIntoContactIsFound) {
   // It moves away from the other, is pulled back and meets it within the same step.
   const double dt = 1.0;
   const auto at = [](double t) { return OverlapState{-1.0 - t + 4.0 * t * t, -1.0 + 8.0 * t}; };
-  const auto event = locate_transition(Transition::A, k, 0.0, dt, at(0.0), at(dt));
+  const auto event = locate_transition(LinearLaw(k, 0.0, Transition::A), dt, at(0.0), at(dt));
   ASSERT_TRUE(event.has_value());
   EXPECT_NEAR(event->since, (1.0 + std::sqrt(17.0)) / 8.0, 1e-12);
 }
@@ -79,7 +79,8 @@ double worst_error(Transition transition, double D, double dt) {
   double worst = 0.0;
   for (int n = 0; n < 50; ++n) {
     const double begin = exact - (n + 0.5) / 50.0 * dt;
-    const auto event = locate_transition(transition, k, c, dt, in_impact(c, begin), in_impact(c, begin + dt));
+    const auto event =
+        locate_transition(LinearLaw(k, c, transition), dt, in_impact(c, begin), in_impact(c, begin + dt));
     if (!event || event->make) return INFINITY;
     worst = std::max(worst, std::fabs(begin + event->since - exact));
     if (transition == Transition::B) {
@@ -110,18 +111,20 @@ TEST(EventLocation, RemakeUnderBHappensWithOverlap) {
   const double dt = 1e-5;
   const OverlapState before{1e-3, -k * 1e-3 / c - 0.01};
   const OverlapState after{1e-3 - 1e-5 * 0.2, -k * 1e-3 / c + 0.02};
-  const auto event = locate_transition(Transition::B, k, c, dt, before, after);
+  const auto event = locate_transition(LinearLaw(k, c, Transition::B), dt, before, after);
   ASSERT_TRUE(event.has_value());
   EXPECT_TRUE(event->make);
   EXPECT_GT(event->overlap, 0.0);
   EXPECT_EQ(event->force, 0.0);
-  EXPECT_FALSE(locate_transition(Transition::A, k, c, dt, before, after).has_value());
+  EXPECT_FALSE(locate_transition(LinearLaw(k, c, Transition::A), dt, before, after).has_value());
 }
 
 TEST(EventLocation, NothingHappensWithinAContactOrAFlight) {
   const double c = damping(0.5);
-  EXPECT_FALSE(locate_transition(Transition::B, k, c, 1e-5, {1e-3, 0.1}, {1.001e-3, 0.1}).has_value());
-  EXPECT_FALSE(locate_transition(Transition::B, k, c, 1e-5, {-1e-3, 0.1}, {-0.999e-3, 0.1}).has_value());
+  EXPECT_FALSE(
+      locate_transition(LinearLaw(k, c, Transition::B), 1e-5, {1e-3, 0.1}, {1.001e-3, 0.1}).has_value());
+  EXPECT_FALSE(
+      locate_transition(LinearLaw(k, c, Transition::B), 1e-5, {-1e-3, 0.1}, {-0.999e-3, 0.1}).has_value());
 }
 
 } // namespace

@@ -2,7 +2,8 @@
 /// finding, and the core's law stepped as the engines step it.
 
 #include "physics/contact_law.h"
-#include "tests/plugin/physics/stock_stepping.h"
+#include "physics/restitution.h"
+#include "tests/plugin/physics/velocity_verlet.h"
 #include "tests/support/ode.h"
 
 #include <gtest/gtest.h>
@@ -17,26 +18,7 @@ namespace {
 
 using namespace drumlin::physics;
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double mass = 2000.0, stiffness = 1e8, speed = 0.4;
-
-/// Restitution in closed form. With b = c/2m, w0^2 = k/m, the impact is
-/// d = v/w exp(-bt) sin wt, w^2 = w0^2 - b^2 (sinh for b > w0).
-/// A ends at wt = pi. B ends at the first root of w0^2 d + 2b d' = 0, which is tan wt = 2bw / (2b^2 - w0^2):
-/// in the second quadrant for b < w0/sqrt2, in the first for b < w0; tanh for b > w0. There cos wt = (2b^2 -
-/// w0^2)/w0^2 and sin wt = 2bw/w0^2, so that d' = v exp(-bt) (cos wt - b/w sin wt) is -v exp(-bt) in all
-/// three branches.
-double closed_form(Transition transition, double ratio) {
-  const double b = ratio; // in units of w0
-  if (b < 1.0) {
-    const double w = std::sqrt(1.0 - b * b);
-    const double angle = transition == Transition::A ? pi : std::atan2(2.0 * b * w, 2.0 * b * b - 1.0);
-    return std::exp(-b * angle / w);
-  }
-  if (transition == Transition::A) return 0.0;
-  const double w = std::sqrt(b * b - 1.0);
-  return std::exp(-b * std::atanh(2.0 * b * w / (2.0 * b * b - 1.0)) / w);
-}
 
 double by_cvode(Transition transition, double ratio) {
   const double c = 2.0 * ratio * std::sqrt(mass * stiffness);
@@ -58,16 +40,16 @@ double by_cvode(Transition transition, double ratio) {
 }
 
 double by_stepping(Transition transition, double ratio, double w0_dt) {
-  const double c = damping_coefficient({stiffness, ratio, Damping::ratio, transition}, mass);
+  const double c = LinearContact{stiffness, ratio, Damping::ratio, transition}.damping_coefficient(mass);
   const double dt = w0_dt / std::sqrt(stiffness / mass);
   // The wall is at x = 0, the ball comes from above: d = -x.
-  stepping::Balls<1> ball{{mass}, {0.0}, {-speed}};
+  verlet::Balls<1> ball{{mass}, {0.0}, {-speed}};
   const auto forces = [&](double, const std::array<double, 1> &x, const std::array<double, 1> &v) {
-    return std::array<double, 1>{normal_force(transition, stiffness, c, -x[0], -v[0])};
+    return std::array<double, 1>{LinearLaw(stiffness, c, transition).force(-x[0], -v[0])};
   };
   const int longest = static_cast<int>(60.0 / w0_dt);
   for (int n = 0; n < longest; ++n) {
-    stepping::stock_step(ball, 0.0, dt, forces);
+    verlet::stock_step(ball, 0.0, dt, forces);
     if (ball.x[0] > 0.0) return ball.v[0] / speed;
   }
   return 0.0;
@@ -80,11 +62,11 @@ protected:
 };
 
 TEST_P(Restitution, ClosedFormAndCvodeAgree) {
-  EXPECT_NEAR(by_cvode(transition, ratio), closed_form(transition, ratio), 1e-9);
+  EXPECT_NEAR(by_cvode(transition, ratio), restitution(transition, ratio), 1e-9);
 }
 
 TEST_P(Restitution, TheSteppedLawConvergesToTheClosedForm) {
-  const double exact = closed_form(transition, ratio);
+  const double exact = restitution(transition, ratio);
   for (const double w0_dt : {1e-2, 1e-3, 1e-4}) // the stock stepping is of first order
     EXPECT_NEAR(by_stepping(transition, ratio, w0_dt), exact, 0.6 * w0_dt) << "w0 dt " << w0_dt;
 }
@@ -92,7 +74,7 @@ TEST_P(Restitution, TheSteppedLawConvergesToTheClosedForm) {
 TEST_P(Restitution, ExtrapolatesToTheClosedForm) {
   // Under A the step in which the ball leaves jitters by up to one step; the mean over many step sizes
   // smooths that.
-  const double exact = closed_form(transition, ratio);
+  const double exact = restitution(transition, ratio);
   double mean = 0.0;
   const int count = 64;
   for (int i = 0; i < count; ++i) {
@@ -112,13 +94,31 @@ INSTANTIATE_TEST_SUITE_P(, Restitution,
 
 // The values that the project's reference lists, computed there by other means.
 TEST(RestitutionReference, HoldsTheListedValues) {
-  EXPECT_NEAR(closed_form(Transition::A, 0.2), 0.526621, 5e-7);
-  EXPECT_NEAR(closed_form(Transition::A, 0.5), 0.163034, 5e-7);
-  EXPECT_NEAR(closed_form(Transition::A, 0.8), 0.015165, 5e-7);
-  EXPECT_NEAR(closed_form(Transition::B, 0.2), 0.571740, 5e-7);
-  EXPECT_NEAR(closed_form(Transition::B, 0.5), 0.298436, 5e-7);
-  EXPECT_NEAR(closed_form(Transition::B, 0.8), 0.179783, 5e-7);
-  EXPECT_NEAR(closed_form(Transition::B, 2.0), 0.047769, 5e-7);
+  EXPECT_NEAR(restitution(Transition::A, 0.2), 0.526621, 5e-7);
+  EXPECT_NEAR(restitution(Transition::A, 0.5), 0.163034, 5e-7);
+  EXPECT_NEAR(restitution(Transition::A, 0.8), 0.015165, 5e-7);
+  EXPECT_NEAR(restitution(Transition::B, 0.2), 0.571740, 5e-7);
+  EXPECT_NEAR(restitution(Transition::B, 0.5), 0.298436, 5e-7);
+  EXPECT_NEAR(restitution(Transition::B, 0.8), 0.179783, 5e-7);
+  EXPECT_NEAR(restitution(Transition::B, 2.0), 0.047769, 5e-7);
+}
+
+TEST(RestitutionReference, FallsWithDAndDoesNotJumpAtCriticalDamping) {
+  for (const Transition transition : {Transition::A, Transition::B})
+    for (double D = 0.0; D < 0.99; D += 0.01)
+      EXPECT_GT(restitution(transition, D), restitution(transition, D + 0.01));
+  EXPECT_NEAR(restitution(Transition::B, 1.0), restitution(Transition::B, 1.0 - 1e-6), 1e-6);
+  EXPECT_NEAR(restitution(Transition::B, 1.0), restitution(Transition::B, 1.0 + 1e-6), 1e-6);
+  EXPECT_NEAR(restitution(Transition::B, 1e4) * 4e8, 1.0, 1e-6); // 1 / (4 D^2)
+}
+
+TEST(RestitutionReference, GivesBackTheDampingRatio) {
+  for (const Transition transition : {Transition::A, Transition::B}) {
+    for (const double e : {1.0, 0.999, 0.7, 0.3, 0.05, 1e-4})
+      EXPECT_NEAR(restitution(transition, damping_ratio_of_restitution(transition, e)), e, 1e-14 + 1e-12 * e)
+          << e;
+    EXPECT_EQ(damping_ratio_of_restitution(transition, 1.0), 0.0);
+  }
 }
 
 } // namespace

@@ -1,6 +1,7 @@
-// Second-order stepping: order and error of a single impact against the closed form, and stability at the extremes.
+// Second-order stepping: order and error of a single impact against the closed form, and stability at the
+// extremes.
 
-#include "tests/plugin/physics/second_stepping.h"
+#include "tests/plugin/physics/velocity_verlet.h"
 
 #include "tests/support/oscillator.h"
 
@@ -12,8 +13,13 @@
 
 namespace {
 
+using drumlin::physics::advance;
+using drumlin::physics::ContactState;
+using drumlin::physics::LinearLaw;
+using drumlin::physics::StepMotion;
+using drumlin::physics::StepResult;
 using drumlin::physics::Transition;
-using stepping::SecondOrderBall;
+using SecondOrderBall = verlet::SecondOrderBall<LinearLaw>;
 
 constexpr double k = 1e8;
 constexpr double m = 2000.0;
@@ -42,7 +48,7 @@ double worst_error(Transition transition, double D, int steps_per_contact) {
   double worst = 0.0;
   for (int n = 0; n < 50; ++n) {
     const double gap = (n + 0.5) / 50.0 * dt;
-    SecondOrderBall ball(m, gap, -1.0, dt, transition, {{0.0, 1.0, k, coefficient(D)}});
+    SecondOrderBall ball(m, gap, -1.0, dt, {{0.0, 1.0, {k, coefficient(D), transition}}});
     for (int step = 0; step < 3 * steps_per_contact; ++step)
       ball.step();
     worst = std::max(worst, std::fabs(ball.v - exact_restitution(transition, D)));
@@ -78,7 +84,7 @@ TEST(SecondOrderStep, DashpotThatStopsTheBallWithinAStepDoesNotThrowItBack) {
   for (const Transition transition : {Transition::A, Transition::B})
     for (const double D : {100.0, 1e3, 1e4})
       for (const double onset : {0.01, 0.5, 0.99}) {
-        SecondOrderBall ball(m, onset * dt, -1.0, dt, transition, {{0.0, 1.0, k, coefficient(D)}});
+        SecondOrderBall ball(m, onset * dt, -1.0, dt, {{0.0, 1.0, {k, coefficient(D), transition}}});
         for (int step = 0; step < 2000; ++step) {
           ball.step();
           ASSERT_LT(ball.v, 0.01) << "D = " << D << ", onset " << onset;
@@ -90,24 +96,24 @@ TEST(SecondOrderStep, DashpotThatStopsTheBallWithinAStepDoesNotThrowItBack) {
 
 TEST(SecondOrderStep, SlowImpactOfAnUndampedBallKeepsItsEnergy) {
   const double dt = M_PI / (w0 * 50.0);
-  SecondOrderBall ball(m, 0.3 * dt, -1.0, dt, Transition::B, {{0.0, 1.0, k, 0.0}});
+  SecondOrderBall ball(m, 0.3 * dt, -1.0, dt, {{0.0, 1.0, {k, 0.0, Transition::B}}});
   for (int step = 0; step < 100; ++step)
     ball.step();
   EXPECT_NEAR(ball.v, 1.0, 2e-3);
 }
 
-/// Whether an oscillation about rest between n walls stays bounded. A pre-load keeps all contacts closed, so that the motion is
-/// linear as in the theory.
+/// Whether an oscillation about rest between n walls stays bounded. A pre-load keeps all contacts closed, so
+/// that the motion is linear as in the theory.
 bool stays_bounded(int walls, double D, double w0_dt) {
   const double dt = w0_dt / w0;
   const double depth = 1.0;
   std::vector<SecondOrderBall::Partner> partners;
   for (int n = 0; n < walls; ++n) {
     const double sign = n % 2 == 0 ? 1.0 : -1.0;
-    partners.push_back({sign * depth, sign, k, coefficient(D)});
+    partners.push_back({sign * depth, sign, {k, coefficient(D), Transition::A}});
   }
   // A single wall below carries a weight that presses the ball in to x = 0.
-  SecondOrderBall ball(m, 1e-9, 0.0, dt, Transition::A, partners, walls == 1 ? -k * depth : 0.0);
+  SecondOrderBall ball(m, 1e-9, 0.0, dt, partners, walls == 1 ? -k * depth : 0.0);
   for (int step = 0; step < 20000; ++step)
     ball.step();
   return std::fabs(ball.x) < 1e-6;
@@ -124,14 +130,26 @@ TEST(SecondOrderStep, IsStableAtTheLimitOfTheSpringsForAnyDamping) {
   EXPECT_FALSE(stays_bounded(4, 2.0, 1.05));
 }
 
+/// One step of a contact, with a state from the step before.
+StepResult step_of(const LinearLaw &law, const StepMotion &motion, ContactState &state, double all = 0.0) {
+  return advance(law, motion, state, {m, all, false});
+}
+
+/// One step of a pair that was apart.
+StepResult first_step(const LinearLaw &law, const StepMotion &motion) {
+  ContactState state;
+  return step_of(law, motion, state);
+}
+
 TEST(SecondOrderStep, ForceNeverPullsUnderB) {
   for (const double D : {0.0, 0.5, 2.0, 50.0})
     for (const double rate : {-5.0, -0.1, 0.0, 0.1, 5.0}) {
       const double dt = 1e-4;
-      const auto f = drumlin::physics::second_order_force(Transition::B, k, coefficient(D),
-                                                          {1e-3, rate, rate, dt}, 1e4, coefficient(D) / m);
+      ContactState state{1e4, true, {}};
+      const StepResult f = step_of({k, coefficient(D), Transition::B}, {1e-3, rate, rate, dt}, state);
       EXPECT_GE(f.force, 0.0);
       EXPECT_GE(f.kick, 0.0);
+      EXPECT_EQ(state.force, f.force);
     }
 }
 
@@ -141,53 +159,82 @@ TEST(SecondOrderStep, MakeCarriesTheImpulseOfThePartInContact) {
   const double c = coefficient(0.2);
   for (const double theta : {0.01, 0.3, 0.5, 0.99}) {
     const double v = 1.0;
-    const auto f =
-        drumlin::physics::second_order_force(Transition::B, k, c, {theta * dt * v, v, v, dt}, 0.0, c / m);
+    const StepResult f = first_step({k, c, Transition::B}, {theta * dt * v, v, v, dt});
     EXPECT_NEAR(f.force, c * v, 1e-4 * c);
     EXPECT_NEAR(0.5 * dt * f.kick, theta * dt * c * v, 1e-4 * dt * c);
   }
 }
 
-TEST(SecondOrderStep, TellsAContactWithoutForceFromNone) {
-  using drumlin::physics::was_contact;
-  const double dt = 1e-4, c = coefficient(0.5);
-  EXPECT_FALSE(was_contact(0.0));
-  EXPECT_TRUE(was_contact(1e-300));
-  const double parting =
-      drumlin::physics::second_order_held(Transition::B, k, c, {1e-4, -5.0, -5.0, dt}, 0.0, c / m);
-  EXPECT_EQ(parting, 0.0);
-  EXPECT_TRUE(was_contact(parting));
-  EXPECT_TRUE(was_contact(drumlin::physics::coupled_force(
-      drumlin::physics::coupled_dashpot(Transition::B, k, c, {1e-4, -5.0, -5.0, dt}, 0.0, c / m), -5.0)));
+TEST(SecondOrderStep, SetUpTakesTheVelocitiesAsTheyAre) {
+  const double c = coefficient(0.5);
+  ContactState state;
+  const StepResult f =
+      advance(LinearLaw(k, c, Transition::A), {1e-4, 0.3, 7.0, 1e-4}, state, {m, 1e12, true});
+  EXPECT_DOUBLE_EQ(f.force, k * 1e-4 + c * 0.3);
+  EXPECT_EQ(f.kick, f.force);
+  EXPECT_FALSE(f.coupled);
+  EXPECT_TRUE(state.in_contact);
 }
 
-// Moved beside its velocity, a ball may seem to have come from apart: k d + c d', not the impulse of a make.
+// Under B a contact may be without a force and still be one: in its next step it goes on and is not made
+// again.
+TEST(SecondOrderStep, ContactWithoutForceStaysOne) {
+  const double dt = 1e-4, c = coefficient(0.5);
+  ContactState state{0.0, true, {}};
+  EXPECT_EQ(step_of({k, c, Transition::B}, {1e-4, -5.0, -5.0, dt}, state).force, 0.0);
+  EXPECT_TRUE(state.in_contact);
+  const double rate = 1.0, overlap = 0.5 * dt * rate; // by the motion alone it came from apart
+  EXPECT_EQ(step_of({k, c, Transition::B}, {overlap, rate, rate, dt}, state).shift, 0.0);
+  EXPECT_NE(first_step({k, c, Transition::B}, {overlap, rate, rate, dt}).shift, 0.0);
+}
+
+// After a position correction a ball may seem to have come from apart: k d + c d', not the impulse of a make.
 TEST(SecondOrderStep, ContactThatHadAForceIsNotMadeAgain) {
   const double dt = 1e-4, rate = 0.1, c = coefficient(0.5);
   const double overlap = 0.9 * dt * rate; // by the motion there was a gap of 0.1 dt rate
   for (const Transition transition : {Transition::A, Transition::B}) {
-    const auto f =
-        drumlin::physics::second_order_force(transition, k, c, {overlap, rate, rate, dt}, c * rate, c / m);
+    ContactState state{c * rate, true, {}};
+    const StepResult f = step_of({k, c, transition}, {overlap, rate, rate, dt}, state);
     EXPECT_NEAR(f.force, k * overlap + c * rate, 1e-2 * c * rate); // the implicit step slows it a little
     EXPECT_EQ(f.kick, f.force);
     EXPECT_EQ(f.shift, 0.0);
-    EXPECT_NE(
-        drumlin::physics::second_order_force(transition, k, c, {overlap, rate, rate, dt}, 0.0, c / m).shift,
-        0.0);
+    EXPECT_NE(first_step({k, c, transition}, {overlap, rate, rate, dt}).shift, 0.0);
   }
+}
+
+// A ball that goes over to the next triangle of a mesh has overlapped with it for longer than a step, without
+// a state.
+TEST(SecondOrderStep, ContactThatIsOlderThanItsStateGoesOn) {
+  const double dt = 1e-5, rate = 0.1, overlap = 1e-3, c = coefficient(0.5);
+  const LinearLaw law(k, c, Transition::B);
+  ContactState known{law.force(overlap - dt * rate, rate), true, {}};
+  const StepResult f = first_step(law, {overlap, rate, rate, dt});
+  EXPECT_DOUBLE_EQ(f.force, step_of(law, {overlap, rate, rate, dt}, known).force);
+  EXPECT_EQ(f.shift, 0.0);
+}
+
+TEST(SecondOrderStep, HeavyDashpotsAreLeftForTheSecondPass) {
+  const double dt = 1e-4, c = coefficient(2.0), rate = 0.1, overlap = 1e-3;
+  const LinearLaw law(k, c, Transition::B);
+  ContactState state{2e5, true, {}};
+  const StepResult f = step_of(law, {overlap, rate, rate, dt}, state, 1.0 / dt);
+  ASSERT_TRUE(f.coupled);
+  EXPECT_DOUBLE_EQ(f.kick, 2e5 + k * dt * rate); // the force that changes with the positions
+  EXPECT_EQ(drumlin::physics::coupled_force(f.dashpot, -1e3), 0.0);
+  EXPECT_FALSE(step_of(law, {overlap, rate, rate, dt}, state, 0.2 / dt).coupled);
 }
 
 TEST(SecondOrderStep, BallAtRestThatJustTouchesFeelsNothing) {
   for (const Transition transition : {Transition::A, Transition::B}) {
-    const drumlin::physics::StepForce step = drumlin::physics::second_order_force(
-        transition, k, coefficient(1.0), {0.0, 0.0, 0.0, 1e-3}, 0.0, coefficient(1.0) / m);
+    const StepResult step = first_step({k, coefficient(1.0), transition}, {0.0, 0.0, 0.0, 1e-3});
     EXPECT_EQ(step.force, 0.0);
     EXPECT_EQ(step.kick, 0.0);
     EXPECT_EQ(step.shift, 0.0);
   }
 }
 
-// What a bound on sum and k/c denies is denied for every contact below it: FixStepping leaves the counting on that.
+// What a bound on sum and k/c denies is denied for every contact below it: FixStepping leaves the counting on
+// that.
 TEST(SecondOrderStep, NeedOfCouplingGrowsWithTheSumOfDampingsAndWithTheSpring) {
   std::mt19937 random(20251121);
   std::uniform_real_distribution<double> exponent(-3.0, 1.0);
@@ -209,25 +256,33 @@ TEST(SecondOrderStep, BreakOfAEndsTheTensileForceWithinTheStep) {
   const double c = coefficient(0.2);
   for (const double share : {0.01, 0.5, 0.9}) {
     const double v = -1.0; // the overlap shrinks
-    const auto f =
-        drumlin::physics::second_order_break(Transition::A, k, c, {(1.0 - share) * dt * v, v, v, dt});
+    const StepMotion motion{(1.0 - share) * dt * v, v, v, dt};
+    ContactState a{c * v, true, {}}, b{0.0, true, {}}, none;
+    const StepResult f = step_of({k, c, Transition::A}, motion, a);
     EXPECT_EQ(f.force, 0.0);
     EXPECT_NEAR(0.5 * dt * (c * v + f.kick), share * dt * c * v, 1e-4 * dt * c); // with the opening half kick
-    EXPECT_EQ(
-        drumlin::physics::second_order_break(Transition::B, k, c, {(1.0 - share) * dt * v, v, v, dt}).kick,
-        0.0);
+    EXPECT_FALSE(a.in_contact);
+    EXPECT_EQ(a.force, 0.0);
+    EXPECT_EQ(step_of({k, c, Transition::B}, motion, b).kick, 0.0);
+    EXPECT_FALSE(b.in_contact);
+    EXPECT_EQ(step_of({k, c, Transition::A}, motion, none).kick, 0.0); // there was no contact
   }
 }
 
-// Without a dashpot the force falls to zero at d = 0, continuously: where A ends a contact B does. The ball bounces between two
-// undamped walls; in the second scene a damped contact, heavy enough to be solved for apart, holds it too.
+// Without a dashpot the force falls to zero at d = 0, continuously: where A ends a contact B does. The ball
+// bounces between two undamped walls; in the second scene a damped contact, heavy enough to be solved for
+// apart, holds it too.
 TEST(SecondOrderStep, WithoutDashpotAAndBAreOneLaw) {
   const double dt = M_PI / (w0 * 40.0);
   for (const bool damped : {false, true}) {
-    std::vector<SecondOrderBall::Partner> walls = {{0.0, 1.0, k, 0.0}, {0.03, -1.0, 2.0 * k, 0.0}};
-    if (damped) walls.push_back({1.0, 1.0, 0.01 * k, coefficient(2.0)});
-    SecondOrderBall a(m, 0.01, -1.0, dt, Transition::A, walls, damped ? -0.01 * k : 0.0);
-    SecondOrderBall b(m, 0.01, -1.0, dt, Transition::B, walls, damped ? -0.01 * k : 0.0);
+    const auto walls_of = [damped](Transition transition) {
+      std::vector<SecondOrderBall::Partner> walls = {{0.0, 1.0, {k, 0.0, transition}},
+                                                     {0.03, -1.0, {2.0 * k, 0.0, transition}}};
+      if (damped) walls.push_back({1.0, 1.0, {0.01 * k, coefficient(2.0), transition}});
+      return walls;
+    };
+    SecondOrderBall a(m, 0.01, -1.0, dt, walls_of(Transition::A), damped ? -0.01 * k : 0.0);
+    SecondOrderBall b(m, 0.01, -1.0, dt, walls_of(Transition::B), damped ? -0.01 * k : 0.0);
     int touched = 0;
     bool before = false;
     for (int step = 0; step < 2000; ++step) {
@@ -245,15 +300,6 @@ TEST(SecondOrderStep, WithoutDashpotAAndBAreOneLaw) {
 TEST(SecondOrderStep, ContactWithoutDashpotIsNeverSolvedForWithOthers) {
   for (const double all_c_over_m : {0.0, 1.0, 1e12})
     EXPECT_FALSE(drumlin::physics::needs_coupling(1e-4, k, 0.0, all_c_over_m));
-}
-
-// A contact whose force is exactly zero is one under A, too: else its next step would be taken for that of a make.
-TEST(SecondOrderStep, ZeroForceOfAContactIsOneUnderEitherTransition) {
-  using drumlin::physics::limited;
-  for (const Transition transition : {Transition::A, Transition::B})
-    EXPECT_TRUE(drumlin::physics::was_contact(limited(transition, 0.0)));
-  EXPECT_EQ(limited(Transition::A, -1.0), -1.0);
-  EXPECT_EQ(limited(Transition::B, -1.0), 0.0);
 }
 
 } // namespace

@@ -1,8 +1,8 @@
 /// Stability limits against the eigenvalues of the matrix that one stock step is.
 
-#include "physics/stepping.h"
+#include "physics/contact_step.h"
 #include "physics/time_step.h"
-#include "tests/plugin/physics/stock_stepping.h"
+#include "tests/plugin/physics/velocity_verlet.h"
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
@@ -135,9 +135,9 @@ TEST(CriticalStep, HoldsForTheSteppingItself) {
     return std::array<double, 1>{-k * x[0] - c * v[0]};
   };
   for (const double share : {0.99, 1.01}) {
-    stepping::Balls<1> ball{{m}, {1e-3}, {0.0}, {-k * 1e-3}};
+    verlet::Balls<1> ball{{m}, {1e-3}, {0.0}, {-k * 1e-3}};
     for (int n = 0; n < 20000; ++n)
-      stepping::stock_step(ball, 0.0, share * limit, forces);
+      verlet::stock_step(ball, 0.0, share * limit, forces);
     if (share < 1.0)
       EXPECT_LT(std::fabs(ball.x[0]), 1e-9);
     else
@@ -215,8 +215,8 @@ TEST(CriticalStep, NeverExceedsTheTrueLimitOfRandomChains) {
 
 TEST(CriticalStep, WithoutLinksIsUnlimited) { EXPECT_EQ(LoadedBall().critical_step(), infinity); }
 
-/// Balls in a plane that touch and rub: normal springs and dashpots by second-order stepping, shear springs and dashpots by the
-/// half-step velocity, as in the engine.
+/// Balls in a plane that touch and rub: normal springs and dashpots by second-order stepping, shear springs
+/// and dashpots by the half-step velocity, as in the engine.
 struct Packing {
   struct Contact {
     int one, other; ///< other -1: a fixed partner
@@ -293,20 +293,24 @@ struct Packing {
         };
         const double slide = -std::sin(p.angle) * relative(u, 3) + std::cos(p.angle) * relative(u, 4) -
                              u(6 * p.one + 5) - (p.other < 0 ? 0.0 : u(6 * p.other + 5));
-        const double own = p.c * (inverse_mass(p.one) + inverse_mass(p.other));
+        const double own_inverse = inverse_mass(p.one) + inverse_mass(p.other);
         const double all = damping[static_cast<std::size_t>(p.one)] +
                            (p.other < 0 ? 0.0 : damping[static_cast<std::size_t>(p.other)]);
-        const StepMotion motion{overlap(u, 0), overlap(u, 3) / dt, overlap(before, 3) / dt, dt};
-        double &normal = u(of(l, force)); // forces as dt^2 times the force
-        const double old = normal / (dt * dt);
-        if (second && (all_coupled || needs_coupling(dt, p.k, p.c, all))) {
-          coupled.emplace_back(l, coupled_dashpot(Transition::A, p.k, p.c, motion, old, all));
-          normal = dt * dt * coupled.back().second.first;
-        } else {
-          normal = dt * dt *
-                   (second ? second_order_spring_dashpot(p.k, p.c, motion, old, own)
-                           : p.k * motion.overlap + p.c * motion.rate_half);
+        // The motion is about a state of rest in which all contacts overlap, so that none ends.
+        const double depth = 1e3;
+        const LinearLaw law(p.k, p.c, Transition::A);
+        const StepMotion motion{depth + overlap(u, 0), overlap(u, 3) / dt, overlap(before, 3) / dt, dt};
+        double &normal = u(of(l, force)); // forces as dt^2 times the force, less that at rest
+        ContactState state{p.k * depth + normal / (dt * dt), true, {}};
+        StepResult result = second ? advance(law, motion, state, {1.0 / own_inverse, all, false})
+                                   : advance_stock(law, motion, state);
+        if (second && all_coupled) { // whatever needs_coupling() says
+          result.coupled = true;
+          result.dashpot = coupled_dashpot(law, motion, p.k * depth + normal / (dt * dt), all);
+          result.kick = result.dashpot.first;
         }
+        if (result.coupled) coupled.emplace_back(l, result.dashpot);
+        normal = dt * dt * (result.kick - p.k * depth);
         u(of(l, shear)) += slide;
         u(of(l, drag)) = -dt * dt * (p.kt * u(of(l, shear)) + p.ct * slide / dt);
       }
@@ -320,7 +324,8 @@ struct Packing {
                           : std::cos(p.angle) * predicted(6 * ball + 3) +
                                 std::sin(p.angle) * predicted(6 * ball + 4);
         };
-        u(of(l, force)) = dt * dt * coupled_force(dashpot, -(along(p.one) - along(p.other)) / dt);
+        u(of(l, force)) =
+            dt * dt * (coupled_force(dashpot, -(along(p.one) - along(p.other)) / dt) - p.k * 1e3);
       }
       u.head(n) = drifted.head(n);
       kick();
@@ -410,13 +415,13 @@ TEST(Figures, OfAContact) {
   EXPECT_DOUBLE_EQ(damping_ratio(1e8, 4e5, 4.0 * 1e2), 1.0);
   // An undamped impact of the stock stepping ends after half a period.
   const double m = 2000.0, k = 1e8, dt = 1e-6;
-  stepping::Balls<1> ball{{m}, {0.0}, {0.4}};
+  verlet::Balls<1> ball{{m}, {0.0}, {0.4}};
   int steps = 0;
   do {
-    stepping::stock_step(ball, 0.0, dt,
-                         [&](double, const std::array<double, 1> &x, const std::array<double, 1> &) {
-                           return std::array<double, 1>{-k * x[0]};
-                         });
+    verlet::stock_step(ball, 0.0, dt,
+                       [&](double, const std::array<double, 1> &x, const std::array<double, 1> &) {
+                         return std::array<double, 1>{-k * x[0]};
+                       });
     ++steps;
   } while (ball.x[0] > 0.0);
   EXPECT_NEAR(steps_per_contact(k, m, dt), steps, 1.0);

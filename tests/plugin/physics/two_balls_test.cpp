@@ -1,7 +1,7 @@
 /// Two balls: momentum, the effective mass, and the same motion seen from frames that move.
 
 #include "physics/contact_law.h"
-#include "tests/plugin/physics/stock_stepping.h"
+#include "tests/plugin/physics/velocity_verlet.h"
 
 #include <gtest/gtest.h>
 
@@ -22,18 +22,18 @@ class TwoBalls : public testing::TestWithParam<Transition> {};
 
 /// Ball 0 below, ball 1 above, radii left out: d = x0 - x1.
 Pair contact_forces(Transition transition, double c, const Pair &x, const Pair &v) {
-  const double force = normal_force(transition, k, c, x[0] - x[1], v[0] - v[1]);
+  const double force = LinearLaw(k, c, transition).force(x[0] - x[1], v[0] - v[1]);
   return {-force, force};
 }
 
 TEST_P(TwoBalls, KeepTheirMomentum) {
-  stepping::Balls<2> pair{{1500.0, 700.0}, {0.0, 1e-4}, {0.7, -0.9}};
-  const double c =
-      damping_coefficient({k, 0.3, Damping::ratio, GetParam()}, effective_mass(pair.mass[0], pair.mass[1]));
+  verlet::Balls<2> pair{{1500.0, 700.0}, {0.0, 1e-4}, {0.7, -0.9}};
+  const double c = LinearContact{k, 0.3, Damping::ratio, GetParam()}.damping_coefficient(
+      effective_mass(pair.mass[0], pair.mass[1]));
   const double before = pair.mass[0] * pair.v[0] + pair.mass[1] * pair.v[1];
   double strongest = 0.0;
   for (int n = 0; n < 20000; ++n) {
-    stepping::stock_step(pair, 0.0, dt, [&](double, const Pair &x, const Pair &v) {
+    verlet::stock_step(pair, 0.0, dt, [&](double, const Pair &x, const Pair &v) {
       return contact_forces(GetParam(), c, x, v);
     });
     strongest = std::fmax(strongest, pair.force[1]);
@@ -44,18 +44,18 @@ TEST_P(TwoBalls, KeepTheirMomentum) {
 }
 
 TEST_P(TwoBalls, MoveRelativeToEachOtherAsTheEffectiveMassOnAFixedBall) {
-  stepping::Balls<2> pair{{1500.0, 700.0}, {0.0, 0.0}, {0.7, -0.9}};
+  verlet::Balls<2> pair{{1500.0, 700.0}, {0.0, 0.0}, {0.7, -0.9}};
   const double m_eff = effective_mass(1500.0, 700.0);
-  stepping::Balls<2> fixed{{infinity, m_eff}, {0.0, 0.0}, {0.0, -1.6}};
+  verlet::Balls<2> fixed{{infinity, m_eff}, {0.0, 0.0}, {0.0, -1.6}};
   const LinearContact contact{k, 0.3, Damping::ratio, GetParam()};
-  const double c = damping_coefficient(contact, m_eff);
-  ASSERT_EQ(damping_coefficient(contact, effective_mass(infinity, m_eff)), c);
+  const double c = contact.damping_coefficient(m_eff);
+  ASSERT_EQ(contact.damping_coefficient(effective_mass(infinity, m_eff)), c);
   const auto forces = [&](double, const Pair &x, const Pair &v) {
     return contact_forces(GetParam(), c, x, v);
   };
   for (int n = 0; n < 20000; ++n) {
-    stepping::stock_step(pair, 0.0, dt, forces);
-    stepping::stock_step(fixed, 0.0, dt, forces);
+    verlet::stock_step(pair, 0.0, dt, forces);
+    verlet::stock_step(fixed, 0.0, dt, forces);
     ASSERT_NEAR(pair.v[1] - pair.v[0], fixed.v[1] - fixed.v[0], 1e-10);
     ASSERT_NEAR(pair.x[1] - pair.x[0], fixed.x[1] - fixed.x[0], 1e-12);
   }
@@ -71,12 +71,12 @@ struct Shaken {
 
 std::vector<Pair> overlaps(Transition transition, const Shaken &run) {
   const double m = 2000.0, w = 251.32741228718345;
-  const double c = damping_coefficient({k, 0.5, Damping::ratio, transition}, m);
-  stepping::Balls<2> balls{run.mass, {0.0, 0.0}, run.start_velocity};
+  const double c = LinearContact{k, 0.5, Damping::ratio, transition}.damping_coefficient(m);
+  verlet::Balls<2> balls{run.mass, {0.0, 0.0}, run.start_velocity};
   std::vector<Pair> record;
   for (int n = 1; n <= 100000; ++n) {
     const double push = 15.0 + 30.0 * std::sin(w * n * dt); // m/s2, how the two are driven towards each other
-    stepping::stock_step(balls, n * dt, dt, [&](double, const Pair &x, const Pair &v) {
+    verlet::stock_step(balls, n * dt, dt, [&](double, const Pair &x, const Pair &v) {
       Pair force = contact_forces(transition, c, x, v);
       for (std::size_t i = 0; i < 2; ++i) {
         if (std::isinf(run.mass[i])) continue;

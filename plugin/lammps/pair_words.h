@@ -3,7 +3,7 @@
 
 #include "support/arguments.h"
 #include "support/replaced_keywords.h"
-#include "lammps/contact_terms.h"
+#include "contact/contact_settings.h"
 
 namespace drumlin {
 
@@ -14,20 +14,15 @@ constexpr DropInForms drop_in_forms = {"damping coefficient with c in pair_coeff
 /// Keywords up to the end.
 inline ContactSettings read_settings(Arguments &in) {
   ContactSettings settings;
+  std::vector<std::string> keywords = common_keywords();
+  keywords.insert(keywords.end(), {"tangential", "cap"});
   bool coulomb = false;
   std::string cap; // as given
   while (!in.empty()) {
     const std::string keyword = in.word("keyword");
     const std::string what = "keyword " + keyword;
-    if (keyword == "transition")
-      settings.transition =
-          in.choice(what, {"A", "B"}) == 0 ? physics::Transition::A : physics::Transition::B;
-    else if (keyword == "damping")
-      settings.damping = in.choice(what, {"coefficient", "ratio"}) == 0 ? physics::Damping::coefficient
-                                                                        : physics::Damping::ratio;
-    else if (keyword == "stepping")
-      settings.stock = in.choice(what, {"second", "stock"}) == 1;
-    else if (keyword == "tangential") {
+    if (read_setting(in, keyword, settings)) continue;
+    if (keyword == "tangential") {
       const int model = in.choice(what, {"off", "no_history", "history", "coulomb"});
       coulomb = model == 3;
       settings.tangential = coulomb ? FrictionModel::history : static_cast<FrictionModel>(model);
@@ -37,7 +32,7 @@ inline ContactSettings read_settings(Arguments &in) {
       in.fail("'" + keyword +
               "' is no keyword; allowed: numbers in pair_coeff, which is I J k damping [mu [kt [ct]]]");
     else
-      in.fail(unknown_keyword(keyword, drop_in_forms, "transition, damping, stepping, tangential or cap"));
+      in.fail(unknown_keyword(keyword, drop_in_forms, join_choices(keywords)));
   }
   if (coulomb && !cap.empty())
     in.fail("keyword cap is '" + cap +
@@ -50,14 +45,16 @@ inline ContactSettings read_settings(Arguments &in) {
 
 /// k, damping and, with friction, mu and at will kt and ct up to the end.
 inline ContactCoefficients read_coefficients(Arguments &in, const ContactSettings &settings) {
-  ContactCoefficients p;
-  p.normal.stiffness = in.number("normal stiffness k", Range::positive);
-  p.normal.damping =
-      in.number(settings.damping == physics::Damping::ratio ? "damping ratio D" : "damping coefficient c",
-                Range::non_negative);
-  p.normal.damping_kind = settings.damping;
-  p.normal.transition = settings.transition;
-  p.tangential_stiffness = 2.0 / 7.0 * p.normal.stiffness;
+  const double stiffness = in.number("normal stiffness k", Range::positive);
+  const bool restitution = settings.damping == DampingInput::restitution;
+  const std::string word = in.empty() ? "" : in.peek();
+  const double damping = in.number(restitution                               ? "restitution e"
+                                   : settings.damping == DampingInput::ratio ? "damping ratio D"
+                                                                             : "damping coefficient c",
+                                   restitution ? Range::positive : Range::non_negative);
+  if (restitution && damping > 1.0)
+    in.fail("restitution e is '" + word + "'; allowed: a finite number > 0 and <= 1");
+  ContactCoefficients p = ContactCoefficients::with_defaults(settings.normal(stiffness, damping));
   if (settings.tangential != FrictionModel::none) {
     p.friction = in.number("friction coefficient mu", Range::non_negative);
     const auto next_is_given = [&in](const char *what) {
@@ -68,10 +65,8 @@ inline ContactCoefficients read_coefficients(Arguments &in, const ContactSetting
     };
     if (next_is_given("tangential stiffness kt"))
       p.tangential_stiffness = in.number("tangential stiffness kt", Range::positive);
-    if (next_is_given("tangential damping ct")) {
-      p.tangential_damping = in.number("tangential damping coefficient ct", Range::non_negative);
-      p.tangential_damping_share = 0.0;
-    }
+    if (next_is_given("tangential damping ct"))
+      p.set_tangential_damping(in.number("tangential damping coefficient ct", Range::non_negative));
   }
   if (!in.empty())
     in.fail("'" + in.peek() + "' is left over; allowed: I J k damping" +

@@ -1,0 +1,87 @@
+#pragma once
+// What contacts and bonds report to the fixes that observe them: energy balance, guard, dumps. The observers
+// are fixes, so that each engine instance has its own.
+
+#include "engine.h"
+#include "physics/time_step.h"
+
+#include <array>
+#include <vector>
+
+namespace drumlin {
+
+/// One contact of two balls, or of a ball and a wall, in one step. Stiffnesses, damping coefficients and
+/// energies are those of the whole law: `share` of them acts.
+struct ContactRecord {
+  int i, j;                     ///< indices of the balls; j < 0: a wall at rest
+  std::array<double, 3> normal; ///< from j to i
+  double overlap;               ///< m
+  double radius;                ///< of the smaller ball, m
+  double share;                 ///< 1, or less on an edge of a mesh
+  double spring_force;          ///< N, of the normal spring alone
+  double spring_energy;         ///< J, in the normal spring
+  double normal_stiffness;      ///< N/m
+  double normal_dashpot;        ///< N s/m, as far as it limits the step: 0 with the second-order scheme
+  double tangential_stiffness;  ///< N/m; 0 without a tangential spring
+  double tangential_dashpot;    ///< N s/m; 0 without a tangential dashpot
+  double rolling_stiffness;     ///< N m; 0 without a rolling spring
+  double normal_force;          ///< N, positive when it pushes
+  const double *final_force;    ///< where it is when all forces of the step are known; nullptr: it is known
+  const double *spring;         ///< tangential spring, m, three components; nullptr: none
+  std::array<double, 3> tangential_force;   ///< on ball i, N
+  std::array<double, 3> torque_i, torque_j; ///< N m
+};
+
+/// A fix that is told of each contact and bond in the steps in which it asks for it.
+class ContactObserver {
+public:
+  ContactObserver() = default;
+  ContactObserver(const ContactObserver &) = delete;
+  ContactObserver &operator=(const ContactObserver &) = delete;
+
+  /// A contact whose forces this rank has computed. With newton off a contact across ranks is seen on both.
+  virtual void see_contact(const ContactRecord &) {}
+  /// A bond, for each ball of it that this rank owns. \param partner ID of the other ball
+  virtual void see_bond(int /*ball*/, int /*partner*/, const physics::LinkModes &) {}
+
+  bool observing() const { return observing_; }
+
+protected:
+  ~ContactObserver() = default;
+  void observe(bool on) { observing_ = on; }
+
+private:
+  bool observing_ = false;
+};
+
+/// The observers of an engine instance, for a pair style, wall or bond that reports to them. Few scenes have
+/// any and few steps are observed, so that a contact pays for one comparison or two.
+class ContactObservers {
+public:
+  /// In the initialization of each run.
+  void find(const LAMMPS_NS::Modify &modify) {
+    all_.clear();
+    for (int n = 0; n < modify.nfix; ++n)
+      if (auto *observer = dynamic_cast<ContactObserver *>(modify.fix[n])) all_.push_back(observer);
+  }
+
+  bool any() const {
+    for (const ContactObserver *observer : all_)
+      if (observer->observing()) return true;
+    return false;
+  }
+
+  void tell(const ContactRecord &record) const {
+    for (ContactObserver *observer : all_)
+      if (observer->observing()) observer->see_contact(record);
+  }
+  void tell_bond(int ball, int partner, const physics::LinkModes &modes) const {
+    for (ContactObserver *observer : all_)
+      if (observer->observing()) observer->see_bond(ball, partner, modes);
+  }
+
+private:
+  std::vector<ContactObserver *> all_;
+};
+
+} // namespace drumlin
