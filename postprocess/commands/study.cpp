@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,42 +19,6 @@ namespace {
 
 /// Runs at the same time, each a process of its own.
 constexpr int most_jobs = 1000;
-
-struct Study {
-  const char *name;
-  const char *summary;
-  void (*run)(const StudyOptions &);
-  bool parallel = false; ///< its runs may share the machine
-};
-
-// A new study is one line here.
-constexpr std::array studies = {
-    Study{"accuracy",
-          "Error of the chain and of single impacts against step size and wall time, for both steppings and "
-          "the "
-          "engine's own contact law; tests what `drumlin advise` says. About half an hour.",
-          &run_accuracy_study},
-    Study{"cost",
-          "What a step costs on the chain and on settled beds, and what each optional piece adds, as ratios "
-          "within interleaved rounds. About twenty minutes, on a quiet machine.",
-          &run_cost_study},
-    Study{"fidelity",
-          "What each ingredient of a bed changes and costs, over five seeds: condition, friction, rolling, "
-          "stiffness, step, number, size and "
-          "packing of the balls, kind of drum, frequency, two dimensions or three. About five hours of "
-          "processor "
-          "time.",
-          &run_fidelity_study, true},
-    Study{"speed",
-          "Steps of balls per second from 2500 balls to a quarter of a million, on one rank and on two, "
-          "beside the "
-          "engine's own law; memory; a projection to 1e8. About twenty minutes, on a quiet machine.",
-          &run_speed_study},
-    Study{"stability",
-          "The longest stable step over damping, for both steppings; runs at the edges of what can be asked. "
-          "About ten minutes.",
-          &run_stability_study},
-};
 
 } // namespace
 

@@ -3,6 +3,8 @@
 // if a run fails.
 #pragma once
 
+#include <array>
+
 namespace drumlin::post {
 
 struct StudyOptions;
@@ -41,5 +43,42 @@ void run_speed_study(const StudyOptions &options);
 ///   extremes.csv  runs at the edges, each against an oracle
 ///   index.html    tables and a figure
 void run_stability_study(const StudyOptions &options);
+
+/// A study as `drumlin study NAME` offers it.
+struct Study {
+  const char *name;
+  const char *summary; ///< for the help
+  void (*run)(const StudyOptions &);
+  bool parallel = false; ///< its runs may share the machine
+};
+
+/// All studies, in the order of the help.
+inline constexpr std::array studies = {
+    Study{"accuracy",
+          "Error of the chain and of single impacts against step size and wall time, for both steppings and "
+          "the "
+          "engine's own contact law; tests what `drumlin advise` says. About half an hour.",
+          &run_accuracy_study},
+    Study{"cost",
+          "What a step costs on the chain and on settled beds, and what each optional piece adds, as ratios "
+          "within interleaved rounds. About twenty minutes, on a quiet machine.",
+          &run_cost_study},
+    Study{"fidelity",
+          "What each ingredient of a bed changes and costs, over five seeds: condition, friction, rolling, "
+          "stiffness, step, number, size and "
+          "packing of the balls, kind of drum, frequency, two dimensions or three. About five hours of "
+          "processor "
+          "time.",
+          &run_fidelity_study, true},
+    Study{"speed",
+          "Steps of balls per second from 2500 balls to a quarter of a million, on one rank and on two, "
+          "beside the "
+          "engine's own law; memory; a projection to 1e8. About twenty minutes, on a quiet machine.",
+          &run_speed_study},
+    Study{"stability",
+          "The longest stable step over damping, for both steppings; runs at the edges of what can be asked. "
+          "About ten minutes.",
+          &run_stability_study},
+};
 
 } // namespace drumlin::post
