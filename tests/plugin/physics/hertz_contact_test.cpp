@@ -126,9 +126,9 @@ TEST(HertzLaw, StiffnessAndEnergyBelongToTheSpring) {
 TEST(HertzLaw, RefusesBadParameters) {
   EXPECT_EQ((HertzContact{1e8, 0.5, Damping::ratio, Transition::A}).invalid(), "");
   EXPECT_EQ((HertzContact{-1.0, 0.5, Damping::ratio, Transition::A}).invalid(),
-            "stiffness is -1 N/m^1.5; allowed: finite and > 0");
+            "stiffness is '-1 N/m^1.5'; allowed: finite and > 0");
   EXPECT_EQ((HertzContact{1.0, -2.0, Damping::coefficient, Transition::A}).invalid(),
-            "damping coefficient is -2 N s/m^1.25; allowed: finite and >= 0");
+            "damping coefficient is '-2 N s/m^1.25'; allowed: finite and >= 0");
 }
 
 TEST(HertzLaw, FirstWeightIsThatOfTheZetaFunction) {
