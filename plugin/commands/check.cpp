@@ -54,6 +54,7 @@ public:
                                                              {"restart_name", &Check::restart_name},
                                                              {"one_rank", &Check::one_rank}};
     std::vector<std::string> names;
+    names.reserve(rules.size());
     for (const auto &rule : rules)
       names.push_back(rule.first);
     const std::string what = "rule for variable " + name_;

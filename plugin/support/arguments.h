@@ -116,7 +116,8 @@ public:
   /// The next argument as the name of a group that exists; its index.
   int group(const std::string &what, LAMMPS_NS::Group *groups) {
     const std::string name = word(what, "the name of a group");
-    const int index = groups->find(name.c_str());
+    const int index =
+        groups->find(name.c_str()); // NOLINT(readability-redundant-string-cstr): LIGGGHTS's wants it
     if (index < 0) fail(what, name, "the name of a group");
     return index;
   }

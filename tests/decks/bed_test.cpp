@@ -162,7 +162,7 @@ protected:
                                    "run 2\necho status $?\ndiff -r before o && echo whole\n",
                                    words));
     EXPECT_TRUE(outcome.says("status 1\nwhole\n")) << outcome.output;
-    EXPECT_TRUE(outcome.says("ERROR: drumlin/outputs: dump 'o/dump/")) << outcome.output;
+    EXPECT_TRUE(outcome.says("ERROR: drumlin/outputs: dump is 'o/dump/")) << outcome.output;
     EXPECT_TRUE(outcome.says("', which is incomplete; allowed: a disk with room")) << outcome.output;
     EXPECT_EQ(outcome.output.find("ERROR"), outcome.output.rfind("ERROR")) << outcome.output;
   }
