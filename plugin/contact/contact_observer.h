@@ -11,37 +11,39 @@
 namespace drumlin {
 
 /// One contact of two balls, or of a ball and a wall, in one step. Stiffnesses, damping coefficients and
-/// energies are those of the whole law: `share` of them acts.
+/// energies are those of the law; multiply them by `share` for what acts on the balls.
 struct ContactRecord {
   int i, j;                     ///< indices of the balls; j < 0: a wall at rest
   std::array<double, 3> normal; ///< from j to i
   double overlap;               ///< m
   double radius;                ///< of the smaller ball, m
-  double share;                 ///< 1, or less on an edge of a mesh
+  double share;                 ///< 1; less where triangles of a mesh share the force of one contact
   double spring_force;          ///< N, of the normal spring alone
   double spring_energy;         ///< J, in the normal spring
   double normal_stiffness;      ///< N/m
-  double normal_dashpot;        ///< N s/m, as far as it limits the step: 0 with the second-order scheme
+  double normal_dashpot;        ///< N s/m; 0 under `stepping second`, where it does not limit the time step
   double tangential_stiffness;  ///< N/m; 0 without a tangential spring
   double tangential_dashpot;    ///< N s/m; 0 without a tangential dashpot
   double rolling_stiffness;     ///< N m; 0 without a rolling spring
   double normal_force;          ///< N, positive when it pushes
-  const double *final_force;    ///< where it is when all forces of the step are known; nullptr: it is known
+  const double *final_force;    ///< where the final normal force is stored once all forces of the step are
+                                ///< known (`stepping second`); nullptr: normal_force is final
   const double *spring;         ///< tangential spring, m, three components; nullptr: none
   std::array<double, 3> tangential_force;   ///< on ball i, N
   std::array<double, 3> torque_i, torque_j; ///< N m
 };
 
-/// A fix that is told of each contact and bond in the steps in which it asks for it.
+/// Base of a fix that receives each contact and bond in the steps in which it has called observe(true).
 class ContactObserver {
 public:
   ContactObserver() = default;
   ContactObserver(const ContactObserver &) = delete;
   ContactObserver &operator=(const ContactObserver &) = delete;
 
-  /// A contact whose forces this rank has computed. With newton off a contact across ranks is seen on both.
+  /// Receives a contact whose forces this rank has computed. With newton off both ranks receive a contact
+  /// between balls of different ranks.
   virtual void see_contact(const ContactRecord &) {}
-  /// A bond, for each ball of it that this rank owns. \param partner ID of the other ball
+  /// Receives a bond, once for each of its balls that this rank owns. \param partner ID of the other ball
   virtual void see_bond(int /*ball*/, int /*partner*/, const physics::LinkModes &) {}
 
   bool observing() const { return observing_; }
@@ -54,11 +56,11 @@ private:
   bool observing_ = false;
 };
 
-/// The observers of an engine instance, for a pair style, wall or bond that reports to them. Few scenes have
-/// any and few steps are observed, so that a contact pays for one comparison or two.
+/// The observers of an engine instance, for a pair style, wall or bond that reports to them. Most scenes have
+/// none and most steps are not observed: any() lets a contact skip its report at the cost of a comparison.
 class ContactObservers {
 public:
-  /// In the initialization of each run.
+  /// Looks up the observers among the fixes. To be called in the initialization of each run.
   void find(const LAMMPS_NS::Modify &modify) {
     all_.clear();
     for (int n = 0; n < modify.nfix; ++n)

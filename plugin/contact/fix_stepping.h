@@ -1,5 +1,6 @@
 #pragma once
-// The helper of second-order stepping, made by the pair style: what the contact law needs to know of the step before.
+// The fix behind the keyword `stepping second`, added by the pair style: it gives the contact law velocities
+// and damping of the step before, and applies the parts of contact forces that do not fit into one force.
 
 #include "engine.h"
 #include "physics/stepping.h"
@@ -8,21 +9,24 @@
 
 namespace LAMMPS_NS {
 
-/// Keeps for each ball its velocity at the begin of the step and the sum c/m over its contacts, on ghosts too, and hands
-/// the forces of a step in which contact was made back to their physical value before the next step starts.
+/// Stores for each ball, ghosts included, its velocity at the beginning of the step and the sum of c/m over
+/// its contacts in the last step. Solves for coupled contacts when all forces of a step are known. In a step
+/// in which a contact begins or ends, the closing half kick needs another force than the next opening half
+/// kick: the fix changes the forces between the two, at the end of the step, and applies position
+/// corrections.
 ///
-/// Nothing of it is restart state: both follow from the positions and velocities at set-up.
+/// It writes nothing to restart files: a restarted run computes all this anew at its set-up.
 class FixStepping : public drumlin::engine::GhostFix {
 public:
   FixStepping(LAMMPS *, int, char **);
   ~FixStepping() override;
 
-  /// The helper of this engine instance, or nullptr under stock stepping.
+  /// The fix of this engine instance; nullptr under `stepping stock`.
   static FixStepping *find(LAMMPS *lmp);
-  /// The helper of this engine instance, made if there is none.
+  /// The fix of this engine instance, which is added if there is none.
   static FixStepping *provide(LAMMPS *lmp);
-  /// To be called when the pair style has another stepping or goes: find() then finds none. The fix stays at its place among the others,
-  /// without a part in the run, until provide() asks for it again.
+  /// To be called when the pair style changes to `stepping stock` or is deleted: find() then returns nullptr.
+  /// The fix keeps its place in the list of fixes and does nothing until provide() is called again.
   static void dismiss(LAMMPS *lmp);
 
   int setmask() override;
@@ -45,49 +49,62 @@ public:
   void join_gathered(int, const int *, const double *) override;
   double memory_usage() override;
 
-  bool in_setup() const { return in_setup_; } ///< velocities belong to the time of the positions
-  /// Whether this is a step, in which no dashpot is heavy and none has to be counted.
+  /// Whether forces are computed for the set-up of a run: velocities then belong to the time of the
+  /// positions.
+  bool in_setup() const { return in_setup_; }
+  /// True in a step in which no contact can need coupling, since all damping is light: the sums of c/m are
+  /// then neither known nor needed.
   bool light() const { return light_; }
-  /// Whether this rank takes note of forces on ball i: an owned one, or with newton on, where no other rank meets the contact, a ghost
-  /// on behalf of its owner; false for a wall's -1.
+  /// Whether this rank computes the force on ball i of a contact: true for an owned ball, and with newton on,
+  /// where one rank alone computes the contact, also for a ghost, whose force is sent to its owner. False for
+  /// a wall (i = -1).
   bool takes(int i) const { return i >= 0 && (i < atom->nlocal || force->newton_pair); }
   double dt() const { return dt_; }                             ///< s
   const double *velocity_before(int i) const { return row(i); } ///< v(t), m/s, owned balls and ghosts
-  /// Takes note, after the integration and before the ghosts hear of it, that a force on owned ball i is known to change in
-  /// this step: 2 v+ - velocity_before is then the velocity with the new force.
+  /// Announces that the force on owned ball i changes in this step by a known amount, N (an excitation):
+  /// 2 v+ - velocity_before(i) is then the velocity with the changed force. To be called after the
+  /// integration (post_integrate) and before the values of ghosts are updated (pre_force).
   void foresee(int i, const std::array<double, 3> &change) {
     for (std::size_t a = 0; a < 3; ++a)
       velocity_[i][a] -= 0.5 * update->dt * change[a] / atom->rmass[i];
   }
-  /// Sum of c/m in the last step, 1/s, of owned balls and ghosts; 0 if none could be heavy: see expect_contacts().
+  /// Sum of c/m over the contacts of ball i (owned or ghost) in the last step, 1/s; 0 if it was not computed,
+  /// since no contact could need coupling: see expect_contacts().
   double damping_over_mass(int i) const { return counted_ ? row(i)[sum] : 0.0; }
-  /// Whether the contacts of this step are to be counted with add_damping().
+  /// Whether the contacts of this step have to call add_damping().
   bool counting() const { return counting_; }
-  /// Counts the c, N s/m, of a contact of ball i for the next step; with newton off what a ghost gets is forgotten.
+  /// Adds the damping coefficient c, N s/m, of a contact to the sum of ball i that the next step uses. With
+  /// newton off the sum of a ghost is discarded: its owner computes the contact, too.
   void add_damping(int i, double c) { damping_[static_cast<std::size_t>(i)] += c; }
-  /// Announces, before each search for neighbours (pre_neighbor), a link on owned ball i that is no contact.
+  /// Announces a link on owned ball i that is not a contact (a bond), with its k, N/m, and c, N s/m. To be
+  /// called before each build of the neighbour list (pre_neighbor), which forgets earlier announcements.
   void expect(int i, double k, double c) { expected_.push_back({i, k, c}); }
-  /// Forces after the closing half kick of this step on a ball that takes() them: `rest` stays for the next opening half kick,
-  /// `shift` acts in the next drift only.
+  /// Forces, N, that are added after the closing half kick of this step to a ball i with takes(i): `rest`
+  /// acts in the next opening half kick; `shift` acts in the next drift only (StepResult::shift).
   void add_after_kick(int i, const std::array<double, 3> &rest, const std::array<double, 3> &shift) {
     later_.push_back({i, rest, shift});
   }
 
-  /// A contact that is solved for together with the others, when all forces of the step are known: see coupled_force().
+  /// A contact that is solved for together with others when all forces of the step are known: see
+  /// CoupledDashpot and coupled_force().
   struct Coupled {
     int i, j; ///< j < 0: a wall
     std::array<double, 3> normal;
-    drumlin::physics::CoupledDashpot dashpot; ///< sees the rate of a resting wall
-    double share;                             ///< of the force that acts, 1 but for a mesh
-    double *force;                            ///< takes the force, N
+    drumlin::physics::CoupledDashpot dashpot; ///< a wall's own velocity is included in at_rest
+    double share;                             ///< part of the force that acts: see StepContact::share
+    double *force;                            ///< where the force, N, is stored
   };
-  /// A contact to be filled in, in its place: copying it as a whole would wait for its parts to be written.
+  /// Adds a coupled contact and returns it, for the caller to fill in. (Filling it in place is faster than
+  /// copying a finished one.)
   Coupled &couple() { return coupled_.emplace_back(); }
-  /// The same for a link whose balls may be on any ranks: `close` is called on all ranks, when v* is known, and adds to the forces.
+  /// The same for a link that is not a contact and whose balls may be on different ranks: `close` is called
+  /// when v* is known, and adds the force of the link by add_force(). All ranks must call couple(), since
+  /// `close` may communicate.
   void couple(const std::function<void()> &close) { coupled_links_.push_back(close); }
-  /// v*, m/s, of an owned ball: in `close` only.
+  /// v*, m/s, of an owned ball; valid while `close` is called.
   const double *predicted_velocity(int i) const { return velocity_[i]; }
-  /// Adds to the force on an owned ball what came too late for the constraints, and to what they say they took.
+  /// Adds factor * vector, N, to the force on owned ball i after the constraint fixes have acted, and to the
+  /// total force that these fixes report as taken away (`f_ID`), since they take this force away, too.
   void add_force(int i, double factor, const std::array<double, 3> &vector);
 
 private:
@@ -95,19 +112,22 @@ private:
     int i;
     std::array<double, 3> rest, shift;
   };
-  /// A fix that takes forces away, and its own sum of what it took; nullptr if it has none that acting again would spoil.
+  /// A fix that takes forces away (setforce, freeze, ...), and its sum of the forces taken away, which is
+  /// restored when the fix acts a second time in a step; nullptr if it has no such sum.
   struct Constraint {
     Fix *fix;
     double *reaction;
-    bool joins; ///< the balls of its group
+    bool joins; ///< whether it distributes forces among the balls of its group (aveforce, clump)
   };
   struct Expected {
     int i;
     double k, c;
   };
-  /// Of a row: what ghosts need, and the place of the sum of c/m behind the velocity. Side by side, the inner loop meets both at once.
+  /// Layout of a row of velocity_: its length, all of which ghosts need, and the index of the sum of c/m
+  /// behind the three velocities. Both lie side by side in memory since the inner loop reads both.
   static constexpr int shared = 4, sum = 3;
-  /// Rows follow one another: this spares the inner loop a pointer per ball.
+  /// The row of ball i. Rows are contiguous in memory, so that the inner loop need not read a pointer per
+  /// ball.
   double *row(int i) const { return velocity_[0] + static_cast<std::ptrdiff_t>(i) * shared; }
   void expect_contacts();
   void gather(std::size_t numbers);
@@ -122,18 +142,18 @@ private:
   bool counting_ = false; // whether the contacts of this step are counted
   bool counted_ = false;  // whether those of the last were
   double dt_ = 0.0;
-  double expected_dt_ = 0.0;       // that counting_ was chosen for
-  std::vector<Expected> expected_; // links that are no contacts
+  double expected_dt_ = 0.0;       // time step for which counting_ was decided
+  std::vector<Expected> expected_; // links that are not contacts
   // Of each ball:
   double **velocity_ = nullptr;      // v(t), at the end of a step v*, m/s; sum of c/m in the last step, 1/s
-  std::vector<double> inverse_mass_; // as its contacts feel it, 1/kg; below 0: not known yet
+  std::vector<double> inverse_mass_; // 1/ContactSource::mass(), 1/kg; below 0: not known yet
   std::vector<double> damping_;      // sum of c in this step, N s/m
-  std::vector<double> gathered_;     // what ghosts have for their owners, comm_reverse numbers each
+  std::vector<double> gathered_;     // sums of ghosts to be sent to owners, comm_reverse each
   std::vector<Coupled> coupled_;     // of this step
   std::vector<std::function<void()>> coupled_links_;
   std::vector<Later> later_;            // of this step
-  std::vector<Later> shifts_;           // in the opening half kick, not yet taken back
-  std::vector<Constraint> constraints_; // they act again on forces that were put back
+  std::vector<Later> shifts_;           // in the next opening half kick, to be taken back after it
+  std::vector<Constraint> constraints_; // act again after the forces have been changed
 };
 
 } // namespace LAMMPS_NS

@@ -1,7 +1,6 @@
 #pragma once
-// The second-order scheme in an engine's loop over contacts: what a contact needs of FixStepping, and what
-// becomes of the result of physics::advance(). The part of an engine's adapter that does not depend on the
-// engine.
+// The second-order scheme in an engine's loop over contacts: collects the arguments of physics::advance()
+// from FixStepping, and applies its result to the balls. Shared by the adapters of both engines.
 
 #include "contact/fix_stepping.h"
 #include "physics/contact_step.h"
@@ -11,15 +10,15 @@
 
 namespace drumlin {
 
-/// One contact as an engine's loop meets it.
+/// One contact, as the loop of an engine's pair style or wall describes it.
 struct StepContact {
   int i, j;                     ///< balls, owned or ghosts; j < 0: a wall
   std::array<double, 3> normal; ///< unit vector from j to i
   const double *wall_velocity;  ///< m/s, of a wall; nullptr: at rest
   double overlap;               ///< m
-  double rate_half; ///< m/s, of the overlap, with the velocities that the engine has in the middle of a step
+  double rate_half; ///< of the overlap, m/s, with the half-step velocities v+, which the engine has here
   double m_eff;     ///< kg
-  double share;     ///< of the force that acts: 1 but for a mesh
+  double share;     ///< part of the force that acts: 1, or less where triangles of a mesh share it
 };
 
 /// Rate of the overlap with the velocities at the begin of the step, m/s.
@@ -43,15 +42,17 @@ inline physics::StepContext step_context(const LAMMPS_NS::FixStepping &stepping,
           stepping.in_setup()};
 }
 
-/// Counts the damping coefficient c, N s/m, of a contact for the next step, where that is asked for.
+/// Adds the damping coefficient c, N s/m, of a contact to the sums of its balls, which the next step uses;
+/// does nothing in steps in which FixStepping does not need them.
 inline void count(LAMMPS_NS::FixStepping &stepping, int i, int j, double c) {
   if (!stepping.counting()) return;
   stepping.add_damping(i, c);
   if (j >= 0) stepping.add_damping(j, c);
 }
 
-/// physics::advance() for a contact that only goes on; for inner loops, the rest is exert_contact().
-/// \param j below 0: a wall \returns false if the contact does not only go on: then nothing is done
+/// physics::advance() for a contact that continues (physics::goes_on()), for inner loops.
+/// \param j below 0: a wall \returns false, and changes nothing, in all other situations: the caller then
+/// calls exert_contact()
 template <class Law>
 inline bool hold_contact(const Law &law, LAMMPS_NS::FixStepping &stepping, int i, int j,
                          const physics::StepMotion &motion, double m_eff, physics::ContactState &state) {
@@ -64,7 +65,7 @@ inline bool hold_contact(const Law &law, LAMMPS_NS::FixStepping &stepping, int i
   return true;
 }
 
-/// Leaves a dashpot to be solved for when all forces of the step are known.
+/// Hands a dashpot to FixStepping, which solves for it when all forces of the step are known.
 inline void couple(LAMMPS_NS::FixStepping &stepping, const StepContact &p,
                    const physics::CoupledDashpot &dashpot, double &stored_force) {
   LAMMPS_NS::FixStepping::Coupled &contact = stepping.couple();
@@ -80,7 +81,8 @@ inline void couple(LAMMPS_NS::FixStepping &stepping, const StepContact &p,
   contact.force = &stored_force;
 }
 
-/// Has what does not belong to the closing half kick exerted after it.
+/// Hands to FixStepping what acts after the closing half kick: the rest of the force up to StepResult::force,
+/// for the next opening half kick, and the position correction.
 inline void exert_later(LAMMPS_NS::FixStepping &stepping, const StepContact &p,
                         const physics::StepResult &step) {
   if (step.coupled || (step.kick == step.force && step.shift == 0.0)) return;
@@ -95,11 +97,12 @@ inline void exert_later(LAMMPS_NS::FixStepping &stepping, const StepContact &p,
   if (stepping.takes(p.j)) later(p.j, -1.0);
 }
 
-/// Any contact in any step. \param state from the step before; takes that of this step
-/// \param stored_force where the contact's history keeps ContactState::force: a coupled contact gets it when
-/// all forces are known
-/// \param push takes the force, N, of the closing half kick along the normal on both balls, scaled with
-/// nothing
+/// Applies the second-order scheme to one contact, in any situation.
+/// \param state of the step before on entry, of this step on return
+/// \param stored_force where the contact's history keeps ContactState::force; for a coupled contact the force
+/// is written there when all forces of the step are known
+/// \param push called with the force, N, of the closing half kick, StepContact::share included; adds it along
+/// the normal to ball i and its opposite to ball j
 template <class Law, class Push>
 void exert_contact(const Law &law, LAMMPS_NS::FixStepping &stepping, const StepContact &p,
                    physics::ContactState &state, double &stored_force, Push &&push) {

@@ -1,6 +1,6 @@
 #pragma once
-// fix guard: ends a run with numbers that are not finite, with an unstable time step or with too large
-// overlaps. See plugin/doc/fix_guard.md.
+// fix guard: ends a run in which a number is not finite, the time step is unstable or an overlap is too
+// large. See plugin/doc/fix_guard.md.
 
 #include "engine.h"
 #include "contact/contact_observer.h"
@@ -12,8 +12,9 @@
 namespace LAMMPS_NS {
 
 /// Ends the run on all ranks, with one line, when a position, velocity or force of a ball of the group is not
-/// finite, when the time step is longer than the critical one of the present contacts and bonds, or when an
-/// overlap is so large that the contact law has no meaning.
+/// finite, when the time step is longer than an allowed fraction of the critical step of the present contacts
+/// and bonds, or when an overlap is larger than an allowed share of the smaller radius. A link is a contact
+/// or a bond.
 class FixGuard : public drumlin::engine::GhostFix, public drumlin::ContactObserver {
 public:
   FixGuard(LAMMPS *, int, char **);
@@ -26,9 +27,10 @@ public:
   void end_of_step() override;
   void pack_gathered(int, int, double *) override;
   void join_gathered(int, const int *, const double *) override;
-  /// Critical step at the last check, s; infinite without contacts and bonds.
+  /// Critical step at the last check of the links, s; infinite if there was none.
   double compute_scalar() override { return critical_.value; }
-  /// 0: pi/(w0 dt) of the link with the largest w0; 1: largest overlap, as a share of the smaller radius.
+  /// 0: pi/(w0 dt), w0^2 = k/m_eff, of the link with the largest w0; 1: largest overlap, as a share of the
+  /// smaller radius.
   double compute_vector(int) override;
   void see_contact(const drumlin::ContactRecord &) override;
   void see_bond(int ball, int partner, const drumlin::physics::LinkModes &modes) override {
@@ -36,12 +38,13 @@ public:
   }
 
 private:
-  /// The extreme of a quantity over all balls, with the IDs of the ball and of its partner in the link;
-  /// partner 0: a wall.
+  /// The smallest or largest value of a quantity over all balls of all ranks, with the IDs of the ball and of
+  /// its partner in the link; partner 0: a wall.
   struct Extreme {
     double value, ball, partner;
   };
-  /// Sums and extremes over the links of a ball. Numbers only: they are sent to other ranks.
+  /// Sums and extremes over the links of a ball. All members are doubles, since the struct is sent to other
+  /// ranks as an array of doubles.
   struct Ball {
     drumlin::physics::LoadedBall loads;
     double fastest = 0.0; // largest k/m_eff of its links, 1/s^2
@@ -71,7 +74,7 @@ private:
   std::vector<Ball> balls_;     // of this rank, ghosts included with newton on
   Extreme critical_{}, fastest_{}, deepest_{};
   std::string logged_;                             // the last line of log_at_setup()
-  const drumlin::ContactSource *source_ = nullptr; // of the masses that contacts feel
+  const drumlin::ContactSource *source_ = nullptr; // gives the effective masses of contacts
 };
 
 } // namespace LAMMPS_NS

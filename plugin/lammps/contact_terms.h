@@ -1,7 +1,7 @@
 #pragma once
-// One contact of two balls, or of a ball and a wall: what pair_style gran/hooke/transition and fix
-// wall/gran/transition have in common. The laws are the core's; the choice among them is made at compile
-// time.
+// The forces of one contact, shared by pair_style gran/hooke/transition and fix wall/gran/transition. The
+// laws are those of plugin/physics. Scheme and friction model are template arguments, so that the inner loop
+// of the pair style has no branches for them.
 
 #include "contact/contact_observer.h"
 #include "contact/contact_settings.h"
@@ -19,29 +19,30 @@ namespace drumlin {
 /// A contact in one step.
 struct Contact {
   StepContact normal;
-  physics::Vec3 slip; ///< m/s, of ball i's surface relative to j's
-  double arm_i, arm_j;
-  double *history; ///< see ContactSettings::history(); nullptr if there is none
-  bool in_contact; ///< in the step before
+  physics::Vec3 slip;  ///< m/s, of ball i's surface relative to j's
+  double arm_i, arm_j; ///< m, from the centre of each ball to the point where friction acts
+  double *history;     ///< see ContactSettings::history(); nullptr if there is none
+  bool in_contact;     ///< in the step before
 };
 
-/// What a contact exerts: the force on ball i, of which j takes the opposite, and on each ball the torque
-/// -arm times moment.
+/// The force of a contact on ball i, of which j gets the opposite. The torque on each ball is -arm times
+/// moment.
 struct ContactForces {
-  double normal_force; ///< N, as friction takes it
+  double normal_force; ///< N, at the end of the step, used for friction
   physics::Vec3 force, tangential_force;
   physics::Vec3 moment; ///< N, normal x tangential force
 };
 
-/// A copy, number by number, for what is out of line: an inner loop whose contact is copied as a whole keeps
-/// it in memory.
+/// A copy made number by number, as argument of functions that are not inlined: with a copy as a whole the
+/// compiler would keep the contact of the inner loop in memory instead of in registers.
 inline StepContact apart(const StepContact &p) {
   return {p.i,     p.j,    {p.normal[0], p.normal[1], p.normal[2]}, p.wall_velocity, p.overlap, p.rate_half,
           p.m_eff, p.share};
 }
 
-/// What begins, ends and heavy damping need, out of line. \param state takes that of this step
-/// \returns the force that acts along the normal, N
+/// exert_contact() as a function that is not inlined, for the rare steps in which a contact begins, ends or
+/// is heavily damped. \param state of the step before on entry, of this step on return
+/// \returns the force of the closing half kick along the normal, N
 template <class Law>
 [[gnu::noinline]] double exert_rare(const Law &law, LAMMPS_NS::FixStepping &stepping,
                                     const StepContact &contact, physics::ContactState &state,
@@ -51,8 +52,9 @@ template <class Law>
   return push;
 }
 
-/// Exerts the laws on one contact with an overlap. \param stepping nullptr under stock stepping \param moves
-/// whether the springs move on: not in a set-up
+/// Computes the forces of one contact whose surfaces overlap, and updates its history.
+/// \param stepping nullptr under `stepping stock`
+/// \param moves whether the tangential spring is advanced by a step: false in the set-up of a run
 template <bool stepped, FrictionModel tangential>
 inline ContactForces exert(const ContactSettings &settings, const ContactCoefficients &coefficients,
                            LAMMPS_NS::FixStepping *stepping, const Contact &p, double dt, bool moves) {
@@ -99,19 +101,20 @@ inline ContactForces exert(const ContactSettings &settings, const ContactCoeffic
   return out;
 }
 
-/// The step in which a contact ends. \param contact by value: its overlap is made one that is surely none
-/// \returns the force on ball i, N
+/// The step in which a contact ends. \param contact a copy, whose overlap is made negative even if rounding
+/// has left 0 \returns the force on ball i, N
 [[gnu::noinline]] inline physics::Vec3 end_contact(const ContactCoefficients &coefficients,
                                                    LAMMPS_NS::FixStepping &stepping, StepContact contact,
                                                    double stored_force) {
-  contact.overlap = std::min(contact.overlap, -std::numeric_limits<double>::min()); // rounding may leave 0
+  contact.overlap = std::min(contact.overlap, -std::numeric_limits<double>::min());
   physics::ContactState state{stored_force, true, {}};
   const double push =
       exert_rare(coefficients.normal.of_mass(contact.m_eff), stepping, contact, state, stored_force);
   return {push * contact.normal[0], push * contact.normal[1], push * contact.normal[2]};
 }
 
-/// Calls run(stepped, tangential) with what the settings choose, as constants by their types.
+/// Calls run(stepped, tangential) with the scheme and the friction model of the settings as compile-time
+/// constants (std::integral_constant).
 template <class Run>
 void with_models(const ContactSettings &settings, Run &&run) {
   const auto with_stepping = [&](auto tangential) {
@@ -127,7 +130,7 @@ void with_models(const ContactSettings &settings, Run &&run) {
   }
 }
 
-/// A contact as observers see it. \param radius of the smaller ball, m
+/// The record of a contact for observers. \param radius of the smaller ball, m
 inline ContactRecord record_of(const ContactSettings &settings, const ContactCoefficients &coefficients,
                                const Contact &p, const ContactForces &forces, double radius) {
   const auto law = coefficients.normal.of_mass(p.normal.m_eff);
@@ -156,11 +159,12 @@ inline ContactRecord record_of(const ContactSettings &settings, const ContactCoe
   return record;
 }
 
-/// A fix that is walls with the law of the pair style.
+/// Base of the fixes that are walls with the law of the pair style.
 class Walls {
 public:
+  /// Type, 1 to ntypes, of the pair_coeff lines that hold for the wall.
   virtual int wall_type() const = 0;
-  /// How many contacts a ball may have with it at once.
+  /// Largest number of contacts that a ball may have with the fix at once.
   virtual int sides() const = 0;
 
 protected:

@@ -12,7 +12,8 @@ namespace LAMMPS_NS {
 
 class FixNeighHistory;
 
-/// The transition law between balls: the core's laws, with the neighbour history of gran/hooke/history.
+/// The contact law of plugin/physics between balls, in LAMMPS. The history of contacts is stored by LAMMPS's
+/// fix NEIGH_HISTORY, as for gran/hooke/history.
 class PairGranHookeTransition : public Pair, public drumlin::ContactSource {
 public:
   explicit PairGranHookeTransition(LAMMPS *);
@@ -32,7 +33,7 @@ public:
   int pack_forward_comm(int, int *, double *, int, int *) override;
   void unpack_forward_comm(int, int, double *) override;
   double memory_usage() override { return static_cast<double>(rigid_mass_.capacity()) * sizeof(double); }
-#if DRUMLIN_LAMMPS_PAIR_CUTOFFS // else the engine takes them from the radii
+#if DRUMLIN_LAMMPS_PAIR_CUTOFFS // older releases compute these cutoffs from the radii themselves
   double atom2cut(int i) override { return 2.0 * atom->radius[i]; }
   double radii2cut(double r1, double r2) override { return r1 + r2; }
 #endif
@@ -41,7 +42,8 @@ public:
     return at(itype, jtype).normal;
   }
   double mass(int i) const override;
-  /// The same with no regard to fix freeze: as walls feel it. Kg.
+  /// The same, kg, but finite for a ball in the group of fix freeze: walls do not treat such balls
+  /// differently.
   double mass_unless_frozen(int i) const;
   drumlin::physics::Dashpots wall_dashpots(int i) const override;
   drumlin::FrictionModel friction_model() const override { return settings_.tangential; }
@@ -51,14 +53,14 @@ public:
   const double *tangential_spring(int i, int jj) const override;
   const NeighList *contact_list() const override { return list; }
 
-  /// The pair style of this engine instance, or the one part of a hybrid pair style that is this; nullptr:
-  /// there is none, or more than one.
+  /// The pair style of this engine instance if it is of this class, or the only part of a hybrid pair style
+  /// that is; nullptr if there is none, or more than one.
   static PairGranHookeTransition *find(LAMMPS *lmp);
   /// Whether a pair_coeff line has given the coefficients of a pair of types, in either order.
   bool has_coefficients(int itype, int jtype) const {
     return setflag[std::min(itype, jtype)][std::max(itype, jtype)] != 0;
   }
-  /// The words of an error about a pair of types without coefficients.
+  /// The text of the error for a pair of types without coefficients.
   static std::string missing_coefficients(int itype, int jtype);
   const drumlin::ContactSettings &contact_settings() const { return settings_; }
   const drumlin::ContactCoefficients &at(int itype, int jtype) const {
@@ -72,7 +74,7 @@ private:
   [[gnu::noinline]] void report(const drumlin::Contact &, const drumlin::ContactForces &) const;
   void check_engine() const;
   void share_rigid_masses();
-  /// What ball i's contact with its neighbour j remembers; nullptr: j is none.
+  /// The history of the contact of ball i with its neighbour j; nullptr if j is not in i's neighbour list.
   const double *history(int i, int j) const;
 
   drumlin::ContactSettings settings_;
@@ -86,7 +88,7 @@ private:
   std::vector<const drumlin::Walls *> walls_;
   std::vector<Fix *> rigid_;
   std::vector<double>
-      rigid_mass_; // of owned balls and ghosts, kg, 0: of no rigid body; empty without fix rigid
+      rigid_mass_; // body's mass of owned balls and ghosts, kg; 0: in no rigid body; empty without fix rigid
   std::vector<double> reach_, frozen_reach_; // greatest radius by type, m
 };
 

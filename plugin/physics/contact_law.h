@@ -1,11 +1,11 @@
 #pragma once
 /// The linear contact of the paper, Eq. (2), with its two transition conditions, A of Eqs. (3)-(5) and
-/// B of Eqs. (6)-(9), and what every contact law has in common.
+/// B of Eqs. (6)-(9), and the base class of all contact laws.
 ///
 /// Sign convention: the overlap d = x1 - x2 is positive while the surfaces overlap, its rate d' is positive
 /// while they approach, and the force Fc is positive in compression (it pushes the balls apart). SI units.
 ///
-/// No function replaces a NaN by a number: NaN in, NaN out, so that a lost state is seen.
+/// A NaN in an argument gives a NaN, never a number, so that an error in the state of a run stays visible.
 
 #include "physics/checks.h"
 
@@ -15,26 +15,28 @@
 namespace drumlin::physics {
 
 /// When a contact ends.
-/// A: as it began, at d = 0; the dashpot then still pulls, Eq. (5).
-/// B: when the force falls to zero, at d = -c d'/k > 0, Eqs. (6)-(7); the contact never pulls.
+/// A: at d = 0, where it began; just before, the dashpot pulls, Eq. (5).
+/// B: when the force has fallen to zero, at d = -c d'/k > 0, Eqs. (6)-(7); the contact never pulls.
 enum class Transition { A, B };
 
-/// How a damping value is meant: the dashpot coefficient c in N s/m, or the damping ratio D of Eq. (10).
+/// The meaning of a damping value: the dashpot coefficient c in N s/m, or the damping ratio D of Eq. (10).
 enum class Damping { coefficient, ratio };
 
-/// Where the power Fc d' that the balls give to a contact goes, W.
+/// The two parts of the power Fc d' that the balls do on a contact, W.
 struct ContactPower {
   double dissipated; ///< heat in the dashpot, never negative
   double stored;     ///< rate of the energy in the spring, of either sign
 };
 
-/// What follows from a law's spring and dashpot under a transition condition: for any law whose force is
+/// Force, energy and power of a contact under a transition condition, for any law whose force is
 ///   Fc = E(d) + C(d) d'  for d > 0, else 0.
-/// `Law` gives the functions of the overlap d > 0, in m:
+/// `Law` derives from ContactLaw<Law> and has these functions of the overlap d > 0, in m:
 ///   spring(d)     E, N, 0 at d = 0
 ///   dashpot(d)    C, N s/m, >= 0
 ///   stiffness(d)  dE/dd, N/m
 ///   stored(d)     energy in the spring, J, the integral of E
+/// The second-order scheme (contact_step.h) also needs spring_change(), begins_with_jump and first_weight():
+/// see LinearLaw below, and hertz_contact.h for a law whose force begins with 0.
 template <class Law>
 class ContactLaw {
 public:
@@ -43,39 +45,37 @@ public:
     return self().spring(overlap) + self().dashpot(overlap) * rate;
   }
 
-  /// What the transition condition leaves of a force, N, of spring and dashpot: B has no tension. Any other
-  /// part of the program asks this function; none has a condition of its own.
+  /// A force, N, of spring and dashpot under the transition condition: unchanged under A; under B a tension
+  /// becomes 0 (no-tension limit). The condition is applied here and in acts() and power() alone.
   [[nodiscard]] double limited(double force) const {
     return transition_ == Transition::B && force < 0.0 ? 0.0 : force;
   }
 
   /// Contact force Fc, N, positive in compression, Eq. (2). overlap d in m, rate d' in m/s, positive while
-  /// approaching. B is a clamp while the balls overlap and keeps no memory: Eqs. (8)-(9) read as a latch
-  /// (re-made only through d = 0) would let a drum that turns round before the gap opens fall through the
-  /// soil.
+  /// approaching. B is a limit on the force without history: while the balls overlap, a force that has fallen
+  /// to 0 may grow again. By the words of Eqs. (8)-(9) a broken contact could be made again only at d = 0; a
+  /// drum that reverses its motion before the gap opens would then fall through the soil.
   [[nodiscard]] double force(double overlap, double rate) const {
     return overlap <= 0.0 ? 0.0 : limited(spring_and_dashpot(overlap, rate));
   }
 
-  /// True while the contact carries its law: d > 0, and under B also a force > 0. Makes and breaks are the
-  /// instants at which this changes.
+  /// Whether the contact exists under its transition condition: d > 0, and under B also a force > 0. Makes
+  /// and breaks are the instants at which this changes.
   [[nodiscard]] bool acts(double overlap, double rate) const {
     return overlap > 0.0 && (transition_ == Transition::A || spring_and_dashpot(overlap, rate) > 0.0);
   }
 
-  /// Whether a contact still carries a force, of tension, when the overlap has gone: then its end is a jump
-  /// of the force.
+  /// Whether the contact force is a tension just before the contact ends, so that the force jumps there.
   [[nodiscard]] bool ends_in_tension() const { return transition_ == Transition::A; }
 
   /// Energy in the contact's spring, J; 0 for d <= 0.
   [[nodiscard]] double energy(double overlap) const { return overlap <= 0.0 ? 0.0 : self().stored(overlap); }
 
   /// Splits Fc d' into spring and dashpot: stored = E d', dissipated = (Fc - E) d', both 0 for d <= 0.
-  /// dissipated is C d'^2 where the law is not clamped. Where B clamps, Fc = 0 and E < -C d', the balls part
-  /// faster than the soil can follow: spring and dashpot relax against each other, and the spring's energy
-  /// turns into heat at the rate -E d' > 0, less than C d'^2. Summed over time with energy() this closes the
-  /// energy balance contact by contact, through clamp, make and break: d runs continuously, and so does the
-  /// energy.
+  /// dissipated is C d'^2 where the no-tension limit does not act. Where it acts (B, Fc = 0 and E < -C d'),
+  /// the spring relaxes against the dashpot, and its energy turns into heat at the rate -E d' > 0, which is
+  /// less than C d'^2. The integral of stored over time is the change of energy(), through makes, breaks and
+  /// the limit, since d and with it the energy are continuous: the energy balance holds for each contact.
   [[nodiscard]] ContactPower power(double overlap, double rate) const {
     if (overlap <= 0.0) return {0.0, 0.0};
     const double stored = self().spring(overlap) * rate;
@@ -107,22 +107,23 @@ public:
   [[nodiscard]] double dashpot(double) const { return c_; }
   [[nodiscard]] double stiffness(double) const { return k_; }
   [[nodiscard]] double stored(double overlap) const { return 0.5 * k_ * overlap * overlap; }
-  /// Change, N, of spring() in a time dt, s, in which the overlap has grown at a rate, m/s, to d.
+  /// Change, N, of spring() during a time dt, s, in which the overlap grew at a constant rate, m/s, and which
+  /// ends at the overlap d, m (the first argument; not needed by this law).
   [[nodiscard]] double spring_change(double, double rate, double dt) const { return k_ * dt * rate; }
 
-  /// The force begins with a jump, to c d'.
+  /// Whether the force jumps at the beginning of a contact: here from 0 to c d'.
   static constexpr bool begins_with_jump = true;
-  /// Weight of the first force of a contact in the closing half kick of the step in which it is made. The
-  /// last force under A gets this less 1 in the step in which the contact ends. \param share of a step, 0 to
-  /// 1, that the force has acted
+  /// Weight of a contact's first force in the closing half kick of the step in which the contact begins. In
+  /// the step in which a contact ends under A, its last force has the weight first_weight(share) - 1.
+  /// \param share part of the step, 0 to 1, in which the force acted
   [[nodiscard]] static double first_weight(double share) { return 2.0 * share; }
 
 private:
   double k_, c_;
 };
 
-/// Mass, kg, that the relative motion of two balls sees: m_eff = mi mj / (mi + mj).
-/// A fixed partner is an infinite mass, and m_eff is then the other ball's mass (m2 in Eq. (10)).
+/// Effective mass, kg, of the relative motion of two balls: m_eff = mi mj / (mi + mj).
+/// A fixed partner has an infinite mass, and m_eff is then the other ball's mass (m2 in Eq. (10)).
 /// Valid for masses > 0 of which at most one is infinite.
 [[nodiscard]] inline double effective_mass(double mi, double mj) {
   const double lighter = mi < mj ? mi : mj;
@@ -131,7 +132,7 @@ private:
   return std::isinf(sum) ? lighter : lighter * (heavier / sum);
 }
 
-/// Parameters of one kind of contact, for balls of any masses.
+/// Parameters of the linear law for a pair of types; of_mass() gives the law for balls of given masses.
 struct LinearContact {
   using Law = LinearLaw;
 
@@ -156,7 +157,7 @@ struct LinearContact {
     return 2.0 * damping * std::sqrt(m_eff * stiffness);
   }
 
-  /// The law of the contact of two balls.
+  /// The law of a contact of effective mass m_eff, kg, > 0.
   [[nodiscard]] LinearLaw of_mass(double m_eff) const {
     return {stiffness, damping_coefficient(m_eff), transition};
   }

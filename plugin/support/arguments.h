@@ -1,6 +1,6 @@
 #pragma once
-// The arguments of a style or command, read from left to right. A wrong one ends the run with one line that
-// names command, keyword and value, and says what is allowed.
+// Reads the arguments of a style or command from left to right. A wrong argument ends the run with one line
+// that names command, keyword and value, and says what is allowed.
 
 #include "engine.h"
 
@@ -16,8 +16,8 @@ namespace drumlin {
 /// Which finite numbers an argument may be.
 enum class Range { any, positive, non_negative };
 
-/// The number of a word that is a decimal number as a whole; NaN for every other word, hexadecimal numbers,
-/// nan and inf included, which no argument may be.
+/// The value of a word that is, as a whole, a finite decimal number. NaN for every other word, also for
+/// hexadecimal numbers, nan and inf, which are not allowed as arguments.
 inline double parse_number(const std::string &word) {
   char *end = nullptr;
   const double value = std::strtod(word.c_str(), &end);
@@ -38,7 +38,8 @@ inline const char *allowed_text(Range range) {
   return range == Range::non_negative ? "a finite number >= 0" : "a finite number";
 }
 
-/// The words in one text. (fmt::join() has moved to a header that not every engine's copy of fmt has.)
+/// The words as one text, separated by `separator`. (fmt::join() is in a header that the fmt of some LAMMPS
+/// releases does not have.)
 inline std::string joined(const std::vector<std::string> &words, const std::string &separator) {
   std::string text;
   for (std::size_t n = 0; n < words.size(); ++n)
@@ -54,9 +55,10 @@ inline std::string join_choices(const std::vector<std::string> &choices) {
   return text;
 }
 
-/// Reader of the arguments of a style or command. Each function that reads ends the run through the engine's
-/// error->all() if the argument is missing or not allowed, with "ERROR: COMMAND: WHAT is 'VALUE'; allowed:
-/// ...".
+/// Reader of the arguments of a style or command. Each function that reads an argument ends the run through
+/// the engine's error->all() if the argument is not allowed, with "ERROR: COMMAND: WHAT is 'VALUE'; allowed:
+/// ...", or missing, with "ERROR: COMMAND: WHAT is missing; allowed: ...". `what` is the argument's name in
+/// the error.
 class Arguments {
 public:
   /// \param command name for the error text, e.g. "fix drum/excite"
@@ -64,7 +66,7 @@ public:
       : error_(error), command_(std::move(command)), words_(arg, arg + narg) {}
 
   bool empty() const { return next_ >= words_.size(); }
-  /// The next argument, which stays the next. Not if empty().
+  /// The next argument, without moving on to the one after it. Not to be called if empty().
   const std::string &peek() const { return words_[next_]; }
 
   /// The next argument as a word. \param what its name in the error \param allowed what it may be
@@ -93,7 +95,7 @@ public:
     return static_cast<engine::bigint>(value);
   }
 
-  /// The next argument as one of some words; its index.
+  /// Reads the next argument, which must be one of `choices`, and returns its index among them.
   int choice(const std::string &what, const std::vector<std::string> &choices) {
     const std::string text = word(what, join_choices(choices));
     for (std::size_t n = 0; n < choices.size(); ++n)
@@ -113,7 +115,7 @@ public:
     return v;
   }
 
-  /// The next argument as the name of a group that exists; its index.
+  /// Reads the next argument, which must be the name of a group that exists, and returns the group's index.
   int group(const std::string &what, LAMMPS_NS::Group *groups) {
     const std::string name = word(what, "the name of a group");
     const int index =
@@ -122,7 +124,7 @@ public:
     return index;
   }
 
-  /// Ends the run if there are more arguments. \param allowed the arguments that there may be
+  /// Ends the run if there are more arguments. \param allowed the arguments that are allowed, for the error
   void expect_end(const std::string &allowed) const {
     if (!empty()) fail("argument is '" + peek() + "', one too many; allowed: " + allowed);
   }
