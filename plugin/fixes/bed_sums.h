@@ -12,13 +12,13 @@ namespace drumlin {
 /// Sums over all contacts of a step, those of the roller and the walls included.
 struct ContactSums {
   double normal_heat =
-      0.0; ///< W, power of the normal dashpots; under B it includes the spring energy that is lost while the force is 0
+      0.0; ///< W, of the normal dashpots; under B with the spring energy lost while the force is 0
   double tangential_power =
-      0.0; ///< W, power taken from the balls by friction and rolling: heat, and energy stored in their springs
+      0.0; ///< W, taken from the balls by friction and rolling: heat and energy of their springs
   double normal_stored = 0.0;     ///< J, in normal springs
   double tangential_stored = 0.0; ///< J, in tangential springs
   double contacts = 0.0;          ///< number of contacts with at least one soil ball
-  double coordination = 0.0;      ///< number of contacts of each soil ball, summed over the soil balls
+  double coordination = 0.0;      ///< number of contacts of a soil ball, summed over the soil balls
   double overlap = 0.0;           ///< sum of overlap over smaller radius, of the contacts with soil balls
   double floor_force = 0.0; ///< N, force along the axis on the balls by walls whose normal is along the axis
   double side_force = 0.0;  ///< N, force along the axis on the balls by the other walls: their friction
@@ -28,15 +28,15 @@ struct ContactSums {
 /// Sums over all balls.
 struct BallSums {
   double kinetic = 0.0;     ///< J, rotation included
-  double height = 0.0;      ///< kg m, mass times coordinate along the axis
-  double soil_height = 0.0; ///< kg m, the same of the soil balls
+  double height = 0.0;      ///< kg m, sum of mass times coordinate along the axis
+  double soil_height = 0.0; ///< kg m, the same sum over the soil balls
   double soil_mass = 0.0;   ///< kg
   double soil_balls = 0.0;  ///< number of soil balls
   double solid = 0.0;       ///< m3 (m2 in two dimensions) of soil balls below a given height
 };
 
-/// Sums over the contacts of a step, which are added one by one, and over balls. `axis` is everywhere the unit
-/// vector that points upwards.
+/// Sums over the contacts of a step, which are added one by one, and over balls. `axis` is everywhere the
+/// unit vector that points upwards.
 class BedSums {
 public:
   /// \param soil_groupbit bit of the group of the soil balls
@@ -46,11 +46,11 @@ public:
   void clear() { records_.clear(); }
   void add(const ContactRecord &record) { records_.push_back(record); }
 
-  /// Sums over the recorded contacts with the present velocities. Ghosts must have the velocities of their
-  /// owners. Collective.
+  /// Sums over the recorded contacts with the present velocities. The copies of balls that belong to another
+  /// process (ghosts) must have the velocities of the original balls. To be called on all processes.
   ContactSums contacts(const std::array<double, 3> &axis) const;
-  /// Sums over the balls. Collective. \param window_top height, m along the axis, below which `solid` is
-  /// counted
+  /// Sums over the balls. To be called on all processes. \param window_top height, m along the axis, below
+  /// which `solid` is counted
   BallSums balls(const std::array<double, 3> &axis, double window_top) const;
   /// Void ratio of the soil between the lower bound of the box and `window_top`, over the whole cross-section
   /// of the box; 0 without soil.

@@ -8,7 +8,7 @@
 namespace drumlin {
 
 /// Sums over the steps of the present cycle; energies and heat are sums since the start of the first cycle.
-/// All members are numbers, which a restart file keeps in this order.
+/// All members are of type double, and a restart file stores them in this order.
 struct CycleSums {
   double number = 0.0;              ///< of the cycle
   double steps = 0.0;               ///< steps of the cycle so far
@@ -20,15 +20,15 @@ struct CycleSums {
   double contact_dissipated = 0.0;  ///< J
   double bond_dissipated = 0.0;     ///< J
   double tangential_work = 0.0;     ///< J, taken from the balls by friction and rolling
-  double sinking = 0.0;             ///< m, sum of -x_drum over the steps
-  double settlement = 0.0;          ///< m, mean of -x_drum over the last whole cycle
+  double sinking = 0.0;             ///< m, sum of -x_drum, downward positive, over the steps of the cycle
+  double settlement = 0.0;          ///< m, of the drum: mean of -x_drum over the last whole cycle
 
   /// Begins the next cycle: extremes from the present values, harmonics 0; energies continue.
   void begin_next(const RollerState &now);
 
-  /// Adds a step. Powers are integrated by the trapezoidal rule over the step. The harmonics are those of the
-  /// change of the drum's velocity, which is the integral of its acceleration, jumps of the contact force
-  /// included.
+  /// Adds a step. Powers are integrated by the trapezoidal rule over the step. The harmonics of the
+  /// acceleration are computed from the changes of the drum's velocity from step to step: these are integrals
+  /// of the acceleration and include jumps of the contact force within a step.
   /// \param before the state one step earlier \param dt s \param steps_per_cycle >= 1
   void add_step(const RollerState &before, const RollerState &now, double dt, int steps_per_cycle);
 };

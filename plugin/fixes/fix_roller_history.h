@@ -40,12 +40,12 @@ public:
   void unpack_ghosts(int, int, double *) override;
   void write_restart(FILE *) override;
   void restart(char *) override;
-  /// 0-9: the columns of chain.csv at the last evaluated step.
+  /// 0-9: the columns of chain.csv at the last step at which they were computed.
   double compute_vector(int) override;
 
 private:
-  /// Values of a bed at the first set-up, from which its changes are counted. All members are numbers, which
-  /// a restart file keeps.
+  /// Values of a bed before the first step of the first run, relative to which its changes are given. All
+  /// members are of type double, and a restart file stores them.
   struct Reference {
     double height = 0.0;            // kg m, BallSums::height
     double tangential_stored = 0.0; // J
@@ -80,7 +80,7 @@ private:
   drumlin::RollerBody drum_, frame_;
   double gravity_ = 0.0; // m/s2, downwards along the axis
   drumlin::DrumContacts contacts_;
-  bool pairs_outdated_ = true; // the neighbour list was built since contacts_ has read it
+  bool pairs_outdated_ = true; // the neighbour list was built again after contacts_ had read it
   drumlin::RollerState state_; // of the last evaluated step
   drumlin::CycleSums cycle_;
   int soil_groupbit_ = 0; // 0: no bed

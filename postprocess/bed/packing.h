@@ -1,4 +1,5 @@
-// Soil balls placed at random in a box, none touching another: what a bed is before it settles.
+// Soil balls placed at random in a box, none touching another: the loose initial state, from which the bed
+// settles.
 #pragma once
 
 #include "support/range.h"
@@ -12,10 +13,10 @@
 
 namespace drumlin::post {
 
-/// How radii are spread from the smallest to the largest.
+/// Distribution of the radii between the smallest and the largest.
 enum class Grading {
   uniform, ///< every radius as often as any other
-  mass     ///< the same mass of balls in equal intervals of radius: a straight grading curve
+  mass     ///< the same mass of balls in equal intervals of radius
 };
 
 std::string grading_name(Grading grading);
@@ -23,10 +24,10 @@ std::string grading_name(Grading grading);
 Grading grading_from_name(const std::string &name);
 
 struct PackingOptions {
-  int balls = 2500;    ///< >= 1
-  double width = 2.0;  ///< m, > 0, of the box, wall to wall
-  double depth = 0.0;  ///< m; 0: two dimensions, the balls are discs
-  double height = 0.0; ///< m, of the part of the box that is filled; 0: as high as default_share() wants
+  int balls = 2500;          ///< >= 1
+  double width = 2.0;        ///< m, > 0, of the box, wall to wall
+  double depth = 0.0;        ///< m, along the axis of the drum; 0: two dimensions, the balls are discs
+  double height = 0.0;       ///< m, of the part of the box that is filled; 0: as default_share() gives it
   double radius_min = 0.016; ///< m, > 0
   double radius_max = 0.024; ///< m, >= radius_min
   std::uint64_t seed = 1;
@@ -42,15 +43,17 @@ struct PackingOptions {
   std::string invalid() const;
 };
 
-/// The largest share of area (or volume) that balls may take of the box. Balls placed at random one after the other
-/// jam at 0.547 in two dimensions and near 0.38 in three (Feder 1980, J. Theor. Biol. 87, 237-254); on the way there the
-/// number of attempts per ball grows without bound.
+/// The largest share of area (or volume) that balls may take of the box. Balls of one size placed at random
+/// one after the other, and not moved, leave no space for another one at a share of 0.547 in two dimensions
+/// and near 0.38 in three (Feder 1980, J. Theor. Biol. 87, 237-254); near this share the number of attempts
+/// per ball grows without bound. Such a bed is far looser than any gravel: it becomes a packing only when it
+/// settles.
 double largest_share(int dimensions);
-/// The share with which the filled height is chosen: a few attempts per ball.
+/// The share from which the filled height is computed by default; each ball then needs a few attempts.
 double default_share(int dimensions);
 
 struct PackedBall {
-  std::array<double, 3> centre; ///< m, across, into the picture (0 in two dimensions), up from the floor
+  std::array<double, 3> centre; ///< m: across, along the drum's axis (0 in two dimensions), up from the floor
   double radius;                ///< m
 };
 
@@ -59,16 +62,18 @@ struct Packing {
   double height; ///< m, of the filled part
 };
 
-/// Places the balls. The same options give the same balls, bit for bit, on any machine: random bits become numbers by
-/// exact operations only.
+/// Places the balls. The same options give the same balls, bit for bit, on any machine: the random numbers
+/// are computed without rounding errors.
 /// \param progress is called every few thousand tries with the number of balls placed
-/// Throws std::invalid_argument with what() naming the option, its value and what is allowed: before any ball is placed if
-/// their area is too much for the box, else when a ball has found no place in `attempts` tries.
+/// Throws std::invalid_argument with what() naming the option, its value and what is allowed: before any ball
+/// is placed if their area or volume is more than largest_share() of the box, else when no free position was
+/// found for a ball in `attempts` tries.
 Packing pack_balls(const PackingOptions &options, const std::function<void(std::size_t)> &progress = {},
                    int attempts = 100'000);
 
-/// The data file that the engine's read_data takes: balls of type 1, of three (soil, drum, frame), in a box with room for the
-/// roller above them. y is up; x = 0 and z = 0 are the middle. Density of a ball in kg/m3, of a disc 1 m thick.
+/// The text of the data file for the engine's read_data: balls of type 1 (soil; types 2 and 3 are drum and
+/// frame), in a box with space for the roller above them. y is up; x = 0 and z = 0 are the middle. Density of
+/// a ball in kg/m3, of a disc 1 m thick.
 std::string bed_data(const PackingOptions &options, double density, const Packing &packing);
 
 } // namespace drumlin::post

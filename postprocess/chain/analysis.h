@@ -1,5 +1,6 @@
-// What the report measures in a run of the chain: pure functions from histories and events to numbers.
-// SI units throughout; times count from the start of the excitation; forces are positive in compression.
+// The results that the report derives from a run of the chain: functions of its history and events, which
+// read and write no files. SI units throughout; times count from the start of the excitation; forces are
+// positive in compression.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +14,13 @@
 
 namespace drumlin::post {
 
-/// A stretch of time (s), begin included, end not.
+/// An interval of time (s), which includes its begin but not its end.
 struct TimeWindow {
   double begin = 0.0; ///< s
   double end = 0.0;   ///< s
 };
 
-/// Smallest and largest value of something.
+/// Smallest and largest value of a quantity.
 struct Extremes {
   double min = 0.0;
   double max = 0.0;
@@ -37,9 +38,9 @@ TimeWindow last_cycles_window(int complete, int count, double period);
 double relative_rms(const std::vector<double> &values, const std::vector<double> &truth, std::size_t first,
                     std::size_t last);
 
-/// Share of the window spent in contact, exact from located events. The state at the window's start follows
-/// from the last event before it; without one, from the first event after it (a break means: was in contact);
-/// without any event, `initially` holds throughout.
+/// Share of the window spent in contact, computed from the times of the events. Whether there is contact at
+/// the start of the window follows from the last event before it; without one, from the first event after it
+/// (before a break there was contact); without any event there is contact throughout if `initially` is true.
 double contact_share(const std::vector<ContactEvent> &events, TimeWindow window, bool initially);
 
 /// Events with begin <= time < end.
@@ -59,18 +60,20 @@ double compaction_meter_value(const HarmonicAmplitudes &amplitudes);
 double resonance_meter_value(const HarmonicAmplitudes &amplitudes);
 
 /// Amplitudes by integrating a piecewise linear record a(t) (m/s2 over s) exactly against cosine and sine
-/// over the window. Two rows at one time are a jump. The window should span an even whole number of cycles.
+/// over the window. Two rows at one time are a jump. The window should be an even number of whole cycles, so
+/// that it has whole periods of half the excitation frequency.
 HarmonicAmplitudes harmonic_amplitudes(const std::vector<double> &time, const std::vector<double> &value,
                                        double omega, TimeWindow window);
 
 /// Amplitudes from the per-cycle integrals a1_cos ... ah_sin (m/s2) of the last `count` rows; `count` is
-/// reduced to an even number of rows that exist. Nothing if columns or rows are missing.
+/// reduced to an even number of rows that exist. No value if columns or rows are missing.
 std::optional<HarmonicAmplitudes> harmonic_amplitudes(const CycleColumns &cycles, std::size_t count);
 
-/// Drum acceleration (m/s2) just before and just after an event. The force jumps there and the rest of the
-/// drum's equation of motion is continuous: rest = m2 a - F_contact. Between two rows the rest is a straight
-/// line up to a kink at the event; with the frame in the history it is evaluated from the equation of motion
-/// at the event itself (positions and velocities by cubic interpolation, drum velocity = -overlap rate).
+/// Drum acceleration (m/s2) just before and just after an event. The contact force jumps there, while the sum
+/// of the other forces on the drum, m2 a - F_contact, is continuous. If the history has the frame, this sum
+/// is evaluated by the equation of motion at the event: position and velocity of the drum are those of the
+/// event, those of the frame are interpolated between rows by cubic polynomials. Without the frame the sum
+/// is interpolated linearly between two rows.
 struct EventAcceleration {
   double before = 0.0;
   double after = 0.0;
@@ -78,43 +81,45 @@ struct EventAcceleration {
 EventAcceleration acceleration_at(const ContactEvent &event, const ChainHistory &history,
                                   const ChainParameters &parameters);
 
-/// A history with the events' two sides put in, so that jumps are upright in a plot and exact in an integral.
+/// A history with two more rows at each event, the values just before and just after it, so that jumps are
+/// vertical in a plot and exact in an integral.
 struct EventSeries {
   std::vector<double> time;         ///< s; two rows at one time are an event
   std::vector<double> overlap;      ///< m
   std::vector<double> velocity;     ///< of the drum, m/s
   std::vector<double> force;        ///< contact force, N
   std::vector<double> acceleration; ///< of the drum, m/s2
-  std::vector<char> event;          ///< 1 where the row is a side of an event
+  std::vector<char> event;          ///< 1 where the row was added at an event
 };
 EventSeries with_events(const ChainHistory &history, const std::vector<ContactEvent> &events,
                         const ChainParameters &parameters, TimeWindow window);
 
-/// Extremes of the steady state: per-cycle extremes of every step (last `count` rows of cycles.csv) if given,
-/// else the rows of the history, merged with both sides of the window's located events.
+/// Extremes of the steady state. If `cycles` is given, they are those of the last `count` rows of cycles.csv,
+/// which come from every time step; else those of the history's rows in the window. The values just before
+/// and just after each event in the window are included.
 struct SteadyExtremes {
   Extremes acceleration;   ///< drum, m/s2
   Extremes force;          ///< contact, N
-  bool every_step = false; ///< taken from every step of the engine rather than from samples
+  bool every_step = false; ///< from every time step rather than from the rows of the history
 };
 SteadyExtremes steady_extremes(const ChainHistory &history, const std::vector<ContactEvent> &events,
                                const std::optional<CycleColumns> &cycles, const ChainParameters &parameters,
                                TimeWindow window, std::size_t count);
 
-/// Events of a run paired with those of the truth, by order.
+/// Events of a run paired with those of the reference solution, in the order in which they occur.
 struct EventMatch {
   std::size_t run_count = 0;
   std::size_t truth_count = 0;
-  std::size_t matched = 0;       ///< pairs of one kind from the start on
-  double largest_difference = 0; ///< of time, s, over the pairs
-  double at_time = 0;            ///< truth's time of that pair, s
+  std::size_t matched = 0;       ///< pairs from the start up to the first that differ in kind (make or break)
+  double largest_difference = 0; ///< largest difference of time within a pair, s
+  double at_time = 0;            ///< time of that pair in the reference solution, s
 };
 /// Events at time 0 and before (contact made while the chain was set up) are left out.
 EventMatch match_events(const std::vector<ContactEvent> &run, const std::vector<ContactEvent> &truth);
 
-/// Where the exciter's work went, between the ends of the first and the last cycle of cycles.csv (J).
+/// Energy balance between the ends of the first and the last cycle of cycles.csv (J).
 struct EnergyLedger {
-  double first_cycle = 0.0; ///< the ledger runs from the end of this cycle
+  double first_cycle = 0.0; ///< the balance extends from the end of this cycle
   double last_cycle = 0.0;  ///< to the end of this one
   double work_excitation = 0.0;
   double dissipated_contact = 0.0;
@@ -123,29 +128,31 @@ struct EnergyLedger {
   double change_potential = 0.0;
   double change_stored_contact = 0.0;
   double change_stored_bond = 0.0;
-  /// Work minus everything that it went into, J.
+  /// Energy error: work of the excitation minus dissipated energies and changes of stored energies, J.
   double closure() const;
   /// The same in per cent of the work.
   double closure_percent() const;
 };
-/// Nothing if columns are missing (named in `missing`) or there are fewer than two rows.
+/// No value if columns are missing (`missing` then names them) or there are fewer than two rows.
 std::optional<EnergyLedger> energy_ledger(const CycleColumns &cycles, std::string &missing);
 
-/// Contact force as a roller measures it, m2 a2 + m3 a3 + (m2 + m3) g + Fe, against the law's. The accelerations are differences of
-/// the recorded positions, which the engine integrated, rather than its own accelerations, which it computes from the law's force.
+/// Contact force as it is obtained from accelerometers on a roller, m2 a2 + m3 a3 + (m2 + m3) g + Fe,
+/// compared with that of the contact law. The accelerations are second differences of the recorded positions:
+/// those in the file are computed from the force of the contact law and would agree in any case.
 struct RollerForce {
-  std::vector<double> force;       ///< N, one per row; NaN where it cannot be measured
-  std::size_t rows = 0;            ///< where it can
+  std::vector<double> force;       ///< N, one per row; NaN where it cannot be computed
+  std::size_t rows = 0;            ///< number of rows in which it can be computed
   double largest_difference = 0.0; ///< N
   double at_time = 0.0;            ///< s
   double largest_force = 0.0;      ///< largest |F_contact| of the law, N
 };
-/// Differences of fourth order over five rows; rows with an event, or a beginning or an end of contact without a recorded event,
-/// among the five are left out. Nothing for a history without frame, of fewer than five rows, or whose rows are not equally far apart.
+/// Differences of fourth order over five rows; rows with an event, or a beginning or an end of contact
+/// without a recorded event, among the five are left out. No value for a history without frame, of fewer than
+/// five rows, or whose rows are not equally far apart.
 std::optional<RollerForce> roller_force(const ChainHistory &history, const std::vector<ContactEvent> &events,
                                         const ChainParameters &parameters);
 
-/// A single impact of a mass without gravity on the fixed ball.
+/// A single impact of a mass on the fixed ball, without gravity.
 struct ImpactParameters {
   Transition transition = Transition::B;
   double mass = 2000.0;       ///< kg
@@ -164,7 +171,7 @@ ImpactState impact_state(const ImpactParameters &parameters, double time);
 /// Time from make to break (s), closed form; infinite where A has no rebound.
 double impact_duration(const ImpactParameters &parameters);
 
-/// What a recorded impact shows.
+/// Results of a recorded impact.
 struct ImpactMeasure {
   double speed_in = 0.0;            ///< m/s before the make
   double speed_out = 0.0;           ///< m/s after the break
@@ -174,7 +181,7 @@ struct ImpactMeasure {
   bool ended = false;               ///< whether the record ends without contact
   double restitution() const { return speed_out / speed_in; }
 };
-/// Nothing if the history is empty or the mass does not move towards the ball at its start.
+/// No value if the history is empty or the mass does not move towards the ball at its start.
 std::optional<ImpactMeasure> measure_impact(const ChainHistory &history,
                                             const std::vector<ContactEvent> &events);
 

@@ -1,6 +1,6 @@
-// The lumped chain soil - drum - frame: its parameters, the cases of the paper's Table 1, and what makes a
-// parameter set unusable. Everything is in SI units; x points up and x_drum = 0 where drum and soil just
-// touch.
+// The lumped chain soil - drum - frame: its parameters, the cases of Table 1 of the paper (Wang, Sha and Hu
+// 2018), and the allowed ranges of the parameters. Everything is in SI units; x points up and x_drum = 0
+// where drum and soil just touch.
 #pragma once
 
 #include "support/range.h"
@@ -19,15 +19,16 @@ enum class Transition {
 /// "A" or "B".
 std::string transition_name(Transition transition);
 
-/// The transition called `name` ("A" or "B"); std::invalid_argument tells the value and what is allowed.
+/// The transition called `name` ("A" or "B"). Throws std::invalid_argument, which names the value and what is
+/// allowed, for any other name.
 Transition transition_from_name(const std::string &name);
 
 /// Parameters of the chain
 ///     m2 x2'' = -m2 g + F_c + c23 (x3' - x2') + k23 (x3 - x2) - F_e,   F_e = Fw sin(omega t)
 ///     m3 x3'' = -m3 g       - c23 (x3' - x2') - k23 (x3 - x2)
 ///     F_c = k d + c d' in contact, else 0,   d = -x2 (the soil is fixed)
-/// with 2 the drum and 3 the frame. The defaults are those of the deck inputs/chain/in.chain: the paper's
-/// values common to all its cases, with case II.
+/// with 2 the drum and 3 the frame. The defaults are those of the deck inputs/chain/in.chain: the values that
+/// all cases of the paper have in common, and k, D and omega of case II.
 struct ChainParameters {
   double m2 = 2000.0;                ///< mass of the drum [kg]
   double m3 = 1000.0;                ///< mass of the frame [kg]
@@ -44,27 +45,29 @@ struct ChainParameters {
   double damping() const;
   /// Period of the excitation, 2 pi / omega [s].
   double period() const;
-  /// Empty if the chain can be computed; else one line that names the parameter, its value and what is
+  /// Empty if all parameters are allowed; else one line that names the parameter, its value and what is
   /// allowed.
   std::string invalid() const;
 };
 
-/// A number of the chain: its name in decks, commands and files, and what it may be. The ranges are far wider than any roller or soil; in
-/// them no intermediate result of the direct solver overflows or vanishes.
+/// A parameter of the chain: its name in decks, commands and files, and its allowed range. The ranges are far
+/// wider than those of rollers and soils; within them no intermediate result of the direct solver overflows
+/// or underflows.
 struct ChainNumber {
   const char *name;
   double ChainParameters::*value;
   Range range;
-  const char *help; ///< what it is, with its unit
+  const char *help; ///< meaning and unit
 };
 
-/// All numbers: k, D, omega, Fw, m2, m3, k23, c23, g.
+/// All parameters that are numbers: k, D, omega, Fw, m2, m3, k23, c23, g.
 extern const std::array<ChainNumber, 9> chain_numbers;
 
 /// The names of the cases of the paper's Table 1.
 constexpr std::array<const char *, 4> table1_cases = {"I", "II", "III", "IV"};
 
-/// The case "I", "II", "III" or "IV" of Table 1; std::invalid_argument tells the value and what is allowed.
+/// The case "I", "II", "III" or "IV" of Table 1. Throws std::invalid_argument, which names the value and what
+/// is allowed, for any other name.
 ChainParameters table1_case(const std::string &name, Transition transition);
 
 } // namespace drumlin::post
