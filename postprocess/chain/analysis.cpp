@@ -281,14 +281,14 @@ EventMatch match_events(const std::vector<ContactEvent> &run, const std::vector<
   return match;
 }
 
-double EnergyLedger::closure() const {
+double EnergyBalance::closure() const {
   return work_excitation - dissipated_contact - dissipated_bond - change_kinetic - change_potential -
          change_stored_contact - change_stored_bond;
 }
 
-double EnergyLedger::closure_percent() const { return 100.0 * closure() / std::abs(work_excitation); }
+double EnergyBalance::closure_percent() const { return 100.0 * closure() / std::abs(work_excitation); }
 
-std::optional<EnergyLedger> energy_ledger(const CycleColumns &cycles, std::string &missing) {
+std::optional<EnergyBalance> energy_balance(const CycleColumns &cycles, std::string &missing) {
   missing.clear();
   for (const char *name : {"work_excitation", "dissipated_contact", "dissipated_bond", "kinetic", "potential",
                            "stored_contact", "stored_bond"})
@@ -298,7 +298,7 @@ std::optional<EnergyLedger> energy_ledger(const CycleColumns &cycles, std::strin
     missing = "a second cycle";
     return std::nullopt;
   }
-  EnergyLedger ledger;
+  EnergyBalance ledger;
   ledger.first_cycle = 1;
   ledger.last_cycle = static_cast<double>(cycles.rows);
   if (cycles.has("cycle")) {

@@ -118,7 +118,7 @@ struct EventMatch {
 EventMatch match_events(const std::vector<ContactEvent> &run, const std::vector<ContactEvent> &truth);
 
 /// Energy balance between the ends of the first and the last cycle of cycles.csv (J).
-struct EnergyLedger {
+struct EnergyBalance {
   double first_cycle = 0.0; ///< the balance extends from the end of this cycle
   double last_cycle = 0.0;  ///< to the end of this one
   double work_excitation = 0.0;
@@ -134,7 +134,7 @@ struct EnergyLedger {
   double closure_percent() const;
 };
 /// No value if columns are missing (`missing` then names them) or there are fewer than two rows.
-std::optional<EnergyLedger> energy_ledger(const CycleColumns &cycles, std::string &missing);
+std::optional<EnergyBalance> energy_balance(const CycleColumns &cycles, std::string &missing);
 
 /// Contact force as it is obtained from accelerometers on a roller, m2 a2 + m3 a3 + (m2 + m3) g + Fe,
 /// compared with that of the contact law. The accelerations are second differences of the recorded positions:

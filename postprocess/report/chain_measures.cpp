@@ -128,7 +128,7 @@ ChainMeasures measure_chain(const Run &run, const DirectResult *truth) {
     m.amplitudes = harmonic_amplitudes(series.time, series.acceleration, p.omega, m.steady);
   }
   if (run.cycles)
-    m.energy = energy_ledger(*run.cycles, m.energy_missing);
+    m.energy = energy_balance(*run.cycles, m.energy_missing);
   else
     m.energy_missing = "cycles.csv";
   m.roller = roller_force(run.history, run.events, p);

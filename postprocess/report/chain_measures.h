@@ -36,7 +36,7 @@ struct ChainMeasures {
   std::optional<Extremes> overlap_at_break; ///< m
   HarmonicAmplitudes amplitudes;            ///< m/s2
   bool amplitudes_every_step = false;       ///< whether the run integrated them over every step
-  std::optional<EnergyLedger> energy;
+  std::optional<EnergyBalance> energy;
   std::string energy_missing;
   std::optional<RollerForce> roller;
 

@@ -340,7 +340,7 @@ PageTable energy_table(const ReportResults &results) {
                                         result.chain->energy_missing));
       continue;
     }
-    const EnergyLedger &e = *result.chain->energy;
+    const EnergyBalance &e = *result.chain->energy;
     const auto joule = [](double value) { return fmt::format("{:.4f}", value); };
     table.add({result.run.name, fmt::format("{:g} to {:g}", e.first_cycle, e.last_cycle),
                joule(e.work_excitation), joule(e.dissipated_contact), joule(e.dissipated_bond),

@@ -87,7 +87,7 @@ ChainErrors measure_chain(const ChainParameters &parameters, const std::string &
                             ? match.largest_difference
                             : none;
   std::string missing;
-  const std::optional<EnergyLedger> ledger = energy_ledger(cycles, missing);
+  const std::optional<EnergyBalance> ledger = energy_balance(cycles, missing);
   errors.energy = ledger ? std::fabs(ledger->closure() / ledger->work_excitation) : none;
   errors.loop_s = run.loop_seconds();
   errors.wall_s = run.wall_seconds();

@@ -268,29 +268,29 @@ std::string page_name(const ::testing::TestParamInfo<std::string> &info) {
 
 INSTANTIATE_TEST_SUITE_P(Pages, DocExamplesTest, ::testing::ValuesIn(pages()), page_name);
 
+/// Names of the styles that a header's list adds: add(..., "NAME", "description").
+std::vector<std::string> listed_styles(const fs::path &header) {
+  static const std::regex entry(R"re(add\([^"]*"([a-z_/]+)")re");
+  const std::string text = read_text(root / header);
+  std::vector<std::string> names;
+  for (std::sregex_iterator i(text.begin(), text.end(), entry), end; i != end; ++i)
+    names.push_back((*i)[1].str());
+  return names;
+}
+
+// A page for every fix and command that the plugin adds, and for those styles that one engine alone has.
 TEST(DocPages, AreThereForEveryCommand) {
-  for (const char *name : {"drumlin_check",
-                           "drumlin_outputs",
-                           "drumlin_record",
-                           "drumlin_run",
-                           "drumlin_settle",
-                           "drumlin_take",
-                           "drumlin_variables",
-                           "drumlin_write_data",
-                           "drumlin_write_restart",
-                           "fix_bond_spring",
-                           "fix_clump",
-                           "fix_contact_events",
-                           "fix_contact_local",
-                           "fix_drum_excite",
-                           "fix_guard",
-                           "fix_roller_history",
-                           "fix_wall_gran_transition",
-                           "lammps",
-                           "pair_gran_hooke_transition",
-                           "pair_gran_model_hooke_transition",
-                           "preload"})
-    EXPECT_TRUE(fs::exists(root / "plugin/doc" / (std::string(name) + ".md"))) << name;
+  std::vector<std::string> names = {"fix_wall_gran_transition", "pair_gran_hooke_transition",
+                                    "pair_gran_model_hooke_transition", "preload", "lammps"};
+  for (const std::string &fix : listed_styles("plugin/fixes/fixes.h"))
+    names.push_back("fix_" + fix);
+  for (const std::string &command : listed_styles("plugin/commands/commands.h"))
+    names.push_back(command);
+  EXPECT_GE(names.size(), 5u + 7u + 9u);
+  for (std::string &name : names) {
+    std::replace(name.begin(), name.end(), '/', '_');
+    EXPECT_TRUE(fs::exists(root / "plugin/doc" / (name + ".md"))) << name;
+  }
 }
 
 } // namespace

@@ -137,7 +137,7 @@ void expect_every_sink_used(const Ledger &sums) {
   EXPECT_GT(sums.bond_heat, 0.001 * sums.input);
 }
 
-TEST(EnergyLedger, ClosesWithFourthOrderWhileTheContactHolds) { // case I: A and B alike
+TEST(EnergyBalance, ClosesWithFourthOrderWhileTheContactHolds) { // case I: A and B alike
   for (const Transition transition : {Transition::A, Transition::B}) {
     const Case one{transition, 5e6, 0.5, 40.0 * pi};
     const Result coarse = fourth_order(one, 60), fine = fourth_order(one, 120);
@@ -147,7 +147,7 @@ TEST(EnergyLedger, ClosesWithFourthOrderWhileTheContactHolds) { // case I: A and
   }
 }
 
-TEST(EnergyLedger, ClosesWithFirstOrderInTheStockStepping) {
+TEST(EnergyBalance, ClosesWithFirstOrderInTheStockStepping) {
   const Case one{Transition::B, 5e6, 0.5, 40.0 * pi};
   const Result coarse = stock(one, 600), fine = stock(one, 1200);
   expect_every_sink_used(fine.sums);
@@ -155,16 +155,16 @@ TEST(EnergyLedger, ClosesWithFirstOrderInTheStockStepping) {
   EXPECT_LT(std::fabs(fine.missing), 2e-2);
 }
 
-class EnergyLedgerWithGaps : public testing::TestWithParam<Case> {};
+class EnergyBalanceWithGaps : public testing::TestWithParam<Case> {};
 
-TEST_P(EnergyLedgerWithGaps, ClosesThroughMakeAndBreak) {
+TEST_P(EnergyBalanceWithGaps, ClosesThroughMakeAndBreak) {
   const Result coarse = stock(GetParam(), 3000), fine = stock(GetParam(), 48000);
   expect_every_sink_used(fine.sums);
   EXPECT_LT(std::fabs(coarse.missing), 3e-2);
   EXPECT_LT(std::fabs(fine.missing), 3e-2 / 16.0); // first order: the makes fall anywhere within a step
 }
 
-INSTANTIATE_TEST_SUITE_P(, EnergyLedgerWithGaps,
+INSTANTIATE_TEST_SUITE_P(, EnergyBalanceWithGaps,
                          testing::Values(Case{Transition::A, 1e8, 0.5, 40.0 * pi},
                                          Case{Transition::B, 1e8, 0.5, 40.0 * pi},
                                          Case{Transition::A, 1e8, 0.5, 80.0 * pi},
@@ -180,7 +180,7 @@ INSTANTIATE_TEST_SUITE_P(, EnergyLedgerWithGaps,
 // One impact: the kinetic energy that is gone, by the restitution that the closed form gives, is the
 // contact's heat. Under B part of it appears after the break, while the soil relaxes (D = 0.5:
 // restitution_test derives e).
-TEST(EnergyLedger, FindsTheLossOfAnImpactAsHeat) {
+TEST(EnergyBalance, FindsTheLossOfAnImpactAsHeat) {
   const double m = 2000.0, k = 1e8, v = 0.4, dt = 2e-8;
   const double b_over_w = 0.5 / std::sqrt(0.75);
   const double e_a = std::exp(-pi * b_over_w);

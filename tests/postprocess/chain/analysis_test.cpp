@@ -257,7 +257,7 @@ TEST(Energy, ClosesWhereItShouldAndTellsTheGap) {
                     {"stored_contact", {1, 1, 4}},
                     {"stored_bond", {2, 2, 8}}};
   std::string missing;
-  std::optional<EnergyLedger> ledger = energy_ledger(cycles, missing);
+  std::optional<EnergyBalance> ledger = energy_balance(cycles, missing);
   ASSERT_TRUE(ledger);
   // 200 = 160 + 20 + 4 - 1 + 3 + 6 + 8
   EXPECT_NEAR(ledger->closure(), 8.0, 1e-12);
@@ -265,9 +265,9 @@ TEST(Energy, ClosesWhereItShouldAndTellsTheGap) {
   EXPECT_EQ(ledger->first_cycle, 1);
   EXPECT_EQ(ledger->last_cycle, 3);
   cycles.columns["dissipated_contact"][2] += 8.0;
-  EXPECT_NEAR(energy_ledger(cycles, missing)->closure(), 0.0, 1e-12);
+  EXPECT_NEAR(energy_balance(cycles, missing)->closure(), 0.0, 1e-12);
   cycles.columns.erase("potential");
-  EXPECT_FALSE(energy_ledger(cycles, missing));
+  EXPECT_FALSE(energy_balance(cycles, missing));
   EXPECT_NE(missing.find("potential"), std::string::npos);
 }
 
