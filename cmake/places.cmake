@@ -1,4 +1,4 @@
-# Installation, and the file `places`, which tells drumlin-tools and the front script where decks, plugin and engines are. It lies beside
+# Installation, and the file `places`, which tells drumlin-tools and the front script where decks, plugin and engines are. It lies next to
 # drumlin-tools, and its paths are relative to its own folder, so that a build folder or an installation can be moved.
 set(folder_of_parts lib/drumlin)
 set(folder_of_shares share/drumlin)

@@ -127,7 +127,7 @@ bool fits_physics(const Include &include) {
                                   include.name.find("..") == std::string::npos);
 }
 
-/// How high a room stands: it may include rooms below it, and itself.
+/// The level of a room: it may include rooms of lower levels, and itself.
 using Heights = std::map<std::string, int>;
 const Heights plugin_rooms{{"physics", 0},  {"support", 1},  {"contact", 2}, {"fixes", 3},
                            {"commands", 3}, {"liggghts", 4}, {"lammps", 4}};
@@ -273,7 +273,7 @@ TEST(Boundaries, EverySourceIsNamedNotGlobbed) {
     EXPECT_FALSE(globs(text_of(file))) << file;
 }
 
-// The checks above pass where they see nothing. That they see is checked here.
+// The checks above would also pass if they found no include lines at all. Here they must find and refuse some.
 TEST(BoundaryChecks, ReadIncludeLines) {
   const auto found =
       includes_of("#include <cmath>\n  #  include \"engine.h\" // why\n// #include <no>\n#include <a/b.h>");

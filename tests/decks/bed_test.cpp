@@ -199,7 +199,7 @@ protected:
       ASSERT_NEAR(time[n] - time[n - 1], 50.0 / 250000.0, 1e-9) << "row " << n;
   }
 
-  /// Stopped by the limit of wall time in the middle of the excitation, and gone on from there in another process.
+  /// Stopped by the limit of wall time in the middle of the excitation, and continued from there in another process.
   static void expect_goes_on(const char *deck, const char *stepping) {
     const auto shaken = [deck, stepping](const Scratch &folder, Variables more, int ranks) {
       more.insert(more.end(), {{"cycles", "3"}, {"dumps_per_cycle", "2"}, {"stepping", stepping}});
@@ -246,7 +246,7 @@ protected:
           return sum;
         };
         const double before = summed(files.contacts), after = summed(parts.at(step).contacts);
-        if (step == 2500) // set up anew: a contact that slid then has its dashpot on top
+        if (step == 2500) // a set-up: a contact that slid then has the force of its dashpot as well
           EXPECT_NEAR(after, before, 5e-2 * before);
         else
           EXPECT_EQ(after, before) << "step " << step << ", ranks " << ranks;
@@ -411,13 +411,13 @@ TEST_F(Bed, RepeatsItselfOnRanksOneAndTwo) {
     }
 }
 
-TEST_F(Bed, GoesOnWhereALimitOfTimeStoppedItOnRanksOneAndTwo) {
+TEST_F(Bed, ContinuesWhereALimitOfTimeStoppedItOnRanksOneAndTwo) {
   for (const char *stepping : steppings)
     expect_goes_on("in.bed", stepping);
 }
 
 // Contacts between balls take as much momentum from one as they give to the other: walls, weight and exciter make up the rest.
-// The engine's own forces, ball by ball, are the witness, and the velocities that they lead to.
+// They are compared with the engine's own forces, ball by ball, and with the velocities that these lead to.
 TEST_F(Bed, ForcesOfTheWallsMinusWeightAreTheRateOfChangeOfMomentum) {
   for (const char *stepping : steppings) {
     const Scratch folder;
@@ -439,7 +439,7 @@ TEST_F(Bed, ForcesOfTheWallsMinusWeightAreTheRateOfChangeOfMomentum) {
     double momentum_before = 0.0, force_before = 0.0;
     std::size_t exact = 0;
     for (std::size_t n = 1; n < frames.size();
-         ++n) { // the first one is dumped before its forces are computed anew
+         ++n) { // the first one is dumped before its forces are computed again
       const auto row = static_cast<std::size_t>(frames[n].step);
       const double recorded = floor.at(row) + sides.at(row) - weight - excitation.at(row);
       double force = 0.0, momentum = 0.0, energy = 0.0;
@@ -490,7 +490,7 @@ TEST_F(Bed, ClumpStaysRigidOnRanksOneAndTwo) {
   }
 }
 
-/// What the books miss at the end, over the work of the exciter: balance of energies, and the largest miss on the way.
+/// Energy error over the work of the exciter: the largest value over all rows.
 double imbalance(const fs::path &file) {
   const post::Table table = post::read_table(file);
   const std::vector<double> kinetic = table.numbers("kinetic"), potential = table.numbers("potential"),
@@ -503,7 +503,7 @@ double imbalance(const fs::path &file) {
   return worst / work.back();
 }
 
-TEST_F(Bed, BooksOfEnergyCloseWithinAPercentOverTenCyclesAndBetterWithSmallerSteps) {
+TEST_F(Bed, EnergyErrorIsBelowAPercentOverTenCyclesAndFallsWithTheStep) {
   const std::array<std::array<const char *, 3>, 4> scenes = {
       {{"A", "ball", "stock"}, {"B", "ball", "stock"}, {"B", "clump", "stock"}, {"B", "ball", "second"}}};
   for (const auto &[transition, drum, stepping] : scenes) {
@@ -525,7 +525,7 @@ TEST_F(Bed, BooksOfEnergyCloseWithinAPercentOverTenCyclesAndBetterWithSmallerSte
   }
 }
 
-TEST_F(Bed, BooksOfEnergyCloseWithRollingFriction) {
+TEST_F(Bed, EnergyErrorIsBelowAPercentWithRollingFriction) {
   const Scratch bed;
   make(bed, "1", {"ball"}, {{"rolling", "0.1"}});
   std::vector<double> heat;
@@ -540,7 +540,7 @@ TEST_F(Bed, BooksOfEnergyCloseWithRollingFriction) {
     EXPECT_LT(imbalance(folder / "bed.csv"), 0.01) << rolling;
     heat.push_back(post::read_table(folder / "bed.csv").numbers("dissipated").back());
   }
-  EXPECT_GT(std::fabs(heat[0] - heat[1]), 0.05 * heat[0]); // the torques are not idle
+  EXPECT_GT(std::fabs(heat[0] - heat[1]), 0.05 * heat[0]); // the torques of rolling friction dissipate energy
 }
 
 TEST_F(Bed, LeftAloneStaysAsItIs) {
@@ -566,7 +566,7 @@ TEST_F(Bed, LeftAloneStaysAsItIs) {
   }
 }
 
-TEST_F(Bed, WantsWhatTheDecksBeforeItMake) {
+TEST_F(Bed, NeedsTheFilesOfTheDecksBeforeIt) {
   const Scratch folder;
   const Outcome outcome = shake(folder, {{"start", "nowhere.restart"}});
   EXPECT_FALSE(outcome.ok());
@@ -575,7 +575,7 @@ TEST_F(Bed, WantsWhatTheDecksBeforeItMake) {
   EXPECT_FALSE(fs::exists(folder / "bed.csv"));
 }
 
-// The engine would hang on two ranks, or go on with other laws than the contacts remember.
+// The engine would hang on two ranks, or continue with laws that do not fit the contact history.
 TEST_F(Bed, RefusesFilesThatAreCutShortOrOfAnotherSceneOnRanksOneAndTwo) {
   const std::string whole = read_text(*scratch / "ball.restart"), balls = read_text(*scratch / "balls.data");
   const std::string cut = ", which is incomplete, damaged or no restart file; allowed: a restart file of "
@@ -689,7 +689,7 @@ TEST_F(Bed, OnAFullDiskCutDumpsAreAnError) {
   expect_cut_dumps_are_an_error("LD_PRELOAD=$DRUMLIN_PRELOAD liggghts -in $DECKS/../bed/in.bed", "");
 }
 
-// Each is a data file that the engine reads for ever, or takes as it is.
+// Data files that the engine itself would read without end, or accept.
 TEST_F(Bed, RefusesDataFilesThatTheEngineWouldNot) {
   const std::string good = read_text(*scratch / "balls.data");
   const std::size_t row = good.find('\n', good.find("Atoms")) + 2;
@@ -716,7 +716,7 @@ TEST_F(Bed, RefusesDataFilesThatTheEngineWouldNot) {
   }
 }
 
-// A script must not take an old file for that of the run which was stopped.
+// Otherwise a script could take the old file for a result of the run that was stopped.
 TEST_F(Bed, LeavesNoOldFileWhenASignalStopsTheRunThatReplacesIt) {
   const Scratch folder;
   const std::string file = (folder / "kept.restart").string();
@@ -755,7 +755,7 @@ TEST_F(Bed, ALostBallIsAnErrorOnRanksOneAndTwo) {
   }
 }
 
-// In the middle of a piece, which has no progress of its own.
+// The signal comes in the middle of one run command, during which the deck prints no progress.
 TEST_F(Bed, EndsAtASignalWhileItSettles) {
   const Scratch folder;
   const Outcome settling = run_deck(bed_folder() / "in.settle",
@@ -771,7 +771,7 @@ TEST_F(Bed, EndsAtASignalWhileItSettles) {
 
 TEST_F(Bed, EndsAtASignalAndContinues) { expect_ends_at_a_signal("in.bed", {}); }
 
-// Said before the bed has settled, not after.
+// The error comes before the bed has settled, not after.
 TEST_F(Bed, RefusesNamesThatCannotBeWrittenAtTheBeginning) {
   const Scratch folder;
   for (const std::string &file :
@@ -793,7 +793,7 @@ TEST_F(Bed, RefusesNamesThatCannotBeWrittenAtTheBeginning) {
   }
 }
 
-TEST_F(Bed, WantsRoomForTheRoller) {
+TEST_F(Bed, NeedsSpaceForTheRoller) {
   for (const auto &[name, value, says] :
        {std::array{"r2", "0.5", "variable room_beside is '-0.2'; allowed: a finite number > 0"},
         std::array{"r3", "2", "variable room_above is '-"}}) {
@@ -821,7 +821,7 @@ protected:
   }
 };
 
-// From the same data file, with springs and records that begin anew in both engines: what differs is rounding. Over 500 steps it stays
+// From the same data file, with a contact history that starts at zero in both engines: the difference is rounding. Over 500 steps it stays
 // small; later the bed makes it grow.
 TEST_F(BedInLammps, GoesAsInLiggghtsOnRanksOneTwoAndFourWithNewtonOffAndOn) {
   for (const char *drum : drums)
@@ -854,7 +854,7 @@ TEST_F(BedInLammps, GoesAsInLiggghtsOnRanksOneTwoAndFourWithNewtonOffAndOn) {
         ASSERT_EQ(found.header(), expected.header());
         for (const std::string &column : expected.header()) {
           const std::vector<double> a = expected.numbers(column), b = found.numbers(column);
-          double largest = 1e-12; // below this a column says nothing
+          double largest = 1e-12; // smaller values are rounding
           for (const double value : a)
             largest = std::max(largest, std::fabs(value));
           for (std::size_t n = 0; n <= 50; ++n) // 500 steps
@@ -945,7 +945,7 @@ TEST_F(BedInLammps, DumpsWhatLiggghtsDumpsOnRanksOneAndTwo) {
   }
 }
 
-TEST_F(BedInLammps, GoesOnWhereALimitOfTimeStoppedItOnRanksOneAndTwo) {
+TEST_F(BedInLammps, ContinuesWhereALimitOfTimeStoppedItOnRanksOneAndTwo) {
   for (const char *stepping : steppings)
     expect_goes_on("in.bed.lammps", stepping);
 }
@@ -1062,7 +1062,8 @@ TEST(Bed3d, CarriesACylinderOnCopiesOfACellOnRanksOneAndTwo) {
   for (std::size_t i = 0; i <= 100; ++i) {
     for (std::size_t other = 1; other < in_lammps.size(); ++other)
       EXPECT_NEAR(in_lammps[0][i], in_lammps[other][i], 1e-10) << "row " << i << ", run " << other;
-    EXPECT_NEAR(in_lammps[0][i], heights[0][i], 2e-3) << "row " << i; // m; its springs begin anew
+    EXPECT_NEAR(in_lammps[0][i], heights[0][i], 2e-3)
+        << "row " << i; // m; in LAMMPS the contact history starts at zero
   }
 }
 

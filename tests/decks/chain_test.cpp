@@ -103,7 +103,7 @@ TEST_P(Chain, StartsFromStaticEquilibrium) {
   EXPECT_NEAR(h.v_frame.front(), 0, 1e-8 * p.g / p.omega);
 }
 
-// Every row holds the right-hand sides of Eq. (1) at its own time, position and velocity, and the
+// Every row has the right-hand sides of Eq. (1) at its own time, position and velocity, and the
 // acceleration that the engine's velocities show. The engine steps with the dashpots at the half-step
 // velocity, v - a dt/2: its velocities follow an acceleration that is off by about C/m dt/2 a, C the sum of
 // the dashpots.
@@ -213,7 +213,7 @@ const Case impacting_cases[] = {{"II", Transition::A},
                                 {"IV", Transition::B}};
 INSTANTIATE_TEST_SUITE_P(Table1, ImpactingChain, ::testing::ValuesIn(impacting_cases), case_name);
 
-// Second-order stepping: the error bounds that the project promises, at 800 and at 6400 steps per cycle, the order between
+// Second-order stepping: the error bounds that are acceptance criteria, at 800 and at 6400 steps per cycle, the order between
 // them, events within a twentieth of a step, and the peak force over steps and located makes.
 struct Bound {
   Case chain;
@@ -330,14 +330,14 @@ TEST(HeavyDamping, OfTheBondFollowsTheDirectSolverToo) {
     const double error = post::relative_rms(run.v_drum, truth.v_drum, 0, truth.size());
     EXPECT_LT(error, 1e-3) << steps;
     if (steps == 200)
-      continue; // dt c23 / m_eff = 1.9: solved for together; from 800 steps on, 0.47, on its own
+      continue; // dt c23 / m_eff = 1.9: solved for together; from 800 steps on, 0.47, the bond alone
     all_steps.push_back(steps);
     errors.push_back(error);
   }
   EXPECT_LT(fitted_order(all_steps, errors), -1.8);
 }
 
-// Contact and bond act on one drum: each must know what the other does in the step, or the two drive each other.
+// Contact and bond share the drum and are heavily damped: solved for one by one, they would drive each other.
 TEST(HeavyDamping, LongStepsLeaveAChainAtRestAtRest) {
   const ChainParameters p = post::table1_case("II", Transition::B);
   const double static_overlap = (p.m2 + p.m3) * p.g / p.k;
@@ -354,8 +354,8 @@ TEST(HeavyDamping, LongStepsLeaveAChainAtRestAtRest) {
 }
 
 /// Eight balls, w0 dt from 0.7 to `highest`, each pushed by 1e-6 m between walls.
-void expect_held(const std::filesystem::path &deck, const Scratch &scratch, const char *D,
-                 const char *scene = "two", const char *highest = "1.4") {
+void expect_rest_between_walls(const std::filesystem::path &deck, const Scratch &scratch, const char *D,
+                               const char *scene = "two", const char *highest = "1.4") {
   const Outcome outcome = run_deck(
       deck,
       {{"scene", scene}, {"D", D}, {"balls", "8"}, {"lowest", "0.7"}, {"highest", highest}, {"half", "2000"}},
@@ -371,12 +371,12 @@ void expect_held(const std::filesystem::path &deck, const Scratch &scratch, cons
   EXPECT_EQ(balls, 8);
 }
 
-// Dashpots that must know of one another, all of walls: no pair of balls tells that they are heavy.
+// Heavily damped contacts that share a particle, all with walls: no contact between balls shows that they are heavily damped.
 TEST(HeavyDamping, BetweenWallsIsStableUpToTheLimitOfTheSprings) {
   const std::filesystem::path study = std::filesystem::path(DRUMLIN_SOURCE_DIR) / "inputs/study";
   for (const char *D : {"2", "100"}) {
     const Scratch planes, meshes;
-    expect_held(study / "in.stability", planes, D);
+    expect_rest_between_walls(study / "in.stability", planes, D);
     std::filesystem::copy(study, meshes / "study");
     std::ofstream(meshes / "strip.stl") // within the box
         << "solid strip\n"
@@ -385,22 +385,22 @@ TEST(HeavyDamping, BetweenWallsIsStableUpToTheLimitOfTheSprings) {
            "facet normal 0 0 1\nouter loop\nvertex -1.9 -0.9 0\nvertex 1.9 15.9 0\nvertex -1.9 15.9 "
            "0\nendloop\nendfacet\n"
            "endsolid strip\n";
-    std::ofstream held(meshes / "study/held.two");
-    held << "fix below all mesh/surface file ${out}/strip.stl type 1 move 0 0 -0.4\n"
-            "fix above all mesh/surface file ${out}/strip.stl type 1 move 0 0 0.4\n"
-            "fix walls all wall/gran model hooke/transition mesh n_meshes 2 meshes below above "
-            "transition A damping ratio stepping ${stepping}\n";
-    held.close();
-    expect_held(meshes / "study/in.stability", meshes, D);
+    std::ofstream walls(meshes / "study/held.two");
+    walls << "fix below all mesh/surface file ${out}/strip.stl type 1 move 0 0 -0.4\n"
+             "fix above all mesh/surface file ${out}/strip.stl type 1 move 0 0 0.4\n"
+             "fix walls all wall/gran model hooke/transition mesh n_meshes 2 meshes below above "
+             "transition A damping ratio stepping ${stepping}\n";
+    walls.close();
+    expect_rest_between_walls(meshes / "study/in.stability", meshes, D);
   }
 }
 
-// Four dashpots along one line, light and heavy: each alone would drive the others.
+// Four dashpots along one line, light and heavy: solved for one by one they would drive each other.
 TEST(HeavyDamping, BetweenFourWallsIsStableUpToTheLimitOfTheSprings) {
   for (const char *D : {"0.1", "0.3", "2"}) {
     const Scratch folder;
-    expect_held(std::filesystem::path(DRUMLIN_SOURCE_DIR) / "inputs/study/in.stability", folder, D, "four",
-                "0.98");
+    expect_rest_between_walls(std::filesystem::path(DRUMLIN_SOURCE_DIR) / "inputs/study/in.stability", folder,
+                              D, "four", "0.98");
   }
 }
 

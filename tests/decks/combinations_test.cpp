@@ -1,5 +1,5 @@
-// All combinations of tangential and rolling models that the plugin promises, between balls, on primitive
-// planes and on a mesh: they run, stay finite, hold the balls in the box, take energy out, and agree on 1 and
+// All combinations of tangential and rolling models that the plugin supports, between balls, on primitive
+// planes and on a mesh: they run, stay finite, keep the balls in the box, dissipate energy, and agree on 1 and
 // 2 ranks.
 #include "tests/support/balls_run.h"
 
@@ -50,7 +50,7 @@ double energy(const Frame &frame) {
 
 class Combinations : public ::testing::TestWithParam<Combination> {};
 
-TEST_P(Combinations, RunAndTakeEnergyOut) {
+TEST_P(Combinations, RunAndDissipateEnergy) {
   for (const char *transition : {"A", "B"}) {
     for (const char *stepping : {"second", "stock"}) {
       const std::vector<Frame> frames = run_box(GetParam(), transition, stepping, 1);

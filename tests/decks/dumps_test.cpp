@@ -217,8 +217,8 @@ TEST_F(Dumps, OfAnEarlierRunAreRemoved) {
                                    "balls_boundingBox_50.vtr", "contacts_0.dump", "contacts_50.dump"}));
 }
 
-/// Largest of what the contacts leave unexplained of the forces on soil balls, none of whose contacts is made or broken in the step
-/// (then the force on a ball holds what the stepping puts there); as a share of the largest force.
+/// Largest difference between the force on a soil ball and the sum of its contact forces, as a share of the largest force. Balls of which
+/// a contact is made or broken in the step are left out: under second-order stepping their force includes the impulse of that event.
 /// \param contacts of a step; without those of walls, balls near these are not judged
 template <class Contacts>
 double unexplained(const Scratch &folder, long begin, long end, bool with_walls, const Contacts &contacts) {
@@ -291,7 +291,7 @@ TEST_F(Dumps, ForcesOfContactsAreThoseThatActedOnRanksOneAndTwo) {
     }
 }
 
-// The engine's compute pair/gran/local computes the forces anew behind the step, with other velocities than the step had. Those along
+// The engine's compute pair/gran/local computes the forces again after the step, with other velocities than the step had. Those along
 // the normal are the step's own all the same, and those of friction are once the contact slips; only where it sticks its
 // dashpot sees the velocities of the dump.
 TEST_F(Dumps, TheEnginesOwnComputeGetsTheForcesOfTheStep) {
@@ -374,7 +374,7 @@ void expect_true_results(const Scratch &folder) {
     const auto lines =
         opened<vtkXMLPolyDataReader>(folder.path() / "vtk" / step_file("contacts", frame.step));
     vtkCellData *cells = lines->GetCellData();
-    ASSERT_GT(lines->GetNumberOfCells(), static_cast<vtkIdType>(pairs.size())); // walls behind
+    ASSERT_GT(lines->GetNumberOfCells(), static_cast<vtkIdType>(pairs.size())); // contacts with walls follow
     for (vtkIdType row = static_cast<vtkIdType>(pairs.size()); row < lines->GetNumberOfCells(); ++row)
       EXPECT_EQ(cells->GetArray("id2")->GetTuple1(row), 0.0);
     for (vtkIdType row = 0; row < static_cast<vtkIdType>(pairs.size()); ++row) {

@@ -1,6 +1,5 @@
-// The energy ledger of the chain: what the exciter gives is what contact and bond dissipate plus what bodies
-// and springs hold more than at the start. The sums close up to the scheme's error, which falls with the
-// step.
+// The energy balance of the chain: the work of the exciter is the energy dissipated in contact and bond plus the
+// change of the mechanical energy. The energy error is that of the integration scheme, which falls with the step.
 #include "tests/support/engine_runs.h"
 
 #include <gtest/gtest.h>
@@ -18,22 +17,22 @@ using post::ChainParameters;
 using post::Transition;
 
 /// Sums over the run, J.
-struct Ledger {
-  double work = 0, contact = 0, bond = 0, held = 0;
-  double closure() const { return (work - contact - bond - held) / work; }
+struct EnergyBalance {
+  double work = 0, contact = 0, bond = 0, stored = 0;
+  double error() const { return (work - contact - bond - stored) / work; }
 };
 
-Ledger ledger_of(const post::Table &table) {
+EnergyBalance balance_of(const post::Table &table) {
   const auto last = [&](const char *column) { return table.numbers(column).back(); };
-  Ledger ledger{last("work_excitation"), last("dissipated_contact"), last("dissipated_bond"), 0};
+  EnergyBalance balance{last("work_excitation"), last("dissipated_contact"), last("dissipated_bond"), 0};
   for (const char *column : {"kinetic", "potential", "stored_contact", "stored_bond"})
-    ledger.held += last(column) - table.numbers(column).front();
-  return ledger;
+    balance.stored += last(column) - table.numbers(column).front();
+  return balance;
 }
 
 /// The same from the rows of chain.csv by the trapezoid rule, from Eq. (1) alone.
-Ledger ledger_of(const ChainHistory &h, const ChainParameters &p) {
-  Ledger ledger;
+EnergyBalance balance_of(const ChainHistory &h, const ChainParameters &p) {
+  EnergyBalance balance;
   const auto energy = [&](std::size_t n) {
     const double stretch = h.x_frame[n] - h.x_drum[n];
     const double overlap = std::max(0.0, -h.x_drum[n]);
@@ -46,18 +45,18 @@ Ledger ledger_of(const ChainHistory &h, const ChainParameters &p) {
     for (const std::size_t end : {n, n + 1}) {
       const double overlap = std::max(0.0, -h.x_drum[end]);
       const double rate = h.v_frame[end] - h.v_drum[end];
-      ledger.work -= half * h.F_excitation[end] * h.v_drum[end];
+      balance.work -= half * h.F_excitation[end] * h.v_drum[end];
       // The contact takes Fc d', its spring k d d' of it.
-      ledger.contact += half * (p.k * overlap - h.F_contact[end]) * h.v_drum[end];
-      ledger.bond += half * p.c23 * rate * rate;
+      balance.contact += half * (p.k * overlap - h.F_contact[end]) * h.v_drum[end];
+      balance.bond += half * p.c23 * rate * rate;
     }
   }
-  ledger.held = energy(h.size() - 1) - energy(0);
-  return ledger;
+  balance.stored = energy(h.size() - 1) - energy(0);
+  return balance;
 }
 
 struct Recorded {
-  Ledger ledger;
+  EnergyBalance balance;
   ChainHistory history;
 };
 
@@ -72,7 +71,7 @@ Recorded run(const std::string &name, Transition transition, int steps, int samp
                                     {"cycles", std::to_string(cycles)}},
                                    scratch.path());
   if (!outcome.ok()) throw std::runtime_error(outcome.output);
-  return {ledger_of(post::read_table(scratch / "cycles.csv")), post::read_chain(scratch / "chain.csv")};
+  return {balance_of(post::read_table(scratch / "cycles.csv")), post::read_chain(scratch / "chain.csv")};
 }
 
 class Energy : public ::testing::TestWithParam<std::string> {};
@@ -82,12 +81,12 @@ TEST_P(Energy, SumsAreThoseOfTheRows) {
   for (const Transition transition : {Transition::A, Transition::B}) {
     const ChainParameters p = post::table1_case(GetParam(), transition);
     const Recorded recorded = run(GetParam(), transition, 1000, 1000, 8);
-    const Ledger expected = ledger_of(recorded.history, p);
-    const Ledger &found = recorded.ledger;
+    const EnergyBalance expected = balance_of(recorded.history, p);
+    const EnergyBalance &found = recorded.balance;
     EXPECT_NEAR(found.work, expected.work, 1e-9 * expected.work);
     EXPECT_NEAR(found.contact, expected.contact, 1e-9 * expected.work);
     EXPECT_NEAR(found.bond, expected.bond, 1e-9 * expected.work);
-    EXPECT_NEAR(found.held, expected.held, 1e-9 * expected.work);
+    EXPECT_NEAR(found.stored, expected.stored, 1e-9 * expected.work);
     EXPECT_GT(found.contact, 0.1 * found.work);
     EXPECT_GT(found.bond, 0);
   }
@@ -96,29 +95,29 @@ TEST_P(Energy, SumsAreThoseOfTheRows) {
 INSTANTIATE_TEST_SUITE_P(Table1, Energy, ::testing::Values("I", "II", "III", "IV"),
                          [](const auto &test) { return test.param; });
 
-TEST(EnergyOfASmoothChain, ClosesInFirstOrder) {
+TEST(EnergyOfASmoothChain, ErrorIsOfFirstOrder) {
   for (const auto &[name, transition] : {std::pair{"I", Transition::A}, std::pair{"IV", Transition::A}}) {
     std::vector<double> steps, errors;
     for (const int n : {500, 1000, 2000, 4000}) {
       steps.push_back(n);
-      errors.push_back(std::fabs(run(name, transition, n, 10, 20).ledger.closure()));
+      errors.push_back(std::fabs(run(name, transition, n, 10, 20).balance.error()));
     }
     RecordProperty(std::string("order_") + name, number(fitted_order(steps, errors)));
-    RecordProperty(std::string("closure_at_4000_") + name, number(errors.back()));
+    RecordProperty(std::string("error_at_4000_") + name, number(errors.back()));
     EXPECT_NEAR(fitted_order(steps, errors), -1, 0.1) << name;
     EXPECT_LT(errors.back(), 2e-3) << name;
   }
 }
 
-// Makes fall anywhere in a step, and the closure with them: its largest value over neighbouring steps is the
-// measure.
-TEST(EnergyOfAnImpactingChain, ClosesWithinAnEnvelopeOfFirstOrder) {
+// A make falls anywhere within a step, and the energy error depends on where. The measure is its largest value over
+// neighbouring numbers of steps.
+TEST(EnergyOfAnImpactingChain, ErrorHasAnEnvelopeOfFirstOrder) {
   for (const auto &[name, transition] : {std::pair{"II", Transition::A}, std::pair{"II", Transition::B},
                                          std::pair{"III", Transition::B}, std::pair{"IV", Transition::B}}) {
     const auto envelope = [&, n = name, t = transition](int level) {
       double largest = 0;
       for (const int base : {480, 510, 540, 570})
-        largest = std::max(largest, std::fabs(run(n, t, level * base, 10, 20).ledger.closure()));
+        largest = std::max(largest, std::fabs(run(n, t, level * base, 10, 20).balance.error()));
       return largest;
     };
     const double coarse = envelope(1), fine = envelope(4);

@@ -1,5 +1,5 @@
 // Free balls under fix drum/excite: velocity and position against fine quadrature of the force that the
-// documentation promises, computed here anew.
+// documentation gives, computed here independently.
 #include "tests/support/balls_run.h"
 
 #include <gtest/gtest.h>
@@ -113,7 +113,7 @@ TEST_P(Excitation, MovesAFreeBallByItsIntegral) {
     }
   }
   // The engine's own quadrature is the trapezoid rule: (w dt)^2 / 12 of the force, less where the force has a
-  // corner.
+  // kink.
   const double scale_v = std::max({largest_v[0], largest_v[1], largest_v[2]});
   const double scale_x = std::max({largest_x[0], largest_x[1], largest_x[2]});
   for (std::size_t a = 0; a < 3; ++a) {

@@ -1,5 +1,5 @@
 // Friction as the engine's tangential history and our tangential coulomb apply it to our contact: the core's law along recorded
-// paths, closed forms of sticking and sliding, the defaults, that a broken contact keeps nothing, and impulses of oblique impacts.
+// paths, closed forms of sticking and sliding, the defaults, that the history of a broken contact is deleted, and impulses of oblique impacts.
 #include "tests/support/balls_run.h"
 #include "tests/support/engine_and_scheme.h"
 
@@ -33,7 +33,7 @@ Vec3 cross(const Vec3 &a, const Vec3 &b) {
 }
 
 /// An oblique, spinning throw onto an obstacle under strong gravity, so that the ball returns before the
-/// neighbour list would be built anew.
+/// neighbour list would be rebuilt.
 struct Throw {
   const char *obstacle;
   Transition transition;
@@ -296,11 +296,11 @@ TEST(FrictionOnAPlane, SlidesWithMuTimesTheNormalForce) {
   EXPECT_NEAR(end.v[0], middle.v[0] - 0.5 * 9.81 * 4000 * 1e-5, 1e-9);
 }
 
-class BooksOfASlidingBall : public BothEngines {};
+class EnergyBalanceOfASlidingBall : public BothEngines {};
 
 /// Without dashpots the contact point of a ball on a floor has the mass m' = 1/(1/m + a^2/I), a its distance from the centre. It winds the
-/// spring up, a quarter of an oscillation at most, slides at mu N until it stops, and swings on the spring for good.
-TEST_P(BooksOfASlidingBall, TellHeatOfFrictionFromTheEnergyOfItsSpring) {
+/// spring up, a quarter of an oscillation at most, slides at mu N until it stops, and then oscillates on the spring.
+TEST_P(EnergyBalanceOfASlidingBall, SeparatesHeatOfFrictionFromTheEnergyOfItsSpring) {
   const std::string stepping = std::get<1>(GetParam());
   const Scratch
       folder; // at D = 0 `history` and `coulomb` are the same law, so each stepping is tested with one of them
@@ -339,11 +339,11 @@ TEST_P(BooksOfASlidingBall, TellHeatOfFrictionFromTheEnergyOfItsSpring) {
   EXPECT_NEAR(cycles.numbers("dissipated_contact").back(), 0.0, 1e-4 * most);
 }
 
-INSTANTIATE_TEST_SUITE_P(Decks, BooksOfASlidingBall, engines_and_steppings(), engine_and_stepping);
+INSTANTIATE_TEST_SUITE_P(Decks, EnergyBalanceOfASlidingBall, engines_and_steppings(), engine_and_stepping);
 
 /// With dashpots there is no closed form, but energy is conserved: the mechanical energy that the ball loses is the dissipated energy, which
 /// never decreases.
-TEST_P(BooksOfASlidingBall, CloseWithDashpotsUnderCoulomb) {
+TEST_P(EnergyBalanceOfASlidingBall, ClosesWithDashpotsUnderCoulomb) {
   const Scratch folder;
   const Outcome outcome = run("slide", folder, {{"tangential", "coulomb"}, {"D", "0.5"}, {"every", "10"}});
   ASSERT_TRUE(outcome.ok()) << outcome.output;
@@ -361,7 +361,7 @@ TEST_P(BooksOfASlidingBall, CloseWithDashpotsUnderCoulomb) {
 }
 
 // Their order in memory decides which of two balls is the first of a contact: when it changes, the spring turns round.
-TEST(Coulomb, OutlivesAChangeOfTheOrderOfBalls) {
+TEST(Coulomb, HistoryIsKeptWhenTheOrderOfBallsChanges) {
   std::vector<std::vector<Frame>> frames;
   for (const char *shuffle : {"0", "50"}) {
     const Scratch folder;

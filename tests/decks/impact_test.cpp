@@ -169,7 +169,7 @@ TEST_P(Obstacles, BallPlaneAndMeshAreOne) {
   }
 }
 
-// Into a corner along its bisector: two contacts are made in one step, and neither knows of the other.
+// Into a corner along its bisector: two contacts are made in one step, each as if it were the only one.
 TEST_P(Obstacles, CornerIsAPlaneInEachDirection) {
   const auto run = [](const char *obstacle, const char *velocity) {
     return run_balls({{"obstacle", obstacle},
@@ -228,10 +228,10 @@ INSTANTIATE_TEST_SUITE_P(Restitution, SecondOrderImpact, ::testing::ValuesIn(bou
 
 INSTANTIATE_TEST_SUITE_P(Reference, Obstacles, ::testing::ValuesIn(impacts), impact_name);
 
-// A ball sinks into eight contacts one after another. Alone none of their dashpots is heavy (dt c/m = 0.4); together they are, and each
-// on its own would then throw the ball back. All are pressed to the end, so that no condition of a transition acts: m a = m g - sum of
+// A ball sinks into eight contacts one after another. Alone none of their dashpots is heavy (dt c/m = 0.4); together they are, and solved for
+// one by one they would throw the ball back. All are pressed to the end, so that no condition of a transition acts: m a = m g - sum of
 // k d + c d', of which a far smaller step makes an oracle.
-TEST(ManyContacts, MadeOneByOneBecomeHeavyTogether) {
+TEST(ManyContacts, MadeOneByOneBecomeHeavilyDampedTogether) {
   constexpr double m = 2000, k = 1e6, c = 8e5, dt = 1e-3, g = 9.81, r = 0.75, gap = 1e-6, below = 5e-4;
   constexpr int contacts = 8, steps = 4000, parts = 100;
   const auto acceleration = [&](double z, double v) {

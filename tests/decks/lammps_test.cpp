@@ -1,5 +1,5 @@
-// LAMMPS against LIGGGHTS: the same fixes and laws under another pair style, walls and neighbour history of its own. The difference
-// that is allowed is rounding: what grows of it is the scene's doing.
+// LAMMPS against LIGGGHTS: the same fixes and laws in both, with another pair style, other walls and another contact history. The
+// allowed difference is rounding, and its growth in scenes whose motion is sensitive to it.
 #include "tests/support/engine_runs.h"
 
 #include "bed/dump_readers.h"
@@ -130,7 +130,7 @@ TEST_P(InLammpsBounce, GoesAsInLiggghtsOnRanksOneTwoAndFourWithNewtonOffAndOn) {
   const std::vector<Frame> expected = read_dump(liggghts / "balls.txt");
   const std::string guard = last_line_with(here.output, "fix guard guard: "); // of the second run
   EXPECT_NE(guard.find("critical step"), std::string::npos) << here.output;
-  // There is something to compare: balls that have met walls and one another and turn.
+  // There is something to compare: balls that have hit walls and each other, and rotate.
   ASSERT_EQ(expected.size(), 13u);
   double fastest_turn = 0.0;
   for (const auto &[id, ball] : expected.back().balls)
@@ -165,8 +165,8 @@ INSTANTIATE_TEST_SUITE_P(
                {{"D", "40"}, {"tangential", "off"}, {"mu", "-1"}}}),
     bounce_name);
 
-// The order of balls in memory decides which of two is the first of a pair: when it changes, the contact's memory turns round.
-TEST_F(InLammps, ContactsOutliveAChangeOfTheOrderOfBalls) {
+// The order of balls in memory decides which of two is the first of a pair: when it changes, the contact history changes its sign.
+TEST_F(InLammps, HistoryIsKeptWhenTheOrderOfBallsChanges) {
   const Scratch kept;
   ASSERT_TRUE(run_deck(test_deck("bounce.lammps"), {}, kept.path()).ok());
   for (const char *newton : {"off", "on"}) {
@@ -191,14 +191,14 @@ TEST_F(InLammps, RefusesAnotherVersionOnRanksOneAndTwo) {
   }
 }
 
-TEST_F(InLammps, GoesOnFromARestartFileBitwiseOnRanksOneAndTwoWithNewtonOffAndOn) {
+TEST_F(InLammps, ContinuesFromARestartFileBitwiseOnRanksOneAndTwoWithNewtonOffAndOn) {
   for (const auto &[ranks, newton, tangential] :
        {std::tuple{1, "off", "coulomb"}, {2, "off", "history"}, {1, "on", "history"}, {2, "on", "coulomb"}}) {
     const Scratch stayed, left;
     const Variables law = {{"newton", newton}, {"tangential", tangential}};
     const Outcome whole = run_deck(test_deck("bounce.lammps"), law, stayed.path(), ranks);
     ASSERT_TRUE(whole.ok()) << whole.output;
-    for (const char *file : {"first.restart", "during.6000"}) { // behind a run, and in it
+    for (const char *file : {"first.restart", "during.6000"}) { // written after a run, and during one
       Variables again = law;
       again.emplace_back("start", (stayed / file).string());
       again.emplace_back("law", std::string(tangential) == "coulomb" ? "restart" : "deck");
@@ -250,10 +250,10 @@ TEST_F(InLammps, RefusesTheHistoryOfAnotherWallOnRanksOneAndTwo) {
   }
 }
 
-/// No dashpots and no friction: what remembers nothing, and has an energy.
+/// No dashpots and no friction: contacts without history, whose forces are those of a potential energy.
 const Variables springs = {{"D", "0"}, {"tangential", "off"}, {"mu", "-1"}};
 
-TEST_F(InLammps, GoesOnFromADataFileWhereNothingIsRemembered) {
+TEST_F(InLammps, ContinuesFromADataFileWithoutContactHistory) {
   const Scratch stayed, left;
   ASSERT_TRUE(run_deck(test_deck("bounce.lammps"), springs, stayed.path()).ok());
   Variables variables = springs;
@@ -267,8 +267,8 @@ TEST_F(InLammps, GoesOnFromADataFileWhereNothingIsRemembered) {
   EXPECT_LT(distance(whole, rest), 1e-9);
 }
 
-// The spring on a face is forgotten however far the ball goes in one step.
-TEST_F(InLammps, BallPutBackOnAFaceOfARegionBeginsAnew) {
+// However far the ball moves in one step, the shear spring of a broken contact with a face is deleted.
+TEST_F(InLammps, HistoryOfABallPutBackOnAFaceOfARegionStartsAtZero) {
   const auto force = [](const char *lifted) {
     const Scratch folder;
     const Outcome outcome = run_deck(test_deck("lift.lammps"), {{"lifted", lifted}}, folder.path());
@@ -281,9 +281,9 @@ TEST_F(InLammps, BallPutBackOnAFaceOfARegionBeginsAnew) {
   constexpr double kn = 1e5, kt = 2.0 / 7.0 * kn, overlap = 1e-4, slid = 0.1 * 50e-6;
   const std::array<double, 2> stayed = force("0"), put_back = force("0.01"), hopped = force("0.002");
   EXPECT_NEAR(std::fabs(stayed[0]), kt * slid, 0.05 * kt * slid);
-  for (const std::array<double, 2> &anew : {put_back, hopped}) {
-    EXPECT_NEAR(anew[0], 0, 1e-12);
-    EXPECT_NEAR(std::fabs(anew[1]), kn * overlap, 0.05 * kn * overlap);
+  for (const std::array<double, 2> &again : {put_back, hopped}) {
+    EXPECT_NEAR(again[0], 0, 1e-12);
+    EXPECT_NEAR(std::fabs(again[1]), kn * overlap, 0.05 * kn * overlap);
   }
 }
 
@@ -347,7 +347,7 @@ TEST_F(InLammps, ForcesAreTheCentralDifferencesOfTheEnergy) {
     }
 }
 
-// Without dashpots no force jumps: what steps put there for the next half kick is nothing. compute pair/local does not know the walls.
+// Without dashpots no force jumps, so that second-order steps add no impulse to it. compute pair/local has no contacts with walls.
 TEST_F(InLammps, ContactsOfADumpExplainTheForcesOnBallsOnRanksOneAndTwo) {
   for (const auto &[ranks, newton] : {std::pair{1, "off"}, {2, "off"}, {1, "on"}, {2, "on"}}) {
     const Scratch folder;

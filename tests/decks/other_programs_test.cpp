@@ -1,4 +1,4 @@
-// The preloaded library speaks in the engine's process and keeps silent in any other.
+// The preloaded library prints in the engine's process and in no other.
 #include "tests/support/engine_runs.h"
 
 #include <gtest/gtest.h>

@@ -202,7 +202,7 @@ protected:
   static double pressure(double force, double e) { return -force * (length + e) / volume; }
 };
 
-// e(t) = e0 cos(w t), w^2 = k / m_eff; what the spring does not hold the balls have.
+// e(t) = e0 cos(w t), w^2 = k / m_eff; the rest of the energy is kinetic.
 TEST_P(EnergyOfABond, IsItsScalarAndWithFixModifyPartOfThePotentialEnergy) {
   constexpr double most = 0.5 * k * e0 * e0;
   const std::vector<Row> rows = rows_of({});
@@ -268,13 +268,13 @@ TEST(Bond, BreaksOnceAtItsStrengthAndNeverPullsAgain) {
   EXPECT_GT(largest, 0.95 * strength);
 }
 
-/// With light and with heavy damping: dashpots alone, and solved for in a second pass.
-TEST(Reaction, OfAHeldBallIsWhatTheOtherBallGets) {
+/// With light damping, solved for contact by contact, and with heavy damping, solved for in a second pass.
+TEST(Reaction, OfAFixedBallIsTheForceOnTheOtherBall) {
   constexpr double m2 = 500, g = 9.81;
-  for (const char *held : {"freeze", "setforce 0 0 0"})
+  for (const char *fix : {"freeze", "setforce 0 0 0"})
     for (const char *dashpot : {"0.2", "5"}) {
       const BallsRun run = run_balls({{"stepping", "second"},
-                                      {"held", held},
+                                      {"held", fix},
                                       {"dashpot", dashpot},
                                       {"m2", number(m2)},
                                       {"gap", "1e-4"},
@@ -290,9 +290,9 @@ TEST(Reaction, OfAHeldBallIsWhatTheOtherBallGets) {
         most = std::max(most, contact);
         miss = std::max(miss, std::fabs(run.reaction[n - 1] + contact));
       }
-      EXPECT_GT(most, m2 * g) << held << ", D = " << dashpot;
-      EXPECT_LT(miss, 1e-10 * most) << held << ", D = " << dashpot;
-      EXPECT_NEAR(run.reaction.back(), -m2 * g, 0.01 * m2 * g) << held << ", D = " << dashpot;
+      EXPECT_GT(most, m2 * g) << fix << ", D = " << dashpot;
+      EXPECT_LT(miss, 1e-10 * most) << fix << ", D = " << dashpot;
+      EXPECT_NEAR(run.reaction.back(), -m2 * g, 0.01 * m2 * g) << fix << ", D = " << dashpot;
     }
 }
 

@@ -1,4 +1,4 @@
-// A run that leaves the process in the middle of a cycle and goes on from its restart file must write the
+// A run that leaves the process in the middle of a cycle and continues from its restart file must write the
 // same files, byte for byte, as one that stayed.
 #include "tests/support/engine_runs.h"
 

@@ -299,7 +299,7 @@ TEST_F(FrontScript, FindsTheIncludesOfALinkedDeck) {
   }
 }
 
-/// Whether a text has these, one behind the other.
+/// Whether a text has these, one after the other.
 void expect_in_order(const std::string &text, const std::vector<std::string> &parts) {
   std::size_t at = 0;
   for (const std::string &part : parts) {
@@ -412,7 +412,7 @@ TEST_F(FrontScript, DemoOfFewCyclesAndBalls) {
   EXPECT_FALSE(outcome.says("./drumlin")) << outcome.output;
 }
 
-// What the engine says is in a file, of which one line tells; nothing behind the failed run is begun.
+// The engine's output is in a file, which one line names; no run after the failed one is started.
 TEST_F(FrontScript, DemoEndsAtTheFirstRunThatFails) {
   const fs::path place = checkout("checkout");
   const std::vector<std::string> words = {"env", "PATH=" + (folder / "bin").string() + ":/usr/bin:/bin",

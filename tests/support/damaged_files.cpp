@@ -23,7 +23,7 @@ std::pair<std::size_t, std::size_t> some_word(const std::string &text, Choice &c
   return {begin, std::min(text.find_first_of(parting, begin), text.size()) - begin};
 }
 
-using Spoil = std::function<std::string(std::string, Choice &)>;
+using Damage = std::function<std::string(std::string, Choice &)>;
 
 std::string with_absurd_number(std::string text, Choice &choice) {
   static const std::vector<std::string> absurd = {"nan",
@@ -108,8 +108,8 @@ std::string with_rows_moved(const std::string &text, Choice &choice) {
   return joined(lines);
 }
 
-const std::vector<Spoil> &ways_to_spoil() {
-  static const std::vector<Spoil> ways = {
+const std::vector<Damage> &ways_to_damage() {
+  static const std::vector<Damage> ways = {
       with_absurd_number, // five times as often as the others: it gets farthest
       with_absurd_number,
       with_absurd_number,
@@ -134,8 +134,8 @@ const std::vector<Spoil> &ways_to_spoil() {
 
 } // namespace
 
-std::string spoilt(const std::string &text, Choice &choice) {
-  return choice.of(ways_to_spoil())(text, choice);
+std::string damaged(const std::string &text, Choice &choice) {
+  return choice.of(ways_to_damage())(text, choice);
 }
 
 } // namespace drumlin::test

@@ -1,4 +1,4 @@
-// Ways to spoil a file: cut, shuffled, swapped, with absurd numbers, with the line ends of another system.
+// Ways to damage a file: cut, shuffled, swapped, with absurd numbers, with the line ends of another system.
 #pragma once
 
 #include <cstddef>
@@ -23,6 +23,6 @@ private:
 };
 
 /// The text with one fault, of a kind and at a place that are chosen at random.
-std::string spoilt(const std::string &text, Choice &choice);
+std::string damaged(const std::string &text, Choice &choice);
 
 } // namespace drumlin::test

@@ -17,7 +17,7 @@ struct Array {
 /// A VTK file of points.
 std::string point_data(int points, const std::string &places, const std::vector<Array> &arrays);
 
-/// Two soil balls beside each other, id 1 and 2, and the drum, id 9, above the first; not in order.
+/// Two soil balls side by side, id 1 and 2, and the drum, id 9, above the first; not in order.
 std::map<std::string, Array> ball_arrays();
 std::string ball_dump(const std::map<std::string, Array> &arrays = ball_arrays(),
                       const std::string &places = "1 3.9 0 2.8 1 0 1 1 0");

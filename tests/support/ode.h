@@ -12,7 +12,7 @@ using State = std::vector<double>;
 using Rates = std::function<void(double t, const State &y, State &dydt)>;
 using Event = std::function<double(double t, const State &y)>; ///< zero where the event happens
 
-/// Integrates y' = rates(t, y) from (t, y). `scale` holds a typical size of every component, from which the
+/// Integrates y' = rates(t, y) from (t, y). `scale` is a typical size of every component, from which the
 /// absolute tolerances follow.
 class Ode {
 public:
@@ -23,7 +23,7 @@ public:
 
   /// Goes to t_end, or to the first zero of an event on the way. Returns the event's index, or -1 at t_end.
   int advance(double t_end, const std::vector<Event> &events = {});
-  /// Sets the state anew at the present time, after a jump of the rates or of the state.
+  /// Replaces the state at the present time, after a jump of the rates or of the state.
   void restart(const State &y);
 
   [[nodiscard]] double time() const;

@@ -13,7 +13,7 @@ namespace drumlin::test {
 struct OracleResult {
   std::vector<double> time, x_drum, v_drum, a_drum, x_frame, v_frame, F_contact; // at the samples
   std::vector<post::ContactEvent> events;
-  std::vector<post::CycleSummary> cycles; // extremes at 2000 points or more per cycle and beside the events
+  std::vector<post::CycleSummary> cycles; // extremes at 2000 points or more per cycle and at the events
 };
 
 OracleResult exact_pieces(const post::ChainParameters &parameters, int cycles, int samples_per_cycle,

@@ -8,7 +8,7 @@
 
 namespace drumlin::test {
 
-/// A chain run; what it holds is the direct solution of a case of Table 1.
+/// A run folder whose files are the direct solution of a case of Table 1.
 void write_chain_run(const std::filesystem::path &folder, const std::string &case_name,
                      post::Transition transition, int cycles,
                      const std::string &command = "drumlin run in.chain");

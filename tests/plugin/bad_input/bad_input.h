@@ -1,4 +1,4 @@
-// The tables of bad input, and what the engine must say to each.
+// The tables of bad input, and the error line that the engine must print for each.
 #pragma once
 
 #include "tests/support/engine_runs.h"
@@ -9,7 +9,7 @@
 
 namespace drumlin::test {
 
-/// Whose words the error line is in. Ours names command, keyword, value and what is allowed ("allowed:");
+/// Who prints the error line. The plugin's names command, keyword, value and what is allowed ("allowed:");
 /// where the engine's own check comes first, its text is all there is (the pages of plugin/doc say where).
 enum class Text { ours, engine };
 
@@ -17,7 +17,7 @@ enum class Text { ours, engine };
 struct BadInput {
   std::string name;
   std::string lines;             ///< lines of the host deck; not used for a project deck
-  std::vector<std::string> says; ///< all of them stand in the one error line
+  std::vector<std::string> says; ///< all of them are in the one error line
   Variables variables = {};      ///< of a project deck
   bool two_ranks = false;        ///< is among those that are tried under 2 ranks, too
   Text text = Text::ours;

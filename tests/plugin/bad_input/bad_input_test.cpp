@@ -60,7 +60,7 @@ void expect_one_error(const BadInput &input, const Outcome &outcome) {
   EXPECT_NE(errors.front().find("; allowed: "), std::string::npos) << errors.front();
 }
 
-/// What in.place and in.bed want before they judge their other variables: a file with the notes of a bed. The engine never reads it.
+/// What in.place and in.bed read before they check their other variables: a file with the notes of a bed. The engine never reads it.
 const std::string &bed_file(const std::string &stage) {
   static std::map<std::string, std::string> files;
   std::string &text = files[stage];
@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(OneRank, BadInputTest, ::testing::ValuesIn(all_groups()
 INSTANTIATE_TEST_SUITE_P(TwoRanks, BadInputRanksTest, ::testing::ValuesIn(groups_for_two_ranks()),
                          group_name);
 
-// The engine's error->all() takes words for a format, in which {} stands for an argument, unless it is kept from it.
+// The engine's error->all() would use the text as a format, in which {} means an argument.
 TEST(BadInput, BracesStayAsTheyAreInLammps) {
   if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
   const Scratch scratch;

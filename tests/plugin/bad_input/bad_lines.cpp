@@ -152,8 +152,8 @@ BadGroup properties() {
 }
 
 /// Lines in the host deck with another pair style.
-BadInput beside(const std::string &name, const std::string &pair_style_line, const std::string &lines,
-                const std::vector<std::string> &says) {
+BadInput with_pair_style(const std::string &name, const std::string &pair_style_line,
+                         const std::string &lines, const std::vector<std::string> &says) {
   BadInput input = line(name, lines, says);
   input.pair = pair_style_line + "\npair_coeff * *\n" + host_properties();
   return input;
@@ -176,22 +176,24 @@ BadGroup wall() {
           line("unknown keyword", fix + plane + "limit on", {command + "keyword is 'limit'"}),
           line("the engine's limitForce", fix + plane + "limitForce on",
                {command + "keyword is 'limitForce'", "transition B in place of 'limitForce on'"}),
-          on_two_ranks(line("stock beside a pair style with second", fix + plane + "stepping stock",
+          on_two_ranks(line("stock with a pair style with second", fix + plane + "stepping stock",
                             {command + "keyword stepping is 'stock' and that of the pair style is 'second'",
                              "the same stepping for both"})),
-          on_two_ranks(
-              beside("second beside a pair style with stock",
-                     "pair_style gran model hooke/transition stepping stock", fix + plane,
-                     {command + "keyword stepping is 'second' (its default) and that of the pair style is "
-                                "'stock'",
-                      "the same stepping for both"})),
-          beside("stock, and a pair style behind it that changes to second",
-                 "pair_style gran model hooke/transition stepping stock",
-                 fix + plane + "stepping stock\npair_style gran model hooke/transition\npair_coeff * *",
-                 {command + "keyword stepping is 'stock' and that of the pair style is 'second'"}),
-          beside("second beside the engine's law", "pair_style gran model hooke/stiffness", fix + plane,
-                 {command + "keyword stepping is 'second' (its default)",
-                  "there is no pair_style gran model hooke/transition yet"}),
+          on_two_ranks(with_pair_style(
+              "second with a pair style with stock", "pair_style gran model hooke/transition stepping stock",
+              fix + plane,
+              {command + "keyword stepping is 'second' (its default) and that of the pair style is "
+                         "'stock'",
+               "the same stepping for both"})),
+          with_pair_style("stock, and a later pair style that changes to second",
+                          "pair_style gran model hooke/transition stepping stock",
+                          fix + plane +
+                              "stepping stock\npair_style gran model hooke/transition\npair_coeff * *",
+                          {command + "keyword stepping is 'stock' and that of the pair style is 'second'"}),
+          with_pair_style("second with the engine's law", "pair_style gran model hooke/stiffness",
+                          fix + plane,
+                          {command + "keyword stepping is 'second' (its default)",
+                           "there is no pair_style gran model hooke/transition yet"}),
           line("unknown stepping", fix + plane + "stepping 2",
                {command + "keyword stepping is '2'", "stock or second"}),
           line("settings before the wall", fix + "transition A " + plane,
@@ -347,7 +349,7 @@ BadGroup clump() {
               on_two_ranks(line("a ball in two", "fix one drum clump\nfix two roller clump",
                                 {command + "group is 'drum', of which 1 balls are in the clump '",
                                  "each ball in one clump only"})),
-              line("a force behind it", "fix body drum clump\nfix bond all bond/spring 2 3 1e6 1e4",
+              line("a force fix after it", "fix body drum clump\nfix bond all bond/spring 2 3 1e6 1e4",
                    {command + "group is 'drum', on which the later fix bond (bond/spring) exerts forces",
                     "after all fixes"}),
           }};
@@ -619,7 +621,7 @@ BadGroup run() {
           line("nothing", "drumlin/run", {command + "the last step is missing", "a whole number from 0"}),
           line("last step a word", "drumlin/run soon every 10",
                {command + "the last step is 'soon'", "a whole number from 0"}),
-          line("last step behind", "run 20\ndrumlin/run 10 every 10",
+          line("last step in the past", "run 20\ndrumlin/run 10 every 10",
                {command + "the last step is '10'", "at least 20, the present step"}),
           line("every zero", "drumlin/run 10 every 0",
                {command + "keyword every is '0'", "a whole number from 1"}),

@@ -1,4 +1,4 @@
-// Spoilt files given to the decks of the bed, as tests/postprocess/commands/fuzz_test.cpp gives them to the tools: each deck ends within 20 s in a
+// Damaged files given to the decks of the bed, as tests/postprocess/commands/fuzz_test.cpp gives them to the tools: each deck ends within 20 s in a
 // result or in one line of error, and leaves nothing half-written. The number of a mutant is the seed of its faults.
 #include "tests/support/damaged_files.h"
 #include "tests/support/host_deck.h"
@@ -60,7 +60,7 @@ TEST_P(BedFuzz, EndsInAResultOrInOneLine) {
   for (int mutant = 0; mutant < file.mutants; ++mutant) {
     const Scratch place;
     Choice choice(static_cast<unsigned>(mutant));
-    write_text(place / file.name, spoilt(read_text(sound / file.name), choice));
+    write_text(place / file.name, damaged(read_text(sound / file.name), choice));
     const Outcome outcome = run(file.deck, file.variable, place / file.name, more, place.path());
     const std::vector<std::string> lines = lines_of(outcome.output);
     const auto errors = std::count_if(lines.begin(), lines.end(), [](const std::string &line) {

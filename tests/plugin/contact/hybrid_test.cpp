@@ -18,7 +18,7 @@ const std::string outputs =
     "dump state all custom 5 state.txt id z vz fz\n"
     "dump contacts all local 5 contacts.txt f_contacts[1] f_contacts[2] f_contacts[5] f_contacts[9]\n";
 
-/// What the run wrote.
+/// The files that the run wrote.
 std::vector<std::string> files_of(const Scratch &folder, const Outcome &outcome) {
   EXPECT_TRUE(outcome.ok()) << outcome.output;
   std::vector<std::string> texts;
@@ -74,9 +74,9 @@ TEST(HybridPairStyle, GoesAsTheLawAloneInLammps) {
   }
 }
 
-/// A run in two halves, the second from the first's restart file in a process of its own; the last dump of both. `anew` is what the second
-/// deck says of the pair style again.
-std::vector<std::string> in_halves(const std::string &pair, const std::string &anew, int ranks) {
+/// A run in two halves, the second from the first's restart file in a process of its own; the last dump of both. `again` has the lines of the pair
+/// style in the second deck.
+std::vector<std::string> in_halves(const std::string &pair, const std::string &again, int ranks) {
   const Scratch folder;
   const std::string scene = "fix gravity all gravity 9.81 vector 0 0 -1\n"
                             "fix wall all wall/gran/transition 1 zplane -0.99 NULL\n"
@@ -91,13 +91,13 @@ std::vector<std::string> in_halves(const std::string &pair, const std::string &a
   std::vector<std::string> states = {read_text(folder / "state.txt")};
   write_text(folder / "second.lammps", "plugin load ${plugin}\natom_modify map array sort 0 0\nnewton off\n"
                                        "comm_modify vel yes\nread_restart half.restart\ntimestep 1e-5\n" +
-                                           anew + scene + rest);
+                                           again + scene + rest);
   const Outcome second = run_deck(folder / "second.lammps", {}, folder.path(), ranks);
   states.push_back(second.ok() ? read_text(folder / "state.txt") : second.output);
   return states;
 }
 
-// Pair style hybrid keeps no coefficients in restart files; settings and contact history are there, also if a deck says them again.
+// Pair style hybrid keeps no coefficients in restart files; settings and contact history are there, also if a deck gives them again.
 TEST(HybridPairStyle, ContinuesFromARestartFileBitwiseInLammps) {
   if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
   const std::string law = "gran/hooke/transition tangential history transition A damping coefficient";
@@ -115,13 +115,14 @@ TEST(HybridPairStyle, ContinuesFromARestartFileBitwiseInLammps) {
   EXPECT_NE(in_halves(hybrid + part, "", 1)[1].find("ERROR: "), std::string::npos);
 }
 
-/// The second pair_style line of a deck stands alone: what contacts remember, and how many numbers, is that of its settings.
-TEST(PairStyle, MayBeGivenAnewInLammps) {
+/// The second pair_style line of a deck replaces the first: its settings decide what the contact history contains.
+TEST(PairStyle, MayBeGivenAgainInLammps) {
   if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
-  const std::string anew = "pair_style gran/hooke/transition tangential history stepping stock transition A\n"
-                           "pair_coeff * * 1e7 0.5 0.3\n";
+  const std::string second =
+      "pair_style gran/hooke/transition tangential history stepping stock transition A\n"
+      "pair_coeff * * 1e7 0.5 0.3\n";
   const std::string before = "pair_style gran/hooke/transition\npair_coeff * * 1e6 0.1\n";
-  EXPECT_EQ(in_lammps(before + "run 0\n" + anew, 1), in_lammps(anew, 1));
+  EXPECT_EQ(in_lammps(before + "run 0\n" + second, 1), in_lammps(second, 1));
 }
 
 /// A helper of second-order stepping that no pair style needs any more has no part in the run.

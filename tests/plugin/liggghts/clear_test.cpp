@@ -36,7 +36,7 @@ TEST_P(ClearCommand, LeavesADeckThatLoopsItsRuns) {
 }
 
 /// Runs scenes in LAMMPS instances of one process: with walls, a clump, a bond and all that observes
-/// contacts. The two differ in their laws, so that what one took from the other would be seen.
+/// contacts. The two differ in their laws, so that the results change if one uses anything of the other.
 Outcome run_instances(const Scratch &folder, const std::string &how) {
   const auto scene = [&](const std::string &name, const std::string &law, const std::string &lines) {
     write_text(folder / (name + ".lines"),
@@ -68,7 +68,7 @@ TEST(TwoLammpsInstances, EachGivesWhatItGivesAlone) {
     const Outcome one = run_instances(alone, name);
     ASSERT_TRUE(one.ok()) << one.output;
   }
-  for (const char *how : {"after", "beside"}) {
+  for (const char *how : {"after", "in_turns"}) {
     const Scratch together;
     const Outcome both = run_instances(together, how);
     ASSERT_TRUE(both.ok()) << both.output;

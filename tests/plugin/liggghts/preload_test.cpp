@@ -60,7 +60,7 @@ TEST(PreloadedStub, TakesThePlaceOfAProgramThatExportsTheEngine) {
                  {"cannot load the plugin", "undefined symbol"});
 }
 
-TEST(PreloadedStub, SaysWhenThePluginIsNotBesideIt) {
+TEST(PreloadedStub, SaysWhenThePluginIsNotInItsFolder) {
   const Scratch scratch;
   const fs::path alone = scratch / "libdrumlin.so";
   fs::copy_file(plugin_library(), alone);
@@ -104,7 +104,7 @@ std::vector<std::string> without_lines_of_mpi(const std::vector<std::string> &li
 }
 
 // An error is one line: neither the joke or tip that LIGGGHTS adds at random nor the text of MPI_Abort follows it. (The text of Open MPI 5 cannot be
-// switched off; it stands between two lines of dashes and is left out here.)
+// switched off; it is between two lines of dashes and is left out here.)
 TEST(PreloadedStub, LeavesErrorsOneLine) {
   const Scratch scratch;
   write_text(scratch / "in.error", "units nowhere\n");
@@ -117,7 +117,7 @@ TEST(PreloadedStub, LeavesErrorsOneLine) {
     EXPECT_EQ(outcome.status, 1);
     return lines_of(outcome.output);
   };
-  const std::string with_plugin = plugin_library() + ":" ALWAYS_JESTS;
+  const std::string with_plugin = plugin_library() + ":" RAND_RETURNS_ZERO;
   const bool silent = run_program({"mpirun", "--version"}, {}, scratch.path()).says("(Open MPI) 4.");
   for (const std::vector<std::string> &words : {std::vector<std::string>{"-in", "in.error", "-var"},
                                                 {"-nonsense"},
@@ -129,7 +129,7 @@ TEST(PreloadedStub, LeavesErrorsOneLine) {
     }
     ASSERT_EQ(lines.size(), 1U) << words.back() << lines.back();
     EXPECT_EQ(lines.front().rfind("ERROR", 0), 0U) << lines.front();
-    EXPECT_GT(lines_of_error(ALWAYS_JESTS, words).size(), 1U) << words.back();
+    EXPECT_GT(lines_of_error(RAND_RETURNS_ZERO, words).size(), 1U) << words.back();
   }
   EXPECT_EQ(lines_of_error(with_plugin, {"-in", "in.error"}).size(),
             3U); // the first two lines name engine and plugin

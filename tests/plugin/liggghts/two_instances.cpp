@@ -1,7 +1,7 @@
 // LAMMPS instances in one process, through the library interface. Arguments: liblammps.so, plugin, deck, how.
-// The deck reads the lines of an instance from NAME.lines and is told its NAME: first or second. how: one of
-// the names, that instance alone; `after`, the second when the first is closed; `beside`, both open, their
-// runs in turns.
+// The deck reads the lines of an instance from NAME.lines; the variable `instance` is the NAME: first or second.
+// how: one of the names, that instance alone; `after`, the second when the first is closed; `in_turns`, both open,
+// a run of one after a run of the other.
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -36,7 +36,7 @@ int main(int narg, char **arg) {
     check(instance);
   };
   const std::string how = arg[4];
-  if (how == "beside") {
+  if (how == "in_turns") {
     void *first = start("first");
     void *second = start("second");
     for (int n = 0; n < 2; ++n)

@@ -172,7 +172,7 @@ TEST(ContactLaw, PropagatesNaN) {
   EXPECT_TRUE(std::isnan(LinearLaw(1e8, 0.0, Transition::B).energy(nan)));
 }
 
-TEST(ContactPower, IsTheBallsPowerAndNeverHeatsBackwards) {
+TEST(ContactPower, IsTheBallsPowerAndIsPassive) {
   std::mt19937 random(104729);
   std::uniform_real_distribution<double> overlap(0.0, 1e-3), rate(-1.0, 1.0);
   for (const Transition transition : {Transition::A, Transition::B})
@@ -183,7 +183,7 @@ TEST(ContactPower, IsTheBallsPowerAndNeverHeatsBackwards) {
       ASSERT_NEAR(power.dissipated + power.stored, given, 1e-12 * (c + k * d));
       ASSERT_GE(power.dissipated, 0.0);
       ASSERT_LE(power.dissipated,
-                c * r * r * (1.0 + 1e-14)); // the clamp spares the dashpot, it never heats it more
+                c * r * r * (1.0 + 1e-14)); // the clamp only reduces the dissipation
     }
 }
 

@@ -1,6 +1,6 @@
-/// The energy ledger: what the exciter puts in is found again as heat in contact and bond, as energy in their
-/// springs, as motion and as height. Heat is summed contact by contact and bond by bond from the core's
-/// powers, never as what is missing.
+/// The energy balance: the work of the exciter is the energy dissipated in contact and bond plus the change of the
+/// elastic, kinetic and potential energy. The dissipated energy is the sum of the core's powers, contact by contact
+/// and bond by bond, never the difference of the others.
 
 #include "physics/bond_law.h"
 #include "physics/contact_law.h"
@@ -28,7 +28,7 @@ struct Case {
   double k, ratio, w;
 };
 
-struct Ledger {
+struct EnergySums {
   double input = 0.0, contact_heat = 0.0, bond_heat = 0.0;
 };
 
@@ -53,7 +53,7 @@ public:
   }
 
   /// Powers: what the exciter gives, what contact and bond turn into heat.
-  [[nodiscard]] Ledger powers(double t, const Pair &x, const Pair &v) const {
+  [[nodiscard]] EnergySums powers(double t, const Pair &x, const Pair &v) const {
     return {-excitation_force(exciter_, t) * v[0],
             LinearLaw(k_, c_, transition_).power(-x[0], -v[0]).dissipated,
             bond_force(bond, x[1] - x[0], v[1] - v[0]).dissipated};
@@ -74,10 +74,10 @@ private:
 
 struct Result {
   double missing; ///< share of the input that is not accounted for
-  Ledger sums;
+  EnergySums sums;
 };
 
-Result closed(const Roller &roller, const Ledger &sums, const Pair &x, const Pair &v) {
+Result closed(const Roller &roller, const EnergySums &sums, const Pair &x, const Pair &v) {
   const double change = roller.energy(x, v) - roller.energy(roller.equilibrium(), {0.0, 0.0});
   return {(sums.input - sums.contact_heat - sums.bond_heat - change) / sums.input, sums};
 }
@@ -87,12 +87,12 @@ Result stock(const Case &row, int steps_per_cycle) {
   const Roller roller(row);
   const double dt = 2.0 * pi / row.w / steps_per_cycle;
   verlet::Balls<2> balls{{m2, m3}, roller.equilibrium(), {0.0, 0.0}};
-  Ledger sums, before = roller.powers(0.0, balls.x, balls.v);
+  EnergySums sums, before = roller.powers(0.0, balls.x, balls.v);
   const int steps = steps_per_cycle * 13 / 3;
   for (int n = 1; n <= steps; ++n) {
     verlet::stock_step(balls, n * dt, dt,
                        [&](double t, const Pair &x, const Pair &v) { return roller.forces(t, x, v); });
-    const Ledger now = roller.powers(n * dt, balls.x, balls.v);
+    const EnergySums now = roller.powers(n * dt, balls.x, balls.v);
     sums.input += 0.5 * dt * (before.input + now.input);
     sums.contact_heat += 0.5 * dt * (before.contact_heat + now.contact_heat);
     sums.bond_heat += 0.5 * dt * (before.bond_heat + now.bond_heat);
@@ -102,14 +102,14 @@ Result stock(const Case &row, int steps_per_cycle) {
 }
 
 /// The same with the classical Runge-Kutta scheme, the sums among the unknowns: fourth order while the
-/// contact holds.
+/// contact is closed.
 Result fourth_order(const Case &row, int steps_per_cycle) {
   const Roller roller(row);
   using State = std::array<double, 7>;
   const auto rates = [&](double t, const State &y) {
     const Pair x{y[0], y[1]}, v{y[2], y[3]};
     const Pair force = roller.forces(t, x, v);
-    const Ledger power = roller.powers(t, x, v);
+    const EnergySums power = roller.powers(t, x, v);
     return State{v[0], v[1], force[0] / m2, force[1] / m3, power.input, power.contact_heat, power.bond_heat};
   };
   const auto moved = [](const State &y, double s, const State &f) {
@@ -131,13 +131,13 @@ Result fourth_order(const Case &row, int steps_per_cycle) {
   return closed(roller, {y[4], y[5], y[6]}, {y[0], y[1]}, {y[2], y[3]});
 }
 
-void expect_every_sink_used(const Ledger &sums) {
+void expect_every_sink_used(const EnergySums &sums) {
   EXPECT_GT(sums.input, 0.0);
   EXPECT_GT(sums.contact_heat, 0.05 * sums.input);
   EXPECT_GT(sums.bond_heat, 0.001 * sums.input);
 }
 
-TEST(EnergyBalance, ClosesWithFourthOrderWhileTheContactHolds) { // case I: A and B alike
+TEST(EnergyBalance, ClosesWithFourthOrderWhileInContact) { // case I: A and B alike
   for (const Transition transition : {Transition::A, Transition::B}) {
     const Case one{transition, 5e6, 0.5, 40.0 * pi};
     const Result coarse = fourth_order(one, 60), fine = fourth_order(one, 120);
@@ -180,7 +180,7 @@ INSTANTIATE_TEST_SUITE_P(, EnergyBalanceWithGaps,
 // One impact: the kinetic energy that is gone, by the restitution that the closed form gives, is the
 // contact's heat. Under B part of it appears after the break, while the soil relaxes (D = 0.5:
 // restitution_test derives e).
-TEST(EnergyBalance, FindsTheLossOfAnImpactAsHeat) {
+TEST(EnergyBalance, DissipatesTheKineticEnergyLostInAnImpact) {
   const double m = 2000.0, k = 1e8, v = 0.4, dt = 2e-8;
   const double b_over_w = 0.5 / std::sqrt(0.75);
   const double e_a = std::exp(-pi * b_over_w);

@@ -68,7 +68,7 @@ TEST_P(EitherCap, SlidesWithTheCoulombForce) {
     EXPECT_NEAR(length(step.force), 50.0, 1e-10);
     EXPECT_NEAR(dot(step.force, v), -50.0 * 0.5, 1e-10); // straight against the motion
     EXPECT_NEAR(step.dissipated, 50.0 * 0.5 * 1e-4, 1e-14);
-    // What the spring holds: the whole limit, or what the dashpot leaves of it.
+    // Force of the spring: the whole limit, or the limit less the force of the dashpot.
     const double spring_force = GetParam() == Cap::total ? 50.0 - ct * 0.5 : 50.0;
     EXPECT_NEAR(kt * length(step.spring), spring_force, 1e-9);
     EXPECT_NEAR(step.stored, 0.5 * spring_force * spring_force / kt, 1e-10);
@@ -189,10 +189,10 @@ Thrown thrown_cvode(Cap cap, double damping, double t) {
         if (!sliding)
           f[2] = y[1];
         else if (cap == Cap::coulomb)
-          f[2] = damping > 0.0 ? (limit - kt * y[2]) / damping : 0.0; // holds kt xi + ct xi' at the limit
+          f[2] = damping > 0.0 ? (limit - kt * y[2]) / damping : 0.0; // keeps kt xi + ct xi' at the limit
         else
           f[2] = cap == Cap::spring ? 0.0
-                                    : damping * limit / kt; // holds kt xi + ct v at the limit, v' = -limit/m
+                                    : damping * limit / kt; // keeps kt xi + ct v at the limit, v' = -limit/m
       },
       0.0, {0.0, 1.0, 0.0}, {1e-2, 1.0, 1e-2});
   const auto pull = [&](const oracle::State &y) {
@@ -270,7 +270,7 @@ Balance balance(const Friction &friction, int steps) {
   return sum;
 }
 
-TEST_P(EitherCap, FindsTheWorkAsHeatAndInTheSpring) {
+TEST_P(EitherCap, WorkIsDissipatedOrStoredInTheSpring) {
   const Balance coarse = balance(friction, 20000), fine = balance(friction, 40000);
   EXPECT_GT(fine.sliding, 4000);
   EXPECT_GT(fine.sticking, 4000);
@@ -281,7 +281,7 @@ TEST_P(EitherCap, FindsTheWorkAsHeatAndInTheSpring) {
               0.2); // the force of a step is the one at its end: first order
 }
 
-TEST(FrictionEnergy, IsNeverMadeByCapSpring) {
+TEST(FrictionEnergy, IsNeverCreatedByCapSpring) {
   std::mt19937 random(49979687);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (int i = 0; i < 20000; ++i) {
@@ -296,7 +296,7 @@ TEST(FrictionEnergy, IsNeverMadeByCapSpring) {
   }
 }
 
-TEST(FrictionEnergy, IsMadeByCapTotalWhereTheDashpotAloneIsBeyondTheLimit) {
+TEST(FrictionEnergy, IsCreatedByCapTotalWhereTheDashpotAloneIsBeyondTheLimit) {
   // No normal force: no force, no work; yet the spring is wound up against the motion, to be paid out later.
   // The step says so.
   const FrictionStep step = friction_step({kt, ct, mu, Cap::total}, 0.0, up, {0.5, 0.0, 0.0}, none, 1e-6);
@@ -310,7 +310,7 @@ double decades(std::mt19937 &random, double lowest, double highest) {
   return std::pow(10.0, std::uniform_real_distribution<double>(lowest, highest)(random));
 }
 
-TEST(Coulomb, KeepsTheLimitAndMakesNoEnergyInAnyStep) {
+TEST(Coulomb, KeepsTheLimitAndIsPassiveInEveryStep) {
   std::mt19937 random(32452843);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   const auto vector = [&] { return Vec3{unit(random), unit(random), unit(random)}; };
@@ -502,8 +502,8 @@ TEST(CoulombImpact, GainsNoEnergyByFriction) {
   EXPECT_LT(most, 1.0 + 1e-3);
 }
 
-/// How the error of slip behind an impact shrinks with the step, where the slider acts: twice the steps divide it by 2^order. Normal
-/// dashpot none, so that the order is that of friction. Steps fall anywhere beside the turns from stick to slide: means of many.
+/// How the error of slip after an impact shrinks with the step, where the slider acts: twice the steps divide it by 2^order. Normal
+/// dashpot none, so that the order is that of friction. The changes from stick to slide fall anywhere within a step: means of many.
 double order_of_impact(double degrees, const Friction &friction) {
   const double exact = cvode_impact(degrees, 0.0, friction).slip_after;
   const auto error = [&](int steps) {

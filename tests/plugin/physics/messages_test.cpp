@@ -112,7 +112,7 @@ TEST(Messages, OfFriction) {
   }
 }
 
-TEST(Messages, RefuseParametersThatNobodySet) {
+TEST(Messages, RefuseParametersThatAreNotSet) {
   EXPECT_NE(LinearContact{}.invalid(), "");
   EXPECT_NE(Bond{}.invalid(), "");
   EXPECT_NE(Friction{}.invalid(), "");

@@ -35,7 +35,7 @@ double by_cvode(Transition transition, double ratio) {
                                 : oracle::Event([c](double, const oracle::State &y) {
                                     return (stiffness * y[0] + c * y[1]) / stiffness;
                                   });
-  if (impact.advance(60.0 / w0, {end}) < 0) return 0.0; // never lets go
+  if (impact.advance(60.0 / w0, {end}) < 0) return 0.0; // never ends
   return -impact.state()[1] / speed;
 }
 

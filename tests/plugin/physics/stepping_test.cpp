@@ -29,16 +29,16 @@ double coefficient(double D) { return 2.0 * D * std::sqrt(m * k); }
 /// Restitution by the closed form: the rate at the first root of d (A) or of k d + c d' (B) after the make.
 double exact_restitution(Transition transition, double D) {
   const oracle::Oscillator oscillator{m, k, coefficient(D)};
-  const auto held = [&](double t) {
+  const auto before_break = [&](double t) {
     const oracle::Motion s = oscillator.at(t, 0.0, 1.0);
     return transition == Transition::A ? s.x : k * s.x + coefficient(D) * s.v;
   };
   double low = 0.01 / w0;
   double high = low;
-  while (held(high) > 0.0)
+  while (before_break(high) > 0.0)
     high += 0.01 / w0;
   for (int n = 0; n < 100; ++n)
-    (held(0.5 * (low + high)) > 0.0 ? low : high) = 0.5 * (low + high);
+    (before_break(0.5 * (low + high)) > 0.0 ? low : high) = 0.5 * (low + high);
   return -oscillator.at(low, 0.0, 1.0).v;
 }
 
@@ -176,9 +176,9 @@ TEST(SecondOrderStep, SetUpTakesTheVelocitiesAsTheyAre) {
   EXPECT_TRUE(state.in_contact);
 }
 
-// Under B a contact may be without a force and still be one: in its next step it goes on and is not made
+// Under B a contact may have no force and still be one: in its next step it continues and is not made
 // again.
-TEST(SecondOrderStep, ContactWithoutForceStaysOne) {
+TEST(SecondOrderStep, ContactWithoutForceContinues) {
   const double dt = 1e-4, c = coefficient(0.5);
   ContactState state{0.0, true, {}};
   EXPECT_EQ(step_of({k, c, Transition::B}, {1e-4, -5.0, -5.0, dt}, state).force, 0.0);
@@ -204,7 +204,7 @@ TEST(SecondOrderStep, ContactThatHadAForceIsNotMadeAgain) {
 
 // A ball that goes over to the next triangle of a mesh has overlapped with it for longer than a step, without
 // a state.
-TEST(SecondOrderStep, ContactThatIsOlderThanItsStateGoesOn) {
+TEST(SecondOrderStep, ContactThatIsOlderThanItsStateContinues) {
   const double dt = 1e-5, rate = 0.1, overlap = 1e-3, c = coefficient(0.5);
   const LinearLaw law(k, c, Transition::B);
   ContactState known{law.force(overlap - dt * rate, rate), true, {}};
@@ -271,7 +271,7 @@ TEST(SecondOrderStep, BreakOfAEndsTheTensileForceWithinTheStep) {
 
 // Without a dashpot the force falls to zero at d = 0, continuously: where A ends a contact B does. The ball
 // bounces between two undamped walls; in the second scene a damped contact, heavy enough to be solved for
-// apart, holds it too.
+// in the second pass, keeps it confined, too.
 TEST(SecondOrderStep, WithoutDashpotAAndBAreOneLaw) {
   const double dt = M_PI / (w0 * 40.0);
   for (const bool damped : {false, true}) {

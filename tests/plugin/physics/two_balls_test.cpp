@@ -101,7 +101,7 @@ void expect_same(const std::vector<Pair> &one, const std::vector<Pair> &other) {
   EXPECT_TRUE(apart && together);
 }
 
-TEST_P(TwoBalls, AreTheSameWhicheverOfThemIsHeld) {
+TEST_P(TwoBalls, AreTheSameWhicheverOfThemIsFixed) {
   const Shaken drum{{infinity, 2000.0}, {0.0, -1.0}};
   const Shaken soil{{2000.0, infinity}, {1.0, 0.0}};
   expect_same(overlaps(GetParam(), drum), overlaps(GetParam(), soil));

@@ -1,4 +1,4 @@
-// The random bed before it settles: what it promises, against closed forms.
+// The random bed before it settles: its geometry and grading against closed forms.
 #include "bed/packing.h"
 
 #include <gtest/gtest.h>

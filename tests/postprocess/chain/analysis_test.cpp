@@ -225,7 +225,7 @@ TEST(Extremes, WithoutCyclesComeFromSamplesAndEvents) {
   EXPECT_DOUBLE_EQ(e.acceleration.min, -2.0);
 }
 
-TEST(Matching, TellsTheLargestDifferenceAndIgnoresTheSetUp) {
+TEST(Matching, GivesTheLargestDifferenceAndIgnoresTheSetUp) {
   const std::vector<ContactEvent> truth{event(1.0, false), event(2.0, true), event(3.0, false)};
   const std::vector<ContactEvent> run{event(0.0, true), event(1.1, false), event(1.7, true),
                                       event(3.0, false)};
@@ -245,7 +245,7 @@ TEST(Matching, StopsWhereTheKindsDiffer) {
   EXPECT_EQ(match.truth_count, 3u);
 }
 
-TEST(Energy, ClosesWhereItShouldAndTellsTheGap) {
+TEST(EnergyBalance, HasTheErrorThatTheColumnsHave) {
   CycleColumns cycles;
   cycles.rows = 3;
   cycles.columns = {{"cycle", {1, 2, 3}},
@@ -257,13 +257,13 @@ TEST(Energy, ClosesWhereItShouldAndTellsTheGap) {
                     {"stored_contact", {1, 1, 4}},
                     {"stored_bond", {2, 2, 8}}};
   std::string missing;
-  std::optional<EnergyBalance> ledger = energy_balance(cycles, missing);
-  ASSERT_TRUE(ledger);
+  std::optional<EnergyBalance> balance = energy_balance(cycles, missing);
+  ASSERT_TRUE(balance);
   // 200 = 160 + 20 + 4 - 1 + 3 + 6 + 8
-  EXPECT_NEAR(ledger->closure(), 8.0, 1e-12);
-  EXPECT_NEAR(ledger->closure_percent(), 4.0, 1e-12);
-  EXPECT_EQ(ledger->first_cycle, 1);
-  EXPECT_EQ(ledger->last_cycle, 3);
+  EXPECT_NEAR(balance->closure(), 8.0, 1e-12);
+  EXPECT_NEAR(balance->closure_percent(), 4.0, 1e-12);
+  EXPECT_EQ(balance->first_cycle, 1);
+  EXPECT_EQ(balance->last_cycle, 3);
   cycles.columns["dissipated_contact"][2] += 8.0;
   EXPECT_NEAR(energy_balance(cycles, missing)->closure(), 0.0, 1e-12);
   cycles.columns.erase("potential");
@@ -304,7 +304,7 @@ TEST(Roller, MeasuresTheForceFromPositionsAlone) {
   EXPECT_DOUBLE_EQ(force->at_time, h.time[40]);
 }
 
-TEST(Roller, LeavesOutRowsBesideAJump) {
+TEST(Roller, LeavesOutRowsNextToAJump) {
   const ChainParameters p;
   ChainHistory h = known_motion(p);
   const std::vector<ContactEvent> events = {{0.0405, false, 0.0, 0.0, 1e3, 1, 2}};

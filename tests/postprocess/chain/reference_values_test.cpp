@@ -23,7 +23,7 @@ TEST(ReferenceValues, HaveSevenForEveryCaseAndTransitionAndThreeMeterValues) {
   EXPECT_EQ(reference_values().size(), 8u * 7u + 3u);
 }
 
-TEST(ReferenceValues, TellUnitToleranceAndSource) {
+TEST(ReferenceValues, HaveUnitToleranceAndSource) {
   for (const ReferenceValue &value : reference_values()) {
     EXPECT_LE(value.low, value.high);
     EXPECT_GE(value.tolerance, 0.0);

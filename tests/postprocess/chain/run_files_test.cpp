@@ -74,7 +74,7 @@ TEST_F(ChainCsv, HistoryComesBackBitForBit) {
   EXPECT_EQ(files(), 1U);
 }
 
-TEST_F(ChainCsv, HeadersAreThoseThatScriptsStandOn) {
+TEST_F(ChainCsv, HeadersAreThoseThatScriptsUse) {
   const auto first_line = [](const std::string &text) { return text.substr(0, text.find('\n')); };
   EXPECT_EQ(first_line(chain_text(awkward_history())),
             "time,x_drum,v_drum,a_drum,x_frame,v_frame,a_frame,F_contact,F_excitation,F_bond");

@@ -1,4 +1,4 @@
-// The steady states of the paper's four cases: what two solvers that share nothing agree on, and what
+// The steady states of the paper's four cases: on what two solvers without common code agree, and what
 // REFERENCE.md has recorded of them.
 #include "chain/direct_solver.h"
 #include "tests/support/piecewise_oracle.h"

@@ -1,8 +1,8 @@
-// Spoilt files: cut, shuffled, swapped, with absurd numbers, with the line ends of another system. Every command that reads them
+// Damaged files: cut, shuffled, swapped, with absurd numbers, with the line ends of another system. Every command that reads them
 // ends within 20 s in a result or in one line that says what is wrong, and touches nothing else. Built with the sanitizers, so that
 // a fault that would pass unseen ends the command.
 //
-// The number of a mutant is the seed of everything that is random in it: a failure names it, and the same number spoils alike.
+// The number of a mutant is the seed of everything that is random in it: a failure names it, and the same number gives the same damage.
 #include "chain/run_files.h"
 #include "support/files.h"
 #include "support/process.h"
@@ -29,14 +29,14 @@ namespace fs = std::filesystem;
 using post::Outcome;
 using post::Transition;
 
-// -- What is spoilt -----------------------------------------------------------------------------------------
+// -- What is damaged ----------------------------------------------------------------------------------------
 
 /// A command and the files that it reads. Another command, or a deck, is another one of these in `subjects`.
 struct Subject {
   const char *name;
   int mutants; ///< how many are tried
   void (*write)(const fs::path &folder);
-  std::vector<std::string> files; ///< of these one or two are spoilt
+  std::vector<std::string> files; ///< of these one or two are damaged
   /// Runs the command in the folder of the files. It may write to `out` there, and nowhere else.
   Outcome (*run)(const fs::path &folder, int mutant);
 };
@@ -167,7 +167,7 @@ std::string fault_of(const Outcome &outcome, const fs::path &place) {
   for (const fs::directory_entry &entry : fs::directory_iterator(place))
     if (const std::string name = entry.path().filename().string();
         name != "run" && name != post::program_output_file)
-      return "left behind: " + name;
+      return "left over: " + name;
   return "";
 }
 
@@ -179,15 +179,15 @@ TEST_P(Fuzz, EndsInAResultOrInOneLine) {
   fs::remove(folder / "sound" / post::program_output_file);
   int results = 0;
   for (int mutant = 0; mutant < subject.mutants; ++mutant) {
-    const fs::path place = folder / "spoilt";
+    const fs::path place = folder / "damaged";
     fs::remove_all(place);
     fs::copy(folder / "sound", place, fs::copy_options::recursive);
     Choice choice(static_cast<unsigned>(mutant));
-    std::string spoilt_files;
+    std::string damaged_files;
     for (std::size_t n = 1 + choice.below(2); n > 0; --n) {
       const std::string &file = choice.of(subject.files);
-      spoilt_files += ' ' + file;
-      const std::string text = spoilt(post::read_text(place / "run" / file), choice);
+      damaged_files += ' ' + file;
+      const std::string text = damaged(post::read_text(place / "run" / file), choice);
       std::ofstream(place / "run" / file, std::ios::binary) << text;
     }
     const Outcome outcome = subject.run(place, mutant);
@@ -197,12 +197,12 @@ TEST_P(Fuzz, EndsInAResultOrInOneLine) {
           fs::temp_directory_path() / fmt::format("drumlin-fuzz-{}-{}", subject.name, mutant);
       fs::remove_all(kept);
       fs::copy(place, kept, fs::copy_options::recursive);
-      ADD_FAILURE() << subject.name << ", mutant " << mutant << " (" << spoilt_files.substr(1)
+      ADD_FAILURE() << subject.name << ", mutant " << mutant << " (" << damaged_files.substr(1)
                     << "): " << fault << "; kept in " << kept << "\n"
                     << outcome.output.substr(0, 3000);
     }
   }
-  // Both ends happen, else nothing is tried.
+  // Some mutants are accepted and some are refused, else the test would show nothing.
   EXPECT_GT(results, subject.mutants / 20);
   EXPECT_LT(results, subject.mutants);
   RecordProperty("results", results);

@@ -121,7 +121,7 @@ TEST_F(ToolOptions, AbsurdValuesAreRefusedAtOnce) {
   }
 }
 
-// Beside the ends of what is allowed there is an answer, or one line.
+// At the ends of the allowed ranges there is an answer, or one line of error.
 TEST_F(ToolOptions, TheEndsOfTheRangesHaveAnAnswer) {
   const std::vector<std::vector<std::string>> table = {
       {"--k", "1e-6"},  {"--k", "1e15"},   {"--D", "1e-12"},   {"--D", "1e6"},    {"--omega", "1e9"},

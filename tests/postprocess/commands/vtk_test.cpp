@@ -187,7 +187,7 @@ TEST_F(VtkCommand, WritesWhatTheDumpsHold) {
 }
 
 // A quarter of a turn into the second cycle of 20 s. Contacts push the drum up by 400 N.
-TEST_F(VtkCommand, TellsThePhaseAndTheForcesOnTheDrum) {
+TEST_F(VtkCommand, WritesThePhaseAndTheForcesOnTheDrum) {
   put("run/parameters.csv", "name,value\ntimestep,0.125\nomega,0.31415926535897931\nFw,1000\n");
   ASSERT_TRUE(run({"run"}).ok());
   vtkNew<vtkXMLPolyDataReader> reader;
@@ -203,7 +203,7 @@ TEST_F(VtkCommand, TellsThePhaseAndTheForcesOnTheDrum) {
 }
 
 // The colour scale of a picture: the 99 % quantile leaves out the single fast soil ball of 6 m/s, and the drum is not part of it at all.
-TEST_F(VtkCommand, TellsHowLargeValuesBecome) {
+TEST_F(VtkCommand, WritesTheRangesOfTheValues) {
   put("run/parameters.csv", "name,value\ntimestep,0.125\nomega,0.31415926535897931\n");
   ASSERT_TRUE(run({"run"}).ok());
   const nlohmann::json scene = nlohmann::json::parse(read_text(folder_ / "run/vtk/scene.json"));
@@ -247,7 +247,7 @@ TEST_F(VtkCommand, MakesDoWithoutContacts) {
   EXPECT_EQ(read_text(folder_ / "run/vtk/balls_0.vtp").find("coordination"), std::string::npos);
 }
 
-TEST_F(VtkCommand, TakesTheRoomOfAnEarlierResultAndOfNothingElse) {
+TEST_F(VtkCommand, ReplacesAnEarlierResultAndNothingElse) {
   ASSERT_TRUE(run({"run"}).ok());
   put("run/vtk/view.pvsm", "the user's");
   fs::remove(folder_ / "run/dump/balls_1000.vtp");
@@ -262,7 +262,7 @@ TEST_F(VtkCommand, TakesTheRoomOfAnEarlierResultAndOfNothingElse) {
 struct Bad {
   std::string name;
   std::map<std::string, std::string> files; ///< replaced in the folder of the run; removed if "-"
-  std::vector<std::string> words;           ///< of the call, behind vtk
+  std::vector<std::string> words;           ///< of the call, after vtk
   std::vector<std::string> says;
   int skipped = 0; ///< lines on steps that are left out, before the error
 };
@@ -410,7 +410,7 @@ TEST_F(VtkCommand, BadInputIsOneLineAndTouchesNothing) {
   EXPECT_TRUE(run({"run"}).ok()); // all is as it was
 }
 
-// A run that was stopped leaves its last dumps cut short; the other steps are shown, and one line tells of each that is not.
+// A run that was stopped leaves its last dumps cut short; the other steps are shown, and one line names each that is not.
 TEST_F(VtkCommand, LeavesOutWhatWasCutShortAndSaysSo) {
   const std::string whole = ball_dump();
   const std::string text_dump = "ITEM: TIMESTEP\n400\nITEM: NUMBER OF ATOMS\n2\nITEM: ATOMS id type\n1 1\n";
@@ -447,14 +447,14 @@ TEST_F(VtkCommand, LeavesOutWhatWasCutShortAndSaysSo) {
   }
 }
 
-TEST_F(VtkCommand, TellsOfMissingSteps) {
+TEST_F(VtkCommand, NamesMissingSteps) {
   EXPECT_TRUE(
       run({"run"}).says("3 steps of the dumps every 200 are missing, from step 400 on")); // 0, 200, 1000
   put("run/dump/balls_500.vtp", ball_dump());
   EXPECT_FALSE(run({"run"}).says("missing, from")); // 0, 200, 500, 1000: not at equal distances
 }
 
-// Debian 12's ParaView cannot read VTK's appended data: the arrays stand in the XML.
+// Debian 12's ParaView cannot read VTK's appended data: the arrays are in the XML.
 TEST_F(VtkCommand, WritesNoAppendedData) {
   ASSERT_TRUE(run({"run"}).ok());
   for (const char *name : {"run/vtk/balls_0.vtp", "run/vtk/contacts_0.vtp", "run/vtk/fields_0.vti"}) {
@@ -482,7 +482,7 @@ TEST_F(VtkCommand, TakesHostileNames) {
 }
 
 TEST_F(VtkCommand, ClearsAwayWhatAKilledCallLeft) {
-  const pid_t child = fork(); // a process that is no more
+  const pid_t child = fork(); // a process that has ended
   if (child == 0) _exit(0);
   ASSERT_EQ(waitpid(child, nullptr, 0), child);
   const std::string killed = "run/vtk/unfinished." + std::to_string(child);

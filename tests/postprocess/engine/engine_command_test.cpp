@@ -1,4 +1,4 @@
-// The command that starts an engine, and the links that stand for folders with blanks in their names.
+// The command that starts an engine, and the links used in place of folders with blanks in their names.
 #include "engine/engine_command.h"
 #include "engine/places.h"
 #include "engine/plain_path.h"

@@ -35,7 +35,7 @@ TEST(Script, KeepsHostileNamesAsText) {
   const std::string script = gnuplot_script(figure);
   EXPECT_NE(script.find("\\\"; system(\\\"touch"), std::string::npos);
   EXPECT_NE(script.find("\"b\\\\\""), std::string::npos);
-  EXPECT_EQ(script.find('`'), std::string::npos); // gnuplot runs what stands between backquotes
+  EXPECT_EQ(script.find('`'), std::string::npos); // gnuplot runs what is between backquotes
 }
 
 /// What gnuplot draws of names along an axis, as the texts of the SVG.
@@ -148,7 +148,7 @@ TEST(Size, OfPanelsInRows) {
   EXPECT_GT(figure_height(figure), row);
 }
 
-// Names that one line below the axes cannot hold would be written across the axis label.
+// Names too long for one line below the axes would be written across the axis label.
 TEST(Legend, HasTheRowsThatItsNamesNeed) {
   Figure figure;
   figure.name = "f";

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(Page, IsStrictXmlWithFilesBehindItsLinks) {
+TEST(Page, IsStrictXmlAndItsLinksLeadToFiles) {
   const fs::path out = fs::temp_directory_path() / fmt::format("drumlin-page-{}", ::getpid());
   post::Page page(out, "Steps & <errors>", post::Scene::chain);
   page.answer("Steps < errors.");
@@ -88,7 +88,7 @@ TEST(Table, MarksGoodAndBadRowsInItsFirstColumn) {
   EXPECT_NE(post::table_html(table).find("<p class=\"tally\"><b>✓ 3 of 3</b>"), std::string::npos);
 }
 
-TEST(Acceptance, IsSaidInTheAnswerAndMarksIt) {
+TEST(Acceptance, IsPartOfTheAnswerAndMarksIt) {
   const fs::path out = fs::temp_directory_path() / fmt::format("drumlin-answer-{}", ::getpid());
   for (const bool holds : {true, false}) {
     const std::vector<post::Acceptance> criteria = {{"error at most 1", "0.5", true},

@@ -54,7 +54,7 @@ def text_dump(file):
 
 
 def vtk_dump(file):
-    """The same of LIGGGHTS's file of VTK, arrays as base64 behind their length."""
+    """The same of LIGGGHTS's file of VTK, arrays as base64 after their length."""
     with open(file) as text:
         content = text.read()
     columns = {}
@@ -199,8 +199,8 @@ def check_pictures(run, script, time):
         white = sum(min(p) > 250 for p in seen) / len(seen)
         print("%s.png: %.3f of it contacts and text, %.3f drum and frame, %.3f empty" % (colour, ink, steel, white))
         check(ink > 0.01 and steel > 0.02 and white < 0.7, "%s.png does not show the bed" % colour)
-    copy = "spoilt vtk & more"
-    for name, spoil, expected, says in (
+    copy = "damaged vtk & more"
+    for name, damage, expected, says in (
             ("balls cut short", lambda names: cut(names[0]), 0, "is cut short"),
             ("contacts missing", lambda names: os.remove(names[0].replace("balls_", "contacts_")), 0, "is missing"),
             ("a list cut short", lambda names: cut(os.path.join(copy, "balls.pvd")), 1,
@@ -209,8 +209,8 @@ def check_pictures(run, script, time):
             ("a scene cut short", lambda names: cut(os.path.join(copy, "scene.json")), 1, "scene.json' is spoilt"),
             ("balls of rubbish", lambda names: [rubbish(name) for name in names], 1, "cannot be read; allowed")):
         shutil.copytree(vtk, copy)
-        spoil(sorted(glob.glob(os.path.join(copy, "balls_*.vtp"))))
-        status, said = draw(copy, "--png", "spoilt.png", "--size", "300", "300")
+        damage(sorted(glob.glob(os.path.join(copy, "balls_*.vtp"))))
+        status, said = draw(copy, "--png", "damaged.png", "--size", "300", "300")
         check(status == expected and says in said and "Traceback" not in said, "%s: status %d: %s" % (name, status, said))
         shutil.rmtree(copy)
     for words, says in ((("nowhere", "--png", "a.png"), "DIR is 'nowhere'; allowed"), ((vtk,), "nothing to do; allowed"),

@@ -72,7 +72,7 @@ protected:
     return options.out;
   }
 
-  /// The report is refused with one line that holds the words, and an earlier one stays.
+  /// The report is refused with one line that has the words, and an earlier one stays.
   void expect_refusal(const std::vector<std::string> &names, const std::vector<std::string> &words) const {
     try {
       report(names);
@@ -202,7 +202,7 @@ TEST_F(BedReport, IsSoundWithBedsOnly) {
     EXPECT_EQ(read_table(out / "data" / name).rows(), 2u);
 }
 
-TEST_F(BedReport, StandsBesideChains) {
+TEST_F(BedReport, IsOnOnePageWithChains) {
   const ChainParameters p = table1_case("II", Transition::B);
   DirectOptions options;
   options.cycles = 4;
@@ -279,7 +279,7 @@ TEST_F(BedReport, DrawsOneProfileBelowADrumOfManyBalls) {
   FAIL() << "no profile";
 }
 
-TEST_F(BedReport, ToldOfARunThatEndsAtOnce) {
+TEST_F(BedReport, IsMadeOfARunThatEndsAtOnce) {
   write_run("short", Transition::B, 6);
   std::string bed = read_text(root / "short" / "bed.csv");
   std::size_t end = 0;
@@ -294,28 +294,28 @@ TEST_F(BedReport, ToldOfARunThatEndsAtOnce) {
 }
 
 TEST_F(BedReport, RefusesFilesThatItCannotRead) {
-  const auto spoilt = [this](const std::string &file, const std::string &from, const std::string &to) {
-    write_run("spoilt", Transition::B);
-    std::string text = read_text(root / "spoilt" / file);
+  const auto damaged = [this](const std::string &file, const std::string &from, const std::string &to) {
+    write_run("damaged", Transition::B);
+    std::string text = read_text(root / "damaged" / file);
     text.replace(text.find(from), from.size(), to);
-    put("spoilt/" + file, text);
-    return std::vector<std::string>{"A", "spoilt"};
+    put("damaged/" + file, text);
+    return std::vector<std::string>{"A", "damaged"};
   };
-  expect_refusal(spoilt("bed.csv", ",void_ratio", ",voids"), {"bed.csv", "void_ratio"});
-  expect_refusal(spoilt("bed.csv", "9e4", "much"), {"bed.csv", "line 2", "F_floor", "much"});
-  expect_refusal(spoilt("cycles.csv", ",settlement", ",depth"), {"cycles.csv", "settlement"});
-  expect_refusal(spoilt("parameters.csv", "deck,bed", "deck,sand"), {"parameters.csv", "'sand'", "bed"});
-  expect_refusal(spoilt("parameters.csv", "transition,B", "transition,C"), {"parameters.csv", "'C'"});
-  expect_refusal(spoilt("parameters.csv", "omega,", "omego,"), {"parameters.csv", "omega"});
-  write_run("spoilt", Transition::B);
-  fs::remove(root / "spoilt" / "cycles.csv");
-  expect_refusal({"spoilt"}, {"cycles.csv", "missing"});
-  write_run("spoilt", Transition::B);
-  fs::remove(root / "spoilt" / "parameters.csv");
-  expect_refusal({"spoilt"}, {"parameters.csv"});
-  write_run("spoilt", Transition::B);
-  put("spoilt/dump/balls_0.vtp", "no dump");
-  expect_refusal({"spoilt"}, {"balls_0.vtp"});
+  expect_refusal(damaged("bed.csv", ",void_ratio", ",voids"), {"bed.csv", "void_ratio"});
+  expect_refusal(damaged("bed.csv", "9e4", "much"), {"bed.csv", "line 2", "F_floor", "much"});
+  expect_refusal(damaged("cycles.csv", ",settlement", ",depth"), {"cycles.csv", "settlement"});
+  expect_refusal(damaged("parameters.csv", "deck,bed", "deck,sand"), {"parameters.csv", "'sand'", "bed"});
+  expect_refusal(damaged("parameters.csv", "transition,B", "transition,C"), {"parameters.csv", "'C'"});
+  expect_refusal(damaged("parameters.csv", "omega,", "omego,"), {"parameters.csv", "omega"});
+  write_run("damaged", Transition::B);
+  fs::remove(root / "damaged" / "cycles.csv");
+  expect_refusal({"damaged"}, {"cycles.csv", "missing"});
+  write_run("damaged", Transition::B);
+  fs::remove(root / "damaged" / "parameters.csv");
+  expect_refusal({"damaged"}, {"parameters.csv"});
+  write_run("damaged", Transition::B);
+  put("damaged/dump/balls_0.vtp", "no dump");
+  expect_refusal({"damaged"}, {"balls_0.vtp"});
   EXPECT_FALSE(fs::exists(root / "report"));
 }
 

@@ -48,7 +48,7 @@ TEST(EngineTable, PairsRunsOfOneChainInTwoEngines) {
   EXPECT_TRUE(post::engine_table(results({chain("here", "LIGGGHTS 3")})).rows.empty());
 }
 
-TEST(EngineTable, TellsTheLargestDifferenceOverTheLargestValue) {
+TEST(EngineTable, HasTheLargestDifferenceOverTheLargestValue) {
   const post::Run here = chain("here", "LIGGGHTS 3");
   post::Run there = chain("there", "LAMMPS 1");
   there.history.F_contact[0] += 4e-8;

@@ -70,7 +70,7 @@ protected:
   }
   static void TearDownTestSuite() { fs::remove_all(root); }
 
-  /// A run folder copied to `name`, to be spoilt.
+  /// A run folder copied to `name`, to be damaged.
   static fs::path copy(const std::string &name) {
     fs::path to = root / name;
     fs::remove_all(to);
@@ -88,7 +88,7 @@ protected:
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(errors)};
   }
 
-  /// The command fails with status 2 and one line holding `words`; the report made before is as it was.
+  /// The command fails with status 2 and one line with `words`; the report made before is as it was.
   static void expect_refusal(const std::string &arguments, const std::string &words,
                              const std::string &environment = "") {
     const std::string before = read(root / "report" / "index.html");
@@ -100,7 +100,7 @@ protected:
     EXPECT_EQ(read(root / "report" / "index.html"), before);
     EXPECT_TRUE(fs::is_regular_file(root / "report" / "figures" / "fig5_case_II.png"));
     for (const fs::directory_entry &entry : fs::directory_iterator(root))
-      EXPECT_NE(entry.path().filename().string().front(), '.') << "left behind: " << entry.path();
+      EXPECT_NE(entry.path().filename().string().front(), '.') << "left over: " << entry.path();
   }
 
   static std::string out() { return "--out '" + (root / "report").string() + "'"; }
@@ -157,7 +157,7 @@ TEST_F(Report, HasEveryPictureItShows) {
   }
 }
 
-TEST_F(Report, HasDataWithUnitsBesideEveryFigure) {
+TEST_F(Report, HasDataWithUnitsForEveryFigure) {
   for (const std::string &image : page.images) {
     const std::string name = fs::path(image).stem().string();
     const fs::path csv = root / "report" / "data" / (name.substr(0, name.rfind("_key")) + ".csv");
@@ -216,7 +216,7 @@ TEST_F(Report, OpensWithTheNumbersOfItsTables) {
   for (const Transition transition : {Transition::A, Transition::B})
     write_chain_run(root / "pair" / (transition == Transition::A ? "II-A" : "II-B"), "II", transition, 12);
   std::string parameters = read(root / "pair" / "II-A" / "parameters.csv");
-  parameters.replace(parameters.find("D,0.5"), 5, "D,0.5000001"); // an error to tell
+  parameters.replace(parameters.find("D,0.5"), 5, "D,0.5000001"); // an error to show
   write(root / "pair" / "II-A" / "parameters.csv", parameters);
   ReportOptions options;
   options.folders = {root / "pair"};
@@ -484,17 +484,17 @@ TEST_F(Report, GivesThePapersTitlesToThePapersParametersOnly) {
 }
 
 TEST_F(Report, ClearsAwayWhatAKilledReportLeft) {
-  // A process that is no more.
+  // A process that has ended.
   const pid_t child = ::fork();
   if (child == 0) ::_exit(0);
   ASSERT_EQ(::waitpid(child, nullptr, 0), child);
   const fs::path place = root / "killed" / "a report";
-  const auto beside = [&](const std::string &name) { return root / "killed" / name; };
-  const fs::path half = beside(fmt::format(".a report.new-{}", child));
-  const fs::path old = beside(fmt::format(".a report.old-{}", child));
-  const fs::path running = beside(fmt::format(".a report.new-{}", ::getppid()));
-  const fs::path other = beside(fmt::format(".another.new-{}", child));
-  const fs::path file = beside(fmt::format(".a report.new-{}0000000", child));
+  const auto in_folder = [&](const std::string &name) { return root / "killed" / name; };
+  const fs::path half = in_folder(fmt::format(".a report.new-{}", child));
+  const fs::path old = in_folder(fmt::format(".a report.old-{}", child));
+  const fs::path running = in_folder(fmt::format(".a report.new-{}", ::getppid()));
+  const fs::path other = in_folder(fmt::format(".another.new-{}", child));
+  const fs::path file = in_folder(fmt::format(".a report.new-{}0000000", child));
   for (const fs::path &folder : {half, old, running, other})
     fs::create_directories(folder / "figures");
   write(file, "of no report");

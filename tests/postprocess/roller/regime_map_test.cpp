@@ -49,7 +49,7 @@ TEST(Regime, CasesAreInTheRegimesOfTheirSteadyStates) {
 }
 
 // Period and loss of contact as the direct solver's history has them after many cycles; points near a change
-// are left out, as no history of finite length tells there.
+// are left out, as no history of finite length decides it there.
 TEST(Regime, AgreesWithTheDirectSolverAtRandomPoints) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> share(0.0, 1.0);
@@ -107,7 +107,7 @@ TEST(Regime, MeterValuesOfPeriodTwoAgreeWithAFineRecord) {
   EXPECT_GT(point.meter.rmv, 5.0);
 }
 
-// Beside a doubling the motion leaves the unstable orbit of period 1 so slowly that 300 cycles do not tell.
+// Near a period doubling the motion leaves the unstable orbit of period 1 so slowly that 300 cycles do not show its period.
 TEST(Regime, ASlowDepartureFromAnUnstableOrbitIsNotAperiodic) {
   ChainParameters p = table1_case("II", Transition::B);
   p.k = 48e6;
@@ -195,7 +195,7 @@ TEST_F(MapCommand, WritesPointsBoundariesAndPictures) {
     EXPECT_TRUE(fs::is_regular_file(folder() / "m" / (std::string(name) + ".png"))) << name;
 }
 
-TEST_F(MapCommand, GoesOnWhereItWasInterrupted) {
+TEST_F(MapCommand, ContinuesWhereItWasInterrupted) {
   ASSERT_TRUE(map(few()).ok());
   const fs::path file = folder() / "m/regimes.csv";
   const std::string whole = read_text(file);

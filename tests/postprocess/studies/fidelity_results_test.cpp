@@ -11,7 +11,7 @@ namespace {
 
 using post::FidelityRun;
 
-// Four cycles behind the start; what counts are the last two, and settlement from the end of the second on.
+// Four cycles after the start; what counts are the last two, and settlement from the end of the second on.
 TEST(BedValues, AreOfTheSecondHalfAndPerMetreOfWidth) {
   const post::Table cycles("cycles.csv",
                            {"cycle", "a_drum_max", "F_contact_max", "contact_share", "settlement"},

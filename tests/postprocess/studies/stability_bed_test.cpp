@@ -19,17 +19,17 @@ std::vector<BedState> bed(double force) {
 
 TEST(BedBalance, IsZeroAtRest) { EXPECT_NEAR(balance_error(bed(100.0), 1.0), 0.0, 1e-10); }
 
-TEST(BedBalance, MissesAFloorThatDoesNotCarryTheWeight) {
+TEST(BedBalance, ShowsAFloorThatDoesNotCarryTheWeight) {
   EXPECT_NEAR(balance_error(bed(98.0), 1.0), 0.02, 1e-10);
 }
 
-TEST(BedBalance, MissesMomentumFromNowhere) {
+TEST(BedBalance, ShowsAnErrorOfMomentum) {
   std::vector<BedState> states = bed(100.0);
   states.back().momentum = 5.0; // of 100 N s
   EXPECT_NEAR(balance_error(states, 1.0), 0.05, 1e-10);
 }
 
-TEST(BedBalance, MissesEnergyAtAnyTime) {
+TEST(BedBalance, ShowsAnErrorOfEnergyAtAnyTime) {
   std::vector<BedState> states = bed(100.0);
   states[5].kinetic_energy = 3.0;
   EXPECT_NEAR(balance_error(states, 1.0), 0.03, 1e-10);

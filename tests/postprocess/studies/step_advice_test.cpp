@@ -134,7 +134,7 @@ TEST(Sensitivity, OfALinearChainIsOfTheOrderOfOne) {
   EXPECT_LT(s, 3.0);
 }
 
-TEST(ScalingSummary, CountsAndTellsTheWorst) {
+TEST(ScalingSummary, CountsAndNamesTheWorst) {
   const auto point = [](int set, double target, double error) {
     return ScalingPoint{set, "second", target, {}, 200, error};
   };
@@ -189,7 +189,7 @@ TEST_F(AdviseCommand, RefusesBadInputInOneLine) {
     const Outcome outcome = run(words);
     EXPECT_EQ(outcome.status, 2) << message;
     const std::size_t error =
-        outcome.output.find("ERROR: drumlin advise: "); // behind progress, if it took long
+        outcome.output.find("ERROR: drumlin advise: "); // after lines of progress, if it took long
     EXPECT_NE(error, std::string::npos) << outcome.output;
     EXPECT_EQ(outcome.output.find('\n', error) + 1, outcome.output.size()) << outcome.output;
     EXPECT_TRUE(outcome.says(message)) << outcome.output;

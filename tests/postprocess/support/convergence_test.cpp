@@ -31,7 +31,7 @@ TEST(FittedOrder, IsThatOfAPowerLaw) {
   EXPECT_EQ(fit->to, 12800.0);
 }
 
-TEST(FittedOrder, TellsTheScatterInDecades) {
+TEST(FittedOrder, GivesTheScatterInDecades) {
   const auto fit = fitted_order(power_law(1.0, 40, 10.0), 0.0);
   ASSERT_TRUE(fit);
   EXPECT_NEAR(fit->order, 1.0, 0.05);

@@ -166,7 +166,7 @@ TEST_F(OutputFiles, LinksAreFollowed) {
   EXPECT_TRUE(fs::exists(folder_ / "folder/new/chain.csv"));
 }
 
-/// A script that calls `tool` with small work first, then with large work that the place does not hold, and compares.
+/// A script that calls `tool` with small work first, then with large work that does not fit on the disk, and compares.
 /// Exit status 0: the large call failed with an ERROR line, and the files of the small one are as they were.
 std::string starved(const std::string &place, const std::string &limit, const std::string &small,
                     const std::string &large) {
@@ -208,7 +208,7 @@ protected:
   }
 };
 
-// A limit on the size of a file stands for a full disk where nothing can be mounted.
+// A limit on the size of a file replaces a full disk where nothing can be mounted.
 TEST_F(FullDisk, AWriteThatFailsLeavesTheEarlierFileWhole) {
   for (const auto &[small, large] : small_and_large) {
     SCOPED_TRACE(large);

@@ -34,7 +34,7 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 
 TEST(Process, HandsOnLinesWhileItRuns) {
   const Scratch scratch;
-  // The program goes on only when its first line has been read.
+  // The program continues only when its first line has been read.
   Program program =
       shell(scratch, "echo one; while [ ! -e seen ]; do sleep 0.01; done; printf 'two\\n\\nhalf'");
   std::vector<std::string> lines;

@@ -1,4 +1,4 @@
-// `drumlin study accuracy --quick`: what it measures holds, and an interrupted call goes on to the same result.
+// `drumlin study accuracy --quick`: its results meet the acceptance criteria, and an interrupted call continues to the same result.
 #include "studies/accuracy/results.h"
 #include "studies/study.h"
 #include "tests/support/page.h"
@@ -39,7 +39,7 @@ std::map<std::string, double> errors_of(const fs::path &out) {
   return errors;
 }
 
-TEST(AccuracyStudy, GoesOnWhereItWasInterrupted) {
+TEST(AccuracyStudy, ContinuesWhereItWasInterrupted) {
   const ScratchStudy study("accuracy");
   const fs::path out = study.out();
   const post::Outcome whole = study.run();

@@ -27,7 +27,7 @@ protected:
   fs::path folder_ = fs::temp_directory_path() / fmt::format("drumlin-cost-{}", ::getpid());
 };
 
-TEST_F(CostStudy, GoesOnWhereItWasInterrupted) {
+TEST_F(CostStudy, ContinuesWhereItWasInterrupted) {
   const post::Outcome whole = study("out");
   ASSERT_TRUE(whole.ok()) << whole.output;
   const fs::path out = folder_ / "out";

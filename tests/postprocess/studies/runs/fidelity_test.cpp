@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(FidelityStudy, GoesOnWhereItWasInterrupted) {
+TEST(FidelityStudy, ContinuesWhereItWasInterrupted) {
   const ScratchStudy study("fidelity");
   const post::Outcome whole = study.run();
   ASSERT_TRUE(whole.ok()) << whole.output;

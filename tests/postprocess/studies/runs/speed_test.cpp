@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(SpeedStudy, GoesOnWhereItWasInterrupted) {
+TEST(SpeedStudy, ContinuesWhereItWasInterrupted) {
   const ScratchStudy study("speed");
   const post::Outcome whole = study.run();
   ASSERT_TRUE(whole.ok()) << whole.output;

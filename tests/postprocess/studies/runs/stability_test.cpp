@@ -1,4 +1,4 @@
-// `drumlin study stability --quick`: what must hold holds, and an interrupted call goes on to the same result.
+// `drumlin study stability --quick`: the acceptance criteria are met, and an interrupted call continues to the same result.
 #include "tests/support/page.h"
 #include "tests/support/scratch_study.h"
 
@@ -28,7 +28,7 @@ std::vector<std::vector<std::string>> cells_of(const fs::path &file, const post:
   return cells;
 }
 
-TEST(StabilityStudy, GoesOnWhereItWasInterrupted) {
+TEST(StabilityStudy, ContinuesWhereItWasInterrupted) {
   const ScratchStudy study("stability");
   const fs::path out = study.out();
   study.run();
