@@ -36,8 +36,10 @@ std::string dashpot(double x, double top, double bottom) {
 /// Ground line with hatching below it.
 std::string ground(double x0, double x1, double y) {
   std::string path = line(x0, y, x1, y);
-  for (double x = x0 + 6.0; x <= x1; x += 12.0)
+  for (int n = 0; x0 + 6.0 + 12.0 * n <= x1; ++n) {
+    const double x = x0 + 6.0 + 12.0 * n;
     path += line(x, y, x - 8.0, y + 10.0);
+  }
   return path;
 }
 
@@ -108,8 +110,10 @@ std::string bed_drawing() {
 std::string held_drawing() {
   const auto wall = [](double x, double side) {
     std::string path = line(x, 30, x, 130);
-    for (double y = 36; y <= 130; y += 12.0)
+    for (int n = 0; n < 8; ++n) { // from y = 36 to 120
+      const double y = 36.0 + 12.0 * n;
       path += line(x, y, x + side * 10.0, y - 8.0);
+    }
     return path;
   };
   return strokes(wall(90, -1) + wall(210, 1)) + disc(150, 80, 61.5, steel) + text(150, 78, "ball", "middle") +
