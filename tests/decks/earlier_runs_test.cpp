@@ -167,7 +167,8 @@ TEST(EarlierRuns, OnAFullDiskAreAnError) {
       on_small_disk(folder.path(), "LD_PRELOAD=$DRUMLIN_PRELOAD exec liggghts -in \"$DECKS/in.chain\" -log "
                                    "none -var cycles 120 -var out small");
   EXPECT_EQ(chain.status, 1);
-  EXPECT_TRUE(chain.says("chain.csv', which cannot be written; allowed: a file on a disk with room")) << chain.output;
+  EXPECT_TRUE(chain.says("chain.csv', which cannot be written; allowed: a file on a disk with room"))
+      << chain.output;
   EXPECT_EQ(errors_in(chain.output), 1) << chain.output;
 }
 
