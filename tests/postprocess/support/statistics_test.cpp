@@ -39,9 +39,9 @@ TEST(MeanInterval, HasTheFactorsOfPrintedTables) {
   const std::vector<std::pair<int, double>> table = {
       {2, 12.706}, {4, 3.182}, {6, 2.571}, {12, 2.201}, {30, 2.045}};
   for (const auto &[n, t] : table) {
-    std::vector<double> values;
-    for (int i = 0; i < n; ++i)
-      values.push_back(i % 2 == 0 ? 1.0 : -1.0);
+    std::vector<double> values(static_cast<std::size_t>(n), 1.0);
+    for (std::size_t i = 1; i < values.size(); i += 2)
+      values[i] = -1.0;
     EXPECT_NEAR(mean_interval(values).half_width, t / std::sqrt(n - 1.0), 5e-4) << n;
   }
 }
