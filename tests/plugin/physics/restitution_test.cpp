@@ -105,8 +105,8 @@ TEST(RestitutionReference, HoldsTheListedValues) {
 
 TEST(RestitutionReference, FallsWithDAndDoesNotJumpAtCriticalDamping) {
   for (const Transition transition : {Transition::A, Transition::B})
-    for (double D = 0.0; D < 0.99; D += 0.01)
-      EXPECT_GT(restitution(transition, D), restitution(transition, D + 0.01));
+    for (int n = 0; n < 99; ++n)
+      EXPECT_GT(restitution(transition, 0.01 * n), restitution(transition, 0.01 * (n + 1))) << n;
   EXPECT_NEAR(restitution(Transition::B, 1.0), restitution(Transition::B, 1.0 - 1e-6), 1e-6);
   EXPECT_NEAR(restitution(Transition::B, 1.0), restitution(Transition::B, 1.0 + 1e-6), 1e-6);
   EXPECT_NEAR(restitution(Transition::B, 1e4) * 4e8, 1.0, 1e-6); // 1 / (4 D^2)
