@@ -141,7 +141,10 @@ EngineCommand engine_command(const fs::path &deck, const std::vector<std::string
     command.environment.clear(); // it is for the ranks, not for mpirun
   }
   command.words.insert(command.words.end(), {program_of(engine), "-in", plain_deck(deck).string()});
-  if (engine == Engine::lammps) command.words.insert(command.words.end(), {"-var", "plugin", library});
+  // Of a variable that is given twice the engine takes the first value: a plugin that the words name counts.
+  const bool named = std::find(words.begin(), words.end(), "plugin") != words.end();
+  if (engine == Engine::lammps && !named)
+    command.words.insert(command.words.end(), {"-var", "plugin", library});
   command.words.insert(command.words.end(), words.begin(), words.end());
   return command;
 }

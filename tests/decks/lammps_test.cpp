@@ -477,7 +477,7 @@ TEST_F(InLammps, SaysWhatIsWrongInOneLineOnRanksOneAndTwo) {
       {"pair_style gran/hooke/transition transition C",
        {pair, "keyword transition is 'C'", "allowed: A or B"}},
       {"pair_style gran/hooke/transition stepping third",
-       {pair, "keyword stepping is 'third'", "second or stock"}},
+       {pair, "keyword stepping is 'third'", "stock or second"}},
       {"pair_style gran/hooke/transition rolling on", {pair, "keyword is 'rolling'", "allowed: transition"}},
       {"pair_style gran/hooke/transition damping", {pair, "keyword damping is missing"}},
       {"pair_style gran/hooke/transition limit_damping",
