@@ -1,17 +1,17 @@
 # shellcheck shell=bash disable=SC2154 # the script that reads this file sets limit and ranks
-# The body of both job scripts, bed.slurm and bed.mpirun: one job's share of a bed's run, from its start or from where the job before has
-# stopped. Copy the three files beside your results, set what follows here or in the environment, and submit one of the two.
+# The body of both job scripts, bed.slurm and bed.mpirun: the part of a bed's run that one job computes, from its start or from where the previous job has
+# stopped. Copy the three files into the folder of your results, set the following values here or in the environment, and submit one of the two.
 
 deck=${deck:-bed/in.bed}                      # or bed/in.bed.lammps, in.bed3d, a deck of one's own that includes in.bed
 start=${start:-results/bed/roller.restart}    # from in.place
 out=${out:-results/bed/B}
-variables=(-var transition B -var cycles "${cycles:-10}") # and what else the deck takes; the same in every job
+variables=(-var transition B -var cycles "${cycles:-10}") # and further variables of the deck; the same in every job
 drumlin=${drumlin:-drumlin}                   # the installed one, or the path of ./drumlin in a checkout
 
-stopped=4 # exit status of a job behind which another is needed
+stopped=4 # exit status of a job after which another is needed
 
 # Runs the deck for at most $limit seconds of wall time, at least one cycle, on $ranks ranks. 0: all cycles are done; $stopped: they are
-# not, and $out/stopped.restart is where the next job continues; else the run has failed.
+# not, and the next job continues from $out/stopped.restart; else the run has failed.
 run_piece() {
   local from=$start screen=$out/screen.txt
   mkdir -p -- "$out" || return

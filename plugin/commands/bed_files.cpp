@@ -28,8 +28,8 @@ namespace {
 //     complete file
 //   bytes COUNT      number of bytes of the engine's part
 //   crc32 SUM        its checksum
-// and then those bytes of the end once more, since the engine looks for them at the end of the file. In a
-// data file each note is a comment of the header, which engines skip:
+// and then a copy of those last bytes, since the engine looks for them at the end of the file. In a data file
+// each note is a comment of the header, which engines skip:
 //   # drumlin note NAME VALUE
 constexpr const char *data_note = "# drumlin note ";
 constexpr const char *notes_begin = "\ndrumlin restart notes\n";
@@ -42,7 +42,7 @@ std::string notes_text(const RestartNotes &notes) {
   return text;
 }
 
-/// The checksum CRC-32 of gzip and PNG.
+/// The checksum CRC-32 of gzip and PNG. Written out, since the plugin is built with fmt as its only library.
 std::uint32_t crc32(const std::string &bytes) {
   std::array<std::uint32_t, 256> of_byte{};
   for (std::uint32_t n = 0; n < of_byte.size(); ++n) {
@@ -242,7 +242,7 @@ struct Bounds {
   bool near(double x) const { return x >= 2.0 * low - high && x <= 2.0 * high - low; }
 };
 
-/// Reader of a data file that looks for the first fault.
+/// Reads a data file up to its first fault, if it has one, and describes that fault for an error text.
 class DataFile {
 public:
   explicit DataFile(const std::string &file) : in_(file) {}

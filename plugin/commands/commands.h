@@ -38,6 +38,10 @@ void write_data_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 /// drumlin/settle [ratio r] [every n] [limit N]: runs until static equilibrium.
 void settle_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
+/// drumlin/surface NAME GROUP spacing s [beyond d x]: sets a variable to the mean height of the surface of a
+/// group of balls.
+void surface_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
+
 /// A command as a type, for engines that want a class for each.
 template <void (*run)(LAMMPS_NS::LAMMPS *, int, char **)>
 struct CommandType {
@@ -56,6 +60,7 @@ void for_each_command(Add &&add) {
   add(CommandType<record_command>(), "drumlin/record", "writes the parameters of a run");
   add(CommandType<run_command>(), "drumlin/run", "runs with progress and a limit of wall time");
   add(CommandType<settle_command>(), "drumlin/settle", "runs to static equilibrium");
+  add(CommandType<surface_command>(), "drumlin/surface", "measures the mean height of a surface");
   add(CommandType<write_restart_command>(), "drumlin/write_restart", "writes a restart file with notes");
 }
 

@@ -58,7 +58,7 @@ Outputs read_outputs(Arguments &in) {
 }
 
 /// Makes the folders and backs up the files of an earlier run. \param half_step s, half of the time step:
-/// rows up to the step stay, whatever rounding has done to their time
+/// rows up to the step are kept even if their time is rounded up
 void prepare(OutputSet &set, const Outputs &outputs, double half_step) {
   if (!outputs.folder.empty()) set.lock_folder(outputs.folder);
   if (!outputs.subfolder.empty()) set.make_folder(outputs.subfolder);

@@ -20,7 +20,8 @@ std::string quoted(const std::string &text) {
   return result + "\"";
 }
 
-/// The command line of this process, with its LD_PRELOAD, which has loaded the plugin.
+/// The command line of this process, after its LD_PRELOAD=..., without which LIGGGHTS would run without the
+/// plugin.
 std::string command_line() {
   const char *preload = std::getenv("LD_PRELOAD");
   std::string text = preload ? "LD_PRELOAD=" + std::string(preload) : "";

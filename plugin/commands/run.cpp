@@ -38,7 +38,7 @@ public:
       every_ = std::max<engine::bigint>(last_ - origin_, 1);
     }
     if (std::isfinite(limit_) && restart_.empty())
-      in.fail("keyword restart is missing beside keyword limit; allowed: limit SECONDS restart FILE");
+      in.fail("keyword restart is missing with keyword limit; allowed: limit SECONDS restart FILE");
     if (!restart_.empty()) check_restart_name(lmp, restart_, "drumlin/run: keyword restart");
     if (update->ntimestep > last_)
       in.fail(fmt::format("the last step is '{}'; allowed: at least {}, the present step", last_,

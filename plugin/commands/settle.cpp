@@ -24,10 +24,12 @@ public:
         every_ = static_cast<int>(in.integer("keyword every", 1));
       else if (keyword == "limit")
         limit_ = in.integer("keyword limit", 0);
+      else if (keyword == "force")
+        force_ = in.number("keyword force", Range::positive);
       else if (keyword == "fixed") {
         fixed_groupbit_ = group->bitmask[in.group("keyword fixed", group)];
       } else
-        in.fail("keyword", keyword, "ratio, every, limit or fixed");
+        in.fail("keyword", keyword, "ratio, every, limit, force or fixed");
     }
     if (domain->box_exist == 0)
       in.fail("simulation box is missing; allowed: the command after create_box and create_atoms");
@@ -85,9 +87,10 @@ public:
 private:
   static constexpr engine::bigint pieces_per_line = 10;
 
-  /// Largest net force on a ball over the mean weight of a ball. The force that would stop a ball within one
-  /// piece counts like a net force: a ball that moves through its equilibrium has no net force but is not at
-  /// rest. Without gravity the ratio is 1, or 0 if there are neither forces nor motion. Collective.
+  /// Largest net force on a ball over the given force, or over the mean weight of a ball. The force that would
+  /// stop a ball within one piece counts like a net force: a ball that moves through its equilibrium has no net
+  /// force but is not at rest. With neither force nor gravity the ratio is 1, or 0 if there are neither forces
+  /// nor motion. Collective.
   double unbalanced_ratio() {
     const std::array<double, 3> g = engine::gravity(modify);
     const double gravity = std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
@@ -112,7 +115,8 @@ private:
     MPI_Allreduce(mine.data(), all.data(), 2, MPI_DOUBLE, MPI_SUM, world);
     if (largest == 0.0) return 0.0;
     const double weight = all[1] > 0.0 ? all[0] / all[1] : 0.0;
-    return weight > 0.0 ? largest / weight : 1.0;
+    const double scale = force_ > 0.0 ? force_ : weight;
+    return scale > 0.0 ? largest / scale : 1.0;
   }
 
   /// Whether a time step changes the ball's position. With short steps a velocity that a dashpot slows down
@@ -127,6 +131,7 @@ private:
   }
 
   double ratio_ = 1e-10;
+  double force_ = 0.0; // N, with which net forces are compared; 0: the mean weight of a ball
   int every_ = 1000;
   engine::bigint limit_ = 5'000'000;
   int fixed_groupbit_ = 0;

@@ -2,32 +2,32 @@
 // Settings and coefficients of the contact law, the same for both engines, and the keywords that both have.
 
 #include "contact/contact_source.h"
-#include "physics/contact_law.h"
+#include "contact/laws.h"
 #include "physics/friction_law.h"
 #include "physics/restitution.h"
+#include "physics/rolling_law.h"
 #include "support/arguments.h"
 
 #include <string>
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 namespace drumlin {
 
-/// Coefficients of a pair of types.
+/// kt, N/m, of the linear law where a deck gives none: 2/7 of the normal stiffness.
+inline double default_tangential_stiffness(double normal_stiffness) { return 2.0 / 7.0 * normal_stiffness; }
+
+/// Coefficients of a pair of types, of the law with the parameters `Contact`. Where a deck does not give ct,
+/// it is half of the normal damping coefficient.
+template <class Contact>
 struct ContactCoefficients {
-  physics::LinearContact normal;
+  Contact contact;
   double friction = 0.0;                 ///< mu
-  double tangential_stiffness = 0.0;     ///< kt, N/m
   double tangential_damping = 0.0;       ///< ct, N s/m
   double tangential_damping_share = 0.5; ///< of the normal damping coefficient, on top of ct
+  double rolling = 0.0;                  ///< mu_r
 
-  /// Takes kt as 2/7 of the normal stiffness and ct as half of the normal damping coefficient, where a deck
-  /// gives neither.
-  static ContactCoefficients with_defaults(const physics::LinearContact &normal) {
-    ContactCoefficients p;
-    p.normal = normal;
-    p.tangential_stiffness = 2.0 / 7.0 * normal.stiffness;
-    return p;
-  }
   void set_tangential_damping(double ct) {
     tangential_damping = ct;
     tangential_damping_share = 0.0;
@@ -35,36 +35,87 @@ struct ContactCoefficients {
 
   /// ct, N s/m, of a contact whose normal damping coefficient is c.
   double tangential_dashpot(double c) const { return tangential_damping_share * c + tangential_damping; }
-  physics::Friction tangential(double c, physics::Cap cap) const {
-    return {tangential_stiffness, tangential_dashpot(c), friction, cap};
+  physics::Friction tangential(double kt, double c, physics::Cap cap) const {
+    return {kt, tangential_dashpot(c), friction, cap};
+  }
+  /// For a law whose tangential stiffness does not vary. \param radius effective radius of the contact, m
+  physics::Rolling rolling_resistance(double radius) const {
+    return physics::rolling_of(contact.tangential(0.0, radius), rolling, radius);
   }
 };
+
+/// Coefficients of all pairs of types, 1 to ntypes.
+template <class Contact>
+class CoefficientTable {
+public:
+  void resize(int ntypes) {
+    stride_ = static_cast<std::size_t>(ntypes) + 1;
+    coefficients_.assign(stride_ * stride_, {});
+  }
+  const ContactCoefficients<Contact> &at(int itype, int jtype) const {
+    return coefficients_[place(itype, jtype)];
+  }
+  ContactCoefficients<Contact> &at(int itype, int jtype) { return coefficients_[place(itype, jtype)]; }
+
+private:
+  std::size_t place(int itype, int jtype) const {
+    return static_cast<std::size_t>(itype) * stride_ + static_cast<std::size_t>(jtype);
+  }
+
+  std::vector<ContactCoefficients<Contact>> coefficients_;
+  std::size_t stride_ = 0;
+};
+
+/// Effective radius, m, of two balls; 0 for a law that does not depend on it.
+template <class Contact>
+inline double radius_for(double ri, double rj) {
+  if constexpr (Contact::depends_on_radius) return physics::effective_radius(ri, rj);
+  return 0.0;
+}
+/// The same of a ball and a wall, whose curvature does not count.
+template <class Contact>
+inline double radius_for(double r) {
+  return Contact::depends_on_radius ? r : 0.0;
+}
+
+/// The strongest dashpot, and the largest ratio of stiffness to dashpot, of contacts with a law: those at the
+/// overlap, m, that can be largest.
+template <class Contact>
+void add_dashpot(physics::Dashpots &all, const Contact &contact, double m_eff, double r_eff, double overlap) {
+  const auto law = contact.law(m_eff, r_eff);
+  all.add(law.stiffness(overlap), law.dashpot(overlap));
+}
 
 /// What a deck gives for the normal dashpot: c, D, or the restitution e of an impact without gravity.
 enum class DampingInput { coefficient, ratio, restitution };
 
-/// What pair style and walls are told by keywords.
+/// The settings that the keywords of pair style and walls give.
 struct ContactSettings {
   physics::Transition transition = physics::Transition::B;
   DampingInput damping = DampingInput::ratio;
   bool stock = false; ///< the scheme: the engine's own, else the second-order one
   FrictionModel tangential = FrictionModel::none;
   physics::Cap cap = physics::Cap::total;
+  bool rolling = false;           ///< whether there is rolling resistance
+  bool tangential_varies = false; ///< of the law, as its parameters say
 
-  /// Numbers that a contact remembers: the tangential spring, then with the second-order scheme the normal
-  /// force.
-  int history() const { return spring() + (stock ? 0 : 1); }
-  int spring() const { return tangential == FrictionModel::history ? 3 : 0; }
+  /// Numbers that a contact remembers: the tangential spring, its stiffness where that varies, then with the
+  /// second-order scheme the normal force, then with rolling resistance the torque of its spring.
+  int history() const { return rolling_place() + (rolling ? 3 : 0); }
+  int rolling_place() const { return spring() + (stock ? 0 : 1); }
+  int spring() const { return tangential == FrictionModel::history ? (tangential_varies ? 4 : 3) : 0; }
 
-  /// The parameters of a normal law from what a deck gives. A restitution, > 0 and <= 1, becomes the D that
-  /// gives it under the transition condition.
-  physics::LinearContact normal(double stiffness, double given) const {
-    const double damping_value = damping == DampingInput::restitution
-                                     ? physics::damping_ratio_of_restitution(transition, given)
-                                     : given;
-    return {stiffness, damping_value, kind(), transition};
+  /// Sets the damping of a law's parameters to what a deck gives, and the transition. A restitution, > 0 and
+  /// <= 1, becomes the D that gives it under the transition condition.
+  template <class Contact>
+  void set_damping(Contact &contact, double given) const {
+    contact.damping = damping == DampingInput::restitution
+                          ? physics::damping_ratio_of_restitution(transition, given)
+                          : given;
+    contact.damping_kind = kind();
+    contact.transition = transition;
   }
-  /// What the damping of normal() means.
+  /// What that damping means.
   physics::Damping kind() const {
     return damping == DampingInput::coefficient ? physics::Damping::coefficient : physics::Damping::ratio;
   }

@@ -1,25 +1,46 @@
 #pragma once
-// What the fixes may know of the pair style: its law for a pair of types, and the mass that a contact feels.
-// Each engine's adapter implements it; a fix that finds no source stops with an error, since the law it would
-// report is not ours.
+// Access of the fixes to the pair style: its contact law for a pair of types, its friction, and the masses of
+// balls in contacts. Each engine's adapter implements it. A fix that needs it ends the run with an error if
+// the deck uses another pair style.
 
 #include "engine.h"
-#include "physics/contact_law.h"
+#include "contact/laws.h"
 #include "physics/friction_law.h"
 #include "physics/stepping.h"
 
 #include <cmath>
+#include <string>
 
 namespace drumlin {
 
-/// Which kind of friction acts beside the normal law. history: with a tangential spring; what limits it is Friction's cap.
+/// The friction model. history: with a tangential spring, limited as Friction::cap says; no_history: a
+/// dashpot alone.
 enum class FrictionModel { none, no_history, history };
+
+template <class Contact>
+class CoefficientTable; // contact_settings.h
+template <class Contact>
+using TableOf = const CoefficientTable<Contact> *;
+/// The coefficients of all pairs of types, of the law that the deck has chosen.
+using AnyTable = OneOfLaws<TableOf>;
+
+/// The tangential spring of a contact in the contact history.
+struct TangentialSpring {
+  const double *length = nullptr;    ///< m, three components, as ball i feels it; nullptr: there is none
+  const double *stiffness = nullptr; ///< N/m; nullptr: that of the coefficients
+};
 
 /// The contact law in force, as the pair style applies it.
 class ContactSource {
 public:
-  /// Law of a pair of types (1..ntypes).
-  virtual const physics::LinearContact &law(int itype, int jtype) const = 0;
+  /// The coefficients of the law. Valid from the initialization of a run on.
+  virtual AnyTable table() const = 0;
+  /// The law of balls i and j (local or ghost indices).
+  AnyLaw law(int i, int j) const;
+  /// The present friction of balls i and j, whose law is `law` and whose overlap, m, is given. Not for
+  /// FrictionModel::none.
+  physics::Friction friction(int i, int j, const AnyLaw &law, double overlap,
+                             const TangentialSpring &spring) const;
   /// Mass (kg) of ball i (local or ghost index) as its contacts feel it: infinite if it is frozen, the body's if it belongs to a
   /// rigid body.
   virtual double mass(int i) const = 0;
@@ -29,24 +50,31 @@ public:
     const double mj = mass(j);
     return std::isinf(mi) ? mj : std::isinf(mj) ? mi : physics::effective_mass(mi, mj);
   }
-  /// The dashpots of ball i (local) if it touches all walls at once; their sum is infinite if there are meshes, of which it may
-  /// touch any number of triangles.
+  /// The dashpots of ball i (local) if it touches all walls at once; their sum is infinite if there are
+  /// meshes, of which it may touch any number of triangles.
   virtual physics::Dashpots wall_dashpots(int i) const = 0;
   virtual FrictionModel friction_model() const = 0;
-  /// Friction of a pair of types whose normal damping coefficient is c (N s/m). Not for FrictionModel::none.
-  virtual physics::Friction friction(int itype, int jtype, double c) const = 0;
   /// Neighbour list of the pairs of balls that have this law, each pair once (twice across ranks with newton off).
   virtual const LAMMPS_NS::NeighList *contact_list() const = 0;
-  /// Tangential spring (m, three components) of ball i and its jj-th neighbour in that list, as ball i feels it; valid
-  /// until the list is built anew. For FrictionModel::history only.
-  virtual const double *tangential_spring(int i, int jj) const = 0;
+  /// Tangential spring of ball i and its jj-th neighbour in that list; valid until the list is built anew.
+  /// For FrictionModel::history only.
+  virtual TangentialSpring tangential_spring(int i, int jj) const = 0;
 
 protected:
+  ContactSource() = default;
   ~ContactSource() = default;
+  ContactSource(const ContactSource &) = default;
+  ContactSource &operator=(const ContactSource &) = default;
+  virtual const LAMMPS_NS::Atom &balls() const = 0;
+  virtual physics::Cap cap() const = 0;
 };
 
-/// Source of the pair style of this engine instance, or of the part of a hybrid pair style that is hooke/transition; nullptr if there is
-/// none, or more than one.
+/// The error text of a fix that needs one of the plugin's contact laws, where the deck has another pair
+/// style.
+std::string other_pair_style(const engine::LAMMPS *lmp, const std::string &command);
+
+/// Source of the pair style of this engine instance, or of the part of a hybrid pair style that has one of
+/// the laws; nullptr if there is none, or more than one.
 /// Valid from the initialization of a run on.
 const ContactSource *contact_source(engine::LAMMPS *lmp);
 

@@ -1,6 +1,6 @@
 #include "contact/fix_stepping.h"
 
-#include "contact/contact_source.h"
+#include "contact/contact_settings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@ using namespace LAMMPS_NS;
 namespace {
 
 constexpr const char *helper_id = "drumlin_stepping";
-constexpr int exchanged = 5;     // that a ball takes to another rank
-constexpr int most_gathered = 6; // that a ghost has for its owner
+constexpr int exchanged = 5;     // numbers that move with a ball to another rank
+constexpr int most_gathered = 6; // most numbers that a ghost sends to its owner
 
 /// Constraints that share forces among the balls of a group, over all ranks, which must all call them.
 bool joins(const std::string &style) { return style == "aveforce" || style == "clump"; }
@@ -21,7 +21,7 @@ bool joins(const std::string &style) { return style == "aveforce" || style == "c
 
 namespace {
 
-/// In use or not. \param modify nullptr while the engine ends
+/// The fix, whether in use or not; nullptr if there is none. \param modify nullptr while the engine ends
 FixStepping *helper_of(Modify *modify) {
   return modify == nullptr ? nullptr
                            : dynamic_cast<FixStepping *>(drumlin::engine::find_fix(modify, helper_id));
@@ -100,7 +100,7 @@ void FixStepping::post_integrate() {
     double *v = atom->v[item.i];
     const double *before = velocity_[item.i];
     if (v[0] == before[0] && v[1] == before[1] && v[2] == before[2])
-      continue; // not integrated: it took no kick
+      continue; // not integrated: its velocity does not change
     for (std::size_t a = 0; a < 3; ++a)
       v[a] -= 0.5 * update->dt * item.shift[a] / atom->rmass[item.i];
   }
@@ -134,26 +134,33 @@ void FixStepping::pre_force(int) {
   if (comm->nprocs > 1 || atom->nghost > 0) drumlin::engine::forward_comm(comm, this);
 }
 
-/// Contacts are counted only if one could need coupling, were all neighbours, walls and links to act at once.
-/// needs_coupling() grows with the sum and with k/c: what it denies for these it denies for all contacts
-/// until the next search for neighbours, and the choice changes no result.
+/// Contacts are counted only if one of them could need coupling if a ball touched all its neighbours and
+/// walls at once. needs_coupling() depends monotonically on the sum of c/m and on k/c: if it is false for
+/// these largest values, it is false for all contacts until the next search for neighbours, so that leaving
+/// out the count changes no result.
 void FixStepping::expect_contacts() {
   const drumlin::ContactSource *source = drumlin::contact_source(lmp);
   const NeighList *list = source->contact_list();
   std::vector<drumlin::physics::Dashpots> balls(static_cast<std::size_t>(atom->nlocal + atom->nghost));
   const auto ball = [&](int i) -> drumlin::physics::Dashpots & { return balls[static_cast<std::size_t>(i)]; };
-  for (int ii = 0; ii < list->inum; ++ii) {
-    const int i = list->ilist[ii];
-    for (int jj = 0; jj < list->numneigh[i]; ++jj) {
-      const int j = drumlin::engine::neighbour_index(list->firstneigh[i][jj]);
-      const double m_eff = source->effective_mass(i, j);
-      if (std::isinf(m_eff)) continue;
-      const drumlin::physics::LinearContact &law = source->law(atom->type[i], atom->type[j]);
-      const double c = law.damping_coefficient(m_eff);
-      ball(i).add(law.stiffness, c);
-      ball(j).add(law.stiffness, c);
+  const auto expect_pairs = [&](const auto *coefficients) {
+    for (int ii = 0; ii < list->inum; ++ii) {
+      const int i = list->ilist[ii];
+      for (int jj = 0; jj < list->numneigh[i]; ++jj) {
+        const int j = drumlin::engine::neighbour_index(list->firstneigh[i][jj]);
+        const double m_eff = source->effective_mass(i, j);
+        if (std::isinf(m_eff)) continue;
+        const auto &contact = coefficients->at(atom->type[i], atom->type[j]).contact;
+        using Contact = std::decay_t<decltype(contact)>;
+        const double ri = atom->radius[i], rj = atom->radius[j];
+        drumlin::physics::Dashpots one;
+        drumlin::add_dashpot(one, contact, m_eff, drumlin::radius_for<Contact>(ri, rj), ri + rj);
+        ball(i).add(one);
+        ball(j).add(one);
+      }
     }
-  }
+  };
+  std::visit(expect_pairs, source->table());
   std::array<double, 2> mine{}; // greatest sum of c/m, and k/c
   if (force->newton_pair) {
     gather(1);
@@ -181,7 +188,7 @@ void FixStepping::expect_contacts() {
   expected_dt_ = update->dt;
 }
 
-/// Makes room for what ghosts have for their owners, of each ball.
+/// Provides memory for `numbers` values of each ball, which ghosts send to their owners.
 void FixStepping::gather(std::size_t numbers) {
   comm_reverse = static_cast<int>(numbers);
   gathered_.assign(numbers * static_cast<std::size_t>(atom->nlocal + atom->nghost), 0.0);
@@ -201,7 +208,7 @@ void FixStepping::close_forces() {
   if (any & couples) solve_coupled();
 }
 
-/// Hands what is to be exerted on ghosts after the closing half kick to their owners.
+/// Sends the forces on ghosts that act after the closing half kick to the owners.
 void FixStepping::send_later() {
   gather(most_gathered);
   const auto gathered = [this](int i) {
@@ -232,7 +239,7 @@ void FixStepping::solve_coupled() {
   const int nlocal = atom->nlocal;
   for (int i = 0; i < nlocal; ++i) {
     const double *v = atom->v[i];
-    double *star = velocity_[i]; // in the place of v(t), which this step needs no more
+    double *star = velocity_[i]; // overwrites v(t), which this step no longer needs
     const bool rests = v[0] == star[0] && v[1] == star[1] && v[2] == star[2]; // forces do not move it
     const double kick = rests ? 0.0 : 0.5 * update->dt / atom->rmass[i];
     for (std::size_t a = 0; a < 3; ++a)
@@ -271,8 +278,8 @@ void FixStepping::solve_coupled() {
   constrain(true);
 }
 
-/// One entry per ball: constraints act on its forces as a whole, and what is taken back later is the
-/// difference that all its shifts together make.
+/// Merges the entries of each ball into one: constraints act on the total force on a ball, and the force that
+/// is removed later is the difference that all its shifts together make.
 void FixStepping::merge_later() {
   std::stable_sort(later_.begin(), later_.end(), [](const Later &a, const Later &b) { return a.i < b.i; });
   std::size_t kept = 0;
@@ -289,7 +296,7 @@ void FixStepping::merge_later() {
 
 void FixStepping::end_of_step() {
   if (!in_use_) return;
-  // What one ball of a body gets or gives back all of them do.
+  // A force on one ball of a rigid body changes the forces on all its balls.
   for (const Constraint &constraint : constraints_)
     if (constraint.joins)
       for (int i = 0; i < atom->nlocal; ++i)
@@ -306,7 +313,7 @@ void FixStepping::end_of_step() {
   for (const Later &item : later_)
     add_force(item.i, 1.0, item.rest);
   constrain(!later_.empty());
-  // What the constraints leave of a shift is the difference that it makes to the constrained force.
+  // The part of a shift that passes the constraints is the difference that it makes to the constrained force.
   shifts_.swap(later_);
   later_.clear();
   for (Later &item : shifts_)
@@ -329,8 +336,9 @@ void FixStepping::add_force(int i, double factor, const std::array<double, 3> &v
         constraint.reaction[a] += factor * vector[a];
 }
 
-/// Constraints are projections: acting again on what has passed them changes nothing else. But they would say
-/// that they took what they find now.
+/// Applies the constraints again, to changed forces. They are projections, so that forces that have passed
+/// them before do not change. Their reports of the forces taken away are restored, since this call would
+/// overwrite them.
 void FixStepping::constrain(bool any) const {
   for (const Constraint &constraint : constraints_) {
     if (!any && !constraint.joins) continue;

@@ -1,6 +1,7 @@
 #pragma once
-// The fix behind the keyword `stepping second`, added by the pair style: it gives the contact law velocities
-// and damping of the step before, and applies the parts of contact forces that do not fit into one force.
+// The fix behind the keyword `stepping second`, added by the pair style: it provides the velocities and the
+// damping of the step before to the contact law, and applies the parts of contact forces that act in one half
+// of a step only.
 
 #include "engine.h"
 #include "physics/stepping.h"
@@ -15,7 +16,8 @@ namespace LAMMPS_NS {
 /// kick: the fix changes the forces between the two, at the end of the step, and applies position
 /// corrections.
 ///
-/// It writes nothing to restart files: a restarted run computes all this anew at its set-up.
+/// It writes nothing to restart files: the set-up of a restarted run computes these values from positions,
+/// velocities and contact history.
 class FixStepping : public drumlin::engine::GhostFix {
 public:
   FixStepping(LAMMPS *, int, char **);
@@ -77,7 +79,7 @@ public:
   /// newton off the sum of a ghost is discarded: its owner computes the contact, too.
   void add_damping(int i, double c) { damping_[static_cast<std::size_t>(i)] += c; }
   /// Announces a link on owned ball i that is not a contact (a bond), with its k, N/m, and c, N s/m. To be
-  /// called before each build of the neighbour list (pre_neighbor), which forgets earlier announcements.
+  /// called before each build of the neighbour list (pre_neighbor), which discards earlier announcements.
   void expect(int i, double k, double c) { expected_.push_back({i, k, c}); }
   /// Forces, N, that are added after the closing half kick of this step to a ball i with takes(i): `rest`
   /// acts in the next opening half kick; `shift` acts in the next drift only (StepResult::shift).
@@ -144,7 +146,7 @@ private:
   double dt_ = 0.0;
   double expected_dt_ = 0.0;       // time step for which counting_ was decided
   std::vector<Expected> expected_; // links that are not contacts
-  // Of each ball:
+  // One entry per ball:
   double **velocity_ = nullptr;      // v(t), at the end of a step v*, m/s; sum of c/m in the last step, 1/s
   std::vector<double> inverse_mass_; // 1/ContactSource::mass(), 1/kg; below 0: not known yet
   std::vector<double> damping_;      // sum of c in this step, N s/m

@@ -4,6 +4,7 @@
 #include "engine.h"
 #include "physics/friction_law.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace drumlin {
@@ -44,11 +45,12 @@ inline std::array<double, 3> tangential_velocity(const LAMMPS_NS::Atom &atom, in
   return physics::slip_velocity(relative, m.normal, turning);
 }
 
-/// Tangential force, N, on ball i of a pair that touches, its dashpot at the velocities of now.
+/// Tangential force, N, on ball i of a pair that touches, with the dashpot at the present velocities.
 ///
-/// Behind a step in which the contact slid its spring is as long as friction allows, give or take rounding: whether it slides is
-/// asked of the step of dt, s, to come.
-/// \param spring m, three components, as ball i feels it; nullptr: friction without history
+/// After a step in which the contact slid, its spring is at the friction limit within rounding errors, which
+/// must not decide whether it counts as sliding. This is therefore decided with the spring advanced by a
+/// further step dt, s.
+/// \param spring m, three components, with the sign for ball i; nullptr: friction without history
 inline std::array<double, 3> friction_force(const LAMMPS_NS::Atom &atom, int i, int j, const PairMotion &m,
                                             const physics::Friction &friction, double normal_force,
                                             const double *spring, double dt) {
@@ -63,8 +65,8 @@ inline std::array<double, 3> friction_force(const LAMMPS_NS::Atom &atom, int i, 
   return next.sliding ? next.force : after(0.0).force;
 }
 
-/// Packs owned velocities for the ghosts, and takes them there: the pair style leaves ghosts at the half-step
-/// velocity.
+/// Packs the velocities of owned balls, and unpacks them into the ghosts, which have the half-step velocity
+/// after the forces were computed.
 inline void pack_velocities(const LAMMPS_NS::Atom &atom, int n, const int *list, double *buf) {
   int m = 0;
   for (int a = 0; a < n; ++a)
@@ -77,6 +79,21 @@ inline void unpack_velocities(const LAMMPS_NS::Atom &atom, int n, int first, con
   for (int i = first; i < first + n; ++i)
     for (int b = 0; b < 3; ++b)
       atom.v[i][b] = buf[m++];
+}
+
+/// The same with the angular velocities: six numbers per ball.
+inline void pack_motion(const LAMMPS_NS::Atom &atom, int n, const int *list, double *buf) {
+  pack_velocities(atom, n, list, buf);
+  buf += 3 * n;
+  for (int a = 0; a < n; ++a)
+    buf = std::copy_n(atom.omega[list[a]], 3, buf);
+}
+
+inline void unpack_motion(const LAMMPS_NS::Atom &atom, int n, int first, const double *buf) {
+  unpack_velocities(atom, n, first, buf);
+  buf += 3 * n;
+  for (int i = first; i < first + n; ++i, buf += 3)
+    std::copy_n(buf, 3, atom.omega[i]);
 }
 
 } // namespace drumlin

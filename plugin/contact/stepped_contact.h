@@ -21,7 +21,7 @@ struct StepContact {
   double share;     ///< part of the force that acts: 1, or less where triangles of a mesh share it
 };
 
-/// Rate of the overlap with the velocities at the begin of the step, m/s.
+/// Rate of the overlap with the velocities at the beginning of the step, m/s.
 inline double rate_before(const LAMMPS_NS::FixStepping &stepping, int i, const double *v_j,
                           const std::array<double, 3> &normal) {
   const double *v_i = stepping.velocity_before(i);
@@ -65,7 +65,7 @@ inline bool hold_contact(const Law &law, LAMMPS_NS::FixStepping &stepping, int i
   return true;
 }
 
-/// Hands a dashpot to FixStepping, which solves for it when all forces of the step are known.
+/// Passes a dashpot to FixStepping, which solves for it when all forces of the step are known.
 inline void couple(LAMMPS_NS::FixStepping &stepping, const StepContact &p,
                    const physics::CoupledDashpot &dashpot, double &stored_force) {
   LAMMPS_NS::FixStepping::Coupled &contact = stepping.couple();
@@ -81,8 +81,8 @@ inline void couple(LAMMPS_NS::FixStepping &stepping, const StepContact &p,
   contact.force = &stored_force;
 }
 
-/// Hands to FixStepping what acts after the closing half kick: the rest of the force up to StepResult::force,
-/// for the next opening half kick, and the position correction.
+/// Passes to FixStepping the forces that act after the closing half kick: the rest of the force up to
+/// StepResult::force, for the next opening half kick, and the position correction.
 inline void exert_later(LAMMPS_NS::FixStepping &stepping, const StepContact &p,
                         const physics::StepResult &step) {
   if (step.coupled || (step.kick == step.force && step.shift == 0.0)) return;

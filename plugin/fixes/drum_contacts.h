@@ -36,12 +36,16 @@ private:
   struct Pair {
     int i, j;
     double sign; // 1: ball i belongs to the drum; -1: ball j does
-    physics::LinearLaw law;
-    physics::Friction friction;
-    const double *spring; // of the tangential model; nullptr if it has none
+    AnyLaw law;
+    TangentialSpring spring; // of the tangential model
   };
 
+  template <class Law>
+  void add(std::array<double, 4> &sums, const Pair &pair, const Law &law,
+           const std::array<double, 3> &axis) const;
+
   engine::LAMMPS *lmp_;
+  const ContactSource *source_ = nullptr;
   std::vector<Pair> pairs_;
 };
 

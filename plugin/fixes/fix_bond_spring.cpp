@@ -80,7 +80,7 @@ void FixBondSpring::find_balls() {
 }
 
 FixBondSpring::State FixBondSpring::gather_state() {
-  struct Ball { // what all ranks know of a ball; numbers only, for MPI
+  struct Ball { // state of a ball, which all ranks need; numbers only, for MPI
     double x[3], v[3], v_before[3], inverse_mass, damping_over_mass, found;
   };
   constexpr int numbers = sizeof(Ball) / sizeof(double);
@@ -125,7 +125,7 @@ physics::BondForce FixBondSpring::bond_under(double tension) const {
   return physics::bond_force(bond_, state_.distance, rate);
 }
 
-/// Stiffness and damping of the bond as they count for its ball of this mass, kg.
+/// The bond as a link of its ball of this mass, kg, from which the ball's critical time step follows.
 physics::LinkModes FixBondSpring::modes(double mass) const {
   physics::LinkModes modes;
   modes.burden = physics::link_burden(1.0 / mass, state_.inverse_masses - 1.0 / mass);

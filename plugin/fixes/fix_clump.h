@@ -8,7 +8,7 @@
 namespace LAMMPS_NS {
 
 /// Distributes the sum of the forces on the balls over them in proportion to their masses, so that all have
-/// one acceleration. The contacts of the balls take the mass of the body.
+/// one acceleration. Contacts of its balls use the mass of the body.
 class FixClump : public Fix {
 public:
   FixClump(LAMMPS *, int, char **);
@@ -32,7 +32,7 @@ private:
   bool echoed_ = false;
 };
 
-/// The clumps of an engine instance, for what asks for the masses of their balls.
+/// The clumps of an engine instance, for contact laws and fixes that need the masses of their balls.
 class Clumps {
 public:
   /// In the initialization of each run.
@@ -43,7 +43,8 @@ public:
   }
   bool empty() const { return all_.empty(); }
   const std::vector<const FixClump *> &all() const { return all_; }
-  /// Mass (kg) that contacts of ball i (owned or ghost) feel: its body's if it belongs to one, else `own`.
+  /// Mass (kg) of ball i (owned or ghost) in its contacts: the mass of its clump if it belongs to one, else
+  /// `own`.
   double mass_of(const Atom &atom, int i, double own) const {
     for (const FixClump *clump : all_)
       if (atom.mask[i] & clump->groupbit) return clump->mass();

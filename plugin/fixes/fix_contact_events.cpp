@@ -65,7 +65,7 @@ int FixContactEvents::setmask() {
 
 void FixContactEvents::init() {
   source_ = drumlin::contact_source(lmp);
-  if (source_ == nullptr) error->all(FLERR, engine::error_text(engine::other_pair_style(lmp, command)));
+  if (source_ == nullptr) error->all(FLERR, engine::error_text(drumlin::other_pair_style(lmp, command)));
   drumlin::OutputFile::check(file_.name(), comm, error, world, file_keyword);
 }
 
@@ -94,11 +94,7 @@ void FixContactEvents::list_pairs() {
     for (int jj = 0; jj < list->numneigh[i]; ++jj) {
       const int j = engine::neighbour_index(list->firstneigh[i][jj]);
       if (!is_selected(i, j)) continue;
-      Pair pair{i,
-                j,
-                std::minmax(atom->tag[i], atom->tag[j]),
-                source_->law(atom->type[i], atom->type[j]).of_mass(source_->effective_mass(i, j)),
-                {}};
+      Pair pair{i, j, std::minmax(atom->tag[i], atom->tag[j]), source_->law(i, j), {}};
       if (const auto known = states_.find(pair.tags); known != states_.end()) {
         pair.state = known->second;
       } else {
@@ -158,7 +154,9 @@ void FixContactEvents::end_of_step() {
   for (Pair &pair : pairs_) {
     const drumlin::PairMotion motion = drumlin::pair_motion(*atom, pair.i, pair.j);
     const physics::OverlapState now{motion.overlap, motion.rate};
-    if (const auto event = physics::locate_transition(pair.law, dt, pair.state, now))
+    const auto event = std::visit(
+        [&](const auto &law) { return physics::locate_transition(law, dt, pair.state, now); }, pair.law);
+    if (event)
       pending_.push_back({clock_.time(update->ntimestep - 1) + event->since, event->make ? 1 : 0,
                           event->overlap, event->rate, event->force, pair.tags.first, pair.tags.second});
     pair.state = now;

@@ -12,8 +12,8 @@
 
 namespace LAMMPS_NS {
 
-/// Compares, for each pair of two types (or of the group), whether the contact law acts with whether it did
-/// one step earlier, and writes each make and break once, on any number of ranks.
+/// In every step finds the pairs of two types (or of the group) whose contact has begun or ended since the
+/// step before, and writes each make and break once, on any number of ranks.
 class FixContactEvents : public drumlin::engine::GhostFix {
 public:
   FixContactEvents(LAMMPS *, int, char **);
@@ -37,7 +37,7 @@ private:
   struct Pair {
     int i, j;
     Tags tags;
-    drumlin::physics::LinearLaw law;
+    drumlin::AnyLaw law;
     drumlin::physics::OverlapState state; // at the end of the last step
   };
   struct Event {

@@ -29,7 +29,7 @@ int FixContactLocal::setmask() { return FixConst::PRE_FORCE | FixConst::END_OF_S
 
 void FixContactLocal::init() {
   if (drumlin::contact_source(lmp) == nullptr)
-    error->all(FLERR, engine::error_text(engine::other_pair_style(lmp, command)));
+    error->all(FLERR, engine::error_text(drumlin::other_pair_style(lmp, command)));
 }
 
 void FixContactLocal::setup_pre_force(int vflag) { pre_force(vflag); }

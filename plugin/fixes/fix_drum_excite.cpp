@@ -58,7 +58,7 @@ void FixDrumExcite::parse(int narg, char **arg) {
   if (!has_amplitude) in.fail("keyword amplitude is missing; allowed: amplitude Fw or eccentric me re");
   if (!has_frequency) in.fail("keyword omega is missing; allowed: omega w or frequency f");
   if (excitation_.rotating && !axis_)
-    in.fail("keyword axis is missing beside mode rotating; allowed: axis x y z");
+    in.fail("keyword axis is missing with mode rotating; allowed: axis x y z");
   if (!excitation_.rotating && axis_)
     in.fail("keyword mode is 'directed', with keyword axis; allowed: axis with mode rotating only");
   if (const std::string fault = excitation_.invalid(); !fault.empty()) in.fail(fault);
@@ -147,7 +147,7 @@ void FixDrumExcite::setup(int vflag) {
 }
 
 // Second-order stepping predicts the velocity at the end of the step from the force of the last step. The
-// force of the excitation at the end of the step is known already: its change is part of the prediction.
+// excitation force at the end of the step is already known, so that its change is part of the prediction.
 void FixDrumExcite::post_integrate() {
   if (stepping_ == nullptr) return;
   const Vector F = force_now();

@@ -89,8 +89,8 @@ void FixGuard::begin_links() {
   observe(true);
 }
 
-/// A contact is a link on each of its balls. The rank of a ghost's owner sees the contact too, but with
-/// newton on.
+/// A contact is a link on each of its balls. With newton off, the rank of a ghost's owner receives the
+/// contact as well and adds the link of that ball.
 void FixGuard::see_contact(const drumlin::ContactRecord &p) {
   const bool wall = p.j < 0;
   const double inverse_i = 1.0 / source_->mass(p.i);

@@ -71,7 +71,7 @@ void FixRollerHistory::parse(int narg, char **arg) {
   if (every_ == 0) in.fail("keyword every is missing; allowed: file NAME every N");
   if (soil_groupbit_ != 0) {
     if (frame_.groupbit == 0 || steps_per_cycle_ == 0)
-      in.fail("keyword frame or cycles is missing beside keyword soil; allowed: all three, or no soil");
+      in.fail("keyword frame or cycles is missing with keyword soil; allowed: all three, or no soil");
     bed_.emplace(lmp, soil_groupbit_);
     observe(true);
   }
@@ -92,7 +92,7 @@ void FixRollerHistory::pre_force(int) {
 
 void FixRollerHistory::init() {
   source_ = drumlin::contact_source(lmp);
-  if (source_ == nullptr) error->all(FLERR, engine::error_text(engine::other_pair_style(lmp, command)));
+  if (source_ == nullptr) error->all(FLERR, engine::error_text(drumlin::other_pair_style(lmp, command)));
   drumlin::OutputFile::check(file_name_, comm, error, world, file_keyword);
   if (steps_per_cycle_ > 0) drumlin::OutputFile::check(cycles_name_, comm, error, world, cycles_keyword);
   if (group->count(igroup) == 0)
@@ -281,17 +281,11 @@ void FixRollerHistory::flush() {
 void FixRollerHistory::post_run() { flush(); }
 
 void FixRollerHistory::pack_ghosts(int n, const int *list, double *buf) {
-  drumlin::pack_velocities(*atom, n, list, buf);
-  buf += 3 * n;
-  for (int a = 0; a < n; ++a)
-    buf = std::copy_n(atom->omega[list[a]], 3, buf);
+  drumlin::pack_motion(*atom, n, list, buf);
 }
 
 void FixRollerHistory::unpack_ghosts(int n, int first, double *buf) {
-  drumlin::unpack_velocities(*atom, n, first, buf);
-  buf += 3 * n;
-  for (int i = first; i < first + n; ++i, buf += 3)
-    std::copy_n(buf, 3, atom->omega[i]);
+  drumlin::unpack_motion(*atom, n, first, buf);
 }
 
 void FixRollerHistory::write_restart(FILE *file) {

@@ -3,6 +3,7 @@
 
 #include "fixes/fix_bond_spring.h"
 #include "fixes/fix_clump.h"
+#include "fixes/fix_contact_energy.h"
 #include "fixes/fix_contact_events.h"
 #include "fixes/fix_contact_local.h"
 #include "fixes/fix_drum_excite.h"
@@ -25,6 +26,7 @@ void for_each_fix(Add &&add) {
   add(FixType<LAMMPS_NS::FixClump>(), "clump", "rigid body that does not rotate");
   add(FixType<LAMMPS_NS::FixContactEvents>(), "contact/events", "makes and breaks of contact");
   add(FixType<LAMMPS_NS::FixContactLocal>(), "contact/local", "contacts and their forces for dump local");
+  add(FixType<LAMMPS_NS::FixContactEnergy>(), "contact/energy", "energies of balls and contacts, and heat");
   add(FixType<LAMMPS_NS::FixRollerHistory>(), "roller/history", "motion and forces of drum and frame");
   add(FixType<LAMMPS_NS::FixGuard>(), "guard", "checks of time step, overlaps and finite numbers");
 }

@@ -18,8 +18,8 @@ struct RollerBody {
   /// Sets x and v of `motion` to those of the centre of mass. Ends the run if one of them is not finite.
   /// Collective.
   /// \param name of the body, for the error
-  /// \param stretch m, of the spring that holds the body: the origin, where it is taken here, is the position
-  /// without stretch
+  /// \param stretch m, of the spring that holds the body: if the origin is not yet known, it is set to the
+  /// position without stretch
   void locate(engine::LAMMPS *lmp, const std::array<double, 3> &axis, const char *name, double stretch,
               BodyMotion &motion);
 };

@@ -1,7 +1,7 @@
 #pragma once
-// The forces of one contact, shared by pair_style gran/hooke/transition and fix wall/gran/transition. The
-// laws are those of plugin/physics. Scheme and friction model are template arguments, so that the inner loop
-// of the pair style has no branches for them.
+// The forces of one contact, shared by the pair styles and fix wall/gran/transition. The laws are those of
+// plugin/physics. Law, scheme and friction model are template arguments, so that the inner loop of the pair
+// style has no branches for them.
 
 #include "contact/contact_observer.h"
 #include "contact/contact_settings.h"
@@ -20,24 +20,33 @@ namespace drumlin {
 struct Contact {
   StepContact normal;
   physics::Vec3 slip;  ///< m/s, of ball i's surface relative to j's
+  double r_eff;        ///< m, effective radius; 0 for a law that does not depend on it
   double arm_i, arm_j; ///< m, from the centre of each ball to the point where friction acts
   double *history;     ///< see ContactSettings::history(); nullptr if there is none
   bool in_contact;     ///< in the step before
 };
 
 /// The force of a contact on ball i, of which j gets the opposite. The torque on each ball is -arm times
-/// moment.
+/// moment, plus that of rolling resistance.
 struct ContactForces {
   double normal_force; ///< N, at the end of the step, used for friction
   physics::Vec3 force, tangential_force;
-  physics::Vec3 moment; ///< N, normal x tangential force
+  physics::Vec3 moment;  ///< N, normal x tangential force
+  physics::Vec3 rolling; ///< N m, torque of rolling resistance on ball i, of which j gets the opposite
 };
 
-/// A copy made number by number, as argument of functions that are not inlined: with a copy as a whole the
+/// Copies made number by number, as arguments of functions that are not inlined: with a copy as a whole the
 /// compiler would keep the contact of the inner loop in memory instead of in registers.
 inline StepContact apart(const StepContact &p) {
   return {p.i,     p.j,    {p.normal[0], p.normal[1], p.normal[2]}, p.wall_velocity, p.overlap, p.rate_half,
           p.m_eff, p.share};
+}
+
+inline Contact apart(const Contact &p) {
+  return {apart(p.normal), p.slip, p.r_eff, p.arm_i, p.arm_j, p.history, p.in_contact};
+}
+inline ContactForces apart(const ContactForces &forces) {
+  return {forces.normal_force, forces.force, forces.tangential_force, forces.moment, forces.rolling};
 }
 
 /// exert_contact() as a function that is not inlined, for the rare steps in which a contact begins, ends or
@@ -52,22 +61,52 @@ template <class Law>
   return push;
 }
 
+/// Place of the normal force in a contact's history, see ContactSettings::history(): behind the tangential
+/// spring and its stiffness, where that varies.
+template <class Parameters, FrictionModel tangential>
+constexpr int force_place = tangential != FrictionModel::history ? 0
+                            : Parameters::tangential_varies      ? 4
+                                                                 : 3;
+
+/// Friction of one contact. Its spring in the contact history follows the change of its stiffness, where that
+/// varies. \param dashpot of the normal law, N s/m \param moves see exert()
+template <FrictionModel tangential, class Coefficients>
+inline physics::Friction friction_of(const ContactSettings &settings, const Coefficients &coefficients,
+                                     const Contact &p, double dashpot, double dt, bool moves) {
+  using Parameters = decltype(coefficients.contact);
+  constexpr bool varies = Parameters::tangential_varies;
+  const StepContact &n = p.normal;
+  double kt = coefficients.contact.tangential(
+      varies ? physics::overlap_of_spring(n.overlap, n.rate_half, dt) : n.overlap, p.r_eff);
+  if constexpr (varies && tangential == FrictionModel::history) {
+    double &stored = p.history[3];
+    if (moves) {
+      const double kept = physics::kept_spring(stored, kt);
+      for (int a = 0; a < 3; ++a)
+        p.history[a] *= kept;
+      stored = kt;
+    } else if (stored > 0.0)
+      kt = stored;
+  }
+  return coefficients.tangential(kt, dashpot, settings.cap);
+}
+
 /// Computes the forces of one contact whose surfaces overlap, and updates its history.
 /// \param stepping nullptr under `stepping stock`
 /// \param moves whether the tangential spring is advanced by a step: false in the set-up of a run
-template <bool stepped, FrictionModel tangential>
-inline ContactForces exert(const ContactSettings &settings, const ContactCoefficients &coefficients,
+template <bool stepped, FrictionModel tangential, class Parameters>
+inline ContactForces exert(const ContactSettings &settings,
+                           const ContactCoefficients<Parameters> &coefficients,
                            LAMMPS_NS::FixStepping *stepping, const Contact &p, double dt, bool moves) {
   const StepContact &n = p.normal;
-  const auto law = coefficients.normal.of_mass(n.m_eff);
+  const auto law = coefficients.contact.law(n.m_eff, p.r_eff);
   ContactForces out{};
   physics::ContactState state;
   double push = 0.0; // along the normal, N
   if constexpr (!stepped) {
     push = physics::advance_stock(law, {n.overlap, n.rate_half, n.rate_half, dt}, state).kick;
   } else {
-    constexpr int force_place = tangential == FrictionModel::history ? 3 : 0;
-    double &stored_force = p.history[force_place];
+    double &stored_force = p.history[force_place<Parameters, tangential>];
     state.force = stored_force;
     state.in_contact = p.in_contact;
     if (hold_contact(law, *stepping, n.i, n.j, step_motion(*stepping, n), n.m_eff, state))
@@ -81,7 +120,8 @@ inline ContactForces exert(const ContactSettings &settings, const ContactCoeffic
   }
   out.normal_force = state.force;
   if constexpr (tangential != FrictionModel::none) {
-    const physics::Friction friction = coefficients.tangential(law.dashpot(n.overlap), settings.cap);
+    const physics::Friction friction =
+        friction_of<tangential>(settings, coefficients, p, law.dashpot(n.overlap), dt, moves);
     if constexpr (tangential == FrictionModel::history) {
       const physics::FrictionStep step =
           physics::friction_step(friction, out.normal_force, n.normal, p.slip,
@@ -103,22 +143,27 @@ inline ContactForces exert(const ContactSettings &settings, const ContactCoeffic
 
 /// The step in which a contact ends. \param contact a copy, whose overlap is made negative even if rounding
 /// has left 0 \returns the force on ball i, N
-[[gnu::noinline]] inline physics::Vec3 end_contact(const ContactCoefficients &coefficients,
-                                                   LAMMPS_NS::FixStepping &stepping, StepContact contact,
-                                                   double stored_force) {
+template <class Parameters>
+[[gnu::noinline]] physics::Vec3 end_contact(const ContactCoefficients<Parameters> &coefficients,
+                                            LAMMPS_NS::FixStepping &stepping, StepContact contact,
+                                            double r_eff, double stored_force) {
   contact.overlap = std::min(contact.overlap, -std::numeric_limits<double>::min());
   physics::ContactState state{stored_force, true, {}};
   const double push =
-      exert_rare(coefficients.normal.of_mass(contact.m_eff), stepping, contact, state, stored_force);
+      exert_rare(coefficients.contact.law(contact.m_eff, r_eff), stepping, contact, state, stored_force);
   return {push * contact.normal[0], push * contact.normal[1], push * contact.normal[2]};
 }
 
-/// Calls run(stepped, tangential) with the scheme and the friction model of the settings as compile-time
-/// constants (std::integral_constant).
+/// Calls run(stepped, tangential, rolling) with the scheme, the friction model and the presence of rolling
+/// resistance of the settings as compile-time constants (std::integral_constant).
 template <class Run>
 void with_models(const ContactSettings &settings, Run &&run) {
   const auto with_stepping = [&](auto tangential) {
-    settings.stock ? run(std::false_type{}, tangential) : run(std::true_type{}, tangential);
+    const auto with_rolling = [&](auto stepped) {
+      settings.rolling ? run(stepped, tangential, std::true_type{})
+                       : run(stepped, tangential, std::false_type{});
+    };
+    settings.stock ? with_rolling(std::false_type{}) : with_rolling(std::true_type{});
   };
   switch (settings.tangential) {
   case FrictionModel::none:
@@ -130,10 +175,11 @@ void with_models(const ContactSettings &settings, Run &&run) {
   }
 }
 
-/// The record of a contact for observers. \param radius of the smaller ball, m
-inline ContactRecord record_of(const ContactSettings &settings, const ContactCoefficients &coefficients,
-                               const Contact &p, const ContactForces &forces, double radius) {
-  const auto law = coefficients.normal.of_mass(p.normal.m_eff);
+/// The record of a contact for observers. \param radius of the smaller ball, m \param rolling_radius effective, m
+template <class Parameters>
+ContactRecord record_of(const ContactSettings &settings, const ContactCoefficients<Parameters> &coefficients,
+                        const Contact &p, const ContactForces &forces, double radius, double rolling_radius) {
+  const auto law = coefficients.contact.law(p.normal.m_eff, p.r_eff);
   ContactRecord record{};
   record.i = p.normal.i;
   record.j = p.normal.j;
@@ -148,14 +194,17 @@ inline ContactRecord record_of(const ContactSettings &settings, const ContactCoe
   if (settings.tangential != FrictionModel::none)
     record.tangential_dashpot = coefficients.tangential_dashpot(law.dashpot(p.normal.overlap));
   if (settings.spring() > 0) {
-    record.tangential_stiffness = coefficients.tangential_stiffness;
+    const bool stored = settings.tangential_varies && p.history[3] > 0.0;
+    record.tangential_stiffness =
+        stored ? p.history[3] : coefficients.contact.tangential(p.normal.overlap, p.r_eff);
     record.spring = p.history;
   }
   record.normal_force = forces.normal_force;
   if (!settings.stock) record.final_force = p.history + settings.spring();
   record.tangential_force = forces.tangential_force;
-  record.torque_i = physics::scaled(-p.arm_i, forces.moment);
-  record.torque_j = physics::scaled(-p.arm_j, forces.moment);
+  record.torque_i = physics::sum(forces.rolling, -p.arm_i, forces.moment);
+  record.torque_j = physics::sum(physics::scaled(-1.0, forces.rolling), -p.arm_j, forces.moment);
+  if (settings.rolling) record.rolling_stiffness = coefficients.rolling_resistance(rolling_radius).stiffness;
   return record;
 }
 

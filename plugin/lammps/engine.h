@@ -1,7 +1,7 @@
 #pragma once
-// What fixes, commands and contact step use of LAMMPS. plugin/liggghts/engine.h defines the same names for
-// LIGGGHTS, so that the sources in plugin/{support,contact,fixes,commands} are compiled for either engine
-// without change.
+// The functions and types of LAMMPS that fixes, commands and contact step use. plugin/liggghts/engine.h
+// defines the same names for LIGGGHTS, so that the sources in plugin/{support,contact,fixes,commands} are
+// compiled for either engine without change.
 
 #include "atom.h"
 #include "comm.h"
@@ -41,8 +41,8 @@ using LAMMPS_NS::LAMMPS;
 /// Name and version of the engine, for logs and parameters.csv.
 inline std::string name_and_version() { return std::string("LAMMPS ") + LAMMPS_VERSION; }
 
-/// The pair style with the plugin's contact law, as it is written in a deck.
-constexpr const char *pair_style = "pair_style gran/hooke/transition";
+/// What a deck writes before the name of one of the plugin's contact laws.
+constexpr const char *pair_style_before_law = "pair_style gran/";
 
 /// Base class of fixes that communicate with ghosts or take part in the integration. It has one name for
 /// functions that the engines name differently.
@@ -53,8 +53,8 @@ public:
   virtual void pack_ghosts(int, const int *, double *) {}
   /// Reads them for n ghosts. (n, index of the first ghost, buffer)
   virtual void unpack_ghosts(int, int, double *) {}
-  /// The way back, with newton on: writes `comm_reverse` numbers of each of n ghosts to a buffer. (n, index
-  /// of the first ghost, buffer)
+  /// Reverse communication, with newton on: writes `comm_reverse` numbers of each of n ghosts to a buffer.
+  /// (n, index of the first ghost, buffer)
   virtual void pack_gathered(int, int, double *) {}
   /// Adds them to those of their owners. (n, indices of the owned balls, buffer)
   virtual void join_gathered(int, const int *, const double *) {}

@@ -1,5 +1,6 @@
 #pragma once
-// The contact history of pair_style gran/hooke/transition, kept correctly by the command write_restart.
+// The contact history of pair_style gran/hooke/transition, which stays correct when the command write_restart
+// follows a run.
 
 #include "engine.h"
 

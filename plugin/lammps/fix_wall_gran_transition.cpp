@@ -1,7 +1,8 @@
 #include "lammps/fix_wall_gran_transition.h"
 
 #include "support/arguments.h"
-#include "lammps/pair_gran_hooke_transition.h"
+#include "lammps/pair_gran_transition.h"
+#include "lammps/rolling_terms.h"
 
 #include <algorithm>
 #include <cmath>
@@ -69,11 +70,9 @@ FixWallGranTransition::~FixWallGranTransition() {
 int FixWallGranTransition::setmask() { return FixConst::POST_FORCE; }
 
 void FixWallGranTransition::init() {
-  pair_ = PairGranHookeTransition::find(lmp);
+  pair_ = PairGranTransition::find(lmp);
   if (pair_ == nullptr)
-    error->all(FLERR,
-               drumlin::engine::error_text(std::string(command) + ": the pair style is another; allowed: " +
-                                           drumlin::engine::pair_style));
+    error->all(FLERR, drumlin::engine::error_text(drumlin::other_pair_style(lmp, command)));
   check_coefficients();
   observers_.find(*modify);
   stepping_ = pair_->contact_settings().stock ? nullptr : FixStepping::find(lmp);
@@ -90,8 +89,8 @@ void FixWallGranTransition::init() {
   near_.resize(static_cast<std::size_t>(places_));
 }
 
-/// Beside other pair styles in a hybrid one the law need not have all pairs of types; those of the wall with
-/// its balls it must.
+/// Ends the run if a pair of the wall's type and a type of its balls has no coefficients. (As a part of a
+/// hybrid pair style the law need not have coefficients of all pairs of types.)
 void FixWallGranTransition::check_coefficients() const {
   std::vector<int> mine(static_cast<std::size_t>(atom->ntypes) + 1, 0);
   for (int i = 0; i < atom->nlocal; ++i)
@@ -100,27 +99,33 @@ void FixWallGranTransition::check_coefficients() const {
   MPI_Allreduce(mine.data(), all.data(), static_cast<int>(all.size()), MPI_INT, MPI_MAX, world);
   for (int type = 1; type <= atom->ntypes; ++type)
     if (all[static_cast<std::size_t>(type)] != 0 && !pair_->has_coefficients(type, type_))
-      error->all(FLERR,
-                 drumlin::engine::error_text(std::string(command) + ": " +
-                                             PairGranHookeTransition::missing_coefficients(type, type_)));
+      error->all(FLERR, drumlin::engine::error_text(std::string(command) + ": " +
+                                                    pair_->missing_coefficients(type, type_)));
 }
 
 void FixWallGranTransition::setup(int vflag) { post_force(vflag); }
 
 void FixWallGranTransition::post_force(int) {
   force_ = {};
-  drumlin::with_models(pair_->contact_settings(), [this](auto stepped, auto tangential) {
-    touch_balls<decltype(stepped)::value, decltype(tangential)::value>();
-  });
+  std::visit(
+      [this](const auto *table) {
+        drumlin::with_models(pair_->contact_settings(), [&](auto stepped, auto tangential, auto rolling) {
+          using Parameters = std::decay_t<decltype(table->at(0, 0).contact)>;
+          if constexpr (!(rolling && Parameters::tangential_varies)) // the pair style refuses this
+            touch_balls<decltype(stepped)::value, decltype(tangential)::value, decltype(rolling)::value>(
+                *table);
+        });
+      },
+      pair_->table());
 }
 
-template <bool stepped, FrictionModel tangential>
-void FixWallGranTransition::touch_balls() {
+template <bool stepped, FrictionModel tangential, bool rolling, class Table>
+void FixWallGranTransition::touch_balls(const Table &table) {
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!(atom->mask[i] & groupbit)) continue;
     if (region_ != nullptr) {
-      surfaces_of_region(i, [this, i](int place, const physics::Vec3 &normal, double distance) {
-        touch<stepped, tangential>(i, place, normal, distance);
+      surfaces_of_region(i, [&](int place, const physics::Vec3 &normal, double distance) {
+        touch<stepped, tangential, rolling>(table, i, place, normal, distance);
       });
       continue;
     }
@@ -130,16 +135,16 @@ void FixWallGranTransition::touch_balls() {
       physics::Vec3 normal{};
       double &up = normal[static_cast<std::size_t>(axis_)];
       up = side == 0 ? 1.0 : -1.0;
-      touch<stepped, tangential>(i, side, normal, up * (atom->x[i][axis_] - place_[n]));
+      touch<stepped, tangential, rolling>(table, i, side, normal, up * (atom->x[i][axis_] - place_[n]));
     }
   }
 }
 
-/// Calls touch(place, normal, distance) for each face of the region that a ball may have left in this step or
-/// nearer.
+/// Calls touch(place, normal, distance) for each face of the region that a ball touches, or is so near that
+/// it may have touched it one step ago.
 template <class Touch>
 void FixWallGranTransition::surfaces_of_region(int i, Touch &&touch) {
-  constexpr double near = 1.1; // of the radius: what a ball has left in a step is not farther
+  constexpr double near = 1.1; // in radii: in one step a ball moves by less than 0.1 radii
   const double *x = atom->x[i];
   std::fill(near_.begin(), near_.end(), false);
   const int faces =
@@ -154,14 +159,16 @@ void FixWallGranTransition::surfaces_of_region(int i, Touch &&touch) {
 }
 
 /// \param normal from the wall to the ball \param distance of its centre from the wall, m
-template <bool stepped, FrictionModel tangential>
-void FixWallGranTransition::touch(int i, int place, const physics::Vec3 &normal, double distance) {
+template <bool stepped, FrictionModel tangential, bool rolling, class Table>
+void FixWallGranTransition::touch(const Table &table, int i, int place, const physics::Vec3 &normal,
+                                  double distance) {
   double *remembered = row(i, place);
   const bool touches = distance < atom->radius[i];
   if (!touches && remembered[0] == 0.0) return;
   const drumlin::ContactSettings &settings = pair_->contact_settings();
   const bool moves = update->setupflag == 0;
-  const drumlin::ContactCoefficients &law = pair_->at(atom->type[i], type_);
+  const auto &law = table.at(atom->type[i], type_);
+  using Parameters = std::decay_t<decltype(law.contact)>;
   const double mass = pair_->mass_unless_frozen(i);
   const double *v = atom->v[i];
 
@@ -173,12 +180,15 @@ void FixWallGranTransition::touch(int i, int place, const physics::Vec3 &normal,
   p.normal.rate_half = -(v[0] * normal[0] + v[1] * normal[1] + v[2] * normal[2]);
   p.normal.m_eff = mass;
   p.normal.share = 1.0;
+  p.r_eff = drumlin::radius_for<Parameters>(atom->radius[i]);
   p.history = remembered + (settings.spring() > 0 ? 1 : 4);
   p.in_contact = remembered[0] != 0.0;
 
   drumlin::ContactForces forces{};
   if (!touches) { // it did, a step ago
-    if constexpr (stepped) forces.force = drumlin::end_contact(law, *stepping_, p.normal, remembered[4]);
+    if constexpr (stepped)
+      forces.force = drumlin::end_contact(law, *stepping_, p.normal, p.r_eff,
+                                          p.history[drumlin::force_place<Parameters, tangential>]);
     std::fill_n(remembered, of_a_side, 0.0);
   } else {
     remembered[0] = 1.0;
@@ -189,11 +199,17 @@ void FixWallGranTransition::touch(int i, int place, const physics::Vec3 &normal,
                                       {p.arm_i * w[0], p.arm_i * w[1], p.arm_i * w[2]});
     }
     forces = drumlin::exert<stepped, tangential>(settings, law, stepping_, p, update->dt, moves);
-    if (observers_.any()) observers_.tell(drumlin::record_of(settings, law, p, forces, atom->radius[i]));
+    if constexpr (rolling) {
+      const double *w = atom->omega[i];
+      forces.rolling = drumlin::rolling_torque(settings, law, {normal, {w[0], w[1], w[2]}, atom->radius[i]},
+                                               forces.normal_force, p.history, update->dt, moves);
+    }
+    if (observers_.any())
+      observers_.tell(drumlin::record_of(settings, law, p, forces, atom->radius[i], atom->radius[i]));
   }
   for (std::size_t a = 0; a < 3; ++a) {
     atom->f[i][a] += forces.force[a];
-    atom->torque[i][a] -= p.arm_i * forces.moment[a];
+    atom->torque[i][a] += forces.rolling[a] - p.arm_i * forces.moment[a];
     force_[a] += forces.force[a];
   }
 }
@@ -232,7 +248,15 @@ void FixWallGranTransition::unpack_restart(int i, int nth) {
   const double *values = atom->extra[i]; // the records of all fixes, each with its length first
   for (int n = 0; n < nth; ++n)
     values += static_cast<int>(values[0]);
-  if (static_cast<int>(values[0]) != 1 + numbers())
+  const int count = static_cast<int>(values[0]) - 1;
+  constexpr int of_earlier = 5; // numbers of a side in a file of version 0.2.0: touch, spring, force
+  if (count == places_ * of_earlier) {
+    std::fill_n(memory_[i], numbers(), 0.0);
+    for (int place = 0; place < places_; ++place)
+      std::copy_n(values + 1 + static_cast<std::ptrdiff_t>(place) * of_earlier, of_earlier, row(i, place));
+    return;
+  }
+  if (count != numbers())
     error->one(FLERR, drumlin::engine::error_text(std::string(command) +
                                                   ": the restart file holds another wall under the ID '" +
                                                   id + "'; allowed: the wall that it was, or another ID"));

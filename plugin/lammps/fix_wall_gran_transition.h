@@ -7,7 +7,7 @@
 
 namespace LAMMPS_NS {
 
-class PairGranHookeTransition;
+class PairGranTransition;
 class Region;
 
 /// A pair of planes at rest across an axis of the box, or the surface of a region at rest, with the law of
@@ -39,30 +39,30 @@ public:
   int sides() const override { return region_id_.empty() ? (has_[0] ? 1 : 0) + (has_[1] ? 1 : 0) : places_; }
 
 private:
-  static constexpr int of_a_side = 5; // touch, spring, force
+  static constexpr int of_a_side = 9; // touch, then ContactSettings::history() numbers, at most
   int numbers() const { return places_ * of_a_side; }
   double *row(int i, int place) { return memory_[i] + static_cast<std::ptrdiff_t>(place) * of_a_side; }
   void check_coefficients() const;
   void read_planes(drumlin::Arguments &, int axis);
   void read_region(drumlin::Arguments &);
-  template <bool stepped, drumlin::FrictionModel tangential>
-  void touch_balls();
-  template <bool stepped, drumlin::FrictionModel tangential>
-  void touch(int i, int place, const drumlin::physics::Vec3 &normal, double distance);
+  template <bool stepped, drumlin::FrictionModel tangential, bool rolling, class Table>
+  void touch_balls(const Table &);
+  template <bool stepped, drumlin::FrictionModel tangential, bool rolling, class Table>
+  void touch(const Table &, int i, int place, const drumlin::physics::Vec3 &normal, double distance);
   template <class Touch>
   void surfaces_of_region(int i, Touch &&touch);
 
-  int places_ = 2;        // where a ball may touch it: what each remembers has its own row
+  int places_ = 2;        // number of faces; each has a row of contact history of its own
   std::string region_id_; // empty: planes
   Region *region_ = nullptr;
-  std::vector<bool> near_; // places of the region, of one ball
+  std::vector<bool> near_; // whether one ball is near each face of the region
   int axis_ = 0;
   int type_ = 1;
   std::array<bool, 2> has_{};     // low side, high side
   std::array<double, 2> place_{}; // m
   double **memory_ = nullptr;     // of each ball, for each side
   std::array<double, 3> force_{}; // N, of this rank
-  const PairGranHookeTransition *pair_ = nullptr;
+  const PairGranTransition *pair_ = nullptr;
   drumlin::ContactObservers observers_;
   FixStepping *stepping_ = nullptr;
 };

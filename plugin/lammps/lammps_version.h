@@ -58,8 +58,8 @@ inline void minimum_image(LAMMPS_NS::Domain *domain, double *d) {
 #endif
 }
 
-/// Requests the neighbour list of a pair style for balls of finite size. \param history whether the list goes
-/// with a contact history
+/// Requests the neighbour list of a pair style for balls of finite size. \param history whether the list has
+/// a contact history
 inline void request_list(LAMMPS_NS::Neighbor *neighbor, LAMMPS_NS::Pair *pair, int instance, bool history) {
 #if DRUMLIN_LAMMPS_LIST_FLAGS
   (void)instance;

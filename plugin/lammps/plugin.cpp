@@ -13,7 +13,7 @@
 #include "fixes/fixes.h"
 #include "lammps/fix_neigh_history_transition.h"
 #include "lammps/fix_wall_gran_transition.h"
-#include "lammps/pair_gran_hooke_transition.h"
+#include "lammps/pair_gran_transition.h"
 #include "support/deck_folder.h"
 #include "support/stop_signal.h"
 
@@ -44,25 +44,37 @@ void *create(void *lmp) {
   return new Style(static_cast<LAMMPS *>(lmp));
 }
 
-/// The engine wants a pointer to the base class, which may differ from that to the fix.
+/// Makes a fix and returns a pointer to its base class, as the engine requires; it may differ from that to
+/// the fix.
 template <class FixStyle>
 void *create_fix(void *lmp, int narg, char **arg) {
   return static_cast<Fix *>(new FixStyle(static_cast<LAMMPS *>(lmp), narg, arg));
 }
 
-/// Enters a style into a list of the engine. Its plugin interface, too, takes the functions that make styles
-/// for those of its lists.
+/// Enters a style into a list of the engine. The cast of the function's type is the one that the engine's own
+/// plugin interface makes.
 template <class Styles, class Make>
 void enter(Styles &styles, const char *name, Make *make) {
   styles[name] = reinterpret_cast<typename Styles::mapped_type>(reinterpret_cast<void (*)()>(make));
 }
 
-void *create_pair(void *lmp) {
-  return static_cast<LAMMPS_NS::Pair *>(new LAMMPS_NS::PairGranHookeTransition(static_cast<LAMMPS *>(lmp)));
+/// The name of the pair style with a law. The engine keeps the pointer.
+template <class Contact>
+const char *pair_style_name() {
+  static const std::string name = std::string("gran/") + Contact::name;
+  return name.c_str();
 }
 
-/// Adds styles to an engine instance. LAMMPS has one list of plugins for all its instances in a process, and adds
-/// a style that is in this list already to no other instance: there it is entered into the instance's own lists.
+/// The pair style with the law of the parameters `Contact`.
+template <class Contact>
+void *create_pair(void *lmp) {
+  return static_cast<LAMMPS_NS::Pair *>(
+      new LAMMPS_NS::PairGranTransition(static_cast<LAMMPS *>(lmp), drumlin::LawTag<Contact>{}));
+}
+
+/// Adds styles to an engine instance. LAMMPS has one list of plugins for all its instances in a process. It
+/// does not add a style that is already in this list to a further instance; for such an instance the style is
+/// entered into the instance's own lists here.
 class Registration {
 public:
   Registration(void *lmp, void *handle, void *register_function)
@@ -118,7 +130,11 @@ extern "C" __attribute__((visibility("default"))) void drumlin_register(void *lm
   using namespace LAMMPS_NS;
   auto *engine = static_cast<LAMMPS *>(lmp);
   Registration registration(lmp, handle, register_function);
-  registration.add("pair", "gran/hooke/transition", "linear contact with transition A or B", create_pair);
+  drumlin::for_each_law([&registration](auto law) {
+    using Contact = typename decltype(law)::type;
+    registration.add("pair", pair_style_name<Contact>(), "contact with transition A or B",
+                     create_pair<Contact>);
+  });
   registration.add_fix("wall/gran/transition", "walls with this contact law",
                        create_fix<FixWallGranTransition>);
   drumlin::for_each_fix([&registration](auto fix, const char *name, const char *info) {

@@ -1,7 +1,7 @@
-// The contact models that the plugin adds to LIGGGHTS: the normal model hooke/transition and the tangential
-// model coulomb in combination with the engine's own models, for pairs and walls.
+// The contact models that the plugin adds to LIGGGHTS: the contact laws as normal models, the tangential
+// model coulomb and a rolling model, in combination with the engine's own models, for pairs and walls.
 
-// The order of these matters: the headers below use them without including them.
+// These headers must come first: the engine's headers below use them without including them.
 #include "fix_insert_stream.h"
 #include "fix_mesh_surface.h"
 #include "fix_property_atom.h"
@@ -40,22 +40,33 @@ static_assert(sizeof(SurfacesIntersectData) == 368,
 /// Whether a combination keeps a tangential spring or a rolling torque as contact history, which has to be
 /// reset when the contact ends.
 template <class Style>
-constexpr bool has_history = drumlin::has_spring<Style> || Style::ROLLING == ROLLING_EPSD2;
+constexpr bool has_history = drumlin::has_spring<Style> || Style::ROLLING == ROLLING_SPRING;
 
 template <class Style>
-constexpr drumlin::Companions companions{drumlin::has_spring<Style>, Style::ROLLING != ROLLING_OFF};
+constexpr drumlin::OtherModels other_models{drumlin::has_spring<Style>, Style::ROLLING != ROLLING_OFF};
 
 /// Prepares the engine for a combination, before that reads its properties.
-template <class Style>
+template <class Style, class Contact>
 void prepare(LAMMPS *engine) {
   if (has_history<Style>) engine->neighbor->register_contact_dist_factor(drumlin::contact_distance_factor);
-  if (Style::TANGENTIAL != TANGENTIAL_OFF) drumlin::provide_friction_default(engine, engine->atom->ntypes);
+  if (Style::TANGENTIAL != TANGENTIAL_OFF)
+    drumlin::provide_friction_default(engine, std::string("model ") + Contact::name, engine->atom->ntypes);
 }
 
-template <class Style>
-class TransitionPair : public LIGGGHTS::PairStyles::Granular<drumlin::ObservedContact<Style>>,
+/// Ends the run where a law lacks a rolling model. The spring of epsd2 does not follow a tangential stiffness
+/// that varies, and would create energy.
+template <class Style, class Contact>
+void check_rolling(LAMMPS *engine, const std::string &command) {
+  if (Contact::tangential_varies && Style::ROLLING == ROLLING_SPRING)
+    engine->error->all(FLERR,
+                       drumlin::engine::error_text(
+                           command + ": rolling_friction is 'epsd2'; allowed: off or cdt with this law"));
+}
+
+template <class Style, class Contact>
+class TransitionPair : public LIGGGHTS::PairStyles::Granular<drumlin::ObservedContact<Style, Contact>>,
                        public drumlin::PairContacts {
-  using Base = LIGGGHTS::PairStyles::Granular<drumlin::ObservedContact<Style>>;
+  using Base = LIGGGHTS::PairStyles::Granular<drumlin::ObservedContact<Style, Contact>>;
 
 public:
   TransitionPair(LAMMPS *engine, PairGran *pair, int64_t hash)
@@ -63,18 +74,18 @@ public:
   ~TransitionPair() override { LAMMPS_NS::FixStepping::dismiss(engine_); }
 
   void settings(int narg, char **arg, LIGGGHTS::IContactHistorySetup *history) override {
-    drumlin::ModelSettings words(engine_->error, "pair_style gran model hooke/transition", companions<Style>,
-                                 narg, arg);
+    drumlin::ModelSettings words(engine_->error, command(), other_models<Style>, narg, arg);
+    check_rolling<Style, Contact>(engine_, command());
     LAMMPS_NS::FixKeepHistory::provide(engine_);
     Base::settings(words.size(), words.words(), history);
   }
 
   void init_granular() override {
     if (drumlin::gran_pair(engine_) != pair_)
-      engine_->error->all(
-          FLERR, "pair_style gran model hooke/transition: pair_style hybrid has gran more than once; "
-                 "allowed: once");
-    prepare<Style>(engine_);
+      engine_->error->all(FLERR, drumlin::engine::error_text(command() +
+                                                             ": pair_style hybrid has gran more than once; "
+                                                             "allowed: once"));
+    prepare<Style, Contact>(engine_);
     PairContacts::begin(pair_,
                         drumlin::has_spring<Style>                   ? drumlin::FrictionModel::history
                         : Style::TANGENTIAL == TANGENTIAL_NO_HISTORY ? drumlin::FrictionModel::no_history
@@ -82,29 +93,33 @@ public:
                         Style::TANGENTIAL == TANGENTIAL_COULOMB ? drumlin::physics::Cap::coulomb
                                                                 : drumlin::physics::Cap::spring);
     Base::init_granular();
+    take_stiffness_offset(this->get_history_offset(drumlin::tangential_stiffness_name));
   }
 
 private:
+  static std::string command() { return std::string("pair_style gran model ") + Contact::name; }
+
   LAMMPS *engine_;
   PairGran *pair_;
 };
 
-template <class Style>
-class TransitionWall : public LIGGGHTS::Walls::Granular<drumlin::ObservedContact<Style>> {
-  using Base = LIGGGHTS::Walls::Granular<drumlin::ObservedContact<Style>>;
+template <class Style, class Contact>
+class TransitionWall : public LIGGGHTS::Walls::Granular<drumlin::ObservedContact<Style, Contact>> {
+  using Base = LIGGGHTS::Walls::Granular<drumlin::ObservedContact<Style, Contact>>;
 
 public:
   TransitionWall(LAMMPS *engine, FixWallGran *wall, int64_t hash)
       : Base(engine, wall, hash), engine_(engine) {}
 
   void settings(int narg, char **arg, LIGGGHTS::IContactHistorySetup *history) override {
-    drumlin::ModelSettings words(engine_->error, "fix wall/gran model hooke/transition", companions<Style>,
-                                 narg, arg);
+    const std::string command = std::string("fix wall/gran model ") + Contact::name;
+    drumlin::ModelSettings words(engine_->error, command, other_models<Style>, narg, arg);
+    check_rolling<Style, Contact>(engine_, command);
     Base::settings(words.size(), words.words(), history);
   }
 
   void init_granular() override {
-    prepare<Style>(engine_);
+    prepare<Style, Contact>(engine_);
     Base::init_granular();
   }
 
@@ -112,37 +127,46 @@ private:
   LAMMPS *engine_;
 };
 
-template <int Tangential, int Rolling>
+/// \tparam Word the rolling model whose name in a deck means this combination
+template <class Contact, int Tangential, int Rolling, int Word = Rolling>
 void add_combination() {
-  using Style = GranStyle<HOOKE_TRANSITION, Tangential, COHESION_OFF, Rolling, SURFACE_DEFAULT>;
+  constexpr int normal = drumlin::normal_model_number<Contact>;
+  using Style =
+      drumlin::NamedStyle<GranStyle<normal, Tangential, COHESION_OFF, Rolling, SURFACE_DEFAULT>,
+                          GranStyle<normal, Tangential, COHESION_OFF, Word, SURFACE_DEFAULT>::HASHCODE>;
   LIGGGHTS::PairStyles::Factory::instance().addStyle(
       "gran", Style::HASHCODE,
       [](LAMMPS *lmp, PairGran *parent, int64_t hash) -> LIGGGHTS::PairStyles::IGranularPairStyle * {
-        return new TransitionPair<Style>(lmp, parent, hash);
+        return new TransitionPair<Style, Contact>(lmp, parent, hash);
       });
   LIGGGHTS::Walls::Factory::instance().addStyle(
       "gran", Style::HASHCODE,
       [](LAMMPS *lmp, FixWallGran *parent, int64_t hash) -> LIGGGHTS::Walls::IGranularWall * {
-        return new TransitionWall<Style>(lmp, parent, hash);
+        return new TransitionWall<Style, Contact>(lmp, parent, hash);
       });
 }
 
-template <int Tangential>
+template <class Contact, int Tangential>
 void add_rolling_combinations() {
-  add_combination<Tangential, ROLLING_OFF>();
-  add_combination<Tangential, ROLLING_CDT>();
-  add_combination<Tangential, ROLLING_EPSD2>();
+  add_combination<Contact, Tangential, ROLLING_OFF>();
+  add_combination<Contact, Tangential, ROLLING_CDT>();
+  add_combination<Contact, Tangential, ROLLING_SPRING, ROLLING_EPSD2>();
+}
+
+template <class Contact>
+void add_law() {
+  Factory::instance().addNormalModel(Contact::name, drumlin::normal_model_number<Contact>);
+  add_rolling_combinations<Contact, TANGENTIAL_OFF>();
+  add_rolling_combinations<Contact, TANGENTIAL_NO_HISTORY>();
+  add_rolling_combinations<Contact, TANGENTIAL_HISTORY>();
+  add_rolling_combinations<Contact, TANGENTIAL_COULOMB>();
 }
 
 } // namespace
 
 void drumlin::add_contact_models() {
   // The engine's list of models is one for all instances in the process.
-  if (Factory::instance().getNormalModelId("hooke/transition") == HOOKE_TRANSITION) return;
-  Factory::instance().addNormalModel("hooke/transition", HOOKE_TRANSITION);
+  if (Factory::instance().getTangentialModelId("coulomb") == TANGENTIAL_COULOMB) return;
   Factory::instance().addTangentialModel("coulomb", TANGENTIAL_COULOMB);
-  add_rolling_combinations<TANGENTIAL_OFF>();
-  add_rolling_combinations<TANGENTIAL_NO_HISTORY>();
-  add_rolling_combinations<TANGENTIAL_HISTORY>();
-  add_rolling_combinations<TANGENTIAL_COULOMB>();
+  for_each_law([](auto law) { add_law<typename decltype(law)::type>(); });
 }

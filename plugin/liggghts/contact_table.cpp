@@ -1,7 +1,6 @@
 #include "liggghts/contact_table.h"
 
 #include "engine.h"
-#include "fix_property_global.h"
 #include "fix_rigid.h"
 #include "fix_wall_gran.h"
 #include "global_properties.h"
@@ -16,53 +15,31 @@
 namespace drumlin {
 namespace {
 
-using LAMMPS_NS::FixPropertyGlobal;
 using LAMMPS_NS::LAMMPS;
-using LAMMPS_NS::Pointers;
 
-constexpr const char *model = "model hooke/transition";
 constexpr double default_friction = 0.5;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr const char *friction_property =
     "coefficientFriction"; // as the engine's tangential models ask for it
 
-/// A matrix property over pairs of types.
-class TypePairProperty : Pointers {
-public:
-  TypePairProperty(LAMMPS *engine, const char *name, int ntypes)
-      : Pointers(engine), name_(name),
-        fix_(static_cast<FixPropertyGlobal *>(modify->find_fix_property(
-            name, "property/global", "peratomtypepair", ntypes, ntypes, model, false))) {}
-
-  bool given() const { return fix_ != nullptr; }
-
-  double operator()(int i, int j, bool zero_allowed, double most = infinity) {
-    const double value = fix_->compute_array(i - 1, j - 1);
-    if (!std::isfinite(value) || value < 0.0 || (value == 0.0 && !zero_allowed) || value > most)
-      error->all(FLERR, engine::error_text(fmt::format(
-                            "{}: property {} of types {} and {} is {}; allowed: a finite number {} 0{}",
-                            model, name_, i, j, value, zero_allowed ? ">=" : ">",
-                            most < infinity ? fmt::format(" and <= {}", most) : "")));
-    return value;
-  }
-
-  void require(const char *meaning, int ntypes) const {
-    if (given()) return;
-    error->all(
-        FLERR,
-        engine::error_text(fmt::format(
-            "{}: property {} ({}) is missing; allowed: 'fix ID all property/global {} peratomtypepair {}' "
-            "and {} values",
-            model, name_, meaning, name_, ntypes, ntypes * ntypes)));
-  }
-
-private:
-  const char *name_;
-  FixPropertyGlobal *fix_;
+/// Name and meaning of the property that gives the normal damping.
+struct DampingProperty {
+  const char *name, *meaning;
 };
+constexpr DampingProperty damping_property(DampingInput input) {
+  switch (input) {
+  case DampingInput::coefficient:
+    return {"gamman_abs", "normal damping coefficient, N s/m, keyword damping coefficient"};
+  case DampingInput::ratio:
+    return {"dampingRatio", "damping ratio D, keyword damping ratio"};
+  case DampingInput::restitution:
+    break;
+  }
+  return {"coefficientRestitution", "restitution e, keyword damping restitution"};
+}
 
-// The engine's pair style keeps what it does behind a private pointer. An explicit instantiation may name a
-// private member; its friend hands it out.
+// The engine's pair style has its implementation behind a private pointer. C++ allows an explicit
+// instantiation to name a private member as a template argument; the friend function of the instance gives
+// access to it.
 template <auto Member>
 struct ProxyAccess {
   friend auto &style_of(LAMMPS_NS::PairGranProxy &proxy) { return proxy.*Member; }
@@ -88,7 +65,7 @@ const ContactSource *contact_source(LAMMPS *lmp) {
 
 void PairContacts::begin(LAMMPS_NS::PairGran *pair, FrictionModel friction_model, physics::Cap cap) {
   pair_ = pair;
-  table_ = nullptr;
+  table_.reset();
   wall_tables_.clear();
   clumps_.find(*lmp_->modify);
   friction_model_ = friction_model;
@@ -111,12 +88,17 @@ physics::Dashpots PairContacts::wall_dashpots(int i) const {
   const LAMMPS_NS::Atom &atom = *lmp_->atom;
   physics::Dashpots all;
   if (meshes_) all.sum = std::numeric_limits<double>::infinity();
-  for (const ContactTable *wall : wall_tables_) {
+  for (const AnyTable &wall : wall_tables_) {
     physics::Dashpots strongest;
     for (int type = 1; type <= atom.ntypes; ++type) {
-      const physics::LinearContact &law = wall->at(atom.type[i], type).normal;
       physics::Dashpots one;
-      one.add(law.stiffness, law.damping_coefficient(mass(i)));
+      std::visit(
+          [&](const auto *table) {
+            const auto &contact = table->at(atom.type[i], type).contact;
+            const double r = atom.radius[i];
+            add_dashpot(one, contact, mass(i), radius_for<std::decay_t<decltype(contact)>>(r), 2.0 * r);
+          },
+          wall);
       strongest = {std::max(strongest.sum, one.sum), std::max(strongest.stiffest, one.stiffest)};
     }
     all.add(strongest);
@@ -127,46 +109,24 @@ physics::Dashpots PairContacts::wall_dashpots(int i) const {
 const LAMMPS_NS::NeighList *PairContacts::contact_list() const { return pair_->list; }
 
 // The engine builds the tangential model before any other that asks for history: its spring comes first.
-const double *PairContacts::tangential_spring(int i, int jj) const {
-  return pair_->listgranhistory->firstdouble[i] + static_cast<std::ptrdiff_t>(pair_->dnum()) * jj;
+TangentialSpring PairContacts::tangential_spring(int i, int jj) const {
+  const double *history =
+      pair_->listgranhistory->firstdouble[i] + static_cast<std::ptrdiff_t>(pair_->dnum()) * jj;
+  return {history, stiffness_offset_ < 0 ? nullptr : history + stiffness_offset_};
 }
 
-void ContactTable::read(LAMMPS *lmp, int ntypes, const ContactSettings &settings, bool is_wall) {
-  TypePairProperty kn(lmp, "kn", ntypes);
-  TypePairProperty kt(lmp, "kt", ntypes);
-  TypePairProperty ct(lmp, "gammat_abs", ntypes);
-  struct Input {
-    const char *property, *meaning;
-  };
-  const Input input =
-      settings.damping == DampingInput::coefficient
-          ? Input{"gamman_abs", "normal damping coefficient, N s/m, keyword damping coefficient"}
-      : settings.damping == DampingInput::ratio
-          ? Input{"dampingRatio", "damping ratio D, keyword damping ratio"}
-          : Input{"coefficientRestitution", "restitution e, keyword damping restitution"};
-  const bool restitution = settings.damping == DampingInput::restitution;
-  TypePairProperty c(lmp, input.property, ntypes);
-  TypePairProperty mu(lmp, friction_property, ntypes);
-  kn.require("normal stiffness, N/m", ntypes);
-  c.require(input.meaning, ntypes);
+const LAMMPS_NS::Atom &PairContacts::balls() const { return *lmp_->atom; }
 
-  stride_ = static_cast<std::size_t>(ntypes) + 1;
-  coefficients_.assign(stride_ * stride_, {});
-  for (int i = 1; i <= ntypes; ++i)
-    for (int j = 1; j <= ntypes; ++j) {
-      ContactCoefficients &p =
-          coefficients_[static_cast<std::size_t>(i) * stride_ + static_cast<std::size_t>(j)];
-      p = ContactCoefficients::with_defaults(
-          settings.normal(kn(i, j, false), c(i, j, !restitution, restitution ? 1.0 : infinity)));
-      if (kt.given()) p.tangential_stiffness = kt(i, j, true);
-      if (ct.given()) p.set_tangential_damping(ct(i, j, true));
-      if (mu.given()) p.friction = mu(i, j, true);
-    }
-  if (PairContacts *contacts = pair_contacts(lmp)) is_wall ? contacts->take_wall(this) : contacts->take(this);
+DampingProperties::DampingProperties(LAMMPS *lmp, const std::string &command, int ntypes,
+                                     const ContactSettings &settings)
+    : damping_(lmp, command, damping_property(settings.damping).name, ntypes),
+      tangential_(lmp, command, "gammat_abs", ntypes), friction_(lmp, command, friction_property, ntypes),
+      rolling_(lmp, command, "coefficientRollingFriction", ntypes) {
+  damping_.require(damping_property(settings.damping).meaning);
 }
 
-void provide_friction_default(LAMMPS *lmp, int ntypes) {
-  if (TypePairProperty given(lmp, friction_property, ntypes); given.given()) {
+void provide_friction_default(LAMMPS *lmp, const std::string &command, int ntypes) {
+  if (TypePairProperty given(lmp, command, friction_property, ntypes); given.given()) {
     for (int i = 1; i <= ntypes; ++i)
       for (int j = 1; j <= ntypes; ++j)
         given(i, j, true);

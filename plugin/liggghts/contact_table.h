@@ -5,9 +5,11 @@
 #include "contact/contact_source.h"
 #include "fixes/fix_clump.h"
 #include "lammps.h"
-#include "physics/contact_law.h"
+#include "liggghts/type_property.h"
 
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -21,74 +23,104 @@ constexpr double contact_distance_factor = 1.01;
 
 /// Name in the contact history of the normal force that acted in the step, N, under second-order stepping.
 constexpr const char *final_force_name = "normal_force_before";
+/// Name in the contact history of the tangential stiffness, N/m, of a law in which it varies.
+constexpr const char *tangential_stiffness_name = "tangential_stiffness";
 
 /// The pair style gran, or the one part of a hybrid pair style that is gran; nullptr if there is none, or
 /// more than one.
 LAMMPS_NS::PairGran *gran_pair(LAMMPS_NS::LAMMPS *lmp);
 
-/// Table over pairs of types. Defaults where the deck gives nothing: kt = 2/7 kn, tangential damping = c / 2.
-class ContactTable {
+/// Reads the parameters of a law from the properties of a deck. Each law has its own specialization, with
+///   LawProperties(LAMMPS *, const std::string &command, int ntypes)  ends the run if a property is missing
+///   Contact operator()(int i, int j)                                  for a pair of types, damping not set
+template <class Contact>
+class LawProperties;
+
+/// The properties of all laws: damping, tangential damping and friction.
+class DampingProperties {
 public:
-  ContactTable() = default;
-  ContactTable(const ContactTable &) = delete;
-  ContactTable &operator=(const ContactTable &) = delete;
+  DampingProperties(LAMMPS_NS::LAMMPS *lmp, const std::string &command, int ntypes,
+                    const ContactSettings &settings);
 
-  /// Reads and checks the properties; ends the run with one line that names property, types, value and what
-  /// is allowed. \param is_wall the table is a wall's, not the pair style's: see PairContacts
-  void read(LAMMPS_NS::LAMMPS *lmp, int ntypes, const ContactSettings &settings, bool is_wall);
-
-  const ContactCoefficients &at(int itype, int jtype) const {
-    return coefficients_[static_cast<std::size_t>(itype) * stride_ + static_cast<std::size_t>(jtype)];
+  /// Sets them for a pair of types. Tangential damping is c / 2 where the deck gives none.
+  template <class Contact>
+  void set(ContactCoefficients<Contact> &p, int i, int j, const ContactSettings &settings) {
+    const bool restitution = settings.damping == DampingInput::restitution;
+    settings.set_damping(p.contact,
+                         damping_(i, j, !restitution, restitution ? 1.0 : TypePairProperty::infinity));
+    if (tangential_.given()) p.set_tangential_damping(tangential_(i, j, true));
+    if (friction_.given()) p.friction = friction_(i, j, true);
+    if (rolling_.given()) p.rolling = rolling_(i, j, true);
   }
 
 private:
-  std::vector<ContactCoefficients> coefficients_;
-  std::size_t stride_ = 0;
+  TypePairProperty damping_, tangential_, friction_, rolling_;
 };
 
-/// What the pair style, which derives from it, tells walls, helper and fixes of itself. It collects the
-/// tables anew in the initialization of each run: the pair style's own first, then those of the walls.
+/// Access of walls, FixStepping and fixes to the pair style, which derives from it. It collects the tables in
+/// the initialization of each run: the pair style's own first, then those of the walls.
 class PairContacts : public ContactSource {
 public:
   explicit PairContacts(LAMMPS_NS::LAMMPS *lmp) : lmp_(lmp) {}
 
-  const physics::LinearContact &law(int itype, int jtype) const override {
-    return table_->at(itype, jtype).normal;
-  }
+  AnyTable table() const override { return *table_; }
   double mass(int i) const override;
   physics::Dashpots wall_dashpots(int i) const override;
   FrictionModel friction_model() const override { return friction_model_; }
-  physics::Friction friction(int itype, int jtype, double c) const override {
-    return table_->at(itype, jtype).tangential(c, cap_);
-  }
   const LAMMPS_NS::NeighList *contact_list() const override;
-  const double *tangential_spring(int i, int jj) const override;
+  TangentialSpring tangential_spring(int i, int jj) const override;
 
-  void take(const ContactTable *table) { table_ = table; }
-  void take_wall(const ContactTable *table) { wall_tables_.push_back(table); }
-  bool has_table() const { return table_ != nullptr; }
+  void take(const AnyTable &table) { table_ = table; }
+  void take_wall(const AnyTable &table) { wall_tables_.push_back(table); }
+  bool has_table() const { return table_.has_value(); }
 
 protected:
   ~PairContacts() = default;
   /// \param cap what limits friction with a tangential spring
   void begin(LAMMPS_NS::PairGran *pair, FrictionModel friction_model, physics::Cap cap);
+  /// \param offset in the contact history, of the tangential stiffness; below 0: it is not stored
+  void take_stiffness_offset(int offset) { stiffness_offset_ = offset; }
+  const LAMMPS_NS::Atom &balls() const override;
+  physics::Cap cap() const override { return cap_; }
 
 private:
   LAMMPS_NS::LAMMPS *lmp_;
   LAMMPS_NS::PairGran *pair_ = nullptr;
-  const ContactTable *table_ = nullptr;
-  std::vector<const ContactTable *> wall_tables_;
+  std::optional<AnyTable> table_;
+  std::vector<AnyTable> wall_tables_;
   LAMMPS_NS::Clumps clumps_;
   bool meshes_ = false;
+  int stiffness_offset_ = -1;
   FrictionModel friction_model_ = FrictionModel::none;
   physics::Cap cap_ = physics::Cap::spring;
 };
 
-/// That of this engine instance; nullptr if the pair style is another.
+/// The PairContacts of this engine instance; nullptr if it has another pair style.
 PairContacts *pair_contacts(LAMMPS_NS::LAMMPS *lmp);
+
+/// Reads and checks the properties; ends the run with one line that names property, types, value and what is
+/// allowed. The pair style knows the table from then on. \param is_wall the table is a wall's, not the pair
+/// style's: see PairContacts
+template <class Contact>
+void read_table(CoefficientTable<Contact> &table, LAMMPS_NS::LAMMPS *lmp, int ntypes,
+                const ContactSettings &settings, bool is_wall) {
+  const std::string command = std::string("model ") + Contact::name;
+  LawProperties<Contact> law(lmp, command, ntypes);
+  DampingProperties damping(lmp, command, ntypes, settings);
+  table.resize(ntypes);
+  for (int i = 1; i <= ntypes; ++i)
+    for (int j = 1; j <= ntypes; ++j) {
+      ContactCoefficients<Contact> &p = table.at(i, j);
+      p.contact = law(i, j);
+      damping.set(p, i, j, settings);
+    }
+  if (PairContacts *contacts = pair_contacts(lmp))
+    is_wall ? contacts->take_wall(&table) : contacts->take(&table);
+}
 
 /// Makes the property coefficientFriction, with 0.5 for all pairs of types, if the deck gives none: the
 /// tangential models insist on one. One that is given is checked, which the engine does not do.
-void provide_friction_default(LAMMPS_NS::LAMMPS *lmp, int ntypes);
+/// \param command for error texts
+void provide_friction_default(LAMMPS_NS::LAMMPS *lmp, const std::string &command, int ntypes);
 
 } // namespace drumlin

@@ -1,7 +1,7 @@
 #pragma once
-// What fixes, commands and contact step use of LIGGGHTS. plugin/lammps/engine.h defines the same names for
-// LAMMPS, so that the sources in plugin/{support,contact,fixes,commands} are compiled for either engine
-// without change.
+// The functions and types of LIGGGHTS that fixes, commands and contact step use. plugin/lammps/engine.h
+// defines the same names for LAMMPS, so that the sources in plugin/{support,contact,fixes,commands} are
+// compiled for either engine without change.
 
 #include "atom.h"
 #include "comm.h"
@@ -40,8 +40,8 @@ using LAMMPS_NS::LAMMPS;
 /// Name and version of the engine, for logs and parameters.csv.
 inline std::string name_and_version() { return std::string("LIGGGHTS ") + LIGGGHTS_VERSION; }
 
-/// The pair style with the plugin's contact law, as it is written in a deck.
-constexpr const char *pair_style = "pair_style gran model hooke/transition";
+/// What a deck writes before the name of one of the plugin's contact laws.
+constexpr const char *pair_style_before_law = "pair_style gran model ";
 
 /// Base class of fixes that communicate with ghosts or take part in the integration. It has one name for
 /// functions that the engines name differently.
@@ -52,8 +52,8 @@ public:
   virtual void pack_ghosts(int, const int *, double *) {}
   /// Reads them for n ghosts. (n, index of the first ghost, buffer)
   virtual void unpack_ghosts(int, int, double *) {}
-  /// The way back, from ghosts to their owners with newton on: not called in LIGGGHTS, where newton is off,
-  /// see reverse_comm().
+  /// Reverse communication, from ghosts to their owners with newton on: not called in LIGGGHTS, where newton
+  /// is off, see reverse_comm().
   virtual void pack_gathered(int, int, double *) {}
   virtual void join_gathered(int, const int *, const double *) {}
   /// Called when all forces of the step are known, before velocity Verlet computes the velocities at the end
@@ -62,7 +62,7 @@ public:
 
   int pack_comm(int n, int *balls, double *numbers, int, int *) final {
     pack_ghosts(n, balls, numbers);
-    return comm_forward; // LIGGGHTS wants the numbers per ball
+    return comm_forward; // LIGGGHTS expects the number of values per ball
   }
   void unpack_comm(int n, int first, double *numbers) final { unpack_ghosts(n, first, numbers); }
   void pre_final_integrate() final { close_forces(); }

@@ -10,19 +10,19 @@
 
 namespace drumlin {
 
-/// The models beside the normal one.
-struct Companions {
+/// Which other models are combined with the normal model.
+struct OtherModels {
   bool tangential_spring;
   bool rolling;
 };
 
-/// Words that the engine's settings parser gets, in its form.
+/// The settings as words in the form that the engine's settings parser reads.
 class ModelSettings {
 public:
   /// \param command for error texts, e.g. "pair_style gran model hooke/transition"
-  /// \param companions a rolling model takes `torsionTorque on|off`; the normal model is told of the
-  /// tangential spring
-  ModelSettings(LAMMPS_NS::Error *error, const std::string &command, const Companions &companions, int narg,
+  /// \param others with a rolling model the keyword `torsionTorque on|off` is allowed; whether there is a
+  /// tangential spring is passed on to the normal model
+  ModelSettings(LAMMPS_NS::Error *error, const std::string &command, const OtherModels &others, int narg,
                 char **arg);
 
   int size() const { return static_cast<int>(pointers_.size()); }

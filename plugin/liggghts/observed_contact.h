@@ -5,11 +5,16 @@
 
 #include "contact/contact_observer.h"
 #include "liggghts/contact_table.h"
-#include "physics/contact_law.h"
 
 #include <algorithm>
 
 namespace drumlin {
+
+/// A combination of models that decks and restart files know by another number than that of its own models.
+template <class Style, int64_t Number>
+struct NamedStyle : Style {
+  static const int64_t HASHCODE = Number;
+};
 
 /// The tangential model has a spring.
 template <class Style>
@@ -17,7 +22,8 @@ constexpr bool has_spring = Style::TANGENTIAL == LIGGGHTS::ContactModels::TANGEN
                             Style::TANGENTIAL == LIGGGHTS::ContactModels::TANGENTIAL_COULOMB;
 
 /// What the engine calls for each contact: its models, then the observers.
-template <class Style>
+/// \tparam Contact parameters of the law of the style's normal model
+template <class Style, class Contact>
 class ObservedContact : public LIGGGHTS::ContactModels::ContactModel<Style> {
   using Base = LIGGGHTS::ContactModels::ContactModel<Style>;
 
@@ -41,7 +47,7 @@ private:
   [[gnu::noinline]] void tell(const LIGGGHTS::ContactModels::SurfacesIntersectData &contact,
                               const LIGGGHTS::ContactModels::ForceData &i_forces,
                               const LIGGGHTS::ContactModels::ForceData &j_forces) const {
-    const physics::LinearLaw law(contact.kn, contact.gamman, physics::Transition::A);
+    const typename Contact::Law law = Contact::of_secant(contact.kn, contact.gamman, contact.deltan);
     const bool second_order = final_force_offset_ >= 0;
     ContactRecord record{};
     record.i = contact.i;
@@ -51,7 +57,7 @@ private:
     record.share = contact.is_wall ? contact.area_ratio : 1.0;
     record.spring_force = law.spring(contact.deltan);
     record.spring_energy = law.energy(contact.deltan);
-    record.normal_stiffness = contact.kn;
+    record.normal_stiffness = law.stiffness(contact.deltan);
     record.normal_dashpot = second_order ? 0.0 : contact.gamman;
     if (Style::TANGENTIAL != LIGGGHTS::ContactModels::TANGENTIAL_OFF)
       record.tangential_dashpot = contact.gammat;
@@ -59,9 +65,9 @@ private:
       record.tangential_stiffness = contact.kt;
       record.spring = contact.contact_history;
     }
-    if (Style::ROLLING == LIGGGHTS::ContactModels::ROLLING_EPSD2) {
+    if (Style::ROLLING == LIGGGHTS::ContactModels::ROLLING_SPRING) {
       const double r_eff =
-          contact.is_wall ? contact.radi : contact.radi * contact.radj / (contact.radi + contact.radj);
+          contact.is_wall ? contact.radi : physics::effective_radius(contact.radi, contact.radj);
       record.rolling_stiffness = contact.kt * r_eff * r_eff;
     }
     record.normal_force = contact.Fn;

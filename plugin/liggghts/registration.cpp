@@ -80,8 +80,8 @@ void drumlin_register(void *input) {
     drumlin::stop("built for LIGGGHTS " LIGGGHTS_VERSION ", but this process runs '" +
                   version.substr(0, version.find(',')) +
                   "'; build drumlin against the source of this version");
-  // The engine calls this for each file of a deck. Its fixes belong to the instance; its list of contact models
-  // belongs to the process, see add_contact_models().
+  // The engine calls this for each file of a deck. Its fixes belong to the instance; its list of contact
+  // models belongs to the process, see add_contact_models().
   if (fix_map_of(*lmp->modify)->count("drum/excite") != 0) return;
   drumlin::add_contact_models();
   add_fixes(lmp);

@@ -1,5 +1,6 @@
-// Adapter of the core's friction with a limit that holds to LIGGGHTS's contact models: `tangential coulomb`.
-// (LIGGGHTS includes this file several times; the first branch only announces the model.)
+// Adapter of the core's Coulomb friction, whose force never exceeds its limit, to LIGGGHTS's contact models:
+// `tangential coulomb`. (LIGGGHTS includes this file several times; the first branch only announces the
+// model.)
 #ifdef TANGENTIAL_MODEL
 TANGENTIAL_MODEL(TANGENTIAL_COULOMB, coulomb, 21)
 #else
@@ -18,8 +19,9 @@ TANGENTIAL_MODEL(TANGENTIAL_COULOMB, coulomb, 21)
 namespace LIGGGHTS {
 namespace ContactModels {
 
-/// Spring and dashpot in parallel, in series with a slider: physics::Cap::coulomb. kt, ct and the normal force come from the
-/// normal model; the spring is three values of the contact history, as in the engine's `history`.
+/// Spring and dashpot in parallel, in series with a slider: physics::Cap::coulomb. kt, ct and the normal
+/// force come from the normal model; the spring is three values of the contact history, as in the engine's
+/// `history`.
 template <>
 class TangentialModel<TANGENTIAL_COULOMB> : public TangentialModelBase {
 public:
@@ -44,10 +46,12 @@ public:
     double *spring = sidata.contact_history + spring_offset_;
     const bool moves = sidata.computeflag && sidata.shearupdate; // not in a set-up, nor for computes
     const physics::Vec3 normal{sidata.en[0], sidata.en[1], sidata.en[2]};
+    const physics::Vec3 slip = moves && !sidata.is_wall
+                                   ? slip_of_step(sidata, normal)
+                                   : physics::Vec3{sidata.vtr1, sidata.vtr2, sidata.vtr3};
     const physics::FrictionStep step = physics::friction_step(
         {sidata.kt, sidata.gammat, friction_[sidata.itype][sidata.jtype], physics::Cap::coulomb}, sidata.Fn,
-        normal, {sidata.vtr1, sidata.vtr2, sidata.vtr3}, {spring[0], spring[1], spring[2]},
-        moves ? update->dt : 0.0);
+        normal, slip, {spring[0], spring[1], spring[2]}, moves ? update->dt : 0.0);
     if (moves) std::copy(step.spring.begin(), step.spring.end(), spring);
     const double share = sidata.is_wall ? sidata.area_ratio : 1.0;
     const physics::Vec3 force = physics::scaled(share, step.force);
@@ -70,6 +74,17 @@ public:
   void endPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
 
 private:
+  drumlin::physics::Vec3 slip_of_step(const SurfacesIntersectData &sidata,
+                                      const drumlin::physics::Vec3 &normal) const {
+    drumlin::physics::Vec3 relative{}, separation{}, turning{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      relative[a] = sidata.v_i[a] - sidata.v_j[a];
+      separation[a] = sidata.delta[a];
+      turning[a] = sidata.cri * sidata.omega_i[a] + sidata.crj * sidata.omega_j[a];
+    }
+    return drumlin::physics::slip_velocity_of_step(relative, separation, normal, turning, update->dt);
+  }
+
   double **friction_ = nullptr; // coefficients by types
   int spring_offset_;           // in the contact history
 };

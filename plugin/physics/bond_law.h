@@ -39,7 +39,7 @@ struct BondForce {
 
 /// Force of a bond, F = k e + c e' with the stretch e = distance - length: the bond terms of Eq. (1), where e
 /// = x3 - x2 and +F acts on the drum. The power F e' of the balls on the bond is d(stored)/dt + dissipated.
-/// The caller has to remember that a bond has broken.
+/// Broken bonds are the caller's concern: it must not call this function for them.
 /// \param distance of the two centres, m, >= 0
 /// \param distance_rate m/s, positive while the distance grows
 [[nodiscard]] inline BondForce bond_force(const Bond &bond, double distance, double distance_rate) {

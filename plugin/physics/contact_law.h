@@ -34,9 +34,11 @@ struct ContactPower {
 ///   spring(d)     E, N, 0 at d = 0
 ///   dashpot(d)    C, N s/m, >= 0
 ///   stiffness(d)  dE/dd, N/m
+///   secant(d)     E/d, N/m
 ///   stored(d)     energy in the spring, J, the integral of E
-/// The second-order scheme (contact_step.h) also needs spring_change(), begins_with_jump and first_weight():
-/// see LinearLaw below, and hertz_contact.h for a law whose force begins with 0.
+/// The second-order scheme (contact_step.h) also needs spring_change(), begins_with_jump and first_weight(),
+/// the location of events is_linear: see LinearLaw below, and hertz_contact.h for a law whose force begins
+/// with 0.
 template <class Law>
 class ContactLaw {
 public:
@@ -46,14 +48,14 @@ public:
   }
 
   /// A force, N, of spring and dashpot under the transition condition: unchanged under A; under B a tension
-  /// becomes 0 (no-tension limit). The condition is applied here and in acts() and power() alone.
+  /// becomes 0 (no-tension limit). Only this function, acts() and power() apply the condition.
   [[nodiscard]] double limited(double force) const {
     return transition_ == Transition::B && force < 0.0 ? 0.0 : force;
   }
 
   /// Contact force Fc, N, positive in compression, Eq. (2). overlap d in m, rate d' in m/s, positive while
   /// approaching. B is a limit on the force without history: while the balls overlap, a force that has fallen
-  /// to 0 may grow again. By the words of Eqs. (8)-(9) a broken contact could be made again only at d = 0; a
+  /// to 0 may grow again. Read literally, Eqs. (8)-(9) let a broken contact be made again only at d = 0; a
   /// drum that reverses its motion before the gap opens would then fall through the soil.
   [[nodiscard]] double force(double overlap, double rate) const {
     return overlap <= 0.0 ? 0.0 : limited(spring_and_dashpot(overlap, rate));
@@ -106,11 +108,14 @@ public:
   [[nodiscard]] double spring(double overlap) const { return k_ * overlap; }
   [[nodiscard]] double dashpot(double) const { return c_; }
   [[nodiscard]] double stiffness(double) const { return k_; }
+  [[nodiscard]] double secant(double) const { return k_; }
   [[nodiscard]] double stored(double overlap) const { return 0.5 * k_ * overlap * overlap; }
   /// Change, N, of spring() during a time dt, s, in which the overlap grew at a constant rate, m/s, and which
   /// ends at the overlap d, m (the first argument; not needed by this law).
   [[nodiscard]] double spring_change(double, double rate, double dt) const { return k_ * dt * rate; }
 
+  /// Whether spring and dashpot are linear in overlap and rate.
+  static constexpr bool is_linear = true;
   /// Whether the force jumps at the beginning of a contact: here from 0 to c d'.
   static constexpr bool begins_with_jump = true;
   /// Weight of a contact's first force in the closing half kick of the step in which the contact begins. In
@@ -132,14 +137,25 @@ private:
   return std::isinf(sum) ? lighter : lighter * (heavier / sum);
 }
 
-/// Parameters of the linear law for a pair of types; of_mass() gives the law for balls of given masses.
+/// Effective radius R, m, of the contact of balls with the radii a and b, m, both > 0: a b / (a + b). Against a plane it is
+/// the radius of the ball.
+[[nodiscard]] inline double effective_radius(double a, double b) { return a * b / (a + b); }
+
+/// Parameters of the linear law for a pair of types; law() gives the law for balls of given masses.
 struct LinearContact {
   using Law = LinearLaw;
+  /// What decks call the law, behind `model` (LIGGGHTS) or `pair_style gran/` (LAMMPS).
+  static constexpr const char *name = "hooke/transition";
+  /// Whether law() and tangential() need the effective radius.
+  static constexpr bool depends_on_radius = false;
+  /// Whether tangential() depends on the overlap. A contact then also stores it: see kept_spring().
+  static constexpr bool tangential_varies = false;
 
   double stiffness = 0.0;                      ///< k, N/m, finite and > 0
   double damping = 0.0;                        ///< c in N s/m or D without dimension, finite and >= 0
   Damping damping_kind = Damping::coefficient; ///< which of the two `damping` is
   Transition transition = Transition::B;       ///< B, the condition that the paper recommends
+  double tangential_stiffness = 0.0;           ///< kt, N/m, of the spring of friction, finite and >= 0
 
   /// Empty if every value is allowed, else what is wrong: name, value, what is allowed.
   [[nodiscard]] std::string invalid() const {
@@ -157,10 +173,14 @@ struct LinearContact {
     return 2.0 * damping * std::sqrt(m_eff * stiffness);
   }
 
-  /// The law of a contact of effective mass m_eff, kg, > 0.
-  [[nodiscard]] LinearLaw of_mass(double m_eff) const {
+  /// The law of a contact of effective mass m_eff, kg, > 0. The effective radius is not needed.
+  [[nodiscard]] LinearLaw law(double m_eff, double = 0.0) const {
     return {stiffness, damping_coefficient(m_eff), transition};
   }
+  /// Stiffness kt, N/m, of the spring of friction. Overlap and effective radius are not needed.
+  [[nodiscard]] double tangential(double, double) const { return tangential_stiffness; }
+  /// The law, without transition condition, of which secant() and dashpot() are known at an overlap.
+  [[nodiscard]] static LinearLaw of_secant(double k, double c, double) { return {k, c, Transition::A}; }
 };
 
 } // namespace drumlin::physics

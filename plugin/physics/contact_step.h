@@ -16,14 +16,14 @@
 
 namespace drumlin::physics {
 
-/// The history of a contact: what one step stores for the next.
+/// The history of a contact: values that one step stores for the next.
 struct ContactState {
   double force = 0.0;      ///< normal force at the end of the step, N
   bool in_contact = false; ///< overlap >= 0 then (> 0 under `stock`); under B the force may still be 0
   Vec3 spring{};           ///< tangential spring, m: see friction_law.h
 };
 
-/// What advance() needs of the two balls besides their motion.
+/// Masses and damping of the two balls, which advance() needs in addition to their motion.
 struct StepContext {
   double m_eff;                   ///< kg
   double damping_over_mass = 0.0; ///< sum of c/m over all contacts of both balls in the last step, 1/s
@@ -101,8 +101,8 @@ template <class Law>
 
 /// The step in which a contact ends under A, in tension. The tension acts only for the share of the step
 /// before d = 0, but the opening half kick and the drift contained it as if it acted through the whole step:
-/// kick and shift take the excess back. All are 0 under B, which has no tension, without a dashpot, and if
-/// there was no overlap at the beginning of the step.
+/// kick and shift remove the excess. All are 0 under B, which has no tension, without a dashpot, and if there
+/// was no overlap at the beginning of the step.
 template <class Law>
 [[nodiscard]] inline StepResult broken(const Law &law, const StepMotion &motion) {
   const double before = motion.overlap_before();

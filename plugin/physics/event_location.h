@@ -2,9 +2,10 @@
 // When, within a step, a contact is made or broken.
 //
 // A step advances the positions as x(t+s) = x(t) + v(t) s + q s^2 with x(t+dt) given, so the overlap between
-// two steps is the parabola through d(t), d'(t) and d(t+dt): exact for what the step did, third order in
-// dt for the motion itself. Events at which spring and dashpot balance (condition B) are located by linear
-// interpolation of the sum of their forces.
+// two steps is the parabola through d(t), d'(t) and d(t+dt): exact for the positions that the scheme
+// computes, and of third order in dt for the exact motion. Events at which spring and dashpot balance
+// (condition B) are located by linear interpolation of the sum of their forces if the law is linear, else by
+// bisection on the parabola.
 
 #include "physics/contact_law.h"
 
@@ -41,11 +42,25 @@ inline double first_crossing(double d0, double r, double q, double dt) {
   return std::clamp(s, 0.0, dt);
 }
 
+/// Time in [0, dt] at which spring and dashpot of a law balance, on the parabola d0 + r s + q s^2. No contact
+/// counts as no force. \param was whether the force is positive at 0; it is not at dt, or the other way round
+template <class Law>
+double balance(const Law &law, double dt, double d0, double r, double q, bool was) {
+  double low = 0.0, high = dt;
+  for (int n = 0; n < 60; ++n) {
+    const double middle = 0.5 * (low + high);
+    const double overlap = d0 + (r + q * middle) * middle;
+    const bool pushes = overlap > 0.0 && law.spring_and_dashpot(overlap, r + 2.0 * q * middle) > 0.0;
+    (pushes == was ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
 } // namespace detail
 
 /// The event between two consecutive steps, if the contact changed.
 /// \param before, after states at the two steps; whether there is contact in each follows from the law
-/// A second event within the same step goes unseen: steps are far shorter than a contact.
+/// A second event within the same step is not found: steps are far shorter than a contact.
 template <class Law>
 [[nodiscard]] inline std::optional<ContactTransition>
 locate_transition(const Law &law, double dt, const OverlapState &before, const OverlapState &after) {
@@ -60,7 +75,11 @@ locate_transition(const Law &law, double dt, const OverlapState &before, const O
     event.since = detail::first_crossing(before.overlap, before.rate, q, dt);
     event.rate = before.rate + 2.0 * q * event.since;
     event.force = law.dashpot(0.0) * event.rate;
-  } else { // spring and dashpot balance
+  } else if constexpr (!Law::is_linear) { // spring and dashpot balance
+    event.since = detail::balance(law, dt, before.overlap, before.rate, q, was);
+    event.overlap = std::max(0.0, before.overlap + (before.rate + q * event.since) * event.since);
+    event.rate = before.rate + 2.0 * q * event.since;
+  } else {
     const double sum_before = law.spring_and_dashpot(before.overlap, before.rate);
     const double sum_after = law.spring_and_dashpot(after.overlap, after.rate);
     event.since = std::clamp(dt * sum_before / (sum_before - sum_after), 0.0, dt);

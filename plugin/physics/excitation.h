@@ -16,7 +16,7 @@ namespace drumlin::physics {
 
 /// Parameters of an exciter. The force starts at `start`; its amplitude grows linearly to the full one within
 /// `ramp`; its frequency changes linearly from `angular_frequency` to `sweep_frequency` within
-/// `sweep_duration`, counted from `start`, and then holds.
+/// `sweep_duration`, counted from `start`, and then stays constant.
 struct Excitation {
   bool eccentric = false;         ///< the amplitude is me re w(t)^2 instead of `amplitude`
   double amplitude = 0.0;         ///< Fw, N, finite and >= 0; not used if eccentric

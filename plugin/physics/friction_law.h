@@ -1,6 +1,7 @@
 #pragma once
 /// Coulomb friction with a tangential spring and dashpot (Cundall and Strack 1979, Geotechnique 29, 47-65),
-/// in the two readings of "limited by mu |Fn|" that the engines use, with a limit that holds, and without the spring.
+/// with the two limits by mu |Fn| that the engines use, with a strict limit on the whole force, and without
+/// the spring.
 ///
 /// Sign convention: vt is the velocity of ball i's surface relative to ball j's at the contact, its
 /// tangential part; the spring xi is the tangential displacement that vt has built up; the force is the one
@@ -15,12 +16,13 @@
 
 namespace drumlin::physics {
 
-/// What friction is limited to, and which part of it.
-/// spring: only the spring's force kt xi. Where it slides the dashpot is dropped; just before that the force
+/// Which part of the friction force is limited, and to what. spring: only the spring's force kt xi. Where it
+/// slides the dashpot is dropped; just before that the force
 ///         may exceed mu |Fn| by the dashpot's share. (LIGGGHTS, tangential history.)
 /// total:  spring and dashpot together. Where it slides the spring is reset so that kt xi + ct vt has the
 ///         length mu |Fn|. (LAMMPS, gran/hooke/history.)
-/// coulomb: spring and dashpot in parallel, in series with a slider that slips at mu max(Fn, 0). The force never
+/// coulomb: spring and dashpot in parallel, in series with a slider that slips at mu max(Fn, 0). The force
+/// never
 ///         exceeds that, and no step creates energy, at any damping; in tension there is no friction. (The
 ///         plugin's `tangential coulomb`.)
 enum class Cap { spring, total, coulomb };
@@ -43,7 +45,7 @@ struct Friction {
   }
 };
 
-/// What one step of friction gives.
+/// Result of one step of friction.
 struct FrictionStep {
   Vec3 force;        ///< N, on ball i, at the end of the step
   Vec3 spring;       ///< xi after the step, m, in the tangent plane
@@ -54,22 +56,56 @@ struct FrictionStep {
 
 /// vt, m/s: tangential part of the velocity of ball i's surface relative to ball j's at the contact,
 ///   vt = v - (v . n) n - (a_i w_i + a_j w_j) x n
-/// relative v = v_i - v_j in m/s; normal n the unit vector from j to i; turning a_i w_i + a_j w_j in m/s, of each ball its distance
-/// from the contact point, r - d/2, times its angular velocity.
+/// relative v = v_i - v_j in m/s; normal n the unit vector from j to i; turning a_i w_i + a_j w_j in m/s, of
+/// each ball its distance from the contact point, r - d/2, times its angular velocity.
 [[nodiscard]] inline Vec3 slip_velocity(const Vec3 &relative, const Vec3 &normal, const Vec3 &turning) {
   return sum(sum(relative, -dot(relative, normal), normal), -1.0, cross(turning, normal));
 }
 
-/// friction_step() of Cap::coulomb. With e the direction of the pull, L the limit, xi0 the spring before, projected on
-/// the tangent plane (and not stretched again to its length: what it loses is heat), xi the spring after:
+/// vt, m/s, of a step of velocity Verlet, at the end of which the forces are computed: velocities and normal are
+/// those of the middle of the step, and the result is projected on the tangent plane of its end. slip_velocity()
+/// with the normal of the end counts the rotation of the normal in half a step as slip: the spring of a ball that
+/// rolls around another without slipping is then stretched by dt/2 times the angle between the normals in each
+/// step. Where the spring is stiff and the ball is light, as between balls of very different sizes, this keeps the
+/// ball from rolling (Vyas, Ottino, Lueptow and Umbanhowar 2025, Comput. Phys. Commun. 310, 109524).
+/// \param relative v_i - v_j of the middle of the step, m/s \param separation x_i - x_j at its end, m; not for walls
+/// \param normal of its end \param turning as for slip_velocity(), m/s \param dt s
+[[nodiscard]] inline Vec3 slip_velocity_of_step(const Vec3 &relative, const Vec3 &separation,
+                                                const Vec3 &normal, const Vec3 &turning, double dt) {
+  const Vec3 middle = sum(separation, -0.5 * dt, relative);
+  const Vec3 slip = slip_velocity(relative, scaled(1.0 / std::sqrt(dot(middle, middle)), middle), turning);
+  return sum(slip, -dot(slip, normal), normal);
+}
+
+/// The overlap, m, at which a law whose tangential stiffness depends on it gives the stiffness of a step:
+/// that at the end of the step while the overlap shrinks, that of its middle while it grows. With
+/// kept_spring() this makes the force of second order in dt. \param rate of the overlap, m/s
+[[nodiscard]] inline double overlap_of_spring(double overlap, double rate, double dt) {
+  return rate > 0.0 ? std::max(0.5 * overlap, overlap - 0.5 * dt * rate) : overlap;
+}
+
+/// The share of a tangential spring's length that is kept when its stiffness changes, N/m, between two steps.
+/// While the stiffness grows the force is kept, and the spring becomes shorter; while it shrinks the length
+/// is kept, and the force becomes smaller. Either way the energy in the spring does not grow. (With the
+/// length kept throughout, a contact that is loaded along one path and unloaded along another would create
+/// energy.)
+/// \param before stiffness of the step before; 0: there was none
+[[nodiscard]] inline double kept_spring(double before, double now) {
+  return before > 0.0 && before < now ? before / now : 1.0;
+}
+
+/// friction_step() of Cap::coulomb. With e the direction of the pull, L the limit, xi0 the spring before,
+/// projected on the tangent plane (and not stretched again to its former length: the energy that it loses is
+/// heat), xi the spring after:
 ///   trial    xi* = xi0 + vt dt,  T = kt xi* + ct vt
 ///   stick    if |T| <= L:  xi = xi*, pull T
 ///   slide    else: pull p = L e, e = T/|T|, and kt xi + ct (xi - xi0)/dt = p
-/// T - p = (kt + ct/dt) (xi* - xi), so the slider's displacement xi* - xi is along the pull, and the work in the step is
+/// T - p = (kt + ct/dt) (xi* - xi), so the slider's displacement xi* - xi is along the pull, and the work in
+/// the step is
 ///   p . vt dt = p . (xi* - xi) + ct |xi - xi0|^2/dt + kt xi . (xi - xi0)
 /// where the first two, heat of slider and dashpot, are >= 0 and the last is the change of kt |xi|^2/2 plus
-/// kt |xi - xi0|^2/2: whatever kt, ct, L and vt, a step stores at most the work that is done in it. For pulls of
-/// 1e-150 to 1e150 N, or none.
+/// kt |xi - xi0|^2/2: whatever kt, ct, L and vt, a step stores at most the work that is done in it. For pulls
+/// of 1e-150 to 1e150 N, or none.
 [[nodiscard]] inline FrictionStep coulomb_step(const Friction &friction, double normal_force,
                                                const Vec3 &normal, const Vec3 &tangential_velocity,
                                                const Vec3 &spring_before, double dt) {
@@ -107,21 +143,20 @@ struct FrictionStep {
 ///            Cap::total   if |kt xi* + ct vt| > mu |Fn|: F = -mu |Fn| (kt xi* + ct vt) / |kt xi* + ct vt|,
 ///                                                        xi = (-F - ct vt) / kt
 ///            Cap::coulomb if |kt xi* + ct vt| > mu max(Fn, 0): see coulomb_step()
-/// normal_force Fn in N, of either sign (its magnitude counts but for Cap::coulomb: under transition A a contact
-/// also rubs in tension); normal a unit vector of either sense; tangential_velocity vt in m/s, in the tangent plane;
-/// spring_before xi in m, zero for a new contact; dt in s, >= 0 (0: evaluates the force without moving the
-/// spring).
-/// (One difference to LAMMPS: where the trial spring is exactly zero and the dashpot alone is beyond the
-/// limit, as in the first force of a run, LAMMPS drops the force altogether; here it is mu |Fn| as in every
-/// step.)
+/// normal_force Fn in N, of either sign (its magnitude counts but for Cap::coulomb: under transition A a
+/// contact also rubs in tension); normal a unit vector of either sense; tangential_velocity vt in m/s, in the
+/// tangent plane; spring_before xi in m, zero for a new contact; dt in s, >= 0 (0: evaluates the force
+/// without moving the spring). (One difference to LAMMPS: where the trial spring is exactly zero and the
+/// dashpot alone is beyond the limit, as in the first force of a run, LAMMPS drops the force altogether; here
+/// it is mu |Fn| as in every step.)
 ///
 /// Energy: the work that the balls do on the contact, the integral of -F . vt over the step, is the change of
 /// `stored` plus `dissipated`, which is the dashpot's heat ct vt^2 dt where it acts, plus kt xi . (xi* - xi)
-/// of the slip, plus what the projection takes from the spring. In steady sliding this is exactly mu |Fn|
-/// |vt| dt, in sticking exactly the dashpot's heat; the step in which one turns into the other is right to
-/// second order in dt. dissipated >= 0 for Cap::coulomb and Cap::spring always, and for Cap::total as long as ct |vt| <= mu
-/// |Fn|. Beyond that Cap::total winds the spring up against the motion, which stores energy that no force has
-/// brought in: the law itself is not passive there, and a negative `dissipated` says so.
+/// of the slip, plus the energy that the spring loses by the projection. In steady sliding this is exactly mu
+/// |Fn| |vt| dt, in sticking exactly the dashpot's heat; the step in which one turns into the other is right
+/// to second order in dt. dissipated >= 0 for Cap::coulomb and Cap::spring always, and for Cap::total as long
+/// as ct |vt| <= mu |Fn|. Beyond that Cap::total winds the spring up against the motion, and stores more
+/// energy than the work done on it: the law is not passive there, and `dissipated` is negative.
 [[nodiscard]] inline FrictionStep friction_step(const Friction &friction, double normal_force,
                                                 const Vec3 &normal, const Vec3 &tangential_velocity,
                                                 const Vec3 &spring_before, double dt) {
@@ -137,7 +172,7 @@ struct FrictionStep {
   const Vec3 trial = sum(moved, -off_plane, normal);
 
   Vec3 spring = trial;
-  Vec3 pull{}; // what spring and dashpot exert, -F
+  Vec3 pull{}; // force of spring and dashpot, -F
   bool sliding = false;
   double dashpot_heat = ct * dot(vt, vt) * dt;
   if (friction.cap == Cap::spring) {
@@ -167,9 +202,9 @@ struct FrictionStep {
   return {scaled(-1.0, pull), spring, dissipated, 0.5 * kt * dot(spring, spring), sliding};
 }
 
-/// One step of friction without history: F = -ct vt, at most mu |Fn| long. It holds nothing at rest: a ball
-/// on a slope creeps. stiffness and cap of `friction` are not used; the spring is zero, nothing is stored,
-/// and dissipated is -F . vt dt >= 0. Other arguments as in friction_step().
+/// One step of friction without history: F = -ct vt, at most mu |Fn| long. It cannot hold a ball at rest: on
+/// a slope the ball creeps. stiffness and cap of `friction` are not used; the spring is zero, nothing is
+/// stored, and dissipated is -F . vt dt >= 0. Other arguments as in friction_step().
 [[nodiscard]] inline FrictionStep friction_step_without_history(const Friction &friction, double normal_force,
                                                                 const Vec3 &tangential_velocity, double dt) {
   const double limit = friction.coefficient * std::fabs(normal_force);

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace drumlin::physics {
@@ -41,6 +42,7 @@ public:
   [[nodiscard]] double spring(double overlap) const { return k_ * overlap * std::sqrt(overlap); }
   [[nodiscard]] double dashpot(double overlap) const { return c_ * std::sqrt(std::sqrt(overlap)); }
   [[nodiscard]] double stiffness(double overlap) const { return 1.5 * k_ * std::sqrt(overlap); }
+  [[nodiscard]] double secant(double overlap) const { return k_ * std::sqrt(overlap); }
   [[nodiscard]] double stored(double overlap) const {
     return 0.4 * k_ * overlap * overlap * std::sqrt(overlap);
   }
@@ -48,11 +50,13 @@ public:
     return spring(overlap) - spring(std::max(0.0, overlap - dt * rate));
   }
 
+  static constexpr bool is_linear = false;
   /// The force begins with 0, but not smoothly: with the time since the make to the power 1/4.
   static constexpr bool begins_with_jump = false;
-  /// What a sum over steps of dt makes of an integral of t^(1/4) from a time inside a step on: by the
-  /// Euler-Maclaurin formula the sum misses it by dt zeta(-1/4, share) times the force at dt. The first
-  /// force, at share dt, gets a weight in the closing half kick that makes up for it.
+  /// After the make the force grows as t^(1/4), and the steps sum it instead of integrating it. By the
+  /// Euler-Maclaurin formula this sum, from a time inside a step on, differs from the integral by dt
+  /// zeta(-1/4, share) times the force at dt. The weight of the first force, at share dt, in the closing half
+  /// kick compensates for this.
   [[nodiscard]] static double first_weight(double share) {
     const double at_least = std::max(share, 1e-12); // the force is 0 at 0, the weight infinite
     return -2.0 * detail::hurwitz_zeta(-0.25, 1.0 + share) / std::sqrt(std::sqrt(at_least)) - 1.0;
@@ -62,33 +66,64 @@ private:
   double k_, c_;
 };
 
-/// Parameters of one kind of Hertz contact, for balls of any masses.
+/// Parameters of the Hertz law for a pair of types; law() gives the law for balls of given masses and radii.
 struct HertzContact {
   using Law = HertzLaw;
+  static constexpr const char *name = "hertz/transition";
+  static constexpr bool depends_on_radius = true;
+  static constexpr bool tangential_varies = true;
 
-  double stiffness = 0.0;                      ///< k, N/m^(3/2), finite and > 0
+  double youngs_modulus = 0.0;                 ///< effective, E*, Pa, finite and > 0
+  double shear_modulus = 0.0;                  ///< effective, G*, Pa, finite and > 0
   double damping = 0.0;                        ///< c in N s/m^(5/4) or D without dimension, finite and >= 0
   Damping damping_kind = Damping::coefficient; ///< which of the two `damping` is
   Transition transition = Transition::B;
 
+  /// Takes E* and G* from Young's moduli E, Pa, and Poisson's ratios nu of the two bodies:
+  ///   1/E* = (1 - nu1^2) / E1 + (1 - nu2^2) / E2,
+  ///   1/G* = 2 (2 - nu1) (1 + nu1) / E1 + 2 (2 - nu2) (1 + nu2) / E2.
+  void set_moduli(double E1, double nu1, double E2, double nu2) {
+    youngs_modulus = 1.0 / ((1.0 - nu1 * nu1) / E1 + (1.0 - nu2 * nu2) / E2);
+    shear_modulus = 1.0 / (2.0 * (2.0 - nu1) * (1.0 + nu1) / E1 + 2.0 * (2.0 - nu2) * (1.0 + nu2) / E2);
+  }
+
   /// Empty if every value is allowed, else what is wrong: name, value, what is allowed.
   [[nodiscard]] std::string invalid() const {
-    std::string text = detail::violation("stiffness", stiffness, "N/m^1.5", detail::Allowed::positive);
+    using detail::Allowed;
+    std::string text =
+        detail::violation("effective Young's modulus", youngs_modulus, "Pa", Allowed::positive);
+    if (text.empty())
+      text = detail::violation("effective shear modulus", shear_modulus, "Pa", Allowed::positive);
     if (!text.empty()) return text;
     return damping_kind == Damping::ratio
-               ? detail::violation("damping ratio", damping, "", detail::Allowed::not_negative)
-               : detail::violation("damping coefficient", damping, "N s/m^1.25",
-                                   detail::Allowed::not_negative);
+               ? detail::violation("damping ratio", damping, "", Allowed::not_negative)
+               : detail::violation("damping coefficient", damping, "N s/m^1.25", Allowed::not_negative);
   }
 
-  /// c, N s/m^(5/4): 2 D sqrt(5/4 k m_eff), or the coefficient itself if that was given. m_eff in kg, > 0.
-  [[nodiscard]] double damping_coefficient(double m_eff) const {
-    if (damping_kind == Damping::coefficient) return damping;
-    return 2.0 * damping * std::sqrt(1.25 * stiffness * m_eff);
+  /// k, N/m^(3/2), 4/3 E* sqrt(R). \param r_eff effective radius R, m, > 0
+  [[nodiscard]] double stiffness(double r_eff) const { return 4.0 / 3.0 * youngs_modulus * std::sqrt(r_eff); }
+
+  /// The law of a contact of effective mass m_eff, kg, > 0, and effective radius, m, > 0. The dashpot
+  /// coefficient c, N s/m^(5/4), is 2 D sqrt(5/4 k m_eff), or the coefficient itself if that was given.
+  [[nodiscard]] HertzLaw law(double m_eff, double r_eff) const {
+    const double k = stiffness(r_eff);
+    const double c =
+        damping_kind == Damping::coefficient ? damping : 2.0 * damping * std::sqrt(1.25 * k * m_eff);
+    return {k, c, transition};
   }
 
-  [[nodiscard]] HertzLaw of_mass(double m_eff) const {
-    return {stiffness, damping_coefficient(m_eff), transition};
+  /// Stiffness kt, N/m, of the spring of friction: 8 G* sqrt(R d), that of Mindlin's contact that does not
+  /// slip. Not 0 at d = 0, so that a force over it stays finite.
+  [[nodiscard]] double tangential(double overlap, double r_eff) const {
+    return 8.0 * shear_modulus * std::sqrt(r_eff * std::max(overlap, std::numeric_limits<double>::min()));
+  }
+
+  /// The law, without transition condition, of which secant(), N/m, and dashpot(), N s/m, are known at an
+  /// overlap, m, >= 0.
+  [[nodiscard]] static HertzLaw of_secant(double secant, double dashpot, double overlap) {
+    const double root = std::sqrt(overlap);
+    return overlap > 0.0 ? HertzLaw(secant / root, dashpot / std::sqrt(root), Transition::A)
+                         : HertzLaw(0.0, 0.0, Transition::A);
   }
 };
 

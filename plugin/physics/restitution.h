@@ -1,8 +1,7 @@
 #pragma once
 /// Restitution e of an impact without gravity, and the damping ratio D that gives it, in closed form: of the
-/// linear law, and of every law that a change of variable makes linear (hertz_contact.h). Under B the two are
-/// related differently than in the usual formula, which is that of A: a contact that never pulls gives back
-/// more.
+/// linear law, and of every law that a change of variable makes linear (hertz_contact.h). The usual formula
+/// holds under A. Under B the relation is another: since the contact never pulls, the restitution is higher.
 
 #include "physics/contact_law.h"
 
@@ -13,7 +12,7 @@ namespace drumlin::physics {
 /// e, from 0 to 1, of the damping ratio D >= 0.
 /// With b = D w0 and w^2 = w0^2 - b^2 the impact is d = v/w exp(-bt) sin wt (sinh for D > 1). A ends at wt =
 /// pi, B at the first root of w0^2 d + 2 b d' = 0, which is tan wt = 2 b w / (2 b^2 - w0^2): there d' = -v
-/// exp(-bt). A does not let go for D >= 1.
+/// exp(-bt). Under A the contact does not end for D >= 1, and e is 0.
 [[nodiscard]] inline double restitution(Transition transition, double damping_ratio) {
   constexpr double pi = 3.14159265358979323846;
   const double b = damping_ratio; // in units of w0
@@ -28,7 +27,7 @@ namespace drumlin::physics {
 }
 
 /// D of a restitution e, 0 < e <= 1. Under A in closed form; under B by bisection, as e falls with D. B's e
-/// stays above 1 / (4 D^2) for large D, so that any e > 0 can be had; D for e = 1e-6 is 500.
+/// stays above 1 / (4 D^2) for large D, so that any e > 0 has a D; D for e = 1e-6 is 500.
 [[nodiscard]] inline double damping_ratio_of_restitution(Transition transition, double e) {
   constexpr double pi = 3.14159265358979323846;
   if (transition == Transition::A) {

@@ -56,15 +56,16 @@ struct LinkModes {
 
 /// Share of a link's k / m_eff that counts for one of its two balls: k/mi + k/sqrt(mi mj) for ball i and k/mj
 /// + k/sqrt(mi mj) for ball j, over k / m_eff. It is 1 for two equal balls and for a ball on a fixed partner,
-/// and small for a heavy ball among light ones. LoadedBall says why.
+/// and small for a heavy ball among light ones. The comment of LoadedBall derives it.
 /// \param inverse_own 1/m (or 1/I) of the ball, > 0
 /// \param inverse_other the same of its partner, >= 0; 0 if that is fixed
 [[nodiscard]] inline double link_burden(double inverse_own, double inverse_other) {
   return (inverse_own + std::sqrt(inverse_own * inverse_other)) / (inverse_own + inverse_other);
 }
 
-/// Effective mass m_t, kg, of the sliding of two balls in contact, rotation included: 1/m_t = 1/mi + ri^2/Ii
-/// + 1/mj + rj^2/Ij. For a ball on a fixed partner kt / m_t is kt (1 + m r^2 / I) / m.
+/// Effective mass m_t, kg, of the tangential relative motion of the surfaces of two balls in contact, which
+/// includes their rotation: 1/m_t = 1/mi + ri^2/Ii + 1/mj + rj^2/Ij. For a ball on a fixed partner this is
+/// m_t = m / (1 + m r^2 / I).
 /// \param inverse_mi, inverse_mj 1/kg, 0 for a fixed ball; one of them > 0
 /// \param mass_over_inertia m r^2 / I, the same for both balls: 2.5 for spheres, 2 for discs, 0 for balls
 /// that do not rotate

@@ -119,7 +119,7 @@ public:
   int group(const std::string &what, LAMMPS_NS::Group *groups) {
     const std::string name = word(what, "the name of a group");
     const int index =
-        groups->find(name.c_str()); // NOLINT(readability-redundant-string-cstr): LIGGGHTS's wants it
+        groups->find(name.c_str()); // NOLINT(readability-redundant-string-cstr): LIGGGHTS takes a char *
     if (index < 0) fail(what, name, "the name of a group");
     return index;
   }

@@ -1,6 +1,6 @@
 #pragma once
-// Functions on an engine that are the same text for LIGGGHTS and LAMMPS. Each engine's engine.h includes this
-// at its end, when the names that differ are defined.
+// Functions on an engine whose source is the same for LIGGGHTS and LAMMPS. Each engine's engine.h includes
+// this header at its end, after the names that differ.
 
 namespace drumlin::engine {
 
@@ -27,16 +27,10 @@ inline void stop_on_fault(const LAMMPS *lmp, const std::string &command, std::st
   lmp->error->all(FLERR, engine::error_text(command + ": " + fault));
 }
 
-/// The error text of a fix that needs the plugin's contact law, where the deck has another pair style.
-inline std::string other_pair_style(const LAMMPS *lmp, const std::string &command) {
-  const char *style = lmp->force->pair_style;
-  return command + ": pair_style is '" + (style != nullptr ? style : "none") + "'; allowed: " + pair_style;
-}
-
 /// A fix by its ID; nullptr if there is none.
 inline LAMMPS_NS::Fix *find_fix(LAMMPS_NS::Modify *modify, const std::string &id) {
   const int index =
-      modify->find_fix(id.c_str()); // NOLINT(readability-redundant-string-cstr): LIGGGHTS's wants it
+      modify->find_fix(id.c_str()); // NOLINT(readability-redundant-string-cstr): LIGGGHTS takes a char *
   return index < 0 ? nullptr : modify->fix[index];
 }
 

@@ -30,8 +30,8 @@ public:
     stop_if(comm->me == 0 && !is_output_file(name) ? 1 : 0, name, error, world, what, output_name_allowed);
   }
 
-  /// Opens the file on rank 0 and writes the header if the file is new; the second call does nothing. Ends
-  /// the run if that fails. Collective.
+  /// Opens the file on rank 0 and writes the header if the file is new; further calls do nothing. Ends the
+  /// run if that fails. Collective.
   void open(LAMMPS_NS::Comm *comm, LAMMPS_NS::Error *error, MPI_Comm world, const std::string &what,
             const char *header) {
     if (opened_) return;

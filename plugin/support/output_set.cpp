@@ -26,13 +26,13 @@ constexpr const char *backup_suffix = ".earlier";
 
 fs::path backup_of(const fs::path &file) { return file.string() + backup_suffix; }
 
-/// Renames a backup, which a killed process has left, to the file.
+/// Gives a backup that a killed process has not restored the name of its file back.
 void recover(const fs::path &file) {
   std::error_code code;
   if (fs::exists(backup_of(file), code)) fs::rename(backup_of(file), file, code);
 }
 
-/// The number in a file's name, if the name is of the pattern.
+/// The number in a file's name, if the name matches the pattern.
 std::optional<long> number_of(const std::string &name, const NumberedFiles &pattern) {
   const std::size_t ends = pattern.prefix.size() + pattern.suffix.size();
   if (name.size() <= ends || name.compare(0, pattern.prefix.size(), pattern.prefix) != 0 ||
@@ -44,7 +44,7 @@ std::optional<long> number_of(const std::string &name, const NumberedFiles &patt
   return std::stol(digits);
 }
 
-/// The entries of a folder; none if it does not exist.
+/// The files and folders in a folder; empty if it does not exist.
 std::vector<fs::path> files_in(const std::string &folder) {
   std::error_code code;
   std::vector<fs::path> files;
@@ -74,8 +74,9 @@ bool is_whole_dump(const fs::path &file) {
   return !text.empty() && text.back() == '\n' && left <= 0;
 }
 
-/// The sets of this process. When a command fails the engine calls exit() without destroying its fixes, so
-/// that a function registered for exit() restores their files.
+/// All sets of this process that are not destroyed, of all engine instances: when a command fails, the engine
+/// calls exit() without destroying its fixes, and only a function of the process, registered by atexit(), can
+/// then restore the files.
 std::set<OutputSet *> &open_sets() {
   static std::set<OutputSet *> sets;
   return sets;
@@ -224,7 +225,7 @@ void OutputSet::commit() {
 
 void OutputSet::roll_back() {
   if (committed_) return;
-  committed_ = true; // not a second time, at exit()
+  committed_ = true; // so that exit() does not roll back a second time
   std::error_code code;
   for (const NumberedFiles &pattern : numbered_)
     for (const fs::path &file : files_in(pattern.folder))

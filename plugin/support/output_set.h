@@ -16,10 +16,10 @@ struct NumberedFiles {
   std::string folder, prefix, suffix;
 };
 
-/// The output files of one run. A file that an earlier run has left is renamed to its backup NAME.earlier.
-/// commit() removes the backups. If the object is destroyed or the process ends before commit(), what the
-/// failed run has written is removed and the backups get their names back. A process that is killed leaves
-/// the backups; the next set with these names renames them back first.
+/// The output files of one run. A file of an earlier run is renamed to its backup NAME.earlier. commit()
+/// removes the backups. If the object is destroyed or the process ends before commit(), what the failed run
+/// has written is removed and the backups get their names back. If a process is killed, the backups remain;
+/// the next set with these names restores them first.
 ///
 /// Functions throw std::runtime_error with the part of an error line behind "COMMAND: ". To be used on one
 /// rank.

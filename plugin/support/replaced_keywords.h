@@ -6,7 +6,7 @@
 
 namespace drumlin {
 
-/// How an engine's decks give to the plugin's law what the engines' own laws have keywords for.
+/// How decks of an engine set for the plugin's law the properties that the engines' own laws set by keywords.
 struct DropInForms {
   const char *coefficient;           ///< a dashpot coefficient, N s/m
   const char *ratio;                 ///< a damping ratio

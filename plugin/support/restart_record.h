@@ -1,5 +1,5 @@
 #pragma once
-// The state of a fix in the engine's restart file: a record of the number of bytes, then the numbers.
+// How a fix stores its state in the engine's restart file: the number of bytes, then the values as doubles.
 
 #include "engine.h"
 

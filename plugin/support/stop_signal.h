@@ -11,8 +11,8 @@ namespace drumlin {
 
 /// While an object of this class exists, SIGINT and SIGTERM do not end the process: they ask the engine to
 /// stop the run, which it does within about a tenth of a second, on all ranks after the same time step. The
-/// third signal ends the process at once. The destructor restores the earlier signal handlers. There may be
-/// only one object at a time.
+/// third signal ends the process at once. The destructor restores the earlier signal handlers. Signals are
+/// sent to a process, so that there may be only one object at a time in it.
 class StopSignal {
 public:
   explicit StopSignal(engine::LAMMPS *lmp);

@@ -1,5 +1,5 @@
 #pragma once
-// Which names an output file may have, and how a file is written so that it is complete or not there at all.
+// Allowed names of output files, and a function that writes a file completely or not at all.
 
 #include <string>
 

@@ -13,13 +13,13 @@ namespace {
 
 constexpr double pi = 3.141592653589793;
 
-/// How a place along one axis is shared by two cells, which are one at the edge.
+/// How a position along one axis is shared by two cells, which are the same cell at the edge.
 struct Pair {
   std::array<std::size_t, 2> cell;
   std::array<double, 2> share;
 };
 
-/// Calls visit(cell, share) for the cells that share a place.
+/// Calls visit(cell, share) for the cells that share a position.
 template <class Visit>
 void share_out(const FieldGrid &grid, const Vector &place, const Visit &visit) {
   const std::size_t axes = grid.flat ? 2 : 3;
@@ -102,7 +102,7 @@ std::vector<double> ball_pressures(const std::vector<Ball> &balls, const BedCont
   for (const BallContact &contact : contacts.balls) {
     const double normal =
         force_parts(contact)
-            .normal; // for either ball, -f . r is the normal force times the distance from its centre to the contact point
+            .normal; // for either ball -f . r = normal force times distance from its centre to the contact
     for (const std::size_t b : {contact.i, contact.j})
       pressures[b] += normal * (balls[b].radius - 0.5 * contact.overlap);
   }

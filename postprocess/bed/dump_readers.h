@@ -1,8 +1,8 @@
-// The dumps of the engines: text of LAMMPS and LIGGGHTS (dump custom, dump local), and VTK's files of
-// LIGGGHTS. The one reader of both.
+// Reads the dumps of the engines: text of LAMMPS and LIGGGHTS (dump custom, dump local), and VTK files of
+// LIGGGHTS.
 //
 // Readers throw CutShort, or another std::runtime_error, with the file and what is wrong with it. VTK's own
-// messages are kept off the screen and go into what().
+// messages are not printed but become part of what().
 #pragma once
 
 #include "bed/coarse_graining.h"
@@ -16,7 +16,7 @@
 
 namespace drumlin::post {
 
-/// A file that ends before what it announces does: its writer was stopped, or is still at work.
+/// A file has fewer rows than its header announces: its writer was stopped, or is still writing.
 class CutShort : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;
@@ -29,7 +29,7 @@ struct TextDump {
   std::vector<std::string> names;        ///< of the columns, as the file has them
   std::vector<std::vector<double>> rows; ///< as long as `names`; the numbers need not be finite
 
-  /// The place of a column in every row; std::runtime_error if the dump does not have it.
+  /// The index of a column in every row; std::runtime_error if the dump does not have it.
   std::size_t column(const std::string &name) const;
 };
 

@@ -18,14 +18,15 @@ constexpr double pi = 3.141592653589793;
 constexpr double most_cells = 5e7;
 /// Pairs of balls that may be looked at while the balls are placed: about an hour.
 constexpr double most_pairs = 1e12;
-/// Height of the box above the soil balls, m: room for drum and frame.
+/// Height of the box above the soil balls, m: space for drum and frame.
 constexpr double room_above = 2.0;
-/// Soil, drum, frame: a box knows the number of its types for good.
+/// Soil, drum, frame: a box cannot change its number of types later.
 constexpr int types = 3;
 constexpr std::array<std::pair<Grading, const char *>, 2> gradings = {
     {{Grading::uniform, "uniform"}, {Grading::mass, "mass"}}};
 
-/// Numbers from 0 to 1, 1 left out. The standard fixes the bits of the engine, but not what its distributions make of them.
+/// Numbers from 0 to 1, 1 left out. The C++ standard prescribes the output of the random engine, but not that
+/// of the distributions.
 class Random {
 public:
   explicit Random(std::uint64_t seed) : bits_(seed) {}
@@ -36,8 +37,9 @@ private:
   std::mt19937_64 bits_;
 };
 
-/// Inverse of the distribution of radii. Mass goes with the area or the volume of a ball, so that the same mass in equal
-/// intervals means a density of numbers ~ r^-2 or r^-3. No pow(): only what IEEE 754 rounds correctly.
+/// Inverse of the distribution of radii. Mass goes with the area or the volume of a ball, so that the same
+/// mass in equal intervals means a density of numbers ~ r^-2 or r^-3. Without pow(), only with operations
+/// that IEEE 754 rounds correctly, so that all machines get the same bits.
 double radius(const PackingOptions &options, double share) {
   const double low = options.radius_min;
   const double high = options.radius_max;
@@ -47,7 +49,8 @@ double radius(const PackingOptions &options, double share) {
   return 1.0 / std::sqrt(few - share * (few - 1.0 / (high * high)));
 }
 
-/// Balls by the cell that holds their centre; a cell is as wide as the largest ball, so that only neighbour cells count.
+/// Balls by the cell that holds their centre; a cell is as wide as the largest ball, so that only neighbour
+/// cells count.
 class Cells {
 public:
   Cells(const std::array<double, 3> &size, double cell) : cell_(cell) {
@@ -147,7 +150,7 @@ namespace {
 /// for, if they fit, or as much as they need. std::invalid_argument if they do not fit.
 double filled_height(const PackingOptions &options, double content_of_all) {
   const int dimensions = options.dimensions();
-  if (options.height == 0.0) { // along the walls a strip is not as full
+  if (options.height == 0.0) { // a strip along the walls is filled less
     const double strip = options.radius_max;
     const double free_base = (options.width - strip) * (dimensions == 2 ? 1.0 : options.depth - strip);
     return std::max(content_of_all / (free_base * default_share(dimensions)) + strip,

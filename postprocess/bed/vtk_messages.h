@@ -1,4 +1,4 @@
-// What VTK has to say, kept off the screen.
+// VTK's messages, collected instead of printed.
 #pragma once
 
 #include <vtkLogger.h>

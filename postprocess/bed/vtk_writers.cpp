@@ -79,7 +79,7 @@ void write(const fs::path &file, Data *data) {
   writer->SetInputData(data);
   // Appended data, VTK's default, is not read by the ParaView of Debian 12 with today's libexpat.
   writer->SetDataModeToBinary();
-  // Into memory first: on a full disk VTK's own writing to a file ends in a crash.
+  // To memory first: VTK crashes if it writes to a file on a full disk.
   writer->WriteToOutputStringOn();
   if (writer->Write() != 1 || !messages.first().empty())
     throw std::runtime_error(fmt::format("{}: cannot be written (VTK: {})", file.string(), messages.first()));

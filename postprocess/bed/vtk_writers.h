@@ -11,20 +11,20 @@
 
 namespace drumlin::post {
 
-/// What its contacts make of each ball; empty where they are not known.
+/// Sums over the contacts of each ball; empty if the contacts are not known.
 struct ContactSums {
   std::vector<int> coordination;
   std::vector<double> pressure; ///< see ball_pressures()
 };
-/// Numbers by name that belong to a step as a whole, as its phase of the cycle.
+/// Named numbers that belong to a step as a whole, such as its phase of the cycle.
 using StepValues = std::vector<std::pair<std::string, double>>;
 
-/// Points with radius, diameter, velocity, angular_velocity, force, mass, type, id; and coordination and pressure, if given. The values of the step
-/// are field data.
+/// Points with radius, diameter, velocity, angular_velocity, force, mass, type, id; and coordination and
+/// pressure, if given. The values of the step are field data.
 void write_ball_points(const std::filesystem::path &file, const std::vector<Ball> &balls,
                        const ContactSums &sums, const StepValues &values);
-/// Lines between the centres of two balls, or the image of one beyond a periodic side, or from a ball to a wall, with force, normal_force, tangential_force, overlap, id1, id2
-/// (0: a wall) as cell data.
+/// Lines between the centres of two balls, or the image of one beyond a periodic side, or from a ball to a
+/// wall, with force, normal_force, tangential_force, overlap, id1, id2 (0: a wall) as cell data.
 void write_contact_lines(const std::filesystem::path &file, const std::vector<Ball> &balls,
                          const BedContacts &contacts);
 /// An image with the fields as cell data, each by its name in BedFields.

@@ -73,14 +73,14 @@ TimeWindow last_cycles_window(int complete, int count, double period) {
   return {first * period, complete * period};
 }
 
-double relative_rms(const std::vector<double> &values, const std::vector<double> &truth, std::size_t first,
-                    std::size_t last) {
+double relative_rms(const std::vector<double> &values, const std::vector<double> &reference,
+                    std::size_t first, std::size_t last) {
   double difference = 0.0;
   double norm = 0.0;
   for (std::size_t i = first; i < last; ++i) {
-    const double d = values[i] - truth[i];
+    const double d = values[i] - reference[i];
     difference += d * d;
-    norm += truth[i] * truth[i];
+    norm += reference[i] * reference[i];
   }
   return first < last && norm > 0.0 ? std::sqrt(difference / norm) : not_a_number;
 }
@@ -119,14 +119,6 @@ double contact_share(const std::vector<ContactEvent> &events, TimeWindow window,
   return total / (window.end - window.begin);
 }
 
-double compaction_meter_value(const HarmonicAmplitudes &amplitudes) {
-  return 300.0 * amplitudes.second / amplitudes.fundamental;
-}
-
-double resonance_meter_value(const HarmonicAmplitudes &amplitudes) {
-  return 100.0 * amplitudes.half / amplitudes.fundamental;
-}
-
 HarmonicAmplitudes harmonic_amplitudes(const std::vector<double> &time, const std::vector<double> &value,
                                        double omega, TimeWindow window) {
   const std::array<double, 3> order{1.0, 2.0, 0.5};
@@ -149,22 +141,30 @@ HarmonicAmplitudes harmonic_amplitudes(const std::vector<double> &time, const st
   return {amplitude(0), amplitude(1), amplitude(2)};
 }
 
-std::optional<HarmonicAmplitudes> harmonic_amplitudes(const CycleColumns &cycles, std::size_t count) {
+CycleHarmonics cycle_harmonics(const CycleColumns &cycles) {
+  CycleHarmonics harmonics;
   for (const char *name : {"a1_cos", "a1_sin", "a2_cos", "a2_sin", "ah_cos", "ah_sin"})
-    if (!cycles.has(name)) return std::nullopt;
-  count = std::min(count, cycles.rows) / 2 * 2;
-  if (count == 0) return std::nullopt;
-  const auto amplitude = [&](const char *cosine, const char *sine) {
-    double c = 0.0;
-    double s = 0.0;
-    for (std::size_t i = cycles.rows - count; i < cycles.rows; ++i) {
-      c += cycles.at(cosine)[i];
-      s += cycles.at(sine)[i];
-    }
-    return std::hypot(c, s) / static_cast<double>(count);
+    if (!cycles.has(name)) return harmonics;
+  const auto take = [&cycles](const char *cosine, const char *sine) {
+    std::vector<std::complex<double>> values;
+    for (std::size_t i = 0; i < cycles.rows; ++i)
+      values.emplace_back(cycles.at(cosine)[i], -cycles.at(sine)[i]);
+    return values;
   };
-  return HarmonicAmplitudes{amplitude("a1_cos", "a1_sin"), amplitude("a2_cos", "a2_sin"),
-                            amplitude("ah_cos", "ah_sin")};
+  harmonics.fundamental = take("a1_cos", "a1_sin");
+  harmonics.second = take("a2_cos", "a2_sin");
+  harmonics.half = take("ah_cos", "ah_sin");
+  return harmonics;
+}
+
+std::optional<HarmonicAmplitudes> harmonic_amplitudes(const CycleColumns &cycles, std::size_t count) {
+  const CycleHarmonics harmonics = cycle_harmonics(cycles);
+  count = std::min(count, harmonics.fundamental.size()) / 2 * 2;
+  if (count == 0) return std::nullopt;
+  const std::size_t first = cycles.rows - count;
+  return HarmonicAmplitudes{amplitude_over(harmonics.fundamental, first, count),
+                            amplitude_over(harmonics.second, first, count),
+                            amplitude_over(harmonics.half, first, count)};
 }
 
 EventAcceleration acceleration_at(const ContactEvent &event, const ChainHistory &history,
@@ -202,12 +202,14 @@ EventSeries with_events(const ChainHistory &history, const std::vector<ContactEv
     out.event.push_back(event ? 1 : 0);
   };
   if (history.size() < 2) return out;
-  // Rows a hair outside of the window belong to it: a cycle's end is a row whose time is rounded.
+  // Rows outside of the window by a rounding error belong to it: the time of the row at a cycle's end is
+  // rounded.
   const double slack = 1.0e-6 * (window.end - window.begin);
   auto next = events.begin();
   while (next != events.end() && next->time < window.begin)
     ++next;
-  // A row at the very time of an event stands on the side of the jump that its force is nearer to.
+  // A row at exactly the time of an event is placed before or after the jump, depending on which force is
+  // nearer to its own.
   const auto comes_before = [&](std::size_t i) {
     const double jump_from = next->make ? 0.0 : next->force;
     const double jump_to = next->make ? next->force : 0.0;
@@ -258,7 +260,7 @@ SteadyExtremes steady_extremes(const ChainHistory &history, const std::vector<Co
   return out;
 }
 
-EventMatch match_events(const std::vector<ContactEvent> &run, const std::vector<ContactEvent> &truth) {
+EventMatch match_events(const std::vector<ContactEvent> &run, const std::vector<ContactEvent> &reference) {
   const auto later = [](const std::vector<ContactEvent> &events) {
     std::vector<ContactEvent> out;
     std::copy_if(events.begin(), events.end(), std::back_inserter(out),
@@ -266,10 +268,10 @@ EventMatch match_events(const std::vector<ContactEvent> &run, const std::vector<
     return out;
   };
   const std::vector<ContactEvent> a = later(run);
-  const std::vector<ContactEvent> b = later(truth);
+  const std::vector<ContactEvent> b = later(reference);
   EventMatch match;
   match.run_count = a.size();
-  match.truth_count = b.size();
+  match.reference_count = b.size();
   for (std::size_t i = 0; i < std::min(a.size(), b.size()) && a[i].make == b[i].make; ++i) {
     ++match.matched;
     const double difference = std::abs(a[i].time - b[i].time);
@@ -281,12 +283,14 @@ EventMatch match_events(const std::vector<ContactEvent> &run, const std::vector<
   return match;
 }
 
-double EnergyBalance::closure() const {
+double EnergyBalance::energy_error() const {
   return work_excitation - dissipated_contact - dissipated_bond - change_kinetic - change_potential -
          change_stored_contact - change_stored_bond;
 }
 
-double EnergyBalance::closure_percent() const { return 100.0 * closure() / std::abs(work_excitation); }
+double EnergyBalance::energy_error_percent() const {
+  return 100.0 * energy_error() / std::abs(work_excitation);
+}
 
 std::optional<EnergyBalance> energy_balance(const CycleColumns &cycles, std::string &missing) {
   missing.clear();
@@ -298,21 +302,21 @@ std::optional<EnergyBalance> energy_balance(const CycleColumns &cycles, std::str
     missing = "a second cycle";
     return std::nullopt;
   }
-  EnergyBalance ledger;
-  ledger.first_cycle = 1;
-  ledger.last_cycle = static_cast<double>(cycles.rows);
+  EnergyBalance balance;
+  balance.first_cycle = 1;
+  balance.last_cycle = static_cast<double>(cycles.rows);
   if (cycles.has("cycle")) {
-    ledger.first_cycle = cycles.at("cycle").front();
-    ledger.last_cycle = cycles.at("cycle").back();
+    balance.first_cycle = cycles.at("cycle").front();
+    balance.last_cycle = cycles.at("cycle").back();
   }
-  ledger.work_excitation = change(cycles.at("work_excitation"));
-  ledger.dissipated_contact = change(cycles.at("dissipated_contact"));
-  ledger.dissipated_bond = change(cycles.at("dissipated_bond"));
-  ledger.change_kinetic = change(cycles.at("kinetic"));
-  ledger.change_potential = change(cycles.at("potential"));
-  ledger.change_stored_contact = change(cycles.at("stored_contact"));
-  ledger.change_stored_bond = change(cycles.at("stored_bond"));
-  return ledger;
+  balance.work_excitation = change(cycles.at("work_excitation"));
+  balance.dissipated_contact = change(cycles.at("dissipated_contact"));
+  balance.dissipated_bond = change(cycles.at("dissipated_bond"));
+  balance.change_kinetic = change(cycles.at("kinetic"));
+  balance.change_potential = change(cycles.at("potential"));
+  balance.change_stored_contact = change(cycles.at("stored_contact"));
+  balance.change_stored_bond = change(cycles.at("stored_bond"));
+  return balance;
 }
 
 std::optional<RollerForce> roller_force(const ChainHistory &history, const std::vector<ContactEvent> &events,
@@ -404,7 +408,8 @@ std::optional<ImpactMeasure> measure_impact(const ChainHistory &history,
   ImpactMeasure measure;
   measure.speed_in = -history.v_drum.front();
   measure.speed_out = history.v_drum.back();
-  // Without gravity the approach is a straight flight; the located make, if there is one, says the same.
+  // Without gravity the ball approaches at constant speed, so that this is also the time of the make in
+  // events.csv.
   measure.make_time = history.time.front() + history.x_drum.front() / measure.speed_in;
   for (const ContactEvent &event : events)
     if (event.make) {

@@ -3,6 +3,7 @@
 // positive in compression.
 #pragma once
 
+#include <complex>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -11,6 +12,7 @@
 
 #include "chain/parameters.h"
 #include "chain/run_files.h"
+#include "support/harmonics.h"
 
 namespace drumlin::post {
 
@@ -34,9 +36,9 @@ int complete_cycles(double last_time, double period);
 TimeWindow last_cycles_window(int complete, int count, double period);
 
 /// Relative RMS difference sqrt(sum (a - b)^2 / sum b^2) over rows [first, last). NaN for an empty range;
-/// `truth` and `values` must have `last` rows at least.
-double relative_rms(const std::vector<double> &values, const std::vector<double> &truth, std::size_t first,
-                    std::size_t last);
+/// `reference` and `values` must have `last` rows at least.
+double relative_rms(const std::vector<double> &values, const std::vector<double> &reference,
+                    std::size_t first, std::size_t last);
 
 /// Share of the window spent in contact, computed from the times of the events. Whether there is contact at
 /// the start of the window follows from the last event before it; without one, from the first event after it
@@ -45,19 +47,6 @@ double contact_share(const std::vector<ContactEvent> &events, TimeWindow window,
 
 /// Events with begin <= time < end.
 std::vector<ContactEvent> events_in(const std::vector<ContactEvent> &events, TimeWindow window);
-
-/// Amplitudes of drum acceleration (m/s2) at 1, 2 and 1/2 times the excitation frequency.
-struct HarmonicAmplitudes {
-  double fundamental = 0.0;
-  double second = 0.0;
-  double half = 0.0;
-};
-
-/// Compaction meter value CMV = 300 A_2 / A_1 (-).
-double compaction_meter_value(const HarmonicAmplitudes &amplitudes);
-
-/// Resonance meter value RMV = 100 A_0.5 / A_1 (-).
-double resonance_meter_value(const HarmonicAmplitudes &amplitudes);
 
 /// Amplitudes by integrating a piecewise linear record a(t) (m/s2 over s) exactly against cosine and sine
 /// over the window. Two rows at one time are a jump. The window should be an even number of whole cycles, so
@@ -68,6 +57,14 @@ HarmonicAmplitudes harmonic_amplitudes(const std::vector<double> &time, const st
 /// Amplitudes from the per-cycle integrals a1_cos ... ah_sin (m/s2) of the last `count` rows; `count` is
 /// reduced to an even number of rows that exist. No value if columns or rows are missing.
 std::optional<HarmonicAmplitudes> harmonic_amplitudes(const CycleColumns &cycles, std::size_t count);
+
+/// Harmonics over each cycle (m/s2) from the same columns, of orders 1, 2 and 1/2. Empty without these columns.
+struct CycleHarmonics {
+  std::vector<std::complex<double>> fundamental;
+  std::vector<std::complex<double>> second;
+  std::vector<std::complex<double>> half;
+};
+CycleHarmonics cycle_harmonics(const CycleColumns &cycles);
 
 /// Drum acceleration (m/s2) just before and just after an event. The contact force jumps there, while the sum
 /// of the other forces on the drum, m2 a - F_contact, is continuous. If the history has the frame, this sum
@@ -109,13 +106,13 @@ SteadyExtremes steady_extremes(const ChainHistory &history, const std::vector<Co
 /// Events of a run paired with those of the reference solution, in the order in which they occur.
 struct EventMatch {
   std::size_t run_count = 0;
-  std::size_t truth_count = 0;
+  std::size_t reference_count = 0;
   std::size_t matched = 0;       ///< pairs from the start up to the first that differ in kind (make or break)
   double largest_difference = 0; ///< largest difference of time within a pair, s
   double at_time = 0;            ///< time of that pair in the reference solution, s
 };
 /// Events at time 0 and before (contact made while the chain was set up) are left out.
-EventMatch match_events(const std::vector<ContactEvent> &run, const std::vector<ContactEvent> &truth);
+EventMatch match_events(const std::vector<ContactEvent> &run, const std::vector<ContactEvent> &reference);
 
 /// Energy balance between the ends of the first and the last cycle of cycles.csv (J).
 struct EnergyBalance {
@@ -129,9 +126,9 @@ struct EnergyBalance {
   double change_stored_contact = 0.0;
   double change_stored_bond = 0.0;
   /// Energy error: work of the excitation minus dissipated energies and changes of stored energies, J.
-  double closure() const;
+  double energy_error() const;
   /// The same in per cent of the work.
-  double closure_percent() const;
+  double energy_error_percent() const;
 };
 /// No value if columns are missing (`missing` then names them) or there are fewer than two rows.
 std::optional<EnergyBalance> energy_balance(const CycleColumns &cycles, std::string &missing);

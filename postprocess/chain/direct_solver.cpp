@@ -61,7 +61,8 @@ public:
   double law(const State &y) const { return -(p_.k * y[x_drum] + c_ * y[v_drum]); }
   double contact_force(Phase phase, const State &y) const { return phase == Phase::contact ? law(y) : 0.0; }
 
-  // The same for the record: beside a break condition B's force is zero up to rounding, and never below.
+  // The same for output: near a break the force under condition B is zero within rounding errors, and is not
+  // recorded as negative.
   double recorded_force(Phase phase, const State &y) const {
     const double force = contact_force(phase, y);
     return p_.transition == Transition::B ? std::max(0.0, force) : force;
@@ -109,10 +110,10 @@ public:
     return {overlap_ends, force_begins};
   }
 
-  // Whether the fastest decay of the phase is so much faster than everything worth following that BDF pays.
-  // Adams' steps are bound by the decay rate (a few tenths of its inverse), BDF's at tight tolerances by
-  // accuracy (some thousand steps per radian of the motion's own time), so the two cost the same at a ratio
-  // near 10^2 to 10^3.
+  // Whether the fastest decay of the phase is so much faster than the motion that BDF needs fewer steps than
+  // Adams. Adams' steps are limited by the decay rate (to a few tenths of its inverse), BDF's at tight
+  // tolerances by accuracy (some thousand steps per radian of the motion), so that the two cost the same at a
+  // ratio of the rates near 10^2 to 10^3.
   bool stiff(Phase phase) const {
     constexpr double bdf_pays = 300.0;
     const Rates found = rates(phase);
@@ -153,8 +154,8 @@ private:
   double c_;
 };
 
-// Absolute tolerances far below what any component contributes to the forces: rtol alone would demand the
-// impossible wherever a component passes through zero.
+// Absolute tolerances far below each component's contribution to the forces: a relative tolerance alone could
+// not be met where a component passes through zero.
 State absolute_tolerances(const ChainParameters &p, const DirectOptions &options) {
   const double c = p.damping();
   const double root = std::sqrt(p.m2 * p.k);
@@ -206,8 +207,8 @@ struct Reached {
   std::array<bool, max_exits> leaving = {}; // the exits that CVODE found crossed here
 };
 
-// One method of CVODE for one chain, started anew for every smooth piece. Time runs from 0 within a piece, so
-// that events are located to the rounding of the piece's length rather than of the whole run's.
+// One method of CVODE for one chain, started again for every smooth piece. Time runs from 0 within a piece,
+// so that events are located to the rounding of the piece's length rather than of the whole run's.
 class Integrator {
 public:
   Integrator(SUNContext context, const Chain &chain, const DirectOptions &options, bool bdf)
@@ -255,7 +256,7 @@ public:
     check(CVodeSetStopTime(memory, length), "CVodeSetStopTime");
   }
 
-  // Goes on by one step, or less if a root lies within it.
+  // Continues by one step, or less if a root lies within it.
   Reached step() {
     Reached reached;
     const int flag = CVode(memory_.get(), length_, state_.get(), &reached.elapsed, CV_ONE_STEP);
@@ -414,7 +415,7 @@ public:
     take(before_);
   }
 
-  // The motion goes on smoothly to t, which lies no further than next().
+  // The motion continues smoothly to t, which is not later than next().
   void follow(Phase phase, double t, const State &y) {
     const State rate = chain_.derivative(phase, t, y);
     const Moment now = moment(phase, t, y, rate);
@@ -540,7 +541,8 @@ public:
     const double end = recorder_.end();
     recorder_.begin_piece(phase_, t_, y_);
     recorder_.grid_point(phase_, y_);
-    // What is left after an event beside the end is below the rounding of the period: nothing moves in it.
+    // The rest of the run after an event near its end may be shorter than the rounding error of the period:
+    // nothing moves in it.
     const double nothing = 1e-14 * chain_.parameters().period();
     bool at_end = false;
     while (!at_end && end - t_ > nothing)
@@ -623,9 +625,9 @@ private:
     double elapsed = no_limit;
   };
 
-  // CVODE finds the crossings that change a sign from one end of the step to the other. Two kinds it cannot
-  // see: there and back within the step, and of a function that is zero, or beyond by rounding, where the
-  // piece starts.
+  // CVODE finds the exits whose sign differs between the two ends of the step. It does not find two kinds: a
+  // function that crosses zero and returns within the step, and one that is zero, or positive by rounding,
+  // where the piece starts.
   Departure first_departure(Integrator &integrator, double start, double from, const Reached &reached) const {
     const auto exits_at = [&](double elapsed) {
       const State y = integrator.state_at(elapsed);
@@ -646,12 +648,12 @@ private:
             (negative(middle) ? lo : hi) = middle;
         };
         if (now[i].value > 0.0) {
-          if (before[i].rate < 0.0) { // inwards at first: out again only after a turn
+          if (before[i].rate < 0.0) { // it falls at first: it can cross zero only after a minimum
             if (now[i].rate <= 0.0) continue;
             bisect([&](double elapsed) { return exits_at(elapsed)[i].rate < 0.0; });
             hi = reached.elapsed;
           }
-        } else if (before[i].rate > 0.0 && now[i].rate < 0.0) { // there and back: how far?
+        } else if (before[i].rate > 0.0 && now[i].rate < 0.0) { // it has a maximum within the step: find it
           bisect([&](double elapsed) { return exits_at(elapsed)[i].rate > 0.0; });
           if (exits_at(hi)[i].value <= 0.0) continue;
           lo = from;

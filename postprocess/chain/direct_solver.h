@@ -1,6 +1,6 @@
 // The reference solution of the chain: its ordinary differential equations solved without an engine, to which
 // every run of an engine is compared. CVODE integrates from one make or break of contact (event) to the next;
-// its root finding locates the events; it is started anew at each event, because the contact force changes
+// its root finding locates the events; it is started again at each event, because the contact force changes
 // its law there.
 #pragma once
 

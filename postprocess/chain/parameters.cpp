@@ -1,7 +1,9 @@
 #include "chain/parameters.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -10,18 +12,17 @@ namespace drumlin::post {
 
 namespace {
 
-constexpr double PI = 3.14159265358979323846; // as the decks call it
+constexpr double PI = 3.14159265358979323846; // its name in the decks
 
-struct NamedCase {
+// A line of a case as CMake takes it from the decks inputs/chain/case.*; a mass of 0 stands for the
+// defaults of the chain.
+struct CaseRow {
   const char *name;
-  double k;
-  double D;
-  double omega;
+  double k, D, omega;
+  double me_re = 0, m2 = 0, m3 = 0, k23 = 0, c23 = 0;
 };
-
-// Table 1 of the paper: what differs between the cases. CMake takes it from the decks inputs/chain/case.*.
-constexpr std::array<NamedCase, table1_cases.size()> table1 = {{
-#include <table1.inc>
+constexpr std::array<CaseRow, chain_cases.size()> rows = {{
+#include <cases.inc>
 }};
 
 } // namespace
@@ -62,17 +63,29 @@ std::string ChainParameters::invalid() const {
   return {};
 }
 
+NamedChain named_chain(const std::string &name, Transition transition) {
+  const auto *const row =
+      std::find_if(rows.begin(), rows.end(), [&](const CaseRow &entry) { return name == entry.name; });
+  if (row == rows.end())
+    throw std::invalid_argument(refusal("case", name, fmt::format("{}", fmt::join(chain_cases, ", "))));
+  NamedChain chain;
+  ChainParameters &p = chain.parameters;
+  p.k = row->k;
+  p.D = row->D;
+  p.omega = row->omega;
+  p.transition = transition;
+  if (row->m2 == 0.0) return chain;
+  chain.me_re = row->me_re;
+  p.Fw = row->me_re * p.omega * p.omega;
+  p.m2 = row->m2;
+  p.m3 = row->m3;
+  p.k23 = row->k23;
+  p.c23 = row->c23;
+  return chain;
+}
+
 ChainParameters table1_case(const std::string &name, Transition transition) {
-  for (const NamedCase &entry : table1) {
-    if (name != entry.name) continue;
-    ChainParameters parameters;
-    parameters.k = entry.k;
-    parameters.D = entry.D;
-    parameters.omega = entry.omega;
-    parameters.transition = transition;
-    return parameters;
-  }
-  throw std::invalid_argument(refusal("case", name, "I, II, III, IV"));
+  return named_chain(name, transition).parameters;
 }
 
 } // namespace drumlin::post

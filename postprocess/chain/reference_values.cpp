@@ -35,7 +35,7 @@ ReferenceValue force(const char *name, const char *transition, Quantity quantity
           1.0e-3, "kN",       steady_source};
 }
 
-/// Condition B never pulls: exactly zero is asked for.
+/// Under condition B there is no tension: the value must be exactly zero.
 ReferenceValue no_tension(const char *name) {
   return {name, "B", Quantity::contact_force_min, 0.0, 0.0, 2, 0.0, 1.0e-3, "kN", steady_source};
 }

@@ -1,6 +1,6 @@
 // The values that the report judges runs by, as data: steady states of the paper's four cases, compaction
 // meter values, restitution of a single impact, and velocity errors known for a number of steps per cycle.
-// Where a value comes from stands beside it. SI units unless a unit is named.
+// Each value has its source. SI units unless a unit is named.
 #pragma once
 
 #include <optional>
@@ -63,11 +63,12 @@ struct ReferencePeakRatio {
   std::string source = "paper, Case III (\"approximately half\"); reference, steady states";
 };
 
-/// Relative RMS error of drum velocity, cycles 25 to 30, condition B, of the stepping that the reference
-/// recommends ("2 theta then 1") at a number of steps per cycle; nothing where the table has no entry.
+/// Relative RMS error of drum velocity, cycles 25 to 30, condition B, of the integration scheme that the
+/// reference recommends ("2 theta then 1") at a number of steps per cycle; nothing where the table has no
+/// entry.
 std::optional<double> reference_velocity_error(const std::string &case_name, int steps_per_cycle);
 
-/// The same for the stock binary's stepping; the table has case II only.
+/// The same for the integration scheme of the stock engine; the table has case II only.
 std::optional<double> reference_stock_velocity_error(const std::string &case_name, int steps_per_cycle);
 
 /// Share of the impact velocity that a single impact without gravity returns, closed form.

@@ -72,8 +72,6 @@ const CsvSchema<CycleSummary> &cycle_columns() {
   return schema;
 }
 
-constexpr const char *parameters_header = "name,value";
-
 /// Columns of cycles.csv that read_cycle_columns() reads; any of them may be missing.
 constexpr const char *known_cycle_columns[] = {
     "cycle",           "time",          "a_drum_min", "a_drum_max",      "F_contact_min",
@@ -125,17 +123,6 @@ CycleColumns read_cycle_columns(const fs::path &file) {
   return cycles;
 }
 
-std::map<std::string, std::string> read_parameters(const fs::path &file) {
-  const Table table = read_table(file);
-  const std::vector<std::string> names = table.text("name");
-  const std::vector<std::string> values = table.text("value");
-  std::map<std::string, std::string> parameters;
-  for (std::size_t i = 0; i < table.rows(); ++i)
-    if (!parameters.emplace(names[i], values[i]).second)
-      csv_refusal(file, table.line(i), "name", names[i], "each name once");
-  return parameters;
-}
-
 std::string chain_text(const ChainHistory &history) {
   std::vector<std::string> names;
   std::vector<const std::vector<double> *> columns;
@@ -160,13 +147,6 @@ std::string chain_text(const ChainHistory &history) {
 std::string events_text(const std::vector<ContactEvent> &events) { return event_columns().text(events); }
 
 std::string cycles_text(const std::vector<CycleSummary> &cycles) { return cycle_columns().text(cycles); }
-
-std::string parameters_text(const std::vector<std::pair<std::string, std::string>> &parameters) {
-  std::string text = fmt::format("{}\n", parameters_header);
-  for (const auto &[name, value] : parameters)
-    text += fmt::format("{},{}\n", csv_cell(name), csv_cell(value));
-  return text;
-}
 
 std::vector<std::pair<std::string, std::string>> parameter_values(const ChainParameters &p) {
   std::vector<std::pair<std::string, std::string>> values = {{"transition", transition_name(p.transition)}};

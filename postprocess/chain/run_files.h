@@ -1,9 +1,11 @@
-// The CSV files of a chain run: chain.csv, events.csv, cycles.csv, parameters.csv. One reader and one writer
-// per file, for the engine's output and for the direct solver's alike. Errors and numbers are as in support/csv.h.
+// The CSV files of a chain run: chain.csv, events.csv, cycles.csv, and parameters.csv (support/parameter_file.h).
+// One reader and one writer per file, for the engine's output and for the direct solver's alike. Errors and
+// numbers are as in support/csv.h.
 #pragma once
 
 #include "chain/parameters.h"
 #include "support/csv.h"
+#include "support/parameter_file.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -44,7 +46,7 @@ struct ContactEvent {
   long id_j = 2;             ///< the higher (drum)
 };
 
-/// What one cycle of the excitation did: one row of cycles.csv.
+/// Extremes and contact share of one cycle of the excitation: one row of cycles.csv.
 struct CycleSummary {
   int cycle = 0;              ///< counted from 1
   double time = 0.0;          ///< start of the cycle [s]
@@ -71,14 +73,11 @@ ChainHistory read_chain(const std::filesystem::path &file);
 std::vector<ContactEvent> read_events(const std::filesystem::path &file);
 /// Reads the columns of a cycles.csv that are known; any may be missing.
 CycleColumns read_cycle_columns(const std::filesystem::path &file);
-/// Reads parameters.csv, header name,value.
-std::map<std::string, std::string> read_parameters(const std::filesystem::path &file);
 
 /// The text of the files.
 std::string chain_text(const ChainHistory &history);
 std::string events_text(const std::vector<ContactEvent> &events);
 std::string cycles_text(const std::vector<CycleSummary> &cycles);
-std::string parameters_text(const std::vector<std::pair<std::string, std::string>> &parameters);
 
 /// The chain's parameters by the names that decks, commands and parameters.csv give them, as text.
 std::vector<std::pair<std::string, std::string>> parameter_values(const ChainParameters &parameters);

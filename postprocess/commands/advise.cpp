@@ -1,4 +1,4 @@
-#include "commands/advise.h"
+#include "commands/commands.h"
 
 #include "chain/run_files.h"
 #include "commands/chain_options.h"
@@ -35,7 +35,7 @@ struct Arguments {
   std::optional<std::string> from;
 };
 
-/// As many as in.chain takes.
+/// The largest number that in.chain allows.
 constexpr int most_cycles = 10'000'000;
 
 struct Measure {
@@ -104,7 +104,7 @@ void run(const Arguments &arguments) {
              request.parameters.period() / advice.critical_steps,
              advice.steps_per_cycle / advice.critical_steps);
   fmt::print("  time       about {:.2g} s for {} cycles at {:.2g} microseconds a step, as where the curves "
-             "were measured, besides the start of the engine\n",
+             "were measured, in addition to the start of the engine\n",
              advice.seconds_per_step * cycles * advice.steps_per_cycle, cycles,
              1e6 * advice.seconds_per_step);
   fmt::print("  run        {} run inputs/chain/in.chain{} -var stepping {} -var cycles {} -var "

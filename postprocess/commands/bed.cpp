@@ -1,5 +1,6 @@
 #include "commands/bed.h"
 
+#include "commands/commands.h"
 #include "support/files.h"
 #include "support/options.h"
 #include "support/progress.h"

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "bed/packing.h"
-#include "support/usage_error.h"
 
 #include <filesystem>
 
@@ -15,11 +14,8 @@ struct BedRequest {
   std::filesystem::path out = "results/bed/balls.data"; ///< its folder is made if missing
 };
 
-/// Packs the balls, writes the data file that inputs/bed/in.settle reads, and prints one line about it. Throws UsageError for options that
-/// no packing fulfils and for a file that cannot be written.
+/// Packs the balls, writes the data file that inputs/bed/in.settle reads, and prints one line about it.
+/// Throws UsageError for options that no packing fulfils and for a file that cannot be written.
 void write_bed(const BedRequest &request);
-
-/// Adds `bed`, with an option for each entry of BedRequest.
-void add_bed_command(CLI::App &app, Session &session);
 
 } // namespace drumlin::post

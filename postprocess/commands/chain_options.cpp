@@ -5,13 +5,17 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <stdexcept>
 
 namespace drumlin::post {
 
 void add_chain_options(CLI::App &command, ChainArguments &arguments) {
-  command.add_option("--case", arguments.chain_case, "case of the paper's Table 1: I, II, III or IV")
+  command
+      .add_option("--case", arguments.chain_case,
+                  fmt::format("case of the paper's Table 1, or a roller of a manufacturer: {}",
+                              fmt::join(chain_cases, ", ")))
       ->capture_default_str();
   command.add_option("--transition", arguments.transition, "transition condition of the contact: A or B")
       ->capture_default_str();
@@ -25,20 +29,26 @@ void add_chain_options(CLI::App &command, ChainArguments &arguments) {
         ->group("Instead of the case's values");
 }
 
-ChainParameters judged(const ChainArguments &arguments) {
-  ChainParameters parameters;
+NamedChain judged_chain(const ChainArguments &arguments) {
+  NamedChain chain;
   try {
-    parameters = table1_case(arguments.chain_case, transition_from_name(arguments.transition));
+    chain = named_chain(arguments.chain_case, transition_from_name(arguments.transition));
   } catch (const std::invalid_argument &error) {
     throw UsageError(fmt::format("--{}", error.what()));
   }
-  for (std::size_t i = 0; i < chain_numbers.size(); ++i)
-    if (arguments.numbers[i])
-      parameters.*chain_numbers[i].value = number_option(fmt::format("--{}", chain_numbers[i].name).c_str(),
-                                                         *arguments.numbers[i], chain_numbers[i].range);
+  ChainParameters &parameters = chain.parameters;
+  for (std::size_t i = 0; i < chain_numbers.size(); ++i) {
+    const auto &[name, value, range, help] = chain_numbers[i];
+    if (!arguments.numbers[i]) continue;
+    parameters.*value = number_option(fmt::format("--{}", name).c_str(), *arguments.numbers[i], range);
+    if (value == &ChainParameters::Fw) chain.me_re.reset();
+  }
+  if (chain.me_re) parameters.Fw = *chain.me_re * parameters.omega * parameters.omega;
   if (const std::string fault = parameters.invalid(); !fault.empty()) throw UsageError("--" + fault);
-  return parameters;
+  return chain;
 }
+
+ChainParameters judged(const ChainArguments &arguments) { return judged_chain(arguments).parameters; }
 
 std::string deck_words(const ChainArguments &arguments) {
   std::string words =

@@ -1,5 +1,5 @@
-// The chain on a command line: --case, --transition and what replaces the case's values. One rule and one kind of message
-// for all subcommands that take a chain.
+// Options that describe the chain: --case, --transition and the options that replace values of the case. All
+// subcommands that need a chain read them here, with the same checks and messages.
 #pragma once
 
 #include "chain/parameters.h"
@@ -14,7 +14,7 @@ class App;
 
 namespace drumlin::post {
 
-/// The options as given. Numbers stay text until all are judged.
+/// The options as given. Numbers stay text until judged() checks them.
 struct ChainArguments {
   std::string chain_case = "II";
   std::string transition = "B";
@@ -24,7 +24,10 @@ struct ChainArguments {
 /// Adds --case, --transition, --k and so on; `arguments` must outlive the app.
 void add_chain_options(CLI::App &command, ChainArguments &arguments);
 
-/// The chain that was asked for; UsageError if it cannot be computed.
+/// The chain that was asked for; UsageError if it cannot be computed. The force of a roller's exciter follows
+/// from the frequency by its eccentric moment, unless --Fw is given.
+NamedChain judged_chain(const ChainArguments &arguments);
+/// Its parameters alone.
 ChainParameters judged(const ChainArguments &arguments);
 
 /// The same as -var words for in.chain, each after a blank.

@@ -1,4 +1,4 @@
-#include "commands/demo.h"
+#include "commands/commands.h"
 
 #include "commands/bed.h"
 #include "commands/report.h"
@@ -71,7 +71,7 @@ Plan plan_of(const Arguments &arguments) {
   return plan;
 }
 
-/// Prints at once. Throws std::runtime_error if nobody gets to see it.
+/// Prints without delay. Throws std::runtime_error if the output cannot be written.
 void print(const std::string &text) {
   errno = 0;
   if (std::fputs(text.c_str(), stdout) >= 0 && std::fflush(stdout) == 0) return;
@@ -142,7 +142,7 @@ private:
     engine_run({"in LAMMPS", out, decks_ / "chain/in.chain.lammps", variables(out)});
   }
 
-  /// Balls at random, which come to rest, and the roller, which comes to rest on them.
+  /// Makes a bed of balls placed at random, lets it settle, and lets the roller settle on it.
   void make_bed() {
     print(next());
     plan_.bed.out = bed_ / "balls.data";
@@ -208,7 +208,8 @@ private:
   int done_ = 0, all_;
 };
 
-/// The folder of the decks, named from the working folder where it is below it: a name without blanks, whatever the path of the checkout.
+/// The folder of the decks, named from the working folder where it is below it: a name without blanks,
+/// whatever the path of the checkout.
 fs::path decks_folder() {
   std::error_code code;
   return fs::equivalent(places().inputs, "inputs", code) ? fs::path("inputs") : places().inputs;
@@ -223,7 +224,7 @@ void run(const Arguments &arguments) {
                     "can be written",
                     fs::current_path().string()));
   output_folder_option("report", page_folder);
-  std::signal(SIGPIPE, SIG_IGN); // print() tells of a reader that has gone
+  std::signal(SIGPIPE, SIG_IGN); // print() reports a closed pipe
   Demo(plan, decks_folder(), engine_fault(Engine::lammps).empty()).run();
 }
 

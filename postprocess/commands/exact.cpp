@@ -1,4 +1,4 @@
-#include "commands/exact.h"
+#include "commands/commands.h"
 
 #include "chain/direct_solver.h"
 #include "chain/parameters.h"
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The options as given. Numbers stay text until all are judged by one rule with one kind of message.
+// The options as given. Numbers stay text until they are checked.
 struct Arguments {
   ChainArguments chain;
   std::string cycles = "30";
@@ -104,10 +104,9 @@ void run(const Arguments &arguments, const std::string &command) {
 
 void add_exact_command(CLI::App &app, Session &session) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App *exact = app.add_subcommand(
-      "exact",
-      "Solve the chain soil - drum - frame directly, without an engine: the truth beside engine runs. Writes "
-      "chain.csv, events.csv, cycles.csv and parameters.csv.");
+  CLI::App *exact = app.add_subcommand("exact", "Solve the chain soil - drum - frame directly, without an "
+                                                "engine: the reference solution for engine runs. Writes "
+                                                "chain.csv, events.csv, cycles.csv and parameters.csv.");
   add_chain_options(*exact, arguments->chain);
   exact->add_option("--cycles", arguments->cycles, "cycles of the excitation")
       ->type_name("NUMBER")

@@ -1,15 +1,5 @@
 // The tool behind ./drumlin: one program, one subcommand per job.
-#ifndef DRUMLIN_ONLY_RUN
-#include "commands/advise.h"
-#include "commands/bed.h"
-#include "commands/demo.h"
-#include "commands/exact.h"
-#include "commands/map.h"
-#include "commands/report.h"
-#include "commands/study.h"
-#include "commands/vtk.h"
-#endif
-#include "commands/run.h"
+#include "commands/commands.h"
 #include "support/range.h"
 #include "support/usage_error.h"
 
@@ -36,14 +26,17 @@ struct Subcommand {
   AddCommand add;
 };
 
-// A new subcommand is one line here. A build with -DDRUMLIN_POSTPROCESS=OFF has `run` alone, which needs none of the libraries of the others.
+// A new subcommand is one line here. A build with -DDRUMLIN_POSTPROCESS=OFF has `run` alone, which needs none
+// of the libraries of the others.
 constexpr std::array subcommands = {
 #ifndef DRUMLIN_ONLY_RUN
     Subcommand{"advise", &drumlin::post::add_advise_command},
     Subcommand{"bed", &drumlin::post::add_bed_command},
     Subcommand{"demo", &drumlin::post::add_demo_command},
     Subcommand{"exact", &drumlin::post::add_exact_command},
+    Subcommand{"identify", &drumlin::post::add_identify_command},
     Subcommand{"map", &drumlin::post::add_map_command},
+    Subcommand{"meter", &drumlin::post::add_meter_command},
     Subcommand{"report", &drumlin::post::add_report_command},
     Subcommand{"study", &drumlin::post::add_study_command},
     Subcommand{"vtk", &drumlin::post::add_vtk_command},
@@ -78,8 +71,8 @@ int fail(const std::string &subcommand, const std::string &what, int status) {
   return status;
 }
 
-/// Opens those of standard input, output and errors that are closed, if only to nowhere: a file that is opened later would take the number of
-/// one of them, and get what is printed.
+/// Opens standard input, output and error streams that are closed, to /dev/null: otherwise a file that is
+/// opened later would get the number of one of them, and the printed text would go into this file.
 void open_standard_streams() {
   for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream)
     if (::fcntl(stream, F_GETFD) < 0)
@@ -131,7 +124,7 @@ int main(int argc, char **argv) {
     const bool printed = std::fflush(stdout) == 0 && static_cast<bool>(std::cout.flush());
     return status != 0 || printed ? status
                                   : fail("", "standard output cannot be written; allowed: one that can", 1);
-  } catch (...) { // not even a message could be made
+  } catch (...) { // there was no memory for a message
     return 1;
   }
 }

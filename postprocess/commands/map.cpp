@@ -1,9 +1,12 @@
-#include "commands/map.h"
+#include "commands/commands.h"
 
 #include "chain/run_files.h"
 #include "commands/chain_options.h"
+#include "engine/engine_command.h"
+#include "roller/engine_points.h"
 #include "roller/map_figures.h"
 #include "roller/regime_map.h"
+#include "studies/study.h"
 #include "support/csv.h"
 #include "support/files.h"
 #include "support/options.h"
@@ -43,6 +46,8 @@ struct Arguments {
   std::string cycles = "300";
   std::string threads = "2";
   std::string out = "results/map";
+  std::optional<std::string> engine;
+  std::optional<std::string> engine_points;
   bool fresh = false;
   bool axes_given = false;
 };
@@ -51,6 +56,8 @@ struct Task {
   MapGrid grid;
   std::optional<MapAxis> sweep;
   int threads = 1;
+  std::optional<Engine> engine; ///< runs the chain at some points
+  std::size_t engine_points = 12;
   fs::path out;
 };
 
@@ -70,7 +77,7 @@ void judge_corner(const ChainParameters &parameters) {
   for (const bool touching : {true, false}) {
     const PhaseDynamics dynamics(parameters, touching ? parameters.k : 0.0,
                                  touching ? parameters.damping() : 0.0);
-    // The rate once a fast decay is over counts: it lasts.
+    // Judged by the pieces after the fast decay, since they make up nearly all of the motion.
     if (parameters.period() / dynamics.longest_piece(1e300) > most_pieces)
       throw UsageError(refusal(
           "--omega", parameters.omega,
@@ -80,10 +87,38 @@ void judge_corner(const ChainParameters &parameters) {
   }
 }
 
+// Judges --engine and --engine-points, with the axes of the map.
+void judge_engine(const Arguments &arguments, Task &task) {
+  constexpr int most_points = 10000;
+  if (arguments.engine_points) {
+    if (!arguments.engine)
+      throw UsageError(refusal("--engine-points", *arguments.engine_points, "only with --engine"));
+    task.engine_points =
+        static_cast<std::size_t>(count_option("--engine-points", *arguments.engine_points, 1, most_points));
+  }
+  if (!arguments.engine) return;
+  const std::string &name = choice_option("--engine", *arguments.engine, {"liggghts", "lammps"});
+  if (task.sweep) throw UsageError(refusal("--engine", name, "only with a map, not with --sweep"));
+  task.engine = name == "lammps" ? Engine::lammps : Engine::liggghts;
+  if (const std::string fault = engine_fault(*task.engine); !fault.empty())
+    throw UsageError(fmt::format("--engine is '{}': {}", name, fault));
+  const MapGrid &grid = task.grid;
+  for (const double x : {grid.x.from, grid.x.to})
+    for (const double y : {grid.y.from, grid.y.to})
+      if (const ChainParameters p = grid.at(x, y); 1.0 * grid.cycles * engine_steps(p) > most_engine_steps)
+        throw UsageError(
+            refusal("--engine", name,
+                    fmt::format("a map whose runs have at most {:g} time steps: {} cycles of k = {:g} "
+                                "N/m, m2 = {:g} kg, omega = {:g} rad/s have {:.3g}",
+                                most_engine_steps, grid.cycles, p.k, p.m2, p.omega,
+                                1.0 * grid.cycles * engine_steps(p))));
+}
+
 Task judge(const Arguments &arguments) {
   Task task;
   MapGrid &grid = task.grid;
-  grid.chain.base = judged(arguments.chain);
+  const NamedChain chain = judged_chain(arguments.chain);
+  grid.chain.base = chain.parameters;
   if (arguments.me_re) grid.chain.me_re = number_option("--me-re", *arguments.me_re, {1e-9, 1e12, "kg m"});
   std::vector<std::pair<MapAxis, const char *>> axes;
   if (arguments.sweep) {
@@ -104,13 +139,16 @@ Task judge(const Arguments &arguments) {
   for (std::size_t i = 0; moment && i < chain_numbers.size(); ++i)
     if (arguments.chain.numbers[i] && std::string("Fw") == chain_numbers[i].name)
       throw UsageError(
-          refusal("--Fw", *arguments.chain.numbers[i], "not beside me_re, from which Fw follows"));
+          refusal("--Fw", *arguments.chain.numbers[i], "not together with me_re, from which Fw follows"));
   for (const auto &[axis, option] : axes) {
     if (axis.name == "Fw" && moment)
-      throw UsageError(refusal(option, "Fw", "not beside me_re, from which Fw follows"));
+      throw UsageError(refusal(option, "Fw", "not together with me_re, from which Fw follows"));
     if (axis.name == "me_re" && arguments.me_re)
-      throw UsageError(refusal("--me-re", *arguments.me_re, "not beside an axis me_re"));
+      throw UsageError(refusal("--me-re", *arguments.me_re, "not together with an axis me_re"));
   }
+  const bool force =
+      std::any_of(axes.begin(), axes.end(), [](const auto &axis) { return axis.first.name == "Fw"; });
+  if (!moment && !force) grid.chain.me_re = chain.me_re;
   grid.cycles = count_option("--cycles", arguments.cycles, least_cycles, most_cycles);
   task.threads = count_option("--threads", arguments.threads, 1, most_threads);
   if (task.sweep)
@@ -120,6 +158,7 @@ Task judge(const Arguments &arguments) {
     for (const double x : {grid.x.from, grid.x.to})
       for (const double y : {grid.y.from, grid.y.to})
         judge_corner(grid.at(x, y));
+  judge_engine(arguments, task);
   task.out = output_folder_option("--out", arguments.out);
   return task;
 }
@@ -157,7 +196,7 @@ std::string point_row(const MapGrid &grid, std::size_t i, const RegimePoint &p) 
                      number_text(p.exponent.mean), number_text(p.exponent.low), number_text(p.exponent.high));
 }
 
-// The points that an interrupted call left; a last row that is not whole is forgotten.
+// The points that an interrupted call has measured; an incomplete last row is ignored.
 std::vector<RegimePoint> earlier_points(const fs::path &file, const MapGrid &grid) {
   std::string text = read_text(file);
   const std::size_t end = text.rfind('\n');
@@ -198,7 +237,7 @@ void draw(const fs::path &out, const MapFigures &figures) {
     render(gnuplot, out, figure);
 }
 
-// Opens the folder: new, or one that holds the same map, whose points count.
+// Opens a new folder, or one that has results of the same map, which are then continued.
 bool holds_same(const Task &task, const std::string &record, bool fresh) {
   const fs::path file = task.out / record_name;
   if (!fs::exists(file)) {
@@ -216,6 +255,42 @@ bool holds_same(const Task &task, const std::string &record, bool fresh) {
     throw UsageError(fmt::format("--out is '{}': {}", task.out.string(), error.what()));
   }
   return false;
+}
+
+// Runs the chain in the engine at some points of the map, those that an earlier call has not finished; all of
+// them in the order of spread_points().
+std::vector<EnginePoint> engine_runs(const Task &task, const std::vector<RegimePoint> &points) {
+  if (!task.engine) return {};
+  const MapGrid &grid = task.grid;
+  const char *name = *task.engine == Engine::lammps ? "lammps" : "liggghts";
+  const fs::path file = task.out / fmt::format("engine_points_{}.csv", name);
+  const CsvSchema<EnginePoint> columns = engine_point_columns(grid);
+  StudyResults results(file, columns);
+  const std::vector<std::size_t> chosen = spread_points(grid, task.engine_points);
+  TimedProgress progress;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    EnginePoint like;
+    like.x = grid.x_of(chosen[i]);
+    like.y = grid.y_of(chosen[i]);
+    if (!results.has(columns.key(like)))
+      results.add(columns.cells(run_engine_point(grid, chosen[i], points[chosen[i]], *task.engine)));
+    progress.tell("{} of {} runs of {}", i + 1, chosen.size(), name);
+  }
+  return columns.rows(read_table(file));
+}
+
+void print_engine_runs(const MapGrid &grid, const std::vector<EnginePoint> &runs) {
+  if (runs.empty()) return;
+  fmt::print("{:>13} {:>13}  {:<20}{:<20}{:>12} {:>12} {:>11}\n", grid.x.label(), grid.y.label(),
+             "regime, exact", "in the engine", "peak [kN]", "engine [kN]", "difference");
+  for (const EnginePoint &run : runs)
+    fmt::print("{:>13.5g} {:>13.5g}  {:<20}{:<20}{:>12.3f} {:>12.3f} {:>11.1e}{}\n", run.x, run.y, run.exact,
+               run.engine, run.exact_peak / 1e3, run.engine_peak / 1e3, run.difference,
+               run.same_regime() ? "" : "  another regime");
+  fmt::print(
+      "{} of {} runs of the engine have the regime of the map\n",
+      std::count_if(runs.begin(), runs.end(), [](const EnginePoint &run) { return run.same_regime(); }),
+      runs.size());
 }
 
 void run_map(const Task &task, bool same, const std::string &record) {
@@ -244,13 +319,15 @@ void run_map(const Task &task, bool same, const std::string &record) {
   for (const BoundaryPoint &point : boundaries)
     text += fmt::format("{},{},{}\n", point.kind, number_text(point.x), number_text(point.y));
   write_files({{task.out / "boundaries.csv", text}});
-  draw(task.out, map_figures(grid, points, boundaries));
+  const std::vector<EnginePoint> runs = engine_runs(task, points);
+  draw(task.out, map_figures(grid, points, boundaries, runs));
   fmt::print("{}: {} points, {} points of boundaries\n", task.out.string(), points.size(), boundaries.size());
   std::array<std::size_t, regime_count> counts{};
   for (const RegimePoint &point : points)
     ++counts[static_cast<std::size_t>(point.regime)];
   for (std::size_t i = 0; i < regime_count; ++i)
     if (counts[i] > 0) fmt::print("  {:<20}{:>7}\n", regime_names[i], counts[i]);
+  print_engine_runs(grid, runs);
 }
 
 void run_sweep(const Task &task, const std::string &record) {
@@ -289,11 +366,12 @@ void run(const Arguments &arguments) {
 
 void add_map_command(CLI::App &app, Session & /*session*/) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App *map = app.add_subcommand("map", "Which motion a roller comes to, over two numbers of the chain "
-                                            "or along one: continuous contact, partial "
-                                            "uplift, period 2 (double jump), higher period, aperiodic; CMV, "
-                                            "RMV, peak force and share of contact. Writes CSV "
-                                            "files and plots. An interrupted map goes on where it was.");
+  CLI::App *map =
+      app.add_subcommand("map", "Which motion a roller comes to, over two numbers of the chain "
+                                "or along one: continuous contact, partial "
+                                "uplift, period 2 (double jump), higher period, aperiodic; CMV, "
+                                "RMV, peak force and share of contact. Writes CSV "
+                                "files and plots. An interrupted map continues where it was interrupted.");
   add_chain_options(*map, arguments->chain);
   CLI::Option *x =
       map->add_option("--x", arguments->x,
@@ -311,6 +389,15 @@ void add_map_command(CLI::App &app, Session & /*session*/) {
          "--me-re", [arguments](const std::string &text) { arguments->me_re = text; },
          "eccentric moment m_e r_e [kg m]: Fw = m_e r_e omega^2 instead of a fixed Fw")
       ->type_name("NUMBER");
+  map->add_option_function<std::string>(
+         "--engine", [arguments](const std::string &text) { arguments->engine = text; },
+         "liggghts or lammps: run in.chain at some points of the map, and compare regime and peak force")
+      ->type_name("NAME");
+  map->add_option_function<std::string>(
+         "--engine-points", [arguments](const std::string &text) { arguments->engine_points = text; },
+         "number of these points, spread evenly over the map [12]; a larger number keeps the runs of a "
+         "smaller one")
+      ->type_name("COUNT");
   map->add_option("--cycles", arguments->cycles, "cycles of the excitation at each point, 100 or more")
       ->type_name("COUNT")
       ->capture_default_str();

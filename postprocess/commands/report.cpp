@@ -1,5 +1,6 @@
 #include "commands/report.h"
 
+#include "commands/commands.h"
 #include "report/report.h"
 #include "support/options.h"
 #include "support/progress.h"
@@ -40,7 +41,8 @@ void add_report_command(CLI::App &app, Session &) {
                                                   "roller on a bed, as pages that open from disk.");
   report
       ->add_option("dir", arguments->folders,
-                   "run folders (with chain.csv or bed.csv), studies (their pages are copied and linked), or "
+                   "run folders (with chain.csv, bed.csv or oedometer.csv), studies (their pages are copied "
+                   "and linked), or "
                    "parents of "
                    "either")
       ->type_name("DIR")

@@ -1,4 +1,4 @@
-#include "commands/run.h"
+#include "commands/commands.h"
 
 #include "engine/engine_command.h"
 #include "engine/places.h"
@@ -25,7 +25,7 @@ std::string usage() { return fmt::format("{} run [-np N] DECK [engine arguments]
 void run(const std::vector<std::string> &words) {
   int ranks = 1;
   std::size_t next = 0;
-  // CLI11 knows no option of one dash and two letters, so that the words in front of the deck are read here.
+  // CLI11 has no options of one dash and two letters, so that the words in front of the deck are read here.
   for (; next < words.size() && words[next] == "-np"; next += 2)
     ranks = count_option("-np", next + 1 < words.size() ? words[next + 1] : "", 1, most_ranks);
   if (next >= words.size()) throw UsageError("the deck is missing; allowed: " + usage());
@@ -33,7 +33,8 @@ void run(const std::vector<std::string> &words) {
   const std::vector<std::string> rest(words.begin() + static_cast<std::ptrdiff_t>(next) + 1, words.end());
   EngineCommand command = engine_command(find_deck(deck), plain_words(rest), ranks);
 
-  // A reader that stops reading, as `head` does, does not end the run; nor does an output that cannot be written.
+  // A reader that stops reading, as `head` does, does not end the run; nor does an output that cannot be
+  // written.
   std::signal(SIGPIPE, SIG_IGN);
   const std::string line = "+ " + shell_line(command) + "\n";
   std::fputs(line.c_str(), stdout);

@@ -1,4 +1,4 @@
-#include "commands/study.h"
+#include "commands/commands.h"
 
 #include "studies/studies.h"
 #include "studies/study.h"
@@ -23,8 +23,9 @@ constexpr int most_jobs = 1000;
 } // namespace
 
 void add_study_command(CLI::App &app, Session &) {
-  CLI::App *command = app.add_subcommand("study", "Measures what steps, laws and options cost and what they "
-                                                  "bring. An interrupted study goes on where it was.");
+  CLI::App *command =
+      app.add_subcommand("study", "Measures what steps, laws and options cost and what they "
+                                  "bring. An interrupted study continues where it was interrupted.");
   for (const Study &study : studies) {
     const auto options = std::make_shared<StudyOptions>();
     const auto out = std::make_shared<std::string>(std::string("results/study/") + study.name);

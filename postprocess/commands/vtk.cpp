@@ -1,5 +1,6 @@
 #include "commands/vtk.h"
 
+#include "commands/commands.h"
 #include "bed/coarse_graining.h"
 #include "bed/dump_readers.h"
 #include "bed/vtk_writers.h"
@@ -34,7 +35,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Side of a cell of the fields in mean diameters of the soil balls, unless the user gives one: some nine balls in a cell.
+/// Side of a cell of the fields in mean diameters of the soil balls, unless the user gives one: some nine
+/// balls in a cell.
 constexpr double default_cell = 3.0;
 
 constexpr double pi = 3.141592653589793;
@@ -42,9 +44,9 @@ constexpr double pi = 3.141592653589793;
 /// Sides of cells that are not absurd, m.
 constexpr Range cell_range = {1e-9, 1e9, "m"};
 
-/// What the command writes, as names from the folder of the results.
+/// The collections that the command writes, relative to the folder of the results.
 constexpr std::array<const char *, 3> collections = {"balls.pvd", "contacts.pvd", "fields.pvd"};
-/// What a picture needs to know of all steps at once, for postprocess/paraview/bed.py.
+/// Ranges over all steps that a picture needs, for postprocess/paraview/bed.py.
 constexpr const char *scene_name = "scene.json";
 
 bool is_ours(const std::string &name) {
@@ -52,7 +54,7 @@ bool is_ours(const std::string &name) {
   return std::regex_match(name, pattern);
 }
 
-/// What the run was made with.
+/// The parameters of the run.
 struct RunParameters {
   double dt = 0.0; ///< time step, s
   std::optional<double> omega,
@@ -102,8 +104,9 @@ StepValues values_of_step(double time, const RunParameters &run, const std::vect
   return values;
 }
 
-/// Range of an array over all steps. For colour scales there is a quantile besides the largest value, so that a single fast ball does not
-/// set the scale: in each step 99 % of the values do not exceed the step's quantile, and this is the largest of these.
+/// Range of an array over all steps. For colour scales there is a quantile in addition to the largest value,
+/// so that a single fast ball does not set the scale: in each step 99 % of the values do not exceed the
+/// step's quantile, and this is the largest of these.
 class Sizes {
 public:
   void add(const std::string &array, std::vector<double> values) {
@@ -128,7 +131,7 @@ private:
 
 double magnitude(const Vector &vector) { return std::hypot(vector[0], vector[1], vector[2]); }
 
-/// Of the soil balls, and of all contacts.
+/// Adds the values of the soil balls and of all contacts.
 void add_sizes(Sizes &sizes, const std::vector<Ball> &balls, const ContactSums &sums,
                const std::optional<BedContacts> &contacts) {
   const auto of_soil = [&](const char *array, const auto &value) {
@@ -150,14 +153,15 @@ void add_sizes(Sizes &sizes, const std::vector<Ball> &balls, const ContactSums &
   sizes.add("normal_force", std::move(forces));
 }
 
-/// What is the same for all steps.
+/// Values that are the same for all steps.
 struct Bed {
   Bounds soil, all;
   double mean_diameter = 0.0; ///< of the soil balls of the first step, m
   bool flat = true;           ///< all balls stay in z = 0
 };
 
-/// Reads all steps once. Takes those out whose dump was cut short, as by a run that was stopped or is still going on, and says so.
+/// Reads all steps once. Removes steps whose dump is incomplete, since the run was stopped or is still
+/// running, and prints which they are.
 Bed survey(std::map<long, StepDump> &steps) {
   Bed bed;
   TimedProgress progress;
@@ -194,7 +198,7 @@ Bed survey(std::map<long, StepDump> &steps) {
   return bed;
 }
 
-/// The contacts of a step; none if there is no dump of them, or one that was cut short, which is said.
+/// The contacts of a step; none if there is no dump of them, or if it is incomplete, which is printed.
 std::optional<BedContacts> contacts_of(const StepDump &dump, long step, const std::vector<Ball> &balls) {
   if (dump.contacts.empty()) return std::nullopt;
   try {
@@ -249,8 +253,8 @@ void check_out(const fs::path &out) {
                       out.string(), entry.path().filename().string(), collections[0]));
 }
 
-/// What the run was made with, and what is the same for all its steps; steps that were cut short are taken
-/// out of `steps`. UsageError for files that cannot be used.
+/// The parameters of the run, and the values that are the same for all its steps; incomplete steps are
+/// removed from `steps`. UsageError for files that cannot be used.
 std::pair<RunParameters, Bed> read_run(const fs::path &folder, const fs::path &out,
                                        std::map<long, StepDump> &steps) {
   try {

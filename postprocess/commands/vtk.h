@@ -1,8 +1,6 @@
 // `drumlin vtk`: the dumps of a bed run as time series for ParaView.
 #pragma once
 
-#include "support/usage_error.h"
-
 #include <optional>
 #include <string>
 
@@ -15,11 +13,9 @@ struct VtkArguments {
   std::optional<std::string> cell; ///< side of the cells of the fields, m; fitted to the bed if not given
 };
 
-/// Writes balls.pvd, contacts.pvd and fields.pvd with the files of each step, and prints what there is. Throws UsageError for folders, files
-/// and options that cannot be used; the results of an earlier call then stay.
+/// Writes balls.pvd, contacts.pvd and fields.pvd with the files of each step, and prints what there is.
+/// Throws UsageError for folders, files and options that cannot be used; the results of an earlier call then
+/// stay.
 void write_vtk_series(const VtkArguments &arguments);
-
-/// Adds `vtk DIR [--out DIR] [--cell NUMBER]`.
-void add_vtk_command(CLI::App &app, Session &session);
 
 } // namespace drumlin::post

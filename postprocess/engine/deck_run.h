@@ -21,9 +21,10 @@ public:
   const Outcome &outcome() const { return outcome_; }
   /// Throws std::runtime_error with the engine's ERROR line, or its last line, if the run failed.
   const DeckRun &must_succeed() const;
-  /// What the run wrote.
+  /// A file that the run wrote.
   std::filesystem::path file(const std::string &name) const { return folder_ / name; }
-  /// The number behind the last place of a text in what the engine printed. Throws std::runtime_error if there is none.
+  /// The number that follows the last occurrence of a text in the engine's output. Throws std::runtime_error
+  /// if there is none.
   double printed(const std::string &text) const;
   /// Seconds that the last `run` of the deck took, by the engine's own clock.
   double loop_seconds() const { return printed("Loop time of "); }

@@ -59,8 +59,8 @@ std::string plain_value(const std::string &variable, const std::string &value) {
   return (is_folder ? plain : plain / path.filename()).string();
 }
 
-/// The deck as the engine is told of it. A deck finds files beside it by the variable `here`, which the plugin defines and at whose blanks
-/// the engine would split the file's name.
+/// The name of the deck for the engine. A deck finds files of its folder by the variable `here`, which the
+/// plugin defines; if its value had blanks, the engine would split the names of these files.
 fs::path plain_deck(const fs::path &deck) {
   const fs::path file = fs::is_symlink(deck) ? fs::canonical(deck) : deck;
   if (!has_blanks(file.parent_path()) || read_text(file).find("${here}") == std::string::npos) return deck;
@@ -141,7 +141,8 @@ EngineCommand engine_command(const fs::path &deck, const std::vector<std::string
     command.environment.clear(); // it is for the ranks, not for mpirun
   }
   command.words.insert(command.words.end(), {program_of(engine), "-in", plain_deck(deck).string()});
-  // Of a variable that is given twice the engine takes the first value: a plugin that the words name counts.
+  // If a variable is given twice, the engine uses the first value: a plugin that the words name takes
+  // precedence.
   const bool named = std::find(words.begin(), words.end(), "plugin") != words.end();
   if (engine == Engine::lammps && !named)
     command.words.insert(command.words.end(), {"-var", "plugin", library});
@@ -152,7 +153,7 @@ EngineCommand engine_command(const fs::path &deck, const std::vector<std::string
 std::string shell_line(const EngineCommand &command) {
   std::string line;
   const auto add = [&line](const std::string &text) { line += (line.empty() ? "" : " ") + text; };
-  for (const std::string &entry : command.environment) { // a shell takes no quotes around the name
+  for (const std::string &entry : command.environment) { // in a shell the name must not be in quotes
     const std::size_t value = entry.find('=') + 1;
     add(entry.substr(0, value) + shell_word(entry.substr(value)));
   }

@@ -10,7 +10,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Whether a deck writes into a folder `out`: those that make a bed do not, and refuse variables that they do not know.
+/// Whether a deck writes into a folder `out`: those that make a bed do not, and refuse variables that they do
+/// not know.
 bool has_out(const fs::path &deck) {
   const std::string name = deck.filename().string();
   return name != "in.settle" && name != "in.place" && name != "in.tile";
@@ -22,7 +23,7 @@ Outcome run_deck(const fs::path &deck, const Variables &variables, const fs::pat
                  double limit) {
   std::vector<std::string> words = {"-log", "none"};
   for (const auto &[name, value] : variables)
-    words.insert(words.end(), {"-var", name, value}); // of a name twice the first counts
+    words.insert(words.end(), {"-var", name, value}); // the first value of a name counts
   if (has_out(deck)) words.insert(words.end(), {"-var", "out", plain_folder(folder).string()});
   const EngineCommand command = engine_command(deck, words, ranks, Cores::shared);
   return run_program(command.words, command.environment, folder, limit);

@@ -13,15 +13,16 @@ namespace drumlin::post {
 /// Values for a deck's variables, given by -var.
 using Variables = std::vector<std::pair<std::string, std::string>>;
 
-/// Runs a deck with the plugin on a number of ranks; `out` is set to the folder. A deck whose name ends in .lammps is run by LAMMPS,
-/// any other by LIGGGHTS. Throws UsageError, a std::runtime_error, if that engine cannot be started: see engine_fault().
+/// Runs a deck with the plugin on a number of ranks; `out` is set to the folder. A deck whose name ends in
+/// .lammps is run by LAMMPS, any other by LIGGGHTS. Throws UsageError, a std::runtime_error, if that engine
+/// cannot be started: see engine_fault().
 Outcome run_deck(const std::filesystem::path &deck, const Variables &variables,
                  const std::filesystem::path &folder, int ranks = 1, double limit = 100.0);
 
 /// Whether the plugin has been built for LAMMPS too.
 bool has_lammps();
 
-/// The engine's ERROR line in what a run printed; empty if there is none.
+/// The engine's ERROR line in the output of a run; empty if there is none.
 std::string engine_error(const std::string &output);
 
 /// The preloaded library.

@@ -19,7 +19,7 @@ Places read_places() {
   std::ifstream in(file);
   if (!in)
     throw std::runtime_error(
-        fmt::format("'{}', which says where decks and plugin are, cannot be read; allowed: to build anew",
+        fmt::format("'{}', which says where decks and plugin are, cannot be read; allowed: to build again",
                     file.string()));
   // By names only, so that a link without blanks above the folder stays in the result.
   const fs::path folder = file.parent_path();

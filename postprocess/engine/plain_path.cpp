@@ -34,7 +34,8 @@ fs::path user_cache() {
   return home.empty() ? fs::path() : home / ".cache";
 }
 
-/// Makes a folder and those above it, which nobody else may read. Whether it is there then is for the caller to see.
+/// Makes a folder and those above it, which other users cannot read. Reports no error: the caller has to
+/// check that the folder exists.
 void make_private_folders(const fs::path &folder) {
   fs::path made;
   for (const fs::path &part : folder) {
@@ -43,7 +44,8 @@ void make_private_folders(const fs::path &folder) {
   }
 }
 
-/// Whether the folder is a real one, the user's own, that can be written: in /tmp anybody may have made it.
+/// Whether the folder is no link, belongs to the user and can be written: in /tmp another user may have made
+/// it.
 bool is_own_folder(const fs::path &folder) {
   struct stat found = {};
   return ::lstat(folder.c_str(), &found) == 0 && S_ISDIR(found.st_mode) && found.st_uid == ::geteuid() &&

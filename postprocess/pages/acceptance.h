@@ -1,4 +1,4 @@
-// Acceptance criteria: what a study asks of its results.
+// Acceptance criteria for the results of a study.
 #pragma once
 
 #include "pages/table.h"

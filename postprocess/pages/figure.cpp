@@ -15,7 +15,7 @@ KeyFigure key_figure(const PageFigure &whole, const std::string &page) {
   key.figure.half = true;
   if (!whole.figure.panels.empty())
     key.figure.panels = {whole.figure.panels[std::min(whole.key_panel, whole.figure.panels.size() - 1)]};
-  // "Fig. 5  Drum acceleration ...": the link has the number.
+  // "Fig. 5  Drum acceleration ...": the number is left out here, since the link below the figure has it.
   key.caption = whole.figure.title;
   if (key.caption.rfind(whole.label, 0) == 0) key.caption.erase(0, whole.label.size());
   key.caption.erase(0, std::min(key.caption.find_first_not_of(' '), key.caption.size()));

@@ -6,13 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
 #include <string_view>
-
-#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -22,7 +19,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The part of gnuplot's plot command after `using x:y`.
+/// The part of gnuplot's plot command after `using x:y`. Longer than other functions, since it has a case for
+/// each style and nothing else.
 std::string style_words(const Curve &curve) {
   switch (curve.style) {
   case CurveStyle::condition_a:
@@ -93,6 +91,10 @@ std::string style_words(const Curve &curve) {
     return "with points pt 7 ps 0.4 lc rgb '#000000'";
   case CurveStyle::mark_2:
     return "with points pt 4 ps 0.5 lw 0.9 lc rgb '#000000'";
+  case CurveStyle::run_agrees:
+    return "with points pt 13 ps 1.3 lc rgb '#CC79A7'";
+  case CurveStyle::run_differs:
+    return "with points pt 2 ps 1.3 lw 3 lc rgb '#CC79A7'";
   case CurveStyle::segments:
     return fmt::format("with vectors nohead lw {:.3g} lc rgb '#000000'", curve.width);
   }
@@ -233,15 +235,10 @@ int rows_of(const Figure &figure) {
 } // namespace
 
 fs::path find_gnuplot() {
-  const char *path = std::getenv("PATH");
-  std::string_view rest = path != nullptr ? path : "";
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find(':'), rest.size());
-    const fs::path candidate = fs::path(rest.substr(0, end)) / "gnuplot";
-    if (end > 0 && ::access(candidate.c_str(), X_OK) == 0) return fs::absolute(candidate);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
-  throw std::runtime_error("the program gnuplot is not on PATH; install the Debian package gnuplot-nox");
+  const fs::path file = program_file("gnuplot");
+  if (file.empty())
+    throw std::runtime_error("the program gnuplot is not on PATH; install the Debian package gnuplot-nox");
+  return fs::absolute(file);
 }
 
 std::string axis_range(double low, double high) {

@@ -1,4 +1,4 @@
-// Figures by gnuplot, run as a process: a script is written beside its data, and SVG and PNG come out.
+// Figures by gnuplot, which is run as a process: writes a script and makes SVG and PNG files from it.
 #pragma once
 
 #include <filesystem>
@@ -33,18 +33,20 @@ enum class CurveStyle {
   line_5,
   discs,   ///< filled circles, radius in units of the axes; y names ordinate, radius and colour: "4:5:6"
   circles, ///< the same as outlines, black; y names ordinate and radius
-  cells, ///< rectangles coloured by value; y names ordinate, left, right, bottom, top and value, e.g. "2:3:4:5:6:7"
-  area_1, ///< area_1 to area_6: rectangles as of cells without a value, each with a hatch or a grey level of its own besides its colour
+  cells,   ///< rectangles coloured by value; y: ordinate, left, right, bottom, top, value, as "2:3:4:5:6:7"
+  area_1,  ///< area_1 to area_6: rectangles as `cells`, without value, of a colour and a hatch or grey each
   area_2,
   area_3,
   area_4,
   area_5,
   area_6,
-  dots_up,   ///< small filled circles, blue
-  dots_down, ///< small open circles, vermilion
-  mark_1,    ///< small filled circles, black: points of a boundary
-  mark_2,    ///< small open squares, black
-  segments,  ///< black line segments of Curve::width; y names ordinate and the extents along both axes
+  dots_up,     ///< small filled circles, blue
+  dots_down,   ///< small open circles, vermilion
+  mark_1,      ///< small filled circles, black: points of a boundary
+  mark_2,      ///< small open squares, black
+  run_agrees,  ///< filled diamonds, purple: on top of areas
+  run_differs, ///< thick crosses, purple
+  segments,    ///< black line segments of Curve::width; y names ordinate and the extents along both axes
 };
 
 /// One curve of a panel, read from a CSV file with one header line.

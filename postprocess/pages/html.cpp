@@ -219,7 +219,7 @@ public:
       : table_(table), judged_(table.count(RowState::plain) < table.rows.size()) {
     const std::size_t columns = table.shown_columns == 0 ? table.header.size() : table.shown_columns;
     for (std::size_t c = 0; c < columns; ++c) {
-      if (is_verdict(c)) continue; // it stands first
+      if (is_verdict(c)) continue; // it is the first column
       bool any = false;            // a column that is empty throughout is left out
       for (const std::vector<std::string> &row : table.rows)
         any = any || (!row[c].empty() && (row[c] != no_value || c < table.text_columns));
@@ -257,7 +257,8 @@ private:
   bool has_verdicts() const { return judged_ || !table_.verdict.empty(); }
   bool is_verdict(std::size_t column) const { return table_.header[column] == table_.verdict; }
 
-  /// Columns of words are left-aligned: the first ones, and those whose cells are words wherever they stand.
+  /// Whether a column has words, which are left-aligned: the first `text_columns` columns, and those of a
+  /// name that always has words.
   bool is_word(std::size_t column) const {
     const std::string &name = table_.header[column];
     return column < table_.text_columns || name == "remark" || name == "engine" || name == "plugin" ||

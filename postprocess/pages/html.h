@@ -29,7 +29,7 @@ struct PageLink {
 std::string html_page(const std::string &title, const std::string &made,
                       const std::vector<PageLink> &contents, const std::string &body);
 
-/// What a page's opening paragraph amounts to; decides its mark.
+/// The verdict of a page's opening paragraph, which decides its mark.
 enum class Verdict { none, good, bad };
 
 /// A sentence or a few of the opening paragraph, plain text.
@@ -38,7 +38,7 @@ struct Sentence {
   std::string lead = {}; ///< words in bold before it, which say what it is about; may be empty
 };
 
-/// The opening of a page: sentences as one paragraph, with the drawing of the scene beside it.
+/// The opening of a page: sentences as one paragraph, to the left of the drawing of the scene.
 /// \param scene scene_html()
 std::string answer_html(const std::vector<Sentence> &sentences, Verdict verdict, const std::string &scene);
 

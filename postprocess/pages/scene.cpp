@@ -94,17 +94,30 @@ std::string chain_drawing() {
          text(203, 292, "soil, fixed") + strokes(arrow(285, 20, 55)) + text(293, 42, "g");
 }
 
-std::string bed_drawing() {
-  std::string s = roller();
+/// Rows of soil balls of slightly different sizes between x = 17 and 251, the first row at height `top`.
+std::string soil(double top) {
+  std::string s;
   constexpr double radius = 9.0;
   const double height = radius * std::sqrt(3.0);
   for (int row = 0; row < 5; ++row)
     for (int column = 0; column < 13 - row % 2; ++column) {
       const double x = 17.0 + radius + 2.0 * radius * column + (row % 2 == 0 ? 0.0 : radius);
-      s += disc(x, 225.0 + height * row, radius - 0.5 * (row * 5 + column * 3 % 4 % 3) / 5.0, sand);
+      s += disc(x, top + height * row, radius - 0.5 * (row * 5 + column * 3 % 4 % 3) / 5.0, sand);
     }
-  return s + strokes(line(17, 205, 17, 297) + line(251, 205, 251, 297) + ground(17, 251, 297)) +
+  return s;
+}
+
+std::string bed_drawing() {
+  return roller() + soil(225) +
+         strokes(line(17, 205, 17, 297) + line(251, 205, 251, 297) + ground(17, 251, 297)) +
          text(262, 262, "soil balls") + strokes(arrow(285, 20, 55)) + text(293, 42, "g");
+}
+
+std::string oedometer_drawing() {
+  return strokes(arrow(70, 25, 58) + arrow(134, 25, 58) + arrow(198, 25, 58), 2.4, red) +
+         text(134, 17, "stress", "middle", red) + box(17, 60, 234, 16, steel) + text(262, 73, "platen") +
+         soil(86) + strokes(line(17, 80, 17, 158) + line(251, 80, 251, 158) + ground(17, 251, 158)) +
+         text(262, 122, "soil balls");
 }
 
 std::string held_drawing() {
@@ -146,6 +159,13 @@ std::string scene_html(Scene scene) {
     caption = "The model of the stability map: one ball in contact with one, two or four walls.";
     drawing = held_drawing();
     height = 190;
+    break;
+  case Scene::oedometer:
+    title = "A sample of soil between two plates";
+    caption =
+        "The model: a sample of soil balls that cannot expand sideways, under a platen with a given stress.";
+    drawing = oedometer_drawing();
+    height = 180;
     break;
   }
   return fmt::format("<figure class=\"scene\">\n<svg xmlns=\"http://www.w3.org/2000/svg\" "

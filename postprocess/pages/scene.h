@@ -1,4 +1,4 @@
-// Drawings of what a page is about: the model in one small picture, as inline SVG.
+// Small drawings of the models that pages are about, as inline SVG.
 #pragma once
 
 #include <string>
@@ -7,9 +7,10 @@ namespace drumlin::post {
 
 /// The models of this project.
 enum class Scene {
-  chain, ///< fixed soil, drum and frame, joined by contact and suspension
-  bed,   ///< drum and frame on a bed of balls
-  held   ///< one ball confined between two walls
+  chain,    ///< fixed soil, drum and frame, joined by contact and suspension
+  bed,      ///< drum and frame on a bed of balls
+  held,     ///< one ball confined between two walls
+  oedometer ///< a sample between two plates, loaded from above
 };
 
 /// <figure class="scene"> with the drawing, its text alternative and a caption.

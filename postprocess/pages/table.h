@@ -1,4 +1,4 @@
-// A table of a page, as text: the page and the CSV file beside it show the same cells.
+// A table of a page, as text: the page and its CSV file have the same cells.
 #pragma once
 
 #include <cstddef>

@@ -50,7 +50,7 @@ class Fault(Exception):
 
 
 class Scene:
-    """What ./drumlin vtk tells of all steps at once."""
+    """The values of all steps together that ./drumlin vtk writes to scene.json."""
 
     def __init__(self, folder):
         file = os.path.join(folder, "scene.json")
@@ -69,7 +69,7 @@ class Scene:
             if self.flat:  # discs, whatever their radius
                 self.bounds[0][2] = self.bounds[1][2] = 0.0
         except (ValueError, KeyError, TypeError, IndexError) as fault:
-            raise Fault("'%s' is spoilt (%s); allowed: the one that ./drumlin vtk writes" % (file, fault))
+            raise Fault("'%s' is damaged (%s); allowed: the one that ./drumlin vtk writes" % (file, fault))
         self.cut = self.bounds[0][2] + CUT_AT * (self.bounds[1][2] - self.bounds[0][2])
 
 
@@ -241,7 +241,7 @@ def show_roller(balls, scene, view, font):
         label = pv.Show(pv.Text(registrationName=name + " label", Text=name), view)
         label.TextPropMode = "Billboard 3D Text"
         half = 0.25 * len(name) * font * scene.pixel  # the place is that of its left end
-        if bounds[1] - bounds[0] < 4.0 * half:  # beside a ball that is too small
+        if bounds[1] - bounds[0] < 4.0 * half:  # next to a ball that is too small
             half = -1.5 * font * scene.pixel
         label.BillboardPosition = [0.5 * (bounds[0] + bounds[1]) - half, bounds[2] + height * (bounds[3] - bounds[2]),
                                    0.5 * (bounds[4] + bounds[5])]
@@ -416,7 +416,7 @@ def main(words):
     for option, file, endings in (("--png", given.png, (".png",)), ("--animation", given.animation, (".avi", ".ogv", ".png"))):
         if file and not file.endswith(endings):
             raise Fault("%s is '%s'; allowed: a file ending in %s" % (option, file, ", ".join(endings)))
-        if file and not os.access(os.path.dirname(os.path.abspath(file)), os.W_OK):  # ParaView itself would go on
+        if file and not os.access(os.path.dirname(os.path.abspath(file)), os.W_OK):  # ParaView itself would continue
             raise Fault("%s is '%s'; allowed: a file in a folder that can be written to" % (option, file))
     view, size, times = show(given.folder, given.colour, not given.no_contacts, given.max, given.cycle, given.size)
     view.ViewSize = size

@@ -149,7 +149,7 @@ std::string a_against_b(const ReportResults &results) {
                      coincide.empty() ? "" : fmt::format("; in {} they coincide", coincide));
 }
 
-/// What a single impact returns of its speed under each condition, at the damping ratio of the first impact.
+/// Restitution of a single impact under each condition, at the damping ratio of the first impact.
 std::string restitution_words(const ReportResults &results) {
   std::map<std::string, std::string> rebounds;
   double damping_ratio = -1.0;
@@ -263,7 +263,7 @@ Answer chain_answer(const ReportResults &results) {
     if (!sentence.text.empty()) answer.sentences.push_back(sentence);
   const Verdict values = answer.verdict;
   answer.add(engines_answer(results));
-  // Engines that agree say nothing on whether the values are right.
+  // Agreement of the engines does not show that their values are right.
   if (values == Verdict::none && answer.verdict == Verdict::good) answer.verdict = Verdict::none;
   return answer;
 }

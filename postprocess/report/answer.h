@@ -11,7 +11,7 @@
 
 namespace drumlin::post {
 
-/// The opening paragraph, and what it amounts to.
+/// The opening paragraph, and its verdict.
 struct Answer {
   std::vector<Sentence> sentences;
   Verdict verdict = Verdict::none;

@@ -20,7 +20,8 @@ constexpr double motion_weight = 4.0;
 
 std::string label(const BedResult &result) { return transition_name(result.run.transition()); }
 
-/// In full: gnuplot sets single letters so close that the next key covers them.
+/// The name in the legend, with the word "condition": gnuplot places single letters so close to each other
+/// that the next line sample covers them.
 std::string legend(const BedResult &result) { return "condition " + label(result); }
 
 bool is_a(const BedResult &result) { return result.run.transition() == Transition::A; }

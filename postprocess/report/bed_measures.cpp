@@ -42,6 +42,8 @@ BedMeasures measure(const Run &run, const BedHistory &bed) {
   const double period = run.chain.period();
   BedMeasures m;
   m.cycles = std::min(run.complete, static_cast<int>(cycles.rows) - 1); // row 0 is the start
+  m.depth_percent = 50.0 * run.number("drum_depth").value_or(not_a_number) /
+                    run.number("r2").value_or(not_a_number); // runs of earlier versions note neither
   m.coordination_start = bed.coordination.front();
   m.void_ratio_start = bed.void_ratio.front();
   m.imbalance_percent = 100.0 * energy_imbalance(bed).back() / std::abs(bed.work_excitation.back());
@@ -73,7 +75,8 @@ BedMeasures measure(const Run &run, const BedHistory &bed) {
 bool alike(const Run &a, const Run &b) {
   const auto told = [](const Run &run) {
     std::map<std::string, std::string> parameters = run.parameters;
-    for (const char *name : {"transition", "start", "cycles", "engine", "plugin", "ranks", "command"})
+    for (const char *name :
+         {"transition", "start", "cycles", "drum_depth", "engine", "plugin", "ranks", "command"})
       parameters.erase(name);
     return parameters;
   };

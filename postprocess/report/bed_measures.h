@@ -46,8 +46,10 @@ struct BedMeasures {
   double settlement = 0.0;           ///< of the last cycle, m
   double settlement_per_cycle = 0.0; ///< in the steady part, m
   std::optional<HarmonicAmplitudes>
-      amplitudes;                  ///< m/s2, over the steady part; nothing for less than two cycles
-  double imbalance_percent = 0.0;  ///< energy error at the end, in % of the exciter's work until then
+      amplitudes;                 ///< m/s2, over the steady part; nothing for less than two cycles
+  double imbalance_percent = 0.0; ///< energy error at the end, in % of the exciter's work until then
+  double depth_percent = 0.0; ///< of the drum's lowest point at rest below the surface, in % of its diameter;
+                              ///< NaN if it is not known
   double coordination_start = 0.0; ///< first row
   double coordination_end = 0.0;   ///< mean over the last cycle
   double void_ratio_start = 0.0;   ///< first row

@@ -102,7 +102,8 @@ PageTable state_table(const std::vector<BedResult> &beds) {
                   "coordination at the end (-)",
                   "void ratio at the start (-)",
                   "void ratio at the end (-)",
-                  "imbalance of energy (% of work)"};
+                  "imbalance of energy (% of work)",
+                  "drum at rest, depth below the surface (% of its diameter)"};
   for (const BedResult &result : beds) {
     const BedMeasures &m = result.measures;
     const bool any = m.cycles > 0;
@@ -110,7 +111,7 @@ PageTable state_table(const std::vector<BedResult> &beds) {
     state.add({result.run.name, transition_name(result.run.transition()), steady(m.settlement * 1e3, 3),
                steady(m.settlement_per_cycle * 1e3, 3), fixed(m.coordination_start, 3),
                fixed(m.coordination_end, 3), fixed(m.void_ratio_start, 4), fixed(m.void_ratio_end, 4),
-               fixed(m.imbalance_percent, 3)},
+               fixed(m.imbalance_percent, 3), fixed(m.depth_percent, 1)},
               !std::isfinite(m.imbalance_percent) ? RowState::plain
               : energy_is_good(m)                 ? RowState::agrees
                                                   : RowState::differs);
@@ -122,7 +123,11 @@ PageTable state_table(const std::vector<BedResult> &beds) {
       "the "
       "end are means over the last cycle. Imbalance of energy is the energy error: kinetic + potential + "
       "elastic "
-      "+ dissipated energy - work of the exciter at the end, less the same at the start.");
+      "+ dissipated energy - work of the exciter at the end, less the same at the start. Depth of the drum: "
+      "of its "
+      "lowest point before the excitation, below the mean surface that the soil had before the drum was "
+      "placed, "
+      "away from the drum; negative above.");
   return state;
 }
 

@@ -1,4 +1,4 @@
-// The report's page on runs of the roller on a bed of balls: bed.html beside index.html.
+// The report's page on runs of the roller on a bed of balls: bed.html, next to index.html.
 #pragma once
 
 #include <string>

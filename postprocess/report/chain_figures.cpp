@@ -49,8 +49,8 @@ std::string direct_legend(const RunResult &result) {
   return transition_name(result.run.transition()) + " reference";
 }
 
-/// Whether the reference solution is drawn beside the run. Not if the run is by the direct solver itself.
-bool shows_direct(const RunResult &result) { return !result.run.direct && result.truth != nullptr; }
+/// Whether the reference solution is drawn with the run. Not if the run is by the direct solver itself.
+bool shows_direct(const RunResult &result) { return !result.run.direct && result.reference != nullptr; }
 
 /// Adds the histories of a run and its reference solution in a window; their second column is the time since
 /// its start.
@@ -61,10 +61,11 @@ void put_history(CurveTable &table, const RunResult &result, TimeWindow window) 
     table.row(run_label(result), {series.time[i], series.time[i] - window.begin, series.overlap[i],
                                   series.velocity[i], series.acceleration[i], series.force[i]});
   if (!shows_direct(result)) return;
-  const EventSeries truth = with_events(result.truth->history, {}, run.chain, window);
-  for (std::size_t i = 0; i < truth.time.size(); ++i)
-    table.row(direct_label(result), {truth.time[i], truth.time[i] - window.begin, truth.overlap[i],
-                                     truth.velocity[i], truth.acceleration[i], truth.force[i]});
+  const EventSeries reference = with_events(result.reference->history, {}, run.chain, window);
+  for (std::size_t i = 0; i < reference.time.size(); ++i)
+    table.row(direct_label(result),
+              {reference.time[i], reference.time[i] - window.begin, reference.overlap[i],
+               reference.velocity[i], reference.acceleration[i], reference.force[i]});
 }
 constexpr const char *history_columns =
     "time (s),time in window (s),overlap (m),drum velocity (m/s),drum acceleration (m/s2),contact force (N)";
@@ -322,7 +323,7 @@ void plan_dem_and_direct(const ReportResults &results, FigurePlan &plan) {
   plan_panels(
       results, plan, std::move(figure), "case,time (s),time in window (s),drum acceleration (m/s2)",
       [&](const RunResult &result, CurveTable &table, Panel &panel) {
-        if (result.truth == nullptr) return false;
+        if (result.reference == nullptr) return false;
         const Run &run = result.run;
         const TimeWindow window = shown(run);
         const double number =
@@ -333,9 +334,10 @@ void plan_dem_and_direct(const ReportResults &results, FigurePlan &plan) {
         const EventSeries series = with_events(run.history, run.events, run.chain, window);
         for (std::size_t i = 0; i < series.time.size(); ++i)
           table.row(line, {number, series.time[i], series.time[i] - window.begin, series.acceleration[i]});
-        const EventSeries truth = with_events(result.truth->history, {}, run.chain, window);
-        for (std::size_t i = 0; i < truth.time.size(); ++i)
-          table.row(marks, {number, truth.time[i], truth.time[i] - window.begin, truth.acceleration[i]});
+        const EventSeries reference = with_events(result.reference->history, {}, run.chain, window);
+        for (std::size_t i = 0; i < reference.time.size(); ++i)
+          table.row(marks,
+                    {number, reference.time[i], reference.time[i] - window.begin, reference.acceleration[i]});
         panel.x_label = "time in window (ms)";
         panel.y_label = "drum acceleration (m/s²)";
         panel.curves = {curve(name, line, "$4*1e3", "5", CurveStyle::condition_b),
@@ -487,7 +489,7 @@ void plan_roller(const ReportResults &results, FigurePlan &plan) {
   figure.caption =
       fmt::format("Contact force over the last {} cycles under condition B: from the contact law (line), and "
                   "from the equation of motion, m2 a2 + m3 a3 + (m2 + m3) g + Fe, with accelerations by "
-                  "differences of the recorded positions (markers; none beside a make or break of contact, "
+                  "differences of the recorded positions (markers; none near a make or break of contact, "
                   "where the force jumps).",
                   shown_cycles);
   plan_panels(

@@ -20,39 +20,40 @@ std::size_t row_at(const std::vector<double> &time, double t) {
 
 /// Drum velocity of the reference solution at the times of the run, by cubic interpolation where it has no
 /// row at that time.
-std::vector<double> truth_velocity(const ChainHistory &run, const ChainHistory &truth, double period,
-                                   bool &interpolated) {
+std::vector<double> reference_velocity(const ChainHistory &run, const ChainHistory &reference, double period,
+                                       bool &interpolated) {
   std::vector<double> out;
   out.reserve(run.size());
   std::size_t r = 0;
   for (std::size_t i = 0; i < run.size(); ++i) {
     const double t = run.time[i];
-    while (r + 2 < truth.size() && truth.time[r + 1] <= t)
+    while (r + 2 < reference.size() && reference.time[r + 1] <= t)
       ++r;
-    const double h = truth.time[r + 1] - truth.time[r];
-    const double s = (t - truth.time[r]) / h;
+    const double h = reference.time[r + 1] - reference.time[r];
+    const double s = (t - reference.time[r]) / h;
     if (s > 1.0 + 1.0e-6) break; // rows of the run after its last complete cycle
     if (std::abs(s) * h < 1.0e-9 * period) {
-      out.push_back(truth.v_drum[r]);
+      out.push_back(reference.v_drum[r]);
     } else if (std::abs(1.0 - s) * h < 1.0e-9 * period) {
-      out.push_back(truth.v_drum[r + 1]);
+      out.push_back(reference.v_drum[r + 1]);
     } else {
       interpolated = true;
       const double s2 = s * s;
       const double s3 = s2 * s;
-      out.push_back(truth.v_drum[r] * (2 * s3 - 3 * s2 + 1) + truth.v_drum[r + 1] * (3 * s2 - 2 * s3) +
-                    h * (truth.a_drum[r] * (s3 - 2 * s2 + s) + truth.a_drum[r + 1] * (s3 - s2)));
+      out.push_back(reference.v_drum[r] * (2 * s3 - 3 * s2 + 1) +
+                    reference.v_drum[r + 1] * (3 * s2 - 2 * s3) +
+                    h * (reference.a_drum[r] * (s3 - 2 * s2 + s) + reference.a_drum[r + 1] * (s3 - s2)));
     }
   }
   return out;
 }
 
-double velocity_error(const ChainHistory &run, const std::vector<double> &truth, TimeWindow window,
+double velocity_error(const ChainHistory &run, const std::vector<double> &reference, TimeWindow window,
                       double period) {
   const double slack = 1.0e-6 * period;
-  const std::size_t first = std::min(row_at(run.time, window.begin - slack), truth.size());
-  const std::size_t last = std::min(row_at(run.time, window.end + slack), truth.size());
-  return relative_rms(run.v_drum, truth, first, last);
+  const std::size_t first = std::min(row_at(run.time, window.begin - slack), reference.size());
+  const std::size_t last = std::min(row_at(run.time, window.end + slack), reference.size());
+  return relative_rms(run.v_drum, reference, first, last);
 }
 
 void widen(std::optional<Extremes> &extremes, double value) {
@@ -76,19 +77,20 @@ double share_from_samples(const ChainHistory &history, TimeWindow window) {
 }
 
 /// Fills the values that compare a run with its reference solution.
-void compare_with_truth(ChainMeasures &m, const Run &run, const DirectResult &truth) {
+void compare_with_reference(ChainMeasures &m, const Run &run, const DirectResult &reference) {
   const double period = run.chain.period();
-  const std::vector<double> exact = truth_velocity(run.history, truth.history, period, m.truth_interpolated);
+  const std::vector<double> exact =
+      reference_velocity(run.history, reference.history, period, m.reference_interpolated);
   m.velocity_error_last =
       velocity_error(run.history, exact, last_cycles_window(run.complete, 5, period), period);
   if (run.complete >= 30)
     m.velocity_error_25_to_30 = velocity_error(run.history, exact, {25.0 * period, 30.0 * period}, period);
   const TimeWindow all{-std::numeric_limits<double>::infinity(), run.complete * period};
-  m.match = match_events(events_in(run.events, all), events_in(truth.events, all));
+  m.match = match_events(events_in(run.events, all), events_in(reference.events, all));
 }
 
-/// \param truth the reference solution; nullptr if there is none
-ChainMeasures measure_chain(const Run &run, const DirectResult *truth) {
+/// \param reference the reference solution; nullptr if there is none
+ChainMeasures measure_chain(const Run &run, const DirectResult *reference) {
   ChainMeasures m;
   const ChainParameters &p = run.chain;
   const double period = p.period();
@@ -133,24 +135,24 @@ ChainMeasures measure_chain(const Run &run, const DirectResult *truth) {
     m.energy_missing = "cycles.csv";
   m.roller = roller_force(run.history, run.events, p);
 
-  if (truth != nullptr) compare_with_truth(m, run, *truth);
+  if (reference != nullptr) compare_with_reference(m, run, *reference);
   return m;
 }
 
 /// The reference solution in the form of a run, so that it is measured in the same way.
-Run as_run(const Run &run, const DirectResult &truth) {
+Run as_run(const Run &run, const DirectResult &reference) {
   Run out;
   out.kind = RunKind::chain;
   out.direct = true;
   out.chain = run.chain;
-  out.history = truth.history;
-  out.events = truth.events;
+  out.history = reference.history;
+  out.events = reference.events;
   out.has_events = true;
   out.complete = run.complete;
   out.samples_per_cycle = run.samples_per_cycle;
   CycleColumns cycles;
-  cycles.rows = truth.cycles.size();
-  for (const CycleSummary &cycle : truth.cycles) {
+  cycles.rows = reference.cycles.size();
+  for (const CycleSummary &cycle : reference.cycles) {
     cycles.columns["a_drum_min"].push_back(cycle.a_drum_min);
     cycles.columns["a_drum_max"].push_back(cycle.a_drum_max);
     cycles.columns["F_contact_min"].push_back(cycle.F_contact_min);
@@ -232,8 +234,8 @@ Check steady_check(std::size_t index, const RunResult &result, const ReferenceVa
     check.note = "the run has no such event in its last cycles, or recorded none";
     return check;
   }
-  if (result.truth_chain)
-    if (const std::optional<double> direct = measured(*result.truth_chain, true, reference.quantity))
+  if (result.reference_chain)
+    if (const std::optional<double> direct = measured(*result.reference_chain, true, reference.quantity))
       check.direct = *direct * reference.scale;
   judge(check, *value * reference.scale, reference.low, reference.high, reference.tolerance,
         0.5 * std::pow(10.0, -decimals));
@@ -379,13 +381,14 @@ RunResult analyse(Run run, DirectSolutions &direct) {
   const Run &r = result.run;
   if (r.kind == RunKind::chain && r.complete >= 1) {
     try {
-      result.truth = direct.solve(r.chain, r.complete, r.samples_per_cycle, r.impact_speed);
+      result.reference = direct.solve(r.chain, r.complete, r.samples_per_cycle, r.impact_speed);
     } catch (const std::exception &failure) {
       result.run.missing.push_back(fmt::format(
           "no comparison with the reference solution, since the direct solver failed: {}.", failure.what()));
     }
-    result.chain = measure_chain(r, result.truth.get());
-    if (result.truth) result.truth_chain = measure_chain(as_run(r, *result.truth), result.truth.get());
+    result.chain = measure_chain(r, result.reference.get());
+    if (result.reference)
+      result.reference_chain = measure_chain(as_run(r, *result.reference), result.reference.get());
   } else if (r.kind == RunKind::chain) {
     result.run.missing.emplace_back(
         "nothing is measured, since chain.csv ends before the first complete cycle.");

@@ -40,13 +40,13 @@ struct ChainMeasures {
   std::string energy_missing;
   std::optional<RollerForce> roller;
 
-  // Comparison with the reference solution (`truth`: the direct solver at the same parameters), if there is
-  // one.
+  // Comparison with the reference solution (`reference`: the direct solver at the same parameters), if there
+  // is one.
   double velocity_error_last =
       std::numeric_limits<double>::quiet_NaN();  ///< relative RMS of drum velocity, last five cycles
   std::optional<double> velocity_error_25_to_30; ///< the same, cycles 25 to 30
-  bool truth_interpolated = false; ///< whether the run has rows between those of the reference solution
-  EventMatch match;                ///< all events
+  bool reference_interpolated = false; ///< whether the run has rows between those of the reference solution
+  EventMatch match;                    ///< all events
 };
 
 /// How a measured value compares with its reference value.
@@ -81,9 +81,9 @@ struct RunResult {
   Run run;
   std::optional<ChainMeasures> chain;
   std::optional<ImpactMeasure> impact;
-  std::optional<ChainMeasures> truth_chain; ///< the same values of the reference solution
+  std::optional<ChainMeasures> reference_chain; ///< the same values of the reference solution
   std::shared_ptr<const DirectResult>
-      truth; ///< reference solution of the same chain; empty for impacts, and if the direct solver failed
+      reference; ///< reference solution of the same chain; empty for impacts, and if the direct solver failed
 };
 
 /// Everything that the report says about chains and single impacts.

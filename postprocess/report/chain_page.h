@@ -25,7 +25,7 @@ struct ReportVersions {
 /// "Made on ... by drumlin ...".
 std::string made_line(const ReportVersions &versions);
 
-/// A study beside the report.
+/// A study that is part of the report.
 struct StudyLink {
   std::string place; ///< link to its index.html, relative to the report's
   std::string title; ///< plain text
@@ -47,7 +47,7 @@ struct ReportContent {
 };
 
 /// The page. Figures are expected at figures/NAME.svg and .png, data at data/NAME.csv, the page on beds at
-/// bed.html beside it. Sections to which the content has nothing are left out.
+/// bed.html in the same folder. Sections for which there is no content are left out.
 std::string report_page(const ReportContent &content);
 
 } // namespace drumlin::post

@@ -218,19 +218,20 @@ PageTable events_table(const ReportResults &results) {
                fmt::format("{}", m.breaks), fmt::format("{:g}", m.makes_per_cycle),
                fmt::format("{:g}", m.breaks_per_cycle), range_text(m.force_at_make, 1e-3, 3),
                range_text(m.force_at_break, 1e-3, 3), range_text(m.overlap_at_break, 1e3, 4),
-               fmt::format("{}", match.truth_count), fmt::format("{}", match.matched),
+               fmt::format("{}", match.reference_count), fmt::format("{}", match.matched),
                paired ? fmt::format("{:.3g}", match.largest_difference * 1e6) : dash,
                paired && run.timestep > 0.0 && !run.direct
                    ? fmt::format("{:.3g}", match.largest_difference / run.timestep)
                    : dash,
                paired ? fmt::format("{:.4f}", match.at_time) : dash},
-              !result.truth                                                              ? RowState::plain
-              : match.run_count == match.truth_count && match.matched == match.run_count ? RowState::agrees
-                                                                                         : RowState::differs);
-    if (match.run_count != match.truth_count || match.matched != match.run_count)
+              !result.reference ? RowState::plain
+              : match.run_count == match.reference_count && match.matched == match.run_count
+                  ? RowState::agrees
+                  : RowState::differs);
+    if (match.run_count != match.reference_count || match.matched != match.run_count)
       table.notes.push_back(
           fmt::format("{}: {} events, {} in the reference solution; the first {} were paired.", run.name,
-                      match.run_count, match.truth_count, match.matched));
+                      match.run_count, match.reference_count, match.matched));
   }
   table.notes.insert(table.notes.begin(), fmt::format("Forces, overlap and counts per cycle: over the last "
                                                       "{} cycles of each run. Time differences: of all "
@@ -303,7 +304,7 @@ PageTable errors_table(const ReportResults &results) {
                m.velocity_error_25_to_30 ? scientific(*m.velocity_error_25_to_30) : dash,
                known ? scientific(*known) : dash, stock ? scientific(*stock) : dash},
               state_of_error(m.velocity_error_last));
-    interpolated = interpolated || m.truth_interpolated;
+    interpolated = interpolated || m.reference_interpolated;
   }
   table.notes.emplace_back(
       "Known: errors that the reference values give for cycles 25 to 30 under condition B, at 200, 400, 800, "
@@ -345,8 +346,9 @@ PageTable energy_table(const ReportResults &results) {
     table.add({result.run.name, fmt::format("{:g} to {:g}", e.first_cycle, e.last_cycle),
                joule(e.work_excitation), joule(e.dissipated_contact), joule(e.dissipated_bond),
                joule(e.change_kinetic), joule(e.change_potential), joule(e.change_stored_contact),
-               joule(e.change_stored_bond), scientific(e.closure()), scientific(e.closure_percent())},
-              state_of_error(0.01 * e.closure_percent()));
+               joule(e.change_stored_bond), scientific(e.energy_error()),
+               scientific(e.energy_error_percent())},
+              state_of_error(0.01 * e.energy_error_percent()));
   }
   if (!table.rows.empty())
     table.notes.insert(

@@ -1,5 +1,4 @@
-// The report's tables on chains and single impacts, as text: the page and the CSV files beside it show the
-// same cells.
+// The report's tables on chains and single impacts, as text: the page and its CSV files have the same cells.
 #pragma once
 
 #include <string>

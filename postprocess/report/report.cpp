@@ -13,6 +13,7 @@
 #include "report/bed_figures.h"
 #include "report/bed_page.h"
 #include "report/chain_page.h"
+#include "report/oedometer_page.h"
 #include "report/place.h"
 #include "report/run_folder.h"
 #include "report/summary.h"
@@ -75,8 +76,7 @@ std::vector<StudyLink> copy_studies(const std::vector<fs::path> &studies, const 
   return links;
 }
 
-/// Calls `work`. Whatever goes wrong in it is the fault of an input file or of the system: becomes a
-/// UsageError.
+/// Calls `work` and turns every exception into a UsageError, since an input file or the system is at fault.
 template <class Work>
 void as_usage(const Work &work) {
   try {
@@ -182,6 +182,8 @@ ReportOutcome write_report(const ReportOptions &options) {
     folders = find_report_folders(options.folders);
     place = checked_place(options.out, folders);
   });
+  std::vector<OedometerRun> oedometers;
+  as_usage([&] { oedometers = read_oedometer_runs(folders.oedometers); });
   ReportContent content = make_content(read_runs(folders.runs), options.progress);
   choose_keys(content);
   CountedProgress drawing(content.figures.figures.size() + content.figures.absent.size() +
@@ -193,6 +195,11 @@ ReportOutcome write_report(const ReportOptions &options) {
   fs::create_directories(folder / "data");
   draw(content, gnuplot, folder, drawing);
   content.studies = copy_studies(folders.studies, folder);
+  if (!oedometers.empty()) {
+    const fs::path page = "oedometer";
+    write_oedometer_page(oedometers, folder / page);
+    content.studies.push_back({link_to((page / "index.html").string()), oedometer_title});
+  }
   content.versions = find_versions(options.version, gnuplot, folder);
   std::vector<FileText> pages = {{folder / "index.html", report_page(content)},
                                  {folder / summary_file, summary_json(content)}};

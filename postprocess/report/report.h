@@ -26,9 +26,9 @@ struct ReportOutcome {
   std::vector<std::string> judging_commands; ///< that repeat runs which are too short to be judged, each once
 };
 
-/// Makes the report in a folder beside `out` and moves it there when it is complete. Throws UsageError for
-/// folders or files that cannot be used, std::runtime_error for other failures; an earlier report then stays
-/// as it was.
+/// Makes the report in a temporary folder next to `out` and moves it there when it is complete. Throws
+/// UsageError for folders or files that cannot be used, std::runtime_error for other failures; an earlier
+/// report then stays as it was.
 ReportOutcome write_report(const ReportOptions &options);
 
 } // namespace drumlin::post

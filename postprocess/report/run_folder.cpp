@@ -31,21 +31,18 @@ fs::path record_of(const fs::path &folder) {
 
 bool is_run_folder(const fs::path &folder) { return fs::is_regular_file(record_of(folder)); }
 
-/// The parameter as a number, if it is there. Throws for text that is no number.
-std::optional<double> number(const Run &run, const std::string &name) {
-  const auto found = run.parameters.find(name);
-  if (found == run.parameters.end() || found->second.empty()) return std::nullopt;
-  try {
-    return number_from_text(found->second);
-  } catch (const std::invalid_argument &) {
-    throw std::runtime_error(fmt::format("{}: {} is '{}', not a number",
-                                         (run.folder / "parameters.csv").string(), name, found->second));
-  }
+bool is_oedometer_folder(const fs::path &folder) { return fs::is_regular_file(folder / "oedometer.csv"); }
+
+/// The list to which a folder belongs; nullptr: none.
+std::vector<fs::path> *list_of(const fs::path &folder, ReportFolders &found) {
+  if (is_study_folder(folder)) return &found.studies;
+  if (is_run_folder(folder)) return &found.runs;
+  return is_oedometer_folder(folder) ? &found.oedometers : nullptr;
 }
 
 /// Sets `value` to a parameter; adds its name to `absent` if the run does not have it.
 void take(const Run &run, const std::string &name, double &value, std::vector<std::string> &absent) {
-  if (const std::optional<double> given = number(run, name))
+  if (const std::optional<double> given = run.number(name))
     value = *given;
   else
     absent.push_back(name);
@@ -131,7 +128,7 @@ void count_cycles(Run &run) {
         record_of(run.folder).string(), run.history.size(), run.history.time.back(), run.chain.omega));
   run.complete = complete_cycles(run.history.time.back(), period);
   run.samples_per_cycle = static_cast<int>(samples);
-  if (const std::optional<double> asked = number(run, "cycles"); asked && run.complete < *asked)
+  if (const std::optional<double> asked = run.number("cycles"); asked && run.complete < *asked)
     run.missing.push_back(fmt::format("a partial run, {} of {:g} cycles: it was stopped, or is not done yet.",
                                       run.complete, *asked));
 }
@@ -140,7 +137,7 @@ void read_chain_parameters(Run &run) {
   if (!take_chain(run)) return;
   run.kind = RunKind::chain;
   run.case_name = run.text("case", "");
-  if (const std::optional<double> speed = number(run, "impact_speed")) run.impact_speed = *speed;
+  if (const std::optional<double> speed = run.number("impact_speed")) run.impact_speed = *speed;
   compare_with_case(run);
   count_cycles(run);
 }
@@ -148,8 +145,9 @@ void read_chain_parameters(Run &run) {
 /// A bed must have all parameters, since its deck writes them.
 void read_bed_parameters(Run &run) {
   const std::string deck = run.text("deck", "");
-  check_parameters(run,
-                   deck == "bed" ? "" : fmt::format("deck is '{}'; allowed beside bed.csv is bed", deck));
+  check_parameters(run, deck == "bed"
+                            ? ""
+                            : fmt::format("deck is '{}'; allowed: bed, since the folder has bed.csv", deck));
   if (!take_chain(run))
     throw std::runtime_error(fmt::format("{}: {}", run.folder.string(), run.missing.back()));
   run.kind = RunKind::bed;
@@ -233,18 +231,29 @@ void read_cycle_file(Run &run) {
 
 /// Fills Run::steps_per_cycle and Run::timestep.
 void take_steps(Run &run) {
-  if (const std::optional<double> steps = number(run, "steps_per_cycle")) {
+  if (const std::optional<double> steps = run.number("steps_per_cycle")) {
     if (!(*steps >= 0.0 && *steps <= std::numeric_limits<int>::max()))
       check_parameters(run,
                        fmt::format("steps_per_cycle is {:g}; allowed is a whole number above 0", *steps));
     run.steps_per_cycle = static_cast<int>(std::lround(*steps));
   }
-  if (const std::optional<double> step = number(run, "timestep")) run.timestep = *step;
+  if (const std::optional<double> step = run.number("timestep")) run.timestep = *step;
   if (run.timestep <= 0.0 && run.steps_per_cycle > 0 && run.kind == RunKind::chain)
     run.timestep = run.chain.period() / run.steps_per_cycle;
 }
 
 } // namespace
+
+std::optional<double> Run::number(const std::string &parameter) const {
+  const auto found = parameters.find(parameter);
+  if (found == parameters.end() || found->second.empty()) return std::nullopt;
+  try {
+    return number_from_text(found->second);
+  } catch (const std::invalid_argument &) {
+    throw std::runtime_error(fmt::format("{}: {} is '{}', not a number", (folder / "parameters.csv").string(),
+                                         parameter, found->second));
+  }
+}
 
 std::string Run::text(const std::string &parameter, const std::string &fallback) const {
   const auto found = parameters.find(parameter);
@@ -259,35 +268,31 @@ ReportFolders find_report_folders(const std::vector<fs::path> &arguments) {
   };
   for (const fs::path &argument : arguments) {
     if (!fs::is_directory(argument))
-      throw UsageError(fmt::format("'{}' is no folder; allowed are run folders (with chain.csv or bed.csv), "
-                                   "studies and parents of them",
+      throw UsageError(fmt::format("'{}' is no folder; allowed are run folders (with chain.csv, bed.csv or "
+                                   "oedometer.csv), studies and parents of them",
                                    argument.string()));
-    std::vector<fs::path> runs;
-    std::vector<fs::path> studies;
-    if (is_study_folder(argument))
-      studies.push_back(argument);
-    else if (is_run_folder(argument))
-      runs.push_back(argument);
+    ReportFolders found;
+    if (std::vector<fs::path> *own = list_of(argument, found))
+      own->push_back(argument);
     else
       for (fs::recursive_directory_iterator entry(argument, fs::directory_options::skip_permission_denied),
            end;
            entry != end; ++entry) {
         if (!entry->is_directory()) continue;
-        if (is_study_folder(entry->path())) {
-          studies.push_back(entry->path());
-          entry.disable_recursion_pending();
-        } else if (is_run_folder(entry->path())) {
-          runs.push_back(entry->path());
-        }
+        std::vector<fs::path> *list = list_of(entry->path(), found);
+        if (list == &found.studies) entry.disable_recursion_pending();
+        if (list != nullptr) list->push_back(entry->path());
       }
-    if (runs.empty() && studies.empty())
-      throw UsageError(fmt::format(
-          "'{}' has no chain.csv, no bed.csv and no study in it or below it; allowed are run folders, "
-          "studies and parents of them",
-          argument.string()));
-    for (auto [found, into] : {std::pair{&runs, &folders.runs}, std::pair{&studies, &folders.studies}}) {
-      std::sort(found->begin(), found->end());
-      for (const fs::path &folder : *found)
+    if (found.runs.empty() && found.studies.empty() && found.oedometers.empty())
+      throw UsageError(fmt::format("'{}' has no chain.csv, no bed.csv, no oedometer.csv and no study in it "
+                                   "or below it; allowed are run "
+                                   "folders, studies and parents of them",
+                                   argument.string()));
+    for (auto [list, into] :
+         {std::pair{&found.runs, &folders.runs}, std::pair{&found.studies, &folders.studies},
+          std::pair{&found.oedometers, &folders.oedometers}}) {
+      std::sort(list->begin(), list->end());
+      for (const fs::path &folder : *list)
         take(folder, *into);
     }
   }

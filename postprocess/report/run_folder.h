@@ -49,13 +49,16 @@ struct Run {
 
   /// A parameter's text, or `fallback`.
   std::string text(const std::string &parameter, const std::string &fallback = "not recorded") const;
+  /// A parameter as a number, if it is there. Throws std::runtime_error for text that is no number.
+  std::optional<double> number(const std::string &parameter) const;
   Transition transition() const { return kind == RunKind::impact ? impact.transition : chain.transition; }
 };
 
 /// The folders that a report is made from.
 struct ReportFolders {
-  std::vector<std::filesystem::path> runs;    ///< hold chain.csv or bed.csv
-  std::vector<std::filesystem::path> studies; ///< hold study.txt and index.html
+  std::vector<std::filesystem::path> runs;       ///< hold chain.csv or bed.csv
+  std::vector<std::filesystem::path> oedometers; ///< hold oedometer.csv
+  std::vector<std::filesystem::path> studies;    ///< hold study.txt and index.html
 };
 
 /// Run and study folders: each argument is such a folder, or has some below it at any depth. Runs within a

@@ -84,7 +84,7 @@ std::string summary_json(const ReportContent &content) {
   for (const std::vector<Check> *checks : {&results.checks, &results.restitution, &results.words})
     for (const Check &check : *checks)
       json["comparisons"].push_back(check_json(results, check));
-  // Names of folders need not be UTF-8, which JSON asks for.
+  // Names of folders need not be UTF-8, which JSON requires.
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

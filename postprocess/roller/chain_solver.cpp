@@ -12,12 +12,12 @@ namespace drumlin::post {
 namespace {
 
 // A piece is so long that the norm of the matrix times the length is at most this: the series then has no
-// cancellation worth a digit.
+// cancellation that costs a digit.
 constexpr double most_reach = 3.5;
-// After so many of its time constants a decayed mode is below 1e-17 of what it was.
-constexpr double decayed = 40.0;
+// After this number of time constants a decaying mode is below 1e-16 of its first value.
+constexpr double decayed = 37.0;
 
-// reach[n]: with so much of norm times length the terms from n on are below 1e-18 of the sum.
+// reach[n]: if norm times length is at most this, the terms from n on are below 1e-18 of the sum.
 std::array<double, most_terms + 1> reaches() {
   std::array<double, most_terms + 1> reach{};
   double factorial = 1.0;
@@ -76,8 +76,10 @@ struct Polynomial {
 };
 
 // The one root between lo, where the polynomial is negative, and hi, where it is positive: Newton, kept
-// inside the bracket.
+// inside the bracket. A step that rounding makes zero leads to an end of the bracket; it ends the search
+// and is not replaced by a bisection.
 double bracketed_root(const Polynomial &p, double lo, double hi) {
+  constexpr double smallest = 4e-16; // s counts from 0 to 1
   double s = 0.5 * (lo + hi);
   double last = hi - lo;
   for (int i = 0; i < 100; ++i) {
@@ -87,9 +89,10 @@ double bracketed_root(const Polynomial &p, double lo, double hi) {
     if (value == 0.0) return s;
     (value > 0.0 ? hi : lo) = s;
     double next = s - value / slope;
+    if (std::fabs(next - s) <= smallest) return s;
     if (!(next > lo && next < hi) || std::fabs(next - s) > 0.5 * last) next = 0.5 * (lo + hi);
     last = std::fabs(next - s);
-    if (last <= 2e-16) return next; // s counts from 0 to 1
+    if (last <= smallest) return next;
     s = next;
   }
   return s;
@@ -146,14 +149,16 @@ Control control_points(const double *coefficients, std::size_t terms) {
 
 double first_upcrossing(const double *coefficients, std::size_t terms) {
   if (coefficients[0] > 0.0) return 0.0;
-  // Most pieces end well below zero, which the first terms show, with a bound of the others.
-  constexpr std::size_t few = 8;
-  if (terms > few) {
+  // Most pieces stay well below zero, which the first terms show, with a bound of the others. Eight
+  // suffice for a slow motion; while a heavily damped part of it decays, as many as sixteen are needed.
+  for (const std::size_t few : {std::size_t{8}, std::size_t{16}}) {
+    if (terms <= few) break;
     double rest = 0.0;
     for (std::size_t n = few; n < terms; ++n)
       rest += std::fabs(coefficients[n]);
+    if (rest >= -coefficients[0]) continue; // the value at s = 0 is one of the bounds
     const Control b = control_points(coefficients, few);
-    if (*std::max_element(b.begin(), b.begin() + few) + rest < 0.0) return 2.0;
+    if (*std::max_element(b.begin(), b.begin() + static_cast<std::ptrdiff_t>(few)) + rest < 0.0) return 2.0;
   }
   return first_in({coefficients, terms}, control_points(coefficients, terms), 0.0, 1.0);
 }
@@ -276,8 +281,8 @@ PhaseDynamics::PhaseDynamics(const ChainParameters &p, double k, double c)
     if (largest <= slow_rate * 1.0001) break;
     slow_rate = largest;
   }
-  // Worth it where the decay is over long before a cycle is, and safe because the mode then stands far from
-  // all others.
+  // This saves time if the decay is much shorter than a cycle, and is accurate because the eigenvalue is then
+  // far from all others.
   if (!(full_rate_ > 12.0 * slow_rate)) return;
   slow_ = slow;
   slow_rate_ = slow_rate;
@@ -310,6 +315,8 @@ void next_term(const Rows &a, const std::array<double, 4> &y, double factor, std
 
 } // namespace
 
+// Longer than other functions: it is the inner loop of maps, and both cases, with and without a fast mode, are
+// written out for speed.
 void PhaseDynamics::expand(MotionPiece &piece, const ChainState &from, double length, double sine,
                            double cosine) const {
   ChainState state = from;
@@ -453,7 +460,7 @@ ChainSolver::Exit ChainSolver::first_exit(const MotionPiece &piece, int boundary
   const auto look = [&](int index, double k, double c) {
     for (std::size_t n = 0; n < piece.terms; ++n)
       values[n] = k * piece.coefficient[n][0] + c * piece.coefficient[n][1];
-    if (boundary == index) values[0] = 0.0; // the event was here: what is left of the function is rounding
+    if (boundary == index) values[0] = 0.0; // the event was here: the function is zero but for rounding
     const double share = first_upcrossing(values.data(), piece.terms);
     if (share <= 1.0 && share < first.share) first = {index, share};
   };

@@ -10,7 +10,7 @@ namespace drumlin::post {
 
 namespace {
 
-// How a number stands on an axis of a picture: k in MN/m rather than 1e+08.
+// How a number is shown on an axis of a picture: k in MN/m rather than 1e+08.
 struct Shown {
   double scale;
   std::string label;
@@ -27,9 +27,8 @@ struct Box {
   double left, right, low, high;
 };
 
-// The part of the plane that stands for some points of the grid: halfway to the neighbours, not beyond the
-// axes' ends. It reaches a little under the next ones, which are drawn over it: else a seam of the ground
-// would show between them.
+// The rectangle drawn for some points of the grid: halfway to the neighbours, not beyond the axes' ends. It
+// overlaps the next rectangles a little, which are drawn over it: otherwise gaps would show between them.
 Box box_of(const MapGrid &grid, int x0, int x1, int y) {
   constexpr double under = 0.06;
   const auto edge = [](const MapAxis &axis, double place) {
@@ -99,23 +98,51 @@ Panel empty_panel(const MapGrid &grid, const std::string &title) {
 
 } // namespace
 
-MapFigures map_figures(const MapGrid &grid, const std::vector<RegimePoint> &points,
-                       const std::vector<BoundaryPoint> &boundaries) {
-  MapFigures result;
-  // Neighbours of one regime in a row are one rectangle.
+namespace {
+
+// Adds the runs of an engine to the panel of regimes, and their data.
+void add_runs(const MapGrid &grid, const std::vector<EnginePoint> &runs, Panel &panel, MapFigures &result) {
+  if (runs.empty()) return;
+  std::string data = "same_regime,x,y\n";
+  std::array<bool, 2> has{};
+  for (const EnginePoint &run : runs) {
+    has[run.same_regime() ? 1 : 0] = true;
+    data += fmt::format("{:d},{:.8g},{:.8g}\n", run.same_regime(), shown_axis(grid.x).scale * run.x,
+                        shown_axis(grid.y).scale * run.y);
+  }
+  result.data.emplace_back("plot_engine.csv", data);
+  if (has[1])
+    panel.curves.push_back(
+        {"plot_engine.csv", "($1==1?$2:NaN)", "3", "run of the engine, same regime", CurveStyle::run_agrees});
+  if (has[0])
+    panel.curves.push_back({"plot_engine.csv", "($1==0?$2:NaN)", "3", "run of the engine, another regime",
+                            CurveStyle::run_differs});
+}
+
+/// The tables of a map: plot_areas.csv, where neighbours of one regime in a row are one rectangle,
+/// plot_cells.csv with the layers of each point, plot_boundaries.csv; and which regimes and kinds of boundary
+/// they contain.
+struct MapTables {
+  std::array<bool, regime_count> seen{};
+  std::array<bool, kinds.size()> has{};
   std::string areas = "regime,x,y,left,right,low,high\n";
   std::string cells = "x,y,left,right,low,high,cmv,rmv,peak_force_kN,contact_share\n";
-  std::array<bool, regime_count> seen{};
+  std::string marks = "kind,x,y\n";
+};
+
+MapTables tables_of(const MapGrid &grid, const std::vector<RegimePoint> &points,
+                    const std::vector<BoundaryPoint> &boundaries) {
+  MapTables tables;
   const auto at = [&](int x, int y) -> const RegimePoint & {
     return points[static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.x.count) +
                   static_cast<std::size_t>(x)];
   };
   for (int y = 0; y < grid.y.count; ++y)
     for (int x = 0; x < grid.x.count; ++x) {
-      cells += box_cells(grid, box_of(grid, x, x, y));
+      tables.cells += box_cells(grid, box_of(grid, x, x, y));
       for (const Layer &layer : layers)
-        cells += fmt::format(",{:.6g}", layer.value(at(x, y)));
-      cells += '\n';
+        tables.cells += fmt::format(",{:.6g}", layer.value(at(x, y)));
+      tables.cells += '\n';
     }
   for (int y = 0; y < grid.y.count; ++y)
     for (int x = 0; x < grid.x.count;) {
@@ -123,24 +150,33 @@ MapFigures map_figures(const MapGrid &grid, const std::vector<RegimePoint> &poin
       while (last + 1 < grid.x.count && at(last + 1, y).regime == at(x, y).regime)
         ++last;
       const auto regime = static_cast<std::size_t>(at(x, y).regime);
-      seen[regime] = true;
-      areas += fmt::format("{},{}\n", regime, box_cells(grid, box_of(grid, x, last, y)));
+      tables.seen[regime] = true;
+      tables.areas += fmt::format("{},{}\n", regime, box_cells(grid, box_of(grid, x, last, y)));
       x = last + 1;
     }
-  std::string marks = "kind,x,y\n";
-  std::array<bool, kinds.size()> has{};
   for (const BoundaryPoint &point : boundaries)
     for (std::size_t i = 0; i < kinds.size(); ++i)
       if (point.kind == kinds[i].name) {
-        has[i] = true;
-        marks += fmt::format("{},{:.12g},{:.12g}\n", i, shown_axis(grid.x).scale * point.x,
-                             shown_axis(grid.y).scale * point.y);
+        tables.has[i] = true;
+        tables.marks += fmt::format("{},{:.12g},{:.12g}\n", i, shown_axis(grid.x).scale * point.x,
+                                    shown_axis(grid.y).scale * point.y);
       }
-  result.data = {{"plot_areas.csv", areas}, {"plot_cells.csv", cells}, {"plot_boundaries.csv", marks}};
+  return tables;
+}
+
+} // namespace
+
+MapFigures map_figures(const MapGrid &grid, const std::vector<RegimePoint> &points,
+                       const std::vector<BoundaryPoint> &boundaries, const std::vector<EnginePoint> &runs) {
+  const MapTables tables = tables_of(grid, points, boundaries);
+  MapFigures result;
+  result.data = {{"plot_areas.csv", tables.areas},
+                 {"plot_cells.csv", tables.cells},
+                 {"plot_boundaries.csv", tables.marks}};
 
   const auto add_marks = [&](Panel &panel) {
     for (std::size_t i = 0; i < kinds.size(); ++i)
-      if (has[i])
+      if (tables.has[i])
         panel.curves.push_back(
             {"plot_boundaries.csv", fmt::format("($1=={}?$2:NaN)", i), "3", kinds[i].title, kinds[i].style});
   };
@@ -154,10 +190,11 @@ MapFigures map_figures(const MapGrid &grid, const std::vector<RegimePoint> &poin
                                                            CurveStyle::area_3, CurveStyle::area_4,
                                                            CurveStyle::area_5, CurveStyle::area_6};
   for (std::size_t i = 0; i < regime_count; ++i)
-    if (seen[i])
+    if (tables.seen[i])
       panel.curves.push_back(
           {"plot_areas.csv", fmt::format("($1=={}?$2:NaN)", i), "3:4:5:6:7", regime_names[i], styles[i]});
   add_marks(panel);
+  add_runs(grid, runs, panel, result);
   regimes.panels.push_back(panel);
   result.figures.push_back(regimes);
 

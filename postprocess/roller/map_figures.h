@@ -2,6 +2,7 @@
 #pragma once
 
 #include "pages/gnuplot.h"
+#include "roller/engine_points.h"
 #include "roller/regime_map.h"
 
 #include <string>
@@ -10,15 +11,17 @@
 
 namespace drumlin::post {
 
-/// Figures and the CSV files that stand beside their scripts, by name.
+/// Figures, and the CSV files that their scripts read, by name.
 struct MapFigures {
   std::vector<Figure> figures;
   std::vector<std::pair<std::string, std::string>> data;
 };
 
-/// regimes, cmv, rmv, peak_force and contact_share over the axes, boundaries drawn in.
+/// regimes, cmv, rmv, peak_force and contact_share over the axes, boundaries drawn in, and on `regimes`
+/// the runs of an engine, marked by whether they came to the same regime.
 MapFigures map_figures(const MapGrid &grid, const std::vector<RegimePoint> &points,
-                       const std::vector<BoundaryPoint> &boundaries);
+                       const std::vector<BoundaryPoint> &boundaries,
+                       const std::vector<EnginePoint> &runs = {});
 
 /// Once-per-cycle positions of the drum, up and down, with the boundaries as vertical lines.
 MapFigures sweep_figures(const MapChain &chain, const MapAxis &axis, const Sweep &sweep);

@@ -10,7 +10,7 @@ namespace drumlin::post {
 
 namespace {
 
-// Carries the Jacobian along and counts.
+// Computes the Jacobian of the motion and counts events and pieces.
 class Linearised : public MotionObserver {
 public:
   Linearised(Passage &passage, bool with_jacobian) : passage_(passage), with_jacobian_(with_jacobian) {}
@@ -84,7 +84,7 @@ std::optional<PeriodicOrbit> find_orbit(const ChainSolver &solver, const ChainSt
     const ChainState miss = passage.end - orbit.state;
     const double residual = scaled_norm(miss, scale);
     if (!(residual < lost)) return std::nullopt;
-    // Goes on from `converged` until rounding ends the gain.
+    // Iterates beyond `converged` until rounding errors stop the improvement.
     if (residual < converged && (residual >= 0.5 * best || residual == 0.0)) {
       orbit.passage = passage;
       orbit.residual = residual;
@@ -172,7 +172,7 @@ Exponent largest_exponent(const ChainSolver &solver, ChainState &state, int lead
     if (growth > 0.0)
       tangent.vector /= growth;
     else
-      tangent.vector = scale; // the motions have met: all differences are forgotten
+      tangent.vector = scale; // the two motions have become equal: restart from a new difference
     if (cycle >= 0)
       rate[static_cast<std::size_t>(cycle / per_block)] += std::log(std::max(growth, 1e-300)) / per_block;
   }
@@ -210,7 +210,7 @@ std::vector<BranchPoint> continue_orbit(const ChainFamily &family, double from, 
     const ChainSolver solver(parameters);
     orbit = find_orbit(solver, guess, start.period);
     if (!orbit) orbit = find_orbit(solver, last.orbit.state, start.period);
-    // A step that lands far off has met another orbit.
+    // If a step ends far from its start, Newton's method has found another orbit.
     constexpr double far = 0.5;
     if (orbit && scaled_norm(orbit->state - last.orbit.state, state_scale(parameters)) < far) {
       branch.push_back({value, *orbit});

@@ -1,5 +1,7 @@
 #include "roller/regime.h"
 
+#include "support/harmonics.h"
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -45,8 +47,9 @@ public:
     const double basic = std::abs(amplitude_[1]);
     MeterValues values;
     if (basic > 0.0) {
-      values.cmv = 300.0 * std::abs(amplitude_[2]) / basic;
-      values.rmv = 100.0 * std::abs(amplitude_[0]) / basic;
+      const HarmonicAmplitudes amplitudes = {basic, std::abs(amplitude_[2]), std::abs(amplitude_[0])};
+      values.cmv = compaction_meter_value(amplitudes);
+      values.rmv = resonance_meter_value(amplitudes);
     }
     values.peak_force = peak_;
     values.contact_share = std::min(1.0, contact_ / (cycles * solver_.parameters().period()));
@@ -103,7 +106,21 @@ double distance(const ChainState &a, const ChainState &b, const ChainState &scal
   return (a - b).cwiseQuotient(scale).norm();
 }
 
-// The stable orbit that the states at the starts of the last cycles approach, the shortest period first.
+// The orbit with its shortest period: Newton's method for a period also finds the orbits whose period is a
+// fraction of it.
+PeriodicOrbit with_shortest_period(const ChainSolver &solver, const PeriodicOrbit &orbit) {
+  constexpr double same = 1e-8;
+  const ChainState scale = state_scale(solver.parameters());
+  for (int period = 1; 2 * period <= orbit.period; ++period) {
+    if (orbit.period % period != 0) continue;
+    if (distance(pass(solver, orbit.state, period).end, orbit.state, scale) > same) continue;
+    if (const auto shorter = find_orbit(solver, orbit.state, period)) return *shorter;
+  }
+  return orbit;
+}
+
+// The stable orbit that the states at the starts of the last cycles approach; the shortest period is tried
+// first.
 std::optional<PeriodicOrbit> reached_orbit(const ChainSolver &solver, const std::vector<ChainState> &states) {
   constexpr double near = 0.02; // of the scale, after which Newton is tried
   constexpr double met = 1e-6;
@@ -116,7 +133,8 @@ std::optional<PeriodicOrbit> reached_orbit(const ChainSolver &solver, const std:
     if (!orbit || !orbit->stable()) continue;
     const auto long_ago = states.size() - 1 - static_cast<std::size_t>(longest_period / period * period);
     const double now = distance(last, orbit->state, scale);
-    if (now < met || (now < near && now < distance(states[long_ago], orbit->state, scale))) return orbit;
+    if (now < met || (now < near && now < distance(states[long_ago], orbit->state, scale)))
+      return with_shortest_period(solver, *orbit);
   }
   return std::nullopt;
 }
@@ -135,7 +153,7 @@ MeterValues meter_values(const ChainSolver &solver, const ChainState &state, int
 
 namespace {
 
-// Goes on for some cycles; the states at the ends of the last of them.
+// Continues the motion for some cycles. Returns the states at the ends of the last of them.
 std::vector<ChainState> last_states(const ChainSolver &solver, ChainMotion &motion, int cycles) {
   std::vector<ChainState> states;
   for (int cycle = 0; cycle < cycles; ++cycle) {
@@ -168,7 +186,8 @@ RegimePoint judge_regime(const ChainParameters &parameters, int cycles) {
   std::vector<ChainState> states = last_states(solver, motion, cycles);
   if (const auto orbit = reached_orbit(solver, states)) return of_orbit(solver, *orbit);
 
-  // No orbit yet: the motion is aperiodic, or it comes to its orbit slowly, or after an aperiodic beginning.
+  // No orbit yet: the motion is aperiodic, or approaches its orbit slowly, or only after an aperiodic
+  // beginning.
   constexpr int lead = 20;
   constexpr int rounds = 3;
   constexpr double clearly =

@@ -1,4 +1,4 @@
-// Which motion a roller comes to, and what its meter then shows.
+// The motion to which a roller settles (its regime), and the values of a compaction meter in it.
 #pragma once
 
 #include "roller/orbits.h"
@@ -12,7 +12,7 @@ namespace drumlin::post {
 enum class Regime { continuous_contact, partial_uplift, period_2, higher_period, aperiodic, undecided };
 constexpr std::size_t regime_count = 6;
 
-/// As it stands in files: "continuous contact", "partial uplift", "period 2", "higher period", "aperiodic",
+/// Their names in files: "continuous contact", "partial uplift", "period 2", "higher period", "aperiodic",
 /// "undecided".
 extern const std::array<const char *, regime_count> regime_names;
 
@@ -41,11 +41,11 @@ struct RegimePoint {
 /// The longest period that is looked for [cycles].
 constexpr int longest_period = 16;
 
-/// Follows the chain from static equilibrium for `cycles` cycles, 100 or more, and judges where it has come
-/// to. An orbit counts if Newton finds it near the last state, it is stable, and the motion has come nearer
-/// to it. Without one the exponent is taken over as many cycles again, and twice and three times as many
-/// while its interval contains 0 or its mean is below 0.02 per cycle; an orbit that is reached on the way
-/// counts.
+/// Follows the chain from static equilibrium for `cycles` cycles, 100 or more, and determines the regime that
+/// it has reached. An orbit counts if Newton finds it near the last state, it is stable, and the motion has
+/// come nearer to it. Without one the exponent is taken over as many cycles again, and twice and three times
+/// as many while its interval contains 0 or its mean is below 0.02 per cycle; an orbit that is reached on the
+/// way counts.
 RegimePoint judge_regime(const ChainParameters &parameters, int cycles);
 
 } // namespace drumlin::post

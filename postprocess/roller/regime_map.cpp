@@ -150,13 +150,24 @@ struct Edge {
   std::size_t a = 0, b = 0;
 };
 
-// The stable orbit that a chain comes to from rest.
+// The stable orbit that a chain reaches from rest.
 std::optional<PeriodicOrbit> settled_orbit(const ChainParameters &parameters, int cycles, int period) {
   const ChainSolver solver(parameters);
   ChainMotion motion = solver.start();
   for (int cycle = 0; cycle < cycles; ++cycle)
     solver.finish_cycle(motion);
   return find_orbit(solver, motion.state, period);
+}
+
+// The value between two at which contact begins to be lost, by bisection to rounding: the margin of contact has
+// one sign at `from`, the other at `to`.
+double loss_of_contact(const ChainFamily &family, double from, double to) {
+  const bool held = contact_margin(family(from)) > 0.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (from + to);
+    ((contact_margin(family(middle)) > 0.0) == held ? from : to) = middle;
+  }
+  return 0.5 * (from + to);
 }
 
 } // namespace
@@ -191,15 +202,8 @@ std::vector<BoundaryPoint> find_boundaries(const MapGrid &grid, const std::vecto
     const auto take = [&](const char *kind, double value) {
       found[e].push_back({kind, along_x ? value : fixed, along_x ? fixed : value});
     };
-    if ((margin[a] > 0.0) != (margin[b] > 0.0)) {
-      double from = axis.value(place_of(a));
-      double to = axis.value(place_of(b));
-      for (int i = 0; i < 60; ++i) {
-        const double middle = 0.5 * (from + to);
-        ((contact_margin(family(middle)) > 0.0) == (margin[a] > 0.0) ? from : to) = middle;
-      }
-      take("loss of contact", 0.5 * (from + to));
-    }
+    if ((margin[a] > 0.0) != (margin[b] > 0.0))
+      take("loss of contact", loss_of_contact(family, axis.value(place_of(a)), axis.value(place_of(b))));
     // From an orbit of some period to one of another, or to none: does a multiplier of it pass -1?
     const int period_a = points[a].period;
     const int period_b = points[b].period;

@@ -33,11 +33,11 @@ struct MapChain {
   ChainParameters base;
   std::optional<double> me_re; ///< eccentric moment [kg m]; none: the amplitude is Fw whatever the frequency
 
-  /// With numbers set by axes; Fw follows last.
+  /// The chain with the numbers set by axes; Fw is computed from me_re last.
   ChainParameters with(const std::vector<std::pair<std::string, double>> &values) const;
 };
 
-/// Points of a map in rows along x. Told of whole rows of text in order as they are done.
+/// Points of a map in rows along x.
 struct MapGrid {
   MapChain chain;
   MapAxis x, y;

@@ -1,4 +1,5 @@
-// The settled beds that the studies of cost and speed run on, and the laws that they compare there: inputs/study/in.cost_bed.
+// The settled beds that the studies of cost and speed run on, and the laws that they compare there:
+// inputs/study/in.cost_bed.
 #pragma once
 
 #include "engine/engine_run.h"
@@ -15,15 +16,16 @@ struct CostBed {
   int copies_x = 1;
   int copies_y = 1;
 
-  int balls() const { return columns * layers * rows * copies_x * copies_y; } ///< that move
+  int balls() const { return columns * layers * rows * copies_x * copies_y; } ///< number of balls that move
   std::string name() const;
-  Variables sides() const; ///< what all runs on it need
+  Variables sides() const; ///< deck variables of all runs on it
 };
 
 /// The bed's data file in a folder; it is made if no earlier call has finished it.
 std::filesystem::path settled(const CostBed &bed, const std::filesystem::path &folder);
 
-/// Words of the pair style: the engine's own law and the plugin's with the same dashpots, ball for ball.
+/// Words of the pair style: of the engine's own law, and of the plugin's with the same dashpot coefficient
+/// for every pair of balls.
 std::string engine_law(const std::string &models);
 std::string plugin_law(const std::string &models, const std::string &stepping);
 

@@ -40,7 +40,7 @@ double ChainErrors::*column(ErrorMeasure measure) {
 /// h per step and cycle: the resolution of a run of N steps per cycle is this over N.
 double resolution(const ChainParameters &p) { return p.period() * std::max(p.omega, std::sqrt(p.k / p.m2)); }
 
-/// A start costs more than a step: only long runs tell the time of a step.
+/// Time of a step, from long runs only: in short ones the start of the program counts.
 double seconds_per_step(const std::vector<ChainPoint> &points, const std::string &stepping) {
   int most = 0;
   for (const ChainPoint &point : points)
@@ -59,23 +59,23 @@ double sensitivity(const ChainParameters &parameters, const SolverProgress &prog
   constexpr std::array numbers = {&ChainParameters::k, &ChainParameters::D, &ChainParameters::m2};
   std::size_t solved = 0;
   const auto solution = [&](const ChainParameters &chain) {
-    std::vector<double> v_drum = accuracy_truth(chain, [&](double share) {
+    std::vector<double> v_drum = accuracy_reference(chain, [&](double share) {
                                    if (progress)
                                      progress((static_cast<double>(solved) + share) / (1.0 + numbers.size()));
                                  }).history.v_drum;
     ++solved;
     return v_drum;
   };
-  const std::vector<double> truth = solution(parameters);
+  const std::vector<double> reference = solution(parameters);
   double sum = 0.0;
   for (const auto number : numbers) {
     ChainParameters other = parameters;
     other.*number *= 1.0 + change;
     if (!other.invalid().empty())
       other.*number = parameters.*number * (1.0 - change); // at the end of its range
-    const std::size_t rows = truth.size();
+    const std::size_t rows = reference.size();
     const double grown =
-        relative_rms(solution(other), truth, rows - 1 - accuracy_window * accuracy_samples, rows);
+        relative_rms(solution(other), reference, rows - 1 - accuracy_window * accuracy_samples, rows);
     sum += grown * grown / (change * change);
   }
   return std::sqrt(sum);
@@ -94,7 +94,7 @@ double critical_steps(const ChainParameters &parameters, const std::string &step
     const double drum = 4.0 * p.m2 - contact - bond, frame = 4.0 * p.m3 - bond;
     return drum > 0.0 && frame > 0.0 && drum * frame > bond * bond;
   };
-  double low = 0.0, high = 2.0 * std::sqrt(p.m2 / p.k); // the contact's spring alone: never stable beyond
+  double low = 0.0, high = 2.0 * std::sqrt(p.m2 / p.k); // limit of the spring alone: no chain exceeds it
   for (int i = 0; i < 100; ++i) {
     const double middle = 0.5 * (low + high);
     (stable(middle) ? low : high) = middle;
@@ -149,7 +149,7 @@ StepAdvice advise(const AdviceRequest &request, const std::vector<ChainPoint> &p
                              fmt::format("one of which the study has a curve under transition {}",
                                          transition_name(p.transition))));
   needed = std::max(needed, stability_margin * advice.critical_steps);
-  constexpr double most_steps = 1e8; // what in.chain takes
+  constexpr double most_steps = 1e8; // allowed by in.chain
   if (!(needed <= most_steps))
     throw UsageError(
         refusal("--error", fmt::format("{:g}", request.error),

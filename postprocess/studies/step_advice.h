@@ -1,12 +1,13 @@
-// How many steps per cycle a chain needs for an error: the measured curves of the accuracy study, carried over to chains
-// that were never run.
+// How many steps per cycle a chain needs for an error: the measured curves of the accuracy study, scaled to
+// chains that were not measured.
 //
-// What is carried over: with the resolution h = dt max(w0, omega), w0 = sqrt(k/m2), a stepping of order p errs like
+// The scaling: with the resolution h = dt max(w0, omega), w0 = sqrt(k/m2), a scheme of order p has the error
 //   error = C S h^p,
-// S the sensitivity of the chain: how much a relative change of its parameters grows up to the cycles in which the error
-// counts. An error of the stepping acts like such a change, so that two chains of one S and one h err alike, and one that
-// remembers its past for long errs more. C is the largest of the measured curves of the same transition and stepping, and
-// differs between them by the damping, the share of contact and chance: the margin covers that.
+// S the sensitivity of the chain: how much a relative change of its parameters grows up to the cycles in
+// which the error counts. An error of the scheme acts like such a change, so that two chains with the same S
+// and h have about the same error, and a chain in which disturbances decay slowly has a larger one. C is the
+// largest of the measured curves of the same transition and stepping, and differs between them with damping,
+// contact share and chance: the margin covers that.
 #pragma once
 
 #include "chain/direct_solver.h"
@@ -38,38 +39,40 @@ struct StepAdvice {
   double seconds_per_step = 0.0; ///< where the curves were measured
 };
 
-/// Steps beyond what a scaled curve says.
+/// Safety factor on the steps of a scaled curve.
 constexpr double scaling_margin = 2.0;
-/// Steps beyond the stability limit.
+/// Safety factor on the steps at the stability limit.
 constexpr double stability_margin = 2.0;
 /// The default samples per cycle of in.chain.
 constexpr int advised_multiple = 200;
-/// Above it a chain forgets nothing within a run: no step gives its motion, though it may give its averages.
+/// Above this sensitivity disturbances do not decay within a run: no time step gives the chain's motion,
+/// though it may give its averages.
 constexpr double most_sensitive = 1e5;
 
-/// S: the relative RMS change of the drum's velocity over the last 5 of 30 cycles per relative change of k, D and m2, root of
-/// the sum of squares, by the direct solver.
-/// \param progress is told the share of the work that is done, 0 to 1
+/// S: the relative RMS change of the drum's velocity over the last 5 of 30 cycles per relative change of k, D
+/// and m2, root of the sum of squares, by the direct solver.
+/// \param progress called with the share of the work that is done, 0 to 1
 double sensitivity(const ChainParameters &parameters, const SolverProgress &progress = {});
 
 /// The lowest omega, rad/s, with which sensitivity() of a chain takes no more than minutes.
 double slowest_excitation(const ChainParameters &parameters);
 
-/// Steps per cycle at the longest stable step of the chain with the contact closed: 4 M - 2 dt C - dt^2 K ceases to be
-/// positive definite; with second-order stepping, which solves for the dashpots, without C.
+/// Steps per cycle at the longest stable step of the chain with the contact closed: 4 M - 2 dt C - dt^2 K
+/// ceases to be positive definite; with second-order stepping, which solves for the dashpots, without C.
 double critical_steps(const ChainParameters &parameters, const std::string &stepping);
 
 /// \param points of an accuracy study
-/// \param sensitivity_of what remembers the answers of sensitivity() or tells of its progress; sensitivity() if there is none
-/// UsageError if no number of steps can be advised: no curve, too sensitive, or more steps than the engine counts.
+/// \param sensitivity_of called in place of sensitivity(), e.g. to store its results or to print its progress
+/// Throws UsageError if no number of steps can be advised: no curve, too sensitive, or more steps than the
+/// engine can count.
 StepAdvice advise(const AdviceRequest &request, const std::vector<ChainPoint> &points,
                   const std::function<double(const ChainParameters &)> &sensitivity_of = {});
 
-/// What of a chain lies outside of what the scaling was tested with: sqrt(k/m2), omega, D; empty if nothing does, or nothing was
-/// tested.
+/// Which of sqrt(k/m2), omega and D of a chain are outside of the range in which the scaling was tested;
+/// empty if none is, or if it was not tested.
 std::string outside_of_tests(const ChainParameters &parameters, const std::vector<ScalingPoint> &points);
 
-/// One sentence on what runs at advised steps have shown.
+/// One sentence on the errors measured in runs with the advised steps.
 std::string scaling_summary(const std::vector<ScalingPoint> &points);
 
 } // namespace drumlin::post

@@ -1,6 +1,6 @@
-// The studies: each measures what is not measured yet, and writes its results and its page into the study's
-// folder. They throw UsageError for a folder that the engine would split at a space, and std::runtime_error
-// if a run fails.
+// The studies. Each makes the runs that its folder does not have yet, and writes their results and a page
+// there. They throw UsageError for a folder whose path has a space, at which the engine would split it, and
+// std::runtime_error if a run fails.
 #pragma once
 
 #include <array>
@@ -9,38 +9,41 @@ namespace drumlin::post {
 
 struct StudyOptions;
 
-/// `drumlin study accuracy`: error against step size and against wall time. Coarse steps first.
-///   chain.csv    cases I to IV under A and B, both steppings, and the engine's own law under B
-///   impacts.csv  single impacts over the phase of the onset
-///   scaling.csv  chains of other parameters at the steps that advice gives for them
-///   orders.csv   fitted orders, and the steps that each stepping needs for an error
+/// `drumlin study accuracy`: error over step size and over wall time. The coarsest steps are run first.
+///   chain.csv    cases I to IV under A and B with both integration schemes, and the engine's own law under B
+///   impacts.csv  single impacts; the make occurs at several instants within a time step
+///   scaling.csv  chains of other parameters, with the number of steps that `drumlin advise` gives for them
+///   orders.csv   fitted orders of convergence, and the steps that each scheme needs for an error
 ///   index.html   tables and figures
 void run_accuracy_study(const StudyOptions &options);
 
-/// `drumlin study cost`: what a step costs, and what each optional piece adds. Throws std::runtime_error,
-/// too, if laws that are one did not move the balls alike.
+/// `drumlin study cost`: wall time of a time step, and the time that each optional part adds to it. Also
+/// throws std::runtime_error if variants with the same contact law do not end with the balls at the same
+/// positions.
 ///   bed_2500.data, ...  settled beds that all variants start from
-///   runs.csv            time of every run
+///   runs.csv            wall time of each run
 ///   index.html          tables and a figure
 void run_cost_study(const StudyOptions &options);
 
-/// `drumlin study fidelity`: what each ingredient of a bed changes and costs. A run that fails stops no
-/// other; the page says which, and std::runtime_error is thrown at the end.
+/// `drumlin study fidelity`: effect of each part of a bed's model on the results, and its computing time. If
+/// a run fails, the others are still made; the page names the failed runs, and std::runtime_error is thrown
+/// at the end.
 ///   beds/       restart files of the beds
-///   runs.csv    what every run gave
-///   index.html  effects with their confidence intervals
+///   runs.csv    results of each run: settlement, forces, energies, computing time
+///   index.html  tables and a figure of the effects, each with its 95 % confidence interval
 void run_fidelity_study(const StudyOptions &options);
 
-/// `drumlin study speed`: steps of balls per second from small beds to large ones, on one rank and on two,
-/// and memory. Throws std::runtime_error, too, if runs did not do the same work.
-///   runs.csv    time and memory of every run
+/// `drumlin study speed`: throughput (number of balls times time steps per second) and memory from small beds
+/// to large ones, on one rank and on two. Also throws std::runtime_error if runs of one scene do not end with
+/// the balls at the same positions.
+///   runs.csv    wall time and peak memory of each run
 ///   index.html  tables and a figure
 void run_speed_study(const StudyOptions &options);
 
-/// `drumlin study stability`: how long a step may be, and runs at the edges of what can be asked. Throws
-/// std::runtime_error with the rows that fail, after everything is written.
-///   map.csv       the longest stable step over damping
-///   extremes.csv  runs at the edges, each against an oracle
+/// `drumlin study stability`: the longest stable time step, and runs at the limits of the allowed parameters.
+/// Throws std::runtime_error with the runs that fail, after everything is written.
+///   map.csv       longest stable time step at each damping ratio, for both integration schemes
+///   extremes.csv  runs at the limits, each compared with an independent solution
 ///   index.html    tables and a figure
 void run_stability_study(const StudyOptions &options);
 
@@ -54,31 +57,32 @@ struct Study {
 
 /// All studies, in the order of the help.
 inline constexpr std::array studies = {
-    Study{"accuracy",
-          "Error of the chain and of single impacts against step size and wall time, for both steppings and "
-          "the "
-          "engine's own contact law; tests what `drumlin advise` says. About half an hour.",
-          &run_accuracy_study},
-    Study{"cost",
-          "What a step costs on the chain and on settled beds, and what each optional piece adds, as ratios "
-          "within interleaved rounds. About twenty minutes, on a quiet machine.",
-          &run_cost_study},
-    Study{"fidelity",
-          "What each ingredient of a bed changes and costs, over five seeds: condition, friction, rolling, "
-          "stiffness, step, number, size and "
-          "packing of the balls, kind of drum, frequency, two dimensions or three. About five hours of "
-          "processor "
-          "time.",
-          &run_fidelity_study, true},
+    Study{
+        "accuracy",
+        "Error of the chain and of single impacts over step size and wall time, for both integration schemes "
+        "and the engine's own contact law; tests what `drumlin advise` says. About half an hour.",
+        &run_accuracy_study},
+    Study{
+        "cost",
+        "Time of a step on the chain and on settled beds, and what each optional part adds, as ratios within "
+        "interleaved rounds. About twenty minutes, on a quiet machine.",
+        &run_cost_study},
+    Study{
+        "fidelity",
+        "Effect and computing time of each part of a bed's model, over five seeds: condition, friction, "
+        "rolling, stiffness, time step, number, size and packing of the balls, kind of drum, frequency, two "
+        "dimensions or three. About five hours of processor time.",
+        &run_fidelity_study, true},
     Study{"speed",
-          "Steps of balls per second from 2500 balls to a quarter of a million, on one rank and on two, "
-          "beside the "
-          "engine's own law; memory; a projection to 1e8. About twenty minutes, on a quiet machine.",
+          "Balls times steps per second from 2500 balls to a quarter of a million, on one rank and on two, "
+          "compared with the engine's own law; memory; a projection to 1e8 balls. About twenty minutes, on a "
+          "quiet machine.",
           &run_speed_study},
-    Study{"stability",
-          "The longest stable step over damping, for both steppings; runs at the edges of what can be asked. "
-          "About ten minutes.",
-          &run_stability_study},
+    Study{
+        "stability",
+        "The longest stable time step over damping, for both integration schemes; runs at the limits of the "
+        "allowed parameters. About ten minutes.",
+        &run_stability_study},
 };
 
 } // namespace drumlin::post

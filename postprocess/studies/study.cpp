@@ -23,7 +23,8 @@ namespace {
 
 constexpr const char *record_name = "study.txt";
 
-/// Tells builds of the plugin apart: the version, and a checksum over its libraries in order of their names.
+/// Identifies the build of the plugin: the version, and a checksum over its libraries in order of their
+/// names.
 std::string record(const StudyOptions &options) {
   std::set<fs::path> libraries;
   for (const fs::directory_entry &entry : fs::directory_iterator(fs::path(plugin_library()).parent_path()))
@@ -37,7 +38,7 @@ std::string record(const StudyOptions &options) {
                      options.quick ? " quick" : "");
 }
 
-/// Whether a cell holds what a program prints for a number that is none.
+/// Whether a cell is the text that a program prints for NaN.
 bool is_nan(const std::string &cell) {
   const std::optional<double> number = any_number_from_text(cell);
   return number && std::isnan(*number);
@@ -55,7 +56,7 @@ void open_study(const StudyOptions &options) {
   const fs::path file = options.out / record_name;
   const std::string now = record(options);
   if (fs::exists(file)) {
-    if (options.fresh) { // what is in it, not the folder: it may be a symbolic link
+    if (options.fresh) { // its content, not the folder itself, which may be a symbolic link
       for (const fs::directory_entry &entry : fs::directory_iterator(options.out))
         fs::remove_all(entry.path());
     } else if (read_text(file) != now)

@@ -1,4 +1,4 @@
-// What every study shares: its options, and results that survive an interruption.
+// The parts that all studies share: options, and results that are kept when a study is interrupted.
 #pragma once
 
 #include "support/csv_schema.h"
@@ -12,19 +12,20 @@
 
 namespace drumlin::post {
 
-/// What a user asks of any study.
+/// Options of all studies.
 struct StudyOptions {
   std::filesystem::path out; ///< folder of its results, made if missing
-  bool fresh = false;        ///< forget what an earlier call measured
-  bool quick = false;        ///< few points: to see that it works, not to learn from
+  bool fresh = false;        ///< discard the results of an earlier call
+  bool quick = false;        ///< few points, to test that the study works; the results are not meaningful
   int jobs = 1;              ///< runs at the same time, in a study that does not time them against each other
 };
 
 /// Throws UsageError for a folder that the engine would split at a space.
 void check_engine_path(const std::filesystem::path &out);
 
-/// Makes the folder of a study, or finds an earlier call's points there, to go on from. Points of another build of the
-/// plugin, or of another choice of `quick`, do not mix: UsageError, unless the options say fresh, which removes them.
+/// Makes the folder of a study, or opens one in which an earlier call has left points, to continue it. Throws
+/// UsageError if these points are from another build of the plugin or another choice of `quick`, unless the
+/// options say `fresh`, which removes them.
 void open_study(const StudyOptions &options);
 
 /// The rows of a study's file without those that an interruption cut short, and without those with a cell

@@ -21,8 +21,8 @@ struct FittedOrder {
   double to = 0.0;      ///< most
 };
 
-/// Fit over the points from a number of steps on: what is coarser need not be in the asymptotic range. Nothing if fewer than
-/// three points with errors that are finite and above 0 remain.
+/// Fit over the points from a number of steps on: coarser steps need not be in the asymptotic range. Nothing
+/// if fewer than three points with errors that are finite and above 0 remain.
 std::optional<FittedOrder> fitted_order(const std::vector<ErrorPoint> &points, double from);
 
 /// Where the finer half of the points begins, on a logarithmic scale. Points in order of steps, not empty.
@@ -32,12 +32,12 @@ double finer_half(const std::vector<ErrorPoint> &points);
 /// largest does not. Points in order of steps.
 std::optional<double> steps_needed(const std::vector<ErrorPoint> &points, double error);
 
-/// Largest error at each number of steps and beyond it: what one can rely on, falling with the steps. Points that have no
-/// error count as infinite.
+/// Largest error at each number of steps and beyond it: a bound that never grows with the number of steps.
+/// Points that have no error count as infinite.
 std::vector<ErrorPoint> envelope(std::vector<ErrorPoint> points);
 
-/// Steps at which the envelope reaches an error, between its points and beyond its ends by power laws; beyond the ends
-/// with the given order. error > 0. Nothing without points of finite error.
+/// Steps at which the envelope reaches an error, between its points and beyond its ends by power laws; beyond
+/// the ends with the given order. error > 0. Nothing without points of finite error.
 std::optional<double> steps_for(const std::vector<ErrorPoint> &points, double error, double order);
 
 } // namespace drumlin::post

@@ -59,7 +59,7 @@ std::string read_whole_file(const fs::path &file) {
   return text;
 }
 
-// Walks through a CSV text row by row. Cells are plain or quoted (RFC 4180); empty lines are passed over.
+// Walks through a CSV text row by row. Cells are plain or quoted (RFC 4180); empty lines are skipped.
 class RowScanner {
 public:
   RowScanner(fs::path file, std::string text) : file_(std::move(file)), text_(std::move(text)) {
@@ -91,7 +91,7 @@ public:
   std::size_t line() const { return line_; }
 
 private:
-  // Takes one cell and what ends it; true if another cell follows in this row.
+  // Reads one cell and the comma or line end behind it; true if another cell follows in this row.
   bool read_cell(std::string &cell) {
     cell.clear();
     if (at_ < text_.size() && text_[at_] == '"') {
@@ -213,7 +213,7 @@ std::string csv_line(const std::vector<std::string> &cells) {
 }
 
 std::string csv_cell(std::string_view text) {
-  // Blanks at the ends are quoted too: readers take them off plain cells.
+  // Blanks at the ends are quoted too: readers remove them from plain cells.
   if (text.find_first_of(",\"\r\n") == std::string_view::npos && trimmed(text).size() == text.size())
     return std::string(text);
   std::string cell = "\"";

@@ -14,7 +14,7 @@
 
 namespace drumlin::post {
 
-/// A small CSV table, all cells as text. RFC 4180 quotes are taken off: a quoted cell may hold commas,
+/// A small CSV table, all cells as text. Quotes as of RFC 4180 are removed: a quoted cell may hold commas,
 /// doubled quotes and line ends.
 class Table {
 public:
@@ -43,8 +43,8 @@ private:
   std::vector<std::size_t> lines_; // where each row starts in the file
 };
 
-/// What happens to a row that an interrupted writer has left: one with fewer cells than names in the header,
-/// or a last one without its line end, whose last number may lack digits.
+/// How to treat a row that an interrupted writer has not completed: a row with fewer cells than names in the
+/// header, or a last row without line end, whose last number may lack digits.
 enum class CutRows {
   refuse, ///< a row of another length than the header is a fault; the line end of the last one may be missing
   forget  ///< the row is left out
@@ -79,7 +79,8 @@ private:
 double csv_number(const std::filesystem::path &file, std::size_t line, std::string_view column,
                   const std::string &cell);
 
-/// Throws std::runtime_error "FILE, line LINE, column 'COLUMN': WHAT"; line 0 and an empty column are left out.
+/// Throws std::runtime_error "FILE, line LINE, column 'COLUMN': WHAT"; line 0 and an empty column are left
+/// out.
 [[noreturn]] void csv_fault(const std::filesystem::path &file, std::size_t line, std::string_view column,
                             std::string_view what);
 
@@ -93,13 +94,13 @@ std::string csv_line(const std::vector<std::string> &cells);
 /// One cell of CSV: `text` itself, or quoted if it holds a comma, a quote or a line end.
 std::string csv_cell(std::string_view text);
 
-/// The number that `text` holds, all of it and nothing else, finite; else std::invalid_argument.
+/// The finite number that `text` is, without further characters; else std::invalid_argument.
 double number_from_text(std::string_view text);
 
-/// The number that `text` holds, which may be infinite or NaN; nothing if it holds anything else.
+/// The number that `text` is, which may be infinite or NaN; nothing if it is anything else.
 std::optional<double> any_number_from_text(std::string_view text);
 
-/// The whole number that `text` holds, all of it and nothing else; nothing if it holds anything else.
+/// The whole number that `text` is; nothing if it is anything else.
 std::optional<long> whole_number_from_text(std::string_view text);
 
 /// The digits with which a number comes back bit for bit.

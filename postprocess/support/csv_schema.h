@@ -39,7 +39,7 @@ std::string csv_text(const Value &value, int digits) {
     return digits < all_digits && !std::isfinite(value) ? std::string() : number_text(value, digits);
 }
 
-/// The value of a cell. A number may be infinite; an empty cell is NaN, one that says so is refused.
+/// The value of a cell. A number may be infinite; an empty cell is NaN, the word "nan" is refused.
 template <class Value>
 Value csv_value(const std::string &cell) {
   if constexpr (std::is_same_v<Value, std::string>) {
@@ -118,8 +118,8 @@ public:
     return all;
   }
 
-  /// The rows of a table, whose columns may stand in any order beside others. std::runtime_error with file,
-  /// line, column, the cell and what is allowed.
+  /// The rows of a table, whose columns may be in any order, among others that are ignored.
+  /// std::runtime_error with file, line, column, the cell and what is allowed.
   std::vector<Row> rows(const Table &table) const {
     std::vector<Row> all(table.rows());
     for (const CsvColumn<Row> &column : columns_) {

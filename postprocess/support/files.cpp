@@ -34,7 +34,8 @@ constexpr const char *allowed_files = "a file that can be written";
   throw std::runtime_error(fmt::format("{}: cannot be written: {}", file.string(), why));
 }
 
-/// Where a path leads, with all symbolic links followed; std::filesystem::filesystem_error where they go in a circle.
+/// Where a path leads, with all symbolic links followed; std::filesystem::filesystem_error where they go in a
+/// circle.
 fs::path real_path(const fs::path &path) { return fs::weakly_canonical(fs::absolute(path)); }
 
 bool below_a_system_folder(const fs::path &real) {
@@ -95,7 +96,7 @@ void make_folders(const fs::path &real) {
     throw std::runtime_error(fmt::format("cannot be made: {}; allowed: {}", code.message(), allowed_folders));
 }
 
-/// A file under way, removed with this object unless it was given its name.
+/// A temporary file, removed with this object unless it was renamed to its final name.
 class Temporary {
 public:
   explicit Temporary(const fs::path &file) : place_(real_path(file)) {
@@ -123,7 +124,7 @@ public:
         file_(std::exchange(other.file_, -1)) {}
   Temporary &operator=(Temporary &&) = delete;
 
-  /// Some file systems tell of a full disk only when the file is closed.
+  /// Writes the text and closes the file: some file systems report a full disk only then.
   void write_and_close(std::string_view text) {
     write_all(file_, text);
     if (::close(std::exchange(file_, -1)) != 0) throw std::system_error(errno, std::generic_category());
@@ -148,7 +149,7 @@ private:
   int file_ = -1;
 };
 
-/// Whether a name is the prefix and the number of a process that is no more.
+/// Whether a name is the prefix followed by the number of a process that does not exist any more.
 bool is_leftover(const std::string &name, const std::string &prefix) {
   if (name.size() <= prefix.size() || name.compare(0, prefix.size(), prefix) != 0) return false;
   pid_t process = 0;
@@ -157,7 +158,7 @@ bool is_leftover(const std::string &name, const std::string &prefix) {
   return code == std::errc() && stop == end && process > 0 && ::kill(process, 0) != 0 && errno == ESRCH;
 }
 
-/// Folders PREFIX and a process number in `parent` whose process is no more, as a kill leaves them.
+/// The temporary folders in `parent`, named by `prefix` and a process number, whose processes were killed.
 std::vector<fs::path> leftovers(const fs::path &parent, const std::string &prefix) {
   std::vector<fs::path> found;
   std::error_code ignored;
@@ -168,7 +169,8 @@ std::vector<fs::path> leftovers(const fs::path &parent, const std::string &prefi
   return found;
 }
 
-/// Removes them. Faults are ignored: what cannot be removed does no harm.
+/// Removes the temporary folders of killed processes. Errors are ignored: a folder that cannot be removed
+/// does no harm.
 void remove_leftovers(const fs::path &parent, const std::string &prefix) {
   std::error_code ignored;
   for (const fs::path &folder : leftovers(parent, prefix))
@@ -263,14 +265,14 @@ TemporaryFolder::~TemporaryFolder() {
 
 namespace {
 
-/// Prefix of the names of folders beside `place` that hold its new content, or its earlier one while they are
-/// exchanged.
+/// Prefix of the names of folders next to `place` that hold its new content, or its earlier content during
+/// the exchange.
 std::string prefix_beside(const fs::path &place, const char *which) {
   return fmt::format(".{}.{}-", place.filename().string(), which);
 }
 
-/// A process that was killed between the two renames of publish() has left the earlier folder under its other
-/// name.
+/// Prefix of the name of the folder for new content. First repairs the state after a kill: if a process was
+/// killed between the two renames of publish(), the earlier folder gets its name back.
 std::string prefix_after_rescue(const fs::path &place) {
   const std::string earlier = prefix_beside(place, "old");
   const std::vector<fs::path> left = leftovers(place.parent_path(), earlier);

@@ -1,4 +1,5 @@
-// Where results go and how they are written: never onto a device, a pipe or a folder, never half a file in the place of a whole one.
+// Where results go and how they are written: never onto a device, a pipe or a folder, and an earlier file is
+// replaced only when the new one is complete.
 #pragma once
 
 #include <filesystem>
@@ -10,17 +11,18 @@
 
 namespace drumlin::post {
 
-/// Checks that a folder can take results, before any work is done: it exists and can be written to, or can be made. A symbolic link to a
-/// folder is followed. Refused are the root folder, /dev, /proc, /sys and all below them. Nothing is made.
-/// Throws std::runtime_error "WHY; allowed: WHAT", without the folder's name.
+/// Checks that a folder can take results, before any work is done: it exists and can be written to, or can be
+/// made. A symbolic link to a folder is followed. Refused are the root folder, /dev, /proc, /sys and all
+/// below them. Nothing is made. Throws std::runtime_error "WHY; allowed: WHAT", without the folder's name.
 void check_output_folder(const std::filesystem::path &folder);
 
-/// Checks that a file can be written, in a folder that can take it: it does not exist, or it is a regular file that its mode lets be
-/// written. A symbolic link to such a file is followed; one that leads nowhere, a device, a pipe, a socket and a folder are
-/// refused. Nothing is made. Throws as check_output_folder does.
+/// Checks that a file can be written, in a folder that can take it: it does not exist, or it is a regular
+/// file that its mode lets be written. A symbolic link to such a file is followed; one that leads nowhere, a
+/// device, a pipe, a socket and a folder are refused. Nothing is made. Throws as check_output_folder does.
 void check_output_file(const std::filesystem::path &file);
 
-/// Makes the folder of results and those above it; std::runtime_error "WHY; allowed: WHAT" if it cannot be made or used.
+/// Makes the folder of results and those above it; std::runtime_error "WHY; allowed: WHAT" if it cannot be
+/// made or used.
 void make_output_folder(const std::filesystem::path &folder);
 
 /// Makes the folder of a file that is to be written; the same errors.
@@ -32,17 +34,18 @@ std::string read_text(const std::filesystem::path &file);
 /// A name of a file and the text to go into it.
 using FileText = std::pair<std::filesystem::path, std::string>;
 
-/// Writes the files, all or none: every text goes to a temporary file beside its place first, every write and close is checked, then all
-/// are renamed. A symbolic link stays, and what it leads to is replaced; an earlier file's mode is kept. The folder must exist.
-/// std::runtime_error names the file that failed and why; earlier files are then as they were.
+/// Writes the files, all or none: every text is first written to a temporary file in the same folder, every
+/// write and close is checked, then all are renamed. A symbolic link stays, and the file to which it points
+/// is replaced; an earlier file's mode is kept. The folder must exist. std::runtime_error names the file that
+/// failed and why; earlier files are then as they were.
 void write_files(const std::vector<FileText> &files);
 
-/// Gives a finished file its name, in the place of an earlier regular file if there is one; the rules of check_output_file.
-/// std::runtime_error names the file and why it failed.
+/// Gives a finished file its name, in the place of an earlier regular file if there is one; the rules of
+/// check_output_file. std::runtime_error names the file and why it failed.
 void replace_file(const std::filesystem::path &finished, const std::filesystem::path &file);
 
-/// Adds text at the end of a file and checks that all of it arrived. std::runtime_error names the file and why not; what was added is
-/// then taken off again where that is possible.
+/// Adds text at the end of a file and checks that all of it arrived. std::runtime_error names the file and
+/// why not; the part that was added is then removed again where that is possible.
 void append_text(const std::filesystem::path &file, const std::string &text);
 
 /// A temporary folder, PARENT/PREFIX followed by the number of this process. The destructor removes it with
@@ -60,7 +63,7 @@ private:
 };
 
 /// Results that replace a folder as a whole once all of them are there. They are made in a temporary folder
-/// beside it. The destructor removes what was not published.
+/// next to it. The destructor removes what was not published.
 class FolderInProgress {
 public:
   /// \param place absolute, without a trailing slash; its parent exists. If a process was killed while it
@@ -77,9 +80,9 @@ private:
   TemporaryFolder folder_;
 };
 
-/// Files that go into a folder, beside others, once all of them are there. They are made in a temporary
-/// folder inside it. The destructor removes what was not published, and the folder if this object has made it
-/// and it is still empty.
+/// Files that are moved into a folder, which may have others, once all of them are there. They are made in a
+/// temporary folder inside it. The destructor removes what was not published, and the folder if this object
+/// has made it and it is still empty.
 class FilesInProgress {
 public:
   explicit FilesInProgress(const std::filesystem::path &folder);

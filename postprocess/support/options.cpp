@@ -62,7 +62,7 @@ const std::string &choice_option(const char *option, const std::string &text,
 
 fs::path path_option(const char *option, const std::string &text) {
   fs::path path = text;
-  // The names of temporary files beside it are some characters longer.
+  // The name of its temporary file is some characters longer.
   constexpr std::size_t longest_part = NAME_MAX - 25;
   constexpr std::size_t longest = PATH_MAX - 200;
   if (text.empty()) refuse(option, text, "the name of a file or folder");

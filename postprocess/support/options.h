@@ -1,4 +1,5 @@
-// The one reader of the command line's options: they stay text until it judges them, with one form of message.
+// The one reader of the command line's options: options stay text until its functions check them, with one
+// form of error message.
 //
 // Every function throws UsageError "OPTION is 'TEXT'; allowed: WHAT" for a text that is empty or not allowed.
 #pragma once
@@ -25,7 +26,8 @@ std::uint64_t seed_option(const char *option, const std::string &text);
 const std::string &choice_option(const char *option, const std::string &text,
                                  std::initializer_list<const char *> words);
 
-/// The name of a file or folder that exists or will be made: not empty, no part of it longer than file systems take.
+/// The name of a file or folder that exists or will be made: not empty, no part of it longer than file
+/// systems allow.
 std::filesystem::path path_option(const char *option, const std::string &text);
 
 /// A folder for results (see check_output_folder in files.h).

@@ -42,7 +42,7 @@ struct End {
   rusage used = {};
 };
 
-/// Hands on the lines of a file while another process writes it.
+/// Passes on the lines of a file while another process writes it.
 class LineFollower {
 public:
   LineFollower(const fs::path &file, const std::function<void(const std::string &)> &line) : line_(line) {
@@ -82,7 +82,8 @@ bool wait_until(pid_t child, End &how, steady_clock::time_point end, LineFollowe
   }
 }
 
-/// Stops the child, and its process group if it has one of its own: politely, so that mpirun takes its ranks along, then at once.
+/// Stops the child, and its process group if it has one of its own: first by SIGTERM, so that mpirun can stop
+/// its ranks, then by SIGKILL.
 void stop(pid_t child, bool own_group, End &how) {
   const pid_t whom = own_group ? -child : child;
   kill(whom, SIGTERM);
@@ -147,7 +148,7 @@ Outcome run_program(const Program &program) {
     stop(child, program.own_group, how);
     throw;
   }
-  follower.follow(); // what was printed between the last look and the end
+  follower.follow(); // lines printed since the last call
   outcome.status = WIFEXITED(how.status) ? WEXITSTATUS(how.status) : 128 + WTERMSIG(how.status);
   outcome.cpu_seconds = seconds(how.used.ru_utime) + seconds(how.used.ru_stime);
   outcome.peak_bytes = 1024.0 * static_cast<double>(how.used.ru_maxrss); // Linux counts it in KiB

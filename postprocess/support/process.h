@@ -14,7 +14,7 @@ struct Outcome {
   bool timed_out = false; ///< it was stopped at its time limit
   double cpu_seconds =
       0.0; ///< processor time of the child and its children, s: its wall time, had it the machine for itself
-  double peak_bytes = 0.0; ///< largest memory that one of them held at a time
+  double peak_bytes = 0.0; ///< largest memory of one of its processes
   std::string output;      ///< standard output and standard error
   bool ok() const { return status == 0 && !timed_out; }
   bool says(const std::string &text) const { return output.find(text) != std::string::npos; }
@@ -23,7 +23,7 @@ struct Outcome {
 /// The file in its folder that run_program() leaves a program's output in.
 constexpr const char *program_output_file = "screen.txt";
 
-/// A program and what it is run with.
+/// A program with its arguments, folder, environment and limits.
 struct Program {
   std::vector<std::string> words;       ///< the program, a path or a name that PATH finds, and its arguments
   std::vector<std::string> environment; ///< entries "NAME=value" in front of those of this process
@@ -37,15 +37,16 @@ struct Program {
       line; ///< gets each line of the output while the program runs; may be empty
 };
 
-/// Runs a program until it ends or its time is over. Throws std::runtime_error if it cannot be started. What `line` throws stops the
-/// program and is thrown on.
+/// Runs a program until it ends or its time is over. Throws std::runtime_error if it cannot be started. If
+/// `line` throws, the program is stopped and the exception is passed on.
 Outcome run_program(const Program &program);
 
-/// The file of a program: the name itself if it has a slash, else the first file of that name in the folders of PATH that may be run.
-/// Empty if there is none.
+/// The file of a program: the name itself if it has a slash, else the first file of that name in the folders
+/// of PATH that may be run. Empty if there is none.
 std::filesystem::path program_file(const std::string &name);
 
-/// The same with extra environment entries ("NAME=value") in a folder, which gets the output, for at most `limit` seconds.
+/// The same with extra environment entries ("NAME=value") in a folder, which gets the output, for at most
+/// `limit` seconds.
 Outcome run_program(const std::vector<std::string> &words, const std::vector<std::string> &environment,
                     const std::filesystem::path &folder, double limit = 20.0);
 

@@ -1,4 +1,4 @@
-// Lines on standard output about work that takes seconds to hours.
+// Progress of work that takes seconds to hours, as lines on standard output.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// What a number may be, and the one form in which a value is refused.
+// Allowed ranges of numbers, and the one form of the message that refuses a value.
 #pragma once
 
 #include <string>
@@ -6,16 +6,16 @@
 
 namespace drumlin::post {
 
-/// The numbers that an option or a parameter takes, from `least` to `most`.
+/// The numbers that an option or a parameter may be, from `least` to `most`.
 struct Range {
   double least;
   double most;
   const char *unit = ""; ///< without brackets, empty for a count or a ratio
-  bool zero_too = false; ///< 0 is allowed besides
+  bool zero_too = false; ///< 0 is allowed, too
   bool above = false;    ///< `least` itself is not allowed
   bool below = false;    ///< `most` itself is not allowed
 
-  /// Whether it takes the value; never a NaN.
+  /// Whether the value is allowed; false for NaN.
   bool holds(double value) const;
   /// What is allowed, e.g. "0, or a number from 1e-06 to 1e+15 [N/m]".
   std::string words() const;

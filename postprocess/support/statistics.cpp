@@ -30,6 +30,12 @@ bool MeanInterval::significant() const { return std::fabs(mean) > half_width; }
 
 bool MeanInterval::within(double bound) const { return std::fabs(mean) + half_width <= bound; }
 
+double t_factor(double freedom) {
+  constexpr double upper_tail = 0.025; // as much as the lower one
+  return boost::math::quantile(
+      boost::math::complement(boost::math::students_t_distribution<double>(freedom), upper_tail));
+}
+
 MeanInterval mean_interval(const std::vector<double> &values) {
   if (values.empty()) throw std::invalid_argument("a mean of no values");
   const auto n = static_cast<double>(values.size());
@@ -40,10 +46,7 @@ MeanInterval mean_interval(const std::vector<double> &values) {
   for (const double value : values)
     squares += (value - mean) * (value - mean);
   if (values.size() < 2) return {mean, std::numeric_limits<double>::infinity()};
-  constexpr double upper_tail = 0.025; // as much as the lower one
-  const double t = boost::math::quantile(
-      boost::math::complement(boost::math::students_t_distribution<double>(n - 1.0), upper_tail));
-  return {mean, t * std::sqrt(squares / (n * (n - 1.0)))};
+  return {mean, t_factor(n - 1.0) * std::sqrt(squares / (n * (n - 1.0)))};
 }
 
 } // namespace drumlin::post

@@ -1,4 +1,4 @@
-// What samples say.
+// Statistics of samples: median, quantiles, confidence intervals.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,8 @@ namespace drumlin::post {
 
 /// Middle value; of an even number the mean of the two in the middle. values not empty.
 double median(std::vector<double> values);
-/// Value below which a share (0 to 1) of the values lies, linear between neighbours: 0.25 gives the lower quartile. values not empty.
+/// Value below which a share (0 to 1) of the values lies, linear between neighbours: 0.25 gives the lower
+/// quartile. values not empty.
 double quantile(std::vector<double> values, double share);
 
 /// Median and quartiles.
@@ -20,11 +21,14 @@ Spread spread(const std::vector<double> &values);
 /// A mean and half the width of its 95 % confidence interval.
 struct MeanInterval {
   double mean, half_width;
-  /// Whether zero lies outside of the interval. Scatter alone puts it there once in twenty times.
+  /// Whether zero lies outside of the interval. By scatter alone this happens in 5 % of all samples.
   bool significant() const;
   /// Whether the whole interval lies within +-bound.
   bool within(double bound) const;
 };
+/// The factor from a standard error to half the width of its 95 % confidence interval, by Student's t
+/// distribution with so many degrees of freedom (above 0).
+double t_factor(double freedom);
 /// The interval by Student's t distribution; its half width is infinite for a single value.
 /// std::invalid_argument without values.
 MeanInterval mean_interval(const std::vector<double> &values);

@@ -1,4 +1,5 @@
-// Text from outside, such as names of folders and values of parameters.csv, made fit for what it goes into.
+// Text from outside, such as names of folders and values of parameters.csv, converted for pages, shells and
+// links.
 #pragma once
 
 #include <cstddef>
@@ -6,14 +7,16 @@
 
 namespace drumlin::post {
 
-/// The text as valid UTF-8 without the code points that XML forbids: what is not becomes U+FFFD, the replacement character. Control
-/// characters stay.
+/// The text as valid UTF-8 without the code points that XML forbids: any other byte becomes U+FFFD, the
+/// replacement character. Control characters stay.
 std::string valid_utf8(const std::string &text);
 
-/// The text with at most `letters` letters (5 or more): of a longer one the middle is replaced by an ellipsis. Text in UTF-8.
+/// The text with at most `letters` letters (5 or more): of a longer one the middle is replaced by an
+/// ellipsis. Text in UTF-8.
 std::string shortened(const std::string &text, std::size_t letters);
 
-/// The text as one word of a shell's command line: as it stands if every shell takes it so, else in single quotes.
+/// The text as one word of a shell's command line: unchanged if it has no character that a shell interprets,
+/// else in single quotes.
 std::string shell_word(const std::string &text);
 
 /// A relative path as a link in a page: all but letters, digits, '/', '-', '_', '.' and '~' as %XX.

@@ -1,4 +1,4 @@
-// What a subcommand of the tool gets from, and gives to, main.cpp.
+// The interface between the subcommands of the tool and main.cpp.
 #pragma once
 
 #include <stdexcept>

@@ -1,5 +1,5 @@
-/// The boundaries of the project, read from its sources: the include rule of ARCHITECTURE.md, and that every source is named in a
-/// CMakeLists.txt.
+/// The boundaries of the project, read from its sources: the include rule of ARCHITECTURE.md, and that every
+/// source is named in a CMakeLists.txt.
 
 #include <gtest/gtest.h>
 
@@ -142,14 +142,16 @@ bool fits_room(const std::string &room, const std::string &header, const Heights
   return other->first == room || other->second < rooms.at(room);
 }
 
-/// Rooms between the core and the adapters know an engine through engine.h alone; libraries that are no engine's are named here.
+/// Rooms between the core and the adapters know an engine through engine.h alone; libraries that are no
+/// engine's are named here.
 bool fits_shared(const std::string &room, const Include &include) {
   if (include.quoted) return include.name == "engine.h" || fits_room(room, include.name, plugin_rooms);
   return is_standard(include) || starts_with(include.name, "fmt/") || starts_with(include.name, "sys/") ||
          include.name == "unistd.h" || include.name == "fcntl.h";
 }
 
-/// An adapter may include any header of its engine as well, which the plugin does not have, but not the other adapter.
+/// An adapter may include any header of its engine as well, which the plugin does not have, but not the other
+/// adapter.
 bool fits_adapter(const std::string &room, const Include &include) {
   if (include.name.find("..") != std::string::npos) return false;
   if (!include.quoted || include.name == "stub.h") return true;
@@ -273,7 +275,8 @@ TEST(Boundaries, EverySourceIsNamedNotGlobbed) {
     EXPECT_FALSE(globs(text_of(file))) << file;
 }
 
-// The checks above would also pass if they found no include lines at all. Here they must find and refuse some.
+// The checks above would also pass if they found no include lines at all. Here they must find and refuse
+// some.
 TEST(BoundaryChecks, ReadIncludeLines) {
   const auto found =
       includes_of("#include <cmath>\n  #  include \"engine.h\" // why\n// #include <no>\n#include <a/b.h>");

@@ -1,4 +1,4 @@
-// The bed: made, settled, put under a roller, shaken. A small one, with all that the large one has.
+// The decks of the bed on a small bed: balls are placed, settle, get a roller, and are excited.
 #include "tests/support/engine_runs.h"
 
 #include "bed/dump_readers.h"
@@ -44,7 +44,7 @@ protected:
     scratch = std::make_unique<Scratch>();
     make(*scratch, "1", {drums.begin(), drums.end()});
   }
-  /// The bed that was settled under second-order stepping, which the tests that want it make.
+  /// The bed settled with the second-order scheme, made by the first test that needs it.
   static const Scratch &second() {
     if (!second_scratch) {
       second_scratch = std::make_unique<Scratch>();
@@ -60,7 +60,7 @@ protected:
         folder.path());
     ASSERT_TRUE(made.ok()) << made.output;
     Variables settling = more;
-    settling.insert(settling.end(), {{"balls", "balls.data"}, {"bed", "soil.restart"}});
+    settling.insert(settling.end(), {{"case", "loose"}, {"balls", "balls.data"}, {"bed", "soil.restart"}});
     const Outcome settled = run_deck(bed_folder() / "in.settle", settling, folder.path());
     ASSERT_TRUE(settled.ok()) << settled.output;
     for (const std::string &drum : kinds) {
@@ -90,6 +90,7 @@ protected:
     const Scratch &bed = stepping == "second" ? second() : *scratch;
     variables.emplace_back("here", bed_folder().string());
     const std::string name = deck.filename().string();
+    if (name == "in.settle") variables.emplace_back("case", "loose");
     if (name != "in.settle" && name != "in.place" && name != "in.tile")
       variables.insert(
           variables.end(),
@@ -100,8 +101,8 @@ protected:
     return run(bed_folder() / "in.bed", folder, more, ranks);
   }
 
-  /// Output folders whose names a shell would interpret or expand, such as `B[1]` and `x$(touch pwned)`: a run removes the dumps of an earlier
-  /// run in the same folder, and leaves those of other runs.
+  /// Output folders whose names a shell would interpret or expand, such as `B[1]` and `x$(touch pwned)`: a
+  /// run removes the dumps of an earlier run in the same folder, and leaves those of other runs.
   static void expect_dumps_into_folders_of_any_name(const char *deck, const Variables &more) {
     const Scratch folder;
     const auto shaken = [&](const std::string &out, const char *dumps) {
@@ -140,7 +141,8 @@ protected:
     EXPECT_FALSE(fs::exists(folder / "pwned"));
   }
 
-  /// A disk that has no room for the first dump: an error, and the earlier run's files are as they were.
+  /// On a disk without space for the first dump the run ends with an error, and the earlier run's files are
+  /// unchanged.
   static void expect_cut_dumps_are_an_error(const std::string &engine_and_deck, const std::string &more) {
     if (!can_mount_small_disk()) GTEST_SKIP() << "SKIPPED: a file system of its own needs root";
     const Scratch folder;
@@ -167,7 +169,8 @@ protected:
     EXPECT_EQ(outcome.output.find("ERROR"), outcome.output.rfind("ERROR")) << outcome.output;
   }
 
-  /// One piece, in the middle of which a signal comes; another run continues from the file that it leaves.
+  /// A signal stops a run in the middle of a piece; another run continues from the restart file that it has
+  /// written.
   static void expect_ends_at_a_signal(const char *deck, const Variables &more) {
     const Scratch folder;
     const auto shaken = [&](const Variables &variables, double limit) {
@@ -199,7 +202,8 @@ protected:
       ASSERT_NEAR(time[n] - time[n - 1], 50.0 / 250000.0, 1e-9) << "row " << n;
   }
 
-  /// Stopped by the limit of wall time in the middle of the excitation, and continued from there in another process.
+  /// Stopped by the limit of wall time in the middle of the excitation, and continued from there in another
+  /// process.
   static void expect_goes_on(const char *deck, const char *stepping) {
     const auto shaken = [deck, stepping](const Scratch &folder, Variables more, int ranks) {
       more.insert(more.end(), {{"cycles", "3"}, {"dumps_per_cycle", "2"}, {"stepping", stepping}});
@@ -307,8 +311,8 @@ TEST_F(Bed, CarriesTheRollerAtRestAndIsShakenUnderBothTransitions) {
   }
 }
 
-// All forces on the drum are in a row, friction of contacts that slide included: but for makes and breaks within a step they are what
-// changes its velocity.
+// All forces on the drum are in a row, friction of contacts that slide included: except for makes and breaks
+// within a step, they account for the change of its velocity.
 TEST_F(Bed, RecordsTheForcesThatMoveTheDrum) {
   for (const auto &[transition, stepping] : {std::pair{"A", "second"}, {"B", "second"}, {"B", "stock"}}) {
     const Scratch folder;
@@ -330,7 +334,7 @@ TEST_F(Bed, RecordsTheForcesThatMoveTheDrum) {
       largest = std::max(largest, std::fabs(a[n]));
     }
     EXPECT_GT(largest, 10.0); // m/s2
-    EXPECT_LT(missed / 2500.0, 5e-4 * largest) << transition << ", " << stepping;
+    EXPECT_LT(missed / 2500.0, 1e-3 * largest) << transition << ", " << stepping;
   }
 }
 
@@ -358,7 +362,8 @@ TEST_F(Bed, GoesTheSameWayOnRanksOneTwoAndFour) {
   }
 }
 
-// Beds are chaotic: over ten cycles only means over many beds can agree. Five seeds, two standard errors of the difference.
+// Beds are chaotic: over ten cycles only means over many beds can agree. Five seeds, two standard errors of
+// the difference.
 TEST_F(Bed, MeansOverSeedsAgreeOnRanksOneAndTwo) {
   constexpr std::size_t seeds = 5;
   const std::array<const char *, 3> columns = {"settlement", "a_drum_max", "F_contact_max"};
@@ -416,8 +421,9 @@ TEST_F(Bed, ContinuesWhereALimitOfTimeStoppedItOnRanksOneAndTwo) {
     expect_goes_on("in.bed", stepping);
 }
 
-// Contacts between balls take as much momentum from one as they give to the other: walls, weight and exciter make up the rest.
-// They are compared with the engine's own forces, ball by ball, and with the velocities that these lead to.
+// Contacts between balls conserve momentum: the total changes by the impulses of walls, weight and exciter
+// only. They are compared with the engine's own forces, ball by ball, and with the velocities that these lead
+// to.
 TEST_F(Bed, ForcesOfTheWallsMinusWeightAreTheRateOfChangeOfMomentum) {
   for (const char *stepping : steppings) {
     const Scratch folder;
@@ -463,7 +469,8 @@ TEST_F(Bed, ForcesOfTheWallsMinusWeightAreTheRateOfChangeOfMomentum) {
       momentum_before = momentum;
       force_before = recorded;
     }
-    // In the step of a make the halves of a second-order step get unlike forces (doc page of the pair style); all others are exact.
+    // In the step of a make the halves of a second-order step get unlike forces (doc page of the pair style);
+    // all others are exact.
     EXPECT_GT(exact, std::string(stepping) == "second" ? 25u : 48u) << stepping;
   }
 }
@@ -637,8 +644,8 @@ TEST_F(Bed, RefusesValuesThatAreNotTheBedsOnRanksOneAndTwo) {
          {std::array{"m2", "4000", "100"}, std::array{"k", "1e7", "1e8"}, std::array{"D", "0.1", "0.3"},
           std::array{"friction", "0.2", "0.5"}, std::array{"rolling", "0.1", "0"},
           std::array{"g", "1", "9.81"}, std::array{"walls", "0", "1"}, std::array{"r2", "0.2", "0.1"},
-          std::array{"k23", "1e6", "5e4"}, std::array{"case", "gravel3d", "gravel"},
-          std::array{"dimension", "3", "2"}})
+          std::array{"k23", "1e6", "5e4"}, std::array{"case", "gravel", "loose"},
+          std::array{"tangential", "history", "coulomb"}, std::array{"dimension", "3", "2"}})
       if (ranks == 1 || *name == 'k')
         refused("in.bed", {{name, value}},
                 std::string("drumlin/take: variable ") + name + " is '" + value + "'; allowed: " + was +
@@ -649,7 +656,7 @@ TEST_F(Bed, RefusesValuesThatAreNotTheBedsOnRanksOneAndTwo) {
             "drumlin/take: variable friction is '0.2'; allowed: 0.5, with which ", ranks);
     refused("in.bed", {{"allow_change", "m2"}},
             "drumlin/take: variable allow_change is 'm2'; allowed: none, or ", ranks);
-    // What may change on purpose is then out of equilibrium.
+    // Variables that may be changed take effect, so that the bed is no longer in equilibrium.
     refused("in.bed", {{"friction", "0.2"}, {"allow_change", "friction"}},
             "drumlin/settle: unbalanced ratio is '", ranks);
   }
@@ -667,6 +674,7 @@ TEST_F(Bed, IsPouredWithContactsOfItsOwn) {
   const Outcome poured = run_deck(bed_folder() / "in.settle",
                                   {{"balls", (*scratch / "balls.data").string()},
                                    {"bed", (folder / "dense").string()},
+                                   {"case", "loose"},
                                    {"pour_friction", "0"}},
                                   folder.path());
   ASSERT_TRUE(poured.ok()) << poured.output;
@@ -716,7 +724,7 @@ TEST_F(Bed, RefusesDataFilesThatTheEngineWouldNot) {
   }
 }
 
-// Otherwise a script could take the old file for a result of the run that was stopped.
+// Otherwise a script could mistake the old file for a result of the run that was stopped.
 TEST_F(Bed, LeavesNoOldFileWhenASignalStopsTheRunThatReplacesIt) {
   const Scratch folder;
   const std::string file = (folder / "kept.restart").string();
@@ -728,14 +736,17 @@ TEST_F(Bed, LeavesNoOldFileWhenASignalStopsTheRunThatReplacesIt) {
     EXPECT_TRUE(outcome.says("ERROR: drumlin/run: stopped by a signal at step ")) << deck << outcome.output;
     EXPECT_FALSE(fs::exists(file)) << deck;
   };
-  stopped("in.settle", {{"fall", "1000"}, {"balls", (*scratch / "balls.data").string()}, {"bed", file}});
+  stopped(
+      "in.settle",
+      {{"case", "loose"}, {"fall", "1000"}, {"balls", (*scratch / "balls.data").string()}, {"bed", file}});
   Variables placing = roller();
   placing.insert(placing.end(),
                  {{"sink", "1000"}, {"bed", (*scratch / "soil.restart").string()}, {"start", file}});
   stopped("in.place", placing);
 }
 
-// A drum that is shot through the floor, and soil that a far too long step throws out of the box: with nothing else to stop them.
+// A drum that is shot through the floor, and soil that a far too long step throws out of the box: without any
+// other check that would stop the run.
 TEST_F(Bed, ALostBallIsAnErrorOnRanksOneAndTwo) {
   for (const int ranks : {1, 2}) {
     const Scratch folder;
@@ -759,7 +770,8 @@ TEST_F(Bed, ALostBallIsAnErrorOnRanksOneAndTwo) {
 TEST_F(Bed, EndsAtASignalWhileItSettles) {
   const Scratch folder;
   const Outcome settling = run_deck(bed_folder() / "in.settle",
-                                    {{"ratio", "1e-29"},
+                                    {{"case", "loose"},
+                                     {"ratio", "1e-29"},
                                      {"balls", (*scratch / "balls.data").string()},
                                      {"bed", (folder / "x.restart").string()}},
                                     folder.path(), 1, 5.0);
@@ -821,8 +833,8 @@ protected:
   }
 };
 
-// From the same data file, with a contact history that starts at zero in both engines: the difference is rounding. Over 500 steps it stays
-// small; later the bed makes it grow.
+// From the same data file, with a contact history that starts at zero in both engines: the difference is
+// rounding. Over 500 steps it stays small; later the bed makes it grow.
 TEST_F(BedInLammps, GoesAsInLiggghtsOnRanksOneTwoAndFourWithNewtonOffAndOn) {
   for (const char *drum : drums)
     for (const Variables &law :
@@ -867,6 +879,35 @@ TEST_F(BedInLammps, GoesAsInLiggghtsOnRanksOneTwoAndFourWithNewtonOffAndOn) {
         EXPECT_LT(x[50], -1e-4);
       }
     }
+}
+
+TEST_F(BedInLammps, GoesAsInLiggghtsWithRollingFriction) {
+  for (const char *scheme : steppings) {
+    const Scratch bed, here, there;
+    const Variables law = {{"rolling", "0.1"}, {"stepping", scheme}};
+    make(bed, "1", {"ball"}, law);
+    const std::string start = (bed.path() / "ball.restart").string(),
+                      fresh = (here / "fresh.restart").string();
+    const Outcome made =
+        run(test_deck("bed_from_data.in"), here, {{"start", start}, {"fresh", fresh}, {"stepping", scheme}});
+    ASSERT_TRUE(made.ok()) << made.output;
+    const Outcome liggghts =
+        Bed::shake(here, {{"start", fresh}, {"stepping", scheme}, {"cycles", "1"}, {"balance", "1e30"}});
+    ASSERT_TRUE(liggghts.ok()) << liggghts.output;
+    const Outcome lammps = shake(
+        there, {{"start", start}, {"stepping", scheme}, {"cycles", "1"}, {"rest", "0"}, {"balance", "1e30"}},
+        2);
+    ASSERT_TRUE(lammps.ok()) << lammps.output;
+    EXPECT_LT(imbalance(there / "bed.csv"), 0.01);
+    const post::Table expected = post::read_table(here / "bed.csv"),
+                      found = post::read_table(there / "bed.csv");
+    for (const char *column : {"x_drum", "kinetic", "dissipated"}) {
+      const std::vector<double> a = expected.numbers(column), b = found.numbers(column);
+      for (std::size_t n = 0; n <= 50; ++n) // 500 steps
+        EXPECT_NEAR(a[n], b[n], 1e-9 * std::max(1.0, std::fabs(a[n])))
+            << column << ", row " << n << ", " << scheme;
+    }
+  }
 }
 
 TEST_F(BedInLammps, DumpsWhatLiggghtsDumpsOnRanksOneAndTwo) {
@@ -992,7 +1033,7 @@ TEST(Bed3d, CarriesACylinderOnCopiesOfACellOnRanksOneAndTwo) {
   const Scratch scratch;
   const auto file = [&scratch](const char *name) { return (scratch / name).string(); };
   const auto run = [&](const Scratch &folder, const char *deck, Variables variables, int ranks = 1) {
-    variables.insert(variables.end(), {{"case", "gravel3d"},
+    variables.insert(variables.end(), {{"case", "loose3d"},
                                        {"walls", "0"},
                                        {"m2", "1000"},
                                        {"m3", "500"},
@@ -1067,7 +1108,8 @@ TEST(Bed3d, CarriesACylinderOnCopiesOfACellOnRanksOneAndTwo) {
   }
 }
 
-/// Largest relative difference between drum and frame on frozen soil balls and the chain with the summed stiffness and damping.
+/// Largest relative difference between drum and frame on frozen soil balls and the chain with the summed
+/// stiffness and damping.
 double farthest_from_chain(const Variables &row, double stiffness_share, int ranks = 1) {
   double worst = 0.0;
   for (const auto &[transition, stepping] : {std::pair{"A", "second"}, {"B", "second"}, {"B", "stock"}}) {
@@ -1103,8 +1145,8 @@ TEST(FrozenRow, OfThreeBallsIsTheChainWithTheSums) {
             0.02);
 }
 
-// A body on three feet: its mass, not that of its balls, sets damping and motion. Each contact solves for its own dashpot only,
-// which is second order, too.
+// A body on three feet: its mass, not that of its balls, sets damping and motion. Each contact solves for its
+// own dashpot only, which is second order, too.
 TEST(FrozenRow, UnderAClumpIsTheChainWithTheSumsOnRanksOneAndTwo) {
   EXPECT_LT(farthest_from_chain({{"feet", "3"}}, 3.0), 2e-3);
   EXPECT_LT(farthest_from_chain({{"feet", "3"}}, 3.0, 2), 2e-3);

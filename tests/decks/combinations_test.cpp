@@ -1,6 +1,6 @@
 // All combinations of tangential and rolling models that the plugin supports, between balls, on primitive
-// planes and on a mesh: they run, stay finite, keep the balls in the box, dissipate energy, and agree on 1 and
-// 2 ranks.
+// planes and on a mesh: they run, stay finite, keep the balls in the box, dissipate energy, and agree on 1
+// and 2 ranks.
 #include "tests/support/balls_run.h"
 
 #include "bed/dump_readers.h"

@@ -1,4 +1,5 @@
-// The dumps of a bed, as the engine writes them and as ./drumlin vtk hands them to ParaView: a drum falls on a small bed.
+// The dumps of a bed on which a drum falls: the engine's files, and those that ./drumlin vtk makes from them
+// for ParaView.
 #include "tests/support/engine_runs.h"
 
 #include "bed/dump_readers.h"
@@ -46,7 +47,8 @@ protected:
     for (const std::string stepping : {"stock", "second"}) {
       const Outcome settled =
           run_deck(decks() / "in.settle",
-                   {{"balls", "balls.data"}, {"bed", stepping}, {"stepping", stepping}}, scratch->path());
+                   {{"case", "loose"}, {"balls", "balls.data"}, {"bed", stepping}, {"stepping", stepping}},
+                   scratch->path());
       ASSERT_TRUE(settled.ok()) << settled.output;
     }
   }
@@ -65,7 +67,7 @@ protected:
     ASSERT_TRUE(outcome.ok()) << outcome.output;
   }
 
-  /// A run with dumps, and what ./drumlin vtk makes of them.
+  /// A run with dumps, and the files that ./drumlin vtk makes from them.
   static void run_and_convert(const Scratch &folder, int ranks) {
     run(folder, {{"dump_every", "250"}}, ranks);
     const Outcome outcome = run_program({DRUMLIN_TOOLS, "vtk", folder.path().string()}, {}, folder.path());
@@ -89,7 +91,8 @@ auto opened(const fs::path &file) {
   return vtkSmartPointer(reader->GetOutput());
 }
 
-/// Pairs of ids of balls that overlap, by the positions of the text dump. Drum and frame are excluded from each other.
+/// Pairs of ids of balls that overlap, by the positions of the text dump. Drum and frame are excluded from
+/// each other.
 std::set<std::pair<long, long>> overlapping(const Frame &frame, const std::vector<post::Ball> &sizes) {
   std::set<std::pair<long, long>> pairs;
   for (const post::Ball &a : sizes)
@@ -112,12 +115,12 @@ void expect_true_dumps(const Scratch &folder) {
     const auto found = post::read_ball_dump(folder.path() / "dump" / step_file("balls", frame.step));
     ASSERT_EQ(found.size(), static_cast<std::size_t>(balls));
     for (const post::Ball &ball : found) {
-      const Ball &truth = frame.balls.at(ball.id);
+      const Ball &reference = frame.balls.at(ball.id);
       for (std::size_t a = 0; a < 3; ++a) {
-        EXPECT_NEAR(ball.position[a], truth.x[a], 6e-8); // a float
-        EXPECT_EQ(ball.velocity[a], truth.v[a]);
-        EXPECT_EQ(ball.spin[a], truth.omega[a]);
-        EXPECT_EQ(ball.force[a], truth.f[a]);
+        EXPECT_NEAR(ball.position[a], reference.x[a], 6e-8); // a float
+        EXPECT_EQ(ball.velocity[a], reference.v[a]);
+        EXPECT_EQ(ball.spin[a], reference.omega[a]);
+        EXPECT_EQ(ball.force[a], reference.f[a]);
       }
     }
     const post::BedContacts contacts = contacts_of(folder, frame.step, found);
@@ -217,8 +220,9 @@ TEST_F(Dumps, OfAnEarlierRunAreRemoved) {
                                    "balls_boundingBox_50.vtr", "contacts_0.dump", "contacts_50.dump"}));
 }
 
-/// Largest difference between the force on a soil ball and the sum of its contact forces, as a share of the largest force. Balls of which
-/// a contact is made or broken in the step are left out: under second-order stepping their force includes the impulse of that event.
+/// Largest difference between the force on a soil ball and the sum of its contact forces, as a share of the
+/// largest force. Balls of which a contact is made or broken in the step are left out: under second-order
+/// stepping their force includes the impulse of that event.
 /// \param contacts of a step; without those of walls, balls near these are not judged
 template <class Contacts>
 double unexplained(const Scratch &folder, long begin, long end, bool with_walls, const Contacts &contacts) {
@@ -265,8 +269,8 @@ double unexplained(const Scratch &folder, long begin, long end, bool with_walls,
   return most / largest;
 }
 
-// The forces are the step's own, friction and walls included, with light dashpots and with heavy ones, which are solved for together
-// (without friction: heavy dashpots across would be unstable).
+// The forces are the step's own, friction and walls included, with light dashpots and with heavy ones, which
+// are solved for together (without friction: heavy dashpots across would be unstable).
 TEST_F(Dumps, ForcesOfContactsAreThoseThatActedOnRanksOneAndTwo) {
   const Variables stock = {{"transition", "B"}}, A = {{"transition", "A"}, {"stepping", "second"}},
                   B = {{"transition", "B"}, {"stepping", "second"}},
@@ -291,9 +295,9 @@ TEST_F(Dumps, ForcesOfContactsAreThoseThatActedOnRanksOneAndTwo) {
     }
 }
 
-// The engine's compute pair/gran/local computes the forces again after the step, with other velocities than the step had. Those along
-// the normal are the step's own all the same, and those of friction are once the contact slips; only where it sticks its
-// dashpot sees the velocities of the dump.
+// The engine's compute pair/gran/local computes the forces again after the step, with the velocities of the
+// dump. Its normal forces must be those of the step, and so must the friction forces of contacts that slide;
+// in contacts that stick, the tangential dashpot depends on the velocities.
 TEST_F(Dumps, TheEnginesOwnComputeGetsTheForcesOfTheStep) {
   const auto own = [](const Scratch &folder) {
     return [&folder](long step, const auto &) {
@@ -433,7 +437,8 @@ TEST_F(Dumps, BecomeTrueCollectionsOnTwoRanks) {
   expect_true_results(folder);
 }
 
-// At rest the soil bears its own weight: the vertical stress of a row of cells is the weight of what lies above, per width.
+// At rest the soil bears its own weight: the vertical stress of a row of cells is the weight of what lies
+// above, per width.
 TEST_F(Dumps, StressOfTheBedAtRestIsItsWeight) {
   const Scratch folder;
   run_and_convert(folder, 1);

@@ -1,5 +1,5 @@
-// The files of a run: earlier results stay until a new run has passed its first steps, two runs do not mix, signals and full disks are
-// errors, and nothing but regular files is replaced.
+// The files of a run: earlier results stay until a new run has passed its first steps, two runs do not mix,
+// signals and full disks are errors, and nothing but regular files is replaced.
 #include "tests/support/engine_runs.h"
 
 #include <fmt/format.h>
@@ -61,7 +61,7 @@ TEST(EarlierRuns, OfARunThatFailsAtOnceAreNotThere) {
   EXPECT_TRUE(texts(folder.path()).empty());
 }
 
-// A process that is killed cannot put back what it has kept aside: the next run does.
+// A process that is killed cannot restore its backups: the next run does.
 TEST(EarlierRuns, KeptAsideByAKilledRunComeBack) {
   const Scratch folder;
   ASSERT_TRUE(run_deck(chain_deck("in.chain"), {{"cycles", "1"}}, folder.path()).ok());

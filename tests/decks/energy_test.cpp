@@ -1,5 +1,6 @@
-// The energy balance of the chain: the work of the exciter is the energy dissipated in contact and bond plus the
-// change of the mechanical energy. The energy error is that of the integration scheme, which falls with the step.
+// The energy balance of the chain: the work of the exciter is the energy dissipated in contact and bond plus
+// the change of the mechanical energy. The energy error is that of the integration scheme, which falls with
+// the step.
 #include "tests/support/engine_runs.h"
 
 #include <gtest/gtest.h>
@@ -109,8 +110,8 @@ TEST(EnergyOfASmoothChain, ErrorIsOfFirstOrder) {
   }
 }
 
-// A make falls anywhere within a step, and the energy error depends on where. The measure is its largest value over
-// neighbouring numbers of steps.
+// A make falls anywhere within a step, and the energy error depends on where. The measure is its largest
+// value over neighbouring numbers of steps.
 TEST(EnergyOfAnImpactingChain, ErrorHasAnEnvelopeOfFirstOrder) {
   for (const auto &[name, transition] : {std::pair{"II", Transition::A}, std::pair{"II", Transition::B},
                                          std::pair{"III", Transition::B}, std::pair{"IV", Transition::B}}) {

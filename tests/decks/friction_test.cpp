@@ -1,5 +1,6 @@
-// Friction as the engine's tangential history and our tangential coulomb apply it to our contact: the core's law along recorded
-// paths, closed forms of sticking and sliding, the defaults, that the history of a broken contact is deleted, and impulses of oblique impacts.
+// Friction as the engine's tangential history and our tangential coulomb apply it to our contact: the core's
+// law along recorded paths, closed forms of sticking and sliding, the defaults, that the history of a broken
+// contact is deleted, and impulses of oblique impacts.
 #include "tests/support/balls_run.h"
 #include "tests/support/engine_and_scheme.h"
 
@@ -102,7 +103,17 @@ Replay replay(const Throw &scene, const BallsRun &run, bool forget) {
       if (scene.transition == Transition::B) Fn = std::max(0.0, Fn);
       const Vec3 arm = {-(radius - overlap / 2) * normal[0], -(radius - overlap / 2) * normal[1],
                         -(radius - overlap / 2) * normal[2]};
-      const Vec3 vt = sum(sum(v, -vn, normal), 1, cross(spin, arm));
+      Vec3 vt = sum(sum(v, -vn, normal), 1, cross(spin, arm));
+      if (scene.coulomb() &&
+          on_ball) { // the slip about the normal of the middle of the step, across the normal of its end
+        const Vec3 middle = sum(apart, -0.5 * scene.dt, v);
+        const double length = std::sqrt(dot(middle, middle));
+        const Vec3 direction = {middle[0] / length, middle[1] / length, middle[2] / length};
+        const double size = radius - overlap / 2;
+        const Vec3 lever = {-size * direction[0], -size * direction[1], -size * direction[2]};
+        const Vec3 slip = sum(sum(v, -dot(v, direction), direction), 1, cross(spin, lever));
+        vt = sum(slip, -dot(slip, normal), normal);
+      }
       const physics::FrictionStep step =
           physics::friction_step(scene.friction, Fn, normal, vt, spring, scene.dt);
       spring = step.spring;
@@ -197,7 +208,8 @@ BallsRun pushed(const std::string &stepping, double dt, int steps, const Variabl
   return run_balls(variables);
 }
 
-/// Sticking, rolling or creeping so little that nothing slides: a linear oscillator m q'' + c q' + k q = 0 with q'(0) known.
+/// Sticking, rolling or creeping without any sliding: a linear oscillator m q'' + c q' + k q = 0 with q'(0)
+/// known.
 struct SmallMotion {
   std::string name;
   Variables how;
@@ -267,7 +279,8 @@ const SmallMotion small_motions[] = {
      2e4 / mass,
      false,
      1},
-    // On a ball, since the engine's rate of rolling on a plane grows with the overlap: kr = kt r_eff^2, I = 0.4 m r^2.
+    // On a ball, since the engine's rate of rolling on a plane grows with the overlap: kr = kt r_eff^2, I =
+    // 0.4 m r^2.
     {"RollingSpring",
      {{"obstacle", "ball"}, {"models", "rolling_friction epsd2"}, {"mu_r", "10"}, {"spin2", "1e-3"}},
      1e-3,
@@ -298,12 +311,12 @@ TEST(FrictionOnAPlane, SlidesWithMuTimesTheNormalForce) {
 
 class EnergyBalanceOfASlidingBall : public BothEngines {};
 
-/// Without dashpots the contact point of a ball on a floor has the mass m' = 1/(1/m + a^2/I), a its distance from the centre. It winds the
-/// spring up, a quarter of an oscillation at most, slides at mu N until it stops, and then oscillates on the spring.
+/// Without dashpots the contact point of a ball on a floor has the mass m' = 1/(1/m + a^2/I), a its distance
+/// from the centre. It winds the spring up, a quarter of an oscillation at most, slides at mu N until it
+/// stops, and then oscillates on the spring.
 TEST_P(EnergyBalanceOfASlidingBall, SeparatesHeatOfFrictionFromTheEnergyOfItsSpring) {
   const std::string stepping = std::get<1>(GetParam());
-  const Scratch
-      folder; // at D = 0 `history` and `coulomb` are the same law, so each stepping is tested with one of them
+  const Scratch folder; // at D = 0 `history` and `coulomb` are the same law: one for each stepping
   const Outcome outcome =
       run("slide", folder, {{"tangential", stepping == "second" ? "coulomb" : "history"}});
   ASSERT_TRUE(outcome.ok()) << outcome.output;
@@ -341,8 +354,8 @@ TEST_P(EnergyBalanceOfASlidingBall, SeparatesHeatOfFrictionFromTheEnergyOfItsSpr
 
 INSTANTIATE_TEST_SUITE_P(Decks, EnergyBalanceOfASlidingBall, engines_and_steppings(), engine_and_stepping);
 
-/// With dashpots there is no closed form, but energy is conserved: the mechanical energy that the ball loses is the dissipated energy, which
-/// never decreases.
+/// With dashpots there is no closed form, but energy is conserved: the mechanical energy that the ball loses
+/// is the dissipated energy, which never decreases.
 TEST_P(EnergyBalanceOfASlidingBall, ClosesWithDashpotsUnderCoulomb) {
   const Scratch folder;
   const Outcome outcome = run("slide", folder, {{"tangential", "coulomb"}, {"D", "0.5"}, {"every", "10"}});
@@ -360,13 +373,15 @@ TEST_P(EnergyBalanceOfASlidingBall, ClosesWithDashpotsUnderCoulomb) {
   EXPECT_GT(heat.back(), 0.2 * kinetic.front());
 }
 
-// Their order in memory decides which of two balls is the first of a contact: when it changes, the spring turns round.
+// Their order in memory decides which of two balls is the first of a contact: when it changes, the spring
+// turns round.
 TEST(Coulomb, HistoryIsKeptWhenTheOrderOfBallsChanges) {
   std::vector<std::vector<Frame>> frames;
   for (const char *shuffle : {"0", "50"}) {
     const Scratch folder;
     const Outcome outcome =
-        run_deck(test_deck("bounce.in"), {{"tangential", "coulomb"}, {"shuffle", shuffle}}, folder.path());
+        run_deck(test_deck("bounce.in"),
+                 {{"tangential", "coulomb"}, {"rolling", "epsd2"}, {"shuffle", shuffle}}, folder.path());
     ASSERT_TRUE(outcome.ok()) << outcome.output;
     frames.push_back(read_dump(folder / "balls.txt"));
   }
@@ -379,7 +394,7 @@ TEST(Coulomb, ContinuesFromARestartFileBitwiseOnRanksOneAndTwo) {
   for (const int ranks : {1, 2})
     for (const char *stepping : {"second", "stock"}) {
       const Scratch stayed, left;
-      Variables law = {{"tangential", "coulomb"}, {"stepping", stepping}};
+      Variables law = {{"tangential", "coulomb"}, {"rolling", "epsd2"}, {"stepping", stepping}};
       const Outcome whole = run_deck(test_deck("bounce.in"), law, stayed.path(), ranks);
       ASSERT_TRUE(whole.ok()) << whole.output;
       law.emplace_back("start", (stayed / "first.restart").string());

@@ -1,4 +1,5 @@
-// fix guard in the engine: the critical time step of scenes whose limit is known in closed form, and the runs that it stops.
+// fix guard in the engine: the critical time step of scenes whose limit is known in closed form, and the runs
+// that it stops.
 #include "tests/support/balls_run.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +13,8 @@ namespace drumlin::test {
 namespace {
 
 constexpr double k = 1e8, m1 = 500, m2 = 2000;
-/// Mass that limits the time step at the lighter ball of a free pair: 1/m1 + 1/sqrt(m1 m2), see physics::link_burden().
+/// Mass that limits the time step at the lighter ball of a free pair: 1/m1 + 1/sqrt(m1 m2), see
+/// physics::link_burden().
 constexpr double m_limit = 1 / (1 / m1 + 1 / 1000.0);
 
 struct GuardValues {

@@ -130,8 +130,8 @@ const Impact impacts[] = {{Transition::A, 0.2, 0.526621}, {Transition::A, 0.5, 0
                           {Transition::B, 0.8, 0.179783}, {Transition::B, 2.0, 0.047769}};
 INSTANTIATE_TEST_SUITE_P(Reference, SingleImpact, ::testing::ValuesIn(impacts), impact_name);
 
-// For the same overlap and rate a fixed ball, a primitive plane and a mesh give the same force: head on, the
-// ball cannot tell them apart.
+// In a central impact a fixed ball, a primitive plane and a mesh give the same force at the same overlap and
+// rate.
 class Obstacles : public ::testing::TestWithParam<Impact> {};
 
 TEST_P(Obstacles, BallPlaneAndMeshAreOne) {
@@ -187,7 +187,8 @@ TEST_P(Obstacles, CornerIsAPlaneInEachDirection) {
     EXPECT_LT(relative_difference(corner.series(1, &Ball::v, axis), plane.series(1, &Ball::v, 2)), 1e-11);
 }
 
-// Second-order stepping: over the phase of the onset, the rebound errs little and with the square of the step.
+// Second-order stepping: over the phase of the onset, the rebound errs little and with the square of the
+// step.
 struct Bound {
   Impact impact;
   double at_100, at_400;
@@ -228,9 +229,10 @@ INSTANTIATE_TEST_SUITE_P(Restitution, SecondOrderImpact, ::testing::ValuesIn(bou
 
 INSTANTIATE_TEST_SUITE_P(Reference, Obstacles, ::testing::ValuesIn(impacts), impact_name);
 
-// A ball sinks into eight contacts one after another. Alone none of their dashpots is heavy (dt c/m = 0.4); together they are, and solved for
-// one by one they would throw the ball back. All are pressed to the end, so that no condition of a transition acts: m a = m g - sum of
-// k d + c d', of which a far smaller step makes an oracle.
+// A ball sinks into eight contacts one after another. Alone none of their dashpots is heavy (dt c/m = 0.4);
+// together they are, and solved for one by one they would throw the ball back. All are pressed to the end, so
+// that no condition of a transition acts: m a = m g - sum of k d + c d', which is integrated with a far
+// smaller step as reference solution.
 TEST(ManyContacts, MadeOneByOneBecomeHeavilyDampedTogether) {
   constexpr double m = 2000, k = 1e6, c = 8e5, dt = 1e-3, g = 9.81, r = 0.75, gap = 1e-6, below = 5e-4;
   constexpr int contacts = 8, steps = 4000, parts = 100;

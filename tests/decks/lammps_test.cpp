@@ -1,6 +1,8 @@
-// LAMMPS against LIGGGHTS: the same fixes and laws in both, with another pair style, other walls and another contact history. The
-// allowed difference is rounding, and its growth in scenes whose motion is sensitive to it.
+// LAMMPS against LIGGGHTS: the same fixes and laws in both, with another pair style, other walls and another
+// contact history. The allowed difference is rounding, and its growth in scenes whose motion is sensitive to
+// it.
 #include "tests/support/engine_runs.h"
+#include "tests/support/frame_distance.h"
 
 #include "bed/dump_readers.h"
 #include "chain/analysis.h"
@@ -76,9 +78,9 @@ TEST_P(InLammpsChain, IsThatOfLiggghtsAndFollowsTheDirectSolver) {
   post::DirectOptions options;
   options.cycles = 30;
   options.samples_per_cycle = 200;
-  const post::ChainHistory truth = post::solve_direct(p, options).history;
-  ASSERT_EQ(a.history.size(), truth.size());
-  const double error = post::relative_rms(a.history.v_drum, truth.v_drum, 25 * 200, truth.size());
+  const post::ChainHistory reference = post::solve_direct(p, options).history;
+  ASSERT_EQ(a.history.size(), reference.size());
+  const double error = post::relative_rms(a.history.v_drum, reference.v_drum, 25 * 200, reference.size());
   EXPECT_LT(error, std::string(GetParam().stepping) == "second" ? 1e-4 : 5e-3);
 }
 
@@ -92,18 +94,20 @@ INSTANTIATE_TEST_SUITE_P(
                       Chain{"II", post::Transition::B, "stock"}),
     chain_name);
 
-/// Largest distance of two states in position, m, over the frames.
-double distance(const std::vector<Frame> &a, const std::vector<Frame> &b) {
-  if (a.size() != b.size()) return std::numeric_limits<double>::infinity();
-  double largest = 0.0;
-  for (std::size_t n = 0; n < a.size(); ++n) {
-    if (a[n].step != b[n].step || a[n].balls.size() != b[n].balls.size())
-      return std::numeric_limits<double>::infinity();
-    for (const auto &[id, ball] : a[n].balls)
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        largest = std::max(largest, std::fabs(ball.x[axis] - b[n].balls.at(id).x[axis]));
+TEST_F(InLammps, RunsRollersAsInLiggghts) {
+  for (std::size_t i = post::table1_cases.size(); i < post::chain_cases.size(); ++i) {
+    SCOPED_TRACE(post::chain_cases[i]);
+    const Variables variables = {{"case", post::chain_cases[i]}, {"cycles", "2"}};
+    const Scratch lammps, liggghts;
+    const Outcome there = run_deck(chain_deck("in.chain.lammps"), variables, lammps.path());
+    ASSERT_TRUE(there.ok()) << there.output;
+    const Outcome here = run_deck(chain_deck("in.chain"), variables, liggghts.path());
+    ASSERT_TRUE(here.ok()) << here.output;
+    const ChainRun a = read_run(lammps.path()), b = read_run(liggghts.path());
+    EXPECT_LT(relative_difference(a.history.v_drum, b.history.v_drum), 1e-9);
+    EXPECT_LT(relative_difference(a.history.F_contact, b.history.F_contact), 1e-9);
+    EXPECT_EQ(a.history.F_excitation, b.history.F_excitation);
   }
-  return largest;
 }
 
 struct Bounce {
@@ -161,18 +165,24 @@ INSTANTIATE_TEST_SUITE_P(
         Bounce{"coulomb", {{"tangential", "coulomb"}}},
         Bounce{"coulomb_A_stock", {{"tangential", "coulomb"}, {"transition", "A"}, {"stepping", "stock"}}},
         Bounce{"region", {{"walls", "block"}}}, Bounce{"region_A", {{"walls", "block"}, {"transition", "A"}}},
+        Bounce{"rolling", {{"rolling", "epsd2"}}},
+        Bounce{"rolling_coulomb_A_stock",
+               {{"rolling", "epsd2"}, {"tangential", "coulomb"}, {"transition", "A"}, {"stepping", "stock"}}},
+        Bounce{"rolling_region", {{"rolling", "epsd2"}, {"walls", "block"}, {"mu_r", "0.05"}}},
         Bounce{"heavy_dashpots", // c dt/m near 1: they are solved for together
                {{"D", "40"}, {"tangential", "off"}, {"mu", "-1"}}}),
     bounce_name);
 
-// The order of balls in memory decides which of two is the first of a pair: when it changes, the contact history changes its sign.
+// The order of balls in memory decides which of two is the first of a pair: when it changes, the contact
+// history changes its sign.
 TEST_F(InLammps, HistoryIsKeptWhenTheOrderOfBallsChanges) {
   const Scratch kept;
-  ASSERT_TRUE(run_deck(test_deck("bounce.lammps"), {}, kept.path()).ok());
+  ASSERT_TRUE(run_deck(test_deck("bounce.lammps"), {{"rolling", "epsd2"}}, kept.path()).ok());
   for (const char *newton : {"off", "on"}) {
     const Scratch shuffled;
     const Outcome outcome =
-        run_deck(test_deck("bounce.lammps"), {{"shuffle", "50"}, {"newton", newton}}, shuffled.path());
+        run_deck(test_deck("bounce.lammps"), {{"rolling", "epsd2"}, {"shuffle", "50"}, {"newton", newton}},
+                 shuffled.path());
     ASSERT_TRUE(outcome.ok()) << outcome.output;
     EXPECT_TRUE(outcome.says("Neighbor list builds = 120")) << outcome.output;
     EXPECT_LT(distance(read_dump(kept / "balls.txt"), read_dump(shuffled / "balls.txt")), 1e-9);
@@ -192,10 +202,12 @@ TEST_F(InLammps, RefusesAnotherVersionOnRanksOneAndTwo) {
 }
 
 TEST_F(InLammps, ContinuesFromARestartFileBitwiseOnRanksOneAndTwoWithNewtonOffAndOn) {
-  for (const auto &[ranks, newton, tangential] :
-       {std::tuple{1, "off", "coulomb"}, {2, "off", "history"}, {1, "on", "history"}, {2, "on", "coulomb"}}) {
+  for (const auto &[ranks, newton, tangential, rolling] : {std::tuple{1, "off", "coulomb", "off"},
+                                                           {2, "off", "history", "epsd2"},
+                                                           {1, "on", "history", "off"},
+                                                           {2, "on", "coulomb", "epsd2"}}) {
     const Scratch stayed, left;
-    const Variables law = {{"newton", newton}, {"tangential", tangential}};
+    const Variables law = {{"newton", newton}, {"tangential", tangential}, {"rolling", rolling}};
     const Outcome whole = run_deck(test_deck("bounce.lammps"), law, stayed.path(), ranks);
     ASSERT_TRUE(whole.ok()) << whole.output;
     for (const char *file : {"first.restart", "during.6000"}) { // written after a run, and during one
@@ -213,7 +225,8 @@ TEST_F(InLammps, ContinuesFromARestartFileBitwiseOnRanksOneAndTwoWithNewtonOffAn
   }
 }
 
-/// With -partition each partition is a run of its own: one that names a folder of its own is, byte by byte, the run alone.
+/// With -partition each partition is a run of its own. With a folder of its own, its files are byte by byte
+/// those of a single run.
 TEST_F(InLammps, PartitionsAreRunsOfTheirOwnOnRanksOneAndTwo) {
   const Scratch scratch;
   const std::string drumlin = std::string(DRUMLIN_SOURCE_DIR) + "/drumlin";
@@ -302,7 +315,8 @@ TEST_F(InLammps, RunSplitOrWholeIsOneUnderSecondOrderStepping) {
   }
 }
 
-/// Energy of the springs and of the weight in bounce.scene, J. \param pipe whether the walls are those of a cylinder, not planes
+/// Energy of the springs and of the weight in bounce.scene, J. \param pipe whether the walls are those of a
+/// cylinder, not planes
 double energy(const std::map<long, Ball> &balls, bool pipe) {
   constexpr double k = 1e5, density = 2500.0, gravity = 9.81;
   const auto radius = [](long id) { return 0.5 * (0.06 + 0.02 * std::sin(7.0 * static_cast<double>(id))); };
@@ -347,7 +361,8 @@ TEST_F(InLammps, ForcesAreTheCentralDifferencesOfTheEnergy) {
     }
 }
 
-// Without dashpots no force jumps, so that second-order steps add no impulse to it. compute pair/local has no contacts with walls.
+// Without dashpots no force jumps, so that second-order steps add no impulse to it. compute pair/local has no
+// contacts with walls.
 TEST_F(InLammps, ContactsOfADumpExplainTheForcesOnBallsOnRanksOneAndTwo) {
   for (const auto &[ranks, newton] : {std::pair{1, "off"}, {2, "off"}, {1, "on"}, {2, "on"}}) {
     const Scratch folder;
@@ -429,7 +444,8 @@ TEST_F(InLammps, AnImpactConvergesToTheClosedForm) {
   }
 }
 
-// Contacts feel the mass of the body. Oracles: restitution by the closed form, momentum, and LAMMPS's own law, which steps as `stock` does.
+// Contacts use the mass of the body. Oracles: restitution by the closed form, momentum, and LAMMPS's own law,
+// which steps as `stock` does.
 TEST_F(InLammps, RigidBodyBouncesWithItsMassOnRanksOneAndTwo) {
   constexpr double M = 2.0 + 3.0, m = 4.0, v = -0.5, D = 0.3, k = 1e5;
   post::ImpactParameters impact;
@@ -467,7 +483,7 @@ TEST_F(InLammps, RigidBodyBouncesWithItsMassOnRanksOneAndTwo) {
 
 TEST_F(InLammps, SaysWhatIsWrongInOneLineOnRanksOneAndTwo) {
   const std::string pair = "pair_style gran/hooke/transition", coeff = "pair_coeff of gran/hooke/transition",
-                    wall = "fix wall/gran/transition";
+                    wall = "fix wall/gran/transition", hertz = "pair_coeff of gran/hertz/transition";
   struct Bad {
     std::string line;
     std::vector<std::string> says;
@@ -478,7 +494,20 @@ TEST_F(InLammps, SaysWhatIsWrongInOneLineOnRanksOneAndTwo) {
        {pair, "keyword transition is 'C'", "allowed: A or B"}},
       {"pair_style gran/hooke/transition stepping third",
        {pair, "keyword stepping is 'third'", "stock or second"}},
-      {"pair_style gran/hooke/transition rolling on", {pair, "keyword is 'rolling'", "allowed: transition"}},
+      {"pair_style gran/hooke/transition torsion on", {pair, "keyword is 'torsion'", "allowed: transition"}},
+      {"pair_style gran/hooke/transition rolling on", {pair, "keyword rolling is 'on'", "off or epsd2"}},
+      {"pair_style gran/hooke/transition rolling", {pair, "keyword rolling is missing", "off or epsd2"}},
+      {"pair_style gran/hooke/transition rolling epsd2\npair_coeff * * 1e5 0.2",
+       {coeff, "rolling friction coefficient mu_r is missing", "rolling mu_r, a finite number >= 0"}},
+      {"pair_style gran/hooke/transition rolling epsd2\npair_coeff * * 1e5 0.2 rolling",
+       {coeff, "rolling friction coefficient mu_r is missing", "a finite number >= 0"}},
+      {"pair_style gran/hooke/transition rolling epsd2 tangential coulomb\n"
+       "pair_coeff * * 1e5 0.2 0.5 NULL rolling -0.1",
+       {coeff, "rolling friction coefficient mu_r is '-0.1'", "a finite number >= 0"}},
+      {"pair_style gran/hooke/transition rolling epsd2\npair_coeff * * 1e5 0.2 0.3 rolling 0.1",
+       {coeff, "'0.3' is left over", "I J k damping rolling mu_r"}},
+      {"pair_style gran/hooke/transition\npair_coeff * * 1e5 0.2 rolling 0.1",
+       {coeff, "'rolling' is left over", "rolling epsd2 of pair_style"}},
       {"pair_style gran/hooke/transition damping", {pair, "keyword damping is missing"}},
       {"pair_style gran/hooke/transition limit_damping",
        {pair, "keyword is 'limit_damping'", "transition B in place of it"}},
@@ -510,6 +539,22 @@ TEST_F(InLammps, SaysWhatIsWrongInOneLineOnRanksOneAndTwo) {
        {pair, "keyword cap is 'spring'", "no cap with tangential coulomb"}},
       {"pair_style gran/hooke/transition tangential coulomb\npair_coeff * * 1e5 0.2 -1",
        {coeff, "friction coefficient mu is '-1'", "a finite number >= 0"}},
+      {"pair_style gran/hertz/transition\npair_coeff * * -1 0.3 0.2",
+       {hertz, "Young's modulus E is '-1'", "a finite number > 0"}},
+      {"pair_style gran/hertz/transition\npair_coeff * * 1e7 0.6 0.2",
+       {hertz, "Poisson's ratio nu is '0.6'", "a number > -1 and <= 0.5"}},
+      {"pair_style gran/hertz/transition\npair_coeff * * 1e7 0.3", {hertz, "damping ratio D is missing"}},
+      {"pair_style gran/hertz/transition\npair_coeff * * effective 1e7 0 0.2",
+       {hertz, "effective shear modulus G* is '0'", "a finite number > 0"}},
+      {"pair_style gran/hertz/transition tangential coulomb\npair_coeff * * 1e7 0.3 0.2 0.5 NULL 1",
+       {hertz, "'1' is left over", "I J E nu damping", "mu [ct|NULL]"}},
+      {"pair_style gran/hertz/transition rolling epsd2",
+       {"pair_style gran/hertz/transition", "keyword rolling is 'epsd2'", "off"}},
+      {"pair_style gran/hertz/transition\npair_coeff 1 1 1e7 0.3 0.2\npair_coeff 2 2 1e7 0.3 0.2",
+       {"types 1 2 have no coefficients", "pair_coeff 1 2 E nu damping"}},
+      {"pair_style hybrid gran/hooke/transition gran/hertz/transition\n"
+       "pair_coeff * * gran/hooke/transition 1e5 0.2\npair_coeff 2 2 gran/hertz/transition 1e7 0.3 0.2",
+       {"or two laws of this plugin", "one law, once"}},
       {good + "fix floor all wall/gran/transition 3 zplane 0 NULL",
        {wall, "type of the wall is '3'", "1 to 2"}},
       {good + "fix floor all wall/gran/transition 2 zcylinder 0 NULL",
@@ -523,7 +568,7 @@ TEST_F(InLammps, SaysWhatIsWrongInOneLineOnRanksOneAndTwo) {
       {good + "fix floor all wall/gran/transition 2 zplane 1 0", {wall, "allowed: LOW < HIGH"}},
       {"pair_style gran/hooke/history 1e5 NULL 1 NULL 0.4 1\npair_coeff * *\nfix floor all "
        "wall/gran/transition 2 zplane 0 NULL",
-       {wall, "the pair style is another", "gran/hooke/transition"}},
+       {wall, "pair_style is 'gran/hooke/history'", "pair_style gran/hooke/transition or"}},
       {good + "fix body all rigid single",
        {pair, "fix body (rigid)", "stepping is 'second'", "stepping stock, or fix clump"}},
       {"fix early all nve/sphere\n" + good,

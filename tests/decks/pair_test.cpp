@@ -100,7 +100,7 @@ TEST_P(EitherTransition, RatioAndCoefficientAreOneDamping) {
   constexpr double m1 = 500, m2 = 3000, k = 1e8, D = 0.35;
   struct Scene {
     const char *obstacle, *fixed;
-    double mass; // that the contact sees
+    double mass; // effective mass of the contact
   };
   for (const Scene &scene : {Scene{"ball", "3", m1 * m2 / (m1 + m2)}, Scene{"ball", "1", m2},
                              Scene{"ball", "2", m1}, Scene{"plane", "3", m2}, Scene{"mesh", "3", m2}}) {
@@ -198,7 +198,8 @@ protected:
       rows.push_back(r);
     return rows;
   }
-  /// What the tension adds to the pressure across x: the sum of x f over both balls, over the volume, Pa.
+  /// The contribution of the tension to the pressure across x: the sum of x f over both balls, over the
+  /// volume, Pa.
   static double pressure(double force, double e) { return -force * (length + e) / volume; }
 };
 
@@ -217,7 +218,8 @@ TEST_P(EnergyOfABond, IsItsScalarAndWithFixModifyPartOfThePotentialEnergy) {
   }
 }
 
-// With a dashpot so heavy that under second-order stepping its force is known last, too: then it stops the balls within some steps.
+// With a dashpot so heavy that under second-order stepping its force is known last, too: then it stops the
+// balls within some steps.
 TEST_P(EnergyOfABond, ItsTensionCountsInThePressure) {
   for (const auto &[c, least] : {std::pair{"0", 40u}, {"1e5", 4u}}) {
     const bool stiff = std::string(c) != "0";

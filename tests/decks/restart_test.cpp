@@ -1,5 +1,5 @@
 // A run that leaves the process in the middle of a cycle and continues from its restart file must write the
-// same files, byte for byte, as one that stayed.
+// same files, byte for byte, as a run without interruption.
 #include "tests/support/engine_runs.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// The front script ./drumlin with hostile names, from strange places: what a user gives reaches the engine as it is, or one line says
-// what is wrong.
+// The front script ./drumlin, called with unusual names and from unusual folders: the user's arguments reach
+// the engine unchanged, or one line says what is wrong.
 #include "engine/engine_run.h"
 #include "support/files.h"
 
@@ -175,7 +175,7 @@ TEST_F(FrontScript, TakesFilesInFoldersWithSpaces) {
                   "-var start is 'a bed/of mine'; allowed: ");
 }
 
-/// Where the working folder is the only one that can be written, and the user is no longer who built it all.
+/// Only the working folder can be written, and the user is not the one who has built the checkout.
 TEST_F(FrontScript, RunsInstalledFromAReadOnlyPrefixThatWasMoved) {
   const Outcome installing = run_program(
       {"cmake", "--install", DRUMLIN_BINARY_DIR, "--prefix", (folder / "first").string()}, {}, folder, 60.0);
@@ -309,7 +309,8 @@ void expect_in_order(const std::string &text, const std::vector<std::string> &pa
   }
 }
 
-// The line that `run` prints is a whole command: a shell that reads it makes the same tables, without drumlin.
+// The line that `run` prints is a whole command: a shell that reads it makes the same tables, without
+// drumlin.
 TEST_F(FrontScript, PrintsTheCommandThatItRuns) {
   const fs::path place = checkout("checkout");
   for (const char *ranks : {"1", "2"}) {

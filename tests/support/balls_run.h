@@ -1,4 +1,4 @@
-// Runs of balls.in and what its balls did.
+// Runs of balls.in, and the recorded motion of its balls.
 #pragma once
 
 #include "tests/support/engine_runs.h"

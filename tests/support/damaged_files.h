@@ -7,7 +7,8 @@
 
 namespace drumlin::test {
 
-/// Random choices that are the same on every machine, which the distributions of the standard library need not be.
+/// Random choices that are the same on every machine, unlike those of the distributions of the standard
+/// library.
 class Choice {
 public:
   explicit Choice(unsigned seed) : bits_(seed) {}

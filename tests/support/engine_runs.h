@@ -1,4 +1,4 @@
-// What tests ask of runs of the stock engine, and read of what they wrote.
+// Runs of the stock engine for tests, and readers of their files.
 #pragma once
 
 #include "chain/parameters.h"
@@ -50,32 +50,32 @@ struct Ball {
   std::array<double, 3> x{}, v{}, f{}, omega{}, torque{};
 };
 
-/// What the test decks dump: balls by ID, one entry per dumped step.
+/// The dumps of the test decks: balls by ID, one entry per dumped step.
 struct Frame {
   long step = 0;
   std::map<long, Ball> balls;
 };
 std::vector<Frame> read_dump(const std::filesystem::path &file);
 
-/// What a run of the chain or of a single impact wrote.
+/// The files of a run of the chain or of a single impact.
 struct ChainRun {
   post::ChainHistory history;
   std::vector<post::ContactEvent> events;
 };
 ChainRun read_run(const std::filesystem::path &folder);
 
-/// Runs in.chain in a folder of its own for a case of Table 1, with stock stepping unless a further variable says
-/// otherwise. Fails the test on an error.
+/// Runs in.chain in a folder of its own for a case of Table 1, with stock stepping unless a further variable
+/// says otherwise. Fails the test on an error.
 ChainRun run_chain(const std::string &name, post::Transition transition, int steps_per_cycle,
                    int samples_per_cycle, const Variables &more = {});
 
 /// A copy of the chain's decks in a folder, with the box from `bottom` up instead of the deck's own, so that
-/// a border between ranks falls where it is wanted: N ranks are N layers of one height up to z = 4. Returns
+/// the borders between ranks are at chosen heights: N ranks are N layers of one height up to z = 4. Returns
 /// where the copy is.
 std::filesystem::path chain_with_bottom(const std::filesystem::path &folder, double bottom);
 
-/// Runs a shell script in a folder with a file system of 600 kB at `small`, which only its processes see; the variables $DRUMLIN_PRELOAD
-/// and $DECKS are the plugin and inputs/chain. Status 77: this needs root.
+/// Runs a shell script in a folder with a file system of 600 kB at `small`, which only its processes see; the
+/// variables $DRUMLIN_PRELOAD and $DECKS are the plugin and inputs/chain. Status 77: this needs root.
 Outcome on_small_disk(const std::filesystem::path &folder, const std::string &script);
 bool can_mount_small_disk();
 

@@ -25,8 +25,8 @@ Outcome run_engine(const std::filesystem::path &deck, const std::vector<std::str
 Outcome run_host(const std::string &pair, const std::string &lines, const std::filesystem::path &folder,
                  int ranks);
 
-/// What MPI needs of the environment to run as root, with more ranks than cores and at once; its own files go
-/// to `folder`.
+/// Environment with which MPI runs as root, with more ranks than cores, and several runs at once; its own
+/// files go to `folder`.
 std::vector<std::string> mpi_environment(const std::filesystem::path &folder);
 
 void write_text(const std::filesystem::path &file, const std::string &text);

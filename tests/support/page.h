@@ -1,4 +1,4 @@
-// A page as a strict reader meets it.
+// Reads a page as strict XML.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // The chain's motion as a sequence of exact solutions: between events it is linear with a sinusoidal force,
-// so the state, joined with sin, cos and 1, moves by the exponential of a constant matrix. No time
-// integration anywhere.
+// so the state, joined with sin, cos and 1, moves by the exponential of a constant matrix. It uses no time
+// integration.
 #pragma once
 
 #include "chain/parameters.h"

@@ -104,6 +104,8 @@ void write_bed_run(const fs::path &folder, Transition transition, int cycles, co
                                {"stepping", "second"},
                                {"friction", friction},
                                {"balls", "2"},
+                               {"r2", "0.5"},
+                               {"drum_depth", "0.03"},
                                {"steps_per_cycle", "800"},
                                {"timestep", number_text(period / 800)},
                                {"command", "liggghts -in <in.bed> -var out " + folder.filename().string()}});

@@ -1,4 +1,4 @@
-// Folders of runs as the decks leave them, without an engine.
+// Run folders with the files that the decks write, made without an engine.
 #pragma once
 
 #include "chain/parameters.h"
@@ -19,7 +19,7 @@ void write_impact_run(const std::filesystem::path &folder, post::Transition tran
 constexpr int rows_per_cycle = 8; ///< of write_bed_run()
 constexpr double period = 0.05;   ///< of its excitation, s
 
-/// A run of a bed, with numbers that are easily worked with. Of six cycles the last four are steady.
+/// A run of a bed, with numbers that are easy to check by hand. Of six cycles the last four are steady.
 void write_bed_run(const std::filesystem::path &folder, post::Transition transition, int cycles = 6,
                    const std::string &friction = "0.5");
 

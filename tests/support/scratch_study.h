@@ -25,7 +25,7 @@ private:
   std::filesystem::path folder_;
 };
 
-/// Every second row of a file away, and the last one cut short, as a kill leaves it.
+/// Removes every second row of a file and cuts the last one short, as if the study had been killed.
 void interrupt(const std::filesystem::path &file);
 
 } // namespace drumlin::test

@@ -298,7 +298,7 @@ PageFigure chain_figure(const Data &data, const ChainFigure &wanted) {
       const std::string curve_name = fmt::format("{} {}", chain_case, series.name);
       bool any = false;
       for (std::size_t i = 0; i < errors.size(); ++i) {
-        if (!(errors[i].error > 0.0)) continue; // not measured, or no event to err in
+        if (!(errors[i].error > 0.0)) continue; // not measured, or no event
         table.row(curve_name,
                   {wanted.over_time ? seconds[i].error / accuracy_cycles : errors[i].steps, errors[i].error});
         any = true;
@@ -413,8 +413,8 @@ constexpr ChainFigure energy_residual = {
     "make: where "
     "contact is lost, the energy error therefore is of first order for every scheme."};
 
-/// What an error of 0.1 % of drum velocity costs in case II under B, in the second-order scheme and in the
-/// engine's own law; empty if it was not measured.
+/// Steps needed for an error of 0.1 % of drum velocity in case II under B, by the second-order scheme and by
+/// the engine's own law; empty if it was not measured.
 std::string steps_words(const Data &data) {
   constexpr double error = 1e-3;
   const auto steps = [&](const Series &series) {

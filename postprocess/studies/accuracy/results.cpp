@@ -49,7 +49,7 @@ const CsvSchema<ChainPoint> &chain_points() {
        error("loop_s", &ChainErrors::loop_s),
        error("wall_s", &ChainErrors::wall_s),
        csv_column("events", &ChainPoint::errors, &ChainErrors::events),
-       csv_column("events_truth", &ChainPoint::errors, &ChainErrors::events_truth),
+       csv_column("events_truth", &ChainPoint::errors, &ChainErrors::events_reference),
        {"loop_s_per_cycle",
         [](const ChainPoint &point) { return csv_text(point.errors.loop_s / accuracy_cycles, measured); },
         {}}},

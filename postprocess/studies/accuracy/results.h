@@ -1,5 +1,6 @@
-// The CSV files of the accuracy study: chain.csv, impacts.csv and scaling.csv, row by row. Errors are relative (chain) or
-// absolute (restitution), without unit. A number that was not measured is an empty cell, NaN here.
+// The CSV files of the accuracy study: chain.csv, impacts.csv and scaling.csv, row by row. Errors are
+// relative (chain) or absolute (restitution), without unit. A number that was not measured is an empty cell,
+// NaN here.
 #pragma once
 
 #include "studies/accuracy/runs.h"
@@ -29,8 +30,8 @@ struct ImpactPoint {
   ImpactErrors errors{};
 };
 
-/// One row of scaling.csv: a chain that is in no table, run at the steps that advice gave for it. The first three name
-/// the point.
+/// One row of scaling.csv: a chain with random parameters, run with the number of steps that `drumlin advise`
+/// gives for it. The first three name the point.
 struct ScalingPoint {
   int set = 0;          ///< number of the parameter set, from 1
   std::string stepping; ///< second or stock

@@ -20,11 +20,11 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-double velocity_error(const std::vector<double> &v_drum, const DirectResult &truth) {
+double velocity_error(const std::vector<double> &v_drum, const DirectResult &reference) {
   const std::size_t rows = static_cast<std::size_t>(accuracy_cycles) * accuracy_samples;
-  if (v_drum.size() != rows + 1 || truth.history.size() != rows + 1)
-    throw std::logic_error("a run with another number of rows than its truth");
-  return relative_rms(v_drum, truth.history.v_drum, rows - accuracy_window * accuracy_samples, rows + 1);
+  if (v_drum.size() != rows + 1 || reference.history.size() != rows + 1)
+    throw std::logic_error("a run with another number of rows than its reference solution");
+  return relative_rms(v_drum, reference.history.v_drum, rows - accuracy_window * accuracy_samples, rows + 1);
 }
 
 /// Largest magnitudes over the window.
@@ -33,10 +33,10 @@ struct Peaks {
   double acceleration;
 };
 
-Peaks peaks_of(const DirectResult &truth) {
+Peaks peaks_of(const DirectResult &reference) {
   Peaks peaks{0.0, 0.0};
-  for (std::size_t i = truth.cycles.size() - accuracy_window; i < truth.cycles.size(); ++i) {
-    const CycleSummary &cycle = truth.cycles[i];
+  for (std::size_t i = reference.cycles.size() - accuracy_window; i < reference.cycles.size(); ++i) {
+    const CycleSummary &cycle = reference.cycles[i];
     peaks.force = std::max(peaks.force, cycle.F_contact_max);
     peaks.acceleration =
         std::max({peaks.acceleration, std::fabs(cycle.a_drum_min), std::fabs(cycle.a_drum_max)});
@@ -46,7 +46,7 @@ Peaks peaks_of(const DirectResult &truth) {
 
 } // namespace
 
-DirectResult accuracy_truth(const ChainParameters &parameters, const SolverProgress &progress) {
+DirectResult accuracy_reference(const ChainParameters &parameters, const SolverProgress &progress) {
   DirectOptions options;
   options.cycles = accuracy_cycles;
   options.samples_per_cycle = accuracy_samples;
@@ -55,7 +55,7 @@ DirectResult accuracy_truth(const ChainParameters &parameters, const SolverProgr
 }
 
 ChainErrors measure_chain(const ChainParameters &parameters, const std::string &stepping, int steps_per_cycle,
-                          const DirectResult &truth) {
+                          const DirectResult &reference) {
   const ChainParameters &p = parameters;
   Variables variables = parameter_values(p);
   variables.insert(variables.end(), {{"stepping", stepping},
@@ -70,31 +70,32 @@ ChainErrors measure_chain(const ChainParameters &parameters, const std::string &
   const CycleColumns cycles = read_cycle_columns(run.file("cycles.csv"));
 
   ChainErrors errors{};
-  errors.velocity = velocity_error(history.v_drum, truth);
+  errors.velocity = velocity_error(history.v_drum, reference);
   const SteadyExtremes extremes =
       steady_extremes(history, events, cycles, p,
                       last_cycles_window(accuracy_cycles, accuracy_window, p.period()), accuracy_window);
-  const Peaks exact = peaks_of(truth);
+  const Peaks exact = peaks_of(reference);
   errors.force = std::fabs(extremes.force.max / exact.force - 1.0);
   errors.acceleration =
       std::fabs(std::max(std::fabs(extremes.acceleration.min), std::fabs(extremes.acceleration.max)) /
                     exact.acceleration -
                 1.0);
-  const EventMatch match = match_events(events, truth.events);
+  const EventMatch match = match_events(events, reference.events);
   errors.events = static_cast<long>(match.run_count);
-  errors.events_truth = static_cast<long>(match.truth_count);
-  errors.event_time_s = match.run_count == match.truth_count && match.matched == match.truth_count
+  errors.events_reference = static_cast<long>(match.reference_count);
+  errors.event_time_s = match.run_count == match.reference_count && match.matched == match.reference_count
                             ? match.largest_difference
                             : none;
   std::string missing;
-  const std::optional<EnergyBalance> ledger = energy_balance(cycles, missing);
-  errors.energy = ledger ? std::fabs(ledger->closure() / ledger->work_excitation) : none;
+  const std::optional<EnergyBalance> balance = energy_balance(cycles, missing);
+  errors.energy = balance ? std::fabs(balance->energy_error() / balance->work_excitation) : none;
   errors.loop_s = run.loop_seconds();
   errors.wall_s = run.wall_seconds();
   return errors;
 }
 
-ChainErrors measure_reference(const std::string &case_name, int steps_per_cycle, const DirectResult &truth) {
+ChainErrors measure_engine_law(const std::string &case_name, int steps_per_cycle,
+                               const DirectResult &reference) {
   const DeckRun run("study/in.reference", {{"case", case_name},
                                            {"cycles", std::to_string(accuracy_cycles)},
                                            {"steps_per_cycle", std::to_string(steps_per_cycle)},
@@ -103,13 +104,20 @@ ChainErrors measure_reference(const std::string &case_name, int steps_per_cycle,
   // The deck writes at the end of a step: the row of time 0, where the drum rests, is not in its file.
   std::vector<double> v_drum = read_table(run.file("velocity.csv")).numbers("v_drum");
   v_drum.insert(v_drum.begin(), 0.0);
-  return {
-      velocity_error(v_drum, truth), none, none, 0, 0, none, none, run.loop_seconds(), run.wall_seconds()};
+  return {velocity_error(v_drum, reference),
+          none,
+          none,
+          0,
+          0,
+          none,
+          none,
+          run.loop_seconds(),
+          run.wall_seconds()};
 }
 
 ImpactErrors measure_impacts(Transition transition, double damping_ratio, const std::string &stepping,
                              double steps_per_contact, int phases) {
-  constexpr double speed = 0.5; // m/s; the law is linear, so that any would do
+  constexpr double speed = 0.5; // m/s; any speed, since the law is linear
   const DeckRun run("study/in.impacts", {{"transition", transition_name(transition)},
                                          {"D", number_text(damping_ratio)},
                                          {"stepping", stepping},

@@ -1,4 +1,5 @@
-// The runs of the accuracy study: the chain and single impacts at many step sizes, each against its truth.
+// The runs of the accuracy study: the chain and single impacts at many step sizes, each compared with its
+// reference solution.
 #pragma once
 
 #include "chain/direct_solver.h"
@@ -15,26 +16,27 @@ constexpr int accuracy_samples = 50; ///< rows per cycle
 
 /// The errors of a run of the chain; NaN where they were not measured.
 struct ChainErrors {
-  double velocity;     ///< relative RMS of the drum's velocity over the window
-  double force;        ///< of the peak contact force over the window, relative
-  double acceleration; ///< of the largest magnitude of the drum's acceleration over the window, relative
-  long events;         ///< makes and breaks in the run
-  long events_truth;   ///< in the truth
-  double event_time_s; ///< largest error of the time of an event; NaN if the events do not match one by one
-  double energy;       ///< what the energy ledger of the run misses, over the work of the exciter, >= 0
-  double loop_s;       ///< time of the cycles, by the engine's clock
-  double wall_s;       ///< time of the whole process, with finding the equilibrium
+  double velocity;       ///< relative RMS of the drum's velocity over the window
+  double force;          ///< of the peak contact force over the window, relative
+  double acceleration;   ///< of the largest magnitude of the drum's acceleration over the window, relative
+  long events;           ///< makes and breaks in the run
+  long events_reference; ///< in the reference solution
+  double event_time_s;   ///< largest error of the time of an event; NaN if the events do not match one by one
+  double energy;         ///< energy error of the run over the work of the exciter, >= 0
+  double loop_s;         ///< time of the cycles, by the engine's clock
+  double wall_s;         ///< time of the whole process, with finding the equilibrium
 };
 
-/// The direct solution that the runs of a chain are measured against.
-DirectResult accuracy_truth(const ChainParameters &parameters, const SolverProgress &progress = {});
+/// The reference solution to which the runs of a chain are compared, by the direct solver.
+DirectResult accuracy_reference(const ChainParameters &parameters, const SolverProgress &progress = {});
 
 /// Runs in.chain. \param stepping "second" or "stock"
 ChainErrors measure_chain(const ChainParameters &parameters, const std::string &stepping, int steps_per_cycle,
-                          const DirectResult &truth);
+                          const DirectResult &reference);
 
 /// Runs a case of Table 1 by the engine's own contact law: velocity error and times only.
-ChainErrors measure_reference(const std::string &case_name, int steps_per_cycle, const DirectResult &truth);
+ChainErrors measure_engine_law(const std::string &case_name, int steps_per_cycle,
+                               const DirectResult &reference);
 
 /// Errors of the restitution over the phases of the onset, absolute.
 struct ImpactErrors {

@@ -17,7 +17,7 @@ namespace drumlin::post {
 
 namespace {
 
-/// What is to be measured.
+/// The points to be measured.
 struct Plan {
   std::vector<ChainPoint> chain; ///< coarse first
   std::vector<ImpactPoint> impacts;
@@ -57,19 +57,19 @@ Plan plan_of(bool quick) {
     for (const Transition transition : {Transition::A, Transition::B})
       for (const double ratio : quick ? std::vector<double>{0.5} : std::vector<double>{0.2, 0.5, 0.8, 2.0})
         for (const char *stepping : {"second", "stock"})
-          if (transition == Transition::B || ratio < 1.0) // else nothing rebounds
+          if (transition == Transition::B || ratio < 1.0) // else there is no rebound
             plan.impacts.push_back({transition, ratio, stepping, steps, {}});
   return plan;
 }
 
-/// The direct solutions, each made when it is first asked for.
-class Truths {
+/// The reference solutions, each computed when it is first needed.
+class References {
 public:
   const DirectResult &of(const std::string &chain_case, Transition transition) {
     const std::string name = chain_case + transition_name(transition);
     auto found = known_.find(name);
     if (found == known_.end())
-      found = known_.emplace(name, accuracy_truth(table1_case(chain_case, transition))).first;
+      found = known_.emplace(name, accuracy_reference(table1_case(chain_case, transition))).first;
     return found->second;
   }
 
@@ -89,7 +89,8 @@ private:
   std::mt19937 engine_{2018};
 };
 
-/// Chains that are in no table: soft to stiff, hardly to heavily damped, with little to much loss of contact.
+/// Chains with random parameters: soft to stiff, hardly to heavily damped, with little to much loss of
+/// contact.
 ChainParameters drawn(Draw &draw, Transition transition) {
   ChainParameters p;
   p.transition = transition;
@@ -104,7 +105,7 @@ ChainParameters drawn(Draw &draw, Transition transition) {
   return p;
 }
 
-/// sensitivity(), worked out once for each chain.
+/// sensitivity(), computed once for each chain.
 class Sensitivities {
 public:
   double of(const ChainParameters &parameters) {
@@ -117,7 +118,8 @@ private:
   std::map<std::vector<std::string>, double> known_;
 };
 
-/// The points of scaling.csv. Chains that advice refuses are drawn but not run: their numbers are missing.
+/// The points of scaling.csv. Chains for which no number of steps can be advised are not run, and the file
+/// has no row with their number.
 std::vector<ScalingPoint> scaling_plan(bool quick, Sensitivities &sensitivities) {
   std::vector<ScalingPoint> plan;
   const std::size_t sets = quick ? 1 : 12;
@@ -149,17 +151,17 @@ void measure(std::vector<ImpactPoint> plan, int phases, StudyResults &results, C
 }
 
 void measure(std::vector<ChainPoint> plan, StudyResults &results, CountedProgress &progress) {
-  Truths truths;
+  References references;
   for (ChainPoint &point : plan) {
     if (results.has(chain_points().key(point))) {
       progress.found();
       continue;
     }
-    const DirectResult &truth = truths.of(point.chain_case, point.transition);
+    const DirectResult &reference = references.of(point.chain_case, point.transition);
     point.errors = point.stepping == "reference"
-                       ? measure_reference(point.chain_case, point.steps_per_cycle, truth)
+                       ? measure_engine_law(point.chain_case, point.steps_per_cycle, reference)
                        : measure_chain(table1_case(point.chain_case, point.transition), point.stepping,
-                                       point.steps_per_cycle, truth);
+                                       point.steps_per_cycle, reference);
     results.add(chain_points().cells(point));
     progress.measured(fmt::format("chain {} {}, {}, {} steps per cycle", point.chain_case,
                                   transition_name(point.transition), point.stepping, point.steps_per_cycle));
@@ -180,7 +182,7 @@ void measure(std::vector<ScalingPoint> plan, const std::vector<ChainPoint> &know
     point.steps_per_cycle =
         advise(request, known, [&](const ChainParameters &p) { return sensitivities.of(p); }).steps_per_cycle;
     point.error = measure_chain(point.parameters, point.stepping, point.steps_per_cycle,
-                                accuracy_truth(point.parameters))
+                                accuracy_reference(point.parameters))
                       .velocity;
     results.add(scaling_points().cells(point));
     progress.measured(fmt::format("scaling, set {}, {}, error {:g}, {} steps per cycle", point.set,

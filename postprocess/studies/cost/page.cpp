@@ -10,7 +10,7 @@ namespace drumlin::post {
 
 namespace {
 
-/// Allowed ratio where no cost is to be added: the scatter of the ratios is about 2 %.
+/// Allowed ratio for parts that should not add cost: the scatter of the ratios is about 2 %.
 constexpr double nothing = 1.02;
 
 const std::vector<Comparison> comparisons = {

@@ -1,4 +1,4 @@
-// What the cost study measures: its file runs.csv, row by row, and the ratios that follow.
+// Results of the cost study: the rows of its file runs.csv, and the ratios of times computed from them.
 #pragma once
 
 #include "support/csv_schema.h"
@@ -30,7 +30,7 @@ const CsvSchema<CostRun> &cost_runs();
 /// or time.
 std::vector<CostRun> read_cost_runs(const std::filesystem::path &file);
 
-/// A variant of a scene: what a step takes.
+/// A variant of a scene: the time of a step.
 struct VariantCost {
   std::string scene, variant;
   int rounds;
@@ -41,7 +41,7 @@ struct VariantCost {
 /// In the order in which scenes and variants first appear.
 std::vector<VariantCost> variant_costs(const std::vector<CostRun> &runs);
 
-/// What a piece costs: a variant over the one without it.
+/// The cost of an optional part: the time of a variant with it over that of the variant without it.
 struct Comparison {
   const char *piece;
   const char *variant;
@@ -50,8 +50,8 @@ struct Comparison {
   const char *where = nullptr; ///< scene that the criterion is about; nullptr: all
 };
 
-/// The median over the rounds of the ratio within a round: runs that follow one another find the machine
-/// equally busy.
+/// The median over the rounds of the ratio within a round: the load of the machine is about the same in runs
+/// that follow one another.
 struct PieceCost {
   std::string scene;
   Comparison comparison;

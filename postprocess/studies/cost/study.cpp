@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What a run has: the words of its pair style, and switches of the decks.
+/// A variant of a scene: the words of its pair style, and values of deck variables.
 struct Variant {
   std::string name;
   std::string law;
@@ -28,7 +28,7 @@ struct Variant {
 
 const Variables watching = {{"guards", "1"}};
 const Variables events = {{"events", "1"}};
-const Variables ledger = {{"history", "1"}};
+const Variables history = {{"history", "1"}};
 const Variables all_records = {{"guards", "1"}, {"events", "1"}, {"history", "1"}};
 
 std::vector<Variant> chain_variants() {
@@ -42,7 +42,7 @@ std::vector<Variant> chain_variants() {
           {"second", plugin_law(none, "second"), {}},
           {"stock + guard", stock, watching},
           {"stock + events", stock, events},
-          {"stock + history", stock, ledger},
+          {"stock + history", stock, history},
           {"stock + guard + events + history", stock, all_records}};
 }
 
@@ -57,7 +57,7 @@ std::vector<Variant> bed_variants() {
           {"second", plugin_law(none, "second"), {}},
           {"stock + guard", stock, watching},
           {"stock + events", stock, events},
-          {"stock + history", stock, ledger},
+          {"stock + history", stock, history},
           {"engine law + friction", engine_law(friction), {}},
           {"stock + friction", plugin_law(friction, "stock"), {}},
           {"second + friction", plugin_law(friction, "second"), {}},
@@ -66,7 +66,7 @@ std::vector<Variant> bed_variants() {
           {"stock + friction + rolling", plugin_law(rolling, "stock"), {}}};
 }
 
-/// Where the variants run.
+/// The deck that the variants run.
 struct Scene {
   std::string name;
   std::string deck;

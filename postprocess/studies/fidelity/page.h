@@ -10,7 +10,7 @@
 namespace drumlin::post {
 
 /// index.html with its tables and figure in the study's folder.
-/// \param failures what was asked for and is missing, one sentence each
+/// \param failures runs that failed, one sentence each
 void write_fidelity_page(const std::filesystem::path &out, const std::vector<FidelityRun> &runs,
                          const std::vector<Effect> &effects, const std::vector<std::string> &failures);
 

@@ -1,4 +1,4 @@
-// What the fidelity study measures: its file runs.csv, row by row, and the effects that follow.
+// Results of the fidelity study: the rows of its file runs.csv, and the effects computed from them.
 #pragma once
 
 #include "support/csv_schema.h"
@@ -12,7 +12,7 @@
 
 namespace drumlin::post {
 
-/// What is asked of a bed, from the second half of a run.
+/// The quantities of a bed that are compared, from the second half of a run.
 enum class BedQuantity {
   acceleration, ///< largest of the drum, mean over the cycles, m/s2
   force,        ///< largest contact force, mean over the cycles, N per metre of width
@@ -27,7 +27,8 @@ std::string bed_quantity_name(BedQuantity quantity);
 /// In the order of `bed_quantities`.
 using BedValues = std::array<double, bed_quantities.size()>;
 
-/// What a run's cycles.csv says of its second half. \param width of the bed, m \pre at least two cycles behind the row of the start
+/// The quantities from the second half of a run's cycles.csv. \param width of the bed, m \pre at least two
+/// cycles behind the row of the start
 BedValues bed_values(const Table &cycles, double width);
 
 /// One row of runs.csv. The first two name the run.
@@ -44,12 +45,13 @@ const CsvSchema<FidelityRun> &fidelity_runs();
 /// number.
 std::vector<FidelityRun> read_fidelity_runs(const std::filesystem::path &file);
 
-/// What is compared with what.
+/// Which two variants are compared.
 struct BedComparison {
   std::string what, variant, base;
 };
 
-/// A variant over its base: differences seed by seed, so that what a seed's bed does to both falls out.
+/// A variant over its base: differences are taken for each seed, so that effects of the seed's bed on both
+/// cancel.
 struct Effect {
   BedComparison compared;
   int seeds;

@@ -30,7 +30,7 @@ namespace {
 
 constexpr double density = 2650.0; // kg/m3
 
-/// A bed with a roller on it, made once for each seed, and what is run on it.
+/// A bed with a roller on it, made once for each seed, and the deck variables of its runs.
 struct Bed {
   std::string name; ///< of its files
   PackingOptions packing;
@@ -59,12 +59,12 @@ struct Plan {
 /// The same bed with other values.
 Bed with(Bed bed, const std::string &name, const Variables &scene, const Variables &settle = {}) {
   bed.name = name;
-  bed.scene.insert(bed.scene.begin(), scene.begin(), scene.end()); // the engine takes the first of a name
+  bed.scene.insert(bed.scene.begin(), scene.begin(), scene.end()); // the first value counts
   bed.settle = settle;
   return bed;
 }
 
-/// Other balls in it.
+/// The same bed with other balls.
 Bed of_balls(Bed bed, int balls, double smallest, double largest) {
   bed.packing.balls = balls;
   bed.packing.radius_min = smallest;
@@ -73,10 +73,11 @@ Bed of_balls(Bed bed, int balls, double smallest, double largest) {
 }
 
 Plan quick_plan() {
-  Bed bed{"gravel", {}, {}, "1e-2"};
+  Bed bed{"loose", {}, {}, "1e-2"};
   bed.packing.balls = 150;
   bed.packing.width = 0.6;
-  bed.scene = {{"m2", "100"}, {"m3", "50"}, {"r2", "0.1"}, {"r3", "0.05"}, {"k23", "5e4"}, {"c23", "500"}};
+  bed.scene = {{"case", "loose"}, {"m2", "100"},  {"m3", "50"},  {"r2", "0.1"},
+               {"r3", "0.05"},    {"k23", "5e4"}, {"c23", "500"}};
   const std::pair<std::string, std::string> force = {"Fw", "2940"};
   return {{{bed, {{"base", {force}}, {"A", {force, {"transition", "A"}}}}},
            {with(bed, "rolling", {{"rolling", "0.1"}}), {{"rolling", {force}}}}},
@@ -88,27 +89,27 @@ Plan quick_plan() {
 /// The plan itself: longer than other functions, since it has a line for each bed, run and comparison and
 /// little else.
 Plan full_plan() {
-  // Excitation shakes a bed by far more than what a ratio of 1e-3 leaves.
-  const Bed gravel{"gravel", {}, {{"stepping", "second"}}, "1e-3"};
+  // The excitation moves a bed far more than the forces that are unbalanced at a ratio of 1e-3.
+  const Bed loose{"loose", {}, {{"case", "loose"}, {"stepping", "second"}}, "1e-3"};
   // The time step follows the contact time: sqrt(m/k), m ~ r^2.
-  const auto stiffness = [&gravel](const char *name, const char *k, const char *dt) {
-    return with(gravel, name, {{"k", k}, {"dt", dt}});
+  const auto stiffness = [&loose](const char *name, const char *k, const char *dt) {
+    return with(loose, name, {{"k", k}, {"dt", dt}});
   };
-  const Bed coarse = with(of_balls(gravel, 625, 0.032, 0.048), "coarse", {{"dt", "4e-5"}});
-  const Bed fine = with(of_balls(gravel, 10000, 0.008, 0.012), "fine", {{"dt", "1e-5"}});
-  Bed wide = with(of_balls(gravel, 2500, 0.010, 0.030), "wide", {{"dt", "1e-5"}});
+  const Bed coarse = with(of_balls(loose, 625, 0.032, 0.048), "coarse", {{"dt", "4e-5"}});
+  const Bed fine = with(of_balls(loose, 10000, 0.008, 0.012), "fine", {{"dt", "1e-5"}});
+  Bed wide = with(of_balls(loose, 2500, 0.010, 0.030), "wide", {{"dt", "1e-5"}});
   wide.packing.grading = Grading::mass;
-  wide.packing.height = 3.5; // m: with small balls everywhere, large ones find a place less easily
+  wide.packing.height = 3.5; // m: with small balls everywhere, large ones find less space
   // As wide, as high and as loose as each other, the drum a clump in both.
-  Bed plane = with(of_balls(gravel, 460, 0.016, 0.024), "plane", {{"drum", "clump"}});
+  Bed plane = with(of_balls(loose, 460, 0.016, 0.024), "plane", {{"drum", "clump"}});
   plane.packing.width = 1.0;
-  Bed space = with(of_balls(gravel, 2500, 0.016, 0.024), "space", {{"case", "gravel3d"}});
+  Bed space = with(of_balls(loose, 2500, 0.016, 0.024), "space", {{"case", "loose3d"}});
   space.packing.width = 1.0;
   space.packing.depth = 0.2;
   const auto frequency = [](double hertz, const char *steps) -> Variables {
     return {{"omega", number_text(2.0 * 3.14159265358979323846 * hertz)}, {"steps_per_cycle", steps}};
   };
-  return {{{gravel,
+  return {{{loose,
             {{"base"},
              {"steps x 2", {{"steps_per_cycle", "5000"}}},
              {"steps x 4", {{"steps_per_cycle", "10000"}}},
@@ -116,16 +117,16 @@ Plan full_plan() {
              {"no friction", {{"friction", "0"}, {"allow_change", "friction"}, {"balance", "1e30"}}},
              {"30 Hz", frequency(30.0, "1750")},
              {"40 Hz", frequency(40.0, "1250")}}},
-           {with(gravel, "stock", {{"stepping", "stock"}}),
+           {with(loose, "stock", {{"stepping", "stock"}}),
             {{"stock"}, {"stock steps x 4", {{"steps_per_cycle", "10000"}}}}},
-           {with(gravel, "rolling", {{"rolling", "0.1"}}), {{"rolling"}}},
+           {with(loose, "rolling", {{"rolling", "0.1"}}), {{"rolling"}}},
            {stiffness("soft10", "1e7", "6e-5"), {{"k / 10", {{"steps_per_cycle", "750"}}}}},
            {stiffness("soft100", "1e6", "2e-4"), {{"k / 100", {{"steps_per_cycle", "250"}}}}},
            {coarse, {{"625 balls", {{"steps_per_cycle", "1250"}}}}},
-           {with(of_balls(gravel, 2500, 0.02, 0.02), "one_size", {}), {{"one size"}}},
+           {with(of_balls(loose, 2500, 0.02, 0.02), "one_size", {}), {{"one size"}}},
            {wide, {{"wide grading", {{"steps_per_cycle", "5000"}}}}},
-           {with(gravel, "dense", {}, {{"pour_friction", "0.1"}}), {{"dense"}}},
-           {with(gravel, "clump", {{"drum", "clump"}}), {{"clump"}}},
+           {with(loose, "dense", {}, {{"pour_friction", "0.1"}}), {{"dense"}}},
+           {with(loose, "clump", {{"drum", "clump"}}), {{"clump"}}},
            {plane, {{"plane"}}},
            {space, {{"space", {{"steps_per_cycle", "4000"}}}}},
            {fine, {{"10000 balls", {{"steps_per_cycle", "5000"}}}}}},

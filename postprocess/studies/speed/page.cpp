@@ -59,7 +59,7 @@ PageTable speed_table(const std::vector<Throughput> &all) {
 
 std::vector<Acceptance> judge(const std::vector<Throughput> &all, const SpeedScenes &scenes,
                               const EngineLaws &laws) {
-  // Allowed ratio where no cost is to be added: the scatter of the ratios is about 2 %.
+  // Allowed ratio for parts that should not add cost: the scatter of the ratios is about 2 %.
   constexpr double nothing = 1.02, least_efficiency = 0.85;
   std::vector<Acceptance> criteria;
   for (const std::string &scene : {scenes.plane, scenes.cell, scenes.copies}) {

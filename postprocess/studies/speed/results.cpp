@@ -11,7 +11,7 @@ namespace drumlin::post {
 
 namespace {
 
-/// What differs between runs whose ratio is asked for.
+/// Whether two runs differ only in law and number of ranks, which are given for the other.
 bool same_but(const SpeedRun &one, const SpeedRun &other, const std::string &law, int ranks) {
   return one.scene == other.scene && one.round == other.round && other.law == law && other.ranks == ranks;
 }

@@ -1,4 +1,5 @@
-// What the speed study measures: its file runs.csv, row by row, and throughput, efficiency and memory that follow.
+// Results of the speed study: the rows of its file runs.csv, and throughput, efficiency and memory computed
+// from them.
 #pragma once
 
 #include "support/csv_schema.h"
@@ -18,7 +19,7 @@ struct SpeedRun {
   int balls; ///< that move
   int steps;
   double loop_s;     ///< by the engine's clock
-  double peak_bytes; ///< of the rank that held most memory
+  double peak_bytes; ///< of the rank with the largest memory
   double place;      ///< height of the bed at the end, m: tells whether runs did the same work
 
   double million_per_second() const { return 1e-6 * balls * steps / loop_s; } ///< steps of balls
@@ -39,10 +40,12 @@ struct Throughput {
   Spread efficiency;         ///< over `ranks` times the throughput on one rank
   double peak_bytes;         ///< median
 };
-/// In the order in which they first appear. Rounds without their counterpart do not count in a ratio; a ratio without any is 0.
+/// In the order in which they first appear. Rounds without their counterpart do not count in a ratio; a ratio
+/// without any is 0.
 std::vector<Throughput> throughputs(const std::vector<SpeedRun> &runs, const std::string &base);
 
-/// Bytes that one more ball takes, from two scenes on one rank. std::invalid_argument if one of them is missing or they are equally large.
+/// Bytes that one more ball takes, from two scenes on one rank. std::invalid_argument if one of them is
+/// missing or they are equally large.
 double bytes_per_ball(const std::vector<Throughput> &all, const std::string &law, const std::string &small,
                       const std::string &large);
 

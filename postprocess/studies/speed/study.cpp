@@ -67,8 +67,9 @@ SpeedRun measure(const Scene &scene, const Law &law, int ranks, int round, const
           run.printed("ends at ")};
 }
 
-/// All runs of a scene end at one place. In LAMMPS friction's limit counts the dashpot, and its own dashpot goes with the mass of each
-/// pair: those end a little off.
+/// Checks that all runs of a scene end with the balls at the same positions. LAMMPS's own law limits the sum
+/// of spring and dashpot and scales the dashpot with the mass of each pair, so that these positions differ
+/// slightly.
 void check_same_work(const std::vector<SpeedRun> &runs) {
   const auto in_liggghts = [names = engine_laws[0].all()](const SpeedRun &run) {
     return std::find(names.begin(), names.end(), run.law) != names.end();

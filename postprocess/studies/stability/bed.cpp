@@ -115,7 +115,8 @@ double picture_distance(const BedPicture &a, const BedPicture &b) {
 }
 
 void add_bed_rows(std::vector<Extreme> &rows, bool quick) {
-  // One row of balls: the motion of more is chaotic, so that rounding, which differs with the ranks, moves them by a radius.
+  // One row of balls: the motion of more is chaotic, so that rounding errors, which depend on the number of
+  // ranks, grow to the size of a radius.
   const auto on_ranks = [&](int ranks, const std::string &settling) {
     const Variables drum = {{"rows", "1"}, {"drum_mass", "100"}, {"settling", settling}};
     Variables aside = drum;

@@ -1,4 +1,5 @@
-// Rows of the stability study that run a small bed: what only many balls, several ranks and friction can show.
+// Rows of the stability study that run a small bed: properties that need many balls, several ranks and
+// friction.
 #pragma once
 
 #include "studies/stability/extremes.h"
@@ -23,9 +24,10 @@ struct BedState {
 
 std::vector<BedState> read_balance(const std::filesystem::path &file);
 
-/// Largest of what must be small in a bed that has come to rest, each relative: the floor's mean force less the weight, over the
-/// weight; the change of momentum less the impulse of floor and weight, over the weight's impulse; the largest kinetic energy
-/// over the weight times `length`, m. Infinite if a ball was lost or a number is not finite. At least two states.
+/// The largest of three relative errors, which must be small in a bed that has come to rest: the floor's mean
+/// force less the weight, over the weight; the change of momentum less the impulse of floor and weight, over
+/// the weight's impulse; the largest kinetic energy over the weight times `length`, m. Infinite if a ball was
+/// lost or a number is not finite. At least two states.
 double balance_error(const std::vector<BedState> &states, double length);
 
 /// Where the balls of a dump are, x and z in m by ball; its last picture.

@@ -48,7 +48,7 @@ struct ChainPlan {
     return samples *
            std::max(1, static_cast<int>(std::ceil(two_pi * w / (parameters.omega * w0_dt * samples))));
   }
-  /// What differs from the deck's own values.
+  /// The variables that differ from the deck's defaults.
   Variables variables() const {
     const ChainParameters usual = table1_case("II", Transition::B);
     Variables given;
@@ -82,7 +82,7 @@ DirectResult direct(const ChainPlan &plan) {
 /// Where the drum rests in the soil without excitation, m.
 double rest_overlap(const ChainParameters &p) { return (p.m2 + p.m3) * p.g / p.k; }
 
-/// The drum's way from where it rests.
+/// The drum's displacement from its position at rest.
 std::vector<double> from_rest(std::vector<double> x_drum, const ChainParameters &p) {
   for (double &x : x_drum)
     x += rest_overlap(p);
@@ -92,11 +92,11 @@ std::vector<double> from_rest(std::vector<double> x_drum, const ChainParameters 
 /// Relative RMS error of a column of the run.
 double against_direct(const ChainPlan &plan, const DeckRun &run,
                       const std::function<std::vector<double>(const ChainHistory &)> &column) {
-  const ChainHistory truth = direct(plan).history;
+  const ChainHistory reference = direct(plan).history;
   const ChainHistory history = read_chain(run.file("chain.csv"));
-  if (history.size() != truth.size())
-    throw std::runtime_error(fmt::format("{} rows instead of {}", history.size(), truth.size()));
-  return relative_rms(column(history), column(truth), 0, truth.size());
+  if (history.size() != reference.size())
+    throw std::runtime_error(fmt::format("{} rows instead of {}", history.size(), reference.size()));
+  return relative_rms(column(history), column(reference), 0, reference.size());
 }
 
 Extreme chain_row(const std::string &group, const std::string &name, const ChainPlan &plan, double allowed) {
@@ -136,7 +136,7 @@ Extreme edge_row(const std::string &name, ChainPlan plan, int cycles) {
   const double softer = p.k / ChainParameters().k;
   p.k23 *= softer;
   p.c23 *= std::sqrt(softer);
-  p.g *= std::min(1.0, softer); // else a soft bond lets the frame out of the box
+  p.g *= std::min(1.0, softer); // with a soft bond the frame would leave the box
   constexpr double w0_dt = 1.95;
   constexpr int steps = 5000;
   p.omega = two_pi * fastest(p) / (w0_dt * steps);
@@ -231,8 +231,7 @@ void add_chain_rows(std::vector<Extreme> &rows, bool quick) {
   for (const double omega : decades(0.1, 6, quick ? 5 : 1)) {
     ChainPlan plan = with(&ChainParameters::omega, omega);
     plan.parameters.Fw =
-        omega < 50.0 ? 20e3
-                     : 58.8e3; // below the weight a slow force does not throw the roller out of the box
+        omega < 50.0 ? 20e3 : 58.8e3; // a slow force must be below the weight, or the roller leaves the box
     plan.cycles = omega < 50.0 ? 1 : static_cast<int>(omega / 10.0);
     rows.push_back(chain_row("Excitation",
                              fmt::format("omega = {:g} rad/s; Fw = {:g} kN", omega, plan.parameters.Fw / 1e3),
@@ -261,7 +260,7 @@ void add_chain_rows(std::vector<Extreme> &rows, bool quick) {
   rows.push_back(chain_row("Gravity", "g = 0", weightless, 1e-3));
 }
 
-/// REFERENCE: a drum that turns round with the contact broken and the balls still overlapping.
+/// Runs in which the drum reverses its motion after the contact is broken, while the balls still overlap.
 void add_remade_rows(std::vector<Extreme> &rows) {
   ChainPlan plan = with(&ChainParameters::k, 1e7);
   plan.cycles = 10;
@@ -277,9 +276,9 @@ void add_remade_rows(std::vector<Extreme> &rows) {
       return event.time > 0.0 && event.make && event.overlap > 1e-5;
     });
     if (!remade) throw std::runtime_error("no contact was made again with overlap");
-    if (match.matched != match.truth_count || match.run_count != match.truth_count)
+    if (match.matched != match.reference_count || match.run_count != match.reference_count)
       throw std::runtime_error(
-          fmt::format("{} events; the direct solver has {}", match.run_count, match.truth_count));
+          fmt::format("{} events; the direct solver has {}", match.run_count, match.reference_count));
     return match.largest_difference / plan.parameters.period();
   };
   rows.push_back(events);
@@ -415,7 +414,7 @@ std::vector<Extreme> extremes(bool quick) {
   add_impact_rows(rows, quick);
   add_bed_rows(rows, quick);
   add_stop_rows(rows);
-  if (!quick) { // last: it takes minutes
+  if (!quick) { // at the end, since it takes minutes
     ChainPlan fine;
     fine.w0_dt = 0.01;
     rows.push_back(rest_row("case II", fine, 1e8));

@@ -1,4 +1,4 @@
-// What the project does at the edges of what can be asked: rows that must run and agree with an oracle, and rows that must stop
+// Runs at the limits of the allowed parameters: some must agree with an independent solution, others must end
 // with an error that names the limit.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace drumlin::post {
 
-/// One run and what is asked of it.
+/// One run and its expected result.
 struct Extreme {
   std::string group; ///< title of its table
   std::string name;
@@ -21,7 +21,8 @@ struct Extreme {
   double limit = 120.0; ///< s of wall time, after which it counts as hung
   std::string expected; ///< in words, without commas
   double allowed = 0.0; ///< largest error
-  /// What the run missed its oracle by, in the unit that `expected` states. May throw std::runtime_error: the row then fails.
+  /// The difference of the run from the independent solution, in the unit that `expected` states. May throw
+  /// std::runtime_error: the row then fails.
   std::function<double(const DeckRun &)> error;
 };
 
@@ -48,7 +49,7 @@ struct ExtremeRow {
 };
 const CsvSchema<ExtremeRow> &extreme_rows();
 
-/// Runs what options.out/extremes.csv does not have yet.
+/// Makes the runs that options.out/extremes.csv does not have yet.
 std::vector<ExtremeVerdict> measure_extremes(const StudyOptions &options);
 
 } // namespace drumlin::post

@@ -19,12 +19,12 @@ namespace {
 constexpr double lowest = 1e-6; // w0 dt
 constexpr double highest = 4.0;
 constexpr double first_push = 1e-6;  // m, of the deck
-constexpr double growth_limit = 1e3; // a motion beyond so many first pushes has grown
+constexpr double growth_limit = 1e3; // times the first push: a larger motion is unstable
 // With heavy damping and second-order stepping an unstable motion grows by as little as a factor of 1 + 1e-7
 // per step. That is seen in the part of the motion that changes sign every step, measured at half time and at
 // the end of the run.
 constexpr double fast_growth = 1.0 + 1e-4;
-constexpr double fast_noise = 1e-11; // m: above what rounding stirs up
+constexpr double fast_noise = 1e-11; // m: above rounding errors
 
 /// The largest fourth difference over the window: 16 times the part of the motion that changes sign every
 /// step, and next to nothing of a slow motion.

@@ -9,7 +9,7 @@
 
 namespace drumlin::post {
 
-/// What holds the balls of inputs/study/in.stability.
+/// How the balls of inputs/study/in.stability are confined.
 struct HeldScene {
   const char *name; ///< the deck's variable `scene`
   const char *what; ///< in words
@@ -17,7 +17,7 @@ struct HeldScene {
 };
 const std::vector<HeldScene> &held_scenes();
 
-/// One measured boundary beside theory.
+/// One measured stability limit and the theoretical one.
 struct MapPoint {
   const HeldScene *scene;
   std::string stepping; ///< second or stock
@@ -39,7 +39,7 @@ struct MapRow {
 
 const CsvSchema<MapRow> &map_rows();
 
-/// Measures what options.out/map.csv does not have yet; gives all points.
+/// Measures the points that options.out/map.csv does not have yet; returns all points.
 std::vector<MapPoint> measure_stability_map(const StudyOptions &options);
 std::vector<Acceptance> judge_stability_map(const std::vector<MapPoint> &map);
 

@@ -30,9 +30,9 @@ BadGroup chain_choices() {
   return {"ChainChoices",
           "chain/in.chain",
           {
-              variable("case", "V", "allowed: I, II, III or IV", true),
-              variable("case", "ii", "allowed: I, II, III or IV"),
-              variable("case", "2", "allowed: I, II, III or IV"),
+              variable("case", "V", "allowed: I, II, III, IV, BW120-63Hz, ", true),
+              variable("case", "ii", "allowed: I, II, III, IV, BW120-63Hz, "),
+              variable("case", "2", "allowed: I, II, III, IV, BW120-63Hz, "),
               variable("transition", "C", "allowed: A or B", true),
               variable("transition", "AB", "allowed: A or B"),
               variable("stepping", "exact", "allowed: second or stock", true),
@@ -146,11 +146,13 @@ BadGroup bed_settle() {
   BadGroup group{"BedSettle", "bed/in.settle", {}};
   group.inputs.push_back(variable("transition", "C", "allowed: A or B", true));
   group.inputs.push_back(variable("stepping", "half", "allowed: second or stock"));
+  group.inputs.push_back(variable("tangential", "off", "allowed: coulomb or history"));
   group.inputs.push_back(variable("guard", "1", "allowed: on or off"));
-  for (const char *name : {"k", "m2", "m3", "r2", "r3", "k23", "dt", "ratio"})
+  for (const char *name : {"k", "m2", "m3", "r2", "r3", "k23", "dt", "ratio", "pour_k", "pour_dt"})
     for (const char *value : {"0", "-1", "nan"})
       group.inputs.push_back(variable(name, value, positive));
-  for (const char *name : {"D", "friction", "rolling", "g", "c23", "drag", "fall"})
+  for (const char *name :
+       {"D", "friction", "rolling", "g", "c23", "drag", "fall", "pour_D", "pour_friction", "pour_rolling"})
     group.inputs.push_back(variable(name, "-0.5", non_negative));
   group.inputs.push_back(variable("settle_limit", "-1", whole));
   group.inputs.push_back(
@@ -180,10 +182,40 @@ BadGroup bed() {
       group.inputs.push_back(variable(name, value, whole));
   group.inputs.push_back(variable("dumps_per_cycle", "-1", whole));
   group.inputs.push_back(variable("dumps_per_cycle", "3", ""));
-  group.inputs.back().says = {"variable steps_per_cycle is '2500'",
+  group.inputs.back().says = {"variable steps_per_cycle is '8000'",
                               "allowed: a multiple of dumps_per_cycle, which is 3"};
   group.inputs.push_back(
       variable("start", "none.restart", "./drumlin run inputs/bed/in.place -var start none.restart", true));
+  return group;
+}
+
+BadGroup oedometer() {
+  BadGroup group{"Oedometer", "soil/in.oedometer", {}};
+  for (const char *name : {"radius", "density", "k", "kt", "seating", "ratio", "dt", "drag"})
+    for (const char *value : {"0", "-1", "nan"})
+      group.inputs.push_back(variable(name, value, positive));
+  for (const char *name : {"D", "friction", "prepare_friction", "prepare_time"})
+    group.inputs.push_back(variable(name, "-0.5", non_negative));
+  for (const char *name : {"columns", "rows", "layers", "every", "ramp", "seed"})
+    for (const char *value : {"0", "2.5"})
+      group.inputs.push_back(variable(name, value, whole));
+  group.inputs.push_back(variable("stepping", "half", "allowed: second or stock", true));
+  group.inputs.push_back(variable("guard", "1", "allowed: on or off"));
+  group.inputs.push_back(variable("dimension", "4", "allowed: 2 or 3"));
+  group.inputs.push_back(variables("balls that fall through the plates", {{"spread", "0.9"}},
+                                   {"drumlin/check: variable excess_over_holes is '-", positive}));
+  group.inputs.push_back(variables("a lattice in the plane", {{"sample", "hexagonal"}, {"dimension", "3"}},
+                                   {"drumlin/check: variable dimension is '3'", "allowed: 2"}));
+  group.inputs.push_back(variables("a lattice of several sizes", {{"sample", "cubic"}, {"spread", "0.1"}},
+                                   {"drumlin/check: variable spread is '0.1'", "allowed: 0"}));
+  group.inputs.push_back(variables("an unknown sample", {{"sample", "clay"}},
+                                   {"drumlin/check: variable sample is 'clay'", "allowed: hexagonal"}, true));
+  group.inputs.push_back(
+      variables("a load of 0", {{"loads", "25 0 50"}}, {"drumlin/check: variable loads is '0'", positive}));
+  group.inputs.push_back(variables("a load that is a word", {{"loads", "25 heavy"}},
+                                   {"drumlin/check: variable loads is 'heavy'", positive}));
+  group.inputs.push_back(variables("a ramp that is no multiple", {{"ramp", "300"}},
+                                   {"variable ramp is '300'", "allowed: a multiple of every, which is 200"}));
   return group;
 }
 
@@ -191,7 +223,7 @@ BadGroup bed() {
 
 std::vector<BadGroup> bad_variables() {
   return {chain_choices(), chain_numbers(), chain_counts(), chain_folder(), chain_equilibrium(),
-          impact(),        bed_settle(),    bed_place(),    bed()};
+          impact(),        bed_settle(),    bed_place(),    bed(),          oedometer()};
 }
 
 } // namespace drumlin::test

@@ -9,8 +9,9 @@
 
 namespace drumlin::test {
 
-/// Who prints the error line. The plugin's names command, keyword, value and what is allowed ("allowed:");
-/// where the engine's own check comes first, its text is all there is (the pages of plugin/doc say where).
+/// Whether plugin or engine prints the error line. The plugin's line names command, keyword, value and what
+/// is allowed ("allowed:"); where the engine's own check comes first, only its text is printed (the pages of
+/// plugin/doc say where).
 enum class Text { ours, engine };
 
 /// One mistake.

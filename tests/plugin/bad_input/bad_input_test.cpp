@@ -38,7 +38,7 @@ private:
   fs::file_time_type written_ = fs::file_time_type::clock::now() - std::chrono::hours(1);
 };
 
-/// What a user's deck has besides the mistake: outputs into the folder of the earlier run.
+/// The deck around the mistake: it writes into the folder of the earlier run.
 constexpr const char *outputs =
     "\nfix out_events all contact/events file out/events.csv types 1 2\n"
     "fix out_history drum roller/history file out/chain.csv every 10 cycles out/cycles.csv 10\n";
@@ -51,7 +51,8 @@ void expect_one_error(const BadInput &input, const Outcome &outcome) {
     if (line.rfind("ERROR", 0) == 0)
       errors.push_back(line); // mpirun may add lines of its own when a rank ends
   ASSERT_EQ(errors.size(), 1U) << outcome.output;
-  // The engine by itself adds a line to one error in five, by chance, with the same place in its source at its end.
+  // The engine by itself adds a line to one error in five, by chance, with the same place in its source at
+  // its end.
   const std::string place = errors.front().substr(errors.front().rfind(" ("));
   EXPECT_EQ(outcome.output.find(place), outcome.output.rfind(place)) << outcome.output;
   for (const std::string &words : input.says)
@@ -60,18 +61,20 @@ void expect_one_error(const BadInput &input, const Outcome &outcome) {
   EXPECT_NE(errors.front().find("; allowed: "), std::string::npos) << errors.front();
 }
 
-/// What in.place and in.bed read before they check their other variables: a file with the notes of a bed. The engine never reads it.
+/// A file with the notes of a bed, which in.place and in.bed read before they check their other variables.
+/// The engine never reads it.
 const std::string &bed_file(const std::string &stage) {
   static std::map<std::string, std::string> files;
   std::string &text = files[stage];
   if (text.empty()) {
     const Scratch scratch;
-    const Outcome made = run_host(
-        host_pair_style() + host_properties(),
-        "drumlin/write_restart bed.restart bed " + stage +
-            " case gravel dimension 2 walls 1 stepping stock g 9.81 rolling_history 0 k 1e8 D 0.3 friction "
-            "0.5 rolling 0 drum ball m2 2000 m3 1000 r2 0.35 r3 0.25 rc 0.02 k23 1e6 c23 1e4\n",
-        scratch.path(), 1);
+    const Outcome made = run_host(host_pair_style() + host_properties(),
+                                  "drumlin/write_restart bed.restart bed " + stage +
+                                      " case gravel dimension 2 walls 1 stepping stock g 9.81 tangential "
+                                      "coulomb rolling_history 1 k 1e9 D 0.3 "
+                                      "friction 0.8 rolling 0.3 drum ball m2 2000 m3 1000 r2 0.35 r3 0.25 rc "
+                                      "0.02 drum_depth 0.01 k23 1e6 c23 1e4\n",
+                                  scratch.path(), 1);
     EXPECT_TRUE(made.ok()) << made.output;
     text = read_text(scratch / "bed.restart");
   }

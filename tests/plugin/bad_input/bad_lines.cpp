@@ -116,6 +116,44 @@ BadGroup pair_style() {
       }};
 }
 
+/// A mistake in the pair style with the Hertz law, whose host properties are given but those in `properties`.
+BadInput hertz(const std::string &name, const std::string &settings, const std::string &E,
+               const std::string &nu, const std::vector<std::string> &says) {
+  BadInput input = line(name, "", says);
+  const auto of_types = [](const std::string &property_name, const std::string &value) {
+    return value.empty() ? std::string()
+                         : "fix " + property_name + " all property/global " + property_name +
+                               " peratomtype " + value + " " + value + " " + value + "\n";
+  };
+  input.pair = "pair_style gran model hertz/transition " + settings + "\npair_coeff * *\n" +
+               host_properties() + of_types("youngsModulus", E) + of_types("poissonsRatio", nu);
+  return input;
+}
+
+BadGroup hertz_law() {
+  const std::string command = "pair_style gran model hertz/transition: ";
+  return {
+      "Hertz",
+      "",
+      {
+          hertz("transition", "transition C", "1e7", "0.3",
+                {command + "keyword transition is 'C'", "A or B"}),
+          hertz("rolling spring", "rolling_friction epsd2", "1e7", "0.3",
+                {command + "rolling_friction is 'epsd2'", "off or cdt"}),
+          on_two_ranks(
+              hertz("no modulus", "", "", "0.3",
+                    {"model hertz/transition: property youngsModulus (Young's modulus, Pa) is missing",
+                     "peratomtype' and 3 values"})),
+          hertz("no ratio", "", "1e7", "", {"property poissonsRatio (Poisson's ratio) is missing"}),
+          hertz("negative modulus", "", "-1", "0.3",
+                {"model hertz/transition: property youngsModulus of type 1 is -1", "a finite number > 0"}),
+          hertz("ratio beyond", "", "1e7", "0.6",
+                {"property poissonsRatio of type 1 is 0.6", "a finite number > -1 and <= 0.5"}),
+          hertz("damping restitution", "damping restitution", "1e7", "0.3",
+                {"model hertz/transition: property coefficientRestitution", "is missing"}),
+      }};
+}
+
 BadGroup properties() {
   const std::string damping = property("dampingRatio", "0.5");
   const auto engine_value = [&damping](const std::string &text) {
@@ -132,6 +170,7 @@ BadGroup properties() {
           value("gamman_abs", "-1", "damping coefficient"),
           value("coefficientRestitution", "0", "damping restitution"),
           value("coefficientRestitution", "1.1", "damping restitution"),
+          value("coefficientRollingFriction", "-0.1"),
           value("kt", "-1"),
           value("gammat_abs", "-1"),
           value("coefficientFriction", "-1", "tangential history"),
@@ -271,7 +310,7 @@ BadGroup drum_excite() {
           line("mode without value", more("mode"),
                {command + "keyword mode is missing", "directed or rotating"}),
           line("rotating without axis", more("mode rotating"),
-               {command + "keyword axis is missing beside mode rotating", "axis x y z"}),
+               {command + "keyword axis is missing with mode rotating", "axis x y z"}),
           line("axis along the force", more("mode rotating axis 0 0 1"),
                {command + "keyword axis", "cosine", "right angles"}),
           line("axis without rotation", more("axis 0 1 0"),
@@ -407,6 +446,16 @@ BadGroup contact_local() {
       }};
 }
 
+BadGroup contact_energy() {
+  const std::string command = "fix contact/energy: ";
+  return {"ContactEnergy",
+          "",
+          {
+              on_two_ranks(line("a word too many", "fix energy all contact/energy every 10",
+                                {command + "argument is 'every'", "fix ID group contact/energy"})),
+          }};
+}
+
 BadInput with_the_stock_law(const std::string &lines, const std::string &command) {
   BadInput input = line("the stock law, " + command, lines,
                         {command + ": pair_style is '", "pair_style gran model hooke/transition"});
@@ -461,7 +510,7 @@ BadGroup roller_history() {
           line("soil without group", more("soil"),
                {command + "keyword soil is missing", "the name of a group"}),
           line("soil without cycles", more("frame frame soil soil"),
-               {command + "keyword frame or cycles is missing beside keyword soil", "all three"}),
+               {command + "keyword frame or cycles is missing with keyword soil", "all three"}),
           line("empty soil group", more("frame frame soil nobody cycles out/y.csv 10"),
                {command + "keyword soil is a group that is empty", "the soil balls"}),
           on_two_ranks(line("unknown excite", more("excite motor"),
@@ -490,6 +539,7 @@ BadGroup roller_history() {
           on_two_ranks(
               with_the_stock_law("fix events all contact/events file out/x.csv", "fix contact/events")),
           with_the_stock_law("fix contacts all contact/local every 10", "fix contact/local"),
+          with_the_stock_law("fix energy all contact/energy", "fix contact/energy"),
       }};
 }
 
@@ -627,7 +677,7 @@ BadGroup run() {
                {command + "keyword every is '0'", "a whole number from 1"}),
           line("limit zero", "drumlin/run 10 every 10 limit 0", {command + "keyword limit is '0'", "> 0"}),
           line("limit without restart", "drumlin/run 10 every 10 limit 60",
-               {command + "keyword restart is missing beside keyword limit", "limit SECONDS restart FILE"}),
+               {command + "keyword restart is missing with keyword limit", "limit SECONDS restart FILE"}),
           line("restart without file", "drumlin/run 10 every 10 restart",
                {command + "keyword restart is missing", "a file in a folder that exists"}),
           on_two_ranks(line("restart in no folder", "drumlin/run 10 every 10 limit 60 restart nowhere/x",
@@ -695,6 +745,32 @@ BadGroup outputs() {
       }};
 }
 
+BadGroup surface() {
+  const std::string command = "drumlin/surface: ";
+  return {
+      "Surface",
+      "",
+      {
+          line("no variable", "drumlin/surface", {command + "variable is missing", "the name of a variable"}),
+          line("no group", "drumlin/surface h", {command + "group is missing", "the name of a group"}),
+          line("unknown group", "drumlin/surface h rock spacing 0.1",
+               {command + "group is 'rock'", "the name of a group"}),
+          line("no spacing", "drumlin/surface h soil", {command + "keyword spacing is missing", "> 0"}),
+          line("spacing zero", "drumlin/surface h soil spacing 0",
+               {command + "keyword spacing is '0'", "> 0"}),
+          line("spacing tiny", "drumlin/surface h soil spacing 1e-9",
+               {command + "keyword spacing is '1e-09'", "at most 1e+07 lines"}),
+          line("beyond without x", "drumlin/surface h soil spacing 0.1 beyond 1",
+               {command + "keyword beyond, x is missing", "a finite number"}),
+          line("beyond negative", "drumlin/surface h soil spacing 0.1 beyond -1 0",
+               {command + "keyword beyond, distance is '-1'", ">= 0"}),
+          line("unknown keyword", "drumlin/surface h soil width 0.1",
+               {command + "keyword is 'width'", "spacing or beyond"}),
+          on_two_ranks(line("nothing there", "drumlin/surface h soil spacing 0.1 beyond 1.9 0",
+                            {command + "group is 'soil'", "one with a ball that a vertical line meets"})),
+      }};
+}
+
 BadGroup take() {
   const std::string command = "drumlin/take: ";
   return {"Take",
@@ -733,7 +809,9 @@ BadGroup settle() {
           line("unknown fixed group", "drumlin/settle fixed rock",
                {command + "keyword fixed is 'rock'", "the name of a group"}),
           line("unknown keyword", "drumlin/settle steps 10",
-               {command + "keyword is 'steps'", "ratio, every, limit or fixed"}),
+               {command + "keyword is 'steps'", "ratio, every, limit, force or fixed"}),
+          line("force zero", "drumlin/settle force 0", {command + "keyword force is '0'", "> 0"}),
+          line("force without value", "drumlin/settle force", {command + "keyword force is missing", "> 0"}),
           on_two_ranks(
               line("limit too short", "drumlin/settle limit 10 fixed soil",
                    {command + "unbalanced ratio is '", "after 10 steps", "at most 1e-10 within 10 steps"})),
@@ -743,10 +821,11 @@ BadGroup settle() {
 } // namespace
 
 std::vector<BadGroup> bad_lines() {
-  return {pair_style(), properties(),     wall(),          drum_excite(),    bond_spring(),
-          clump(),      contact_events(), contact_local(), roller_history(), guard(),
-          check(),      record(),         run(),           settle(),         write_restart(),
-          write_data(), outputs(),        take(),          variables()};
+  return {pair_style(),     properties(), hertz_law(),      wall(),          drum_excite(),
+          bond_spring(),    clump(),      contact_events(), contact_local(), contact_energy(),
+          roller_history(), guard(),      check(),          record(),        run(),
+          settle(),         surface(),    write_restart(),  write_data(),    outputs(),
+          take(),           variables()};
 }
 
 } // namespace drumlin::test

@@ -1,5 +1,6 @@
-// Damaged files given to the decks of the bed, as tests/postprocess/commands/fuzz_test.cpp gives them to the tools: each deck ends within 20 s in a
-// result or in one line of error, and leaves nothing half-written. The number of a mutant is the seed of its faults.
+// Damaged files given to the decks of the bed, as tests/postprocess/commands/fuzz_test.cpp gives them to the
+// tools: each deck ends within 20 s in a result or in one line of error, and leaves nothing half-written. The
+// number of a mutant is the seed of its faults.
 #include "tests/support/damaged_files.h"
 #include "tests/support/host_deck.h"
 
@@ -38,8 +39,9 @@ protected:
     ASSERT_TRUE(post::run_program({DRUMLIN_TOOLS, "bed", "--balls", "30", "--width", "0.3", "--out", "data"},
                                   {}, folder.path(), 20.0)
                     .ok());
-    ASSERT_TRUE(
-        run("in.settle", "balls", folder / "data", {{"bed", "soil"}, {"ratio", "0.1"}}, folder.path()).ok());
+    ASSERT_TRUE(run("in.settle", "balls", folder / "data",
+                    {{"case", "loose"}, {"bed", "soil"}, {"ratio", "0.1"}}, folder.path())
+                    .ok());
     const Outcome placed = run("in.place", "bed", folder / "soil", placing(), folder.path());
     ASSERT_TRUE(placed.ok()) << placed.output;
     fs::rename(folder / result, folder / "roller");

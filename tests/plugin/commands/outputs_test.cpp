@@ -1,4 +1,5 @@
-// What the fixes give, taken by all that the engines have for outputs: computes, averages, histograms, variables and thermo.
+// The output values of the fixes, read by all output features of the engines: computes, averages, histograms,
+// variables and thermo.
 
 #include "tests/support/host_deck.h"
 
@@ -28,7 +29,8 @@ const std::string takers =
 void expect_outputs(const Scratch &folder, const Outcome &outcome) {
   ASSERT_TRUE(outcome.ok()) << outcome.output;
   EXPECT_GT(lines_of(read_text(folder / "averages.txt")).size(), 4U);
-  // The wall of the host's line holds the soil ball with an overlap of 0.01 m, which is in the first of five bins.
+  // The wall of the host's line holds the soil ball with an overlap of 0.01 m, which is in the first of five
+  // bins.
   const std::vector<std::string> histogram = lines_of(read_text(folder / "histogram.txt"));
   ASSERT_GT(histogram.size(), 4U);
   EXPECT_EQ(histogram[4].rfind("1 0.01 ", 0), 0U) << histogram[4];
@@ -45,7 +47,7 @@ TEST(OutputsOfFixes, GoIntoAllOutputsOfLiggghts) {
 TEST(OutputsOfFixes, GoIntoAllOutputsOfLammps) {
   if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
   const Scratch folder;
-  // Later releases of LAMMPS want to be told that the numbers are not those of balls.
+  // Later releases of LAMMPS need a keyword which says that the numbers are not per-atom values.
   write_text(folder / "lines", "variable local string \"\"\n"
                                "if \"$(version) > 20231120\" then \"variable local string 'inputs local'\"\n"
                                "pair_style gran/hooke/transition\npair_coeff * * 1e7 0.5\n"

@@ -1,4 +1,5 @@
-// Hybrid pair styles: with the law as a part of one a scene goes as with the law alone, every fix included.
+// Hybrid pair styles: a scene gives the same results with the law as a part of a hybrid style as with the law
+// alone, with every fix.
 
 #include "tests/support/host_deck.h"
 
@@ -74,8 +75,8 @@ TEST(HybridPairStyle, GoesAsTheLawAloneInLammps) {
   }
 }
 
-/// A run in two halves, the second from the first's restart file in a process of its own; the last dump of both. `again` has the lines of the pair
-/// style in the second deck.
+/// A run in two halves, the second from the first's restart file in a process of its own; the last dump of
+/// both. `again` has the lines of the pair style in the second deck.
 std::vector<std::string> in_halves(const std::string &pair, const std::string &again, int ranks) {
   const Scratch folder;
   const std::string scene = "fix gravity all gravity 9.81 vector 0 0 -1\n"
@@ -97,7 +98,8 @@ std::vector<std::string> in_halves(const std::string &pair, const std::string &a
   return states;
 }
 
-// Pair style hybrid keeps no coefficients in restart files; settings and contact history are there, also if a deck gives them again.
+// Pair style hybrid keeps no coefficients in restart files; settings and contact history are there, also if a
+// deck gives them again.
 TEST(HybridPairStyle, ContinuesFromARestartFileBitwiseInLammps) {
   if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
   const std::string law = "gran/hooke/transition tangential history transition A damping coefficient";
@@ -115,7 +117,8 @@ TEST(HybridPairStyle, ContinuesFromARestartFileBitwiseInLammps) {
   EXPECT_NE(in_halves(hybrid + part, "", 1)[1].find("ERROR: "), std::string::npos);
 }
 
-/// The second pair_style line of a deck replaces the first: its settings decide what the contact history contains.
+/// The second pair_style line of a deck replaces the first: its settings decide what the contact history
+/// contains.
 TEST(PairStyle, MayBeGivenAgainInLammps) {
   if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
   const std::string second =
@@ -125,7 +128,7 @@ TEST(PairStyle, MayBeGivenAgainInLammps) {
   EXPECT_EQ(in_lammps(before + "run 0\n" + second, 1), in_lammps(second, 1));
 }
 
-/// A helper of second-order stepping that no pair style needs any more has no part in the run.
+/// The helper fix of the second-order scheme does nothing once no pair style needs it.
 TEST(PairStyle, GivesWayToTheEnginesOwnBetweenTwoRuns) {
   const Scratch folder;
   std::string stiffness = "pair_style gran model hooke/stiffness\npair_coeff * *\n";

@@ -4,9 +4,9 @@
 // ```liggghts deck, ```lammps deck: a complete deck, run as it is. ```sh run: a command line, run in a folder
 // that has `inputs` and `build/release/lib` as the project's own.
 //
-// Command lines in indented blocks take too long or need what a test has not. A paragraph of the page that
-// begins with "Not run by a test:" says why. Of these, the decks and variables of `./drumlin run` are still
-// checked with the engine.
+// Command lines in indented blocks take too long or need things that a test does not have. A paragraph of the
+// page that begins with "Not run by a test:" says why. Of these, the decks and variables of `./drumlin run`
+// are still checked with the engine.
 
 #include "tests/support/host_deck.h"
 
@@ -253,7 +253,8 @@ std::vector<std::string> pages() {
   for (const fs::directory_entry &entry : fs::directory_iterator(root / "plugin/doc"))
     if (entry.path().extension() == ".md") names.push_back("plugin/doc/" + entry.path().filename().string());
   std::sort(names.begin(), names.end());
-  for (const char *name : {"README.md", "inputs/chain/README.md", "postprocess/README.md"})
+  for (const char *name :
+       {"README.md", "inputs/chain/README.md", "inputs/soil/README.md", "postprocess/README.md"})
     names.emplace_back(name);
   return names;
 }

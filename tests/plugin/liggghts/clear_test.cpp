@@ -35,8 +35,8 @@ TEST_P(ClearCommand, LeavesADeckThatLoopsItsRuns) {
   }
 }
 
-/// Runs scenes in LAMMPS instances of one process: with walls, a clump, a bond and all that observes
-/// contacts. The two differ in their laws, so that the results change if one uses anything of the other.
+/// Runs scenes in LAMMPS instances of one process: with walls, a clump, a bond and all contact observers. The
+/// two differ in their laws, so that the results change if one uses anything of the other.
 Outcome run_instances(const Scratch &folder, const std::string &how) {
   const auto scene = [&](const std::string &name, const std::string &law, const std::string &lines) {
     write_text(folder / (name + ".lines"),

@@ -1,6 +1,7 @@
 // A library that looks like an engine to the preloaded stub: it exports the symbol by which the stub enters,
-// and for LIGGGHTS the one by which it knows that engine. For LAMMPS it has the part of the C interface that the library of `plugin load`
-// asks: a version that the environment names, usual sizes of numbers, no package.
+// and for LIGGGHTS the one by which it knows that engine. For LAMMPS it has the part of the C interface that
+// the library of `plugin load` asks: a version that the environment names, usual sizes of numbers, no
+// package.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>

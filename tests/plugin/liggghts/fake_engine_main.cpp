@@ -1,5 +1,6 @@
-// The program of the fake engines. Without arguments it calls Input::file() as an engine does to read its deck; given the file name of a
-// library, it first loads that library as the command `plugin load` of LAMMPS does.
+// The program of the fake engines. Without arguments it calls Input::file() as an engine does to read its
+// deck; given the file name of a library, it first loads that library as the command `plugin load` of LAMMPS
+// does.
 #include <cstdio>
 #include <dlfcn.h>
 

@@ -1,5 +1,6 @@
 // The preloaded library in processes that it was not built for: an engine that it cannot extend is stopped
-// with one clear line. (That other programs do not notice it is tested in tests/decks/other_programs_test.cpp.)
+// with one clear line. (That other programs do not notice it is tested in
+// tests/decks/other_programs_test.cpp.)
 
 #include "tests/support/host_deck.h"
 
@@ -103,8 +104,9 @@ std::vector<std::string> without_lines_of_mpi(const std::vector<std::string> &li
   return others;
 }
 
-// An error is one line: neither the joke or tip that LIGGGHTS adds at random nor the text of MPI_Abort follows it. (The text of Open MPI 5 cannot be
-// switched off; it is between two lines of dashes and is left out here.)
+// An error is one line: neither the joke or tip that LIGGGHTS adds at random nor the text of MPI_Abort
+// follows it. (The text of Open MPI 5 cannot be switched off; it is between two lines of dashes and is left
+// out here.)
 TEST(PreloadedStub, LeavesErrorsOneLine) {
   const Scratch scratch;
   write_text(scratch / "in.error", "units nowhere\n");
@@ -160,7 +162,8 @@ TEST(PreloadedStub, GivesADeckItsFolderAsHere) {
   EXPECT_EQ(here({"-in", "some where/in.here"}), "here is <some where>");
   EXPECT_EQ(here({"-i", "./some where/in.here"}), "here is <./some where>");
   EXPECT_EQ(here({"-in", "in.here", "-var", "here", "elsewhere"}), "here is <elsewhere>");
-  // Of a link the folder of its target; of a path with blanks the one from the working directory, if it has none.
+  // Of a link the folder of its target; of a path with blanks the one from the working directory, if it has
+  // none.
   fs::create_directories(scratch.path() / "decks");
   write_text(scratch.path() / "decks" / "in.here", "print \"here is <${here}>\"\n");
   fs::create_symlink("decks/in.here", scratch.path() / "in.link");

@@ -1,7 +1,7 @@
 // LAMMPS instances in one process, through the library interface. Arguments: liblammps.so, plugin, deck, how.
-// The deck reads the lines of an instance from NAME.lines; the variable `instance` is the NAME: first or second.
-// how: one of the names, that instance alone; `after`, the second when the first is closed; `in_turns`, both open,
-// a run of one after a run of the other.
+// The deck reads the lines of an instance from NAME.lines; the variable `instance` is the NAME: first or
+// second. how: one of the names, that instance alone; `after`, the second when the first is closed;
+// `in_turns`, both open, a run of one after a run of the other.
 #include <array>
 #include <cstdio>
 #include <cstdlib>

@@ -1,6 +1,6 @@
-/// The energy balance: the work of the exciter is the energy dissipated in contact and bond plus the change of the
-/// elastic, kinetic and potential energy. The dissipated energy is the sum of the core's powers, contact by contact
-/// and bond by bond, never the difference of the others.
+/// The energy balance: the work of the exciter is the energy dissipated in contact and bond plus the change
+/// of the elastic, kinetic and potential energy. The dissipated energy is the sum of the core's powers,
+/// contact by contact and bond by bond, never the difference of the others.
 
 #include "physics/bond_law.h"
 #include "physics/contact_law.h"

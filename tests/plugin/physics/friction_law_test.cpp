@@ -1,5 +1,5 @@
-/// Friction: closed forms, CVODE with a mode for sticking and one for sliding, the readings of the limit, energy;
-/// of Cap::coulomb limit and energy in every step, and the impulse of oblique impacts.
+/// Friction: closed forms, CVODE with a mode for sticking and one for sliding, the readings of the limit,
+/// energy; of Cap::coulomb limit and energy in every step, and the impulse of oblique impacts.
 
 #include "physics/contact_law.h"
 #include "physics/friction_law.h"
@@ -297,12 +297,41 @@ TEST(FrictionEnergy, IsNeverCreatedByCapSpring) {
 }
 
 TEST(FrictionEnergy, IsCreatedByCapTotalWhereTheDashpotAloneIsBeyondTheLimit) {
-  // No normal force: no force, no work; yet the spring is wound up against the motion, to be paid out later.
-  // The step says so.
+  // No normal force: no force, no work; yet the spring is stretched against the motion and returns energy
+  // later. `dissipated` is therefore negative.
   const FrictionStep step = friction_step({kt, ct, mu, Cap::total}, 0.0, up, {0.5, 0.0, 0.0}, none, 1e-6);
   EXPECT_EQ(length(step.force), 0.0);
   EXPECT_NEAR(step.stored, 0.5 * 20.0 * 20.0 / kt, 1e-12);
   EXPECT_LT(step.dissipated, 0.0);
+}
+
+/// A small ball that rolls without slip around the line through the centres of two large balls, one of which
+/// is at the origin: in the middle of the step it is above the line, so that its velocity is along y and its
+/// spin about x.
+TEST(SlipOfAStep, IsZeroWhereABallRollsWithoutSlip) {
+  const double height = 1.6, across = 5.0, large = 5.0, speed = 3.0;
+  const double small = std::hypot(height, across) - large;
+  for (const double dt : {1e-2, 1e-4, 0.0}) {
+    const Vec3 v{0.0, speed, 0.0}, apart{across, 0.5 * dt * speed, height};
+    const Vec3 normal = times(1.0 / length(apart), apart);
+    const double arm = small * height / (large + small); // of the contact point from the axis of the spin
+    const Vec3 turning{-small * speed / arm, 0.0, 0.0};
+    const Vec3 slip = slip_velocity_of_step(v, apart, normal, turning, dt);
+    EXPECT_LT(length(slip), 1e-14 * length(turning)) << dt;
+    // The normal of the end of the step gives a slip in the first order of dt.
+    EXPECT_NEAR(length(slip_velocity(v, normal, turning)),
+                dt * 0.5 * speed * length(turning) * across / dot(apart, apart),
+                1e-2 * dt * length(turning) + 1e-13)
+        << dt;
+  }
+}
+
+TEST(SlipOfAStep, IsAcrossTheNormalAndWithoutATurnTheSlipVelocity) {
+  const Vec3 v{0.3, -0.4, 0.2}, apart{0.0, 0.0, 2.0}, turning{0.1, 0.2, 0.3};
+  const Vec3 still = slip_velocity_of_step(v, apart, up, turning, 0.0), plain = slip_velocity(v, up, turning);
+  for (std::size_t a = 0; a < 3; ++a)
+    EXPECT_NEAR(still[a], plain[a], 1e-16);
+  EXPECT_NEAR(dot(slip_velocity_of_step(v, apart, up, turning, 0.1), up), 0.0, 1e-16);
 }
 
 /// 10^x with x uniform between the decades.
@@ -378,8 +407,8 @@ TEST(Coulomb, HasNumbersAtTheEndsOfItsRange) {
               }
 }
 
-/// A ball of 1 kg that strikes a plane with a given angle from the normal at 1 m/s: impulses until the force between them ends,
-/// and what the step keeps.
+/// A ball of 1 kg that strikes a plane with a given angle from the normal at 1 m/s: impulses until the force
+/// between them ends, and what the step keeps.
 struct Impulses {
   double normal, tangential, slip_after; // N s, N s, m/s
 };
@@ -416,7 +445,8 @@ Impulses core_impact(double degrees, double D, const Friction &friction, int ste
   return all;
 }
 
-/// The same from the differential equations: a slider in series with spring and dashpot, spring rate free while it sticks.
+/// The same from the differential equations: a slider in series with spring and dashpot, spring rate free
+/// while it sticks.
 Impulses cvode_impact(double degrees, double D, const Friction &friction) {
   const double angle = degrees / 180.0 * std::acos(-1.0), w = std::sqrt(kn), c = 2.0 * D * w;
   const double k_t = friction.stiffness, c_t = friction.damping, coefficient = friction.coefficient;
@@ -439,7 +469,8 @@ Impulses cvode_impact(double degrees, double D, const Friction &friction) {
         f[tangential] = pull;
       },
       0.0, {0.0, std::cos(angle), std::sin(angle), 0.0, 0.0, 0.0}, {1.0 / w, 1.0, 1.0, 1.0 / w, 1.0, 1.0});
-  // Slides from the start if the pull, or where nothing acts yet its growth, is beyond the limit.
+  // Slides from the start if the force of spring and dashpot exceeds the limit or, where both are zero, if it
+  // grows faster than the limit.
   const double v_n = std::cos(angle), v_t = std::sin(angle);
   if (c_t > 0.0 ? c_t * v_t > coefficient * c * v_n : k_t * v_t > coefficient * kn * v_n) slides = 1.0;
   while (true) {
@@ -486,7 +517,7 @@ TEST(CoulombImpact, OfASlidingBallHasMuTimesTheNormalImpulse) {
   for (const double D : {0.0, 0.3, 0.5, 2.0})
     for (const double degrees : {72.0, 76.0, 80.0, 85.0})
       EXPECT_NEAR(ratio(degrees, D, Cap::coulomb), 1.0, 0.01) << D << ' ' << degrees;
-  EXPECT_NEAR(ratio(76.0, 0.3, Cap::spring), 1.49, 0.03); // what the engine's rule does
+  EXPECT_NEAR(ratio(76.0, 0.3, Cap::spring), 1.49, 0.03); // by the engine's rule
   EXPECT_NEAR(ratio(76.0, 2.0, Cap::spring), 2.24, 0.03);
 }
 
@@ -502,8 +533,9 @@ TEST(CoulombImpact, GainsNoEnergyByFriction) {
   EXPECT_LT(most, 1.0 + 1e-3);
 }
 
-/// How the error of slip after an impact shrinks with the step, where the slider acts: twice the steps divide it by 2^order. Normal
-/// dashpot none, so that the order is that of friction. The changes from stick to slide fall anywhere within a step: means of many.
+/// How the error of slip after an impact shrinks with the step, where the slider acts: twice the steps divide
+/// it by 2^order. Normal dashpot none, so that the order is that of friction. The changes from stick to slide
+/// fall anywhere within a step: means of many.
 double order_of_impact(double degrees, const Friction &friction) {
   const double exact = cvode_impact(degrees, 0.0, friction).slip_after;
   const auto error = [&](int steps) {

@@ -1,4 +1,4 @@
-/// What a user reads when a value is wrong: the name, the value, what is allowed.
+/// Error messages for values that are not allowed: they have the name, the value and what is allowed.
 
 #include "physics/bond_law.h"
 #include "physics/contact_law.h"

@@ -176,8 +176,7 @@ TEST(SecondOrderStep, SetUpTakesTheVelocitiesAsTheyAre) {
   EXPECT_TRUE(state.in_contact);
 }
 
-// Under B a contact may have no force and still be one: in its next step it continues and is not made
-// again.
+// Under B a contact may exist without a force: in its next step it continues and is not made again.
 TEST(SecondOrderStep, ContactWithoutForceContinues) {
   const double dt = 1e-4, c = coefficient(0.5);
   ContactState state{0.0, true, {}};
@@ -233,8 +232,8 @@ TEST(SecondOrderStep, BallAtRestThatJustTouchesFeelsNothing) {
   }
 }
 
-// What a bound on sum and k/c denies is denied for every contact below it: FixStepping leaves the counting on
-// that.
+// If no coupling is needed for upper bounds of the sum of c/m and of k/c, none is needed for any contact
+// below them: FixStepping relies on this when it leaves out the count.
 TEST(SecondOrderStep, NeedOfCouplingGrowsWithTheSumOfDampingsAndWithTheSpring) {
   std::mt19937 random(20251121);
   std::uniform_real_distribution<double> exponent(-3.0, 1.0);

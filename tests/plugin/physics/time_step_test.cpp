@@ -1,4 +1,4 @@
-/// Stability limits against the eigenvalues of the matrix that one stock step is.
+/// Stability limits against the eigenvalues of the matrix of one step with `stepping stock`.
 
 #include "physics/contact_step.h"
 #include "physics/time_step.h"

@@ -33,8 +33,9 @@ void stock_step(Balls<N> &balls, double t_end, double dt, const Forces &forces) 
     balls.v[i] += 0.5 * dt * balls.force[i] / balls.mass[i];
 }
 
-/// A ball on a line among fixed partners, with the second-order scheme. What the contacts do is advance()'s;
-/// here are the half kicks and the drift, and what FixStepping does in the engines with a StepResult.
+/// A ball on a line among fixed partners, with the second-order scheme. The forces are those of advance();
+/// this class makes the half kicks and the drift, and applies a StepResult as FixStepping does in the
+/// engines.
 template <class Law>
 class SecondOrderBall {
 public:

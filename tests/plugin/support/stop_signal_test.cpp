@@ -1,4 +1,5 @@
-// Signals that meet a run outside of the plugin's own commands, and Ctrl-C inside. (A SIGTERM inside is tested with the decks.)
+// Signals that meet a run outside of the plugin's own commands, and Ctrl-C inside. (A SIGTERM inside is
+// tested with the decks.)
 
 #include "engine/engine_command.h"
 

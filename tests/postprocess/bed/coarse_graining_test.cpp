@@ -1,4 +1,5 @@
-// Coarse-grained fields of a bed: lattices and columns whose fields are known, and what must be conserved of any bed.
+// Coarse-grained fields of a bed: lattices and columns whose fields are known, and quantities that must be
+// conserved in any bed.
 #include "bed/coarse_graining.h"
 
 #include <gtest/gtest.h>
@@ -107,7 +108,8 @@ TEST(BedFields, OfACubicLatticeOfSpheres) {
   EXPECT_NEAR(fields.coordination[13], 6.0, 1e-12);
 }
 
-// A column of N discs under its own weight: at the height y the weight of what is above passes, (N - y/2r) m g, on a width of 2r.
+// A column of N discs under its own weight: at the height y the weight of what is above passes, (N - y/2r) m
+// g, on a width of 2r.
 TEST(BedFields, StressInAColumnIsTheWeightAbove) {
   const double r = 0.05, g = 9.81;
   const std::size_t n = 24;
@@ -264,7 +266,8 @@ TEST(Contacts, AreCountedForBothBallsAndTheirForceHasTwoParts) {
   EXPECT_EQ(post::coordination(3, {contact, between(balls, 0, 2, {})}), (std::vector<int>{2, 1, 1}));
 }
 
-// By hand: -f . r of a contact is its normal force times the distance from the centre to the middle of the overlap.
+// By hand: -f . r of a contact is its normal force times the distance from the centre to the middle of the
+// overlap.
 TEST(BallPressure, OfTwoBallsAndAFloor) {
   for (const bool flat : {true, false}) {
     const double z = flat ? 0.0 : 1.0, d = flat ? 2.0 : 3.0;
@@ -285,7 +288,7 @@ TEST(BallPressure, OfTwoBallsAndAFloor) {
   }
 }
 
-// A ball in a column carries the weights above it at its top, and its own besides at its foot.
+// A ball in a column carries the weight of the balls above at its top, and at its foot also its own.
 TEST(BallPressure, OfAColumnUnderGravityGrowsWithDepth) {
   const double radius = 0.02, density = 2600.0, gravity = 9.81;
   const std::size_t n = 7;

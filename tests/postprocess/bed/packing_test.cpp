@@ -69,7 +69,8 @@ TEST(BedPacking, IsTheSameEveryTimeAndAnotherForAnotherSeed) {
   EXPECT_NE(centres(7), centres(8));
 }
 
-/// Largest distance between the shares of radii below r, found and by the closed form (Kolmogorov and Smirnov).
+/// Largest distance between the shares of radii below r, found and by the closed form (Kolmogorov and
+/// Smirnov).
 template <class Share>
 double farthest(const PackingOptions &options, const Share &share) {
   std::vector<double> radii;
@@ -144,7 +145,8 @@ TEST(BedPacking, BoundsItsWorkBeforeItBegins) {
   EXPECT_EQ(refusal(mixed).rfind("balls is '10000000'; allowed: at most ", 0), 0u) << refusal(mixed);
 }
 
-// Too much for the box is said before the first ball; what the least height allows is then packed.
+// Too many balls for the box are refused before the first is placed; the message names the least height, with
+// which they fit.
 TEST(BedPacking, SaysAtOnceHowHighTheBoxMustBe) {
   PackingOptions options;
   options.height = 1.0;

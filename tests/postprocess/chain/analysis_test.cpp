@@ -38,25 +38,25 @@ TEST(Cycles, LastWindowIsCutToWhatThereIs) {
 }
 
 TEST(RelativeRms, OfAScaledSineIsTheScale) {
-  std::vector<double> truth;
+  std::vector<double> reference;
   std::vector<double> values;
   for (int i = 0; i < 100; ++i) {
-    truth.push_back(std::sin(0.1 * i));
-    values.push_back(1.003 * truth.back());
+    reference.push_back(std::sin(0.1 * i));
+    values.push_back(1.003 * reference.back());
   }
-  EXPECT_NEAR(relative_rms(values, truth, 0, 100), 0.003, 1e-12);
-  EXPECT_TRUE(std::isnan(relative_rms(values, truth, 5, 5)));
+  EXPECT_NEAR(relative_rms(values, reference, 0, 100), 0.003, 1e-12);
+  EXPECT_TRUE(std::isnan(relative_rms(values, reference, 5, 5)));
 }
 
 TEST(RelativeRms, OfAPhaseShiftIsTwoSinHalf) {
   // sin(x + e) - sin(x) has the RMS 2 sin(e / 2) relative to the sine's, over whole periods.
-  std::vector<double> truth;
+  std::vector<double> reference;
   std::vector<double> values;
   for (int i = 0; i < 1000; ++i) {
-    truth.push_back(std::sin(2 * pi * i / 200.0));
+    reference.push_back(std::sin(2 * pi * i / 200.0));
     values.push_back(std::sin(2 * pi * i / 200.0 + 0.01));
   }
-  EXPECT_NEAR(relative_rms(values, truth, 0, 1000), 2 * std::sin(0.005), 1e-12);
+  EXPECT_NEAR(relative_rms(values, reference, 0, 1000), 2 * std::sin(0.005), 1e-12);
 }
 
 TEST(ContactShare, OfWholeContacts) {
@@ -133,8 +133,8 @@ CycleColumns harmonic_cycles(const std::vector<std::array<double, 6>> &rows) {
 }
 
 TEST(Harmonics, OfCyclesAverageTheIntegralsBeforeTheirAmplitude) {
-  // What leaks from the mean into a single cycle's half-frequency integral alternates in sign and must
-  // cancel.
+  // Over a single cycle the mean contributes to the integral at half the frequency. This contribution
+  // alternates in sign from cycle to cycle and must cancel.
   const CycleColumns cycles = harmonic_cycles({{9, 9, 9, 9, 9, 9}, {3, 4, 0, 2, 7, 1}, {3, 4, 0, 2, -7, 1}});
   const std::optional<HarmonicAmplitudes> a = harmonic_amplitudes(cycles, 3); // reduced to the last two
   ASSERT_TRUE(a);
@@ -226,12 +226,12 @@ TEST(Extremes, WithoutCyclesComeFromSamplesAndEvents) {
 }
 
 TEST(Matching, GivesTheLargestDifferenceAndIgnoresTheSetUp) {
-  const std::vector<ContactEvent> truth{event(1.0, false), event(2.0, true), event(3.0, false)};
+  const std::vector<ContactEvent> reference{event(1.0, false), event(2.0, true), event(3.0, false)};
   const std::vector<ContactEvent> run{event(0.0, true), event(1.1, false), event(1.7, true),
                                       event(3.0, false)};
-  const EventMatch match = match_events(run, truth);
+  const EventMatch match = match_events(run, reference);
   EXPECT_EQ(match.run_count, 3u);
-  EXPECT_EQ(match.truth_count, 3u);
+  EXPECT_EQ(match.reference_count, 3u);
   EXPECT_EQ(match.matched, 3u);
   EXPECT_NEAR(match.largest_difference, 0.3, 1e-12);
   EXPECT_DOUBLE_EQ(match.at_time, 2.0);
@@ -242,7 +242,7 @@ TEST(Matching, StopsWhereTheKindsDiffer) {
                                         {event(1.0, false), event(2.0, true), event(3.0, false)});
   EXPECT_EQ(match.matched, 1u);
   EXPECT_EQ(match.run_count, 2u);
-  EXPECT_EQ(match.truth_count, 3u);
+  EXPECT_EQ(match.reference_count, 3u);
 }
 
 TEST(EnergyBalance, HasTheErrorThatTheColumnsHave) {
@@ -260,18 +260,19 @@ TEST(EnergyBalance, HasTheErrorThatTheColumnsHave) {
   std::optional<EnergyBalance> balance = energy_balance(cycles, missing);
   ASSERT_TRUE(balance);
   // 200 = 160 + 20 + 4 - 1 + 3 + 6 + 8
-  EXPECT_NEAR(balance->closure(), 8.0, 1e-12);
-  EXPECT_NEAR(balance->closure_percent(), 4.0, 1e-12);
+  EXPECT_NEAR(balance->energy_error(), 8.0, 1e-12);
+  EXPECT_NEAR(balance->energy_error_percent(), 4.0, 1e-12);
   EXPECT_EQ(balance->first_cycle, 1);
   EXPECT_EQ(balance->last_cycle, 3);
   cycles.columns["dissipated_contact"][2] += 8.0;
-  EXPECT_NEAR(energy_balance(cycles, missing)->closure(), 0.0, 1e-12);
+  EXPECT_NEAR(energy_balance(cycles, missing)->energy_error(), 0.0, 1e-12);
   cycles.columns.erase("potential");
   EXPECT_FALSE(energy_balance(cycles, missing));
   EXPECT_NE(missing.find("potential"), std::string::npos);
 }
 
-/// Drum and frame on known paths, sampled every ms, and the force that the equations of motion ask for; own accelerations of nonsense.
+/// Drum and frame on known paths, sampled every ms, with the force that follows from the equations of motion;
+/// the recorded accelerations are wrong on purpose.
 ChainHistory known_motion(const ChainParameters &p) {
   ChainHistory h;
   for (int i = 0; i <= 100; ++i) {
@@ -309,7 +310,7 @@ TEST(Roller, LeavesOutRowsNextToAJump) {
   ChainHistory h = known_motion(p);
   const std::vector<ContactEvent> events = {{0.0405, false, 0.0, 0.0, 1e3, 1, 2}};
   EXPECT_EQ(roller_force(h, events, p)->rows, 93u); // 39 to 42 have the event among their five
-  // Without a record of events the force tells: in row 60 it is zero.
+  // Without a record of events a contact loss is found by its force, which is zero in row 60.
   h.F_contact[60] = 0.0;
   EXPECT_EQ(roller_force(h, {}, p)->rows, 92u);
 }

@@ -153,7 +153,7 @@ struct Extreme {
   const char *name;
   std::function<void(ChainParameters &)> change;
   int cycles;
-  double tolerance; // relative RMS of the drum's velocity; 0 where the motion forgets its past too slowly to
+  double tolerance; // relative RMS of the drum's velocity; 0 where disturbances decay too slowly to
                     // compare
   double impact_speed = 0.0;
 };
@@ -246,7 +246,7 @@ TEST(DirectSolver, ContactOfBIsReMadeWithoutForceWhileOverlapping) {
   };
   EXPECT_GT(re_made(solved.events), 0);
   EXPECT_EQ(re_made(solved.events), re_made(exact.events));
-  // The drum stays up: an overlap without end would be metres by now.
+  // The contact carries the drum: otherwise its overlap would be metres at this time.
   EXPECT_GT(*std::min_element(solved.history.x_drum.begin(), solved.history.x_drum.end()), -0.1);
 }
 

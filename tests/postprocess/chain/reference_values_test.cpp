@@ -1,4 +1,5 @@
-// The reference values are complete, and the closed form gives the restitutions that are known by number.
+// The reference values are complete, and the closed form gives the restitutions that the reference gives as
+// numbers.
 #include "chain/reference_values.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// The CSV files: what is written comes back bit for bit; what is malformed is named with file, line and
-// column.
+// The CSV files: a file that is read back has the same bits; errors in a file are reported with file, line
+// and column.
 #include "chain/run_files.h"
 #include "support/files.h"
 

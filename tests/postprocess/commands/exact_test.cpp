@@ -1,4 +1,4 @@
-// `drumlin exact` as a user meets it: the program itself, its files, its messages, its exit status.
+// `drumlin exact` as a user calls it: its files, messages and exit status.
 #include "chain/direct_solver.h"
 #include "chain/run_files.h"
 
@@ -111,6 +111,28 @@ TEST_F(ExactCommand, EveryOverrideArrives) {
   EXPECT_EQ(post::read_chain(folder_ / "o" / "chain.csv").size(), 301U);
   EXPECT_EQ(post::read_chain(folder_ / "o" / "chain.csv").v_drum.front(), -0.25);
   EXPECT_EQ(post::read_table(folder_ / "o" / "cycles.csv").rows(), 1U);
+}
+
+TEST_F(ExactCommand, SolvesEveryCase) {
+  for (const std::string name : post::chain_cases) {
+    SCOPED_TRACE(name);
+    const Outcome outcome = run("exact --case " + name + " --cycles 1 --samples-per-cycle 10 --out o");
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const std::map<std::string, std::string> record = post::read_parameters(folder_ / "o" / "parameters.csv");
+    EXPECT_EQ(record.at("case"), name);
+    const post::ChainParameters p = post::named_chain(name, post::Transition::B).parameters;
+    for (const post::ChainNumber &number : post::chain_numbers)
+      EXPECT_EQ(post::number_from_text(record.at(number.name)), p.*number.value) << number.name;
+  }
+}
+
+TEST_F(ExactCommand, TheForceOfARollerFollowsFromItsFrequency) {
+  const auto force = [&](const std::string &options) {
+    EXPECT_EQ(run("exact --case CA3500-high --cycles 1 --out o " + options).status, 0);
+    return post::number_from_text(post::read_parameters(folder_ / "o" / "parameters.csv").at("Fw"));
+  };
+  EXPECT_DOUBLE_EQ(force("--omega 200"), 7.38 * 200.0 * 200.0);
+  EXPECT_DOUBLE_EQ(force("--omega 200 --Fw 1e5"), 1e5);
 }
 
 TEST_F(ExactCommand, BadInputIsOneLineAndTouchesNothing) {

@@ -1,8 +1,10 @@
-// Damaged files: cut, shuffled, swapped, with absurd numbers, with the line ends of another system. Every command that reads them
-// ends within 20 s in a result or in one line that says what is wrong, and touches nothing else. Built with the sanitizers, so that
-// a fault that would pass unseen ends the command.
+// Damaged files: cut, shuffled, swapped, with absurd numbers, with the line ends of another system. Every
+// command that reads them ends within 20 s in a result or in one line that says what is wrong, and touches
+// nothing else. Built with the sanitizers, so that memory errors that would otherwise have no visible effect
+// end the command.
 //
-// The number of a mutant is the seed of everything that is random in it: a failure names it, and the same number gives the same damage.
+// The number of a mutant is the seed of everything that is random in it: a failure names it, and the same
+// number gives the same damage.
 #include "chain/run_files.h"
 #include "support/files.h"
 #include "support/process.h"
@@ -202,7 +204,7 @@ TEST_P(Fuzz, EndsInAResultOrInOneLine) {
                     << outcome.output.substr(0, 3000);
     }
   }
-  // Some mutants are accepted and some are refused, else the test would show nothing.
+  // The test is meaningful only if some damaged files are accepted and some are refused.
   EXPECT_GT(results, subject.mutants / 20);
   EXPECT_LT(results, subject.mutants);
   RecordProperty("results", results);

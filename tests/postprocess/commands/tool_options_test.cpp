@@ -1,4 +1,5 @@
-// Options that no run of a tool can use: each is refused at once, in one line that names it, and nothing is written.
+// Options with values that are not allowed: each is refused at once, in one line that names it, and nothing
+// is written.
 #include "support/process.h"
 
 #include <gtest/gtest.h>
@@ -78,6 +79,19 @@ TEST_F(ToolOptions, AbsurdValuesAreRefusedAtOnce) {
        "bed: --seed is '-1'; allowed: a whole number from 0 to 18446744073709551615"},
       {{"bed", "--grading", ""}, "bed: --grading is ''; allowed: uniform, mass"},
       {{"bed", "--out", ""}, "bed: --out is ''; allowed: "},
+      {{"meter", ""}, "meter: RECORD is ''; allowed: "},
+      {{"meter", "r", "--window", "5"},
+       "meter: --window is '5'; allowed: an even whole number of cycles from 4"},
+      {{"meter", "r", "--window", "2"}, "meter: --window is '2'; allowed: an even"},
+      {{"meter", "r", "--window", "nans"}, "meter: --window is 'nan'; allowed: a number from "},
+      {{"meter", "r", "--rmv-constant", "0"}, "meter: --rmv-constant is '0'; allowed: "},
+      {{"meter", "r", "--drum-radius", "0.7"}, "meter: --drum-width is ''; allowed: "},
+      {{"meter", "r", "--poisson", "0.6"}, "meter: --poisson is '0.6'; allowed: a number from 0 to 0.5"},
+      {{"meter", "r", "--column", "a_drum"}, "meter: --column is 'a_drum'; allowed: NAME=HEADER"},
+      {{"meter", "r", "--column", "a_drum=Z:kN"}, "the unit is 'kN'; allowed: m/s2, cm/s2"},
+      {{"meter", "r", "--frequency", "-29"}, "meter: --frequency is '-29'; allowed: "},
+      {{"meter", "r", "--Fw", "1", "--me-re", "1"}, "meter: --me-re is '1'; allowed: not together with --Fw"},
+      {{"meter", "r", "--out", long_name}, "(5000 characters)'; allowed: "},
       {{"report", long_name}, "report: DIR is 'x"},
       {{"report", "", "--out", "o"}, "report: DIR is ''; allowed: "},
       {{"report", ".", "--out", ""}, "report: --out is ''; allowed: "},
@@ -140,7 +154,7 @@ TEST_F(ToolOptions, TheEndsOfTheRangesHaveAnAnswer) {
   }
 }
 
-// A solution of seconds says how far it is.
+// A solution that takes seconds prints its progress.
 TEST_F(ToolOptions, LongWorkShowsProgress) {
   const post::Outcome outcome = run({"exact", "--omega", "0.01", "--cycles", "9", "--out", "o"});
   EXPECT_EQ(outcome.status, 0) << outcome.output;

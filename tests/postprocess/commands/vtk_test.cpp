@@ -1,4 +1,4 @@
-// ./drumlin vtk on dumps written by hand: what it makes of them, and what it says of dumps that are none.
+// ./drumlin vtk on dumps written by hand: its files, and its messages on files that are no dumps.
 #include "bed/coarse_graining.h"
 #include "bed/dump_readers.h"
 #include "chain/run_files.h"
@@ -202,7 +202,8 @@ TEST_F(VtkCommand, WritesThePhaseAndTheForcesOnTheDrum) {
   EXPECT_EQ(value("F_contact"), 400.0);
 }
 
-// The colour scale of a picture: the 99 % quantile leaves out the single fast soil ball of 6 m/s, and the drum is not part of it at all.
+// The colour scale of a picture: the 99 % quantile leaves out the single fast soil ball of 6 m/s, and the
+// drum is not part of it at all.
 TEST_F(VtkCommand, WritesTheRangesOfTheValues) {
   put("run/parameters.csv", "name,value\ntimestep,0.125\nomega,0.31415926535897931\n");
   ASSERT_TRUE(run({"run"}).ok());
@@ -410,7 +411,8 @@ TEST_F(VtkCommand, BadInputIsOneLineAndTouchesNothing) {
   EXPECT_TRUE(run({"run"}).ok()); // all is as it was
 }
 
-// A run that was stopped leaves its last dumps cut short; the other steps are shown, and one line names each that is not.
+// A run that was stopped leaves its last dumps cut short; the other steps are shown, and one line names each
+// that is not.
 TEST_F(VtkCommand, LeavesOutWhatWasCutShortAndSaysSo) {
   const std::string whole = ball_dump();
   const std::string text_dump = "ITEM: TIMESTEP\n400\nITEM: NUMBER OF ATOMS\n2\nITEM: ATOMS id type\n1 1\n";

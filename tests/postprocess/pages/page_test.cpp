@@ -54,7 +54,7 @@ std::size_t count(const std::string &text, const std::string &part) {
   return number;
 }
 
-// A reader of a black and white print sees the mark and the word, not the shade.
+// In a black and white print the mark and the word can be seen, but not the colour.
 TEST(Table, MarksGoodAndBadRowsInItsFirstColumn) {
   post::PageTable table;
   table.name = "numbers";

@@ -206,7 +206,7 @@ def check_pictures(run, script, time):
             ("a list cut short", lambda names: cut(os.path.join(copy, "balls.pvd")), 1,
              "ERROR: paraview_bed: '%s/balls.pvd' is no whole list" % copy),
             ("no scene", lambda names: os.remove(os.path.join(copy, "scene.json")), 1, "ERROR: paraview_bed: DIR is '%s'" % copy),
-            ("a scene cut short", lambda names: cut(os.path.join(copy, "scene.json")), 1, "scene.json' is spoilt"),
+            ("a scene cut short", lambda names: cut(os.path.join(copy, "scene.json")), 1, "scene.json' is damaged"),
             ("balls of rubbish", lambda names: [rubbish(name) for name in names], 1, "cannot be read; allowed")):
         shutil.copytree(vtk, copy)
         damage(sorted(glob.glob(os.path.join(copy, "balls_*.vtp"))))

@@ -1,5 +1,5 @@
-// The report of bed runs: its numbers against those worked out by hand from small records, its pages as a
-// reader meets them.
+// The report of bed runs: its numbers against those worked out by hand from small records, its pages as
+// strict XML.
 #include "report/bed_page.h"
 
 #include "chain/direct_solver.h"
@@ -72,7 +72,7 @@ protected:
     return options.out;
   }
 
-  /// The report is refused with one line that has the words, and an earlier one stays.
+  /// Expects that the report is refused with one line that has the words, and that an earlier report stays.
   void expect_refusal(const std::vector<std::string> &names, const std::vector<std::string> &words) const {
     try {
       report(names);
@@ -133,7 +133,7 @@ TEST_F(BedReport, PrintsTheMeasures) {
   const std::vector<std::vector<std::string>> rows = {
       {"B", "B", "0.5", "2", "20", "6", "3 to 6", "16.00", "6.00", "-0.60", "0.7500", "30.00", "second",
        "800"},
-      {"B", "B", "36.000", "8.000", "3.300", "5.000", "0.2500", "0.2000", "9.000"}};
+      {"B", "B", "36.000", "8.000", "3.300", "5.000", "0.2500", "0.2000", "9.000", "3.0"}};
   ASSERT_EQ(tables.size(), rows.size());
   for (std::size_t t = 0; t < rows.size(); ++t) {
     ASSERT_EQ(tables[t].rows.size(), 1u);

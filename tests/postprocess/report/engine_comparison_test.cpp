@@ -1,4 +1,4 @@
-// The report's table of engine against engine, from runs made up for it.
+// The report's comparison of two engines, from invented runs.
 #include "report/engine_comparison.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A report made from direct solutions, as a reader meets it: strictly parsed, every file followed.
+// A report made from direct solutions: its pages are strict XML, and every link leads to a file.
 #include "report/report.h"
 
 #include "chain/direct_solver.h"
@@ -88,7 +88,8 @@ protected:
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(errors)};
   }
 
-  /// The command fails with status 2 and one line with `words`; the report made before is as it was.
+  /// Expects that the command fails with status 2 and one line with `words`, and that the earlier report is
+  /// unchanged.
   static void expect_refusal(const std::string &arguments, const std::string &words,
                              const std::string &environment = "") {
     const std::string before = read(root / "report" / "index.html");
@@ -500,7 +501,7 @@ TEST_F(Report, ClearsAwayWhatAKilledReportLeft) {
   write(file, "of no report");
   write(old / "report.json", "{}");
   write(old / "thesis.txt", "years");
-  // Killed between its two renames: the earlier report comes back, and stays if the next one fails, too.
+  // Killed between its two renames: the next call restores the earlier report, also if this call fails.
   write(root / "killed" / "gnuplot", "#!/bin/sh\nexit 1\n");
   fs::permissions(root / "killed" / "gnuplot", fs::perms::owner_all);
   const auto [status, errors] =

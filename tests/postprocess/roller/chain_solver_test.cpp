@@ -53,8 +53,8 @@ void expect_same_as_direct(const ChainParameters &p, int cycles, double toleranc
   EXPECT_LT(relative(exact.history.x_drum, direct.history.x_drum), tolerance);
   EXPECT_LT(relative(exact.history.v_drum, direct.history.v_drum), tolerance);
   EXPECT_LT(relative(exact.history.x_frame, direct.history.x_frame), tolerance);
-  // A frame that hardly moves has a velocity of no more digits than its position, counted from where the
-  // ground is, lets it have.
+  // If the frame hardly moves, rounding errors of its position, which is counted from the ground, limit the
+  // digits of its velocity.
   const double rounding = 3e-15 * p.omega * largest(direct.history.x_frame);
   EXPECT_LT(relative(exact.history.v_frame, direct.history.v_frame),
             tolerance + rounding / largest(direct.history.v_frame));
@@ -85,7 +85,7 @@ TEST_P(EveryCase, TwoHundredCyclesTakeLessThanTwoMilliseconds) {
   GTEST_SKIP() << "timed in optimised builds";
 #endif
   double least = 1.0;
-  for (int attempt = 0; attempt < 20; ++attempt) { // other programs take their share of some
+  for (int attempt = 0; attempt < 20; ++attempt) { // other programs may delay some of them
     const std::clock_t begin = std::clock();
     const ChainSolver solver(chain());
     ChainMotion motion = solver.start();
@@ -263,8 +263,7 @@ TEST(ChainSolver, AGrazingLossOfContactIsSeen) {
       void piece(const MotionPiece & /*piece*/, const PhaseDynamics & /*dynamics*/) override {}
       void change(const PhaseChange &change) override { breaks += change.broken(); }
     } count;
-    // The frame falls freely: the bond carries nothing, so the drum's mean is that of the frame's weight put
-    // on it by g.
+    // The bond is so soft that its force stays m3 g, the weight of the frame, as in static equilibrium.
     ChainMotion motion =
         solver.start_at(ChainState(-mean + amplitude * std::sin(-phase),
                                    amplitude * p.omega * std::cos(-phase), -mean - p.m3 * p.g / p.k23, 0.0));

@@ -49,7 +49,7 @@ TEST(Regime, CasesAreInTheRegimesOfTheirSteadyStates) {
 }
 
 // Period and loss of contact as the direct solver's history has them after many cycles; points near a change
-// are left out, as no history of finite length decides it there.
+// are left out, since a history of finite length does not determine the regime there.
 TEST(Regime, AgreesWithTheDirectSolverAtRandomPoints) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> share(0.0, 1.0);
@@ -101,13 +101,14 @@ TEST(Regime, MeterValuesOfPeriodTwoAgreeWithAFineRecord) {
   for (std::size_t i = h.size() - 1 - 8000; i < h.size() - 1; ++i)
     for (std::size_t n = 0; n < 3; ++n)
       sum[n] += h.a_drum[i] * std::exp(std::complex<double>(0.0, multiple[n] * p.omega * h.time[i]));
-  // A jump of the force falls between two samples: half a sample's weight of it is not known.
+  // A jump of the force lies between two samples: its time is known to half of their distance only.
   EXPECT_NEAR(point.meter.cmv, 300.0 * std::abs(sum[2] / sum[1]), 0.5);
   EXPECT_NEAR(point.meter.rmv, 100.0 * std::abs(sum[0] / sum[1]), 0.2);
   EXPECT_GT(point.meter.rmv, 5.0);
 }
 
-// Near a period doubling the motion leaves the unstable orbit of period 1 so slowly that 300 cycles do not show its period.
+// Near a period doubling the motion leaves the unstable orbit of period 1 so slowly that 300 cycles do not
+// show its period.
 TEST(Regime, ASlowDepartureFromAnUnstableOrbitIsNotAperiodic) {
   ChainParameters p = table1_case("II", Transition::B);
   p.k = 48e6;
@@ -115,6 +116,20 @@ TEST(Regime, ASlowDepartureFromAnUnstableOrbitIsNotAperiodic) {
   const RegimePoint point = judge_regime(p, 300);
   EXPECT_EQ(point.regime, Regime::period_2);
   EXPECT_LT(point.multiplier, 1.0);
+}
+
+// A multiplier of -0.997: the motion alternates about its orbit of period 1, so that states two cycles
+// apart are much nearer to each other than successive ones. The direct solver has period 1 after 5000
+// cycles.
+TEST(Regime, ASlowlyShrinkingAlternationHasPeriodOne) {
+  ChainParameters p = table1_case("II", Transition::B);
+  p.k = 166221021.0;
+  p.D = 0.383008;
+  p.omega = 170.7256;
+  const RegimePoint point = judge_regime(p, 300);
+  EXPECT_EQ(point.regime, Regime::partial_uplift);
+  EXPECT_EQ(point.period, 1);
+  EXPECT_NEAR(point.multiplier, 0.99703, 1e-4);
 }
 
 TEST(RegimeMap, BoundariesLieWhereTheEventsOfTheMotionSay) {
@@ -239,8 +254,8 @@ TEST_F(MapCommand, BadInputEndsInOneLine) {
       {{"--x", "k:1e6:2e6:2.5"}, "allowed: a whole number for COUNT from 2 to 2000"},
       {{"--y", "D:0:1:5:log"}, "--y is 'D:0:1:5:log'; allowed: FROM above 0 with log"},
       {{"--x", "D:0:1:5", "--y", "D:0:2:5"}, "--y is 'D:0:2:5'; allowed: another NAME"},
-      {{"--x", "Fw:1e3:2e3:5", "--me-re", "3"}, "--x is 'Fw'; allowed: not beside me_re"},
-      {{"--Fw", "3", "--me-re", "3"}, "--Fw is '3'; allowed: not beside me_re"},
+      {{"--x", "Fw:1e3:2e3:5", "--me-re", "3"}, "--x is 'Fw'; allowed: not together with me_re"},
+      {{"--Fw", "3", "--me-re", "3"}, "--Fw is '3'; allowed: not together with me_re"},
       {{"--me-re", "x"}, "--me-re is 'x'; allowed: "},
       {{"--cycles", "10"}, "--cycles is '10'; allowed: a whole number from 100 to 100000"},
       {{"--threads", "0"}, "--threads is '0'; allowed: "},

@@ -1,4 +1,4 @@
-// Medians and ratios of the cost study, from rows made up for it.
+// Medians and ratios of the cost study, from invented rows.
 #include "studies/cost/results.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What the fidelity study claims: against numbers worked out by hand.
+// The effects that the fidelity study computes, against numbers worked out by hand.
 #include "studies/fidelity/results.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Throughput, efficiency and memory of the speed study, from rows made up for it.
+// Throughput, efficiency and memory of the speed study, from invented rows.
 #include "studies/speed/results.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// The boundary finder against made-up predicates, and theory's limits against the polynomial that they are roots of.
+// The search for a stability limit, with invented predicates, and the theoretical limits as roots of their
+// polynomial.
 #include "studies/stability/boundary.h"
 
 #include <gtest/gtest.h>

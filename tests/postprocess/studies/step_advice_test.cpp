@@ -1,4 +1,4 @@
-// Advice from made-up curves whose answer is known, and the command as a user meets it.
+// Advice from invented curves for which the answer is known, and the command as a user calls it.
 #include "studies/step_advice.h"
 
 #include "chain/run_files.h"
@@ -60,11 +60,11 @@ TEST(Advice, ForAMeasuredChainComesFromItsOwnCurve) {
 TEST(Advice, ForOtherChainsHasAMargin) {
   AdviceRequest request;
   request.parameters = table1_case("II", Transition::B);
-  request.parameters.Fw *= 1.0 + 1e-9; // as good as measured, but not measured
+  request.parameters.Fw *= 1.0 + 1e-9; // nearly the measured chain, but not measured
   request.error = 1e-4;
   const StepAdvice advice = advise(request, power_laws(), even);
   EXPECT_FALSE(advice.measured);
-  // By the power law 10^4, carried over from a case whose fastest time is that of the excitation.
+  // By the power law 10^4, scaled from a case whose fastest time is that of the excitation.
   const ChainParameters &p = request.parameters;
   EXPECT_NEAR(advice.steps_per_cycle, scaling_margin * 1e4 * std::sqrt(p.k / p.m2) / p.omega,
               advised_multiple);
@@ -127,7 +127,7 @@ TEST(CriticalSteps, KnowTheBond) {
   EXPECT_NEAR(critical_steps(p, "second"), p.period() * w / 2.0, 1e-3);
 }
 
-// A linear chain that has become steady answers a change of its parameters by about as much.
+// The steady state of a linear chain changes by about the same relative amount as its parameters.
 TEST(Sensitivity, OfALinearChainIsOfTheOrderOfOne) {
   const double s = sensitivity(table1_case("I", Transition::A));
   EXPECT_GT(s, 0.3);
@@ -183,7 +183,7 @@ TEST_F(AdviseCommand, RefusesBadInputInOneLine) {
       {{"--cycles", "0.5"}, "--cycles is '0.5'"},
       {{"--from", "nowhere"}, "--from is 'nowhere'"},
       {{"--error", "1e-12", "--D", "0.4", "--stepping", "stock"}, "steps per cycle"},
-      // A drum that hops high on soil that hardly damps: chaos.
+      // A drum that jumps high on soil with little damping: its motion is chaotic.
       {{"--k", "1e8", "--D", "0.02", "--Fw", "2e5"}, "no step can be advised"}};
   for (const auto &[words, message] : bad) {
     const Outcome outcome = run(words);

@@ -1,4 +1,5 @@
-// The finished points of a study, as an interruption or a fault leaves them: what is whole counts, the rest is measured again.
+// The finished points of a study, after an interruption or an error: complete rows are kept, the others are
+// measured again.
 #include "studies/study.h"
 
 #include "support/files.h"

@@ -12,7 +12,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// 3 (100/steps)^order at 100, 200, ..., with the errors of even places times `factor` and of odd ones through it.
+/// 3 (100/steps)^order at 100, 200, ..., with the errors of even places times `factor` and of odd ones
+/// through it.
 std::vector<ErrorPoint> power_law(double order, std::size_t count, double factor = 1.0) {
   std::vector<ErrorPoint> points;
   for (std::size_t i = 0; i < count; ++i) {
@@ -56,7 +57,7 @@ TEST(FittedOrder, NeedsThreeUsablePoints) {
 }
 
 TEST(StepsNeeded, CountsFromTheLastPointAbove) {
-  // A lucky point does not count: 200 keeps to 1e-2, 400 does not.
+  // An error that is small by chance does not count: it is below 1e-2 at 200 steps, but not at 400.
   const std::vector<ErrorPoint> points = {{100, 1.0}, {200, 5e-3}, {400, 2e-2}, {800, 9e-3}, {1600, 1e-3}};
   EXPECT_EQ(steps_needed(points, 1e-2), 800.0);
   EXPECT_EQ(steps_needed(points, 2e-2), 200.0);

@@ -1,5 +1,5 @@
-// Where the tools write, and what they do where they cannot: every node is made in a scratch folder, every full disk is a small one of
-// the test's own.
+// Output files and folders that the tools can and cannot write. All files are made in a scratch folder, and a
+// full disk is a small file system that the test mounts.
 #include "support/files.h"
 #include "support/process.h"
 #include "tests/support/dump_texts.h"
@@ -70,7 +70,7 @@ protected:
     words.insert(words.begin(), DRUMLIN_TOOLS);
     return post::run_program(words, {}, folder_);
   }
-  /// What lies in the folder: type, mode, size and where a link leads.
+  /// The entries of the folder: type, mode, size, and the target of a link.
   std::string listing() const {
     const Outcome outcome = post::run_program(
         {"sh", "-c", "find . ! -name screen.txt -printf '%p %y %m %s %l\\n' | sort"}, {}, folder_);
@@ -123,7 +123,7 @@ TEST_F(OutputFiles, FoldersOfResultsAreChecked) {
   }
 }
 
-// The checks alone: nothing is written there.
+// Only the checks are called: nothing is written there.
 TEST_F(OutputFiles, TheSystemsFoldersAreRefused) {
   for (const char *name : {"/", "//", "/dev", "/dev/x", "/proc/self", "/sys/x/y", "/tmp/../dev/x"})
     EXPECT_NE(refused([name] { post::check_output_folder(name); }), "accepted") << name;
@@ -133,7 +133,8 @@ TEST_F(OutputFiles, TheSystemsFoldersAreRefused) {
   EXPECT_EQ(refused([this] { post::check_output_folder(folder_ / "device-of-mine" / "new"); }), "accepted");
 }
 
-// In an earlier result's folder, too: exact replaces neither a file that is read-only nor a node, and keeps all four.
+// In an earlier result's folder, too: exact replaces neither a file that is read-only nor a node, and keeps
+// all four.
 TEST_F(OutputFiles, FilesInAFolderOfResultsAreChecked) {
   ASSERT_EQ(run({"exact", "--cycles", "1", "--out", "o"}).status, 0);
   fs::remove(folder_ / "o/events.csv");
@@ -166,8 +167,10 @@ TEST_F(OutputFiles, LinksAreFollowed) {
   EXPECT_TRUE(fs::exists(folder_ / "folder/new/chain.csv"));
 }
 
-/// A script that calls `tool` with small work first, then with large work that does not fit on the disk, and compares.
-/// Exit status 0: the large call failed with an ERROR line, and the files of the small one are as they were.
+/// A shell script for `place`, a folder on a disk with little space. It calls the tool with the arguments
+/// `small`, whose results fit on the disk, runs the command `limit`, and calls the tool with `large`, whose
+/// results do not fit. Exit status 0: the second call failed with an ERROR line, and the results of the first
+/// are unchanged.
 std::string starved(const std::string &place, const std::string &limit, const std::string &small,
                     const std::string &large) {
   const std::string tool = "'" DRUMLIN_TOOLS "' ";
@@ -234,7 +237,7 @@ TEST_F(FullDisk, AFullDiskLeavesTheEarlierFileWhole) {
   }
 }
 
-// A report is whole or not there, wherever the disk is full: at a table, in a picture or on a page.
+// A report is complete or not there, whichever of its files does not fit: a table, a picture or a page.
 TEST_F(FullDisk, AReportIsAnErrorAndLeavesNothing) {
   if (::geteuid() != 0) GTEST_SKIP() << "a small disk can be mounted by root only";
   ASSERT_EQ(run({"exact", "--cycles", "3", "--out", "chain"}).status, 0);
@@ -254,7 +257,7 @@ TEST_F(FullDisk, AReportIsAnErrorAndLeavesNothing) {
   }
 }
 
-// Rows of a study are added one by one: one that does not arrive is taken off again.
+// Rows of a study are added one by one: one that cannot be written completely is removed again.
 TEST_F(FullDisk, ARowThatDoesNotArriveIsAnError) {
   put("rows.csv", "a,b\n1,2\n");
   const auto child = [this] {

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using post::Program;
 
-/// A shell line in a scratch folder, whose output goes to a file `text` there.
+/// A program that runs a shell line in a scratch folder and writes its output to the file `text` there.
 Program shell(const Scratch &scratch, const std::string &line) {
   Program program;
   program.words = {"sh", "-c", line};
@@ -45,8 +45,7 @@ TEST(Process, HandsOnLinesWhileItRuns) {
   const Outcome outcome = run_program(program);
   EXPECT_TRUE(outcome.ok());
   EXPECT_EQ(outcome.output, "one\ntwo\n\nhalf");
-  EXPECT_EQ(lines,
-            (std::vector<std::string>{"one", "two", ""})); // of a line without its end nothing is known
+  EXPECT_EQ(lines, (std::vector<std::string>{"one", "two", ""})); // the last line has no line end
 }
 
 TEST(Process, IsStoppedWhenAReaderOfItsLinesFails) {

@@ -1,4 +1,5 @@
-// `drumlin study accuracy --quick`: its results meet the acceptance criteria, and an interrupted call continues to the same result.
+// `drumlin study accuracy --quick`: its results meet the acceptance criteria, and an interrupted call
+// continues to the same result.
 #include "studies/accuracy/results.h"
 #include "studies/study.h"
 #include "tests/support/page.h"
@@ -18,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using post::Transition;
 
-/// Errors by point: all that does not depend on how busy the machine was.
+/// The errors of each point, which unlike the times do not depend on the load of the machine.
 std::map<std::string, double> errors_of(const fs::path &out) {
   std::map<std::string, double> errors;
   for (const post::ChainPoint &p : post::read_points(out / "chain.csv", post::chain_points())) {
@@ -56,7 +57,8 @@ TEST(AccuracyStudy, ContinuesWhereItWasInterrupted) {
   EXPECT_LT(std::count(rest.output.begin(), rest.output.end(), '\n'), 20) << "nothing is measured twice";
   EXPECT_EQ(errors_of(out), errors);
 
-  // What was measured is within the acceptance criteria, and the law of the engine is the plugin's with stock stepping.
+  // What was measured is within the acceptance criteria, and the law of the engine is the plugin's with stock
+  // stepping.
   for (const Transition transition : {Transition::A, Transition::B}) {
     const auto at_400 = [&](const char *stepping, auto error) {
       for (const post::ErrorPoint &point : post::chain_curve(

@@ -1,4 +1,5 @@
-// `drumlin study cost --quick`: every variant runs, an interrupted call measures what is missing and nothing twice. Times are not judged.
+// `drumlin study cost --quick`: every variant runs, an interrupted call measures what is missing and nothing
+// twice. Times are not judged.
 #include "studies/cost/results.h"
 #include "support/files.h"
 #include "support/process.h"

@@ -1,5 +1,5 @@
-// `drumlin study speed --quick`: every law runs on one rank and on two, does the same work, and nothing is measured twice. Times
-// are not judged.
+// `drumlin study speed --quick`: every law runs on one rank and on two, ends with the balls at the same
+// positions, and nothing is measured twice. Times are not judged.
 #include "engine/engine_run.h"
 #include "studies/speed/results.h"
 #include "tests/support/page.h"

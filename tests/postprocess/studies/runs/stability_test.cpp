@@ -1,4 +1,5 @@
-// `drumlin study stability --quick`: the acceptance criteria are met, and an interrupted call continues to the same result.
+// `drumlin study stability --quick`: the acceptance criteria are met, and an interrupted call continues to
+// the same result.
 #include "tests/support/page.h"
 #include "tests/support/scratch_study.h"
 

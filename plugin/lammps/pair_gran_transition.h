@@ -1,5 +1,5 @@
 #pragma once
-// pair_style gran/hooke/transition: see plugin/doc/pair_gran_hooke_transition.md.
+// The pair styles gran/LAW/transition: see plugin/doc/pair_gran_hooke_transition.md.
 
 #include "engine.h"
 #include "contact/contact_source.h"
@@ -7,17 +7,26 @@
 #include "lammps/contact_terms.h"
 
 #include <algorithm>
+#include <string>
+#include <vector>
+
+namespace drumlin {
+struct PairMotion;
+}
 
 namespace LAMMPS_NS {
 
 class FixNeighHistory;
 
-/// The contact law of plugin/physics between balls, in LAMMPS. The history of contacts is stored by LAMMPS's
+/// A contact law of plugin/physics between balls, in LAMMPS. The history of contacts is stored by LAMMPS's
 /// fix NEIGH_HISTORY, as for gran/hooke/history.
-class PairGranHookeTransition : public Pair, public drumlin::ContactSource {
+class PairGranTransition : public Pair, public drumlin::ContactSource {
 public:
-  explicit PairGranHookeTransition(LAMMPS *);
-  ~PairGranHookeTransition() override;
+  /// \param law parameters of the law, see contact/laws.h
+  template <class Parameters>
+  PairGranTransition(LAMMPS *lammps, drumlin::LawTag<Parameters>)
+      : PairGranTransition(lammps, Tables(drumlin::CoefficientTable<Parameters>{})) {}
+  ~PairGranTransition() override;
 
   void compute(int, int) override;
   void settings(int, char **) override;
@@ -38,48 +47,55 @@ public:
   double radii2cut(double r1, double r2) override { return r1 + r2; }
 #endif
 
-  const drumlin::physics::LinearContact &law(int itype, int jtype) const override {
-    return at(itype, jtype).normal;
-  }
+  drumlin::AnyTable table() const override;
   double mass(int i) const override;
   /// The same, kg, but finite for a ball in the group of fix freeze: walls do not treat such balls
   /// differently.
   double mass_unless_frozen(int i) const;
   drumlin::physics::Dashpots wall_dashpots(int i) const override;
   drumlin::FrictionModel friction_model() const override { return settings_.tangential; }
-  drumlin::physics::Friction friction(int itype, int jtype, double c) const override {
-    return at(itype, jtype).tangential(c, settings_.cap);
-  }
-  const double *tangential_spring(int i, int jj) const override;
+  drumlin::TangentialSpring tangential_spring(int i, int jj) const override;
   const NeighList *contact_list() const override { return list; }
 
   /// The pair style of this engine instance if it is of this class, or the only part of a hybrid pair style
   /// that is; nullptr if there is none, or more than one.
-  static PairGranHookeTransition *find(LAMMPS *lmp);
+  static PairGranTransition *find(LAMMPS *lmp);
   /// Whether a pair_coeff line has given the coefficients of a pair of types, in either order.
   bool has_coefficients(int itype, int jtype) const {
     return setflag[std::min(itype, jtype)][std::max(itype, jtype)] != 0;
   }
   /// The text of the error for a pair of types without coefficients.
-  static std::string missing_coefficients(int itype, int jtype);
+  std::string missing_coefficients(int itype, int jtype) const;
   const drumlin::ContactSettings &contact_settings() const { return settings_; }
-  const drumlin::ContactCoefficients &at(int itype, int jtype) const {
-    return coefficients_[static_cast<std::size_t>(itype) * stride_ + static_cast<std::size_t>(jtype)];
-  }
+
+protected:
+  const Atom &balls() const override { return *atom; }
+  drumlin::physics::Cap cap() const override { return settings_.cap; }
 
 private:
+  using Tables = drumlin::OneOfLaws<drumlin::CoefficientTable>;
+
+  PairGranTransition(LAMMPS *, Tables tables);
+
+  std::string style_name() const;
   void allocate();
-  template <bool stepped, drumlin::FrictionModel tangential>
-  void compute_contacts();
-  [[gnu::noinline]] void report(const drumlin::Contact &, const drumlin::ContactForces &) const;
+  template <class Parameters>
+  void set_coefficients(int i, int j, const drumlin::ContactCoefficients<Parameters> &);
+  template <class Parameters, bool stepped, drumlin::FrictionModel tangential, bool rolling>
+  void compute_contacts(const drumlin::CoefficientTable<Parameters> &);
+  template <class Parameters>
+  [[gnu::noinline]] void report(const drumlin::CoefficientTable<Parameters> &, const drumlin::Contact &,
+                                const drumlin::ContactForces &) const;
+  template <class Parameters>
+  void tell_single(const drumlin::ContactCoefficients<Parameters> &, const drumlin::PairMotion &, int i,
+                   int j, const double *remembered, double &force_over_distance);
   void check_engine() const;
   void share_rigid_masses();
   /// The history of the contact of ball i with its neighbour j; nullptr if j is not in i's neighbour list.
   const double *history(int i, int j) const;
 
   drumlin::ContactSettings settings_;
-  std::size_t stride_ = 0;
-  std::vector<drumlin::ContactCoefficients> coefficients_;
+  Tables tables_; // of the law
   FixNeighHistory *history_ = nullptr;
   FixStepping *stepping_ = nullptr;
   int freeze_groupbit_ = 0;

@@ -1,0 +1,41 @@
+#include "contact/contact_source.h"
+
+#include "contact/contact_settings.h"
+
+namespace drumlin {
+
+AnyLaw ContactSource::law(int i, int j) const {
+  const LAMMPS_NS::Atom &atom = balls();
+  return std::visit(
+      [&](const auto *coefficients) -> AnyLaw {
+        const auto &contact = coefficients->at(atom.type[i], atom.type[j]).contact;
+        using Contact = std::decay_t<decltype(contact)>;
+        return contact.law(effective_mass(i, j), radius_for<Contact>(atom.radius[i], atom.radius[j]));
+      },
+      table());
+}
+
+physics::Friction ContactSource::friction(int i, int j, const AnyLaw &law, double overlap,
+                                          const TangentialSpring &spring) const {
+  const LAMMPS_NS::Atom &atom = balls();
+  const double c = std::visit([overlap](const auto &one) { return one.dashpot(overlap); }, law);
+  return std::visit(
+      [&](const auto *coefficients) {
+        const auto &p = coefficients->at(atom.type[i], atom.type[j]);
+        using Contact = std::decay_t<decltype(p.contact)>;
+        const double kt =
+            spring.stiffness != nullptr
+                ? *spring.stiffness
+                : p.contact.tangential(overlap, radius_for<Contact>(atom.radius[i], atom.radius[j]));
+        return p.tangential(kt, c, cap());
+      },
+      table());
+}
+
+std::string other_pair_style(const engine::LAMMPS *lmp, const std::string &command) {
+  const char *style = lmp->force->pair_style;
+  return command + ": pair_style is '" + (style != nullptr ? style : "none") +
+         "'; allowed: " + law_names(engine::pair_style_before_law);
+}
+
+} // namespace drumlin

@@ -1,0 +1,638 @@
+#include "lammps/pair_gran_transition.h"
+
+#include "fix_dummy.h"
+#include "support/arguments.h"
+#include "contact/pair_motion.h"
+#include "lammps/pair_words.h"
+#include "lammps/rolling_terms.h"
+#include "lammps/fix_neigh_history_transition.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+using namespace LAMMPS_NS;
+using drumlin::ContactCoefficients;
+using drumlin::FrictionModel;
+namespace engine = drumlin::engine;
+namespace physics = drumlin::physics;
+
+namespace {
+
+// The same for every object of the style, of which an engine has one: a restart file is read for fixes of
+// these IDs, whatever pair styles its deck has made before.
+const std::string history_id = "DRUMLIN_HISTORY0";
+const std::string placeholder_id = "DRUMLIN_HISTORY_PLACE";
+
+/// The name of the pair style with a law.
+template <class Parameters>
+std::string style_of_law() {
+  return std::string("gran/") + Parameters::name;
+}
+
+/// A vector per ball. They follow one another in memory: this spares the inner loop a pointer per ball.
+template <class Number>
+struct Rows {
+  Number *first;
+  Number *operator[](int i) const { return first + static_cast<std::ptrdiff_t>(i) * 3; }
+};
+
+} // namespace
+
+PairGranTransition::PairGranTransition(LAMMPS *lammps, Tables tables)
+    : Pair(lammps), tables_(std::move(tables)) {
+  single_extra = 11;
+  svector = new double[static_cast<std::size_t>(single_extra)];
+  no_virial_fdotr_compute = 1;
+  centroidstressflag = CENTROID_NOTAVAIL;
+  finitecutflag = 1;
+  comm_forward = 1;
+  nondefault_history_transfer = 1;
+  beyond_contact =
+      1; // a contact that ends in the step of a new neighbour list must be known to have been one
+  // Holds the place of the history among the fixes, which is the order of their calls.
+  modify->add_fix(placeholder_id + " all DUMMY");
+}
+
+PairGranTransition::~PairGranTransition() {
+  if (copymode) return;
+  if (!settings_.stock) FixStepping::dismiss(lmp);
+  delete[] svector;
+  for (const std::string &id : {placeholder_id, history_id})
+    if (modify->find_fix(id) >= 0) modify->delete_fix(id);
+  if (!allocated) return;
+  memory->destroy(setflag);
+  memory->destroy(cutsq);
+}
+
+PairGranTransition *PairGranTransition::find(LAMMPS *lmp) {
+  std::vector<PairGranTransition *> all;
+  drumlin::for_each_law([&](auto law) {
+    const std::string name = style_of_law<typename decltype(law)::type>();
+    if (auto *pair = dynamic_cast<PairGranTransition *>(lmp->force->pair_match(name, 1))) all.push_back(pair);
+  });
+  return all.size() == 1 ? all.front() : nullptr;
+}
+
+std::string PairGranTransition::style_name() const {
+  return std::visit(
+      [](const auto &table) { return style_of_law<std::decay_t<decltype(table.at(0, 0).contact)>>(); },
+      tables_);
+}
+
+drumlin::AnyTable PairGranTransition::table() const {
+  return std::visit([](const auto &table) -> drumlin::AnyTable { return &table; }, tables_);
+}
+
+const drumlin::ContactSource *drumlin::contact_source(engine::LAMMPS *lmp) {
+  return PairGranTransition::find(lmp);
+}
+
+void PairGranTransition::settings(int narg, char **arg) {
+  drumlin::Arguments in(error, "pair_style " + style_name(), narg, arg);
+  const int history_before = settings_.history();
+  std::visit(
+      [&](const auto &table) {
+        using Parameters = std::decay_t<decltype(table.at(0, 0).contact)>;
+        settings_ = drumlin::read_settings(in, drumlin::LawWords<Parameters>::all);
+        settings_.tangential_varies = Parameters::tangential_varies;
+        // Its spring does not follow a tangential stiffness that varies, and would create energy.
+        if (settings_.rolling && settings_.tangential_varies)
+          in.fail("keyword rolling is 'epsd2'; allowed: off with this law");
+      },
+      tables_);
+  // A second pair_style line: coefficients mean something else under other settings, and contacts may
+  // remember other numbers.
+  if (allocated)
+    for (int i = 1; i <= atom->ntypes; ++i)
+      std::fill_n(setflag[i] + 1, atom->ntypes, 0);
+  if (history_ != nullptr && settings_.history() != history_before) {
+    modify->replace_fix(history_id, placeholder_id + " all DUMMY", 1);
+    history_ = nullptr;
+  }
+  // While the deck is parsed: a fix added later, in the initialization of a run, would miss that run.
+  settings_.stock ? FixStepping::dismiss(lmp) : void(FixStepping::provide(lmp));
+}
+
+void PairGranTransition::allocate() {
+  allocated = 1;
+  const int n = atom->ntypes;
+  memory->create(setflag, n + 1, n + 1, "pair:setflag");
+  memory->create(cutsq, n + 1, n + 1, "pair:cutsq");
+  for (int i = 1; i <= n; ++i)
+    for (int j = 1; j <= n; ++j)
+      setflag[i][j] = 0;
+  std::visit([n](auto &table) { table.resize(n); }, tables_);
+}
+
+/// Sets the coefficients of a pair of types, in either order.
+template <class Parameters>
+void PairGranTransition::set_coefficients(int i, int j,
+                                          const drumlin::ContactCoefficients<Parameters> &given) {
+  auto &table = std::get<drumlin::CoefficientTable<Parameters>>(tables_);
+  table.at(i, j) = table.at(j, i) = given;
+}
+
+void PairGranTransition::coeff(int narg, char **arg) {
+  drumlin::Arguments in(error, "pair_coeff of " + style_name(), narg, arg);
+  const std::string types[2] = {in.word("types I"), in.word("types J")};
+  const auto given = std::visit(
+      [&](const auto &table) -> drumlin::OneOfLaws<ContactCoefficients> {
+        return drumlin::read_coefficients<std::decay_t<decltype(table.at(0, 0).contact)>>(in, settings_);
+      },
+      tables_);
+  if (!allocated) allocate();
+  int range[2][2];
+  for (int side = 0; side < 2; ++side)
+    utils::bounds(FLERR, types[side], 1, atom->ntypes, range[side][0], range[side][1], error);
+  int count = 0;
+  for (int i = range[0][0]; i <= range[0][1]; ++i)
+    for (int j = std::max(range[1][0], i); j <= range[1][1]; ++j) {
+      std::visit([&](const auto &coefficients) { set_coefficients(i, j, coefficients); }, given);
+      setflag[i][j] = 1;
+      ++count;
+    }
+  if (count == 0)
+    in.fail("types are '" + types[0] + "' and '" + types[1] + "'; allowed: types I <= J of the box");
+}
+
+void PairGranTransition::check_engine() const {
+  const auto refuse = [this](const std::string &why) {
+    error->all(FLERR, engine::error_text("pair_style " + style_name() + ": " + why));
+  };
+  if (find(lmp) != this)
+    refuse("pair_style hybrid has it more than once, or two laws of this plugin; allowed: one law, once");
+  if (!atom->radius_flag || !atom->rmass_flag)
+    refuse("the atom style has no radius or no mass of its own; allowed: atom_style sphere");
+  if (comm->ghost_velocity == 0) refuse("ghosts have no velocity; allowed: comm_modify vel yes before");
+  if (settings_.stock) return;
+  for (int n = 0; n < modify->nfix; ++n)
+    if (modify->fix[n]->rigid_flag)
+      refuse(std::string("fix ") + modify->fix[n]->id + " (" + modify->fix[n]->style +
+             ") makes rigid bodies and stepping is 'second'; allowed: stepping stock, or fix clump");
+  for (int n = 0; n < modify->nfix && modify->fix[n] != FixStepping::find(lmp); ++n)
+    if (modify->fix[n]->time_integrate)
+      refuse(std::string("fix ") + modify->fix[n]->id + " (" + modify->fix[n]->style +
+             ") stands before it; allowed: pair_style before the fixes that integrate, or stepping stock");
+}
+
+void PairGranTransition::init_style() {
+  check_engine();
+  const bool remembers = settings_.history() > 0;
+  engine::version::request_list(neighbor, this, instance_me, remembers);
+  if (remembers && history_ == nullptr)
+    history_ = static_cast<FixNeighHistory *>(
+        modify->replace_fix(placeholder_id,
+                            history_id + " all " + FixNeighHistoryTransition::style_name + " " +
+                                std::to_string(settings_.history()),
+                            1));
+  if (remembers) history_->pair = this;
+  stepping_ = settings_.stock ? nullptr : FixStepping::find(lmp);
+
+  observers_.find(*modify);
+  clumps_.find(*modify);
+  rigid_.clear();
+  for (int n = 0; n < modify->nfix; ++n)
+    if (modify->fix[n]->rigid_flag) rigid_.push_back(modify->fix[n]);
+  if (rigid_.empty()) rigid_mass_.clear();
+
+  freeze_groupbit_ = 0;
+  for (int n = 0; n < modify->nfix; ++n)
+    if (std::string(modify->fix[n]->style) == "freeze") freeze_groupbit_ = modify->fix[n]->groupbit;
+
+  const auto ntypes = static_cast<std::size_t>(atom->ntypes);
+  std::vector<double> mine(2 * (ntypes + 1), 0.0);
+  std::vector<double> all = mine;
+  for (int n = 0; n < modify->nfix; ++n) // balls that are still to come
+    if (const std::string style = modify->fix[n]->style; style == "pour" || style == "deposit")
+      for (int type = 1; type <= atom->ntypes; ++type) {
+        int extracted = type;
+        if (const auto *radius = static_cast<double *>(modify->fix[n]->extract("radius", extracted)))
+          mine[static_cast<std::size_t>(type)] = std::max(mine[static_cast<std::size_t>(type)], *radius);
+      }
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const bool frozen = atom->mask[i] & freeze_groupbit_;
+    double &reach = mine[static_cast<std::size_t>(atom->type[i]) + (frozen ? ntypes + 1 : 0)];
+    reach = std::max(reach, atom->radius[i]);
+  }
+  MPI_Allreduce(mine.data(), all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_MAX, world);
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(ntypes) + 1;
+  reach_.assign(all.begin(), middle);
+  frozen_reach_.assign(middle, all.end());
+
+  walls_.clear();
+  for (int n = 0; n < modify->nfix; ++n)
+    if (const auto *wall = dynamic_cast<const drumlin::Walls *>(modify->fix[n])) walls_.push_back(wall);
+}
+
+std::string PairGranTransition::missing_coefficients(int itype, int jtype) const {
+  const auto [i, j] = std::minmax(itype, jtype);
+  const std::string types = std::to_string(i) + " " + std::to_string(j);
+  const std::string stiffness = std::visit(
+      [](const auto &table) {
+        return drumlin::LawWords<std::decay_t<decltype(table.at(0, 0).contact)>>::stiffness;
+      },
+      tables_);
+  return "types " + types + " have no coefficients; allowed: 'pair_coeff " + types + " " + stiffness +
+         " damping ...' or 'pair_coeff * * ...' before (coefficients are not mixed)";
+}
+
+double PairGranTransition::init_one(int i, int j) {
+  if (!has_coefficients(i, j))
+    error->all(FLERR, engine::error_text("pair_style " + style_name() + ": " + missing_coefficients(i, j)));
+  const auto a = static_cast<std::size_t>(i);
+  const auto b = static_cast<std::size_t>(j);
+  return std::max({reach_[a] + reach_[b], frozen_reach_[a] + reach_[b], reach_[a] + frozen_reach_[b]});
+}
+
+double PairGranTransition::mass(int i) const {
+  if (atom->mask[i] & freeze_groupbit_) return std::numeric_limits<double>::infinity();
+  return mass_unless_frozen(i);
+}
+
+double PairGranTransition::mass_unless_frozen(int i) const {
+  const auto n = static_cast<std::size_t>(i);
+  const bool of_rigid = n < rigid_mass_.size() && rigid_mass_[n] > 0.0;
+  return clumps_.mass_of(*atom, i, of_rigid ? rigid_mass_[n] : atom->rmass[i]);
+}
+
+/// Asks the fixes rigid for the masses of their bodies, for owned balls and ghosts. Collective.
+void PairGranTransition::share_rigid_masses() {
+  if (rigid_.empty()) return;
+  const int balls = atom->nlocal + atom->nghost;
+  rigid_mass_.assign(static_cast<std::size_t>(balls), 0.0);
+  for (Fix *fix : rigid_) {
+    int dimension = 0;
+    const auto *body = static_cast<const int *>(fix->extract("body", dimension));
+    const auto *mass = static_cast<const double *>(fix->extract("masstotal", dimension));
+    if (body == nullptr || mass == nullptr)
+      error->all(
+          FLERR,
+          engine::error_text(
+              "pair_style " + style_name() + ": fix " + fix->id + " (" + fix->style +
+              ") does not tell the masses of its bodies; allowed: fix rigid, fix rigid/small or fix clump"));
+    for (int i = 0; i < atom->nlocal; ++i)
+      if (body[i] >= 0) rigid_mass_[static_cast<std::size_t>(i)] = mass[body[i]];
+  }
+  engine::version::forward_comm(comm, this);
+}
+
+int PairGranTransition::pack_forward_comm(int n, int *balls, double *numbers, int, int *) {
+  for (int m = 0; m < n; ++m)
+    numbers[m] = rigid_mass_[static_cast<std::size_t>(balls[m])];
+  return n;
+}
+
+void PairGranTransition::unpack_forward_comm(int n, int first, double *numbers) {
+  std::copy_n(numbers, n, rigid_mass_.begin() + first);
+}
+
+physics::Dashpots PairGranTransition::wall_dashpots(int i) const {
+  physics::Dashpots all;
+  for (const drumlin::Walls *wall : walls_) {
+    physics::Dashpots one;
+    std::visit(
+        [&](const auto &table) {
+          const auto &contact = table.at(atom->type[i], wall->wall_type()).contact;
+          const double r = atom->radius[i];
+          drumlin::add_dashpot(one, contact, mass(i), drumlin::radius_for<std::decay_t<decltype(contact)>>(r),
+                               2.0 * r);
+        },
+        tables_);
+    for (int side = 0; side < wall->sides(); ++side)
+      all.add(one);
+  }
+  return all;
+}
+
+drumlin::TangentialSpring PairGranTransition::tangential_spring(int i, int jj) const {
+  const double *spring = history_->firstvalue[i] + static_cast<std::ptrdiff_t>(settings_.history()) * jj;
+  return {spring, settings_.tangential_varies ? spring + 3 : nullptr};
+}
+
+void PairGranTransition::compute(int eflag, int vflag) {
+  ev_init(eflag, vflag);
+  if (neighbor->ago == 0) share_rigid_masses();
+  std::visit(
+      [this](const auto &table) {
+        drumlin::with_models(settings_, [&](auto stepped, auto tangential, auto rolling) {
+          using Parameters = std::decay_t<decltype(table.at(0, 0).contact)>;
+          if constexpr (!(rolling && Parameters::tangential_varies)) // see settings()
+            compute_contacts<Parameters, decltype(stepped)::value, decltype(tangential)::value,
+                             decltype(rolling)::value>(table);
+        });
+      },
+      tables_);
+}
+
+namespace {
+
+/// What the loop over contacts reads and writes of the balls.
+struct Balls {
+  Rows<const double> x, v, omega;
+  const double *radius, *rmass;
+  const int *type, *mask;
+  Rows<double> f, torque;
+};
+
+Balls balls_of(const Atom &atom) {
+  return {{atom.x[0]}, {atom.v[0]}, {atom.omega[0]}, atom.radius,     atom.rmass,
+          atom.type,   atom.mask,   {atom.f[0]},     {atom.torque[0]}};
+}
+
+/// A contact of balls i and j. \param d x_i - x_j, m \param squared its square \param reach sum of the radii,
+/// m
+/// \param turning_dt s, of a step in whose middle the slip is computed; 0: at its end
+template <class Parameters, FrictionModel tangential>
+[[gnu::always_inline]] inline drumlin::Contact contact_of(const Balls &balls, int i, int j,
+                                                          const physics::Vec3 &d, double squared,
+                                                          double reach, double m_eff, double turning_dt) {
+  const double distance = std::sqrt(squared);
+  const double inverse = 1.0 / distance;
+  const double ri = balls.radius[i], rj = balls.radius[j];
+  const double *const vi = balls.v[i], *const vj = balls.v[j];
+  const physics::Vec3 relative{vi[0] - vj[0], vi[1] - vj[1], vi[2] - vj[2]};
+  const physics::Vec3 normal = physics::scaled(inverse, d);
+  const double overlap = reach - distance;
+  const double arm_i = ri - 0.5 * overlap;
+  const double arm_j = rj - 0.5 * overlap;
+  physics::Vec3 slip{};
+  if constexpr (tangential != FrictionModel::none) {
+    const double *const wi = balls.omega[i], *const wj = balls.omega[j];
+    const physics::Vec3 turning{arm_i * wi[0] + arm_j * wj[0], arm_i * wi[1] + arm_j * wj[1],
+                                arm_i * wi[2] + arm_j * wj[2]};
+    slip = turning_dt > 0.0 ? physics::slip_velocity_of_step(relative, d, normal, turning, turning_dt)
+                            : physics::slip_velocity(relative, normal, turning);
+  }
+  return {{i, j, normal, nullptr, overlap, -physics::dot(relative, normal), m_eff, 1.0},
+          slip,
+          drumlin::radius_for<Parameters>(ri, rj),
+          arm_i,
+          arm_j,
+          nullptr,
+          false};
+}
+
+/// Torque of rolling resistance on ball i of a contact, N m.
+template <class Parameters>
+[[gnu::always_inline]] inline physics::Vec3
+rolling_of_pair(const Balls &balls, const drumlin::ContactSettings &settings,
+                const ContactCoefficients<Parameters> &coefficients, const drumlin::Contact &p,
+                double normal_force, double dt, bool moves) {
+  const int i = p.normal.i, j = p.normal.j;
+  const double *const wi = balls.omega[i], *const wj = balls.omega[j];
+  return drumlin::rolling_torque(settings, coefficients,
+                                 {p.normal.normal,
+                                  {wi[0] - wj[0], wi[1] - wj[1], wi[2] - wj[2]},
+                                  physics::effective_radius(balls.radius[i], balls.radius[j])},
+                                 normal_force, p.history, dt, moves);
+}
+
+/// The forces of the step in which a contact ends, whose history is deleted.
+template <bool stepped, FrictionModel tangential, class Parameters>
+[[gnu::always_inline]] inline drumlin::ContactForces ended(const ContactCoefficients<Parameters> &law,
+                                                           FixStepping *stepping, const drumlin::Contact &p,
+                                                           int history_size) {
+  drumlin::ContactForces forces{};
+  if constexpr (stepped)
+    forces.force = drumlin::end_contact(law, *stepping, drumlin::apart(p.normal), p.r_eff,
+                                        p.history[drumlin::force_place<Parameters, tangential>]);
+  std::fill_n(p.history, history_size, 0.0);
+  return forces;
+}
+
+/// Adds the sums over its contacts to a ball.
+template <bool turns>
+[[gnu::always_inline]] inline void add(const Balls &balls, int i, const physics::Vec3 &force,
+                                       const physics::Vec3 &torque) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    balls.f[i][a] += force[a];
+    if constexpr (turns) balls.torque[i][a] += torque[a];
+  }
+}
+
+/// Exerts on ball j what the contact exerts on i, in the other direction.
+template <FrictionModel tangential, bool rolling>
+[[gnu::always_inline]] inline void exert_on_partner(const Balls &balls, const drumlin::Contact &p,
+                                                    const drumlin::ContactForces &forces) {
+  double *const f = balls.f[p.normal.j];
+  f[0] -= forces.force[0];
+  f[1] -= forces.force[1];
+  f[2] -= forces.force[2];
+  double *const torque = balls.torque[p.normal.j];
+  if constexpr (tangential != FrictionModel::none) {
+    torque[0] -= p.arm_j * forces.moment[0];
+    torque[1] -= p.arm_j * forces.moment[1];
+    torque[2] -= p.arm_j * forces.moment[2];
+  }
+  if constexpr (rolling) {
+    torque[0] -= forces.rolling[0];
+    torque[1] -= forces.rolling[1];
+    torque[2] -= forces.rolling[2];
+  }
+}
+
+} // namespace
+
+// Longer than other functions: the loop over all contacts of a step, whose constant values are read once
+// before it and used throughout its body.
+template <class Parameters, bool stepped, FrictionModel tangential, bool rolling>
+void PairGranTransition::compute_contacts(const drumlin::CoefficientTable<Parameters> &table) {
+  constexpr bool remembers = stepped || rolling || tangential == FrictionModel::history;
+  constexpr bool rubs = tangential != FrictionModel::none;
+  if (list->inum == 0) return; // there may be no arrays
+  const drumlin::ContactSettings settings = settings_;
+  const int history_size = settings.history();
+  const bool moves = update->setupflag == 0;
+  const double dt = update->dt;
+  const double turning_dt = moves && settings.cap == physics::Cap::coulomb ? dt : 0.0;
+  const int nlocal = atom->nlocal;
+  const int taken = force->newton_pair ? nlocal + atom->nghost : nlocal; // balls that take the force here
+  const int freeze_bit = freeze_groupbit_;
+  const Balls balls = balls_of(*atom);
+  const bool bodies = !clumps_.empty() || !rigid_.empty();
+  const bool observed = observers_.any();
+  for (int ii = 0; ii < list->inum; ++ii) {
+    const int i = list->ilist[ii];
+    const int *neighbours = list->firstneigh[i];
+    const int count = list->numneigh[i];
+    int *touch = remembers ? history_->firstflag[i] : nullptr;
+    double *memory_of_i = remembers ? history_->firstvalue[i] : nullptr;
+    const physics::Vec3 xi{balls.x[i][0], balls.x[i][1], balls.x[i][2]};
+    const bool i_frozen = balls.mask[i] & freeze_bit;
+    const double ri = balls.radius[i];
+    const double mi = bodies ? mass_unless_frozen(i) : balls.rmass[i];
+    physics::Vec3 force_i{}, torque_i{};
+    for (int jj = 0; jj < count; ++jj) {
+      const int j = neighbours[jj] & NEIGHMASK;
+      const physics::Vec3 d{xi[0] - balls.x[j][0], xi[1] - balls.x[j][1], xi[2] - balls.x[j][2]};
+      const double squared = physics::dot(d, d);
+      const double reach = ri + balls.radius[j];
+      const bool touches = squared < reach * reach;
+      if (!touches && (!remembers || touch[jj] == 0)) continue;
+      const ContactCoefficients<Parameters> &law = table.at(balls.type[i], balls.type[j]);
+      const double mj = bodies ? mass_unless_frozen(j) : balls.rmass[j];
+      const double m_eff = balls.mask[j] & freeze_bit ? mi : i_frozen ? mj : physics::effective_mass(mi, mj);
+      drumlin::Contact p =
+          contact_of<Parameters, tangential>(balls, i, j, d, squared, reach, m_eff, turning_dt);
+      p.history = remembers ? memory_of_i + static_cast<std::ptrdiff_t>(history_size) * jj : nullptr;
+      p.in_contact = remembers && touch[jj] != 0;
+      drumlin::ContactForces forces;
+      if (touches) {
+        if constexpr (remembers) touch[jj] = 1;
+        forces = drumlin::exert<stepped, tangential>(settings, law, stepping_, p, dt, moves);
+        if constexpr (rolling)
+          forces.rolling = rolling_of_pair(balls, settings, law, p, forces.normal_force, dt, moves);
+        if (observed) report(table, drumlin::apart(p), drumlin::apart(forces));
+      } else { // it did, a step ago
+        touch[jj] = 0;
+        forces = ended<stepped, tangential>(law, stepping_, p, history_size);
+      }
+      force_i = physics::sum(force_i, 1.0, forces.force);
+      if constexpr (rubs) torque_i = physics::sum(torque_i, -p.arm_i, forces.moment);
+      if constexpr (rolling) torque_i = physics::sum(torque_i, 1.0, forces.rolling);
+      if (j < taken) exert_on_partner<tangential, rolling>(balls, p, forces);
+      if (evflag)
+        ev_tally_xyz(i, j, nlocal, force->newton_pair, 0.0, 0.0, forces.force[0], forces.force[1],
+                     forces.force[2], d[0], d[1], d[2]);
+    }
+    add<rubs || rolling>(balls, i, force_i, torque_i);
+  }
+}
+
+template <class Parameters>
+void PairGranTransition::report(const drumlin::CoefficientTable<Parameters> &table, const drumlin::Contact &p,
+                                const drumlin::ContactForces &forces) const {
+  const int i = p.normal.i;
+  const int j = p.normal.j;
+  observers_.tell(drumlin::record_of(settings_, table.at(atom->type[i], atom->type[j]), p, forces,
+                                     std::min(atom->radius[i], atom->radius[j]),
+                                     physics::effective_radius(atom->radius[i], atom->radius[j])));
+}
+
+const double *PairGranTransition::history(int i, int j) const {
+  for (int jj = 0; jj < list->numneigh[i]; ++jj)
+    if (engine::neighbour_index(list->firstneigh[i][jj]) == j)
+      return history_->firstvalue[i] + static_cast<std::ptrdiff_t>(settings_.history()) * jj;
+  return nullptr;
+}
+
+/// For computes. There is no energy, as in pair gran. Extra values on ball i: tangential force (3), its
+/// magnitude, normal (3) and tangential (3) part of the relative velocity, overlap.
+double PairGranTransition::single(int i, int j, int itype, int jtype, double, double, double,
+                                  double &force_over_distance) {
+  force_over_distance = 0.0;
+  std::fill_n(svector, single_extra, 0.0);
+  const drumlin::PairMotion now = drumlin::pair_motion(*atom, i, j);
+  const double *remembered = settings_.history() > 0 ? history(i, j) : nullptr;
+  if (now.overlap <= 0.0 || (settings_.history() > 0 && remembered == nullptr)) return 0.0;
+  std::visit(
+      [&](const auto &table) {
+        tell_single(table.at(itype, jtype), now, i, j, remembered, force_over_distance);
+      },
+      tables_);
+  return 0.0;
+}
+
+/// single() of two balls that overlap. \param remembered the history of their contact; nullptr if there is
+/// none
+template <class Parameters>
+void PairGranTransition::tell_single(const ContactCoefficients<Parameters> &law,
+                                     const drumlin::PairMotion &now, int i, int j, const double *remembered,
+                                     double &force_over_distance) {
+  const double r_eff = drumlin::radius_for<Parameters>(atom->radius[i], atom->radius[j]);
+  const auto normal = law.contact.law(effective_mass(i, j), r_eff);
+  const double normal_force =
+      settings_.stock ? normal.force(now.overlap, now.rate) : remembered[settings_.spring()];
+  force_over_distance = normal_force / (atom->radius[i] + atom->radius[j] - now.overlap);
+  const bool rubs = settings_.tangential != FrictionModel::none, springs = settings_.spring() > 0;
+  const double kt = settings_.tangential_varies && springs && remembered[3] > 0.0
+                        ? remembered[3]
+                        : law.contact.tangential(now.overlap, r_eff);
+  const physics::Friction friction =
+      rubs ? law.tangential(kt, normal.dashpot(now.overlap), settings_.cap) : physics::Friction{};
+  const physics::Vec3 across = drumlin::friction_force(*atom, i, j, now, friction, normal_force,
+                                                       springs ? remembered : nullptr, update->dt);
+  const physics::Vec3 slip = drumlin::tangential_velocity(*atom, i, j, now);
+  double *value = std::copy_n(across.begin(), 3, svector);
+  *value++ = std::sqrt(physics::dot(across, across));
+  for (const double n : now.normal)
+    *value++ = -now.rate * n;
+  value = std::copy_n(slip.begin(), 3, value);
+  *value = now.overlap;
+}
+
+/// The springs turn round when the balls change places, the tangential stiffness and the normal force do not.
+void PairGranTransition::transfer_history(double *source, double *target DRUMLIN_TRANSFER_TYPES) {
+  for (int n = 0; n < settings_.history(); ++n) {
+    const bool turns_round = n < std::min(3, settings_.spring()) || n >= settings_.rolling_place();
+    target[n] = turns_round ? -source[n] : source[n];
+  }
+}
+
+/// Pair style hybrid keeps the settings of its parts, and no coefficients. Rolling resistance is the second bit of a word, so that
+/// files that were written without it can be read.
+void PairGranTransition::write_restart_settings(FILE *file) {
+  const int words[5] = {static_cast<int>(settings_.transition), static_cast<int>(settings_.damping),
+                        (settings_.stock ? 1 : 0) + (settings_.rolling ? 2 : 0),
+                        static_cast<int>(settings_.tangential), static_cast<int>(settings_.cap)};
+  std::fwrite(words, sizeof(int), 5, file);
+}
+
+void PairGranTransition::read_restart_settings(FILE *file) {
+  int words[5] = {};
+  if (comm->me == 0) utils::sfread(FLERR, words, sizeof(int), 5, file, nullptr, error);
+  MPI_Bcast(words, 5, MPI_INT, 0, world);
+  settings_ = {
+      static_cast<physics::Transition>(words[0]),
+      static_cast<drumlin::DampingInput>(words[1]),
+      (words[2] & 1) != 0,
+      static_cast<FrictionModel>(words[3]),
+      static_cast<physics::Cap>(words[4]),
+      (words[2] & 2) != 0,
+      std::visit([](const auto &table) { return decltype(table.at(0, 0).contact)::tangential_varies; },
+                 tables_)};
+  if (!settings_.stock) FixStepping::provide(lmp);
+}
+
+void PairGranTransition::write_restart(FILE *file) {
+  write_restart_settings(file);
+  const auto write = [&](auto table) { // a copy
+    using Words = drumlin::LawWords<std::decay_t<decltype(table.at(0, 0).contact)>>;
+    for (int i = 1; i <= atom->ntypes; ++i)
+      for (int j = i; j <= atom->ntypes; ++j) {
+        std::vector<double> numbers{static_cast<double>(setflag[i][j])};
+        for (const double *number : Words::numbers(table.at(i, j)))
+          numbers.push_back(*number);
+        if (settings_.rolling) numbers.push_back(table.at(i, j).rolling);
+        std::fwrite(numbers.data(), sizeof(double), numbers.size(), file);
+      }
+  };
+  std::visit(write, tables_);
+}
+
+void PairGranTransition::read_restart(FILE *file) {
+  read_restart_settings(file);
+  allocate();
+  const auto read = [&](auto &table) {
+    using Parameters = std::decay_t<decltype(table.at(0, 0).contact)>;
+    for (int i = 1; i <= atom->ntypes; ++i)
+      for (int j = i; j <= atom->ntypes; ++j) {
+        ContactCoefficients<Parameters> p;
+        const auto places = drumlin::LawWords<Parameters>::numbers(p);
+        std::vector<double> numbers(1 + places.size() + (settings_.rolling ? 1 : 0));
+        const int count = static_cast<int>(numbers.size());
+        if (comm->me == 0)
+          utils::sfread(FLERR, numbers.data(), sizeof(double), numbers.size(), file, nullptr, error);
+        MPI_Bcast(numbers.data(), count, MPI_DOUBLE, 0, world);
+        setflag[i][j] = static_cast<int>(numbers[0]);
+        for (std::size_t n = 0; n < places.size(); ++n)
+          *places[n] = numbers[n + 1];
+        if (settings_.rolling) p.rolling = numbers.back();
+        p.contact.damping_kind = settings_.kind();
+        p.contact.transition = settings_.transition;
+        set_coefficients(i, j, p);
+      }
+  };
+  std::visit(read, tables_);
+}

@@ -1,0 +1,33 @@
+#pragma once
+// Rolling resistance of one contact, shared by the pair styles and fix wall/gran/transition.
+
+#include "contact/contact_settings.h"
+#include "physics/rolling_law.h"
+
+namespace drumlin {
+
+/// The rotation of a contact in one step.
+struct RollingMotion {
+  physics::Vec3 normal; ///< from j to i
+  physics::Vec3 spin;   ///< rad/s, of ball i relative to ball j or to a wall at rest
+  double radius;        ///< effective radius of the contact, m
+};
+
+/// Computes the torque on ball i, N m, of which ball j gets the opposite, and updates the spring.
+/// \param history of the contact, see ContactSettings::history()
+/// \param moves whether the spring is advanced by a step: false in the set-up of a run
+template <class Parameters>
+inline physics::Vec3
+rolling_torque(const ContactSettings &settings, const ContactCoefficients<Parameters> &coefficients,
+               const RollingMotion &motion, double normal_force, double *history, double dt, bool moves) {
+  double *spring = history + settings.rolling_place();
+  const physics::RollingStep step =
+      physics::rolling_step(coefficients.rolling_resistance(motion.radius), normal_force, motion.normal,
+                            motion.spin, {spring[0], spring[1], spring[2]}, moves ? dt : 0.0);
+  if (moves)
+    for (std::size_t a = 0; a < 3; ++a)
+      spring[a] = step.spring[a];
+  return step.torque;
+}
+
+} // namespace drumlin

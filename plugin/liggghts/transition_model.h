@@ -1,0 +1,304 @@
+#pragma once
+// Adapter of the core's contact laws to LIGGGHTS's contact models: what is the same for every law.
+
+#include "contact_models.h"
+#include "atom.h"
+#include "domain.h"
+#include "error.h"
+#include "force.h"
+#include "neighbor.h"
+#include "normal_model_base.h"
+#include "pair_gran.h"
+#include "update.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "contact/contact_source.h"
+#include "fixes/fix_clump.h"
+#include "contact/fix_stepping.h"
+#include "contact/stepped_contact.h"
+#include "liggghts/contact_table.h"
+#include "physics/contact_step.h"
+
+namespace drumlin {
+
+/// The engine's number of the normal model with a law. Each law has its own specialization.
+template <class Contact>
+constexpr int normal_model_number = 0;
+
+/// Base of the normal model with the law of the parameters `Contact`, with transition condition A or B. The
+/// engine's own tangential and rolling models take the normal force, stiffnesses and dampings from here.
+template <class Contact>
+class TransitionModel : public LIGGGHTS::ContactModels::NormalModelBase {
+protected:
+  using LAMMPS = LAMMPS_NS::LAMMPS;
+  using Settings = ::Settings;
+  using IContactHistorySetup = LIGGGHTS::IContactHistorySetup;
+  using ContactModelBase = LIGGGHTS::ContactModels::ContactModelBase;
+  using SurfacesIntersectData = LIGGGHTS::ContactModels::SurfacesIntersectData;
+  using SurfacesCloseData = LIGGGHTS::ContactModels::SurfacesCloseData;
+  using ForceData = LIGGGHTS::ContactModels::ForceData;
+  using Law = typename Contact::Law;
+
+public:
+  TransitionModel(LAMMPS *lmp, IContactHistorySetup *hsetup, ContactModelBase *model)
+      : NormalModelBase(lmp, hsetup, model), is_wall_(model->is_wall()) {}
+
+  // The deck's keywords reach here as the switches below: see model_settings.h.
+  void registerSettings(Settings &settings) {
+    settings.registerOnOff("transition_A", transition_a_, false);
+    settings.registerOnOff("damping_coefficient", damping_coefficient_, false);
+    settings.registerOnOff("damping_restitution", damping_restitution_, false);
+    settings.registerOnOff("stepping_stock", stepping_stock_, false);
+    settings.registerOnOff("tangential_spring", tangential_spring_, false);
+  }
+
+  // While the deck is parsed: a fix added later, in the initialization of a run, would miss that run. A wall
+  // is a fix under construction and cannot add another.
+  void postSettings(IContactHistorySetup *history, ContactModelBase *all) {
+    if (is_wall_)
+      take_stepping_of_pair();
+    else if (!stepping_stock_)
+      stepping_ = LAMMPS_NS::FixStepping::provide(lmp);
+    if constexpr (Contact::tangential_varies)
+      if (tangential_spring_) {
+        stiffness_offset_ = history->add_history_value(tangential_stiffness_name, "0");
+        all->add_history_offset(tangential_stiffness_name, stiffness_offset_);
+      }
+    if (stepping_stock_) return;
+    state_offset_ = history->add_history_value(final_force_name, "0");
+    history->add_history_value("normal_in_contact", "0");
+    all->add_history_offset(final_force_name, state_offset_);
+  }
+
+  void connectToProperties(PropertyRegistry &registry) {
+    ContactSettings settings;
+    if (transition_a_) settings.transition = physics::Transition::A;
+    if (damping_coefficient_) settings.damping = DampingInput::coefficient;
+    if (damping_restitution_) settings.damping = DampingInput::restitution;
+    read_table(table_, lmp, registry.max_type(), settings, is_wall_);
+    if (tangential_spring_) {
+      registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
+      registry.connect("coeffFrict", friction_, (std::string("model ") + Contact::name).c_str());
+    }
+    if (is_wall_) take_stepping_of_pair(); // a pair_style line behind the wall may have changed it
+    pair_ = gran_pair(lmp);
+    clumps_.find(*lmp->modify);
+    // The step in which contact ends needs a call although the balls no longer overlap: see surfacesClose().
+    if (stepping_) neighbor->register_contact_dist_factor(contact_distance_factor);
+  }
+
+  double stressStrainExponent() { return Law::is_linear ? 1.0 : 1.5; }
+
+  inline void surfacesIntersect(SurfacesIntersectData &sidata, ForceData &i_forces, ForceData &j_forces) {
+    if (sidata.contact_flags) *sidata.contact_flags |= LIGGGHTS::ContactModels::CONTACT_NORMAL_MODEL;
+    const ContactCoefficients<Contact> &p = table_.at(sidata.itype, sidata.jtype);
+    if (!clumps_.empty()) take_body_masses(sidata);
+    const double r_eff =
+        sidata.is_wall ? radius_for<Contact>(sidata.radi) : radius_for<Contact>(sidata.radi, sidata.radj);
+    const Law law = p.contact.law(sidata.meff, r_eff);
+    sidata.kn = law.secant(sidata.deltan); // times the overlap it is the force of the spring
+    sidata.gamman = law.dashpot(sidata.deltan);
+    if constexpr (Contact::tangential_varies)
+      take_tangential_stiffness(sidata, p.contact, r_eff);
+    else
+      sidata.kt = p.contact.tangential(sidata.deltan, r_eff);
+    sidata.gammat = p.tangential_dashpot(sidata.gamman);
+    const double share = sidata.is_wall ? sidata.area_ratio : 1.0;
+    if (stepping_ == nullptr) {
+      // The engine's vn is positive when the balls separate: overlap_rate = -vn.
+      physics::ContactState state;
+      const double rate = -sidata.vn;
+      sidata.Fn = physics::advance_stock(law, {sidata.deltan, rate, rate, update->dt}, state).force;
+      add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);
+    } else
+      second_order(sidata, law, share, i_forces, j_forces);
+  }
+
+  void surfacesClose(SurfacesCloseData &scdata, ForceData &i_forces, ForceData &j_forces) {
+    if (scdata.contact_flags) *scdata.contact_flags &= ~LIGGGHTS::ContactModels::CONTACT_NORMAL_MODEL;
+    if constexpr (Contact::tangential_varies)
+      if (tangential_spring_ && scdata.contact_history != nullptr)
+        scdata.contact_history[stiffness_offset_] = 0.0;
+    if (stepping_ == nullptr || !scdata.computeflag || scdata.contact_history == nullptr) return;
+    if (scdata.contact_history[state_offset_ + 1] == 0.0) return; // they did not touch one step ago
+    end_contact(scdata, i_forces, j_forces);
+    std::fill_n(scdata.contact_history + state_offset_, 2, 0.0);
+  }
+
+  void beginPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
+  void endPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
+
+private:
+  bool is_frozen(int i) const { return pair_ != nullptr && (atom->mask[i] & pair_->freeze_group_bit()); }
+
+  /// Ends the run where the stepping of a wall is not that of the pair style.
+  void take_stepping_of_pair() {
+    stepping_ = LAMMPS_NS::FixStepping::find(lmp);
+    if (stepping_stock_ == (stepping_ == nullptr)) return;
+    const std::string own = stepping_stock_ ? "'stock'" : "'second' (its default)";
+    const bool law = pair_contacts(lmp) != nullptr;
+    const std::string pair =
+        stepping_stock_ || law
+            ? "and that of the pair style is " + std::string(stepping_stock_ ? "'second'" : "'stock'")
+            : "and there is no pair_style gran model " + std::string(Contact::name) + " yet";
+    error->all(FLERR, engine::error_text(std::string("fix wall/gran model ") + Contact::name +
+                                         ": keyword stepping is " + own + " " + pair +
+                                         "; allowed: the same stepping for both, the pair style first"));
+  }
+
+  /// Replaces the mass of a ball that belongs to a clump by the mass of the clump.
+  void take_body_masses(SurfacesIntersectData &sidata) const {
+    sidata.mi = clumps_.mass_of(*atom, sidata.i, sidata.mi);
+    sidata.meff = sidata.mi;
+    if (sidata.is_wall) return;
+    sidata.mj = clumps_.mass_of(*atom, sidata.j, sidata.mj);
+    sidata.meff = is_frozen(sidata.j)   ? sidata.mi
+                  : is_frozen(sidata.i) ? sidata.mj
+                                        : physics::effective_mass(sidata.mi, sidata.mj);
+  }
+
+  /// Sets the tangential stiffness of a law in which it varies, and lets the tangential model's spring, which
+  /// is first in the contact history, follow its change.
+  inline void take_tangential_stiffness(SurfacesIntersectData &sidata, const Contact &contact, double r_eff) {
+    const double dt = update->dt;
+    sidata.kt = contact.tangential(physics::overlap_of_spring(sidata.deltan, -sidata.vn, dt), r_eff);
+    if (!tangential_spring_) return;
+    double &stored = sidata.contact_history[stiffness_offset_];
+    if (!sidata.computeflag ||
+        !sidata.shearupdate) { // in a set-up, or for computes: the spring does not move
+      if (stored > 0.0) sidata.kt = stored;
+      return;
+    }
+    const double kept = physics::kept_spring(stored, sidata.kt);
+    for (int a = 0; a < 3; ++a)
+      sidata.contact_history[a] *= kept;
+    stored = sidata.kt;
+  }
+
+  /// Sets sidata.Fn and adds the force.
+  inline void second_order(SurfacesIntersectData &sidata, const Law &law, double share, ForceData &i_forces,
+                           ForceData &j_forces) {
+    double *const stored = sidata.contact_history + state_offset_; // force, N; 1 if in contact, else 0
+    physics::ContactState state{stored[0], stored[1] != 0.0, {}};
+    if (sidata.computeflag && hold_contact(law, *stepping_, sidata.i, sidata.is_wall ? -1 : sidata.j,
+                                           motion_of(sidata), sidata.meff, state)) {
+      stored[0] = sidata.Fn = state.force;
+      add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);
+    } else
+      second_order_rare(sidata, law, share, i_forces, j_forces);
+  }
+
+  inline physics::StepMotion motion_of(const SurfacesIntersectData &sidata) const {
+    const double *v_j = sidata.is_wall ? sidata.v_j : stepping_->velocity_before(sidata.j);
+    return {sidata.deltan, -sidata.vn,
+            rate_before(*stepping_, sidata.i, v_j, {sidata.en[0], sidata.en[1], sidata.en[2]}),
+            stepping_->dt()};
+  }
+
+  [[gnu::noinline]] void second_order_rare(SurfacesIntersectData &sidata, const Law &law, double share,
+                                           ForceData &i_forces, ForceData &j_forces) {
+    if (!sidata.computeflag) {
+      add_stored_force(sidata, share, i_forces, j_forces);
+      return;
+    }
+    double *const stored = sidata.contact_history + state_offset_;
+    physics::ContactState state{stored[0], stored[1] != 0.0, {}};
+    const auto push = [&](double force) { add(force, sidata.en, sidata, i_forces, j_forces); };
+    exert_contact(law, *stepping_,
+                  {sidata.i,
+                   sidata.is_wall ? -1 : sidata.j,
+                   {sidata.en[0], sidata.en[1], sidata.en[2]},
+                   sidata.is_wall ? sidata.v_j : nullptr,
+                   sidata.deltan,
+                   -sidata.vn,
+                   sidata.meff,
+                   share},
+                  state, stored[0], push);
+    stored[0] = sidata.Fn = state.force;
+    stored[1] = 1.0;
+  }
+
+  /// For compute pair/gran/local, which is called after the step: adds the stored contact force, since the
+  /// velocities from which it was computed are no longer there. The spring of a contact that slid is at the
+  /// friction limit within rounding errors. The normal force is reported slightly smaller, and where the
+  /// limit is zero the tangential damping as zero: otherwise the engine's `tangential history` could take the
+  /// contact for a sticking one and add a dashpot force.
+  void add_stored_force(SurfacesIntersectData &sidata, double share, ForceData &i_forces,
+                        ForceData &j_forces) const {
+    sidata.Fn = sidata.contact_history[state_offset_];
+    add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);
+    if (!tangential_spring_) return;
+    constexpr double below = 1.0 - 1e-12;
+    sidata.Fn *= below;
+    if (friction_[sidata.itype][sidata.jtype] * sidata.Fn == 0.0) sidata.gammat = 0.0;
+  }
+
+  /// Adds a force on both balls.
+  static inline void add(double force, const double *normal, const SurfacesCloseData &data,
+                         ForceData &i_forces, ForceData &j_forces) {
+    const double x = force * normal[0], y = force * normal[1], z = force * normal[2];
+    i_forces.delta_F[0] += x;
+    i_forces.delta_F[1] += y;
+    i_forces.delta_F[2] += z;
+    if (data.is_wall) return;
+    j_forces.delta_F[0] -= x;
+    j_forces.delta_F[1] -= y;
+    j_forces.delta_F[2] -= z;
+  }
+
+  /// The step in which a contact ends: a force of tension has acted for part of it.
+  void end_contact(SurfacesCloseData &scdata, ForceData &i_forces, ForceData &j_forces) {
+    const double r = std::sqrt(scdata.rsq);
+    const double normal[3] = {scdata.delta[0] / r, scdata.delta[1] / r, scdata.delta[2] / r};
+    double rate_half = 0.0;
+    for (int a = 0; a < 3; ++a)
+      rate_half -= (scdata.v_i[a] - scdata.v_j[a]) * normal[a];
+    const double mi = clumps_.mass_of(*atom, scdata.i, atom->rmass[scdata.i]);
+    const double m_eff = scdata.is_wall ? mi : effective_mass(scdata.i, scdata.j);
+    double *const stored = scdata.contact_history + state_offset_;
+    physics::ContactState state{stored[0], true, {}};
+    const auto push = [&](double force) {
+      if (force == 0.0) return;
+      add(force, normal, scdata, i_forces, j_forces);
+      scdata.has_force_update = true;
+    };
+    const double ri = atom->radius[scdata.i];
+    const double r_eff =
+        scdata.is_wall ? radius_for<Contact>(ri) : radius_for<Contact>(ri, atom->radius[scdata.j]);
+    exert_contact(table_.at(scdata.itype, scdata.jtype).contact.law(m_eff, r_eff), *stepping_,
+                  {scdata.i,
+                   scdata.is_wall ? -1 : scdata.j,
+                   {normal[0], normal[1], normal[2]},
+                   scdata.is_wall ? scdata.v_j : nullptr,
+                   std::min(scdata.radsum - r, -std::numeric_limits<double>::min()),
+                   rate_half,
+                   m_eff,
+                   1.0},
+                  state, stored[0], push);
+  }
+
+  double effective_mass(int i, int j) const {
+    const auto *source = contact_source(lmp);
+    return source ? source->effective_mass(i, j) : physics::effective_mass(atom->rmass[i], atom->rmass[j]);
+  }
+
+  const bool is_wall_;
+  bool transition_a_ = false;
+  bool damping_coefficient_ = false;
+  bool damping_restitution_ = false;
+  bool stepping_stock_ = false;
+  LAMMPS_NS::Clumps clumps_;
+  bool tangential_spring_ = false;             // whether the tangential model has one
+  LAMMPS_NS::PairGran *pair_ = nullptr;        // gives the group of frozen balls
+  LAMMPS_NS::FixStepping *stepping_ = nullptr; // none under stock stepping
+  int state_offset_ = 0;     // of force and 'in contact' in the contact history, with the second-order scheme
+  int stiffness_offset_ = 0; // of the tangential stiffness, where it varies
+  double **friction_ = nullptr; // coefficients by types, as the engine's `tangential history` has them
+  CoefficientTable<Contact> table_;
+};
+
+} // namespace drumlin

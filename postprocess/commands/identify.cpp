@@ -1,0 +1,140 @@
+#include "commands/commands.h"
+
+#include "commands/record_options.h"
+#include "roller/identification_page.h"
+#include "support/files.h"
+#include "support/options.h"
+#include "support/progress.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr const char *table_name = "identify.csv";
+
+struct Arguments {
+  RecordArguments record;
+  bool accelerations_only = false;
+  std::optional<std::string> origin;
+  std::optional<std::string> phase_within;
+  std::optional<std::string> least_force;
+  std::string window = "10";
+  std::string out = "results/identify";
+};
+
+RecordSetting judge(const Arguments &arguments) {
+  RecordSetting setting;
+  setting.accelerations_only = arguments.accelerations_only;
+  if (arguments.origin)
+    setting.known_origin = choice_option("--origin", *arguments.origin, {"known", "free"}) == "known";
+  constexpr double most_degrees = 20.0;
+  if (arguments.phase_within)
+    setting.phase_within =
+        pi / 180.0 * number_option("--phase-within", *arguments.phase_within, {0.0, most_degrees, "degrees"});
+  constexpr double most_percent = 90.0;
+  if (arguments.least_force)
+    setting.least_force =
+        0.01 * number_option("--least-force", *arguments.least_force, {0.0, most_percent, "%"});
+  constexpr int most_cycles = 1000000;
+  setting.window = count_option("--window", arguments.window, least_cycles, most_cycles);
+  return setting;
+}
+
+// The folder of results, absolute: new, empty or of an earlier identification, which is replaced.
+fs::path judged_folder(const std::string &text) {
+  const fs::path out = output_folder_option("--out", text);
+  if (fs::exists(out) && !fs::is_empty(out) && !fs::exists(out / table_name))
+    throw UsageError(refusal("--out", text, "a folder that is new, empty or of an earlier identification"));
+  fs::path place = fs::absolute(out).lexically_normal();
+  if (!place.has_filename()) place = place.parent_path();
+  return place;
+}
+
+void run(const Arguments &arguments) {
+  const RecordSetting setting = judge(arguments);
+  const fs::path place = judged_folder(arguments.out);
+  const Record record = judged(arguments.record);
+  TimedProgress progress;
+  const IdentifiedRecord found =
+      identify_record(record, setting, [&progress](const std::string &what) { progress.tell("{}", what); });
+  try {
+    make_output_folder(place.parent_path());
+  } catch (const std::runtime_error &error) {
+    throw UsageError(fmt::format("--out is '{}': {}", arguments.out, error.what()));
+  }
+  FolderInProgress draft(place);
+  write_identification_page(draft.path(), found);
+  write_files({{draft.path() / table_name, identification_csv(found)}});
+  draft.publish();
+  fmt::print("{}: {:.4g} cycles at {:.4g} Hz, 95 % confidence intervals\n", found.file.string(), found.cycles,
+             found.frequency);
+  for (const std::string &line : identification_answer(found))
+    fmt::print("  {}\n", line);
+  fmt::print("{}: loops, residuals and {} windows\n", (fs::path(arguments.out) / "index.html").string(),
+             found.windows.size());
+}
+
+} // namespace
+
+void add_identify_command(CLI::App &app, Session & /*session*/) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App *identify = app.add_subcommand(
+      "identify",
+      "Stiffness k, damping c and D of the contact between drum and soil, with 95 % confidence "
+      "intervals, and whether the contact pulls, from the motion of drum and frame. Writes a page "
+      "with plots, and identify.csv.");
+  add_record_options(*identify, arguments->record);
+  identify->add_flag(
+      "--accelerations-only", arguments->accelerations_only,
+      "do not use positions and velocities of the record: what a roller with accelerometers has");
+  const auto text = [&](const char *name, std::optional<std::string> Arguments::*value, const char *help,
+                        const char *type) {
+    identify
+        ->add_option_function<std::string>(
+            name, [arguments, value](const std::string &given) { (*arguments).*value = given; }, help)
+        ->type_name(type);
+  };
+  text(
+      "--origin", &Arguments::origin,
+      "known: x_drum = 0 is where drum and soil just touch (chain.csv); free: unknown, for each contact (all "
+      "others)",
+      "WORD");
+  text("--phase-within", &Arguments::phase_within,
+       "largest error of the exciter's phase [degrees], 0 to 20: the phase is then fitted as far as the "
+       "record "
+       "tells it; 0 if not given",
+       "NUMBER");
+  text("--least-force", &Arguments::least_force,
+       "forces up to this share of the largest one [%] are not fitted, unless the law follows them, 0 to 90; "
+       "if not "
+       "given 0 for chain.csv, 20 for all others, since soil that a drum just touches is softer",
+       "NUMBER");
+  identify->add_option("--window", arguments->window, "cycles of a window, 4 or more")
+      ->type_name("COUNT")
+      ->capture_default_str();
+  identify->add_option("--out", arguments->out, "folder of the results")
+      ->type_name("DIR")
+      ->capture_default_str();
+  identify->footer(
+      "Examples:\n"
+      "  drumlin identify results/chain\n"
+      "  drumlin identify results/bed/B --window 5 --out results/identify-bed\n"
+      "  drumlin identify measured.csv --column 'a_drum=Acc drum:g' --column 'a_frame=Acc frame:g' "
+      "--sampling-rate 1000 --frequency 29 --phase 90 --phase-within 1 --me-re 7.31 --m2 3962 --m3 "
+      "3379\n");
+  identify->callback([arguments] { run(*arguments); });
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,203 @@
+#include "commands/commands.h"
+
+#include "commands/record_options.h"
+#include "roller/meter_page.h"
+#include "support/files.h"
+#include "support/options.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char *values_name = "meter.csv";
+
+/// The options as given. Numbers stay text until all are judged.
+struct Arguments {
+  RecordArguments record;
+  std::string rmv_constant = "100";
+  std::string same = "0.05";
+  std::string poisson = "0.35";
+  std::optional<std::string> window, drum_radius, drum_width, speed, exported;
+  std::string pass = "1";
+  std::string out = "results/meter";
+};
+
+struct Task {
+  MeterOptions options;
+  PassOptions passes;
+  std::optional<double> window_seconds; ///< instead of a number of cycles
+  fs::path out;
+  std::optional<fs::path> exported;
+};
+
+constexpr int longest_window = 1000000;
+
+/// The window: an even number of cycles, or seconds with an 's' behind them.
+void take_window(const std::string &text, Task &task) {
+  constexpr const char *allowed =
+      "an even whole number of cycles from 4 to 1000000 (RMV needs whole periods of half the "
+      "excitation frequency), or seconds such as 0.5s";
+  if (!text.empty() && text.back() == 's') {
+    task.window_seconds = number_option("--window", text.substr(0, text.size() - 1), Range{1e-6, 1e6, "s"});
+    return;
+  }
+  try {
+    task.options.window = count_option("--window", text, least_cycles, longest_window);
+  } catch (const UsageError &) {
+    throw UsageError(refusal("--window", text, allowed));
+  }
+  if (task.options.window % 2 != 0) throw UsageError(refusal("--window", text, allowed));
+}
+
+/// A folder that is new, empty or of an earlier call.
+fs::path checked_out(const std::string &text) {
+  fs::path out = output_folder_option("--out", text);
+  if (fs::is_directory(out) && !fs::is_empty(out) && !fs::exists(out / values_name))
+    throw UsageError(refusal("--out", text, "a folder that is new, empty or of an earlier 'drumlin meter'"));
+  return out;
+}
+
+Task judge(const Arguments &arguments) {
+  Task task;
+  if (arguments.window) take_window(*arguments.window, task);
+  MeterOptions &options = task.options;
+  options.rmv_constant = number_option("--rmv-constant", arguments.rmv_constant, Range{1.0, 1e4});
+  options.same = number_option("--same", arguments.same, Range{1e-9, 1.0});
+  options.poisson = number_option("--poisson", arguments.poisson, Range{0.0, 0.5});
+  if (arguments.drum_radius)
+    options.drum_radius = number_option("--drum-radius", *arguments.drum_radius, Range{1e-3, 1e3, "m"});
+  if (arguments.drum_width)
+    options.drum_width = number_option("--drum-width", *arguments.drum_width, Range{1e-3, 1e3, "m"});
+  if (options.drum_radius.has_value() != options.drum_width.has_value())
+    throw UsageError(refusal(options.drum_radius ? "--drum-width" : "--drum-radius", "",
+                             "a number [m], for E_vib needs radius and width of the drum"));
+  if (arguments.speed)
+    task.passes.speed = number_option("--speed", *arguments.speed, Range{1e-3, 1e3, "km/h"});
+  task.passes.pass = count_option("--pass", arguments.pass, 1, 65535);
+  task.out = checked_out(arguments.out);
+  if (arguments.exported) task.exported = output_file_option("--export", *arguments.exported);
+  return task;
+}
+
+/// The window of so many seconds, in whole pairs of cycles.
+int cycles_in(double seconds, double period) {
+  const double pairs = seconds / (2.0 * period) + 1e-6;
+  const int cycles = pairs < longest_window ? 2 * static_cast<int>(pairs) : longest_window;
+  if (cycles < least_cycles)
+    throw UsageError(
+        refusal("--window", fmt::format("{:g}s", seconds),
+                fmt::format("{:g}s or more, four cycles of the excitation", least_cycles * period)));
+  return cycles;
+}
+
+void print_windows(const MeterResult &result) {
+  constexpr std::size_t most = 12;
+  const auto cell = [](std::optional<double> value, int decimals, double scale) {
+    return value ? fmt::format("{:12.{}f}", scale * *value, decimals) : fmt::format("{:>12}", "-");
+  };
+  fmt::print("{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}  {}\n", "begin [s]", "CMV [-]", "RMV [-]",
+             "contact [-]", "peak [kN]", "energy [J]", "k_B [MN/m]", "mode");
+  const std::size_t count = result.windows.size();
+  for (std::size_t i = count > most ? count - most : 0; i < count; ++i) {
+    const MeterWindow &w = result.windows[i];
+    fmt::print("{}{}{}{}{}{}{}  {}\n", cell(w.begin, 3, 1.0), cell(w.cmv, 2, 1.0), cell(w.rmv, 2, 1.0),
+               cell(w.contact_share, 3, 1.0), cell(w.peak_force, 1, 1e-3), cell(w.energy, 1, 1.0),
+               cell(w.k_B, 2, 1e-6), mode_names[static_cast<std::size_t>(w.mode)]);
+  }
+  if (count > most) fmt::print("the last {} of {} windows; all are in {}\n", most, count, values_name);
+}
+
+void run(const Arguments &arguments) {
+  Task task = judge(arguments);
+  MeterResult result;
+  result.record = judged(arguments.record);
+  result.cycles = meter_cycles(result.record);
+  if (!arguments.window) // the usual one, or of a short record all of it
+    task.options.window =
+        std::min(task.options.window, static_cast<int>(result.cycles.cycles.size() / 2 * 2));
+  if (task.window_seconds) task.options.window = cycles_in(*task.window_seconds, result.record.period());
+  result.options = task.options;
+  result.windows = meter_windows(result.cycles, result.options);
+
+  fmt::print("{}: {}\n{}\n", result.record.file.string(), answer_line(result), source_words(result));
+  print_windows(result);
+  const fs::path place = fs::weakly_canonical(fs::absolute(task.out));
+  make_output_folder(place.parent_path());
+  FolderInProgress draft(place);
+  write_files({{draft.path() / values_name, meter_csv(result)}});
+  write_meter_page(draft.path(), result);
+  draft.publish();
+  if (task.exported) {
+    make_parent_folder(*task.exported);
+    write_files({{*task.exported, all_passes_csv(result, task.passes)}});
+  }
+  fmt::print("{}\n", (task.out / "index.html").string());
+}
+
+} // namespace
+
+void add_meter_command(CLI::App &app, Session & /*session*/) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App *meter = app.add_subcommand("meter", "What the meter of a roller shows, from a record of its "
+                                                "motion: harmonics of the drum's acceleration, CMV, RMV, "
+                                                "stiffness k_B, modulus E_vib, energy and operating mode "
+                                                "over windows of whole cycles. Writes meter.csv and a "
+                                                "page with plots.");
+  add_record_options(*meter, arguments->record);
+  meter->add_option("--rmv-constant", arguments->rmv_constant, "constant of RMV, 100 or 300 in sources")
+      ->type_name("NUMBER")
+      ->capture_default_str();
+  meter
+      ->add_option("--same", arguments->same,
+                   "relative difference of the harmonics of two cycles up to which they count as the same "
+                   "motion; more for "
+                   "noisy records")
+      ->type_name("NUMBER")
+      ->capture_default_str();
+  const auto optional_text = [meter](const char *name, std::optional<std::string> &text, const char *help,
+                                     const char *type) {
+    meter
+        ->add_option_function<std::string>(
+            name, [&text](const std::string &given) { text = given; }, help)
+        ->type_name(type);
+  };
+  optional_text("--window", arguments->window,
+                "cycles in a window, an even number of 4 or more, or seconds such as 0.5s; without it 10 "
+                "cycles, or all of a "
+                "shorter record",
+                "COUNT");
+  optional_text("--drum-radius", arguments->drum_radius, "radius of the drum [m], for E_vib", "NUMBER");
+  optional_text("--drum-width", arguments->drum_width, "width of the drum [m], for E_vib", "NUMBER");
+  meter->add_option("--poisson", arguments->poisson, "Poisson's ratio of the soil [-], for E_vib")
+      ->type_name("NUMBER")
+      ->capture_default_str();
+  meter->add_option("--out", arguments->out, "folder of meter.csv and the page; an earlier one is replaced")
+      ->type_name("DIR")
+      ->capture_default_str();
+  optional_text("--export", arguments->exported,
+                "also write the all-passes CSV that compaction software reads", "FILE");
+  optional_text("--speed", arguments->speed, "speed of travel [km/h], for the places of cells in --export",
+                "NUMBER");
+  meter->add_option("--pass", arguments->pass, "number of the pass in --export")
+      ->type_name("COUNT")
+      ->capture_default_str();
+  meter->footer("Examples:\n"
+                "  drumlin meter results/my-run\n"
+                "  drumlin meter results/my-run/chain.csv --window 0.5s --out results/meter-samples\n"
+                "  drumlin meter field.csv --column 'time=Time:ms' --column 'a_drum=Acc Z:-g' --frequency 29 "
+                "--low-pass 200 \\\n"
+                "      --window 20 --export field-passes.csv --speed 4");
+  meter->callback([arguments] { run(*arguments); });
+}
+
+} // namespace drumlin::post

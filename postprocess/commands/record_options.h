@@ -1,0 +1,31 @@
+// A record on a command line: the file, and how a measured one is read. One rule and one kind of message for all subcommands
+// that take a record.
+#pragma once
+
+#include "record/record.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace drumlin::post {
+
+/// The options as given. Numbers stay text until all are judged.
+struct RecordArguments {
+  std::string record;
+  std::vector<std::string> columns;
+  std::optional<std::string> sampling_rate, frequency, phase, Fw, me_re, m2, m3, low_pass;
+};
+
+/// Adds RECORD, --column and so on; `arguments` must outlive the app.
+void add_record_options(CLI::App &command, RecordArguments &arguments);
+
+/// Reads the record that was asked for; UsageError for options that cannot be used, std::runtime_error for a file that cannot.
+Record judged(const RecordArguments &arguments);
+
+} // namespace drumlin::post

@@ -1,0 +1,109 @@
+// Records of a roller's motion: one reader for those of runs (chain.csv, bed.csv) and for measured ones.
+//
+// A record is uniformly sampled, in SI units, x up. Errors are std::runtime_error with one line that names the
+// file, the line or column, the value and what is allowed.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace drumlin::post {
+
+/// A record. Signals that the file does not have are empty; all others have as many values as `time`.
+struct Record {
+  std::filesystem::path file; ///< that was read
+  /// The table of sums over every time step of each cycle; empty without one. See read_record().
+  std::filesystem::path cycles_file;
+  std::map<std::string, std::string>
+      parameters; ///< parameters.csv of the run as it stands; empty without one
+
+  double interval = 0.0;         ///< between samples [s]
+  std::vector<double> time;      ///< [s]
+  std::vector<double> x_drum;    ///< up [m]; of a run, 0 where drum and soil just touch
+  std::vector<double> v_drum;    ///< up [m/s]
+  std::vector<double> a_drum;    ///< up [m/s2]
+  std::vector<double> x_frame;   ///< as of the drum; of a run, equal to x_drum where the bond is unstretched
+  std::vector<double> v_frame;   ///< [m/s]
+  std::vector<double> a_frame;   ///< [m/s2]
+  std::vector<double> F_contact; ///< of the soil on the drum, positive in compression [N]
+  std::vector<double> F_excitation; ///< F_e, positive where it pushes the drum down [N]
+
+  std::optional<double> omega; ///< angular frequency of the excitation [rad/s]
+  /// F_e = Fw sin(omega time + phase) [rad]: 0 in a run; of a measured record only if it is given.
+  std::optional<double> phase;
+  std::optional<double> Fw; ///< amplitude of the excitation force [N]
+  std::optional<double> m2; ///< mass of the drum [kg]
+  std::optional<double> m3; ///< mass of the frame [kg]
+  std::optional<double> g;  ///< gravity [m/s2]
+
+  std::size_t size() const { return time.size(); }
+  /// Time of one cycle of the excitation [s]; std::runtime_error if `omega` is not known.
+  double period() const;
+  /// Number of cycles of the excitation in the samples (they last `size() - 1` intervals).
+  double cycles() const;
+};
+
+/// A signal of a record by the name of its column.
+struct RecordSignal {
+  const char *name;
+  std::vector<double> Record::*values;
+  int derivative; ///< of the position: 0, 1, 2 in m, m/s, m/s2; force_signal in N
+};
+constexpr int force_signal = -1;
+/// x_drum, v_drum, a_drum, x_frame, v_frame, a_frame, F_contact, F_excitation.
+extern const std::array<RecordSignal, 8> record_signals;
+
+/// Where a signal stands in a measured file, and in which unit.
+struct ColumnSource {
+  std::string header;  ///< name of the column in the file
+  double factor = 1.0; ///< from the file's unit to SI; negative if the file counts it the other way
+};
+
+/// "NAME=HEADER" or "NAME=HEADER:UNIT", where a '-' before the unit turns the sign: "a_drum=Acc Z:-g". NAME is
+/// `time` or a signal. std::invalid_argument says what is allowed. Units: s, ms, us; m, cm, mm, um; the same
+/// per s (m/s ...) and per s2 (m/s2 ...), g (9.80665 m/s2); N, kN, MN.
+std::pair<std::string, ColumnSource> column_from_text(const std::string &text);
+
+/// How a record is read. What is not given comes from the run's parameters.csv, if there is one.
+struct RecordOptions {
+  /// By `time` or the name of the signal. Others are looked for by their own names in SI; if any signal is
+  /// named here, only those named here are read, and `time`.
+  std::map<std::string, ColumnSource> columns;
+  std::optional<double> sampling_rate; ///< [Hz]; needed without a column `time`, or if its digits are few
+  std::optional<double> omega;         ///< angular frequency of the excitation [rad/s]
+  std::optional<double> phase;         ///< of the excitation at time 0 [rad]
+  std::optional<double> Fw;            ///< amplitude of the excitation force [N]
+  std::optional<double> me_re;         ///< eccentric moment [kg m] instead: Fw = m_e r_e omega^2
+  std::optional<double> m2;            ///< mass of the drum [kg]
+  std::optional<double> m3;            ///< mass of the frame [kg]
+  std::optional<double> low_pass;      ///< cut-off frequency of low_passed(), for all signals [Hz]
+};
+
+/// The least number of excitation cycles, and of samples per cycle, of a record that is read with `omega` known.
+constexpr int least_cycles = 4;
+constexpr int least_samples = 8;
+
+/// Reads a record from the folder of a run, one of its files chain.csv, bed.csv and cycles.csv, or a measured
+/// CSV file with a header line.
+/// - Of a folder chain.csv is read, or bed.csv if there is no chain.csv; `cycles_file` is set if it has a cycles.csv.
+/// - Given a cycles.csv, `cycles_file` is set and the record has no samples: `time` is empty.
+/// - parameters.csv in the same folder gives omega, Fw, m2, m3, g for files with those names.
+/// - If the file has no F_excitation but omega, phase and Fw are known, F_excitation is computed.
+/// Refused are: values that are no finite numbers; a column of time that does not grow, has gaps or unequal steps;
+/// a signal that is not the derivative of another by a factor of 2 or more or by its sign; a contact force that is
+/// always zero, never positive, against the drum's acceleration, or whose mean is not the weight of drum and
+/// frame; fewer cycles or samples per cycle
+/// than above.
+Record read_record(const std::filesystem::path &path, const RecordOptions &options = {});
+
+/// Values without what is faster than `cutoff` [Hz]: a Butterworth filter of second order, forward and then
+/// backward, so that phases stay; it halves amplitudes at the cut-off. `interval` [s]; 0 < cutoff < 0.5/interval.
+std::vector<double> low_passed(const std::vector<double> &values, double interval, double cutoff);
+
+} // namespace drumlin::post

@@ -1,0 +1,206 @@
+#include "report/oedometer_page.h"
+
+#include "pages/figure_data.h"
+#include "pages/page.h"
+#include "support/csv.h"
+#include "support/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double allowed_inertial_number = 1e-3;
+constexpr double allowed_energy_error = 1e-3;
+
+/// Largest size of a number over the rows.
+double largest(const OedometerRun &run, double OedometerRow::*number) {
+  double most = 0.0;
+  for (const OedometerRow &row : run.rows)
+    most = std::max(most, std::fabs(row.*number));
+  return most;
+}
+
+/// Largest modulus of the loads that increase the stress, or of those that decrease it; NaN if there are none.
+double largest_modulus(const OedometerRun &run, bool increasing) {
+  double most = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t n = 1; n < run.rows.size(); ++n)
+    if ((run.rows[n].stress > run.rows[n - 1].stress) == increasing)
+      most = std::fmax(most, run.rows[n].modulus);
+  return most;
+}
+
+std::string number(double value, int digits = 4) {
+  return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : no_value;
+}
+
+PageTable run_table(const std::vector<OedometerRun> &runs) {
+  PageTable table;
+  table.name = "oedometer_runs";
+  table.title = "Runs";
+  table.text_columns = 2;
+  table.header = {"run",
+                  "sample",
+                  "balls",
+                  "friction (-)",
+                  "k (N/m)",
+                  "void ratio at the start (-)",
+                  "settlement at the largest stress (mm)",
+                  "settlement at the end (mm)",
+                  "largest modulus, loading (MPa)",
+                  "largest modulus, unloading (MPa)",
+                  "largest inertial number (-)",
+                  "largest energy error (-)",
+                  "engine",
+                  "command"};
+  table.shown_columns = table.header.size() - 1;
+  table.criterion =
+      fmt::format("runs have an inertial number of at most {:g} and an energy error of at most {:g}",
+                  allowed_inertial_number, allowed_energy_error);
+  for (const OedometerRun &run : runs) {
+    const double inertial = largest(run, &OedometerRow::inertial_number);
+    const double error = largest(run, &OedometerRow::energy_error);
+    table.add({run.run.name, run.run.text("sample"), run.run.text("balls"), run.run.text("friction"),
+               run.run.text("k"), number(run.rows.front().void_ratio),
+               number(largest(run, &OedometerRow::settlement)), number(run.rows.back().settlement),
+               number(largest_modulus(run, true)), number(largest_modulus(run, false)), number(inertial, 2),
+               number(error, 2), run.run.text("engine"), run.run.text("command")},
+              inertial <= allowed_inertial_number && error <= allowed_energy_error ? RowState::agrees
+                                                                                   : RowState::differs);
+  }
+  table.notes = {
+      "Settlement: of the platen since the seating stress, at which the sample was made. Modulus: "
+      "constrained "
+      "modulus, the change of stress over the change of strain between two loads at rest. Inertial number: "
+      "strain rate while the stress changes, times diameter sqrt(density/stress); below 1e-3 a test is "
+      "quasi-static. Energy error: stored energy + heat - work of the platen's force, over the largest "
+      "work."};
+  return table;
+}
+
+/// Every row of every run.
+PageTable row_table(const std::vector<OedometerRun> &runs) {
+  PageTable table;
+  table.name = "oedometer_rows";
+  table.title = "The sample at rest under each stress";
+  table.header = {"run", "stress (kPa)", "settlement (mm)", "strain (%)", "void ratio (-)", "modulus (MPa)"};
+  for (const OedometerRun &run : runs)
+    for (const OedometerRow &row : run.rows)
+      table.add({run.run.name, number(row.stress), number(row.settlement), number(100 * row.strain),
+                 number(row.void_ratio), number(row.modulus)});
+  return table;
+}
+
+/// The runs' curves over stress: a panel for each of modulus, settlement and void ratio.
+PageFigure stress_figure(const std::vector<OedometerRun> &runs) {
+  constexpr std::array styles = {CurveStyle::series_1, CurveStyle::series_2, CurveStyle::series_3,
+                                 CurveStyle::series_4, CurveStyle::series_5, CurveStyle::series_6};
+  const std::string name = "oedometer";
+  Panel modulus{"Constrained modulus", "stress (kPa)", "modulus (MPa)", {}};
+  modulus.y_range = "[0:*] noreverse"; // gnuplot keeps `reverse` from panel to panel
+  Panel settlement{"Settlement", "stress (kPa)", "settlement (mm)", {}};
+  settlement.y_range = "[*:*] reverse";
+  Panel voids{"Void ratio", "stress (kPa)", "void ratio (-)", {}};
+  voids.y_range = "[*:*] noreverse";
+  CurveTable table("stress (kPa),settlement (mm),void ratio (-),modulus (MPa)");
+  for (std::size_t n = 0; n < runs.size(); ++n) {
+    std::string key = runs[n].run.name; // gnuplot splits a row at each comma
+    std::replace_if(
+        key.begin(), key.end(), [](char c) { return c == ',' || c == '"'; }, ' ');
+    for (const OedometerRow &row : runs[n].rows)
+      table.row(key, {row.stress, row.settlement, row.void_ratio, row.modulus});
+    const CurveStyle style = styles[n % styles.size()];
+    settlement.curves.push_back(curve(name, key, "$2", "3", style));
+    voids.curves.push_back(curve(name, key, "$2", "4", style));
+    modulus.curves.push_back(curve(name, key, "$2", "5", style));
+  }
+  PageFigure figure;
+  figure.label = "Fig. 1";
+  figure.caption = "Constrained modulus, settlement and void ratio over the stress of the platen, loads "
+                   "connected in their order. A "
+                   "modulus is drawn at the stress at which its change of stress ends.";
+  figure.weight = 1.0;
+  figure.figure = {name, "Samples under the stresses of the oedometer", {modulus, settlement, voids}, 1};
+  for (Panel &panel : figure.figure.panels)
+    panel.log_x = true;
+  figure.csv = table.text();
+  return figure;
+}
+
+} // namespace
+
+std::vector<OedometerRow> read_oedometer(const fs::path &file) {
+  const Table table = read_table(file, CutRows::forget);
+  if (table.rows() < 2)
+    throw std::runtime_error(fmt::format("{}: {} rows; allowed are 2 or more", file.string(), table.rows()));
+  std::vector<OedometerRow> rows(table.rows());
+  const std::vector<std::pair<const char *, double OedometerRow::*>> columns = {
+      {"stress_kPa", &OedometerRow::stress},
+      {"settlement_mm", &OedometerRow::settlement},
+      {"strain", &OedometerRow::strain},
+      {"void_ratio", &OedometerRow::void_ratio},
+      {"inertial_number", &OedometerRow::inertial_number},
+      {"energy_error", &OedometerRow::energy_error}};
+  for (const auto &[name, number] : columns) {
+    const std::vector<double> values = table.numbers(name);
+    for (std::size_t n = 0; n < rows.size(); ++n)
+      rows[n].*number = values[n];
+  }
+  const std::vector<std::string> moduli = table.text("modulus_MPa");
+  rows.front().modulus = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t n = 1; n < rows.size(); ++n)
+    rows[n].modulus = csv_number(file, table.line(n), "modulus_MPa", moduli[n]);
+  return rows;
+}
+
+std::vector<OedometerRun> read_oedometer_runs(const std::vector<fs::path> &folders) {
+  std::vector<Run> named;
+  for (const fs::path &folder : folders) {
+    Run run;
+    run.folder = folder;
+    for (const auto &[name, value] : read_parameters(folder / "parameters.csv"))
+      run.parameters.emplace(valid_utf8(name), valid_utf8(value));
+    named.push_back(std::move(run));
+  }
+  name_runs(named);
+  std::vector<OedometerRun> runs;
+  for (Run &run : named) {
+    std::vector<OedometerRow> rows = read_oedometer(run.folder / "oedometer.csv");
+    runs.push_back({std::move(run), std::move(rows)});
+  }
+  return runs;
+}
+
+void write_oedometer_page(const std::vector<OedometerRun> &runs, const fs::path &out) {
+  double inertial = 0.0;
+  double error = 0.0;
+  for (const OedometerRun &run : runs) {
+    inertial = std::max(inertial, largest(run, &OedometerRow::inertial_number));
+    error = std::max(error, largest(run, &OedometerRow::energy_error));
+  }
+  Page page(out, oedometer_title, Scene::oedometer);
+  page.answer("Samples of soil between two rough plates, confined sideways, under one stress after the "
+              "other. The slope "
+              "of stress over strain is the constrained modulus of the soil.");
+  page.answer({{fmt::format("largest inertial number at most {:g}", allowed_inertial_number),
+                number(inertial, 2), inertial <= allowed_inertial_number},
+               {fmt::format("largest energy error at most {:g}", allowed_energy_error), number(error, 2),
+                error <= allowed_energy_error}});
+  page.section("Modulus and settlement");
+  page.figure(stress_figure(runs));
+  page.section("Numbers");
+  page.table(run_table(runs));
+  page.table(row_table(runs));
+  page.write();
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,77 @@
+// What each cycle of a record contributes to the meter values: harmonics, contact, force, energy.
+#pragma once
+
+#include "record/record.h"
+
+#include <array>
+#include <complex>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace drumlin::post {
+
+/// Multiples of the excitation frequency whose amplitudes are computed.
+constexpr std::array<double, 6> meter_orders = {0.5, 1.0, 1.5, 2.0, 2.5, 3.0};
+constexpr std::size_t half_order = 0;
+constexpr std::size_t basic_order = 1;
+constexpr std::size_t double_order = 3;
+
+/// What the harmonics of the drum's acceleration are computed from.
+enum class HarmonicSource {
+  every_step,  ///< sums over every time step, of cycles.csv: orders 0.5, 1 and 2 only
+  velocity,    ///< changes of velocity between samples, which contain the whole impulse of a make
+  acceleration ///< samples of acceleration, of which a make's jump may lie anywhere between two
+};
+
+/// One cycle of the excitation. What the record does not give has no value.
+struct MeterCycle {
+  double begin = 0.0; ///< [s]
+  /// Harmonics of the drum's acceleration over this cycle, by meter_orders, phases counted from time 0 [m/s2]
+  std::array<std::complex<double>, meter_orders.size()> acceleration{};
+  /// How far each may be off by jumps between samples and by curvature [m/s2]; 0 for HarmonicSource::every_step.
+  std::array<double, meter_orders.size()> bound{};
+  std::optional<std::complex<double>> frame;      ///< order 1 of the frame's acceleration [m/s2]
+  std::optional<std::complex<double>> excitation; ///< order 1 of F_e, positive down [N]
+  std::optional<double> contact_share;            ///< share of the cycle with a contact force above zero [-]
+  std::optional<double> peak_force;               ///< largest contact force [N]
+  std::optional<double> energy;                   ///< given to the soil, -integral of F dx [J]
+  std::optional<double> low_force;                ///< contact force at the drum's lowest position [N]
+  std::optional<double> deflection;               ///< of the soil there, see meter_cycles() [m]
+};
+
+/// The cycles of a record, in order, and what they come from.
+struct MeterRecord {
+  HarmonicSource source = HarmonicSource::acceleration;
+  double omega = 0.0;          ///< [rad/s]
+  bool computed_force = false; ///< the contact force is not recorded but computed from the accelerations
+  std::optional<double> m2;    ///< mass of the drum [kg]
+  std::optional<double> m3;    ///< mass of the frame [kg]
+  std::vector<MeterCycle> cycles;
+};
+
+/// The force of the soil on the drum [N]: the record's F_contact; else, if accelerations of drum and frame, masses and
+/// excitation are known, m2 (a2 + g) + m3 (a3 + g) + F_e, which follows from the equations of motion; else empty.
+std::vector<double> soil_force(const Record &record);
+
+/// The whole cycles of a record, counted from its first sample.
+/// - Harmonics: from the sums of `record.cycles_file` if it has them; else from v_drum, else from a_drum. Errors
+///   (std::runtime_error) if the record has none of these, or fewer than four cycles.
+/// - Contact: force above zero; of a computed force, above 2 % of its largest value.
+/// - Energy: of a chain from the energies of `record.cycles_file`, else by the trapezoidal rule from force and v_drum.
+/// - Deflection: the drum's lowest position below that at which the contact of that cycle began. In chain.csv contact
+///   begins at x_drum = 0; else it is the mean of the samples before and after the begin, and a cycle in which
+///   contact does not begin has no value.
+MeterRecord meter_cycles(const Record &record);
+
+/// A line of a spectrum.
+struct SpectrumLine {
+  double frequency = 0.0; ///< [Hz]
+  double amplitude = 0.0; ///< [m/s2]
+};
+
+/// Amplitudes of the drum's acceleration between two times, which are whole cycles apart [s], up to six times the excitation
+/// frequency, from v_drum or else a_drum; empty for a record without samples of these.
+std::vector<SpectrumLine> spectrum(const Record &record, double begin, double end);
+
+} // namespace drumlin::post

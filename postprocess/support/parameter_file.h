@@ -1,0 +1,18 @@
+// Files parameters.csv of names and values, header name,value: what a run was made with.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace drumlin::post {
+
+/// Reads parameters.csv. Errors as in support/csv.h; a name that stands there twice is one, too.
+std::map<std::string, std::string> read_parameters(const std::filesystem::path &file);
+
+/// The text of the file.
+std::string parameters_text(const std::vector<std::pair<std::string, std::string>> &parameters);
+
+} // namespace drumlin::post

@@ -1,0 +1,265 @@
+// The Hertz law in both engines: whole impacts against the closed form of the restitution at several speeds,
+// an oblique impact against an integration of its equations in far smaller steps, walls against balls, and
+// the engines against each other on 1, 2 and 4 ranks and from restart files.
+#include "tests/support/balls_run.h"
+#include "tests/support/engine_and_scheme.h"
+#include "tests/support/frame_distance.h"
+
+#include "chain/analysis.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+/// Balls 1 to 4 of oblique.scene strike the floor, 5 to 8 the balls 9 to 12, at these angles from the normal
+/// and 1 m/s.
+constexpr std::array<double, 4> angles = {72 * pi / 180, 76 * pi / 180, 80 * pi / 180, 85 * pi / 180};
+constexpr double radius = 0.03, mass = 1e-4, E = 2e9, nu = 0.3, mu = 0.5;
+
+/// e of an impact, the closed form of the linear law of the same D.
+double closed_form(const std::string &transition, double D) {
+  post::ImpactParameters p;
+  p.transition = post::transition_from_name(transition);
+  p.damping_ratio = D;
+  p.speed = 1;
+  const double end = post::impact_duration(p);
+  return std::isinf(end) ? 0.0 : -post::impact_state(p, end).rate;
+}
+
+class HertzImpacts : public BothEngines {
+protected:
+  static std::vector<Frame> frames_of(Variables variables) {
+    variables.emplace_back("normal", "hertz");
+    const Scratch folder;
+    const Outcome outcome = run("oblique", folder, variables);
+    if (!outcome.ok()) throw std::runtime_error(outcome.output);
+    return read_dump(folder / "balls.txt");
+  }
+
+  /// e of the eight head-on impacts.
+  static std::array<double, 8> head_on(Variables variables) {
+    variables.insert(variables.end(), {{"across", "0"}, {"tangential", "off"}, {"mu", "-1"}});
+    const std::vector<Frame> frames = frames_of(variables);
+    const std::map<long, Ball> &begin = frames.front().balls, &end = frames.back().balls;
+    std::array<double, 8> e{};
+    for (long id = 1; id <= 4; ++id)
+      e.at(static_cast<std::size_t>(id) - 1) = -end.at(id).v[2] / begin.at(id).v[2];
+    for (long id = 5; id <= 8; ++id)
+      e.at(static_cast<std::size_t>(id) - 1) = (end.at(id + 4).v[2] - end.at(id).v[2]) / begin.at(id).v[2];
+    return e;
+  }
+
+  static double worst(const Variables &variables, double exact) {
+    double most = 0;
+    for (const double e : head_on(variables))
+      most = std::max(most, std::fabs(e - exact));
+    return most;
+  }
+};
+
+TEST_P(HertzImpacts, ReboundAsTheClosedFormAtAnySpeed) {
+  const bool second = std::get<1>(GetParam()) == "second";
+  for (const char *transition : {"A", "B"})
+    for (const char *D : {"0", "0.1", "0.3", "0.5"})
+      EXPECT_LT(worst({{"transition", transition}, {"D", D}}, closed_form(transition, std::stod(D))),
+                second ? 1e-5 : 5e-3)
+          << transition << ", D " << D;
+  EXPECT_LT(worst({{"D", "2"}}, closed_form("B", 2)), second ? 1e-5 : 5e-3);
+}
+
+TEST_P(HertzImpacts, ReboundWithTheRestitutionThatIsAskedFor) {
+  const double tolerance = std::get<1>(GetParam()) == "second" ? 1e-5 : 5e-3;
+  for (const char *transition : {"A", "B"})
+    EXPECT_LT(worst({{"transition", transition},
+                     {"damping", "restitution"},
+                     {"property", "coefficientRestitution"},
+                     {"D", "0.6"}},
+                    0.6),
+              tolerance)
+        << transition;
+}
+
+/// The contacts take some 50 and 400 steps. The phase of the make in its step differs with the ball and the
+/// step.
+TEST_P(HertzImpacts, ErrorFallsWithTheSquareOfTheStepUnderSecond) {
+  if (std::get<1>(GetParam()) != "second") return;
+  for (const char *D : {"0.3", "2"}) {
+    const auto largest = [D](double dt) {
+      double most = 0;
+      for (const double factor : {1.0, 1.03, 1.07})
+        most = std::max(most, worst({{"D", D},
+                                     {"dt", number(factor * dt)},
+                                     {"steps", std::to_string(std::lround(2.5e-4 / dt))}},
+                                    closed_form("B", std::stod(D))));
+      return most;
+    };
+    const double coarse = largest(8e-7), fine = largest(1e-7);
+    RecordProperty(std::string("errors_") + D, number(coarse) + ", " + number(fine));
+    EXPECT_GT(std::log(coarse / fine) / std::log(8.0), 1.9) << D << ": " << coarse << " " << fine;
+  }
+}
+
+/// Velocities along the floor and up after the impact of a ball, by steps of 2 ns: transition B, no
+/// tangential dashpot. The tangential force F grows by kt u while the contact is loaded and shrinks with kt
+/// besides while it is unloaded; it is at most mu Fn.
+std::array<double, 2> oblique(double along, double down, double D) {
+  const double E_eff = 0.5 * E / (1 - nu * nu), G_eff = 0.25 * E / ((2 - nu) * (1 + nu));
+  const double k = 4.0 / 3.0 * E_eff * std::sqrt(radius), c = 2 * D * std::sqrt(1.25 * k * mass);
+  const double dt = 2e-9;
+  double d = 0, rate = down, slip = along, friction = 0, v = along;
+  for (int step = 0; step < 100000; ++step) {
+    const double middle = d + 0.5 * dt * rate; // the midpoint's rule
+    if (middle < 0) break;
+    const double force = std::max(0.0, k * std::pow(middle, 1.5) + c * std::pow(middle, 0.25) * rate);
+    const double kt = 8 * G_eff * std::sqrt(radius * middle);
+    friction += dt * kt * slip;
+    if (rate < 0 && d > 0) friction *= std::sqrt(std::max(0.0, d + dt * rate) / d);
+    friction = std::max(-mu * force, std::min(mu * force, friction));
+    d += dt * rate;
+    rate -= dt * force / mass;
+    v -= dt * friction / mass;
+    const double arm = (radius - 0.5 * middle) / radius; // I = 0.4 m r^2
+    slip -= dt * friction / mass * (1 + 2.5 * arm * arm);
+  }
+  return {v, -rate};
+}
+
+TEST_P(HertzImpacts, StickAndSlideAsTheEquationsOfAnObliqueImpact) {
+  const double tolerance = std::get<1>(GetParam()) == "second" ? 2e-4 : 2e-3;
+  for (const double across : {0.1, 0.25, 1.0}) {
+    const std::vector<Frame> frames =
+        frames_of({{"across", number(across)}, {"D", "0.3"}, {"ct", "0"}, {"dt", "5e-8"}, {"steps", "5000"}});
+    for (long id = 1; id <= 4; ++id) {
+      const double angle = angles.at(static_cast<std::size_t>(id) - 1);
+      const auto [along, up] = oblique(across * std::sin(angle), std::cos(angle), 0.3);
+      const Ball &end = frames.back().balls.at(id);
+      EXPECT_NEAR(end.v[0], along, tolerance * std::cos(angle)) << "ball " << id << ", across " << across;
+      EXPECT_NEAR(end.v[2], up, tolerance * std::cos(angle)) << "ball " << id << ", across " << across;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Decks, HertzImpacts, engines_and_steppings(), engine_and_stepping);
+
+// For the same overlap and rate a primitive plane and a mesh give the same force.
+TEST(HertzWalls, PlaneAndMeshAreOne) {
+  for (const char *stepping : {"second", "stock"}) {
+    const auto run = [stepping](const char *obstacle) {
+      return run_balls({{"normal", "hertz"},
+                        {"obstacle", obstacle},
+                        {"stepping", stepping},
+                        {"models", "tangential coulomb"},
+                        {"dashpot", "0.3"},
+                        {"velocity2", "0.05 0 -0.5"},
+                        {"gap", "0.0001"},
+                        {"dt", "1e-5"},
+                        {"steps", "4000"},
+                        {"every", "10"}});
+    };
+    const BallsRun plane = run("plane"), mesh = run("mesh");
+    EXPECT_GT(plane.frames.back().balls.at(1).v[2], 0.1) << "no rebound";
+    for (const std::size_t axis : {std::size_t{0}, std::size_t{2}})
+      EXPECT_LT(relative_difference(mesh.series(1, &Ball::v, axis), plane.series(1, &Ball::v, axis)), 1e-9)
+          << stepping;
+  }
+}
+
+// 2 sqrt(m / (3/2 k sqrt(d))), k = 4/3 E* sqrt(R): on a plane R is the ball's radius.
+TEST(HertzGuard, CriticalStepIsThatOfTheTangentStiffness) {
+  for (const char *obstacle : {"ball", "plane", "mesh"}) {
+    const double R = std::string(obstacle) == "ball" ? 0.5 * 0.75 / 1.25 : 0.75, overlap = 0.003;
+    const double k = 4.0 / 3.0 * 0.5 * 1e9 / (1 - nu * nu) * std::sqrt(R);
+    const double critical = 2 * std::sqrt(2000 / (1.5 * k * std::sqrt(overlap)));
+    const auto run = [&](double dt) {
+      return run_balls({{"normal", "hertz"},
+                        {"obstacle", obstacle},
+                        {"stepping", "second"},
+                        {"gap", number(-overlap)},
+                        {"guard", "step 1"},
+                        {"dt", number(dt)},
+                        {"steps", "1"}});
+    };
+    EXPECT_NO_THROW(run(0.999 * critical)) << obstacle;
+    EXPECT_THROW(run(1.001 * critical), std::runtime_error) << obstacle;
+  }
+}
+
+struct Scene {
+  const char *name;
+  Variables variables;
+};
+
+class HertzBounce : public ::testing::TestWithParam<Scene> {
+protected:
+  void SetUp() override {
+    if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  }
+  Variables variables() const {
+    Variables all = GetParam().variables;
+    all.emplace_back("normal", "hertz");
+    return all;
+  }
+};
+
+TEST_P(HertzBounce, IsOneInBothEnginesOnRanksOneTwoAndFourWithNewtonOffAndOn) {
+  const Scratch liggghts;
+  const Outcome here = run_deck(test_deck("bounce.in"), variables(), liggghts.path());
+  ASSERT_TRUE(here.ok()) << here.output;
+  const std::vector<Frame> expected = read_dump(liggghts / "balls.txt");
+  ASSERT_EQ(expected.size(), 13u);
+  for (const auto &[ranks, newton] : {std::pair{1, "off"}, {2, "on"}, {4, "off"}}) {
+    const Scratch lammps;
+    Variables more = variables();
+    more.emplace_back("newton", newton);
+    const Outcome there = run_deck(test_deck("bounce.lammps"), more, lammps.path(), ranks);
+    ASSERT_TRUE(there.ok()) << there.output;
+    EXPECT_LT(distance(read_dump(lammps / "balls.txt"), expected), 1e-9)
+        << "ranks " << ranks << ", newton " << newton;
+  }
+  const Scratch two;
+  ASSERT_TRUE(run_deck(test_deck("bounce.in"), variables(), two.path(), 2).ok());
+  EXPECT_LT(distance(read_dump(two / "balls.txt"), expected), 1e-9);
+}
+
+TEST_P(HertzBounce, ContinuesFromARestartFileBitwiseOnRanksOneAndTwo) {
+  for (const auto &[deck, resume, ranks] : {std::tuple{"bounce.in", "bounce.resume.in", 1},
+                                            {"bounce.lammps", "bounce.resume.lammps", 1},
+                                            {"bounce.in", "bounce.resume.in", 2},
+                                            {"bounce.lammps", "bounce.resume.lammps", 2}}) {
+    const Scratch stayed, left;
+    const Outcome whole = run_deck(test_deck(deck), variables(), stayed.path(), ranks);
+    ASSERT_TRUE(whole.ok()) << whole.output;
+    Variables again = variables();
+    again.emplace_back("start", (stayed / "first.restart").string());
+    if (std::string(resume) == "bounce.resume.lammps") again.emplace_back("law", "restart");
+    const Outcome resumed = run_deck(test_deck(resume), again, left.path(), ranks);
+    ASSERT_TRUE(resumed.ok()) << resumed.output;
+    const std::string all = read_text(stayed / "balls.txt"), second = read_text(left / "balls.txt");
+    const std::string from = "ITEM: TIMESTEP\n7000\n";
+    ASSERT_NE(all.find(from), std::string::npos);
+    EXPECT_EQ(all.substr(all.find(from)), second.substr(second.find(from))) << deck << ", ranks " << ranks;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Balls, HertzBounce,
+    ::testing::Values(Scene{"coulomb", {{"tangential", "coulomb"}}},
+                      Scene{"coulomb_A_stock",
+                            {{"tangential", "coulomb"}, {"transition", "A"}, {"stepping", "stock"}}},
+                      Scene{"history", {}}, Scene{"without_friction", {{"tangential", "off"}, {"mu", "-1"}}},
+                      Scene{"heavy_dashpots", {{"D", "40"}, {"tangential", "off"}, {"mu", "-1"}}}),
+    [](const auto &scene) { return std::string(scene.param.name); });
+
+} // namespace
+} // namespace drumlin::test

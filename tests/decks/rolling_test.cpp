@@ -1,0 +1,101 @@
+// Rolling resistance in both engines: a ball that rolls to rest on a plane, with its energy balance; a ball
+// that circles around another, so that the normal turns; heaps in two and three dimensions, engine against
+// engine.
+#include "tests/support/engine_and_scheme.h"
+#include "tests/support/frame_distance.h"
+
+#include "support/csv.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+class RollingBall : public BothEngines {};
+INSTANTIATE_TEST_SUITE_P(Decks, RollingBall, engines_and_steppings(), engine_and_stepping);
+
+/// Without slip, v = a w with a the distance of the contact point from the centre, friction and the limit L =
+/// mu_r r N of the rolling torque give (I + m a^2) w' = -L: the ball comes to rest at a constant rate.
+TEST_P(RollingBall, SlowsDownAsTheClosedFormAndItsEnergyBecomesHeat) {
+  constexpr double m = 0.3, r = 0.03, kn = 1e5, mu_r = 0.5, N = m * 9.81, w0 = 10;
+  constexpr double arm = r - 0.5 * N / kn, inertia = 0.4 * m * r * r + m * arm * arm,
+                   rate = mu_r * r * N / inertia;
+  const Scratch folder;
+  const Outcome outcome = run("slide", folder,
+                              {{"tangential", "coulomb"},
+                               {"rolling", "epsd2"},
+                               {"mu_r", number(mu_r)},
+                               {"mu", "2"},
+                               {"D", "0.5"},
+                               {"spin", number(w0)},
+                               {"speed", number(w0 * arm)}});
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  const post::Table table = post::read_table(folder / "bed.csv");
+  const std::vector<double> time = table.numbers("time"), kinetic = table.numbers("kinetic"),
+                            elastic = table.numbers("elastic"), potential = table.numbers("potential"),
+                            heat = table.numbers("dissipated");
+  const double start = 0.5 * inertia * w0 * w0, whole = kinetic[0] + elastic[0] + potential[0];
+  EXPECT_NEAR(kinetic.front(), start, 1e-9 * start);
+  for (std::size_t n = 0; n < time.size(); ++n) {
+    const double w = w0 - rate * time[n];
+    EXPECT_NEAR(kinetic[n], 0.5 * inertia * w * w, 3e-3 * start) << time[n];
+    EXPECT_NEAR(kinetic[n] + elastic[n] + potential[n] + heat[n], whole, 1e-4 * start) << time[n];
+  }
+  EXPECT_GT(heat.back(), 0.5 * start);
+}
+
+/// With q^2 = kr/I and the turn W of the normal, the spin along the tangent is w0 cos(p t), p^2 = q^2 + W^2,
+/// and that along the normal, into which the axes turn, w0 W/p sin(p t): it never exceeds w0. (LIGGGHTS's own
+/// epsd2 keeps the torque as the normal turns; there the spin grows by a factor e^(W t).)
+TEST_P(RollingBall, OnABallIsNotSpunUpAsTheNormalTurns) {
+  constexpr double w0 = 1e-3, W = 20, r_eff = 0.015, inertia = 0.4 * 0.3 * 0.03 * 0.03, dt = 1e-5;
+  const double q2 = 2.0 / 7.0 * 1e5 * r_eff * r_eff / inertia, p = std::sqrt(q2 + W * W);
+  const Scratch folder;
+  const Outcome outcome = run("orbit", folder, {});
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  double largest = 0.0;
+  const std::vector<Frame> frames = read_dump(folder / "balls.txt");
+  ASSERT_EQ(frames.size(), 301u);
+  for (const Frame &frame : frames) {
+    const double t = dt * static_cast<double>(frame.step);
+    const Ball &ball = frame.balls.at(2);
+    const double x = ball.x[0] - 0.2, y = ball.x[1] - 0.15, distance = std::hypot(x, y);
+    EXPECT_NEAR(distance, 0.0599, 1e-6);
+    EXPECT_NEAR((ball.omega[1] * x - ball.omega[0] * y) / distance, w0 * std::cos(p * t), 5e-3 * w0) << t;
+    EXPECT_NEAR((ball.omega[0] * x + ball.omega[1] * y) / distance, w0 * W / p * std::sin(p * t), 5e-3 * w0)
+        << t;
+    largest = std::max(largest, std::hypot(ball.omega[0], ball.omega[1]));
+  }
+  EXPECT_LE(largest, w0 * (1 + 1e-12));
+}
+
+/// Dimension and stepping of a heap.
+class RollingHeap : public ::testing::TestWithParam<std::tuple<std::string, std::string>> {};
+INSTANTIATE_TEST_SUITE_P(
+    Decks, RollingHeap, ::testing::Combine(::testing::Values("2", "3"), ::testing::Values("second", "stock")),
+    [](const auto &test) { return "in" + std::get<0>(test.param) + "D_" + std::get<1>(test.param); });
+
+TEST_P(RollingHeap, IsTheSameInBothEngines) {
+  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  const auto &[dimension, stepping] = GetParam();
+  const auto heap = [&, d = dimension, s = stepping](const char *deck, const char *resistance) {
+    const Scratch folder;
+    const Outcome outcome = run_deck(
+        test_deck(deck), {{"dimension", d}, {"stepping", s}, {"contact_rolling", resistance}}, folder.path());
+    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    return read_dump(folder / "balls.txt");
+  };
+  const std::vector<Frame> liggghts = heap("heap.in", "0.2");
+  ASSERT_EQ(liggghts.size(), 9u);
+  EXPECT_LT(distance(heap("heap.lammps", "0.2"), liggghts), 1e-9);
+  EXPECT_GT(distance(heap("heap.lammps", "0"), liggghts), 1e-3);
+}
+
+} // namespace
+} // namespace drumlin::test

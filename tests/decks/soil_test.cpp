@@ -1,0 +1,159 @@
+// The oedometer: regular lattices against their moduli in closed form, energy balances, both engines against each other.
+#include "tests/support/engine_runs.h"
+
+#include "support/csv.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+/// Runs the oedometer in an engine and returns oedometer.csv.
+post::Table run_oedometer(const std::string &engine, const Variables &variables, int ranks = 1) {
+  const Scratch scratch;
+  const std::string deck = engine == "lammps" ? "../soil/in.oedometer.lammps" : "../soil/in.oedometer";
+  const Outcome outcome = run_deck(chain_deck(deck), variables, scratch.path(), ranks);
+  if (!outcome.ok()) throw std::runtime_error(outcome.output);
+  return post::read_table(scratch / "oedometer.csv");
+}
+
+/// The column without its first row, the state before the first load.
+std::vector<double> after_loads(const post::Table &table, const std::string &column) {
+  std::vector<double> values;
+  const std::vector<std::string> cells = table.text(column);
+  for (std::size_t n = 1; n < cells.size(); ++n)
+    values.push_back(post::number_from_text(cells[n]));
+  return values;
+}
+
+constexpr double diameter = 0.04; // m, the deck's
+
+/// A regular lattice. A uniform compression along y, with n the unit vector of a contact and d the diameter, gives
+///   modulus = sum over the contacts of a ball of d^2 n_y^2 (kn n_y^2 + kt (1 - n_y^2)) / (2 V),
+/// V being the volume (area) per ball. No ball rotates, as each is at a centre of symmetry.
+struct Lattice {
+  const char *name;
+  double kn, kt;             // N/m
+  double normal, tangential; // 1/m (1 in two dimensions): modulus = normal kn + tangential kt
+  double void_ratio;
+  double
+      volume; // m3 (m2), from centre to centre of the plates, of the deck's numbers of columns, rows and layers
+};
+
+const double root2 = std::sqrt(2.0), root3 = std::sqrt(3.0);
+const Lattice lattices[] = {
+    {"hexagonal", 1e8, 3e7, 3 * root3 / 4, root3 / 4, 2 * root3 / pi - 1, 8 * diameter * 4 * root3 *diameter},
+    {"square", 1e8, 3e7, 1, 0, 4 / pi - 1, 4 * diameter * 4 * diameter},
+    {"cubic", 4e6, 1e6, 1 / diameter, 0, 6 / pi - 1, 4 * diameter * 4 * diameter * 4 * diameter},
+    {"face_centred", 4e6, 1e6, root2 / diameter, root2 / diameter, 3 * root2 / pi - 1,
+     8 / root2 *diameter * 32 * diameter *diameter}};
+
+void PrintTo(const Lattice &lattice, std::ostream *out) { *out << lattice.name; }
+
+Variables small_loads(const Lattice &lattice, const std::string &friction) {
+  return {{"sample", lattice.name}, {"loads", "6 7 6"},        {"ratio", "1e-9"},
+          {"friction", friction},   {"k", number(lattice.kn)}, {"kt", number(lattice.kt)}};
+}
+
+class Oedometer : public ::testing::TestWithParam<std::tuple<std::string, Lattice, std::string>> {
+protected:
+  void SetUp() override {
+    if (std::get<0>(GetParam()) == "lammps" && !post::has_lammps())
+      GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  }
+};
+
+void expect_equal(const post::Table &rows, const post::Table &expected) {
+  for (const char *column : {"settlement_mm", "modulus_MPa", "stored_J", "contact_heat_J", "drag_heat_J"})
+    EXPECT_LT(relative_difference(after_loads(rows, column), after_loads(expected, column)), 1e-6) << column;
+}
+
+// At these loads the strains are below 1e-4: the modulus differs from that of small strains by so much.
+TEST_P(Oedometer, MeasuresTheModulusOfALattice) {
+  const auto &[engine, lattice, friction] = GetParam();
+  const post::Table rows = run_oedometer(engine, small_loads(lattice, friction));
+  ASSERT_EQ(rows.rows(), 4u);
+  const double modulus =
+      lattice.normal * lattice.kn + (friction == "0" ? 0.0 : lattice.tangential * lattice.kt);
+  for (const double measured : after_loads(rows, "modulus_MPa"))
+    EXPECT_NEAR(measured, 1e-6 * modulus, 2e-10 * modulus);
+  EXPECT_NEAR(rows.numbers("void_ratio").front(), lattice.void_ratio, 2e-4);
+  for (const double error : after_loads(rows, "energy_error"))
+    EXPECT_LT(std::fabs(error), 1e-7);
+  // The energy s^2/(2 M) per volume, from 5 to 6 and 7 kPa.
+  const std::vector<double> stored = after_loads(rows, "stored_J");
+  EXPECT_NEAR(stored[0], lattice.volume * (36e6 - 25e6) / (2 * modulus), 1e-3 * stored[0]);
+  EXPECT_NEAR(stored[1], lattice.volume * (49e6 - 25e6) / (2 * modulus), 1e-3 * stored[1]);
+}
+
+TEST(OedometerLattice, IsTheSameInBothEngines) {
+  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  const Variables variables = small_loads(lattices[0], "0.5");
+  expect_equal(run_oedometer("lammps", variables), run_oedometer("liggghts", variables));
+}
+
+TEST(OedometerRanks, AgreeOnALattice) {
+  const Variables variables = {
+      {"sample", "hexagonal"}, {"loads", "6"}, {"ramp", "200"}, {"every", "100"}, {"ratio", "1e-3"}};
+  const post::Table one = run_oedometer("liggghts", variables);
+  expect_equal(run_oedometer("liggghts", variables, 2), one);
+  if (post::has_lammps()) expect_equal(run_oedometer("lammps", variables, 2), one);
+}
+
+// The state at rest does not depend on the step, the energy error is of second order in it.
+TEST(OedometerLattice, HasASecondOrderEnergyError) {
+  const double step = 0.1 * std::sqrt(pi * 0.02 * 0.02 * 2650 / 1e8);
+  std::vector<double> steps, errors, moduli;
+  for (const int finer : {1, 2, 4}) {
+    const post::Table rows = run_oedometer("liggghts", {{"sample", "hexagonal"},
+                                                        {"loads", "100 5"},
+                                                        {"ratio", "1e-9"},
+                                                        {"dt", number(step / finer)},
+                                                        {"ramp", std::to_string(200 * finer)},
+                                                        {"every", std::to_string(100 * finer)}});
+    steps.push_back(step / finer);
+    errors.push_back(std::fabs(after_loads(rows, "energy_error").back()));
+    moduli.push_back(after_loads(rows, "modulus_MPa").front());
+  }
+  EXPECT_NEAR(fitted_order(steps, errors), 2, 0.1);
+  EXPECT_LT(errors.front(), 1e-6);
+  EXPECT_NEAR(moduli.back(), moduli.front(), 1e-6 * moduli.front());
+}
+
+// A disordered sample becomes stiffer with stress, dissipates energy, and the energy balance holds.
+TEST(OedometerSample, LoadsADisorderedSample) {
+  for (const char *engine : {"liggghts", "lammps"}) {
+    if (std::string(engine) == "lammps" && !post::has_lammps()) continue;
+    const post::Table rows = run_oedometer(
+        engine,
+        {{"columns", "10"}, {"layers", "10"}, {"loads", "50 200 50"}, {"ramp", "1000"}, {"ratio", "1e-3"}});
+    const std::vector<double> modulus = after_loads(rows, "modulus_MPa");
+    EXPECT_GT(modulus[0], 10) << engine;
+    EXPECT_GT(modulus[1], modulus[0]) << engine;
+    EXPECT_LT(modulus[1], 130) << engine; // less than the hexagonal lattice, which is the densest packing
+    EXPECT_GT(modulus[2], modulus[1]) << engine;
+    EXPECT_GT(after_loads(rows, "contact_heat_J")[2], 0) << engine;
+    for (const double error : after_loads(rows, "energy_error"))
+      EXPECT_LT(std::fabs(error), 1e-4) << engine;
+  }
+}
+
+std::string oedometer_name(const ::testing::TestParamInfo<Oedometer::ParamType> &info) {
+  const auto &[engine, lattice, friction] = info.param;
+  return engine + "_" + lattice.name + (friction == "0" ? "_frictionless" : "_friction");
+}
+
+INSTANTIATE_TEST_SUITE_P(Lattices, Oedometer,
+                         ::testing::Combine(::testing::Values("liggghts", "lammps"),
+                                            ::testing::ValuesIn(lattices), ::testing::Values("0", "0.5")),
+                         oedometer_name);
+
+} // namespace
+} // namespace drumlin::test

@@ -1,0 +1,139 @@
+// `drumlin identify` as a user meets it: the program itself, its files, its messages, its exit status.
+#include "chain/run_files.h"
+#include "roller/chain_solver.h"
+#include "support/csv.h"
+#include "tests/support/engine_runs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A folder as of a run: chain.csv and parameters.csv of case II B.
+void write_run(const fs::path &folder, int cycles = 12) {
+  const post::ChainParameters p = post::table1_case("II", post::Transition::B);
+  fs::create_directories(folder);
+  post::write_files(
+      {{folder / "chain.csv", post::chain_text(post::solve_closed_form(p, cycles, 200).history)},
+       {folder / "parameters.csv", post::parameters_text(post::parameter_values(p))}});
+}
+
+class IdentifyCommand : public ::testing::Test {
+protected:
+  Outcome identify(std::vector<std::string> words) const {
+    words.insert(words.begin(), {DRUMLIN_TOOLS, "identify"});
+    return run_program(words, {}, scratch_.path(), 100.0);
+  }
+  // One line of error, and no results.
+  void expect_refused(const std::vector<std::string> &words, const std::string &message) const {
+    const Outcome outcome = identify(words);
+    EXPECT_FALSE(outcome.ok());
+    EXPECT_TRUE(outcome.says("ERROR: drumlin identify: ")) << outcome.output;
+    EXPECT_TRUE(outcome.says(message)) << outcome.output;
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
+    EXPECT_FALSE(fs::exists(scratch_ / "results"));
+  }
+  Scratch scratch_;
+};
+
+TEST_F(IdentifyCommand, WritesAnswerTableAndPage) {
+  write_run(scratch_ / "run");
+  const Outcome outcome = identify({"run", "--window", "6", "--out", "found"});
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  EXPECT_TRUE(outcome.says("k = 99.99") || outcome.says("k = 100.00")) << outcome.output;
+  EXPECT_TRUE(outcome.says("does not pull (transition B)")) << outcome.output;
+  const post::Table table = post::read_table(scratch_ / "found/identify.csv");
+  EXPECT_EQ(table.text("window"), (std::vector<std::string>{"all", "1", "7"}));
+  for (const double k : table.numbers("k [N/m]"))
+    EXPECT_NEAR(k, 1e8, 1e4);
+  EXPECT_EQ(table.text("pulls").front(), "no");
+  for (const char *file : {"index.html", "data/loop.csv", "figures/loop.png", "figures/residuals.svg",
+                           "figures/along.png", "data/windows.csv"})
+    EXPECT_TRUE(fs::is_regular_file(scratch_ / "found" / file)) << file;
+  // A second call replaces the results.
+  EXPECT_TRUE(identify({"run", "--accelerations-only", "--out", "found"}).ok());
+  EXPECT_EQ(post::read_table(scratch_ / "found/identify.csv").rows(), 2U);
+}
+
+// What a roller has: accelerations in g with names of their own, no times, a phase.
+TEST_F(IdentifyCommand, ReadsAMeasuredRecord) {
+  const post::ChainParameters p = post::table1_case("III", post::Transition::A);
+  const post::ChainHistory history = post::solve_closed_form(p, 20, 100).history;
+  std::string text = "Acc drum,Acc frame\n";
+  constexpr double in_g = 1.0 / 9.80665;
+  for (std::size_t i = 0; i < history.size(); ++i)
+    text += post::csv_line(
+        {post::number_text(-in_g * history.a_drum[i]), post::number_text(in_g * history.a_frame[i])});
+  post::write_files({{scratch_ / "measured.csv", text}});
+  const Outcome outcome = identify({"measured.csv",
+                                    "--column",
+                                    "a_drum=Acc drum:-g",
+                                    "--column",
+                                    "a_frame=Acc frame:g",
+                                    "--sampling-rate",
+                                    "4000",
+                                    "--frequency",
+                                    "40",
+                                    "--phase",
+                                    "0",
+                                    "--phase-within",
+                                    "1",
+                                    "--Fw",
+                                    "58800",
+                                    "--m2",
+                                    "2000",
+                                    "--m3",
+                                    "1000",
+                                    "--out",
+                                    "found"});
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  EXPECT_TRUE(outcome.says("The contact pulls (transition A)")) << outcome.output;
+  const post::Table table = post::read_table(scratch_ / "found/identify.csv");
+  EXPECT_NEAR(table.numbers("k [N/m]").front(), p.k, 1e-3 * p.k);
+  EXPECT_NEAR(table.numbers("c [N s/m]").front(), p.damping(), 3e-3 * p.damping());
+}
+
+TEST_F(IdentifyCommand, RefusesBadInputInOneLine) {
+  write_run(scratch_ / "run");
+  expect_refused({}, "RECORD");
+  expect_refused({"nowhere"}, "nowhere");
+  expect_refused({"run", "--window", "3"}, "--window is '3'; allowed: ");
+  expect_refused({"run", "--window", "ten"}, "--window is 'ten'; allowed: ");
+  expect_refused({"run", "--phase-within", "-1"}, "--phase-within is '-1'; allowed: ");
+  expect_refused({"run", "--phase-within", "90"}, "--phase-within is '90'; allowed: ");
+  expect_refused({"run", "--least-force", "95"}, "--least-force is '95'; allowed: ");
+  expect_refused({"run", "--origin", "here"}, "--origin is 'here'; allowed: ");
+  expect_refused({"run", "--out", "run"}, "--out is 'run'; allowed: ");
+  expect_refused({"run", "--out", "/dev"}, "--out is '/dev'");
+  expect_refused({"run", "--m2", "0"}, "--m2 is '0'; allowed: ");
+
+  const std::string chain = read_text(scratch_ / "run/chain.csv");
+  const std::size_t end = chain.find('\n');
+  const std::string parameters = read_text(scratch_ / "run/parameters.csv");
+  const auto with = [&](const std::string &text) { post::write_files({{scratch_ / "run/chain.csv", text}}); };
+  with(chain.substr(0, end + 1));
+  expect_refused({"run"}, "the number of rows is '0'");
+  std::string other = chain;
+  with(other.replace(other.find("a_drum"), 6, "b_drum"));
+  expect_refused({"run"}, "the column a_drum is ''; allowed: ");
+  write_run(scratch_ / "run", 3);
+  expect_refused({"run"}, "the number of cycles is '3'; allowed: 4 or more");
+  write_run(scratch_ / "run");
+  post::write_files({{scratch_ / "run/parameters.csv", "name,value\nomega,125.66370614359172\n"}});
+  expect_refused({"run"}, "m2 is ''; allowed: ");
+  post::write_files({{scratch_ / "run/parameters.csv", parameters}});
+  // A gap in the times.
+  const std::size_t row = chain.find('\n', chain.size() / 2) + 1;
+  with(chain.substr(0, row) + chain.substr(chain.find('\n', chain.find('\n', row) + 1) + 1));
+  expect_refused({"run"}, "times without a gap");
+}
+
+} // namespace
+} // namespace drumlin::test

@@ -1,0 +1,122 @@
+// `drumlin meter` as a user meets it: records of runs and measured ones, and records that it refuses in one line.
+#include "support/csv.h"
+#include "support/files.h"
+#include "support/process.h"
+#include "tests/support/lines.h"
+#include "tests/support/run_folders.h"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace drumlin::post;
+
+class MeterCommand : public ::testing::Test {
+protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("drumlin-meter-" + std::to_string(::getpid()) + "-" +
+                                           ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  Outcome meter(std::vector<std::string> words) const {
+    words.insert(words.begin(), {DRUMLIN_TOOLS, "meter"});
+    return run_program(words, {}, folder_);
+  }
+  /// A measured file of accelerations in g, downwards, at 29 Hz and 1000 samples per second.
+  void write_measured(const std::string &name, int samples, int gap_at = -1) const {
+    std::string text = "Time,Acc Z\r\n";
+    for (int i = 0; i < samples; ++i) {
+      const double t = 1e-3 * i;
+      const double angle = 2.0 * M_PI * 29.0 * t;
+      if (i != gap_at)
+        text += number_text(1e3 * t) + "," +
+                number_text(-(20.0 * std::sin(angle) + 4.0 * std::sin(2.0 * angle)) / 9.80665) + "\r\n";
+    }
+    write_files({{folder_ / name, text}});
+  }
+
+  fs::path folder_;
+};
+
+const std::vector<std::string> as_measured = {"--column",        "time=Time:ms", "--column",
+                                              "a_drum=Acc Z:-g", "--frequency",  "29"};
+
+TEST_F(MeterCommand, RecordOfARun) {
+  write_chain_run(folder_ / "run", "II", Transition::B, 20);
+  const Outcome outcome =
+      meter({"run", "--export", "passes/all.csv", "--drum-radius", "0.759", "--drum-width", "2.13"});
+  ASSERT_EQ(outcome.status, 0) << outcome.output;
+  EXPECT_TRUE(outcome.says("run/chain.csv: partial uplift, CMV 15")) << outcome.output;
+  EXPECT_TRUE(outcome.says("may be off by")) << outcome.output;
+  const fs::path out = folder_ / "results/meter";
+  const Table table = read_table(out / "meter.csv");
+  ASSERT_EQ(table.rows(), 2U);
+  EXPECT_NEAR(table.numbers("CMV [-]").back(), 155.948, 2.0);
+  EXPECT_EQ(table.text("stiffness").back(), "apparent");
+  for (const char *name :
+       {"index.html", "figures/values.png", "figures/spectrum.png", "figures/loop.png", "data/loop.csv"})
+    EXPECT_TRUE(fs::exists(out / name)) << name;
+  EXPECT_EQ(lines_of(read_text(folder_ / "passes/all.csv")).size(), 3U);
+  EXPECT_EQ(meter({"run"}).status, 0); // replaces the earlier page
+  write_files({{folder_ / "mine", "x"}});
+  fs::create_directories(folder_ / "other");
+  write_files({{folder_ / "other/mine", "x"}});
+  EXPECT_TRUE(meter({"run", "--out", "other"}).says("--out is 'other'; allowed: a folder that is new"));
+}
+
+TEST_F(MeterCommand, MeasuredRecord) {
+  write_measured("field.csv", 2001);
+  std::vector<std::string> words = {"field.csv", "--window", "0.5s", "--same", "0.1"};
+  words.insert(words.end(), as_measured.begin(), as_measured.end());
+  const Outcome outcome = meter(words);
+  ASSERT_EQ(outcome.status, 0) << outcome.output;
+  EXPECT_TRUE(outcome.says("same in each cycle, CMV ")) << outcome.output;
+  const Table table = read_table(folder_ / "results/meter/meter.csv");
+  ASSERT_EQ(table.rows(), 4U); // 58 cycles in windows of 14
+  for (const double cmv : table.numbers("CMV [-]"))
+    EXPECT_NEAR(cmv, 60.0, 0.3); // a cycle is no whole number of samples
+  EXPECT_TRUE(table.text("k_B [N/m]").front().empty());
+}
+
+TEST_F(MeterCommand, RecordsThatAreRefused) {
+  write_measured("gap.csv", 1000, 500);
+  write_measured("short.csv", 120);
+  write_measured("good.csv", 1000);
+  struct Refused {
+    std::vector<std::string> words;
+    std::string says;
+  };
+  const std::vector<Refused> table = {
+      {{"gap.csv"}, "gap.csv, line 502, column 'time' is "},
+      {{"short.csv"}, "the number of cycles is '3.451'; allowed: 4 or more at 29 Hz"},
+      {{"good.csv", "--window", "40"}, "the window is '40 cycles'; allowed: at most the 28 whole cycles"},
+      {{"good.csv", "--window", "0.1s"}, "--window is '0.1s'; allowed: "},
+      {{"good.csv", "--low-pass", "600"}, "the cut-off frequency is '600'; allowed: "},
+      {{"none.csv"}, "none.csv: cannot be read"}};
+  for (const Refused &refused : table) {
+    std::vector<std::string> words = refused.words;
+    words.insert(words.end(), as_measured.begin(), as_measured.end());
+    const Outcome outcome = meter(words);
+    EXPECT_NE(outcome.status, 0) << refused.says;
+    EXPECT_EQ(outcome.output.rfind("ERROR: drumlin meter: ", 0), 0U) << outcome.output;
+    EXPECT_EQ(lines_of(outcome.output).size(), 1U) << outcome.output;
+    EXPECT_TRUE(outcome.says(refused.says)) << outcome.output;
+    EXPECT_FALSE(fs::exists(folder_ / "results"));
+  }
+  EXPECT_TRUE(meter({"good.csv", "--column", "time=Time:ms", "--column", "a_drum=Acc Z:g"})
+                  .says("the frequency of the excitation is ''; allowed: "));
+}
+
+} // namespace
+} // namespace drumlin::test

@@ -1,0 +1,215 @@
+// Records of runs and of measurements: what is read, in SI, and what is refused in one line.
+#include "record/record.h"
+
+#include "chain/direct_solver.h"
+#include "chain/parameters.h"
+#include "chain/run_files.h"
+#include "support/csv.h"
+#include "support/files.h"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace drumlin::post;
+
+constexpr double omega = 125.66370614359172;
+
+class RecordFiles : public ::testing::Test {
+protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("drumlin-record-" + std::to_string(::getpid()) + "-" +
+                                           ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder_);
+    DirectOptions options;
+    options.cycles = 6;
+    options.samples_per_cycle = 100;
+    history_ = solve_direct(table1_case("II", Transition::B), options).history;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path put(const std::string &name, const std::string &text) const {
+    write_files({{folder_ / name, text}});
+    return folder_ / name;
+  }
+  /// The folder of the run of `history_`.
+  fs::path put_run() const {
+    put("chain.csv", chain_text(history_));
+    put("parameters.csv", parameters_text(parameter_values(table1_case("II", Transition::B))));
+    return folder_;
+  }
+  /// The message with which the run is refused after a change of its history.
+  std::string refused(const std::function<void(ChainHistory &)> &change) {
+    change(history_);
+    return message([&] { read_record(put_run()); });
+  }
+  static std::string message(const std::function<void()> &call) {
+    try {
+      call();
+    } catch (const std::exception &error) {
+      return error.what();
+    }
+    return "not refused";
+  }
+
+  fs::path folder_;
+  ChainHistory history_;
+};
+
+void scale(std::vector<double> &values, double factor) {
+  for (double &value : values)
+    value *= factor;
+}
+
+TEST_F(RecordFiles, RunComesBackBitForBit) {
+  const Record record = read_record(put_run());
+  EXPECT_EQ(record.time, history_.time);
+  EXPECT_EQ(record.x_drum, history_.x_drum);
+  EXPECT_EQ(record.a_drum, history_.a_drum);
+  EXPECT_EQ(record.a_frame, history_.a_frame);
+  EXPECT_EQ(record.F_contact, history_.F_contact);
+  EXPECT_EQ(record.F_excitation, history_.F_excitation);
+  EXPECT_DOUBLE_EQ(record.interval, 0.0005);
+  EXPECT_EQ(record.omega, omega);
+  EXPECT_EQ(record.phase, 0.0);
+  EXPECT_EQ(record.m2, 2000.0);
+  EXPECT_EQ(record.m3, 1000.0);
+  EXPECT_NEAR(record.cycles(), 6.0, 1e-9);
+  EXPECT_TRUE(record.cycles_file.empty());
+  put("cycles.csv", "cycle\n1\n");
+  EXPECT_EQ(read_record(folder_).cycles_file, folder_ / "cycles.csv");
+  EXPECT_TRUE(read_record(folder_ / "chain.csv").cycles_file.empty());
+  EXPECT_TRUE(read_record(folder_ / "cycles.csv").time.empty());
+}
+
+TEST_F(RecordFiles, MeasuredColumnsAreConverted) {
+  std::string text = "Time/ms,\"Acc, up\",Acc frame\n";
+  for (std::size_t i = 0; i < history_.size(); ++i)
+    text += csv_line({number_text(1e3 * history_.time[i]), number_text(-history_.a_drum[i] / 9.80665),
+                      number_text(history_.a_frame[i])});
+  RecordOptions options;
+  options.columns.insert(column_from_text("time=Time/ms:ms"));
+  options.columns.insert(column_from_text("a_drum=Acc, up:-g"));
+  options.columns.insert(column_from_text("a_frame=Acc frame"));
+  options.omega = omega;
+  options.phase = 0.0;
+  options.me_re = 58.8e3 / (omega * omega);
+  const Record record = read_record(put("measured.csv", text), options);
+  ASSERT_EQ(record.a_drum.size(), history_.size());
+  EXPECT_TRUE(record.x_drum.empty());
+  for (std::size_t i = 0; i < history_.size(); ++i) {
+    EXPECT_NEAR(record.time[i], history_.time[i], 1e-12);
+    EXPECT_NEAR(record.a_drum[i], history_.a_drum[i], 1e-12);
+    EXPECT_EQ(record.a_frame[i], history_.a_frame[i]);
+    EXPECT_NEAR(record.F_excitation[i], history_.F_excitation[i], 1e-6);
+  }
+}
+
+TEST_F(RecordFiles, SamplingRateReplacesTimesOfFewDigits) {
+  std::string text = "time,a_drum\n";
+  for (std::size_t i = 0; i < history_.size(); ++i)
+    text += csv_line({number_text(history_.time[i], 2), number_text(history_.a_drum[i])});
+  const fs::path file = put("measured.csv", text);
+  RecordOptions options;
+  EXPECT_NE(message([&] { read_record(file, options); }).find("line"), std::string::npos);
+  std::string untimed = "a_drum\n";
+  for (const double a : history_.a_drum)
+    untimed += number_text(a) + "\n";
+  const fs::path bare = put("bare.csv", untimed);
+  EXPECT_NE(message([&] { read_record(bare, options); }).find("time"), std::string::npos);
+  options.sampling_rate = 2000.0;
+  EXPECT_DOUBLE_EQ(read_record(bare, options).time[40], 0.02);
+}
+
+TEST_F(RecordFiles, RefusesTimes) {
+  EXPECT_NE(
+      refused([](ChainHistory &h) { h.time[7] = h.time[6]; }).find("chain.csv, line 9, column 'time' is "),
+      std::string::npos);
+  SetUp();
+  const std::string gap = refused([](ChainHistory &h) {
+    for (std::size_t i = 50; i < h.time.size(); ++i)
+      h.time[i] += 0.01;
+  });
+  EXPECT_NE(gap.find("line 52"), std::string::npos) << gap;
+  EXPECT_NE(gap.find("without a gap"), std::string::npos) << gap;
+  SetUp();
+  const std::string unequal = refused([](ChainHistory &h) { h.time[9] += 0.2 * 0.0005; });
+  EXPECT_NE(unequal.find("equal steps"), std::string::npos) << unequal;
+}
+
+TEST_F(RecordFiles, RefusesUnitsAndSigns) {
+  const auto names = [this](const char *column, const std::function<void(ChainHistory &)> &change) {
+    SetUp();
+    const std::string text = refused(change);
+    return text.find(std::string("column '") + column + "' is '") != std::string::npos &&
+           text.find("; allowed: ") != std::string::npos;
+  };
+  EXPECT_TRUE(names("v_drum", [](ChainHistory &h) { scale(h.x_drum, 1e3); }));
+  EXPECT_TRUE(names("v_drum", [](ChainHistory &h) { scale(h.v_drum, -1.0); }));
+  EXPECT_TRUE(names("a_drum", [](ChainHistory &h) { scale(h.a_drum, 1.0 / 9.81); }));
+  EXPECT_TRUE(names("a_frame", [](ChainHistory &h) { scale(h.a_frame, -1.0); }));
+  EXPECT_TRUE(names("F_contact", [](ChainHistory &h) { scale(h.F_contact, 1e-3); }));
+  EXPECT_TRUE(names("F_contact", [](ChainHistory &h) { scale(h.F_contact, -1.0); }));
+  EXPECT_TRUE(names("F_contact", [](ChainHistory &h) { scale(h.F_contact, 0.0); }));
+  EXPECT_TRUE(names("a_drum", [](ChainHistory &h) {
+    for (auto *values : {&h.x_drum, &h.v_drum, &h.a_drum})
+      scale(*values, -1.0);
+  }));
+}
+
+TEST_F(RecordFiles, RefusesShortAndCoarseRecords) {
+  const std::string text = refused([](ChainHistory &h) {
+    for (auto *values : {&h.time, &h.x_drum, &h.v_drum, &h.a_drum, &h.x_frame, &h.v_frame, &h.a_frame,
+                         &h.F_contact, &h.F_excitation, &h.F_bond})
+      values->resize(400);
+  });
+  EXPECT_NE(text.find("the number of cycles is '3.99'"), std::string::npos) << text;
+  RecordOptions options;
+  options.omega = 20 * omega;
+  SetUp();
+  const std::string coarse = message([&] { read_record(put_run(), options); });
+  EXPECT_NE(coarse.find("samples per cycle is '5'"), std::string::npos) << coarse;
+}
+
+TEST_F(RecordFiles, RefusesColumns) {
+  const fs::path file = put("other.csv", "time,b\n0,1\n1,2\n2,3\n");
+  EXPECT_NE(message([&] { read_record(file); }).find("no column of motion or force"), std::string::npos);
+  EXPECT_NE(message([&] { read_record(folder_); }).find("the record is '"), std::string::npos);
+  RecordOptions options;
+  options.columns.insert(column_from_text("a_drum=c"));
+  EXPECT_NE(message([&] { read_record(file, options); }).find("'c'"), std::string::npos);
+  for (const char *text : {"a_drum", "a=b", "a_drum=", "a_drum=b:kN", "time=b:-s", "a_drum=b:"})
+    EXPECT_THROW(column_from_text(text), std::invalid_argument) << text;
+}
+
+TEST(LowPass, HalvesAtTheCutOffAndKeepsPhase) {
+  // Forward and back, the gain is that of the analogue filter at the frequency that the bilinear transform
+  // puts in its place, squared.
+  const double interval = 1e-3;
+  const double cutoff = 50.0;
+  for (const double frequency : {5.0, 20.0, 50.0, 120.0}) {
+    std::vector<double> values;
+    for (int i = 0; i < 4000; ++i)
+      values.push_back(std::sin(2.0 * M_PI * frequency * i * interval));
+    const std::vector<double> filtered = low_passed(values, interval, cutoff);
+    const double ratio = std::tan(M_PI * frequency * interval) / std::tan(M_PI * cutoff * interval);
+    const double gain = 1.0 / (1.0 + std::pow(ratio, 4));
+    for (int i = 1000; i < 3000; ++i)
+      ASSERT_NEAR(filtered[static_cast<std::size_t>(i)], gain * values[static_cast<std::size_t>(i)], 1e-9);
+  }
+}
+
+} // namespace
+
+} // namespace drumlin::test
