@@ -200,6 +200,8 @@ struct Scene {
   Variables variables;
 };
 
+void PrintTo(const Scene &scene, std::ostream *out) { *out << scene.name; }
+
 class HertzBounce : public ::testing::TestWithParam<Scene> {
 protected:
   void SetUp() override {
