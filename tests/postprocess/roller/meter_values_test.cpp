@@ -6,6 +6,7 @@
 
 #include "chain/direct_solver.h"
 #include "chain/parameters.h"
+#include "tests/support/chain_record.h"
 #include "tests/support/lines.h"
 
 #include <gtest/gtest.h>
@@ -30,24 +31,9 @@ Record record_of(const ChainParameters &parameters, int cycles, int samples) {
   options.cycles = cycles;
   options.samples_per_cycle = samples;
   const ChainHistory history = solve_direct(parameters, options).history;
-  Record record;
-  record.file = "chain.csv";
+  Record record = test::record_of(parameters, history);
   record.interval = parameters.period() / samples;
-  record.time = history.time;
-  record.x_drum = history.x_drum;
-  record.v_drum = history.v_drum;
-  record.a_drum = history.a_drum;
-  record.x_frame = history.x_frame;
-  record.v_frame = history.v_frame;
-  record.a_frame = history.a_frame;
   record.F_contact = history.F_contact;
-  record.F_excitation = history.F_excitation;
-  record.omega = parameters.omega;
-  record.phase = 0.0;
-  record.Fw = parameters.Fw;
-  record.m2 = parameters.m2;
-  record.m3 = parameters.m3;
-  record.g = parameters.g;
   return record;
 }
 
