@@ -33,6 +33,12 @@ void run_cost_study(const StudyOptions &options);
 ///   index.html  tables and a figure of the effects, each with its 95 % confidence interval
 void run_fidelity_study(const StudyOptions &options);
 
+/// `drumlin study meter`: what a roller's meter shows over the stiffness of the soil, and what identification
+/// finds in the same records, for all rollers of the chain. Needs no engine.
+///   records.csv  meter values, operating mode and identified stiffness of each record
+///   index.html   tables and figures
+void run_meter_study(const StudyOptions &options);
+
 /// `drumlin study speed`: throughput (number of balls times time steps per second) and memory from small beds
 /// to large ones, on one rank and on two. Also throws std::runtime_error if runs of one scene do not end with
 /// the balls at the same positions.
@@ -73,6 +79,10 @@ inline constexpr std::array studies = {
         "rolling, stiffness, time step, number, size and packing of the balls, kind of drum, frequency, two "
         "dimensions or three. About five hours of processor time.",
         &run_fidelity_study, true},
+    Study{"meter",
+          "What the meters of rollers show on soil of 1 to 200 MN/m, where a value may mean several "
+          "stiffnesses, and what identification finds in the same records. Half a minute, without an engine.",
+          &run_meter_study},
     Study{"speed",
           "Balls times steps per second from 2500 balls to a quarter of a million, on one rank and on two, "
           "compared with the engine's own law; memory; a projection to 1e8 balls. About twenty minutes, on a "
