@@ -1,11 +1,14 @@
 #include "commands/commands.h"
 
 #include "commands/bed.h"
+#include "commands/map.h"
 #include "commands/report.h"
 #include "commands/vtk.h"
 #include "engine/engine_command.h"
 #include "engine/engine_run.h"
 #include "engine/places.h"
+#include "studies/studies.h"
+#include "studies/study.h"
 #include "support/files.h"
 #include "support/options.h"
 #include "support/process.h"
@@ -54,11 +57,13 @@ struct Arguments {
 struct Plan {
   int chain_cycles = post::chain_cycles;
   int bed_cycles = post::bed_cycles;
+  bool quick = false; ///< few points of what needs no engine
   BedRequest bed;
 };
 
 Plan plan_of(const Arguments &arguments) {
   Plan plan;
+  plan.quick = arguments.cycles.has_value();
   if (arguments.cycles)
     plan.chain_cycles = plan.bed_cycles = count_option("--cycles", *arguments.cycles, 1, most_cycles);
   if (arguments.balls) {
@@ -93,7 +98,7 @@ class Demo {
 public:
   Demo(Plan plan, fs::path decks, bool with_lammps)
       : plan_(std::move(plan)), decks_(std::move(decks)), with_lammps_(with_lammps),
-        all_(with_lammps ? 24 : 16) {}
+        all_(with_lammps ? 26 : 18) {}
 
   void run() {
     fs::remove_all(results_);
@@ -105,6 +110,8 @@ public:
     make_bed();
     for (const char *transition : {"A", "B"})
       run_bed(transition);
+    map_regimes();
+    study_meter();
     print(fmt::format("{}report\n", next()));
     print_report({{results_.string()}, page_folder});
     print(fmt::format("The report: {}\n", (fs::current_path() / page_folder / "index.html").string()));
@@ -171,6 +178,25 @@ private:
     write_vtk_series({out.string(), {}, {}});
   }
 
+  /// The regimes of the paper's roller over stiffness and damping of the soil.
+  void map_regimes() {
+    print(next() + "regimes of the roller\n");
+    MapArguments map;
+    map.x = plan_.quick ? "k:2e6:150e6:8" : "k:2e6:150e6:40";
+    map.y = plan_.quick ? "D:0.02:0.6:5" : "D:0.02:0.6:25";
+    map.out = (results_ / "map").string();
+    print_map(map);
+  }
+
+  void study_meter() {
+    print(next() + "what the meter says of the soil\n");
+    StudyOptions study;
+    study.out = results_ / "meter";
+    study.quick = plan_.quick;
+    open_study(study);
+    run_meter_study(study);
+  }
+
   void engine_run(const DemoRun &run) {
     fs::create_directories(run.out);
     print(fmt::format("{}{:<22}{}", next(), run.name, run.shows_progress ? "\n" : ""));
@@ -235,7 +261,8 @@ void add_demo_command(CLI::App &app, Session &) {
   CLI::App *demo = app.add_subcommand(
       "demo",
       "Runs the single impact, the four cases of the paper and a roller on a bed, under transition A and "
-      "B; the cases in LAMMPS, too, if it is set up. Writes results/demo and report in the working folder. "
+      "B; the cases in LAMMPS, too, if it is set up. Maps the roller's regimes and what its meter says of "
+      "the soil. Writes results/demo and report in the working folder. "
       "Takes some five minutes.");
   const auto optional = [demo](const char *name, std::optional<std::string> &value, const std::string &help) {
     demo->add_option_function<std::string>(

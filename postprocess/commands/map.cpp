@@ -1,8 +1,9 @@
-#include "commands/commands.h"
+#include "commands/map.h"
 
 #include "chain/run_files.h"
-#include "commands/chain_options.h"
+#include "commands/commands.h"
 #include "engine/engine_command.h"
+#include "pages/html.h"
 #include "roller/engine_points.h"
 #include "roller/map_figures.h"
 #include "roller/regime_map.h"
@@ -35,22 +36,9 @@ constexpr int most_cycles = 100000;
 constexpr int least_cycles = 100; ///< fewer do not let a motion settle
 constexpr int most_threads = 256;
 constexpr const char *points_name = "regimes.csv";
+constexpr const char *boundaries_name = "boundaries.csv";
 constexpr const char *record_name = "parameters.csv";
-
-struct Arguments {
-  ChainArguments chain;
-  std::string x = "k:1e6:200e6:60:log";
-  std::string y = "D:0.02:1:50";
-  std::optional<std::string> sweep;
-  std::optional<std::string> me_re;
-  std::string cycles = "300";
-  std::string threads = "2";
-  std::string out = "results/map";
-  std::optional<std::string> engine;
-  std::optional<std::string> engine_points;
-  bool fresh = false;
-  bool axes_given = false;
-};
+constexpr const char *page_name = "index.html";
 
 struct Task {
   MapGrid grid;
@@ -88,7 +76,7 @@ void judge_corner(const ChainParameters &parameters) {
 }
 
 // Judges --engine and --engine-points, with the axes of the map.
-void judge_engine(const Arguments &arguments, Task &task) {
+void judge_engine(const MapArguments &arguments, Task &task) {
   constexpr int most_points = 10000;
   if (arguments.engine_points) {
     if (!arguments.engine)
@@ -114,7 +102,7 @@ void judge_engine(const Arguments &arguments, Task &task) {
                                 1.0 * grid.cycles * engine_steps(p))));
 }
 
-Task judge(const Arguments &arguments) {
+Task judge(const MapArguments &arguments) {
   Task task;
   MapGrid &grid = task.grid;
   const NamedChain chain = judged_chain(arguments.chain);
@@ -237,6 +225,29 @@ void draw(const fs::path &out, const MapFigures &figures) {
     render(gnuplot, out, figure);
 }
 
+// The page of a map: its pictures, and links to its tables.
+void write_page(const Task &task, const std::vector<Figure> &figures,
+                const std::array<std::size_t, regime_count> &counts) {
+  std::string motions;
+  for (std::size_t i = 0; i < regime_count; ++i)
+    if (counts[i] > 0)
+      motions += fmt::format("{}{} at {}", motions.empty() ? "" : ", ", regime_names[i], counts[i]);
+  std::string body =
+      fmt::format("<p>The motion that the roller reaches from rest, over {} and {}: {} of {} points.</p>\n",
+                  task.grid.x.name, task.grid.y.name, motions, task.grid.size());
+  for (const Figure &figure : figures)
+    body +=
+        fmt::format("<figure id=\"{0}\">\n<a href=\"{0}.png\"><img src=\"{0}.png\" alt=\"{1}\" width=\"{2}\" "
+                    "height=\"{3}\" /></a>\n<figcaption>{1}</figcaption>\n</figure>\n",
+                    figure.name, html_escaped(figure.title), figure_width(figure), figure_height(figure));
+  body += fmt::format("<p><a href=\"{0}\">{0}</a>, <a href=\"{1}\">{1}</a>, <a href=\"{2}\">{2}</a></p>\n",
+                      points_name, boundaries_name, record_name);
+  write_files({{task.out / page_name,
+                html_page("Which motion will the roller have?",
+                          fmt::format("{} cycles at each point, computed in closed form.", task.grid.cycles),
+                          {}, body)}});
+}
+
 // Opens a new folder, or one that has results of the same map, which are then continued.
 bool holds_same(const Task &task, const std::string &record, bool fresh) {
   const fs::path file = task.out / record_name;
@@ -318,15 +329,17 @@ void run_map(const Task &task, bool same, const std::string &record) {
   std::string text = fmt::format("kind,{},{}\n", grid.x.label(), grid.y.label());
   for (const BoundaryPoint &point : boundaries)
     text += fmt::format("{},{},{}\n", point.kind, number_text(point.x), number_text(point.y));
-  write_files({{task.out / "boundaries.csv", text}});
+  write_files({{task.out / boundaries_name, text}});
   const std::vector<EnginePoint> runs = engine_runs(task, points);
-  draw(task.out, map_figures(grid, points, boundaries, runs));
+  const MapFigures figures = map_figures(grid, points, boundaries, runs);
+  draw(task.out, figures);
   fmt::print("{}: {} points, {} points of boundaries\n", task.out.string(), points.size(), boundaries.size());
   std::array<std::size_t, regime_count> counts{};
   for (const RegimePoint &point : points)
     ++counts[static_cast<std::size_t>(point.regime)];
   for (std::size_t i = 0; i < regime_count; ++i)
     if (counts[i] > 0) fmt::print("  {:<20}{:>7}\n", regime_names[i], counts[i]);
+  write_page(task, figures.figures, counts);
   print_engine_runs(grid, runs);
 }
 
@@ -345,14 +358,16 @@ void run_sweep(const Task &task, const std::string &record) {
     fmt::print("  {:<20}{} = {:.10g}\n", point.kind, task.sweep->name, point.x);
   }
   write_files({{task.out / "sweep.csv", samples},
-               {task.out / "boundaries.csv", boundaries},
+               {task.out / boundaries_name, boundaries},
                {task.out / record_name, record}});
   draw(task.out, sweep_figures(task.grid.chain, *task.sweep, found));
   fmt::print("{}: {} samples of {} values, up and down\n", task.out.string(), found.samples.size(),
              task.sweep->count);
 }
 
-void run(const Arguments &arguments) {
+} // namespace
+
+void print_map(const MapArguments &arguments) {
   const Task task = judge(arguments);
   const std::string record = settings(task);
   const bool same = holds_same(task, record, arguments.fresh);
@@ -362,10 +377,8 @@ void run(const Arguments &arguments) {
     run_map(task, same, record);
 }
 
-} // namespace
-
 void add_map_command(CLI::App &app, Session & /*session*/) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<MapArguments>();
   CLI::App *map =
       app.add_subcommand("map", "Which motion a roller comes to, over two numbers of the chain "
                                 "or along one: continuous contact, partial "
@@ -408,7 +421,7 @@ void add_map_command(CLI::App &app, Session & /*session*/) {
   map->add_flag("--fresh", arguments->fresh, "forget the points of an earlier call");
   map->callback([arguments, x, y] {
     arguments->axes_given = x->count() > 0 || y->count() > 0;
-    run(*arguments);
+    print_map(*arguments);
   });
 }
 

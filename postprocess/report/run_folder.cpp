@@ -18,8 +18,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// A study, or a map, which has a page of its own, too.
 bool is_study_folder(const fs::path &folder) {
-  return fs::is_regular_file(folder / "study.txt") && fs::is_regular_file(folder / "index.html");
+  return (fs::is_regular_file(folder / "study.txt") || fs::is_regular_file(folder / "regimes.csv")) &&
+         fs::is_regular_file(folder / "index.html");
 }
 
 /// The history file of a run: chain.csv, or bed.csv of a bed.

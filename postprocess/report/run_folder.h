@@ -58,7 +58,7 @@ struct Run {
 struct ReportFolders {
   std::vector<std::filesystem::path> runs;       ///< hold chain.csv or bed.csv
   std::vector<std::filesystem::path> oedometers; ///< hold oedometer.csv
-  std::vector<std::filesystem::path> studies;    ///< hold study.txt and index.html
+  std::vector<std::filesystem::path> studies;    ///< hold index.html and study.txt, or regimes.csv of a map
 };
 
 /// Run and study folders: each argument is such a folder, or has some below it at any depth. Runs within a

@@ -598,17 +598,20 @@ private:
 
 } // namespace
 
-ClosedFormResult solve_closed_form(const ChainParameters &parameters, int cycles, int samples_per_cycle) {
+ClosedFormResult solve_closed_form(const ChainParameters &parameters, int cycles, int samples_per_cycle,
+                                   int lead) {
   const ChainSolver solver(parameters);
   Sampler sampler(solver, samples_per_cycle);
   ChainMotion motion = solver.start();
-  if (motion.phase == ContactPhase::contact && motion.state[0] == 0.0)
+  for (int cycle = 0; cycle < lead; ++cycle)
+    solver.finish_cycle(motion);
+  if (lead == 0 && motion.phase == ContactPhase::contact && motion.state[0] == 0.0)
     sampler.change({ContactPhase::flight, ContactPhase::contact, 0.0, motion.state, 0.0, 0.0});
-  for (int cycle = 0; cycle < cycles; ++cycle) {
+  for (int cycle = lead; cycle < lead + cycles; ++cycle) {
     sampler.begin_cycle(cycle);
     solver.finish_cycle(motion, &sampler);
   }
-  sampler.begin_cycle(cycles);
+  sampler.begin_cycle(lead + cycles);
   sampler.row(motion.phase, 0.0, motion.state);
   return sampler.take();
 }

@@ -154,7 +154,9 @@ struct ClosedFormResult {
   ChainHistory history;
   std::vector<ContactEvent> events;
 };
-ClosedFormResult solve_closed_form(const ChainParameters &parameters, int cycles, int samples_per_cycle);
+/// \param lead cycles before the first sample, in which the motion settles
+ClosedFormResult solve_closed_form(const ChainParameters &parameters, int cycles, int samples_per_cycle,
+                                   int lead = 0);
 
 /// The first s in [0, 1] where a polynomial that is not positive at s = 0 becomes positive; 2 if it does not.
 /// Coefficients of s^0, s^1, ..., at most `most_terms`. No crossing is missed: an interval is discarded only

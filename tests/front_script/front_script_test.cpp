@@ -359,7 +359,7 @@ std::vector<std::string> demo_lines(bool with_lammps) {
   const auto add = [&](const std::string &name) {
     std::string number = std::to_string(++done);
     if (number.size() < 2) number.insert(0, " ");
-    lines.push_back("[" + number + (with_lammps ? "/24] " : "/16] ") + name);
+    lines.push_back("[" + number + (with_lammps ? "/26] " : "/18] ") + name);
   };
   for (const char *transition : {"A", "B"}) {
     add(std::string("impact, ") + transition);
@@ -374,6 +374,8 @@ std::vector<std::string> demo_lines(bool with_lammps) {
     add(name);
     lines.emplace_back("        drumlin/");
   }
+  add("regimes of the roller");
+  add("what the meter says of the soil");
   add("report");
   lines.emplace_back("The report: ");
   lines.emplace_back("The bed, for ParaView: ");
@@ -408,7 +410,7 @@ TEST_F(FrontScript, DemoOfFewCyclesAndBalls) {
         EXPECT_EQ(fs::is_regular_file(run / "log.liggghts"), wanted) << run;
       }
   }
-  for (const char *page : {"index.html", "bed.html"})
+  for (const char *page : {"index.html", "bed.html", "studies/map/index.html", "studies/meter/index.html"})
     EXPECT_TRUE(fs::is_regular_file(work / "report" / page)) << page;
   EXPECT_FALSE(outcome.says("./drumlin")) << outcome.output;
 }
@@ -424,7 +426,7 @@ TEST_F(FrontScript, DemoEndsAtTheFirstRunThatFails) {
   };
   const Outcome failed = demo("echo going well; echo 'ERROR: too hot'; echo more; exit 5");
   EXPECT_EQ(failed.status, 1);
-  EXPECT_EQ(failed.output, "[ 1/16] impact, A              failed\n"
+  EXPECT_EQ(failed.output, "[ 1/18] impact, A              failed\n"
                            "ERROR: drumlin demo: impact, A failed; its output is in "
                            "results/demo/impact/A/screen.txt: ERROR: too hot\n");
   EXPECT_EQ(post::read_text(folder / "results/demo/impact/A/screen.txt"),

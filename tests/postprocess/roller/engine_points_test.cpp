@@ -4,6 +4,7 @@
 #include "support/csv.h"
 #include "support/files.h"
 #include "support/process.h"
+#include "tests/support/page.h"
 
 #include <gtest/gtest.h>
 
@@ -96,6 +97,7 @@ TEST_F(EngineMap, RunsAgreeWithTheMapAndAreContinued) {
     EXPECT_LT(std::fabs(difference), 1e-4);
   EXPECT_TRUE(fs::is_regular_file(folder() / "m/plot_engine.csv"));
   EXPECT_NE(read_text(folder() / "m/regimes.gp").find("plot_engine.csv"), std::string::npos);
+  drumlin::test::expect_sound_page(folder() / "m", 5);
   // Cut off in the third row: two runs stay, the third is done again, and one more follows.
   write_files({{file(), first.substr(0, first.size() - 20)}});
   const Outcome again = map({"--engine", "liggghts", "--engine-points", "4"});
