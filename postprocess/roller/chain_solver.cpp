@@ -145,21 +145,30 @@ Control control_points(const double *coefficients, std::size_t terms) {
   return b;
 }
 
+// Whether the first `few` terms, with a bound of the others, show that the polynomial is negative. Their number
+// is known to the compiler, which makes this several times faster than control_points().
+template <std::size_t few>
+bool stays_below(const double *coefficients, std::size_t terms) {
+  if (terms <= few) return false;
+  double rest = 0.0;
+  for (std::size_t n = few; n < terms; ++n)
+    rest += std::fabs(coefficients[n]);
+  if (rest >= -coefficients[0]) return false; // the value at s = 0 is one of the bounds
+  const auto &weights = bernstein.of_degree[few - 1];
+  std::array<double, few> b{};
+  for (std::size_t j = 0; j < few; ++j)
+    for (std::size_t i = 0; i < few; ++i) // the weights of i < j are zero
+      b[i] += weights[j][i] * coefficients[j];
+  return *std::max_element(b.begin(), b.end()) + rest < 0.0;
+}
+
 } // namespace
 
 double first_upcrossing(const double *coefficients, std::size_t terms) {
   if (coefficients[0] > 0.0) return 0.0;
   // Most pieces stay well below zero, which the first terms show, with a bound of the others. Eight
   // suffice for a slow motion; while a heavily damped part of it decays, as many as sixteen are needed.
-  for (const std::size_t few : {std::size_t{8}, std::size_t{16}}) {
-    if (terms <= few) break;
-    double rest = 0.0;
-    for (std::size_t n = few; n < terms; ++n)
-      rest += std::fabs(coefficients[n]);
-    if (rest >= -coefficients[0]) continue; // the value at s = 0 is one of the bounds
-    const Control b = control_points(coefficients, few);
-    if (*std::max_element(b.begin(), b.begin() + static_cast<std::ptrdiff_t>(few)) + rest < 0.0) return 2.0;
-  }
+  if (stays_below<8>(coefficients, terms) || stays_below<16>(coefficients, terms)) return 2.0;
   return first_in({coefficients, terms}, control_points(coefficients, terms), 0.0, 1.0);
 }
 
