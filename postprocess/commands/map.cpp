@@ -4,6 +4,7 @@
 #include "commands/commands.h"
 #include "engine/engine_command.h"
 #include "pages/html.h"
+#include "pages/scene.h"
 #include "roller/engine_points.h"
 #include "roller/map_figures.h"
 #include "roller/regime_map.h"
@@ -232,20 +233,24 @@ void write_page(const Task &task, const std::vector<Figure> &figures,
   for (std::size_t i = 0; i < regime_count; ++i)
     if (counts[i] > 0)
       motions += fmt::format("{}{} at {}", motions.empty() ? "" : ", ", regime_names[i], counts[i]);
-  std::string body =
-      fmt::format("<p>The motion that the roller reaches from rest, over {} and {}: {} of {} points.</p>\n",
-                  task.grid.x.name, task.grid.y.name, motions, task.grid.size());
-  for (const Figure &figure : figures)
+  std::string body = answer_html(
+      {{fmt::format("The motion that the roller reaches from rest, over {} and {}: {} of {} points.",
+                    task.grid.x.name, task.grid.y.name, motions, task.grid.size())}},
+      Verdict::none, scene_html(Scene::chain));
+  std::vector<PageLink> contents = {{"#answer", "Answer"}};
+  for (const Figure &figure : figures) {
+    contents.push_back({"#" + figure.name, figure.title});
     body +=
         fmt::format("<figure id=\"{0}\">\n<a href=\"{0}.png\"><img src=\"{0}.png\" alt=\"{1}\" width=\"{2}\" "
                     "height=\"{3}\" /></a>\n<figcaption>{1}</figcaption>\n</figure>\n",
                     figure.name, html_escaped(figure.title), figure_width(figure), figure_height(figure));
+  }
   body += fmt::format("<p><a href=\"{0}\">{0}</a>, <a href=\"{1}\">{1}</a>, <a href=\"{2}\">{2}</a></p>\n",
                       points_name, boundaries_name, record_name);
   write_files({{task.out / page_name,
                 html_page("Which motion will the roller have?",
                           fmt::format("{} cycles at each point, computed in closed form.", task.grid.cycles),
-                          {}, body)}});
+                          contents, body)}});
 }
 
 // Opens a new folder, or one that has results of the same map, which are then continued.

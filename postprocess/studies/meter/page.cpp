@@ -18,7 +18,7 @@ namespace {
 struct ShownValue {
   const char *name;
   const char *title;
-  const char *label; ///< with unit
+  const char *label; ///< with unit, as gnuplot writes it
   double SoilPoint::*value;
   double scale;        ///< from SI to the label's unit
   double least;        ///< smaller changes are errors of the sampling [unit of the label]
@@ -31,7 +31,7 @@ constexpr std::array<ShownValue, 9> shown_values = {
      {"k_B", "k_B", "k_B [MN/m]", &SoilPoint::k_B, 1e-6, 0.0, 0.02, true},
      {"k_1", "k_1", "k_1 [MN/m]", &SoilPoint::k_1, 1e-6, 0.0, 0.02, true},
      {"c_1", "c_1", "c_1 [kN s/m]", &SoilPoint::c_1, 1e-3, 0.0},
-     {"E_vib", "E_vib", "E_vib [MPa]", &SoilPoint::E_vib, 1e-6, 0.0},
+     {"E_vib", "E_vib", "E_{vib} [MPa]", &SoilPoint::E_vib, 1e-6, 0.0},
      {"energy", "Energy in two cycles", "energy in two cycles [J]", &SoilPoint::energy, 1.0, 0.0, 0.05},
      {"peak_force", "Peak force", "peak force [kN]", &SoilPoint::peak_force, 1e-3, 0.0},
      {"contact_share", "Share of contact", "share of contact [-]", &SoilPoint::contact_share, 1.0, 0.0}}};
@@ -196,7 +196,10 @@ PageFigure value_figure(const Points &points, const ShownValue &shown, int numbe
       "is where a value that also rises falls with growing k.{}",
       shown.title, shown.stiffness ? " The dash-dotted line is k itself." : "");
   figure.figure = {shown.name, fmt::format("{} over the stiffness of the soil", shown.title), {}, 3};
-  CurveTable table("k [MN/m]," + std::string(shown.label));
+  std::string header = shown.label;
+  header.erase(std::remove_if(header.begin(), header.end(), [](char c) { return c == '{' || c == '}'; }),
+               header.end());
+  CurveTable table("k [MN/m]," + header);
   for (const SoilRoller &roller : rollers_of(points)) {
     const Course course = course_of(points, roller.name, shown);
     if (!course.values.empty()) figure.figure.panels.push_back(value_panel(shown, roller, course, table));
@@ -279,20 +282,21 @@ PageFigure found_figure(const Points &points, int number) {
     const std::string exact = fmt::format("{} exact record", roller.name);
     const std::string none = fmt::format("{} no identification", roller.name);
     bool missing = false;
-    for (const SoilPoint &point : points) {
-      if (point.roller != roller.name) continue;
-      const double k = 1e-6 * point.k;
-      const auto row = [&](const std::string &curve, const FoundStiffness &found) {
+    const auto rows = [&](const std::string &curve, FoundStiffness SoilPoint::*part) {
+      for (const SoilPoint &point : points) {
+        if (point.roller != roller.name) continue;
+        const double k = 1e-6 * point.k;
+        const FoundStiffness &found = point.*part;
         if (std::isfinite(found.k))
           table.row(curve, {k, found.k / point.k, (found.k - found.half_width) / point.k,
                             (found.k + found.half_width) / point.k});
         else
           table.row(none, {k, 1.0});
         missing = missing || !std::isfinite(found.k);
-      };
-      row(measured, point.measured);
-      row(exact, point.exact);
-    }
+      }
+    };
+    rows(measured, &SoilPoint::measured);
+    rows(exact, &SoilPoint::exact);
     const auto add = [&](const std::string &curve_name, const char *title, const char *y, CurveStyle style) {
       panel.curves.push_back(curve(name, curve_name, "$2", y, style));
       panel.curves.back().title = title;
