@@ -252,7 +252,8 @@ PageTable found_table(const Points &points) {
                fmt::format("{} of {}", found.inside, found.measured)});
   }
   table.notes = {
-      "Exact: positions, velocities and accelerations without noise. Noisy accelerations, as a real roller "
+      "Every fourth sample of the records, 250 per cycle. Exact: positions, velocities and accelerations "
+      "without noise. Noisy accelerations, as a real roller "
       "has them: those of drum and frame alone, with white noise of 1 % of their standard deviation; the "
       "phase of the exciter is off by 0.5 degrees and known within 1 degree."};
   return table;
