@@ -219,11 +219,33 @@ BadGroup oedometer() {
   return group;
 }
 
+BadGroup spheres() {
+  BadGroup group{"Spheres", "benchmarks/in.spheres", {}};
+  for (const char *name : {"e", "density", "r1", "E", "E2", "contacts", "duration"})
+    for (const char *value : {"0", "-1", "nan"})
+      group.inputs.push_back(variable(name, value, positive));
+  for (const char *name : {"mu", "mu_r", "g", "onset", "ceiling", "vn"})
+    group.inputs.push_back(variable(name, "-0.5", non_negative));
+  for (const char *name : {"spheres", "every", "steps_per_contact"})
+    for (const char *value : {"0", "2.5"})
+      group.inputs.push_back(variable(name, value, whole));
+  group.inputs.push_back(variable("case", "chung_ooi_9", "allowed: chung_ooi_1", true));
+  group.inputs.push_back(variable("material", "gold", "allowed: glass or limestone"));
+  group.inputs.push_back(variable("normal", "linear", "allowed: hooke or hertz"));
+  group.inputs.push_back(variable("stepping", "half", "allowed: second or stock"));
+  group.inputs.push_back(variables("rolling resistance with the Hertz law", {{"mu_r", "0.1"}},
+                                   {"drumlin/check: variable mu_r is '0.1'", "allowed: 0"}));
+  group.inputs.push_back(variables("a linear law without stiffness", {{"case", "slip"}, {"k", "0"}},
+                                   {"drumlin/check: variable k is '0'", positive}));
+  return group;
+}
+
 } // namespace
 
 std::vector<BadGroup> bad_variables() {
   return {chain_choices(), chain_numbers(), chain_counts(), chain_folder(), chain_equilibrium(),
-          impact(),        bed_settle(),    bed_place(),    bed(),          oedometer()};
+          impact(),        bed_settle(),    bed_place(),    bed(),          oedometer(),
+          spheres()};
 }
 
 } // namespace drumlin::test
