@@ -134,6 +134,14 @@ std::string held_drawing() {
          text(18, 178, "ω₀ = √(k/m); step dt");
 }
 
+std::string sphere_drawing() {
+  return strokes(ground(30, 300, 140)) + disc(150, 88, 50, steel) + strokes(arrow(60, 40, 75), 2.4, red) +
+         text(70, 62, "vₙ", "start", red) + strokes("M60 40 L95 40 M86 35 L95 40 L86 45 ", 2.4, red) +
+         text(101, 45, "vₜ", "start", red) +
+         strokes("M128 62 A 34 34 0 0 1 172 62 M161 60 L172 62 L169 51 ") + text(150, 92, "ω", "middle") +
+         text(216, 120, "μ, e, contact law");
+}
+
 } // namespace
 
 std::string scene_html(Scene scene) {
@@ -166,6 +174,12 @@ std::string scene_html(Scene scene) {
         "The model: a sample of soil balls that cannot expand sideways, under a platen with a given stress.";
     drawing = oedometer_drawing();
     height = 180;
+    break;
+  case Scene::sphere:
+    title = "A sphere that strikes a plane";
+    caption = "The model: a sphere with a velocity and a spin strikes a plane or another sphere.";
+    drawing = sphere_drawing();
+    height = 160;
     break;
   }
   return fmt::format("<figure class=\"scene\">\n<svg xmlns=\"http://www.w3.org/2000/svg\" "

@@ -7,10 +7,11 @@ namespace drumlin::post {
 
 /// The models of this project.
 enum class Scene {
-  chain,    ///< fixed soil, drum and frame, joined by contact and suspension
-  bed,      ///< drum and frame on a bed of balls
-  held,     ///< one ball confined between two walls
-  oedometer ///< a sample between two plates, loaded from above
+  chain,     ///< fixed soil, drum and frame, joined by contact and suspension
+  bed,       ///< drum and frame on a bed of balls
+  held,      ///< one ball confined between two walls
+  oedometer, ///< a sample between two plates, loaded from above
+  sphere     ///< a sphere that strikes a plane
 };
 
 /// <figure class="scene"> with the drawing, its text alternative and a caption.

@@ -17,6 +17,12 @@ struct StudyOptions;
 ///   index.html   tables and figures
 void run_accuracy_study(const StudyOptions &options);
 
+/// `drumlin study benchmarks`: published tests of one or two spheres in both engines, against closed forms and
+/// an integration of the equations of motion.
+///   runs.csv    parameters and results of each run
+///   index.html  tables and figures
+void run_benchmarks_study(const StudyOptions &options);
+
 /// `drumlin study cost`: wall time of a time step, and the time that each optional part adds to it. Also
 /// throws std::runtime_error if variants with the same contact law do not end with the balls at the same
 /// positions.
@@ -68,6 +74,11 @@ inline constexpr std::array studies = {
         "Error of the chain and of single impacts over step size and wall time, for both integration schemes "
         "and the engine's own contact law; tests what `drumlin advise` says. About half an hour.",
         &run_accuracy_study},
+    Study{"benchmarks",
+          "Published tests of one or two spheres (Chung and Ooi 2011; LAMMPS's unittest/granular): impacts, "
+          "sliding, "
+          "rolling, rest, in both engines against closed forms. About three minutes.",
+          &run_benchmarks_study},
     Study{
         "cost",
         "Time of a step on the chain and on settled beds, and what each optional part adds, as ratios within "
