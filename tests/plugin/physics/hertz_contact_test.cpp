@@ -236,6 +236,60 @@ TEST(HertzObliqueImpact, SticksAsTheDifferentialEquations) {
   }
 }
 
+/// A slip that oscillates on the tangential spring of a contact whose overlap oscillates, too, by the steps of the
+/// scheme, or by CVODE if dt is 0. \param ct dashpot, N s/m
+double slip_of_lasting_contact(double ct, double dt) {
+  const HertzContact contact{E_eff, 0.4 * E_eff, 0.0, Damping::ratio, Transition::B};
+  constexpr double depth = 1e-3, swing = 0.3, m_t = 2.0 / 7.0 * m;
+  const double kt0 = contact.tangential(depth, radius), w = 1.3 * std::sqrt(kt0 / m_t), end = 10.0 / w;
+  const auto overlap = [&](double t) { return depth * (1.0 + swing * std::sin(w * t)); };
+  if (dt == 0.0) {
+    const auto rate = [&](double t) { return depth * swing * w * std::cos(w * t); };
+    oracle::Ode motion(
+        [&](double t, const oracle::State &y, oracle::State &f) {
+          const double d = overlap(t);
+          f[0] = -(y[1] + ct * y[0]) / m_t;
+          f[1] = contact.tangential(d, radius) * y[0] + (rate(t) < 0.0 ? 0.5 * y[1] * rate(t) / d : 0.0);
+        },
+        0.0, {1e-3, 0.0}, {1e-3, 1e-3 * kt0 / w});
+    for (int turn = 0; (turn + 0.5) * M_PI < 10.0; ++turn) // where the overlap begins to shrink or to grow
+      motion.advance((turn + 0.5) * M_PI / w);
+    motion.advance(end);
+    return motion.state()[0];
+  }
+  const long steps = std::lround(end / dt);
+  double slip = 1e-3, force = 0.0, stiffness = 0.0;
+  Vec3 spring{};
+  for (long n = 1; n <= steps; ++n) {
+    const double half_slip = slip + 0.5 * dt * force / m_t, now = static_cast<double>(n) * dt;
+    const double rate = (overlap(now) - overlap(now - dt)) / dt;
+    const double kt = contact.tangential(overlap_of_spring(overlap(now), rate, dt), radius);
+    spring[0] *= kept_spring(stiffness, kt);
+    stiffness = kt;
+    const FrictionStep step =
+        friction_step({kt, ct, 1e9, Cap::coulomb}, 1.0, {0.0, 0.0, 1.0}, {half_slip, 0.0, 0.0}, spring, dt);
+    spring = step.spring;
+    force = step.force[0];
+    slip = half_slip + 0.5 * dt * force / m_t;
+  }
+  return slip;
+}
+
+// Only the tangential dashpot, which acts with the slip of the middle of the step, is of first order there.
+TEST(HertzTangentialSpring, IsOfSecondOrderInALastingContact) {
+  const double w = 1.3 * std::sqrt(8.0 * 0.4 * E_eff * std::sqrt(radius * 1e-3) / (2.0 / 7.0 * m));
+  for (const double share : {0.0, 0.1}) {
+    const double ct = share * m * w, exact = slip_of_lasting_contact(ct, 0.0);
+    const auto error = [&](int steps) {
+      return std::fabs(slip_of_lasting_contact(ct, 10.0 / w / steps) - exact);
+    };
+    const double coarse = error(400), fine = error(3200);
+    EXPECT_LT(fine, 1e-3 * 5e-3) << share;
+    EXPECT_NEAR(std::log(coarse / fine) / std::log(8.0), share > 0.0 ? 1.0 : 2.0, 0.1)
+        << share << ": " << coarse << " " << fine;
+  }
+}
+
 // Whatever path overlap and slip take, the work done on the spring and its slider is at least the energy in
 // it.
 TEST(HertzTangentialSpring, CannotCreateEnergy) {
