@@ -200,6 +200,7 @@ TEST(LowPass, HalvesAtTheCutOffAndKeepsPhase) {
   const double cutoff = 50.0;
   for (const double frequency : {5.0, 20.0, 50.0, 120.0}) {
     std::vector<double> values;
+    values.reserve(4000);
     for (int i = 0; i < 4000; ++i)
       values.push_back(std::sin(2.0 * M_PI * frequency * i * interval));
     const std::vector<double> filtered = low_passed(values, interval, cutoff);

@@ -277,6 +277,7 @@ TEST(Identification, RefusesRecordsThatTellNothing) {
 TEST(ContactPhases, IntegralsOfACubicAreExact) {
   constexpr double dt = 0.01;
   std::vector<double> a;
+  a.reserve(9);
   for (int i = 0; i < 9; ++i)
     a.push_back(std::pow(dt * i, 3) - 2.0 * dt * i + 1.0);
   const Integrals found = integrals(a, {2, 9}, dt);
@@ -290,6 +291,7 @@ TEST(ContactPhases, NoiseLevelOfWhiteNoiseOnASlowWave) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal(0.0, 2.5);
   std::vector<double> signal;
+  signal.reserve(20000);
   for (int i = 0; i < 20000; ++i)
     signal.push_back(100.0 * std::sin(0.03 * i) + normal(random));
   EXPECT_NEAR(noise_level(signal), 2.5, 0.1);
