@@ -144,6 +144,8 @@ Panel value_panel(const ShownValue &shown, const SoilRoller &roller, const Cours
   panel.y_label = shown.label;
   panel.log_x = true;
   panel.x_range = k_range;
+  if (*std::max_element(course.values.begin(), course.values.end()) < shown.least)
+    panel.y_range = "[-0.1:1]"; // zero, but for rounding
   const auto add = [&](const std::string &name, const char *title, CurveStyle style) {
     panel.curves.push_back(curve(shown.name, name, "$2", "3", style));
     panel.curves.back().title = title;
