@@ -240,12 +240,34 @@ BadGroup spheres() {
   return group;
 }
 
+BadGroup biaxial() {
+  BadGroup group{"Biaxial", "soil/in.biaxial", {}};
+  for (const char *value : {"0", "-1", "nan"})
+    group.inputs.push_back(variable("side", value, positive));
+  for (const char *name : {"strain", "inertial_number"})
+    group.inputs.push_back(variable(name, "0", positive));
+  group.inputs.push_back(variable("rolling", "-0.1", non_negative));
+  group.inputs.push_back(variable("samples_of_strain", "0", whole));
+  group.inputs.push_back(variables("platens that meet", {{"strain", "1"}},
+                                   {"drumlin/check: variable height_left is '0'", positive}, true));
+  group.inputs.push_back(
+      variables("an unknown sample", {{"sample", "cubic"}},
+                {"drumlin/check: variable sample is 'cubic'", "allowed: hexagonal, square or random"}));
+  group.inputs.push_back(variables("a sample in space", {{"dimension", "3"}},
+                                   {"drumlin/check: variable dimension is '3'", "allowed: 2"}));
+  const Variables lattice = {{"sample", "hexagonal"}, {"columns", "4"}, {"layers", "5"}, {"seating", "100"}};
+  Variables fast = lattice;
+  fast.insert(fast.end(), {{"inertial_number", "100"}});
+  group.inputs.push_back(variables("a platen that never reaches its speed", fast,
+                                   {"drumlin/check: variable steps_after_ramp is '-", positive}));
+  return group;
+}
+
 } // namespace
 
 std::vector<BadGroup> bad_variables() {
-  return {chain_choices(), chain_numbers(), chain_counts(), chain_folder(), chain_equilibrium(),
-          impact(),        bed_settle(),    bed_place(),    bed(),          oedometer(),
-          spheres()};
+  return {chain_choices(), chain_numbers(), chain_counts(), chain_folder(), chain_equilibrium(), impact(),
+          bed_settle(),    bed_place(),     bed(),          oedometer(),    spheres(),           biaxial()};
 }
 
 } // namespace drumlin::test
