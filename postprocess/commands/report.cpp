@@ -41,7 +41,8 @@ void add_report_command(CLI::App &app, Session &) {
                                                   "roller on a bed, as pages that open from disk.");
   report
       ->add_option("dir", arguments->folders,
-                   "run folders (with chain.csv, bed.csv or oedometer.csv), studies (their pages are copied "
+                   "run folders (with chain.csv, bed.csv, oedometer.csv or biaxial.csv), studies (their "
+                   "pages are copied "
                    "and linked), or "
                    "parents of "
                    "either")

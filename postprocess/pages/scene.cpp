@@ -120,6 +120,16 @@ std::string oedometer_drawing() {
          text(262, 122, "soil balls");
 }
 
+std::string biaxial_drawing() {
+  std::string side; // arrows of the side stress
+  for (const double y : {95.0, 120.0, 145.0})
+    side += line(296, y, 272, y) + fmt::format("M281 {:g} L272 {:g} L281 {:g} ", y - 5.0, y, y + 5.0);
+  return strokes(arrow(134, 25, 58), 2.4, red) + text(145, 40, "moved slowly", "start", red) +
+         box(12, 60, 244, 16, steel) + soil(86) + box(253, 80, 14, 78, steel) + strokes(side, 2.4, red) +
+         text(302, 116, "side", "start", red) + text(302, 132, "stress", "start", red) +
+         strokes(line(17, 80, 17, 158) + ground(17, 251, 158));
+}
+
 std::string held_drawing() {
   const auto wall = [](double x, double side) {
     std::string path = line(x, 30, x, 130);
@@ -180,6 +190,14 @@ std::string scene_html(Scene scene) {
     caption = "The model: a sphere with a velocity and a spin strikes a plane or another sphere.";
     drawing = sphere_drawing();
     height = 160;
+    break;
+  case Scene::biaxial:
+    title = "A sample of soil between four plates";
+    caption =
+        "The model: a sample of soil balls between smooth plates. The right one carries a given stress, "
+        "the upper one is moved.";
+    drawing = biaxial_drawing();
+    height = 180;
     break;
   }
   return fmt::format("<figure class=\"scene\">\n<svg xmlns=\"http://www.w3.org/2000/svg\" "

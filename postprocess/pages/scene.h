@@ -11,7 +11,8 @@ enum class Scene {
   bed,       ///< drum and frame on a bed of balls
   held,      ///< one ball confined between two walls
   oedometer, ///< a sample between two plates, loaded from above
-  sphere     ///< a sphere that strikes a plane
+  sphere,    ///< a sphere that strikes a plane
+  biaxial    ///< a sample between four plates, under a side stress
 };
 
 /// <figure class="scene"> with the drawing, its text alternative and a caption.

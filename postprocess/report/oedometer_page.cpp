@@ -2,8 +2,8 @@
 
 #include "pages/figure_data.h"
 #include "pages/page.h"
+#include "report/element_test.h"
 #include "support/csv.h"
-#include "support/text.h"
 
 #include <fmt/format.h>
 
@@ -18,9 +18,6 @@ namespace drumlin::post {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr double allowed_inertial_number = 1e-3;
-constexpr double allowed_energy_error = 1e-3;
 
 /// Largest size of a number over the rows.
 double largest(const OedometerRun &run, double OedometerRow::*number) {
@@ -37,10 +34,6 @@ double largest_modulus(const OedometerRun &run, bool increasing) {
     if ((run.rows[n].stress > run.rows[n - 1].stress) == increasing)
       most = std::fmax(most, run.rows[n].modulus);
   return most;
-}
-
-std::string number(double value, int digits = 4) {
-  return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : no_value;
 }
 
 PageTable run_table(const std::vector<OedometerRun> &runs) {
@@ -70,10 +63,11 @@ PageTable run_table(const std::vector<OedometerRun> &runs) {
     const double inertial = largest(run, &OedometerRow::inertial_number);
     const double error = largest(run, &OedometerRow::energy_error);
     table.add({run.run.name, run.run.text("sample"), run.run.text("balls"), run.run.text("friction"),
-               run.run.text("k"), number(run.rows.front().void_ratio),
-               number(largest(run, &OedometerRow::settlement)), number(run.rows.back().settlement),
-               number(largest_modulus(run, true)), number(largest_modulus(run, false)), number(inertial, 2),
-               number(error, 2), run.run.text("engine"), run.run.text("command")},
+               run.run.text("k"), number_cell(run.rows.front().void_ratio),
+               number_cell(largest(run, &OedometerRow::settlement)), number_cell(run.rows.back().settlement),
+               number_cell(largest_modulus(run, true)), number_cell(largest_modulus(run, false)),
+               number_cell(inertial, 2), number_cell(error, 2), run.run.text("engine"),
+               run.run.text("command")},
               inertial <= allowed_inertial_number && error <= allowed_energy_error ? RowState::agrees
                                                                                    : RowState::differs);
   }
@@ -95,8 +89,8 @@ PageTable row_table(const std::vector<OedometerRun> &runs) {
   table.header = {"run", "stress (kPa)", "settlement (mm)", "strain (%)", "void ratio (-)", "modulus (MPa)"};
   for (const OedometerRun &run : runs)
     for (const OedometerRow &row : run.rows)
-      table.add({run.run.name, number(row.stress), number(row.settlement), number(100 * row.strain),
-                 number(row.void_ratio), number(row.modulus)});
+      table.add({run.run.name, number_cell(row.stress), number_cell(row.settlement),
+                 number_cell(100 * row.strain), number_cell(row.void_ratio), number_cell(row.modulus)});
   return table;
 }
 
@@ -113,9 +107,7 @@ PageFigure stress_figure(const std::vector<OedometerRun> &runs) {
   voids.y_range = "[*:*] noreverse";
   CurveTable table("stress (kPa),settlement (mm),void ratio (-),modulus (MPa)");
   for (std::size_t n = 0; n < runs.size(); ++n) {
-    std::string key = runs[n].run.name; // gnuplot splits a row at each comma
-    std::replace_if(
-        key.begin(), key.end(), [](char c) { return c == ',' || c == '"'; }, ' ');
+    const std::string key = curve_text(runs[n].run.name);
     for (const OedometerRow &row : runs[n].rows)
       table.row(key, {row.stress, row.settlement, row.void_ratio, row.modulus});
     const CurveStyle style = styles[n % styles.size()];
@@ -163,17 +155,8 @@ std::vector<OedometerRow> read_oedometer(const fs::path &file) {
 }
 
 std::vector<OedometerRun> read_oedometer_runs(const std::vector<fs::path> &folders) {
-  std::vector<Run> named;
-  for (const fs::path &folder : folders) {
-    Run run;
-    run.folder = folder;
-    for (const auto &[name, value] : read_parameters(folder / "parameters.csv"))
-      run.parameters.emplace(valid_utf8(name), valid_utf8(value));
-    named.push_back(std::move(run));
-  }
-  name_runs(named);
   std::vector<OedometerRun> runs;
-  for (Run &run : named) {
+  for (Run &run : read_named_runs(folders)) {
     std::vector<OedometerRow> rows = read_oedometer(run.folder / "oedometer.csv");
     runs.push_back({std::move(run), std::move(rows)});
   }
@@ -192,8 +175,8 @@ void write_oedometer_page(const std::vector<OedometerRun> &runs, const fs::path 
               "other. The slope "
               "of stress over strain is the constrained modulus of the soil.");
   page.answer({{fmt::format("largest inertial number at most {:g}", allowed_inertial_number),
-                number(inertial, 2), inertial <= allowed_inertial_number},
-               {fmt::format("largest energy error at most {:g}", allowed_energy_error), number(error, 2),
+                number_cell(inertial, 2), inertial <= allowed_inertial_number},
+               {fmt::format("largest energy error at most {:g}", allowed_energy_error), number_cell(error, 2),
                 error <= allowed_energy_error}});
   page.section("Modulus and settlement");
   page.figure(stress_figure(runs));

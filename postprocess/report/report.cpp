@@ -12,6 +12,7 @@
 #include "pages/gnuplot.h"
 #include "report/bed_figures.h"
 #include "report/bed_page.h"
+#include "report/biaxial_page.h"
 #include "report/chain_page.h"
 #include "report/oedometer_page.h"
 #include "report/place.h"
@@ -183,7 +184,11 @@ ReportOutcome write_report(const ReportOptions &options) {
     place = checked_place(options.out, folders);
   });
   std::vector<OedometerRun> oedometers;
-  as_usage([&] { oedometers = read_oedometer_runs(folders.oedometers); });
+  std::vector<BiaxialRun> biaxials;
+  as_usage([&] {
+    oedometers = read_oedometer_runs(folders.oedometers);
+    biaxials = read_biaxial_runs(folders.biaxials);
+  });
   ReportContent content = make_content(read_runs(folders.runs), options.progress);
   choose_keys(content);
   CountedProgress drawing(content.figures.figures.size() + content.figures.absent.size() +
@@ -199,6 +204,11 @@ ReportOutcome write_report(const ReportOptions &options) {
     const fs::path page = "oedometer";
     write_oedometer_page(oedometers, folder / page);
     content.studies.push_back({link_to((page / "index.html").string()), oedometer_title});
+  }
+  if (!biaxials.empty()) {
+    const fs::path page = "biaxial";
+    write_biaxial_page(biaxials, folder / page);
+    content.studies.push_back({link_to((page / "index.html").string()), biaxial_title});
   }
   content.versions = find_versions(options.version, gnuplot, folder);
   std::vector<FileText> pages = {{folder / "index.html", report_page(content)},

@@ -33,13 +33,12 @@ fs::path record_of(const fs::path &folder) {
 
 bool is_run_folder(const fs::path &folder) { return fs::is_regular_file(record_of(folder)); }
 
-bool is_oedometer_folder(const fs::path &folder) { return fs::is_regular_file(folder / "oedometer.csv"); }
-
 /// The list to which a folder belongs; nullptr: none.
 std::vector<fs::path> *list_of(const fs::path &folder, ReportFolders &found) {
   if (is_study_folder(folder)) return &found.studies;
   if (is_run_folder(folder)) return &found.runs;
-  return is_oedometer_folder(folder) ? &found.oedometers : nullptr;
+  if (fs::is_regular_file(folder / "oedometer.csv")) return &found.oedometers;
+  return fs::is_regular_file(folder / "biaxial.csv") ? &found.biaxials : nullptr;
 }
 
 /// Sets `value` to a parameter; adds its name to `absent` if the run does not have it.
@@ -270,8 +269,8 @@ ReportFolders find_report_folders(const std::vector<fs::path> &arguments) {
   };
   for (const fs::path &argument : arguments) {
     if (!fs::is_directory(argument))
-      throw UsageError(fmt::format("'{}' is no folder; allowed are run folders (with chain.csv, bed.csv or "
-                                   "oedometer.csv), studies and parents of them",
+      throw UsageError(fmt::format("'{}' is no folder; allowed are run folders (with chain.csv, bed.csv, "
+                                   "oedometer.csv or biaxial.csv), studies and parents of them",
                                    argument.string()));
     ReportFolders found;
     if (std::vector<fs::path> *own = list_of(argument, found))
@@ -285,14 +284,15 @@ ReportFolders find_report_folders(const std::vector<fs::path> &arguments) {
         if (list == &found.studies) entry.disable_recursion_pending();
         if (list != nullptr) list->push_back(entry->path());
       }
-    if (found.runs.empty() && found.studies.empty() && found.oedometers.empty())
-      throw UsageError(fmt::format("'{}' has no chain.csv, no bed.csv, no oedometer.csv and no study in it "
-                                   "or below it; allowed are run "
-                                   "folders, studies and parents of them",
-                                   argument.string()));
+    if (found.runs.empty() && found.studies.empty() && found.oedometers.empty() && found.biaxials.empty())
+      throw UsageError(fmt::format(
+          "'{}' has no chain.csv, no bed.csv, no oedometer.csv, no biaxial.csv and no study in it "
+          "or below it; allowed are run "
+          "folders, studies and parents of them",
+          argument.string()));
     for (auto [list, into] :
          {std::pair{&found.runs, &folders.runs}, std::pair{&found.studies, &folders.studies},
-          std::pair{&found.oedometers, &folders.oedometers}}) {
+          std::pair{&found.oedometers, &folders.oedometers}, std::pair{&found.biaxials, &folders.biaxials}}) {
       std::sort(list->begin(), list->end());
       for (const fs::path &folder : *list)
         take(folder, *into);

@@ -58,6 +58,7 @@ struct Run {
 struct ReportFolders {
   std::vector<std::filesystem::path> runs;       ///< hold chain.csv or bed.csv
   std::vector<std::filesystem::path> oedometers; ///< hold oedometer.csv
+  std::vector<std::filesystem::path> biaxials;   ///< hold biaxial.csv
   std::vector<std::filesystem::path> studies;    ///< hold index.html and study.txt, or regimes.csv of a map
 };
 

@@ -49,4 +49,23 @@ MeanInterval mean_interval(const std::vector<double> &values) {
   return {mean, t_factor(n - 1.0) * std::sqrt(squares / (n * (n - 1.0)))};
 }
 
+LineFit fit_line(const std::vector<double> &x, const std::vector<double> &y) {
+  if (x.size() != y.size() || x.size() < 3)
+    throw std::invalid_argument("a line through less than three points");
+  const auto n = static_cast<double>(x.size());
+  const double mean_x = mean_interval(x).mean, mean_y = mean_interval(y).mean;
+  double xx = 0.0, xy = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    xx += (x[i] - mean_x) * (x[i] - mean_x);
+    xy += (x[i] - mean_x) * (y[i] - mean_y);
+  }
+  if (!(xx > 0.0)) throw std::invalid_argument("a line through points above each other");
+  const double slope = xy / xx, intercept = mean_y - slope * mean_x;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    squares += std::pow(y[i] - intercept - slope * x[i], 2);
+  const double half = t_factor(n - 2.0) * std::sqrt(squares / (n - 2.0));
+  return {{slope, half / std::sqrt(xx)}, {intercept, half * std::sqrt(1.0 / n + mean_x * mean_x / xx)}};
+}
+
 } // namespace drumlin::post

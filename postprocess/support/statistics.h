@@ -1,4 +1,4 @@
-// Statistics of samples: median, quantiles, confidence intervals.
+// Statistics of samples: median, quantiles, confidence intervals, straight lines.
 #pragma once
 
 #include <vector>
@@ -32,5 +32,13 @@ double t_factor(double freedom);
 /// The interval by Student's t distribution; its half width is infinite for a single value.
 /// std::invalid_argument without values.
 MeanInterval mean_interval(const std::vector<double> &values);
+
+/// A straight line y = intercept + slope x.
+struct LineFit {
+  MeanInterval slope, intercept;
+};
+/// Least squares with intervals by Student's t distribution for errors of y alone, equal for all points.
+/// std::invalid_argument unless there are as many y as x, three or more, and two different x.
+LineFit fit_line(const std::vector<double> &x, const std::vector<double> &y);
 
 } // namespace drumlin::post

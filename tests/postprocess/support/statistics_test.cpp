@@ -53,4 +53,17 @@ TEST(MeanInterval, OfOneValueIsInfinite) {
   EXPECT_THROW(mean_interval({}), std::invalid_argument);
 }
 
+// Worked out by hand: the line is 0.785 + 0.425 x, the squares of the distances from it add up to 2.79075; t = 3.18245 with 3 degrees of freedom.
+TEST(LineFit, IsTheLineOfLeastSquares) {
+  const std::vector<double> x = {1, 2, 3, 4, 5}, y = {1, 2, 1.3, 3.75, 2.25};
+  const LineFit line = fit_line(x, y);
+  EXPECT_NEAR(line.slope.mean, 0.425, 1e-12);
+  EXPECT_NEAR(line.intercept.mean, 0.785, 1e-12);
+  EXPECT_NEAR(line.slope.half_width, 3.18245 * std::sqrt(2.79075 / 3 / 10), 1e-5);
+  EXPECT_NEAR(line.intercept.half_width, 3.18245 * std::sqrt(2.79075 / 3 * (1.0 / 5 + 9.0 / 10)), 1e-5);
+  EXPECT_THROW(fit_line({1, 2}, {1, 2}), std::invalid_argument);
+  EXPECT_THROW(fit_line({1, 1, 1}, {1, 2, 3}), std::invalid_argument);
+  EXPECT_THROW(fit_line({1, 2, 3}, {1, 2}), std::invalid_argument);
+}
+
 } // namespace

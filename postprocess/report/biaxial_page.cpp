@@ -1,0 +1,450 @@
+#include "report/biaxial_page.h"
+
+#include "pages/figure_data.h"
+#include "pages/page.h"
+#include "report/element_test.h"
+#include "support/csv.h"
+#include "support/statistics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double degree = 180.0 / 3.14159265358979323846;
+constexpr double strain_of_critical_state = 0.0999; // a run that was asked for 0.1 may end just before
+
+/// Means of the stresses over the rows whose strain is within an interval.
+Failure mean_stresses(const std::vector<BiaxialRow> &rows, double from, double to) {
+  Failure sum{0.0, 0.0};
+  double count = 0.0;
+  for (const BiaxialRow &row : rows) {
+    if (row.strain < from || row.strain > to) continue;
+    sum.axial += row.axial_stress;
+    sum.side += row.side_stress;
+    count += 1.0;
+  }
+  return {sum.axial / count, sum.side / count};
+}
+
+/// sin psi = -(change of volumetric strain)/(change of axial - change of side strain), in degrees.
+double dilatancy_angle(const std::vector<BiaxialRow> &rows, double from, double to) {
+  const BiaxialRow *first = nullptr, *last = nullptr;
+  for (const BiaxialRow &row : rows) {
+    if (row.strain < from || row.strain > to) continue;
+    if (first == nullptr) first = &row;
+    last = &row;
+  }
+  if (first == last) return std::numeric_limits<double>::quiet_NaN();
+  const double axial = last->strain - first->strain;
+  const double volume = last->volumetric_strain - first->volumetric_strain;
+  return degree * std::asin(-volume / (2.0 * axial - volume));
+}
+
+double largest(const BiaxialRun &run, double BiaxialRow::*number) {
+  double most = 0.0;
+  for (const BiaxialRow &row : run.rows)
+    most = std::max(most, std::fabs(row.*number));
+  return most;
+}
+
+/// Tests of one soil: their parameters agree but for side stress and seed.
+struct Soil {
+  std::string name; ///< engine and what distinguishes it
+  std::vector<std::size_t> runs;
+};
+
+/// The parameters in which tests of one soil agree, as one text.
+std::string soil_text(const Run &run) {
+  std::string text;
+  for (const auto &[name, value] : run.parameters) {
+    constexpr std::array others = {"side", "seed", "balls", "ranks", "command", "plugin", "timestep"};
+    if (std::find(others.begin(), others.end(), name) == others.end()) text += name + ' ' + value + '\n';
+  }
+  return text;
+}
+
+std::vector<Soil> soils_of(const std::vector<BiaxialRun> &runs) {
+  std::vector<Soil> soils;
+  std::vector<std::string> texts;
+  for (std::size_t n = 0; n < runs.size(); ++n) {
+    const std::string text = soil_text(runs[n].run);
+    const auto found = std::find(texts.begin(), texts.end(), text);
+    const auto index = static_cast<std::size_t>(found - texts.begin());
+    if (found == texts.end()) {
+      texts.push_back(text);
+      soils.push_back(
+          {curve_text(fmt::format("soil {}: {}", texts.size(), runs[n].run.text("engine", ""))), {}});
+    }
+    soils[index].runs.push_back(n);
+  }
+  return soils;
+}
+
+/// The runs of a soil by side stress, kPa.
+std::map<double, std::vector<std::size_t>> by_side_stress(const Soil &soil,
+                                                          const std::vector<BiaxialRun> &runs) {
+  std::map<double, std::vector<std::size_t>> groups;
+  for (const std::size_t n : soil.runs)
+    groups[runs[n].run.number("side").value_or(std::round(runs[n].rows.front().side_stress))].push_back(n);
+  return groups;
+}
+
+std::string with_interval(const std::vector<double> &values) {
+  const MeanInterval mean = mean_interval(values);
+  return values.size() < 2 ? number_cell(mean.mean, 3)
+                           : fmt::format("{:.1f} ± {:.1f}", mean.mean, mean.half_width);
+}
+
+std::string range_of(const std::vector<double> &values) {
+  return fmt::format("{:.1f} to {:.1f}", *std::min_element(values.begin(), values.end()),
+                     *std::max_element(values.begin(), values.end()));
+}
+
+/// Angles over the seeds of a soil, for each side stress and for all.
+PageTable seed_table(const std::vector<Soil> &soils, const std::vector<BiaxialRun> &runs,
+                     const std::vector<BiaxialStrength> &strengths) {
+  PageTable table;
+  table.name = "biaxial_angles";
+  table.title = "Angles over the seeds";
+  table.header = {"soil",
+                  "side stress (kPa)",
+                  "runs",
+                  "peak friction angle (°)",
+                  "smallest to largest (°)",
+                  "dilatancy angle at the peak (°)",
+                  "critical friction angle (°)",
+                  "smallest to largest (°)"};
+  const auto add = [&](const Soil &soil, const std::string &side, const std::vector<std::size_t> &members) {
+    std::vector<double> peak, dilatancy, critical;
+    for (const std::size_t n : members) {
+      peak.push_back(strengths[n].peak.angle());
+      if (std::isfinite(strengths[n].dilatancy)) dilatancy.push_back(strengths[n].dilatancy);
+      if (strengths[n].is_critical) critical.push_back(strengths[n].critical.angle());
+    }
+    table.add({soil.name, side, std::to_string(members.size()), with_interval(peak), range_of(peak),
+               dilatancy.empty() ? no_value : with_interval(dilatancy),
+               critical.empty() ? no_value : with_interval(critical),
+               critical.empty() ? no_value : range_of(critical)});
+  };
+  for (const Soil &soil : soils) {
+    const auto groups = by_side_stress(soil, runs);
+    for (const auto &[side, members] : groups)
+      add(soil, number_cell(side), members);
+    if (groups.size() > 1) add(soil, "all", soil.runs);
+  }
+  table.notes = {"Mean and half of its 95 % confidence interval. sin φ = (axial - side stress)/(axial + side "
+                 "stress). Peak: the largest value of the stresses averaged over a thirtieth of the strain, "
+                 "within the first third of the strain: later a single force chain from platen to platen can "
+                 "carry more for a moment. Critical: stresses averaged over the last third, if the strain "
+                 "reaches 10 %. Dilatancy: sin ψ = -(volumetric strain)/(axial - side strain) over a "
+                 "fifteenth of the strain around the peak."};
+  return table;
+}
+
+/// Failures of the runs of a soil; `critical`: at large strains instead of the peak.
+std::vector<Failure> failures_of(const Soil &soil, const std::vector<BiaxialStrength> &strengths,
+                                 bool critical) {
+  std::vector<Failure> failures;
+  for (const std::size_t n : soil.runs)
+    if (!critical || strengths[n].is_critical)
+      failures.push_back(critical ? strengths[n].critical : strengths[n].peak);
+  return failures;
+}
+
+bool have_line(const std::vector<Failure> &failures,
+               const std::map<double, std::vector<std::size_t>> &sides) {
+  return sides.size() > 1 && failures.size() > 2;
+}
+
+/// The line through all failures of a soil, at the peak and at large strains.
+PageTable line_table(const std::vector<Soil> &soils, const std::vector<BiaxialRun> &runs,
+                     const std::vector<BiaxialStrength> &strengths) {
+  PageTable table;
+  table.name = "biaxial_lines";
+  table.title = "Mohr-Coulomb lines";
+  table.text_columns = 2;
+  table.header = {
+      "soil",          "failure", "runs", "side stresses", "friction angle (°)", "95 % interval (°)",
+      "cohesion (kPa)"};
+  for (const Soil &soil : soils)
+    for (const bool critical : {false, true}) {
+      const std::vector<Failure> failures = failures_of(soil, strengths, critical);
+      const auto sides = by_side_stress(soil, runs);
+      if (!have_line(failures, sides)) continue;
+      const MohrCoulomb line = fit_mohr_coulomb(failures);
+      table.add({soil.name, critical ? "critical" : "peak", std::to_string(failures.size()),
+                 std::to_string(sides.size()), fmt::format("{:.1f}", line.angle),
+                 fmt::format("{:.1f} to {:.1f}", line.lowest_angle, line.highest_angle),
+                 fmt::format("{:.1f} ± {:.1f}", line.cohesion, line.half_width)});
+    }
+  table.notes = {
+      "Half the difference of the stresses at failure is a line over half their sum: the slope is "
+      "sin φ, the intercept c cos φ. Least squares of their ratio, since its scatter is the same at "
+      "all stresses. A soil without cohesion has an interval of c that contains zero."};
+  return table;
+}
+
+PageTable run_table(const std::vector<BiaxialRun> &runs, const std::vector<BiaxialStrength> &strengths) {
+  PageTable table;
+  table.name = "biaxial_runs";
+  table.title = "Runs";
+  table.text_columns = 2;
+  table.header = {"run",
+                  "sample",
+                  "balls",
+                  "side stress (kPa)",
+                  "void ratio at the start (-)",
+                  "peak friction angle (°)",
+                  "strain at the peak (%)",
+                  "dilatancy angle (°)",
+                  "critical friction angle (°)",
+                  "void ratio at the end (-)",
+                  "largest inertial number (-)",
+                  "largest energy error (-)",
+                  "engine",
+                  "command"};
+  table.shown_columns = table.header.size() - 1;
+  table.criterion =
+      fmt::format("runs have an inertial number of at most {:g} and an energy error of at most {:g}",
+                  allowed_inertial_number, allowed_energy_error);
+  for (std::size_t n = 0; n < runs.size(); ++n) {
+    const BiaxialRun &run = runs[n];
+    const BiaxialStrength &strength = strengths[n];
+    const double inertial = largest(run, &BiaxialRow::inertial_number);
+    const double error = largest(run, &BiaxialRow::energy_error);
+    table.add({run.run.name, run.run.text("sample"), run.run.text("balls"), run.run.text("side"),
+               number_cell(run.rows.front().void_ratio), number_cell(strength.peak.angle()),
+               number_cell(100 * strength.strain, 3), number_cell(strength.dilatancy, 3),
+               strength.is_critical ? number_cell(strength.critical.angle()) : no_value,
+               number_cell(run.rows.back().void_ratio), number_cell(inertial, 2), number_cell(error, 2),
+               run.run.text("engine"), run.run.text("command")},
+              inertial <= allowed_inertial_number && error <= allowed_energy_error ? RowState::agrees
+                                                                                   : RowState::differs);
+  }
+  table.notes = {
+      "Inertial number: strain rate times diameter sqrt(density/side stress); below 1e-3 a test is "
+      "quasi-static. Energy error: stored energy + heat - work of both platens, over the largest "
+      "work so far."};
+  return table;
+}
+
+constexpr std::array line_styles = {CurveStyle::line_1, CurveStyle::line_2, CurveStyle::line_3,
+                                    CurveStyle::line_4, CurveStyle::line_5};
+
+/// A number of a run at a strain, linear between rows.
+double at_strain(const std::vector<BiaxialRow> &rows, double strain, double BiaxialRow::*number) {
+  std::size_t n = 1;
+  while (n + 1 < rows.size() && rows[n].strain < strain)
+    ++n;
+  const BiaxialRow &a = rows[n - 1], &b = rows[n];
+  return a.*number + (strain - a.strain) / (b.strain - a.strain) * (b.*number - a.*number);
+}
+
+/// Rows of the table of strain_figure() for tests that differ only in the seed: their means.
+void add_means(CurveTable &table, const std::string &key, const std::vector<const BiaxialRun *> &runs) {
+  double end = std::numeric_limits<double>::infinity();
+  for (const BiaxialRun *run : runs)
+    end = std::min(end, run->rows.back().strain);
+  constexpr int points = 60;
+  const auto count = static_cast<double>(runs.size());
+  for (int point = 0; point <= points; ++point) {
+    const double strain = end * point / points;
+    Failure stresses{0.0, 0.0};
+    double volumetric = 0.0;
+    for (const BiaxialRun *run : runs) {
+      stresses.axial += at_strain(run->rows, strain, &BiaxialRow::axial_stress);
+      stresses.side += at_strain(run->rows, strain, &BiaxialRow::side_stress);
+      volumetric += at_strain(run->rows, strain, &BiaxialRow::volumetric_strain) / count;
+    }
+    table.row(key, {100 * strain, stresses.angle(), -100 * volumetric});
+  }
+}
+
+/// Mobilised friction angle and volumetric strain over axial strain, means over the seeds.
+PageFigure strain_figure(const std::vector<Soil> &soils, const std::vector<BiaxialRun> &runs) {
+  const std::string name = "biaxial";
+  Panel friction{"Mobilised friction angle", "axial strain (%)", "friction angle (°)", {}};
+  Panel volume{"Volume", "axial strain (%)", "increase of the volume (%)", {}};
+  friction.tight_x = volume.tight_x = true;
+  CurveTable table("axial strain (%),friction angle (°),increase of the volume (%)");
+  std::size_t curves = 0;
+  for (const Soil &soil : soils)
+    for (const auto &[side, members] : by_side_stress(soil, runs)) {
+      const std::string key = members.size() > 1
+                                  ? fmt::format("{}; {:g} kPa; mean of {}", soil.name, side, members.size())
+                                  : curve_text(runs[members.front()].run.name);
+      std::vector<const BiaxialRun *> same;
+      for (const std::size_t n : members)
+        same.push_back(&runs[n]);
+      add_means(table, key, same);
+      const CurveStyle style = line_styles[curves++ % line_styles.size()];
+      friction.curves.push_back(curve(name, key, "$2", "3", style));
+      volume.curves.push_back(curve(name, key, "$2", "4", style));
+    }
+  PageFigure figure;
+  figure.label = "Fig. 1";
+  figure.caption =
+      "Mobilised friction angle, asin((axial - side)/(axial + side stress)), and increase of the "
+      "volume over axial strain. Runs that differ only in the seed are averaged.";
+  figure.weight = 1.0;
+  figure.figure = {name, "Samples sheared under a constant side stress", {friction, volume}, 1};
+  figure.csv = table.text();
+  return figure;
+}
+
+/// Failures of all runs and the lines through them.
+PageFigure line_figure(const std::vector<Soil> &soils, const std::vector<BiaxialRun> &runs,
+                       const std::vector<BiaxialStrength> &strengths) {
+  const std::string name = "mohr_coulomb";
+  Panel panel{"", "half the sum of the stresses (kPa)", "half their difference (kPa)", {}};
+  panel.tight_x = true;
+  CurveTable table("half the sum of the stresses (kPa),half their difference (kPa)");
+  std::size_t lines = 0;
+  for (const bool critical : {false, true}) {
+    const std::string points = critical ? "critical" : "peak";
+    for (const Soil &soil : soils) {
+      const std::vector<Failure> failures = failures_of(soil, strengths, critical);
+      double end = 0.0;
+      for (const Failure &failure : failures) {
+        table.row(points, {failure.half_sum(), failure.half_difference()});
+        end = std::max(end, failure.half_sum());
+      }
+      if (!have_line(failures, by_side_stress(soil, runs))) continue;
+      const MohrCoulomb line = fit_mohr_coulomb(failures);
+      const std::string key = fmt::format("{}; {}: {:.1f}°", soil.name, points, line.angle);
+      for (const double sum : {0.0, 1.05 * end})
+        table.row(key,
+                  {sum, line.cohesion * std::cos(line.angle / degree) + sum * std::sin(line.angle / degree)});
+      panel.curves.push_back(curve(name, key, "$2", "3", line_styles[lines++ % line_styles.size()]));
+    }
+    panel.curves.push_back(
+        curve(name, points, "$2", "3", critical ? CurveStyle::measured_a : CurveStyle::measured_b));
+  }
+  PageFigure figure;
+  figure.label = "Fig. 2";
+  figure.caption =
+      "Half the difference over half the sum of axial and side stress of each run at failure, and "
+      "the Mohr-Coulomb lines through them, whose slopes are the sines of the friction angles.";
+  figure.figure = {name, "", {panel}, 1};
+  figure.csv = table.text();
+  return figure;
+}
+
+} // namespace
+
+double Failure::angle() const { return degree * std::asin((axial - side) / (axial + side)); }
+
+BiaxialStrength strength_of(const std::vector<BiaxialRow> &rows) {
+  const double end = rows.back().strain;
+  BiaxialStrength strength;
+  strength.peak = mean_stresses(rows, 0.0, 0.0);
+  for (const BiaxialRow &row : rows) {
+    if (row.strain > end / 3.0) break;
+    const Failure here = mean_stresses(rows, row.strain - end / 60.0, row.strain + end / 60.0);
+    if (here.angle() <= strength.peak.angle()) continue;
+    strength.peak = here;
+    strength.strain = row.strain;
+  }
+  strength.dilatancy = dilatancy_angle(rows, strength.strain - end / 30.0, strength.strain + end / 30.0);
+  strength.critical = mean_stresses(rows, end / 1.5, end);
+  strength.is_critical = end >= strain_of_critical_state;
+  return strength;
+}
+
+MohrCoulomb fit_mohr_coulomb(const std::vector<Failure> &failures) {
+  // The scatter of the angles is the same at all stresses: the relative difference is a line over 1/(half sum).
+  std::vector<double> inverse_sums, ratios;
+  for (const Failure &failure : failures) {
+    inverse_sums.push_back(1.0 / failure.half_sum());
+    ratios.push_back(failure.half_difference() / failure.half_sum());
+  }
+  const LineFit line = fit_line(inverse_sums, ratios);
+  const auto angle = [](double sine) { return degree * std::asin(std::clamp(sine, -1.0, 1.0)); };
+  const auto [sine, half_width] = line.intercept;
+  const double cosine = std::cos(angle(sine) / degree);
+  return {angle(sine), angle(sine - half_width), angle(sine + half_width), line.slope.mean / cosine,
+          line.slope.half_width / cosine};
+}
+
+std::vector<BiaxialRow> read_biaxial(const fs::path &file) {
+  const Table table = read_table(file, CutRows::forget);
+  if (table.rows() < 2)
+    throw std::runtime_error(fmt::format("{}: {} rows; allowed are 2 or more", file.string(), table.rows()));
+  std::vector<BiaxialRow> rows(table.rows());
+  const std::vector<std::pair<const char *, double BiaxialRow::*>> columns = {
+      {"strain", &BiaxialRow::strain},
+      {"axial_stress_kPa", &BiaxialRow::axial_stress},
+      {"side_stress_kPa", &BiaxialRow::side_stress},
+      {"volumetric_strain", &BiaxialRow::volumetric_strain},
+      {"void_ratio", &BiaxialRow::void_ratio},
+      {"coordination", &BiaxialRow::coordination},
+      {"inertial_number", &BiaxialRow::inertial_number},
+      {"energy_error", &BiaxialRow::energy_error}};
+  for (const auto &[name, number] : columns) {
+    const std::vector<double> values = table.numbers(name);
+    for (std::size_t n = 0; n < rows.size(); ++n)
+      rows[n].*number = values[n];
+  }
+  for (std::size_t n = 0; n < rows.size(); ++n)
+    if (rows[n].side_stress <= 0.0 || rows[n].axial_stress <= 0.0 ||
+        (n > 0 && rows[n].strain <= rows[n - 1].strain))
+      throw std::runtime_error(fmt::format(
+          "{}, line {}: strain {:g} at {:g} and {:g} kPa; allowed are strains that grow, at stresses above 0",
+          file.string(), table.line(n), rows[n].strain, rows[n].axial_stress, rows[n].side_stress));
+  return rows;
+}
+
+std::vector<BiaxialRun> read_biaxial_runs(const std::vector<fs::path> &folders) {
+  std::vector<BiaxialRun> runs;
+  for (Run &run : read_named_runs(folders)) {
+    std::vector<BiaxialRow> rows = read_biaxial(run.folder / "biaxial.csv");
+    runs.push_back({std::move(run), std::move(rows)});
+  }
+  return runs;
+}
+
+void write_biaxial_page(const std::vector<BiaxialRun> &runs, const fs::path &out) {
+  double inertial = 0.0;
+  double error = 0.0;
+  std::vector<BiaxialStrength> strengths;
+  for (const BiaxialRun &run : runs) {
+    inertial = std::max(inertial, largest(run, &BiaxialRow::inertial_number));
+    error = std::max(error, largest(run, &BiaxialRow::energy_error));
+    strengths.push_back(strength_of(run.rows));
+  }
+  const std::vector<Soil> soils = soils_of(runs);
+  Page page(out, biaxial_title, Scene::biaxial);
+  page.answer(
+      "Samples of soil between four smooth plates, sheared by the upper one under a constant stress of "
+      "the side platen. The ratio of the stresses at failure is the friction angle of the soil.");
+  page.answer({{fmt::format("largest inertial number at most {:g}", allowed_inertial_number),
+                number_cell(inertial, 2), inertial <= allowed_inertial_number},
+               {fmt::format("largest energy error at most {:g}", allowed_energy_error), number_cell(error, 2),
+                error <= allowed_energy_error}});
+  page.section("Friction and volume");
+  page.figure(strain_figure(soils, runs));
+  page.section("Friction angle");
+  page.table(seed_table(soils, runs, strengths));
+  const PageTable lines = line_table(soils, runs, strengths);
+  if (!lines.rows.empty()) {
+    page.table(lines);
+    page.figure(line_figure(soils, runs, strengths));
+  }
+  page.section("Numbers");
+  page.table(run_table(runs, strengths));
+  page.write();
+}
+
+} // namespace drumlin::post

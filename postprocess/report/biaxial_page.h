@@ -1,0 +1,73 @@
+// The report's page on biaxial tests: mobilised friction and volume over strain, friction angles over side stresses.
+#pragma once
+
+#include "report/run_folder.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+/// A row of biaxial.csv. Strains are positive in compression; stresses are means since the row before, kPa.
+struct BiaxialRow {
+  double strain = 0.0; ///< axial
+  double axial_stress = 0.0;
+  double side_stress = 0.0;
+  double volumetric_strain = 0.0;
+  double void_ratio = 0.0;
+  double coordination = 0.0;
+  double inertial_number = 0.0;
+  double energy_error = 0.0;
+};
+
+/// Reads biaxial.csv. Throws std::runtime_error with file, line and column, or for less than two rows.
+std::vector<BiaxialRow> read_biaxial(const std::filesystem::path &file);
+
+/// A pair of stresses, kPa, at which a sample fails.
+struct Failure {
+  double axial, side;
+  double half_sum() const { return 0.5 * (axial + side); }
+  double half_difference() const { return 0.5 * (axial - side); }
+  /// Mobilised friction angle, degrees: sin phi = (axial - side)/(axial + side).
+  double angle() const;
+};
+
+/// What a test measures.
+struct BiaxialStrength {
+  Failure peak;        ///< the largest ratio within the first third of the strain, of means over a thirtieth
+  double strain = 0.0; ///< at the peak
+  double dilatancy = 0.0;  ///< angle, degrees, over a fifteenth of the strain around the peak
+  Failure critical;        ///< means over the last third of the strain
+  bool is_critical = true; ///< whether the strain reached 0.1, so that `critical` means something
+};
+
+/// \param rows at least two
+BiaxialStrength strength_of(const std::vector<BiaxialRow> &rows);
+
+/// The line half difference = cohesion cos phi + half sum sin phi through failures (Mohr and Coulomb).
+struct MohrCoulomb {
+  double angle, lowest_angle, highest_angle; ///< degrees; the last two: 95 % confidence interval
+  double cohesion, half_width;               ///< kPa; half of the 95 % confidence interval
+};
+
+/// Least squares of the ratio of half difference and half sum. Throws std::invalid_argument unless there are two side stresses and three failures or more.
+MohrCoulomb fit_mohr_coulomb(const std::vector<Failure> &failures);
+
+/// A biaxial test.
+struct BiaxialRun {
+  Run run; ///< only folder, name and parameters
+  std::vector<BiaxialRow> rows;
+};
+
+/// Reads the folders and names the runs. Throws std::runtime_error for a file that cannot be read.
+std::vector<BiaxialRun> read_biaxial_runs(const std::vector<std::filesystem::path> &folders);
+
+/// Title of the page.
+constexpr const char *biaxial_title = "Biaxial tests of soil";
+
+/// Writes the page into a folder: index.html, figures and data. Throws std::runtime_error.
+/// \param runs at least one
+void write_biaxial_page(const std::vector<BiaxialRun> &runs, const std::filesystem::path &out);
+
+} // namespace drumlin::post
