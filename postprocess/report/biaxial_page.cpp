@@ -70,7 +70,8 @@ std::string soil_text(const Run &run) {
   std::string text;
   for (const auto &[name, value] : run.parameters) {
     constexpr std::array others = {"side", "seed", "balls", "ranks", "command", "plugin", "timestep"};
-    if (std::find(others.begin(), others.end(), name) == others.end()) text += name + ' ' + value + '\n';
+    if (std::find(others.begin(), others.end(), name) == others.end())
+      text.append(name).append(" ").append(value).append("\n");
   }
   return text;
 }
@@ -101,15 +102,27 @@ std::map<double, std::vector<std::size_t>> by_side_stress(const Soil &soil,
   return groups;
 }
 
-std::string with_interval(const std::vector<double> &values) {
-  const MeanInterval mean = mean_interval(values);
-  return values.size() < 2 ? number_cell(mean.mean, 3)
-                           : fmt::format("{:.1f} ± {:.1f}", mean.mean, mean.half_width);
+/// Mean and interval over the seeds. Runs of one seed at several side stresses have nearly the same sample: their
+/// mean counts once.
+std::string mean_over_seeds(const std::map<std::string, std::vector<double>> &values) {
+  if (values.empty()) return no_value;
+  std::vector<double> means;
+  for (const auto &[seed, of_seed] : values)
+    means.push_back(mean_interval(of_seed).mean);
+  const MeanInterval mean = mean_interval(means);
+  return means.size() < 2 ? fmt::format("{:.1f}", mean.mean)
+                          : fmt::format("{:.1f} ± {:.1f}", mean.mean, mean.half_width);
 }
 
-std::string range_of(const std::vector<double> &values) {
-  return fmt::format("{:.1f} to {:.1f}", *std::min_element(values.begin(), values.end()),
-                     *std::max_element(values.begin(), values.end()));
+std::string range_of(const std::map<std::string, std::vector<double>> &values) {
+  if (values.empty()) return no_value;
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const auto &[seed, of_seed] : values)
+    for (const double value : of_seed) {
+      least = std::min(least, value);
+      most = std::max(most, value);
+    }
+  return fmt::format("{:.1f} to {:.1f}", least, most);
 }
 
 /// Angles over the seeds of a soil, for each side stress and for all.
@@ -127,16 +140,15 @@ PageTable seed_table(const std::vector<Soil> &soils, const std::vector<BiaxialRu
                   "critical friction angle (°)",
                   "smallest to largest (°)"};
   const auto add = [&](const Soil &soil, const std::string &side, const std::vector<std::size_t> &members) {
-    std::vector<double> peak, dilatancy, critical;
+    std::map<std::string, std::vector<double>> peak, dilatancy, critical; // of each seed
     for (const std::size_t n : members) {
-      peak.push_back(strengths[n].peak.angle());
-      if (std::isfinite(strengths[n].dilatancy)) dilatancy.push_back(strengths[n].dilatancy);
-      if (strengths[n].is_critical) critical.push_back(strengths[n].critical.angle());
+      const std::string seed = runs[n].run.text("seed");
+      peak[seed].push_back(strengths[n].peak.angle());
+      if (std::isfinite(strengths[n].dilatancy)) dilatancy[seed].push_back(strengths[n].dilatancy);
+      if (strengths[n].is_critical) critical[seed].push_back(strengths[n].critical.angle());
     }
-    table.add({soil.name, side, std::to_string(members.size()), with_interval(peak), range_of(peak),
-               dilatancy.empty() ? no_value : with_interval(dilatancy),
-               critical.empty() ? no_value : with_interval(critical),
-               critical.empty() ? no_value : range_of(critical)});
+    table.add({soil.name, side, std::to_string(members.size()), mean_over_seeds(peak), range_of(peak),
+               mean_over_seeds(dilatancy), mean_over_seeds(critical), range_of(critical)});
   };
   for (const Soil &soil : soils) {
     const auto groups = by_side_stress(soil, runs);
@@ -144,7 +156,8 @@ PageTable seed_table(const std::vector<Soil> &soils, const std::vector<BiaxialRu
       add(soil, number_cell(side), members);
     if (groups.size() > 1) add(soil, "all", soil.runs);
   }
-  table.notes = {"Mean and half of its 95 % confidence interval. sin φ = (axial - side stress)/(axial + side "
+  table.notes = {"Mean and half of its 95 % confidence interval over the seeds; runs of one seed count once. "
+                 "sin φ = (axial - side stress)/(axial + side "
                  "stress). Peak: the largest value of the stresses averaged over a thirtieth of the strain, "
                  "within the first third of the strain: later a single force chain from platen to platen can "
                  "carry more for a moment. Critical: stresses averaged over the last third, if the strain "
@@ -192,7 +205,9 @@ PageTable line_table(const std::vector<Soil> &soils, const std::vector<BiaxialRu
   table.notes = {
       "Half the difference of the stresses at failure is a line over half their sum: the slope is "
       "sin φ, the intercept c cos φ. Least squares of their ratio, since its scatter is the same at "
-      "all stresses. A soil without cohesion has an interval of c that contains zero."};
+      "all stresses. A soil without cohesion has an interval of c that contains zero. The intervals take all "
+      "runs as independent: those of "
+      "one seed are not, so that they are somewhat too narrow."};
   return table;
 }
 
@@ -243,6 +258,9 @@ PageTable run_table(const std::vector<BiaxialRun> &runs, const std::vector<Biaxi
 constexpr std::array line_styles = {CurveStyle::line_1, CurveStyle::line_2, CurveStyle::line_3,
                                     CurveStyle::line_4, CurveStyle::line_5};
 
+constexpr std::array series_styles = {CurveStyle::series_1, CurveStyle::series_2, CurveStyle::series_3,
+                                      CurveStyle::series_4, CurveStyle::series_5, CurveStyle::series_6};
+
 /// A number of a run at a strain, linear between rows.
 double at_strain(const std::vector<BiaxialRow> &rows, double strain, double BiaxialRow::*number) {
   std::size_t n = 1;
@@ -257,7 +275,7 @@ void add_means(CurveTable &table, const std::string &key, const std::vector<cons
   double end = std::numeric_limits<double>::infinity();
   for (const BiaxialRun *run : runs)
     end = std::min(end, run->rows.back().strain);
-  constexpr int points = 60;
+  constexpr int points = 40;
   const auto count = static_cast<double>(runs.size());
   for (int point = 0; point <= points; ++point) {
     const double strain = end * point / points;
@@ -289,7 +307,7 @@ PageFigure strain_figure(const std::vector<Soil> &soils, const std::vector<Biaxi
       for (const std::size_t n : members)
         same.push_back(&runs[n]);
       add_means(table, key, same);
-      const CurveStyle style = line_styles[curves++ % line_styles.size()];
+      const CurveStyle style = series_styles[curves++ % series_styles.size()];
       friction.curves.push_back(curve(name, key, "$2", "3", style));
       volume.curves.push_back(curve(name, key, "$2", "4", style));
     }
