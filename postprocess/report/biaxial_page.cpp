@@ -107,6 +107,7 @@ std::map<double, std::vector<std::size_t>> by_side_stress(const Soil &soil,
 std::string mean_over_seeds(const std::map<std::string, std::vector<double>> &values) {
   if (values.empty()) return no_value;
   std::vector<double> means;
+  means.reserve(values.size());
   for (const auto &[seed, of_seed] : values)
     means.push_back(mean_interval(of_seed).mean);
   const MeanInterval mean = mean_interval(means);

@@ -161,12 +161,13 @@ TEST_F(BiaxialReport, HasNoLineForOneSideStress) {
 
 TEST_F(BiaxialReport, RefusesWhatItCannotRead) {
   write_run("cut", 100, 1, 42);
-  const std::string good = line({0.0, 100, 100, 0, 0.2, 3, 0, 0});
+  const std::string row = line({0.0, 100, 100, 0, 0.2, 3, 0, 0});
+  const std::string good = header + row;
   for (const auto &[text, says] :
-       {std::pair<std::string, std::string>{header + good, "allowed are 2 or more"},
-        {header + good + "0.1,x,100,0,0,0.2,3,0,0,0,0,0,0,0\n", "column 'axial_stress_kPa' is 'x'"},
-        {header + good + good, "allowed are strains that grow"},
-        {header + good + line({0.1, 200, 0, 0, 0.2, 3, 0, 0}), "at stresses above 0"},
+       {std::pair<std::string, std::string>{good, "allowed are 2 or more"},
+        {good + "0.1,x,100,0,0,0.2,3,0,0,0,0,0,0,0\n", "column 'axial_stress_kPa' is 'x'"},
+        {good + row, "allowed are strains that grow"},
+        {good + line({0.1, 200, 0, 0, 0.2, 3, 0, 0}), "at stresses above 0"},
         {"strain\n0\n1\n", "axial_stress_kPa"}}) {
     write_files({{root / "cut" / "biaxial.csv", text}});
     try {
