@@ -123,10 +123,10 @@ std::string oedometer_drawing() {
 std::string biaxial_drawing() {
   std::string side; // arrows of the side stress
   for (const double y : {95.0, 120.0, 145.0})
-    side += line(296, y, 272, y) + fmt::format("M281 {:g} L272 {:g} L281 {:g} ", y - 5.0, y, y + 5.0);
+    side += line(290, y, 272, y) + fmt::format("M281 {:g} L272 {:g} L281 {:g} ", y - 5.0, y, y + 5.0);
   return strokes(arrow(134, 25, 58), 2.4, red) + text(145, 40, "moved slowly", "start", red) +
          box(12, 60, 244, 16, steel) + soil(86) + box(253, 80, 14, 78, steel) + strokes(side, 2.4, red) +
-         text(302, 116, "side", "start", red) + text(302, 132, "stress", "start", red) +
+         text(294, 116, "side", "start", red) + text(294, 132, "stress", "start", red) +
          strokes(line(17, 80, 17, 158) + ground(17, 251, 158));
 }
 

@@ -63,6 +63,9 @@ double largest(const BiaxialRun &run, double BiaxialRow::*number) {
 struct Soil {
   std::string name; ///< engine and what distinguishes it
   std::vector<std::size_t> runs;
+
+  /// "soil 1", for legends.
+  std::string short_name() const { return name.substr(0, name.find(':')); }
 };
 
 /// The parameters in which tests of one soil agree, as one text.
@@ -257,10 +260,7 @@ PageTable run_table(const std::vector<BiaxialRun> &runs, const std::vector<Biaxi
 }
 
 constexpr std::array line_styles = {CurveStyle::line_1, CurveStyle::line_2, CurveStyle::line_3,
-                                    CurveStyle::line_4, CurveStyle::line_5};
-
-constexpr std::array series_styles = {CurveStyle::series_1, CurveStyle::series_2, CurveStyle::series_3,
-                                      CurveStyle::series_4, CurveStyle::series_5, CurveStyle::series_6};
+                                    CurveStyle::line_4, CurveStyle::line_5, CurveStyle::direct_line};
 
 /// A number of a run at a strain, linear between rows.
 double at_strain(const std::vector<BiaxialRow> &rows, double strain, double BiaxialRow::*number) {
@@ -276,7 +276,7 @@ void add_means(CurveTable &table, const std::string &key, const std::vector<cons
   double end = std::numeric_limits<double>::infinity();
   for (const BiaxialRun *run : runs)
     end = std::min(end, run->rows.back().strain);
-  constexpr int points = 40;
+  constexpr int points = 60;
   const auto count = static_cast<double>(runs.size());
   for (int point = 0; point <= points; ++point) {
     const double strain = end * point / points;
@@ -297,18 +297,20 @@ PageFigure strain_figure(const std::vector<Soil> &soils, const std::vector<Biaxi
   Panel friction{"Mobilised friction angle", "axial strain (%)", "friction angle (°)", {}};
   Panel volume{"Volume", "axial strain (%)", "increase of the volume (%)", {}};
   friction.tight_x = volume.tight_x = true;
+  friction.y_range = "[0:*]";
+  volume.y_range = "[*:*]";
   CurveTable table("axial strain (%),friction angle (°),increase of the volume (%)");
   std::size_t curves = 0;
   for (const Soil &soil : soils)
     for (const auto &[side, members] : by_side_stress(soil, runs)) {
-      const std::string key = members.size() > 1
-                                  ? fmt::format("{}; {:g} kPa; mean of {}", soil.name, side, members.size())
-                                  : curve_text(runs[members.front()].run.name);
+      const std::string key =
+          members.size() > 1 ? fmt::format("{}; {:g} kPa; {} runs", soil.short_name(), side, members.size())
+                             : curve_text(runs[members.front()].run.name);
       std::vector<const BiaxialRun *> same;
       for (const std::size_t n : members)
         same.push_back(&runs[n]);
       add_means(table, key, same);
-      const CurveStyle style = series_styles[curves++ % series_styles.size()];
+      const CurveStyle style = line_styles[curves++ % line_styles.size()];
       friction.curves.push_back(curve(name, key, "$2", "3", style));
       volume.curves.push_back(curve(name, key, "$2", "4", style));
     }
@@ -342,7 +344,7 @@ PageFigure line_figure(const std::vector<Soil> &soils, const std::vector<Biaxial
       }
       if (!have_line(failures, by_side_stress(soil, runs))) continue;
       const MohrCoulomb line = fit_mohr_coulomb(failures);
-      const std::string key = fmt::format("{}; {}: {:.1f}°", soil.name, points, line.angle);
+      const std::string key = fmt::format("{}; {}: {:.1f}°", soil.short_name(), points, line.angle);
       for (const double sum : {0.0, 1.05 * end})
         table.row(key,
                   {sum, line.cohesion * std::cos(line.angle / degree) + sum * std::sin(line.angle / degree)});
