@@ -172,7 +172,7 @@ std::string scene_html(Scene scene) {
               "a spring and a dashpot.";
     drawing = bed_drawing();
     break;
-  case Scene::held:
+  case Scene::confined:
     title = "A ball confined between two walls";
     caption = "The model of the stability map: one ball in contact with one, two or four walls.";
     drawing = held_drawing();

@@ -9,7 +9,7 @@ namespace drumlin::post {
 enum class Scene {
   chain,     ///< fixed soil, drum and frame, joined by contact and suspension
   bed,       ///< drum and frame on a bed of balls
-  held,      ///< one ball confined between two walls
+  confined,  ///< one ball confined between two walls
   oedometer, ///< a sample between two plates, loaded from above
   sphere,    ///< a sphere that strikes a plane
   biaxial    ///< a sample between four plates, under a side stress

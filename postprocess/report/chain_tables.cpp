@@ -330,8 +330,8 @@ PageTable energy_table(const ReportResults &results) {
                   "of potential (J)",
                   "of stored in contact (J)",
                   "of stored in bond (J)",
-                  "closure (J)",
-                  "closure (% of work)"};
+                  "energy error (J)",
+                  "energy error (% of work)"};
   table.shown_columns = table.header.size();
   table.text_columns = 2;
   for (const RunResult &result : results.runs) {

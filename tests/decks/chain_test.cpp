@@ -420,7 +420,7 @@ TEST(HeavyDamping, BetweenWallsIsStableUpToTheLimitOfTheSprings) {
            "facet normal 0 0 1\nouter loop\nvertex -1.9 -0.9 0\nvertex 1.9 15.9 0\nvertex -1.9 15.9 "
            "0\nendloop\nendfacet\n"
            "endsolid strip\n";
-    std::ofstream walls(meshes / "study/held.two");
+    std::ofstream walls(meshes / "study/confined.two");
     walls << "fix below all mesh/surface file ${out}/strip.stl type 1 move 0 0 -0.4\n"
              "fix above all mesh/surface file ${out}/strip.stl type 1 move 0 0 0.4\n"
              "fix walls all wall/gran model hooke/transition mesh n_meshes 2 meshes below above "
