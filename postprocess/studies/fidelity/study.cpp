@@ -1,43 +1,24 @@
 #include "studies/studies.h"
 
-#include "bed/packing.h"
 #include "chain/run_files.h"
 #include "engine/deck_run.h"
 #include "studies/fidelity/page.h"
 #include "studies/fidelity/results.h"
-#include "studies/settled_bed.h"
+#include "studies/placed_bed.h"
 #include "studies/study.h"
-#include "support/progress.h"
-#include "support/files.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <atomic>
-#include <functional>
-#include <mutex>
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <thread>
+#include <utility>
 #include <vector>
 
 namespace drumlin::post {
 
-namespace fs = std::filesystem;
-
 namespace {
-
-constexpr double density = 2650.0; // kg/m3
-
-/// A bed with a roller on it, made once for each seed, and the deck variables of its runs.
-struct Bed {
-  std::string name; ///< of its files
-  PackingOptions packing;
-  Variables scene;       ///< of all its decks
-  std::string ratio;     ///< unbalanced force at which it counts as at rest: see in.settle
-  Variables settle = {}; ///< of in.settle alone, before `scene`
-};
 
 /// One run on a bed of each seed.
 struct Variant {
@@ -46,7 +27,7 @@ struct Variant {
 };
 
 struct BedVariants {
-  Bed bed;
+  PlacedBed bed;
   std::vector<Variant> variants;
 };
 
@@ -57,7 +38,7 @@ struct Plan {
 };
 
 /// The same bed with other values.
-Bed with(Bed bed, const std::string &name, const Variables &scene, const Variables &settle = {}) {
+PlacedBed with(PlacedBed bed, const std::string &name, const Variables &scene, const Variables &settle = {}) {
   bed.name = name;
   bed.scene.insert(bed.scene.begin(), scene.begin(), scene.end()); // the first value counts
   bed.settle = settle;
@@ -65,7 +46,7 @@ Bed with(Bed bed, const std::string &name, const Variables &scene, const Variabl
 }
 
 /// The same bed with other balls.
-Bed of_balls(Bed bed, int balls, double smallest, double largest) {
+PlacedBed of_balls(PlacedBed bed, int balls, double smallest, double largest) {
   bed.packing.balls = balls;
   bed.packing.radius_min = smallest;
   bed.packing.radius_max = largest;
@@ -73,7 +54,7 @@ Bed of_balls(Bed bed, int balls, double smallest, double largest) {
 }
 
 Plan quick_plan() {
-  Bed bed{"loose", {}, {}, "1e-2"};
+  PlacedBed bed{"loose", {}, {}, "1e-2"};
   bed.packing.balls = 150;
   bed.packing.width = 0.6;
   bed.scene = {{"case", "loose"}, {"m2", "100"},  {"m3", "50"},  {"r2", "0.1"},
@@ -90,20 +71,20 @@ Plan quick_plan() {
 /// little else.
 Plan full_plan() {
   // The excitation moves a bed far more than the forces that are unbalanced at a ratio of 1e-3.
-  const Bed loose{"loose", {}, {{"case", "loose"}, {"stepping", "second"}}, "1e-3"};
+  const PlacedBed loose{"loose", {}, {{"case", "loose"}, {"stepping", "second"}}, "1e-3"};
   // The time step follows the contact time: sqrt(m/k), m ~ r^2.
   const auto stiffness = [&loose](const char *name, const char *k, const char *dt) {
     return with(loose, name, {{"k", k}, {"dt", dt}});
   };
-  const Bed coarse = with(of_balls(loose, 625, 0.032, 0.048), "coarse", {{"dt", "4e-5"}});
-  const Bed fine = with(of_balls(loose, 10000, 0.008, 0.012), "fine", {{"dt", "1e-5"}});
-  Bed wide = with(of_balls(loose, 2500, 0.010, 0.030), "wide", {{"dt", "1e-5"}});
+  const PlacedBed coarse = with(of_balls(loose, 625, 0.032, 0.048), "coarse", {{"dt", "4e-5"}});
+  const PlacedBed fine = with(of_balls(loose, 10000, 0.008, 0.012), "fine", {{"dt", "1e-5"}});
+  PlacedBed wide = with(of_balls(loose, 2500, 0.010, 0.030), "wide", {{"dt", "1e-5"}});
   wide.packing.grading = Grading::mass;
   wide.packing.height = 3.5; // m: with small balls everywhere, large ones find less space
   // As wide, as high and as loose as each other, the drum a clump in both.
-  Bed plane = with(of_balls(loose, 460, 0.016, 0.024), "plane", {{"drum", "clump"}});
+  PlacedBed plane = with(of_balls(loose, 460, 0.016, 0.024), "plane", {{"drum", "clump"}});
   plane.packing.width = 1.0;
-  Bed space = with(of_balls(loose, 2500, 0.016, 0.024), "space", {{"case", "loose3d"}});
+  PlacedBed space = with(of_balls(loose, 2500, 0.016, 0.024), "space", {{"case", "loose3d"}});
   space.packing.width = 1.0;
   space.packing.depth = 0.2;
   const auto frequency = [](double hertz, const char *steps) -> Variables {
@@ -152,38 +133,10 @@ Plan full_plan() {
           10};
 }
 
-Variables joined(Variables first, const Variables &second) {
-  first.insert(first.end(), second.begin(), second.end());
-  return first;
-}
-
-/// The restart file of a bed with its roller at rest, made if an earlier call did not finish it.
-fs::path made(const Bed &bed, int seed, const fs::path &out) {
-  const fs::path folder = fs::absolute(out / "beds");
-  const std::string stem = fmt::format("{}_{}", bed.name, seed);
-  fs::path done = folder / (stem + ".restart");
-  if (fs::exists(done)) return done;
-  PackingOptions packing = bed.packing;
-  packing.seed = static_cast<std::uint64_t>(seed);
-  const fs::path balls = folder / (stem + ".balls"), soil = folder / (stem + ".soil"),
-                 roller = folder / (stem + ".roller");
-  write_files({{balls, bed_data(packing, density, pack_balls(packing))}});
-  Variables settling = joined(bed.settle, bed.scene);
-  settling.insert(settling.end(), {{"ratio", bed.ratio}, {"balls", balls.string()}, {"bed", soil.string()}});
-  DeckRun("bed/in.settle", settling).must_succeed();
-  Variables placing = bed.scene;
-  placing.insert(placing.end(), {{"ratio", bed.ratio}, {"bed", soil.string()}, {"start", roller.string()}});
-  DeckRun("bed/in.place", placing).must_succeed();
-  fs::rename(roller, done);
-  fs::remove(balls);
-  fs::remove(soil);
-  fs::remove(roller.string() + ".data"); // for LAMMPS
-  return done;
-}
-
-FidelityRun measure(const Bed &bed, const Variant &variant, int seed, const fs::path &out, int cycles) {
+FidelityRun measure(const PlacedBed &bed, const Variant &variant, int seed, const std::filesystem::path &out,
+                    int cycles) {
   Variables variables = joined(variant.run, bed.scene);
-  variables.insert(variables.end(), {{"start", made(bed, seed, out).string()},
+  variables.insert(variables.end(), {{"start", placed(bed, seed, out).string()},
                                      {"cycles", std::to_string(cycles)},
                                      {"samples_per_cycle", "250"}});
   const DeckRun run("bed/in.bed", variables);
@@ -193,19 +146,9 @@ FidelityRun measure(const Bed &bed, const Variant &variant, int seed, const fs::
           run.outcome().cpu_seconds};
 }
 
-/// Runs the tasks, `jobs` at a time. A task must not throw.
-void in_parallel(const std::vector<std::function<void()>> &tasks, int jobs) {
-  std::atomic<std::size_t> next = 0;
-  std::vector<std::thread> workers;
-  const std::size_t count = std::min(static_cast<std::size_t>(jobs), tasks.size());
-  workers.reserve(count);
-  for (std::size_t worker = 0; worker < count; ++worker)
-    workers.emplace_back([&] {
-      for (std::size_t task = next++; task < tasks.size(); task = next++)
-        tasks[task]();
-    });
-  for (std::thread &worker : workers)
-    worker.join();
+MeasuredRun measured(const FidelityRun &run) {
+  return {fidelity_runs().cells(run), fmt::format("{:.3g} m/s2, {:.3g} mm per cycle, {:.3g} s", run.values[0],
+                                                  1e3 * run.values[2], run.cpu_s)};
 }
 
 } // namespace
@@ -214,40 +157,16 @@ void run_fidelity_study(const StudyOptions &options) {
   check_engine_path(options.out);
   const Plan plan = options.quick ? quick_plan() : full_plan();
   StudyResults results(options.out / "runs.csv", fidelity_runs());
-  std::size_t variants = 0;
-  for (const BedVariants &one : plan.beds)
-    variants += one.variants.size();
-  CountedProgress progress(static_cast<std::size_t>(plan.seeds) * variants);
-  fs::create_directories(options.out / "beds");
-
-  std::mutex mutex; // of results, progress and failures
-  std::vector<std::string> failures;
-  std::vector<std::function<void()>> tasks;
+  std::vector<std::vector<SeedRun>> groups;
   for (int seed = 1; seed <= plan.seeds; ++seed)
-    for (const BedVariants &one : plan.beds)
-      tasks.emplace_back([&, seed] {
-        for (const Variant &variant : one.variants) {
-          {
-            const std::lock_guard lock(mutex);
-            if (results.has({variant.name, std::to_string(seed)})) {
-              progress.found();
-              continue;
-            }
-          }
-          try {
-            const FidelityRun run = measure(one.bed, variant, seed, options.out, plan.cycles);
-            const std::lock_guard lock(mutex);
-            results.add(fidelity_runs().cells(run));
-            progress.measured(fmt::format("seed {}, {}: {:.3g} m/s2, {:.3g} mm per cycle, {:.3g} s", seed,
-                                          run.variant, run.values[0], 1e3 * run.values[2], run.cpu_s));
-          } catch (const std::exception &fault) { // a bed that fails does not stop the others
-            const std::lock_guard lock(mutex);
-            failures.push_back(fmt::format("seed {}, {}: {}", seed, variant.name, fault.what()));
-            progress.measured(failures.back());
-          }
-        }
-      });
-  in_parallel(tasks, options.jobs);
+    for (const BedVariants &one : plan.beds) {
+      groups.emplace_back();
+      for (const Variant &variant : one.variants)
+        groups.back().push_back({variant.name, seed, [&one, &variant, &options, &plan, seed] {
+                                   return measured(measure(one.bed, variant, seed, options.out, plan.cycles));
+                                 }});
+    }
+  const std::vector<std::string> failures = make_runs(groups, options.jobs, results);
 
   std::vector<Effect> effects;
   const std::vector<FidelityRun> runs = read_fidelity_runs(results.file());

@@ -1,0 +1,50 @@
+// Beds of several seeds with a roller on them, and the runs that studies make on them: inputs/bed.
+#pragma once
+
+#include "bed/packing.h"
+#include "engine/engine_run.h"
+#include "studies/study.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+/// A bed with a roller on it, made once for each seed, and the deck variables of its runs.
+struct PlacedBed {
+  std::string name; ///< of its files
+  PackingOptions packing;
+  Variables scene;       ///< of all its decks
+  std::string ratio;     ///< unbalanced force at which it counts as at rest: see in.settle
+  Variables settle = {}; ///< of in.settle alone, before `scene`
+  /// Name of the files of its settled soil, which beds that differ in the roller alone share; empty: `name`.
+  std::string soil = {};
+};
+
+Variables joined(Variables first, const Variables &second);
+
+/// The restart file of a bed with its roller at rest, in the folder `beds` of the study; made if an earlier
+/// call did not finish it. Beds that share their soil are not made at the same time.
+std::filesystem::path placed(const PlacedBed &bed, int seed, const std::filesystem::path &out);
+
+/// What a run gave.
+struct MeasuredRun {
+  StudyResults::Row row; ///< of the results
+  std::string words;     ///< for the progress
+};
+
+/// A run on the bed of a seed. The results of its study have the columns name and seed as their key.
+struct SeedRun {
+  std::string name;
+  int seed;
+  std::function<MeasuredRun()> measure;
+};
+
+/// Makes the runs that the results do not have: those of a group one after the other, `jobs` groups at the
+/// same time. A run that fails does not stop the others. Returns the failures, one sentence each.
+std::vector<std::string> make_runs(const std::vector<std::vector<SeedRun>> &groups, int jobs,
+                                   StudyResults &results);
+
+} // namespace drumlin::post
