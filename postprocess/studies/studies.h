@@ -59,6 +59,14 @@ void run_speed_study(const StudyOptions &options);
 ///   index.html    tables and a figure
 void run_stability_study(const StudyOptions &options);
 
+/// `drumlin study stiffness`: stiffness k and damping ratio D of the linear law that identification finds in
+/// the records of a roller on beds, over static load, force amplitude and frequency. Failures as in the study
+/// of fidelity.
+///   beds/       restart files of the beds
+///   runs.csv    k, D, R2 of each run with the intervals of its record
+///   index.html  tables and figures, with 95 % confidence intervals over the seeds
+void run_stiffness_study(const StudyOptions &options);
+
 /// A study as `drumlin study NAME` offers it.
 struct Study {
   const char *name;
@@ -104,6 +112,11 @@ inline constexpr std::array studies = {
         "The longest stable time step over damping, for both integration schemes; runs at the limits of the "
         "allowed parameters. About ten minutes.",
         &run_stability_study},
+    Study{"stiffness",
+          "Stiffness k and damping ratio D that `drumlin identify` finds on beds of 1000 discs, over static "
+          "load, force amplitude and frequency: 8 runs on each of five seeds. About 10 minutes of processor "
+          "time.",
+          &run_stiffness_study, true},
 };
 
 } // namespace drumlin::post
