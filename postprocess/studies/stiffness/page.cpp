@@ -125,7 +125,7 @@ PageFigure level_figure(const std::vector<BedLaw> &laws, const LawVariable &vari
                                "95 % confidence interval; circles: single seeds.",
                                variable.title);
   figure.weight = number == 1 ? 2.0 : number == 2 ? 1.0 : 0.0;
-  figure.figure = {name, fmt::format("k, D and R^2 over {}", variable.title), {}, 3};
+  figure.figure = {name, fmt::format("k, D and R2 over {}", variable.title), {}, 3};
   CurveTable table(fmt::format("{},value,low,high", variable.label));
   const std::vector<LawLevel> levels = levels_of(laws, variable);
   for (const LawQuantity &quantity : law_quantities) {
@@ -157,26 +157,34 @@ PageFigure level_figure(const std::vector<BedLaw> &laws, const LawVariable &vari
   return figure;
 }
 
-/// "k at a static load ...", for each change that leaves the scatter of the seeds, and how many were looked at.
+/// "amplitude of the force 14.7 kN/m".
+std::string value_words(const LawVariable &variable, double value) {
+  const std::string label = variable.label;
+  const std::size_t unit = label.find(" [");
+  return fmt::format("{} {:.3g} {}", label.substr(0, unit), variable.scale * value,
+                     label.substr(unit + 2, label.size() - unit - 3));
+}
+
+/// The changes that leave the scatter of the seeds, and how many were looked at.
 std::string changes_words(const std::vector<BedLaw> &laws) {
   std::vector<std::string> found;
   std::size_t changes = 0;
   for (const LawVariable &variable : law_variables)
     for (const LawLevel &level : levels_of(laws, variable)) {
-      const auto look = [&](const char *symbol, const std::optional<MeanInterval> &change, double scale,
-                            const char *unit) {
+      const auto look = [&](const std::optional<MeanInterval> &change, double scale, const char *words) {
         if (!change) return;
         ++changes;
         if (change->significant())
-          found.push_back(fmt::format("{} by {:+.2g} ± {:.2g}{} with {} of {:.3g}", symbol,
-                                      scale * change->mean, scale * change->half_width, unit, variable.label,
-                                      variable.scale * level.value));
+          found.push_back(fmt::format(fmt::runtime(words), scale * change->mean, scale * change->half_width) +
+                          " at " + value_words(variable, level.value));
       };
-      look("k", level.k_change, 1e-6, " MN/m per m");
-      look("D", level.D_change, 1.0, "");
+      look(level.k_change, 1e-6, "k by {:+.2g} ± {:.2g} MN/m per m");
+      look(level.D_change, 1.0, "D by {:+.2g} ± {:.2g}");
     }
-  return fmt::format("{} of {} changes from the default run leave the scatter of the seeds{}{}.",
-                     found.size(), changes, found.empty() ? "" : ": ", fmt::join(found, "; "));
+  return fmt::format(
+      "{} of {} changes from the default run leave the scatter of the seeds (by chance alone, one "
+      "of twenty does){}{}.",
+      found.size(), changes, found.empty() ? "" : ": ", fmt::join(found, "; "));
 }
 
 void answer(Page &page, const std::string &beds, const std::vector<BedLaw> &laws) {
