@@ -30,10 +30,11 @@ struct LawQuantity {
   double BedLaw::*value;
   std::vector<double> LawLevel::*values; ///< over the seeds
   double scale;                          ///< from SI to the label's unit
+  bool has_mean;                         ///< R2 has none: its values crowd below 1
 };
-const std::array<LawQuantity, 3> law_quantities = {{{"k [MN/m per m]", &BedLaw::k, &LawLevel::k, 1e-6},
-                                                    {"D [-]", &BedLaw::D, &LawLevel::D, 1.0},
-                                                    {"R^2 [-]", &BedLaw::r2, &LawLevel::r2, 1.0}}};
+const std::array<LawQuantity, 3> law_quantities = {{{"k [MN/m per m]", &BedLaw::k, &LawLevel::k, 1e-6, true},
+                                                    {"D [-]", &BedLaw::D, &LawLevel::D, 1.0, true},
+                                                    {"R^2 [-]", &BedLaw::r2, &LawLevel::r2, 1.0, false}}};
 
 std::string interval_text(const MeanInterval &interval, double scale) {
   return fmt::format("{:.3g} ± {:.2g}", scale * interval.mean, scale * interval.half_width);
@@ -107,7 +108,7 @@ std::string range_of(const std::vector<LawLevel> &levels, const LawQuantity &qua
       low = std::min(low, value);
       high = std::max(high, value);
     }
-    if ((level.*quantity.values).size() < 2) continue;
+    if (!quantity.has_mean || (level.*quantity.values).size() < 2) continue;
     const MeanInterval mean = mean_interval(level.*quantity.values);
     low = std::min(low, mean.mean - mean.half_width);
     high = std::max(high, mean.mean + mean.half_width);
@@ -141,16 +142,18 @@ PageFigure level_figure(const std::vector<BedLaw> &laws, const LawVariable &vari
       for (const BedLaw &run : level.runs)
         table.row(symbol + " of a seed",
                   {variable.scale * level.value, quantity.scale * run.*quantity.value});
-      if ((level.*quantity.values).empty()) continue;
+      if (!quantity.has_mean || (level.*quantity.values).empty()) continue;
       const MeanInterval mean = mean_interval(level.*quantity.values);
       table.row(symbol + " mean", {variable.scale * level.value, quantity.scale * mean.mean,
                                    quantity.scale * (mean.mean - mean.half_width),
                                    quantity.scale * (mean.mean + mean.half_width)});
     }
-    panel.curves = {curve(name, symbol + " mean", "$2", "3:4:5", CurveStyle::spread),
-                    curve(name, symbol + " of a seed", "$2", "3", CurveStyle::direct_a)};
-    panel.curves[0].title = "mean";
-    panel.curves[1].title = "seeds";
+    const auto add = [&](const std::string &what, const char *title, const char *y, CurveStyle style) {
+      panel.curves.push_back(curve(name, symbol + what, "$2", y, style));
+      panel.curves.back().title = title;
+    };
+    if (quantity.has_mean) add(" mean", "mean", "3:4:5", CurveStyle::spread);
+    add(" of a seed", "seeds", "3", CurveStyle::direct_a);
     figure.figure.panels.push_back(panel);
   }
   figure.csv = table.text();
