@@ -67,7 +67,7 @@ TEST(IdentifiedLaw, IsThatOfARecordWithKnownLaw) {
     p.D = 0.3;
     const post::ChainHistory history = post::solve_direct(p, options).history;
     const post::TemporaryFolder temporary(testing::TempDir(), "identified_law");
-    const std::filesystem::path folder = temporary.path();
+    const std::filesystem::path &folder = temporary.path();
     post::write_files(
         {{folder / "bed.csv", post::chain_text(history)},
          {folder / "parameters.csv", post::parameters_text({{"omega", post::number_text(p.omega)},
