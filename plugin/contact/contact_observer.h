@@ -11,7 +11,7 @@
 namespace drumlin {
 
 /// One contact of two balls, or of a ball and a wall, in one step. Stiffnesses, damping coefficients and
-/// energies are those of the law; multiply them by `share` for the values that act on the balls.
+/// energies are those of the contact law; the values that act on the balls are `share` times as large.
 struct ContactRecord {
   int i, j;                     ///< indices of the balls; j < 0: a wall at rest
   std::array<double, 3> normal; ///< from j to i

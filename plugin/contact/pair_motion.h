@@ -45,7 +45,8 @@ inline std::array<double, 3> tangential_velocity(const LAMMPS_NS::Atom &atom, in
   return physics::slip_velocity(relative, m.normal, turning);
 }
 
-/// Tangential force, N, on ball i of a pair that touches, with the dashpot at the present velocities.
+/// Tangential contact force, N, on ball i of two balls in contact. The dashpot's part is computed with the
+/// velocities at the time of the call.
 ///
 /// After a step in which the contact slid, its spring is at the friction limit within rounding errors, which
 /// must not decide whether it counts as sliding. This is therefore decided with the spring advanced by a

@@ -32,7 +32,8 @@ private:
   bool echoed_ = false;
 };
 
-/// The clumps of an engine instance, for contact laws and fixes that need the masses of their balls.
+/// All fixes clump of one engine instance. A contact law or fix asks here for the mass with which a ball moves:
+/// that of its clump.
 class Clumps {
 public:
   /// In the initialization of each run.

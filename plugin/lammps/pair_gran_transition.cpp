@@ -19,8 +19,8 @@ namespace physics = drumlin::physics;
 
 namespace {
 
-// The same for every object of the style, of which an engine has one: a restart file is read for fixes of
-// these IDs, whatever pair styles its deck has made before.
+// Fixed IDs: LAMMPS finds the data of a fix in a restart file by the fix's ID, so the ID must not depend on
+// how many pair styles the input script has created before. An engine has at most one object of this style.
 const std::string history_id = "DRUMLIN_HISTORY0";
 const std::string placeholder_id = "DRUMLIN_HISTORY_PLACE";
 

@@ -61,8 +61,8 @@ public:
   double law(const State &y) const { return -(p_.k * y[x_drum] + c_ * y[v_drum]); }
   double contact_force(Phase phase, const State &y) const { return phase == Phase::contact ? law(y) : 0.0; }
 
-  // The same for output: near a break the force under condition B is zero within rounding errors, and is not
-  // recorded as negative.
+  // The contact force for output files. Near the end of a contact under condition B the force is zero within
+  // rounding errors; a negative value there is written as zero.
   double recorded_force(Phase phase, const State &y) const {
     const double force = contact_force(phase, y);
     return p_.transition == Transition::B ? std::max(0.0, force) : force;

@@ -53,8 +53,8 @@ struct IdentifiedRecord {
   std::vector<LawWindow> windows;
 };
 
-/// The signals of a record, from its accelerations, masses and excitation; F_contact is not used. Without the
-/// acceleration of the frame the frame counts as not accelerated. Gravity is 9.81 m/s2 if the record does not
+/// The signals of a record, from its accelerations, masses and excitation; the record's column
+/// F_contact is not used. If the record has no acceleration of the frame, it is taken as zero. Gravity is 9.81 m/s2 if the record does not
 /// give it. std::runtime_error with one line for what is missing.
 DrumSignals signals_of(const Record &record, bool accelerations_only);
 

@@ -48,8 +48,9 @@ double at(const std::vector<double> &values, std::size_t row, double share) {
 
 std::complex<double> turn(double angle) { return {std::cos(angle), -std::sin(angle)}; }
 
-/// Harmonics from changes of velocity. The mean acceleration between two samples counts with the phase in their middle;
-/// the sine ratio undoes the weakening of a steady oscillation by that mean.
+/// Adds the harmonics of acceleration computed from differences of velocity. The mean acceleration between two
+/// samples is assigned to the instant half-way between them. Taking this mean reduces the amplitude of a
+/// steady oscillation; division by the ratio sin(x)/x corrects this.
 void add_from_velocity(const Record &record, std::vector<MeterCycle> &cycles) {
   const std::vector<double> &v = record.v_drum;
   const double h = record.interval;

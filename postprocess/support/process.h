@@ -10,12 +10,11 @@ namespace drumlin::post {
 
 /// How a child process ended.
 struct Outcome {
-  int status = -1;        ///< exit status; 128 + signal if a signal ended it
-  bool timed_out = false; ///< it was stopped at its time limit
-  double cpu_seconds =
-      0.0; ///< processor time of the child and its children, s: its wall time, had it the machine for itself
-  double peak_bytes = 0.0; ///< largest memory of one of its processes
-  std::string output;      ///< standard output and standard error
+  int status = -1;          ///< exit status; 128 + signal if a signal ended it
+  bool timed_out = false;   ///< it was stopped at its time limit
+  double cpu_seconds = 0.0; ///< processor time used by the child and its own children, s
+  double peak_bytes = 0.0;  ///< peak resident memory of the largest single process, bytes
+  std::string output;       ///< standard output and standard error
   bool ok() const { return status == 0 && !timed_out; }
   bool says(const std::string &text) const { return output.find(text) != std::string::npos; }
 };

@@ -355,7 +355,7 @@ TEST_P(EnergyBalanceOfASlidingBall, SeparatesHeatOfFrictionFromTheEnergyOfItsSpr
 INSTANTIATE_TEST_SUITE_P(Decks, EnergyBalanceOfASlidingBall, engines_and_steppings(), engine_and_stepping);
 
 /// With dashpots there is no closed form, but energy is conserved: the mechanical energy that the ball loses
-/// is the dissipated energy, which never decreases.
+/// equals the heat recorded so far, and this heat never decreases.
 TEST_P(EnergyBalanceOfASlidingBall, ClosesWithDashpotsUnderCoulomb) {
   const Scratch folder;
   const Outcome outcome = run("slide", folder, {{"tangential", "coulomb"}, {"D", "0.5"}, {"every", "10"}});

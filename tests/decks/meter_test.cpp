@@ -13,7 +13,7 @@ namespace {
 TEST(MeterOfDecks, CmvFromEveryStep) {
   struct Known {
     const char *name;
-    double cmv; // from phase integrals of the exact solution
+    double cmv; // reference value, from Fourier integrals over each phase of the exact solution
   };
   for (const Known &known : {Known{"II", 155.948}, Known{"III", 105.730}, Known{"IV", 247.175}}) {
     const Scratch scratch;

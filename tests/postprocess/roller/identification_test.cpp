@@ -228,7 +228,8 @@ TEST(Identification, NoiseOfPositionAndVelocityDoesNotBias) {
   EXPECT_NEAR(found, 0.0, 0.25 * std::fabs(ordinary));
 }
 
-// Where the origin of the position is unknown, a shift of it changes nothing.
+// If the position at first contact is a parameter of the fit, adding a constant to all positions leaves k and
+// c as they were.
 TEST(Identification, FreeOriginIgnoresShifts) {
   const ChainParameters p = table1_case("II", Transition::B);
   Record record = exact_record(p);

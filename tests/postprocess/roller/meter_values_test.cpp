@@ -84,7 +84,7 @@ TEST(Meter, ModesOfKnownSignals) {
 
 struct Known {
   const char *name;
-  double cmv; // from phase integrals of the exact solution
+  double cmv; // reference value, from Fourier integrals over each phase of the exact solution
 };
 constexpr Known known_cmv[] = {{"II", 155.948}, {"III", 105.730}, {"IV", 247.175}};
 

@@ -167,7 +167,7 @@ TEST_F(OutputFiles, LinksAreFollowed) {
   EXPECT_TRUE(fs::exists(folder_ / "folder/new/chain.csv"));
 }
 
-/// A shell script for `place`, a folder on a disk with little space. It calls the tool with the arguments
+/// Text of a shell script that works in the folder `place`, on a disk with little free space. It calls the tool with the arguments
 /// `small`, whose results fit on the disk, runs the command `limit`, and calls the tool with `large`, whose
 /// results do not fit. Exit status 0: the second call failed with an ERROR line, and the results of the first
 /// are unchanged.
