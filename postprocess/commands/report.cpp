@@ -2,6 +2,7 @@
 
 #include "commands/commands.h"
 #include "report/report.h"
+#include "report/run_folder.h"
 #include "support/options.h"
 #include "support/progress.h"
 
@@ -40,12 +41,11 @@ void add_report_command(CLI::App &app, Session &) {
                                                   "runs of the chain, of single impacts and of a "
                                                   "roller on a bed, as pages that open from disk.");
   report
-      ->add_option("dir", arguments->folders,
-                   "run folders (with chain.csv, bed.csv, oedometer.csv or biaxial.csv), studies (their "
-                   "pages are copied "
-                   "and linked), or "
-                   "parents of "
-                   "either")
+      ->add_option(
+          "dir", arguments->folders,
+          fmt::format(
+              "run folders (with {}), studies (their pages are copied and linked), or parents of either",
+              files_of_runs()))
       ->type_name("DIR")
       ->required();
   report->add_option("--out", arguments->out, "folder for the report; an earlier report there is replaced")

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -21,6 +20,8 @@ namespace drumlin::post {
 namespace fs = std::filesystem;
 
 namespace {
+
+using BiaxialRun = ElementRun<BiaxialRow>;
 
 constexpr double degree = 180.0 / 3.14159265358979323846;
 constexpr double strain_of_critical_state = 0.0999; // a run that was asked for 0.1 may end just before
@@ -52,81 +53,12 @@ double dilatancy_angle(const std::vector<BiaxialRow> &rows, double from, double 
   return degree * std::asin(-volume / (2.0 * axial - volume));
 }
 
-double largest(const BiaxialRun &run, double BiaxialRow::*number) {
-  double most = 0.0;
-  for (const BiaxialRow &row : run.rows)
-    most = std::max(most, std::fabs(row.*number));
-  return most;
-}
-
-/// Tests of one soil: their parameters agree but for side stress and seed.
-struct Soil {
-  std::string name; ///< engine and what distinguishes it
-  std::vector<std::size_t> runs;
-
-  /// "soil 1", for legends.
-  std::string short_name() const { return name.substr(0, name.find(':')); }
-};
-
-/// The parameters in which tests of one soil agree, as one text.
-std::string soil_text(const Run &run) {
-  std::string text;
-  for (const auto &[name, value] : run.parameters) {
-    constexpr std::array others = {"side", "seed", "balls", "ranks", "command", "plugin", "timestep"};
-    if (std::find(others.begin(), others.end(), name) == others.end())
-      text.append(name).append(" ").append(value).append("\n");
-  }
-  return text;
-}
-
-std::vector<Soil> soils_of(const std::vector<BiaxialRun> &runs) {
-  std::vector<Soil> soils;
-  std::vector<std::string> texts;
-  for (std::size_t n = 0; n < runs.size(); ++n) {
-    const std::string text = soil_text(runs[n].run);
-    const auto found = std::find(texts.begin(), texts.end(), text);
-    const auto index = static_cast<std::size_t>(found - texts.begin());
-    if (found == texts.end()) {
-      texts.push_back(text);
-      soils.push_back(
-          {curve_text(fmt::format("soil {}: {}", texts.size(), runs[n].run.text("engine", ""))), {}});
-    }
-    soils[index].runs.push_back(n);
-  }
-  return soils;
-}
-
-/// The runs of a soil by side stress, kPa.
-std::map<double, std::vector<std::size_t>> by_side_stress(const Soil &soil,
-                                                          const std::vector<BiaxialRun> &runs) {
-  std::map<double, std::vector<std::size_t>> groups;
-  for (const std::size_t n : soil.runs)
-    groups[runs[n].run.number("side").value_or(std::round(runs[n].rows.front().side_stress))].push_back(n);
-  return groups;
-}
-
-/// Mean and interval over the seeds. Runs of one seed at several side stresses have nearly the same sample: their
-/// mean counts once.
-std::string mean_over_seeds(const std::map<std::string, std::vector<double>> &values) {
-  if (values.empty()) return no_value;
-  std::vector<double> means;
-  means.reserve(values.size());
-  for (const auto &[seed, of_seed] : values)
-    means.push_back(mean_interval(of_seed).mean);
-  const MeanInterval mean = mean_interval(means);
-  return means.size() < 2 ? fmt::format("{:.1f}", mean.mean)
-                          : fmt::format("{:.1f} ± {:.1f}", mean.mean, mean.half_width);
-}
-
-std::string range_of(const std::map<std::string, std::vector<double>> &values) {
-  if (values.empty()) return no_value;
-  double least = std::numeric_limits<double>::infinity(), most = -least;
-  for (const auto &[seed, of_seed] : values)
-    for (const double value : of_seed) {
-      least = std::min(least, value);
-      most = std::max(most, value);
-    }
-  return fmt::format("{:.1f} to {:.1f}", least, most);
+/// The side stress of each run, kPa.
+std::vector<double> side_stresses(const std::vector<BiaxialRun> &runs) {
+  std::vector<double> sides;
+  for (const BiaxialRun &run : runs)
+    sides.push_back(run.run.number("side").value_or(std::round(run.rows.front().side_stress)));
+  return sides;
 }
 
 /// Angles over the seeds of a soil, for each side stress and for all.
@@ -144,18 +76,18 @@ PageTable seed_table(const std::vector<Soil> &soils, const std::vector<BiaxialRu
                   "critical friction angle (°)",
                   "smallest to largest (°)"};
   const auto add = [&](const Soil &soil, const std::string &side, const std::vector<std::size_t> &members) {
-    std::map<std::string, std::vector<double>> peak, dilatancy, critical; // of each seed
+    SeedValues peak, dilatancy, critical;
     for (const std::size_t n : members) {
       const std::string seed = runs[n].run.text("seed");
-      peak[seed].push_back(strengths[n].peak.angle());
-      if (std::isfinite(strengths[n].dilatancy)) dilatancy[seed].push_back(strengths[n].dilatancy);
-      if (strengths[n].is_critical) critical[seed].push_back(strengths[n].critical.angle());
+      peak.add(seed, strengths[n].peak.angle());
+      dilatancy.add(seed, strengths[n].dilatancy);
+      if (strengths[n].is_critical) critical.add(seed, strengths[n].critical.angle());
     }
-    table.add({soil.name, side, std::to_string(members.size()), mean_over_seeds(peak), range_of(peak),
-               mean_over_seeds(dilatancy), mean_over_seeds(critical), range_of(critical)});
+    table.add({soil.name, side, std::to_string(members.size()), peak.mean_text(), peak.range_text(),
+               dilatancy.mean_text(), critical.mean_text(), critical.range_text()});
   };
   for (const Soil &soil : soils) {
-    const auto groups = by_side_stress(soil, runs);
+    const auto groups = grouped_by(side_stresses(runs), soil);
     for (const auto &[side, members] : groups)
       add(soil, number_cell(side), members);
     if (groups.size() > 1) add(soil, "all", soil.runs);
@@ -198,7 +130,7 @@ PageTable line_table(const std::vector<Soil> &soils, const std::vector<BiaxialRu
   for (const Soil &soil : soils)
     for (const bool critical : {false, true}) {
       const std::vector<Failure> failures = failures_of(soil, strengths, critical);
-      const auto sides = by_side_stress(soil, runs);
+      const auto sides = grouped_by(side_stresses(runs), soil);
       if (!have_line(failures, sides)) continue;
       const MohrCoulomb line = fit_mohr_coulomb(failures);
       table.add({soil.name, critical ? "critical" : "peak", std::to_string(failures.size()),
@@ -216,59 +148,26 @@ PageTable line_table(const std::vector<Soil> &soils, const std::vector<BiaxialRu
 }
 
 PageTable run_table(const std::vector<BiaxialRun> &runs, const std::vector<BiaxialStrength> &strengths) {
-  PageTable table;
-  table.name = "biaxial_runs";
-  table.title = "Runs";
-  table.text_columns = 2;
-  table.header = {"run",
-                  "sample",
-                  "balls",
-                  "side stress (kPa)",
-                  "void ratio at the start (-)",
-                  "peak friction angle (°)",
-                  "strain at the peak (%)",
-                  "dilatancy angle (°)",
-                  "critical friction angle (°)",
-                  "void ratio at the end (-)",
-                  "largest inertial number (-)",
-                  "largest energy error (-)",
-                  "engine",
-                  "command"};
-  table.shown_columns = table.header.size() - 1;
-  table.criterion =
-      fmt::format("runs have an inertial number of at most {:g} and an energy error of at most {:g}",
-                  allowed_inertial_number, allowed_energy_error);
+  PageTable table = element_run_table("biaxial_runs", {"side stress (kPa)", "void ratio at the start (-)",
+                                                       "peak friction angle (°)", "strain at the peak (%)",
+                                                       "dilatancy angle (°)", "critical friction angle (°)",
+                                                       "void ratio at the end (-)"});
   for (std::size_t n = 0; n < runs.size(); ++n) {
     const BiaxialRun &run = runs[n];
     const BiaxialStrength &strength = strengths[n];
-    const double inertial = largest(run, &BiaxialRow::inertial_number);
-    const double error = largest(run, &BiaxialRow::energy_error);
-    table.add({run.run.name, run.run.text("sample"), run.run.text("balls"), run.run.text("side"),
-               number_cell(run.rows.front().void_ratio), number_cell(strength.peak.angle()),
-               number_cell(100 * strength.strain, 3), number_cell(strength.dilatancy, 3),
-               strength.is_critical ? number_cell(strength.critical.angle()) : no_value,
-               number_cell(run.rows.back().void_ratio), number_cell(inertial, 2), number_cell(error, 2),
-               run.run.text("engine"), run.run.text("command")},
-              inertial <= allowed_inertial_number && error <= allowed_energy_error ? RowState::agrees
-                                                                                   : RowState::differs);
+    add_element_run(table, run.run,
+                    {run.run.text("side"), number_cell(run.rows.front().void_ratio),
+                     number_cell(strength.peak.angle()), number_cell(100 * strength.strain, 3),
+                     number_cell(strength.dilatancy, 3),
+                     strength.is_critical ? number_cell(strength.critical.angle()) : no_value,
+                     number_cell(run.rows.back().void_ratio)},
+                    quality_of(run.rows));
   }
   table.notes = {
       "Inertial number: strain rate times diameter sqrt(density/side stress); below 1e-3 a test is "
       "quasi-static. Energy error: stored energy + heat - work of both platens, over the largest "
       "work so far."};
   return table;
-}
-
-constexpr std::array line_styles = {CurveStyle::line_1, CurveStyle::line_2, CurveStyle::line_3,
-                                    CurveStyle::line_4, CurveStyle::line_5, CurveStyle::direct_line};
-
-/// A number of a run at a strain, linear between rows.
-double at_strain(const std::vector<BiaxialRow> &rows, double strain, double BiaxialRow::*number) {
-  std::size_t n = 1;
-  while (n + 1 < rows.size() && rows[n].strain < strain)
-    ++n;
-  const BiaxialRow &a = rows[n - 1], &b = rows[n];
-  return a.*number + (strain - a.strain) / (b.strain - a.strain) * (b.*number - a.*number);
 }
 
 /// Rows of the table of strain_figure() for tests that differ only in the seed: their means.
@@ -283,9 +182,9 @@ void add_means(CurveTable &table, const std::string &key, const std::vector<cons
     Failure stresses{0.0, 0.0};
     double volumetric = 0.0;
     for (const BiaxialRun *run : runs) {
-      stresses.axial += at_strain(run->rows, strain, &BiaxialRow::axial_stress);
-      stresses.side += at_strain(run->rows, strain, &BiaxialRow::side_stress);
-      volumetric += at_strain(run->rows, strain, &BiaxialRow::volumetric_strain) / count;
+      stresses.axial += number_at(run->rows, &BiaxialRow::strain, strain, &BiaxialRow::axial_stress);
+      stresses.side += number_at(run->rows, &BiaxialRow::strain, strain, &BiaxialRow::side_stress);
+      volumetric += number_at(run->rows, &BiaxialRow::strain, strain, &BiaxialRow::volumetric_strain) / count;
     }
     table.row(key, {100 * strain, stresses.angle(), -100 * volumetric});
   }
@@ -302,7 +201,7 @@ PageFigure strain_figure(const std::vector<Soil> &soils, const std::vector<Biaxi
   CurveTable table("axial strain (%),friction angle (°),increase of the volume (%)");
   std::size_t curves = 0;
   for (const Soil &soil : soils)
-    for (const auto &[side, members] : by_side_stress(soil, runs)) {
+    for (const auto &[side, members] : grouped_by(side_stresses(runs), soil)) {
       const std::string key =
           members.size() > 1 ? fmt::format("{}; {:g} kPa; {} runs", soil.short_name(), side, members.size())
                              : curve_text(runs[members.front()].run.name);
@@ -310,7 +209,7 @@ PageFigure strain_figure(const std::vector<Soil> &soils, const std::vector<Biaxi
       for (const std::size_t n : members)
         same.push_back(&runs[n]);
       add_means(table, key, same);
-      const CurveStyle style = line_styles[curves++ % line_styles.size()];
+      const CurveStyle style = line_style(curves++);
       friction.curves.push_back(curve(name, key, "$2", "3", style));
       volume.curves.push_back(curve(name, key, "$2", "4", style));
     }
@@ -342,13 +241,13 @@ PageFigure line_figure(const std::vector<Soil> &soils, const std::vector<Biaxial
         table.row(points, {failure.half_sum(), failure.half_difference()});
         end = std::max(end, failure.half_sum());
       }
-      if (!have_line(failures, by_side_stress(soil, runs))) continue;
+      if (!have_line(failures, grouped_by(side_stresses(runs), soil))) continue;
       const MohrCoulomb line = fit_mohr_coulomb(failures);
       const std::string key = fmt::format("{}; {}: {:.1f}°", soil.short_name(), points, line.angle);
       for (const double sum : {0.0, 1.05 * end})
         table.row(key,
                   {sum, line.cohesion * std::cos(line.angle / degree) + sum * std::sin(line.angle / degree)});
-      panel.curves.push_back(curve(name, key, "$2", "3", line_styles[lines++ % line_styles.size()]));
+      panel.curves.push_back(curve(name, key, "$2", "3", line_style(lines++)));
     }
     panel.curves.push_back(
         curve(name, points, "$2", "3", critical ? CurveStyle::measured_a : CurveStyle::measured_b));
@@ -400,24 +299,16 @@ MohrCoulomb fit_mohr_coulomb(const std::vector<Failure> &failures) {
 }
 
 std::vector<BiaxialRow> read_biaxial(const fs::path &file) {
-  const Table table = read_table(file, CutRows::forget);
-  if (table.rows() < 2)
-    throw std::runtime_error(fmt::format("{}: {} rows; allowed are 2 or more", file.string(), table.rows()));
-  std::vector<BiaxialRow> rows(table.rows());
-  const std::vector<std::pair<const char *, double BiaxialRow::*>> columns = {
-      {"strain", &BiaxialRow::strain},
-      {"axial_stress_kPa", &BiaxialRow::axial_stress},
-      {"side_stress_kPa", &BiaxialRow::side_stress},
-      {"volumetric_strain", &BiaxialRow::volumetric_strain},
-      {"void_ratio", &BiaxialRow::void_ratio},
-      {"coordination", &BiaxialRow::coordination},
-      {"inertial_number", &BiaxialRow::inertial_number},
-      {"energy_error", &BiaxialRow::energy_error}};
-  for (const auto &[name, number] : columns) {
-    const std::vector<double> values = table.numbers(name);
-    for (std::size_t n = 0; n < rows.size(); ++n)
-      rows[n].*number = values[n];
-  }
+  const Table table = read_element_table(file);
+  std::vector<BiaxialRow> rows =
+      rows_of<BiaxialRow>(table, {{"strain", &BiaxialRow::strain},
+                                  {"axial_stress_kPa", &BiaxialRow::axial_stress},
+                                  {"side_stress_kPa", &BiaxialRow::side_stress},
+                                  {"volumetric_strain", &BiaxialRow::volumetric_strain},
+                                  {"void_ratio", &BiaxialRow::void_ratio},
+                                  {"coordination", &BiaxialRow::coordination},
+                                  {"inertial_number", &BiaxialRow::inertial_number},
+                                  {"energy_error", &BiaxialRow::energy_error}});
   for (std::size_t n = 0; n < rows.size(); ++n)
     if (rows[n].side_stress <= 0.0 || rows[n].axial_stress <= 0.0 ||
         (n > 0 && rows[n].strain <= rows[n - 1].strain))
@@ -427,45 +318,30 @@ std::vector<BiaxialRow> read_biaxial(const fs::path &file) {
   return rows;
 }
 
-std::vector<BiaxialRun> read_biaxial_runs(const std::vector<fs::path> &folders) {
-  std::vector<BiaxialRun> runs;
-  for (Run &run : read_named_runs(folders)) {
-    std::vector<BiaxialRow> rows = read_biaxial(run.folder / "biaxial.csv");
-    runs.push_back({std::move(run), std::move(rows)});
-  }
-  return runs;
-}
-
-void write_biaxial_page(const std::vector<BiaxialRun> &runs, const fs::path &out) {
-  double inertial = 0.0;
-  double error = 0.0;
-  std::vector<BiaxialStrength> strengths;
-  for (const BiaxialRun &run : runs) {
-    inertial = std::max(inertial, largest(run, &BiaxialRow::inertial_number));
-    error = std::max(error, largest(run, &BiaxialRow::energy_error));
-    strengths.push_back(strength_of(run.rows));
-  }
-  const std::vector<Soil> soils = soils_of(runs);
-  Page page(out, biaxial_title, Scene::biaxial);
-  page.answer(
-      "Samples of soil between four smooth plates, sheared by the upper one under a constant stress of "
-      "the side platen. The ratio of the stresses at failure is the friction angle of the soil.");
-  page.answer({{fmt::format("largest inertial number at most {:g}", allowed_inertial_number),
-                number_cell(inertial, 2), inertial <= allowed_inertial_number},
-               {fmt::format("largest energy error at most {:g}", allowed_energy_error), number_cell(error, 2),
-                error <= allowed_energy_error}});
-  page.section("Friction and volume");
-  page.figure(strain_figure(soils, runs));
-  page.section("Friction angle");
-  page.table(seed_table(soils, runs, strengths));
-  const PageTable lines = line_table(soils, runs, strengths);
-  if (!lines.rows.empty()) {
-    page.table(lines);
-    page.figure(line_figure(soils, runs, strengths));
-  }
-  page.section("Numbers");
-  page.table(run_table(runs, strengths));
-  page.write();
+PageWriter read_biaxial_page(const std::vector<fs::path> &folders) {
+  return [runs = read_element_runs(folders, "biaxial.csv", read_biaxial)](const fs::path &out) {
+    std::vector<BiaxialStrength> strengths;
+    for (const BiaxialRun &run : runs)
+      strengths.push_back(strength_of(run.rows));
+    const std::vector<Soil> soils = soils_of(runs, {"side"});
+    Page page(out, biaxial_title, Scene::biaxial);
+    page.answer(
+        "Samples of soil between four smooth plates, sheared by the upper one under a constant stress of "
+        "the side platen. The ratio of the stresses at failure is the friction angle of the soil.");
+    answer_quality(page, runs);
+    page.section("Friction and volume");
+    page.figure(strain_figure(soils, runs));
+    page.section("Friction angle");
+    page.table(seed_table(soils, runs, strengths));
+    const PageTable lines = line_table(soils, runs, strengths);
+    if (!lines.rows.empty()) {
+      page.table(lines);
+      page.figure(line_figure(soils, runs, strengths));
+    }
+    page.section("Numbers");
+    page.table(run_table(runs, strengths));
+    page.write();
+  };
 }
 
 } // namespace drumlin::post

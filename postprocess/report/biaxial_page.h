@@ -1,10 +1,9 @@
 // The report's page on biaxial tests: mobilised friction and volume over strain, friction angles over side stresses.
 #pragma once
 
-#include "report/run_folder.h"
+#include "report/element_tests.h"
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 namespace drumlin::post {
@@ -54,20 +53,10 @@ struct MohrCoulomb {
 /// Least squares of the ratio of half difference and half sum. Throws std::invalid_argument unless there are two side stresses and three failures or more.
 MohrCoulomb fit_mohr_coulomb(const std::vector<Failure> &failures);
 
-/// A biaxial test.
-struct BiaxialRun {
-  Run run; ///< only folder, name and parameters
-  std::vector<BiaxialRow> rows;
-};
-
-/// Reads the folders and names the runs. Throws std::runtime_error for a file that cannot be read.
-std::vector<BiaxialRun> read_biaxial_runs(const std::vector<std::filesystem::path> &folders);
-
 /// Title of the page.
 constexpr const char *biaxial_title = "Biaxial tests of soil";
 
-/// Writes the page into a folder: index.html, figures and data. Throws std::runtime_error.
-/// \param runs at least one
-void write_biaxial_page(const std::vector<BiaxialRun> &runs, const std::filesystem::path &out);
+/// Reads the runs in folders, at least one, for their page. Throws std::runtime_error for a file that cannot be read.
+PageWriter read_biaxial_page(const std::vector<std::filesystem::path> &folders);
 
 } // namespace drumlin::post

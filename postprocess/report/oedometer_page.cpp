@@ -5,13 +5,8 @@
 #include "report/element_test.h"
 #include "support/csv.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 namespace drumlin::post {
 
@@ -19,58 +14,28 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Largest size of a number over the rows.
-double largest(const OedometerRun &run, double OedometerRow::*number) {
-  double most = 0.0;
-  for (const OedometerRow &row : run.rows)
-    most = std::max(most, std::fabs(row.*number));
-  return most;
-}
+using OedometerRun = ElementRun<OedometerRow>;
 
 /// Largest modulus of the loads that increase the stress, or of those that decrease it; NaN if there are none.
-double largest_modulus(const OedometerRun &run, bool increasing) {
+double largest_modulus(const std::vector<OedometerRow> &rows, bool increasing) {
   double most = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t n = 1; n < run.rows.size(); ++n)
-    if ((run.rows[n].stress > run.rows[n - 1].stress) == increasing)
-      most = std::fmax(most, run.rows[n].modulus);
+  for (std::size_t n = 1; n < rows.size(); ++n)
+    if ((rows[n].stress > rows[n - 1].stress) == increasing) most = std::fmax(most, rows[n].modulus);
   return most;
 }
 
 PageTable run_table(const std::vector<OedometerRun> &runs) {
-  PageTable table;
-  table.name = "oedometer_runs";
-  table.title = "Runs";
-  table.text_columns = 2;
-  table.header = {"run",
-                  "sample",
-                  "balls",
-                  "friction (-)",
-                  "k (N/m)",
-                  "void ratio at the start (-)",
-                  "settlement at the largest stress (mm)",
-                  "settlement at the end (mm)",
-                  "largest modulus, loading (MPa)",
-                  "largest modulus, unloading (MPa)",
-                  "largest inertial number (-)",
-                  "largest energy error (-)",
-                  "engine",
-                  "command"};
-  table.shown_columns = table.header.size() - 1;
-  table.criterion =
-      fmt::format("runs have an inertial number of at most {:g} and an energy error of at most {:g}",
-                  allowed_inertial_number, allowed_energy_error);
-  for (const OedometerRun &run : runs) {
-    const double inertial = largest(run, &OedometerRow::inertial_number);
-    const double error = largest(run, &OedometerRow::energy_error);
-    table.add({run.run.name, run.run.text("sample"), run.run.text("balls"), run.run.text("friction"),
-               run.run.text("k"), number_cell(run.rows.front().void_ratio),
-               number_cell(largest(run, &OedometerRow::settlement)), number_cell(run.rows.back().settlement),
-               number_cell(largest_modulus(run, true)), number_cell(largest_modulus(run, false)),
-               number_cell(inertial, 2), number_cell(error, 2), run.run.text("engine"),
-               run.run.text("command")},
-              inertial <= allowed_inertial_number && error <= allowed_energy_error ? RowState::agrees
-                                                                                   : RowState::differs);
-  }
+  PageTable table = element_run_table("oedometer_runs",
+                                      {"friction (-)", "k (N/m)", "void ratio at the start (-)",
+                                       "settlement at the largest stress (mm)", "settlement at the end (mm)",
+                                       "largest modulus, loading (MPa)", "largest modulus, unloading (MPa)"});
+  for (const OedometerRun &run : runs)
+    add_element_run(table, run.run,
+                    {run.run.text("friction"), run.run.text("k"), number_cell(run.rows.front().void_ratio),
+                     number_cell(largest(run.rows, &OedometerRow::settlement)),
+                     number_cell(run.rows.back().settlement), number_cell(largest_modulus(run.rows, true)),
+                     number_cell(largest_modulus(run.rows, false))},
+                    quality_of(run.rows));
   table.notes = {
       "Settlement: of the platen since the seating stress, at which the sample was made. Modulus: "
       "constrained "
@@ -96,8 +61,6 @@ PageTable row_table(const std::vector<OedometerRun> &runs) {
 
 /// The runs' curves over stress: a panel for each of modulus, settlement and void ratio.
 PageFigure stress_figure(const std::vector<OedometerRun> &runs) {
-  constexpr std::array styles = {CurveStyle::series_1, CurveStyle::series_2, CurveStyle::series_3,
-                                 CurveStyle::series_4, CurveStyle::series_5, CurveStyle::series_6};
   const std::string name = "oedometer";
   Panel modulus{"Constrained modulus", "stress (kPa)", "modulus (MPa)", {}};
   modulus.y_range = "[0:*] noreverse"; // gnuplot keeps `reverse` from panel to panel
@@ -110,7 +73,7 @@ PageFigure stress_figure(const std::vector<OedometerRun> &runs) {
     const std::string key = curve_text(runs[n].run.name);
     for (const OedometerRow &row : runs[n].rows)
       table.row(key, {row.stress, row.settlement, row.void_ratio, row.modulus});
-    const CurveStyle style = styles[n % styles.size()];
+    const CurveStyle style = series_style(n);
     settlement.curves.push_back(curve(name, key, "$2", "3", style));
     voids.curves.push_back(curve(name, key, "$2", "4", style));
     modulus.curves.push_back(curve(name, key, "$2", "5", style));
@@ -131,22 +94,14 @@ PageFigure stress_figure(const std::vector<OedometerRun> &runs) {
 } // namespace
 
 std::vector<OedometerRow> read_oedometer(const fs::path &file) {
-  const Table table = read_table(file, CutRows::forget);
-  if (table.rows() < 2)
-    throw std::runtime_error(fmt::format("{}: {} rows; allowed are 2 or more", file.string(), table.rows()));
-  std::vector<OedometerRow> rows(table.rows());
-  const std::vector<std::pair<const char *, double OedometerRow::*>> columns = {
-      {"stress_kPa", &OedometerRow::stress},
-      {"settlement_mm", &OedometerRow::settlement},
-      {"strain", &OedometerRow::strain},
-      {"void_ratio", &OedometerRow::void_ratio},
-      {"inertial_number", &OedometerRow::inertial_number},
-      {"energy_error", &OedometerRow::energy_error}};
-  for (const auto &[name, number] : columns) {
-    const std::vector<double> values = table.numbers(name);
-    for (std::size_t n = 0; n < rows.size(); ++n)
-      rows[n].*number = values[n];
-  }
+  const Table table = read_element_table(file);
+  std::vector<OedometerRow> rows =
+      rows_of<OedometerRow>(table, {{"stress_kPa", &OedometerRow::stress},
+                                    {"settlement_mm", &OedometerRow::settlement},
+                                    {"strain", &OedometerRow::strain},
+                                    {"void_ratio", &OedometerRow::void_ratio},
+                                    {"inertial_number", &OedometerRow::inertial_number},
+                                    {"energy_error", &OedometerRow::energy_error}});
   const std::vector<std::string> moduli = table.text("modulus_MPa");
   rows.front().modulus = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t n = 1; n < rows.size(); ++n)
@@ -154,36 +109,19 @@ std::vector<OedometerRow> read_oedometer(const fs::path &file) {
   return rows;
 }
 
-std::vector<OedometerRun> read_oedometer_runs(const std::vector<fs::path> &folders) {
-  std::vector<OedometerRun> runs;
-  for (Run &run : read_named_runs(folders)) {
-    std::vector<OedometerRow> rows = read_oedometer(run.folder / "oedometer.csv");
-    runs.push_back({std::move(run), std::move(rows)});
-  }
-  return runs;
-}
-
-void write_oedometer_page(const std::vector<OedometerRun> &runs, const fs::path &out) {
-  double inertial = 0.0;
-  double error = 0.0;
-  for (const OedometerRun &run : runs) {
-    inertial = std::max(inertial, largest(run, &OedometerRow::inertial_number));
-    error = std::max(error, largest(run, &OedometerRow::energy_error));
-  }
-  Page page(out, oedometer_title, Scene::oedometer);
-  page.answer("Samples of soil between two rough plates, confined sideways, under one stress after the "
-              "other. The slope "
-              "of stress over strain is the constrained modulus of the soil.");
-  page.answer({{fmt::format("largest inertial number at most {:g}", allowed_inertial_number),
-                number_cell(inertial, 2), inertial <= allowed_inertial_number},
-               {fmt::format("largest energy error at most {:g}", allowed_energy_error), number_cell(error, 2),
-                error <= allowed_energy_error}});
-  page.section("Modulus and settlement");
-  page.figure(stress_figure(runs));
-  page.section("Numbers");
-  page.table(run_table(runs));
-  page.table(row_table(runs));
-  page.write();
+PageWriter read_oedometer_page(const std::vector<fs::path> &folders) {
+  return [runs = read_element_runs(folders, "oedometer.csv", read_oedometer)](const fs::path &out) {
+    Page page(out, oedometer_title, Scene::oedometer);
+    page.answer("Samples of soil between two rough plates, confined sideways, under one stress after the "
+                "other. The slope of stress over strain is the constrained modulus of the soil.");
+    answer_quality(page, runs);
+    page.section("Modulus and settlement");
+    page.figure(stress_figure(runs));
+    page.section("Numbers");
+    page.table(run_table(runs));
+    page.table(row_table(runs));
+    page.write();
+  };
 }
 
 } // namespace drumlin::post

@@ -1,10 +1,9 @@
 // The report's page on runs of the oedometer: modulus and settlement over stress.
 #pragma once
 
-#include "report/run_folder.h"
+#include "report/element_tests.h"
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 namespace drumlin::post {
@@ -23,20 +22,10 @@ struct OedometerRow {
 /// Reads oedometer.csv. Throws std::runtime_error with file, line and column, or for less than two rows.
 std::vector<OedometerRow> read_oedometer(const std::filesystem::path &file);
 
-/// A run of the oedometer.
-struct OedometerRun {
-  Run run; ///< only folder, name and parameters
-  std::vector<OedometerRow> rows;
-};
-
-/// Reads the folders and names the runs. Throws std::runtime_error for a file that cannot be read.
-std::vector<OedometerRun> read_oedometer_runs(const std::vector<std::filesystem::path> &folders);
-
 /// Title of the page.
 constexpr const char *oedometer_title = "Oedometer tests of soil";
 
-/// Writes the page into a folder: index.html, figures and data. Throws std::runtime_error.
-/// \param runs at least one
-void write_oedometer_page(const std::vector<OedometerRun> &runs, const std::filesystem::path &out);
+/// Reads the runs in folders, at least one, for their page. Throws std::runtime_error for a file that cannot be read.
+PageWriter read_oedometer_page(const std::vector<std::filesystem::path> &folders);
 
 } // namespace drumlin::post

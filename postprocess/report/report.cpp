@@ -12,9 +12,8 @@
 #include "pages/gnuplot.h"
 #include "report/bed_figures.h"
 #include "report/bed_page.h"
-#include "report/biaxial_page.h"
 #include "report/chain_page.h"
-#include "report/oedometer_page.h"
+#include "report/element_tests.h"
 #include "report/place.h"
 #include "report/run_folder.h"
 #include "report/summary.h"
@@ -183,11 +182,11 @@ ReportOutcome write_report(const ReportOptions &options) {
     folders = find_report_folders(options.folders);
     place = checked_place(options.out, folders);
   });
-  std::vector<OedometerRun> oedometers;
-  std::vector<BiaxialRun> biaxials;
+  std::vector<std::pair<ElementTest, PageWriter>> element_pages;
   as_usage([&] {
-    oedometers = read_oedometer_runs(folders.oedometers);
-    biaxials = read_biaxial_runs(folders.biaxials);
+    for (const ElementTest &test : element_tests())
+      if (const auto found = folders.element_tests.find(test.name); found != folders.element_tests.end())
+        element_pages.emplace_back(test, test.read(found->second));
   });
   ReportContent content = make_content(read_runs(folders.runs), options.progress);
   choose_keys(content);
@@ -200,15 +199,9 @@ ReportOutcome write_report(const ReportOptions &options) {
   fs::create_directories(folder / "data");
   draw(content, gnuplot, folder, drawing);
   content.studies = copy_studies(folders.studies, folder);
-  if (!oedometers.empty()) {
-    const fs::path page = "oedometer";
-    write_oedometer_page(oedometers, folder / page);
-    content.studies.push_back({link_to((page / "index.html").string()), oedometer_title});
-  }
-  if (!biaxials.empty()) {
-    const fs::path page = "biaxial";
-    write_biaxial_page(biaxials, folder / page);
-    content.studies.push_back({link_to((page / "index.html").string()), biaxial_title});
+  for (const auto &[test, write] : element_pages) {
+    write(folder / test.name);
+    content.studies.push_back({link_to(test.name + "/index.html"), test.title});
   }
   content.versions = find_versions(options.version, gnuplot, folder);
   std::vector<FileText> pages = {{folder / "index.html", report_page(content)},

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "chain/reference_values.h"
+#include "report/element_tests.h"
 #include "support/text.h"
 #include "support/usage_error.h"
 
@@ -37,8 +38,9 @@ bool is_run_folder(const fs::path &folder) { return fs::is_regular_file(record_o
 std::vector<fs::path> *list_of(const fs::path &folder, ReportFolders &found) {
   if (is_study_folder(folder)) return &found.studies;
   if (is_run_folder(folder)) return &found.runs;
-  if (fs::is_regular_file(folder / "oedometer.csv")) return &found.oedometers;
-  return fs::is_regular_file(folder / "biaxial.csv") ? &found.biaxials : nullptr;
+  for (const ElementTest &test : element_tests())
+    if (fs::is_regular_file(folder / test.csv())) return &found.element_tests[test.name];
+  return nullptr;
 }
 
 /// Sets `value` to a parameter; adds its name to `absent` if the run does not have it.
@@ -261,17 +263,36 @@ std::string Run::text(const std::string &parameter, const std::string &fallback)
   return found == parameters.end() || found->second.empty() ? fallback : found->second;
 }
 
+std::vector<fs::path> ReportFolders::all() const {
+  std::vector<fs::path> folders = runs;
+  folders.insert(folders.end(), studies.begin(), studies.end());
+  for (const auto &[name, of_test] : element_tests)
+    folders.insert(folders.end(), of_test.begin(), of_test.end());
+  return folders;
+}
+
+std::string files_of_runs() {
+  std::vector<std::string> files = {"chain.csv", "bed.csv"};
+  for (const ElementTest &test : element_tests())
+    files.push_back(test.csv());
+  const std::string last = files.back();
+  files.pop_back();
+  return joined(files) + " or " + last;
+}
+
 ReportFolders find_report_folders(const std::vector<fs::path> &arguments) {
   ReportFolders folders;
   std::set<fs::path> seen;
-  const auto take = [&](const fs::path &folder, std::vector<fs::path> &into) {
-    if (seen.insert(fs::canonical(folder)).second) into.push_back(folder);
+  const auto take = [&](std::vector<fs::path> &list, std::vector<fs::path> &into) {
+    std::sort(list.begin(), list.end());
+    for (const fs::path &folder : list)
+      if (seen.insert(fs::canonical(folder)).second) into.push_back(folder);
   };
   for (const fs::path &argument : arguments) {
     if (!fs::is_directory(argument))
-      throw UsageError(fmt::format("'{}' is no folder; allowed are run folders (with chain.csv, bed.csv, "
-                                   "oedometer.csv or biaxial.csv), studies and parents of them",
-                                   argument.string()));
+      throw UsageError(
+          fmt::format("'{}' is no folder; allowed are run folders (with {}), studies and parents of them",
+                      argument.string(), files_of_runs()));
     ReportFolders found;
     if (std::vector<fs::path> *own = list_of(argument, found))
       own->push_back(argument);
@@ -284,19 +305,15 @@ ReportFolders find_report_folders(const std::vector<fs::path> &arguments) {
         if (list == &found.studies) entry.disable_recursion_pending();
         if (list != nullptr) list->push_back(entry->path());
       }
-    if (found.runs.empty() && found.studies.empty() && found.oedometers.empty() && found.biaxials.empty())
-      throw UsageError(fmt::format(
-          "'{}' has no chain.csv, no bed.csv, no oedometer.csv, no biaxial.csv and no study in it "
-          "or below it; allowed are run "
-          "folders, studies and parents of them",
-          argument.string()));
-    for (auto [list, into] :
-         {std::pair{&found.runs, &folders.runs}, std::pair{&found.studies, &folders.studies},
-          std::pair{&found.oedometers, &folders.oedometers}, std::pair{&found.biaxials, &folders.biaxials}}) {
-      std::sort(list->begin(), list->end());
-      for (const fs::path &folder : *list)
-        take(folder, *into);
-    }
+    if (found.all().empty())
+      throw UsageError(
+          fmt::format("'{}' has neither {} nor a study in it or below it; allowed are run folders, "
+                      "studies and parents of them",
+                      argument.string(), files_of_runs()));
+    take(found.runs, folders.runs);
+    take(found.studies, folders.studies);
+    for (auto &[name, of_test] : found.element_tests)
+      take(of_test, folders.element_tests[name]);
   }
   return folders;
 }

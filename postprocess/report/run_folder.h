@@ -56,11 +56,15 @@ struct Run {
 
 /// The folders that a report is made from.
 struct ReportFolders {
-  std::vector<std::filesystem::path> runs;       ///< hold chain.csv or bed.csv
-  std::vector<std::filesystem::path> oedometers; ///< hold oedometer.csv
-  std::vector<std::filesystem::path> biaxials;   ///< hold biaxial.csv
-  std::vector<std::filesystem::path> studies;    ///< hold index.html and study.txt, or regimes.csv of a map
+  std::vector<std::filesystem::path> runs;    ///< hold chain.csv or bed.csv
+  std::vector<std::filesystem::path> studies; ///< hold index.html and study.txt, or regimes.csv of a map
+  std::map<std::string, std::vector<std::filesystem::path>> element_tests; ///< by name of the test
+
+  std::vector<std::filesystem::path> all() const;
 };
+
+/// The files by which folders of runs are recognised, in words: "chain.csv, bed.csv, ... or ...".
+std::string files_of_runs();
 
 /// Run and study folders: each argument is such a folder, or has some below it at any depth. Runs within a
 /// study folder belong to the study and are left out. Sorted below each argument, each folder once. Throws

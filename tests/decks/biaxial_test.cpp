@@ -1,8 +1,7 @@
 // The biaxial test: regular lattices against their strength and stiffness in closed form, the forces on the plates against sums over the
 // contacts of a cut, a disordered sample in both engines.
 #include "bed/dump_readers.h"
-#include "support/csv.h"
-#include "tests/support/engine_runs.h"
+#include "tests/support/element_runs.h"
 
 #include <gtest/gtest.h>
 
@@ -18,13 +17,8 @@
 namespace drumlin::test {
 namespace {
 
-/// biaxial.csv of a run of an engine.
 post::Table run_biaxial(const std::string &engine, const Variables &variables) {
-  const Scratch scratch;
-  const std::string deck = engine == "lammps" ? "../soil/in.biaxial.lammps" : "../soil/in.biaxial";
-  const Outcome outcome = run_deck(chain_deck(deck), variables, scratch.path());
-  if (!outcome.ok()) throw std::runtime_error(outcome.output);
-  return post::read_table(scratch / "biaxial.csv");
+  return run_element_test(engine, "biaxial", variables);
 }
 
 constexpr double diameter = 0.04, kn = 1e9, kt = 2.0 / 7.0 * kn; // m, N/m; the deck's
@@ -59,13 +53,7 @@ double modulus(const post::Table &table, std::size_t from, std::size_t to) {
   return 1e3 * (axial[to] - axial[from]) / (strain[to] - strain[from]);
 }
 
-class Biaxial : public ::testing::TestWithParam<std::string> {
-protected:
-  void SetUp() override {
-    if (GetParam() == "lammps" && !post::has_lammps())
-      GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
-  }
-};
+class Biaxial : public InEngine {};
 
 /// When a hexagonal lattice, rows across the load, has yielded, the balls of a row are apart, and all forces are in contacts at 60 degrees,
 /// inclined by the angle of friction to their normals: the ratio of the stresses is tan 60 tan(60 + phi).

@@ -1,13 +1,10 @@
 // The oedometer: regular lattices against their moduli in closed form, energy balances, both engines against each other.
-#include "tests/support/engine_runs.h"
-
-#include "support/csv.h"
+#include "tests/support/element_runs.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <ostream>
-#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -15,13 +12,8 @@
 namespace drumlin::test {
 namespace {
 
-/// Runs the oedometer in an engine and returns oedometer.csv.
 post::Table run_oedometer(const std::string &engine, const Variables &variables, int ranks = 1) {
-  const Scratch scratch;
-  const std::string deck = engine == "lammps" ? "../soil/in.oedometer.lammps" : "../soil/in.oedometer";
-  const Outcome outcome = run_deck(chain_deck(deck), variables, scratch.path(), ranks);
-  if (!outcome.ok()) throw std::runtime_error(outcome.output);
-  return post::read_table(scratch / "oedometer.csv");
+  return run_element_test(engine, "oedometer", variables, ranks);
 }
 
 /// The column without its first row, the state before the first load.

@@ -1,15 +1,10 @@
 // The report of biaxial tests: what it reads, measures, refuses and shows.
 #include "report/biaxial_page.h"
 
-#include "report/report.h"
-#include "support/files.h"
-#include "support/usage_error.h"
-#include "tests/support/page.h"
+#include "tests/support/element_report.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +17,6 @@ namespace {
 
 using namespace drumlin::post;
 namespace test = drumlin::test;
-namespace fs = std::filesystem;
 
 const std::string header =
     "strain,axial_stress_kPa,side_stress_kPa,volumetric_strain,side_strain,void_ratio,coordination,"
@@ -90,95 +84,57 @@ TEST(MohrCoulombLine, HasAngleAndCohesionOfItsFailures) {
   EXPECT_THROW(fit_mohr_coulomb({failures[0], failures[0], failures[0]}), std::invalid_argument);
 }
 
-class BiaxialReport : public ::testing::Test {
+class BiaxialReport : public test::ElementReport {
 protected:
-  BiaxialReport() : root(fs::temp_directory_path() / fmt::format("drumlin-biaxial-{}", ::getpid())) {
-    fs::remove_all(root);
-  }
-  ~BiaxialReport() override {
-    std::error_code ignored;
-    fs::remove_all(root, ignored);
-  }
-
   static std::string line(const BiaxialRow &row) {
     return fmt::format("{},{},{},{},0,{},{},{},0,0,0,0,0,{}\n", row.strain, row.axial_stress, row.side_stress,
                        row.volumetric_strain, row.void_ratio, row.coordination, row.inertial_number,
                        row.energy_error);
   }
 
-  void write_run(const std::string &name, double side, int seed, double peak) const {
-    fs::create_directories(root / name);
+  void write_test(const std::string &folder, double side, int seed, double peak) const {
     std::string rows = header;
     for (const BiaxialRow &row : made_rows(side, peak, 27, 15))
       rows += line(row);
-    write_files(
-        {{root / name / "biaxial.csv", rows},
-         {root / name / "parameters.csv",
-          fmt::format("name,value\ndeck,biaxial\nsample,random\nballs,{}\nside,{}\nseed,{}\nengine,E\n",
-                      100 + seed, side, seed)}});
+    write_run(folder, "biaxial.csv", rows,
+              fmt::format("deck,biaxial\nsample,random\nballs,{}\nside,{}\nseed,{}\nengine,E\n", 100 + seed,
+                          side, seed));
   }
-
-  fs::path report(const std::string &name) const {
-    ReportOptions options;
-    options.folders = {root / name};
-    options.out = root / "report";
-    return write_report(options).page;
-  }
-
-  fs::path root;
 };
 
 // Three side stresses, one of them with two seeds: one soil, one line for the peak and one for the critical state.
 TEST_F(BiaxialReport, ShowsTheRunsOnAPageOfTheirOwn) {
-  write_run("tests/a", 50, 1, 42);
-  write_run("tests/b", 100, 1, 41);
-  write_run("tests/c, of \"c\"", 100, 2, 43);
-  write_run("tests/d", 200, 1, 42);
-  const std::string first = read_text(report("tests"));
-  EXPECT_NE(first.find("biaxial/index.html"), std::string::npos);
-  const fs::path page = root / "report" / "biaxial";
-  const std::string text = read_text(page / "index.html");
-  const test::Parsed shown = test::parse(text);
-  EXPECT_TRUE(shown.well_formed) << shown.error;
-  EXPECT_NE(text.find("2 acceptance criteria hold"), std::string::npos);
-  for (const std::string &link : shown.links)
-    EXPECT_TRUE(link.front() == '#' || fs::is_regular_file(page / test::file_of(link))) << link;
-  const std::string angles = read_text(page / "data" / "biaxial_angles.csv");
+  write_test("tests/a", 50, 1, 42);
+  write_test("tests/b", 100, 1, 41);
+  write_test("tests/c, of \"c\"", 100, 2, 43);
+  write_test("tests/d", 200, 1, 42);
+  const std::string page = sound_page("tests", "biaxial", 2);
+  EXPECT_NE(page.find("2 acceptance criteria hold"), std::string::npos);
+  const std::string angles = data("biaxial", "biaxial_angles");
   EXPECT_NE(angles.find("soil 1: E,100,2,42.0 ± 12.7,41.0 to 43.0,15.0 ± 0.0,27.0 ± 0.0,27.0 to 27.0"),
             std::string::npos)
       << angles;
   EXPECT_NE(angles.find("soil 1: E,all,4,42.3 ± 8.5,41.0 to 43.0"), std::string::npos) << angles;
-  const std::string lines = read_text(page / "data" / "biaxial_lines.csv");
+  const std::string lines = data("biaxial", "biaxial_lines");
   EXPECT_NE(lines.find("soil 1: E,critical,4,3,27.0,27.0 to 27.0"), std::string::npos) << lines;
 }
 
 TEST_F(BiaxialReport, HasNoLineForOneSideStress) {
-  write_run("one", 100, 1, 42);
+  write_test("one", 100, 1, 42);
   report("one");
-  EXPECT_TRUE(fs::is_regular_file(root / "report" / "biaxial" / "index.html"));
-  EXPECT_FALSE(fs::exists(root / "report" / "biaxial" / "data" / "biaxial_lines.csv"));
+  EXPECT_TRUE(std::filesystem::is_regular_file(root / "report" / "biaxial" / "index.html"));
+  EXPECT_FALSE(std::filesystem::exists(root / "report" / "biaxial" / "data" / "biaxial_lines.csv"));
 }
 
 TEST_F(BiaxialReport, RefusesWhatItCannotRead) {
-  write_run("cut", 100, 1, 42);
   const std::string row = line({0.0, 100, 100, 0, 0.2, 3, 0, 0});
   const std::string good = header + row;
-  for (const auto &[text, says] :
-       {std::pair<std::string, std::string>{good, "allowed are 2 or more"},
-        {good + "0.1,x,100,0,0,0.2,3,0,0,0,0,0,0,0\n", "column 'axial_stress_kPa' is 'x'"},
-        {good + row, "allowed are strains that grow"},
-        {good + line({0.1, 200, 0, 0, 0.2, 3, 0, 0}), "at stresses above 0"},
-        {"strain\n0\n1\n", "axial_stress_kPa"}}) {
-    write_files({{root / "cut" / "biaxial.csv", text}});
-    try {
-      report("cut");
-      ADD_FAILURE() << text;
-    } catch (const UsageError &error) {
-      EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
-      EXPECT_NE(std::string(error.what()).find("biaxial.csv"), std::string::npos) << error.what();
-    }
-  }
-  EXPECT_FALSE(fs::exists(root / "report"));
+  expect_refused("biaxial.csv", good, "allowed are 2 or more");
+  expect_refused("biaxial.csv", good + "0.1,x,100,0,0,0.2,3,0,0,0,0,0,0,0\n",
+                 "column 'axial_stress_kPa' is 'x'");
+  expect_refused("biaxial.csv", good + row, "allowed are strains that grow");
+  expect_refused("biaxial.csv", good + line({0.1, 200, 0, 0, 0.2, 3, 0, 0}), "at stresses above 0");
+  expect_refused("biaxial.csv", "strain\n0\n1\n", "axial_stress_kPa");
 }
 
 } // namespace

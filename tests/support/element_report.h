@@ -1,0 +1,68 @@
+// Reports of made-up runs of element tests.
+#pragma once
+
+#include "report/report.h"
+#include "support/files.h"
+#include "support/usage_error.h"
+#include "tests/support/engine_runs.h"
+#include "tests/support/page.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+namespace drumlin::test {
+
+/// A folder for the runs, and the report of them.
+class ElementReport : public ::testing::Test {
+protected:
+  /// Writes a run. \param parameters lines "name,value"
+  void write_run(const std::string &folder, const std::string &csv, const std::string &text,
+                 const std::string &parameters) const {
+    std::filesystem::create_directories(root / folder);
+    post::write_files(
+        {{root / folder / csv, text}, {root / folder / "parameters.csv", "name,value\n" + parameters}});
+  }
+
+  /// Reports on a folder of `root`; the text of the report's first page.
+  std::string report(const std::string &folder) const {
+    post::ReportOptions options;
+    options.folders = {root / folder};
+    options.out = root / "report";
+    return post::read_text(post::write_report(options).page);
+  }
+
+  /// The text of the page of a kind of test, after a report that must link to it.
+  std::string sound_page(const std::string &folder, const std::string &kind, std::size_t images) const {
+    EXPECT_NE(report(folder).find(kind + "/index.html"), std::string::npos);
+    expect_sound_page(root / "report" / kind, images);
+    return post::read_text(root / "report" / kind / "index.html");
+  }
+
+  /// The data behind a table of the page of a kind of test.
+  std::string data(const std::string &kind, const std::string &table) const {
+    return post::read_text(root / "report" / kind / "data" / (table + ".csv"));
+  }
+
+  /// Expects that a run whose file has this text is refused, with `says` and the name of the file in the message.
+  void expect_refused(const std::string &csv, const std::string &text, const std::string &says) const {
+    write_run("refused", csv, text, "");
+    try {
+      report("refused");
+      ADD_FAILURE() << text;
+    } catch (const post::UsageError &error) {
+      EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find(csv), std::string::npos) << error.what();
+    }
+    EXPECT_FALSE(std::filesystem::exists(root / "report"));
+  }
+
+private:
+  Scratch scratch;
+
+protected:
+  const std::filesystem::path root = scratch.path();
+};
+
+} // namespace drumlin::test
