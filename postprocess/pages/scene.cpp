@@ -191,6 +191,14 @@ std::string scene_html(Scene scene) {
     drawing = sphere_drawing();
     height = 160;
     break;
+  case Scene::triaxial:
+    title = "A sample of soil between six plates";
+    caption = "The model: a sample of soil balls between smooth plates, of which the drawing shows four. The "
+              "right one "
+              "and the one in front carry the same given stress, the upper one is moved.";
+    drawing = biaxial_drawing();
+    height = 180;
+    break;
   case Scene::biaxial:
     title = "A sample of soil between four plates";
     caption =

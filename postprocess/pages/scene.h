@@ -12,7 +12,8 @@ enum class Scene {
   confined,  ///< one ball confined between two walls
   oedometer, ///< a sample between two plates, loaded from above
   sphere,    ///< a sphere that strikes a plane
-  biaxial    ///< a sample between four plates, under a side stress
+  biaxial,   ///< a sample between four plates, under a side stress
+  triaxial   ///< a sample between six plates, under a side stress
 };
 
 /// <figure class="scene"> with the drawing, its text alternative and a caption.

@@ -1,12 +1,14 @@
 #include "report/element_tests.h"
 
-#include "report/biaxial_page.h"
+#include "report/compression_page.h"
 #include "report/oedometer_page.h"
 
 namespace drumlin::post {
 
 std::vector<ElementTest> element_tests() {
-  return {{"oedometer", oedometer_title, read_oedometer_page}, {"biaxial", biaxial_title, read_biaxial_page}};
+  return {{"oedometer", oedometer_title, read_oedometer_page},
+          {"biaxial", biaxial_title, read_biaxial_page},
+          {"triaxial", triaxial_title, read_triaxial_page}};
 }
 
 } // namespace drumlin::post

@@ -263,11 +263,22 @@ BadGroup biaxial() {
   return group;
 }
 
+// What differs from the biaxial test, whose deck it shares.
+BadGroup triaxial() {
+  BadGroup group{"Triaxial", "soil/in.triaxial", {}};
+  group.inputs.push_back(variable("side", "-1", positive, true));
+  group.inputs.push_back(variable("rows", "0", whole));
+  group.inputs.push_back(variable("dimension", "2", "allowed: 3"));
+  group.inputs.push_back(variable("sample", "hexagonal", "allowed: cubic, face_centred or random"));
+  return group;
+}
+
 } // namespace
 
 std::vector<BadGroup> bad_variables() {
-  return {chain_choices(), chain_numbers(), chain_counts(), chain_folder(), chain_equilibrium(), impact(),
-          bed_settle(),    bed_place(),     bed(),          oedometer(),    spheres(),           biaxial()};
+  return {chain_choices(), chain_numbers(), chain_counts(), chain_folder(), chain_equilibrium(),
+          impact(),        bed_settle(),    bed_place(),    bed(),          oedometer(),
+          spheres(),       biaxial(),       triaxial()};
 }
 
 } // namespace drumlin::test

@@ -551,7 +551,7 @@ TEST_F(Report, ReplacesAnEarlierReportAsAWhole) {
 TEST_F(Report, RefusesFoldersThatAreNoRuns) {
   expect_refusal(quote(root / "nowhere") + " " + out(), "nowhere");
   fs::create_directories(root / "empty");
-  expect_refusal(quote(root / "empty") + " " + out(), "no chain.csv");
+  expect_refusal(quote(root / "empty") + " " + out(), "has neither chain.csv, bed.csv, ");
   expect_refusal(out(), "dir");
 }
 

@@ -1,4 +1,4 @@
-#include "report/biaxial_page.h"
+#include "report/compression_page.h"
 
 #include "pages/figure_data.h"
 #include "pages/page.h"
@@ -21,16 +21,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using BiaxialRun = ElementRun<BiaxialRow>;
+using CompressionRun = ElementRun<CompressionRow>;
 
 constexpr double degree = 180.0 / 3.14159265358979323846;
 constexpr double strain_of_critical_state = 0.0999; // a run that was asked for 0.1 may end just before
 
 /// Means of the stresses over the rows whose strain is within an interval.
-Failure mean_stresses(const std::vector<BiaxialRow> &rows, double from, double to) {
+Failure mean_stresses(const std::vector<CompressionRow> &rows, double from, double to) {
   Failure sum{0.0, 0.0};
   double count = 0.0;
-  for (const BiaxialRow &row : rows) {
+  for (const CompressionRow &row : rows) {
     if (row.strain < from || row.strain > to) continue;
     sum.axial += row.axial_stress;
     sum.side += row.side_stress;
@@ -39,10 +39,11 @@ Failure mean_stresses(const std::vector<BiaxialRow> &rows, double from, double t
   return {sum.axial / count, sum.side / count};
 }
 
-/// sin psi = -(change of volumetric strain)/(change of axial - change of side strain), in degrees.
-double dilatancy_angle(const std::vector<BiaxialRow> &rows, double from, double to) {
-  const BiaxialRow *first = nullptr, *last = nullptr;
-  for (const BiaxialRow &row : rows) {
+/// sin psi = -(change of volumetric strain)/(twice the change of axial strain - that of volumetric strain), in degrees:
+/// in the plane and, after Schanz and Vermeer (1996), in a triaxial test.
+double dilatancy_angle(const std::vector<CompressionRow> &rows, double from, double to) {
+  const CompressionRow *first = nullptr, *last = nullptr;
+  for (const CompressionRow &row : rows) {
     if (row.strain < from || row.strain > to) continue;
     if (first == nullptr) first = &row;
     last = &row;
@@ -54,18 +55,18 @@ double dilatancy_angle(const std::vector<BiaxialRow> &rows, double from, double 
 }
 
 /// The side stress of each run, kPa.
-std::vector<double> side_stresses(const std::vector<BiaxialRun> &runs) {
+std::vector<double> side_stresses(const std::vector<CompressionRun> &runs) {
   std::vector<double> sides;
-  for (const BiaxialRun &run : runs)
+  for (const CompressionRun &run : runs)
     sides.push_back(run.run.number("side").value_or(std::round(run.rows.front().side_stress)));
   return sides;
 }
 
 /// Angles over the seeds of a soil, for each side stress and for all.
-PageTable seed_table(const std::vector<Soil> &soils, const std::vector<BiaxialRun> &runs,
-                     const std::vector<BiaxialStrength> &strengths) {
+PageTable seed_table(const std::string &test, const std::vector<Soil> &soils,
+                     const std::vector<CompressionRun> &runs, const std::vector<Strength> &strengths) {
   PageTable table;
-  table.name = "biaxial_angles";
+  table.name = test + "_angles";
   table.title = "Angles over the seeds";
   table.header = {"soil",
                   "side stress (kPa)",
@@ -97,14 +98,13 @@ PageTable seed_table(const std::vector<Soil> &soils, const std::vector<BiaxialRu
                  "stress). Peak: the largest value of the stresses averaged over a thirtieth of the strain, "
                  "within the first third of the strain: later a single force chain from platen to platen can "
                  "carry more for a moment. Critical: stresses averaged over the last third, if the strain "
-                 "reaches 10 %. Dilatancy: sin ψ = -(volumetric strain)/(axial - side strain) over a "
+                 "reaches 10 %. Dilatancy: sin ψ = -(volumetric strain)/(2 axial - volumetric strain) over a "
                  "fifteenth of the strain around the peak."};
   return table;
 }
 
 /// Failures of the runs of a soil; `critical`: at large strains instead of the peak.
-std::vector<Failure> failures_of(const Soil &soil, const std::vector<BiaxialStrength> &strengths,
-                                 bool critical) {
+std::vector<Failure> failures_of(const Soil &soil, const std::vector<Strength> &strengths, bool critical) {
   std::vector<Failure> failures;
   for (const std::size_t n : soil.runs)
     if (!critical || strengths[n].is_critical)
@@ -118,10 +118,10 @@ bool have_line(const std::vector<Failure> &failures,
 }
 
 /// The line through all failures of a soil, at the peak and at large strains.
-PageTable line_table(const std::vector<Soil> &soils, const std::vector<BiaxialRun> &runs,
-                     const std::vector<BiaxialStrength> &strengths) {
+PageTable line_table(const std::string &test, const std::vector<Soil> &soils,
+                     const std::vector<CompressionRun> &runs, const std::vector<Strength> &strengths) {
   PageTable table;
-  table.name = "biaxial_lines";
+  table.name = test + "_lines";
   table.title = "Mohr-Coulomb lines";
   table.text_columns = 2;
   table.header = {
@@ -147,14 +147,15 @@ PageTable line_table(const std::vector<Soil> &soils, const std::vector<BiaxialRu
   return table;
 }
 
-PageTable run_table(const std::vector<BiaxialRun> &runs, const std::vector<BiaxialStrength> &strengths) {
-  PageTable table = element_run_table("biaxial_runs", {"side stress (kPa)", "void ratio at the start (-)",
+PageTable run_table(const std::string &test, const std::vector<CompressionRun> &runs,
+                    const std::vector<Strength> &strengths) {
+  PageTable table = element_run_table(test + "_runs", {"side stress (kPa)", "void ratio at the start (-)",
                                                        "peak friction angle (°)", "strain at the peak (%)",
                                                        "dilatancy angle (°)", "critical friction angle (°)",
                                                        "void ratio at the end (-)"});
   for (std::size_t n = 0; n < runs.size(); ++n) {
-    const BiaxialRun &run = runs[n];
-    const BiaxialStrength &strength = strengths[n];
+    const CompressionRun &run = runs[n];
+    const Strength &strength = strengths[n];
     add_element_run(table, run.run,
                     {run.run.text("side"), number_cell(run.rows.front().void_ratio),
                      number_cell(strength.peak.angle()), number_cell(100 * strength.strain, 3),
@@ -165,15 +166,15 @@ PageTable run_table(const std::vector<BiaxialRun> &runs, const std::vector<Biaxi
   }
   table.notes = {
       "Inertial number: strain rate times diameter sqrt(density/side stress); below 1e-3 a test is "
-      "quasi-static. Energy error: stored energy + heat - work of both platens, over the largest "
+      "quasi-static. Energy error: stored energy + heat - work of the platens, over the largest "
       "work so far."};
   return table;
 }
 
 /// Rows of the table of strain_figure() for tests that differ only in the seed: their means.
-void add_means(CurveTable &table, const std::string &key, const std::vector<const BiaxialRun *> &runs) {
+void add_means(CurveTable &table, const std::string &key, const std::vector<const CompressionRun *> &runs) {
   double end = std::numeric_limits<double>::infinity();
-  for (const BiaxialRun *run : runs)
+  for (const CompressionRun *run : runs)
     end = std::min(end, run->rows.back().strain);
   constexpr int points = 60;
   const auto count = static_cast<double>(runs.size());
@@ -181,18 +182,19 @@ void add_means(CurveTable &table, const std::string &key, const std::vector<cons
     const double strain = end * point / points;
     Failure stresses{0.0, 0.0};
     double volumetric = 0.0;
-    for (const BiaxialRun *run : runs) {
-      stresses.axial += number_at(run->rows, &BiaxialRow::strain, strain, &BiaxialRow::axial_stress);
-      stresses.side += number_at(run->rows, &BiaxialRow::strain, strain, &BiaxialRow::side_stress);
-      volumetric += number_at(run->rows, &BiaxialRow::strain, strain, &BiaxialRow::volumetric_strain) / count;
+    for (const CompressionRun *run : runs) {
+      stresses.axial += number_at(run->rows, &CompressionRow::strain, strain, &CompressionRow::axial_stress);
+      stresses.side += number_at(run->rows, &CompressionRow::strain, strain, &CompressionRow::side_stress);
+      volumetric +=
+          number_at(run->rows, &CompressionRow::strain, strain, &CompressionRow::volumetric_strain) / count;
     }
     table.row(key, {100 * strain, stresses.angle(), -100 * volumetric});
   }
 }
 
 /// Mobilised friction angle and volumetric strain over axial strain, means over the seeds.
-PageFigure strain_figure(const std::vector<Soil> &soils, const std::vector<BiaxialRun> &runs) {
-  const std::string name = "biaxial";
+PageFigure strain_figure(const std::string &name, const std::vector<Soil> &soils,
+                         const std::vector<CompressionRun> &runs) {
   Panel friction{"Mobilised friction angle", "axial strain (%)", "friction angle (°)", {}};
   Panel volume{"Volume", "axial strain (%)", "increase of the volume (%)", {}};
   friction.tight_x = volume.tight_x = true;
@@ -205,7 +207,7 @@ PageFigure strain_figure(const std::vector<Soil> &soils, const std::vector<Biaxi
       const std::string key =
           members.size() > 1 ? fmt::format("{}; {:g} kPa; {} runs", soil.short_name(), side, members.size())
                              : curve_text(runs[members.front()].run.name);
-      std::vector<const BiaxialRun *> same;
+      std::vector<const CompressionRun *> same;
       for (const std::size_t n : members)
         same.push_back(&runs[n]);
       add_means(table, key, same);
@@ -225,8 +227,8 @@ PageFigure strain_figure(const std::vector<Soil> &soils, const std::vector<Biaxi
 }
 
 /// Failures of all runs and the lines through them.
-PageFigure line_figure(const std::vector<Soil> &soils, const std::vector<BiaxialRun> &runs,
-                       const std::vector<BiaxialStrength> &strengths) {
+PageFigure line_figure(const std::vector<Soil> &soils, const std::vector<CompressionRun> &runs,
+                       const std::vector<Strength> &strengths) {
   const std::string name = "mohr_coulomb";
   Panel panel{"", "half the sum of the stresses (kPa)", "half their difference (kPa)", {}};
   panel.tight_x = true;
@@ -262,15 +264,47 @@ PageFigure line_figure(const std::vector<Soil> &soils, const std::vector<Biaxial
   return figure;
 }
 
+/// A kind of compression test.
+struct CompressionTest {
+  const char *name, *title;
+  Scene scene;
+  const char *answer;
+};
+
+PageWriter read_page(const CompressionTest &test, const std::vector<fs::path> &folders) {
+  return [test, runs = read_element_runs(folders, std::string(test.name) + ".csv", read_compression)](
+             const fs::path &out) {
+    std::vector<Strength> strengths;
+    for (const CompressionRun &run : runs)
+      strengths.push_back(strength_of(run.rows));
+    const std::vector<Soil> soils = soils_of(runs, {"side"});
+    Page page(out, test.title, test.scene);
+    page.answer(test.answer);
+    answer_quality(page, runs);
+    page.section("Friction and volume");
+    page.figure(strain_figure(test.name, soils, runs));
+    page.section("Friction angle");
+    page.table(seed_table(test.name, soils, runs, strengths));
+    const PageTable lines = line_table(test.name, soils, runs, strengths);
+    if (!lines.rows.empty()) {
+      page.table(lines);
+      page.figure(line_figure(soils, runs, strengths));
+    }
+    page.section("Numbers");
+    page.table(run_table(test.name, runs, strengths));
+    page.write();
+  };
+}
+
 } // namespace
 
 double Failure::angle() const { return degree * std::asin((axial - side) / (axial + side)); }
 
-BiaxialStrength strength_of(const std::vector<BiaxialRow> &rows) {
+Strength strength_of(const std::vector<CompressionRow> &rows) {
   const double end = rows.back().strain;
-  BiaxialStrength strength;
+  Strength strength;
   strength.peak = mean_stresses(rows, 0.0, 0.0);
-  for (const BiaxialRow &row : rows) {
+  for (const CompressionRow &row : rows) {
     if (row.strain > end / 3.0) break;
     const Failure here = mean_stresses(rows, row.strain - end / 60.0, row.strain + end / 60.0);
     if (here.angle() <= strength.peak.angle()) continue;
@@ -298,17 +332,22 @@ MohrCoulomb fit_mohr_coulomb(const std::vector<Failure> &failures) {
           line.slope.half_width / cosine};
 }
 
-std::vector<BiaxialRow> read_biaxial(const fs::path &file) {
+std::vector<CompressionRow> read_compression(const fs::path &file) {
   const Table table = read_element_table(file);
-  std::vector<BiaxialRow> rows =
-      rows_of<BiaxialRow>(table, {{"strain", &BiaxialRow::strain},
-                                  {"axial_stress_kPa", &BiaxialRow::axial_stress},
-                                  {"side_stress_kPa", &BiaxialRow::side_stress},
-                                  {"volumetric_strain", &BiaxialRow::volumetric_strain},
-                                  {"void_ratio", &BiaxialRow::void_ratio},
-                                  {"coordination", &BiaxialRow::coordination},
-                                  {"inertial_number", &BiaxialRow::inertial_number},
-                                  {"energy_error", &BiaxialRow::energy_error}});
+  std::vector<CompressionRow> rows =
+      rows_of<CompressionRow>(table, {{"strain", &CompressionRow::strain},
+                                      {"axial_stress_kPa", &CompressionRow::axial_stress},
+                                      {"side_stress_kPa", &CompressionRow::side_stress},
+                                      {"volumetric_strain", &CompressionRow::volumetric_strain},
+                                      {"void_ratio", &CompressionRow::void_ratio},
+                                      {"coordination", &CompressionRow::coordination},
+                                      {"inertial_number", &CompressionRow::inertial_number},
+                                      {"energy_error", &CompressionRow::energy_error}});
+  if (table.has("front_stress_kPa")) {
+    const std::vector<double> front = table.numbers("front_stress_kPa");
+    for (std::size_t n = 0; n < rows.size(); ++n)
+      rows[n].side_stress = 0.5 * (rows[n].side_stress + front[n]);
+  }
   for (std::size_t n = 0; n < rows.size(); ++n)
     if (rows[n].side_stress <= 0.0 || rows[n].axial_stress <= 0.0 ||
         (n > 0 && rows[n].strain <= rows[n - 1].strain))
@@ -319,29 +358,20 @@ std::vector<BiaxialRow> read_biaxial(const fs::path &file) {
 }
 
 PageWriter read_biaxial_page(const std::vector<fs::path> &folders) {
-  return [runs = read_element_runs(folders, "biaxial.csv", read_biaxial)](const fs::path &out) {
-    std::vector<BiaxialStrength> strengths;
-    for (const BiaxialRun &run : runs)
-      strengths.push_back(strength_of(run.rows));
-    const std::vector<Soil> soils = soils_of(runs, {"side"});
-    Page page(out, biaxial_title, Scene::biaxial);
-    page.answer(
-        "Samples of soil between four smooth plates, sheared by the upper one under a constant stress of "
-        "the side platen. The ratio of the stresses at failure is the friction angle of the soil.");
-    answer_quality(page, runs);
-    page.section("Friction and volume");
-    page.figure(strain_figure(soils, runs));
-    page.section("Friction angle");
-    page.table(seed_table(soils, runs, strengths));
-    const PageTable lines = line_table(soils, runs, strengths);
-    if (!lines.rows.empty()) {
-      page.table(lines);
-      page.figure(line_figure(soils, runs, strengths));
-    }
-    page.section("Numbers");
-    page.table(run_table(runs, strengths));
-    page.write();
-  };
+  return read_page(
+      {"biaxial", biaxial_title, Scene::biaxial,
+       "Samples of soil between four smooth plates, sheared by the upper one under a constant stress of "
+       "the side platen. The ratio of the stresses at failure is the friction angle of the soil."},
+      folders);
+}
+
+PageWriter read_triaxial_page(const std::vector<fs::path> &folders) {
+  return read_page(
+      {"triaxial", triaxial_title, Scene::triaxial,
+       "Samples of soil between six smooth plates, sheared by the upper one under the same constant "
+       "stress of both side platens. The ratio of the stresses at failure is the friction angle of the "
+       "soil."},
+      folders);
 }
 
 } // namespace drumlin::post

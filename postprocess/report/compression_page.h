@@ -1,4 +1,4 @@
-// The report's page on biaxial tests: mobilised friction and volume over strain, friction angles over side stresses.
+// The report's pages on biaxial and triaxial tests: mobilised friction and volume over strain, friction angles over side stresses.
 #pragma once
 
 #include "report/element_tests.h"
@@ -8,11 +8,11 @@
 
 namespace drumlin::post {
 
-/// A row of biaxial.csv. Strains are positive in compression; stresses are means since the row before, kPa.
-struct BiaxialRow {
+/// A row of biaxial.csv or triaxial.csv. Strains are positive in compression; stresses are means since the row before, kPa.
+struct CompressionRow {
   double strain = 0.0; ///< axial
   double axial_stress = 0.0;
-  double side_stress = 0.0;
+  double side_stress = 0.0; ///< mean over the side platens
   double volumetric_strain = 0.0;
   double void_ratio = 0.0;
   double coordination = 0.0;
@@ -20,8 +20,8 @@ struct BiaxialRow {
   double energy_error = 0.0;
 };
 
-/// Reads biaxial.csv. Throws std::runtime_error with file, line and column, or for less than two rows.
-std::vector<BiaxialRow> read_biaxial(const std::filesystem::path &file);
+/// Reads biaxial.csv or triaxial.csv. Throws std::runtime_error with file, line and column, or for less than two rows.
+std::vector<CompressionRow> read_compression(const std::filesystem::path &file);
 
 /// A pair of stresses, kPa, at which a sample fails.
 struct Failure {
@@ -33,7 +33,7 @@ struct Failure {
 };
 
 /// What a test measures.
-struct BiaxialStrength {
+struct Strength {
   Failure peak;        ///< the largest ratio within the first third of the strain, of means over a thirtieth
   double strain = 0.0; ///< at the peak
   double dilatancy = 0.0;  ///< angle, degrees, over a fifteenth of the strain around the peak
@@ -42,7 +42,7 @@ struct BiaxialStrength {
 };
 
 /// \param rows at least two
-BiaxialStrength strength_of(const std::vector<BiaxialRow> &rows);
+Strength strength_of(const std::vector<CompressionRow> &rows);
 
 /// The line half difference = cohesion cos phi + half sum sin phi through failures (Mohr and Coulomb).
 struct MohrCoulomb {
@@ -53,10 +53,12 @@ struct MohrCoulomb {
 /// Least squares of the ratio of half difference and half sum. Throws std::invalid_argument unless there are two side stresses and three failures or more.
 MohrCoulomb fit_mohr_coulomb(const std::vector<Failure> &failures);
 
-/// Title of the page.
+/// Titles of the pages.
 constexpr const char *biaxial_title = "Biaxial tests of soil";
+constexpr const char *triaxial_title = "Triaxial tests of soil";
 
 /// Reads the runs in folders, at least one, for their page. Throws std::runtime_error for a file that cannot be read.
 PageWriter read_biaxial_page(const std::vector<std::filesystem::path> &folders);
+PageWriter read_triaxial_page(const std::vector<std::filesystem::path> &folders);
 
 } // namespace drumlin::post

@@ -1,5 +1,5 @@
-// The report of biaxial tests: what it reads, measures, refuses and shows.
-#include "report/biaxial_page.h"
+// The report of biaxial and triaxial tests: what it reads, measures, refuses and shows.
+#include "report/compression_page.h"
 
 #include "tests/support/element_report.h"
 
@@ -30,8 +30,8 @@ double axial_at(double side, double angle) {
 }
 
 /// A sample whose friction angle is `peak` from 2 to 4 % of strain and `critical` from 6 % on, and which dilates at an angle.
-std::vector<BiaxialRow> made_rows(double side, double peak, double critical, double dilatancy) {
-  std::vector<BiaxialRow> rows;
+std::vector<CompressionRow> made_rows(double side, double peak, double critical, double dilatancy) {
+  std::vector<CompressionRow> rows;
   for (int n = 0; n <= 150; ++n) {
     const double strain = 0.001 * n;
     const double angle = strain < 0.02 ? peak * strain / 0.02
@@ -45,8 +45,8 @@ std::vector<BiaxialRow> made_rows(double side, double peak, double critical, dou
   return rows;
 }
 
-TEST(BiaxialStrength, IsThatOfTheCurve) {
-  const BiaxialStrength strength = strength_of(made_rows(100, 42, 27, 15));
+TEST(CompressionStrength, IsThatOfTheCurve) {
+  const Strength strength = strength_of(made_rows(100, 42, 27, 15));
   EXPECT_NEAR(strength.peak.angle(), 42, 1e-9);
   EXPECT_NEAR(strength.critical.angle(), 27, 1e-9);
   EXPECT_NEAR(strength.dilatancy, 15, 1e-9);
@@ -56,8 +56,8 @@ TEST(BiaxialStrength, IsThatOfTheCurve) {
 }
 
 // A short force chain late in the test is no peak, and a test that ends at 8 % has no critical state.
-TEST(BiaxialStrength, IsNotThatOfALateForceChain) {
-  std::vector<BiaxialRow> rows = made_rows(100, 42, 27, 15);
+TEST(CompressionStrength, IsNotThatOfALateForceChain) {
+  std::vector<CompressionRow> rows = made_rows(100, 42, 27, 15);
   for (std::size_t n = 90; n < 95; ++n)
     rows[n].axial_stress = axial_at(100, 60);
   EXPECT_NEAR(strength_of(rows).peak.angle(), 42, 1e-9);
@@ -84,9 +84,9 @@ TEST(MohrCoulombLine, HasAngleAndCohesionOfItsFailures) {
   EXPECT_THROW(fit_mohr_coulomb({failures[0], failures[0], failures[0]}), std::invalid_argument);
 }
 
-class BiaxialReport : public test::ElementReport {
+class CompressionReport : public test::ElementReport {
 protected:
-  static std::string line(const BiaxialRow &row) {
+  static std::string line(const CompressionRow &row) {
     return fmt::format("{},{},{},{},0,{},{},{},0,0,0,0,0,{}\n", row.strain, row.axial_stress, row.side_stress,
                        row.volumetric_strain, row.void_ratio, row.coordination, row.inertial_number,
                        row.energy_error);
@@ -94,7 +94,7 @@ protected:
 
   void write_test(const std::string &folder, double side, int seed, double peak) const {
     std::string rows = header;
-    for (const BiaxialRow &row : made_rows(side, peak, 27, 15))
+    for (const CompressionRow &row : made_rows(side, peak, 27, 15))
       rows += line(row);
     write_run(folder, "biaxial.csv", rows,
               fmt::format("deck,biaxial\nsample,random\nballs,{}\nside,{}\nseed,{}\nengine,E\n", 100 + seed,
@@ -103,7 +103,7 @@ protected:
 };
 
 // Three side stresses, one of them with two seeds: one soil, one line for the peak and one for the critical state.
-TEST_F(BiaxialReport, ShowsTheRunsOnAPageOfTheirOwn) {
+TEST_F(CompressionReport, ShowsTheRunsOnAPageOfTheirOwn) {
   write_test("tests/a", 50, 1, 42);
   write_test("tests/b", 100, 1, 41);
   write_test("tests/c, of \"c\"", 100, 2, 43);
@@ -119,14 +119,30 @@ TEST_F(BiaxialReport, ShowsTheRunsOnAPageOfTheirOwn) {
   EXPECT_NE(lines.find("soil 1: E,critical,4,3,27.0,27.0 to 27.0"), std::string::npos) << lines;
 }
 
-TEST_F(BiaxialReport, HasNoLineForOneSideStress) {
+// The two side stresses of a triaxial test count as their mean; the page is a page of its own.
+TEST_F(CompressionReport, ShowsTriaxialTests) {
+  std::string rows = header.substr(0, header.size() - 1) + ",front_stress_kPa,back_stress_kPa\n";
+  for (CompressionRow row : made_rows(100, 42, 27, 15)) {
+    row.side_stress = 90;
+    std::string text = line(row);
+    text.pop_back();
+    rows += text + ",110,110\n";
+  }
+  write_run("one", "triaxial.csv", rows, "sample,random\nballs,365\nside,100\nseed,1\nengine,E\n");
+  sound_page("one", "triaxial", 1);
+  const std::string angles = data("triaxial", "triaxial_angles");
+  EXPECT_NE(angles.find("soil 1: E,100,1,42.0,42.0 to 42.0,15.0,27.0,27.0 to 27.0"), std::string::npos)
+      << angles;
+}
+
+TEST_F(CompressionReport, HasNoLineForOneSideStress) {
   write_test("one", 100, 1, 42);
   report("one");
   EXPECT_TRUE(std::filesystem::is_regular_file(root / "report" / "biaxial" / "index.html"));
   EXPECT_FALSE(std::filesystem::exists(root / "report" / "biaxial" / "data" / "biaxial_lines.csv"));
 }
 
-TEST_F(BiaxialReport, RefusesWhatItCannotRead) {
+TEST_F(CompressionReport, RefusesWhatItCannotRead) {
   const std::string row = line({0.0, 100, 100, 0, 0.2, 3, 0, 0});
   const std::string good = header + row;
   expect_refused("biaxial.csv", good, "allowed are 2 or more");

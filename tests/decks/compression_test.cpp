@@ -1,0 +1,421 @@
+// The biaxial and the triaxial test: regular lattices against their strength and stiffness in closed form, the forces on the plates against sums
+// over the contacts of a cut, disordered samples in both engines.
+#include "bed/dump_readers.h"
+#include "tests/support/element_runs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+post::Table run_biaxial(const std::string &engine, const Variables &variables) {
+  return run_element_test(engine, "biaxial", variables);
+}
+
+post::Table run_triaxial(const std::string &engine, const Variables &variables) {
+  return run_element_test(engine, "triaxial", variables);
+}
+
+constexpr double diameter = 0.04, kn = 1e9, kt = 2.0 / 7.0 * kn; // m, N/m; the deck's
+constexpr int columns = 6, layers = 7;
+const double root3 = std::sqrt(3.0);
+
+/// A lattice that is loaded slowly, so that it is close to equilibrium all the time.
+Variables lattice(const std::string &sample, const std::string &friction, const std::string &strain) {
+  return {{"sample", sample},
+          {"friction", friction},
+          {"columns", std::to_string(columns)},
+          {"layers", std::to_string(layers)},
+          {"samples_of_strain", "25"},
+          {"inertial_number", "1e-4"},
+          {"ramp", "400"},
+          {"strain", strain}};
+}
+
+/// Axial stress over side stress of each row.
+std::vector<double> ratios(const post::Table &table) {
+  const std::vector<double> axial = table.numbers("axial_stress_kPa"),
+                            side = table.numbers("side_stress_kPa");
+  std::vector<double> values;
+  for (std::size_t n = 0; n < axial.size(); ++n)
+    values.push_back(axial[n] / side[n]);
+  return values;
+}
+
+/// Change of the axial stress over that of the strain between two rows, Pa.
+double modulus(const post::Table &table, std::size_t from, std::size_t to) {
+  const std::vector<double> axial = table.numbers("axial_stress_kPa"), strain = table.numbers("strain");
+  return 1e3 * (axial[to] - axial[from]) / (strain[to] - strain[from]);
+}
+
+class Biaxial : public InEngine {};
+class Triaxial : public InEngine {};
+
+/// When a hexagonal lattice, rows across the load, has yielded, the balls of a row are apart, and all forces are in contacts at 60 degrees,
+/// inclined by the angle of friction to their normals: the ratio of the stresses is tan 60 tan(60 + phi).
+double strength(double friction) { return root3 * std::tan(pi / 3 + std::atan(friction)); }
+
+/// Modulus of the hexagonal lattice between the opening of the contacts within rows and yielding. Rows approach by a, and neighbours in a row
+/// separate by 2 b, so that a contact at 60 degrees is compressed by (root3 a - b)/2 and sheared by (a + root3 b)/2. The side force is constant:
+/// b = root3 a (kn - kt)/(kn + 3 kt). A ball at a plate has two such contacts above or below it and one with the plate.
+double hexagonal_modulus() {
+  const double a = 1.0, b = root3 * a * (kn - kt) / (kn + 3 * kt);
+  const double axial_force = (kn * (3 * a - root3 * b) + kt * (a + root3 * b)) / 4; // of a contact
+  const double height = (layers - 1) * root3 / 2 * diameter;
+  const double settlement = (layers - 1) * a + 2 * 2 * axial_force / kn;
+  return 2 * axial_force / diameter * height / settlement;
+}
+
+/// Columns of a square lattice, each with a contact less than layers, and those with the plates; heights and widths are between centres.
+double square_modulus() {
+  const double force_per_width = columns / ((columns - 1) * diameter);
+  return force_per_width * kn / (layers + 1) * (layers - 1) * diameter;
+}
+
+TEST_P(Biaxial, FindsStrengthAndStiffnessOfAHexagonalLattice) {
+  const post::Table rows = run_biaxial(GetParam(), lattice("hexagonal", "0.3", "9e-4"));
+  const std::vector<double> ratio = ratios(rows);
+  const double highest = *std::max_element(ratio.begin(), ratio.end());
+  EXPECT_NEAR(highest, strength(0.3), 5e-3 * highest);
+  EXPECT_NEAR(ratio.back(), strength(0.3), 1e-2 * highest);
+  EXPECT_NEAR(modulus(rows, 14, 18), hexagonal_modulus(), 5e-3 * hexagonal_modulus());
+}
+
+TEST(BiaxialLattice, HasATripleStrengthWithoutFriction) {
+  const std::vector<double> ratio = ratios(run_biaxial("liggghts", lattice("hexagonal", "0", "4e-4")));
+  EXPECT_NEAR(*std::max_element(ratio.begin(), ratio.end()), 3, 0.1);
+  EXPECT_NEAR(std::accumulate(ratio.end() - 8, ratio.end(), 0.0) / 8, 3,
+              0.02); // it has yielded, and vibrates
+}
+
+TEST(BiaxialLattice, HasTheStiffnessOfItsColumnsIfSquare) {
+  const post::Table rows = run_biaxial("liggghts", lattice("square", "0.5", "1e-4"));
+  EXPECT_NEAR(modulus(rows, 18, 25), square_modulus(), 1e-3 * square_modulus());
+  EXPECT_NEAR(rows.numbers("side_strain").back(), 0, 1e-7);
+}
+
+const Variables small = {{"columns", "8"},           {"layers", "9"},  {"seating", "50"},
+                         {"samples_of_strain", "8"}, {"ramp", "1000"}, {"strain", "0.005"}};
+
+// A dense sample fails at a multiple of the side stress and dilates at the end; the side stress stays what it should be.
+void expect_shear_of_a_dense_sample(const post::Table &rows) {
+  const std::vector<double> ratio = ratios(rows);
+  EXPECT_NEAR(ratio.front(), 1, 2e-3);
+  const double highest = *std::max_element(ratio.begin(), ratio.end());
+  EXPECT_GT(highest, 2.5);
+  EXPECT_LT(highest, 8);
+  const std::vector<double> volumetric = rows.numbers("volumetric_strain");
+  EXPECT_LT(volumetric.back(), volumetric[volumetric.size() - 4] - 1e-4);
+  for (const char *side : {"side_stress_kPa", "front_stress_kPa"})
+    if (rows.has(side)) {
+      for (const double stress : rows.numbers(side))
+        EXPECT_NEAR(stress, 100, 5) << side;
+    }
+  for (const double number : rows.numbers("inertial_number"))
+    EXPECT_LT(number, 1e-3);
+  for (const double error : rows.numbers("energy_error"))
+    EXPECT_LT(std::fabs(error), 1e-3);
+}
+
+TEST_P(Biaxial, ShearsADisorderedSample) {
+  const post::Table rows = run_biaxial(GetParam(), small);
+  expect_shear_of_a_dense_sample(rows);
+  EXPECT_NEAR(rows.numbers("strain").back(), 0.005, 1e-4);
+}
+
+// Much too fast a test throws the side platen off the sample.
+TEST_P(Biaxial, EndsWhenAPlatenIsOffTheSample) {
+  const Variables fast = {{"sample", "hexagonal"}, {"columns", "4"},        {"layers", "5"},
+                          {"seating", "1"},        {"side", "1"},           {"ratio", "0.1"},
+                          {"strain", "0.9"},       {"inertial_number", "1"}};
+  try {
+    run_biaxial(GetParam(), fast);
+    ADD_FAILURE() << "it goes on";
+  } catch (const std::runtime_error &error) {
+    EXPECT_NE(std::string(error.what()).find("ERROR: drumlin/check: variable side_stress is '"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+/// A force between balls i and j, or on ball i by a plate j.
+struct Contact {
+  long i, j;
+  std::array<double, 3> force; // on i
+};
+
+/// Sum of the forces in direction `axis` on the balls beyond a cut across it by those before the cut.
+double force_through_cut(const std::vector<Contact> &contacts,
+                         const std::map<long, std::array<double, 3>> &places, std::size_t axis, double cut) {
+  double sum = 0.0;
+  for (const Contact &contact : contacts) {
+    const bool i_beyond = places.at(contact.i)[axis] > cut, j_beyond = places.at(contact.j)[axis] > cut;
+    if (i_beyond != j_beyond) sum += (i_beyond ? 1.0 : -1.0) * contact.force[axis];
+  }
+  return sum;
+}
+
+/// At rest the contacts of any cut through the sample carry what the plates on both sides of it do.
+/// \param scale N, side stress times the area of a plate
+void expect_equilibrium(const std::string &deck, const Variables &more, std::size_t dimension, double scale) {
+  const Scratch scratch;
+  const std::string soil = chain_deck("../soil").string();
+  post::write_files({{scratch / "in.contacts", "include " + soil + "/in." + deck + "\ninclude " +
+                                                   test_deck("compression_contacts.in").string() + "\n"}});
+  Variables variables = {{"here", soil},  {"seating", "50"},  {"samples_of_strain", "1"},
+                         {"ramp", "200"}, {"strain", "1e-5"}, {"inertial_number", "1e-5"}};
+  variables.insert(variables.end(), more.begin(), more.end());
+  const Outcome outcome = run_deck(scratch / "in.contacts", variables, scratch.path());
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  std::map<long, std::array<double, 3>> places;
+  std::vector<long> plates; // left, side, base, top, and in space back, front
+  std::array<double, 3> lowest{1.0, 1.0, 1.0}, highest{};
+  for (const std::vector<double> &row : post::read_text_dump(scratch / "balls.dump").rows) {
+    const long id = std::lround(row[0]);
+    places[id] = {row[2], row[3], row[4]};
+    if (std::lround(row[1]) == 2)
+      plates.push_back(id);
+    else
+      for (std::size_t axis = 0; axis < dimension; ++axis) {
+        lowest[axis] = std::min(lowest[axis], places[id][axis]);
+        highest[axis] = std::max(highest[axis], places[id][axis]);
+      }
+  }
+  ASSERT_EQ(plates.size(), 2 * dimension);
+  std::sort(plates.begin(), plates.end());
+  std::vector<Contact> contacts;
+  for (const std::vector<double> &row : post::read_text_dump(scratch / "contacts.dump").rows)
+    contacts.push_back({std::lround(row[0]), std::lround(row[1]), {row[2], row[3], row[4]}});
+  const post::Table table = post::read_table(scratch / "plates.csv");
+  for (std::size_t n = 0; n < plates.size(); ++n) {
+    const char *const name = std::array{"left", "side", "base", "top", "back", "front"}[n];
+    const std::size_t axis = n / 2;
+    double sum = 0.0;
+    for (const Contact &contact : contacts)
+      if (contact.i == plates[n] || contact.j == plates[n])
+        sum += (contact.i == plates[n] ? 1.0 : -1.0) * contact.force[axis];
+    const double force = table.numbers(name).front();
+    EXPECT_NEAR(sum, force, 1e-5 * scale) << name;
+    for (const double share : {0.2, 0.4, 0.6, 0.8}) {
+      const double cut = lowest[axis] + share * (highest[axis] - lowest[axis]);
+      EXPECT_NEAR(force_through_cut(contacts, places, axis, cut), std::fabs(force), 2e-3 * scale)
+          << name << ", cut at " << cut;
+    }
+  }
+}
+
+TEST(BiaxialEquilibrium, TheForcesOnThePlatesGoThroughEveryCut) {
+  expect_equilibrium("biaxial", {{"columns", "8"}, {"layers", "9"}}, 2, 100e3 * 8 * diameter);
+}
+
+TEST(TriaxialEquilibrium, TheForcesOnThePlatesGoThroughEveryCut) {
+  expect_equilibrium("triaxial", {{"columns", "4"}, {"rows", "4"}, {"layers", "6"}}, 3,
+                     100e3 * std::pow(6 * diameter, 2));
+}
+
+/// Stiffness of the contacts of the triaxial test, N/m, and layers of its lattices.
+constexpr double kn3 = 4e7, kt3 = 2.0 / 7.0 * kn3;
+constexpr int layers3 = 5;
+
+Variables lattice_in_space(const std::string &sample, const std::string &friction,
+                           const std::string &strain) {
+  Variables variables = lattice(sample, friction, strain);
+  for (auto &[name, value] : variables) {
+    if (name == "columns") value = "4";
+    if (name == "layers") value = std::to_string(layers3);
+  }
+  variables.emplace_back("rows", "4");
+  return variables;
+}
+
+/// The springs of a face-centred lattice between smooth plates, solved for small displacements: each ball has contacts with its neighbours, of
+/// stiffness kn3 along and kt3 across the line of centres, and those at the surface one of kn3 with the plate.
+class FaceCentredSprings {
+public:
+  /// \param across layers of balls, half a cube apart, along x and z
+  /// \param along the same along y
+  FaceCentredSprings(int across, int along) : across_(across), along_(along) {
+    for (int i = 0; i < across; ++i)
+      for (int j = 0; j < along; ++j)
+        for (int k = 0; k < across; ++k)
+          if ((i + j + k) % 2 == 0) balls_.emplace(Place{i, j, k}, balls_.size());
+    for (const auto &[place, ball] : balls_) {
+      for (const Place &step : {Place{1, 1, 0}, {1, -1, 0}, {0, 1, 1}, {0, 1, -1}, {1, 0, 1}, {1, 0, -1}}) {
+        const auto other = balls_.find({place[0] + step[0], place[1] + step[1], place[2] + step[2]});
+        if (other == balls_.end()) continue;
+        links_.push_back({ball, other->second, {}});
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          links_.back().normal[axis] = step[axis] / std::sqrt(2.0);
+      }
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (place[axis] == 0) walls_.push_back({6 * ball + axis, none});
+        if (place[axis] == (axis == 1 ? along : across) - 1) walls_.push_back({6 * ball + axis, plate(axis)});
+      }
+    }
+  }
+
+  /// Axial force, N, and outward displacement of a side platen, m, when the upper platen has settled by 1 m and the
+  /// forces on the side platens have not changed.
+  struct Response {
+    double force, expansion;
+  };
+  /// By conjugate gradients.
+  Response settle() const {
+    std::vector<double> u(6 * balls_.size() + 3, 0.0);
+    u[plate(1)] = -1.0;
+    std::vector<double> residual = forces(u);
+    for (double &value : residual)
+      value = -value;
+    residual[plate(1)] = 0.0;
+    std::vector<double> direction = residual;
+    double square = dot(residual, residual);
+    for (const double end = 1e-20 * square; square > end;) {
+      std::vector<double> image = forces(direction);
+      image[plate(1)] = 0.0;
+      const double step = square / dot(direction, image);
+      for (std::size_t n = 0; n < u.size(); ++n) {
+        u[n] += step * direction[n];
+        residual[n] -= step * image[n];
+      }
+      const double next = dot(residual, residual);
+      for (std::size_t n = 0; n < u.size(); ++n)
+        direction[n] = residual[n] + next / square * direction[n];
+      square = next;
+    }
+    return {-forces(u)[plate(1)], u[plate(0)]};
+  }
+
+  /// Distances of the outer centres, m.
+  double width() const { return (across_ - 1) * diameter / std::sqrt(2.0); }
+  double height() const { return (along_ - 1) * diameter / std::sqrt(2.0); }
+  std::size_t balls() const { return balls_.size(); }
+
+private:
+  using Place = std::array<int, 3>;
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  struct Link {
+    std::size_t a, b;
+    std::array<double, 3> normal;
+  };
+  struct Wall {
+    std::size_t ball, plate; // unknowns
+  };
+
+  std::size_t plate(std::size_t axis) const { return 6 * balls_.size() + axis; }
+  static double dot(const std::vector<double> &a, const std::vector<double> &b) {
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+  }
+  static std::array<double, 3> cross(const std::array<double, 3> &a, const std::array<double, 3> &b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  }
+
+  /// The forces that the springs need: of each ball three components and three torques, then one for each platen.
+  std::vector<double> forces(const std::vector<double> &u) const {
+    std::vector<double> f(u.size(), 0.0);
+    constexpr double radius = diameter / 2;
+    for (const Link &link : links_) {
+      const std::size_t a = 6 * link.a, b = 6 * link.b;
+      const std::array<double, 3> turn =
+          cross({u[a + 3] + u[b + 3], u[a + 4] + u[b + 4], u[a + 5] + u[b + 5]}, link.normal);
+      std::array<double, 3> slip{}, force{};
+      double normal = 0.0;
+      for (std::size_t n = 0; n < 3; ++n) {
+        slip[n] = u[a + n] - u[b + n] + radius * turn[n];
+        normal += slip[n] * link.normal[n];
+      }
+      for (std::size_t n = 0; n < 3; ++n) {
+        force[n] = kt3 * slip[n] + (kn3 - kt3) * normal * link.normal[n];
+        f[a + n] += force[n];
+        f[b + n] -= force[n];
+      }
+      const std::array<double, 3> torque = cross(link.normal, force);
+      for (std::size_t n = 0; n < 3; ++n) {
+        f[a + 3 + n] += radius * torque[n];
+        f[b + 3 + n] += radius * torque[n];
+      }
+    }
+    for (const Wall &wall : walls_) {
+      const double force = kn3 * (u[wall.ball] - (wall.plate == none ? 0.0 : u[wall.plate]));
+      f[wall.ball] += force;
+      if (wall.plate != none) f[wall.plate] -= force;
+    }
+    return f;
+  }
+
+  int across_, along_;
+  std::map<Place, std::size_t> balls_;
+  std::vector<Link> links_;
+  std::vector<Wall> walls_;
+};
+
+/// Axial force per metre by which neighbouring layers of a face-centred lattice approach, far from its ends. Neighbours in layers across the load
+/// separate by 2 b and the force across the load is constant: a contact at 45 degrees to the load has the normal force kn (a - b)/root2 and the
+/// shear force kt (a + b)/root2, one across the load the normal force -kn root2 b, and there are `across` layers with the first for each
+/// `across` - 1 with the second.
+double force_of_approach(int across) {
+  const double b = across * (kn3 - kt3) / (2 * (across - 1) * kn3 + across * (kn3 + kt3)); // for a = 1
+  return across * (across - 1) * (kn3 * (1 - b) + kt3 * (1 + b));
+}
+
+TEST(FaceCentredLattice, HasTheStiffnessOfTheClosedForm) {
+  const double shorter = 1 / FaceCentredSprings(7, 9).settle().force,
+               longer = 1 / FaceCentredSprings(7, 13).settle().force;
+  const double expected = 4 / force_of_approach(7);
+  EXPECT_NEAR(longer - shorter, expected, 2e-3 * expected);
+}
+
+// With all contacts closed.
+TEST_P(Triaxial, FindsTheStiffnessOfAFaceCentredLattice) {
+  Variables variables = lattice_in_space("face_centred", "0.3", "1.2e-4");
+  variables.emplace_back("rolling", "0");
+  const post::Table rows = run_triaxial(GetParam(), variables);
+  const FaceCentredSprings springs(7, layers3);
+  const FaceCentredSprings::Response response = springs.settle();
+  const double expected = response.force * springs.height() / std::pow(springs.width(), 2);
+  EXPECT_NEAR(modulus(rows, 10, 25), expected, 5e-3 * expected);
+  const std::vector<double> strain = rows.numbers("strain"), side = rows.numbers("side_strain");
+  const double expansion = response.expansion * springs.height() / springs.width();
+  EXPECT_NEAR((side[10] - side[25]) / (strain[25] - strain[10]), expansion, 2e-2 * expansion);
+}
+
+/// A face-centred lattice whose cube has its edges along the axes yields when the contacts at 45 degrees to the load slide; those across it have
+/// opened. With a normal force N and friction T a contact carries (N + T)/root2 along the load and (N - T)/root2 across it. Both directions across
+/// the load share the axial force: the ratio of the stresses is 2 (1 + friction)/(1 - friction) (Thornton 1979). Balls at the edges of the sample
+/// would roll instead; rolling friction keeps them from it.
+TEST_P(Triaxial, FindsTheStrengthOfAFaceCentredLattice) {
+  const std::vector<double> ratio =
+      ratios(run_triaxial(GetParam(), lattice_in_space("face_centred", "0.3", "8e-4")));
+  const double strength = 2 * 1.3 / 0.7;
+  EXPECT_NEAR(*std::max_element(ratio.begin(), ratio.end()), strength, 1e-2 * strength);
+  EXPECT_NEAR(ratio.back(), strength, 1e-2 * strength);
+}
+
+// Columns under the load, each with a contact less than layers, and those with the plates; heights and widths are between centres.
+TEST(TriaxialLattice, HasTheStiffnessOfItsColumnsIfCubic) {
+  const post::Table rows = run_triaxial("liggghts", lattice_in_space("cubic", "0.5", "1e-4"));
+  const double expected = 16.0 / 9.0 * kn3 / (layers3 + 1) * (layers3 - 1) / diameter;
+  EXPECT_NEAR(modulus(rows, 18, 25), expected, 2e-3 * expected);
+  EXPECT_NEAR(rows.numbers("side_strain").back(), 0, 1e-7);
+}
+
+TEST_P(Triaxial, ShearsADisorderedSample) {
+  Variables variables = small;
+  variables.insert(variables.begin(),
+                   {{"columns", "4"}, {"rows", "4"}, {"layers", "7"}, {"k", "1e7"}, {"strain", "0.012"}});
+  expect_shear_of_a_dense_sample(run_triaxial(GetParam(), variables));
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, Triaxial, ::testing::Values("liggghts", "lammps"));
+INSTANTIATE_TEST_SUITE_P(Engines, Biaxial, ::testing::Values("liggghts", "lammps"));
+
+} // namespace
+} // namespace drumlin::test
