@@ -49,6 +49,25 @@ double radius(const PackingOptions &options, double share) {
   return 1.0 / std::sqrt(few - share * (few - 1.0 / (high * high)));
 }
 
+/// Radii of all balls in the order in which they are placed.
+std::vector<double> radii_of(const PackingOptions &options, Random &random) {
+  const auto count = static_cast<std::size_t>(options.balls);
+  std::vector<double> radii(count);
+  if (!options.sieve) {
+    for (double &r : radii)
+      r = radius(options, random());
+    return radii;
+  }
+  const BallNumbers numbers(*options.sieve, options.dimensions());
+  for (std::size_t i = count; i-- > 0;) {
+    const double share = (static_cast<double>(i) + random()) / static_cast<double>(count);
+    const auto size = static_cast<double>(static_cast<float>(numbers.size(share)));
+    radii[count - 1 - i] = std::clamp(0.5 * size, options.smallest_radius(),
+                                      options.largest_radius()); // rounding may pass an end
+  }
+  return radii;
+}
+
 /// Balls by the cell that holds their centre; a cell is as wide as the largest ball, so that only neighbour
 /// cells count.
 class Cells {
@@ -128,13 +147,15 @@ double default_share(int dimensions) { return dimensions == 2 ? 0.45 : 0.28; }
 std::string PackingOptions::invalid() const {
   if (balls < 1 || balls > most_balls)
     return refusal("balls", balls, fmt::format("a whole number from 1 to {}", most_balls));
-  if (!radius_range.holds(radius_min)) return refusal("radius-min", radius_min, radius_range.words());
-  if (!(radius_max >= radius_min && radius_max <= most_spread * radius_min && radius_range.holds(radius_max)))
+  if (!sieve && !radius_range.holds(radius_min))
+    return refusal("radius-min", radius_min, radius_range.words());
+  if (!sieve &&
+      !(radius_max >= radius_min && radius_max <= most_spread * radius_min && radius_range.holds(radius_max)))
     return refusal(
         "radius-max", radius_max,
         fmt::format("a number from radius-min, which is {}, to {:g} times it [m]", radius_min, most_spread));
-  const Range room = {2.0 * radius_max, length_range.most, "m"};
-  const Range or_zero = {2.0 * radius_max, length_range.most, "m", true};
+  const Range room = {2.0 * largest_radius(), length_range.most, "m"};
+  const Range or_zero = {2.0 * largest_radius(), length_range.most, "m", true};
   if (!room.holds(width)) return refusal("width", width, room.words() + ": room for the largest ball");
   if (!or_zero.holds(depth))
     return refusal("depth", depth,
@@ -146,15 +167,20 @@ std::string PackingOptions::invalid() const {
 
 namespace {
 
+/// Length, or area in three dimensions, that balls can fill at the bottom of the box: less than all of it, since
+/// a strip along the walls is filled less. m or m2
+double free_base(const PackingOptions &options) {
+  const double strip = options.largest_radius();
+  return (options.width - strip) * (options.dimensions() == 2 ? 1.0 : options.depth - strip);
+}
+
 /// The height that balls of the given content (volume, area in two dimensions) fill: the one that was asked
 /// for, if they fit, or as much as they need. std::invalid_argument if they do not fit.
 double filled_height(const PackingOptions &options, double content_of_all) {
   const int dimensions = options.dimensions();
-  if (options.height == 0.0) { // a strip along the walls is filled less
-    const double strip = options.radius_max;
-    const double free_base = (options.width - strip) * (dimensions == 2 ? 1.0 : options.depth - strip);
-    return std::max(content_of_all / (free_base * default_share(dimensions)) + strip,
-                    2.0 * options.radius_max);
+  if (options.height == 0.0) {
+    const double strip = options.largest_radius();
+    return std::max(content_of_all / (free_base(options) * default_share(dimensions)) + strip, 2.0 * strip);
   }
   const double base = options.width * (dimensions == 2 ? 1.0 : options.depth);
   const double least = content_of_all / (base * largest_share(dimensions));
@@ -163,7 +189,7 @@ double filled_height(const PackingOptions &options, double content_of_all) {
         "height", options.height,
         fmt::format("0 (as needed) or at least {:.3f} [m], in which {} balls of radius {} to {} m fit "
                     "without touching",
-                    least, options.balls, options.radius_min, options.radius_max)));
+                    least, options.balls, options.smallest_radius(), options.largest_radius())));
   return options.height;
 }
 
@@ -171,7 +197,7 @@ double filled_height(const PackingOptions &options, double content_of_all) {
 /// std::invalid_argument
 void check_work(const PackingOptions &options, double height) {
   const auto count = static_cast<double>(options.balls);
-  const double side = 2.0 * options.radius_max;
+  const double side = 2.0 * options.largest_radius();
   const double cell_number =
       (options.width / side + 1.0) * (options.depth / side + 1.0) * (height / side + 1.0);
   if (cell_number > most_cells)
@@ -186,32 +212,60 @@ void check_work(const PackingOptions &options, double height) {
     throw std::invalid_argument(
         refusal("balls", options.balls,
                 fmt::format("at most {:.0f} with radii from {} to {} m in this box, else it takes hours",
-                            std::sqrt(most_pairs / (tries * neighbours / count)), options.radius_min,
-                            options.radius_max)));
+                            std::sqrt(most_pairs / (tries * neighbours / count)), options.smallest_radius(),
+                            options.largest_radius())));
 }
 
 } // namespace
+
+double default_cut(const SieveCurve &curve, const PackingOptions &options) {
+  PackingOptions cut = options;
+  cut.sieve = curve; // for the size of the largest ball
+  if (const std::string fault = cut.invalid(); !fault.empty()) throw std::invalid_argument(fault);
+  const double height = options.height > 0.0 ? options.height : 0.5 * options.width;
+  const int dimensions = options.dimensions();
+  const double wanted = free_base(cut) * std::max(height - cut.largest_radius(), cut.largest_radius()) *
+                        default_share(dimensions);
+  const auto number_for = [&](double size) {
+    const double mean = BallNumbers(curve.coarser_than(size), dimensions).mean_power();
+    const double of_one = content(0.5, dimensions) * mean; // content goes with the power of the size
+    return wanted / of_one;
+  };
+  double low = std::max(curve.smallest(), curve.largest() / PackingOptions::most_spread);
+  double high = 0.5 * curve.largest();
+  if (low >= high || number_for(low) <= options.balls) return low;
+  if (const double least = std::ceil(number_for(high)); least > options.balls)
+    throw std::invalid_argument(refusal(
+        "balls", options.balls,
+        fmt::format(
+            "at least {:.0f}, so that grains from {:g} to {:g} mm fill the box to a height of {:g} m; "
+            "or --cut with the smallest size",
+            least, high * 1e3, curve.largest() * 1e3, height)));
+  while (high / low > 1.0 + 1e-6) {
+    const double middle = std::sqrt(low * high);
+    (number_for(middle) > options.balls ? low : high) = middle;
+  }
+  const double digit = std::pow(10.0, std::floor(std::log10(high)) - 2.0);
+  return std::ceil(high / digit) * digit;
+}
 
 Packing pack_balls(const PackingOptions &options, const std::function<void(std::size_t)> &progress,
                    int attempts) {
   if (const std::string fault = options.invalid(); !fault.empty()) throw std::invalid_argument(fault);
   const int dimensions = options.dimensions();
-  const auto count = static_cast<std::size_t>(options.balls);
   Random random(options.seed);
 
-  std::vector<double> radii(count);
+  const std::vector<double> radii = radii_of(options, random);
   double all = 0.0;
-  for (double &r : radii) {
-    r = radius(options, random());
+  for (const double r : radii)
     all += content(r, dimensions);
-  }
   const double height = filled_height(options, all);
   check_work(options, height);
 
   std::vector<PackedBall> balls;
-  balls.reserve(count);
+  balls.reserve(radii.size());
   std::size_t all_tries = 0;
-  Cells cells({options.width, options.depth, height}, 2.0 * options.radius_max);
+  Cells cells({options.width, options.depth, height}, 2.0 * options.largest_radius());
   for (const double r : radii) {
     PackedBall ball{{}, r};
     int failed = 0;
@@ -235,16 +289,36 @@ Packing pack_balls(const PackingOptions &options, const std::function<void(std::
   return {std::move(balls), height};
 }
 
+Sieving sieved(const Packing &packing, int dimensions) {
+  std::vector<double> sizes;
+  sizes.reserve(packing.balls.size());
+  for (const PackedBall &ball : packing.balls)
+    sizes.push_back(2.0 * ball.radius);
+  return {std::move(sizes), dimensions};
+}
+
 std::string bed_data(const PackingOptions &options, double density, const Packing &packing) {
   const bool flat = options.dimensions() == 2;
-  const double depth = flat ? 2.0 * options.radius_max : options.depth;
+  const std::string grading =
+      options.sieve ? fmt::format("{}_from_{:g}mm", options.sieve_name, options.sieve->smallest() * 1e3)
+                    : grading_name(options.grading);
+  const double depth = flat ? 2.0 * options.largest_radius() : options.depth;
   const double top = packing.height + room_above;
   std::string text = fmt::format(
       "# {} balls at random: radius {} to {} m, grading {}, {} m wide, {} m deep, filled to {} m, "
-      "seed {} (drumlin bed)\n\n{} atoms\n{} atom types\n\n",
-      packing.balls.size(), options.radius_min, options.radius_max, grading_name(options.grading),
-      options.width, options.depth, packing.height, options.seed, packing.balls.size(), types);
+      "seed {} (drumlin bed)\n",
+      packing.balls.size(), options.smallest_radius(), options.largest_radius(), grading, options.width,
+      options.depth, packing.height, options.seed);
   auto out = std::back_inserter(text);
+  const Sieving sizes = sieved(packing, options.dimensions());
+  const std::pair<const char *, double> notes[] = {{"r_min", options.smallest_radius()},
+                                                   {"r_max", options.largest_radius()},
+                                                   {"d50", sizes.size(0.5)},
+                                                   {"C_u", grain_sizes(sizes).uniformity()}};
+  fmt::format_to(out, "# drumlin note grading {}\n", grading); // drumlin/take of in.settle reads these lines
+  for (const auto &[name, value] : notes)
+    fmt::format_to(out, "# drumlin note {} {}\n", name, value);
+  fmt::format_to(out, "\n{} atoms\n{} atom types\n\n", packing.balls.size(), types);
   fmt::format_to(out, "{:.17g} {:.17g} xlo xhi\n0 {:.17g} ylo yhi\n{:.17g} {:.17g} zlo zhi\n",
                  -0.5 * options.width, 0.5 * options.width, top, -0.5 * depth, 0.5 * depth);
   fmt::format_to(out, "\nAtoms\n\n"); // ID, type, diameter, density, x, y, z

@@ -2,12 +2,14 @@
 // settles.
 #pragma once
 
+#include "bed/sieve_curve.h"
 #include "support/range.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +34,9 @@ struct PackingOptions {
   double radius_max = 0.024; ///< m, >= radius_min
   std::uint64_t seed = 1;
   Grading grading = Grading::uniform;
+  std::optional<SieveCurve> sieve; ///< instead of radii and grading, which then do not count: no mass passes
+                                   ///< its smallest sieve
+  std::string sieve_name = {};     ///< of the sieve curve, one word
 
   static constexpr int most_balls = 10'000'000;
   static constexpr Range radius_range = {1e-6, 1e3, "m"};
@@ -39,6 +44,8 @@ struct PackingOptions {
   static constexpr double most_spread = 1000.0;           ///< of the largest radius over the smallest
 
   int dimensions() const { return depth > 0.0 ? 3 : 2; }
+  double smallest_radius() const { return sieve ? 0.5 * sieve->smallest() : radius_min; }
+  double largest_radius() const { return sieve ? 0.5 * sieve->largest() : radius_max; }
   /// Empty if every value is allowed, else what is wrong: name, value, what is allowed.
   std::string invalid() const;
 };
@@ -52,6 +59,12 @@ double largest_share(int dimensions);
 /// The share from which the filled height is computed by default; each ball then needs a few attempts.
 double default_share(int dimensions);
 
+/// The size, m, rounded up to three digits, at which `curve` must be cut so that options.balls balls of what is
+/// coarser fill the box to options.height, or to half its width if that is 0; the smallest sieve if they do so
+/// without a cut. Throws std::invalid_argument as pack_balls() does if the balls are so few that the cut would
+/// be above half of the largest size: hardly a distribution is left of the curve then.
+double default_cut(const SieveCurve &curve, const PackingOptions &options);
+
 struct PackedBall {
   std::array<double, 3> centre; ///< m: across, along the drum's axis (0 in two dimensions), up from the floor
   double radius;                ///< m
@@ -62,8 +75,12 @@ struct Packing {
   double height; ///< m, of the filled part
 };
 
-/// Places the balls. The same options give the same balls, bit for bit, on any machine: the random numbers
-/// are computed without rounding errors.
+/// Places the balls. With a sieve curve ball i of N, in the order of size, has a size at random between those
+/// that the shares i/N and (i+1)/N of all balls do not exceed, so that the mass of all balls that are finer than
+/// any size differs from the curve's by less than two balls of this size; the largest ball is placed first, since it would find no
+/// space between the others. The same options give the same balls, bit for bit, on any machine: the random numbers
+/// are computed without rounding errors, and sizes from a sieve curve are rounded to single precision, so that
+/// the last digits of log() and cbrt(), which differ between machines, do not reach them.
 /// \param progress is called every few thousand tries with the number of balls placed
 /// Throws std::invalid_argument with what() naming the option, its value and what is allowed: before any ball
 /// is placed if their area or volume is more than largest_share() of the box, else when no free position was
@@ -73,7 +90,11 @@ Packing pack_balls(const PackingOptions &options, const std::function<void(std::
 
 /// The text of the data file for the engine's read_data: balls of type 1 (soil; types 2 and 3 are drum and
 /// frame), in a box with space for the roller above them. y is up; x = 0 and z = 0 are the middle. Density of
-/// a ball in kg/m3, of a disc 1 m thick.
+/// a ball in kg/m3, of a disc 1 m thick. The header notes for later decks: the grading as one word, the radii of the
+/// smallest and largest ball, m, d50, m, and C_u.
 std::string bed_data(const PackingOptions &options, double density, const Packing &packing);
+
+/// The balls of a packing sorted by size.
+Sieving sieved(const Packing &packing, int dimensions);
 
 } // namespace drumlin::post

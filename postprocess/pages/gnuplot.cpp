@@ -140,10 +140,20 @@ double tic_lines(const Panel &panel) {
   return line_per_letter * static_cast<double>(longest_tic(panel));
 }
 
+/// Numbers on a logarithmic axis x, for any range of it from 1e-3 to 1e4.
+std::string plain_log_tics() {
+  std::string s = "  set xtics (";
+  for (int power = -3; power < 4; ++power)
+    for (const int digit : {1, 2, 5})
+      s += fmt::format("{}{}e{}", s.back() == '(' ? "" : ", ", digit, power);
+  return s + ")\n";
+}
+
 std::string x_axis_script(const Panel &panel) {
   std::string s;
   if (panel.x_ticks.empty()) {
     s += "  set xtics autofreq norotate\n  set autoscale x\n";
+    if (panel.log_x && panel.plain_numbers) s += plain_log_tics();
     s += panel.tight_x ? "  set autoscale xfix\n  set offsets 0, 0, 0, 0\n"
                        : "  set offsets graph 0.04, graph 0.04, 0, 0\n";
     if (!panel.x_range.empty())
@@ -203,7 +213,8 @@ std::string panel_script(const Panel &panel, int width) {
   s += fmt::format("  set xlabel {}\n  set ylabel {}\n", gnuplot_string(panel.x_label),
                    gnuplot_string(panel.y_label));
   s += "  unset logscale\n";
-  s += panel.log_x ? "  set logscale x\n  set format x '10^{%T}'\n" : "  set format x '%g'\n";
+  s += panel.log_x ? "  set logscale x\n" : "";
+  s += panel.log_x && !panel.plain_numbers ? "  set format x '10^{%T}'\n" : "  set format x '%g'\n";
   s += panel.log_y ? "  set logscale y\n  set format y '10^{%T}'\n" : "  set format y '%g'\n";
   s += fmt::format("  set yrange {}\n", panel.y_range.empty() ? "[*:*]" : panel.y_range);
   const int rows = legend_rows(panel, width);

@@ -77,6 +77,7 @@ struct Panel {
   std::string color_label = {}; ///< of the colour box of discs, with unit; empty: no colour box
   std::string color_range = {}; ///< as x_range
   bool color_whole = false;     ///< one colour per whole number
+  bool plain_numbers = false;   ///< a logarithmic axis x has 1, 2, 5, 10, ... instead of powers of ten
 };
 
 /// A figure: panels in rows of `columns`. All figures have one width, rows of panels one height, and the

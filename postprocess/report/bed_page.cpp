@@ -18,6 +18,12 @@ std::string fixed(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : dash;
 }
 
+/// A size that the files of the bed note, as a multiple of a unit; a dash in runs of beds of earlier versions.
+std::string noted(const Run &run, const std::string &name, double per_unit) {
+  const std::string text = run.text(name, "unknown");
+  return text == "unknown" ? dash : fmt::format("{:.3g}", *run.number(name) * per_unit);
+}
+
 /// "Run bed/B (condition B)" or "Runs bed/B (condition B) and bed/A (condition A)".
 std::string title_of(const BedGroup &group) {
   std::string title = group.runs.size() > 1 ? "Runs" : "Run";
@@ -103,15 +109,22 @@ PageTable state_table(const std::vector<BedResult> &beds) {
                   "void ratio at the start (-)",
                   "void ratio at the end (-)",
                   "imbalance of energy (% of work)",
-                  "drum at rest, depth below the surface (% of its diameter)"};
+                  "drum at rest, depth below the surface (% of its diameter)",
+                  "grading",
+                  "smallest and largest ball (mm)",
+                  "d50 (mm)",
+                  "coefficient of uniformity Cu (-)"};
   for (const BedResult &result : beds) {
     const BedMeasures &m = result.measures;
     const bool any = m.cycles > 0;
     const auto steady = [any](double value, int decimals) { return any ? fixed(value, decimals) : dash; };
+    const std::string smallest = noted(result.run, "r_min", 2e3), largest = noted(result.run, "r_max", 2e3);
+    const std::string sizes = largest == dash ? dash : smallest + " to " + largest;
     state.add({result.run.name, transition_name(result.run.transition()), steady(m.settlement * 1e3, 3),
                steady(m.settlement_per_cycle * 1e3, 3), fixed(m.coordination_start, 3),
                fixed(m.coordination_end, 3), fixed(m.void_ratio_start, 4), fixed(m.void_ratio_end, 4),
-               fixed(m.imbalance_percent, 3), fixed(m.depth_percent, 1)},
+               fixed(m.imbalance_percent, 3), fixed(m.depth_percent, 1), result.run.text("grading", dash),
+               sizes, noted(result.run, "d50", 1e3), noted(result.run, "C_u", 1.0)},
               !std::isfinite(m.imbalance_percent) ? RowState::plain
               : energy_is_good(m)                 ? RowState::agrees
                                                   : RowState::differs);
@@ -127,7 +140,10 @@ PageTable state_table(const std::vector<BedResult> &beds) {
       "of its "
       "lowest point before the excitation, below the mean surface that the soil had before the drum was "
       "placed, "
-      "away from the drum; negative above.");
+      "away from the drum; negative above. Grading, sizes (diameters), d50 and Cu = d60 / d10, by mass, are "
+      "those "
+      "of all "
+      "balls that drumlin bed made.");
   return state;
 }
 

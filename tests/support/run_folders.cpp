@@ -106,6 +106,11 @@ void write_bed_run(const fs::path &folder, Transition transition, int cycles, co
                                {"balls", "2"},
                                {"r2", "0.5"},
                                {"drum_depth", "0.03"},
+                               {"grading", "WMM_from_14mm"},
+                               {"r_min", "0.007"},
+                               {"r_max", "0.0265"},
+                               {"d50", "0.0301"},
+                               {"C_u", "1.75"},
                                {"steps_per_cycle", "800"},
                                {"timestep", number_text(period / 800)},
                                {"command", "liggghts -in <in.bed> -var out " + folder.filename().string()}});

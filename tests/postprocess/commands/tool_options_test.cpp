@@ -9,8 +9,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace drumlin::test {
@@ -78,6 +80,21 @@ TEST_F(ToolOptions, AbsurdValuesAreRefusedAtOnce) {
       {{"bed", "--seed", "-1"},
        "bed: --seed is '-1'; allowed: a whole number from 0 to 18446744073709551615"},
       {{"bed", "--grading", ""}, "bed: --grading is ''; allowed: uniform, mass"},
+      {{"bed", "--sieve", ""}, "bed: --sieve is ''; allowed: "},
+      {{"bed", "--sieve", "sand"},
+       "bed: --sieve is 'sand'; allowed: a CSV file with the columns size (mm) and passing (%), or one of "
+       "M147-B, "},
+      {{"bed", "--sieve", "WMM", "--radius-max", "0.02"},
+       "bed: --sieve is 'WMM'; allowed: without --radius-max"},
+      {{"bed", "--sieve", "WMM", "--grading", "mass"}, "bed: --sieve is 'WMM'; allowed: without --grading"},
+      {{"bed", "--cut", "8"}, "bed: --cut is '8'; allowed: only with --sieve"},
+      {{"bed", "--sieve", "WMM", "--cut", "53"},
+       "bed: --cut is '53'; allowed: a number from 0.075 and below 53 [mm]"},
+      {{"bed", "--sieve", "WMM", "--cut", "0.01"}, "bed: --cut is '0.01'; allowed: a number from 0.075"},
+      {{"bed", "--sieve", "WMM", "--cut", "x"}, "bed: --cut is 'x'; allowed: "},
+      {{"bed", "--sieve", "WMM", "--width", "0.05"}, "bed: --width is '0.05'; allowed: a number from 0.053 "},
+      {{"bed", "--sieve", "WMM", "--width", "0.05", "--cut", "9"}, "bed: --width is '0.05'; allowed: "},
+      {{"bed", "--sieve", "WMM", "--balls", "100"}, "bed: --balls is '100'; allowed: at least "},
       {{"bed", "--out", ""}, "bed: --out is ''; allowed: "},
       {{"meter", ""}, "meter: RECORD is ''; allowed: "},
       {{"meter", "r", "--window", "5"},
@@ -133,6 +150,68 @@ TEST_F(ToolOptions, AbsurdValuesAreRefusedAtOnce) {
     fs::remove(folder_ / "screen.txt");
     EXPECT_TRUE(fs::is_empty(folder_));
   }
+}
+
+TEST_F(ToolOptions, SieveFilesThatAreNoCurveAreRefused) {
+  const fs::path file = folder_ / "s.csv";
+  const std::string header = "size (mm),passing (%)\n";
+  const std::vector<std::pair<std::string, std::string>> table = {
+      {"", "s.csv, line 1: the file is empty"},
+      {header, "s.csv: the number of rows is '0'; allowed: a row for each sieve"},
+      {"size (mm),finer (%)\n1,100\n", "passing (%)"},
+      {header + "4,10\n8,5\n16,100\n", "s.csv, line 3, column 'passing (%)' is '5'; allowed: at least 10, "
+                                       "which passes the finer sieve before"},
+      {header + "4,0\n4,50\n16,100\n",
+       "s.csv, line 3, column 'size (mm)' is '4'; allowed: more than 4, the size before"},
+      {header + "16,100\n8,50\n", "s.csv, line 3, column 'size (mm)' is '8'; allowed: more than 16"},
+      {header + "4,0\n8,100.5\n",
+       "s.csv, line 3, column 'passing (%)' is '100.5'; allowed: a number from 0 to 100 [%]"},
+      {header + "4,-1\n8,100\n", "s.csv, line 2, column 'passing (%)' is '-1'; allowed: "},
+      {header + "4,half\n8,100\n", "s.csv, line 2, column 'passing (%)' is 'half'; allowed: "},
+      {header + "4,nan\n8,100\n", "s.csv, line 2, column 'passing (%)' is 'nan'; allowed: "},
+      {header + "0,0\n8,100\n",
+       "s.csv, line 2, column 'size (mm)' is '0'; allowed: a number from 1e-06 to 1e+06 [mm]"},
+      {header + "4,0\n8,90\n", "s.csv, line 3, column 'passing (%)' is '90'; allowed: 100 in the last row"},
+      {header + "8,100\n",
+       "s.csv, line 2, column 'passing (%)' is '100'; allowed: less than 100 in the first row"},
+      {header + "4\n8,100\n", "s.csv, line 2"},
+  };
+  for (const auto &[text, says] : table) {
+    SCOPED_TRACE(says);
+    std::ofstream(file) << text;
+    const post::Outcome outcome = run({"bed", "--sieve", "s.csv", "--out", "out/balls.data"});
+    EXPECT_EQ(outcome.status, 2) << outcome.output;
+    EXPECT_EQ(outcome.output.rfind("ERROR: drumlin bed: ", 0), 0u) << outcome.output;
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
+    EXPECT_TRUE(outcome.says(says)) << outcome.output;
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+  }
+  const post::Outcome folder = run({"bed", "--sieve", "."});
+  EXPECT_EQ(folder.status, 2);
+  EXPECT_TRUE(folder.says("it is a folder")) << folder.output;
+}
+
+// A curve of three sieves whose numbers are exact by hand: half of the mass between 10 and 20, half between 20 and
+// 40 mm, nothing is cut.
+TEST_F(ToolOptions, SieveFileMakesABedAndItsGrading) {
+  std::ofstream(folder_ / "my gravel.csv") << "size (mm),passing (%)\n10,0\n20,50\n40,100\n";
+  const post::Outcome outcome =
+      run({"bed", "--sieve", "my gravel.csv", "--cut", "10", "--balls", "2000", "--out", "balls.data"});
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  EXPECT_TRUE(outcome.says("balls.data: 2000 balls, filled to ")) << outcome.output;
+  EXPECT_TRUE(outcome.says("Grading my_gravel: 0.0 % of the mass are grains finer than 10 mm"))
+      << outcome.output;
+  // d10 = 10 mm 2^0.2 and so on
+  EXPECT_TRUE(
+      outcome.says("\nasked for                          11.5   15.2     20     23         2  0.871\n"))
+      << outcome.output;
+  for (const char *name : {"balls_grading.csv", "balls_grading.gp", "balls_grading.svg", "balls_grading.png"})
+    EXPECT_TRUE(fs::is_regular_file(folder_ / name)) << name;
+  std::ifstream data(folder_ / "balls.data");
+  const std::string text((std::istreambuf_iterator<char>(data)), {});
+  for (const char *note :
+       {"grading my_gravel_from_10mm\n", "r_min 0.005\n", "r_max 0.02\n", "d50 0.0", "C_u "})
+    EXPECT_NE(text.find(std::string("# drumlin note ") + note), std::string::npos) << note;
 }
 
 // At the ends of the allowed ranges there is an answer, or one line of error.

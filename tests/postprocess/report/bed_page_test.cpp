@@ -200,6 +200,11 @@ TEST_F(BedReport, IsSoundWithBedsOnly) {
   EXPECT_NE(text.find("<span>&lt;in.bed&gt;</span>"), std::string::npos);
   for (const char *name : {"bed_runs.csv", "bed_states.csv"})
     EXPECT_EQ(read_table(out / "data" / name).rows(), 2u);
+  const Table states = read_table(out / "data/bed_states.csv");
+  EXPECT_EQ(states.text("grading").front(), "WMM_from_14mm");
+  EXPECT_EQ(states.text("smallest and largest ball (mm)").front(), "14 to 53");
+  EXPECT_EQ(states.text("d50 (mm)").front(), "30.1");
+  EXPECT_EQ(states.text("coefficient of uniformity Cu (-)").front(), "1.75");
 }
 
 TEST_F(BedReport, IsOnOnePageWithChains) {

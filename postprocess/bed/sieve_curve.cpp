@@ -1,0 +1,167 @@
+#include "bed/sieve_curve.h"
+
+#include "support/csv.h"
+#include "support/range.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace drumlin::post {
+
+namespace {
+
+constexpr const char *size_column = "size (mm)";
+constexpr const char *passing_column = "passing (%)";
+constexpr double mm = 1e-3;
+constexpr double percent = 1e-2;
+
+/// Throws SieveFault for the first value that is not allowed.
+void check(const std::vector<Sieve> &sieves) {
+  if (sieves.empty()) throw std::invalid_argument("a curve needs sieves");
+  for (std::size_t i = 0; i < sieves.size(); ++i) {
+    const auto &[size, passing] = sieves[i];
+    constexpr Range sizes = {SieveCurve::smallest_size / mm, SieveCurve::largest_size / mm, "mm"};
+    if (!sizes.holds(size / mm)) throw SieveFault(i, SieveFault::Value::size, sizes.words());
+    constexpr Range shares = {0.0, 100.0, "%"};
+    if (!shares.holds(passing / percent)) throw SieveFault(i, SieveFault::Value::passing, shares.words());
+    if (i == 0) continue;
+    if (!(size > sieves[i - 1].size))
+      throw SieveFault(i, SieveFault::Value::size,
+                       fmt::format("more than {:g}, the size before, since sizes rise from row to row",
+                                   sieves[i - 1].size / mm));
+    if (passing < sieves[i - 1].passing)
+      throw SieveFault(
+          i, SieveFault::Value::passing,
+          fmt::format("at least {:g}, which passes the finer sieve before", sieves[i - 1].passing / percent));
+  }
+  if (sieves.back().passing < 1.0)
+    throw SieveFault(sieves.size() - 1, SieveFault::Value::passing,
+                     "100 in the last row: the largest grain must be known");
+  if (sieves.size() < 2 || !(sieves.front().passing < 1.0))
+    throw SieveFault(0, SieveFault::Value::passing,
+                     "less than 100 in the first row, and a row for each coarser sieve");
+}
+
+/// Value at a share of the way from a to b, with the logarithm as scale.
+double between(double a, double b, double share) { return a * std::exp(share * std::log(b / a)); }
+
+} // namespace
+
+SieveCurve::SieveCurve(std::vector<Sieve> sieves) : sieves_(std::move(sieves)) {
+  check(sieves_);
+  const auto all =
+      std::find_if(sieves_.begin(), sieves_.end(), [](const Sieve &s) { return s.passing >= 1.0; });
+  sieves_.erase(all + 1, sieves_.end());
+  const auto some =
+      std::find_if(sieves_.begin(), sieves_.end(), [](const Sieve &s) { return s.passing > 0.0; });
+  if (some != sieves_.begin()) sieves_.erase(sieves_.begin(), some - 1);
+}
+
+double SieveCurve::passing(double size) const {
+  if (size <= smallest()) return sieves_.front().passing;
+  if (size >= largest()) return 1.0;
+  const auto above = std::upper_bound(sieves_.begin(), sieves_.end(), size,
+                                      [](double s, const Sieve &sieve) { return s < sieve.size; });
+  const Sieve &a = *(above - 1);
+  const Sieve &b = *above;
+  return a.passing + (b.passing - a.passing) * std::log(size / a.size) / std::log(b.size / a.size);
+}
+
+double SieveCurve::size(double passing) const {
+  if (passing <= sieves_.front().passing) return smallest();
+  const auto above = std::lower_bound(sieves_.begin(), sieves_.end() - 1, passing,
+                                      [](const Sieve &sieve, double p) { return sieve.passing < p; });
+  const Sieve &a = *(above - 1);
+  const Sieve &b = *above;
+  return between(a.size, b.size, std::min(1.0, (passing - a.passing) / (b.passing - a.passing)));
+}
+
+SieveCurve SieveCurve::coarser_than(double size) const {
+  if (!(size >= smallest() && size < largest()))
+    throw std::invalid_argument("a curve can only be cut between its ends");
+  const double finer = passing(size);
+  std::vector<Sieve> rest = {{size, 0.0}};
+  for (const Sieve &sieve : sieves_)
+    if (sieve.size > size) rest.push_back({sieve.size, (sieve.passing - finer) / (1.0 - finer)});
+  return SieveCurve(std::move(rest));
+}
+
+SieveCurve read_sieve_file(const std::filesystem::path &file) {
+  const Table table = read_table(file);
+  const std::vector<double> sizes = table.numbers(size_column), passing = table.numbers(passing_column);
+  if (sizes.empty()) csv_fault(file, 0, {}, refusal("the number of rows", "0", "a row for each sieve"));
+  std::vector<Sieve> sieves;
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+    sieves.push_back({sizes[i] * mm, passing[i] * percent});
+  try {
+    return SieveCurve(std::move(sieves));
+  } catch (const SieveFault &fault) {
+    const char *column = fault.value == SieveFault::Value::size ? size_column : passing_column;
+    csv_refusal(file, table.line(fault.row), column, table.text(column)[fault.row], fault.what());
+  }
+}
+
+BallNumbers::BallNumbers(const SieveCurve &curve, int dimensions) : dimensions_(dimensions) {
+  const std::vector<Sieve> &sieves = curve.sieves();
+  if (sieves.front().passing > 0.0) throw std::invalid_argument("grains of unknown size cannot be counted");
+  // Number in each interval for a total mass of 1, where a ball of size d has the mass d^n.
+  std::vector<double> numbers = {0.0};
+  for (std::size_t i = 1; i < sieves.size(); ++i) {
+    const double a = sieves[i - 1].size, b = sieves[i].size;
+    const double mass = sieves[i].passing - sieves[i - 1].passing;
+    numbers.push_back(numbers.back() + mass / std::log(b / a) * (power(a) - power(b)) / dimensions_);
+  }
+  for (std::size_t i = 0; i < sieves.size(); ++i) {
+    sizes_.push_back(sieves[i].size);
+    shares_.push_back(numbers[i] / numbers.back());
+  }
+  mean_power_ = 1.0 / numbers.back();
+}
+
+double BallNumbers::power(double size) const {
+  return dimensions_ == 2 ? 1.0 / (size * size) : 1.0 / (size * size * size);
+}
+
+double BallNumbers::share_finer(double size) const {
+  if (size <= sizes_.front()) return 0.0;
+  if (size >= sizes_.back()) return 1.0;
+  const auto i =
+      static_cast<std::size_t>(std::upper_bound(sizes_.begin(), sizes_.end(), size) - sizes_.begin());
+  const double a = power(sizes_[i - 1]), b = power(sizes_[i]);
+  return shares_[i - 1] + (shares_[i] - shares_[i - 1]) * (a - power(size)) / (a - b);
+}
+
+double BallNumbers::size(double share) const {
+  if (share <= 0.0) return sizes_.front();
+  const auto i = static_cast<std::size_t>(std::lower_bound(shares_.begin() + 1, shares_.end() - 1, share) -
+                                          shares_.begin());
+  const double part = std::min(1.0, (share - shares_[i - 1]) / (shares_[i] - shares_[i - 1]));
+  const double a = power(sizes_[i - 1]), b = power(sizes_[i]);
+  const double inverse = a - part * (a - b);
+  return dimensions_ == 2 ? 1.0 / std::sqrt(inverse) : 1.0 / std::cbrt(inverse);
+}
+
+Sieving::Sieving(std::vector<double> sizes, int dimensions) : sizes_(std::move(sizes)) {
+  std::sort(sizes_.begin(), sizes_.end());
+  double sum = 0.0;
+  for (const double size : sizes_)
+    passing_.push_back(sum += dimensions == 2 ? size * size : size * size * size);
+  for (double &share : passing_)
+    share /= sum;
+}
+
+double Sieving::passing(double size) const {
+  const auto above = std::upper_bound(sizes_.begin(), sizes_.end(), size);
+  return above == sizes_.begin() ? 0.0 : passing_[static_cast<std::size_t>(above - sizes_.begin()) - 1];
+}
+
+double Sieving::size(double passing) const {
+  const auto found = std::lower_bound(passing_.begin(), passing_.end() - 1, passing);
+  return sizes_[static_cast<std::size_t>(found - passing_.begin())];
+}
+
+} // namespace drumlin::post
