@@ -38,9 +38,9 @@ struct ContactCoefficients {
   physics::Friction tangential(double kt, double c, physics::Cap cap) const {
     return {kt, tangential_dashpot(c), friction, cap};
   }
-  /// For a law whose tangential stiffness does not vary. \param radius effective radius of the contact, m
-  physics::Rolling rolling_resistance(double radius) const {
-    return physics::rolling_of(contact.tangential(0.0, radius), rolling, radius);
+  /// \param kt present tangential stiffness, N/m \param radius effective radius of the contact, m
+  physics::Rolling rolling_resistance(double kt, double radius) const {
+    return physics::rolling_of(kt, rolling, radius);
   }
 };
 
@@ -99,11 +99,15 @@ struct ContactSettings {
   bool rolling = false;           ///< whether there is rolling resistance
   bool tangential_varies = false; ///< of the law, as its parameters say
 
-  /// Numbers that a contact remembers: the tangential spring, its stiffness where that varies, then with the
-  /// second-order scheme the normal force, then with rolling resistance the torque of its spring.
+  /// Numbers that a contact remembers: the tangential spring, the tangential stiffness where that varies and a
+  /// spring depends on it, then with the second-order scheme the normal force, then with rolling resistance the
+  /// torque of its spring.
   int history() const { return rolling_place() + (rolling ? 3 : 0); }
-  int rolling_place() const { return spring() + (stock ? 0 : 1); }
-  int spring() const { return tangential == FrictionModel::history ? (tangential_varies ? 4 : 3) : 0; }
+  int rolling_place() const { return force_place() + (stock ? 0 : 1); }
+  int force_place() const { return stiffness_place() + (stores_stiffness() ? 1 : 0); }
+  int stiffness_place() const { return has_spring() ? 3 : 0; }
+  bool has_spring() const { return tangential == FrictionModel::history; }
+  bool stores_stiffness() const { return tangential_varies && (has_spring() || rolling); }
 
   /// Sets the damping of a law's parameters to what a deck gives, and the transition. A restitution, > 0 and
   /// <= 1, becomes the D that gives it under the transition condition.

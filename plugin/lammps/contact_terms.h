@@ -31,8 +31,9 @@ struct Contact {
 struct ContactForces {
   double normal_force; ///< N, at the end of the step, used for friction
   physics::Vec3 force, tangential_force;
-  physics::Vec3 moment;  ///< N, normal x tangential force
-  physics::Vec3 rolling; ///< N m, torque of rolling resistance on ball i, of which j gets the opposite
+  physics::Vec3 moment;        ///< N, normal x tangential force
+  physics::Vec3 rolling;       ///< N m, torque of rolling resistance on ball i, of which j gets the opposite
+  double tangential_stiffness; ///< N/m; 0 without friction and rolling resistance
 };
 
 /// Copies made number by number, as arguments of functions that are not inlined: with a copy as a whole the
@@ -46,7 +47,8 @@ inline Contact apart(const Contact &p) {
   return {apart(p.normal), p.slip, p.r_eff, p.arm_i, p.arm_j, p.history, p.in_contact};
 }
 inline ContactForces apart(const ContactForces &forces) {
-  return {forces.normal_force, forces.force, forces.tangential_force, forces.moment, forces.rolling};
+  return {forces.normal_force, forces.force,   forces.tangential_force,
+          forces.moment,       forces.rolling, forces.tangential_stiffness};
 }
 
 /// exert_contact() as a function that is not inlined, for the rare steps in which a contact begins, ends or
@@ -61,40 +63,48 @@ template <class Law>
   return push;
 }
 
-/// Place of the normal force in a contact's history, see ContactSettings::history(): behind the tangential
-/// spring and its stiffness, where that varies.
-template <class Parameters, FrictionModel tangential>
-constexpr int force_place = tangential != FrictionModel::history ? 0
-                            : Parameters::tangential_varies      ? 4
-                                                                 : 3;
+// Places in a contact's history, as ContactSettings has them, for settings that are known at compile time.
+template <class Parameters, FrictionModel tangential, bool rolling>
+constexpr bool stores_stiffness = Parameters::tangential_varies &&
+                                  (tangential == FrictionModel::history || rolling);
+template <FrictionModel tangential>
+constexpr int stiffness_place = tangential == FrictionModel::history ? 3 : 0;
+template <class Parameters, FrictionModel tangential, bool rolling>
+constexpr int force_place = stiffness_place<tangential> +
+                            (stores_stiffness<Parameters, tangential, rolling> ? 1 : 0);
 
-/// Friction of one contact. Its spring in the contact history follows the change of its stiffness, where that
-/// varies. \param dashpot of the normal law, N s/m \param moves see exert()
-template <FrictionModel tangential, class Coefficients>
-inline physics::Friction friction_of(const ContactSettings &settings, const Coefficients &coefficients,
-                                     const Contact &p, double dashpot, double dt, bool moves) {
+/// Tangential stiffness of one contact in a step, N/m. Where it varies, the springs of friction and of rolling
+/// resistance in the contact history follow its change. \param moves see exert()
+template <FrictionModel tangential, bool rolling, class Coefficients>
+inline double tangential_stiffness(const ContactSettings &settings, const Coefficients &coefficients,
+                                   const Contact &p, double dt, bool moves) {
   using Parameters = decltype(coefficients.contact);
-  constexpr bool varies = Parameters::tangential_varies;
   const StepContact &n = p.normal;
-  double kt = coefficients.contact.tangential(
-      varies ? physics::overlap_of_spring(n.overlap, n.rate_half, dt) : n.overlap, p.r_eff);
-  if constexpr (varies && tangential == FrictionModel::history) {
-    double &stored = p.history[3];
-    if (moves) {
+  if constexpr (!Parameters::tangential_varies) return coefficients.contact.tangential(n.overlap, p.r_eff);
+  const double kt =
+      coefficients.contact.tangential(physics::overlap_of_spring(n.overlap, n.rate_half, dt), p.r_eff);
+  if constexpr (stores_stiffness<Parameters, tangential, rolling>) {
+    double &stored = p.history[stiffness_place<tangential>];
+    if (!moves) return stored > 0.0 ? stored : kt;
+    if constexpr (tangential == FrictionModel::history) {
       const double kept = physics::kept_spring(stored, kt);
       for (int a = 0; a < 3; ++a)
         p.history[a] *= kept;
-      stored = kt;
-    } else if (stored > 0.0)
-      kt = stored;
+    }
+    if constexpr (rolling) {
+      const double kept = physics::kept_torque(stored, kt);
+      for (int a = 0; a < 3; ++a)
+        p.history[settings.rolling_place() + a] *= kept;
+    }
+    stored = kt;
   }
-  return coefficients.tangential(kt, dashpot, settings.cap);
+  return kt;
 }
 
 /// Computes the forces of one contact whose surfaces overlap, and updates its history.
 /// \param stepping nullptr under `stepping stock`
 /// \param moves whether the tangential spring is advanced by a step: false in the set-up of a run
-template <bool stepped, FrictionModel tangential, class Parameters>
+template <bool stepped, FrictionModel tangential, bool rolling, class Parameters>
 inline ContactForces exert(const ContactSettings &settings,
                            const ContactCoefficients<Parameters> &coefficients,
                            LAMMPS_NS::FixStepping *stepping, const Contact &p, double dt, bool moves) {
@@ -106,7 +116,7 @@ inline ContactForces exert(const ContactSettings &settings,
   if constexpr (!stepped) {
     push = physics::advance_stock(law, {n.overlap, n.rate_half, n.rate_half, dt}, state).kick;
   } else {
-    double &stored_force = p.history[force_place<Parameters, tangential>];
+    double &stored_force = p.history[force_place<Parameters, tangential, rolling>];
     state.force = stored_force;
     state.in_contact = p.in_contact;
     if (hold_contact(law, *stepping, n.i, n.j, step_motion(*stepping, n), n.m_eff, state))
@@ -119,9 +129,13 @@ inline ContactForces exert(const ContactSettings &settings,
     stored_force = state.force;
   }
   out.normal_force = state.force;
-  if constexpr (tangential != FrictionModel::none) {
+  constexpr bool rubs = tangential != FrictionModel::none;
+  if constexpr (rubs || rolling)
+    out.tangential_stiffness =
+        tangential_stiffness<tangential, rolling>(settings, coefficients, p, dt, moves);
+  if constexpr (rubs) {
     const physics::Friction friction =
-        friction_of<tangential>(settings, coefficients, p, law.dashpot(n.overlap), dt, moves);
+        coefficients.tangential(out.tangential_stiffness, law.dashpot(n.overlap), settings.cap);
     if constexpr (tangential == FrictionModel::history) {
       const physics::FrictionStep step =
           physics::friction_step(friction, out.normal_force, n.normal, p.slip,
@@ -193,18 +207,18 @@ ContactRecord record_of(const ContactSettings &settings, const ContactCoefficien
   if (settings.stock) record.normal_dashpot = law.dashpot(p.normal.overlap);
   if (settings.tangential != FrictionModel::none)
     record.tangential_dashpot = coefficients.tangential_dashpot(law.dashpot(p.normal.overlap));
-  if (settings.spring() > 0) {
-    const bool stored = settings.tangential_varies && p.history[3] > 0.0;
-    record.tangential_stiffness =
-        stored ? p.history[3] : coefficients.contact.tangential(p.normal.overlap, p.r_eff);
+  if (settings.has_spring()) {
+    record.tangential_stiffness = forces.tangential_stiffness;
     record.spring = p.history;
   }
   record.normal_force = forces.normal_force;
-  if (!settings.stock) record.final_force = p.history + settings.spring();
+  if (!settings.stock) record.final_force = p.history + settings.force_place();
   record.tangential_force = forces.tangential_force;
   record.torque_i = physics::sum(forces.rolling, -p.arm_i, forces.moment);
   record.torque_j = physics::sum(physics::scaled(-1.0, forces.rolling), -p.arm_j, forces.moment);
-  if (settings.rolling) record.rolling_stiffness = coefficients.rolling_resistance(rolling_radius).stiffness;
+  if (settings.rolling)
+    record.rolling_stiffness =
+        coefficients.rolling_resistance(forces.tangential_stiffness, rolling_radius).stiffness;
   return record;
 }
 

@@ -110,10 +110,8 @@ void FixWallGranTransition::post_force(int) {
   std::visit(
       [this](const auto *table) {
         drumlin::with_models(pair_->contact_settings(), [&](auto stepped, auto tangential, auto rolling) {
-          using Parameters = std::decay_t<decltype(table->at(0, 0).contact)>;
-          if constexpr (!(rolling && Parameters::tangential_varies)) // the pair style refuses this
-            touch_balls<decltype(stepped)::value, decltype(tangential)::value, decltype(rolling)::value>(
-                *table);
+          touch_balls<decltype(stepped)::value, decltype(tangential)::value, decltype(rolling)::value>(
+              *table);
         });
       },
       pair_->table());
@@ -181,14 +179,14 @@ void FixWallGranTransition::touch(const Table &table, int i, int place, const ph
   p.normal.m_eff = mass;
   p.normal.share = 1.0;
   p.r_eff = drumlin::radius_for<Parameters>(atom->radius[i]);
-  p.history = remembered + (settings.spring() > 0 ? 1 : 4);
+  p.history = remembered + (settings.has_spring() ? 1 : 4);
   p.in_contact = remembered[0] != 0.0;
 
   drumlin::ContactForces forces{};
   if (!touches) { // it did, a step ago
     if constexpr (stepped)
       forces.force = drumlin::end_contact(law, *stepping_, p.normal, p.r_eff,
-                                          p.history[drumlin::force_place<Parameters, tangential>]);
+                                          p.history[drumlin::force_place<Parameters, tangential, rolling>]);
     std::fill_n(remembered, of_a_side, 0.0);
   } else {
     remembered[0] = 1.0;
@@ -198,11 +196,12 @@ void FixWallGranTransition::touch(const Table &table, int i, int place, const ph
       p.slip = physics::slip_velocity({v[0], v[1], v[2]}, normal,
                                       {p.arm_i * w[0], p.arm_i * w[1], p.arm_i * w[2]});
     }
-    forces = drumlin::exert<stepped, tangential>(settings, law, stepping_, p, update->dt, moves);
+    forces = drumlin::exert<stepped, tangential, rolling>(settings, law, stepping_, p, update->dt, moves);
     if constexpr (rolling) {
       const double *w = atom->omega[i];
       forces.rolling = drumlin::rolling_torque(settings, law, {normal, {w[0], w[1], w[2]}, atom->radius[i]},
-                                               forces.normal_force, p.history, update->dt, moves);
+                                               forces.tangential_stiffness, forces.normal_force, p.history,
+                                               update->dt, moves);
     }
     if (observers_.any())
       observers_.tell(drumlin::record_of(settings, law, p, forces, atom->radius[i], atom->radius[i]));

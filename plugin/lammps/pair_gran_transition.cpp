@@ -96,9 +96,6 @@ void PairGranTransition::settings(int narg, char **arg) {
         using Parameters = std::decay_t<decltype(table.at(0, 0).contact)>;
         settings_ = drumlin::read_settings(in, drumlin::LawWords<Parameters>::all);
         settings_.tangential_varies = Parameters::tangential_varies;
-        // Its spring does not follow a tangential stiffness that varies, and would create energy.
-        if (settings_.rolling && settings_.tangential_varies)
-          in.fail("keyword rolling is 'epsd2'; allowed: off with this law");
       },
       tables_);
   // A second pair_style line: coefficients mean something else under other settings, and contacts may
@@ -307,7 +304,7 @@ physics::Dashpots PairGranTransition::wall_dashpots(int i) const {
 
 drumlin::TangentialSpring PairGranTransition::tangential_spring(int i, int jj) const {
   const double *spring = history_->firstvalue[i] + static_cast<std::ptrdiff_t>(settings_.history()) * jj;
-  return {spring, settings_.tangential_varies ? spring + 3 : nullptr};
+  return {spring, settings_.tangential_varies ? spring + settings_.stiffness_place() : nullptr};
 }
 
 void PairGranTransition::compute(int eflag, int vflag) {
@@ -317,9 +314,8 @@ void PairGranTransition::compute(int eflag, int vflag) {
       [this](const auto &table) {
         drumlin::with_models(settings_, [&](auto stepped, auto tangential, auto rolling) {
           using Parameters = std::decay_t<decltype(table.at(0, 0).contact)>;
-          if constexpr (!(rolling && Parameters::tangential_varies)) // see settings()
-            compute_contacts<Parameters, decltype(stepped)::value, decltype(tangential)::value,
-                             decltype(rolling)::value>(table);
+          compute_contacts<Parameters, decltype(stepped)::value, decltype(tangential)::value,
+                           decltype(rolling)::value>(table);
         });
       },
       tables_);
@@ -378,25 +374,25 @@ template <class Parameters>
 [[gnu::always_inline]] inline physics::Vec3
 rolling_of_pair(const Balls &balls, const drumlin::ContactSettings &settings,
                 const ContactCoefficients<Parameters> &coefficients, const drumlin::Contact &p,
-                double normal_force, double dt, bool moves) {
+                const drumlin::ContactForces &forces, double dt, bool moves) {
   const int i = p.normal.i, j = p.normal.j;
   const double *const wi = balls.omega[i], *const wj = balls.omega[j];
   return drumlin::rolling_torque(settings, coefficients,
                                  {p.normal.normal,
                                   {wi[0] - wj[0], wi[1] - wj[1], wi[2] - wj[2]},
                                   physics::effective_radius(balls.radius[i], balls.radius[j])},
-                                 normal_force, p.history, dt, moves);
+                                 forces.tangential_stiffness, forces.normal_force, p.history, dt, moves);
 }
 
 /// The forces of the step in which a contact ends, whose history is deleted.
-template <bool stepped, FrictionModel tangential, class Parameters>
+template <bool stepped, FrictionModel tangential, bool rolling, class Parameters>
 [[gnu::always_inline]] inline drumlin::ContactForces ended(const ContactCoefficients<Parameters> &law,
                                                            FixStepping *stepping, const drumlin::Contact &p,
                                                            int history_size) {
   drumlin::ContactForces forces{};
   if constexpr (stepped)
     forces.force = drumlin::end_contact(law, *stepping, drumlin::apart(p.normal), p.r_eff,
-                                        p.history[drumlin::force_place<Parameters, tangential>]);
+                                        p.history[drumlin::force_place<Parameters, tangential, rolling>]);
   std::fill_n(p.history, history_size, 0.0);
   return forces;
 }
@@ -480,13 +476,12 @@ void PairGranTransition::compute_contacts(const drumlin::CoefficientTable<Parame
       drumlin::ContactForces forces;
       if (touches) {
         if constexpr (remembers) touch[jj] = 1;
-        forces = drumlin::exert<stepped, tangential>(settings, law, stepping_, p, dt, moves);
-        if constexpr (rolling)
-          forces.rolling = rolling_of_pair(balls, settings, law, p, forces.normal_force, dt, moves);
+        forces = drumlin::exert<stepped, tangential, rolling>(settings, law, stepping_, p, dt, moves);
+        if constexpr (rolling) forces.rolling = rolling_of_pair(balls, settings, law, p, forces, dt, moves);
         if (observed) report(table, drumlin::apart(p), drumlin::apart(forces));
       } else { // it did, a step ago
         touch[jj] = 0;
-        forces = ended<stepped, tangential>(law, stepping_, p, history_size);
+        forces = ended<stepped, tangential, rolling>(law, stepping_, p, history_size);
       }
       force_i = physics::sum(force_i, 1.0, forces.force);
       if constexpr (rubs) torque_i = physics::sum(torque_i, -p.arm_i, forces.moment);
@@ -543,12 +538,11 @@ void PairGranTransition::tell_single(const ContactCoefficients<Parameters> &law,
   const double r_eff = drumlin::radius_for<Parameters>(atom->radius[i], atom->radius[j]);
   const auto normal = law.contact.law(effective_mass(i, j), r_eff);
   const double normal_force =
-      settings_.stock ? normal.force(now.overlap, now.rate) : remembered[settings_.spring()];
+      settings_.stock ? normal.force(now.overlap, now.rate) : remembered[settings_.force_place()];
   force_over_distance = normal_force / (atom->radius[i] + atom->radius[j] - now.overlap);
-  const bool rubs = settings_.tangential != FrictionModel::none, springs = settings_.spring() > 0;
-  const double kt = settings_.tangential_varies && springs && remembered[3] > 0.0
-                        ? remembered[3]
-                        : law.contact.tangential(now.overlap, r_eff);
+  const bool rubs = settings_.tangential != FrictionModel::none, springs = settings_.has_spring();
+  const double *stored = settings_.stores_stiffness() ? remembered + settings_.stiffness_place() : nullptr;
+  const double kt = stored != nullptr && *stored > 0.0 ? *stored : law.contact.tangential(now.overlap, r_eff);
   const physics::Friction friction =
       rubs ? law.tangential(kt, normal.dashpot(now.overlap), settings_.cap) : physics::Friction{};
   const physics::Vec3 across = drumlin::friction_force(*atom, i, j, now, friction, normal_force,
@@ -565,7 +559,7 @@ void PairGranTransition::tell_single(const ContactCoefficients<Parameters> &law,
 /// The springs turn round when the balls change places, the tangential stiffness and the normal force do not.
 void PairGranTransition::transfer_history(double *source, double *target DRUMLIN_TRANSFER_TYPES) {
   for (int n = 0; n < settings_.history(); ++n) {
-    const bool turns_round = n < std::min(3, settings_.spring()) || n >= settings_.rolling_place();
+    const bool turns_round = n < settings_.stiffness_place() || n >= settings_.rolling_place();
     target[n] = turns_round ? -source[n] : source[n];
   }
 }

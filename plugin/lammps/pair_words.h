@@ -87,7 +87,8 @@ struct LawWords<physics::LinearContact> {
 template <>
 struct LawWords<physics::HertzContact> {
   static constexpr const char *stiffness = "E nu";
-  static constexpr const char *all = "I J E nu damping [mu [ct]] or I J effective E* G* damping [mu [ct]]";
+  static constexpr const char *all =
+      "I J E nu damping [mu [ct]] [rolling mu_r] or I J effective E* G* damping [mu [ct]] [rolling mu_r]";
   static constexpr const char *before_friction = "I J E nu damping or I J effective E* G* damping";
   static constexpr const char *behind_friction = ", then mu [ct|NULL]";
 

@@ -14,15 +14,17 @@ struct RollingMotion {
 };
 
 /// Computes the torque on ball i, N m, of which ball j gets the opposite, and updates the spring.
+/// \param kt tangential stiffness in this step, N/m
 /// \param history of the contact, see ContactSettings::history()
 /// \param moves whether the spring is advanced by a step: false in the set-up of a run
 template <class Parameters>
-inline physics::Vec3
-rolling_torque(const ContactSettings &settings, const ContactCoefficients<Parameters> &coefficients,
-               const RollingMotion &motion, double normal_force, double *history, double dt, bool moves) {
+inline physics::Vec3 rolling_torque(const ContactSettings &settings,
+                                    const ContactCoefficients<Parameters> &coefficients,
+                                    const RollingMotion &motion, double kt, double normal_force,
+                                    double *history, double dt, bool moves) {
   double *spring = history + settings.rolling_place();
   const physics::RollingStep step =
-      physics::rolling_step(coefficients.rolling_resistance(motion.radius), normal_force, motion.normal,
+      physics::rolling_step(coefficients.rolling_resistance(kt, motion.radius), normal_force, motion.normal,
                             motion.spin, {spring[0], spring[1], spring[2]}, moves ? dt : 0.0);
   if (moves)
     for (std::size_t a = 0; a < 3; ++a)

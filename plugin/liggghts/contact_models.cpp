@@ -43,7 +43,8 @@ template <class Style>
 constexpr bool has_history = drumlin::has_spring<Style> || Style::ROLLING == ROLLING_SPRING;
 
 template <class Style>
-constexpr drumlin::OtherModels other_models{drumlin::has_spring<Style>, Style::ROLLING != ROLLING_OFF};
+constexpr drumlin::OtherModels other_models{drumlin::has_spring<Style>, Style::ROLLING == ROLLING_SPRING,
+                                            Style::ROLLING != ROLLING_OFF};
 
 /// Prepares the engine for a combination, before that reads its properties.
 template <class Style, class Contact>
@@ -51,16 +52,6 @@ void prepare(LAMMPS *engine) {
   if (has_history<Style>) engine->neighbor->register_contact_dist_factor(drumlin::contact_distance_factor);
   if (Style::TANGENTIAL != TANGENTIAL_OFF)
     drumlin::provide_friction_default(engine, std::string("model ") + Contact::name, engine->atom->ntypes);
-}
-
-/// Ends the run where a law lacks a rolling model. The spring of epsd2 does not follow a tangential stiffness
-/// that varies, and would create energy.
-template <class Style, class Contact>
-void check_rolling(LAMMPS *engine, const std::string &command) {
-  if (Contact::tangential_varies && Style::ROLLING == ROLLING_SPRING)
-    engine->error->all(FLERR,
-                       drumlin::engine::error_text(
-                           command + ": rolling_friction is 'epsd2'; allowed: off or cdt with this law"));
 }
 
 template <class Style, class Contact>
@@ -75,7 +66,6 @@ public:
 
   void settings(int narg, char **arg, LIGGGHTS::IContactHistorySetup *history) override {
     drumlin::ModelSettings words(engine_->error, command(), other_models<Style>, narg, arg);
-    check_rolling<Style, Contact>(engine_, command());
     LAMMPS_NS::FixKeepHistory::provide(engine_);
     Base::settings(words.size(), words.words(), history);
   }
@@ -114,7 +104,6 @@ public:
   void settings(int narg, char **arg, LIGGGHTS::IContactHistorySetup *history) override {
     const std::string command = std::string("fix wall/gran model ") + Contact::name;
     drumlin::ModelSettings words(engine_->error, command, other_models<Style>, narg, arg);
-    check_rolling<Style, Contact>(engine_, command);
     Base::settings(words.size(), words.words(), history);
   }
 

@@ -44,6 +44,7 @@ ModelSettings::ModelSettings(LAMMPS_NS::Error *error, const std::string &command
   add("damping_restitution", settings.damping == DampingInput::restitution);
   add("stepping_stock", settings.stock);
   add("tangential_spring", others.tangential_spring);
+  add("rolling_spring", others.rolling_spring);
   for (std::string &word : words_)
     pointers_.push_back(word.data());
 }

@@ -22,6 +22,7 @@
 #include "contact/stepped_contact.h"
 #include "liggghts/contact_table.h"
 #include "physics/contact_step.h"
+#include "physics/rolling_law.h"
 
 namespace drumlin {
 
@@ -54,6 +55,7 @@ public:
     settings.registerOnOff("damping_restitution", damping_restitution_, false);
     settings.registerOnOff("stepping_stock", stepping_stock_, false);
     settings.registerOnOff("tangential_spring", tangential_spring_, false);
+    settings.registerOnOff("rolling_spring", rolling_spring_, false);
   }
 
   // While the deck is parsed: a fix added later, in the initialization of a run, would miss that run. A wall
@@ -64,7 +66,7 @@ public:
     else if (!stepping_stock_)
       stepping_ = LAMMPS_NS::FixStepping::provide(lmp);
     if constexpr (Contact::tangential_varies)
-      if (tangential_spring_) {
+      if (stores_stiffness()) {
         stiffness_offset_ = history->add_history_value(tangential_stiffness_name, "0");
         all->add_history_offset(tangential_stiffness_name, stiffness_offset_);
       }
@@ -121,7 +123,7 @@ public:
   void surfacesClose(SurfacesCloseData &scdata, ForceData &i_forces, ForceData &j_forces) {
     if (scdata.contact_flags) *scdata.contact_flags &= ~LIGGGHTS::ContactModels::CONTACT_NORMAL_MODEL;
     if constexpr (Contact::tangential_varies)
-      if (tangential_spring_ && scdata.contact_history != nullptr)
+      if (stores_stiffness() && scdata.contact_history != nullptr)
         scdata.contact_history[stiffness_offset_] = 0.0;
     if (stepping_ == nullptr || !scdata.computeflag || scdata.contact_history == nullptr) return;
     if (scdata.contact_history[state_offset_ + 1] == 0.0) return; // they did not touch one step ago
@@ -133,6 +135,11 @@ public:
   void endPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
 
 private:
+  /// Whether a spring in the contact history depends on a tangential stiffness that varies.
+  bool stores_stiffness() const {
+    return Contact::tangential_varies && (tangential_spring_ || rolling_spring_);
+  }
+
   bool is_frozen(int i) const { return pair_ != nullptr && (atom->mask[i] & pair_->freeze_group_bit()); }
 
   /// Ends the run where the stepping of a wall is not that of the pair style.
@@ -161,21 +168,26 @@ private:
                                         : physics::effective_mass(sidata.mi, sidata.mj);
   }
 
-  /// Sets the tangential stiffness of a law in which it varies, and lets the tangential model's spring, which
-  /// is first in the contact history, follow its change.
+  /// Sets the tangential stiffness of a law in which it varies, and lets the springs of the tangential and the
+  /// rolling model follow its change. These come first in the contact history, in this order, since the engine
+  /// builds their models before it asks the normal model for its values.
   inline void take_tangential_stiffness(SurfacesIntersectData &sidata, const Contact &contact, double r_eff) {
     const double dt = update->dt;
     sidata.kt = contact.tangential(physics::overlap_of_spring(sidata.deltan, -sidata.vn, dt), r_eff);
-    if (!tangential_spring_) return;
+    if (!stores_stiffness()) return;
     double &stored = sidata.contact_history[stiffness_offset_];
     if (!sidata.computeflag ||
         !sidata.shearupdate) { // in a set-up, or for computes: the spring does not move
       if (stored > 0.0) sidata.kt = stored;
       return;
     }
-    const double kept = physics::kept_spring(stored, sidata.kt);
-    for (int a = 0; a < 3; ++a)
-      sidata.contact_history[a] *= kept;
+    double *spring = sidata.contact_history;
+    const auto keep = [&spring](double share) {
+      for (int a = 0; a < 3; ++a)
+        *spring++ *= share;
+    };
+    if (tangential_spring_) keep(physics::kept_spring(stored, sidata.kt));
+    if (rolling_spring_) keep(physics::kept_torque(stored, sidata.kt));
     stored = sidata.kt;
   }
 
@@ -292,7 +304,8 @@ private:
   bool damping_restitution_ = false;
   bool stepping_stock_ = false;
   LAMMPS_NS::Clumps clumps_;
-  bool tangential_spring_ = false;             // whether the tangential model has one
+  bool tangential_spring_ = false;             // whether the tangential model has one,
+  bool rolling_spring_ = false;                // and the rolling model
   LAMMPS_NS::PairGran *pair_ = nullptr;        // gives the group of frozen balls
   LAMMPS_NS::FixStepping *stepping_ = nullptr; // none under stock stepping
   int state_offset_ = 0;     // of force and 'in contact' in the contact history, with the second-order scheme

@@ -40,6 +40,15 @@ struct Rolling {
   return {tangential_stiffness * radius * radius, coefficient * radius, resisted};
 }
 
+/// The share of a rolling spring's torque that is kept when its stiffness kr changes between two steps, as it
+/// does with a tangential stiffness that depends on the overlap. While the stiffness grows the torque is kept;
+/// while it shrinks the angle of the spring is kept, and the torque becomes smaller. Either way the energy in
+/// the spring, T^2 / (2 kr), does not grow. The spring of friction does the same, see kept_spring().
+/// \param before stiffness of the step before, or one in proportion to it; 0: there was none
+[[nodiscard]] inline double kept_torque(double before, double now) {
+  return before > now ? now / before : 1.0;
+}
+
 /// What one step of rolling resistance gives.
 struct RollingStep {
   Vec3 torque;       ///< N m, on ball i, at the end of the step; ball j takes the opposite

@@ -1,6 +1,7 @@
 // The Hertz law in both engines: whole impacts against the closed form of the restitution at several speeds,
-// an oblique impact against an integration of its equations in far smaller steps, walls against balls, and
-// the engines against each other on 1, 2 and 4 ranks and from restart files.
+// their event log and heat, an oblique impact against an integration of its equations in far smaller steps,
+// walls against balls, the engines against each other on 1, 2 and 4 ranks and from restart files, and
+// transitions without damping.
 #include "tests/support/balls_run.h"
 #include "tests/support/engine_and_scheme.h"
 #include "tests/support/frame_distance.h"
@@ -37,20 +38,52 @@ double closed_form(const std::string &transition, double D) {
   return std::isinf(end) ? 0.0 : -post::impact_state(p, end).rate;
 }
 
+/// A run of oblique.scene.
+struct Impacts {
+  std::vector<Frame> frames;
+  std::vector<post::ContactEvent> events; ///< of the pairs of balls
+  double normal_heat, friction_heat;      ///< J
+
+  /// J, that the balls have lost.
+  double lost() const { return kinetic(frames.front()) - kinetic(frames.back()); }
+
+private:
+  static double kinetic(const Frame &frame) {
+    double sum = 0;
+    for (const auto &[id, ball] : frame.balls)
+      for (std::size_t a = 0; a < 3; ++a)
+        sum += 0.5 * mass * (ball.v[a] * ball.v[a] + 0.4 * radius * radius * ball.omega[a] * ball.omega[a]);
+    return sum;
+  }
+};
+
+/// The number behind the last occurrence of a text.
+double number_behind(const std::string &output, const std::string &text) {
+  const std::size_t found = output.rfind(text);
+  if (found == std::string::npos) throw std::runtime_error(output);
+  return std::stod(output.substr(found + text.size()));
+}
+
 class HertzImpacts : public BothEngines {
 protected:
-  static std::vector<Frame> frames_of(Variables variables) {
+  static Impacts impacts(Variables variables) {
     variables.emplace_back("normal", "hertz");
     const Scratch folder;
     const Outcome outcome = run("oblique", folder, variables);
     if (!outcome.ok()) throw std::runtime_error(outcome.output);
-    return read_dump(folder / "balls.txt");
+    return {read_dump(folder / "balls.txt"), post::read_events(folder / "events.csv"),
+            number_behind(outcome.output, "heat of the normal dashpots "),
+            number_behind(outcome.output, " of friction ")};
+  }
+
+  static Impacts head_on_impacts(Variables variables) {
+    variables.insert(variables.end(), {{"across", "0"}, {"tangential", "off"}, {"mu", "-1"}});
+    return impacts(variables);
   }
 
   /// e of the eight head-on impacts.
-  static std::array<double, 8> head_on(Variables variables) {
-    variables.insert(variables.end(), {{"across", "0"}, {"tangential", "off"}, {"mu", "-1"}});
-    const std::vector<Frame> frames = frames_of(variables);
+  static std::array<double, 8> head_on(const Variables &variables) {
+    const std::vector<Frame> frames = head_on_impacts(variables).frames;
     const std::map<long, Ball> &begin = frames.front().balls, &end = frames.back().balls;
     std::array<double, 8> e{};
     for (long id = 1; id <= 4; ++id)
@@ -76,6 +109,50 @@ TEST_P(HertzImpacts, ReboundAsTheClosedFormAtAnySpeed) {
                 second ? 1e-5 : 5e-3)
           << transition << ", D " << D;
   EXPECT_LT(worst({{"D", "2"}}, closed_form("B", 2)), second ? 1e-5 : 5e-3);
+}
+
+/// A make is at d = 0 with the speed v of the impact. The contact breaks with e v: under A, and without a
+/// dashpot, at d = 0; under B where k d^(3/2) = c d^(1/4) e v. Without a dashpot it lasts (4/5) G(2/5) G(1/2) /
+/// G(9/10) d/v, with Euler's function G and d = (5/4 m v^2 / k)^(2/5). The heat is m v^2 (1 - e^2) / 2.
+TEST_P(HertzImpacts, LogMakeAndBreakAndBecomeHeatAsTheClosedForms) {
+  constexpr double gap = 1e-6, m_eff = 0.5 * mass;
+  const double k = 4.0 / 3.0 * 0.5 * E / (1 - nu * nu) * std::sqrt(0.5 * radius); // of two balls
+  const bool second = std::get<1>(GetParam()) == "second";
+  for (const auto &[transition, D] : {std::pair{"A", 0.0}, {"A", 0.3}, {"B", 0.3}, {"B", 2.0}}) {
+    const double e = closed_form(transition, D), c = 2 * D * std::sqrt(1.25 * k * m_eff);
+    const Impacts found = head_on_impacts({{"transition", transition}, {"D", number(D)}});
+    ASSERT_EQ(found.events.size(), 8u) << transition << ", D " << D;
+    const double tolerance = second ? 1e-4 : 1e-2;
+    double heat = 0;
+    for (std::size_t n = 0; n < angles.size(); ++n) {
+      const double v = std::cos(angles.at(n)), start = gap / v;
+      const std::string where =
+          std::string(transition) + ", D " + number(D) + ", pair " + std::to_string(n + 1);
+      const auto event = [&, id = static_cast<long>(n) + 5](bool make) {
+        return *std::find_if(found.events.begin(), found.events.end(), [&](const post::ContactEvent &one) {
+          return one.id_i == id && one.id_j == id + 4 && one.make == make;
+        });
+      };
+      const post::ContactEvent make = event(true), end = event(false);
+      EXPECT_NEAR(make.time, start, 1e-12) << where; // s
+      EXPECT_NEAR(make.overlap, 0, 1e-15) << where;
+      EXPECT_NEAR(make.overlap_rate, v, tolerance * v) << where;
+      EXPECT_EQ(make.force, 0) << where;
+      const double deepest = std::pow(1.25 * m_eff * v * v / k, 0.4);
+      EXPECT_NEAR(end.overlap_rate, -e * v, tolerance * v) << where;
+      EXPECT_NEAR(end.overlap, std::string(transition) == "B" ? std::pow(c * e * v / k, 0.8) : 0.0,
+                  tolerance * deepest)
+          << where;
+      if (D == 0) {
+        const double share = 0.8 * std::tgamma(0.4) * std::tgamma(0.5) / std::tgamma(0.9);
+        EXPECT_NEAR(end.time - start, share * deepest / v, tolerance * deepest / v) << where;
+      }
+      heat += 0.5 * (mass + m_eff) * v * v * (1 - e * e); // of the ball on the floor and of the pair
+    }
+    EXPECT_NEAR(found.normal_heat, heat, (second ? 1e-3 : 1e-2) * found.lost() + 1e-12)
+        << transition << ", D " << D;
+    EXPECT_EQ(found.friction_heat, 0);
+  }
 }
 
 TEST_P(HertzImpacts, ReboundWithTheRestitutionThatIsAskedFor) {
@@ -138,8 +215,14 @@ std::array<double, 2> oblique(double along, double down, double D) {
 TEST_P(HertzImpacts, StickAndSlideAsTheEquationsOfAnObliqueImpact) {
   const double tolerance = std::get<1>(GetParam()) == "second" ? 2e-4 : 2e-3;
   for (const double across : {0.1, 0.25, 1.0}) {
-    const std::vector<Frame> frames =
-        frames_of({{"across", number(across)}, {"D", "0.3"}, {"ct", "0"}, {"dt", "5e-8"}, {"steps", "5000"}});
+    Variables variables = {
+        {"across", number(across)}, {"D", "0.3"}, {"ct", "0"}, {"dt", "5e-8"}, {"steps", "5000"}};
+    if (across == 0.25 && std::get<0>(GetParam()) == "lammps")
+      variables.emplace_back("walls", "block"); // the floor is a face of a region
+    const Impacts found = impacts(variables);
+    const std::vector<Frame> &frames = found.frames;
+    EXPECT_NEAR(found.normal_heat + found.friction_heat, found.lost(), 1e-2 * found.lost()) << across;
+    EXPECT_GT(found.friction_heat, 0.02 * found.lost()) << across;
     for (long id = 1; id <= 4; ++id) {
       const double angle = angles.at(static_cast<std::size_t>(id) - 1);
       const auto [along, up] = oblique(across * std::sin(angle), std::cos(angle), 0.3);
@@ -175,8 +258,29 @@ TEST(HertzWalls, PlaneAndMeshAreOne) {
   }
 }
 
+class HertzGuard : public BothEngines {};
+INSTANTIATE_TEST_SUITE_P(Decks, HertzGuard, engines_and_steppings(), engine_and_stepping);
+
+TEST_P(HertzGuard, EndsARunBeyondTheCriticalStepInBothEngines) {
+  constexpr double m = 0.3, r = 0.03, overlap = 1e-4;
+  const double k = 4.0 / 3.0 * 0.5 * 2e7 / (1 - nu * nu) * std::sqrt(r);
+  const double critical = 2 * std::sqrt(m / (1.5 * k * std::sqrt(overlap)));
+  for (const double share : {0.999, 1.001}) {
+    const Scratch folder;
+    const Outcome outcome = run("slide", folder,
+                                {{"normal", "hertz"},
+                                 {"rest", number(overlap)},
+                                 {"tangential", "off"},
+                                 {"mu", "-1"},
+                                 {"guard", "step 1"},
+                                 {"dt", number(share * critical)},
+                                 {"steps", "50"}});
+    EXPECT_EQ(outcome.ok(), share < 1) << outcome.output;
+  }
+}
+
 // 2 sqrt(m / (3/2 k sqrt(d))), k = 4/3 E* sqrt(R): on a plane R is the ball's radius.
-TEST(HertzGuard, CriticalStepIsThatOfTheTangentStiffness) {
+TEST(HertzGuardInLiggghts, CriticalStepIsThatOfTheTangentStiffness) {
   for (const char *obstacle : {"ball", "plane", "mesh"}) {
     const double R = std::string(obstacle) == "ball" ? 0.5 * 0.75 / 1.25 : 0.75, overlap = 0.003;
     const double k = 4.0 / 3.0 * 0.5 * 1e9 / (1 - nu * nu) * std::sqrt(R);
@@ -256,12 +360,39 @@ TEST_P(HertzBounce, ContinuesFromARestartFileBitwiseOnRanksOneAndTwo) {
 
 INSTANTIATE_TEST_SUITE_P(
     Balls, HertzBounce,
-    ::testing::Values(Scene{"coulomb", {{"tangential", "coulomb"}}},
+    ::testing::Values(Scene{"coulomb_and_rolling", {{"tangential", "coulomb"}, {"rolling", "epsd2"}}},
                       Scene{"coulomb_A_stock",
                             {{"tangential", "coulomb"}, {"transition", "A"}, {"stepping", "stock"}}},
-                      Scene{"history", {}}, Scene{"without_friction", {{"tangential", "off"}, {"mu", "-1"}}},
+                      Scene{"history", {}},
+                      Scene{"rolling_alone", {{"tangential", "off"}, {"mu", "-1"}, {"rolling", "epsd2"}}},
                       Scene{"heavy_dashpots", {{"D", "40"}, {"tangential", "off"}, {"mu", "-1"}}}),
     [](const auto &scene) { return std::string(scene.param.name); });
+
+class WithoutDamping : public BothEngines {};
+INSTANTIATE_TEST_SUITE_P(Decks, WithoutDamping, engines_and_steppings(), engine_and_stepping);
+
+// Without a dashpot no contact is in tension, and A and B are the same law.
+TEST_P(WithoutDamping, TransitionsAreTheSameBitForBit) {
+  for (const char *normal : {"hooke", "hertz"}) {
+    const auto balls = [normal](const char *transition, const char *D) {
+      const Scratch folder;
+      const Outcome outcome = run("bounce", folder,
+                                  {{"normal", normal},
+                                   {"transition", transition},
+                                   {"D", D},
+                                   {"tangential", "coulomb"},
+                                   {"rolling", "epsd2"},
+                                   {"first", "3000"},
+                                   {"rest", "0"},
+                                   {"every", "500"}});
+      EXPECT_TRUE(outcome.ok()) << outcome.output;
+      return read_text(folder / "balls.txt");
+    };
+    const std::string a = balls("A", "0");
+    EXPECT_EQ(a, balls("B", "0")) << normal;
+    EXPECT_NE(a, balls("A", "0.1")) << normal << ": no contacts";
+  }
+}
 
 } // namespace
 } // namespace drumlin::test

@@ -548,8 +548,10 @@ TEST_F(InLammps, SaysWhatIsWrongInOneLineOnRanksOneAndTwo) {
        {hertz, "effective shear modulus G* is '0'", "a finite number > 0"}},
       {"pair_style gran/hertz/transition tangential coulomb\npair_coeff * * 1e7 0.3 0.2 0.5 NULL 1",
        {hertz, "'1' is left over", "I J E nu damping", "mu [ct|NULL]"}},
-      {"pair_style gran/hertz/transition rolling epsd2",
-       {"pair_style gran/hertz/transition", "keyword rolling is 'epsd2'", "off"}},
+      {"pair_style gran/hertz/transition rolling epsd2\npair_coeff * * 1e7 0.3 0.2",
+       {hertz, "rolling friction coefficient mu_r is missing", "rolling mu_r, a finite number >= 0"}},
+      {"pair_style gran/hertz/transition rolling epsd2\npair_coeff * * effective 1e7 3e6 0.2 rolling -1",
+       {hertz, "rolling friction coefficient mu_r is '-1'", "a finite number >= 0"}},
       {"pair_style gran/hertz/transition\npair_coeff 1 1 1e7 0.3 0.2\npair_coeff 2 2 1e7 0.3 0.2",
        {"types 1 2 have no coefficients", "pair_coeff 1 2 E nu damping"}},
       {"pair_style hybrid gran/hooke/transition gran/hertz/transition\n"

@@ -5,6 +5,7 @@
 #include "chain/direct_solver.h"
 #include "chain/parameters.h"
 #include "chain/run_files.h"
+#include "studies/benchmarks/checks.h"
 #include "studies/stability/bed.h"
 #include "support/progress.h"
 
@@ -337,6 +338,43 @@ void add_impact_rows(std::vector<Extreme> &rows, bool quick) {
   }
 }
 
+/// An impact with the Hertz law: a sphere on a rigid plane, test 3 of Chung and Ooi with one variable changed.
+Extreme hertz_row(const std::string &name, const std::string &variable, double value,
+                  const Variables &more = {}) {
+  const BenchmarkPoint point{"chung_ooi_3", "aluminium_oxide", variable, value, more};
+  Extreme row;
+  row.group = "Single impacts: the Hertz law";
+  row.name = name;
+  row.deck = "benchmarks/in.spheres";
+  row.variables = more;
+  row.variables.insert(row.variables.end(), {{"case", point.test}, {variable, number_text(value)}});
+  row.expected = "speed of the rebound as in the closed form (difference over the speed of the impact)";
+  row.allowed = 1e-4;
+  row.error = [point](const DeckRun &run) {
+    double most = 0.0;
+    for (const BenchmarkCheck &check :
+         benchmark_checks(read_benchmark(point, "liggghts", run.must_succeed().file(""))))
+      most = std::max(most, check.error());
+    return most;
+  };
+  return row;
+}
+
+void add_hertz_rows(std::vector<Extreme> &rows, bool quick) {
+  for (const double e : {1.0, 0.5, 0.1, 0.01})
+    if (!quick || e == 0.01) rows.push_back(hertz_row(fmt::format("e = {:g}", e), "e", e));
+  for (const double speed : {1e-6, 1e-3, 10.0})
+    if (!quick || speed == 1e-6) rows.push_back(hertz_row(fmt::format("{:g} m/s", speed), "vn", speed));
+  if (quick) return;
+  for (const double E : decades(1e5, 8))
+    rows.push_back(hertz_row(fmt::format("E = {:.0e} Pa; 0.01 m/s", E), "E", E, {{"vn", "0.01"}}));
+  for (const double radius : {1e-5, 1.0})
+    rows.push_back(hertz_row(fmt::format("r = {:g} m", radius), "r1", radius));
+  for (const double density : {1e-3, 1e6})
+    rows.push_back(hertz_row(fmt::format("density {:g} kg/m3; 0.01 m/s", density), "density", density,
+                             {{"vn", "0.01"}}));
+}
+
 void add_stop_rows(std::vector<Extreme> &rows) {
   ChainPlan long_step =
       with(&ChainParameters::omega, 1.0); // many steps in a cycle: w0 dt is nearly what is asked for
@@ -351,6 +389,8 @@ void add_stop_rows(std::vector<Extreme> &rows) {
   Extreme given = stop_row("not a number is given: Fw = nan", undefined, "allowed: ");
   given.variables.emplace_back("Fw", "nan");
   rows.push_back(given);
+  rows.push_back(
+      stopping(hertz_row("a sphere sinks through the floor: Hertz law; E = 1e3 Pa", "E", 1e3), "overlap"));
   // c = 2 D sqrt(m2 k) would overflow.
   ChainPlan infinite_damping;
   Extreme overflow =
@@ -412,6 +452,7 @@ std::vector<Extreme> extremes(bool quick) {
   add_edge_rows(rows, quick);
   add_rest_rows(rows, quick);
   add_impact_rows(rows, quick);
+  add_hertz_rows(rows, quick);
   add_bed_rows(rows, quick);
   add_stop_rows(rows);
   if (!quick) { // at the end, since it takes minutes

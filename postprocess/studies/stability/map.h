@@ -9,11 +9,14 @@
 
 namespace drumlin::post {
 
-/// How the balls of inputs/study/in.stability are confined.
+/// How the balls of inputs/study/in.stability are confined, and by which contact law.
 struct HeldScene {
-  const char *name; ///< the deck's variable `scene`
-  const char *what; ///< in words
-  int contacts;     ///< that act along one direction of motion
+  const char *name;  ///< in tables
+  const char *what;  ///< in words
+  const char *walls; ///< the deck's variable `scene`
+  int contacts;      ///< that act along one direction of motion
+  bool hertz;        ///< the Hertz law, else the linear law
+  bool quick;        ///< measured with --quick, too
 };
 const std::vector<HeldScene> &held_scenes();
 

@@ -84,7 +84,8 @@ PageTable boundary_table(const std::vector<MapPoint> &map) {
                    fmt::format("{:.3g}", farthest->D)});
     }
   table.notes = {
-      "w0 = sqrt(k/m) and D are those of one contact of the ball. Theory: for stock stepping the limit of "
+      "w0 = sqrt(k/m) and D are those of one contact of the ball, with the Hertz law those of its small "
+      "motion. Theory: for stock stepping the limit of "
       "the "
       "scene with its dampers, for second the limit of its springs, 2/sqrt(contacts on a line). All points "
       "are in map.csv."};

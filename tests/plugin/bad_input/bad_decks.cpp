@@ -233,8 +233,6 @@ BadGroup spheres() {
   group.inputs.push_back(variable("material", "gold", "allowed: glass or limestone"));
   group.inputs.push_back(variable("normal", "linear", "allowed: hooke or hertz"));
   group.inputs.push_back(variable("stepping", "half", "allowed: second or stock"));
-  group.inputs.push_back(variables("rolling resistance with the Hertz law", {{"mu_r", "0.1"}},
-                                   {"drumlin/check: variable mu_r is '0.1'", "allowed: 0"}));
   group.inputs.push_back(variables("a linear law without stiffness", {{"case", "slip"}, {"k", "0"}},
                                    {"drumlin/check: variable k is '0'", positive}));
   return group;

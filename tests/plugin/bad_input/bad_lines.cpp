@@ -138,8 +138,8 @@ BadGroup hertz_law() {
       {
           hertz("transition", "transition C", "1e7", "0.3",
                 {command + "keyword transition is 'C'", "A or B"}),
-          hertz("rolling spring", "rolling_friction epsd2", "1e7", "0.3",
-                {command + "rolling_friction is 'epsd2'", "off or cdt"}),
+          hertz("torsion", "rolling_friction epsd2 torsionTorque yes", "1e7", "0.3",
+                {command + "keyword torsionTorque is 'yes'", "on or off"}),
           on_two_ranks(
               hertz("no modulus", "", "", "0.3",
                     {"model hertz/transition: property youngsModulus (Young's modulus, Pa) is missing",

@@ -1,11 +1,12 @@
 /// The Hertz law: its definitions, and whole impacts with the second-order scheme against the closed form of
-/// e, which is that of the linear law with the same D, and against CVODE; oblique ones against CVODE; the
-/// energy of its tangential spring.
+/// e, which is that of the linear law with the same D, and against CVODE; oblique ones against CVODE; its
+/// tangential and its rolling spring, whose stiffness follows the overlap.
 
 #include "physics/event_location.h"
 #include "physics/friction_law.h"
 #include "physics/hertz_contact.h"
 #include "physics/restitution.h"
+#include "physics/rolling_law.h"
 #include "tests/plugin/physics/velocity_verlet.h"
 #include "tests/support/ode.h"
 
@@ -236,9 +237,53 @@ TEST(HertzObliqueImpact, SticksAsTheDifferentialEquations) {
   }
 }
 
+/// A spring of a contact whose stiffness follows the overlap, in the steps of the scheme: that of friction
+/// without a limit or, if `rolls`, that of rolling resistance.
+class VaryingSpring {
+public:
+  VaryingSpring(const HertzContact &contact, bool rolls, double dt)
+      : contact_(contact), rolls_(rolls), dt_(dt) {}
+
+  /// One step that ends at an overlap, m, which has changed at a rate, m/s.
+  /// \param moved slip velocity, m/s, or relative angular velocity, rad/s
+  /// \returns force, N, or torque, N m, that opposes it
+  Vec3 step(double overlap, double rate, const Vec3 &moved, double ct = 0.0, double limit = 1e12) {
+    const Vec3 normal{0.0, 0.0, 1.0};
+    const double kt = contact_.tangential(overlap_of_spring(overlap, rate, dt_), radius);
+    const double kept = rolls_ ? kept_torque(stiffness_, kt) : kept_spring(stiffness_, kt);
+    for (double &part : spring_)
+      part *= kept;
+    stiffness_ = kt;
+    const Rolling rolling = rolling_of(kt, limit, radius);
+    stored_after_change = 0.5 * dot(spring_, spring_) * (rolls_ ? 1.0 / rolling.stiffness : kt);
+    if (rolls_) {
+      const RollingStep now = rolling_step(rolling, 1.0, normal, moved, spring_, dt_);
+      spring_ = now.spring;
+      stored = now.stored;
+      return now.torque;
+    }
+    const FrictionStep now = friction_step({kt, ct, limit, Cap::coulomb}, 1.0, normal, moved, spring_, dt_);
+    spring_ = now.spring;
+    stored = now.stored;
+    return now.force;
+  }
+
+  double stored = 0.0;              ///< energy in the spring after the step, J
+  double stored_after_change = 0.0; ///< the same after the change of the stiffness, before the motion
+
+private:
+  const HertzContact contact_;
+  const bool rolls_;
+  const double dt_;
+  double stiffness_ = 0.0;
+  Vec3 spring_{};
+};
+
 /// A slip that oscillates on the tangential spring of a contact whose overlap oscillates, too, by the steps of the
-/// scheme, or by CVODE if dt is 0. \param ct dashpot, N s/m
-double slip_of_lasting_contact(double ct, double dt) {
+/// scheme, or by CVODE if dt is 0; if `rolls`, a rotation on the rolling spring, times the radius. The inertia is
+/// the mass of the slip times the radius squared, so that the equations of both are the same.
+/// \param ct dashpot of the slip, N s/m
+double slip_of_lasting_contact(double ct, double dt, bool rolls = false) {
   const HertzContact contact{E_eff, 0.4 * E_eff, 0.0, Damping::ratio, Transition::B};
   constexpr double depth = 1e-3, swing = 0.3, m_t = 2.0 / 7.0 * m;
   const double kt0 = contact.tangential(depth, radius), w = 1.3 * std::sqrt(kt0 / m_t), end = 10.0 / w;
@@ -258,18 +303,13 @@ double slip_of_lasting_contact(double ct, double dt) {
     return motion.state()[0];
   }
   const long steps = std::lround(end / dt);
-  double slip = 1e-3, force = 0.0, stiffness = 0.0;
-  Vec3 spring{};
+  const double lever = rolls ? radius : 1.0;
+  VaryingSpring spring(contact, rolls, dt);
+  double slip = 1e-3, force = 0.0;
   for (long n = 1; n <= steps; ++n) {
     const double half_slip = slip + 0.5 * dt * force / m_t, now = static_cast<double>(n) * dt;
     const double rate = (overlap(now) - overlap(now - dt)) / dt;
-    const double kt = contact.tangential(overlap_of_spring(overlap(now), rate, dt), radius);
-    spring[0] *= kept_spring(stiffness, kt);
-    stiffness = kt;
-    const FrictionStep step =
-        friction_step({kt, ct, 1e9, Cap::coulomb}, 1.0, {0.0, 0.0, 1.0}, {half_slip, 0.0, 0.0}, spring, dt);
-    spring = step.spring;
-    force = step.force[0];
+    force = spring.step(overlap(now), rate, {half_slip / lever, 0.0, 0.0}, ct)[0] / lever;
     slip = half_slip + 0.5 * dt * force / m_t;
   }
   return slip;
@@ -290,6 +330,63 @@ TEST(HertzTangentialSpring, IsOfSecondOrderInALastingContact) {
   }
 }
 
+TEST(HertzRollingSpring, IsOfSecondOrderInALastingContact) {
+  const double w = 1.3 * std::sqrt(8.0 * 0.4 * E_eff * std::sqrt(radius * 1e-3) / (2.0 / 7.0 * m));
+  const double exact = slip_of_lasting_contact(0.0, 0.0);
+  const auto error = [&](int steps) {
+    return std::fabs(slip_of_lasting_contact(0.0, 10.0 / w / steps, true) - exact);
+  };
+  const double coarse = error(400), fine = error(3200);
+  EXPECT_LT(fine, 1e-3 * 5e-3);
+  EXPECT_NEAR(std::log(coarse / fine) / std::log(8.0), 2.0, 0.1) << coarse << " " << fine;
+}
+
+// Loaded from 1 to 4 mm while it turns at w, T = w kr(d)/d' integrated over d; then unloaded to 1 mm without
+// turning, which halves kr and, at the same angle, T.
+TEST(HertzRollingSpring, KeepsItsTorqueWhileItIsLoadedAndItsAngleWhileItIsUnloaded) {
+  const HertzContact contact{E_eff, 0.4 * E_eff, 0.0, Damping::ratio, Transition::B};
+  constexpr double w = 0.2, speed = 1.0, thin = 1e-3, deep = 4e-3;
+  const double exact = w / speed * 8.0 * 0.4 * E_eff * std::sqrt(radius) * radius * radius * 2.0 / 3.0 *
+                       (std::pow(deep, 1.5) - std::pow(thin, 1.5));
+  const auto torque = [&](int steps) {
+    const double dt = (deep - thin) / speed / steps;
+    VaryingSpring spring(contact, true, dt);
+    double loaded = 0.0, unloaded = 0.0;
+    for (int n = 1; n <= steps; ++n)
+      loaded = -spring.step(thin + n * dt * speed, speed, {w, 0.0, 0.0})[0];
+    for (int n = 1; n <= steps; ++n)
+      unloaded = -spring.step(deep - n * dt * speed, -speed, {0.0, 0.0, 0.0})[0];
+    EXPECT_NEAR(unloaded, 0.5 * loaded, 1e-12 * loaded);
+    return loaded;
+  };
+  const double coarse = torque(100) - exact, fine = torque(400) - exact;
+  EXPECT_LT(std::fabs(fine), 1e-6 * exact);
+  EXPECT_NEAR(coarse / fine, 16.0, 0.5);
+}
+
+// Whatever path overlap and rotation take, the work done on the spring and its slider is at least the energy
+// in it.
+TEST(HertzRollingSpring, CannotCreateEnergy) {
+  const HertzContact contact{E_eff, 0.4 * E_eff, 0.0, Damping::coefficient, Transition::B};
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const double dt = 1e-4;
+  for (int run = 0; run < 200; ++run) {
+    VaryingSpring spring(contact, true, dt);
+    double stored = 0.0, overlap = 1e-3;
+    for (int n = 0; n < 500; ++n) {
+      const double rate = 4.0 * unit(random);
+      overlap = std::fmax(1e-6, overlap + dt * rate);
+      const Vec3 spin{20.0 * unit(random), 20.0 * unit(random), unit(random)};
+      const Vec3 torque = spring.step(overlap, rate, spin, 0.0, run % 2 == 0 ? 3e4 : 1e12);
+      ASSERT_LE(spring.stored_after_change, stored * (1.0 + 1e-12));
+      const double work = -dt * dot(torque, spin);
+      ASSERT_LE(spring.stored - stored, work + 1e-12 * (std::fabs(work) + stored));
+      stored = spring.stored;
+    }
+  }
+}
+
 // Whatever path overlap and slip take, the work done on the spring and its slider is at least the energy in
 // it.
 TEST(HertzTangentialSpring, CannotCreateEnergy) {
@@ -298,26 +395,18 @@ TEST(HertzTangentialSpring, CannotCreateEnergy) {
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   const double dt = 1e-4;
   for (int run = 0; run < 200; ++run) {
-    double stiffness = 0.0, stored = 0.0, overlap = 1e-3;
-    Vec3 spring{};
+    VaryingSpring spring(contact, false, dt);
+    double stored = 0.0, overlap = 1e-3;
     for (int n = 0; n < 500; ++n) {
       const double rate = 4.0 * unit(random);
       overlap = std::fmax(1e-6, overlap + dt * rate);
-      const double kt = contact.tangential(overlap_of_spring(overlap, rate, dt), radius);
-      const double kept = kept_spring(stiffness, kt);
-      for (double &part : spring)
-        part *= kept;
-      ASSERT_LE(0.5 * kt * dot(spring, spring), stored * (1.0 + 1e-12));
-      stiffness = kt;
       const Vec3 slip{unit(random), unit(random), 0.0};
       const double mu = run % 2 == 0 ? 0.3 : 1e9;
-      const FrictionStep step =
-          friction_step({kt, 0.0, mu, Cap::coulomb}, contact.law(m, radius).spring(overlap), {0.0, 0.0, 1.0},
-                        slip, spring, dt);
-      const double work = -dt * dot(step.force, slip);
-      ASSERT_LE(step.stored - stored, work + 1e-12 * (std::fabs(work) + stored));
-      stored = step.stored;
-      spring = step.spring;
+      const Vec3 force = spring.step(overlap, rate, slip, 0.0, mu * contact.law(m, radius).spring(overlap));
+      ASSERT_LE(spring.stored_after_change, stored * (1.0 + 1e-12));
+      const double work = -dt * dot(force, slip);
+      ASSERT_LE(spring.stored - stored, work + 1e-12 * (std::fabs(work) + stored));
+      stored = spring.stored;
     }
   }
 }

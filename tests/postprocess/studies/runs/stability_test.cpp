@@ -35,7 +35,7 @@ TEST(StabilityStudy, ContinuesWhereItWasInterrupted) {
   study.run();
   const auto map = cells_of(out / "map.csv", post::map_rows());
   const auto extremes = cells_of(out / "extremes.csv", post::extreme_rows());
-  EXPECT_EQ(map.size(), 12u);
+  EXPECT_EQ(map.size(), 18u);
   ASSERT_GT(extremes.size(), 20u);
   for (const char *file : {"map.csv", "extremes.csv"})
     interrupt(out / file);
@@ -48,7 +48,7 @@ TEST(StabilityStudy, ContinuesWhereItWasInterrupted) {
 
   // The boundaries by theory: 2 and 1.414 for the springs; stock 2 (sqrt(1 + D^2) - D) for one contact.
   for (const post::MapRow &row : post::read_points(out / "map.csv", post::map_rows())) {
-    const double n = row.scene == "one" ? 1.0 : 2.0;
+    const double n = row.scene == "one" ? 1.0 : 2.0; // two walls in `two` and `hertz_two`
     const double damped = row.stepping == "stock" ? row.D : 0.0;
     const double limit = 2.0 / (n * damped + std::sqrt(n * n * damped * damped + n));
     EXPECT_NEAR(row.stable, limit, 0.01 * limit) << row.scene << ' ' << row.stepping << ' ' << row.D;

@@ -1,0 +1,270 @@
+/// Random oblique impacts of two spinning balls with `tangential coulomb`, of both laws and under both schemes: limit
+/// and energy of friction in every step, and the energy of whole impacts. The environment variable
+/// DRUMLIN_IMPACTS sets the number of impacts of each law; half a million take one to three minutes.
+
+#include "physics/contact_step.h"
+#include "physics/friction_law.h"
+#include "physics/hertz_contact.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <random>
+#include <string>
+
+namespace {
+
+using namespace drumlin::physics;
+
+/// A contact law, two balls of one density, and their motion before they touch.
+template <class Contact>
+struct Impact {
+  Contact contact;
+  double friction;         ///< mu
+  bool stock;              ///< the scheme
+  double ri, rj;           ///< radii, m
+  double mi, mj;           ///< kg
+  Vec3 v, wi, wj;          ///< v_i - v_j, m/s; rad/s
+  double normal_speed;     ///< m/s, of the approach
+  double dt, contact_time; ///< s, of the step and of an undamped head-on impact
+  double onset;            ///< share of the first step before the touch
+};
+
+double squared(const Vec3 &a) { return dot(a, a); }
+
+/// What a run has found.
+struct Found {
+  double over_limit =
+      0.0; ///< largest |Ft| / (mu max(Fn, 0)) - 1 of a step; infinite for a force without a limit
+  double made_energy =
+      0.0;             ///< largest increase of the stored energy over the work of a step, relative to both
+  double gain = 0.0;   ///< kinetic energy of the relative motion, after less before, J
+  double before = 0.0; ///< the same before the impact
+  long steps = 0, sliding = 0;
+};
+
+/// Friction of the contact of an impact, step by step.
+template <class Contact>
+class Friction {
+public:
+  Friction(const Impact<Contact> &impact, double r_eff) : impact_(impact), r_eff_(r_eff) {}
+
+  /// Force on ball i, N. \param c dashpot of the normal law, N s/m
+  Vec3 step(const StepMotion &motion, double normal_force, double c, const Vec3 &normal, const Vec3 &slip,
+            Found &found) {
+    const double dt = motion.dt;
+    const double kt =
+        impact_.contact.tangential(overlap_of_spring(motion.overlap, motion.rate_half, dt), r_eff_);
+    spring_ = scaled(kept_spring(stiffness_, kt), spring_);
+    stiffness_ = kt;
+    const FrictionStep now =
+        friction_step({kt, 0.5 * c, impact_.friction, Cap::coulomb}, normal_force, normal, slip, spring_, dt);
+    const double limit = impact_.friction * std::max(0.0, normal_force);
+    const double force = std::sqrt(squared(now.force));
+    if (force > 0.0) found.over_limit = std::max(found.over_limit, force / limit - 1.0);
+    const double work = -dt * dot(now.force, slip), size = std::fabs(work) + stored_ + now.stored;
+    if (size > 0.0) found.made_energy = std::max(found.made_energy, (now.stored - stored_ - work) / size);
+    ++found.steps;
+    found.sliding += now.sliding ? 1 : 0;
+    stored_ = now.stored;
+    spring_ = now.spring;
+    return now.force;
+  }
+  void end() {
+    spring_ = {};
+    stored_ = stiffness_ = 0.0;
+  }
+
+private:
+  const Impact<Contact> &impact_;
+  double r_eff_, stored_ = 0.0, stiffness_ = 0.0;
+  Vec3 spring_{};
+};
+
+/// An impact in steps of velocity Verlet, in the frame of the centre of mass, with the forces of advance() and
+/// friction_step().
+template <class Contact>
+Found run(const Impact<Contact> &impact) {
+  Found found;
+  const double m_eff = effective_mass(impact.mi, impact.mj);
+  const double r_eff = effective_radius(impact.ri, impact.rj), reach = impact.ri + impact.rj;
+  const double Ii = 0.4 * impact.mi * impact.ri * impact.ri, Ij = 0.4 * impact.mj * impact.rj * impact.rj;
+  const auto law = impact.contact.law(m_eff, r_eff);
+  const double dt = impact.dt;
+  Vec3 v = impact.v, wi = impact.wi, wj = impact.wj, normal{1.0, 0.0, 0.0};
+  Vec3 apart = sum(scaled(reach, normal), -impact.onset * dt, v); // x_i - x_j
+  const auto kinetic = [&] { return 0.5 * (m_eff * squared(v) + Ii * squared(wi) + Ij * squared(wj)); };
+  found.before = kinetic();
+  ContactState state;
+  Friction<Contact> friction(impact, r_eff);
+  Vec3 force{}, torque_i{}, torque_j{};
+  double shift = 0.0;
+  bool touched = false;
+  const auto kick = [&](const Vec3 &acting) {
+    v = sum(v, 0.5 * dt / m_eff, acting);
+    wi = sum(wi, 0.5 * dt / Ii, torque_i);
+    wj = sum(wj, 0.5 * dt / Ij, torque_j);
+  };
+  for (bool over = false; !over;) {
+    const Vec3 v_before = v;
+    kick(force);
+    apart = sum(apart, dt, sum(v, 0.5 * dt / m_eff * shift, normal)); // see StepResult::shift
+    const double distance = std::sqrt(squared(apart));
+    normal = scaled(1.0 / distance, apart);
+    const StepMotion motion{reach - distance, -dot(v, normal), -dot(v_before, normal), dt};
+    // The dashpot of one contact alone need not be solved for together with others.
+    const StepResult push =
+        impact.stock ? advance_stock(law, motion, state) : advance(law, motion, state, {m_eff});
+    const double arm_i = impact.ri - 0.5 * motion.overlap, arm_j = impact.rj - 0.5 * motion.overlap;
+    Vec3 rub{};
+    if (motion.overlap > 0.0) {
+      touched = true;
+      const Vec3 slip = slip_velocity_of_step(v, apart, normal, sum(scaled(arm_i, wi), arm_j, wj), dt);
+      rub = friction.step(motion, push.force, law.dashpot(motion.overlap), normal, slip, found);
+    } else
+      friction.end();
+    const Vec3 moment = cross(normal, rub);
+    torque_i = scaled(-arm_i, moment);
+    torque_j = scaled(-arm_j, moment);
+    force = sum(rub, push.force, normal);
+    shift = push.shift;
+    kick(sum(rub, push.kick, normal));
+    const bool free = motion.overlap <= 0.0 || (law.transition() == Transition::B && push.force == 0.0);
+    over = touched && free && dot(v, normal) > 0.0;
+  }
+  found.gain = kinetic() - found.before;
+  return found;
+}
+
+class Draw {
+public:
+  explicit Draw(unsigned seed) : random_(seed) {}
+  double between(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  double decades(double low, double high) { return std::pow(10.0, between(low, high)); }
+  bool one_in(int n) { return std::uniform_int_distribution<int>(1, n)(random_) == 1; }
+
+private:
+  std::mt19937 random_;
+};
+
+/// Sets the stiffness so that an undamped head-on impact reaches the overlap.
+void set_stiffness(LinearContact &contact, double overlap, double m_eff, double, double speed, Draw &) {
+  contact.stiffness = m_eff * std::pow(speed / overlap, 2);
+  contact.tangential_stiffness = 2.0 / 7.0 * contact.stiffness;
+}
+
+void set_stiffness(HertzContact &contact, double overlap, double m_eff, double r_eff, double speed,
+                   Draw &draw) {
+  const double E_eff =
+      1.25 * m_eff * speed * speed / (4.0 / 3.0 * std::sqrt(r_eff)) * std::pow(overlap, -2.5);
+  const double nu = draw.between(0.0, 0.5), E = 2.0 * (1.0 - nu * nu) * E_eff;
+  contact.set_moduli(E, nu, E, nu);
+}
+
+/// Half of the step, s, that fix guard allows: of a spring and a dashpot in the scheme of the engine.
+double half_of_longest_step(double stiffness, double damping, double mass) {
+  return 0.5 * (std::sqrt(damping * damping + 4.0 * stiffness * mass) - damping) / stiffness;
+}
+
+/// Angles from the normal from 0 to 89 degrees, spins up to ten times the speed, D and mu from 0 to 10, size ratios from
+/// 1 to 100, overlaps from 1e-4 to 1e-2 of the smaller radius, 20 to 200 steps in a contact or more where
+/// stability needs them.
+template <class Contact>
+Impact<Contact> random_impact(Draw &draw) {
+  Impact<Contact> impact{};
+  const double small = 0.01, large = small * draw.decades(0.0, 2.0), speed = 1.0;
+  const bool first = draw.one_in(2);
+  impact.ri = first ? small : large;
+  impact.rj = first ? large : small;
+  const auto mass = [](double r) { return 1e4 * r * r * r; };
+  impact.mi = mass(impact.ri);
+  impact.mj = mass(impact.rj);
+  const double angle = draw.between(0.0, 89.0) / 180.0 * std::acos(-1.0);
+  impact.normal_speed = speed * std::cos(angle);
+  impact.v = {-impact.normal_speed, speed * std::sin(angle), 0.0};
+  const auto spin = [&](double r) {
+    const double w = draw.one_in(3) ? 0.0 : draw.decades(-2.0, 1.0) * speed / r;
+    return Vec3{draw.between(-w, w), draw.between(-w, w), draw.between(-w, w)};
+  };
+  impact.wi = spin(impact.ri);
+  impact.wj = spin(impact.rj);
+  const double m_eff = effective_mass(impact.mi, impact.mj);
+  const double r_eff = effective_radius(impact.ri, impact.rj);
+  const double overlap = small * draw.decades(-4.0, -2.0);
+  set_stiffness(impact.contact, overlap, m_eff, r_eff, impact.normal_speed, draw);
+  impact.contact.damping_kind = Damping::ratio;
+  impact.contact.damping = draw.one_in(3) ? 0.0 : draw.between(0.0, 10.0);
+  impact.contact.transition = draw.one_in(3) ? Transition::A : Transition::B;
+  impact.friction = draw.one_in(10) ? 0.0 : draw.between(0.0, 10.0);
+  impact.stock = draw.one_in(2);
+  impact.onset = draw.between(0.0, 1.0);
+  const auto law = impact.contact.law(m_eff, r_eff);
+  const double c = law.dashpot(overlap);
+  impact.contact_time = 3.0 * overlap / impact.normal_speed;
+  impact.dt =
+      std::min({impact.contact_time / draw.decades(1.3, 2.3),
+                half_of_longest_step(impact.contact.tangential(overlap, r_eff), 0.5 * c, 2.0 / 7.0 * m_eff),
+                half_of_longest_step(law.stiffness(overlap), impact.stock ? c : 0.0, m_eff)});
+  return impact;
+}
+
+/// The energy error of the impact without friction and dashpot, over the kinetic energy of the approach: the
+/// largest over the phase of the make in its step, and over steps up to 6 % longer. (With a whole number of steps in a
+/// contact, make and break have one phase, and their errors cancel.)
+template <class Contact>
+double elastic_error(Impact<Contact> impact) {
+  impact.friction = impact.contact.damping = 0.0;
+  const double energy =
+      0.5 * effective_mass(impact.mi, impact.mj) * impact.normal_speed * impact.normal_speed;
+  double largest = std::fabs(run(impact).gain) / energy;
+  const double dt = impact.dt;
+  for (const double longer : {1.0, 1.02, 1.04, 1.06})
+    for (impact.onset = 0.05; impact.onset < 1.0; impact.onset += 0.15) {
+      impact.dt = longer * dt;
+      largest = std::max(largest, std::fabs(run(impact).gain) / energy);
+    }
+  return largest;
+}
+
+template <class Contact>
+class RandomImpacts : public testing::Test {};
+using Laws = testing::Types<LinearContact, HertzContact>;
+TYPED_TEST_SUITE(RandomImpacts, Laws);
+
+TYPED_TEST(RandomImpacts, KeepTheLimitOfFrictionAndMakeNoEnergy) {
+  const char *given = std::getenv("DRUMLIN_IMPACTS"); // NOLINT(concurrency-mt-unsafe): one thread
+  const long count = given != nullptr ? std::atol(given) : 1000;
+  Draw draw(20261124);
+  double over_limit = 0.0, made_energy = 0.0, share = 0.0;
+  long steps = 0, sliding = 0, gained = 0;
+  for (long n = 0; n < count; ++n) {
+    const Impact<TypeParam> impact = random_impact<TypeParam>(draw);
+    const Found found = run(impact);
+    over_limit = std::max(over_limit, found.over_limit);
+    made_energy = std::max(made_energy, found.made_energy);
+    steps += found.steps;
+    sliding += found.sliding;
+    constexpr double rounding = 1e-11;
+    if (found.gain <= rounding * found.before) continue;
+    ++gained;
+    const double of_elastic = found.gain / found.before / elastic_error(impact);
+    share = std::max(share, of_elastic);
+    EXPECT_LE(of_elastic, 1.0) << "impact " << n << ": D " << impact.contact.damping << ", mu "
+                               << impact.friction << (impact.stock ? ", stock" : ", second") << ", radii "
+                               << impact.ri << ' ' << impact.rj << ", gain " << found.gain / found.before;
+  }
+  EXPECT_LE(over_limit, 1e-14);
+  EXPECT_LE(made_energy, 1e-13);
+  EXPECT_GT(sliding, steps / 10);
+  EXPECT_LT(sliding, steps - steps / 100);
+  this->RecordProperty("impacts", std::to_string(count) + ", steps " + std::to_string(steps) + ", gained " +
+                                      std::to_string(gained) + ", of the elastic error at most " +
+                                      std::to_string(share) + ", over the limit " +
+                                      std::to_string(over_limit));
+}
+
+} // namespace
