@@ -414,7 +414,7 @@ protected:
   /// Tangential over mu times normal impulse of the balls of oblique.scene, by ID.
   static std::array<double, 8> ratios(const Variables &variables) {
     const Scratch folder;
-    write_floor(folder / "floor.stl", 1.5, true);
+    write_floor(folder / "floor.stl", 0.36, true);
     const Outcome outcome = run("oblique", folder, variables);
     EXPECT_TRUE(outcome.ok()) << outcome.output;
     const std::vector<Frame> frames = read_dump(folder / "balls.txt");

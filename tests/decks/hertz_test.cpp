@@ -151,7 +151,7 @@ TEST_P(HertzImpacts, LogMakeAndBreakAndBecomeHeatAsTheClosedForms) {
     }
     EXPECT_NEAR(found.normal_heat, heat, (second ? 1e-3 : 1e-2) * found.lost() + 1e-12)
         << transition << ", D " << D;
-    EXPECT_EQ(found.friction_heat, 0);
+    EXPECT_NEAR(found.friction_heat, 0, 1e-9 * heat + 1e-18);
   }
 }
 
@@ -374,23 +374,26 @@ INSTANTIATE_TEST_SUITE_P(Decks, WithoutDamping, engines_and_steppings(), engine_
 // Without a dashpot no contact is in tension, and A and B are the same law.
 TEST_P(WithoutDamping, TransitionsAreTheSameBitForBit) {
   for (const char *normal : {"hooke", "hertz"}) {
-    const auto balls = [normal](const char *transition, const char *D) {
+    std::vector<std::string> dumps;
+    for (const char *transition : {"A", "B"}) {
       const Scratch folder;
       const Outcome outcome = run("bounce", folder,
                                   {{"normal", normal},
                                    {"transition", transition},
-                                   {"D", D},
+                                   {"D", "0"},
                                    {"tangential", "coulomb"},
                                    {"rolling", "epsd2"},
                                    {"first", "3000"},
                                    {"rest", "0"},
                                    {"every", "500"}});
-      EXPECT_TRUE(outcome.ok()) << outcome.output;
-      return read_text(folder / "balls.txt");
-    };
-    const std::string a = balls("A", "0");
-    EXPECT_EQ(a, balls("B", "0")) << normal;
-    EXPECT_NE(a, balls("A", "0.1")) << normal << ": no contacts";
+      ASSERT_TRUE(outcome.ok()) << outcome.output;
+      dumps.push_back(read_text(folder / "balls.txt"));
+      int spinning = 0; // after contacts
+      for (const auto &[id, ball] : read_dump(folder / "balls.txt").back().balls)
+        spinning += ball.omega[1] != 0.0 ? 1 : 0;
+      EXPECT_GT(spinning, 10) << normal;
+    }
+    EXPECT_EQ(dumps[0], dumps[1]) << normal;
   }
 }
 

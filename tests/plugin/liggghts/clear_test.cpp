@@ -1,10 +1,13 @@
-// The command clear: a deck that loops over a parameter does what a run for each value does.
+// Engine instances of one process: after the command clear, one after the other, side by side; and that the
+// plugin keeps no state for the process.
 
 #include "tests/support/host_deck.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
+#include <sstream>
 
 namespace drumlin::test {
 namespace {
@@ -40,8 +43,7 @@ TEST_P(ClearCommand, LeavesADeckThatLoopsItsRuns) {
 Outcome run_instances(const Scratch &folder, const std::string &how) {
   const auto scene = [&](const std::string &name, const std::string &law, const std::string &lines) {
     write_text(folder / (name + ".lines"),
-               "pair_style gran/hooke/transition " + law + "\nfix gravity all gravity 9.81 vector 0 0 -1\n" +
-                   lines +
+               "pair_style gran/" + law + "\nfix gravity all gravity 9.81 vector 0 0 -1\n" + lines +
                    "fix integrate all nve/sphere\nfix events all contact/events file ${instance}.events\n"
                    "fix history drum roller/history file ${instance}.history every 50\n"
                    "fix contacts all contact/local every 50\n"
@@ -49,11 +51,11 @@ Outcome run_instances(const Scratch &folder, const std::string &how) {
                    "dump state all custom 50 ${instance}.state id x y z vx vy vz fx fy fz\n"
                    "dump_modify state sort id\ntimestep 1e-4\nvelocity drum set 0.1 0 -1\n");
   };
-  scene("first", "tangential history transition A",
+  scene("first", "hooke/transition tangential history transition A",
         "pair_coeff * * 1e7 0.5 0.3\nfix wall all wall/gran/transition 1 zplane -0.99 NULL\n"
         "fix body drum clump\nfix guard all guard links 7\n");
-  scene("second", "stepping stock tangential off transition B",
-        "pair_coeff * * 2e6 1.5\nfix side all wall/gran/transition 1 zplane -0.995 NULL\n"
+  scene("second", "hertz/transition stepping stock tangential off transition B",
+        "pair_coeff * * 2e8 0.3 1.5\nfix side all wall/gran/transition 1 zplane -0.995 NULL\n"
         "fix bond all bond/spring 1 2 1e4 10\nfix guard all guard links 3\n");
   const fs::path library = fs::path(LAMMPS_PROGRAM).parent_path() / "liblammps.so.0";
   return run_program({TWO_INSTANCES_PROGRAM, library.string(), DRUMLIN_LAMMPS_PLUGIN,
@@ -78,6 +80,37 @@ TEST(TwoLammpsInstances, EachGivesWhatItGivesAlone) {
         EXPECT_GT(std::count(text.begin(), text.end(), '\n'), 1) << name << kind;
         EXPECT_EQ(read_text(together / (name + kind)), text) << how << ", " << name << kind;
       }
+  }
+}
+
+/// The names of what a library has in writable memory, of the plugin's own namespaces and without tables of
+/// virtual functions.
+std::set<std::string> writable_names(const fs::path &library) {
+  const Scratch folder;
+  const Outcome listed = run_program({"nm", "-C", "--defined-only", library.string()}, {}, folder.path());
+  EXPECT_TRUE(listed.ok()) << listed.output;
+  std::istringstream lines(listed.output);
+  std::set<std::string> names;
+  std::string address, kind, name;
+  while (lines >> address >> kind && std::getline(lines >> std::ws, name))
+    if (std::string("bBdD").find(kind) != std::string::npos && name.find("vtable") == std::string::npos &&
+        name.find("guard variable") == std::string::npos &&
+        (name.find("drumlin::") != std::string::npos || name.find("(anonymous") != std::string::npos))
+      names.insert(name.substr(name.rfind("::") + 2));
+  return names;
+}
+
+// Signals and the files to restore at exit() belong to the process; the other names are of constants.
+TEST(PluginLibraries, KeepNoStateForTheProcess) {
+  const std::set<std::string> allowed = {"signals",    "sets", "drop_in_forms",
+                                         "history_id", "name", "placeholder_id"};
+  for (const char *engine : {"liggghts", "lammps"}) {
+    if (std::string(engine) == "lammps" && !post::has_lammps()) continue;
+    const std::set<std::string> names = writable_names(fs::path(post::plugin_library()).parent_path() /
+                                                       (std::string("libdrumlin-") + engine + ".so"));
+    EXPECT_EQ(names.count("signals"), 1u) << engine << ": nothing was read";
+    for (const std::string &name : names)
+      EXPECT_EQ(allowed.count(name), 1u) << engine << ": " << name;
   }
 }
 
