@@ -182,6 +182,8 @@ void print_grading(const BedRequest &request, const Sieving &bed) {
 
 void write_bed(const BedRequest &request) {
   const fs::path &out = request.out;
+  const fs::path folder = out.has_parent_path() ? out.parent_path() : ".";
+  const fs::path gnuplot = request.asked ? find_gnuplot() : fs::path();
   Packing packing;
   try {
     TimedProgress progress;
@@ -192,25 +194,27 @@ void write_bed(const BedRequest &request) {
     throw UsageError(fmt::format("--{}", fault.what()));
   }
   const Sieving bed = sieved(packing, request.packing.dimensions());
-  const std::string figure_name = out.stem().string() + "_grading";
-  std::vector<FileText> files = {{out, bed_data(request.packing, request.density, packing)}};
-  if (request.asked)
-    files.emplace_back(out.parent_path() / (figure_name + ".csv"),
-                       grading_csv(*request.asked, *request.packing.sieve, bed));
+  const std::string figure = out.stem().string() + "_grading";
+  std::optional<FilesInProgress> files;
   try {
     if (out.has_parent_path()) make_parent_folder(out);
-    write_files(files);
+    if (request.asked) {
+      files.emplace(folder);
+      write_files({{*files / (figure + ".csv"), grading_csv(*request.asked, *request.packing.sieve, bed)}});
+    }
+    write_files({{out, bed_data(request.packing, request.density, packing)}});
   } catch (const std::runtime_error &fault) {
     throw UsageError(
         fmt::format("--out is '{}': {}; allowed: a file that can be written", out.string(), fault.what()));
   }
   fmt::print("{}: {} balls, filled to {:.3f} m\n", out.string(), packing.balls.size(), packing.height);
-  if (!request.asked) return;
+  if (!files) return;
   print_grading(request, bed);
-  const fs::path folder = out.has_parent_path() ? out.parent_path() : ".";
-  render(find_gnuplot(), folder, grading_figure(figure_name, request, grain_sizes(bed)));
+  render(gnuplot, (*files / figure).parent_path(), grading_figure(figure, request, grain_sizes(bed)));
+  files->publish({figure + ".csv", figure + ".gp", figure + ".svg", figure + ".png"},
+                 [](const std::string &) { return false; });
   fmt::print("{}: the grading of the bed beside the one asked for\n",
-             (folder / (figure_name + ".png")).string());
+             (folder / (figure + ".png")).lexically_normal().string());
 }
 
 void add_bed_command(CLI::App &app, Session &) {
