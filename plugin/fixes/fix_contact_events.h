@@ -14,6 +14,9 @@ namespace LAMMPS_NS {
 
 /// In every step finds the pairs of two types (or of the group) whose contact has begun or ended since the
 /// step before, and writes each make and break once, on any number of ranks.
+///
+/// It is no ContactObserver: a make or break is located from the states of a pair in this step and in the one
+/// before, and in one of them the balls may not touch, while observers receive contacts of balls that do.
 class FixContactEvents : public drumlin::engine::GhostFix {
 public:
   FixContactEvents(LAMMPS *, int, char **);
