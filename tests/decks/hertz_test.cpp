@@ -364,7 +364,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Scene{"coulomb_A_stock",
                             {{"tangential", "coulomb"}, {"transition", "A"}, {"stepping", "stock"}}},
                       Scene{"history", {}},
-                      Scene{"rolling_alone", {{"tangential", "off"}, {"mu", "-1"}, {"rolling", "epsd2"}}},
+                      Scene{"no_history_and_rolling", {{"tangential", "no_history"}, {"rolling", "epsd2"}}},
                       Scene{"heavy_dashpots", {{"D", "40"}, {"tangential", "off"}, {"mu", "-1"}}}),
     [](const auto &scene) { return std::string(scene.param.name); });
 
