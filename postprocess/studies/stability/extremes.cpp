@@ -390,7 +390,7 @@ void add_stop_rows(std::vector<Extreme> &rows) {
   given.variables.emplace_back("Fw", "nan");
   rows.push_back(given);
   rows.push_back(
-      stopping(hertz_row("a sphere sinks through the floor: Hertz law; E = 1e3 Pa", "E", 1e3), "overlap"));
+      stopping(hertz_row("a sphere sinks through the floor: Hertz law; E = 1e5 Pa", "E", 1e5), "overlap"));
   // c = 2 D sqrt(m2 k) would overflow.
   ChainPlan infinite_damping;
   Extreme overflow =
