@@ -1,10 +1,12 @@
 #include "commands/record_options.h"
 
+#include "chain/parameters.h"
 #include "support/options.h"
 #include "support/usage_error.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <stdexcept>
@@ -45,6 +47,26 @@ constexpr std::array<RecordNumber, 8> record_numbers = {
       {1e-3, 1e9, "Hz"},
       "cut-off frequency of a filter without phase shift for all columns [Hz]"}}};
 
+// What a roller's data say where the command line does not. With another frequency the force follows from the
+// eccentric moment; the force of a case without one stays the same.
+void add_case(const std::string &name, RecordOptions &options) {
+  NamedChain chain;
+  try {
+    chain = named_chain(name, Transition::B);
+  } catch (const std::invalid_argument &error) {
+    throw UsageError(fmt::format("--{}", error.what()));
+  }
+  const ChainParameters &p = chain.parameters;
+  if (!options.omega) options.omega = p.omega;
+  if (!options.m2) options.m2 = p.m2;
+  if (!options.m3) options.m3 = p.m3;
+  if (options.Fw || options.me_re) return;
+  if (chain.me_re)
+    options.me_re = chain.me_re;
+  else
+    options.Fw = p.Fw;
+}
+
 } // namespace
 
 void add_record_options(CLI::App &command, RecordArguments &arguments) {
@@ -63,6 +85,14 @@ void add_record_options(CLI::App &command, RecordArguments &arguments) {
       ->type_name("NAME=HEADER:UNIT")
       ->expected(1)
       ->take_all()
+      ->group("Measured records");
+  command
+      .add_option_function<std::string>(
+          "--case", [&text = arguments.chain_case](const std::string &given) { text = given; },
+          fmt::format(
+              "roller whose frequency, eccentric moment and masses count where no option gives them: {}",
+              fmt::join(chain_cases, ", ")))
+      ->type_name("NAME")
       ->group("Measured records");
   for (const RecordNumber &number : record_numbers)
     command
@@ -98,6 +128,7 @@ Record judged(const RecordArguments &arguments) {
   options.low_pass = number(7);
   if (options.Fw && options.me_re)
     throw UsageError(refusal("--me-re", *arguments.me_re, "not together with --Fw, which follows from it"));
+  if (arguments.chain_case) add_case(*arguments.chain_case, options);
   return read_record(path, options);
 }
 

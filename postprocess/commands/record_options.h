@@ -19,6 +19,8 @@ namespace drumlin::post {
 struct RecordArguments {
   std::string record;
   std::vector<std::string> columns;
+  std::optional<std::string>
+      chain_case; ///< roller whose frequency, force and masses count where none is given
   std::optional<std::string> sampling_rate, frequency, phase, Fw, me_re, m2, m3, low_pass;
 };
 

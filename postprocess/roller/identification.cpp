@@ -201,6 +201,20 @@ void Fitter::collect() {
   gradient_[2] += phase_weight() * unknowns_[2];
 }
 
+// Whether the last unknown follows from its own equation alone.
+bool last_is_alone(const Matrix3d &m) { return m(2, 0) == 0.0 && m(2, 1) == 0.0; }
+
+// Solves m y = right. If the phase is that of the flights, its equation is solved first: in a record with hardly
+// any noise the force depends on the phase so much more than the phase's own equation does that a general method
+// takes the latter for zero.
+Vector3d solved(const Matrix3d &m, const Vector3d &right) {
+  if (!last_is_alone(m)) return m.fullPivLu().solve(right);
+  Vector3d y;
+  y[2] = right[2] / m(2, 2);
+  y.head<2>() = m.topLeftCorner<2, 2>().fullPivLu().solve(right.head<2>() - y[2] * m.col(2).head<2>());
+  return y;
+}
+
 // The inverse of the matrix of the normal equations, with unknowns of unit size. Not symmetric if the phase is
 // that of the flights.
 Matrix3d inverse_of(const Matrix3d &normal) {
@@ -208,12 +222,17 @@ Matrix3d inverse_of(const Matrix3d &normal) {
   if (!(sizes.minCoeff() > 0.0) || !sizes.allFinite())
     throw std::runtime_error("the record does not determine k and c: the drum hardly moves in contact");
   const Eigen::DiagonalMatrix<double, 3> units(sizes.cwiseInverse());
-  const Eigen::FullPivLU<Matrix3d> factors(units * normal * units);
+  const Matrix3d scaled = units * normal * units;
+  const double pivot = last_is_alone(scaled) ? scaled.topLeftCorner<2, 2>().fullPivLu().matrixLU()(1, 1)
+                                             : scaled.fullPivLu().matrixLU()(2, 2);
   constexpr double least_pivot = 1e-13;
-  if (std::fabs(factors.matrixLU()(2, 2)) < least_pivot)
+  if (std::fabs(pivot) < least_pivot)
     throw std::runtime_error("the record does not determine k and c: the drum's position and velocity in "
                              "contact are proportional to each other");
-  return units * factors.inverse() * units;
+  Matrix3d inverse;
+  for (Index i = 0; i < inverse.cols(); ++i)
+    inverse.col(i) = solved(scaled, Vector3d::Unit(i));
+  return units * inverse * units;
 }
 
 void Fitter::solve() {
@@ -250,7 +269,7 @@ LawEstimate Fitter::estimate() const {
   // in the solution (jackknife, CR3 of Bell and McCaffrey 2002).
   for (std::size_t i = 0; i < scores_.size(); ++i) {
     const Matrix3d others = Matrix3d::Identity() - shares_[i] * inverse;
-    const Vector3d score = others.fullPivLu().solve(scores_[i]);
+    const Vector3d score = solved(others, scores_[i]);
     middle += score * score.transpose();
   }
   middle(2, 2) += phase_weight();

@@ -26,6 +26,11 @@ std::string with_interval(const MeanInterval &value, double unit) {
   return fmt::format("{:.{}f} +- {:.{}f}", mean, decimals, half, decimals);
 }
 
+bool has_flights(const Identification &found) {
+  return std::any_of(found.pieces.begin(), found.pieces.end(),
+                     [](const ContactPiece &piece) { return !piece.flight.empty(); });
+}
+
 std::string pull_sentence(const Identification &found) {
   const std::string tension = fmt::format("{:.3g} kN", found.tension / 1e3);
   if (found.pull == Pull::pulls)
@@ -33,11 +38,15 @@ std::string pull_sentence(const Identification &found) {
   if (found.pull == Pull::does_not_pull)
     return fmt::format(
         "The contact does not pull (transition B): under A it would, with {} before each break.", tension);
-  const bool lost = std::any_of(found.pieces.begin(), found.pieces.end(),
-                                [](const ContactPiece &piece) { return !piece.flight.empty(); });
-  return lost ? "Whether the contact can pull cannot be told: the tension under A would be too small or too "
-                "short to be seen."
-              : "Whether the contact can pull cannot be told: contact is not lost.";
+  return has_flights(found)
+             ? "Whether the contact can pull cannot be told: the tension under A would be too small or too "
+               "short to be seen."
+             : "Whether the contact can pull cannot be told: contact is not lost.";
+}
+
+// Whether nothing in the record tells the phase, so that its uncertainty decides over that of k and c.
+bool phase_decides(const IdentifiedRecord &record) {
+  return !record.phase_known && !has_flights(record.whole) && !(record.positions && record.known_origin);
 }
 
 std::string source_sentence(const IdentifiedRecord &record) {
@@ -230,6 +239,11 @@ std::vector<std::string> identification_answer(const IdentifiedRecord &record) {
           ? std::string("The exciter's phase counts as exact.")
           : fmt::format("Error of the exciter's phase: {} degrees.", with_interval(law.phase, 1.0 / degrees)),
       source_sentence(record)};
+  if (phase_decides(record))
+    lines.emplace_back(
+        "Contact is not lost and no position from the point of first contact is known: an error "
+        "of the phase acts on the force as k and c do, and makes most of their intervals. A "
+        "phase known better, or stiffer soil, on which the drum lifts off, narrows them.");
   if (record.k_B && record.k_1)
     lines.push_back(
         fmt::format("A meter would show k_B = {:.4g} MN/m, with the forces of the frame {:.4g} MN/m: the "

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -98,6 +99,29 @@ TEST_F(IdentifyCommand, ReadsAMeasuredRecord) {
   const post::Table table = post::read_table(scratch_ / "found/identify.csv");
   EXPECT_NEAR(table.numbers("k [N/m]").front(), p.k, 1e-3 * p.k);
   EXPECT_NEAR(table.numbers("c [N s/m]").front(), p.damping(), 3e-3 * p.damping());
+}
+
+// The data of a manufacturer's roller by its name; an option of the command line counts more.
+TEST_F(IdentifyCommand, TakesTheDataOfARoller) {
+  const post::NamedChain chain = post::named_chain("CA3500-low", post::Transition::B);
+  const post::ChainHistory history = post::solve_closed_form(chain.parameters, 20, 200).history;
+  std::string text = "time,a_drum,a_frame\n";
+  for (std::size_t i = 0; i < history.size(); ++i)
+    text += post::csv_line({post::number_text(history.time[i]), post::number_text(history.a_drum[i]),
+                            post::number_text(history.a_frame[i])});
+  post::write_files({{scratch_ / "measured.csv", text}});
+  const auto found = [&](std::vector<std::string> more) {
+    std::vector<std::string> words = {"measured.csv", "--phase", "0",         "--out",
+                                      "found",        "--case",  "CA3500-low"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = identify(words);
+    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    return post::read_table(scratch_ / "found/identify.csv").numbers("k [N/m]").front();
+  };
+  EXPECT_NEAR(found({}), chain.parameters.k, 1e-4 * chain.parameters.k);
+  EXPECT_GT(std::fabs(found({"--m2", "3000"}) / chain.parameters.k - 1.0), 0.05);
+  fs::remove_all(scratch_ / "found");
+  expect_refused({"measured.csv", "--phase", "0", "--case", "CA9"}, "--case is 'CA9'; allowed: I, II");
 }
 
 TEST_F(IdentifyCommand, RefusesBadInputInOneLine) {

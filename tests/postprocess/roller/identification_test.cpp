@@ -2,13 +2,16 @@
 // exact and with noise. The contact's law is in these solvers, not in the identification's own functions.
 #include "chain/direct_solver.h"
 #include "roller/chain_solver.h"
+#include "roller/identification_page.h"
 #include "roller/identified_record.h"
+#include "support/statistics.h"
 #include "tests/support/chain_record.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -191,6 +194,37 @@ TEST(Identification, AccelerationsAlone) {
           EXPECT_NEAR(law.k.mean, p.k, 0.03 * p.k);
         }
       }
+  }
+}
+
+// In unbroken contact without known positions an error delta of the phase changes the force at the excitation
+// frequency by i delta Fw, and k by delta Im(Fw / X), with the drum's complex amplitude X. The interval has that
+// width with noise, and must keep it if there is none.
+TEST(Identification, ThePhaseIsAsUncertainWithoutNoise) {
+  ChainParameters p = table1_case("I", Transition::B);
+  const std::complex<double> i(0.0, 1.0);
+  const std::complex<double> bond = p.k23 + i * p.omega * p.c23;
+  const std::complex<double> frame = bond - p.m3 * p.omega * p.omega;
+  const std::complex<double> drum = p.k + i * p.omega * p.damping() + bond - p.m2 * p.omega * p.omega;
+  const double change_of_k = std::imag((drum * frame - bond * bond) / frame); // per radian
+  RecordSetting setting;
+  setting.accelerations_only = true;
+  setting.phase_within = pi / 180.0;
+  constexpr int settled = 40; // cycles before the record
+  const Record exact = record_of(p, solve_closed_form(p, cycles, samples_per_cycle, settled).history);
+  for (const double noise : {0.0, 1e-6, 1e-3}) {
+    SCOPED_TRACE(noise);
+    const IdentifiedRecord found = identify_record(with_noise(exact, noise, 9), setting);
+    const LawEstimate &law = found.whole.law;
+    const std::vector<std::string> lines = identification_answer(found);
+    EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [](const std::string &line) {
+      return line.rfind("Contact is not lost and no position", 0) == 0;
+    }));
+    const double phase =
+        t_factor(static_cast<double>(law.blocks) - 2.0) * setting.phase_within / std::sqrt(3.0);
+    EXPECT_NEAR(law.phase.half_width, phase, 1e-6 * phase);
+    EXPECT_NEAR(law.k.half_width, phase * std::fabs(change_of_k), 0.02 * phase * std::fabs(change_of_k));
+    EXPECT_TRUE(holds(law.k, p.k));
   }
 }
 

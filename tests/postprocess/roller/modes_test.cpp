@@ -1,11 +1,13 @@
 // The regimes of judge_regime(), which come from orbits, their Floquet multipliers and Lyapunov exponents,
-// against motions that are only followed in time and counted: at 500 random points by the closed-form solver,
-// at some of them by CVODE.
+// against motions that are only followed in time and counted, at 500 random points: by the closed-form solver, and
+// by CVODE, which shares no code with it (16 of the points here, all of them in .ci/nightly).
 #include "chain/direct_solver.h"
 #include "roller/regime.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <array>
@@ -20,7 +22,8 @@ using namespace drumlin::post;
 
 constexpr int judged_cycles = 300;
 
-// A roller between the light ones and the heavy ones of inputs/chain, on soil between soft and stiff.
+// A roller between the light ones and the heavy ones of inputs/chain, on soil between soft and stiff. The ranges
+// are chosen so that contact is lost at four of five points: unbroken contact is easy to judge.
 ChainParameters random_chain(std::mt19937_64 &random) {
   std::uniform_real_distribution<double> unit;
   const auto between = [&](double low, double high) { return low * std::pow(high / low, unit(random)); };
@@ -33,19 +36,76 @@ ChainParameters random_chain(std::mt19937_64 &random) {
   return p;
 }
 
-class ContactCount : public MotionObserver {
+struct JudgedPoint {
+  int number = 0;
+  ChainParameters chain;
+  RegimePoint judged;
+
+  // A multiplier is so near 1, or the exponent so near 0, that no motion of finite length tells the regime.
+  bool excepted() const {
+    if (judged.period > 0) return std::fabs(judged.multiplier - 1.0) < 1e-3;
+    return judged.exponent.low <= 0.0 && judged.exponent.high >= 0.0;
+  }
+  // In how many cycles a small disturbance of the orbit decays by the factor exp(-20).
+  int decay() const {
+    return judged.period > 0 ? static_cast<int>(std::lround(-20.0 / judged.exponent.mean)) : 0;
+  }
+  std::string words() const {
+    const ChainParameters &p = chain;
+    return fmt::format(
+        "point {}: {}, period {}, multiplier {}, exponent {} to {}; k {}, D {}, omega {}, Fw {}, {}", number,
+        regime_names[static_cast<std::size_t>(judged.regime)], judged.period, judged.multiplier,
+        judged.exponent.low, judged.exponent.high, p.k, p.D, p.omega, p.Fw, transition_name(p.transition));
+  }
+};
+
+std::vector<JudgedPoint> judged_points() {
+  constexpr int count = 500;
+  std::mt19937_64 random(20);
+  std::vector<JudgedPoint> points(count);
+  for (int i = 0; i < count; ++i) {
+    JudgedPoint &point = points[static_cast<std::size_t>(i)];
+    point.number = i;
+    point.chain = random_chain(random);
+    point.judged = judge_regime(point.chain, judged_cycles);
+  }
+  return points;
+}
+
+// Whether the motion from rest is aperiodic at first. It may then fall into a stable orbit after many cycles. Its
+// errors of rounding grow from cycle to cycle, so that two solvers, or a longer run, may find another time at
+// which that happens, or another of several stable orbits.
+bool aperiodic_at_first(const ChainParameters &p) {
+  const ChainSolver solver(p);
+  ChainState state = solver.start().state;
+  return largest_exponent(solver, state, 20, judged_cycles).low > 0.0;
+}
+
+// Points at which the regimes differ: few, and all of them aperiodic at first.
+class Differences {
 public:
-  void piece(const MotionPiece & /*piece*/, const PhaseDynamics & /*dynamics*/) override {}
-  void change(const PhaseChange &change) override { breaks += change.broken() ? 1 : 0; }
-  int breaks = 0;
+  void compare(const JudgedPoint &point, Regime followed) {
+    if (followed == point.judged.regime) return;
+    ++count_;
+    EXPECT_TRUE(aperiodic_at_first(point.chain))
+        << point.words() << "; followed: " << regime_names[static_cast<std::size_t>(followed)];
+  }
+  int count() const { return count_; }
+
+private:
+  int count_ = 0;
 };
 
 constexpr std::size_t longest_counted = 64;
 constexpr std::size_t compared = 64;
+// How many cycles at the end of a motion are looked at.
+constexpr int counted_cycles = longest_counted + compared;
 
 // The period after which all of the last states return to within a share of the scale; 0: none.
-int period_of(const std::vector<ChainState> &states, const ChainState &scale) {
+int period_of(const std::vector<Eigen::Vector4d> &states, const ChainParameters &p) {
   constexpr double same = 1e-5;
+  const double speed = std::max(p.Fw / p.m2, p.g) / p.omega;
+  const Eigen::Vector4d scale(speed / p.omega, speed, speed / p.omega, speed);
   for (std::size_t period = 1; period <= longest_counted; ++period) {
     double most = 0.0;
     for (std::size_t i = states.size() - compared; i < states.size(); ++i)
@@ -64,21 +124,25 @@ Regime regime_of(int period, int breaks) {
                                     : Regime::undecided; // no longer orbits are looked for
 }
 
-// How many cycles at the end of a motion are looked at.
-constexpr int counted_cycles = longest_counted + compared;
+class ContactCount : public MotionObserver {
+public:
+  void piece(const MotionPiece & /*piece*/, const PhaseDynamics & /*dynamics*/) override {}
+  void change(const PhaseChange &change) override { breaks += change.broken() ? 1 : 0; }
+  int breaks = 0;
+};
 
 // The regime after a number of cycles from rest, by counting.
 Regime followed(const ChainParameters &p, int cycles) {
   const ChainSolver solver(p);
   ChainMotion motion = solver.start();
-  std::vector<ChainState> states;
+  std::vector<Eigen::Vector4d> states;
   ContactCount count;
   for (int cycle = 0; cycle < cycles; ++cycle) {
     const bool last = cycle + counted_cycles >= cycles;
     solver.finish_cycle(motion, last ? &count : nullptr);
     if (last) states.push_back(motion.state);
   }
-  return regime_of(period_of(states, state_scale(p)), count.breaks);
+  return regime_of(period_of(states, p), count.breaks);
 }
 
 // The same by CVODE.
@@ -86,57 +150,60 @@ Regime followed_by_cvode(const ChainParameters &p, int cycles) {
   DirectOptions options;
   options.cycles = cycles;
   options.samples_per_cycle = 1;
+  options.rtol = 1e-10;
   const DirectResult result = solve_direct(p, options);
   const ChainHistory &h = result.history;
-  std::vector<ChainState> states;
+  std::vector<Eigen::Vector4d> states;
   int breaks = 0;
   for (std::size_t i = h.size() - counted_cycles; i < h.size(); ++i) {
     states.emplace_back(h.x_drum[i], h.v_drum[i], h.x_frame[i], h.v_frame[i]);
     breaks += result.cycles[i - 1].breaks;
   }
-  return regime_of(period_of(states, state_scale(p)), breaks);
-}
-
-bool excepted(const RegimePoint &point) {
-  if (point.period > 0) return std::fabs(point.multiplier - 1.0) < 1e-3;
-  return point.exponent.low <= 0.0 && point.exponent.high >= 0.0;
+  return regime_of(period_of(states, p), breaks);
 }
 
 TEST(Modes, OrbitsAndExponentsAgreeWithMotionsThatAreFollowed) {
-  std::mt19937_64 random(20);
   int exceptions = 0;
-  int by_cvode = 0;
+  Differences differences;
   std::array<int, regime_count> seen{};
-  for (int i = 0; i < 500; ++i) {
-    const ChainParameters p = random_chain(random);
-    const RegimePoint point = judge_regime(p, judged_cycles);
-    ++seen[static_cast<std::size_t>(point.regime)];
-    if (excepted(point)) {
+  for (const JudgedPoint &point : judged_points()) {
+    ++seen[static_cast<std::size_t>(point.judged.regime)];
+    if (point.excepted())
       ++exceptions;
-      continue;
-    }
-    // As long as judge_regime() may follow the motion, and until a disturbance of an orbit has decayed. An
-    // aperiodic motion is compared over the same cycles: it may end later, in an orbit.
-    const int cycles =
-        point.regime == Regime::aperiodic ? 2 * judged_cycles + 40
-        : point.period > 0
-            ? std::max(8 * judged_cycles, static_cast<int>(std::lround(-20.0 / point.exponent.mean)))
-            : 8 * judged_cycles;
-    const std::string what = fmt::format(
-        "point {}: {}, period {}, multiplier {}, exponent {} to {}; k {}, D {}, omega {}, Fw {}, {}", i,
-        regime_names[static_cast<std::size_t>(point.regime)], point.period, point.multiplier,
-        point.exponent.low, point.exponent.high, p.k, p.D, p.omega, p.Fw, transition_name(p.transition));
-    EXPECT_EQ(followed(p, cycles), point.regime) << what;
-    if (i % 125 == 0 && followed(p, judged_cycles) == point.regime) {
-      EXPECT_EQ(followed_by_cvode(p, judged_cycles), point.regime) << what << ", CVODE";
-      ++by_cvode;
-    }
+    else // as long as judge_regime() may follow the motion, and until a disturbance of an orbit has decayed
+      differences.compare(point, followed(point.chain, std::max(8 * judged_cycles, point.decay())));
   }
   EXPECT_LT(exceptions, 15);
-  EXPECT_GE(by_cvode, 3);
+  EXPECT_LE(differences.count(), 10);
   for (const Regime regime : {Regime::continuous_contact, Regime::partial_uplift, Regime::period_2,
                               Regime::higher_period, Regime::aperiodic})
     EXPECT_GT(seen[static_cast<std::size_t>(regime)], 25) << regime_names[static_cast<std::size_t>(regime)];
+}
+
+// Points whose regime is reached soon, since CVODE takes a millisecond for a cycle.
+TEST(Modes, AgreeWithCvode) {
+  constexpr std::size_t most = 16;
+  std::size_t count = 0;
+  for (const JudgedPoint &point : judged_points()) {
+    if (point.excepted() || point.decay() > judged_cycles - counted_cycles) continue;
+    EXPECT_EQ(followed_by_cvode(point.chain, judged_cycles), point.judged.regime) << point.words();
+    if (++count == most) break;
+  }
+  EXPECT_EQ(count, most);
+}
+
+// All points by CVODE, which takes some ten minutes: run by .ci/nightly.
+TEST(Modes, DISABLED_AllAgreeWithCvode) {
+  int exceptions = 0;
+  Differences differences;
+  for (const JudgedPoint &point : judged_points()) {
+    if (point.excepted())
+      ++exceptions;
+    else
+      differences.compare(point, followed_by_cvode(point.chain, std::max(4 * judged_cycles, point.decay())));
+  }
+  fmt::print("{} points excepted, {} differ\n", exceptions, differences.count());
+  EXPECT_LE(differences.count(), 10);
 }
 
 } // namespace
