@@ -49,6 +49,7 @@ BadInput twice_in_a_hybrid() {
   return input;
 }
 
+// Longer than other functions: it has a line for each mistake and nothing else.
 BadGroup pair_style() {
   const std::string command = "pair_style gran model hooke/transition: ";
   const std::string good = host_properties();
@@ -244,6 +245,7 @@ BadGroup wall() {
       }};
 }
 
+// Longer than other functions: it has a line for each mistake and nothing else.
 BadGroup drum_excite() {
   const std::string command = "fix drum/excite: ";
   const auto with = [](const std::string &words) { return "fix excite drum drum/excite " + words; };
@@ -464,6 +466,7 @@ BadInput with_the_stock_law(const std::string &lines, const std::string &command
   return input;
 }
 
+// Longer than other functions: it has a line for each mistake and nothing else.
 BadGroup roller_history() {
   const std::string command = "fix roller/history: ";
   const auto with = [](const std::string &words) { return "fix history drum roller/history " + words; };

@@ -135,6 +135,7 @@ TEST_F(ExactCommand, TheForceOfARollerFollowsFromItsFrequency) {
   EXPECT_DOUBLE_EQ(force("--omega 200 --Fw 1e5"), 1e5);
 }
 
+// Longer than other tests: it has a line for each mistake.
 TEST_F(ExactCommand, BadInputIsOneLineAndTouchesNothing) {
   ASSERT_EQ(run("exact --cycles 1 --out kept").status, 0);
   std::ofstream(folder_ / "file") << "not a folder";

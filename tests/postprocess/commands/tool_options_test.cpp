@@ -45,6 +45,7 @@ struct Bad {
   std::string says;
 };
 
+// Longer than other tests: it has a line for each mistake.
 TEST_F(ToolOptions, AbsurdValuesAreRefusedAtOnce) {
   const std::vector<Bad> table = {
       {{"exact", "--k", "", "--out", "o"}, "exact: --k is ''; allowed: a number from 1e-06 to 1e+15 [N/m]"},

@@ -268,6 +268,7 @@ struct Bad {
   int skipped = 0; ///< lines on steps that are left out, before the error
 };
 
+// Longer than other tests: it has a line for each mistake.
 TEST_F(VtkCommand, BadInputIsOneLineAndTouchesNothing) {
   ASSERT_TRUE(run({"run"}).ok());
   const std::string balls = "dump/balls_200.vtp", contacts = "dump/contacts_200.dump";
