@@ -130,6 +130,13 @@ std::string biaxial_drawing() {
          strokes(line(17, 80, 17, 158) + ground(17, 251, 158));
 }
 
+std::string plate_drawing() {
+  return strokes(arrow(110, 25, 55) + arrow(134, 25, 55) + arrow(158, 25, 55), 2.4, red) +
+         text(134, 17, "stress", "middle", red) + box(90, 58, 88, 14, steel) + text(190, 70, "plate") +
+         soil(82) + strokes(line(17, 62, 17, 154) + line(251, 62, 251, 154) + ground(17, 251, 154)) +
+         text(262, 119, "soil balls");
+}
+
 std::string held_drawing() {
   const auto wall = [](double x, double side) {
     std::string path = line(x, 30, x, 130);
@@ -205,6 +212,13 @@ std::string scene_html(Scene scene) {
         "The model: a sample of soil balls between smooth plates. The right one carries a given stress, "
         "the upper one is moved.";
     drawing = biaxial_drawing();
+    height = 180;
+    break;
+  case Scene::plate:
+    title = "A plate on a bed of balls";
+    caption =
+        "The model: a rigid plate with a given stress moves vertically on soil balls between two walls.";
+    drawing = plate_drawing();
     height = 180;
     break;
   }

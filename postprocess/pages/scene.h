@@ -13,7 +13,8 @@ enum class Scene {
   oedometer, ///< a sample between two plates, loaded from above
   sphere,    ///< a sphere that strikes a plane
   biaxial,   ///< a sample between four plates, under a side stress
-  triaxial   ///< a sample between six plates, under a side stress
+  triaxial,  ///< a sample between six plates, under a side stress
+  plate      ///< a plate under a stress on a bed of balls
 };
 
 /// <figure class="scene"> with the drawing, its text alternative and a caption.

@@ -271,12 +271,32 @@ BadGroup triaxial() {
   return group;
 }
 
+BadGroup plate() {
+  BadGroup group{"Plate", "soil/in.plate", {}};
+  for (const char *name : {"plate_width", "plate_thickness", "plate_density", "seating", "max_stress",
+                           "max_settlement", "drag", "ratio"})
+    group.inputs.push_back(variable(name, "0", positive, name == std::string("plate_width")));
+  for (const char *name : {"stages", "ramp", "every", "settle_limit"})
+    group.inputs.push_back(variable(name, "0", whole));
+  group.inputs.push_back(variable("plate_offset", "left", "allowed: a finite number"));
+  group.inputs.push_back(variable("reload", "2", "allowed: 0 or 1"));
+  group.inputs.push_back(variables("a plate narrower than a ball of it", {{"plate_width", "0.01"}},
+                                   {"drumlin/check: variable width_beyond_a_ball is '-0.01'", non_negative}));
+  group.inputs.push_back(variables("stages below the seating stress", {{"max_stress", "50"}},
+                                   {"drumlin/check: variable stress_above_seating is '-", positive}));
+  group.inputs.push_back(variables("a ramp that is no multiple", {{"ramp", "700"}},
+                                   {"variable ramp is '700'", "allowed: a multiple of every, which is 500"}));
+  group.inputs.push_back(
+      variable("bed", "none.restart", "./drumlin run inputs/bed/in.settle -var bed none.restart", true));
+  return group;
+}
+
 } // namespace
 
 std::vector<BadGroup> bad_variables() {
   return {chain_choices(), chain_numbers(), chain_counts(), chain_folder(), chain_equilibrium(),
           impact(),        bed_settle(),    bed_place(),    bed(),          oedometer(),
-          spheres(),       biaxial(),       triaxial()};
+          spheres(),       biaxial(),       triaxial(),     plate()};
 }
 
 } // namespace drumlin::test

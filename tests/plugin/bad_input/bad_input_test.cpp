@@ -97,7 +97,7 @@ void try_input(const BadGroup &group, const BadInput &input, int ranks) {
     if (group.deck == "bed/in.settle") {
       write_text(scratch / "balls", "no notes\n"); // which in.settle reads first, before it checks the rest
       words.insert(words.end(), {"-var", "balls", "balls"});
-    } else if (group.deck == "bed/in.place") {
+    } else if (group.deck == "bed/in.place" || group.deck == "soil/in.plate") {
       write_text(scratch / "soil", bed_file("soil"));
       words.insert(words.end(), {"-var", "bed", "soil"});
     } else if (group.deck == "bed/in.bed") {
