@@ -119,7 +119,7 @@ PageTable state_table(const std::vector<BedResult> &beds) {
     const bool any = m.cycles > 0;
     const auto steady = [any](double value, int decimals) { return any ? fixed(value, decimals) : dash; };
     const std::string smallest = noted(result.run, "r_min", 2e3), largest = noted(result.run, "r_max", 2e3);
-    const std::string sizes = largest == dash ? dash : smallest + " to " + largest;
+    const std::string sizes = largest == dash ? dash : fmt::format("{} to {}", smallest, largest);
     state.add({result.run.name, transition_name(result.run.transition()), steady(m.settlement * 1e3, 3),
                steady(m.settlement_per_cycle * 1e3, 3), fixed(m.coordination_start, 3),
                fixed(m.coordination_end, 3), fixed(m.void_ratio_start, 4), fixed(m.void_ratio_end, 4),
