@@ -67,11 +67,19 @@ fs::path plain_deck(const fs::path &deck) {
   return plain_file(file);
 }
 
-/// mpirun with its options.
+/// For a short run on one rank: without these Open MPI 4 starts a daemon and looks for networks, and a start
+/// takes 0.35 s instead of 0.07. Other versions ignore what they do not know.
+constexpr std::array<const char *, 4> single_rank_environment = {"OMPI_MCA_ess_singleton_isolated=1",
+                                                                 "OMPI_MCA_orte_create_session_dirs=0",
+                                                                 "OMPI_MCA_pml=ob1", "OMPI_MCA_btl=self"};
+
+/// mpirun with its options. Ranks that share the cores of this machine need no network: without the search for
+/// one a start takes half as long.
 std::vector<std::string> mpirun_words(int ranks, Cores cores) {
   std::vector<std::string> words = {"mpirun"};
   if (cores == Cores::shared)
-    words.insert(words.end(), {"--bind-to", "none", "--mca", "mpi_yield_when_idle", "1"});
+    words.insert(words.end(), {"--bind-to", "none", "--mca", "mpi_yield_when_idle", "1", "--mca", "pml",
+                               "ob1", "--mca", "btl", "self,vader"});
   if (::geteuid() == 0) words.emplace_back("--allow-run-as-root");
   if (cores == Cores::shared || static_cast<unsigned>(ranks) > std::thread::hardware_concurrency())
     words.emplace_back("--oversubscribe");
@@ -134,6 +142,9 @@ EngineCommand engine_command(const fs::path &deck, const std::vector<std::string
   const std::string library = plain_file(library_of(engine)).string();
   EngineCommand command;
   if (engine == Engine::liggghts) command.environment = {"LD_PRELOAD=" + library};
+  if (ranks == 1 && cores == Cores::shared)
+    command.environment.insert(command.environment.end(), single_rank_environment.begin(),
+                               single_rank_environment.end());
   if (ranks > 1) {
     command.words = mpirun_words(ranks, cores);
     for (const std::string &entry : command.environment)

@@ -28,7 +28,8 @@ std::vector<std::string> plain_words(std::vector<std::string> words);
 /// Whether a run on several ranks has the processor cores for itself.
 enum class Cores {
   own,   ///< this run's alone: ranks as mpirun places them
-  shared ///< other runs use them at the same time: ranks are not bound to cores, and give way while they wait
+  shared ///< other runs use them at the same time: ranks are not bound to cores, give way while they wait, and
+         ///< start without what only runs on several machines need
 };
 
 /// A command, complete but not started.

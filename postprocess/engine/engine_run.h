@@ -17,7 +17,7 @@ using Variables = std::vector<std::pair<std::string, std::string>>;
 /// .lammps is run by LAMMPS, any other by LIGGGHTS. Throws UsageError, a std::runtime_error, if that engine
 /// cannot be started: see engine_fault().
 Outcome run_deck(const std::filesystem::path &deck, const Variables &variables,
-                 const std::filesystem::path &folder, int ranks = 1, double limit = 100.0);
+                 const std::filesystem::path &folder, int ranks = 1, double limit = 600.0);
 
 /// Whether the plugin has been built for LAMMPS too.
 bool has_lammps();

@@ -110,6 +110,12 @@ TEST(EngineCommand, OfOneRankAndOfTwo) {
   EXPECT_TRUE(has(post::engine_command(deck, {}, 100000), "--oversubscribe"));
   EXPECT_FALSE(has(two, "--bind-to"));
   EXPECT_TRUE(has(post::engine_command(deck, {}, 2, Cores::shared), "--bind-to"));
+  const EngineCommand short_run = post::engine_command(deck, {"-var", "k", "1"}, 1, Cores::shared);
+  EXPECT_EQ(short_run.words, one.words);
+  EXPECT_EQ(short_run.environment.front(), preload);
+  EXPECT_EQ(std::count(short_run.environment.begin(), short_run.environment.end(),
+                       "OMPI_MCA_ess_singleton_isolated=1"),
+            1);
 }
 
 TEST(EngineCommand, OfADeckForLammpsGetsThePlugin) {
