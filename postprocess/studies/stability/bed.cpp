@@ -127,7 +127,7 @@ void add_bed_rows(std::vector<Extreme> &rows, bool quick) {
   if (quick) {
     rows.push_back(bed_row("no drum; 8 columns of two balls",
                            {{"columns", "8"}, {"rows", "2"}, {"settling", "60000"}, {"steps", "1000"}}));
-    on_ranks(2, "20000");
+    on_ranks(2, "6000");
     return;
   }
   rows.push_back(bed_row("no drum", {}));
