@@ -112,7 +112,8 @@ inline void reverse_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Fix *fix) { version::
 /// Present acceleration, m/s2, of the deck's first fix gravity; zero without one.
 inline std::array<double, 3> gravity(LAMMPS_NS::Modify *modify) {
   for (int n = 0; n < modify->nfix; ++n)
-    if (std::string(modify->fix[n]->style) == "gravity") {
+    if (const std::string style = modify->fix[n]->style;
+        style == "gravity" || style.rfind("gravity/", 0) == 0) { // gravity/omp with -sf omp
       int dimension = 0;
       if (const auto *g = static_cast<const double *>(modify->fix[n]->extract("gvec", dimension)))
         return {g[0], g[1], g[2]};
