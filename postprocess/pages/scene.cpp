@@ -137,6 +137,11 @@ std::string plate_drawing() {
          text(262, 119, "soil balls");
 }
 
+std::string shear_drawing() {
+  return oedometer_drawing() + strokes(line(262, 50, 312, 50) + "M303 45 L312 50 L303 55 ", 2.4, red) +
+         text(262, 40, "moved slowly", "start", red);
+}
+
 std::string held_drawing() {
   const auto wall = [](double x, double side) {
     std::string path = line(x, 30, x, 130);
@@ -197,6 +202,14 @@ std::string scene_html(Scene scene) {
     caption = "The model: a sphere with a velocity and a spin strikes a plane or another sphere.";
     drawing = sphere_drawing();
     height = 160;
+    break;
+  case Scene::shear:
+    title = "A sample of soil that is sheared between two plates";
+    caption = "The model: a sample of soil balls, periodic sideways, between rough plates. The platen "
+              "carries a given "
+              "stress and is moved sideways.";
+    drawing = shear_drawing();
+    height = 180;
     break;
   case Scene::triaxial:
     title = "A sample of soil between six plates";

@@ -14,7 +14,8 @@ enum class Scene {
   sphere,    ///< a sphere that strikes a plane
   biaxial,   ///< a sample between four plates, under a side stress
   triaxial,  ///< a sample between six plates, under a side stress
-  plate      ///< a plate under a stress on a bed of balls
+  plate,     ///< a plate under a stress on a bed of balls
+  shear      ///< a sample between two plates, of which the upper one moves sideways
 };
 
 /// <figure class="scene"> with the drawing, its text alternative and a caption.

@@ -28,15 +28,8 @@ constexpr double strain_of_critical_state = 0.0999; // a run that was asked for 
 
 /// Means of the stresses over the rows whose strain is within an interval.
 Failure mean_stresses(const std::vector<CompressionRow> &rows, double from, double to) {
-  Failure sum{0.0, 0.0};
-  double count = 0.0;
-  for (const CompressionRow &row : rows) {
-    if (row.strain < from || row.strain > to) continue;
-    sum.axial += row.axial_stress;
-    sum.side += row.side_stress;
-    count += 1.0;
-  }
-  return {sum.axial / count, sum.side / count};
+  return {mean_between(rows, &CompressionRow::strain, from, to, &CompressionRow::axial_stress),
+          mean_between(rows, &CompressionRow::strain, from, to, &CompressionRow::side_stress)};
 }
 
 /// sin psi = -(change of volumetric strain)/(twice the change of axial strain - that of volumetric strain), in degrees:
@@ -57,6 +50,7 @@ double dilatancy_angle(const std::vector<CompressionRow> &rows, double from, dou
 /// The side stress of each run, kPa.
 std::vector<double> side_stresses(const std::vector<CompressionRun> &runs) {
   std::vector<double> sides;
+  sides.reserve(runs.size());
   for (const CompressionRun &run : runs)
     sides.push_back(run.run.number("side").value_or(std::round(run.rows.front().side_stress)));
   return sides;
@@ -275,6 +269,7 @@ PageWriter read_page(const CompressionTest &test, const std::vector<fs::path> &f
   return [test, runs = read_element_runs(folders, std::string(test.name) + ".csv", read_compression)](
              const fs::path &out) {
     std::vector<Strength> strengths;
+    strengths.reserve(runs.size());
     for (const CompressionRun &run : runs)
       strengths.push_back(strength_of(run.rows));
     const std::vector<Soil> soils = soils_of(runs, {"side"});

@@ -120,6 +120,7 @@ std::vector<Soil> soils_of(const std::vector<const Run *> &runs, const std::vect
 template <class Row>
 std::vector<Soil> soils_of(const std::vector<ElementRun<Row>> &runs, const std::vector<std::string> &varied) {
   std::vector<const Run *> all;
+  all.reserve(runs.size());
   for (const ElementRun<Row> &run : runs)
     all.push_back(&run.run);
   return soils_of(all, varied);
@@ -152,6 +153,18 @@ double number_at(const std::vector<Row> &rows, double Row::*x, double at, double
     ++n;
   const Row &a = rows[n - 1], &b = rows[n];
   return a.*y + (at - a.*x) / (b.*x - a.*x) * (b.*y - a.*y);
+}
+
+/// Mean of a number y over the rows whose number x lies between two bounds; NaN if there is no such row.
+template <class Row>
+double mean_between(const std::vector<Row> &rows, double Row::*x, double from, double to, double Row::*y) {
+  double sum = 0.0, count = 0.0;
+  for (const Row &row : rows) {
+    if (row.*x < from || row.*x > to) continue;
+    sum += row.*y;
+    count += 1.0;
+  }
+  return sum / count;
 }
 
 /// Styles of curve number n of a figure, which repeat: lines with markers, and lines.

@@ -3,6 +3,7 @@
 #include "report/compression_page.h"
 #include "report/oedometer_page.h"
 #include "report/plate_page.h"
+#include "report/shear_page.h"
 
 namespace drumlin::post {
 
@@ -10,7 +11,8 @@ std::vector<ElementTest> element_tests() {
   return {{"oedometer", oedometer_title, read_oedometer_page},
           {"biaxial", biaxial_title, read_biaxial_page},
           {"triaxial", triaxial_title, read_triaxial_page},
-          {"plate", plate_title, read_plate_page}};
+          {"plate", plate_title, read_plate_page},
+          {"shear", shear_title, read_shear_page}};
 }
 
 } // namespace drumlin::post

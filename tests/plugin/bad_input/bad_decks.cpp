@@ -291,12 +291,24 @@ BadGroup plate() {
   return group;
 }
 
+BadGroup shear() {
+  BadGroup group{"Shear", "soil/in.shear", {}};
+  for (const char *value : {"0", "-1", "nan"})
+    group.inputs.push_back(variable("normal", value, positive));
+  for (const char *name : {"strain", "inertial_number"})
+    group.inputs.push_back(variable(name, "0", positive, true));
+  group.inputs.push_back(variable("samples_of_strain", "0", whole));
+  group.inputs.push_back(variable("sample", "cubic", "allowed: hexagonal or random"));
+  group.inputs.push_back(variable("dimension", "3", "allowed: 2"));
+  return group;
+}
+
 } // namespace
 
 std::vector<BadGroup> bad_variables() {
   return {chain_choices(), chain_numbers(), chain_counts(), chain_folder(), chain_equilibrium(),
           impact(),        bed_settle(),    bed_place(),    bed(),          oedometer(),
-          spheres(),       biaxial(),       triaxial(),     plate()};
+          spheres(),       biaxial(),       triaxial(),     plate(),        shear()};
 }
 
 } // namespace drumlin::test

@@ -1,0 +1,77 @@
+// The simple shear test: a hexagonal lattice against its strength and stiffness in closed form, a disordered sample in both engines.
+#include "tests/support/element_runs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+class Shear : public InEngine {};
+
+/// Shear stress over normal stress of each row.
+std::vector<double> ratios(const post::Table &table) {
+  std::vector<double> values = table.numbers("shear_stress_kPa");
+  const std::vector<double> normal = table.numbers("normal_stress_kPa");
+  for (std::size_t n = 0; n < values.size(); ++n)
+    values[n] /= normal[n];
+  return values;
+}
+
+// A hexagonal lattice with rows along the platen has contacts at 60 degrees to the rows. Since all balls but those of the plates turn freely, these
+// contacts carry no friction: with equal angular velocities neighbours roll on each other. Under shear one contact of each ball with the row below
+// is compressed and the other unloaded, by half the displacement u of the row: the shear force of a ball is kn u/2, and the modulus, force over
+// width times row height over displacement, is root3/4 kn. With an even number of rows between the plates their balls, which do not turn, change
+// nothing. When the second contact opens, the rows climb over each other at 30 degrees: that is the angle of friction.
+TEST_P(Shear, FindsStrengthAndStiffnessOfAHexagonalLattice) {
+  const post::Table rows = run_element_test(GetParam(), "shear",
+                                            {{"sample", "hexagonal"},
+                                             {"columns", "4"},
+                                             {"layers", "9"},
+                                             {"friction", "0.3"},
+                                             {"rolling", "0"},
+                                             {"samples_of_strain", "25"},
+                                             {"ramp", "400"},
+                                             {"inertial_number", "2e-5"},
+                                             {"strain", "2.5e-4"}});
+  const std::vector<double> ratio = ratios(rows), shear = rows.numbers("shear_stress_kPa"),
+                            strain = rows.numbers("shear_strain");
+  constexpr double kn = 1e9;
+  const double root3 = std::sqrt(3.0), modulus = 1e3 * (shear[12] - shear[4]) / (strain[12] - strain[4]);
+  EXPECT_NEAR(modulus, root3 / 4 * kn, 1e-3 * kn);
+  EXPECT_NEAR(*std::max_element(ratio.begin(), ratio.end()), 1 / root3, 1e-3);
+  EXPECT_NEAR(ratio.back(), 1 / root3, 2e-3);
+  for (const double error : rows.numbers("energy_error"))
+    EXPECT_LT(std::fabs(error), 1e-4);
+}
+
+// A dense sample fails and dilates; the normal stress stays what it should be.
+TEST_P(Shear, ShearsADisorderedSample) {
+  const post::Table rows = run_element_test(GetParam(), "shear",
+                                            {{"columns", "10"},
+                                             {"layers", "10"},
+                                             {"seating", "50"},
+                                             {"ramp", "1000"},
+                                             {"samples_of_strain", "10"},
+                                             {"strain", "0.01"}});
+  const std::vector<double> ratio = ratios(rows);
+  const double highest = *std::max_element(ratio.begin(), ratio.end());
+  EXPECT_GT(highest, 0.4);
+  EXPECT_LT(highest, 1.5);
+  EXPECT_LT(rows.numbers("volumetric_strain").back(), -3e-4);
+  for (const double stress : rows.numbers("normal_stress_kPa"))
+    EXPECT_NEAR(stress, 100, 5);
+  for (const double number : rows.numbers("inertial_number"))
+    EXPECT_LT(number, 1e-3);
+  for (const double error : rows.numbers("energy_error"))
+    EXPECT_LT(std::fabs(error), 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, Shear, ::testing::Values("liggghts", "lammps"));
+
+} // namespace
+} // namespace drumlin::test
