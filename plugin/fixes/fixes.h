@@ -2,6 +2,7 @@
 // The fixes that the plugin adds to decks. Each has a page of its name in plugin/doc.
 
 #include "fixes/fix_bond_spring.h"
+#include "fixes/fix_boundary_absorb.h"
 #include "fixes/fix_clump.h"
 #include "fixes/fix_contact_energy.h"
 #include "fixes/fix_contact_events.h"
@@ -23,6 +24,7 @@ template <class Add>
 void for_each_fix(Add &&add) {
   add(FixType<LAMMPS_NS::FixDrumExcite>(), "drum/excite", "harmonic excitation of a drum");
   add(FixType<LAMMPS_NS::FixBondSpring>(), "bond/spring", "bonded spring-dashpot");
+  add(FixType<LAMMPS_NS::FixBoundaryAbsorb>(), "boundary/absorb", "boundary of balls that absorbs waves");
   add(FixType<LAMMPS_NS::FixClump>(), "clump", "rigid body that does not rotate");
   add(FixType<LAMMPS_NS::FixContactEvents>(), "contact/events", "makes and breaks of contact");
   add(FixType<LAMMPS_NS::FixContactLocal>(), "contact/local", "contacts and their forces for dump local");

@@ -377,6 +377,49 @@ BadGroup bond_spring() {
       }};
 }
 
+BadGroup boundary_absorb() {
+  const std::string command = "fix boundary/absorb: ";
+  const auto with = [](const std::string &words) { return "fix floor soil boundary/absorb " + words; };
+  const auto more = [with](const std::string &words) {
+    return with("normal 0 0 -1 area 1 density 1800 speeds 300 170 " + words);
+  };
+  return {
+      "BoundaryAbsorb",
+      "",
+      {
+          line("nothing", with(""), {command + "keyword normal is missing", "normal x y z"}),
+          line("no area", with("normal 0 0 -1"), {command + "keyword area is missing", "area A"}),
+          line("no density", with("normal 0 0 -1 area 1"),
+               {command + "keyword density is missing", "density rho"}),
+          line("no speeds", with("normal 0 0 -1 area 1 density 1800"),
+               {command + "keyword speeds is missing", "speeds cp cs"}),
+          line("normal of no length", with("normal 0 0 0"),
+               {command + "keyword normal is '0 0 0'", "a vector with a length"}),
+          line("area zero", with("normal 0 0 -1 area 0"), {command + "keyword area is '0'", "> 0"}),
+          line("density negative", with("density -1800"), {command + "keyword density is '-1800'", "> 0"}),
+          line("density NaN", with("density nan"), {command + "keyword density is 'nan'", "> 0"}),
+          line("one speed", with("speeds 300"),
+               {command + "keyword speeds, of shear waves is missing", ">= 0"}),
+          line("speed zero", with("speeds 0 0"),
+               {command + "keyword speeds, of compression waves is '0'", "> 0"}),
+          on_two_ranks(line("shear waves that are faster",
+                            with("normal 0 0 -1 area 1 density 1800 speeds 300 301"),
+                            {command + "speed of shear waves is '301 m/s'", "at most", "300 m/s"})),
+          line("depth zero", more("depth 0"), {command + "keyword depth is '0'", "> 0"}),
+          line("depth without value", more("depth"), {command + "keyword depth is missing", "> 0"}),
+          line("static a word", more("static maybe"), {command + "keyword static is 'maybe'", "yes or no"}),
+          line("unknown keyword", more("stiffness 5"),
+               {command + "keyword is 'stiffness'", "normal, area, density, speeds, depth or static"}),
+          on_two_ranks(
+              line("empty group",
+                   "fix floor nobody boundary/absorb normal 0 0 -1 area 1 density 1800 speeds 300 170",
+                   {command + "group is 'nobody', which is empty", "the boundary's balls"})),
+          line("static behind the integration", more("static yes"),
+               {command + "keyword static is 'yes' behind fix ", "which integrates",
+                "before all fixes that integrate"}),
+      }};
+}
+
 BadGroup clump() {
   const std::string command = "fix clump: ";
   return {"Clump",
@@ -824,11 +867,11 @@ BadGroup settle() {
 } // namespace
 
 std::vector<BadGroup> bad_lines() {
-  return {pair_style(),     properties(), hertz_law(),      wall(),          drum_excite(),
-          bond_spring(),    clump(),      contact_events(), contact_local(), contact_energy(),
-          roller_history(), guard(),      check(),          record(),        run(),
-          settle(),         surface(),    write_restart(),  write_data(),    outputs(),
-          take(),           variables()};
+  return {
+      pair_style(),      properties(), hertz_law(),      wall(),          drum_excite(),    bond_spring(),
+      boundary_absorb(), clump(),      contact_events(), contact_local(), contact_energy(), roller_history(),
+      guard(),           check(),      record(),         run(),           settle(),         surface(),
+      write_restart(),   write_data(), outputs(),        take(),          variables()};
 }
 
 } // namespace drumlin::test

@@ -1,0 +1,292 @@
+#include "fixes/fix_boundary_absorb.h"
+
+#include "contact/fix_stepping.h"
+#include "support/arguments.h"
+#include "support/restart_record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+using namespace LAMMPS_NS;
+using drumlin::Range;
+namespace engine = drumlin::engine;
+namespace physics = drumlin::physics;
+
+namespace {
+
+constexpr const char *command = "fix boundary/absorb";
+
+physics::Vec3 vector_of(const double *v) { return {v[0], v[1], v[2]}; }
+
+} // namespace
+
+FixBoundaryAbsorb::FixBoundaryAbsorb(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) {
+  vector_flag = 1;
+  size_vector = 7;
+  extvector = 0;
+  global_freq = nevery = 1;
+  restart_global = restart_peratom = 1;
+  time_depend = 1; // heat is a sum over the steps
+  parse(narg, arg);
+
+  FixBoundaryAbsorb::grow_arrays(atom->nmax);
+  atom->add_callback(0); // atoms that move in memory or to another rank
+  atom->add_callback(1); // restart files
+  for (int i = 0; i < atom->nlocal; ++i)
+    FixBoundaryAbsorb::set_arrays(i);
+}
+
+FixBoundaryAbsorb::~FixBoundaryAbsorb() {
+  atom->delete_callback(id, 0);
+  atom->delete_callback(id, 1);
+}
+
+void FixBoundaryAbsorb::parse(int narg, char **arg) {
+  drumlin::Arguments in(error, command, narg - 3, arg + 3);
+  bool has_normal = false;
+  while (!in.empty()) {
+    const std::string keyword = in.word("keyword");
+    if (keyword == "normal") {
+      ball_.normal = in.direction("keyword normal");
+      has_normal = true;
+    } else if (keyword == "area") {
+      ground_.area = in.number("keyword area", Range::positive);
+    } else if (keyword == "density") {
+      ground_.density = in.number("keyword density", Range::positive);
+    } else if (keyword == "speeds") {
+      ground_.p_speed = in.number("keyword speeds, of compression waves", Range::positive);
+      ground_.s_speed = in.number("keyword speeds, of shear waves", Range::non_negative);
+    } else if (keyword == "depth") {
+      ground_.depth = in.number("keyword depth", Range::positive);
+    } else if (keyword == "static") {
+      keep_static_ = in.choice("keyword static", {"yes", "no"}) == 0;
+    } else {
+      in.fail("keyword", keyword, "normal, area, density, speeds, depth or static");
+    }
+  }
+  if (!has_normal) in.fail("keyword normal is missing; allowed: normal x y z");
+  if (ground_.area == 0.0) in.fail("keyword area is missing; allowed: area A");
+  if (ground_.density == 0.0) in.fail("keyword density is missing; allowed: density rho");
+  if (ground_.p_speed == 0.0) in.fail("keyword speeds is missing; allowed: speeds cp cs");
+  if (const std::string fault = ground_.invalid(); !fault.empty()) in.fail(fault);
+}
+
+int FixBoundaryAbsorb::setmask() {
+  return FixConst::INITIAL_INTEGRATE | FixConst::PRE_NEIGHBOR | FixConst::POST_FORCE | FixConst::END_OF_STEP;
+}
+
+void FixBoundaryAbsorb::init() {
+  count_ = static_cast<double>(group->count(igroup));
+  if (count_ == 0.0)
+    error->all(FLERR, engine::error_text(fmt::format(
+                          "{}: group is '{}', which is empty; allowed: the group of the boundary's balls",
+                          command, group->names[igroup])));
+  ball_.along = ground_.along_normal(count_);
+  ball_.across = ground_.in_plane(count_);
+  stepping_ = FixStepping::find(lmp);
+  observers_.find(*modify);
+  if (keep_static_)
+    for (int n = 0; n < modify->nfix && modify->fix[n] != this; ++n)
+      if (modify->fix[n]->time_integrate)
+        error->all(FLERR,
+                   engine::error_text(fmt::format(
+                       "{}: keyword static is 'yes' behind fix {} ({}), which integrates; allowed: static "
+                       "yes before all fixes that integrate",
+                       command, modify->fix[n]->id, modify->fix[n]->style)));
+}
+
+void FixBoundaryAbsorb::setup_pre_neighbor() { announce(); }
+void FixBoundaryAbsorb::pre_neighbor() { announce(); }
+
+/// Announces the links to the second-order scheme, in the stiffer direction.
+void FixBoundaryAbsorb::announce() {
+  if (stepping_ == nullptr || ball_.along.damping == 0.0) return;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & groupbit) stepping_->expect(i, ball_.along.stiffness, ball_.along.damping);
+}
+
+physics::Vec3 FixBoundaryAbsorb::displacement(int i) const {
+  Vector u = physics::sum(vector_of(atom->x[i]), -1.0, grounded(i).reference);
+  engine::minimum_image(domain, u);
+  return u;
+}
+
+void FixBoundaryAbsorb::setup(int) {
+  echo();
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & groupbit) {
+      grounded(i).force = ball_.force(displacement(i), vector_of(atom->v[i]));
+      add(i, physics::sum(grounded(i).force, 1.0, grounded(i).constant));
+    }
+  tell_observers();
+  power_ = heat_here();
+}
+
+/// Takes the constant forces before the first step, when all fixes have added their forces of the set-up.
+void FixBoundaryAbsorb::initial_integrate(int) {
+  if (!keep_static_ || static_known_) return;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & groupbit) {
+      grounded(i).constant = physics::sum(grounded(i).force, -1.0, vector_of(atom->f[i]));
+      add(i, grounded(i).constant);
+    }
+  static_known_ = true;
+}
+
+void FixBoundaryAbsorb::post_force(int) {
+  coupled_.clear();
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & groupbit) {
+      grounded(i).force = force_of_step(i);
+      add(i, physics::sum(grounded(i).force, 1.0, grounded(i).constant));
+    }
+  tell_observers();
+  if (!coupled_.empty()) stepping_->couple([this] { close_coupled(); });
+}
+
+/// Force of springs and dashpots on ball i; of the first pass if its links are solved for together with its
+/// contacts.
+physics::Vec3 FixBoundaryAbsorb::force_of_step(int i) {
+  const Vector u = displacement(i), v = vector_of(atom->v[i]);
+  if (stepping_ == nullptr) return ball_.force(u, v);
+  const physics::GroundedStep step{u, v, vector_of(stepping_->velocity_before(i)), grounded(i).force,
+                                   update->dt};
+  if (stepping_->counting()) stepping_->add_damping(i, ball_.along.damping);
+  const double all_c_over_m = stepping_->damping_over_mass(i);
+  if (!physics::needs_coupling(step.dt, ball_.along.stiffness, ball_.along.damping, all_c_over_m))
+    return physics::implicit_force(ball_, step, atom->rmass[i]);
+  coupled_.emplace_back(i, physics::coupled_ground(ball_, step, all_c_over_m));
+  return coupled_.back().second.first(ball_.normal);
+}
+
+/// The second pass, in which the velocity with all forces of the first is known.
+void FixBoundaryAbsorb::close_coupled() {
+  for (const auto &[i, coupled] : coupled_) {
+    const Vector final_force = coupled.second(ball_.normal, vector_of(stepping_->predicted_velocity(i)));
+    stepping_->add_force(i, 1.0, physics::sum(final_force, -1.0, grounded(i).force));
+    grounded(i).force = final_force;
+  }
+}
+
+void FixBoundaryAbsorb::tell_observers() {
+  if (!observers_.any()) return;
+  constexpr int ground = 0; // the partner of these links is not a ball
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & groupbit)
+      observers_.tell_bond(i, ground, ball_.modes(atom->rmass[i], stepping_ != nullptr));
+}
+
+void FixBoundaryAbsorb::add(int i, const Vector &more) {
+  for (std::size_t a = 0; a < 3; ++a)
+    atom->f[i][a] += more[a];
+}
+
+void FixBoundaryAbsorb::end_of_step() {
+  const double before = power_;
+  power_ = heat_here();
+  heat_ += 0.5 * update->dt * (before + power_); // trapezoidal rule
+}
+
+/// Heat of the dashpots of this rank's balls, W.
+double FixBoundaryAbsorb::heat_here() const {
+  double heat = 0.0;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & groupbit) heat += ball_.heat(vector_of(atom->v[i]));
+  return heat;
+}
+
+FixBoundaryAbsorb::Energies FixBoundaryAbsorb::energies() const {
+  std::array<double, 3> sums{0.0, heat_here(), 0.0};
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & groupbit) {
+      const Vector u = displacement(i);
+      sums[0] += ball_.stored(u);
+      sums[2] += physics::dot(grounded(i).constant, u);
+    }
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, world);
+  return {sums[0], sums[1], sums[2]};
+}
+
+double FixBoundaryAbsorb::compute_vector(int n) {
+  if (n == 0) return energies().stored;
+  if (n == 2) return energies().work;
+  double mine = n == 1 ? heat_ : 0.0;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if ((atom->mask[i] & groupbit) && n > 2) {
+      const auto component = static_cast<std::size_t>(n - 3);
+      mine += n < 6 ? grounded(i).force[component] + grounded(i).constant[component]
+                    : physics::dot(ball_.normal, displacement(i)) / count_;
+    }
+  double all = 0.0;
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
+void FixBoundaryAbsorb::echo() {
+  if (!echoed_)
+    engine::log_message(
+        lmp, fmt::format(
+                 "fix boundary/absorb {}: {:.0f} balls, each with normal k = {:.6g} N/m, c = {:.6g} N s/m; "
+                 "tangential k = {:.6g} N/m, c = {:.6g} N s/m\n",
+                 id, count_, ball_.along.stiffness, ball_.along.damping, ball_.across.stiffness,
+                 ball_.across.damping));
+  echoed_ = true;
+}
+
+void FixBoundaryAbsorb::grow_arrays(int nmax) { balls_.resize(static_cast<std::size_t>(nmax)); }
+
+void FixBoundaryAbsorb::copy_arrays(int i, int j, int) { grounded(j) = grounded(i); }
+
+void FixBoundaryAbsorb::set_arrays(int i) {
+  grounded(i) = {};
+  grounded(i).reference = vector_of(atom->x[i]);
+}
+
+int FixBoundaryAbsorb::pack_exchange(int i, double *buf) {
+  for (const Vector &part : {grounded(i).reference, grounded(i).constant, grounded(i).force})
+    buf = std::copy(part.begin(), part.end(), buf);
+  return exchanged;
+}
+
+int FixBoundaryAbsorb::unpack_exchange(int i, double *buf) {
+  for (Vector *part : {&grounded(i).reference, &grounded(i).constant, &grounded(i).force}) {
+    std::copy_n(buf, part->size(), part->begin());
+    buf += part->size();
+  }
+  return exchanged;
+}
+
+/// The engine expects the number of values first, itself included.
+int FixBoundaryAbsorb::pack_restart(int i, double *buf) {
+  std::array<double, exchanged> all{};
+  FixBoundaryAbsorb::pack_exchange(i, all.data());
+  buf[0] = restarted + 1;
+  std::copy_n(all.begin(), restarted, buf + 1);
+  return restarted + 1;
+}
+
+/// Reads the values of this fix, which follow those of `nth` other fixes.
+void FixBoundaryAbsorb::unpack_restart(int i, int nth) {
+  const double *values = atom->extra[i];
+  for (int n = 0; n < nth; ++n)
+    values += static_cast<int>(*values);
+  std::array<double, exchanged> all{};
+  std::copy_n(values + 1, restarted, all.begin());
+  FixBoundaryAbsorb::unpack_exchange(i, all.data());
+}
+
+int FixBoundaryAbsorb::maxsize_restart() { return restarted + 1; }
+int FixBoundaryAbsorb::size_restart(int) { return restarted + 1; }
+
+void FixBoundaryAbsorb::write_restart(FILE *file) {
+  drumlin::write_restart_record(file, comm->me, {compute_vector(1), static_known_ ? 1.0 : 0.0});
+}
+
+void FixBoundaryAbsorb::restart(char *buffer) {
+  const double *state = reinterpret_cast<const double *>(buffer);
+  heat_ = comm->me == 0 ? state[0] : 0.0;
+  static_known_ = state[1] != 0.0;
+}
+
+double FixBoundaryAbsorb::memory_usage() { return static_cast<double>(balls_.capacity() * sizeof(Grounded)); }
