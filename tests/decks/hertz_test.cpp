@@ -383,17 +383,18 @@ TEST_P(WithoutDamping, TransitionsAreTheSameBitForBit) {
                                    {"D", "0"},
                                    {"tangential", "coulomb"},
                                    {"rolling", "epsd2"},
-                                   {"first", "3000"},
+                                   {"first", "6000"},
                                    {"rest", "0"},
                                    {"every", "500"}});
       ASSERT_TRUE(outcome.ok()) << outcome.output;
       dumps.push_back(read_text(folder / "balls.txt"));
+      const std::vector<Frame> frames = read_dump(folder / "balls.txt");
       int spinning = 0; // after contacts
-      for (const auto &[id, ball] : read_dump(folder / "balls.txt").back().balls)
+      for (const auto &[id, ball] : frames.back().balls)
         spinning += ball.omega[1] != 0.0 ? 1 : 0;
       EXPECT_GT(spinning, 10) << normal;
     }
-    EXPECT_EQ(dumps[0], dumps[1]) << normal;
+    EXPECT_TRUE(dumps[0] == dumps[1]) << normal; // no list of their differences, which takes minutes
   }
 }
 
