@@ -328,7 +328,7 @@ std::vector<ContactPiece> pieces_of(const DrumSignals &signals, const std::vecto
 class Gap {
 public:
   Gap(const DrumSignals &signals, const Vector3d &unknowns, const ContactPiece &before, std::size_t end)
-      : signals_(signals), first_(before.run.end), end_(end) {
+      : first_(before.run.end), end_(end) {
     constexpr std::size_t look_ahead = 3;
     const std::size_t last = std::min(end + look_ahead, signals.size());
     const Integrals way = integrals(signals.a_drum, {before.run.first, last}, signals.dt);
@@ -365,7 +365,6 @@ public:
   }
 
 private:
-  const DrumSignals &signals_;
   std::size_t first_, end_;
   std::vector<double> force_, law_;
 };

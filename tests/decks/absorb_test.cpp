@@ -170,9 +170,12 @@ ChainsRun run_chains(const std::string &engine, const std::string &stepping) {
   lines += boundary("top", tops, false, count, density, cp, 0, no_layer, true);
   for (const auto &[multiple, ids] : driven) {
     const std::string name = "driven" + std::to_string(multiple);
-    lines += "group " + name + " id" + ids + "\nfix " + name + " " + name +
-             " drum/excite amplitude 100 omega " + number(lowest * multiple) + " direction 0 0 1 ramp " +
-             number(3 * per_period * dt) + "\n";
+    lines.append("group ").append(name).append(" id").append(ids).append("\nfix ").append(name);
+    lines.append(" ")
+        .append(name)
+        .append(" drum/excite amplitude 100 omega ")
+        .append(number(lowest * multiple));
+    lines.append(" direction 0 0 1 ramp ").append(number(3 * per_period * dt)).append("\n");
   }
   write_balls(folder, {d * 2 * count, 0.1, d * (length + 2)}, balls);
   write_fixes(folder, lines + rigid);
@@ -289,6 +292,7 @@ TEST_P(Absorb, SettlesUnderALoadAsTheLayerDoes) {
   const double cp = d / tau, density = m / d, H = 0.5, g = 9.81;
   const Scratch folder;
   std::vector<Placed> balls;
+  balls.reserve(length);
   for (int n = 0; n < length; ++n)
     balls.push_back({{d, d, d + d * n}, {}});
   write_balls(folder, {0.2, 0.1, d * (length + 2)}, balls);
