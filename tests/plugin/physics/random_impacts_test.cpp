@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <random>
 #include <string>
+#include <type_traits>
 
 namespace {
 
@@ -235,7 +236,13 @@ bool exceeds_elastic_error(Impact<Contact> impact, double share) {
 template <class Contact>
 class RandomImpacts : public testing::Test {};
 using Laws = testing::Types<LinearContact, HertzContact>;
-TYPED_TEST_SUITE(RandomImpacts, Laws);
+struct NameOfLaw {
+  template <class Contact>
+  static std::string GetName(int /* of the type */) {
+    return std::is_same_v<Contact, LinearContact> ? "linear" : "hertz";
+  }
+};
+TYPED_TEST_SUITE(RandomImpacts, Laws, NameOfLaw);
 
 TYPED_TEST(RandomImpacts, KeepTheLimitOfFrictionAndMakeNoEnergy) {
   const auto given = [](const char *name, long usual) {
