@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace drumlin {
 
@@ -112,6 +113,28 @@ void exert_contact(const Law &law, LAMMPS_NS::FixStepping &stepping, const StepC
   exert_later(stepping, p, step);
   if (step.coupled) couple(stepping, p, step.dashpot, stored_force);
   if (state.in_contact) count(stepping, p.i, p.j, law.dashpot(p.overlap));
+}
+
+/// exert_contact() as a function that is not inlined, for the rare steps in which a contact begins, ends or
+/// is heavily damped. \param state of the step before on entry, of this step on return
+/// \returns the force of the closing half kick along the normal, N
+template <class Law>
+[[gnu::noinline]] double exert_rare(const Law &law, LAMMPS_NS::FixStepping &stepping,
+                                    const StepContact &contact, physics::ContactState &state,
+                                    double &stored_force) {
+  double push = 0.0;
+  exert_contact(law, stepping, contact, state, stored_force, [&push](double force) { push += force; });
+  return push;
+}
+
+/// The step in which a contact ends. \param contact a copy, whose overlap is made negative even if rounding
+/// has left 0 \returns the force of the closing half kick along the normal, N
+template <class Law>
+[[nodiscard]] double end_contact(const Law &law, LAMMPS_NS::FixStepping &stepping, StepContact contact,
+                                 double stored_force) {
+  contact.overlap = std::min(contact.overlap, -std::numeric_limits<double>::min());
+  physics::ContactState state{stored_force, true, {}};
+  return exert_rare(law, stepping, contact, state, stored_force);
 }
 
 } // namespace drumlin

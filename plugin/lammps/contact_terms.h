@@ -36,33 +36,6 @@ struct ContactForces {
   double tangential_stiffness; ///< N/m; 0 without friction and rolling resistance
 };
 
-/// Copies made number by number, as arguments of functions that are not inlined: with a copy as a whole the
-/// compiler would keep the contact of the inner loop in memory instead of in registers.
-inline StepContact apart(const StepContact &p) {
-  return {p.i,     p.j,    {p.normal[0], p.normal[1], p.normal[2]}, p.wall_velocity, p.overlap, p.rate_half,
-          p.m_eff, p.share};
-}
-
-inline Contact apart(const Contact &p) {
-  return {apart(p.normal), p.slip, p.r_eff, p.arm_i, p.arm_j, p.history, p.in_contact};
-}
-inline ContactForces apart(const ContactForces &forces) {
-  return {forces.normal_force, forces.force,   forces.tangential_force,
-          forces.moment,       forces.rolling, forces.tangential_stiffness};
-}
-
-/// exert_contact() as a function that is not inlined, for the rare steps in which a contact begins, ends or
-/// is heavily damped. \param state of the step before on entry, of this step on return
-/// \returns the force of the closing half kick along the normal, N
-template <class Law>
-[[gnu::noinline]] double exert_rare(const Law &law, LAMMPS_NS::FixStepping &stepping,
-                                    const StepContact &contact, physics::ContactState &state,
-                                    double &stored_force) {
-  double push = 0.0;
-  exert_contact(law, stepping, contact, state, stored_force, [&push](double force) { push += force; });
-  return push;
-}
-
 // Places in a contact's history, as ContactSettings has them, for settings that are known at compile time.
 template <class Parameters, FrictionModel tangential, bool rolling>
 constexpr bool stores_stiffness = Parameters::tangential_varies &&
@@ -123,7 +96,7 @@ inline ContactForces exert(const ContactSettings &settings,
       push = state.force;
     else {
       physics::ContactState rare{state.force, state.in_contact, {}};
-      push = exert_rare(law, *stepping, apart(n), rare, stored_force);
+      push = exert_rare(law, *stepping, n, rare, stored_force);
       state.force = rare.force;
     }
     stored_force = state.force;
@@ -153,19 +126,6 @@ inline ContactForces exert(const ContactSettings &settings,
   }
   out.force = physics::sum(out.tangential_force, push, n.normal);
   return out;
-}
-
-/// The step in which a contact ends. \param contact a copy, whose overlap is made negative even if rounding
-/// has left 0 \returns the force on ball i, N
-template <class Parameters>
-[[gnu::noinline]] physics::Vec3 end_contact(const ContactCoefficients<Parameters> &coefficients,
-                                            LAMMPS_NS::FixStepping &stepping, StepContact contact,
-                                            double r_eff, double stored_force) {
-  contact.overlap = std::min(contact.overlap, -std::numeric_limits<double>::min());
-  physics::ContactState state{stored_force, true, {}};
-  const double push =
-      exert_rare(coefficients.contact.law(contact.m_eff, r_eff), stepping, contact, state, stored_force);
-  return {push * contact.normal[0], push * contact.normal[1], push * contact.normal[2]};
 }
 
 /// Calls run(stepped, tangential, rolling) with the scheme, the friction model and the presence of rolling

@@ -185,8 +185,10 @@ void FixWallGranTransition::touch(const Table &table, int i, int place, const ph
   drumlin::ContactForces forces{};
   if (!touches) { // it did, a step ago
     if constexpr (stepped)
-      forces.force = drumlin::end_contact(law, *stepping_, p.normal, p.r_eff,
-                                          p.history[drumlin::force_place<Parameters, tangential, rolling>]);
+      forces.force = physics::scaled(
+          drumlin::end_contact(law.contact.law(p.normal.m_eff, p.r_eff), *stepping_, p.normal,
+                               p.history[drumlin::force_place<Parameters, tangential, rolling>]),
+          normal);
     std::fill_n(remembered, of_a_side, 0.0);
   } else {
     remembered[0] = 1.0;

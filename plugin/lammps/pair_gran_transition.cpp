@@ -3,8 +3,8 @@
 #include "fix_dummy.h"
 #include "support/arguments.h"
 #include "contact/pair_motion.h"
+#include "lammps/pair_contacts.h"
 #include "lammps/pair_words.h"
-#include "lammps/rolling_terms.h"
 #include "lammps/fix_neigh_history_transition.h"
 
 #include <algorithm>
@@ -29,13 +29,6 @@ template <class Parameters>
 std::string style_of_law() {
   return std::string("gran/") + Parameters::name;
 }
-
-/// A vector per ball. They follow one another in memory: this spares the inner loop a pointer per ball.
-template <class Number>
-struct Rows {
-  Number *first;
-  Number *operator[](int i) const { return first + static_cast<std::ptrdiff_t>(i) * 3; }
-};
 
 } // namespace
 
@@ -310,199 +303,17 @@ drumlin::TangentialSpring PairGranTransition::tangential_spring(int i, int jj) c
 void PairGranTransition::compute(int eflag, int vflag) {
   ev_init(eflag, vflag);
   if (neighbor->ago == 0) share_rigid_masses();
+  if (list->inum == 0) return; // there may be no arrays
   std::visit(
       [this](const auto &table) {
         drumlin::with_models(settings_, [&](auto stepped, auto tangential, auto rolling) {
           using Parameters = std::decay_t<decltype(table.at(0, 0).contact)>;
-          compute_contacts<Parameters, decltype(stepped)::value, decltype(tangential)::value,
-                           decltype(rolling)::value>(table);
+          Contacts<Parameters, decltype(stepped)::value, decltype(tangential)::value,
+                   decltype(rolling)::value>(*this, table)
+              .compute();
         });
       },
       tables_);
-}
-
-namespace {
-
-/// What the loop over contacts reads and writes of the balls.
-struct Balls {
-  Rows<const double> x, v, omega;
-  const double *radius, *rmass;
-  const int *type, *mask;
-  Rows<double> f, torque;
-};
-
-Balls balls_of(const Atom &atom) {
-  return {{atom.x[0]}, {atom.v[0]}, {atom.omega[0]}, atom.radius,     atom.rmass,
-          atom.type,   atom.mask,   {atom.f[0]},     {atom.torque[0]}};
-}
-
-/// A contact of balls i and j. \param d x_i - x_j, m \param squared its square \param reach sum of the radii,
-/// m
-/// \param turning_dt s, of a step in whose middle the slip is computed; 0: at its end
-template <class Parameters, FrictionModel tangential>
-[[gnu::always_inline]] inline drumlin::Contact contact_of(const Balls &balls, int i, int j,
-                                                          const physics::Vec3 &d, double squared,
-                                                          double reach, double m_eff, double turning_dt) {
-  const double distance = std::sqrt(squared);
-  const double inverse = 1.0 / distance;
-  const double ri = balls.radius[i], rj = balls.radius[j];
-  const double *const vi = balls.v[i], *const vj = balls.v[j];
-  const physics::Vec3 relative{vi[0] - vj[0], vi[1] - vj[1], vi[2] - vj[2]};
-  const physics::Vec3 normal = physics::scaled(inverse, d);
-  const double overlap = reach - distance;
-  const double arm_i = ri - 0.5 * overlap;
-  const double arm_j = rj - 0.5 * overlap;
-  physics::Vec3 slip{};
-  if constexpr (tangential != FrictionModel::none) {
-    const double *const wi = balls.omega[i], *const wj = balls.omega[j];
-    const physics::Vec3 turning{arm_i * wi[0] + arm_j * wj[0], arm_i * wi[1] + arm_j * wj[1],
-                                arm_i * wi[2] + arm_j * wj[2]};
-    slip = turning_dt > 0.0 ? physics::slip_velocity_of_step(relative, d, normal, turning, turning_dt)
-                            : physics::slip_velocity(relative, normal, turning);
-  }
-  return {{i, j, normal, nullptr, overlap, -physics::dot(relative, normal), m_eff, 1.0},
-          slip,
-          drumlin::radius_for<Parameters>(ri, rj),
-          arm_i,
-          arm_j,
-          nullptr,
-          false};
-}
-
-/// Torque of rolling resistance on ball i of a contact, N m.
-template <class Parameters>
-[[gnu::always_inline]] inline physics::Vec3
-rolling_of_pair(const Balls &balls, const drumlin::ContactSettings &settings,
-                const ContactCoefficients<Parameters> &coefficients, const drumlin::Contact &p,
-                const drumlin::ContactForces &forces, double dt, bool moves) {
-  const int i = p.normal.i, j = p.normal.j;
-  const double *const wi = balls.omega[i], *const wj = balls.omega[j];
-  return drumlin::rolling_torque(settings, coefficients,
-                                 {p.normal.normal,
-                                  {wi[0] - wj[0], wi[1] - wj[1], wi[2] - wj[2]},
-                                  physics::effective_radius(balls.radius[i], balls.radius[j])},
-                                 forces.tangential_stiffness, forces.normal_force, p.history, dt, moves);
-}
-
-/// The forces of the step in which a contact ends, whose history is deleted.
-template <bool stepped, FrictionModel tangential, bool rolling, class Parameters>
-[[gnu::always_inline]] inline drumlin::ContactForces ended(const ContactCoefficients<Parameters> &law,
-                                                           FixStepping *stepping, const drumlin::Contact &p,
-                                                           int history_size) {
-  drumlin::ContactForces forces{};
-  if constexpr (stepped)
-    forces.force = drumlin::end_contact(law, *stepping, drumlin::apart(p.normal), p.r_eff,
-                                        p.history[drumlin::force_place<Parameters, tangential, rolling>]);
-  std::fill_n(p.history, history_size, 0.0);
-  return forces;
-}
-
-/// Adds the sums over its contacts to a ball.
-template <bool turns>
-[[gnu::always_inline]] inline void add(const Balls &balls, int i, const physics::Vec3 &force,
-                                       const physics::Vec3 &torque) {
-  for (std::size_t a = 0; a < 3; ++a) {
-    balls.f[i][a] += force[a];
-    if constexpr (turns) balls.torque[i][a] += torque[a];
-  }
-}
-
-/// Exerts on ball j what the contact exerts on i, in the other direction.
-template <FrictionModel tangential, bool rolling>
-[[gnu::always_inline]] inline void exert_on_partner(const Balls &balls, const drumlin::Contact &p,
-                                                    const drumlin::ContactForces &forces) {
-  double *const f = balls.f[p.normal.j];
-  f[0] -= forces.force[0];
-  f[1] -= forces.force[1];
-  f[2] -= forces.force[2];
-  double *const torque = balls.torque[p.normal.j];
-  if constexpr (tangential != FrictionModel::none) {
-    torque[0] -= p.arm_j * forces.moment[0];
-    torque[1] -= p.arm_j * forces.moment[1];
-    torque[2] -= p.arm_j * forces.moment[2];
-  }
-  if constexpr (rolling) {
-    torque[0] -= forces.rolling[0];
-    torque[1] -= forces.rolling[1];
-    torque[2] -= forces.rolling[2];
-  }
-}
-
-} // namespace
-
-// Longer than other functions: the loop over all contacts of a step, whose constant values are read once
-// before it and used throughout its body.
-template <class Parameters, bool stepped, FrictionModel tangential, bool rolling>
-void PairGranTransition::compute_contacts(const drumlin::CoefficientTable<Parameters> &table) {
-  constexpr bool remembers = stepped || rolling || tangential == FrictionModel::history;
-  constexpr bool rubs = tangential != FrictionModel::none;
-  if (list->inum == 0) return; // there may be no arrays
-  const drumlin::ContactSettings settings = settings_;
-  const int history_size = settings.history();
-  const bool moves = update->setupflag == 0;
-  const double dt = update->dt;
-  const double turning_dt = moves && settings.cap == physics::Cap::coulomb ? dt : 0.0;
-  const int nlocal = atom->nlocal;
-  const int taken = force->newton_pair ? nlocal + atom->nghost : nlocal; // balls that take the force here
-  const int freeze_bit = freeze_groupbit_;
-  const Balls balls = balls_of(*atom);
-  const bool bodies = !clumps_.empty() || !rigid_.empty();
-  const bool observed = observers_.any();
-  for (int ii = 0; ii < list->inum; ++ii) {
-    const int i = list->ilist[ii];
-    const int *neighbours = list->firstneigh[i];
-    const int count = list->numneigh[i];
-    int *touch = remembers ? history_->firstflag[i] : nullptr;
-    double *memory_of_i = remembers ? history_->firstvalue[i] : nullptr;
-    const physics::Vec3 xi{balls.x[i][0], balls.x[i][1], balls.x[i][2]};
-    const bool i_frozen = balls.mask[i] & freeze_bit;
-    const double ri = balls.radius[i];
-    const double mi = bodies ? mass_unless_frozen(i) : balls.rmass[i];
-    physics::Vec3 force_i{}, torque_i{};
-    for (int jj = 0; jj < count; ++jj) {
-      const int j = neighbours[jj] & NEIGHMASK;
-      const physics::Vec3 d{xi[0] - balls.x[j][0], xi[1] - balls.x[j][1], xi[2] - balls.x[j][2]};
-      const double squared = physics::dot(d, d);
-      const double reach = ri + balls.radius[j];
-      const bool touches = squared < reach * reach;
-      if (!touches && (!remembers || touch[jj] == 0)) continue;
-      const ContactCoefficients<Parameters> &law = table.at(balls.type[i], balls.type[j]);
-      const double mj = bodies ? mass_unless_frozen(j) : balls.rmass[j];
-      const double m_eff = balls.mask[j] & freeze_bit ? mi : i_frozen ? mj : physics::effective_mass(mi, mj);
-      drumlin::Contact p =
-          contact_of<Parameters, tangential>(balls, i, j, d, squared, reach, m_eff, turning_dt);
-      p.history = remembers ? memory_of_i + static_cast<std::ptrdiff_t>(history_size) * jj : nullptr;
-      p.in_contact = remembers && touch[jj] != 0;
-      drumlin::ContactForces forces;
-      if (touches) {
-        if constexpr (remembers) touch[jj] = 1;
-        forces = drumlin::exert<stepped, tangential, rolling>(settings, law, stepping_, p, dt, moves);
-        if constexpr (rolling) forces.rolling = rolling_of_pair(balls, settings, law, p, forces, dt, moves);
-        if (observed) report(table, drumlin::apart(p), drumlin::apart(forces));
-      } else { // it did, a step ago
-        touch[jj] = 0;
-        forces = ended<stepped, tangential, rolling>(law, stepping_, p, history_size);
-      }
-      force_i = physics::sum(force_i, 1.0, forces.force);
-      if constexpr (rubs) torque_i = physics::sum(torque_i, -p.arm_i, forces.moment);
-      if constexpr (rolling) torque_i = physics::sum(torque_i, 1.0, forces.rolling);
-      if (j < taken) exert_on_partner<tangential, rolling>(balls, p, forces);
-      if (evflag)
-        ev_tally_xyz(i, j, nlocal, force->newton_pair, 0.0, 0.0, forces.force[0], forces.force[1],
-                     forces.force[2], d[0], d[1], d[2]);
-    }
-    add<rubs || rolling>(balls, i, force_i, torque_i);
-  }
-}
-
-template <class Parameters>
-void PairGranTransition::report(const drumlin::CoefficientTable<Parameters> &table, const drumlin::Contact &p,
-                                const drumlin::ContactForces &forces) const {
-  const int i = p.normal.i;
-  const int j = p.normal.j;
-  observers_.tell(drumlin::record_of(settings_, table.at(atom->type[i], atom->type[j]), p, forces,
-                                     std::min(atom->radius[i], atom->radius[j]),
-                                     physics::effective_radius(atom->radius[i], atom->radius[j])));
 }
 
 const double *PairGranTransition::history(int i, int j) const {

@@ -82,10 +82,7 @@ private:
   template <class Parameters>
   void set_coefficients(int i, int j, const drumlin::ContactCoefficients<Parameters> &);
   template <class Parameters, bool stepped, drumlin::FrictionModel tangential, bool rolling>
-  void compute_contacts(const drumlin::CoefficientTable<Parameters> &);
-  template <class Parameters>
-  [[gnu::noinline]] void report(const drumlin::CoefficientTable<Parameters> &, const drumlin::Contact &,
-                                const drumlin::ContactForces &) const;
+  class Contacts; // see pair_contacts.h
   template <class Parameters>
   void tell_single(const drumlin::ContactCoefficients<Parameters> &, const drumlin::PairMotion &, int i,
                    int j, const double *remembered, double &force_over_distance);

@@ -21,6 +21,7 @@
 #include "liggghts/fix_keep_history.h"
 #include "liggghts/model_settings.h"
 #include "liggghts/observed_contact.h"
+#include "liggghts/pair_contacts.h"
 #include "liggghts/registration.h"
 
 #include <algorithm>
@@ -54,6 +55,11 @@ void prepare(LAMMPS *engine) {
     drumlin::provide_friction_default(engine, std::string("model ") + Contact::name, engine->atom->ntypes);
 }
 
+/// Whether all models of a combination are the plugin's, so that ContactLoop can compute its contacts.
+template <class Style>
+constexpr bool has_loop = (Style::TANGENTIAL == TANGENTIAL_OFF || Style::TANGENTIAL == TANGENTIAL_COULOMB) &&
+                          (Style::ROLLING == ROLLING_OFF || Style::ROLLING == ROLLING_SPRING);
+
 template <class Style, class Contact>
 class TransitionPair : public LIGGGHTS::PairStyles::Granular<drumlin::ObservedContact<Style, Contact>>,
                        public drumlin::PairContacts {
@@ -66,6 +72,7 @@ public:
 
   void settings(int narg, char **arg, LIGGGHTS::IContactHistorySetup *history) override {
     drumlin::ModelSettings words(engine_->error, command(), other_models<Style>, narg, arg);
+    torsion_ = words.has("torsionTorque", "on");
     LAMMPS_NS::FixKeepHistory::provide(engine_);
     Base::settings(words.size(), words.words(), history);
   }
@@ -84,13 +91,46 @@ public:
                                                                 : drumlin::physics::Cap::spring);
     Base::init_granular();
     take_stiffness_offset(this->get_history_offset(drumlin::tangential_stiffness_name));
+    force_offset_ = this->get_history_offset(drumlin::final_force_name);
+    stepping_ = force_offset_ < 0 ? nullptr : LAMMPS_NS::FixStepping::find(engine_);
+    observers_.find(*engine_->modify);
+    clumps_.find(*engine_->modify);
+  }
+
+  void compute_force(PairGran *pair, int eflag, int vflag, int adds) override {
+    if constexpr (has_loop<Style>)
+      if ((has_history<Style> || stepping_ != nullptr || pair->listgranhistory == nullptr) && !torsion_ &&
+          !observers_.any() && clumps_.empty() &&
+          !drumlin::needs_engine_loop(*pair, *engine_->modify, eflag != 0 || vflag != 0, adds != 0)) {
+        pair->evflag = pair->vflag_fdotr = 0;
+        return stepping_ == nullptr ? compute_contacts<false>() : compute_contacts<true>();
+      }
+    Base::compute_force(pair, eflag, vflag, adds);
   }
 
 private:
+  template <bool stepped>
+  void compute_contacts() {
+    constexpr bool rubs = Style::TANGENTIAL != TANGENTIAL_OFF, rolls = Style::ROLLING != ROLLING_OFF;
+    constexpr int flag =
+        CONTACT_NORMAL_MODEL | (rubs ? CONTACT_TANGENTIAL_MODEL : 0) | (rolls ? CONTACT_ROLLING_MODEL : 0);
+    if (pair_->list->inum == 0) return; // there may be no arrays
+    drumlin::EnginePairContacts<
+        Contact, stepped, rubs ? drumlin::FrictionModel::history : drumlin::FrictionModel::none, rolls, flag>(
+        *pair_, *engine_->atom)
+        .compute(*std::get<const drumlin::CoefficientTable<Contact> *>(table()), force_offset_, stepping_,
+                 engine_->update->dt);
+  }
+
   static std::string command() { return std::string("pair_style gran model ") + Contact::name; }
 
   LAMMPS *engine_;
   PairGran *pair_;
+  LAMMPS_NS::FixStepping *stepping_ = nullptr; // none under stock stepping
+  drumlin::ContactObservers observers_;
+  LAMMPS_NS::Clumps clumps_;
+  int force_offset_ = -1; // of the normal force in the contact history, with the second-order scheme
+  bool torsion_ = false;  // whether rolling resistance also resists torsion
 };
 
 template <class Style, class Contact>

@@ -26,6 +26,9 @@ constexpr const char *final_force_name = "normal_force_before";
 /// Name in the contact history of the tangential stiffness, N/m, of a law in which it varies.
 constexpr const char *tangential_stiffness_name = "tangential_stiffness";
 
+/// Effective mass, kg, with the engine's formula: its rounding differs from that of physics::effective_mass().
+inline double engine_effective_mass(double mi, double mj) { return mi * mj / (mi + mj); }
+
 /// The pair style gran, or the one part of a hybrid pair style that is gran; nullptr if there is none, or
 /// more than one.
 LAMMPS_NS::PairGran *gran_pair(LAMMPS_NS::LAMMPS *lmp);

@@ -28,6 +28,12 @@ public:
 
   int size() const { return static_cast<int>(pointers_.size()); }
   char **words() { return pointers_.data(); }
+  /// Whether a switch has a value.
+  bool has(const std::string &name, const std::string &value) const {
+    for (std::size_t n = 0; n + 1 < words_.size(); ++n)
+      if (words_[n] == name && words_[n + 1] == value) return true;
+    return false;
+  }
 
 private:
   std::vector<std::string> words_;

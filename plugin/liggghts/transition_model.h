@@ -265,7 +265,9 @@ private:
   /// The step in which a contact ends: a force of tension has acted for part of it.
   void end_contact(SurfacesCloseData &scdata, ForceData &i_forces, ForceData &j_forces) {
     const double r = std::sqrt(scdata.rsq);
-    const double normal[3] = {scdata.delta[0] / r, scdata.delta[1] / r, scdata.delta[2] / r};
+    const double inverse = 1.0 / r; // the normal as the engine has it in other steps
+    const double normal[3] = {inverse * scdata.delta[0], inverse * scdata.delta[1],
+                              inverse * scdata.delta[2]};
     double rate_half = 0.0;
     for (int a = 0; a < 3; ++a)
       rate_half -= (scdata.v_i[a] - scdata.v_j[a]) * normal[a];
@@ -293,9 +295,13 @@ private:
                   state, stored[0], push);
   }
 
+  /// The effective mass that the contact had in the steps before.
   double effective_mass(int i, int j) const {
     const auto *source = contact_source(lmp);
-    return source ? source->effective_mass(i, j) : physics::effective_mass(atom->rmass[i], atom->rmass[j]);
+    if (source == nullptr) return engine_effective_mass(atom->rmass[i], atom->rmass[j]);
+    const double mi = source->mass(i), mj = source->mass(j);
+    if (!clumps_.empty() || std::isinf(mi) || std::isinf(mj)) return source->effective_mass(i, j);
+    return engine_effective_mass(mi, mj);
   }
 
   const bool is_wall_;

@@ -1,0 +1,201 @@
+#pragma once
+// The forces of several contacts at once. Each quantity of a contact has an array of its own, so that the
+// compiler computes two or four contacts with one instruction. The formulas are those of plugin/physics, and
+// the results have the same bits as those of one contact after the other.
+
+#include "physics/contact_step.h"
+#include "physics/friction_law.h"
+#include "physics/rolling_law.h"
+
+#include <cmath>
+
+// Functions compiled twice, for processors with and without AVX2; the first call chooses. AVX2 has no fused
+// multiply-add, which would round differently. Clang 14 cannot do this for templates.
+#if defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define DRUMLIN_FOR_THIS_PROCESSOR [[gnu::target_clones("avx2", "default")]]
+#else
+#define DRUMLIN_FOR_THIS_PROCESSOR
+#endif
+
+// Tells the compiler that no contact of the loop that follows depends on another.
+#ifdef __clang__
+#define DRUMLIN_INDEPENDENT_CONTACTS
+#else
+#define DRUMLIN_INDEPENDENT_CONTACTS _Pragma("GCC ivdep")
+#endif
+
+namespace drumlin::physics {
+
+/// Contacts of a block: few enough for all their values to stay in the processor's first cache.
+constexpr int block_size = 32;
+
+/// A number for each contact of a block.
+struct alignas(64) Numbers {
+  double at[block_size];
+  double &operator[](int n) { return at[n]; }
+  double operator[](int n) const { return at[n]; }
+};
+
+/// A vector for each contact of a block.
+struct Vectors {
+  Numbers x, y, z;
+  Vec3 operator[](int n) const { return {x[n], y[n], z[n]}; }
+  void set(int n, const Vec3 &v) {
+    x[n] = v[0];
+    y[n] = v[1];
+    z[n] = v[2];
+  }
+};
+
+/// Contacts of balls of the same two types. The caller sets what describes them; compute_normal_forces(),
+/// compute_tangential_stiffness(), then compute_friction() and compute_rolling(), add the rest. Values that neither the settings nor the law need
+/// stay unset.
+struct ContactBlock {
+  // Set by the caller:
+  Vectors separation;        ///< x_i - x_j, m
+  Numbers squared;           ///< its square, m2
+  Numbers ri, rj;            ///< radii, m
+  Numbers m_eff;             ///< kg
+  Vectors velocity;          ///< v_i - v_j with the half-step velocities, m/s
+  Vectors velocity_before;   ///< the same at the beginning of the step; second-order scheme only
+  Vectors wi, wj;            ///< angular velocities, rad/s
+  Numbers damping_over_mass; ///< see StepContext
+  Numbers in_contact;        ///< 1: the balls touched in the step before; else 0
+  Numbers force_before;      ///< N, normal force of the step before; second-order scheme only
+  Vectors spring;            ///< m, of friction, before and then after the step
+  Vectors rolling_spring;    ///< N m, the same of the torque of rolling resistance
+  Numbers stored_stiffness;  ///< N/m, the same of the tangential stiffness, where that varies
+  // Computed:
+  Numbers overlap;          ///< m
+  Numbers rate_half;        ///< of the overlap, m/s, with the half-step velocities
+  Vectors normal;           ///< from j to i
+  Vectors slip;             ///< m/s, of ball i's surface relative to j's
+  Numbers arm_i, arm_j;     ///< m, from the centre of each ball to the point where friction acts
+  Numbers r_eff;            ///< m; 0 for a law that does not depend on it
+  Numbers force;            ///< N, normal force at the end of the step, used for friction
+  Numbers push;             ///< N, normal force of the closing half kick
+  Numbers coupled;          ///< 1: needs_coupling(), else 0; second-order scheme only
+  Numbers kt;               ///< N/m, tangential stiffness
+  Vectors tangential_force; ///< N, on ball i
+  Vectors total_force;      ///< N, on ball i
+  Vectors moment;           ///< N, normal x tangential force
+  Vectors rolling;          ///< N m, torque of rolling resistance on ball i
+};
+
+/// When the slip of a contact is computed: see slip_velocity_of_step().
+enum class Slip { none, at_end, in_middle };
+
+/// Motion and normal force of all contacts of a block. Where the second-order scheme is used, `push` and `force`
+/// are those of contacts that go on and are not coupled (goes_on()).
+template <bool stepped, Slip slip, class Parameters>
+DRUMLIN_FOR_THIS_PROCESSOR void compute_normal_forces(ContactBlock &b, int first, int end,
+                                                      const Parameters &of_types, double dt) {
+  const Parameters parameters = of_types; // a copy, which the arrays of the block cannot overlap
+  DRUMLIN_INDEPENDENT_CONTACTS
+  for (int n = first; n < end; ++n) {
+    const double distance = std::sqrt(b.squared[n]);
+    const double ri = b.ri[n], rj = b.rj[n];
+    const Vec3 separation = b.separation[n], velocity = b.velocity[n];
+    const Vec3 normal = scaled(1.0 / distance, separation);
+    const double overlap = ri + rj - distance;
+    const double rate_half = -dot(velocity, normal);
+    const double arm_i = ri - 0.5 * overlap, arm_j = rj - 0.5 * overlap;
+    const double m_eff = b.m_eff[n];
+    const double r_eff = Parameters::depends_on_radius ? effective_radius(ri, rj) : 0.0;
+    if constexpr (slip != Slip::none) {
+      const Vec3 wi = b.wi[n], wj = b.wj[n];
+      const Vec3 turning = sum(scaled(arm_i, wi), arm_j, wj);
+      b.slip.set(n, slip == Slip::in_middle ? slip_velocity_of_step(velocity, separation, normal, turning, dt)
+                                            : slip_velocity(velocity, normal, turning));
+    }
+    const auto law = parameters.law(m_eff, r_eff);
+    if constexpr (stepped) {
+      const double rate_before = -dot(b.velocity_before[n], normal);
+      const StepMotion motion{overlap, rate_half, rate_before, dt};
+      b.coupled[n] = needs_coupling(dt, law.stiffness(overlap), law.dashpot(overlap), b.damping_over_mass[n])
+                         ? 1.0
+                         : 0.0;
+      b.push[n] = b.force[n] = going_on(law, motion, b.force_before[n], m_eff);
+    } else {
+      ContactState state;
+      const StepMotion motion{overlap, rate_half, rate_half, dt};
+      b.push[n] = advance_stock(law, motion, state).kick;
+      b.force[n] = state.force;
+    }
+    b.normal.set(n, normal);
+    b.overlap[n] = overlap;
+    b.rate_half[n] = rate_half;
+    b.r_eff[n] = r_eff;
+    b.arm_i[n] = arm_i;
+    b.arm_j[n] = arm_j;
+  }
+}
+
+/// Tangential stiffness of all contacts of a block. Where it varies, the springs of friction and of rolling
+/// resistance follow its change. \tparam springs whether friction has a spring \tparam rolling whether there is
+/// rolling resistance \tparam moves whether springs are advanced by a step: false in the set-up of a run
+template <bool springs, bool rolling, bool moves, class Parameters>
+DRUMLIN_FOR_THIS_PROCESSOR void compute_tangential_stiffness(ContactBlock &b, int first, int end,
+                                                             const Parameters &of_types, double dt) {
+  constexpr bool varies = Parameters::tangential_varies;
+  const Parameters parameters = of_types;
+  DRUMLIN_INDEPENDENT_CONTACTS
+  for (int n = first; n < end; ++n) {
+    const double overlap = b.overlap[n];
+    const double at = varies ? overlap_of_spring(overlap, b.rate_half[n], dt) : overlap;
+    double kt = parameters.tangential(at, b.r_eff[n]);
+    if constexpr (varies && (springs || rolling)) {
+      const double stored = b.stored_stiffness[n];
+      if constexpr (moves) {
+        if constexpr (springs) b.spring.set(n, scaled(kept_spring(stored, kt), b.spring[n]));
+        if constexpr (rolling) b.rolling_spring.set(n, scaled(kept_torque(stored, kt), b.rolling_spring[n]));
+        b.stored_stiffness[n] = kt;
+      } else
+        kt = stored > 0.0 ? stored : kt;
+    }
+    b.kt[n] = kt;
+  }
+}
+
+/// Friction of all contacts of a block, and their total force, from the normal force and the tangential
+/// stiffness. \tparam springs whether there is a tangential spring, else a dashpot alone
+/// \param dt s; 0 in the set-up of a run, in which springs stay as they are
+template <bool springs, Cap cap, class Coefficients>
+DRUMLIN_FOR_THIS_PROCESSOR void compute_friction(ContactBlock &b, int first, int end,
+                                                 const Coefficients &of_types, double dt) {
+  const Coefficients coefficients = of_types;
+  DRUMLIN_INDEPENDENT_CONTACTS
+  for (int n = first; n < end; ++n) {
+    const Vec3 normal = b.normal[n], slip = b.slip[n];
+    const auto law = coefficients.contact.law(b.m_eff[n], b.r_eff[n]);
+    const Friction friction = coefficients.tangential(b.kt[n], law.dashpot(b.overlap[n]), cap);
+    FrictionStep result;
+    if constexpr (springs) {
+      result = friction_step(friction, b.force[n], normal, slip, b.spring[n], dt);
+      b.spring.set(n, result.spring);
+    } else
+      result = friction_step_without_history(friction, b.force[n], slip, 0.0);
+    b.tangential_force.set(n, result.force);
+    b.moment.set(n, cross(normal, result.force));
+    b.total_force.set(n, sum(result.force, b.push[n], normal));
+  }
+}
+
+/// Rolling resistance of all contacts of a block, from the normal force and the tangential stiffness.
+/// \param dt s; 0 in the set-up of a run
+template <class Coefficients>
+DRUMLIN_FOR_THIS_PROCESSOR void compute_rolling(ContactBlock &b, int first, int end,
+                                                const Coefficients &of_types, double dt) {
+  const Coefficients coefficients = of_types;
+  DRUMLIN_INDEPENDENT_CONTACTS
+  for (int n = first; n < end; ++n) {
+    const double radius = effective_radius(b.ri[n], b.rj[n]);
+    const Vec3 spin = sum(b.wi[n], -1.0, b.wj[n]);
+    const RollingStep result = rolling_step(coefficients.rolling_resistance(b.kt[n], radius), b.force[n],
+                                            b.normal[n], spin, b.rolling_spring[n], dt);
+    b.rolling_spring.set(n, result.spring);
+    b.rolling.set(n, result.torque);
+  }
+}
+
+} // namespace drumlin::physics
