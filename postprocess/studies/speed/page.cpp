@@ -49,7 +49,8 @@ PageTable speed_table(const std::vector<Throughput> &all) {
                fmt::format("{:.1f}", 1e-6 * one.peak_bytes)});
   table.notes = {"Medians over the rounds; ratios are within a round and an engine. The law of the engine is "
                  "hooke/stiffness with "
-                 "limitForce on, in LAMMPS gran/hooke/history with limit_damping; all have friction. Stock "
+                 "limitForce on, in LAMMPS gran/hooke/history with limit_damping; all have friction, "
+                 "the plugin's laws tangential coulomb. Stock "
                  "(velocity Verlet) is "
                  "the default of the decks of beds, second the second-order scheme. The last bed is made of "
                  "copies of the "
