@@ -166,6 +166,7 @@ std::string sphere_drawing() {
 
 } // namespace
 
+// Longer than other functions: it has title, caption and drawing of each scene and nothing else.
 std::string scene_html(Scene scene) {
   const char *title = "";
   const char *caption = "";

@@ -927,6 +927,7 @@ TEST_F(BedInLammps, GoesAsInLiggghtsWithRollingFriction) {
   }
 }
 
+// Longer than other tests: it compares balls and contacts of every dump, column by column.
 TEST_F(BedInLammps, DumpsWhatLiggghtsDumpsOnRanksOneAndTwo) {
   for (const char *stepping : steppings) {
     const Variables often = {{"cycles", "1"}, {"dumps_per_cycle", "25"}, {"stepping", stepping}};
@@ -1046,6 +1047,7 @@ TEST_F(BedInLammps, EndsAtASignalAndContinues) {
 }
 
 // Three dimensions: spheres, a cylinder of soil-sized balls on a cell that was copied, periodic all around.
+// Longer than other tests: making the cell and placing the cylinder are part of what is tested.
 TEST(Bed3d, CarriesACylinderOnCopiesOfACellOnRanksOneAndTwo) {
   const Scratch scratch;
   const auto file = [&scratch](const char *name) { return (scratch / name).string(); };

@@ -328,6 +328,7 @@ TEST_F(Dumps, TheEnginesOwnComputeGetsTheForcesOfTheStep) {
   }
 }
 
+// Longer than other functions: it judges all collections of one run, their times, balls, contacts and fields.
 void expect_true_results(const Scratch &folder) {
   const std::vector<Frame> frames = read_dump(folder / "state.dump");
   ASSERT_EQ(frames.size(), steps.size());

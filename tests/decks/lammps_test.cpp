@@ -481,6 +481,7 @@ TEST_F(InLammps, RigidBodyBouncesWithItsMassOnRanksOneAndTwo) {
   }
 }
 
+// Longer than other tests: it has a line for each mistake.
 TEST_F(InLammps, SaysWhatIsWrongInOneLineOnRanksOneAndTwo) {
   const std::string pair = "pair_style gran/hooke/transition", coeff = "pair_coeff of gran/hooke/transition",
                     wall = "fix wall/gran/transition", hertz = "pair_coeff of gran/hertz/transition";

@@ -99,7 +99,7 @@ TEST(ContactLaw, BNeverPullsAndElseEqualsA) {
 
 // The drum of Eq. (1) where it turns round before the gap opens (D = 0.5, 20 Hz, k = 10 MN/m): overlap stays,
 // the contact breaks and is made again at Fc = 0. The reference is CVODE with a mode for contact and one for
-// none.
+// none. Longer than other tests: the reference solution, with its change of modes, is part of it.
 TEST(ContactLaw, IsMadeAgainAtZeroForceWhileStillOverlapping) {
   const double m2 = 2000.0, m3 = 1000.0, k = 1e7, k23 = 1e6, c23 = 1e4, g = 9.81, Fw = 58.8e3,
                w = 125.66370614359172;

@@ -107,6 +107,7 @@ TEST_F(VtkCommand, WritesThreeCollections) {
   EXPECT_TRUE(outcome.says("run/vtk/contacts.pvd: 3 steps, 0 to 125 s\n")) << outcome.output;
 }
 
+// Longer than other tests: it goes through every array of the three files of a step.
 TEST_F(VtkCommand, WritesWhatTheDumpsHold) {
   ASSERT_TRUE(run({"run", "--cell", "4", "--out", "new/here"}).ok());
   vtkNew<vtkXMLPolyDataReader> reader;

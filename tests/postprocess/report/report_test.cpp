@@ -353,6 +353,7 @@ TEST_F(Report, CountsEachKindOfWorkToAnEndThatIsKnown) {
     }
 }
 
+// Longer than other tests: it has a line for each name, and for each place where a name is shown.
 TEST_F(Report, KeepsHostileNamesAsText) {
   const std::vector<std::string> names = {"100%",
                                           "%s%n",
