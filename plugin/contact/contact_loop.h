@@ -224,7 +224,9 @@ private:
     if (rubs && contact.touches) {
       forces.force = block_.total_force[n];
       forces.moment = block_.moment[n];
-    } else if (stepped || contact.touches)
+      // A contact that has ended without an impulse adds nothing: if a position is not a number, zero times its
+      // normal would spread that to the neighbours.
+    } else if (contact.touches || (stepped && block_.push[n] != 0.0))
       forces.force = physics::scaled(block_.push[n], block_.normal[n]);
     if constexpr (remembers) {
       if (contact.touches)

@@ -132,7 +132,8 @@ template <class Law>
 template <class Law>
 [[nodiscard]] double end_contact(const Law &law, LAMMPS_NS::FixStepping &stepping, StepContact contact,
                                  double stored_force) {
-  contact.overlap = std::min(contact.overlap, -std::numeric_limits<double>::min());
+  // In this order the result is negative even if the overlap is not a number.
+  contact.overlap = std::min(-std::numeric_limits<double>::min(), contact.overlap);
   physics::ContactState state{stored_force, true, {}};
   return exert_rare(law, stepping, contact, state, stored_force);
 }
