@@ -64,7 +64,7 @@ public:
                          block.separation.z[n]);
   }
 
-  /// Adds the sums over the contacts of a ball to it.
+  /// Adds to a ball the force and torque that were summed over its contacts.
   void finish() {
     if (i_of_sums_ < 0) return;
     add(atom_.f, i_of_sums_, 1.0, force_i_);

@@ -14,8 +14,8 @@
 
 namespace drumlin {
 
-/// The contacts of the pair style gran in a step, in place of the engine's loop. Only for steps in which
-/// the engine needs nothing of single contacts: see needs_engine_loop().
+/// Computes the contacts of the pair style gran in a step, in place of the engine's loop. Not for steps in
+/// which the engine itself uses data of single contacts: see needs_engine_loop().
 /// \tparam flag bits of the engine's contact flags that say that there is a contact
 template <class Parameters, bool stepped, FrictionModel tangential, bool rolling, int flag>
 class EnginePairContacts {

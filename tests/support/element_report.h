@@ -25,7 +25,7 @@ protected:
         {{root / folder / csv, text}, {root / folder / "parameters.csv", "name,value\n" + parameters}});
   }
 
-  /// Reports on a folder of `root`; the text of the report's first page.
+  /// Writes the report of a folder in `root` and returns the text of its first page.
   std::string report(const std::string &folder) const {
     post::ReportOptions options;
     options.folders = {root / folder};

@@ -495,7 +495,7 @@ Impulses cvode_impact(double degrees, double D, const Friction &friction,
     impact.restart(impact.state());
   }
   const oracle::State &y = impact.state();
-  double tension = 0.0; // impulse under A until d = 0, without friction
+  double tension = 0.0; // impulse of the tension under A, until the overlap is 0
   if (transition == Transition::A && D > 0.0) {
     oracle::Ode pull(
         [&](double, const oracle::State &z, oracle::State &f) {
