@@ -9,7 +9,7 @@
 /// that arrives along the normal. With the springs, which carry a static load q with the displacement q H/M, the
 /// share 1 / (1 + (2 w H/c_p)^2) of the energy of a wave of angular frequency w is reflected.
 
-#include "physics/checks.h"
+#include "physics/parameter_checks.h"
 #include "physics/contact_law.h"
 #include "physics/stepping.h"
 #include "physics/time_step.h"

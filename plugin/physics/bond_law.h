@@ -2,7 +2,7 @@
 /// The bond between drum and frame, of Eq. (1) of Wang, Sha and Hu (2018): a spring k23 and a dashpot c23 in
 /// parallel, which carry tension as well as compression.
 
-#include "physics/checks.h"
+#include "physics/parameter_checks.h"
 
 #include <cmath>
 #include <limits>

@@ -7,7 +7,7 @@
 ///
 /// A NaN in an argument gives a NaN, never a number, so that an error in the state of a run stays visible.
 
-#include "physics/checks.h"
+#include "physics/parameter_checks.h"
 
 #include <cmath>
 #include <string>

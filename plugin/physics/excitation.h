@@ -6,7 +6,7 @@
 /// Times t are in s, on any clock. Positive Fe points along gravity: in Eq. (1), where x is positive upwards,
 /// it has a minus sign.
 
-#include "physics/checks.h"
+#include "physics/parameter_checks.h"
 
 #include <array>
 #include <cmath>

@@ -7,7 +7,7 @@
 /// tangential part; the spring xi is the tangential displacement that vt has built up; the force is the one
 /// on ball i (ball j takes the opposite). It opposes xi and vt. SI units.
 
-#include "physics/checks.h"
+#include "physics/parameter_checks.h"
 #include "physics/vec3.h"
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 /// Sign convention: the relative angular velocity is w = w_i - w_j, the spring torque T what its part across
 /// the contact's normal has built up; the torque on ball i is -T, the one on ball j is T. SI units.
 
-#include "physics/checks.h"
+#include "physics/parameter_checks.h"
 #include "physics/vec3.h"
 
 #include <cmath>

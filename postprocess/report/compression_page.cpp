@@ -2,7 +2,7 @@
 
 #include "pages/figure_data.h"
 #include "pages/page.h"
-#include "report/element_test.h"
+#include "report/strength_test.h"
 #include "support/csv.h"
 #include "support/statistics.h"
 
@@ -22,9 +22,26 @@ namespace fs = std::filesystem;
 namespace {
 
 using CompressionRun = ElementRun<CompressionRow>;
+using CompressionTest = StrengthTest<CompressionRow>;
 
 constexpr double degree = 180.0 / 3.14159265358979323846;
 constexpr double strain_of_critical_state = 0.0999; // a run that was asked for 0.1 may end just before
+
+/// A test named as its CSV file.
+CompressionTest compression_test(const std::string &name) {
+  return {name,
+          "side",
+          &CompressionRow::axial_stress,
+          &CompressionRow::side_stress,
+          [](double axial, double side) {
+            return Failure{axial, side}.angle();
+          },
+          "Samples sheared under a constant side stress",
+          "axial strain",
+          "Mobilised friction angle",
+          "friction angle",
+          "asin((axial - side)/(axial + side stress))"};
+}
 
 /// Means of the stresses over the rows whose strain is within an interval.
 Failure mean_stresses(const std::vector<CompressionRow> &rows, double from, double to) {
@@ -47,20 +64,11 @@ double dilatancy_angle(const std::vector<CompressionRow> &rows, double from, dou
   return degree * std::asin(-volume / (2.0 * axial - volume));
 }
 
-/// The side stress of each run, kPa.
-std::vector<double> side_stresses(const std::vector<CompressionRun> &runs) {
-  std::vector<double> sides;
-  sides.reserve(runs.size());
-  for (const CompressionRun &run : runs)
-    sides.push_back(run.run.number("side").value_or(std::round(run.rows.front().side_stress)));
-  return sides;
-}
-
 /// Angles over the seeds of a soil, for each side stress and for all.
-PageTable seed_table(const std::string &test, const std::vector<Soil> &soils,
+PageTable seed_table(const CompressionTest &test, const std::vector<Soil> &soils,
                      const std::vector<CompressionRun> &runs, const std::vector<Strength> &strengths) {
   PageTable table;
-  table.name = test + "_angles";
+  table.name = test.name + "_angles";
   table.title = "Angles over the seeds";
   table.header = {"soil",
                   "side stress (kPa)",
@@ -70,7 +78,7 @@ PageTable seed_table(const std::string &test, const std::vector<Soil> &soils,
                   "dilatancy angle at the peak (°)",
                   "critical friction angle (°)",
                   "smallest to largest (°)"};
-  const auto add = [&](const Soil &soil, const std::string &side, const std::vector<std::size_t> &members) {
+  add_soils(table, test, soils, runs, [&](const std::vector<std::size_t> &members) {
     SeedValues peak, dilatancy, critical;
     for (const std::size_t n : members) {
       const std::string seed = runs[n].run.text("seed");
@@ -78,15 +86,9 @@ PageTable seed_table(const std::string &test, const std::vector<Soil> &soils,
       dilatancy.add(seed, strengths[n].dilatancy);
       if (strengths[n].is_critical) critical.add(seed, strengths[n].critical.angle());
     }
-    table.add({soil.name, side, std::to_string(members.size()), peak.mean_text(), peak.range_text(),
-               dilatancy.mean_text(), critical.mean_text(), critical.range_text()});
-  };
-  for (const Soil &soil : soils) {
-    const auto groups = grouped_by(side_stresses(runs), soil);
-    for (const auto &[side, members] : groups)
-      add(soil, number_cell(side), members);
-    if (groups.size() > 1) add(soil, "all", soil.runs);
-  }
+    return std::vector<std::string>{peak.mean_text(), peak.range_text(), dilatancy.mean_text(),
+                                    critical.mean_text(), critical.range_text()};
+  });
   table.notes = {"Mean and half of its 95 % confidence interval over the seeds; runs of one seed count once. "
                  "sin φ = (axial - side stress)/(axial + side "
                  "stress). Peak: the largest value of the stresses averaged over a thirtieth of the strain, "
@@ -112,10 +114,10 @@ bool have_line(const std::vector<Failure> &failures,
 }
 
 /// The line through all failures of a soil, at the peak and at large strains.
-PageTable line_table(const std::string &test, const std::vector<Soil> &soils,
+PageTable line_table(const CompressionTest &test, const std::vector<Soil> &soils,
                      const std::vector<CompressionRun> &runs, const std::vector<Strength> &strengths) {
   PageTable table;
-  table.name = test + "_lines";
+  table.name = test.name + "_lines";
   table.title = "Mohr-Coulomb lines";
   table.text_columns = 2;
   table.header = {
@@ -124,7 +126,7 @@ PageTable line_table(const std::string &test, const std::vector<Soil> &soils,
   for (const Soil &soil : soils)
     for (const bool critical : {false, true}) {
       const std::vector<Failure> failures = failures_of(soil, strengths, critical);
-      const auto sides = grouped_by(side_stresses(runs), soil);
+      const auto sides = grouped_by(confining_stresses(test, runs), soil);
       if (!have_line(failures, sides)) continue;
       const MohrCoulomb line = fit_mohr_coulomb(failures);
       table.add({soil.name, critical ? "critical" : "peak", std::to_string(failures.size()),
@@ -141,12 +143,12 @@ PageTable line_table(const std::string &test, const std::vector<Soil> &soils,
   return table;
 }
 
-PageTable run_table(const std::string &test, const std::vector<CompressionRun> &runs,
+PageTable run_table(const CompressionTest &test, const std::vector<CompressionRun> &runs,
                     const std::vector<Strength> &strengths) {
-  PageTable table = element_run_table(test + "_runs", {"side stress (kPa)", "void ratio at the start (-)",
-                                                       "peak friction angle (°)", "strain at the peak (%)",
-                                                       "dilatancy angle (°)", "critical friction angle (°)",
-                                                       "void ratio at the end (-)"});
+  PageTable table = element_run_table(
+      test.name + "_runs", {"side stress (kPa)", "void ratio at the start (-)", "peak friction angle (°)",
+                            "strain at the peak (%)", "dilatancy angle (°)", "critical friction angle (°)",
+                            "void ratio at the end (-)"});
   for (std::size_t n = 0; n < runs.size(); ++n) {
     const CompressionRun &run = runs[n];
     const Strength &strength = strengths[n];
@@ -165,64 +167,9 @@ PageTable run_table(const std::string &test, const std::vector<CompressionRun> &
   return table;
 }
 
-/// Rows of the table of strain_figure() for tests that differ only in the seed: their means.
-void add_means(CurveTable &table, const std::string &key, const std::vector<const CompressionRun *> &runs) {
-  double end = std::numeric_limits<double>::infinity();
-  for (const CompressionRun *run : runs)
-    end = std::min(end, run->rows.back().strain);
-  constexpr int points = 60;
-  const auto count = static_cast<double>(runs.size());
-  for (int point = 0; point <= points; ++point) {
-    const double strain = end * point / points;
-    Failure stresses{0.0, 0.0};
-    double volumetric = 0.0;
-    for (const CompressionRun *run : runs) {
-      stresses.axial += number_at(run->rows, &CompressionRow::strain, strain, &CompressionRow::axial_stress);
-      stresses.side += number_at(run->rows, &CompressionRow::strain, strain, &CompressionRow::side_stress);
-      volumetric +=
-          number_at(run->rows, &CompressionRow::strain, strain, &CompressionRow::volumetric_strain) / count;
-    }
-    table.row(key, {100 * strain, stresses.angle(), -100 * volumetric});
-  }
-}
-
-/// Mobilised friction angle and volumetric strain over axial strain, means over the seeds.
-PageFigure strain_figure(const std::string &name, const std::vector<Soil> &soils,
-                         const std::vector<CompressionRun> &runs) {
-  Panel friction{"Mobilised friction angle", "axial strain (%)", "friction angle (°)", {}};
-  Panel volume{"Volume", "axial strain (%)", "increase of the volume (%)", {}};
-  friction.tight_x = volume.tight_x = true;
-  friction.y_range = "[0:*]";
-  volume.y_range = "[*:*]";
-  CurveTable table("axial strain (%),friction angle (°),increase of the volume (%)");
-  std::size_t curves = 0;
-  for (const Soil &soil : soils)
-    for (const auto &[side, members] : grouped_by(side_stresses(runs), soil)) {
-      const std::string key =
-          members.size() > 1 ? fmt::format("{}; {:g} kPa; {} runs", soil.short_name(), side, members.size())
-                             : curve_text(runs[members.front()].run.name);
-      std::vector<const CompressionRun *> same;
-      for (const std::size_t n : members)
-        same.push_back(&runs[n]);
-      add_means(table, key, same);
-      const CurveStyle style = line_style(curves++);
-      friction.curves.push_back(curve(name, key, "$2", "3", style));
-      volume.curves.push_back(curve(name, key, "$2", "4", style));
-    }
-  PageFigure figure;
-  figure.label = "Fig. 1";
-  figure.caption =
-      "Mobilised friction angle, asin((axial - side)/(axial + side stress)), and increase of the "
-      "volume over axial strain. Runs that differ only in the seed are averaged.";
-  figure.weight = 1.0;
-  figure.figure = {name, "Samples sheared under a constant side stress", {friction, volume}, 1};
-  figure.csv = table.text();
-  return figure;
-}
-
 /// Failures of all runs and the lines through them.
-PageFigure line_figure(const std::vector<Soil> &soils, const std::vector<CompressionRun> &runs,
-                       const std::vector<Strength> &strengths) {
+PageFigure line_figure(const CompressionTest &test, const std::vector<Soil> &soils,
+                       const std::vector<CompressionRun> &runs, const std::vector<Strength> &strengths) {
   const std::string name = "mohr_coulomb";
   Panel panel{"", "half the sum of the stresses (kPa)", "half their difference (kPa)", {}};
   panel.tight_x = true;
@@ -237,7 +184,7 @@ PageFigure line_figure(const std::vector<Soil> &soils, const std::vector<Compres
         table.row(points, {failure.half_sum(), failure.half_difference()});
         end = std::max(end, failure.half_sum());
       }
-      if (!have_line(failures, grouped_by(side_stresses(runs), soil))) continue;
+      if (!have_line(failures, grouped_by(confining_stresses(test, runs), soil))) continue;
       const MohrCoulomb line = fit_mohr_coulomb(failures);
       const std::string key = fmt::format("{}; {}: {:.1f}°", soil.short_name(), points, line.angle);
       for (const double sum : {0.0, 1.05 * end})
@@ -258,35 +205,29 @@ PageFigure line_figure(const std::vector<Soil> &soils, const std::vector<Compres
   return figure;
 }
 
-/// A kind of compression test.
-struct CompressionTest {
-  const char *name, *title;
-  Scene scene;
-  const char *answer;
-};
-
-PageWriter read_page(const CompressionTest &test, const std::vector<fs::path> &folders) {
-  return [test, runs = read_element_runs(folders, std::string(test.name) + ".csv", read_compression)](
-             const fs::path &out) {
+/// Reads the runs of a test for their page; `answer` tells what the test is.
+PageWriter read_page(const CompressionTest &test, const std::string &title, Scene scene,
+                     const std::string &answer, const std::vector<fs::path> &folders) {
+  return [=, runs = read_element_runs(folders, test.name + ".csv", read_compression)](const fs::path &out) {
     std::vector<Strength> strengths;
     strengths.reserve(runs.size());
     for (const CompressionRun &run : runs)
       strengths.push_back(strength_of(run.rows));
-    const std::vector<Soil> soils = soils_of(runs, {"side"});
-    Page page(out, test.title, test.scene);
-    page.answer(test.answer);
+    const std::vector<Soil> soils = soils_of(runs, {test.confining});
+    Page page(out, title, scene);
+    page.answer(answer);
     answer_quality(page, runs);
     page.section("Friction and volume");
-    page.figure(strain_figure(test.name, soils, runs));
+    page.figure(strength_figure(test, soils, runs));
     page.section("Friction angle");
-    page.table(seed_table(test.name, soils, runs, strengths));
-    const PageTable lines = line_table(test.name, soils, runs, strengths);
+    page.table(seed_table(test, soils, runs, strengths));
+    const PageTable lines = line_table(test, soils, runs, strengths);
     if (!lines.rows.empty()) {
       page.table(lines);
-      page.figure(line_figure(soils, runs, strengths));
+      page.figure(line_figure(test, soils, runs, strengths));
     }
     page.section("Numbers");
-    page.table(run_table(test.name, runs, strengths));
+    page.table(run_table(test, runs, strengths));
     page.write();
   };
 }
@@ -354,18 +295,18 @@ std::vector<CompressionRow> read_compression(const fs::path &file) {
 
 PageWriter read_biaxial_page(const std::vector<fs::path> &folders) {
   return read_page(
-      {"biaxial", biaxial_title, Scene::biaxial,
-       "Samples of soil between four smooth plates, sheared by the upper one under a constant stress of "
-       "the side platen. The ratio of the stresses at failure is the friction angle of the soil."},
+      compression_test("biaxial"), biaxial_title, Scene::biaxial,
+      "Samples of soil between four smooth plates, sheared by the upper one under a constant stress of "
+      "the side platen. The ratio of the stresses at failure is the friction angle of the soil.",
       folders);
 }
 
 PageWriter read_triaxial_page(const std::vector<fs::path> &folders) {
   return read_page(
-      {"triaxial", triaxial_title, Scene::triaxial,
-       "Samples of soil between six smooth plates, sheared by the upper one under the same constant "
-       "stress of both side platens. The ratio of the stresses at failure is the friction angle of the "
-       "soil."},
+      compression_test("triaxial"), triaxial_title, Scene::triaxial,
+      "Samples of soil between six smooth plates, sheared by the upper one under the same constant "
+      "stress of both side platens. The ratio of the stresses at failure is the friction angle of the "
+      "soil.",
       folders);
 }
 

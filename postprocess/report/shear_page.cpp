@@ -1,13 +1,10 @@
 #include "report/shear_page.h"
 
-#include "pages/figure_data.h"
-#include "report/element_test.h"
+#include "report/strength_test.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
-#include <map>
 #include <stdexcept>
 
 namespace drumlin::post {
@@ -19,6 +16,7 @@ namespace {
 using ShearRun = ElementRun<ShearRow>;
 
 constexpr double degree = 180.0 / 3.14159265358979323846;
+constexpr double strain_of_critical_state = 0.1999; // a run that was asked for 0.2 may end just before
 
 /// Mean ratio and dilatancy between two strains, `around` being the interval of the latter.
 ShearFailure failure_between(const std::vector<ShearRow> &rows, double from, double to, double around) {
@@ -31,14 +29,17 @@ ShearFailure failure_between(const std::vector<ShearRow> &rows, double from, dou
   return failure;
 }
 
-/// The normal stress of each run, kPa.
-std::vector<double> normal_stresses(const std::vector<ShearRun> &runs) {
-  std::vector<double> stresses;
-  stresses.reserve(runs.size());
-  for (const ShearRun &run : runs)
-    stresses.push_back(run.run.number("normal").value_or(std::round(run.rows.front().normal_stress)));
-  return stresses;
-}
+const StrengthTest<ShearRow> shear_test = {
+    "shear",
+    "normal",
+    &ShearRow::shear_stress,
+    &ShearRow::normal_stress,
+    [](double shear, double normal) { return degree * std::atan(shear / normal); },
+    "Samples sheared under a constant normal stress",
+    "shear strain",
+    "Mobilised friction on the plane of shear",
+    "angle",
+    "atan(shear stress/normal stress)"};
 
 /// Angles over the seeds of a soil, for each normal stress and for all.
 PageTable seed_table(const std::vector<Soil> &soils, const std::vector<ShearRun> &runs,
@@ -54,29 +55,25 @@ PageTable seed_table(const std::vector<Soil> &soils, const std::vector<ShearRun>
                   "peak friction angle after Davis (°)",
                   "critical friction on the plane of shear (°)",
                   "critical friction angle after Davis (°)"};
-  const auto add = [&](const Soil &soil, const std::string &stress, const std::vector<std::size_t> &members) {
+  add_soils(table, shear_test, soils, runs, [&](const std::vector<std::size_t> &members) {
     SeedValues peak, dilatancy, peak_davis, critical, critical_davis;
     for (const std::size_t n : members) {
       const std::string seed = runs[n].run.text("seed");
       peak.add(seed, strengths[n].peak.angle());
       dilatancy.add(seed, strengths[n].peak.dilatancy);
       peak_davis.add(seed, strengths[n].peak.davis_angle());
+      if (!strengths[n].is_critical) continue;
       critical.add(seed, strengths[n].critical.angle());
       critical_davis.add(seed, strengths[n].critical.davis_angle());
     }
-    table.add({soil.name, stress, std::to_string(members.size()), peak.mean_text(), dilatancy.mean_text(),
-               peak_davis.mean_text(), critical.mean_text(), critical_davis.mean_text()});
-  };
-  for (const Soil &soil : soils) {
-    const auto groups = grouped_by(normal_stresses(runs), soil);
-    for (const auto &[stress, members] : groups)
-      add(soil, number_cell(stress), members);
-    if (groups.size() > 1) add(soil, "all", soil.runs);
-  }
+    return std::vector<std::string>{peak.mean_text(), dilatancy.mean_text(), peak_davis.mean_text(),
+                                    critical.mean_text(), critical_davis.mean_text()};
+  });
   table.notes = {
       "Mean and half of its 95 % confidence interval over the seeds; runs of one seed count once. Peak: the "
       "largest ratio of the stresses averaged over a thirtieth of the strain, within the first third. "
-      "Critical: over the last third. Dilatancy: tan ψ = -(volumetric strain)/(shear strain), over three "
+      "Critical: over the last third, if the strain reaches 20 %. Dilatancy: tan ψ = -(volumetric "
+      "strain)/(shear strain), over three "
       "thirtieths. On the plane of shear: the angle whose tangent is shear over normal stress. After Davis: "
       "sin φ = t/(cos ψ + t sin ψ) with t that ratio, the friction angle of a soil in which stress and "
       "strain increment have the same directions; it compares with that of a biaxial test."};
@@ -94,7 +91,8 @@ PageTable run_table(const std::vector<ShearRun> &runs, const std::vector<ShearSt
     add_element_run(table, run.run,
                     {run.run.text("normal"), number_cell(run.rows.front().void_ratio),
                      number_cell(strength.peak.angle()), number_cell(100 * strength.strain, 3),
-                     number_cell(strength.peak.dilatancy, 3), number_cell(strength.critical.angle()),
+                     number_cell(strength.peak.dilatancy, 3),
+                     strength.is_critical ? number_cell(strength.critical.angle()) : no_value,
                      number_cell(run.rows.back().void_ratio)},
                     quality_of(run.rows));
   }
@@ -103,51 +101,6 @@ PageTable run_table(const std::vector<ShearRun> &runs, const std::vector<ShearSt
       "stress); below 1e-3 a test is quasi-static. Energy error: stored energy + heat - work of the platen, "
       "over the largest work so far."};
   return table;
-}
-
-/// Mobilised friction and volumetric strain over shear strain, means over the seeds.
-PageFigure strain_figure(const std::vector<Soil> &soils, const std::vector<ShearRun> &runs) {
-  const std::string name = "shear";
-  Panel friction{"Mobilised friction on the plane of shear", "shear strain (%)", "angle (°)", {}};
-  Panel volume{"Volume", "shear strain (%)", "increase of the volume (%)", {}};
-  friction.tight_x = volume.tight_x = true;
-  friction.y_range = "[0:*]";
-  volume.y_range = "[*:*]";
-  CurveTable table("shear strain (%),angle (°),increase of the volume (%)");
-  std::size_t curves = 0;
-  for (const Soil &soil : soils)
-    for (const auto &[stress, members] : grouped_by(normal_stresses(runs), soil)) {
-      const std::string key =
-          members.size() > 1 ? fmt::format("{}; {:g} kPa; {} runs", soil.short_name(), stress, members.size())
-                             : curve_text(runs[members.front()].run.name);
-      double end = std::numeric_limits<double>::infinity();
-      for (const std::size_t n : members)
-        end = std::min(end, runs[n].rows.back().strain);
-      constexpr int points = 60;
-      for (int point = 0; point <= points; ++point) {
-        const double strain = end * point / points;
-        double shear = 0.0, normal = 0.0, volumetric = 0.0;
-        for (const std::size_t n : members) {
-          shear += number_at(runs[n].rows, &ShearRow::strain, strain, &ShearRow::shear_stress);
-          normal += number_at(runs[n].rows, &ShearRow::strain, strain, &ShearRow::normal_stress);
-          volumetric += number_at(runs[n].rows, &ShearRow::strain, strain, &ShearRow::volumetric_strain) /
-                        static_cast<double>(members.size());
-        }
-        table.row(key, {100 * strain, degree * std::atan(shear / normal), -100 * volumetric});
-      }
-      const CurveStyle style = line_style(curves++);
-      friction.curves.push_back(curve(name, key, "$2", "3", style));
-      volume.curves.push_back(curve(name, key, "$2", "4", style));
-    }
-  PageFigure figure;
-  figure.label = "Fig. 1";
-  figure.caption =
-      "Mobilised friction, atan(shear stress/normal stress), and increase of the volume over shear "
-      "strain. Runs that differ only in the seed are averaged.";
-  figure.weight = 1.0;
-  figure.figure = {name, "Samples sheared under a constant normal stress", {friction, volume}, 1};
-  figure.csv = table.text();
-  return figure;
 }
 
 } // namespace
@@ -171,6 +124,7 @@ ShearStrength shear_strength_of(const std::vector<ShearRow> &rows) {
     strength.strain = row.strain;
   }
   strength.critical = failure_between(rows, end / 1.5, end, 0.0);
+  strength.is_critical = end >= strain_of_critical_state;
   return strength;
 }
 
@@ -198,14 +152,14 @@ PageWriter read_shear_page(const std::vector<fs::path> &folders) {
     strengths.reserve(runs.size());
     for (const ShearRun &run : runs)
       strengths.push_back(shear_strength_of(run.rows));
-    const std::vector<Soil> soils = soils_of(runs, {"normal"});
+    const std::vector<Soil> soils = soils_of(runs, {shear_test.confining});
     Page page(out, shear_title, Scene::shear);
     page.answer(
         "Samples of soil between two rough plates, periodic sideways, sheared by the upper one under a "
         "constant normal stress. The ratio of the stresses is the friction on the plane of shear.");
     answer_quality(page, runs);
     page.section("Friction and volume");
-    page.figure(strain_figure(soils, runs));
+    page.figure(strength_figure(shear_test, soils, runs));
     page.section("Friction angle");
     page.table(seed_table(soils, runs, strengths));
     page.section("Numbers");

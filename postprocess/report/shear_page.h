@@ -40,6 +40,9 @@ struct ShearStrength {
   ShearFailure peak;   ///< the largest ratio within the first third of the strain, of means over a thirtieth
   double strain = 0.0; ///< at the peak
   ShearFailure critical; ///< means over the last third of the strain
+  /// Whether the test went to a shear strain of 20 %, where a dense soil no longer dilates; the critical values of
+  /// shorter tests mean nothing.
+  bool is_critical = false;
 };
 
 /// \param rows at least two

@@ -291,7 +291,7 @@ TEST(BoundaryChecks, ReadIncludeLines) {
 
 TEST(BoundaryChecks, RefuseWhatDoesNotFit) {
   EXPECT_TRUE(fits_physics({"cmath", false}));
-  EXPECT_TRUE(fits_physics({"physics/checks.h", true}));
+  EXPECT_TRUE(fits_physics({"physics/parameter_checks.h", true}));
   for (const char *name : {"math.h", "Eigen/Dense", "mpi.h", "vtkPoints.h", "unistd.h", "cvode/cvode.h"})
     EXPECT_FALSE(fits_physics({name, false})) << name;
   for (const char *name : {"engine.h", "fixes/clock.h", "../fixes/clock.h", "physics/../engine.h", "cmath"})

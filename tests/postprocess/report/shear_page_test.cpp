@@ -43,6 +43,13 @@ TEST(ShearStrength, IsThatOfTheCurve) {
   EXPECT_LE(strength.strain, 0.10);
   EXPECT_NEAR(strength.critical.angle(), 22, 1e-9);
   EXPECT_NEAR(strength.critical.dilatancy, 0, 1e-9);
+  EXPECT_TRUE(strength.is_critical);
+}
+
+TEST(ShearStrength, HasNoCriticalValueIfTheTestIsShort) {
+  std::vector<ShearRow> rows = made_rows(100, 36, 22, 12);
+  rows.resize(100); // to a strain of 0.198
+  EXPECT_FALSE(shear_strength_of(rows).is_critical);
 }
 
 // A stress state at its limit with friction angle 40 degrees, mean 1: on the plane that a material with dilatancy angle 15 degrees shears along,
