@@ -252,7 +252,8 @@ struct Packing {
     return least;
   }
 
-  /// Largest magnitude of the eigenvalues of a step.
+  /// Largest magnitude of the eigenvalues of a step. Longer than other functions: the parts of a step all change the
+  /// same vector of positions, velocities and forces.
   double growth(double dt, bool all_coupled = false) const {
     const auto n =
         static_cast<Eigen::Index>(6 * mass.size()); // of each ball x, y, turn, and dt times their rates
