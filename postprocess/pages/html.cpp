@@ -188,9 +188,12 @@ std::string answer_html(const std::vector<Sentence> &sentences, Verdict verdict,
   const char *mark = verdict == Verdict::good ? check_mark : verdict == Verdict::bad ? cross : "";
   std::string s =
       fmt::format("<section id=\"answer\" class=\"answer\">\n<div><p class=\"verdict{}\">{}", kind, mark);
+  bool first = true;
   for (const Sentence &sentence : sentences) {
-    if (!sentence.lead.empty()) s += fmt::format(" <strong>{}</strong>", html_escaped(sentence.lead));
+    if (!sentence.lead.empty()) // a line of its own for each subject
+      s += fmt::format("{} <strong>{}</strong>", first ? "" : "<br />", html_escaped(sentence.lead));
     s += " " + html_escaped(sentence.text);
+    first = false;
   }
   return s + "</p></div>\n" + scene + "</section>\n";
 }
