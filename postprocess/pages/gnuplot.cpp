@@ -221,7 +221,7 @@ std::string panel_script(const Panel &panel, int width) {
   const double tics_and_label = panel.x_ticks.empty() ? 4.0 : 2.0; // lines of text
   const double row = 1.4;
   s += fmt::format("  set bmargin {}\n  set key maxrows {} width {}\n",
-                   tics_and_label + row * rows + tic_lines(panel), rows, rows > 1 ? 1 : -2);
+                   tics_and_label + row * rows + tic_lines(panel), rows, rows > 1 ? 0 : -2);
   s += x_axis_script(panel);
   if (panel.equal_scales) s += "  set size ratio -1\n";
   s += color_script(panel);

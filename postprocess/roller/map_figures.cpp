@@ -63,14 +63,18 @@ std::string conditions(const MapChain &chain, const std::vector<std::string> &va
 
 struct Layer {
   const char *name;
-  const char *title;
+  const char *title; ///< on the page
+  const char *label; ///< of the colours, in gnuplot's notation
   double (*value)(const RegimePoint &);
 };
 constexpr std::array<Layer, 4> layers = {
-    {{"cmv", "CMV = 300 A_2 / A_1", [](const RegimePoint &p) { return p.meter.cmv; }},
-     {"rmv", "RMV = 100 A_{0.5} / A_1", [](const RegimePoint &p) { return p.meter.rmv; }},
-     {"peak_force", "peak contact force [kN]", [](const RegimePoint &p) { return p.meter.peak_force / 1e3; }},
-     {"contact_share", "share of time in contact",
+    {{"cmv", "Compaction meter value (CMV)", "CMV = 300 A_2 / A_1",
+      [](const RegimePoint &p) { return p.meter.cmv; }},
+     {"rmv", "Resonance meter value (RMV)", "RMV = 100 A_{0.5} / A_1",
+      [](const RegimePoint &p) { return p.meter.rmv; }},
+     {"peak_force", "Peak contact force", "peak contact force [kN]",
+      [](const RegimePoint &p) { return p.meter.peak_force / 1e3; }},
+     {"contact_share", "Share of time in contact", "share of time in contact",
       [](const RegimePoint &p) { return p.meter.contact_share; }}}};
 
 struct Kind {
@@ -203,7 +207,7 @@ MapFigures map_figures(const MapGrid &grid, const std::vector<RegimePoint> &poin
     figure.name = layers[i].name;
     figure.title = layers[i].title;
     Panel layer = empty_panel(grid, given);
-    layer.color_label = layers[i].title;
+    layer.color_label = layers[i].label;
     layer.curves.push_back(
         {"plot_cells.csv", "1", fmt::format("2:3:4:5:6:{}", 7 + i), "", CurveStyle::cells});
     add_marks(layer);
