@@ -3,6 +3,7 @@
 #include "contact/contact_settings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -196,16 +197,13 @@ void FixStepping::gather(std::size_t numbers) {
 
 void FixStepping::close_forces() {
   if (!in_use_) return;
-  constexpr int couples = 1, sends = 2;
   const auto of_a_ghost = [this](const Later &item) { return item.i >= atom->nlocal; };
-  int any = coupled_.empty() && coupled_links_.empty() ? 0 : couples;
-  if (force->newton_pair && std::any_of(later_.begin(), later_.end(), of_a_ghost)) any |= sends;
-  if (comm->nprocs > 1) {
-    const int mine = any;
-    MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_BOR, world);
-  }
-  if (any & sends) send_later();
-  if (any & couples) solve_coupled();
+  const bool sends = force->newton_pair && std::any_of(later_.begin(), later_.end(), of_a_ghost);
+  const bool couples = !coupled_.empty() || !coupled_links_.empty();
+  std::array<int, 2> any{sends ? 1 : 0, couples ? 1 : 0};
+  if (comm->nprocs > 1) MPI_Allreduce(MPI_IN_PLACE, any.data(), 2, MPI_INT, MPI_MAX, world);
+  if (any[0] != 0) send_later();
+  if (any[1] != 0) solve_coupled();
 }
 
 /// Sends the forces on ghosts that act after the closing half kick to the owners.

@@ -11,11 +11,10 @@ using Vec3 = std::array<double, 3>;
 double dot(const Vec3 &a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 template <class Sums>
-Sums over_ranks(const Sums &mine, MPI_Comm world) {
+Sums over_ranks(Sums sums, MPI_Comm world) {
   constexpr int numbers = sizeof(Sums) / sizeof(double);
-  Sums all;
-  MPI_Allreduce(&mine, &all, numbers, MPI_DOUBLE, MPI_SUM, world);
-  return all;
+  MPI_Allreduce(MPI_IN_PLACE, &sums, numbers, MPI_DOUBLE, MPI_SUM, world);
+  return sums;
 }
 
 /// Share of a ball's diameter that is below a height, 0 to 1.

@@ -122,7 +122,7 @@ void FixContactEvents::pre_exchange() {
     mine.push_back({pair.tags.first, pair.tags.second, pair.state});
   std::vector<int> bytes(static_cast<std::size_t>(comm->nprocs));
   std::vector<int> offsets(bytes.size());
-  const int my_bytes = static_cast<int>(mine.size() * sizeof(Entry));
+  int my_bytes = static_cast<int>(mine.size() * sizeof(Entry));
   MPI_Allgather(&my_bytes, 1, MPI_INT, bytes.data(), 1, MPI_INT, world);
   int total = 0;
   for (std::size_t rank = 0; rank < bytes.size(); total += bytes[rank++])
@@ -167,7 +167,7 @@ void FixContactEvents::end_of_step() {
 void FixContactEvents::post_run() { write_out(); }
 
 void FixContactEvents::write_out() {
-  const int my_bytes = static_cast<int>(pending_.size() * sizeof(Event));
+  int my_bytes = static_cast<int>(pending_.size() * sizeof(Event));
   std::vector<int> bytes(static_cast<std::size_t>(comm->nprocs));
   std::vector<int> offsets(bytes.size());
   MPI_Gather(&my_bytes, 1, MPI_INT, bytes.data(), 1, MPI_INT, 0, world);

@@ -411,7 +411,7 @@ Record read_record(const fs::path &path, const RecordOptions &options) {
 }
 
 std::vector<double> low_passed(const std::vector<double> &values, double interval, double cutoff) {
-  if (values.size() < 2) return values;
+  if (values.empty()) return {};
   // The signal is continued beyond both ends by its point reflection there, so that the filter has settled at them.
   const double samples_of_cutoff = 1.0 / (cutoff * interval);
   const std::size_t margin =

@@ -41,14 +41,14 @@ protected:
   static constexpr std::array<const char *, 2> drums = {"ball", "clump"};
   static constexpr std::array<const char *, 2> steppings = {"stock", "second"}; // the decks' default first
 
-  static void SetUpTestSuite() { scratch = &settled("stock"); }
-  /// A bed settled with a scheme and a coefficient of rolling friction, made by the first test that needs it.
-  static const Scratch &settled(const std::string &stepping, const std::string &rolling = "0") {
+  static void SetUpTestSuite() { scratch = settled("stock"); }
+  /// Folder of a bed settled with a scheme and a coefficient of rolling friction, made by the first test that needs it.
+  static fs::path settled(const std::string &stepping, const std::string &rolling = "0") {
     const auto [bed, is_new] = beds.try_emplace(stepping + ", rolling " + rolling);
     if (is_new)
       make(bed->second, "1", {drums.begin(), rolling == "0" ? drums.end() : drums.begin() + 1},
            {{"stepping", stepping}, {"rolling", rolling}});
-    return bed->second;
+    return bed->second.path();
   }
   /// DRUM.restart for each kind of drum, in a folder.
   static void make(const Scratch &folder, const std::string &seed, const std::vector<std::string> &kinds,
@@ -80,14 +80,13 @@ protected:
         drum = value;
       else if (name == "stepping")
         stepping = value;
-    const Scratch &bed = settled(stepping);
+    const fs::path bed = settled(stepping);
     variables.emplace_back("here", bed_folder().string());
     const std::string name = deck.filename().string();
     if (name == "in.settle") variables.emplace_back("case", "loose");
     if (name != "in.settle" && name != "in.place" && name != "in.tile")
-      variables.insert(
-          variables.end(),
-          {{"start", (bed.path() / (drum + ".restart")).string()}, {"Fw", "2940"}, {"cycles", "2"}});
+      variables.insert(variables.end(),
+                       {{"start", (bed / (drum + ".restart")).string()}, {"Fw", "2940"}, {"cycles", "2"}});
     return run_deck(deck, variables, folder.path(), ranks);
   }
   static Outcome shake(const Scratch &folder, const Variables &more, int ranks = 1) {
@@ -146,7 +145,7 @@ protected:
                                                {"cycles", "2"},
                                                {"Fw", "2940"},
                                                {"out", "o"},
-                                               {"start", (*scratch / "ball.restart").string()}})
+                                               {"start", (scratch / "ball.restart").string()}})
       words += fmt::format(" -var {} '{}'", name, value);
     for (const auto &[name, value] : roller())
       words += fmt::format(" -var {} {}", name, value);
@@ -172,7 +171,7 @@ protected:
       all.insert(all.end(), {{"omega", "0.12566370614359174"}, // a period of 50 s
                              {"steps_per_cycle", "2500000"},
                              {"samples_per_cycle", "250000"},
-                             {"start", (*scratch / "ball.restart").string()},
+                             {"start", (scratch / "ball.restart").string()},
                              {"Fw", "2940"}});
       for (const auto &variable : roller())
         all.push_back(variable);
@@ -260,7 +259,7 @@ protected:
   /// Of the soil balls, from the data file.
   static std::vector<double> radii() {
     std::vector<double> radii;
-    std::istringstream text(read_text(*scratch / "balls.data"));
+    std::istringstream text(read_text(scratch / "balls.data"));
     std::string line;
     while (std::getline(text, line) && line.rfind("Atoms", 0) != 0)
       ;
@@ -270,7 +269,7 @@ protected:
     return radii;
   }
 
-  static const Scratch *scratch; ///< the bed of most tests
+  static fs::path scratch; ///< folder of the bed of most tests
   static std::map<std::string, Scratch> beds;
 
 public:
@@ -279,7 +278,7 @@ public:
     void TearDown() override { beds.clear(); }
   };
 };
-const Scratch *Bed::scratch = nullptr;
+fs::path Bed::scratch;
 std::map<std::string, Scratch> Bed::beds;
 const auto *const removal = ::testing::AddGlobalTestEnvironment(new Bed::Removal); // GoogleTest owns it
 
@@ -546,7 +545,7 @@ TEST_F(Bed, EnergyErrorIsBelowAPercentOverTenCyclesAndFallsWithTheStep) {
 }
 
 TEST_F(Bed, EnergyErrorIsBelowAPercentWithRollingFriction) {
-  const Scratch &bed = settled("stock", "0.1");
+  const fs::path bed = settled("stock", "0.1");
   std::vector<double> heat;
   for (const char *rolling : {"0.1", "1e-6"}) {
     const Scratch folder;
@@ -596,7 +595,7 @@ TEST_F(Bed, NeedsTheFilesOfTheDecksBeforeIt) {
 
 // The engine would hang on two ranks, or continue with laws that do not fit the contact history.
 TEST_F(Bed, RefusesFilesThatAreCutShortOrOfAnotherSceneOnRanksOneAndTwo) {
-  const std::string whole = read_text(*scratch / "ball.restart"), balls = read_text(*scratch / "balls.data");
+  const std::string whole = read_text(scratch / "ball.restart"), balls = read_text(scratch / "balls.data");
   const std::string cut = ", which is incomplete, damaged or no restart file; allowed: a restart file of "
                           "drumlin/write_restart or drumlin/run";
   const auto refused = [](const char *deck, const Variables &variables, const std::string &says, int ranks) {
@@ -625,14 +624,14 @@ TEST_F(Bed, RefusesFilesThatAreCutShortOrOfAnotherSceneOnRanksOneAndTwo) {
     for (const std::string &file : {header, half, nearly, longer, damaged, other})
       refused("in.bed", {{"start", file}},
               std::string("variable start is '").append(file).append("'").append(cut), ranks);
-    refused("in.bed", {{"start", (*scratch / "soil.restart").string()}},
+    refused("in.bed", {{"start", (scratch / "soil.restart").string()}},
             ", made with bed soil; allowed: made with bed roller", ranks);
-    refused("in.bed", {{"stepping", "second"}, {"start", (*scratch / "ball.restart").string()}},
+    refused("in.bed", {{"stepping", "second"}, {"start", (scratch / "ball.restart").string()}},
             "variable stepping is 'second'; allowed: stock, with which ", ranks);
     refused("in.settle",
-            {{"case", "sand"}, {"balls", (*scratch / "balls.data").string()}, {"bed", "x.restart"}},
+            {{"case", "sand"}, {"balls", (scratch / "balls.data").string()}, {"bed", "x.restart"}},
             "variable case_file is ", ranks);
-    refused("in.place", {{"bed", (*scratch / "ball.restart").string()}, {"start", "x.restart"}},
+    refused("in.place", {{"bed", (scratch / "ball.restart").string()}, {"start", "x.restart"}},
             ", made with bed roller; allowed: made with bed soil", ranks);
     refused("in.settle", {{"balls", some}, {"bed", "x.restart"}},
             "variable balls is '" + some + "'; allowed: a complete data file of balls in their box", ranks);
@@ -664,7 +663,7 @@ TEST_F(Bed, RefusesValuesThatAreNotTheBedsOnRanksOneAndTwo) {
                     ", with which ",
                 ranks);
     refused("in.place",
-            {{"friction", "0.2"}, {"bed", (*scratch / "soil.restart").string()}, {"start", "x.restart"}},
+            {{"friction", "0.2"}, {"bed", (scratch / "soil.restart").string()}, {"start", "x.restart"}},
             "drumlin/take: variable friction is '0.2'; allowed: 0.5, with which ", ranks);
     refused("in.bed", {{"allow_change", "m2"}},
             "drumlin/take: variable allow_change is 'm2'; allowed: none, or ", ranks);
@@ -684,7 +683,7 @@ TEST_F(Bed, RefusesValuesThatAreNotTheBedsOnRanksOneAndTwo) {
 TEST_F(Bed, IsPouredWithContactsOfItsOwn) {
   const Scratch folder;
   const Outcome poured = run_deck(bed_folder() / "in.settle",
-                                  {{"balls", (*scratch / "balls.data").string()},
+                                  {{"balls", (scratch / "balls.data").string()},
                                    {"bed", (folder / "dense").string()},
                                    {"case", "loose"},
                                    {"pour_friction", "0"}},
@@ -711,7 +710,7 @@ TEST_F(Bed, OnAFullDiskCutDumpsAreAnError) {
 
 // Data files that the engine itself would read without end, or accept.
 TEST_F(Bed, RefusesDataFilesThatTheEngineWouldNot) {
-  const std::string good = read_text(*scratch / "balls.data");
+  const std::string good = read_text(scratch / "balls.data");
   const std::size_t row = good.find('\n', good.find("Atoms")) + 2;
   const std::string first = good.substr(row, good.find('\n', row) + 1 - row);
   const auto changed = [&](std::size_t word, const char *text) {
@@ -741,19 +740,18 @@ TEST_F(Bed, LeavesNoOldFileWhenASignalStopsTheRunThatReplacesIt) {
   const Scratch folder;
   const std::string file = (folder / "kept.restart").string();
   const auto stopped = [&](const char *deck, const Variables &variables) {
-    fs::copy_file(*scratch / "soil.restart", file, fs::copy_options::overwrite_existing);
+    fs::copy_file(scratch / "soil.restart", file, fs::copy_options::overwrite_existing);
     const Outcome outcome = run_deck(bed_folder() / deck, variables, folder.path(), 1, 3.0);
     EXPECT_TRUE(outcome.timed_out) << deck;
     EXPECT_EQ(outcome.status, 1) << deck;
     EXPECT_TRUE(outcome.says("ERROR: drumlin/run: stopped by a signal at step ")) << deck << outcome.output;
     EXPECT_FALSE(fs::exists(file)) << deck;
   };
-  stopped(
-      "in.settle",
-      {{"case", "loose"}, {"fall", "1000"}, {"balls", (*scratch / "balls.data").string()}, {"bed", file}});
+  stopped("in.settle",
+          {{"case", "loose"}, {"fall", "1000"}, {"balls", (scratch / "balls.data").string()}, {"bed", file}});
   Variables placing = roller();
   placing.insert(placing.end(),
-                 {{"sink", "1000"}, {"bed", (*scratch / "soil.restart").string()}, {"start", file}});
+                 {{"sink", "1000"}, {"bed", (scratch / "soil.restart").string()}, {"start", file}});
   stopped("in.place", placing);
 }
 
@@ -769,7 +767,7 @@ TEST_F(Bed, ALostBallIsAnErrorOnRanksOneAndTwo) {
     const Outcome soil = run(bed_folder() / "in.settle", folder,
                              {{"guard", "off"},
                               {"k", "1e12"},
-                              {"balls", (*scratch / "balls.data").string()},
+                              {"balls", (scratch / "balls.data").string()},
                               {"bed", (folder / "x.restart").string()}},
                              ranks);
     EXPECT_EQ(soil.status, 1) << soil.output;
@@ -784,7 +782,7 @@ TEST_F(Bed, EndsAtASignalWhileItSettles) {
   const Outcome settling = run_deck(bed_folder() / "in.settle",
                                     {{"case", "loose"},
                                      {"ratio", "1e-29"},
-                                     {"balls", (*scratch / "balls.data").string()},
+                                     {"balls", (scratch / "balls.data").string()},
                                      {"bed", (folder / "x.restart").string()}},
                                     folder.path(), 1, 5.0);
   EXPECT_TRUE(settling.timed_out);
@@ -802,13 +800,13 @@ TEST_F(Bed, RefusesNamesThatCannotBeWrittenAtTheBeginning) {
        {std::string("nowhere/x.restart"), folder.path().string(), std::string("x.*")}) {
     const std::string allowed = "is '" + file + "'; allowed: a file in a folder that exists, without * and %";
     const Outcome settled = run(bed_folder() / "in.settle", folder,
-                                {{"balls", (*scratch / "balls.data").string()}, {"bed", file}});
+                                {{"balls", (scratch / "balls.data").string()}, {"bed", file}});
     EXPECT_TRUE(settled.says("ERROR: drumlin/check: variable bed " + allowed)) << settled.output;
     const Outcome placed = run(bed_folder() / "in.place", folder,
-                               {{"bed", (*scratch / "soil.restart").string()}, {"start", file}});
+                               {{"bed", (scratch / "soil.restart").string()}, {"start", file}});
     EXPECT_TRUE(placed.says("ERROR: drumlin/check: variable start " + allowed)) << placed.output;
     const Outcome tiled =
-        run(bed_folder() / "in.tile", folder, {{"cell", (*scratch / "balls.data").string()}, {"bed", file}});
+        run(bed_folder() / "in.tile", folder, {{"cell", (scratch / "balls.data").string()}, {"bed", file}});
     EXPECT_TRUE(tiled.says("ERROR: drumlin/check: variable bed " + allowed)) << tiled.output;
     for (const Outcome &outcome : {settled, placed, tiled}) {
       EXPECT_EQ(outcome.status, 1);
@@ -825,8 +823,7 @@ TEST_F(Bed, NeedsSpaceForTheRoller) {
     Variables variables = {{name, value}};
     for (const auto &variable : roller())
       variables.push_back(variable);
-    variables.insert(variables.end(),
-                     {{"bed", (scratch->path() / "soil.restart").string()}, {"start", "x.restart"}});
+    variables.insert(variables.end(), {{"bed", (scratch / "soil.restart").string()}, {"start", "x.restart"}});
     const Outcome outcome = run_deck(bed_folder() / "in.place", variables, folder.path());
     EXPECT_FALSE(outcome.ok()) << name;
     EXPECT_TRUE(outcome.says(says)) << outcome.output;
@@ -901,10 +898,9 @@ TEST_F(BedInLammps, GoesAsInLiggghtsOnRanksOneTwoAndFourWithNewtonOffAndOn) {
 
 TEST_F(BedInLammps, GoesAsInLiggghtsWithRollingFriction) {
   for (const char *scheme : steppings) {
-    const Scratch &bed = settled(scheme, "0.1");
+    const fs::path bed = settled(scheme, "0.1");
     const Scratch here, there;
-    const std::string start = (bed.path() / "ball.restart").string(),
-                      fresh = (here / "fresh.restart").string();
+    const std::string start = (bed / "ball.restart").string(), fresh = (here / "fresh.restart").string();
     const Outcome made =
         run(test_deck("bed_from_data.in"), here, {{"start", start}, {"fresh", fresh}, {"stepping", scheme}});
     ASSERT_TRUE(made.ok()) << made.output;
@@ -1011,7 +1007,7 @@ TEST_F(BedInLammps, ContinuesWhereALimitOfTimeStoppedItOnRanksOneAndTwo) {
 
 TEST_F(BedInLammps, RefusesWhatItDoesNotHaveOnRanksOneAndTwo) {
   const Scratch files;
-  fs::copy_file(*scratch / "ball.restart", files / "alone.restart");
+  fs::copy_file(scratch / "ball.restart", files / "alone.restart");
   const auto refused = [](const Variables &variables, const std::string &says, int ranks) {
     const Scratch folder;
     const Outcome outcome = shake(folder, variables, ranks);
@@ -1023,7 +1019,7 @@ TEST_F(BedInLammps, RefusesWhatItDoesNotHaveOnRanksOneAndTwo) {
     refused({{"start", "nowhere"}}, "variable start is 'nowhere'; allowed: a file that can be read", ranks);
     refused({{"start", (files / "alone.restart").string()}},
             ", made with engine LIGGGHTS; allowed: made with engine LAMMPS", ranks);
-    refused({{"start", (*scratch / "balls.data").string()}},
+    refused({{"start", (scratch / "balls.data").string()}},
             ", which is incomplete, damaged or no restart file; allowed: a restart file of "
             "drumlin/write_restart or "
             "drumlin/run, or a data file NAME.data in the same folder",

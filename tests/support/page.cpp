@@ -14,7 +14,7 @@ Parsed parse(const std::string &text) {
   XML_SetUserData(parser, &out);
   XML_SetStartElementHandler(parser, [](void *data, const XML_Char *name, const XML_Char **attributes) {
     Parsed &page = *static_cast<Parsed *>(data);
-    const std::string element = name;
+    const std::string element = page.last_element = name;
     if (element == "script") ++page.scripts;
     if (element == "svg") ++page.drawings;
     if (element == "nav") page.in_nav = true;
@@ -35,8 +35,8 @@ Parsed parse(const std::string &text) {
   });
   out.well_formed = XML_Parse(parser, text.data(), static_cast<int>(text.size()), XML_TRUE) == XML_STATUS_OK;
   if (!out.well_formed)
-    out.error = fmt::format("line {}: {}", XML_GetCurrentLineNumber(parser),
-                            XML_ErrorString(XML_GetErrorCode(parser)));
+    out.error =
+        fmt::format("in or after '{}': {}", out.last_element, XML_ErrorString(XML_GetErrorCode(parser)));
   XML_ParserFree(parser);
   return out;
 }

@@ -13,6 +13,7 @@ namespace drumlin::test {
 struct Parsed {
   bool well_formed = false;
   std::string error;
+  std::string last_element; ///< the last element that began, where an error is looked for
   std::vector<std::string> images;
   std::vector<std::string> links;
   std::vector<std::string> resources; ///< every other src, and what link, script, iframe and object load
