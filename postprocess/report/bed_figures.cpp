@@ -154,7 +154,8 @@ private:
     }
     add("settlement", panel.title, {panel}, table,
         "Settlement of the drum: how far its mean position over a cycle lies below its position at rest "
-        "before the excitation.",
+        "before the excitation. Where the drum jumps, the mean contains the height of the jumps, which "
+        "differs from cycle to cycle, and can lie above the position at rest (negative settlement).",
         1, settlement_weight);
   }
 

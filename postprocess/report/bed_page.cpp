@@ -130,8 +130,8 @@ PageTable state_table(const std::vector<BedResult> &beds) {
                                                   : RowState::differs);
   }
   state.notes.emplace_back(
-      "Settlement: mean position of the drum over a cycle, below its position at rest; per cycle: mean over "
-      "the "
+      "Settlement: mean position of the drum over a cycle, below its position at rest, "
+      "negative above it, as where the drum jumps; per cycle: mean over the "
       "steady cycles. Coordination: mean number of contacts of a soil ball. Coordination and void ratio at "
       "the "
       "end are means over the last cycle. Imbalance of energy is the energy error: kinetic + potential + "
