@@ -125,15 +125,21 @@ std::optional<PeriodicOrbit> reached_orbit(const ChainSolver &solver, const std:
   constexpr double near = 0.02; // of the scale, after which Newton is tried
   constexpr double met = 1e-6;
   const ChainState scale = state_scale(solver.parameters());
-  const ChainState &last = states.back();
-  for (int period = 1; period <= longest_period; ++period) {
-    const auto before = states.size() - 1 - static_cast<std::size_t>(period);
-    if (distance(last, states[before], scale) > near) continue;
-    std::optional<PeriodicOrbit> orbit = find_orbit(solver, last, period);
+  const std::size_t last = states.size() - 1;
+  const std::size_t longest = std::min<std::size_t>(longest_period, last / 2);
+  const auto returns =
+      [&](std::size_t period) { // as long as the period: an aperiodic motion does so by chance
+        for (std::size_t i = last; i > last - period; --i)
+          if (distance(states[i], states[i - period], scale) > near) return false;
+        return true;
+      };
+  for (std::size_t period = 1; period <= longest; ++period) {
+    if (!returns(period)) continue;
+    std::optional<PeriodicOrbit> orbit = find_orbit(solver, states[last], static_cast<int>(period));
     if (!orbit || !orbit->stable()) continue;
-    const auto long_ago = states.size() - 1 - static_cast<std::size_t>(longest_period / period * period);
-    const double now = distance(last, orbit->state, scale);
-    if (now < met || (now < near && now < distance(states[long_ago], orbit->state, scale)))
+    const ChainState &long_ago = states[last - longest / period * period];
+    const double now = distance(states[last], orbit->state, scale);
+    if (now < met || (now < near && now < distance(long_ago, orbit->state, scale)))
       return with_shortest_period(solver, *orbit);
   }
   return std::nullopt;
@@ -158,13 +164,14 @@ std::vector<ChainState> last_states(const ChainSolver &solver, ChainMotion &moti
   std::vector<ChainState> states;
   for (int cycle = 0; cycle < cycles; ++cycle) {
     solver.finish_cycle(motion);
-    if (cycle + 2 * longest_period >= cycles) states.push_back(motion.state);
+    if (cycle + 2 * longest_period + 1 >= cycles) states.push_back(motion.state);
   }
   return states;
 }
 
-RegimePoint of_orbit(const ChainSolver &solver, const PeriodicOrbit &orbit) {
+RegimePoint of_orbit(const ChainSolver &solver, const PeriodicOrbit &orbit, long followed) {
   RegimePoint point;
+  point.followed = static_cast<int>(followed);
   point.period = orbit.period;
   point.multiplier = std::abs(orbit.multipliers[0]);
   constexpr double forgotten = -1e3; // a multiplier of zero has no logarithm
@@ -183,26 +190,30 @@ RegimePoint of_orbit(const ChainSolver &solver, const PeriodicOrbit &orbit) {
 RegimePoint judge_regime(const ChainParameters &parameters, int cycles) {
   const ChainSolver solver(parameters);
   ChainMotion motion = solver.start();
-  std::vector<ChainState> states = last_states(solver, motion, cycles);
-  if (const auto orbit = reached_orbit(solver, states)) return of_orbit(solver, *orbit);
+  for (int stretch = 0; stretch < longest_transient; ++stretch) {
+    const std::vector<ChainState> states = last_states(solver, motion, cycles);
+    if (const auto orbit = reached_orbit(solver, states)) return of_orbit(solver, *orbit, motion.cycle);
+  }
 
-  // No orbit yet: the motion is aperiodic, or approaches its orbit slowly, or only after an aperiodic
-  // beginning.
+  // The motion is aperiodic, or approaches its orbit very slowly.
   constexpr int lead = 20;
   constexpr int rounds = 3;
   constexpr double clearly =
       0.02; // per cycle: slower growth is also that of a motion which leaves an unstable orbit
   RegimePoint point;
+  long followed = motion.cycle;
   ChainState state = motion.state;
   for (int round = 0; round < rounds && point.regime == Regime::undecided; ++round) {
     point.exponent = largest_exponent(solver, state, lead, (round + 1) * cycles);
     motion = solver.start_at(state);
-    states = last_states(solver, motion, 2 * longest_period);
-    if (const auto orbit = reached_orbit(solver, states)) return of_orbit(solver, *orbit);
+    const std::vector<ChainState> states = last_states(solver, motion, 2 * longest_period + 1);
+    followed += lead + (round + 1) * cycles + motion.cycle;
+    if (const auto orbit = reached_orbit(solver, states)) return of_orbit(solver, *orbit, followed);
     state = motion.state;
     if (point.exponent.low > 0.0 && (point.exponent.mean > clearly || round + 1 == rounds))
       point.regime = Regime::aperiodic;
   }
+  point.followed = static_cast<int>(followed);
   constexpr int window = 64;
   point.meter = meter_values(solver, state, window);
   return point;

@@ -32,6 +32,7 @@ MeterValues meter_values(const ChainSolver &solver, const ChainState &state, int
 struct RegimePoint {
   Regime regime = Regime::undecided;
   int period = 0;          ///< in cycles; 0 without one
+  int followed = 0;        ///< cycles after which the motion was judged
   double multiplier = 0.0; ///< largest modulus of the orbit's multipliers [-]; 0 without an orbit
   Exponent
       exponent; ///< per cycle; of an orbit the logarithm of its multiplier over its period, without interval
@@ -39,13 +40,18 @@ struct RegimePoint {
 };
 
 /// The longest period that is looked for [cycles].
-constexpr int longest_period = 16;
+constexpr int longest_period = 64;
+
+/// A motion without an orbit is followed for at most this many times the given number of cycles.
+constexpr int longest_transient = 40;
 
 /// Follows the chain from static equilibrium for `cycles` cycles, 100 or more, and determines the regime that
 /// it has reached. An orbit counts if Newton finds it near the last state, it is stable, and the motion has
-/// come nearer to it. Without one the exponent is taken over as many cycles again, and twice and three times
-/// as many while its interval contains 0 or its mean is below 0.02 per cycle; an orbit that is reached on the
-/// way counts.
+/// come nearer to it. A motion can be aperiodic for thousands of cycles before it falls into a stable orbit
+/// (chaotic transient). Without an orbit it is therefore followed for up to longest_transient times as many
+/// cycles, until it reaches one. If it does not, the exponent is taken over `cycles` cycles, and over twice
+/// and three times as many while its interval contains 0 or its mean is below 0.02 per cycle. With fewer than
+/// 129 cycles the first look for an orbit finds periods up to half of `cycles` only.
 RegimePoint judge_regime(const ChainParameters &parameters, int cycles);
 
 } // namespace drumlin::post

@@ -150,13 +150,15 @@ struct Edge {
   std::size_t a = 0, b = 0;
 };
 
-// The stable orbit that a chain reaches from rest.
+// The stable orbit that a chain reaches from rest within some cycles.
 std::optional<PeriodicOrbit> settled_orbit(const ChainParameters &parameters, int cycles, int period) {
   const ChainSolver solver(parameters);
   ChainMotion motion = solver.start();
   for (int cycle = 0; cycle < cycles; ++cycle)
     solver.finish_cycle(motion);
-  return find_orbit(solver, motion.state, period);
+  std::optional<PeriodicOrbit> orbit = find_orbit(solver, motion.state, period);
+  // Near an aperiodic motion, which settles later, Newton's method finds unstable orbits.
+  return orbit && orbit->stable() ? orbit : std::nullopt;
 }
 
 // The value between two at which contact begins to be lost, by bisection to rounding: the margin of contact has

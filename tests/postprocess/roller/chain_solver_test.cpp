@@ -61,10 +61,12 @@ void expect_same_as_direct(const ChainParameters &p, int cycles, double toleranc
   expect_same_events(exact.events, direct.events, p.period(), largest(direct.history.F_contact), tolerance);
 }
 
-// Processor time of 200 cycles [s].
+constexpr double two_milliseconds = 2e-3;
+
+// Processor time of 200 cycles [s], the least of up to 20 attempts, which other programs may delay.
 double time_of_200_cycles(const ChainParameters &p) {
   double least = 1.0;
-  for (int attempt = 0; attempt < 20; ++attempt) { // other programs may delay some of them
+  for (int attempt = 0; attempt < 20 && least >= two_milliseconds; ++attempt) {
     const std::clock_t begin = std::clock();
     const ChainSolver solver(p);
     ChainMotion motion = solver.start();
@@ -72,7 +74,6 @@ double time_of_200_cycles(const ChainParameters &p) {
       solver.finish_cycle(motion);
     least = std::min(least, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
   }
-  testing::Test::RecordProperty("milliseconds", std::to_string(1e3 * least));
   return least;
 }
 
@@ -95,13 +96,6 @@ TEST_P(EveryCase, AgreesWithExactPiecesInExtendedPrecision) {
   expect_same_events(exact.events, oracle.events, chain().period(), largest(oracle.F_contact), 1e-11);
 }
 
-TEST_P(EveryCase, TwoHundredCyclesTakeLessThanTwoMilliseconds) {
-#if !defined(__OPTIMIZE__) || defined(__SANITIZE_ADDRESS__)
-  GTEST_SKIP() << "timed in optimised builds";
-#endif
-  EXPECT_LT(time_of_200_cycles(chain()), 2e-3);
-}
-
 INSTANTIATE_TEST_SUITE_P(ChainSolver, EveryCase,
                          testing::Combine(testing::Values("I", "II", "III", "IV"),
                                           testing::Values(Transition::A, Transition::B)));
@@ -118,19 +112,32 @@ TEST_P(EveryDamping, AgreesWithTheDirectSolver) {
   }
 }
 
-TEST_P(EveryDamping, TwoHundredCyclesTakeLessThanTwoMilliseconds) {
+INSTANTIATE_TEST_SUITE_P(ChainSolver, EveryDamping,
+                         testing::Values(0.0, 0.1, 0.99999999, 1.0, 1.00000001, 2.0, 10.0, 100.0, 1e3, 1e4));
+
+// The paper's cases, the rollers of manufacturers, and case II on soil up to more than twice as stiff as the
+// stiffest of maps and reports (200 MN/m), at any damping, with a force that lifts the drum off or does not.
+TEST(ChainSolver, TwoHundredCyclesTakeLessThanTwoMilliseconds) {
 #if !defined(__OPTIMIZE__) || defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "timed in optimised builds";
 #endif
   for (const Transition transition : {Transition::A, Transition::B}) {
+    for (const char *name : chain_cases)
+      EXPECT_LT(time_of_200_cycles(named_chain(name, transition).parameters), two_milliseconds)
+          << name << ", " << transition_name(transition);
     ChainParameters p = table1_case("II", transition);
-    p.D = GetParam();
-    EXPECT_LT(time_of_200_cycles(p), 2e-3) << transition_name(transition);
+    const double weight = (p.m2 + p.m3) * p.g;
+    for (const double D : {0.0, 0.1, 0.2, 0.99999999, 1.0, 1.00000001, 2.0, 10.0, 100.0, 1e3, 1e4})
+      for (const double k : {1e6, 1e7, 1e8, 5e8})
+        for (const double force : {0.5, 3.0}) {
+          p.D = D;
+          p.k = k;
+          p.Fw = force * weight;
+          EXPECT_LT(time_of_200_cycles(p), two_milliseconds)
+              << "D = " << D << ", k = " << k << ", Fw = " << p.Fw << ", " << transition_name(transition);
+        }
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(ChainSolver, EveryDamping,
-                         testing::Values(0.0, 0.1, 0.99999999, 1.0, 1.00000001, 2.0, 10.0, 100.0, 1e3, 1e4));
 
 TEST(ChainSolver, ABondThatIsHeavilyDampedAgreesWithTheDirectSolver) {
   for (const double c23 : {1e5, 1e6, 1e7}) {

@@ -12,8 +12,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
 #include <random>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace {
@@ -59,44 +61,24 @@ struct JudgedPoint {
   }
 };
 
-std::vector<JudgedPoint> judged_points() {
-  constexpr int count = 500;
-  std::mt19937_64 random(20);
-  std::vector<JudgedPoint> points(count);
-  for (int i = 0; i < count; ++i) {
-    JudgedPoint &point = points[static_cast<std::size_t>(i)];
-    point.number = i;
-    point.chain = random_chain(random);
-    point.judged = judge_regime(point.chain, judged_cycles);
-  }
-  return points;
-}
-
-// Whether the motion from rest is aperiodic in its first 200 cycles. It may then fall into a stable orbit after
-// many cycles. Its errors of rounding grow from cycle to cycle, so that two solvers, or a longer run, may find
-// another time at which that happens, or another of several stable orbits.
-bool aperiodic_at_first(const ChainParameters &p) {
-  const ChainSolver solver(p);
-  ChainState state = solver.start().state;
-  return largest_exponent(solver, state, 20, 200).low > 0.0;
-}
-
-// Points at which the regimes differ: few, and all of them aperiodic at first.
-class Differences {
+// The points, judged when they are asked for.
+class Points {
 public:
-  void compare(const JudgedPoint &point, Regime followed) {
-    if (followed == point.judged.regime) return;
-    ++count_;
-    EXPECT_TRUE(aperiodic_at_first(point.chain))
-        << point.words() << "; followed: " << regime_names[static_cast<std::size_t>(followed)];
+  static constexpr int count = 500;
+  JudgedPoint next() {
+    JudgedPoint point;
+    point.number = drawn_++;
+    point.chain = random_chain(random_);
+    point.judged = judge_regime(point.chain, judged_cycles);
+    return point;
   }
-  int count() const { return count_; }
 
 private:
-  int count_ = 0;
+  std::mt19937_64 random_ = std::mt19937_64(20);
+  int drawn_ = 0;
 };
 
-constexpr std::size_t longest_counted = 64;
+constexpr auto longest_counted = static_cast<std::size_t>(longest_period);
 constexpr std::size_t compared = 64;
 // How many cycles at the end of a motion are looked at.
 constexpr int counted_cycles = longest_counted + compared;
@@ -117,11 +99,10 @@ int period_of(const std::vector<Eigen::Vector4d> &states, const ChainParameters 
 
 Regime regime_of(int period, int breaks) {
   if (breaks == 0) return Regime::continuous_contact;
-  return period == 0                ? Regime::aperiodic
-         : period == 1              ? Regime::partial_uplift
-         : period == 2              ? Regime::period_2
-         : period <= longest_period ? Regime::higher_period
-                                    : Regime::undecided; // no longer orbits are looked for
+  return period == 0   ? Regime::aperiodic
+         : period == 1 ? Regime::partial_uplift
+         : period == 2 ? Regime::period_2
+                       : Regime::higher_period;
 }
 
 class ContactCount : public MotionObserver {
@@ -131,10 +112,12 @@ public:
   int breaks = 0;
 };
 
-// The regime after a number of cycles from rest, by counting.
+// The regime after a number of cycles, by counting. The motion starts a little beside rest: errors that grow make
+// it another one than that of judge_regime().
 Regime followed(const ChainParameters &p, int cycles) {
   const ChainSolver solver(p);
   ChainMotion motion = solver.start();
+  motion.state[1] += 1e-9 * state_scale(p)[1];
   std::vector<Eigen::Vector4d> states;
   ContactCount count;
   for (int cycle = 0; cycle < cycles; ++cycle) {
@@ -162,19 +145,35 @@ Regime followed_by_cvode(const ChainParameters &p, int cycles) {
   return regime_of(period_of(states, p), breaks);
 }
 
+// A motion that is aperiodic at first can fall into a stable orbit after thousands of cycles. Errors of rounding
+// decide when, so that the two motions do so at different times: at two of the points after 40,000 cycles on
+// average. Where judge_regime() found an orbit, the other motion is therefore followed until it settles, too.
+template <class Follow>
+Regime settled(const JudgedPoint &point, const Follow &follow) {
+  Regime regime = Regime::undecided;
+  for (const int times : {2, 40, 600}) {
+    regime = follow(point.chain, std::max(times * judged_cycles, point.decay()));
+    if (regime != Regime::aperiodic || point.judged.period == 0) break;
+  }
+  return regime;
+}
+
 TEST(Modes, OrbitsAndExponentsAgreeWithMotionsThatAreFollowed) {
   int exceptions = 0;
-  Differences differences;
+  int late = 0;
   std::array<int, regime_count> seen{};
-  for (const JudgedPoint &point : judged_points()) {
+  Points points;
+  for (int i = 0; i < Points::count; ++i) {
+    const JudgedPoint point = points.next();
     ++seen[static_cast<std::size_t>(point.judged.regime)];
+    if (point.judged.period > 0 && point.judged.followed > judged_cycles) ++late;
     if (point.excepted())
       ++exceptions;
-    else // as long as judge_regime() may follow the motion, and until a disturbance of an orbit has decayed
-      differences.compare(point, followed(point.chain, std::max(8 * judged_cycles, point.decay())));
+    else
+      EXPECT_EQ(settled(point, followed), point.judged.regime) << point.words();
   }
   EXPECT_LT(exceptions, 15);
-  EXPECT_LE(differences.count(), 10);
+  EXPECT_GT(late, 10); // motions that are not at their orbit after the cycles that were asked for
   for (const Regime regime : {Regime::continuous_contact, Regime::partial_uplift, Regime::period_2,
                               Regime::higher_period, Regime::aperiodic})
     EXPECT_GT(seen[static_cast<std::size_t>(regime)], 25) << regime_names[static_cast<std::size_t>(regime)];
@@ -182,28 +181,48 @@ TEST(Modes, OrbitsAndExponentsAgreeWithMotionsThatAreFollowed) {
 
 // Points whose regime is reached soon, since CVODE takes a millisecond for a cycle.
 TEST(Modes, AgreeWithCvode) {
-  constexpr std::size_t most = 16;
-  std::size_t count = 0;
-  for (const JudgedPoint &point : judged_points()) {
+  constexpr int most = 16;
+  Points points;
+  int count = 0;
+  for (int i = 0; i < Points::count && count < most; ++i) {
+    const JudgedPoint point = points.next();
     if (point.excepted() || point.decay() > judged_cycles - counted_cycles) continue;
     EXPECT_EQ(followed_by_cvode(point.chain, judged_cycles), point.judged.regime) << point.words();
-    if (++count == most) break;
+    ++count;
   }
   EXPECT_EQ(count, most);
 }
 
-// All points by CVODE, which takes some ten minutes: run by .ci/nightly.
+// All points by CVODE, by two threads, which takes some ten minutes: run by .ci/nightly.
 TEST(Modes, DISABLED_AllAgreeWithCvode) {
+  std::mutex guard;
+  Points points;
+  int asked = 0;
   int exceptions = 0;
-  Differences differences;
-  for (const JudgedPoint &point : judged_points()) {
-    if (point.excepted())
-      ++exceptions;
-    else
-      differences.compare(point, followed_by_cvode(point.chain, std::max(4 * judged_cycles, point.decay())));
-  }
-  fmt::print("{} points excepted, {} differ\n", exceptions, differences.count());
-  EXPECT_LE(differences.count(), 10);
+  int differences = 0;
+  const auto work = [&] {
+    for (;;) {
+      JudgedPoint point;
+      {
+        const std::lock_guard<std::mutex> lock(guard);
+        if (asked++ >= Points::count) return;
+        point = points.next();
+        if (point.excepted()) {
+          ++exceptions;
+          continue;
+        }
+      }
+      const Regime regime = settled(point, followed_by_cvode);
+      const std::lock_guard<std::mutex> lock(guard);
+      differences += regime == point.judged.regime ? 0 : 1;
+      EXPECT_EQ(regime, point.judged.regime) << point.words();
+    }
+  };
+  std::thread other(work);
+  work();
+  other.join();
+  fmt::print("{} points, {} excepted, {} differ\n", static_cast<int>(Points::count), exceptions, differences);
+  EXPECT_LT(exceptions, 15);
 }
 
 } // namespace
