@@ -11,6 +11,9 @@ void add_advise_command(CLI::App &app, Session &session);
 /// `bed`: soil balls at random positions, for inputs/bed; an option for each entry of BedRequest.
 void add_bed_command(CLI::App &app, Session &session);
 
+/// `calibrate`: parameters of a bed with which it meets targets.
+void add_calibrate_command(CLI::App &app, Session &session);
+
 /// `demo [--cycles N] [--balls N]`: the paper's cases and a bed under both transitions, with a report on them.
 /// Writes results/demo and report in the working folder.
 void add_demo_command(CLI::App &app, Session &session);

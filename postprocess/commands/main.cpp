@@ -32,6 +32,7 @@ constexpr std::array subcommands = {
 #ifndef DRUMLIN_ONLY_RUN
     Subcommand{"advise", &drumlin::post::add_advise_command},
     Subcommand{"bed", &drumlin::post::add_bed_command},
+    Subcommand{"calibrate", &drumlin::post::add_calibrate_command},
     Subcommand{"demo", &drumlin::post::add_demo_command},
     Subcommand{"exact", &drumlin::post::add_exact_command},
     Subcommand{"identify", &drumlin::post::add_identify_command},

@@ -19,17 +19,23 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double density = 2650.0; // kg/m3
+fs::path bed_folder(const fs::path &out) {
+  fs::path folder = fs::absolute(out / "beds");
+  fs::create_directories(folder);
+  return folder;
+}
 
-/// The restart file of a bed's soil at rest, made if it is not there.
-fs::path settled_soil(const PlacedBed &bed, int seed, const fs::path &folder) {
+} // namespace
+
+fs::path settled_soil(const PlacedBed &bed, int seed, const fs::path &out) {
+  const fs::path folder = bed_folder(out);
   const std::string stem = fmt::format("{}_{}", bed.soil.empty() ? bed.name : bed.soil, seed);
   fs::path done = folder / (stem + ".soil");
   if (fs::exists(done)) return done;
   PackingOptions packing = bed.packing;
   packing.seed = static_cast<std::uint64_t>(seed);
   const fs::path balls = folder / (stem + ".balls"), unfinished = folder / (stem + ".unfinished");
-  write_files({{balls, bed_data(packing, density, pack_balls(packing))}});
+  write_files({{balls, bed_data(packing, soil_density, pack_balls(packing))}});
   Variables variables = joined(bed.settle, bed.scene);
   variables.insert(variables.end(),
                    {{"ratio", bed.ratio}, {"balls", balls.string()}, {"bed", unfinished.string()}});
@@ -40,7 +46,6 @@ fs::path settled_soil(const PlacedBed &bed, int seed, const fs::path &folder) {
   return done;
 }
 
-/// Runs the tasks, `jobs` at a time. A task must not throw.
 void in_parallel(const std::vector<std::function<void()>> &tasks, int jobs) {
   std::atomic<std::size_t> next = 0;
   std::vector<std::thread> workers;
@@ -55,21 +60,18 @@ void in_parallel(const std::vector<std::function<void()>> &tasks, int jobs) {
     worker.join();
 }
 
-} // namespace
-
 Variables joined(Variables first, const Variables &second) {
   first.insert(first.end(), second.begin(), second.end());
   return first;
 }
 
 fs::path placed(const PlacedBed &bed, int seed, const fs::path &out) {
-  const fs::path folder = fs::absolute(out / "beds");
-  fs::create_directories(folder);
+  const fs::path folder = bed_folder(out);
   const std::string stem = fmt::format("{}_{}", bed.name, seed);
   fs::path done = folder / (stem + ".restart");
   if (fs::exists(done)) return done;
-  const fs::path soil = settled_soil(bed, seed, folder), roller = folder / (stem + ".roller");
-  Variables variables = bed.scene;
+  const fs::path soil = settled_soil(bed, seed, out), roller = folder / (stem + ".roller");
+  Variables variables = joined(bed.place, bed.scene);
   variables.insert(variables.end(),
                    {{"ratio", bed.ratio}, {"bed", soil.string()}, {"start", roller.string()}});
   DeckRun("bed/in.place", variables).must_succeed();

@@ -21,9 +21,18 @@ struct PlacedBed {
   Variables settle = {}; ///< of in.settle alone, before `scene`
   /// Name of the files of its settled soil, which beds that differ in the roller alone share; empty: `name`.
   std::string soil = {};
+  Variables place = {}; ///< of in.place alone, before `scene`
 };
 
+constexpr double soil_density = 2650.0; ///< of the balls [kg/m3]
+
 Variables joined(Variables first, const Variables &second);
+
+/// Runs the tasks, `jobs` at a time. A task must not throw.
+void in_parallel(const std::vector<std::function<void()>> &tasks, int jobs);
+
+/// The restart file of a bed's soil at rest, in the folder `beds` of the study; made if an earlier call did not finish it.
+std::filesystem::path settled_soil(const PlacedBed &bed, int seed, const std::filesystem::path &out);
 
 /// The restart file of a bed with its roller at rest, in the folder `beds` of the study; made if an earlier
 /// call did not finish it. Beds that share their soil are not made at the same time.

@@ -132,9 +132,9 @@ bool fits_physics(const Include &include) {
 using Heights = std::map<std::string, int>;
 const Heights plugin_rooms{{"physics", 0},  {"support", 1},  {"contact", 2}, {"fixes", 3},
                            {"commands", 3}, {"liggghts", 4}, {"lammps", 4}};
-const Heights postprocess_rooms{{"support", 0}, {"chain", 1},   {"bed", 1},    {"engine", 1},
-                                {"record", 1},  {"pages", 1},   {"roller", 2}, {"report", 3},
-                                {"studies", 3}, {"commands", 4}};
+const Heights postprocess_rooms{{"support", 0}, {"chain", 1},       {"bed", 1},     {"engine", 1},
+                                {"record", 1},  {"pages", 1},       {"roller", 2},  {"report", 3},
+                                {"studies", 3}, {"calibration", 4}, {"commands", 5}};
 
 /// Whether a file of `room` may include a header by its path from the top of the rooms, "ROOM/...".
 bool fits_room(const std::string &room, const std::string &header, const Heights &rooms) {

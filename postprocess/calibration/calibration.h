@@ -1,0 +1,43 @@
+// A calibration: evaluations of points until the targets are met, their sensitivity, and the answer.
+#pragma once
+
+#include "calibration/evaluations.h"
+#include "calibration/sensitivity.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+/// Measures the targets at a point on the bed of a seed: as many values as the task has targets. Throws std::runtime_error with
+/// the reason if it cannot be done. Called from several threads.
+using MeasureSeed = std::function<std::vector<double>(const Evaluation &evaluation, int seed)>;
+
+/// How the search goes.
+struct CalibrationEffort {
+  int evaluations = 40; ///< of the search; those for slopes and estimate are made in addition
+  int jobs = 1;         ///< beds measured at the same time
+};
+
+/// A calibration's results.
+struct Calibration {
+  std::vector<Evaluation> evaluations;
+  Evaluation best; ///< of the smallest objective
+  Sensitivity sensitivity;
+};
+
+/// The file of the evaluations in the folder of a calibration.
+constexpr const char *evaluations_name = "evaluations.csv";
+
+/// Calibrates, in three stages: the search over all ranges; the points of slope_points() around its best; and
+/// the point that meets the targets by the linear model of sensitivity_at(), if it is identified. Every
+/// evaluation uses the same seeds, so that differences between points are not those between seeds. An evaluation of which a seed
+/// fails counts in the search as the worst of those that did not. Results are written to evaluations.csv in `out`, which exists, one
+/// row for each seed when it is known; rows that are there are not measured again. Prints progress. Throws std::runtime_error if
+/// the first evaluations all fail, or if too few around the best succeed.
+Calibration calibrate(const CalibrationTask &task, const CalibrationEffort &effort,
+                      const std::filesystem::path &out, const MeasureSeed &measure);
+
+} // namespace drumlin::post

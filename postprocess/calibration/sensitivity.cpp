@@ -1,0 +1,158 @@
+#include "calibration/sensitivity.h"
+
+#include <Eigen/Dense>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+
+namespace drumlin::post {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+Index index(std::size_t i) { return static_cast<Index>(i); }
+
+/// ln(point / centre) of each parameter.
+VectorXd offset(const std::vector<double> &point, const std::vector<double> &centre) {
+  VectorXd d(index(point.size()));
+  for (std::size_t i = 0; i < point.size(); ++i)
+    d(index(i)) = std::log(point[i] / centre[i]);
+  return d;
+}
+
+/// The coefficients of each seed: a row for the value at the centre and one for each parameter, a column for each target.
+std::vector<MatrixXd> fits(const CalibrationTask &task, const std::vector<const Evaluation *> &near,
+                           const std::vector<double> &centre) {
+  const Index parameters = index(task.vary.size()), targets = index(task.targets.size());
+  MatrixXd terms(index(near.size()), 1 + parameters);
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    terms(index(i), 0) = 1.0;
+    terms.row(index(i)).tail(parameters) = offset(near[i]->point, centre).transpose();
+  }
+  const Eigen::ColPivHouseholderQR<MatrixXd> factors(terms);
+  if (factors.rank() < terms.cols())
+    throw std::runtime_error("too few evaluations near the best one succeeded: its slopes are not known");
+  std::vector<MatrixXd> all;
+  for (int seed = 0; seed < task.seeds; ++seed) {
+    MatrixXd values(terms.rows(), targets);
+    for (std::size_t i = 0; i < near.size(); ++i)
+      for (Index j = 0; j < targets; ++j)
+        values(index(i), j) =
+            std::log(near[i]->seeds[static_cast<std::size_t>(seed)].values[static_cast<std::size_t>(j)]);
+    all.emplace_back(factors.solve(values));
+  }
+  return all;
+}
+
+MeanInterval interval_over(const std::vector<MatrixXd> &seeds, Index row, Index column) {
+  std::vector<double> values;
+  values.reserve(seeds.size());
+  for (const MatrixXd &seed : seeds)
+    values.push_back(seed(row, column));
+  return mean_interval(values);
+}
+
+void judge(const CalibrationTask &task, Sensitivity &found) {
+  const auto acts = [&found](std::size_t parameter) {
+    return std::any_of(found.slopes.begin(), found.slopes.end(),
+                       [parameter](const auto &slopes) { return slopes[parameter].significant(); });
+  };
+  for (std::size_t i = 0; i < task.vary.size(); ++i) {
+    std::string &why = found.parameters[i].unidentified;
+    if (task.seeds < 2)
+      why = "a single seed gives no intervals";
+    else if (!acts(i))
+      why = "the 95 % confidence interval of every slope contains zero: no target depends on it visibly";
+    for (std::size_t j = 0; j < task.vary.size() && why.empty(); ++j)
+      if (i != j && acts(j) && std::fabs(found.correlation[i][j]) > most_correlation)
+        why = fmt::format("its estimate is correlated with that of {} by {:.3f}", task.vary[j].name,
+                          found.correlation[i][j]);
+  }
+}
+
+} // namespace
+
+bool Sensitivity::identified() const {
+  return std::all_of(parameters.begin(), parameters.end(),
+                     [](const ParameterEstimate &one) { return one.unidentified.empty(); });
+}
+
+std::vector<std::vector<double>> slope_points(const CalibrationTask &task,
+                                              const std::vector<double> &centre) {
+  std::vector<std::vector<double>> points;
+  const std::vector<double> unit = unit_point(task, centre);
+  for (std::size_t i = 0; i < unit.size(); ++i) {
+    const double range = std::log(task.vary[i].high / task.vary[i].low);
+    const double step = std::min(slope_step / range, 0.25);
+    for (const double side : {-step, step}) {
+      std::vector<double> other = unit;
+      other[i] = std::clamp(unit[i] + side, 0.0, 1.0);
+      // At the end of a range one point lies too close to tell a slope.
+      if (std::fabs(other[i] - unit[i]) > 0.1 * step) points.push_back(point_at(task, other));
+    }
+  }
+  return points;
+}
+
+Sensitivity sensitivity_at(const CalibrationTask &task, const std::vector<Evaluation> &evaluations,
+                           const Evaluation &best) {
+  const std::size_t parameters = task.vary.size(), targets = task.targets.size();
+  std::vector<const Evaluation *> near;
+  for (const Evaluation &one : evaluations)
+    if (one.good(task) && offset(one.point, best.point).cwiseAbs().maxCoeff() <= fit_reach)
+      near.push_back(&one);
+  const std::vector<MatrixXd> seeds = fits(task, near, best.point);
+
+  Sensitivity found;
+  found.points = near.size();
+  MatrixXd mean = MatrixXd::Zero(index(1 + parameters), index(targets));
+  for (const MatrixXd &seed : seeds)
+    mean += seed / static_cast<double>(seeds.size());
+  found.slopes.resize(targets);
+  for (std::size_t i = 0; i < targets; ++i)
+    for (std::size_t j = 0; j < parameters; ++j)
+      found.slopes[i].push_back(interval_over(seeds, index(1 + j), index(i)));
+
+  // Weighted least squares: an error of a target of its tolerance counts as 1.
+  VectorXd weight(index(targets)), wanted(index(targets));
+  for (std::size_t i = 0; i < targets; ++i) {
+    weight(index(i)) = 1.0 / task.targets[i].tolerance;
+    wanted(index(i)) = std::log(task.targets[i].value);
+  }
+  const MatrixXd slopes = weight.asDiagonal() * mean.bottomRows(index(parameters)).transpose();
+  const MatrixXd inverse = slopes.completeOrthogonalDecomposition().pseudoInverse();
+  const MatrixXd covariance = inverse * inverse.transpose();
+  found.correlation.assign(parameters, std::vector<double>(parameters, 0.0));
+  for (std::size_t i = 0; i < parameters; ++i)
+    for (std::size_t j = 0; j < parameters; ++j) {
+      const double both = std::sqrt(covariance(index(i), index(i)) * covariance(index(j), index(j)));
+      if (both > 0.0) found.correlation[i][j] = covariance(index(i), index(j)) / both;
+    }
+
+  // Each seed's bed has parameters of its own that meet the targets; their scatter is that of the estimate.
+  std::vector<MatrixXd> estimates;
+  for (const MatrixXd &seed : seeds)
+    estimates.emplace_back(inverse * (weight.asDiagonal() * (wanted - seed.row(0).transpose())));
+  const double widening =
+      task.target_beds > 0 ? std::sqrt(1.0 + static_cast<double>(task.seeds) / task.target_beds) : 1.0;
+  for (std::size_t j = 0; j < parameters; ++j) {
+    const MeanInterval step = interval_over(estimates, index(j), 0);
+    const double half_width = widening * step.half_width;
+    ParameterEstimate estimate;
+    estimate.value = best.point[j] * std::exp(step.mean);
+    estimate.low = estimate.value * std::exp(-half_width);
+    estimate.high = estimate.value * std::exp(half_width);
+    found.parameters.push_back(estimate);
+  }
+  judge(task, found);
+  return found;
+}
+
+} // namespace drumlin::post

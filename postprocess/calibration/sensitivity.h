@@ -1,0 +1,50 @@
+// What the evaluations around the best one say: how the targets depend on the parameters, which parameters the targets identify,
+// and within which intervals.
+#pragma once
+
+#include "calibration/evaluations.h"
+#include "support/statistics.h"
+
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+/// A parameter as the calibration finds it.
+struct ParameterEstimate {
+  double value = 0.0; ///< that meets the targets by the linear model around the best point
+  double low = 0.0;   ///< 95 % confidence interval over the seeds, which is even in the logarithm
+  double high = 0.0;
+  std::string unidentified; ///< why the targets do not identify it; empty if they do
+};
+
+/// The linear model ln target = a + sum of slope times ln parameter around the best point.
+struct Sensitivity {
+  std::vector<std::vector<MeanInterval>>
+      slopes; ///< [target][parameter], mean over the seeds, 95 % confidence interval
+  std::vector<std::vector<double>>
+      correlation; ///< of the estimates of two parameters, for equal errors of ln target / tolerance
+  std::vector<ParameterEstimate> parameters;
+  std::size_t points = 0; ///< evaluations in the fit
+
+  bool identified() const;
+};
+
+/// Distance, in ln parameter, of the points at which slopes are measured from the best point, and the largest of those that
+/// enter the fit.
+constexpr double slope_step = 0.4;
+constexpr double fit_reach = 2.5 * slope_step;
+/// A correlation above this, or below its negative, is one that cannot be resolved.
+constexpr double most_correlation = 0.95;
+
+/// Points around one, along each parameter, for the fit: one step to both sides, within the ranges.
+std::vector<std::vector<double>> slope_points(const CalibrationTask &task, const std::vector<double> &centre);
+
+/// Least squares over the good evaluations near the best one, for each seed, whose beds are the same at all points. A parameter is
+/// not identified if the intervals of all its slopes contain zero or if its estimate is correlated with that of another one. With a
+/// single seed there are no intervals, and nothing is identified. Throws std::runtime_error if too few evaluations near the best one
+/// are good.
+Sensitivity sensitivity_at(const CalibrationTask &task, const std::vector<Evaluation> &evaluations,
+                           const Evaluation &best);
+
+} // namespace drumlin::post

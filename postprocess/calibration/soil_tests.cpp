@@ -1,0 +1,214 @@
+#include "calibration/soil_tests.h"
+
+#include "engine/deck_run.h"
+#include "report/compression_page.h"
+#include "report/plate_page.h"
+#include "studies/fidelity/results.h"
+#include "studies/placed_bed.h"
+#include "studies/stiffness/results.h"
+#include "support/csv.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr const char *pour_damping = "0.3"; ///< D while the soil settles, the same at all points
+constexpr double default_frequency = 20.0;  ///< Hz, of in.bed
+constexpr const char *pour_friction = "pour_friction";
+
+/// Names of the law of the soil's contacts, which may change when the soil has settled.
+constexpr std::array law_names = {"k", "D", "friction", "rolling"};
+
+/// The value that fixed variables or a point give a variable; empty if it is the deck's default.
+std::string value_of(const CalibrationTask &task, const std::vector<double> &point, const std::string &name) {
+  for (std::size_t i = 0; i < task.vary.size(); ++i)
+    if (task.vary[i].name == name) return number_text(point[i]);
+  for (const auto &[fixed, value] : task.fixed)
+    if (fixed == name) return value;
+  return {};
+}
+
+/// The values of several variables, without those that are the deck's defaults.
+template <class Names>
+Variables values_of(const CalibrationTask &task, const std::vector<double> &point, const Names &names) {
+  Variables values;
+  for (const char *name : names)
+    if (std::string value = value_of(task, point, name); !value.empty()) values.emplace_back(name, value);
+  return values;
+}
+
+/// Time step for contacts of stiffness k [N/m] of discs of a smallest radius of 16 mm: a sixteenth of an undamped contact of two of them,
+/// pi sqrt(m/(2 k)) [s].
+double time_step(double k) {
+  const double mass = pi * 0.016 * 0.016 * soil_density;
+  return pi * std::sqrt(0.5 * mass / k) / 16.0;
+}
+
+/// steps_per_cycle of in.bed, in multiples of 250.
+int steps_per_cycle(double k, double frequency) {
+  return 250 * static_cast<int>(std::ceil(1.0 / (frequency * time_step(k)) / 250.0));
+}
+
+PackingOptions packing_of(const CalibrationTask &task) {
+  PackingOptions packing;
+  packing.balls = task.balls;
+  packing.width *= std::sqrt(task.balls / 2500.0); // as deep in relation to the width as the default bed
+  return packing;
+}
+
+} // namespace
+
+/// A point on a seed's bed.
+struct SoilTests::Point {
+  const Evaluation &evaluation;
+  int seed;
+  Variables law;            ///< of the contacts, as far as it is not the default
+  std::string allow_change; ///< names of what varies of it, as the decks take them
+  std::optional<double> k;
+  PlacedBed bed;
+};
+
+SoilTests::SoilTests(CalibrationTask task, fs::path out) : task_(std::move(task)), out_(std::move(out)) {}
+
+std::vector<double> SoilTests::measure(const Evaluation &evaluation, int seed) {
+  Point point{evaluation, seed, values_of(task_, evaluation.point, law_names), "none", {}, {}};
+  std::vector<std::string> varied;
+  for (const char *name : law_names)
+    if (task_.varies(name)) varied.emplace_back(name);
+  if (!varied.empty()) point.allow_change = fmt::format("{}", fmt::join(varied, ","));
+  if (const std::string k = value_of(task_, evaluation.point, "k"); !k.empty()) point.k = number_from_text(k);
+
+  PlacedBed &bed = point.bed;
+  bed.name = fmt::format("evaluation_{}", evaluation.number);
+  bed.soil = task_.varies(pour_friction) ? bed.name + "_soil" : "soil";
+  bed.packing = packing_of(task_);
+  // Forces that are unbalanced at a ratio of 1, a ball's weight, are a ten-thousandth of the roller's weight.
+  bed.ratio = "1";
+  bed.scene = {{"case", "gravel"}};
+  // The soil settles with the default law, or the fixed one, of which only the rolling spring must be there.
+  const Variables settling = values_of(task_, evaluation.point, std::array{pour_friction});
+  bed.settle = joined({{"pour_D", pour_damping}}, settling);
+  for (const auto &[name, value] : task_.fixed)
+    if (std::count(law_names.begin(), law_names.end(), name) > 0) bed.settle.emplace_back(name, value);
+  bed.place =
+      joined(point.law, values_of(task_, evaluation.point, std::array{"m2", "m3", "r2", "r3", "k23", "c23"}));
+  bed.place.emplace_back("allow_change", point.allow_change);
+  if (point.k) bed.place.emplace_back("dt", number_text(time_step(*point.k), 6));
+
+  std::map<std::string, double> found;
+  for (const SoilTest test : {SoilTest::roller, SoilTest::plate, SoilTest::biaxial}) {
+    if (std::none_of(task_.targets.begin(), task_.targets.end(),
+                     [test](const auto &target) { return soil_quantity(target.name).test == test; }))
+      continue;
+    if (test != SoilTest::biaxial) {
+      std::unique_lock map_lock(mutex_);
+      std::mutex &settling_of_seed = settling_[seed];
+      map_lock.unlock();
+      const std::lock_guard lock(settling_of_seed);
+      static_cast<void>(settled_soil(bed, seed, out_));
+    }
+    found.merge(test == SoilTest::roller  ? roller(point)
+                : test == SoilTest::plate ? plate(point)
+                                          : biaxial(point));
+  }
+  if (task_.varies(pour_friction)) fs::remove(settled_soil(bed, seed, out_));
+
+  std::vector<double> values;
+  for (const CalibrationTarget &target : task_.targets)
+    values.push_back(found.at(target.name));
+  return values;
+}
+
+std::map<std::string, double> SoilTests::roller(const Point &point) {
+  const fs::path start = placed(point.bed, point.seed, out_);
+  Variables variables = values_of(task_, point.evaluation.point, std::array{"omega", "Fw"});
+  variables.insert(variables.end(), {{"start", start.string()},
+                                     {"balance", "10"},
+                                     {"cycles", std::to_string(task_.cycles)},
+                                     {"samples_per_cycle", "250"}});
+  if (point.k) {
+    const std::string omega = value_of(task_, point.evaluation.point, "omega");
+    const double frequency = omega.empty() ? default_frequency : number_from_text(omega) / (2.0 * pi);
+    variables.emplace_back("steps_per_cycle", std::to_string(steps_per_cycle(*point.k, frequency)));
+  }
+  const DeckRun run("bed/in.bed", variables);
+  run.must_succeed();
+  fs::remove(start); // it would be one file of megabytes for each point and seed
+  const BedLaw law = identified_law(run.file(""));
+  if (!std::isfinite(law.k) || !std::isfinite(law.D))
+    throw std::runtime_error(
+        "identify finds no k and D in the record of the roller: contact is too short or missing");
+  const BedValues values = bed_values(read_table(run.file("cycles.csv")), 1.0);
+  const auto value = [&values](BedQuantity quantity) {
+    return values.at(static_cast<std::size_t>(quantity));
+  };
+  return {{"k", law.k},
+          {"D", law.D},
+          {"settlement", value(BedQuantity::settlement)},
+          {"force", value(BedQuantity::force)},
+          {"acceleration", value(BedQuantity::acceleration)},
+          {"contact", value(BedQuantity::contact)}};
+}
+
+std::map<std::string, double> SoilTests::plate(const Point &point) {
+  constexpr double width = 0.3; // m, the deck's default
+  constexpr double mega = 1e6;
+  Variables variables = point.law;
+  variables.insert(variables.end(), {{"bed", settled_soil(point.bed, point.seed, out_).string()},
+                                     {"plate_width", number_text(width)},
+                                     {"allow_change", point.allow_change}});
+  if (point.k) variables.emplace_back("dt", number_text(time_step(*point.k), 6));
+  const DeckRun run("soil/in.plate", variables);
+  run.must_succeed();
+  const PlateResult result = plate_result(read_plate(run.file("plate.csv")), width);
+  return {{"E_v1", mega * result.first_modulus}, {"E_v2", mega * result.second_modulus}};
+}
+
+std::map<std::string, double> SoilTests::biaxial(const Point &point) const {
+  Variables variables = point.law;
+  variables.emplace_back("seed", std::to_string(point.seed));
+  if (const std::string friction = value_of(task_, point.evaluation.point, pour_friction); !friction.empty())
+    variables.emplace_back("prepare_friction", friction);
+  const DeckRun run("soil/in.biaxial", variables);
+  run.must_succeed();
+  return {{"friction_angle", strength_of(read_compression(run.file("biaxial.csv"))).peak.angle()}};
+}
+
+std::string case_text(const CalibrationTask &task, const std::vector<double> &point,
+                      const std::vector<std::string> &heading) {
+  std::string text;
+  for (const std::string &line : heading)
+    text += "# " + line + "\n";
+  text += "\ninclude ${here}/sizes\n";
+  const auto set = [&text](const std::string &name, const std::string &value) {
+    text += fmt::format("variable {:<15} index {}\n", name, value);
+  };
+  for (const auto &[name, value] : values_of(task, point, law_names))
+    set(name, value);
+  set("pour_D", pour_damping);
+  for (const auto &[name, value] :
+       values_of(task, point, std::array{pour_friction, "m2", "m3", "r2", "r3", "k23", "c23"}))
+    set(name, value);
+  if (const std::string k_text = value_of(task, point, "k"); !k_text.empty()) {
+    const double k = number_from_text(k_text);
+    set("dt", fmt::format("$({}*v_step_scale)", number_text(time_step(k), 6)));
+    set("steps_per_cycle",
+        fmt::format("$(250*ceil({}/v_step_scale))", steps_per_cycle(k, default_frequency) / 250));
+  }
+  return text + "include ${here}/case.gravel\n";
+}
+
+} // namespace drumlin::post

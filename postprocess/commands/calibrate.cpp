@@ -1,0 +1,187 @@
+#include "commands/commands.h"
+
+#include "calibration/calibration.h"
+#include "calibration/page.h"
+#include "calibration/soil_tests.h"
+#include "calibration/task.h"
+#include "studies/study.h"
+#include "support/csv.h"
+#include "support/files.h"
+#include "support/options.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char *settings_name = "settings.csv";
+
+struct Arguments {
+  std::vector<std::string> targets, vary, fixed;
+  std::string seeds = "5";
+  std::string balls = "1000";
+  std::string cycles = "6";
+  std::string evaluations = "40";
+  std::string jobs = "1";
+  std::string target_beds = "0";
+  std::string name = "calibrated";
+  std::string out = "results/calibration";
+  bool fresh = false;
+};
+
+CalibrationTask judged_task(const Arguments &arguments) {
+  CalibrationTask task;
+  for (const std::string &text : arguments.targets)
+    task.targets.push_back(target_from_text(text));
+  for (const std::string &text : arguments.vary)
+    task.vary.push_back(varied_from_text(text));
+  for (const std::string &text : arguments.fixed)
+    task.fixed.push_back(fixed_from_text(text));
+  task.check();
+  constexpr int most_seeds = 1000, least_balls = 50, least_cycles = 4, most = 1000000;
+  task.seeds = count_option("--seeds", arguments.seeds, 2, most_seeds);
+  task.balls = count_option("--balls", arguments.balls, least_balls, most);
+  task.cycles = count_option("--cycles", arguments.cycles, least_cycles, most);
+  task.target_beds = count_option("--target-beds", arguments.target_beds, 0, most);
+  return task;
+}
+
+std::string judged_name(const std::string &name) {
+  constexpr std::size_t most_letters = 60;
+  if (name.empty() || name.size() > most_letters ||
+      name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") !=
+          std::string::npos ||
+      name == "gravel" || name == "loose")
+    throw UsageError(
+        refusal("--name", name,
+                fmt::format("letters, digits, - and _, {} at most, not gravel or loose", most_letters)));
+  return name;
+}
+
+/// Notes the settings in a new folder; throws UsageError if an earlier call had others.
+void note_settings(const fs::path &out, const CalibrationTask &task) {
+  const fs::path file = out / settings_name;
+  std::string text = csv_line({"name", "value"});
+  for (const auto &[name, value] : settings_of(task))
+    text += csv_line({name, value});
+  if (!fs::exists(file))
+    write_files({{file, text}});
+  else if (read_text(file) != text)
+    throw UsageError(refusal(
+        "--out", out.string(),
+        fmt::format("a folder of a calibration with the same targets, ranges and beds ({} has those of the "
+                    "earlier one), --fresh, which forgets it, or another folder",
+                    settings_name)));
+}
+
+void run(const Arguments &arguments, const std::string &command) {
+  constexpr int most = 100000;
+  const CalibrationTask task = judged_task(arguments);
+  CalibrationEffort effort;
+  effort.evaluations = count_option("--evaluations", arguments.evaluations, 1, most);
+  effort.jobs = count_option("--jobs", arguments.jobs, 1, most);
+  const std::string name = judged_name(arguments.name);
+  StudyOptions options;
+  options.out = output_folder_option("--out", arguments.out);
+  options.fresh = arguments.fresh;
+  check_engine_path(options.out);
+  open_study(options);
+  note_settings(options.out, task);
+
+  SoilTests tests(task, options.out);
+  const Calibration found =
+      calibrate(task, effort, options.out,
+                [&tests](const Evaluation &evaluation, int seed) { return tests.measure(evaluation, seed); });
+  write_calibration_page(options.out,
+                         fmt::format("beds of {} discs of case gravel, {} seeds", task.balls, task.seeds),
+                         task, found);
+  const std::vector<std::string> answer = calibration_answer(task, found);
+  for (const std::string &line : answer)
+    fmt::print("  {}\n", line);
+  fmt::print("{}\n", (options.out / "index.html").string());
+  const fs::path case_file = options.out / ("case." + name);
+  if (!found.sensitivity.identified()) {
+    fs::remove(case_file);
+    std::vector<std::string> unknown;
+    for (std::size_t i = 0; i < task.vary.size(); ++i)
+      if (!found.sensitivity.parameters[i].unidentified.empty()) unknown.push_back(task.vary[i].name);
+    throw std::runtime_error(
+        refusal("--vary", fmt::format("{}", fmt::join(unknown, ", ")),
+                "parameters that the targets identify; the page says why they do not, and no case "
+                "file is written"));
+  }
+  std::vector<std::string> heading = {"A bed calibrated by", "", "  " + command, ""};
+  heading.insert(heading.end(), answer.begin(), answer.end());
+  write_files({{case_file, case_text(task, found.best.point, heading)}});
+  fmt::print("{}: copy it to inputs/bed, and give in.settle -var case {}\n", case_file.string(), name);
+}
+
+} // namespace
+
+void add_calibrate_command(CLI::App &app, Session &session) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App *calibrate = app.add_subcommand(
+      "calibrate",
+      "Parameters of a bed's contacts with which it meets targets: stiffness and damping that a roller "
+      "feels, "
+      "settlement, plate modulus, friction angle. Runs the decks on beds of several seeds, and writes a "
+      "page, "
+      "evaluations.csv and a file case.NAME for the decks. An interrupted calibration continues where it was "
+      "interrupted.");
+  std::string quantities, parameters;
+  for (const SoilQuantity &quantity : soil_quantities)
+    quantities += fmt::format("{}{}, {}", quantities.empty() ? "" : "; ", quantity.name, quantity.meaning);
+  for (const SoilParameter &parameter : soil_parameters)
+    parameters += fmt::format("{}{}, {}", parameters.empty() ? "" : "; ", parameter.name, parameter.meaning);
+  const auto list = [&](const char *option, std::vector<std::string> Arguments::*texts,
+                        const std::string &help, const char *type) {
+    calibrate->add_option(option, (*arguments).*texts, help)->type_name(type)->expected(1)->take_all();
+  };
+  list("--target", &Arguments::targets,
+       "NAME=VALUE or NAME=VALUE:TOLERANCE, once for each target; the tolerance is relative, 0.05 if not "
+       "given. " +
+           quantities,
+       "TARGET");
+  list("--vary", &Arguments::vary,
+       "NAME=LOW:HIGH, once for each parameter, no more than targets. " + parameters, "RANGE");
+  list("--set", &Arguments::fixed,
+       "NAME=VALUE, another value than case gravel has: of these parameters, or of the roller's variables "
+       "m2, m3, r2, r3, "
+       "k23, c23, omega, Fw",
+       "SETTING");
+  const auto option = [&](const char *name, std::string Arguments::*text, const char *help,
+                          const char *type) {
+    calibrate->add_option(name, (*arguments).*text, help)->type_name(type)->capture_default_str();
+  };
+  option("--seeds", &Arguments::seeds, "beds at each point, 2 or more", "COUNT");
+  option("--balls", &Arguments::balls,
+         "soil balls of a bed; its width grows with their square root, 2 m for 2500", "COUNT");
+  option("--cycles", &Arguments::cycles,
+         "cycles of the excitation, of which the second half counts for all but k and D", "COUNT");
+  option("--evaluations", &Arguments::evaluations,
+         "points of the search; two for each parameter and one more are made in addition", "COUNT");
+  option("--target-beds", &Arguments::target_beds,
+         "beds of which the targets are means, whose scatter then widens the intervals; 0: they are exact",
+         "COUNT");
+  option("--jobs", &Arguments::jobs, "runs at the same time, one processor each", "COUNT");
+  option("--name", &Arguments::name, "NAME of the file case.NAME", "NAME");
+  option("--out", &Arguments::out, "folder of the results", "DIR");
+  calibrate->add_flag("--fresh", arguments->fresh, "forget the evaluations of an earlier call");
+  calibrate->footer(
+      "Example:\n"
+      "  drumlin calibrate --target k=20e6 --target D=0.2 --vary k=1e8:2e9 --vary D=0.05:0.8 --jobs 2\n");
+  calibrate->callback([arguments, &session] { run(*arguments, session.command); });
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,73 @@
+// `drumlin calibrate` as a user meets it: what it refuses, before any run and without a trace.
+#include "tests/support/engine_runs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(CalibrateCommand, RefusesBadInputInOneLine) {
+  struct Bad {
+    std::vector<std::string> words; ///< instead of those that would be allowed
+    std::string message;
+  };
+  const std::vector<std::string> targets = {"--target", "k=20e6", "--target", "D=0.2"},
+                                 vary = {"--vary", "k=1e8:1e10"};
+  const auto with = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), vary.begin(), vary.end());
+    words.insert(words.begin(), targets.begin(), targets.end());
+    return words;
+  };
+  const std::vector<Bad> rows = {
+      {vary, "--target is ''; allowed: one or more targets"},
+      {targets, "--vary is ''; allowed: one or more parameters"},
+      {with({"--target", "modulus=1e6"}), "--target is 'modulus=1e6'; allowed: NAME=VALUE"},
+      {with({"--target", "E_v1"}), "--target is 'E_v1'; allowed: NAME=VALUE"},
+      {with({"--target", "E_v1=none"}), "--target is 'E_v1=none'; allowed: for 'none': a number"},
+      {with({"--target", "E_v1=-1e6"}), "--target is 'E_v1=-1e6'; allowed: for '-1e6': a number"},
+      {with({"--target", "E_v1=1e7:0"}), "--target is 'E_v1=1e7:0'; allowed: for '0': a number"},
+      {with({"--target", "k=30e6"}), "--target is 'k'; allowed: each name once"},
+      {with({"--target", "E_v1=40e6", "--target", "E_v2=20e6"}),
+       "--target E_v2 is '2e+07'; allowed: no less than E_v1"},
+      {with({"--vary", "mass=1:2"}), "--vary is 'mass=1:2'; allowed: NAME=LOW:HIGH"},
+      {with({"--vary", "D=0.2"}), "--vary is 'D=0.2'; allowed: NAME=LOW:HIGH"},
+      {with({"--vary", "D=0.2:0.2"}), "--vary is 'D=0.2:0.2'; allowed: HIGH at least 1.05 times LOW"},
+      {with({"--vary", "D=0.4:0.2"}), "--vary is 'D=0.4:0.2'; allowed: HIGH at least 1.05 times LOW"},
+      {with({"--vary", "D=0:0.2"}), "--vary is 'D=0:0.2'; allowed: for '0': a number"},
+      {with({"--vary", "k=1e8:1e9"}), "--vary is 'k'; allowed: each name once"},
+      {with({"--vary", "D=0.1:0.4", "--vary", "friction=0.2:1"}),
+       "--vary is 'k, D, friction'; allowed: at most as many parameters as targets, 2: more cannot be "
+       "identified"},
+      {with({"--set", "g=9.81"}), "--set is 'g=9.81'; allowed: NAME=VALUE"},
+      {with({"--set", "k=1e9"}), "--set is 'k'; allowed: a variable that --vary does not name"},
+      {with({"--set", "m2=heavy"}), "--set is 'm2=heavy'; allowed: for 'heavy': a number"},
+      {with({"--seeds", "1"}), "--seeds is '1'; allowed: a whole number from 2"},
+      {with({"--balls", "5"}), "--balls is '5'; allowed: a whole number from 50"},
+      {with({"--cycles", "1"}), "--cycles is '1'; allowed: a whole number from 4"},
+      {with({"--evaluations", "0"}), "--evaluations is '0'; allowed: a whole number from 1"},
+      {with({"--jobs", "0"}), "--jobs is '0'; allowed: a whole number from 1"},
+      {with({"--target-beds", "-1"}), "--target-beds is '-1'; allowed: a whole number from 0"},
+      {with({"--name", "a/b"}), "--name is 'a/b'; allowed: letters"},
+      {with({"--name", "gravel"}), "--name is 'gravel'; allowed: letters"},
+      {with({"--out", "a b"}), "--out is 'a b'; allowed: a path without spaces"}};
+  const Scratch scratch;
+  for (const Bad &row : rows) {
+    std::vector<std::string> words = {DRUMLIN_TOOLS, "calibrate"};
+    words.insert(words.end(), row.words.begin(), row.words.end());
+    const Outcome outcome = run_program(words, {}, scratch.path(), 20.0);
+    EXPECT_EQ(outcome.status, 2) << row.message;
+    EXPECT_TRUE(outcome.says("ERROR: drumlin calibrate: " + row.message)) << outcome.output;
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
+    EXPECT_FALSE(fs::exists(scratch / "results"));
+  }
+}
+
+} // namespace
+} // namespace drumlin::test
