@@ -50,10 +50,12 @@ public:
 
   Calibration finish() {
     search();
-    // The best of the search alone: a continued calibration then measures slopes around the same point.
-    evaluate(slope_points(task_, best(Stage::search).point), Stage::slopes);
-    const Evaluation centre = *best_of(task_, evaluations_);
-    if (const Sensitivity first = sensitivity_at(task_, evaluations_, centre); first.identified())
+    // Slopes are measured around the best of the search alone, and the estimate comes from these two stages, so that a continued
+    // calibration finds the points of both among its evaluations.
+    evaluate(slope_points(task_, best_of(task_, until(Stage::search))->point), Stage::slopes);
+    const std::vector<Evaluation> before = until(Stage::slopes);
+    const Evaluation centre = *best_of(task_, before);
+    if (const Sensitivity first = sensitivity_at(task_, before, centre); first.identified())
       evaluate({estimate(first, centre.point)}, Stage::estimate);
     const Evaluation last = *best_of(task_, evaluations_);
     return {evaluations_, last, sensitivity_at(task_, evaluations_, last)};
@@ -169,11 +171,12 @@ private:
                                            evaluations_.size(), evaluations_.back().failure()));
   }
 
-  Evaluation best(Stage stage) const {
-    std::vector<Evaluation> of_stage;
-    std::copy_if(evaluations_.begin(), evaluations_.end(), std::back_inserter(of_stage),
-                 [stage](const Evaluation &one) { return one.stage == stage; });
-    return *best_of(task_, of_stage);
+  /// The evaluations of the stages up to one.
+  std::vector<Evaluation> until(Stage stage) const {
+    std::vector<Evaluation> earlier;
+    std::copy_if(evaluations_.begin(), evaluations_.end(), std::back_inserter(earlier),
+                 [stage](const Evaluation &one) { return one.stage <= stage; });
+    return earlier;
   }
 
   /// The point of the estimates, within the ranges, and so near that the points around the centre stay within the reach of a fit.

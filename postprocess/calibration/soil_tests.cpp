@@ -196,6 +196,7 @@ std::string case_text(const CalibrationTask &task, const std::vector<double> &po
   const auto set = [&text](const std::string &name, const std::string &value) {
     text += fmt::format("variable {:<15} index {}\n", name, value);
   };
+  set("dimension", "2");
   for (const auto &[name, value] : values_of(task, point, law_names))
     set(name, value);
   set("pour_D", pour_damping);

@@ -77,7 +77,7 @@ TEST(PointSearch, FindsTheSmallestValueAndContinues) {
   EXPECT_LT(best, 1e-2);
 }
 
-TEST(Sensitivity, IsThatOfPowersExactly) {
+TEST(SlopesOfTargets, IsThatOfPowersExactly) {
   post::CalibrationTask task = two_of_two(3);
   std::vector<post::Evaluation> evaluations;
   const auto add = [&](const std::vector<double> &point) {
@@ -145,7 +145,7 @@ TEST(Calibration, FindsTheLumpedSoilThatIdentifySeesInAChain) {
   task.targets = {{"k", 2e7, 0.05}, {"D", 0.2, 0.05}};
   task.seeds = 3;
   const Scratch scratch;
-  const post::Calibration found = post::calibrate(task, {12, 1}, scratch.path(), measure);
+  const post::Calibration found = post::calibrate(task, {8, 1}, scratch.path(), measure);
   ASSERT_TRUE(found.sensitivity.identified());
   const post::ParameterEstimate &k = found.sensitivity.parameters[0], &D = found.sensitivity.parameters[1];
   EXPECT_TRUE(k.low < 2e8 && 2e8 < k.high) << k.low << " to " << k.high;

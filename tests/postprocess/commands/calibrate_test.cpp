@@ -35,7 +35,7 @@ TEST(CalibrateCommand, RefusesBadInputInOneLine) {
       {with({"--target", "E_v1=1e7:0"}), "--target is 'E_v1=1e7:0'; allowed: for '0': a number"},
       {with({"--target", "k=30e6"}), "--target is 'k'; allowed: each name once"},
       {with({"--target", "E_v1=40e6", "--target", "E_v2=20e6"}),
-       "--target E_v2 is '2e+07'; allowed: no less than E_v1"},
+       "--target E_v2 is '20000000'; allowed: no less than E_v1"},
       {with({"--vary", "mass=1:2"}), "--vary is 'mass=1:2'; allowed: NAME=LOW:HIGH"},
       {with({"--vary", "D=0.2"}), "--vary is 'D=0.2'; allowed: NAME=LOW:HIGH"},
       {with({"--vary", "D=0.2:0.2"}), "--vary is 'D=0.2:0.2'; allowed: HIGH at least 1.05 times LOW"},
