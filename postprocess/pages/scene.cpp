@@ -142,6 +142,30 @@ std::string shear_drawing() {
          text(262, 40, "moved slowly", "start", red);
 }
 
+/// Soil between two walls on a floor, without the arrow of the plate that moves.
+std::string between_walls() {
+  return soil(86) + box(5, 60, 12, 98, steel) + box(251, 60, 12, 98, steel) + strokes(ground(17, 251, 158));
+}
+
+std::string wall_drawing() {
+  return between_walls() + strokes(line(270, 100, 312, 100) + "M303 95 L312 100 L303 105 ", 2.4, red) +
+         text(270, 90, "moved slowly", "start", red);
+}
+
+std::string silo_drawing() {
+  return between_walls() + strokes(arrow(290, 130, 168), 2.4, red) + text(270, 120, "floor", "start", red);
+}
+
+std::string repose_drawing() {
+  std::string heap;
+  for (int row = 0; row < 5; ++row)
+    for (int n = 0; n < 9 - 2 * row; ++n)
+      heap += disc(28 + 20 * n + 10 * (row % 2), 148 - 17.5 * row, 10, sand);
+  return heap + box(5, 50, 12, 108, steel) + box(251, 50, 12, 108, steel) + strokes(ground(17, 251, 158)) +
+         strokes(line(270, 100, 312, 100) + "M303 95 L312 100 L303 105 ", 2.4, red) +
+         text(262, 90, "moved away", "start", red);
+}
+
 std::string held_drawing() {
   const auto wall = [](double x, double side) {
     std::string path = line(x, 30, x, 130);
@@ -210,6 +234,26 @@ std::string scene_html(Scene scene) {
               "carries a given "
               "stress and is moved sideways.";
     drawing = shear_drawing();
+    height = 180;
+    break;
+  case Scene::repose:
+    title = "Half a heap of soil";
+    caption =
+        "The model: soil balls on a floor of balls, between smooth walls. The right wall moves away slowly.";
+    drawing = repose_drawing();
+    height = 180;
+    break;
+  case Scene::silo:
+    title = "Soil between two rough walls";
+    caption = "The model: soil balls under gravity between two rough walls, whose floor moves down slowly.";
+    drawing = silo_drawing();
+    height = 180;
+    break;
+  case Scene::wall:
+    title = "Soil behind a wall that moves outward";
+    caption = "The model: soil balls under gravity between two smooth walls, of which the right one moves "
+              "outward slowly.";
+    drawing = wall_drawing();
     height = 180;
     break;
   case Scene::triaxial:

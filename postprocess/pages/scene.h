@@ -15,7 +15,10 @@ enum class Scene {
   biaxial,   ///< a sample between four plates, under a side stress
   triaxial,  ///< a sample between six plates, under a side stress
   plate,     ///< a plate under a stress on a bed of balls
-  shear      ///< a sample between two plates, of which the upper one moves sideways
+  shear,     ///< a sample between two plates, of which the upper one moves sideways
+  repose,    ///< soil on a floor from which a wall moves away
+  silo,      ///< soil between two walls, whose floor moves down
+  wall       ///< soil behind a wall that moves outward
 };
 
 /// <figure class="scene"> with the drawing, its text alternative and a caption.

@@ -2,6 +2,7 @@
 
 #include "report/compression_page.h"
 #include "report/oedometer_page.h"
+#include "report/own_weight_page.h"
 #include "report/plate_page.h"
 #include "report/shear_page.h"
 
@@ -12,7 +13,10 @@ std::vector<ElementTest> element_tests() {
           {"biaxial", biaxial_title, read_biaxial_page},
           {"triaxial", triaxial_title, read_triaxial_page},
           {"plate", plate_title, read_plate_page},
-          {"shear", shear_title, read_shear_page}};
+          {"shear", shear_title, read_shear_page},
+          {"repose", repose_title, read_repose_page},
+          {"silo", silo_title, read_silo_page},
+          {"wall", wall_title, read_wall_page}};
 }
 
 } // namespace drumlin::post

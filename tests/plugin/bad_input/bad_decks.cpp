@@ -303,12 +303,40 @@ BadGroup shear() {
   return group;
 }
 
+// What differs from the other tests of samples; in.silo and in.repose share the deck of in.wall.
+BadGroup wall() {
+  BadGroup group{"RetainingWall", "soil/in.wall", {}};
+  for (const char *value : {"0", "-9.81", "nan"})
+    group.inputs.push_back(variable("g", value, positive));
+  for (const char *name : {"strain", "inertial_number"})
+    group.inputs.push_back(variable(name, "0", positive, true));
+  group.inputs.push_back(variable("samples_of_strain", "0", whole));
+  group.inputs.push_back(variable("sample", "square", "allowed: hexagonal or random"));
+  group.inputs.push_back(variable("dimension", "3", "allowed: 2"));
+  return group;
+}
+
+BadGroup silo() {
+  BadGroup group{"Silo", "soil/in.silo", {}};
+  for (const char *value : {"-0.1", "nan", "rough"})
+    group.inputs.push_back(variable("wall_friction", value, non_negative));
+  return group;
+}
+
+BadGroup repose() {
+  BadGroup group{"Repose", "soil/in.repose", {}};
+  group.inputs.push_back(variable("floor", "sand", "allowed: balls or plate", true));
+  group.inputs.push_back(variable("friction", "-0.1", non_negative));
+  return group;
+}
+
 } // namespace
 
 std::vector<BadGroup> bad_variables() {
   return {chain_choices(), chain_numbers(), chain_counts(), chain_folder(), chain_equilibrium(),
           impact(),        bed_settle(),    bed_place(),    bed(),          oedometer(),
-          spheres(),       biaxial(),       triaxial(),     plate(),        shear()};
+          spheres(),       biaxial(),       triaxial(),     plate(),        shear(),
+          wall(),          silo(),          repose()};
 }
 
 } // namespace drumlin::test
