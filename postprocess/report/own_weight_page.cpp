@@ -156,7 +156,8 @@ struct SiloSoil {
 PageFigure silo_figure(const std::vector<OwnWeightRun> &runs, const std::vector<SiloState> &states,
                        const std::vector<SiloSoil> &soils) {
   const std::string name = "silo";
-  Panel panel{"", "height over width", "stress on the floor over weight density times width", {}};
+  Panel panel{"", "height over width", "stress on the floor over γB", {}};
+  panel.tight_x = true;
   panel.y_range = "[0:*]";
   CurveTable table("height over width,stress over weight density times width");
   for (std::size_t s = 0; s < soils.size(); ++s) {
@@ -178,11 +179,11 @@ PageFigure silo_figure(const std::vector<OwnWeightRun> &runs, const std::vector<
     }
     panel.curves.push_back(curve(name, theory, "$2", "3", line_style(s)));
   }
-  return one_panel(
-      name,
-      "Vertical stress on the floor over the height of the filling, and Janssen's stress with the mean "
-      "of the coefficients that follow from the normal forces on the walls.",
-      panel, table);
+  return one_panel(name,
+                   "Vertical stress on the floor, over weight per volume γ times width B, over the height of "
+                   "the filling, and Janssen's stress with the mean "
+                   "of the coefficients that follow from the normal forces on the walls.",
+                   panel, table);
 }
 
 void write_silo_page(const std::vector<OwnWeightRun> &runs, const fs::path &out) {
@@ -257,6 +258,7 @@ Heap read_heap(const OwnWeightRun &test) {
 PageFigure repose_figure(const std::vector<OwnWeightRun> &runs, const std::vector<Heap> &heaps) {
   const std::string name = "repose";
   Panel panel{"", "distance from the left wall (m)", "height (m)", {}};
+  panel.tight_x = true;
   panel.y_range = "[0:*]";
   CurveTable table("distance (m),height (m)");
   for (std::size_t n = 0; n < runs.size(); ++n) {

@@ -291,31 +291,24 @@ BadGroup plate() {
   return group;
 }
 
-BadGroup shear() {
-  BadGroup group{"Shear", "soil/in.shear", {}};
+/// A test in the plane that moves a plate at a constant speed, on the samples hexagonal and random.
+/// \param load the variable that stresses the sample
+BadGroup moved_plate(const char *name, const char *deck, const char *load) {
+  BadGroup group{name, deck, {}};
   for (const char *value : {"0", "-1", "nan"})
-    group.inputs.push_back(variable("normal", value, positive));
-  for (const char *name : {"strain", "inertial_number"})
-    group.inputs.push_back(variable(name, "0", positive, true));
+    group.inputs.push_back(variable(load, value, positive));
+  for (const char *rate : {"strain", "inertial_number"})
+    group.inputs.push_back(variable(rate, "0", positive, true));
   group.inputs.push_back(variable("samples_of_strain", "0", whole));
   group.inputs.push_back(variable("sample", "cubic", "allowed: hexagonal or random"));
   group.inputs.push_back(variable("dimension", "3", "allowed: 2"));
   return group;
 }
 
-// What differs from the other tests of samples; in.silo and in.repose share the deck of in.wall.
-BadGroup wall() {
-  BadGroup group{"RetainingWall", "soil/in.wall", {}};
-  for (const char *value : {"0", "-9.81", "nan"})
-    group.inputs.push_back(variable("g", value, positive));
-  for (const char *name : {"strain", "inertial_number"})
-    group.inputs.push_back(variable(name, "0", positive, true));
-  group.inputs.push_back(variable("samples_of_strain", "0", whole));
-  group.inputs.push_back(variable("sample", "square", "allowed: hexagonal or random"));
-  group.inputs.push_back(variable("dimension", "3", "allowed: 2"));
-  return group;
-}
+BadGroup shear() { return moved_plate("Shear", "soil/in.shear", "normal"); }
+BadGroup wall() { return moved_plate("RetainingWall", "soil/in.wall", "g"); }
 
+// What differs from in.wall, whose deck in.silo and in.repose share.
 BadGroup silo() {
   BadGroup group{"Silo", "soil/in.silo", {}};
   for (const char *value : {"-0.1", "nan", "rough"})
