@@ -250,6 +250,28 @@ TEST_F(FrontScript, RunsInPlacesOfAllKinds) {
   }
 }
 
+/// A checkout that is built runs decks also if it cannot be written; what would write into it says so.
+TEST_F(FrontScript, RunsInAReadOnlyCheckout) {
+  if (!can_mount_small_disk()) GTEST_SKIP() << "SKIPPED: a file system of its own needs root";
+  const fs::path place = checkout("checkout");
+  const auto read_only = [&](const std::vector<std::string> &arguments) {
+    std::vector<std::string> words = {"unshare",
+                                      "--mount",
+                                      "sh",
+                                      "-c",
+                                      "mount --bind \"$0\" \"$0\" && mount -o remount,bind,ro \"$0\" && "
+                                      "exec \"$0/drumlin\" \"$@\"",
+                                      place.string()};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return run_program(words, {}, folder, 60.0);
+  };
+  const Outcome outcome = read_only(short_chain);
+  EXPECT_TRUE(outcome.ok()) << outcome.output;
+  EXPECT_TRUE(fs::is_regular_file(folder / "out/chain.csv")) << outcome.output;
+  for (const char *command : {"setup", "test", "check"})
+    expect_one_line(read_only({command}), "cannot be written; allowed: a checkout of one's own");
+}
+
 /// Two jobs make a run: the first stops at its time, the second continues; a third has nothing to do.
 TEST_F(FrontScript, JobScriptsContinueUntilTheCyclesAreDone) {
   const fs::path place = checkout("checkout");
