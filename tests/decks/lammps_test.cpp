@@ -248,6 +248,26 @@ TEST_F(InLammps, PartitionsAreRunsOfTheirOwnOnRanksOneAndTwo) {
   }
 }
 
+/// With a suffix LAMMPS takes its own accelerated variants where it has them, and refuses a suffix whose package
+/// is not in the lmp.
+TEST_F(InLammps, SuffixesChangeNoResult) {
+  const Scratch plain;
+  ASSERT_TRUE(run_deck(chain_deck("in.chain.lammps"), {{"cycles", "1"}}, plain.path()).ok());
+  for (const std::string suffix : {"opt", "omp"}) {
+    const Scratch folder;
+    const Outcome outcome = run_program({std::string(DRUMLIN_SOURCE_DIR) + "/drumlin", "run",
+                                         chain_deck("in.chain.lammps").string(), "-sf", suffix, "-var",
+                                         "cycles", "1", "-var", "out", "."},
+                                        {}, folder.path());
+    if (outcome.status == 1) {
+      EXPECT_TRUE(outcome.says("ERROR: Using suffix " + suffix + " without ")) << outcome.output;
+      continue;
+    }
+    ASSERT_TRUE(outcome.ok()) << outcome.output;
+    EXPECT_EQ(read_text(plain / "chain.csv"), read_text(folder / "chain.csv")) << suffix;
+  }
+}
+
 TEST_F(InLammps, RefusesTheHistoryOfAnotherWallOnRanksOneAndTwo) {
   const Scratch block;
   ASSERT_TRUE(run_deck(test_deck("bounce.lammps"), {{"walls", "block"}}, block.path()).ok());
