@@ -128,12 +128,13 @@ Regime followed(const ChainParameters &p, int cycles) {
   return regime_of(period_of(states, p), count.breaks);
 }
 
-// The same by CVODE.
-Regime followed_by_cvode(const ChainParameters &p, int cycles) {
+// The same by CVODE, after a start from rest or a fall onto the soil.
+Regime solved_by_cvode(const ChainParameters &p, int cycles, double impact_speed) {
   DirectOptions options;
   options.cycles = cycles;
   options.samples_per_cycle = 1;
   options.rtol = 1e-10;
+  options.impact_speed = impact_speed;
   const DirectResult result = solve_direct(p, options);
   const ChainHistory &h = result.history;
   std::vector<Eigen::Vector4d> states;
@@ -143,6 +144,15 @@ Regime followed_by_cvode(const ChainParameters &p, int cycles) {
     breaks += result.cycles[i - 1].breaks;
   }
   return regime_of(period_of(states, p), breaks);
+}
+
+// More cycles than the direct solver permits are solved as several motions from other starts, until one settles.
+Regime followed_by_cvode(const ChainParameters &p, int cycles) {
+  const int most = static_cast<int>(most_cycles(p));
+  Regime regime = solved_by_cvode(p, std::min(cycles, most), 0.0);
+  for (int start = 1; regime == Regime::aperiodic && start * most < cycles; ++start)
+    regime = solved_by_cvode(p, most, 0.05 * start);
+  return regime;
 }
 
 // A motion that is aperiodic at first can fall into a stable orbit after thousands of cycles. Errors of rounding
