@@ -148,7 +148,7 @@ Regime solved_by_cvode(const ChainParameters &p, int cycles, double impact_speed
 
 // More cycles than the direct solver permits are solved as several motions from other starts, until one settles.
 Regime followed_by_cvode(const ChainParameters &p, int cycles) {
-  const int most = static_cast<int>(most_cycles(p));
+  const auto most = static_cast<int>(std::min(most_cycles(p), DirectOptions::cycles_range.most));
   Regime regime = solved_by_cvode(p, std::min(cycles, most), 0.0);
   for (int start = 1; regime == Regime::aperiodic && start * most < cycles; ++start)
     regime = solved_by_cvode(p, most, 0.05 * start);
