@@ -39,7 +39,6 @@ PageTable parameter_table(const CalibrationTask &task, const Calibration &found)
   table.name = "parameters";
   table.title = "Parameters";
   table.header = {"parameter", "best evaluation", "estimate", "95 % confidence interval", "range", "why not"};
-  table.verdict = "";
   table.criterion = "identified by the targets";
   for (std::size_t i = 0; i < task.vary.size(); ++i) {
     const ParameterEstimate &one = found.sensitivity.parameters[i];
@@ -123,18 +122,22 @@ PageFigure progress_figure(const CalibrationTask &task, const Calibration &found
   figure.weight = 2.0;
   figure.figure = {name, "The search", {}, 2};
   CurveTable data("evaluation,value");
+  std::vector<const Evaluation *> good;
+  for (const Evaluation &one : found.evaluations)
+    if (one.good(task)) good.push_back(&one);
+  // An axis of logarithms has no zero.
+  const auto objective = [&task](const Evaluation &one) { return std::max(one.objective(task), 1e-9); };
   double least = std::numeric_limits<double>::infinity();
-  for (const Evaluation &one : found.evaluations) {
-    if (!one.good(task)) continue;
-    // An axis of logarithms has no zero.
-    const double objective = std::max(one.objective(task), 1e-9);
-    least = std::min(least, objective);
-    const double number = one.number;
-    data.row("objective", {number, objective});
-    data.row("smallest", {number, least});
-    for (std::size_t i = 0; i < task.targets.size(); ++i)
-      data.row(task.targets[i].name, {number, one.mean(i) / task.targets[i].value});
+  for (const Evaluation *one : good)
+    data.row("objective", {static_cast<double>(one->number), objective(*one)});
+  for (const Evaluation *one : good) {
+    least = std::min(least, objective(*one));
+    data.row("smallest", {static_cast<double>(one->number), least});
   }
+  for (std::size_t i = 0; i < task.targets.size(); ++i)
+    for (const Evaluation *one : good)
+      data.row(task.targets[i].name,
+               {static_cast<double>(one->number), one->mean(i) / task.targets[i].value});
   figure.csv = data.text();
   Panel left;
   left.x_label = "evaluation";
@@ -167,7 +170,7 @@ PageFigure slope_figure(const CalibrationTask &task, const Calibration &found) {
   CurveTable data("parameter,slope,low,high");
   for (std::size_t i = 0; i < task.targets.size(); ++i) {
     Panel panel;
-    panel.title = task.targets[i].name;
+    panel.title = "target " + task.targets[i].name;
     panel.y_label = "slope [-]";
     panel.x_range = axis_range(0.5, 0.5 + static_cast<double>(task.vary.size()));
     for (std::size_t j = 0; j < task.vary.size(); ++j) {

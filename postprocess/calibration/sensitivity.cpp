@@ -40,6 +40,7 @@ std::vector<MatrixXd> fits(const CalibrationTask &task, const std::vector<const 
   if (factors.rank() < terms.cols())
     throw std::runtime_error("too few evaluations near the best one succeeded: its slopes are not known");
   std::vector<MatrixXd> all;
+  all.reserve(static_cast<std::size_t>(task.seeds));
   for (int seed = 0; seed < task.seeds; ++seed) {
     MatrixXd values(terms.rows(), targets);
     for (std::size_t i = 0; i < near.size(); ++i)
@@ -138,6 +139,7 @@ Sensitivity sensitivity_at(const CalibrationTask &task, const std::vector<Evalua
 
   // Each seed's bed has parameters of its own that meet the targets; their scatter is that of the estimate.
   std::vector<MatrixXd> estimates;
+  estimates.reserve(seeds.size());
   for (const MatrixXd &seed : seeds)
     estimates.emplace_back(inverse * (weight.asDiagonal() * (wanted - seed.row(0).transpose())));
   const double widening =

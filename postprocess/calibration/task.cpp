@@ -108,8 +108,8 @@ VariedParameter varied_from_text(const std::string &text) {
   if (parameter == nullptr || !bounds)
     throw UsageError(
         refusal(option, text, fmt::format("NAME=LOW:HIGH, NAME one of {}", names_of(soil_parameters))));
-  const VariedParameter varied{named->first, number_in(option, text, bounds->first, parameter->range),
-                               number_in(option, text, bounds->second, parameter->range)};
+  VariedParameter varied{named->first, number_in(option, text, bounds->first, parameter->range),
+                         number_in(option, text, bounds->second, parameter->range)};
   if (varied.high < least_ratio * varied.low)
     throw UsageError(refusal(option, text, fmt::format("HIGH at least {} times LOW", least_ratio)));
   return varied;
