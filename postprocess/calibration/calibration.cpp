@@ -141,6 +141,7 @@ private:
 
   void search() {
     std::vector<SearchPoint> earlier;
+    earlier.reserve(evaluations_.size());
     for (const Evaluation &one : evaluations_)
       earlier.push_back({unit_point(task_, one.point), searched_value(one)});
     PointSearch search(task_.vary.size(), search_noise, earlier);
@@ -156,6 +157,7 @@ private:
         points.push_back(point_at(task_, search.next()));
       evaluate(points, Stage::search);
       std::vector<double> values;
+      values.reserve(points.size());
       for (const std::vector<double> &point : points)
         values.push_back(searched_value(*at(point)));
       search.give(values);
@@ -183,6 +185,7 @@ private:
   std::vector<double> estimate(const Sensitivity &sensitivity, const std::vector<double> &centre) const {
     const double reach = std::exp(fit_reach - slope_step);
     std::vector<double> point;
+    point.reserve(centre.size());
     for (std::size_t i = 0; i < centre.size(); ++i)
       point.push_back(std::clamp(sensitivity.parameters[i].value, centre[i] / reach, centre[i] * reach));
     return point_at(task_, unit_point(task_, point));

@@ -196,17 +196,18 @@ std::vector<std::string> calibration_answer(const CalibrationTask &task, const C
     const ParameterEstimate &one = found.sensitivity.parameters[i];
     const std::string &name = task.vary[i].name;
     if (!one.unidentified.empty())
-      lines.push_back(fmt::format("{} is not identified: {}.", name, one.unidentified));
+      lines.push_back(fmt::format("Parameter {} is not identified: {}.", name, one.unidentified));
     else
-      lines.push_back(fmt::format("{} = {:.4g}; the targets are met at {:.4g}, 95 % confidence interval {}.",
-                                  name, found.best.point[i], one.value, between(one.low, one.high)));
+      lines.push_back(fmt::format(
+          "Parameter {} = {:.4g}; by the slopes the targets are met at {:.4g}, 95 % confidence interval {}.",
+          name, found.best.point[i], one.value, between(one.low, one.high)));
   }
   for (std::size_t i = 0; i < task.targets.size(); ++i) {
     const CalibrationTarget &target = task.targets[i];
     const double mean = found.best.mean(i), off = std::log(mean / target.value);
     lines.push_back(
-        fmt::format("{}: wanted {:.4g}, measured {:.4g}, {:+.2g} %{}.", target.name, target.value, mean,
-                    100.0 * std::expm1(off),
+        fmt::format("Target {}: wanted {:.4g}, measured {:.4g}, {:+.2g} %{}.", target.name, target.value,
+                    mean, 100.0 * std::expm1(off),
                     std::fabs(off) <= target.tolerance ? "" : ", which is outside of the tolerance"));
   }
   return lines;

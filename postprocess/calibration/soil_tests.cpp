@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -27,6 +26,7 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr const char *pour_damping = "0.3"; ///< D while the soil settles, the same at all points
 constexpr double default_frequency = 20.0;  ///< Hz, of in.bed
+constexpr int step_digits = 6;              ///< of time steps
 constexpr const char *pour_friction = "pour_friction";
 
 /// Names of the law of the soil's contacts, which may change when the soil has settled.
@@ -50,16 +50,27 @@ Variables values_of(const CalibrationTask &task, const std::vector<double> &poin
   return values;
 }
 
-/// Time step for contacts of stiffness k [N/m] of discs of a smallest radius of 16 mm: a sixteenth of an undamped contact of two of them,
-/// pi sqrt(m/(2 k)) [s].
-double time_step(double k) {
+/// k [N/m] or D of the contacts at a point; that of case.gravel if nothing else is given.
+double number_of(const CalibrationTask &task, const std::vector<double> &point, const std::string &name,
+                 double gravel) {
+  const std::string value = value_of(task, point, name);
+  return value.empty() ? gravel : number_from_text(value);
+}
+
+/// Time step [s] for discs of a smallest radius of 16 mm: a sixteenth of an undamped contact of two of them, which takes
+/// pi sqrt(m/(2 k)). The longest stable step of the stepping `stock` is in proportion to sqrt(1 + D^2) - D: with more damping than
+/// gravel has the step is shorter in this proportion.
+double time_step(const CalibrationTask &task, const std::vector<double> &point) {
+  constexpr double gravel_k = 1e9, gravel_D = 0.3, steps = 16.0;
   const double mass = pi * 0.016 * 0.016 * soil_density;
-  return pi * std::sqrt(0.5 * mass / k) / 16.0;
+  const auto stable = [](double D) { return std::sqrt(1.0 + D * D) - D; };
+  const double damped = stable(number_of(task, point, "D", gravel_D)) / stable(gravel_D);
+  return pi * std::sqrt(0.5 * mass / number_of(task, point, "k", gravel_k)) / steps * std::min(1.0, damped);
 }
 
 /// steps_per_cycle of in.bed, in multiples of 250.
-int steps_per_cycle(double k, double frequency) {
-  return 250 * static_cast<int>(std::ceil(1.0 / (frequency * time_step(k)) / 250.0));
+int steps_per_cycle(double step, double frequency) {
+  return 250 * static_cast<int>(std::ceil(1.0 / (frequency * step) / 250.0));
 }
 
 PackingOptions packing_of(const CalibrationTask &task) {
@@ -77,19 +88,23 @@ struct SoilTests::Point {
   int seed;
   Variables law;            ///< of the contacts, as far as it is not the default
   std::string allow_change; ///< names of what varies of it, as the decks take them
-  std::optional<double> k;
+  double step;              ///< of time [s]
   PlacedBed bed;
 };
 
 SoilTests::SoilTests(CalibrationTask task, fs::path out) : task_(std::move(task)), out_(std::move(out)) {}
 
 std::vector<double> SoilTests::measure(const Evaluation &evaluation, int seed) {
-  Point point{evaluation, seed, values_of(task_, evaluation.point, law_names), "none", {}, {}};
+  Point point{evaluation,
+              seed,
+              values_of(task_, evaluation.point, law_names),
+              "none",
+              time_step(task_, evaluation.point),
+              {}};
   std::vector<std::string> varied;
   for (const char *name : law_names)
     if (task_.varies(name)) varied.emplace_back(name);
   if (!varied.empty()) point.allow_change = fmt::format("{}", fmt::join(varied, ","));
-  if (const std::string k = value_of(task_, evaluation.point, "k"); !k.empty()) point.k = number_from_text(k);
 
   PlacedBed &bed = point.bed;
   bed.name = fmt::format("evaluation_{}", evaluation.number);
@@ -106,7 +121,7 @@ std::vector<double> SoilTests::measure(const Evaluation &evaluation, int seed) {
   bed.place =
       joined(point.law, values_of(task_, evaluation.point, std::array{"m2", "m3", "r2", "r3", "k23", "c23"}));
   bed.place.emplace_back("allow_change", point.allow_change);
-  if (point.k) bed.place.emplace_back("dt", number_text(time_step(*point.k), 6));
+  bed.place.emplace_back("dt", number_text(point.step, step_digits));
 
   std::map<std::string, double> found;
   for (const SoilTest test : {SoilTest::roller, SoilTest::plate, SoilTest::biaxial}) {
@@ -139,11 +154,8 @@ std::map<std::string, double> SoilTests::roller(const Point &point) {
                                      {"balance", "10"},
                                      {"cycles", std::to_string(task_.cycles)},
                                      {"samples_per_cycle", "250"}});
-  if (point.k) {
-    const std::string omega = value_of(task_, point.evaluation.point, "omega");
-    const double frequency = omega.empty() ? default_frequency : number_from_text(omega) / (2.0 * pi);
-    variables.emplace_back("steps_per_cycle", std::to_string(steps_per_cycle(*point.k, frequency)));
-  }
+  const double omega = number_of(task_, point.evaluation.point, "omega", 2.0 * pi * default_frequency);
+  variables.emplace_back("steps_per_cycle", std::to_string(steps_per_cycle(point.step, omega / (2.0 * pi))));
   const DeckRun run("bed/in.bed", variables);
   run.must_succeed();
   fs::remove(start); // it would be one file of megabytes for each point and seed
@@ -170,7 +182,7 @@ std::map<std::string, double> SoilTests::plate(const Point &point) {
   variables.insert(variables.end(), {{"bed", settled_soil(point.bed, point.seed, out_).string()},
                                      {"plate_width", number_text(width)},
                                      {"allow_change", point.allow_change}});
-  if (point.k) variables.emplace_back("dt", number_text(time_step(*point.k), 6));
+  variables.emplace_back("dt", number_text(point.step, step_digits));
   const DeckRun run("soil/in.plate", variables);
   run.must_succeed();
   const PlateResult result = plate_result(read_plate(run.file("plate.csv")), width);
@@ -203,12 +215,10 @@ std::string case_text(const CalibrationTask &task, const std::vector<double> &po
   for (const auto &[name, value] :
        values_of(task, point, std::array{pour_friction, "m2", "m3", "r2", "r3", "k23", "c23"}))
     set(name, value);
-  if (const std::string k_text = value_of(task, point, "k"); !k_text.empty()) {
-    const double k = number_from_text(k_text);
-    set("dt", fmt::format("$({}*v_step_scale)", number_text(time_step(k), 6)));
-    set("steps_per_cycle",
-        fmt::format("$(250*ceil({}/v_step_scale))", steps_per_cycle(k, default_frequency) / 250));
-  }
+  const double step = time_step(task, point);
+  set("dt", fmt::format("$({}*v_step_scale)", number_text(step, step_digits)));
+  set("steps_per_cycle",
+      fmt::format("$(250*ceil({}/v_step_scale))", steps_per_cycle(step, default_frequency) / 250));
   return text + "include ${here}/case.gravel\n";
 }
 
