@@ -218,11 +218,9 @@ Heap heap(const std::string &engine, const Variables &variables) {
 
 // Balls without friction on a smooth floor lie level, within a ball over the length of the surface, and press on the wall.
 TEST(Repose, IsLevelWithoutFriction) {
-  const Heap level = heap("liggghts", {{"friction", "0"},
-                                       {"rolling", "0"},
-                                       {"floor", "plate"},
-                                       {"layers", "12"},
-                                       {"strain", "0.8"}});
+  const Heap level =
+      heap("liggghts",
+           {{"friction", "0"}, {"rolling", "0"}, {"floor", "plate"}, {"layers", "12"}, {"strain", "0.8"}});
   const double length = 0.39 + 0.8 * 0.34; // m, between the walls at the end
   EXPECT_LT(std::fabs(level.angle), 180 / pi * 0.04 / length);
   EXPECT_GT(level.wall_force, 0);
