@@ -75,8 +75,16 @@ void FixStepping::init() {
   constraints_.clear();
   for (int n = 0; n < modify->nfix; ++n)
     for (const char *name : {"setforce", "freeze", "lineforce", "planeforce", "aveforce", "clump"})
-      if (std::string(modify->fix[n]->style) == name)
-        constraints_.push_back({modify->fix[n], drumlin::engine::reaction(modify->fix[n]), joins(name)});
+      if (std::string(modify->fix[n]->style) == name) {
+        int dimensions = 0;
+        void *body_force =
+            std::string(name) == "clump" ? modify->fix[n]->extract("force", dimensions) : nullptr;
+        constraints_.push_back({modify->fix[n],
+                                drumlin::engine::reaction(modify->fix[n]),
+                                joins(name),
+                                static_cast<double *>(body_force),
+                                {}});
+      }
 }
 
 void FixStepping::setup_pre_force(int) {
@@ -233,6 +241,7 @@ void FixStepping::send_later() {
 }
 
 void FixStepping::solve_coupled() {
+  hold_body_forces();
   double **f = atom->f;
   const int nlocal = atom->nlocal;
   for (int i = 0; i < nlocal; ++i) {
@@ -308,9 +317,11 @@ void FixStepping::end_of_step() {
     before[2] = v[i][2];
   }
   double **f = atom->f;
+  hold_body_forces();
   for (const Later &item : later_)
     add_force(item.i, 1.0, item.rest);
   constrain(!later_.empty());
+  hold_body_forces();
   // The part of a shift that passes the constraints is the difference that it makes to the constrained force.
   shifts_.swap(later_);
   later_.clear();
@@ -334,16 +345,38 @@ void FixStepping::add_force(int i, double factor, const std::array<double, 3> &v
         constraint.reaction[a] += factor * vector[a];
 }
 
+/// N, the sum over this rank's balls of the fix's group.
+std::array<double, 3> FixStepping::force_on(const Fix &fix) const {
+  std::array<double, 3> total{};
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & fix.groupbit)
+      for (std::size_t a = 0; a < 3; ++a)
+        total[a] += atom->f[i][a];
+  return total;
+}
+
+/// Before forces are added: the next constrain() finds from it by how much the forces on clumps have changed.
+void FixStepping::hold_body_forces() {
+  for (Constraint &constraint : constraints_)
+    if (constraint.body_force != nullptr) constraint.held = force_on(*constraint.fix);
+}
+
 /// Applies the constraints again, to changed forces. They are projections, so that forces that have passed
 /// them before do not change. Their reports of the forces taken away are restored, since this call would
-/// overwrite them.
-void FixStepping::constrain(bool any) const {
+/// overwrite them; those of the force on a clump change by what was added to it.
+void FixStepping::constrain(bool any) {
   for (const Constraint &constraint : constraints_) {
     if (!any && !constraint.joins) continue;
-    std::array<double, 3> taken{};
-    if (constraint.reaction != nullptr) std::copy_n(constraint.reaction, 3, taken.begin());
+    std::array<double, 3> report{};
+    double *const reported = constraint.body_force != nullptr ? constraint.body_force : constraint.reaction;
+    if (reported != nullptr) std::copy_n(reported, 3, report.begin());
+    if (constraint.body_force != nullptr) {
+      const std::array<double, 3> now = force_on(*constraint.fix);
+      for (std::size_t a = 0; a < 3; ++a)
+        report[a] += now[a] - constraint.held[a];
+    }
     constraint.fix->post_force(0);
-    if (constraint.reaction != nullptr) std::copy_n(taken.begin(), 3, constraint.reaction);
+    if (reported != nullptr) std::copy_n(report.begin(), 3, reported);
   }
 }
 

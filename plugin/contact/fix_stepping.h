@@ -120,6 +120,10 @@ private:
     Fix *fix;
     double *reaction;
     bool joins; ///< whether it distributes forces among the balls of its group (aveforce, clump)
+    /// Force on a clump that this rank's balls contribute, N, its output; nullptr for other fixes. A later fix may
+    /// have taken it away from the balls (a platen that is moved by setforce), so that it is not their sum.
+    double *body_force;
+    std::array<double, 3> held; ///< N, the sum over this rank's balls of a clump before forces are added
   };
   struct Expected {
     int i;
@@ -136,7 +140,9 @@ private:
   void solve_coupled();
   void send_later();
   void merge_later();
-  void constrain(bool any) const;
+  std::array<double, 3> force_on(const Fix &fix) const;
+  void hold_body_forces();
+  void constrain(bool any);
 
   bool in_use_ = true;
   bool in_setup_ = false;

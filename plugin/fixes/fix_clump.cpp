@@ -74,16 +74,27 @@ void FixClump::setup(int vflag) { post_force(vflag); }
 
 void FixClump::post_force(int) {
   double **f = atom->f;
-  std::array<double, 3> mine{};
+  force_ = {};
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->mask[i] & groupbit)
       for (std::size_t a = 0; a < 3; ++a)
-        mine[a] += f[i][a];
-  MPI_Allreduce(mine.data(), force_.data(), 3, MPI_DOUBLE, MPI_SUM, world);
+        force_[a] += f[i][a];
+  std::array<double, 3> all{};
+  MPI_Allreduce(force_.data(), all.data(), 3, MPI_DOUBLE, MPI_SUM, world);
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->mask[i] & groupbit)
       for (std::size_t a = 0; a < 3; ++a)
-        f[i][a] = force_[a] * (atom->rmass[i] / mass_);
+        f[i][a] = all[a] * (atom->rmass[i] / mass_);
 }
 
-double FixClump::compute_vector(int n) { return n == 0 ? mass_ : force_[static_cast<std::size_t>(n - 1)]; }
+double FixClump::compute_vector(int n) {
+  if (n == 0) return mass_;
+  double all = 0.0;
+  MPI_Allreduce(&force_[static_cast<std::size_t>(n - 1)], &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
+void *FixClump::extract(const char *name, int &dimensions) {
+  dimensions = 1;
+  return std::string(name) == "force" ? force_.data() : nullptr;
+}

@@ -3,6 +3,7 @@
 
 #include "engine.h"
 
+#include <array>
 #include <vector>
 
 namespace LAMMPS_NS {
@@ -18,8 +19,10 @@ public:
   void setup(int) override;
   /// Distributes the forces. A second call in the same step changes nothing. Collective.
   void post_force(int) override;
-  /// 0: mass, kg; 1-3: force on the body, N.
+  /// 0: mass, kg; 1-3: force on the body, N. Collective.
   double compute_vector(int) override;
+  /// "force": the force on the body that its balls on this rank contribute, N, three numbers.
+  void *extract(const char *name, int &dimensions) override;
 
   /// Mass of the body, kg; valid from init() on.
   double mass() const { return mass_; }
@@ -28,7 +31,7 @@ private:
   int common_balls(const Fix &other) const;
 
   double mass_ = 0.0;
-  std::array<double, 3> force_{};
+  std::array<double, 3> force_{}; // on the balls of this rank, before it is distributed, N
   bool echoed_ = false;
 };
 

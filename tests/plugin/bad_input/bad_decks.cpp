@@ -245,7 +245,6 @@ BadGroup biaxial() {
   for (const char *name : {"strain", "inertial_number"})
     group.inputs.push_back(variable(name, "0", positive));
   group.inputs.push_back(variable("rolling", "-0.1", non_negative));
-  group.inputs.push_back(variable("stepping", "second", "allowed: stock"));
   group.inputs.push_back(variable("samples_of_strain", "0", whole));
   group.inputs.push_back(variables("platens that meet", {{"strain", "1"}},
                                    {"drumlin/check: variable height_left is '0'", positive}, true));
@@ -303,7 +302,6 @@ BadGroup moved_plate(const char *name, const char *deck, const char *load) {
   group.inputs.push_back(variable("samples_of_strain", "0", whole));
   group.inputs.push_back(variable("sample", "cubic", "allowed: hexagonal or random"));
   group.inputs.push_back(variable("dimension", "3", "allowed: 2"));
-  group.inputs.push_back(variable("stepping", "second", "allowed: stock"));
   return group;
 }
 
