@@ -138,6 +138,12 @@ Scales scales_of(const std::vector<Views> &all) {
   return scales;
 }
 
+/// A number to two digits, without an exponent below 1e6.
+std::string two_digits(double value) {
+  const double unit = value > 0.0 ? std::pow(10.0, std::floor(std::log10(value)) - 1.0) : 1.0;
+  return fmt::format("{:g}", std::round(value / unit) * unit);
+}
+
 void put_instant(CurveTable &table, const std::string &label, const Instant &instant, const Scales &scales) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const std::vector<int> counts = coordination(instant.balls.size(), instant.contacts.balls);
@@ -196,7 +202,8 @@ Panel instant_panel(const std::string &figure, const std::string &label, const I
     add(" contact", fmt::format("($9 > {:.6g} && $9 <= {:.6g} ? $2 : NaN)", 0.5 * high, high), "3:7:8",
         CurveStyle::segments);
     panel.curves.back().width = widest * 0.75 * high / scales.strongest; // of the middle of the class
-    panel.curves.back().title = fmt::format("{:.2g} to {:.2g} kN", 0.5e-3 * high, 1e-3 * high);
+    panel.curves.back().title =
+        fmt::format("{} to {} kN", two_digits(0.5e-3 * high), two_digits(1e-3 * high));
   }
   add(" roller", "$2", "3:4", CurveStyle::circles);
   return panel;
