@@ -254,14 +254,10 @@ TEST_F(FrontScript, RunsInPlacesOfAllKinds) {
 TEST_F(FrontScript, RunsInAReadOnlyCheckout) {
   if (!can_mount_small_disk()) GTEST_SKIP() << "SKIPPED: a file system of its own needs root";
   const fs::path place = checkout("checkout");
+  const std::string script = "mount --bind \"$0\" \"$0\" && mount -o remount,bind,ro \"$0\" && "
+                             "exec \"$0/drumlin\" \"$@\"";
   const auto read_only = [&](const std::vector<std::string> &arguments) {
-    std::vector<std::string> words = {"unshare",
-                                      "--mount",
-                                      "sh",
-                                      "-c",
-                                      "mount --bind \"$0\" \"$0\" && mount -o remount,bind,ro \"$0\" && "
-                                      "exec \"$0/drumlin\" \"$@\"",
-                                      place.string()};
+    std::vector<std::string> words = {"unshare", "--mount", "sh", "-c", script, place.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     return run_program(words, {}, folder, 60.0);
   };
