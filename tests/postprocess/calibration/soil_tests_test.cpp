@@ -9,6 +9,7 @@
 #include "tests/support/page.h"
 #include "tests/support/scratch_study.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +42,7 @@ TEST(CalibratedBed, ContinuesWhereItWasInterrupted) {
       DRUMLIN_TOOLS, "calibrate", "--target", "k=5e6", "--vary",        "k=1e7:1e8", "--seeds", "2",
       "--balls",     "100",       "--cycles", "4",     "--evaluations", "1",         "--out",   "out"};
   for (const auto &[name, value] : task.fixed)
-    words.insert(words.end(), {"--set", name + "=" + value});
+    words.insert(words.end(), {"--set", fmt::format("{}={}", name, value)});
   const auto calibrate = [&] { return run_program(words, {}, scratch.path(), 200.0); };
   // On two small beds intervals are so wide that k may be found or not.
   const auto expect_answer = [](const Outcome &outcome) {

@@ -248,7 +248,7 @@ TEST(FirstUpcrossing, AZeroAtTheStartCountsOnlyIfTheWayLeadsUp) {
 TEST(FirstUpcrossing, FindsTheFirstOfRandomRoots) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> anywhere(-1.0, 2.0);
-  for (int trial = 0; trial < 3000; ++trial) {
+  for (std::size_t trial = 0; trial < 3000; ++trial) {
     std::vector<double> roots(1 + trial % 7);
     for (double &root : roots)
       root = anywhere(random);
