@@ -169,7 +169,8 @@ Outcome run_program(const std::vector<std::string> &words, const std::vector<std
 
 fs::path program_file(const std::string &name) {
   const auto runs = [](const fs::path &file) {
-    return fs::is_regular_file(file) && ::access(file.c_str(), X_OK) == 0;
+    std::error_code hidden; // in a folder that this user may not enter
+    return fs::is_regular_file(file, hidden) && ::access(file.c_str(), X_OK) == 0;
   };
   if (name.find('/') != std::string::npos) return runs(name) ? fs::path(name) : fs::path();
   const char *path = std::getenv("PATH");
