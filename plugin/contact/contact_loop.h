@@ -224,8 +224,8 @@ private:
     if (rubs && contact.touches) {
       forces.force = block_.total_force[n];
       forces.moment = block_.moment[n];
-      // A contact that has ended without an impulse adds nothing: if a position is not a number, zero times its
-      // normal would spread that to the neighbours.
+      // The force of a contact that has ended is not added, not even as zero times the normal: if a position is not a
+      // number (NaN), the normal is not either, and the product would make the other ball's force NaN, too.
     } else if (contact.touches || (stepped && block_.push[n] != 0.0))
       forces.force = physics::scaled(block_.push[n], block_.normal[n]);
     if constexpr (remembers) {

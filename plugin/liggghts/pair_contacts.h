@@ -14,8 +14,8 @@
 
 namespace drumlin {
 
-/// Computes the contacts of the pair style gran in a step, in place of the engine's loop. Not for steps in
-/// which the engine itself uses data of single contacts: see needs_engine_loop().
+/// Computes the forces of all contacts between balls in a time step, instead of the engine's loop over pairs.
+/// Steps in which the engine needs the data of each contact use its own loop: see needs_engine_loop().
 /// \tparam flag bits of the engine's contact flags that say that there is a contact
 template <class Parameters, bool stepped, FrictionModel tangential, bool rolling, int flag>
 class EnginePairContacts {

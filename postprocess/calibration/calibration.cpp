@@ -25,8 +25,8 @@ constexpr double search_noise = 0.01;
 /// Evaluations that fail from the first on, after which a calibration is given up.
 constexpr std::size_t hopeless = 4;
 
-/// The objective as the search sees it: as it is near the targets, and its logarithm far from them, where it
-/// would otherwise be so steep that the bound by the Lipschitz constant says nothing.
+/// The function that the search minimises: ln(1 + objective). It equals the objective near the targets. Far from them the
+/// objective is so steep that its Lipschitz constant would give the search no useful bound; the logarithm is flatter.
 double compressed(double objective) { return std::log1p(objective); }
 
 bool same_point(const std::vector<double> &a, const std::vector<double> &b) {
@@ -45,7 +45,7 @@ public:
     for (const Evaluation &evaluation : evaluations_)
       for (std::size_t i = 0; i < evaluation.seeds.size(); ++i)
         progress_.found();
-    complete(); // what an interruption has left unfinished
+    complete(); // seeds that an interrupted call did not measure
   }
 
   Calibration finish() {
@@ -89,7 +89,7 @@ private:
         if (!(result.values[i] > 0.0))
           throw std::runtime_error(
               fmt::format("{} is {:.3g}: not above zero", task_.targets[i].name, result.values[i]));
-    } catch (const std::exception &fault) { // which is a result: the search goes on elsewhere
+    } catch (const std::exception &fault) { // a failed run is a result, too
       result.values.clear();
       result.failure = fault.what();
     }
@@ -181,7 +181,8 @@ private:
     return earlier;
   }
 
-  /// The point of the estimates, within the ranges, and so near that the points around the centre stay within the reach of a fit.
+  /// The estimated parameters, limited to their ranges and to a distance from the best point at which the evaluations near
+  /// that point can still be used in a fit around the estimate.
   std::vector<double> estimate(const Sensitivity &sensitivity, const std::vector<double> &centre) const {
     const double reach = std::exp(fit_reach - slope_step);
     std::vector<double> point;

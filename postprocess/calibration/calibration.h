@@ -15,7 +15,7 @@ namespace drumlin::post {
 /// the reason if it cannot be done. Called from several threads.
 using MeasureSeed = std::function<std::vector<double>(const Evaluation &evaluation, int seed)>;
 
-/// How the search goes.
+/// How many evaluations and runs at a time the search may use.
 struct CalibrationEffort {
   int evaluations = 40; ///< of the search; those for slopes and estimate are made in addition
   int jobs = 1;         ///< beds measured at the same time
@@ -32,7 +32,7 @@ struct Calibration {
 constexpr const char *evaluations_name = "evaluations.csv";
 
 /// Calibrates, in three stages: the search over all ranges; the points of slope_points() around its best; and
-/// the point that meets the targets by the linear model of sensitivity_at(), if it is identified. Every
+/// the point at which the linear model of sensitivity_at() meets the targets, if all parameters are identified. Every
 /// evaluation uses the same seeds, so that differences between points are not those between seeds. An evaluation of which a seed
 /// fails counts in the search as the worst of those that did not. Results are written to evaluations.csv in `out`, which exists, one
 /// row for each seed when it is known; rows that are there are not measured again. Prints progress. Throws std::runtime_error if

@@ -10,10 +10,10 @@
 
 namespace drumlin::post {
 
-/// What the bed of one seed gave at a point.
+/// Results of the bed of one seed at a point.
 struct SeedResult {
   int seed = 0;
-  std::vector<double> values; ///< in the order of the task's targets, above zero; empty: it failed
+  std::vector<double> values; ///< in the order of the task's targets, above zero; empty if a run failed
   std::string failure;        ///< why
 };
 

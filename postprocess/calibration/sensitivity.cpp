@@ -137,7 +137,8 @@ Sensitivity sensitivity_at(const CalibrationTask &task, const std::vector<Evalua
       if (both > 0.0) found.correlation[i][j] = covariance(index(i), index(j)) / both;
     }
 
-  // Each seed's bed has parameters of its own that meet the targets; their scatter is that of the estimate.
+  // The parameters that meet the targets differ from seed to seed. The confidence interval of an estimate follows from
+  // their scatter.
   std::vector<MatrixXd> estimates;
   estimates.reserve(seeds.size());
   for (const MatrixXd &seed : seeds)

@@ -1,5 +1,5 @@
-// What the evaluations around the best one say: how the targets depend on the parameters, which parameters the targets identify,
-// and within which intervals.
+// Local sensitivity of the targets to the parameters, which parameters the targets identify, and the confidence intervals of the
+// parameters, all from the evaluations near the best one.
 #pragma once
 
 #include "calibration/evaluations.h"
@@ -40,10 +40,10 @@ constexpr double most_correlation = 0.95;
 /// Points around one, along each parameter, for the fit: one step to both sides, within the ranges.
 std::vector<std::vector<double>> slope_points(const CalibrationTask &task, const std::vector<double> &centre);
 
-/// Least squares over the good evaluations near the best one, for each seed, whose beds are the same at all points. A parameter is
-/// not identified if the intervals of all its slopes contain zero or if its estimate is correlated with that of another one. With a
-/// single seed there are no intervals, and nothing is identified. Throws std::runtime_error if too few evaluations near the best one
-/// are good.
+/// Fits the linear model to the evaluations near the best one in which no run failed, by least squares, for each seed separately. A
+/// parameter is not identified if the confidence intervals of all its slopes contain zero, or if its estimate is correlated with that
+/// of another parameter by more than most_correlation. One seed gives no confidence intervals: then no parameter is identified.
+/// Throws std::runtime_error if such evaluations do not determine all coefficients of the model.
 Sensitivity sensitivity_at(const CalibrationTask &task, const std::vector<Evaluation> &evaluations,
                            const Evaluation &best);
 

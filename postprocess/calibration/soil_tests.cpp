@@ -24,9 +24,10 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr const char *pour_damping = "0.3"; ///< D while the soil settles, the same at all points
-constexpr double default_frequency = 20.0;  ///< Hz, of in.bed
-constexpr int step_digits = 6;              ///< of time steps
+constexpr const char *pour_damping =
+    "0.3"; ///< damping ratio while a bed settles; the same at all points, which share the settled bed
+constexpr double default_frequency = 20.0; ///< Hz, of in.bed
+constexpr int step_digits = 6;             ///< of time steps
 constexpr const char *pour_friction = "pour_friction";
 
 /// Names of the law of the soil's contacts, which may change when the soil has settled.
@@ -82,11 +83,11 @@ PackingOptions packing_of(const CalibrationTask &task) {
 
 } // namespace
 
-/// A point on a seed's bed.
+/// A point of the search together with the bed of one seed.
 struct SoilTests::Point {
   const Evaluation &evaluation;
   int seed;
-  Variables law;            ///< of the contacts, as far as it is not the default
+  Variables law;            ///< variables of the contact law that differ from the deck's defaults
   std::string allow_change; ///< names of what varies of it, as the decks take them
   double step;              ///< of time [s]
   PlacedBed bed;
@@ -113,7 +114,8 @@ std::vector<double> SoilTests::measure(const Evaluation &evaluation, int seed) {
   // Forces that are unbalanced at a ratio of 1, a ball's weight, are a ten-thousandth of the roller's weight.
   bed.ratio = "1";
   bed.scene = {{"case", "gravel"}};
-  // The soil settles with the default law, or the fixed one, of which only the rolling spring must be there.
+  // The soil settles with the contact law of case gravel, or with the values that are fixed. Parameters that vary take effect
+  // when the roller is placed; a law with rolling friction has to be there from the beginning.
   const Variables settling = values_of(task_, evaluation.point, std::array{pour_friction});
   bed.settle = joined({{"pour_D", pour_damping}}, settling);
   for (const auto &[name, value] : task_.fixed)

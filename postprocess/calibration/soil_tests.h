@@ -13,7 +13,7 @@
 namespace drumlin::post {
 
 /// Beds and samples of `case gravel` in the plane, under a roller, under a plate, in a biaxial test: those tests that a task's targets need.
-/// The soil of a seed settles once, unless pour_friction varies, and all points begin with it.
+/// For each seed a bed settles once, and the runs at all points start from it. If pour_friction varies, a bed settles for each point.
 class SoilTests {
 public:
   /// \param out folder of the calibration; the beds are in its folder beds
@@ -31,7 +31,7 @@ private:
   const CalibrationTask task_;
   const std::filesystem::path out_;
   std::mutex mutex_;                   // of the map
-  std::map<int, std::mutex> settling_; ///< of the soil of a seed
+  std::map<int, std::mutex> settling_; ///< one for each seed: only one thread lets its bed settle
 };
 
 /// Text of a file case.NAME for inputs/bed with which the decks make the beds of a point.

@@ -40,7 +40,7 @@ namespace {
 constexpr Range tolerance_range = {1e-4, 1.0};
 constexpr double default_tolerance = 0.05;
 
-/// Variables of the roller on a bed, with which it is placed and shaken.
+/// Variables of in.place and in.bed that describe the roller and its excitation.
 constexpr std::array roller_variables = {"m2", "m3", "r2", "r3", "k23", "c23", "omega", "Fw"};
 
 template <class Named>

@@ -27,7 +27,7 @@ enum class SoilTest {
   biaxial ///< inputs/soil/in.biaxial
 };
 
-/// A quantity that a target can be given for, above zero.
+/// A measured quantity for which a target value can be given. Its values are above zero.
 struct SoilQuantity {
   const char *name;
   Range range;

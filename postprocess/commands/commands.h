@@ -11,7 +11,7 @@ void add_advise_command(CLI::App &app, Session &session);
 /// `bed`: soil balls at random positions, for inputs/bed; an option for each entry of BedRequest.
 void add_bed_command(CLI::App &app, Session &session);
 
-/// `calibrate`: parameters of a bed with which it meets targets.
+/// `calibrate`: finds contact parameters for which measured properties of a bed equal given targets.
 void add_calibrate_command(CLI::App &app, Session &session);
 
 /// `demo [--cycles N] [--balls N]`: the paper's cases and a bed under both transitions, with a report on them.

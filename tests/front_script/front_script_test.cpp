@@ -250,7 +250,7 @@ TEST_F(FrontScript, RunsInPlacesOfAllKinds) {
   }
 }
 
-/// A checkout that is built runs decks also if it cannot be written; what would write into it says so.
+/// A built checkout in which nothing can be written still runs decks; commands that would write into it say so.
 TEST_F(FrontScript, RunsInAReadOnlyCheckout) {
   if (!can_mount_small_disk()) GTEST_SKIP() << "SKIPPED: a file system of its own needs root";
   const fs::path place = checkout("checkout");

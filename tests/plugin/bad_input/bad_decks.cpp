@@ -308,7 +308,7 @@ BadGroup moved_plate(const char *name, const char *deck, const char *load) {
 BadGroup shear() { return moved_plate("Shear", "soil/in.shear", "normal"); }
 BadGroup wall() { return moved_plate("RetainingWall", "soil/in.wall", "g"); }
 
-// What differs from in.wall, whose deck in.silo and in.repose share.
+// Variables that in.silo and in.repose have besides those of in.wall.
 BadGroup silo() {
   BadGroup group{"Silo", "soil/in.silo", {}};
   for (const char *value : {"-0.1", "nan", "rough"})

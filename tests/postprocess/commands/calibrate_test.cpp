@@ -1,4 +1,4 @@
-// `drumlin calibrate` as a user meets it: what it refuses, before any run and without a trace.
+// `drumlin calibrate` as a user meets it: bad input is refused before any run, and leaves no file.
 #include "tests/support/engine_runs.h"
 
 #include <gtest/gtest.h>

@@ -112,8 +112,8 @@ public:
   int breaks = 0;
 };
 
-// The regime after a number of cycles, by counting. The motion starts a little beside rest: errors that grow make
-// it another one than that of judge_regime().
+// The regime after a number of cycles, by counting. The motion starts with a velocity slightly above
+// zero: in aperiodic motion this difference grows, so that the motion is not that of judge_regime().
 Regime followed(const ChainParameters &p, int cycles) {
   const ChainSolver solver(p);
   ChainMotion motion = solver.start();
@@ -146,7 +146,8 @@ Regime solved_by_cvode(const ChainParameters &p, int cycles, double impact_speed
   return regime_of(period_of(states, p), breaks);
 }
 
-// More cycles than the direct solver permits are solved as several motions from other starts, until one settles.
+// The direct solver limits the number of cycles of a solution. If more are asked for, further solutions start with
+// other velocities of the drum, until one of them becomes periodic.
 Regime followed_by_cvode(const ChainParameters &p, int cycles) {
   const auto most = static_cast<int>(std::min(most_cycles(p), DirectOptions::cycles_range.most));
   Regime regime = solved_by_cvode(p, std::min(cycles, most), 0.0);
