@@ -20,13 +20,13 @@ bool has_out(const fs::path &deck) {
 } // namespace
 
 Outcome run_deck(const fs::path &deck, const Variables &variables, const fs::path &folder, int ranks,
-                 double limit) {
+                 double limit, const StopCondition &stop_when) {
   std::vector<std::string> words = {"-log", "none"};
   for (const auto &[name, value] : variables)
     words.insert(words.end(), {"-var", name, value}); // the first value of a name counts
   if (has_out(deck)) words.insert(words.end(), {"-var", "out", plain_folder(folder).string()});
   const EngineCommand command = engine_command(deck, words, ranks, Cores::shared);
-  return run_program(command.words, command.environment, folder, limit);
+  return run_program(command.words, command.environment, folder, limit, stop_when);
 }
 
 bool has_lammps() { return !places().lammps.empty(); }

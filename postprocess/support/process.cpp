@@ -70,23 +70,24 @@ private:
   std::string rest_;
 };
 
-/// Waits until the process has ended or the time has come; whether it has ended.
-bool wait_until(pid_t child, End &how, steady_clock::time_point end, LineFollower *follower = nullptr) {
+/// Waits until the process has ended, or the time has come or the condition holds; whether it has ended.
+bool wait_until(pid_t child, End &how, steady_clock::time_point end, LineFollower *follower = nullptr,
+                const StopCondition &stop_when = {}) {
   for (;;) {
     if (follower != nullptr) follower->follow();
     const pid_t ended = wait4(child, &how.status, WNOHANG, &how.used);
     if (ended == child) return true;
     if (ended < 0 && errno != EINTR) throw std::runtime_error(std::string("wait4: ") + std::strerror(errno));
-    if (steady_clock::now() >= end) return false;
+    if (steady_clock::now() >= end || (stop_when && stop_when(child))) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
 }
 
-/// Stops the child, and its process group if it has one of its own: first by SIGTERM, so that mpirun can stop
-/// its ranks, then by SIGKILL.
-void stop(pid_t child, bool own_group, End &how) {
-  const pid_t whom = own_group ? -child : child;
-  kill(whom, SIGTERM);
+/// Stops the program, and its process group if it has one of its own: first by its signal, so that mpirun can
+/// stop its ranks, then by SIGKILL.
+void stop(pid_t child, const Program &program, End &how) {
+  const pid_t whom = program.own_group ? -child : child;
+  kill(whom, program.stop_signal);
   if (wait_until(child, how, steady_clock::now() + std::chrono::seconds(5))) return;
   kill(whom, SIGKILL);
   wait4(child, &how.status, 0, &how.used);
@@ -140,12 +141,12 @@ Outcome run_program(const Program &program) {
                                              std::chrono::duration<double>(program.limit));
   LineFollower follower(program.output, program.line);
   try {
-    if (!wait_until(child, how, end, &follower)) {
+    if (!wait_until(child, how, end, &follower, program.stop_when)) {
       outcome.timed_out = true;
-      stop(child, program.own_group, how);
+      stop(child, program, how);
     }
   } catch (...) {
-    stop(child, program.own_group, how);
+    stop(child, program, how);
     throw;
   }
   follower.follow(); // lines printed since the last call
@@ -157,13 +158,14 @@ Outcome run_program(const Program &program) {
 }
 
 Outcome run_program(const std::vector<std::string> &words, const std::vector<std::string> &environment,
-                    const fs::path &folder, double limit) {
+                    const fs::path &folder, double limit, const StopCondition &stop_when) {
   Program program;
   program.words = words;
   program.environment = environment;
   program.folder = folder;
   program.output = folder / program_output_file;
   program.limit = limit;
+  program.stop_when = stop_when;
   return run_program(program);
 }
 

@@ -1,6 +1,7 @@
 // Runs a program as a child process in a folder of its own. No shell is involved.
 #pragma once
 
+#include <csignal>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -11,7 +12,7 @@ namespace drumlin::post {
 /// How a child process ended.
 struct Outcome {
   int status = -1;          ///< exit status; 128 + signal if a signal ended it
-  bool timed_out = false;   ///< it was stopped at its time limit
+  bool timed_out = false;   ///< it was stopped, at its time limit or by Program::stop_when
   double cpu_seconds = 0.0; ///< processor time used by the child and its own children, s
   double peak_bytes = 0.0;  ///< peak resident memory of the largest single process, bytes
   std::string output;       ///< standard output and standard error
@@ -22,14 +23,19 @@ struct Outcome {
 /// The file in its folder that run_program() leaves a program's output in.
 constexpr const char *program_output_file = "screen.txt";
 
+/// Asked every few milliseconds with the number of a running process: whether it is to be stopped.
+using StopCondition = std::function<bool(pid_t)>;
+
 /// A program with its arguments, folder, environment and limits.
 struct Program {
   std::vector<std::string> words;       ///< the program, a path or a name that PATH finds, and its arguments
   std::vector<std::string> environment; ///< entries "NAME=value" in front of those of this process
   std::filesystem::path folder = ".";   ///< its working folder
   std::filesystem::path output =
-      program_output_file; ///< gets its standard output and errors; from this process's working folder
-  double limit = 1e8;      ///< wall time after which it is stopped, s
+      program_output_file;   ///< gets its standard output and errors; from this process's working folder
+  double limit = 1e8;        ///< wall time after which it is stopped, s
+  int stop_signal = SIGTERM; ///< the signal that stops it; SIGKILL follows if it still runs 5 s later
+  StopCondition stop_when;   ///< stops it before its limit; may be empty
   bool own_group =
       true; ///< a process group of its own: it can be stopped with its children, but Ctrl-C does not reach it
   std::function<void(const std::string &)>
@@ -45,8 +51,9 @@ Outcome run_program(const Program &program);
 std::filesystem::path program_file(const std::string &name);
 
 /// The same with extra environment entries ("NAME=value") in a folder, which gets the output, for at most
-/// `limit` seconds.
+/// `limit` seconds or until `stop_when`.
 Outcome run_program(const std::vector<std::string> &words, const std::vector<std::string> &environment,
-                    const std::filesystem::path &folder, double limit = 20.0);
+                    const std::filesystem::path &folder, double limit = 20.0,
+                    const StopCondition &stop_when = {});
 
 } // namespace drumlin::post

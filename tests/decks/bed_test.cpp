@@ -165,7 +165,7 @@ protected:
   /// written.
   static void expect_ends_at_a_signal(const char *deck, const Variables &more) {
     const Scratch folder;
-    const auto shaken = [&](const Variables &variables, double limit) {
+    const auto shaken = [&](const Variables &variables, double processor_time) {
       Variables all = variables;
       all.insert(all.end(), more.begin(), more.end());
       all.insert(all.end(), {{"omega", "0.12566370614359174"}, // a period of 50 s
@@ -175,9 +175,9 @@ protected:
                              {"Fw", "2940"}});
       for (const auto &variable : roller())
         all.push_back(variable);
-      return run_deck(bed_folder() / deck, all, folder.path(), 1, limit);
+      return run_deck(bed_folder() / deck, all, folder.path(), 1, 60.0, after_processor_time(processor_time));
     };
-    const Outcome stopped = shaken({}, 4.0);
+    const Outcome stopped = shaken({}, 2.0);
     EXPECT_TRUE(stopped.timed_out);
     EXPECT_EQ(stopped.status, 1);
     EXPECT_TRUE(stopped.says("ERROR: drumlin/run: stopped by a signal at step ")) << stopped.output;
@@ -185,7 +185,7 @@ protected:
     EXPECT_EQ(stopped.output.find("ERROR"), stopped.output.rfind("ERROR")) << stopped.output;
 
     const std::size_t rows_before = post::read_table(folder / "bed.csv").rows();
-    const Outcome resumed = shaken({{"start", (folder / "stopped.restart").string()}}, 3.0);
+    const Outcome resumed = shaken({{"start", (folder / "stopped.restart").string()}}, 1.5);
     EXPECT_EQ(resumed.status, 1);
     const post::Table rows = post::read_table(folder / "bed.csv");
     ASSERT_GT(rows.rows(), rows_before) << resumed.output;
@@ -760,7 +760,8 @@ TEST_F(Bed, LeavesNoOldFileWhenASignalStopsTheRunThatReplacesIt) {
   const std::string file = (folder / "kept.restart").string();
   const auto stopped = [&](const char *deck, const Variables &variables) {
     fs::copy_file(scratch / "soil.restart", file, fs::copy_options::overwrite_existing);
-    const Outcome outcome = run_deck(bed_folder() / deck, variables, folder.path(), 1, 3.0);
+    const Outcome outcome =
+        run_deck(bed_folder() / deck, variables, folder.path(), 1, 60.0, after_processor_time(1.5));
     EXPECT_TRUE(outcome.timed_out) << deck;
     EXPECT_EQ(outcome.status, 1) << deck;
     EXPECT_TRUE(outcome.says("ERROR: drumlin/run: stopped by a signal at step ")) << deck << outcome.output;
@@ -803,7 +804,7 @@ TEST_F(Bed, EndsAtASignalWhileItSettles) {
                                      {"ratio", "1e-29"},
                                      {"balls", (scratch / "balls.data").string()},
                                      {"bed", (folder / "x.restart").string()}},
-                                    folder.path(), 1, 5.0);
+                                    folder.path(), 1, 60.0, after_processor_time(2.0));
   EXPECT_TRUE(settling.timed_out);
   EXPECT_EQ(settling.status, 1);
   EXPECT_TRUE(settling.says("ERROR: drumlin/settle: stopped by a signal after ")) << settling.output;

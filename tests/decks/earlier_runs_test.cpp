@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -84,11 +85,16 @@ struct Ended {
 void run_until_a_signal(Ended &run) {
   const Scratch folder, other;
   const auto deck = chain_deck(run.deck);
-  std::thread runner([&] { run.first = run_deck(deck, run.variables, folder.path(), run.ranks, 5.0); });
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(4);
+  std::atomic<bool> second_ended = false;
+  std::thread runner([&] {
+    run.first = run_deck(deck, run.variables, folder.path(), run.ranks, 60.0,
+                         [&](pid_t /*child*/) { return second_ended.load(); });
+  });
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
   while (!fs::exists(folder / "chain.csv") && std::chrono::steady_clock::now() < end)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  run.second = run_deck(deck, {{"out", folder.path().string()}}, other.path(), 1, 10.0);
+  run.second = run_deck(deck, {{"out", folder.path().string()}}, other.path(), 1, 25.0);
+  second_ended = true;
   runner.join();
 }
 

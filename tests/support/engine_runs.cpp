@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
@@ -30,6 +31,15 @@ Scratch::~Scratch() {
   }
   std::error_code ignored;
   fs::remove_all(path_, ignored);
+}
+
+post::StopCondition after_processor_time(double seconds) {
+  return [seconds](pid_t process) {
+    clockid_t clock{};
+    timespec used{};
+    if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &used) != 0) return false;
+    return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec) >= seconds;
+  };
 }
 
 std::string number(double value) { return post::number_text(value); }

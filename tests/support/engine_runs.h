@@ -38,6 +38,10 @@ using post::run_deck;
 using post::run_program;
 using post::Variables;
 
+/// Whether a process has used this processor time, in seconds: an engine's start, which takes less, is over
+/// then, however busy the machine is.
+post::StopCondition after_processor_time(double seconds);
+
 /// A number for -var, bit for bit.
 std::string number(double value);
 

@@ -19,42 +19,48 @@ int errors_in(const std::string &output) {
   return errors;
 }
 
-/// The host deck of an engine, ended by a signal after 2 s.
-Outcome run_until(const std::string &signal, const std::string &deck, const std::vector<std::string> &more,
-                  const Scratch &folder) {
+/// The host deck of an engine, ended by Ctrl-C's signal in the middle of its run.
+Outcome run_until_interrupted(const std::string &deck, const std::vector<std::string> &more,
+                              const Scratch &folder) {
   std::vector<std::string> arguments = {"-log", "none"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   const post::EngineCommand command =
       post::engine_command(std::string(DRUMLIN_SOURCE_DIR) + "/tests/support/" + deck, arguments, 1);
-  std::vector<std::string> words = {"timeout", "--preserve-status", "-s", signal, "2"};
-  words.insert(words.end(), command.words.begin(), command.words.end());
-  std::vector<std::string> environment = mpi_environment(folder.path());
-  environment.insert(environment.end(), command.environment.begin(), command.environment.end());
-  return run_program(words, environment, folder.path(), 20.0);
+  post::Program program;
+  program.words = command.words;
+  program.environment = mpi_environment(folder.path());
+  program.environment.insert(program.environment.end(), command.environment.begin(),
+                             command.environment.end());
+  program.folder = folder.path();
+  program.output = folder / post::program_output_file;
+  program.limit = 60.0;
+  program.stop_signal = SIGINT;
+  program.stop_when = after_processor_time(1.0);
+  return run_program(program);
 }
 
-Outcome lammps_until(const std::string &signal, const std::string &lines, const Scratch &folder) {
+Outcome lammps_until_interrupted(const std::string &lines, const Scratch &folder) {
   write_text(folder / "lines", "pair_style gran/hooke/transition\npair_coeff * * 1e7 0.5\n"
                                "fix integrate all nve/sphere\n" +
                                    lines);
-  return run_until(signal, "host.lammps", {"-var", "lines", (folder / "lines").string()}, folder);
+  return run_until_interrupted("host.lammps", {"-var", "lines", (folder / "lines").string()}, folder);
 }
 
 TEST(Signal, EndsDrumlinRunWithOneLineAndRunAsTheEngineHasItInLammps) {
   if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
   const Scratch inside, after;
-  const Outcome stopped = lammps_until("INT", "drumlin/run 2000000000\n", inside);
+  const Outcome stopped = lammps_until_interrupted("drumlin/run 2000000000\n", inside);
   EXPECT_EQ(stopped.status, 1);
   EXPECT_TRUE(stopped.says("ERROR: drumlin/run: stopped by a signal at step ")) << stopped.output;
   EXPECT_EQ(errors_in(stopped.output), 1) << stopped.output;
-  EXPECT_EQ(lammps_until("INT", std::string("drumlin/run 100\n") + for_ever, after).status, 130);
+  EXPECT_EQ(lammps_until_interrupted(std::string("drumlin/run 100\n") + for_ever, after).status, 130);
 }
 
 TEST(Signal, EndsRunWithOneLineInLiggghts) {
   const Scratch folder;
   write_text(folder / "pair", host_pair_style() + host_properties());
   write_text(folder / "lines", for_ever);
-  const Outcome stopped = run_until("INT", "in.host", {}, folder);
+  const Outcome stopped = run_until_interrupted("in.host", {}, folder);
   EXPECT_EQ(stopped.status, 1);
   EXPECT_TRUE(stopped.says(": stopped by a signal before the end of the deck")) << stopped.output;
   EXPECT_EQ(errors_in(stopped.output), 1) << stopped.output;
