@@ -251,7 +251,13 @@ void run(const Arguments &arguments) {
                     fs::current_path().string()));
   output_folder_option("report", page_folder);
   std::signal(SIGPIPE, SIG_IGN); // print() reports a closed pipe
-  Demo(plan, decks_folder(), engine_fault(Engine::lammps).empty()).run();
+  bool with_lammps = engine_fault(Engine::lammps).empty();
+  if (with_lammps)
+    if (const std::string fault = lammps_package_fault(); !fault.empty()) {
+      print(fmt::format("SKIPPED: the cases in LAMMPS: {}\n", fault));
+      with_lammps = false;
+    }
+  Demo(plan, decks_folder(), with_lammps).run();
 }
 
 } // namespace

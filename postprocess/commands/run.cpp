@@ -32,6 +32,8 @@ void run(const std::vector<std::string> &words) {
   const std::string &deck = words[next];
   const std::vector<std::string> rest(words.begin() + static_cast<std::ptrdiff_t>(next) + 1, words.end());
   EngineCommand command = engine_command(find_deck(deck), plain_words(rest), ranks);
+  if (engine_of(deck) == Engine::lammps)
+    if (const std::string fault = lammps_package_fault(); !fault.empty()) throw UsageError(fault);
 
   // A reader that stops reading, as `head` does, does not end the run; nor does an output that cannot be
   // written.

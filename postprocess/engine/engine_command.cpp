@@ -14,6 +14,9 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
@@ -107,6 +110,35 @@ std::string engine_fault(Engine engine) {
                        lammps ? "a build with -DLAMMPS_PROGRAM=LMP"
                               : "Debian's package liggghts, or a build with -DLIGGGHTS_PROGRAM=PROGRAM");
   return {};
+}
+
+std::string lammps_package_fault() {
+  const std::string &lmp = program_of(Engine::lammps);
+  std::string help;
+  try {
+    const TemporaryFolder folder(fs::temp_directory_path(), "drumlin-lmp.");
+    help = run_program({lmp, "-h"}, {single_rank_environment.begin(), single_rank_environment.end()},
+                       folder.path())
+               .output;
+  } catch (const std::exception &) {
+    return {}; // the run itself will say more
+  }
+  const std::string title = "Installed packages:";
+  const std::size_t list = help.find(title);
+  if (list == std::string::npos) return {};
+  // The names, divided by blanks and line ends, end where the next title begins.
+  std::istringstream words(help.substr(list + title.size(), help.find(':', list + title.size()) - list));
+  const std::set<std::string> installed{std::istream_iterator<std::string>(words), {}};
+  std::string missing, options;
+  for (const char *package : {"GRANULAR", "PLUGIN"})
+    if (installed.count(package) == 0) {
+      missing += fmt::format("{}{}", missing.empty() ? "" : ", ", package);
+      options += fmt::format(" -DPKG_{}=ON", package);
+    }
+  if (missing.empty()) return {};
+  return fmt::format("the engine '{}' has been built without {}; allowed: an lmp built with{}, such as "
+                     "./drumlin setup lammps builds in a checkout",
+                     lmp, missing, options);
 }
 
 fs::path find_deck(const std::string &name) {

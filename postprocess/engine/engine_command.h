@@ -16,6 +16,10 @@ Engine engine_of(const std::filesystem::path &deck);
 /// called before; empty if it can.
 std::string engine_fault(Engine engine);
 
+/// Which packages the configured lmp lacks that the plugin needs, as "WHY; allowed: WHAT". Empty if it has
+/// them, or if `lmp -h`, which is run once for this (0.05 s), does not say.
+std::string lammps_package_fault();
+
 /// The file of a deck: as it is named from the working folder, else one of inputs by its name there, with or
 /// without "inputs/" in front. Throws UsageError if there is no such file that can be read.
 std::filesystem::path find_deck(const std::string &name);

@@ -303,6 +303,42 @@ TEST_F(FrontScript, JobScriptsContinueUntilTheCyclesAreDone) {
   }
 }
 
+/// An lmp without the packages that the plugin needs: `run` and CMake name them, `run` before the engine starts.
+TEST_F(FrontScript, NamesThePackagesThatAnLmpLacks) {
+  const fs::path place = checkout("checkout");
+  std::ofstream(place / "build/release/bin/places", std::ios::app)
+      << "lammps_plugin=../lib/libdrumlin.so\nlammps=lmp\n";
+  const std::vector<std::pair<std::string, std::string>> builds = {{"MOLECULE RIGID", "GRANULAR, PLUGIN"},
+                                                                   {"GRANULAR OPENMP", "PLUGIN"},
+                                                                   {"EXTRA-GRANULAR PLUGIN", "GRANULAR"},
+                                                                   {"", "GRANULAR, PLUGIN"},
+                                                                   {"GRANULAR MOLECULE PLUGIN RIGID", ""}};
+  for (const auto &[packages, missing] : builds) {
+    SCOPED_TRACE(packages);
+    put("bin/lmp", "#!/bin/sh\n[ \"$1\" = -h ] || { echo started; exit 0; }\ncat <<'TXT'\n\n"
+                   "Large-scale Atomic/Molecular Massively Parallel Simulator - Update 2 of 29 Sep 2021\n\n"
+                   "Installed packages:\n\n" +
+                       packages +
+                       " \n\nList of individual style options included in this LAMMPS executable\n\n"
+                       "* Atom styles:\n\natomic body charge ellipsoid GRANULAR PLUGIN\nTXT\n");
+    fs::permissions(folder / "bin/lmp", fs::perms::owner_all);
+    const Outcome run = call(place / "drumlin", {"run", "chain/in.chain.lammps"}, folder);
+    const Outcome cmake =
+        run_program({"cmake", "-DLAMMPS_PROGRAM=" + (folder / "bin/lmp").string(),
+                     "-DLAMMPS_VERSION=29 Sep 2021", "-P", root / "plugin/lammps/check_program.cmake"},
+                    {}, folder);
+    if (missing.empty()) {
+      EXPECT_EQ(run.status, 0) << run.output;
+      EXPECT_TRUE(run.says("\nstarted\n")) << run.output;
+      EXPECT_EQ(cmake.status, 0) << cmake.output;
+    } else {
+      expect_one_line(run, "the engine 'lmp' has been built without " + missing + "; allowed: ");
+      EXPECT_NE(cmake.status, 0);
+      EXPECT_TRUE(cmake.says("without " + missing.substr(0, 8))) << cmake.output; // CMake breaks the line
+    }
+  }
+}
+
 TEST_F(FrontScript, FindsTheIncludesOfALinkedDeck) {
   const fs::path place = checkout("checkout");
   fs::create_directories(folder / "decks");
