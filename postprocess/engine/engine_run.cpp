@@ -13,7 +13,7 @@ namespace {
 /// Whether a deck writes into a folder `out`: those that make a bed do not, and refuse variables that they do
 /// not know.
 bool has_out(const fs::path &deck) {
-  const std::string name = deck.filename().string();
+  const std::string name = (deck.extension() == ".lammps" ? deck.stem() : deck.filename()).string();
   return name != "in.settle" && name != "in.place" && name != "in.tile";
 }
 

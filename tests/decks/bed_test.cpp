@@ -916,6 +916,34 @@ TEST_F(BedInLammps, GoesAsInLiggghtsOnRanksOneTwoAndFourWithNewtonOffAndOn) {
     }
 }
 
+// The balls of ./drumlin bed become discs, and walls and floor carry their weight and that of the roller.
+TEST_F(BedInLammps, SettlesAndCarriesTheRollerAtRest) {
+  const Scratch folder;
+  const Variables at_rest = {{"ratio", "1e-2"}};
+  Variables settling = at_rest;
+  settling.insert(settling.end(), {{"balls", (scratch / "balls.data").string()}, {"bed", "soil.restart"}});
+  settling.emplace_back("case", "loose");
+  const Outcome settled = run_deck(bed_folder() / "in.settle.lammps", settling, folder.path());
+  ASSERT_TRUE(settled.ok()) << settled.output;
+  Variables placing = roller();
+  placing.insert(placing.end(), {{"bed", "soil.restart"}, {"start", "ball.restart"}, {"sink", "0.1"}});
+  placing.insert(placing.end(), at_rest.begin(), at_rest.end());
+  const Outcome placed = run_deck(bed_folder() / "in.place.lammps", placing, folder.path());
+  ASSERT_TRUE(placed.ok()) << placed.output;
+  EXPECT_TRUE(placed.says("The drum at rest: its lowest point is ")) << placed.output;
+  const Outcome left_alone = shake(folder, {{"start", "ball.restart"},
+                                            {"Fw", "0"},
+                                            {"cycles", "1"},
+                                            {"omega", "3141.6"},
+                                            {"steps_per_cycle", "100"},
+                                            {"samples_per_cycle", "10"}});
+  ASSERT_TRUE(left_alone.ok()) << left_alone.output;
+  const post::Table rows = post::read_table(folder / "bed.csv");
+  EXPECT_NEAR(rows.numbers("F_contact").front(), roller_mass * gravity, 1e-3 * roller_mass * gravity);
+  const double weight = (roller_mass + soil_mass()) * gravity;
+  EXPECT_NEAR(rows.numbers("F_floor").front() + rows.numbers("F_sides").front(), weight, 1e-3 * weight);
+}
+
 TEST_F(BedInLammps, GoesAsInLiggghtsWithRollingFriction) {
   for (const char *scheme : steppings) {
     const fs::path bed = settled(scheme, "0.1");
