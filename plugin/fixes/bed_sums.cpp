@@ -24,6 +24,16 @@ double part_below(double height, double centre, double radius) {
 
 } // namespace
 
+void ContactSums::add_wall(const Vec3 &axis, const Vec3 &outward, const Vec3 &force) {
+  const double up = dot(axis, force.data());
+  if (std::fabs(dot(axis, outward.data())) > 0.5) {
+    floor_force += up;
+    return;
+  }
+  side_force += up;
+  side_thrust -= dot(outward, force.data());
+}
+
 /// Index of the component that is the largest in the axis.
 std::size_t BedSums::vertical_component(const Vec3 &axis) {
   std::size_t most = 0;

@@ -86,14 +86,25 @@ void FixBoundaryAbsorb::init() {
   ball_.across = ground_.in_plane(count_);
   stepping_ = FixStepping::find(lmp);
   observers_.find(*modify);
-  if (keep_static_)
-    for (int n = 0; n < modify->nfix && modify->fix[n] != this; ++n)
-      if (modify->fix[n]->time_integrate)
-        error->all(FLERR,
-                   engine::error_text(fmt::format(
-                       "{}: keyword static is 'yes' behind fix {} ({}), which integrates; allowed: static "
-                       "yes before all fixes that integrate",
-                       command, modify->fix[n]->id, modify->fix[n]->style)));
+  if (keep_static_) refuse_earlier_integration();
+}
+
+/// The constant forces are taken at the start of the first step, before the balls move.
+void FixBoundaryAbsorb::refuse_earlier_integration() const {
+  for (int n = 0; n < modify->nfix && modify->fix[n] != this; ++n) {
+    const Fix &earlier = *modify->fix[n];
+    if (!earlier.time_integrate) continue;
+    int moves = 0;
+    for (int i = 0; i < atom->nlocal; ++i)
+      if ((atom->mask[i] & groupbit) && (atom->mask[i] & earlier.groupbit)) moves = 1;
+    MPI_Allreduce(MPI_IN_PLACE, &moves, 1, MPI_INT, MPI_MAX, world);
+    if (moves != 0)
+      error->all(FLERR,
+                 engine::error_text(fmt::format(
+                     "{}: keyword static is 'yes' behind fix {} ({}), which integrates; allowed: static "
+                     "yes before all fixes that integrate balls of the boundary",
+                     command, earlier.id, earlier.style)));
+  }
 }
 
 void FixBoundaryAbsorb::setup_pre_neighbor() { announce(); }
@@ -120,7 +131,13 @@ void FixBoundaryAbsorb::setup(int) {
       add(i, physics::sum(grounded(i).force, 1.0, grounded(i).constant));
     }
   tell_observers();
-  power_ = heat_here();
+  power_ = heat_rate();
+}
+
+/// Constant force on ball i; before the first step the one that would balance its other forces.
+physics::Vec3 FixBoundaryAbsorb::constant_force(int i) const {
+  if (!keep_static_ || static_known_) return grounded(i).constant;
+  return physics::sum(grounded(i).force, -1.0, vector_of(atom->f[i]));
 }
 
 /// Takes the constant forces before the first step, when all fixes have added their forces of the set-up.
@@ -128,7 +145,7 @@ void FixBoundaryAbsorb::initial_integrate(int) {
   if (!keep_static_ || static_known_) return;
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->mask[i] & groupbit) {
-      grounded(i).constant = physics::sum(grounded(i).force, -1.0, vector_of(atom->f[i]));
+      grounded(i).constant = constant_force(i);
       add(i, grounded(i).constant);
     }
   static_known_ = true;
@@ -184,40 +201,44 @@ void FixBoundaryAbsorb::add(int i, const Vector &more) {
 
 void FixBoundaryAbsorb::end_of_step() {
   const double before = power_;
-  power_ = heat_here();
+  power_ = heat_rate();
   heat_ += 0.5 * update->dt * (before + power_); // trapezoidal rule
 }
 
-/// Heat of the dashpots of this rank's balls, W.
-double FixBoundaryAbsorb::heat_here() const {
+/// Heat of the dashpots, W. Summed over the ranks in each step and not at the end, so that a restarted run adds the same
+/// numbers in the same order. Collective.
+double FixBoundaryAbsorb::heat_rate() const {
   double heat = 0.0;
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->mask[i] & groupbit) heat += ball_.heat(vector_of(atom->v[i]));
+  MPI_Allreduce(MPI_IN_PLACE, &heat, 1, MPI_DOUBLE, MPI_SUM, world);
   return heat;
 }
 
-FixBoundaryAbsorb::Energies FixBoundaryAbsorb::energies() const {
-  std::array<double, 3> sums{0.0, heat_here(), 0.0};
+FixBoundaryAbsorb::Totals FixBoundaryAbsorb::totals() const {
+  std::array<double, 5> sums{};
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->mask[i] & groupbit) {
-      const Vector u = displacement(i);
+      const Vector u = displacement(i), constant = constant_force(i);
       sums[0] += ball_.stored(u);
-      sums[2] += physics::dot(grounded(i).constant, u);
+      sums[1] += physics::dot(constant, u);
+      for (std::size_t a = 0; a < 3; ++a)
+        sums[2 + a] += grounded(i).force[a] + constant[a];
     }
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, world);
-  return {sums[0], sums[1], sums[2]};
+  return {sums[0], heat_, sums[1], {sums[2], sums[3], sums[4]}};
 }
 
 double FixBoundaryAbsorb::compute_vector(int n) {
-  if (n == 0) return energies().stored;
-  if (n == 2) return energies().work;
-  double mine = n == 1 ? heat_ : 0.0;
+  if (n < 6) {
+    const Totals now = totals();
+    return std::array<double, 6>{
+        now.stored, now.heat, now.work, now.force[0], now.force[1], now.force[2]}[static_cast<std::size_t>(
+        n)];
+  }
+  double mine = 0.0;
   for (int i = 0; i < atom->nlocal; ++i)
-    if ((atom->mask[i] & groupbit) && n > 2) {
-      const auto component = static_cast<std::size_t>(n - 3);
-      mine += n < 6 ? grounded(i).force[component] + grounded(i).constant[component]
-                    : physics::dot(ball_.normal, displacement(i)) / count_;
-    }
+    if (atom->mask[i] & groupbit) mine += physics::dot(ball_.normal, displacement(i)) / count_;
   double all = 0.0;
   MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
   return all;
@@ -280,12 +301,12 @@ int FixBoundaryAbsorb::maxsize_restart() { return restarted + 1; }
 int FixBoundaryAbsorb::size_restart(int) { return restarted + 1; }
 
 void FixBoundaryAbsorb::write_restart(FILE *file) {
-  drumlin::write_restart_record(file, comm->me, {compute_vector(1), static_known_ ? 1.0 : 0.0});
+  drumlin::write_restart_record(file, comm->me, {heat_, static_known_ ? 1.0 : 0.0});
 }
 
 void FixBoundaryAbsorb::restart(char *buffer) {
   const double *state = reinterpret_cast<const double *>(buffer);
-  heat_ = comm->me == 0 ? state[0] : 0.0;
+  heat_ = state[0];
   static_known_ = state[1] != 0.0;
 }
 

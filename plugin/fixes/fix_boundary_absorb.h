@@ -5,6 +5,7 @@
 #include "engine.h"
 #include "physics/absorbing_boundary.h"
 
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -43,14 +44,17 @@ public:
   /// normal, m. Collective.
   double compute_vector(int) override;
 
-  /// What belongs to the energy balance of a scene; sums over all balls.
-  struct Energies {
-    double stored; ///< J, in the springs
-    double heat;   ///< W, of the dashpots
-    double work;   ///< J, of the constant forces since the definition of the fix
+  /// What belongs to the balances of energy and of forces of a scene; sums over all balls.
+  struct Totals {
+    double stored = 0.0;           ///< J, in the springs
+    double heat = 0.0;             ///< J, of the dashpots since the first set-up
+    double work = 0.0;             ///< J, of the constant forces since the definition of the fix
+    std::array<double, 3> force{}; ///< N, on the balls
   };
-  /// At the present positions and velocities. Collective.
-  Energies energies() const;
+  /// At the end of the last step. Collective.
+  Totals totals() const;
+  /// Unit vector out of the model.
+  const std::array<double, 3> &normal() const { return ball_.normal; }
 
 private:
   using Vector = drumlin::physics::Vec3;
@@ -63,15 +67,17 @@ private:
   static constexpr int restarted = 6, exchanged = 9; // numbers of a Grounded, in its order
 
   void parse(int narg, char **arg);
+  void refuse_earlier_integration() const;
   Grounded &grounded(int i) { return balls_[static_cast<std::size_t>(i)]; }
   const Grounded &grounded(int i) const { return balls_[static_cast<std::size_t>(i)]; }
   Vector displacement(int i) const;
+  Vector constant_force(int i) const;
   Vector force_of_step(int i);
   void close_coupled();
   void tell_observers();
   void add(int i, const Vector &more);
   void announce();
-  double heat_here() const;
+  double heat_rate() const;
   void echo();
 
   drumlin::physics::Ground ground_;
@@ -83,8 +89,8 @@ private:
   std::vector<Grounded> balls_; // an entry for each ball of this rank
   std::vector<std::pair<int, drumlin::physics::CoupledGround>> coupled_; // of this step
   double count_ = 0.0;                                                   // number of balls of the group
-  double heat_ = 0.0;  // J, of this rank, since the first set-up
-  double power_ = 0.0; // W, of this rank, at the end of the last step
+  double heat_ = 0.0;  // J, of all ranks, since the first set-up
+  double power_ = 0.0; // W, of all ranks, at the end of the last step
   bool echoed_ = false;
 };
 

@@ -2,6 +2,7 @@
 
 #include "contact/pair_motion.h"
 #include "fixes/fix_bond_spring.h"
+#include "fixes/fix_boundary_absorb.h"
 #include "fixes/fix_drum_excite.h"
 #include "support/arguments.h"
 #include "support/restart_record.h"
@@ -126,7 +127,7 @@ void FixRollerHistory::init() {
   gravity_ = -along(g.data());
 }
 
-/// The fixes that the keywords excite and bond name.
+/// The fixes that the keywords excite and bond name, and the absorbing boundaries of a bed.
 void FixRollerHistory::find_partners() {
   excite_ = dynamic_cast<FixDrumExcite *>(engine::find_fix(modify, excite_id_));
   if (!excite_id_.empty() && excite_ == nullptr)
@@ -138,6 +139,10 @@ void FixRollerHistory::find_partners() {
     error->all(FLERR, engine::error_text(fmt::format(
                           "fix roller/history: keyword bond is '{}'; allowed: the ID of a fix bond/spring",
                           bond_id_)));
+  ground_.clear();
+  for (int n = 0; bed_ && n < modify->nfix; ++n)
+    if (const auto *boundary = dynamic_cast<const FixBoundaryAbsorb *>(modify->fix[n]))
+      ground_.push_back(boundary);
 }
 
 double FixRollerHistory::along(const double *vector) const {
@@ -169,7 +174,8 @@ void FixRollerHistory::open_files() {
   }
   if (steps_per_cycle_ > 0 && !cycles_file_) {
     cycles_file_.emplace(cycles_name_, append_);
-    cycles_file_->open(comm, error, world, cycles_keyword, drumlin::cycles_header(bed_.has_value()).c_str());
+    cycles_file_->open(comm, error, world, cycles_keyword,
+                       drumlin::cycles_header(bed_.has_value(), !ground_.empty()).c_str());
   }
 }
 
@@ -206,6 +212,17 @@ void FixRollerHistory::evaluate() {
   forces.contact_dissipated = bed_contacts_.normal_heat;
   forces.contact_stored = bed_contacts_.normal_stored + bed_contacts_.tangential_stored;
   forces.tangential_power = bed_contacts_.tangential_power;
+  add_ground();
+}
+
+/// Energies and forces of the absorbing boundaries. Collective.
+void FixRollerHistory::add_ground() {
+  for (const FixBoundaryAbsorb *boundary : ground_) {
+    const FixBoundaryAbsorb::Totals now = boundary->totals();
+    state_.forces.ground_stored += now.stored - now.work;
+    state_.forces.ground_heat += now.heat;
+    bed_contacts_.add_wall(axis_, boundary->normal(), now.force);
+  }
 }
 
 /// Forces of excitation and bond, and the accelerations that follow from all forces.
@@ -253,6 +270,7 @@ std::optional<drumlin::BedSample> FixRollerHistory::bed_sample() const {
   sample.balls = bed_->balls(axis_, reference_.window_top);
   sample.void_ratio = bed_->void_ratio(axis_, reference_.window_top, sample.balls.solid);
   sample.raised = sample.balls.height - reference_.height;
+  sample.absorbs = !ground_.empty();
   sample.friction_heat =
       cycle_.tangential_work - (bed_contacts_.tangential_stored - reference_.tangential_stored);
   return sample;

@@ -14,11 +14,13 @@
 #include "support/output_file.h"
 
 #include <optional>
+#include <vector>
 
 namespace LAMMPS_NS {
 
 class FixDrumExcite;
 class FixBondSpring;
+class FixBoundaryAbsorb;
 
 /// Writes samples (chain.csv or bed.csv) and, for each cycle, extremes, harmonics and energies over every
 /// step (cycles.csv). Forces and accelerations in a row are the right-hand sides of Eq. (1) at the positions
@@ -58,6 +60,7 @@ private:
   void set_reference();
   void evaluate();
   void add_forces_of_partners();
+  void add_ground();
   std::optional<drumlin::BedSample> bed_sample() const;
   drumlin::RollerMasses masses() const { return {drum_.mass, frame_.mass, gravity_}; }
   void write_sample();
@@ -76,6 +79,7 @@ private:
   const drumlin::ContactSource *source_ = nullptr;
   FixDrumExcite *excite_ = nullptr;
   FixBondSpring *bond_ = nullptr;
+  std::vector<const FixBoundaryAbsorb *> ground_; // absorbing boundaries of the bed
   drumlin::Clock clock_;
   drumlin::RollerBody drum_, frame_;
   double gravity_ = 0.0; // m/s2, downwards along the axis

@@ -27,18 +27,19 @@ std::vector<double> history_row(const RollerState &state, const CycleSums &cycle
   row.insert(row.end(),
              {cycle.settlement, contacts.contacts > 0.0 ? contacts.overlap / contacts.contacts : 0.0,
               contacts.coordination / bed->balls.soil_balls, bed->void_ratio, bed->balls.kinetic,
-              masses.gravity * bed->raised, forces.contact_stored + forces.bond_stored,
-              cycle.contact_dissipated + cycle.bond_dissipated + bed->friction_heat, cycle.work,
-              contacts.floor_force, contacts.side_force, contacts.side_thrust});
+              masses.gravity * bed->raised, forces.contact_stored + forces.bond_stored + forces.ground_stored,
+              cycle.contact_dissipated + cycle.bond_dissipated + bed->friction_heat + forces.ground_heat,
+              cycle.work, contacts.floor_force, contacts.side_force, contacts.side_thrust});
   return row;
 }
 
-std::string cycles_header(bool with_bed) {
+std::string cycles_header(bool with_bed, bool absorbs) {
   const std::string columns =
       "cycle,time,a_drum_min,a_drum_max,F_contact_min,F_contact_max,contact_share,a1_cos,a1_sin,a2_cos,"
       "a2_sin,ah_cos,ah_sin,work_excitation,dissipated_contact,dissipated_bond,kinetic,potential,"
       "stored_contact,stored_bond";
-  return with_bed ? columns + ",dissipated_friction,settlement" : columns;
+  if (!with_bed) return columns;
+  return columns + ",dissipated_friction,settlement" + (absorbs ? ",stored_ground,dissipated_ground" : "");
 }
 
 std::vector<double> cycles_row(const RollerState &state, const CycleSums &cycle, const RollerMasses &masses,
@@ -60,6 +61,7 @@ std::vector<double> cycles_row(const RollerState &state, const CycleSums &cycle,
                          forces.contact_stored, forces.bond_stored});
   if (bed != nullptr)
     row.insert(row.end(), {bed->friction_heat, cycle.steps > 0.0 ? cycle.sinking / cycle.steps : 0.0});
+  if (bed != nullptr && bed->absorbs) row.insert(row.end(), {forces.ground_stored, forces.ground_heat});
   return row;
 }
 

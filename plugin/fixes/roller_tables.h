@@ -25,6 +25,7 @@ struct BedSample {
   double void_ratio = 0.0;
   double raised = 0.0;        ///< kg m, mass times rise of all balls since the first set-up
   double friction_heat = 0.0; ///< J, of friction and rolling since the start
+  bool absorbs = false;       ///< whether there are absorbing boundaries
 };
 
 /// Header line of the samples, and a row. \param bed nullptr: not a bed; otherwise `with_frame` must be true
@@ -32,8 +33,9 @@ std::string history_header(bool with_frame, bool with_bed);
 std::vector<double> history_row(const RollerState &state, const CycleSums &cycle, const RollerMasses &masses,
                                 bool with_frame, const BedSample *bed);
 
-/// Header line of the cycles, and a row. \param bed nullptr: not a bed
-std::string cycles_header(bool with_bed);
+/// Header line of the cycles, and a row. \param bed nullptr: not a bed \param absorbs whether a bed has
+/// absorbing boundaries
+std::string cycles_header(bool with_bed, bool absorbs);
 std::vector<double> cycles_row(const RollerState &state, const CycleSums &cycle, const RollerMasses &masses,
                                const BedSample *bed);
 

@@ -510,6 +510,8 @@ TEST_F(InLammps, SaysWhatIsWrongInOneLineOnRanksOneAndTwo) {
     std::vector<std::string> says;
   };
   const std::string good = "pair_style gran/hooke/transition\npair_coeff * * 1e5 0.2\n";
+  const std::string absorb = "fix boundary/absorb", ground = good + "fix ground all boundary/absorb ",
+                    whole = ground + "normal 0 0 -1 area 1 density 1800 speeds 300 170";
   const Bad bad[] = {
       {"pair_style gran/hooke/transition transition C",
        {pair, "keyword transition is 'C'", "allowed: A or B"}},
@@ -599,6 +601,22 @@ TEST_F(InLammps, SaysWhatIsWrongInOneLineOnRanksOneAndTwo) {
       {good + "fix guard all guard every 0", {"fix guard", "keyword every is '0'"}},
       {good + "fix excite all drum/excite amplitude 1 omega -1",
        {"fix drum/excite", "keyword omega is '-1'"}},
+      {ground, {absorb, "keyword normal is missing", "normal x y z"}},
+      {ground + "normal 0 0 0", {absorb, "keyword normal is '0 0 0'", "a vector with a length"}},
+      {ground + "density nan", {absorb, "keyword density is 'nan'", "> 0"}},
+      {ground + "speeds 300", {absorb, "keyword speeds, of shear waves is missing", ">= 0"}},
+      {ground + "normal 0 0 -1 area 1 density 1800 speeds 300 301",
+       {absorb, "speed of shear waves is '301 m/s'", "at most", "300 m/s"}},
+      {whole + " depth", {absorb, "keyword depth is missing", "> 0"}},
+      {whole + " static maybe", {absorb, "keyword static is 'maybe'", "yes or no"}},
+      {whole + " stiffness 5",
+       {absorb, "keyword is 'stiffness'", "normal, area, density, speeds, depth or static"}},
+      {good + "group nobody id 1000\nfix ground nobody boundary/absorb normal 0 0 -1 area 1 density 1800 "
+              "speeds 300 170",
+       {absorb, "group is 'nobody', which is empty", "the boundary's balls"}},
+      {good + "fix early all nve/sphere\n" + whole.substr(good.size()) + " static yes",
+       {absorb, "keyword static is 'yes' behind fix early (nve/sphere), which integrates",
+        "before all fixes that integrate balls of the boundary"}},
       {"drumlin/check k 0 positive", {"drumlin/check", "variable k is '0'", "a finite number > 0"}},
   };
   int count = 0; // every third on two ranks, too

@@ -416,7 +416,7 @@ BadGroup boundary_absorb() {
                    {command + "group is 'nobody', which is empty", "the boundary's balls"})),
           line("static behind the integration", more("static yes"),
                {command + "keyword static is 'yes' behind fix ", "which integrates",
-                "before all fixes that integrate"}),
+                "before all fixes that integrate balls of the boundary"}),
       }};
 }
 
