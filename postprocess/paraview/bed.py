@@ -322,9 +322,10 @@ def look(view, scene, size):
 
 def show_text(balls, scene, contacts, view, font):
     known = balls.FieldData.keys()
+    unit = "kN/m" if scene.flat else "kN"  # per metre along the axis of the drum
     parts = [("t = %.4f s", "t_value", None), ("     cycle %d, phase %.0f deg", "cycle[0], phase[0]", "phase"),
-             ("\\nforce on the drum: by the soil %.1f kN up", "F_contact[0]/1e3", "F_contact"),
-             (", by the exciter %.1f kN %s", "abs(F_excitation[0])/1e3, 'down' if F_excitation[0] >= 0 else 'up'", "F_excitation")]
+             ("\\nforce on the drum: by the soil %.1f " + unit + " up", "F_contact[0]/1e3", "F_contact"),
+             (", by the exciter %.1f " + unit + " %s", "abs(F_excitation[0])/1e3, 'down' if F_excitation[0] >= 0 else 'up'", "F_excitation")]
     parts = [part for part in parts if part[2] is None or part[2] in known]
     caption = pv.PythonAnnotation(registrationName="caption", Input=balls)
     caption.ArrayAssociation = "Field Data"
@@ -332,7 +333,7 @@ def show_text(balls, scene, contacts, view, font):
     write_text(caption, view, font, [0.02, 0.935])
     full = scene.sizes.get("normal_force", 0.0)
     if contacts and full > 0.0:
-        lines = "lines: contacts,\nas wide as their\nforce; widest:\n%.3g kN or more,\nnone below %.2g kN"
+        lines = "lines: contacts,\nas wide as their\nforce; widest:\n%.3g {0} or more,\nnone below\n%.2g {0}".format(unit)
         if not scene.flat:
             lines += ";\nthe soil in front\nis not drawn"
         key = pv.Text(registrationName="width of the lines", Text=lines % (1e-3 * full, 1e-3 * LEAST_FORCE * full))
