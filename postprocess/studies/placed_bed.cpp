@@ -27,6 +27,24 @@ fs::path bed_folder(const fs::path &out) {
 
 } // namespace
 
+PlacedBed small_bed() {
+  PlacedBed bed{"loose", {}, {}, "1e-2"};
+  bed.packing.balls = 150;
+  bed.packing.width = 0.6;
+  bed.scene = {{"case", "loose"}, {"m2", "100"},  {"r2", "0.1"},
+               {"r3", "0.05"},    {"k23", "5e4"}, {"c23", "500"}};
+  return bed;
+}
+
+PlacedBed gravel_bed() {
+  // Forces that are unbalanced at a ratio of 1, a ball's weight, are a ten-thousandth of the roller's weight;
+  // in.bed would refuse them by default.
+  PlacedBed bed{"gravel", {}, {{"case", "gravel"}}, "1"};
+  bed.packing.balls = 1000;
+  bed.packing.width = 1.26;
+  return bed;
+}
+
 fs::path settled_soil(const PlacedBed &bed, int seed, const fs::path &out) {
   const fs::path folder = bed_folder(out);
   const std::string stem = fmt::format("{}_{}", bed.soil.empty() ? bed.name : bed.soil, seed);

@@ -24,6 +24,12 @@ struct PlacedBed {
   Variables place = {}; ///< of in.place alone, before `scene`
 };
 
+/// 150 discs of case loose in a box 0.6 m wide, under a drum of 100 kg: to test a study. The mass of the frame, m3, is
+/// missing in its scene.
+PlacedBed small_bed();
+/// 1000 discs of case gravel in a box 1.26 m wide, as deep as the bed of 2500 discs.
+PlacedBed gravel_bed();
+
 constexpr double soil_density = 2650.0; ///< of the balls [kg/m3]
 
 Variables joined(Variables first, const Variables &second);

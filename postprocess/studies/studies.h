@@ -39,6 +39,12 @@ void run_cost_study(const StudyOptions &options);
 ///   index.html  tables and a figure of the effects, each with its 95 % confidence interval
 void run_fidelity_study(const StudyOptions &options);
 
+/// `drumlin study friction`: what the friction model changes in a bed. Failures as in the study of fidelity.
+///   beds/       restart files of the beds
+///   runs.csv    settlement, depth, forces, k and D of each run
+///   index.html  tables, with 95 % confidence intervals over the seeds
+void run_friction_study(const StudyOptions &options);
+
 /// `drumlin study meter`: what a roller's meter shows over the stiffness of the soil, and what identification
 /// finds in the same records, for all rollers of the chain. Needs no engine.
 ///   records.csv  meter values, operating mode and identified stiffness of each record
@@ -98,6 +104,11 @@ inline constexpr std::array studies = {
         "rolling, stiffness, time step, number, size and packing of the balls, kind of drum, frequency, two "
         "dimensions or three. About five hours of processor time.",
         &run_fidelity_study, true},
+    Study{
+        "friction",
+        "A roller on beds of 1000 discs with the friction model coulomb and with the engine's history, five "
+        "seeds each: settlement, depth, forces, stiffness. About half an hour of processor time.",
+        &run_friction_study, true},
     Study{"meter",
           "What the meters of rollers show on soil of 1 to 200 MN/m, where a value may mean several "
           "stiffnesses, and what identification finds in the same records. Half a minute, without an engine.",

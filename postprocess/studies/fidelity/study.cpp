@@ -54,11 +54,8 @@ PlacedBed of_balls(PlacedBed bed, int balls, double smallest, double largest) {
 }
 
 Plan quick_plan() {
-  PlacedBed bed{"loose", {}, {}, "1e-2"};
-  bed.packing.balls = 150;
-  bed.packing.width = 0.6;
-  bed.scene = {{"case", "loose"}, {"m2", "100"},  {"m3", "50"},  {"r2", "0.1"},
-               {"r3", "0.05"},    {"k23", "5e4"}, {"c23", "500"}};
+  PlacedBed bed = small_bed();
+  bed.scene.emplace_back("m3", "50");
   const std::pair<std::string, std::string> force = {"Fw", "2940"};
   return {{{bed, {{"base", {force}}, {"A", {force, {"transition", "A"}}}}},
            {with(bed, "rolling", {{"rolling", "0.1"}}), {{"rolling", {force}}}}},

@@ -38,11 +38,8 @@ Variables frequency(double hertz, const char *steps) {
 }
 
 LawPlan quick_plan() {
-  PlacedBed bed{"", {}, {}, "1e-2", {}, "loose"};
-  bed.packing.balls = 150;
-  bed.packing.width = 0.6;
-  bed.scene = {{"case", "loose"}, {"m2", "100"},  {"r2", "0.1"},
-               {"r3", "0.05"},    {"k23", "5e4"}, {"c23", "500"}};
+  PlacedBed bed = small_bed();
+  bed.soil = "loose";
   return {"150 discs of case loose, a test of the study",
           bed,
           {{"Fw", "2940"}},
@@ -55,11 +52,8 @@ LawPlan quick_plan() {
 }
 
 LawPlan full_plan() {
-  // Forces that are unbalanced at a ratio of 1, a ball's weight, are a ten-thousandth of the roller's weight;
-  // in.bed would refuse them by default.
-  PlacedBed bed{"", {}, {{"case", "gravel"}}, "1", {}, "gravel"};
-  bed.packing.balls = 1000;
-  bed.packing.width = 1.26; // m, for a bed as deep as that of 2500 discs
+  PlacedBed bed = gravel_bed();
+  bed.soil = "gravel";
   // The amplitudes are a half, 1, 2 and 3 times the default roller's weight; the time steps follow the default.
   return {"1000 discs of case gravel in a box 1.26 m wide",
           bed,

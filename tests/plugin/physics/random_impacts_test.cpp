@@ -6,6 +6,7 @@
 #include "physics/contact_step.h"
 #include "physics/friction_law.h"
 #include "physics/hertz_contact.h"
+#include "tests/plugin/physics/contact_friction.h"
 
 #include <gtest/gtest.h>
 
@@ -47,43 +48,15 @@ struct Found {
   long steps = 0, sliding = 0;
 };
 
-/// Friction of the contact of an impact, step by step.
-template <class Contact>
-class Friction {
-public:
-  Friction(const Impact<Contact> &impact, double r_eff) : impact_(impact), r_eff_(r_eff) {}
-
-  /// Force on ball i, N. \param c dashpot of the normal law, N s/m
-  Vec3 step(const StepMotion &motion, double normal_force, double c, const Vec3 &normal, const Vec3 &slip,
-            Found &found) {
-    const double dt = motion.dt;
-    const double kt =
-        impact_.contact.tangential(overlap_of_spring(motion.overlap, motion.rate_half, dt), r_eff_);
-    spring_ = scaled(kept_spring(stiffness_, kt), spring_);
-    stiffness_ = kt;
-    const FrictionStep now =
-        friction_step({kt, 0.5 * c, impact_.friction, Cap::coulomb}, normal_force, normal, slip, spring_, dt);
-    const double limit = impact_.friction * std::max(0.0, normal_force);
-    const double force = std::sqrt(squared(now.force));
-    if (force > 0.0) found.over_limit = std::max(found.over_limit, force / limit - 1.0);
-    const double work = -dt * dot(now.force, slip), size = std::fabs(work) + stored_ + now.stored;
-    if (size > 0.0) found.made_energy = std::max(found.made_energy, (now.stored - stored_ - work) / size);
-    ++found.steps;
-    found.sliding += now.sliding ? 1 : 0;
-    stored_ = now.stored;
-    spring_ = now.spring;
-    return now.force;
-  }
-  void end() {
-    spring_ = {};
-    stored_ = stiffness_ = 0.0;
-  }
-
-private:
-  const Impact<Contact> &impact_;
-  double r_eff_, stored_ = 0.0, stiffness_ = 0.0;
-  Vec3 spring_{};
-};
+/// Compares a step of friction with its limit and with the work done on it.
+void judge(const FrictionStep &now, double limit, double stored_before, double work, Found &found) {
+  const double force = std::sqrt(squared(now.force));
+  if (force > 0.0) found.over_limit = std::max(found.over_limit, force / limit - 1.0);
+  const double size = std::fabs(work) + stored_before + now.stored;
+  if (size > 0.0) found.made_energy = std::max(found.made_energy, (now.stored - stored_before - work) / size);
+  ++found.steps;
+  found.sliding += now.sliding ? 1 : 0;
+}
 
 /// An impact in steps of velocity Verlet, in the frame of the centre of mass, with the forces of advance() and
 /// friction_step().
@@ -100,7 +73,8 @@ Found run(const Impact<Contact> &impact) {
   const auto kinetic = [&] { return 0.5 * (m_eff * squared(v) + Ii * squared(wi) + Ij * squared(wj)); };
   found.before = kinetic();
   ContactState state;
-  Friction<Contact> friction(impact, r_eff);
+  verlet::ContactFriction<Contact> friction(impact.contact, impact.friction, r_eff);
+  double stored = 0.0;
   Vec3 force{}, torque_i{}, torque_j{};
   double shift = 0.0;
   bool touched = false;
@@ -124,9 +98,15 @@ Found run(const Impact<Contact> &impact) {
     if (motion.overlap > 0.0) {
       touched = true;
       const Vec3 slip = slip_velocity_of_step(v, apart, normal, sum(scaled(arm_i, wi), arm_j, wj), dt);
-      rub = friction.step(motion, push.force, law.dashpot(motion.overlap), normal, slip, found);
-    } else
+      const FrictionStep now =
+          friction.step(motion, push.force, 0.5 * law.dashpot(motion.overlap), normal, slip);
+      judge(now, impact.friction * std::max(0.0, push.force), stored, -dt * dot(now.force, slip), found);
+      rub = now.force;
+      stored = now.stored;
+    } else {
       friction.end();
+      stored = 0.0;
+    }
     const Vec3 moment = cross(normal, rub);
     torque_i = scaled(-arm_i, moment);
     torque_j = scaled(-arm_j, moment);
