@@ -47,6 +47,35 @@ void restitution(Checks &checks, const BenchmarkRun &run, double tolerance) {
   checks.push_back({"restitution (-)", closed, e, run.setup.e, 1.0, tolerance});
 }
 
+/// No impact may gain kinetic energy.
+void dissipation(Checks &checks, const BenchmarkRun &run) {
+  const double energy = Quantities(run.setup, measured(run)).energy,
+               was = Quantities(run.setup, before(run.setup)).energy;
+  checks.push_back({"gain of kinetic energy over that before (-)", closed, std::max(0.0, energy / was - 1.0),
+                    0.0, 1.0, 1e-6});
+}
+
+/// Two spheres keep their momentum, and their angular momentum about the origin.
+void momentum(Checks &checks, const BenchmarkRun &run) {
+  const SphereSetup &s = run.setup;
+  const SphereEnd &e = run.end;
+  const AfterImpact was = before(s), now = measured(run);
+  const auto along = [&](double v, double v2) { return s.m1 * v + s.m2 * v2; };
+  const auto turning = [&](double x, double z, double x2, double z2, const AfterImpact &a) {
+    return s.m1 * (z * a.vx - x * a.vz + 0.4 * s.r1 * s.r1 * a.spin) +
+           s.m2 * (z2 * a.vx2 - x2 * a.vz2 + 0.4 * s.r2 * s.r2 * a.spin2);
+  };
+  const double scale = s.m1 * std::hypot(s.vn, s.vt);
+  checks.push_back({"change of momentum along the normal (-)", closed,
+                    (along(now.vz, now.vz2) - along(was.vz, was.vz2)) / scale, 0.0, 1.0, 1e-11});
+  checks.push_back({"change of momentum across the normal (-)", closed,
+                    (along(now.vx, now.vx2) - along(was.vx, was.vx2)) / scale, 0.0, 1.0, 1e-11});
+  checks.push_back(
+      {"change of angular momentum (-)", closed,
+       (turning(e.x, e.z, e.x2, e.z2, now) - turning(0.0, e.z_start, 0.0, e.z2_start, was)) / (s.r1 * scale),
+       0.0, 1.0, 1e-9});
+}
+
 /// Force and overlap of Hertz's elastic impact at the peak.
 void peak(Checks &checks, const BenchmarkRun &run) {
   const SphereSetup &s = run.setup;
@@ -196,6 +225,9 @@ std::vector<BenchmarkCheck> benchmark_checks(const BenchmarkRun &run) {
   } else {
     impact(checks, run);
   }
+  if (simple.count(run.test) > 0) return checks;
+  dissipation(checks, run);
+  if (run.setup.spheres > 1.0) momentum(checks, run);
   return checks;
 }
 

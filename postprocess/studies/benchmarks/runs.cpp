@@ -45,7 +45,7 @@ constexpr std::array<SetupMember, 22> setup_members = {{{"k", &SphereSetup::k},
                                                         {"steps", &SphereSetup::steps}}};
 
 using EndMember = std::pair<const char *, double SphereEnd::*>;
-constexpr std::array<EndMember, 13> end_members = {{{"x_end (m)", &SphereEnd::x},
+constexpr std::array<EndMember, 14> end_members = {{{"x_end (m)", &SphereEnd::x},
                                                     {"z_end (m)", &SphereEnd::z},
                                                     {"vx_end (m/s)", &SphereEnd::vx},
                                                     {"vz_end (m/s)", &SphereEnd::vz},
@@ -57,7 +57,8 @@ constexpr std::array<EndMember, 13> end_members = {{{"x_end (m)", &SphereEnd::x}
                                                     {"z_start (m)", &SphereEnd::z_start},
                                                     {"z2_start (m)", &SphereEnd::z2_start},
                                                     {"peak_force (N)", &SphereEnd::peak_force},
-                                                    {"peak_overlap (m)", &SphereEnd::peak_overlap}}};
+                                                    {"peak_overlap (m)", &SphereEnd::peak_overlap},
+                                                    {"x2_end (m)", &SphereEnd::x2}}};
 
 /// Points of a case over a variable, for each material.
 void add(std::vector<BenchmarkPoint> &points, const std::string &test,
@@ -159,7 +160,7 @@ BenchmarkRun read_benchmark(const BenchmarkPoint &point, const std::string &engi
   end.z_start = dumps.front().rows[0][z];
   if (wanted > 1) {
     const std::vector<double> &two = last.rows[1];
-    end.z2 = two[z], end.vx2 = two[vx], end.vz2 = two[vz], end.spin2 = two[spin];
+    end.x2 = two[x], end.z2 = two[z], end.vx2 = two[vx], end.vz2 = two[vz], end.spin2 = two[spin];
     end.z2_start = dumps.front().rows[1][z];
   }
   return run;

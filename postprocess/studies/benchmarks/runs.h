@@ -30,9 +30,9 @@ struct SphereSetup {
 /// What a run ends with, and its peaks. SI units; without a second sphere its values are 0.
 struct SphereEnd {
   double x = 0.0, z = 0.0, vx = 0.0, vz = 0.0, spin = 0.0;
-  double z2 = 0.0, vx2 = 0.0, vz2 = 0.0, spin2 = 0.0;
-  double z_start = 0.0, z2_start = 0.0;
-  double peak_force = 0.0; ///< along the normal, on sphere 1
+  double x2 = 0.0, z2 = 0.0, vx2 = 0.0, vz2 = 0.0, spin2 = 0.0;
+  double z_start = 0.0, z2_start = 0.0; ///< the spheres start at x = 0
+  double peak_force = 0.0;              ///< along the normal, on sphere 1
   double peak_overlap = 0.0;
 };
 

@@ -28,7 +28,7 @@ struct FrictionPlan {
 FrictionPlan quick_plan() {
   PlacedBed bed = small_bed();
   bed.scene.emplace_back("m3", "50");
-  return {"150 discs of case loose, a test of the study", bed, {{"Fw", "2940"}}, 2, 4};
+  return {"150 discs of case loose, a test of the study", bed, {{"Fw", "2940"}}, 1, 4};
 }
 
 FrictionPlan full_plan() {

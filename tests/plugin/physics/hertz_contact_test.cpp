@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <sstream>
 #include <string>
 #include <tuple>
 
@@ -86,7 +87,9 @@ TEST_P(HertzImpact, SchemeConvergesWithTheSquareOfTheStep) {
   EXPECT_LT(coarse, 4e-4);
   EXPECT_LT(fine, 8e-7);
   const double order = std::log(coarse / fine) / std::log(16.0);
-  RecordProperty("order", std::to_string(order));
+  std::ostringstream figures;
+  figures << coarse << ", " << fine << ", order " << order;
+  RecordProperty("errors", figures.str());
   EXPECT_GT(order, 1.9) << coarse << " " << fine;
 }
 
