@@ -390,8 +390,8 @@ TEST(Coulomb, HistoryIsKeptWhenTheOrderOfBallsChanges) {
       EXPECT_NEAR(frames[1].back().balls.at(id).x[a], ball.x[a], 1e-9) << "ball " << id;
 }
 
-TEST(Coulomb, ContinuesFromARestartFileBitwiseOnRanksOneAndTwo) {
-  for (const int ranks : {1, 2})
+TEST(Coulomb, ContinuesFromARestartFileBitwiseOnRanksOneTwoAndFour) {
+  for (const int ranks : {1, 2, 4})
     for (const char *stepping : {"second", "stock"}) {
       const Scratch stayed, left;
       Variables law = {{"tangential", "coulomb"}, {"rolling", "epsd2"}, {"stepping", stepping}};

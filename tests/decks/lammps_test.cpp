@@ -201,11 +201,13 @@ TEST_F(InLammps, RefusesAnotherVersionOnRanksOneAndTwo) {
   }
 }
 
-TEST_F(InLammps, ContinuesFromARestartFileBitwiseOnRanksOneAndTwoWithNewtonOffAndOn) {
+TEST_F(InLammps, ContinuesFromARestartFileBitwiseOnRanksOneTwoAndFourWithNewtonOffAndOn) {
   for (const auto &[ranks, newton, tangential, rolling] : {std::tuple{1, "off", "coulomb", "off"},
                                                            {2, "off", "history", "epsd2"},
                                                            {1, "on", "history", "off"},
-                                                           {2, "on", "coulomb", "epsd2"}}) {
+                                                           {2, "on", "coulomb", "epsd2"},
+                                                           {4, "off", "coulomb", "epsd2"},
+                                                           {4, "on", "coulomb", "epsd2"}}) {
     const Scratch stayed, left;
     const Variables law = {{"newton", newton}, {"tangential", tangential}, {"rolling", rolling}};
     const Outcome whole = run_deck(test_deck("bounce.lammps"), law, stayed.path(), ranks);
