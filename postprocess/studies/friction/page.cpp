@@ -26,7 +26,7 @@ const CsvSchema<FrictionRun> &friction_runs() {
 
 const std::array<FrictionQuantity, 8> friction_quantities = {
     {{"depth of the drum at rest [% of its diameter]", &FrictionRun::depth, 100.0},
-     {"settlement in the last cycle [mm]", &FrictionRun::settlement, 1e3},
+     {"settlement after the last cycle [mm]", &FrictionRun::settlement, 1e3},
      {"peak contact force [kN/m]", &FrictionRun::peak_force, 1e-3},
      {"peak acceleration of the drum [m/s2]", &FrictionRun::acceleration, 1.0},
      {"share of time in contact [-]", &FrictionRun::contact_share, 1.0},

@@ -18,7 +18,7 @@ struct FrictionRun {
   std::string tangential; ///< friction model of the deck, `coulomb` or `history`
   int seed = 0;
   double depth = 0.0;         ///< of the drum at rest, share of its diameter [-]; < 0: above the mean surface
-  double settlement = 0.0;    ///< of the drum, last cycle [m]
+  double settlement = 0.0;    ///< of the drum: mean over the last cycle, from its position at rest [m]
   double peak_force = 0.0;    ///< of the contact, mean over the last half of the cycles [N/m]
   double acceleration = 0.0;  ///< largest of the drum, the same mean [m/s2]
   double contact_share = 0.0; ///< of the time, the same mean [-]
