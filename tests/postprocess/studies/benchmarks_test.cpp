@@ -188,6 +188,35 @@ TEST(BenchmarkPeak, IsThatOfTheEquations) {
   EXPECT_GT(worst("chung_ooi_2", s, end), 1.0);
 }
 
+// Spheres that touch at the origin exchange forces there: the closed form of sliding keeps momentum and angular momentum.
+TEST(BenchmarkMomentum, IsKeptAndChangesAreSeen) {
+  SphereSetup s = linear(2);
+  s.k = 1e30, s.e = 0.5, s.vt = 4.5, s.spin = 30.0, s.spin_ratio = 0.5; // hardly any overlap
+  ASSERT_TRUE(post::slides_throughout(s));
+  const post::AfterImpact after = post::sliding_impact(s);
+  post::SphereEnd end;
+  end.z = end.z_start = s.r1, end.z2 = end.z2_start = -s.r2;
+  end.vx = after.vx, end.vz = after.vz, end.spin = after.spin;
+  end.vx2 = after.vx2, end.vz2 = after.vz2, end.spin2 = after.spin2;
+  EXPECT_LT(worst("oblique_pair", s, end), 0.1);
+  for (double post::SphereEnd::*part :
+       {&post::SphereEnd::vx2, &post::SphereEnd::vz2, &post::SphereEnd::spin2}) {
+    post::SphereEnd other = end;
+    other.*part *= 1.0 + 1e-6;
+    EXPECT_GT(worst("oblique_pair", s, other), 1.0);
+  }
+}
+
+// Of a pair of spheres that rebounds faster than it approached.
+TEST(BenchmarkEnergy, ThatAnImpactGainsIsSeen) {
+  SphereSetup s = linear(2);
+  s.e = 1.00001;
+  post::SphereEnd end;
+  end.z = end.z_start = s.r1, end.z2 = end.z2_start = -s.r2;
+  end.vz = s.e * s.vn, end.vz2 = -s.e * s.vn;
+  EXPECT_GT(worst("restitution", s, end), 1.0);
+}
+
 TEST(BenchmarkStack, KeepsItsEnergyAndComesToRest) {
   SphereSetup s = linear(2);
   s.k = 1e3, s.g = 9.81, s.ceiling = 0.038;
