@@ -99,6 +99,14 @@ fs::path placed(const PlacedBed &bed, int seed, const fs::path &out) {
   return done;
 }
 
+Variables with_start(Variables variables, const fs::path &start, int cycles) {
+  variables.insert(variables.end(), {{"start", start.string()},
+                                     {"balance", "10"},
+                                     {"cycles", std::to_string(cycles)},
+                                     {"samples_per_cycle", "250"}});
+  return variables;
+}
+
 std::vector<std::string> make_runs(const std::vector<std::vector<SeedRun>> &groups, int jobs,
                                    StudyResults &results) {
   std::size_t runs = 0;

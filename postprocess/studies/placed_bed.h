@@ -44,6 +44,10 @@ std::filesystem::path settled_soil(const PlacedBed &bed, int seed, const std::fi
 /// call did not finish it. Beds that share their soil are not made at the same time.
 std::filesystem::path placed(const PlacedBed &bed, int seed, const std::filesystem::path &out);
 
+/// `variables` with those of in.bed for a run on a bed with its roller at rest. in.bed refuses by default what a bed
+/// placed with a ratio of 1 leaves unbalanced: it is made to accept it.
+Variables with_start(Variables variables, const std::filesystem::path &start, int cycles);
+
 /// What a run gave.
 struct MeasuredRun {
   StudyResults::Row row; ///< of the results

@@ -23,6 +23,13 @@ void run_accuracy_study(const StudyOptions &options);
 ///   index.html  tables and figures
 void run_benchmarks_study(const StudyOptions &options);
 
+/// `drumlin study box`: what width, depth, floor and sides of the box do to the answers of a bed. Failures as in the
+/// study of fidelity.
+///   beds/       restart files of the beds
+///   runs.csv    forces, acceleration, settlement, CMV, k, D of each run
+///   index.html  tables and figures, with 95 % confidence intervals over the seeds
+void run_box_study(const StudyOptions &options);
+
 /// `drumlin study cost`: wall time of a time step, and the time that each optional part adds to it. Also
 /// throws std::runtime_error if variants with the same contact law do not end with the balls at the same
 /// positions.
@@ -93,6 +100,11 @@ inline constexpr std::array studies = {
           "sliding, "
           "rolling, rest, in both engines against closed forms. About three minutes.",
           &run_benchmarks_study},
+    Study{"box",
+          "What the box does to the answers of a bed: width and depth up to four times the default, rigid "
+          "walls "
+          "or floor and sides that absorb waves, three seeds. About ten minutes of processor time.",
+          &run_box_study, true},
     Study{
         "cost",
         "Time of a step on the chain and on settled beds, and what each optional part adds, as ratios within "

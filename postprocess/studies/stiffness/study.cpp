@@ -74,12 +74,8 @@ BedLaw measure(const LawPlan &plan, const LawVariant &variant, int seed, const s
   PlacedBed bed = plan.bed;
   bed.name = "m3_" + variant.m3;
   bed.scene.emplace_back("m3", variant.m3);
-  Variables variables = joined(joined(variant.run, plan.run), bed.scene);
-  variables.insert(variables.end(), {{"start", placed(bed, seed, out).string()},
-                                     {"balance", "10"},
-                                     {"cycles", std::to_string(plan.cycles)},
-                                     {"samples_per_cycle", "250"}});
-  const DeckRun run("bed/in.bed", variables);
+  const DeckRun run("bed/in.bed", with_start(joined(joined(variant.run, plan.run), bed.scene),
+                                             placed(bed, seed, out), plan.cycles));
   run.must_succeed();
   BedLaw law = identified_law(run.file(""));
   law.run = variant.name;

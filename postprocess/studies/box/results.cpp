@@ -1,0 +1,79 @@
+#include "studies/box/results.h"
+
+#include "roller/meter_values.h"
+#include "studies/stiffness/results.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace drumlin::post {
+
+namespace {
+
+constexpr std::size_t settlement = 2; // index in box_quantities
+
+} // namespace
+
+const std::array<BoxQuantity, box_quantity_count> box_quantities = {
+    {{"peak contact force", "peak_force [N/m]", "kN/m", 1e-3},
+     {"peak drum acceleration", "peak_acceleration [m/s2]", "m/s2", 1.0},
+     {"settlement", "settlement [m]", "mm", 1e3},
+     {"share of time in contact", "contact_share [-]", "-", 1.0},
+     {"CMV", "CMV [-]", "-", 1.0},
+     {"stiffness k", "k [N/m per m]", "MN/m per m", 1e-6},
+     {"damping ratio D", "D [-]", "-", 1.0}}};
+
+const CsvSchema<BoxRun> &box_runs() {
+  constexpr int digits = 9; // with fewer than all digits a missing value is an empty cell
+  std::vector<CsvColumn<BoxRun>> columns = {csv_column("run", &BoxRun::run),
+                                            csv_column("seed", &BoxRun::seed),
+                                            csv_column("width [default widths]", &BoxRun::width),
+                                            csv_column("depth [default depths]", &BoxRun::depth),
+                                            csv_column("boundary", &BoxRun::boundary),
+                                            csv_column("ground_depth [m]", &BoxRun::ground_depth)};
+  for (std::size_t q = 0; q < box_quantities.size(); ++q)
+    columns.push_back(csv_column_of<BoxRun, double>(
+        box_quantities[q].column, [q](auto &run) -> auto & { return run.values[q]; }, digits));
+  columns.push_back(csv_column("cpu [s]", &BoxRun::cpu_s, digits));
+  static const CsvSchema<BoxRun> schema(columns, 2);
+  return schema;
+}
+
+std::array<double, box_quantity_count> box_values(const std::filesystem::path &folder) {
+  const Table cycles = read_table(folder / "cycles.csv");
+  const BedValues values = bed_values(cycles, 1.0);
+  const auto value = [&values](BedQuantity quantity) { return values[static_cast<std::size_t>(quantity)]; };
+  MeterOptions options;
+  options.window = 4; // the shortest
+  const std::vector<MeterWindow> windows = meter_windows(meter_cycles(read_record(folder)), options);
+  const BedLaw law = identified_law(folder);
+  return {value(BedQuantity::force),
+          value(BedQuantity::acceleration),
+          cycles.numbers("settlement").back(),
+          value(BedQuantity::contact),
+          windows.back().cmv.value_or(std::numeric_limits<double>::quiet_NaN()),
+          law.k,
+          law.D};
+}
+
+bool is_relative(std::size_t quantity) { return quantity != settlement; }
+
+std::optional<MeanInterval> box_change(const std::vector<BoxRun> &runs, const BedComparison &compared,
+                                       std::size_t quantity) {
+  std::vector<double> changes, bases;
+  for (const BoxRun &one : runs)
+    for (const BoxRun &other : runs) {
+      if (one.run != compared.variant || other.run != compared.base || one.seed != other.seed) continue;
+      const double change = one.values[quantity] - other.values[quantity];
+      if (!std::isfinite(change)) continue;
+      changes.push_back(change);
+      bases.push_back(other.values[quantity]);
+    }
+  if (changes.size() < 2) return std::nullopt;
+  const MeanInterval change = mean_interval(changes);
+  const double scale = is_relative(quantity) ? std::fabs(mean_interval(bases).mean) : 1.0;
+  return MeanInterval{change.mean / scale, change.half_width / scale};
+}
+
+} // namespace drumlin::post

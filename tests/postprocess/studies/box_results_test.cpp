@@ -1,0 +1,43 @@
+// Changes that another box makes: pairs by seed, relative to the mean of the base, against values computed by hand.
+#include "studies/box/results.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+constexpr std::size_t force = 0, settlement = 2, stiffness = 5;
+
+post::BoxRun run_of(const char *name, int seed, double value) {
+  post::BoxRun run;
+  run.run = name;
+  run.seed = seed;
+  run.boundary = "rigid";
+  run.values.fill(value);
+  return run;
+}
+
+TEST(BoxResults, PairsSeedsAndRelatesChangesToTheMeanOfTheBase) {
+  std::vector<post::BoxRun> runs = {run_of("base", 1, 100.0), run_of("base", 2, 300.0),
+                                    run_of("wide", 1, 110.0), run_of("wide", 2, 330.0),
+                                    run_of("wide", 3, 1e9)};
+  const post::BedComparison compared{"wider", "wide", "base"};
+  const auto change = post::box_change(runs, compared, force);
+  ASSERT_TRUE(change);
+  EXPECT_NEAR(change->mean, 20.0 / 200.0, 1e-15);
+  const double t = 12.7062047364; // Student's t, one degree of freedom, 97.5 %
+  EXPECT_NEAR(change->half_width, t * std::sqrt(200.0 / 2.0) / 200.0, 1e-8); // the differences are 10 and 30
+  EXPECT_FALSE(change->significant());
+  EXPECT_NEAR(post::box_change(runs, compared, settlement)->mean, 20.0, 1e-12); // m, not relative
+
+  runs[3].values[stiffness] = std::numeric_limits<double>::quiet_NaN(); // a record that gave no k
+  EXPECT_FALSE(post::box_change(runs, compared, stiffness));
+  EXPECT_FALSE(post::box_change(runs, {"nothing", "narrow", "base"}, force));
+}
+
+} // namespace
+} // namespace drumlin::test
