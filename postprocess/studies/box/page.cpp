@@ -7,10 +7,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,16 +33,36 @@ std::vector<double> values_of(const std::vector<BoxRun> &runs, const std::string
   return values;
 }
 
-std::string change_text(const std::vector<BoxRun> &runs, const BedComparison &compared,
-                        std::size_t quantity) {
-  const auto change = box_change(runs, compared, quantity);
+std::string change_text(const std::optional<MeanInterval> &change, std::size_t quantity) {
   if (!change) return no_value;
   const double scale = is_relative(quantity) ? 100.0 : box_quantities[quantity].scale;
   return fmt::format("{:+.3g} ± {:.2g}{}", scale * change->mean, scale * change->half_width,
                      change->significant() ? " *" : "");
 }
 
-PageTable change_table(const std::vector<BoxRun> &runs, const std::vector<BedComparison> &comparisons) {
+/// A comparison over all sizes of the box at once, and what box_change() compares one by one.
+constexpr const char *all_boxes = "absorbing instead of rigid, all boxes together";
+
+struct Change {
+  std::string what;
+  std::array<std::optional<MeanInterval>, box_quantity_count> of; ///< by quantity
+};
+
+std::vector<Change> changes_of(const std::vector<BoxRun> &runs,
+                               const std::vector<BedComparison> &comparisons) {
+  std::vector<Change> changes;
+  for (const BedComparison &compared : comparisons) {
+    changes.push_back({compared.what, {}});
+    for (std::size_t q = 0; q < box_quantities.size(); ++q)
+      changes.back().of[q] = box_change(runs, compared, q);
+  }
+  changes.push_back({all_boxes, {}});
+  for (std::size_t q = 0; q < box_quantities.size(); ++q)
+    changes.back().of[q] = boundary_change(runs, q);
+  return changes;
+}
+
+PageTable change_table(const std::vector<Change> &changes) {
   PageTable table;
   table.name = "changes";
   table.title = "What another box changes";
@@ -49,10 +70,10 @@ PageTable change_table(const std::vector<BoxRun> &runs, const std::vector<BedCom
   for (std::size_t q = 0; q < box_quantities.size(); ++q)
     table.header.push_back(
         fmt::format("{} ({})", box_quantities[q].name, is_relative(q) ? "%" : box_quantities[q].unit));
-  for (const BedComparison &compared : comparisons) {
-    std::vector<std::string> row = {compared.what};
+  for (const Change &change : changes) {
+    std::vector<std::string> row = {change.what};
     for (std::size_t q = 0; q < box_quantities.size(); ++q)
-      row.push_back(change_text(runs, compared, q));
+      row.push_back(change_text(change.of[q], q));
     table.add(std::move(row));
   }
   table.notes = {"Mean change and half of its 95 % confidence interval over the seeds (Student's t), in "
@@ -162,7 +183,7 @@ PageFigure size_figure(const std::vector<BoxRun> &runs, int BoxRun::*size, int B
 }
 
 /// For each quantity: the boxes that change it, those that do not, and those that are not decided.
-PageTable conclusion_table(const std::vector<BoxRun> &runs, const std::vector<BedComparison> &comparisons) {
+PageTable conclusion_table(const std::vector<Change> &changes) {
   PageTable table;
   table.name = "needs";
   table.title = "Which answers need which box";
@@ -171,12 +192,12 @@ PageTable conclusion_table(const std::vector<BoxRun> &runs, const std::vector<Be
                   "not decided by these seeds"};
   for (std::size_t q = 0; q < box_quantities.size(); ++q) {
     std::array<std::vector<std::string>, 3> cells;
-    for (const BedComparison &compared : comparisons)
-      if (const auto change = box_change(runs, compared, q))
-        cells[is_relative(q) && change->within(tolerance) ? 1
-              : change->significant()                     ? 0
-                                                          : 2]
-            .push_back(compared.what);
+    for (const Change &change : changes)
+      if (change.of[q])
+        cells[is_relative(q) && change.of[q]->within(tolerance) ? 1
+              : change.of[q]->significant()                     ? 0
+                                                                : 2]
+            .push_back(change.what);
     std::vector<std::string> row = {box_quantities[q].name};
     for (const std::vector<std::string> &cell : cells)
       row.push_back(cell.empty() ? "-" : fmt::format("{}", fmt::join(cell, "; ")));
@@ -188,20 +209,20 @@ PageTable conclusion_table(const std::vector<BoxRun> &runs, const std::vector<Be
   return table;
 }
 
-std::string changes_words(const std::vector<BoxRun> &runs, const std::vector<BedComparison> &comparisons) {
+std::string changes_words(const std::vector<Change> &changes) {
   std::vector<std::string> found;
-  std::size_t changes = 0;
-  for (const BedComparison &compared : comparisons)
+  std::size_t count = 0;
+  for (const Change &change : changes)
     for (std::size_t q = 0; q < box_quantities.size(); ++q)
-      if (const auto change = box_change(runs, compared, q)) {
-        ++changes;
-        if (change->significant())
-          found.push_back(fmt::format("{} with {}", box_quantities[q].name, compared.what));
+      if (change.of[q]) {
+        ++count;
+        if (change.of[q]->significant())
+          found.push_back(fmt::format("{} with {}", box_quantities[q].name, change.what));
       }
-  if (changes == 0) return "There is no comparison yet: it takes two seeds.";
+  if (count == 0) return "There is no comparison yet: it takes two seeds.";
   return fmt::format(
       "{} of {} changes leave the scatter of the seeds (by chance alone, one of twenty does){}{}.",
-      found.size(), changes, found.empty() ? "" : ": ", fmt::join(found, "; "));
+      found.size(), count, found.empty() ? "" : ": ", fmt::join(found, "; "));
 }
 
 } // namespace
@@ -209,18 +230,19 @@ std::string changes_words(const std::vector<BoxRun> &runs, const std::vector<Bed
 void write_box_page(const std::filesystem::path &out, const std::string &beds,
                     const std::vector<BoxRun> &runs, const std::vector<BedComparison> &comparisons,
                     const std::vector<std::string> &failures) {
+  const std::vector<Change> changes = changes_of(runs, comparisons);
   Page page(out, "What the box does", Scene::bed);
   page.answer(fmt::format(
       "A roller on beds of several seeds ({}) in boxes of several widths and depths, with rigid walls "
       "and with floor and sides that absorb waves.",
       beds));
-  page.answer(changes_words(runs, comparisons));
+  page.answer(changes_words(changes));
   for (const std::string &failure : failures)
     page.answer("Missing: " + failure);
   page.section("Conclusions");
-  page.table(conclusion_table(runs, comparisons));
+  page.table(conclusion_table(changes));
   page.section("Changes");
-  page.table(change_table(runs, comparisons));
+  page.table(change_table(changes));
   page.figure(size_figure(runs, &BoxRun::width, &BoxRun::depth, "width", 1));
   page.figure(size_figure(runs, &BoxRun::depth, &BoxRun::width, "depth", 2));
   page.section("Means");

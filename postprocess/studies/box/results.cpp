@@ -3,6 +3,7 @@
 #include "roller/meter_values.h"
 #include "studies/stiffness/results.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -12,6 +13,24 @@ namespace drumlin::post {
 namespace {
 
 constexpr std::size_t settlement = 2; // index in box_quantities
+
+/// Change over the pairs of runs of one seed that `is_pair` accepts: the second is what the first is compared with.
+template <class IsPair>
+std::optional<MeanInterval> change_over_pairs(const std::vector<BoxRun> &runs, std::size_t quantity,
+                                              const IsPair &is_pair) {
+  std::vector<double> changes, bases;
+  for (const BoxRun &one : runs)
+    for (const BoxRun &other : runs) {
+      const double change = one.values[quantity] - other.values[quantity];
+      if (one.seed != other.seed || !is_pair(one, other) || !std::isfinite(change)) continue;
+      changes.push_back(change);
+      bases.push_back(other.values[quantity]);
+    }
+  if (changes.size() < 2) return std::nullopt;
+  const MeanInterval change = mean_interval(changes);
+  const double scale = is_relative(quantity) ? std::fabs(mean_interval(bases).mean) : 1.0;
+  return MeanInterval{change.mean / scale, change.half_width / scale};
+}
 
 } // namespace
 
@@ -61,19 +80,19 @@ bool is_relative(std::size_t quantity) { return quantity != settlement; }
 
 std::optional<MeanInterval> box_change(const std::vector<BoxRun> &runs, const BedComparison &compared,
                                        std::size_t quantity) {
-  std::vector<double> changes, bases;
-  for (const BoxRun &one : runs)
-    for (const BoxRun &other : runs) {
-      if (one.run != compared.variant || other.run != compared.base || one.seed != other.seed) continue;
-      const double change = one.values[quantity] - other.values[quantity];
-      if (!std::isfinite(change)) continue;
-      changes.push_back(change);
-      bases.push_back(other.values[quantity]);
-    }
-  if (changes.size() < 2) return std::nullopt;
-  const MeanInterval change = mean_interval(changes);
-  const double scale = is_relative(quantity) ? std::fabs(mean_interval(bases).mean) : 1.0;
-  return MeanInterval{change.mean / scale, change.half_width / scale};
+  return change_over_pairs(runs, quantity, [&compared](const BoxRun &one, const BoxRun &other) {
+    return one.run == compared.variant && other.run == compared.base;
+  });
+}
+
+std::optional<MeanInterval> boundary_change(const std::vector<BoxRun> &runs, std::size_t quantity) {
+  double ground = std::numeric_limits<double>::infinity(); // the depth that all boxes have
+  for (const BoxRun &run : runs)
+    if (run.boundary == "absorb") ground = std::min(ground, run.ground_depth);
+  return change_over_pairs(runs, quantity, [ground](const BoxRun &one, const BoxRun &other) {
+    return one.boundary == "absorb" && one.ground_depth == ground && other.boundary == "rigid" &&
+           one.width == other.width && one.depth == other.depth;
+  });
 }
 
 } // namespace drumlin::post

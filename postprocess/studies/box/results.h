@@ -50,6 +50,9 @@ std::array<double, box_quantity_count> box_values(const std::filesystem::path &f
 /// that have both. Of the settlement, which may be zero, it is in m and not relative.
 std::optional<MeanInterval> box_change(const std::vector<BoxRun> &runs, const BedComparison &compared,
                                        std::size_t quantity);
+/// Change from rigid walls to floor and sides that absorb, over all pairs of runs on one bed, in boxes of all sizes,
+/// with the ground of least depth; otherwise as box_change().
+std::optional<MeanInterval> boundary_change(const std::vector<BoxRun> &runs, std::size_t quantity);
 /// Whether changes of a quantity are relative.
 bool is_relative(std::size_t quantity);
 

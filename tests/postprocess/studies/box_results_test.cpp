@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 namespace drumlin::test {
@@ -37,6 +38,22 @@ TEST(BoxResults, PairsSeedsAndRelatesChangesToTheMeanOfTheBase) {
   runs[3].values[stiffness] = std::numeric_limits<double>::quiet_NaN(); // a record that gave no k
   EXPECT_FALSE(post::box_change(runs, compared, stiffness));
   EXPECT_FALSE(post::box_change(runs, {"nothing", "narrow", "base"}, force));
+}
+
+TEST(BoxResults, ComparesBoundariesOnOneBedInBoxesOfAllSizes) {
+  std::vector<post::BoxRun> runs;
+  for (const int width : {1, 2})
+    for (const auto &[boundary, ground, value] :
+         {std::tuple{"rigid", 0.0, 100.0 * width}, {"absorb", 1.0, 101.0 * width}, {"absorb", 4.0, 1e9}}) {
+      runs.push_back(run_of("", 1, value));
+      runs.back().width = width;
+      runs.back().boundary = boundary;
+      runs.back().ground_depth = ground;
+    }
+  const auto change = post::boundary_change(runs, force); // differences 1 and 2 of 100 and 200
+  ASSERT_TRUE(change);
+  EXPECT_NEAR(change->mean, 1.5 / 150.0, 1e-15);
+  EXPECT_NEAR(change->half_width, 12.7062047364 * 0.5 / 150.0, 1e-8);
 }
 
 } // namespace
