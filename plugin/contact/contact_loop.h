@@ -2,6 +2,7 @@
 // The loop over the contacts of balls in a step, for the pair styles of both engines.
 
 #include "contact/contact_settings.h"
+#include "contact/pair_list.h"
 #include "contact/stepped_contact.h"
 #include "engine.h"
 #include "physics/contact_block.h"
@@ -20,19 +21,11 @@ struct HistoryPlaces {
   int stride;    ///< from a contact's history to the next, at least `count`
 };
 
-/// A contact of a block.
-struct BlockContact {
-  int i, j;
-  int *flag;       ///< of the engine, see ContactLoop
-  double *history; ///< see HistoryPlaces
-  bool touches;    ///< false in the step in which the contact ends
-};
-
-/// What exerts a contact's forces on its balls. The torque on each ball is -arm times moment, plus the torque
-/// of rolling resistance, which ball j gets in the other direction, as it does the force.
-struct ExertedForces {
-  physics::Vec3 force, moment, rolling;
-  double arm_i, arm_j;
+/// Memory of a loop, which the pair style keeps: the rows are filled anew in each step, the pairs when the
+/// engine has searched for neighbours.
+struct LoopMemory {
+  BallRows rows;
+  PairList pairs;
 };
 
 /// Collects contacts from the neighbour list into blocks, computes the forces of each block, and adds them to
@@ -41,25 +34,39 @@ struct ExertedForces {
 ///   flags(i), histories(i)    of the contacts of ball i: whether they touched, and the numbers stored
 ///   touched(flag, history)    whether the balls touched in the step before
 ///   mark(flag, history, touches)  stores that for the next step
-///   effective_mass(i, j)      kg
-///   exert(block, n, contact, forces)  adds forces to the balls, and reports them to who observes them
+///   mass(i)                   kg; below 0 if the ball is frozen
+///   effective_mass(mi, mj)    kg; static
+///   exert(block, contacts, count)  adds forces to the balls, and reports them to who observes them
 ///   finish()                  called after the last contact
 template <class Engine, class Parameters, bool stepped, FrictionModel tangential, bool rolling>
 class ContactLoop {
 public:
   /// \param stepping nullptr under `stepping stock`
-  ContactLoop(Engine &engine, const LAMMPS_NS::Atom &atom, const CoefficientTable<Parameters> &table,
-              const HistoryPlaces &places, physics::Cap cap, LAMMPS_NS::FixStepping *stepping, double dt,
-              bool moves)
-      : engine_(engine), atom_(atom), table_(table), places_(places), cap_(cap), stepping_(stepping), dt_(dt),
-        moves_(moves), light_(stepped && stepping->light()), in_setup_(stepped && stepping->in_setup()) {}
+  ContactLoop(Engine &engine, const LAMMPS_NS::Atom &atom, LoopMemory &memory,
+              const CoefficientTable<Parameters> &table, const HistoryPlaces &places, physics::Cap cap,
+              LAMMPS_NS::FixStepping *stepping, double dt, bool moves)
+      : engine_(engine), atom_(atom), rows_(memory.rows), pairs_(memory.pairs), table_(table),
+        places_(places), cap_(cap), stepping_(stepping), dt_(dt), moves_(moves),
+        light_(stepped && stepping->light()), in_setup_(stepped && stepping->in_setup()) {}
 
-  void run(const LAMMPS_NS::NeighList &list) {
-    for (int ii = 0; ii < list.inum; ++ii) {
-      const int i = list.ilist[ii];
-      collect(i, list.firstneigh[i], list.numneigh[i]);
+  void run(const LAMMPS_NS::NeighList &list, const LAMMPS_NS::Neighbor &neighbor) {
+    rows_.fill(atom_, [this](int i) { return engine_.mass(i); });
+    pairs_.follow(list, neighbor, atom_.nlocal + atom_.nghost, [this](int i, int place) {
+      return remembers && engine_.touched(engine_.flags(i)[place], history_of(i, place));
+    });
+    const int pairs = static_cast<int>(pairs_.pairs().size());
+    for (int first = 0; first < pairs; first += at_once) {
+      const Found found = pairs_.find<remembers>(rows_, first, std::min(pairs, first + at_once), found_);
+      for (int n = 0; n < found.count; ++n)
+        contacts_[count_++] = expect(found_[n]);
+      changed_ |= found.changed;
+      if (count_ < physics::block_size) continue;
+      exert(physics::block_size);
+      count_ -= physics::block_size;
+      std::copy_n(contacts_ + physics::block_size, count_, contacts_);
+      changed_ = found.changed && count_ > 0;
     }
-    exert();
+    exert(count_);
     engine_.finish();
   }
 
@@ -71,68 +78,46 @@ private:
   static constexpr bool stores_stiffness = Parameters::tangential_varies && (springs || rolling);
   static constexpr bool remembers = stepped || rolling || springs;
 
-  /// The vector of a ball. Vectors follow one another in memory: this spares a pointer per ball.
-  static const double *vector_of(double *const *vectors, int i) {
-    return vectors[0] + static_cast<std::ptrdiff_t>(i) * 3;
+  double *history_of(int i, int place) const {
+    return engine_.histories(i) + static_cast<std::ptrdiff_t>(places_.stride) * place;
   }
 
-  /// Puts the neighbours that touch ball i, or did a step ago, into blocks. Each neighbour is written to the
-  /// next place, which is kept or overwritten: no jump depends on whether the balls touch, which processors
-  /// cannot predict.
-  void collect(int i, const int *neighbours, int count) {
-    const double *const xi = vector_of(atom_.x, i);
-    const Vec3 position{xi[0], xi[1], xi[2]};
-    const double ri = atom_.radius[i];
-    int *const flags = remembers ? engine_.flags(i) : nullptr;
-    double *const histories = remembers ? engine_.histories(i) : nullptr;
-    for (int jj = 0; jj < count; ++jj) {
-      const int j = engine::neighbour_index(neighbours[jj]);
-      const double *const xj = vector_of(atom_.x, j);
-      const Vec3 separation{position[0] - xj[0], position[1] - xj[1], position[2] - xj[2]};
-      const double squared = physics::dot(separation, separation);
-      const double rj = atom_.radius[j];
-      const bool touches = squared < (ri + rj) * (ri + rj);
-      const int n = count_;
-      contacts_[n] = {i, j, remembers ? flags + jj : nullptr,
-                      remembers ? histories + static_cast<std::ptrdiff_t>(places_.stride) * jj : nullptr,
-                      touches};
-      block_.separation.set(n, separation);
-      block_.squared[n] = squared;
-      block_.ri[n] = ri;
-      block_.rj[n] = rj;
-      count_ += static_cast<int>(touches) | static_cast<int>(remembers && flags[jj] != 0);
-      if (count_ == physics::block_size) exert();
-    }
+  /// A contact that was found. Prefetches what will be read for it: these places are scattered in memory, and
+  /// waiting for each in turn would take more time than the computation.
+  BlockContact expect(int found) const {
+    const Pair &pair = pairs_.pairs()[static_cast<std::size_t>(found)];
+    const std::ptrdiff_t j = pair.j;
+    __builtin_prefetch(rows_.motions() + j);
+    if constexpr (stepped) __builtin_prefetch(stepping_->rows() + 4 * j);
+    __builtin_prefetch(atom_.f[0] + 3 * j, 1);
+    if constexpr (rubs || rolling) __builtin_prefetch(atom_.torque[0] + 3 * j, 1);
+    if constexpr (!remembers) return {pair.i, pair.j, found, true, nullptr};
+    double *const history = history_of(pair.i, pair.place);
+    __builtin_prefetch(history, 1);
+    return {pair.i, pair.j, found, true, history};
   }
 
-  /// Reads what is known of a contact of the block.
-  void take(int n) {
-    const BlockContact &contact = contacts_[n];
-    coefficients_[n] = &table_.at(atom_.type[contact.i], atom_.type[contact.j]);
-    take_motion(n, contact.i, contact.j);
-    if constexpr (remembers) {
-      block_.in_contact[n] = engine_.touched(*contact.flag, contact.history) ? 1.0 : 0.0;
-      take_history(n, contact.history);
-      engine_.mark(*contact.flag, contact.history, contact.touches);
+  /// Reads what is known of the first contacts.
+  void take(int count) {
+    for (int n = 0; n < count; ++n) {
+      block_.in_contact[n] = 1.0;
+      if constexpr (remembers) take_history(n, contacts_[n].history);
     }
+    if (remembers && changed_)
+      for (int n = 0; n < count; ++n)
+        take_change(n);
+    one_law_ =
+        read_balls<stepped, Engine>(block_, rows_, contacts_, count, stepped ? stepping_->rows() : nullptr,
+                                    stepped && stepping_->counted());
   }
 
-  void take_motion(int n, int i, int j) {
-    const double *const vi = vector_of(atom_.v, i), *const vj = vector_of(atom_.v, j);
-    block_.velocity.set(n, {vi[0] - vj[0], vi[1] - vj[1], vi[2] - vj[2]});
-    block_.m_eff[n] = engine_.effective_mass(i, j);
-    if constexpr (rubs || rolling) {
-      const double *const wi = vector_of(atom_.omega, i), *const wj = vector_of(atom_.omega, j);
-      block_.wi.set(n, {wi[0], wi[1], wi[2]});
-      block_.wj.set(n, {wj[0], wj[1], wj[2]});
-    }
-    if constexpr (stepped) {
-      const double *const before_i = stepping_->velocity_before(i);
-      const double *const before_j = stepping_->velocity_before(j);
-      block_.velocity_before.set(
-          n, {before_i[0] - before_j[0], before_i[1] - before_j[1], before_i[2] - before_j[2]});
-      block_.damping_over_mass[n] = stepping_->damping_over_mass(i) + stepping_->damping_over_mass(j);
-    }
+  /// Tells the engine if a contact begins or ends.
+  void take_change(int n) {
+    BlockContact &contact = contacts_[n];
+    contact.touches = pairs_.touches(contact.pair);
+    int &flag = engine_.flags(contact.i)[pairs_.pairs()[static_cast<std::size_t>(contact.pair)].place];
+    block_.in_contact[n] = engine_.touched(flag, contact.history) ? 1.0 : 0.0;
+    engine_.mark(flag, contact.history, contact.touches);
   }
 
   void take_history(int n, const double *history) {
@@ -146,32 +131,39 @@ private:
     return {history[place], history[place + 1], history[place + 2]};
   }
 
-  /// Computes the forces of the block, adds them to the balls and empties the block.
-  void exert() {
-    for (int n = 0; n < count_; ++n)
-      take(n);
-    for (int first = 0, end = 0; first < count_; first = end) { // contacts of the same types
-      while (end < count_ && coefficients_[end] == coefficients_[first])
-        ++end;
+  /// Computes the forces of the first contacts and adds them to the balls.
+  void exert(int count) {
+    take(count);
+    for (int first = 0, end = 0; first < count; first = end) {
+      end = one_law_ ? count : end_of_law(first, count);
       compute(first, end);
     }
-    for (int n = 0; n < count_; ++n)
-      exert(n);
-    count_ = 0;
+    add_forces(count);
+  }
+
+  const ContactCoefficients<Parameters> &law_of(int n) const {
+    return table_.at(atom_.type[contacts_[n].i], atom_.type[contacts_[n].j]);
+  }
+
+  /// The end of the contacts that have the same coefficients as the first.
+  int end_of_law(int first, int count) const {
+    int end = first;
+    while (end < count && &law_of(end) == &law_of(first))
+      ++end;
+    return end;
   }
 
   /// Computes the forces of some contacts of the block.
   void compute(int first, int end) {
-    const ContactCoefficients<Parameters> &law = *coefficients_[first];
-    if constexpr (!rubs)
-      physics::compute_normal_forces<stepped, physics::Slip::none>(block_, first, end, law.contact, dt_);
-    else if (moves_ && cap_ == Cap::coulomb)
-      physics::compute_normal_forces<stepped, physics::Slip::in_middle>(block_, first, end, law.contact, dt_);
-    else
-      physics::compute_normal_forces<stepped, physics::Slip::at_end>(block_, first, end, law.contact, dt_);
-    if constexpr (stepped)
-      for (int n = first; n < end; ++n)
-        exert_unless_it_goes_on(n, law.contact);
+    const ContactCoefficients<Parameters> &law = law_of(first);
+    const bool coupled = push(first, end, law.contact);
+    if constexpr (stepped) {
+      if (changed_ || in_setup_ || (coupled && !light_))
+        for (int n = first; n < end; ++n)
+          exert_unless_it_goes_on(n, law.contact);
+      else if (stepping_->counting())
+        count_dashpots(first, end);
+    }
     if constexpr (rubs || rolling) {
       if (moves_)
         physics::compute_tangential_stiffness<springs, rolling, true>(block_, first, end, law.contact, dt_);
@@ -183,7 +175,25 @@ private:
       rub_with_spring(first, end, law, dt);
     else if constexpr (rubs)
       physics::compute_friction<false, Cap::total>(block_, first, end, law, dt);
+    if constexpr (!rubs) physics::compute_total_force(block_, first, end);
     if constexpr (rolling) physics::compute_rolling(block_, first, end, law, dt);
+  }
+
+  bool push(int first, int end, const Parameters &law) {
+    using physics::Slip;
+    if constexpr (!rubs)
+      return physics::compute_normal_forces<stepped, Slip::none>(block_, first, end, law, dt_);
+    if (moves_ && cap_ == Cap::coulomb)
+      return physics::compute_normal_forces<stepped, Slip::in_middle>(block_, first, end, law, dt_);
+    return physics::compute_normal_forces<stepped, Slip::at_end>(block_, first, end, law, dt_);
+  }
+
+  void count_dashpots(int first, int end) {
+    double *const sums = stepping_->damping(); // outside of the loop: the compiler cannot tell that it stays
+    for (int n = first; n < end; ++n) {
+      sums[contacts_[n].i] += block_.dashpot[n];
+      sums[contacts_[n].j] += block_.dashpot[n];
+    }
   }
 
   void rub_with_spring(int first, int end, const ContactCoefficients<Parameters> &law, double dt) {
@@ -203,13 +213,13 @@ private:
     const bool goes_on = contact.touches && !in_setup_ && block_.in_contact[n] != 0.0;
     if (goes_on && light_) return;
     const auto law = parameters.law(block_.m_eff[n], block_.r_eff[n]);
-    if (goes_on && block_.coupled[n] == 0.0)
-      return drumlin::count(*stepping_, contact.i, contact.j, law.dashpot(block_.overlap[n]));
+    if (goes_on && block_.coupled[n] == 0.0) return stepping_->counting() ? count_dashpots(n, n + 1) : void();
     const StepContact now{contact.i,         contact.j,           block_.normal[n], nullptr,
                           block_.overlap[n], block_.rate_half[n], block_.m_eff[n],  1.0};
     if (!contact.touches) {
-      block_.push[n] =
-          block_.in_contact[n] == 0.0 ? 0.0 : end_contact(law, *stepping_, now, block_.force_before[n]);
+      block_.push[n] = block_.in_contact[n] == 0.0
+                           ? 0.0
+                           : drumlin::end_contact(law, *stepping_, now, block_.force_before[n]);
       return;
     }
     physics::ContactState state{block_.force_before[n], block_.in_contact[n] != 0.0, {}};
@@ -217,26 +227,29 @@ private:
     block_.force[n] = state.force;
   }
 
-  /// Adds the forces of a contact to its balls, and stores its history.
-  void exert(int n) {
-    const BlockContact &contact = contacts_[n];
-    ExertedForces forces{{}, {}, {}, block_.arm_i[n], block_.arm_j[n]};
-    if (rubs && contact.touches) {
-      forces.force = block_.total_force[n];
-      forces.moment = block_.moment[n];
-      // The force of a contact that has ended is not added, not even as zero times the normal: if a position is not a
-      // number (NaN), the normal is not either, and the product would make the other ball's force NaN, too.
-    } else if (contact.touches || (stepped && block_.push[n] != 0.0))
-      forces.force = physics::scaled(block_.push[n], block_.normal[n]);
-    if constexpr (remembers) {
-      if (contact.touches)
-        keep_history(n, contact.history);
-      else
-        std::fill_n(contact.history, places_.count, 0.0);
+  /// Adds the forces of the first contacts to their balls, and stores their history.
+  void add_forces(int count) {
+    if (remembers && changed_)
+      for (int n = 0; n < count; ++n)
+        if (!contacts_[n].touches) end_contact(n);
+    if constexpr (remembers)
+      for (int n = 0; n < count; ++n)
+        if (contacts_[n].touches) keep_history(n, contacts_[n].history);
+    engine_.exert(block_, contacts_, count);
+  }
+
+  /// The forces and the history of a contact that has ended.
+  [[gnu::noinline]] void end_contact(int n) {
+    // The force is not added, not even as zero times the normal: if a position is not a number (NaN), the normal
+    // is not either, and the product would make the other ball's force NaN, too.
+    const bool pushes = stepped && block_.push[n] != 0.0;
+    block_.total_force.set(n, pushes ? physics::scaled(block_.push[n], block_.normal[n]) : Vec3{});
+    if constexpr (rubs) {
+      block_.torque_i.set(n, {});
+      block_.torque_j.set(n, {});
     }
-    if constexpr (rolling)
-      if (contact.touches) forces.rolling = block_.rolling[n];
-    engine_.exert(block_, n, contact, forces);
+    if constexpr (rolling) block_.rolling.set(n, {});
+    std::fill_n(contacts_[n].history, places_.count, 0.0);
   }
 
   void keep_history(int n, double *history) const {
@@ -255,6 +268,8 @@ private:
 
   Engine &engine_;
   const LAMMPS_NS::Atom &atom_;
+  BallRows &rows_;
+  PairList &pairs_;
   const CoefficientTable<Parameters> &table_;
   const HistoryPlaces places_;
   const Cap cap_; // of friction with a spring
@@ -263,10 +278,13 @@ private:
   const bool moves_; // false in the set-up of a run: springs stay as they are
   const bool light_, in_setup_;
 
-  int count_ = 0; // contacts of the block
+  static constexpr int at_once = 32; // pairs
+  int count_ = 0;                    // contacts that are found and not computed yet
+  bool changed_ = false;             // whether a contact begins or ends among them
   physics::ContactBlock block_;
-  BlockContact contacts_[physics::block_size];
-  const ContactCoefficients<Parameters> *coefficients_[physics::block_size];
+  std::int32_t found_[at_once + 4];
+  BlockContact contacts_[physics::block_size + at_once];
+  bool one_law_ = false; // whether all have the same coefficients
 };
 
 } // namespace drumlin

@@ -412,7 +412,8 @@ int FixStepping::unpack_exchange(int i, double *buf) {
 
 void FixStepping::pack_ghosts(int n, const int *list, double *buf) {
   for (int m = 0; m < n; ++m)
-    buf = std::copy_n(row(list[m]), shared, buf);
+    for (int a = 0; a < shared; ++a)
+      *buf++ = row(list[m])[a];
 }
 
 void FixStepping::unpack_ghosts(int n, int begin, double *buf) { std::copy_n(buf, n * shared, row(begin)); }

@@ -63,6 +63,8 @@ public:
   bool takes(int i) const { return i >= 0 && (i < atom->nlocal || force->newton_pair); }
   double dt() const { return dt_; }                             ///< s
   const double *velocity_before(int i) const { return row(i); } ///< v(t), m/s, owned balls and ghosts
+  /// Rows of four numbers, one for each ball, of which the first three are velocity_before().
+  const double *rows() const { return velocity_[0]; }
   /// Announces that the force on owned ball i changes in this step by a known amount, N (an excitation):
   /// 2 v+ - velocity_before(i) is then the velocity with the changed force. To be called after the
   /// integration (post_integrate) and before the values of ghosts are updated (pre_force).
@@ -73,11 +75,15 @@ public:
   /// Sum of c/m over the contacts of ball i (owned or ghost) in the last step, 1/s; 0 if it was not computed,
   /// since no contact could need coupling: see expect_contacts().
   double damping_over_mass(int i) const { return counted_ ? row(i)[sum] : 0.0; }
+  /// Whether those sums were computed.
+  bool counted() const { return counted_; }
   /// Whether the contacts of this step have to call add_damping().
   bool counting() const { return counting_; }
   /// Adds the damping coefficient c, N s/m, of a contact to the sum of ball i that the next step uses. With
   /// newton off the sum of a ghost is discarded: its owner computes the contact, too.
   void add_damping(int i, double c) { damping_[static_cast<std::size_t>(i)] += c; }
+  /// These sums, one for each ball, for inner loops.
+  double *damping() { return damping_.data(); }
   /// Announces a link on owned ball i that is not a contact (a bond), with its k, N/m, and c, N s/m. To be
   /// called before each build of the neighbour list (pre_neighbor), which discards earlier announcements.
   void expect(int i, double k, double c) { expected_.push_back({i, k, c}); }

@@ -12,7 +12,7 @@ class PairGranTransition::Contacts {
 public:
   Contacts(PairGranTransition &pair, const drumlin::CoefficientTable<Parameters> &table)
       : pair_(pair), table_(table), atom_(*pair.atom), bodies_(!pair.clumps_.empty() || !pair.rigid_.empty()),
-        observed_(pair.observers_.any()),
+        observed_(pair.observers_.any()), tallies_(pair.evflag != 0), f_(atom_.f[0]), t_(atom_.torque[0]),
         taken_(pair.force->newton_pair ? atom_.nlocal + atom_.nghost : atom_.nlocal) {}
 
   void compute() {
@@ -24,9 +24,9 @@ public:
                                         settings.history(),
                                         settings.history()};
     drumlin::ContactLoop<Contacts, Parameters, stepped, tangential, rolling>(
-        *this, atom_, table_, places, settings.cap, pair_.stepping_, pair_.update->dt,
+        *this, atom_, pair_.loop_memory_, table_, places, settings.cap, pair_.stepping_, pair_.update->dt,
         pair_.update->setupflag == 0)
-        .run(*pair_.list);
+        .run(*pair_.list, *pair_.neighbor);
   }
 
   int *flags(int i) const { return pair_.history_->firstflag[i]; }
@@ -34,68 +34,87 @@ public:
   static bool touched(int flag, const double *) { return flag != 0; }
   static void mark(int &flag, double *, bool touches) { flag = touches; }
 
-  double effective_mass(int i, int j) const {
-    const double mi = bodies_ ? pair_.mass_unless_frozen(i) : atom_.rmass[i];
-    const double mj = bodies_ ? pair_.mass_unless_frozen(j) : atom_.rmass[j];
-    if (atom_.mask[j] & pair_.freeze_groupbit_) return mi;
-    return atom_.mask[i] & pair_.freeze_groupbit_ ? mj : drumlin::physics::effective_mass(mi, mj);
+  double mass(int i) const {
+    const double m = bodies_ ? pair_.mass_unless_frozen(i) : atom_.rmass[i];
+    return atom_.mask[i] & pair_.freeze_groupbit_ ? -m : m;
+  }
+  static double effective_mass(double mi, double mj) { return drumlin::physics::effective_mass(mi, mj); }
+
+  [[gnu::flatten]] void exert(const drumlin::physics::ContactBlock &block,
+                              const drumlin::BlockContact *contacts, int count) {
+    if (observed_ || tallies_)
+      for (int n = 0; n < count; ++n)
+        tell(block, n, contacts[n]);
+    int sums_of = sums_of_;
+    Vec3 force = force_, torque = torque_; // in registers
+    for (int n = 0; n < count; ++n) {
+      const int i = contacts[n].i, j = contacts[n].j;
+      if (i != sums_of) {
+        add_sums(sums_of, force, torque);
+        force = torque = {};
+        sums_of = i;
+      }
+      force = sum(force, 1.0, block.total_force[n]);
+      if constexpr (rubs) torque = sum(torque, 1.0, block.torque_i[n]);
+      if constexpr (rolling) torque = sum(torque, 1.0, block.rolling[n]);
+      if (j < taken_) {
+        add(f_, j, -1.0, block.total_force[n]);
+        if constexpr (rubs) add(t_, j, 1.0, block.torque_j[n]);
+        if constexpr (rolling) add(t_, j, -1.0, block.rolling[n]);
+      }
+    }
+    sums_of_ = sums_of;
+    force_ = force;
+    torque_ = torque;
   }
 
-  void exert(const drumlin::physics::ContactBlock &block, int n, const drumlin::BlockContact &contact,
-             const drumlin::ExertedForces &forces) {
-    const int i = contact.i, j = contact.j;
-    if (observed_ && contact.touches) report(block, n, contact, forces);
-    if (i != i_of_sums_) {
-      finish();
-      i_of_sums_ = i;
-    }
-    using drumlin::physics::sum;
-    force_i_ = sum(force_i_, 1.0, forces.force);
-    if constexpr (rubs) torque_i_ = sum(torque_i_, -forces.arm_i, forces.moment);
-    if constexpr (rolling) torque_i_ = sum(torque_i_, 1.0, forces.rolling);
-    if (j < taken_) {
-      add(atom_.f, j, -1.0, forces.force);
-      if constexpr (rubs) add(atom_.torque, j, -forces.arm_j, forces.moment);
-      if constexpr (rolling) add(atom_.torque, j, -1.0, forces.rolling);
-    }
-    if (pair_.evflag)
-      pair_.ev_tally_xyz(i, j, atom_.nlocal, pair_.force->newton_pair, 0.0, 0.0, forces.force[0],
-                         forces.force[1], forces.force[2], block.separation.x[n], block.separation.y[n],
-                         block.separation.z[n]);
-  }
-
-  /// Adds to a ball the force and torque that were summed over its contacts.
-  void finish() {
-    if (i_of_sums_ < 0) return;
-    add(atom_.f, i_of_sums_, 1.0, force_i_);
-    if constexpr (rubs || rolling) add(atom_.torque, i_of_sums_, 1.0, torque_i_);
-    force_i_ = torque_i_ = {};
-  }
+  void finish() { add_sums(sums_of_, force_, torque_); }
 
 private:
   using Vec3 = drumlin::physics::Vec3;
   static constexpr bool rubs = tangential != drumlin::FrictionModel::none;
 
-  static void add(double *const *vectors, int i, double factor, const Vec3 &vector) {
-    double *const all = vectors[0] + static_cast<std::ptrdiff_t>(i) * 3;
-    all[0] += factor * vector[0];
-    all[1] += factor * vector[1];
-    all[2] += factor * vector[2];
+  static Vec3 sum(const Vec3 &a, double factor, const Vec3 &b) { return drumlin::physics::sum(a, factor, b); }
+  /// Adds to the vector of a ball. Vectors follow one another in memory: this spares a pointer per ball.
+  static void add(double *vectors, int i, double factor, const Vec3 &vector) {
+    double *const to = vectors + static_cast<std::ptrdiff_t>(i) * 3;
+    to[0] += factor * vector[0];
+    to[1] += factor * vector[1];
+    to[2] += factor * vector[2];
   }
 
-  [[gnu::noinline]] void report(const drumlin::physics::ContactBlock &b, int n,
-                                const drumlin::BlockContact &contact,
-                                const drumlin::ExertedForces &forces) const {
+  /// Adds to a ball the force and torque that were summed over its contacts.
+  void add_sums(int i, const Vec3 &force, const Vec3 &torque) {
+    if (i < 0) return;
+    add(f_, i, 1.0, force);
+    if constexpr (rubs || rolling) add(t_, i, 1.0, torque);
+  }
+
+  [[gnu::noinline]] void tell(const drumlin::physics::ContactBlock &block, int n,
+                              const drumlin::BlockContact &contact) const {
+    if (observed_ && contact.touches) report(block, n, contact);
+    if (!tallies_) return;
+    const Vec3 force = block.total_force[n], separation = block.separation[n];
+    pair_.ev_tally_xyz(contact.i, contact.j, atom_.nlocal, pair_.force->newton_pair, 0.0, 0.0, force[0],
+                       force[1], force[2], separation[0], separation[1], separation[2]);
+  }
+
+  void report(const drumlin::physics::ContactBlock &b, int n, const drumlin::BlockContact &contact) const {
     const drumlin::Contact now{
         {contact.i, contact.j, b.normal[n], nullptr, b.overlap[n], b.rate_half[n], b.m_eff[n], 1.0},
         rubs ? b.slip[n] : Vec3{},
         b.r_eff[n],
-        forces.arm_i,
-        forces.arm_j,
+        b.arm_i[n],
+        b.arm_j[n],
         contact.history,
         b.in_contact[n] != 0.0};
-    const drumlin::ContactForces exerted{b.force[n],    forces.force,   rubs ? b.tangential_force[n] : Vec3{},
-                                         forces.moment, forces.rolling, rubs || rolling ? b.kt[n] : 0.0};
+    const Vec3 friction = rubs ? b.tangential_force[n] : Vec3{};
+    const drumlin::ContactForces exerted{b.force[n],
+                                         b.total_force[n],
+                                         friction,
+                                         drumlin::physics::cross(b.normal[n], friction),
+                                         rolling ? b.rolling[n] : Vec3{},
+                                         rubs || rolling ? b.kt[n] : 0.0};
     pair_.observers_.tell(drumlin::record_of(
         pair_.settings_, table_.at(atom_.type[contact.i], atom_.type[contact.j]), now, exerted,
         std::min(b.ri[n], b.rj[n]), drumlin::physics::effective_radius(b.ri[n], b.rj[n])));
@@ -105,10 +124,11 @@ private:
   const drumlin::CoefficientTable<Parameters> &table_;
   const Atom &atom_;
   const bool bodies_; // whether a ball may be part of a larger body
-  const bool observed_;
-  const int taken_; // balls below this index take the force of a contact on this rank
-  int i_of_sums_ = -1;
-  Vec3 force_i_{}, torque_i_{}; // sums over the contacts of ball i_of_sums_
+  const bool observed_, tallies_;
+  double *const f_, *const t_; // forces and torques of the balls
+  const int taken_;            // balls below this index take the force of a contact on this rank
+  int sums_of_ = -1;           // the ball i of the contacts at hand
+  Vec3 force_{}, torque_{};    // sums over its contacts
 };
 
 } // namespace LAMMPS_NS

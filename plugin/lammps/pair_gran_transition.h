@@ -2,6 +2,7 @@
 // The pair styles gran/LAW/transition: see plugin/doc/pair_gran_hooke_transition.md.
 
 #include "engine.h"
+#include "contact/contact_loop.h"
 #include "contact/contact_source.h"
 #include "fixes/fix_clump.h"
 #include "lammps/contact_terms.h"
@@ -95,6 +96,7 @@ private:
   Tables tables_; // of the law
   FixNeighHistory *history_ = nullptr;
   FixStepping *stepping_ = nullptr;
+  drumlin::LoopMemory loop_memory_;
   int freeze_groupbit_ = 0;
   drumlin::ContactObservers observers_;
   Clumps clumps_;

@@ -105,6 +105,7 @@ public:
         pair->evflag = pair->vflag_fdotr = 0;
         return stepping_ == nullptr ? compute_contacts<false>() : compute_contacts<true>();
       }
+    loop_memory_.pairs.forget();
     Base::compute_force(pair, eflag, vflag, adds);
   }
 
@@ -117,9 +118,9 @@ private:
     if (pair_->list->inum == 0) return; // there may be no arrays
     drumlin::EnginePairContacts<
         Contact, stepped, rubs ? drumlin::FrictionModel::history : drumlin::FrictionModel::none, rolls, flag>(
-        *pair_, *engine_->atom)
-        .compute(*std::get<const drumlin::CoefficientTable<Contact> *>(table()), force_offset_, stepping_,
-                 engine_->update->dt);
+        *pair_, *engine_->atom, *engine_->neighbor)
+        .compute(loop_memory_, *std::get<const drumlin::CoefficientTable<Contact> *>(table()), force_offset_,
+                 stepping_, engine_->update->dt);
   }
 
   static std::string command() { return std::string("pair_style gran model ") + Contact::name; }
@@ -127,6 +128,7 @@ private:
   LAMMPS *engine_;
   PairGran *pair_;
   LAMMPS_NS::FixStepping *stepping_ = nullptr; // none under stock stepping
+  drumlin::LoopMemory loop_memory_;
   drumlin::ContactObservers observers_;
   LAMMPS_NS::Clumps clumps_;
   int force_offset_ = -1; // of the normal force in the contact history, with the second-order scheme

@@ -20,11 +20,13 @@ namespace drumlin {
 template <class Parameters, bool stepped, FrictionModel tangential, bool rolling, int flag>
 class EnginePairContacts {
 public:
-  EnginePairContacts(LAMMPS_NS::PairGran &pair, const LAMMPS_NS::Atom &atom) : pair_(pair), atom_(atom) {}
+  EnginePairContacts(LAMMPS_NS::PairGran &pair, const LAMMPS_NS::Atom &atom,
+                     const LAMMPS_NS::Neighbor &neighbor)
+      : pair_(pair), atom_(atom), neighbor_(neighbor) {}
 
   /// \param force_place of the normal force in the contact history, with the second-order scheme
-  void compute(const CoefficientTable<Parameters> &table, int force_place, LAMMPS_NS::FixStepping *stepping,
-               double dt) {
+  void compute(LoopMemory &memory, const CoefficientTable<Parameters> &table, int force_place,
+               LAMMPS_NS::FixStepping *stepping, double dt) {
     in_contact_place_ = force_place + 1;
     // The engine asks the tangential model for its history first, then the rolling and the normal model.
     const int rolling_place = tangential == FrictionModel::history ? 3 : 0;
@@ -32,8 +34,8 @@ public:
     const HistoryPlaces places{0,           stiffness_place, force_place, rolling_place, pair_.dnum_pair(),
                                pair_.dnum()};
     ContactLoop<EnginePairContacts, Parameters, stepped, tangential, rolling>(
-        *this, atom_, table, places, physics::Cap::coulomb, stepping, dt, true)
-        .run(*pair_.list);
+        *this, atom_, memory, table, places, physics::Cap::coulomb, stepping, dt, true)
+        .run(*pair_.list, neighbor_);
   }
 
   int *flags(int i) const { return pair_.listgranhistory->firstneigh[i]; }
@@ -46,37 +48,38 @@ public:
     if (stepped && touches) history[in_contact_place_] = 1.0;
   }
 
-  double effective_mass(int i, int j) const {
-    const int frozen = pair_.freeze_group_bit();
-    if (atom_.mask[j] & frozen) return atom_.rmass[i];
-    if (atom_.mask[i] & frozen) return atom_.rmass[j];
-    return engine_effective_mass(atom_.rmass[i], atom_.rmass[j]);
+  double mass(int i) const {
+    return atom_.mask[i] & pair_.freeze_group_bit() ? -atom_.rmass[i] : atom_.rmass[i];
   }
+  static double effective_mass(double mi, double mj) { return engine_effective_mass(mi, mj); }
 
-  void exert(const physics::ContactBlock &, int, const BlockContact &contact,
-             const ExertedForces &forces) const {
-    add(contact.i, 1.0, forces.arm_i, forces);
-    if (contact.j < atom_.nlocal) add(contact.j, -1.0, forces.arm_j, forces);
+  void exert(const physics::ContactBlock &block, const BlockContact *contacts, int count) const {
+    for (int n = 0; n < count; ++n) {
+      add(contacts[n].i, 1.0, block, n, block.torque_i);
+      if (contacts[n].j < atom_.nlocal) add(contacts[n].j, -1.0, block, n, block.torque_j);
+    }
   }
   void finish() const {}
 
 private:
-  void add(int i, double sign, double arm, const ExertedForces &forces) const {
+  void add(int i, double sign, const physics::ContactBlock &block, int n,
+           const physics::Vectors &friction) const {
     const double relax = pair_.relax(i);
     double *const f = atom_.f[0] + static_cast<std::ptrdiff_t>(i) * 3;
     double *const torque = atom_.torque[0] + static_cast<std::ptrdiff_t>(i) * 3;
+    const physics::Vec3 force = block.total_force[n];
     for (std::size_t a = 0; a < 3; ++a) {
-      f[a] += relax * (sign * forces.force[a]);
+      f[a] += relax * (sign * force[a]);
       if constexpr (tangential != FrictionModel::none)
-        torque[a] +=
-            relax * (rolling ? sign * forces.rolling[a] - arm * forces.moment[a] : -arm * forces.moment[a]);
+        torque[a] += relax * (rolling ? sign * block.rolling[n][a] + friction[n][a] : friction[n][a]);
       else if constexpr (rolling)
-        torque[a] += relax * (sign * forces.rolling[a]);
+        torque[a] += relax * (sign * block.rolling[n][a]);
     }
   }
 
   LAMMPS_NS::PairGran &pair_;
   const LAMMPS_NS::Atom &atom_;
+  const LAMMPS_NS::Neighbor &neighbor_;
   int in_contact_place_ = 0;
 };
 

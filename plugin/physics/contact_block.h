@@ -8,11 +8,12 @@
 #include "physics/rolling_law.h"
 
 #include <cmath>
+#include <cstdint>
 
 // Functions compiled twice, for processors with and without AVX2; the first call chooses. AVX2 has no fused
 // multiply-add, which would round differently. Clang 14 cannot do this for templates.
 #if defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define DRUMLIN_FOR_THIS_PROCESSOR [[gnu::target_clones("avx2", "default")]]
+#define DRUMLIN_FOR_THIS_PROCESSOR [[gnu::flatten, gnu::target_clones("avx2", "default")]]
 #else
 #define DRUMLIN_FOR_THIS_PROCESSOR
 #endif
@@ -66,31 +67,33 @@ struct ContactBlock {
   Vectors rolling_spring;    ///< N m, the same of the torque of rolling resistance
   Numbers stored_stiffness;  ///< N/m, the same of the tangential stiffness, where that varies
   // Computed:
-  Numbers overlap;          ///< m
-  Numbers rate_half;        ///< of the overlap, m/s, with the half-step velocities
-  Vectors normal;           ///< from j to i
-  Vectors slip;             ///< m/s, of ball i's surface relative to j's
-  Numbers arm_i, arm_j;     ///< m, from the centre of each ball to the point where friction acts
-  Numbers r_eff;            ///< m; 0 for a law that does not depend on it
-  Numbers force;            ///< N, normal force at the end of the step, used for friction
-  Numbers push;             ///< N, normal force of the closing half kick
-  Numbers coupled;          ///< 1: needs_coupling(), else 0; second-order scheme only
-  Numbers kt;               ///< N/m, tangential stiffness
-  Vectors tangential_force; ///< N, on ball i
-  Vectors total_force;      ///< N, on ball i
-  Vectors moment;           ///< N, normal x tangential force
-  Vectors rolling;          ///< N m, torque of rolling resistance on ball i
+  Numbers overlap;            ///< m
+  Numbers rate_half;          ///< of the overlap, m/s, with the half-step velocities
+  Vectors normal;             ///< from j to i
+  Vectors slip;               ///< m/s, of ball i's surface relative to j's
+  Numbers arm_i, arm_j;       ///< m, from the centre of each ball to the point where friction acts
+  Numbers r_eff;              ///< m; 0 for a law that does not depend on it
+  Numbers force;              ///< N, normal force at the end of the step, used for friction
+  Numbers push;               ///< N, normal force of the closing half kick
+  Numbers dashpot;            ///< N s/m, of the normal dashpot
+  Numbers coupled;            ///< 1: needs_coupling(), else 0; second-order scheme only
+  Numbers kt;                 ///< N/m, tangential stiffness
+  Vectors tangential_force;   ///< N, on ball i
+  Vectors total_force;        ///< N, on ball i
+  Vectors torque_i, torque_j; ///< N m, of friction on each ball
+  Vectors rolling;            ///< N m, torque of rolling resistance on ball i
 };
 
 /// When the slip of a contact is computed: see slip_velocity_of_step().
 enum class Slip { none, at_end, in_middle };
 
 /// Motion and normal force of all contacts of a block. Where the second-order scheme is used, `push` and `force`
-/// are those of contacts that go on and are not coupled (goes_on()).
+/// are those of contacts that go on and are not coupled (goes_on()). \returns whether any is coupled
 template <bool stepped, Slip slip, class Parameters>
-DRUMLIN_FOR_THIS_PROCESSOR void compute_normal_forces(ContactBlock &b, int first, int end,
+DRUMLIN_FOR_THIS_PROCESSOR bool compute_normal_forces(ContactBlock &b, int first, int end,
                                                       const Parameters &of_types, double dt) {
   const Parameters parameters = of_types; // a copy, which the arrays of the block cannot overlap
+  std::int64_t coupled = 0;               // as wide as the numbers beside it
   DRUMLIN_INDEPENDENT_CONTACTS
   for (int n = first; n < end; ++n) {
     const double distance = std::sqrt(b.squared[n]);
@@ -109,12 +112,13 @@ DRUMLIN_FOR_THIS_PROCESSOR void compute_normal_forces(ContactBlock &b, int first
                                             : slip_velocity(velocity, normal, turning));
     }
     const auto law = parameters.law(m_eff, r_eff);
+    const double dashpot = law.dashpot(overlap);
     if constexpr (stepped) {
       const double rate_before = -dot(b.velocity_before[n], normal);
       const StepMotion motion{overlap, rate_half, rate_before, dt};
-      b.coupled[n] = needs_coupling(dt, law.stiffness(overlap), law.dashpot(overlap), b.damping_over_mass[n])
-                         ? 1.0
-                         : 0.0;
+      const bool needs = needs_coupling(dt, law.stiffness(overlap), dashpot, b.damping_over_mass[n]);
+      b.coupled[n] = needs ? 1.0 : 0.0;
+      coupled |= needs ? 1 : 0;
       b.push[n] = b.force[n] = going_on(law, motion, b.force_before[n], m_eff);
     } else {
       ContactState state;
@@ -124,11 +128,13 @@ DRUMLIN_FOR_THIS_PROCESSOR void compute_normal_forces(ContactBlock &b, int first
     }
     b.normal.set(n, normal);
     b.overlap[n] = overlap;
+    b.dashpot[n] = dashpot;
     b.rate_half[n] = rate_half;
     b.r_eff[n] = r_eff;
     b.arm_i[n] = arm_i;
     b.arm_j[n] = arm_j;
   }
+  return coupled != 0;
 }
 
 /// Tangential stiffness of all contacts of a block. Where it varies, the springs of friction and of rolling
@@ -167,8 +173,7 @@ DRUMLIN_FOR_THIS_PROCESSOR void compute_friction(ContactBlock &b, int first, int
   DRUMLIN_INDEPENDENT_CONTACTS
   for (int n = first; n < end; ++n) {
     const Vec3 normal = b.normal[n], slip = b.slip[n];
-    const auto law = coefficients.contact.law(b.m_eff[n], b.r_eff[n]);
-    const Friction friction = coefficients.tangential(b.kt[n], law.dashpot(b.overlap[n]), cap);
+    const Friction friction = coefficients.tangential(b.kt[n], b.dashpot[n], cap);
     FrictionStep result;
     if constexpr (springs) {
       result = friction_step(friction, b.force[n], normal, slip, b.spring[n], dt);
@@ -176,9 +181,18 @@ DRUMLIN_FOR_THIS_PROCESSOR void compute_friction(ContactBlock &b, int first, int
     } else
       result = friction_step_without_history(friction, b.force[n], slip, 0.0);
     b.tangential_force.set(n, result.force);
-    b.moment.set(n, cross(normal, result.force));
+    const Vec3 moment = cross(normal, result.force);
+    b.torque_i.set(n, scaled(-b.arm_i[n], moment));
+    b.torque_j.set(n, scaled(-b.arm_j[n], moment));
     b.total_force.set(n, sum(result.force, b.push[n], normal));
   }
+}
+
+/// Total force of all contacts of a block without friction.
+DRUMLIN_FOR_THIS_PROCESSOR inline void compute_total_force(ContactBlock &b, int first, int end) {
+  DRUMLIN_INDEPENDENT_CONTACTS
+  for (int n = first; n < end; ++n)
+    b.total_force.set(n, scaled(b.push[n], b.normal[n]));
 }
 
 /// Rolling resistance of all contacts of a block, from the normal force and the tangential stiffness.

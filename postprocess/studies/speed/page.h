@@ -11,10 +11,12 @@ namespace drumlin::post {
 /// stock and with second stepping.
 struct EngineLaws {
   const char *own, *stock, *second;
+  double allowed_stock, allowed_second; ///< time over that of the engine's law, in three dimensions
   std::array<const char *, 3> all() const { return {own, stock, second}; }
 };
 constexpr std::array<EngineLaws, 2> engine_laws = {
-    {{"engine law", "stock", "second"}, {"LAMMPS's law", "LAMMPS stock", "LAMMPS second"}}};
+    {{"engine law", "stock", "second", 0.95, 1.05},
+     {"LAMMPS's law", "LAMMPS stock", "LAMMPS second", 0.85, 1.00}}};
 
 /// The beds of the study, as runs.csv names them.
 struct SpeedScenes {

@@ -133,7 +133,9 @@ void expect_friction(const ContactBlock &b, int n, const Coefficients<Contact> &
                                     : friction_step_without_history(friction, b.force[n], b.slip[n], dt);
   expect_same(b.tangential_force[n], step.force, "friction", n);
   if (springs) expect_same(b.spring[n], step.spring, "spring", n);
-  expect_same(b.moment[n], cross(b.normal[n], step.force), "moment", n);
+  const Vec3 moment = cross(b.normal[n], step.force);
+  expect_same(b.torque_i[n], scaled(-b.arm_i[n], moment), "torque on ball i", n);
+  expect_same(b.torque_j[n], scaled(-b.arm_j[n], moment), "torque on ball j", n);
   expect_same(b.total_force[n], sum(step.force, b.push[n], b.normal[n]), "total", n);
 }
 

@@ -1,0 +1,129 @@
+#pragma once
+// Finds the balls that touch, among the pairs of a neighbour list.
+
+#include "contact/ball_rows.h"
+#include "engine.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace drumlin {
+
+/// A pair of balls of a neighbour list.
+struct Pair {
+  int i, j;
+  int place; ///< of j in the list of i
+};
+
+/// Which pairs find_touching() has found.
+struct Found {
+  int count = 0;
+  bool changed = false; ///< whether a contact begins or ends among them
+};
+
+namespace detail {
+
+/// For each set of four pairs, as a sum of 1, 2, 4 and 8: its members, one after the other.
+struct Members {
+  std::int32_t at[16][4];
+  std::int8_t count[16];
+};
+constexpr Members members_of_sets() {
+  Members all{};
+  for (int set = 0; set < 16; ++set)
+    for (int member = 0; member < 4; ++member)
+      if ((set >> member & 1) != 0) all.at[set][all.count[set]++] = member;
+  return all;
+}
+inline constexpr Members members = members_of_sets();
+
+using TwoFlags = std::int64_t __attribute__((vector_size(16)));
+
+} // namespace detail
+
+/// Finds the pairs `first` to `end` that touch, or did a step ago if `remembers`, without a jump that depends on
+/// whether balls touch, which processors cannot predict. \param first and end multiples of 4 \param touched for each
+/// four pairs the set of those that touched a step ago, and then of those that touch \param found their numbers; must
+/// have room for four more
+template <bool remembers>
+DRUMLIN_FOR_THIS_PROCESSOR Found find_touching(const BallRows::Place *places, const Pair *pairs, int first,
+                                               int end, std::uint8_t *touched, std::int32_t *found) {
+  int count = 0, changes = 0;
+  for (int n = first; n < end; n += 4) {
+    Four apart[4];
+    for (int c = 0; c < 4; ++c) {
+      Four here, there;
+      std::memcpy(&here, &places[pairs[n + c].i], sizeof here);
+      std::memcpy(&there, &places[pairs[n + c].j], sizeof there);
+      apart[c] = there + here * Four{-1.0, -1.0, -1.0, 1.0}; // x_j - x_i, and the sum of the radii
+    }
+    Columns d;
+    turn(d, apart[0], apart[1], apart[2], apart[3]);
+    const Four squared = d.column[0] * d.column[0] + d.column[1] * d.column[1] + d.column[2] * d.column[2];
+    const detail::FourFlags touches = (squared < d.column[3] * d.column[3]) & detail::FourFlags{1, 2, 4, 8};
+    const detail::TwoFlags two =
+        __builtin_shufflevector(touches, touches, 0, 1) | __builtin_shufflevector(touches, touches, 2, 3);
+    const int now = static_cast<int>(two[0] | two[1]);
+    int set = now;
+    if constexpr (remembers) {
+      const int before = touched[n / 4];
+      touched[n / 4] = static_cast<std::uint8_t>(now);
+      set |= before;
+      changes |= now ^ before;
+    }
+    for (int c = 0; c < 4; ++c)
+      found[count + c] = n + detail::members.at[set][c];
+    count += detail::members.count[set];
+  }
+  return {count, changes != 0};
+}
+
+/// The pairs of a neighbour list one after the other, and which of them touch.
+class PairList {
+public:
+  /// Takes the pairs of the engine's list over if that has been built anew. \param touched function of i and the
+  /// place of j in its list: whether the balls touched a step ago
+  template <class Touched>
+  void follow(const LAMMPS_NS::NeighList &list, const LAMMPS_NS::Neighbor &neighbor, int balls,
+              const Touched &touched) {
+    if (neighbor.ago != 0 && neighbor.lastcall == built_) return;
+    built_ = neighbor.lastcall;
+    pairs_.clear();
+    touched_.clear();
+    for (int ii = 0; ii < list.inum; ++ii) {
+      const int i = list.ilist[ii];
+      for (int place = 0; place < list.numneigh[i]; ++place) {
+        add({i, engine::neighbour_index(list.firstneigh[i][place]), place}, touched(i, place));
+      }
+    }
+    while (pairs_.size() % 4 != 0)
+      add({balls, balls, 0}, false); // two balls that do not touch: see BallRows
+  }
+  /// To be called when contacts were computed without this list.
+  void forget() { built_ = -1; }
+
+  const std::vector<Pair> &pairs() const { return pairs_; }
+  /// \returns the pairs first to end that touch: see above
+  template <bool remembers>
+  Found find(const BallRows &rows, int first, int end, std::int32_t *found) {
+    return find_touching<remembers>(rows.places(), pairs_.data(), first, end, touched_.data(), found);
+  }
+  bool touches(int pair) const { return (touched_[static_cast<std::size_t>(pair / 4)] >> pair % 4 & 1) != 0; }
+
+private:
+  void add(const Pair &pair, bool touched) {
+    const std::size_t c = pairs_.size() % 4;
+    if (c == 0) touched_.push_back(0);
+    if (touched) touched_.back() = static_cast<std::uint8_t>(touched_.back() | 1U << c);
+    pairs_.push_back(pair);
+  }
+
+  engine::bigint built_ = -1; // step in which the engine's list was built
+  std::vector<Pair> pairs_;
+  std::vector<std::uint8_t> touched_;
+};
+
+} // namespace drumlin
