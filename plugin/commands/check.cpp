@@ -44,6 +44,7 @@ public:
                                                              {"positive", &Check::positive},
                                                              {"non_negative", &Check::non_negative},
                                                              {"finite", &Check::finite},
+                                                             {"each", &Check::each},
                                                              {"integer", &Check::integer},
                                                              {"multiple_of", &Check::multiple_of},
                                                              {"directory", &Check::directory},
@@ -88,18 +89,25 @@ private:
     if (std::find(choices.begin(), choices.end(), value_) == choices.end()) reject(join_choices(choices));
   }
 
-  void positive() { in(Range::positive); }
-  void non_negative() { in(Range::non_negative); }
-  void finite() { in(Range::any); }
-  void in(Range range) {
+  void positive() { in(value_, Range::positive, ""); }
+  void non_negative() { in(value_, Range::non_negative, ""); }
+  void finite() { in(value_, Range::any, ""); }
+  void each() {
+    const int range = in_.choice("rule each, the rule of a number", {"finite", "positive", "non_negative"});
+    for (const std::string &entry : list_entries(value_))
+      in(entry, static_cast<Range>(range), ", or several, separated by commas");
+  }
+  /// \param number_word a number of the value
+  void in(const std::string &number_word, Range range, const char *or_else) {
     // With numbers outside of these bounds products of quantities could overflow or underflow.
     constexpr double smallest = 1e-30;
     constexpr double largest = 1e30;
-    const double number = parse_number(value_);
+    const double number = parse_number(number_word);
     const double size = std::fabs(number);
     if (!in_range(number, range) || size > largest || (size != 0.0 && size < smallest))
       reject(std::string(allowed_text(range)) +
-             (std::isfinite(number) && in_range(number, range) ? ", between 1e-30 and 1e30 in size" : ""));
+             (std::isfinite(number) && in_range(number, range) ? ", between 1e-30 and 1e30 in size" : "") +
+             or_else);
   }
 
   void integer() {

@@ -29,14 +29,18 @@ RestartNotes shared_notes(LAMMPS *lmp, const std::string &file) {
   return notes;
 }
 
-/// Whether two values are the same: words exactly, numbers to rounding, since a value may come from a formula
-/// of the deck.
+/// Whether two values are the same: words exactly, numbers, also those of lists, to rounding, since a value may come
+/// from a formula of the deck.
 bool same_value(const std::string &a, const std::string &b) {
-  if (a == b) return true;
-  const double x = parse_number(a);
-  const double y = parse_number(b);
-  constexpr double rounding = 1e-12;
-  return std::fabs(x - y) <= rounding * std::fabs(x);
+  const std::vector<std::string> of_a = list_entries(a);
+  const std::vector<std::string> of_b = list_entries(b);
+  return std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
+                    [](const std::string &one, const std::string &other) {
+                      const double x = parse_number(one);
+                      const double y = parse_number(other);
+                      constexpr double rounding = 1e-12;
+                      return one == other || std::fabs(x - y) <= rounding * std::fabs(x);
+                    });
 }
 
 /// Whether `name` is an entry of `list`, whose entries are separated by commas.

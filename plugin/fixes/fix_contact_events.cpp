@@ -51,10 +51,13 @@ FixContactEvents::FixContactEvents(LAMMPS *lammps, int narg, char **arg)
     if (keyword == "types") {
       for (int &type : types_)
         type = static_cast<int>(in.integer("keyword types", 1, atom->ntypes));
+    } else if (keyword == "between") {
+      for (int &bit : groupbits_)
+        bit = group->bitmask[in.group("keyword between", group)];
     } else if (keyword == "append") {
       in.choice("keyword append", {"yes", "no"});
     } else {
-      in.fail("keyword", keyword, "types or append");
+      in.fail("keyword", keyword, "types, between or append");
     }
   }
 }
@@ -80,6 +83,9 @@ bool FixContactEvents::is_selected(int i, int j) const {
   const int *mask = atom->mask;
   if (!(mask[i] & groupbit) || !(mask[j] & groupbit)) return false;
   if (!engine::owns_pair(lmp, i, j)) return false;
+  if (groupbits_[0] != 0 && !((mask[i] & groupbits_[0]) && (mask[j] & groupbits_[1])) &&
+      !((mask[i] & groupbits_[1]) && (mask[j] & groupbits_[0])))
+    return false;
   if (types_[0] == 0) return true;
   const int a = atom->type[i];
   const int b = atom->type[j];

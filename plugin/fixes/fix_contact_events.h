@@ -12,7 +12,7 @@
 
 namespace LAMMPS_NS {
 
-/// In every step finds the pairs of two types (or of the group) whose contact has begun or ended since the
+/// In every step finds the pairs of two types, or of two groups, or of the group, whose contact has begun or ended since the
 /// step before, and writes each make and break once, on any number of ranks.
 ///
 /// It is no ContactObserver: a make or break is located from the states of a pair in this step and in the one
@@ -55,7 +55,8 @@ private:
   void refresh_ghost_velocities();
   void write_out();
 
-  std::array<int, 2> types_{0, 0}; // 0: all pairs of the group
+  std::array<int, 2> types_{0, 0};     // 0: all pairs of the group
+  std::array<int, 2> groupbits_{0, 0}; // of keyword between; 0: not given
   drumlin::OutputFile file_;
   const drumlin::ContactSource *source_ = nullptr;
   drumlin::Clock clock_;

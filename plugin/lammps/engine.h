@@ -27,9 +27,11 @@
 #include "version.h"
 
 #include "lammps/lammps_version.h"
+#include "physics/contact_mixing.h"
 
 #include <array>
 #include <cstdio>
+#include <fmt/format.h>
 #include <string>
 #include <vector>
 
@@ -128,6 +130,21 @@ inline void minimum_image(LAMMPS_NS::Domain *domain, std::array<double, 3> &d) {
 
 /// I / (m r^2) with which fix nve/sphere rotates the balls: that of discs with its keyword `disc`.
 double inertia_share(const LAMMPS *lmp);
+
+/// Gives the pair style of the deck the contacts of each pair of types, as lines pair_coeff.
+/// \param table rows of as many contacts as there are types
+/// \param rolling whether the pair style has rolling friction
+inline void set_contacts(LAMMPS *lmp, const std::vector<physics::ContactValues> &table, bool rolling) {
+  const auto types = static_cast<std::size_t>(lmp->atom->ntypes);
+  for (std::size_t a = 0; a < types; ++a)
+    for (std::size_t b = a; b < types; ++b) {
+      const physics::ContactValues &contact = table[a * types + b];
+      std::string line = fmt::format("pair_coeff {} {} {:.17g} {:.17g} {:.17g}", a + 1, b + 1,
+                                     contact.stiffness, contact.damping_ratio, contact.friction);
+      if (rolling) line += fmt::format(" rolling {:.17g}", contact.rolling);
+      lmp->input->one(line);
+    }
+}
 
 } // namespace drumlin::engine
 

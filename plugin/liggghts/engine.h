@@ -27,8 +27,11 @@
 #include "update.h"
 #include "variable.h"
 
+#include "physics/contact_mixing.h"
+
 #include <array>
 #include <cstdio>
+#include <fmt/format.h>
 #include <string>
 #include <vector>
 
@@ -121,6 +124,27 @@ inline void minimum_image(LAMMPS_NS::Domain *domain, std::array<double, 3> &d) {
 
 /// I / (m r^2) with which fix nve/sphere rotates the balls: that of discs in two dimensions.
 inline double inertia_share(const LAMMPS *lmp) { return lmp->domain->dimension == 2 ? 0.5 : 0.4; }
+
+/// Gives the pair style of the deck the contacts of each pair of types, as properties.
+/// \param table rows of as many contacts as there are types
+/// \param rolling whether the deck's models have rolling friction
+inline void set_contacts(LAMMPS *lmp, const std::vector<physics::ContactValues> &table, bool rolling) {
+  const struct {
+    const char *property;
+    double physics::ContactValues::*value;
+  } properties[] = {{"kn", &physics::ContactValues::stiffness},
+                    {"dampingRatio", &physics::ContactValues::damping_ratio},
+                    {"coefficientFriction", &physics::ContactValues::friction},
+                    {"coefficientRollingFriction", &physics::ContactValues::rolling}};
+  for (const auto &[property, value] : properties) {
+    if (value == &physics::ContactValues::rolling && !rolling) continue;
+    std::string line = fmt::format("fix drumlin_{0} all property/global {0} peratomtypepair {1}", property,
+                                   lmp->atom->ntypes);
+    for (const physics::ContactValues &contact : table)
+      line += fmt::format(" {:.17g}", contact.*value);
+    lmp->input->one(line.c_str());
+  }
+}
 
 } // namespace drumlin::engine
 

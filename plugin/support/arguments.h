@@ -47,6 +47,17 @@ inline std::string joined(const std::vector<std::string> &words, const std::stri
   return text;
 }
 
+/// The parts of a list whose entries are separated by commas; one empty part of an empty list.
+inline std::vector<std::string> list_entries(const std::string &list) {
+  std::vector<std::string> entries;
+  for (std::size_t from = 0;;) {
+    const std::size_t comma = list.find(',', from);
+    entries.push_back(list.substr(from, comma == std::string::npos ? comma : comma - from));
+    if (comma == std::string::npos) return entries;
+    from = comma + 1;
+  }
+}
+
 /// "I, II or III" of {"I", "II", "III"}.
 inline std::string join_choices(const std::vector<std::string> &choices) {
   std::string text;

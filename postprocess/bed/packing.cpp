@@ -20,8 +20,8 @@ constexpr double most_cells = 5e7;
 constexpr double most_pairs = 1e12;
 /// Height of the box above the soil balls, m: space for drum and frame.
 constexpr double room_above = 2.0;
-/// Soil, drum, frame: a box cannot change its number of types later.
-constexpr int types = 3;
+/// Drum and frame: a box cannot change its number of types later.
+constexpr int roller_types = 2;
 constexpr std::array<std::pair<Grading, const char *>, 2> gradings = {
     {{Grading::uniform, "uniform"}, {Grading::mass, "mass"}}};
 
@@ -141,6 +141,7 @@ Grading grading_from_name(const std::string &name) {
   throw std::invalid_argument(refusal("grading", name, "uniform, mass"));
 }
 
+double settled_share(int dimensions) { return dimensions == 2 ? 0.825 : 0.6; }
 double largest_share(int dimensions) { return dimensions == 2 ? 0.5 : 0.34; }
 double default_share(int dimensions) { return dimensions == 2 ? 0.45 : 0.28; }
 
@@ -218,14 +219,30 @@ void check_work(const PackingOptions &options, double height) {
 
 } // namespace
 
-double default_cut(const SieveCurve &curve, const PackingOptions &options) {
-  PackingOptions cut = options;
-  cut.sieve = curve; // for the size of the largest ball
-  if (const std::string fault = cut.invalid(); !fault.empty()) throw std::invalid_argument(fault);
-  const double height = options.height > 0.0 ? options.height : 0.5 * options.width;
+namespace {
+
+/// Content of the ball of mean mass, m2 or m3.
+double mean_content(const PackingOptions &options) {
   const int dimensions = options.dimensions();
-  const double wanted = free_base(cut) * std::max(height - cut.largest_radius(), cut.largest_radius()) *
-                        default_share(dimensions);
+  if (options.sieve) return content(0.5, dimensions) * BallNumbers(*options.sieve, dimensions).mean_power();
+  const double low = options.radius_min, high = options.radius_max;
+  const double squares = low * low + high * high;
+  if (options.grading == Grading::uniform)
+    return dimensions == 2 ? pi * (squares + low * high) / 3.0
+                           : 4.0 / 3.0 * pi * 0.25 * (low + high) * squares;
+  return dimensions == 2 ? pi * low * high : 4.0 / 3.0 * pi * 2.0 * low * low * high * high / (low + high);
+}
+
+/// Content of the balls of a layer that has settled, m2 or m3.
+double settled_content(const BedLayer &layer) {
+  const PackingOptions &options = layer.packing;
+  const double base = options.width * (options.dimensions() == 2 ? 1.0 : options.depth);
+  return base * layer.thickness * settled_share(options.dimensions());
+}
+
+/// The size at which the curve must be cut so that options.balls balls have a content. \param height m, for the error
+double cut_for(const SieveCurve &curve, const PackingOptions &options, double wanted, double height) {
+  const int dimensions = options.dimensions();
   const auto number_for = [&](double size) {
     const double mean = BallNumbers(curve.coarser_than(size), dimensions).mean_power();
     const double of_one = content(0.5, dimensions) * mean; // content goes with the power of the size
@@ -239,7 +256,7 @@ double default_cut(const SieveCurve &curve, const PackingOptions &options) {
         "balls", options.balls,
         fmt::format(
             "at least {:.0f}, so that grains from {:g} to {:g} mm fill the box to a height of {:g} m; "
-            "or --cut with the smallest size",
+            "or a larger smallest size",
             least, high * 1e3, curve.largest() * 1e3, height)));
   while (high / low > 1.0 + 1e-6) {
     const double middle = std::sqrt(low * high);
@@ -247,6 +264,40 @@ double default_cut(const SieveCurve &curve, const PackingOptions &options) {
   }
   const double digit = std::pow(10.0, std::floor(std::log10(high)) - 2.0);
   return std::ceil(high / digit) * digit;
+}
+
+PackingOptions checked_with(const SieveCurve &curve, const PackingOptions &options) {
+  PackingOptions with_curve = options;
+  with_curve.sieve = curve; // for the size of the largest ball
+  if (const std::string fault = with_curve.invalid(); !fault.empty()) throw std::invalid_argument(fault);
+  return with_curve;
+}
+
+} // namespace
+
+double default_cut(const SieveCurve &curve, const PackingOptions &options) {
+  const PackingOptions whole = checked_with(curve, options);
+  const double height = options.height > 0.0 ? options.height : 0.5 * options.width;
+  const double wanted = free_base(whole) * std::max(height - whole.largest_radius(), whole.largest_radius()) *
+                        default_share(options.dimensions());
+  return cut_for(curve, options, wanted, height);
+}
+
+std::string BedLayer::invalid() const {
+  const Range range = {2.0 * packing.largest_radius(), PackingOptions::length_range.most, "m"};
+  if (range.holds(thickness)) return {};
+  return refusal("layer", thickness, range.words() + ": at least as thick as its largest ball");
+}
+
+int balls_of(const BedLayer &layer) {
+  const double number = std::round(settled_content(layer) / mean_content(layer.packing));
+  return static_cast<int>(std::clamp(number, 1.0, PackingOptions::most_balls + 1.0));
+}
+
+double default_cut_of_layer(const SieveCurve &curve, const BedLayer &layer) {
+  const BedLayer whole = {checked_with(curve, layer.packing), layer.thickness};
+  if (const std::string fault = whole.invalid(); !fault.empty()) throw std::invalid_argument(fault);
+  return cut_for(curve, layer.packing, settled_content(layer), layer.thickness);
 }
 
 Packing pack_balls(const PackingOptions &options, const std::function<void(std::size_t)> &progress,
@@ -289,45 +340,114 @@ Packing pack_balls(const PackingOptions &options, const std::function<void(std::
   return {std::move(balls), height};
 }
 
-Sieving sieved(const Packing &packing, int dimensions) {
+Packing pack_layers(const std::vector<BedLayer> &layers, const std::function<void(std::size_t)> &progress) {
+  Packing all = {{}, 0.0};
+  for (std::size_t n = 0; n < layers.size(); ++n) {
+    if (const std::string fault = layers[n].invalid(); !fault.empty()) throw std::invalid_argument(fault);
+    PackingOptions options = layers[n].packing;
+    constexpr std::uint64_t apart = 0x9e3779b97f4a7c15; // seeds of layers far from those of other beds
+    options.seed += n * apart;
+    const std::size_t placed_before = all.balls.size();
+    const Packing layer = pack_balls(options, [&](std::size_t placed) {
+      if (progress) progress(placed_before + placed);
+    });
+    for (PackedBall ball : layer.balls) {
+      ball.centre[2] += all.height;
+      ball.layer = static_cast<int>(n);
+      all.balls.push_back(ball);
+    }
+    all.height += layer.height;
+  }
+  return all;
+}
+
+namespace {
+
+/// Sizes of the balls for which take(ball) holds.
+template <class Take>
+Sieving sieved_if(const Packing &packing, int dimensions, const Take &take) {
   std::vector<double> sizes;
   sizes.reserve(packing.balls.size());
   for (const PackedBall &ball : packing.balls)
-    sizes.push_back(2.0 * ball.radius);
+    if (take(ball)) sizes.push_back(2.0 * ball.radius);
   return {std::move(sizes), dimensions};
 }
 
-std::string bed_data(const PackingOptions &options, double density, const Packing &packing) {
+/// Type of the balls of a layer in the engine: 1, then 4, 5, ...
+int type_of(int layer) { return layer == 0 ? 1 : layer + 1 + roller_types; }
+
+std::string name_of_grading(const PackingOptions &options) {
+  return options.sieve ? fmt::format("{}_from_{:g}mm", options.sieve_name, options.sieve->smallest() * 1e3)
+                       : grading_name(options.grading);
+}
+
+/// \param parts the options of each layer, which have the same box
+/// \param more lines for the header, notes of layers
+std::string data_text(const std::vector<PackingOptions> &parts, const std::string &more, double density,
+                      const Packing &packing) {
+  const PackingOptions &options = parts.front();
   const bool flat = options.dimensions() == 2;
-  const std::string grading =
-      options.sieve ? fmt::format("{}_from_{:g}mm", options.sieve_name, options.sieve->smallest() * 1e3)
-                    : grading_name(options.grading);
-  const double depth = flat ? 2.0 * options.largest_radius() : options.depth;
+  std::string grading;
+  double smallest = options.smallest_radius(), largest = options.largest_radius();
+  for (const PackingOptions &part : parts) {
+    grading += (grading.empty() ? "" : "+") + name_of_grading(part);
+    smallest = std::min(smallest, part.smallest_radius());
+    largest = std::max(largest, part.largest_radius());
+  }
+  const double depth = flat ? 2.0 * largest : options.depth;
   const double top = packing.height + room_above;
   std::string text = fmt::format(
       "# {} balls at random: radius {} to {} m, grading {}, {} m wide, {} m deep, filled to {} m, "
       "seed {} (drumlin bed)\n",
-      packing.balls.size(), options.smallest_radius(), options.largest_radius(), grading, options.width,
-      options.depth, packing.height, options.seed);
+      packing.balls.size(), smallest, largest, grading, options.width, options.depth, packing.height,
+      options.seed);
   auto out = std::back_inserter(text);
-  const Sieving sizes = sieved(packing, options.dimensions());
-  const std::pair<const char *, double> notes[] = {{"r_min", options.smallest_radius()},
-                                                   {"r_max", options.largest_radius()},
+  const Sieving sizes = sieved_if(packing, options.dimensions(), [](const PackedBall &) { return true; });
+  const std::pair<const char *, double> notes[] = {{"r_min", smallest},
+                                                   {"r_max", largest},
                                                    {"d50", sizes.size(0.5)},
                                                    {"C_u", grain_sizes(sizes).uniformity()}};
   fmt::format_to(out, "# drumlin note grading {}\n", grading); // drumlin/take of in.settle reads these lines
   for (const auto &[name, value] : notes)
     fmt::format_to(out, "# drumlin note {} {}\n", name, value);
-  fmt::format_to(out, "\n{} atoms\n{} atom types\n\n", packing.balls.size(), types);
+  text += more;
+  fmt::format_to(out, "\n{} atoms\n{} atom types\n\n", packing.balls.size(), parts.size() + roller_types);
   fmt::format_to(out, "{:.17g} {:.17g} xlo xhi\n0 {:.17g} ylo yhi\n{:.17g} {:.17g} zlo zhi\n",
                  -0.5 * options.width, 0.5 * options.width, top, -0.5 * depth, 0.5 * depth);
   fmt::format_to(out, "\nAtoms\n\n"); // ID, type, diameter, density, x, y, z
   std::size_t id = 0;
   for (const PackedBall &ball : packing.balls)
-    fmt::format_to(out, "{} 1 {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", ++id, 2.0 * ball.radius, density,
-                   ball.centre[0] - 0.5 * options.width, ball.centre[2],
+    fmt::format_to(out, "{} {} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", ++id, type_of(ball.layer),
+                   2.0 * ball.radius, density, ball.centre[0] - 0.5 * options.width, ball.centre[2],
                    flat ? 0.0 : ball.centre[1] - 0.5 * depth);
   return text;
+}
+
+} // namespace
+
+Sieving sieved(const Packing &packing, int dimensions) {
+  return sieved_if(packing, dimensions, [](const PackedBall &) { return true; });
+}
+
+Sieving sieved_layer(const Packing &packing, int dimensions, int layer) {
+  return sieved_if(packing, dimensions, [layer](const PackedBall &ball) { return ball.layer == layer; });
+}
+
+std::string bed_data(const PackingOptions &options, double density, const Packing &packing) {
+  return data_text({options}, "", density, packing);
+}
+
+std::string bed_data(const std::vector<BedLayer> &layers, double density, const Packing &packing) {
+  std::vector<PackingOptions> parts;
+  std::string thicknesses;
+  for (const BedLayer &layer : layers) {
+    parts.push_back(layer.packing);
+    thicknesses += fmt::format("{}{}", thicknesses.empty() ? "" : ",", layer.thickness);
+  }
+  return data_text(parts,
+                   fmt::format("# drumlin note layers {}\n# drumlin note layer_thicknesses {}\n",
+                               layers.size(), thicknesses),
+                   density, packing);
 }
 
 } // namespace drumlin::post

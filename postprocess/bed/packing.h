@@ -65,9 +65,31 @@ double default_share(int dimensions);
 /// be above half of the largest size: hardly a distribution is left of the curve then.
 double default_cut(const SieveCurve &curve, const PackingOptions &options);
 
+/// A layer of a bed of several, whose balls fall on the layers below when these have come to rest.
+struct BedLayer {
+  PackingOptions packing;
+  double thickness; ///< m, wanted after it has settled
+
+  /// Empty if the thickness is allowed, else what is wrong: name, value, what is allowed.
+  std::string invalid() const;
+};
+
+/// The share of area (or volume) that balls of case gravel take of a bed when they have settled, as measured
+/// (inputs/bed/README.md). Other friction and other gradings change it by 4 % at most.
+double settled_share(int dimensions);
+
+/// The number of balls that make a layer of its thickness. At least 1; more than PackingOptions::most_balls are
+/// that number plus one.
+int balls_of(const BedLayer &layer);
+
+/// The size, m, at which `curve` must be cut so that `balls` balls of what is coarser make the layer; see
+/// default_cut().
+double default_cut_of_layer(const SieveCurve &curve, const BedLayer &layer);
+
 struct PackedBall {
   std::array<double, 3> centre; ///< m: across, along the drum's axis (0 in two dimensions), up from the floor
   double radius;                ///< m
+  int layer = 0;                ///< from 0, the lowest
 };
 
 struct Packing {
@@ -88,13 +110,23 @@ struct Packing {
 Packing pack_balls(const PackingOptions &options, const std::function<void(std::size_t)> &progress = {},
                    int attempts = 100'000);
 
-/// The text of the data file for the engine's read_data: balls of type 1 (soil; types 2 and 3 are drum and
-/// frame), in a box with space for the roller above them. y is up; x = 0 and z = 0 are the middle. Density of
+/// Layers one above the other as they are before they settle, the first the lowest; each of its own options, which
+/// have the same box.
+Packing pack_layers(const std::vector<BedLayer> &layers,
+                    const std::function<void(std::size_t)> &progress = {});
+
+/// The text of the data file for the engine's read_data: balls of type 1 (types 2 and 3 are drum and frame), and of
+/// type 4, 5, ... for the second and further layers, in a box with space for the roller above them. y is up; x = 0 and z = 0 are the middle. Density of
 /// a ball in kg/m3, of a disc 1 m thick. The header notes for later decks: the grading as one word, the radii of the
 /// smallest and largest ball, m, d50, m, and C_u.
 std::string bed_data(const PackingOptions &options, double density, const Packing &packing);
+/// The same for a bed of layers. Of the notes the grading is that of each layer, the lowest first, joined by +; the
+/// others are of all balls; the number of layers and their thicknesses are noted, too.
+std::string bed_data(const std::vector<BedLayer> &layers, double density, const Packing &packing);
 
 /// The balls of a packing sorted by size.
 Sieving sieved(const Packing &packing, int dimensions);
+/// Those of one layer.
+Sieving sieved_layer(const Packing &packing, int dimensions, int layer);
 
 } // namespace drumlin::post

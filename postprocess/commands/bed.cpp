@@ -10,6 +10,7 @@
 #include "support/usage_error.h"
 
 #include <CLI/CLI.hpp>
+#include <boost/algorithm/string/split.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -47,20 +48,25 @@ constexpr std::array<Number, 5> number_options = {{
     {"--radius-max", &PackingOptions::radius_max, PackingOptions::radius_range, "largest radius [m]"},
 }};
 
+/// More would need more types than the engine's neighbour lists are made for; a road has half a dozen layers.
+constexpr std::size_t most_layers = 10;
+
 struct Arguments {
   std::string balls, density, seed, grading, out = BedRequest().out.string();
   std::array<std::string, number_options.size()> numbers;
   std::optional<std::string> sieve, cut;
-  std::string instead_of_sieve; ///< an option that was given and says the sizes in another way; empty: none
+  std::vector<std::string> layers;
+  std::string instead_of_layers; ///< an option that was given and says the same as --layer; empty: none
+  std::string instead_of_sieve;  ///< an option that was given and says the sizes in another way; empty: none
 };
 
-/// The curve that `--sieve` names, and its name as one word.
-std::pair<SieveCurve, std::string> asked_grading(const std::string &text) {
+/// The curve that an option names, and its name as one word.
+std::pair<SieveCurve, std::string> asked_grading(const char *option, const std::string &text) {
   if (const KnownGrading *known = find_grading(text)) return {known->curve(), known->name};
-  const fs::path file = path_option("--sieve", text);
+  const fs::path file = path_option(option, text);
   if (!fs::exists(file))
     throw UsageError(refusal(
-        "--sieve", text,
+        option, text,
         fmt::format("a CSV file with the columns size (mm) and passing (%), or one of {}", grading_names())));
   std::string name = file.stem().string();
   for (char &letter : name)
@@ -70,6 +76,18 @@ std::pair<SieveCurve, std::string> asked_grading(const std::string &text) {
   } catch (const std::runtime_error &fault) {
     throw UsageError(fault.what());
   }
+}
+
+/// Size, m, from a text in mm at which a curve is cut.
+double given_cut(const char *option, const std::string &text, const SieveCurve &curve) {
+  const double least = std::max(curve.smallest(), curve.largest() / PackingOptions::most_spread);
+  const Range range = {least * 1e3, curve.largest() * 1e3, "mm", false, false, true};
+  return std::clamp(number_option(option, text, range) * 1e-3, least, curve.largest());
+}
+
+void set_grading(PackingOptions &options, const SieveCurve &curve, const std::string &name, double cut) {
+  options.sieve = curve.coarser_than(cut);
+  options.sieve_name = name;
 }
 
 /// Sets the sizes of the balls from `--sieve` and `--cut`.
@@ -82,18 +100,54 @@ void judge_sieve(const Arguments &arguments, BedRequest &request) {
     throw UsageError(
         refusal("--sieve", *arguments.sieve,
                 fmt::format("without {}: the curve says the sizes", arguments.instead_of_sieve)));
-  const auto [curve, name] = asked_grading(*arguments.sieve);
-  double cut = 0.0;
-  if (arguments.cut) {
-    const double least = std::max(curve.smallest(), curve.largest() / PackingOptions::most_spread);
-    const Range range = {least * 1e3, curve.largest() * 1e3, "mm", false, false, true};
-    cut = std::clamp(number_option("--cut", *arguments.cut, range) * 1e-3, least, curve.largest());
-  } else {
-    cut = default_cut(curve, request.packing);
-  }
+  const auto [curve, name] = asked_grading("--sieve", *arguments.sieve);
   request.asked = curve;
-  request.packing.sieve = curve.coarser_than(cut);
-  request.packing.sieve_name = name;
+  set_grading(request.packing, curve, name,
+              arguments.cut ? given_cut("--cut", *arguments.cut, curve)
+                            : default_cut(curve, request.packing));
+}
+
+/// A layer from THICKNESS[:SIEVE[:CUT]]. \param box what the layer shares with the others; its number of balls is the
+/// layer's share of --balls
+BedRequest::Layer asked_layer(const std::string &text, const PackingOptions &box) {
+  std::vector<std::string> parts;
+  boost::split(parts, text, [](char letter) { return letter == ':'; });
+  constexpr std::size_t most_parts = 3;
+  if (parts.size() > most_parts) throw UsageError(refusal("--layer", text, "THICKNESS[:SIEVE[:CUT]]"));
+  BedRequest::Layer layer{{box, number_option("--layer", parts[0], side)}, {}};
+  if (parts.size() > 1) {
+    const auto [curve, name] = asked_grading("--layer", parts[1]);
+    layer.asked = curve;
+    set_grading(layer.bed.packing, curve, name,
+                parts.size() == most_parts ? given_cut("--layer", parts[2], curve)
+                                           : default_cut_of_layer(curve, layer.bed));
+  }
+  if (const std::string fault = layer.bed.packing.invalid(); !fault.empty())
+    throw std::invalid_argument(fault);
+  if (const std::string fault = layer.bed.invalid(); !fault.empty()) throw std::invalid_argument(fault);
+  layer.bed.packing.balls = balls_of(layer.bed);
+  return layer;
+}
+
+/// Sets the layers from `--layer`.
+void judge_layers(const Arguments &arguments, BedRequest &request) {
+  if (arguments.layers.empty()) return;
+  const std::string &first = arguments.layers.front();
+  if (!arguments.instead_of_layers.empty())
+    throw UsageError(refusal("--layer", first, fmt::format("without {}", arguments.instead_of_layers)));
+  if (arguments.layers.size() > most_layers)
+    throw UsageError(
+        refusal("--layer", arguments.layers[most_layers], fmt::format("at most {} layers", most_layers)));
+  PackingOptions box = request.packing;
+  box.balls = std::max(1, box.balls / static_cast<int>(arguments.layers.size()));
+  double balls = 0.0;
+  for (const std::string &layer : arguments.layers) {
+    request.layers.push_back(asked_layer(layer, box));
+    balls += request.layers.back().bed.packing.balls;
+    if (balls > PackingOptions::most_balls)
+      throw UsageError(refusal("--layer", layer,
+                               fmt::format("layers of at most {} balls in all", PackingOptions::most_balls)));
+  }
 }
 
 void run(const Arguments &arguments) {
@@ -109,6 +163,7 @@ void run(const Arguments &arguments) {
   try {
     options.grading = grading_from_name(arguments.grading);
     judge_sieve(arguments, request);
+    judge_layers(arguments, request);
   } catch (const std::invalid_argument &fault) {
     throw UsageError(fmt::format("--{}", fault.what()));
   }
@@ -119,28 +174,52 @@ constexpr const char *asked_curve = "asked for";
 constexpr const char *cut_curve = "asked for without the fines"; // no comma: see CurveTable
 constexpr const char *bed_curve = "bed";
 
+/// A grading that was asked for, and that of the balls. Of a layer, or of the whole bed.
+struct GradingPair {
+  std::string title; ///< "Layer 2: ", or nothing
+  std::string of;    ///< what distinguishes its curves from those of others: " 2", or nothing
+  PackingOptions packing;
+  SieveCurve asked;
+  Sieving balls;
+
+  const SieveCurve &cut() const { return *packing.sieve; }
+};
+
+/// Those parts of the bed for which a grading was asked for.
+std::vector<GradingPair> grading_pairs(const BedRequest &request, const Packing &packing) {
+  std::vector<GradingPair> pairs;
+  if (request.layers.empty() && request.asked)
+    pairs.push_back({"", "", request.packing, *request.asked, sieved(packing, request.packing.dimensions())});
+  for (std::size_t n = 0; n < request.layers.size(); ++n)
+    if (const auto &[bed, asked] = request.layers[n]; asked)
+      pairs.push_back({fmt::format("Layer {}: ", n + 1), fmt::format(" {}", n + 1), bed.packing, *asked,
+                       sieved_layer(packing, bed.packing.dimensions(), static_cast<int>(n))});
+  return pairs;
+}
+
 /// The curves as the figure shows them: those asked for at their sieves, the bed at many sizes.
-std::string grading_csv(const SieveCurve &asked, const SieveCurve &cut, const Sieving &bed) {
+std::string grading_csv(const std::vector<GradingPair> &pairs) {
   CurveTable table("size (mm),passing (%)");
-  for (const auto &[name, curve] : {std::pair{asked_curve, &asked}, std::pair{cut_curve, &cut}})
-    for (const Sieve &sieve : curve->sieves())
-      table.row(name, {sieve.size * 1e3, sieve.passing * 100.0});
-  constexpr int steps = 200;
-  for (int i = 0; i <= steps; ++i) {
-    const double size = cut.smallest() * std::pow(cut.largest() / cut.smallest(), i / double{steps});
-    table.row(bed_curve, {size * 1e3, bed.passing(size) * 100.0});
+  for (const GradingPair &pair : pairs) {
+    for (const auto &[name, curve] : {std::pair{asked_curve, &pair.asked}, std::pair{cut_curve, &pair.cut()}})
+      for (const Sieve &sieve : curve->sieves())
+        table.row(name + pair.of, {sieve.size * 1e3, sieve.passing * 100.0});
+    constexpr int steps = 200;
+    for (int i = 0; i <= steps; ++i) {
+      const double size =
+          pair.cut().smallest() * std::pow(pair.cut().largest() / pair.cut().smallest(), i / double{steps});
+      table.row(bed_curve + pair.of, {size * 1e3, pair.balls.passing(size) * 100.0});
+    }
   }
   return table.text();
 }
 
-Figure grading_figure(const std::string &name, const BedRequest &request, const GrainSizes &bed) {
-  Figure figure;
-  figure.name = name;
-  figure.title = fmt::format("Grading of {}", request.out.string());
+Panel grading_panel(const std::string &name, const GradingPair &pair) {
+  const GrainSizes sizes = grain_sizes(pair.balls);
   Panel panel;
-  panel.title = fmt::format("Grading {}, {} balls: d50 = {:.3g} mm, Cu = {:.3g}, Cc = {:.3g}",
-                            request.packing.sieve_name, request.packing.balls, bed.d50 * 1e3,
-                            bed.uniformity(), bed.curvature());
+  panel.title = fmt::format("{}Grading {}, {} balls: d50 = {:.3g} mm, Cu = {:.3g}, Cc = {:.3g}", pair.title,
+                            pair.packing.sieve_name, pair.packing.balls, sizes.d50 * 1e3, sizes.uniformity(),
+                            sizes.curvature());
   panel.x_label = "size (mm)";
   panel.y_label = "mass that passes (%)";
   panel.log_x = panel.plain_numbers = panel.tight_x = true;
@@ -148,20 +227,21 @@ Figure grading_figure(const std::string &name, const BedRequest &request, const 
   for (const auto &[curve, style] :
        {std::pair{asked_curve, CurveStyle::series_1}, std::pair{bed_curve, CurveStyle::plain},
         std::pair{cut_curve, CurveStyle::series_2}})
-    panel.curves.push_back({name + ".csv", of_curve(curve, "column(2)"), "3", curve, style});
-  figure.panels.push_back(panel);
-  return figure;
+    panel.curves.push_back({name + ".csv", of_curve(curve + pair.of, "column(2)"), "3", curve, style});
+  return panel;
 }
 
 /// Prints d10 to d60, C_u and C_c, and how far the bed differs from the curve at its sieves.
-void print_grading(const BedRequest &request, const Sieving &bed) {
-  const SieveCurve &asked = *request.asked, &cut = *request.packing.sieve;
-  fmt::print("Grading {}: {:.1f} % of the mass are grains finer than {:g} mm, which are left out\n"
+void print_grading(const GradingPair &pair) {
+  const SieveCurve &asked = pair.asked, &cut = pair.cut();
+  fmt::print("{}Grading {}: {:.1f} % of the mass are grains finer than {:g} mm, which are left out\n"
              "{:<32}    d10    d30    d50    d60 mm    C_u    C_c\n",
-             request.packing.sieve_name, asked.passing(cut.smallest()) * 100.0, cut.smallest() * 1e3, "");
+             pair.title, pair.packing.sieve_name, asked.passing(cut.smallest()) * 100.0, cut.smallest() * 1e3,
+             "");
   double largest = 0.0, at = 0.0;
   for (const Sieve &sieve : cut.sieves())
-    if (const double difference = std::abs(bed.passing(sieve.size) - sieve.passing); difference > largest) {
+    if (const double difference = std::abs(pair.balls.passing(sieve.size) - sieve.passing);
+        difference > largest) {
       largest = difference;
       at = sieve.size;
     }
@@ -172,10 +252,25 @@ void print_grading(const BedRequest &request, const Sieving &bed) {
   };
   line(asked_curve, grain_sizes(asked), asked.sieves().front().passing <= 0.1);
   line(cut_curve, grain_sizes(cut), true);
-  line(bed_curve, grain_sizes(bed), true);
+  line(bed_curve, grain_sizes(pair.balls), true);
   fmt::print(
       "largest difference of the bed from the cut curve at a sieve: {:.2f} % of the mass, at {:g} mm\n",
       largest * 100.0, at * 1e3);
+}
+
+std::vector<BedLayer> layers_of(const BedRequest &request) {
+  std::vector<BedLayer> layers;
+  for (const BedRequest::Layer &layer : request.layers)
+    layers.push_back(layer.bed);
+  return layers;
+}
+
+/// Number of balls that the bed is to have.
+int wanted_balls(const BedRequest &request) {
+  int balls = request.layers.empty() ? request.packing.balls : 0;
+  for (const BedRequest::Layer &layer : request.layers)
+    balls += layer.bed.packing.balls;
+  return balls;
 }
 
 } // namespace
@@ -183,34 +278,49 @@ void print_grading(const BedRequest &request, const Sieving &bed) {
 void write_bed(const BedRequest &request) {
   const fs::path &out = request.out;
   const fs::path folder = out.has_parent_path() ? out.parent_path() : ".";
-  const fs::path gnuplot = request.asked ? find_gnuplot() : fs::path();
+  const bool has_grading =
+      request.asked || std::any_of(request.layers.begin(), request.layers.end(),
+                                   [](const BedRequest::Layer &layer) { return layer.asked.has_value(); });
+  const fs::path gnuplot = has_grading ? find_gnuplot() : fs::path();
+  const std::vector<BedLayer> layers = layers_of(request);
   Packing packing;
   try {
     TimedProgress progress;
-    packing = pack_balls(request.packing, [&](std::size_t placed) {
-      progress.tell("{} of {} balls placed", placed, request.packing.balls);
-    });
+    const auto tell = [&](std::size_t placed) {
+      progress.tell("{} of {} balls placed", placed, wanted_balls(request));
+    };
+    packing = layers.empty() ? pack_balls(request.packing, tell) : pack_layers(layers, tell);
   } catch (const std::invalid_argument &fault) {
     throw UsageError(fmt::format("--{}", fault.what()));
   }
-  const Sieving bed = sieved(packing, request.packing.dimensions());
+  const std::vector<GradingPair> gradings = grading_pairs(request, packing);
   const std::string figure = out.stem().string() + "_grading";
   std::optional<FilesInProgress> files;
   try {
     if (out.has_parent_path()) make_parent_folder(out);
-    if (request.asked) {
+    if (has_grading) {
       files.emplace(folder);
-      write_files({{*files / (figure + ".csv"), grading_csv(*request.asked, *request.packing.sieve, bed)}});
+      write_files({{*files / (figure + ".csv"), grading_csv(gradings)}});
     }
-    write_files({{out, bed_data(request.packing, request.density, packing)}});
+    write_files({{out, layers.empty() ? bed_data(request.packing, request.density, packing)
+                                      : bed_data(layers, request.density, packing)}});
   } catch (const std::runtime_error &fault) {
     throw UsageError(
         fmt::format("--out is '{}': {}; allowed: a file that can be written", out.string(), fault.what()));
   }
   fmt::print("{}: {} balls, filled to {:.3f} m\n", out.string(), packing.balls.size(), packing.height);
+  for (std::size_t n = 0; n < layers.size(); ++n)
+    fmt::print("Layer {}: {} balls, to be {:g} m thick when it has settled\n", n + 1, layers[n].packing.balls,
+               layers[n].thickness);
   if (!files) return;
-  print_grading(request, bed);
-  render(gnuplot, (*files / figure).parent_path(), grading_figure(figure, request, grain_sizes(bed)));
+  Figure drawn;
+  drawn.name = figure;
+  drawn.title = fmt::format("Grading of {}", out.string());
+  for (const GradingPair &pair : gradings) {
+    print_grading(pair);
+    drawn.panels.push_back(grading_panel(figure, pair));
+  }
+  render(gnuplot, (*files / figure).parent_path(), drawn);
   files->publish({figure + ".csv", figure + ".gp", figure + ".svg", figure + ".png"},
                  [](const std::string &) { return false; });
   fmt::print("{}: the grading of the bed beside the one asked for\n",
@@ -255,6 +365,13 @@ void add_bed_command(CLI::App &app, Session &) {
                   "--height, or to "
                   "half its width")
       ->type_name("NUMBER");
+  bed->add_option(
+         "--layer", arguments->layers,
+         "a layer of the bed, the lowest first; several form a bed of layers with contacts of their own: its "
+         "thickness when it has settled [m], a curve as of --sieve (else radii as of --radius-min, "
+         "--radius-max, --grading), and the smallest size of its balls [mm] (else so that the layer has its "
+         "share of --balls, the same for each); --balls then counts for curves without CUT only")
+      ->type_name("THICKNESS[:SIEVE[:CUT]]");
   bed->add_option("--seed", arguments->seed, "of the random numbers")
       ->type_name("COUNT")
       ->capture_default_str();
@@ -264,6 +381,8 @@ void add_bed_command(CLI::App &app, Session &) {
   bed->callback([arguments, bed] {
     for (const char *option : {"--radius-min", "--radius-max", "--grading"})
       if (bed->count(option) > 0) arguments->instead_of_sieve = option;
+    for (const char *option : {"--sieve", "--cut", "--height"})
+      if (bed->count(option) > 0) arguments->instead_of_layers = option;
     run(*arguments);
   });
 }

@@ -1,0 +1,164 @@
+// Beds of layers: the contacts of each layer, of layers with each other and with walls, in closed form; and small beds that are made and
+// settled layer by layer.
+#include "tests/support/engine_runs.h"
+#include "tests/support/host_deck.h"
+
+#include "chain/run_files.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+constexpr double radius = 0.05, box_top = 1.0; // m
+
+/// A ball of a data file.
+struct Placed {
+  int type;
+  std::array<double, 3> x, v, omega;
+};
+
+void write_balls(const std::filesystem::path &file, const std::vector<Placed> &balls, int types) {
+  std::string atoms, velocities;
+  for (std::size_t n = 0; n < balls.size(); ++n) {
+    const auto &[type, x, v, w] = balls[n];
+    atoms +=
+        fmt::format("{} {} {} 1000 {:.17g} {:.17g} {:.17g}\n", n + 1, type, 2.0 * radius, x[0], x[1], x[2]);
+    velocities += fmt::format("{} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n", n + 1, v[0], v[1], v[2],
+                              w[0], w[1], w[2]);
+  }
+  write_text(
+      file,
+      fmt::format(
+          "balls\n\n{} atoms\n{} atom types\n\n-2 2 xlo xhi\n0 {} ylo yhi\n-0.1 0.1 zlo zhi\n\nAtoms\n\n{}\n"
+          "Velocities\n\n{}",
+          balls.size(), types, box_top, atoms, velocities));
+}
+
+/// The law of a layer, and that between two of them, as the page drumlin/layers has it.
+struct Law {
+  double k, D, friction, rolling;
+};
+Law between(const Law &a, const Law &b) {
+  return {2.0 * a.k * b.k / (a.k + b.k), 0.5 * (a.D + b.D), std::fmin(a.friction, b.friction),
+          std::fmin(a.rolling, b.rolling)};
+}
+const std::array<Law, 3> laws = {{{1e6, 0.3, 0.5, 0.1}, {4e6, 0.1, 0.8, 0.05}, {3e5, 0.2, 0.3, 0.2}}};
+
+/// Type of the balls of layer n, from 0.
+int type_of(std::size_t layer) { return layer == 0 ? 1 : static_cast<int>(layer) + 3; }
+
+/// Engine and dimension.
+class Layers : public ::testing::TestWithParam<std::tuple<std::string, std::string>> {
+protected:
+  void SetUp() override {
+    if (std::get<0>(GetParam()) == "lammps" && !post::has_lammps())
+      GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  }
+
+  /// The last state of layers.scene with these balls.
+  static std::map<long, Ball> last_state(const std::vector<Placed> &balls, const Variables &more) {
+    const Scratch folder;
+    write_balls(folder / "balls", balls, static_cast<int>(laws.size()) + 2);
+    Variables variables = more;
+    std::array<std::string, 4> lists;
+    for (const Law &law : laws) {
+      const std::array<double, 4> values = {law.k, law.D, law.friction, law.rolling};
+      for (std::size_t n = 0; n < lists.size(); ++n)
+        lists[n] += (lists[n].empty() ? "" : ",") + number(values[n]);
+    }
+    const auto &[engine, dimension] = GetParam();
+    variables.insert(variables.end(), {{"k", lists[0]},
+                                       {"D", lists[1]},
+                                       {"friction", lists[2]},
+                                       {"rolling", lists[3]},
+                                       {"dimension", dimension},
+                                       {"balls", (folder / "balls").string()}});
+    const Outcome outcome =
+        run_deck(test_deck(engine == "lammps" ? "layers.lammps" : "layers.in"), variables, folder.path());
+    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    return read_dump(folder / "balls.txt").back().balls;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(
+    Decks, Layers, ::testing::Combine(::testing::Values("liggghts", "lammps"), ::testing::Values("2", "3")),
+    [](const auto &test) { return std::get<0>(test.param) + "_" + std::get<1>(test.param) + "D"; });
+
+// Columns of a square lattice of two layers each, the layers in any order: each contact is a spring that carries the weight of the
+// balls above it, and the springs of a column are in series.
+TEST_P(Layers, OfALatticeSettleAsSpringsInSeries) {
+  constexpr std::size_t lower = 3, all = 7; // balls of a column
+  const std::array<std::array<std::size_t, 2>, 4> columns = {
+      {{0, 1}, {1, 0}, {2, 1}, {0, 0}}}; // layers from below
+  std::vector<Placed> balls;
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    for (std::size_t n = 0; n < all; ++n)
+      balls.push_back(
+          {type_of(columns[c][n < lower ? 0 : 1]),
+           {-1.0 + 0.5 * static_cast<double>(c), (2.0 * static_cast<double>(n) + 1.0) * radius, 0.0},
+           {},
+           {}});
+  const std::map<long, Ball> rest = last_state(balls, {{"drag", "300"}});
+  ASSERT_EQ(rest.size(), balls.size());
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    double settlement = 0.0;
+    for (std::size_t n = 0; n < all; ++n) {
+      const Law &own = laws[columns[c][n < lower ? 0 : 1]];
+      const Law &below =
+          n == 0 ? own : laws[columns[c][n - 1 < lower ? 0 : 1]]; // the floor has the law of the ball
+      settlement += static_cast<double>(all - n) * 9.81 / between(own, below).k; // balls of 1 kg
+      const std::size_t id = c * all + n;
+      EXPECT_NEAR(balls[id].x[1] - rest.at(static_cast<long>(id) + 1).x[1], settlement, 1e-6 * settlement)
+          << "column " << c << ", ball " << n;
+    }
+  }
+}
+
+// Pairs of balls of all layers and of the drum (type 2): one approaches and slides, the other rolls. Force and torque in closed form.
+TEST_P(Layers, HaveTheLawsOfThePageWithEachOtherAndWithTheDrum) {
+  constexpr double overlap = 1e-4, approach = 0.1, slip = 100.0, spin = 1e9, lever = radius - 0.5 * overlap;
+  struct Pair {
+    int a, b;
+    Law law;
+  };
+  std::vector<Pair> pairs;
+  for (std::size_t a = 0; a < laws.size(); ++a) {
+    for (std::size_t b = a; b < laws.size(); ++b)
+      pairs.push_back({type_of(a), type_of(b), a == b ? laws[a] : between(laws[a], laws[b])});
+    pairs.push_back({2, type_of(a), laws[a]});
+  }
+  std::vector<Placed> balls;
+  for (std::size_t n = 0; n < pairs.size(); ++n) {
+    const double x = -1.8 + 0.3 * static_cast<double>(n), d = 2.0 * radius - overlap;
+    balls.push_back({pairs[n].a, {x, 0.2, 0.0}, {slip, approach, 0.0}, {}});
+    balls.push_back({pairs[n].b, {x, 0.2 + d, 0.0}, {}, {}});
+    balls.push_back({pairs[n].a, {x, 0.6, 0.0}, {}, {0.0, 0.0, spin}});
+    balls.push_back({pairs[n].b, {x, 0.6 + d, 0.0}, {}, {0.0, 0.0, -spin}});
+  }
+  const std::map<long, Ball> state = last_state(balls, {{"g", "0"}});
+  for (std::size_t n = 0; n < pairs.size(); ++n) {
+    const Law &law = pairs[n].law;
+    const std::string what = fmt::format("types {} and {}", pairs[n].a, pairs[n].b);
+    const Ball &slides = state.at(4 * static_cast<long>(n) + 1),
+               &rolls = state.at(4 * static_cast<long>(n) + 3);
+    const double normal =
+        law.k * overlap + 2.0 * law.D * std::sqrt(law.k * 0.5) * approach; // m_eff of 1 kg each
+    EXPECT_NEAR(-slides.f[1], normal, 1e-3 * normal) << what;
+    EXPECT_NEAR(-slides.f[0], law.friction * normal, 1e-3 * normal) << what;
+    EXPECT_NEAR(std::fabs(slides.torque[2]), lever * law.friction * normal, 2e-3 * lever * normal) << what;
+    EXPECT_NEAR(-rolls.f[1], law.k * overlap, 1e-3 * law.k * overlap) << what;
+    EXPECT_NEAR(-rolls.torque[2], law.rolling * 0.5 * radius * law.k * overlap,
+                2e-3 * law.rolling * radius * law.k * overlap)
+        << what;
+  }
+}
+
+} // namespace
+} // namespace drumlin::test
