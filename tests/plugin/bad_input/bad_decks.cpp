@@ -154,6 +154,9 @@ BadGroup bed_settle() {
   for (const char *name :
        {"D", "friction", "rolling", "g", "c23", "drag", "fall", "pour_D", "pour_friction", "pour_rolling"})
     group.inputs.push_back(variable(name, "-0.5", non_negative));
+  for (const char *list : {"1e8,-1", "1e8,", "1e8;1e9"})
+    group.inputs.push_back(
+        variable("k", list, "allowed: a finite number > 0, or several, separated by commas"));
   group.inputs.push_back(variable("settle_limit", "-1", whole));
   group.inputs.push_back(
       variable("balls", "none.data",

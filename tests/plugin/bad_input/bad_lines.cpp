@@ -469,7 +469,11 @@ BadGroup contact_events() {
               line("append a number", with("file out/x.csv append 1"),
                    {command + "keyword append is '1'", "yes or no"}),
               line("unknown keyword", with("file out/x.csv every 10"),
-                   {command + "keyword is 'every'", "types or append"}),
+                   {command + "keyword is 'every'", "types, between or append"}),
+              line("between one group", with("file out/x.csv between soil"),
+                   {command + "keyword between is missing", "the name of a group"}),
+              on_two_ranks(line("between an unknown group", with("file out/x.csv between soil rock"),
+                                {command + "keyword between is 'rock'", "the name of a group"})),
           }};
 }
 
@@ -817,6 +821,45 @@ BadGroup surface() {
       }};
 }
 
+BadGroup layers() {
+  const std::string command = "drumlin/layers: ";
+  return {
+      "Layers",
+      "",
+      {
+          line("nothing", "drumlin/layers", {command + "keyword is missing", "k"}),
+          line("keywords in another order", "drumlin/layers D 0.1", {command + "keyword is 'D'", "k"}),
+          line("no list", "drumlin/layers k", {command + "keyword k is missing", "a number for each layer"}),
+          line("k zero", "drumlin/layers k 0", {command + "keyword k is '0'", "> 0"}),
+          line("a word in a list", "drumlin/layers k 1e8,soft", {command + "keyword k is '1e8,soft'", "> 0"}),
+          line("an empty entry", "drumlin/layers k 1e8,", {command + "keyword k is '1e8,'", "> 0"}),
+          on_two_ranks(line("more layers than types", "drumlin/layers k 1e8,1e9",
+                            {command + "keyword k is '1e8,1e9'", "one number, since the bed has one layer"})),
+          line("D negative", "drumlin/layers k 1e8 D -0.1", {command + "keyword D is '-0.1'", ">= 0"}),
+          line("friction negative", "drumlin/layers k 1e8 D 0 friction -1",
+               {command + "keyword friction is '-1'", ">= 0"}),
+          line("no model of rolling", "drumlin/layers k 1e8 D 0 friction 0.5 rolling 0.1",
+               {command + "keyword rolling, model is '0.1'", "off or epsd2"}),
+          line("rolling negative", "drumlin/layers k 1e8 D 0 friction 0.5 rolling off -1",
+               {command + "keyword rolling is '-1'", ">= 0"}),
+          line("a word too many", "drumlin/layers k 1e8 D 0 friction 0.5 rolling off 0 all",
+               {command + "argument is 'all'", "k LIST D LIST"}),
+      }};
+}
+
+BadGroup largest() {
+  const std::string command = "drumlin/largest: ";
+  return {"Largest",
+          "",
+          {
+              line("nothing", "drumlin/largest", {command + "variable is missing", "the name of a variable"}),
+              line("no list", "drumlin/largest x", {command + "list is missing", "separated by commas"}),
+              line("a word", "drumlin/largest x 1,soft", {command + "list is '1,soft'", "finite numbers"}),
+              line("a word too many", "drumlin/largest x 1 2",
+                   {command + "argument is '2'", "a variable and a list"}),
+          }};
+}
+
 BadGroup take() {
   const std::string command = "drumlin/take: ";
   return {"Take",
@@ -871,7 +914,8 @@ std::vector<BadGroup> bad_lines() {
       pair_style(),      properties(), hertz_law(),      wall(),          drum_excite(),    bond_spring(),
       boundary_absorb(), clump(),      contact_events(), contact_local(), contact_energy(), roller_history(),
       guard(),           check(),      record(),         run(),           settle(),         surface(),
-      write_restart(),   write_data(), outputs(),        take(),          variables()};
+      write_restart(),   write_data(), outputs(),        take(),          variables(),      layers(),
+      largest()};
 }
 
 } // namespace drumlin::test

@@ -88,6 +88,22 @@ TEST_F(ToolOptions, AbsurdValuesAreRefusedAtOnce) {
       {{"bed", "--sieve", "WMM", "--radius-max", "0.02"},
        "bed: --sieve is 'WMM'; allowed: without --radius-max"},
       {{"bed", "--sieve", "WMM", "--grading", "mass"}, "bed: --sieve is 'WMM'; allowed: without --grading"},
+      {{"bed", "--layer", "0"}, "bed: --layer is '0'; allowed: a number from 1e-06 to 100000 [m]"},
+      {{"bed", "--layer", "-0.1"}, "bed: --layer is '-0.1'; allowed: a number from 1e-06 to 100000 [m]"},
+      {{"bed", "--layer", "0.2:"}, "bed: --layer is ''; allowed: "},
+      {{"bed", "--layer", "0.2", "--layer", "0.01"},
+       "bed: --layer is '0.01'; allowed: a number from 0.048 to 100000 [m]: at least as thick as its largest "
+       "ball"},
+      {{"bed", "--layer", "0.05:WMM:20"}, "bed: --layer is '0.05'; allowed: a number from 0.053"},
+      {{"bed", "--layer", "0.2:sand"}, "bed: --layer is 'sand'; allowed: a CSV file with the columns"},
+      {{"bed", "--layer", "0.2:WMM:60"},
+       "bed: --layer is '60'; allowed: a number from 0.075 and below 53 [mm]"},
+      {{"bed", "--layer", "0.2:WMM:20:1"},
+       "bed: --layer is '0.2:WMM:20:1'; allowed: THICKNESS[:SIEVE[:CUT]]"},
+      {{"bed", "--layer", "0.2", "--height", "1"}, "bed: --layer is '0.2'; allowed: without --height"},
+      {{"bed", "--layer", "0.2", "--sieve", "WMM"}, "bed: --layer is '0.2'; allowed: without --sieve"},
+      {{"bed", "--layer", "1e4"}, "bed: --layer is '1e4'; allowed: layers of at most 10000000 balls in all"},
+      {{"bed", "--layer", "0.2:WMM", "--balls", "5"}, "bed: --balls is '5'; allowed: at least "},
       {{"bed", "--cut", "8"}, "bed: --cut is '8'; allowed: only with --sieve"},
       {{"bed", "--sieve", "WMM", "--cut", "53"},
        "bed: --cut is '53'; allowed: a number from 0.075 and below 53 [mm]"},
@@ -213,6 +229,49 @@ TEST_F(ToolOptions, SieveFileMakesABedAndItsGrading) {
   for (const char *note :
        {"grading my_gravel_from_10mm\n", "r_min 0.005\n", "r_max 0.02\n", "d50 0.0", "C_u "})
     EXPECT_NE(text.find(std::string("# drumlin note ") + note), std::string::npos) << note;
+}
+
+// The balls of a layer have its type, lie above those of the layer below, and fill the thickness that was asked for when they take 82.5 % of the
+// area. Half of the mass of this curve is finer than 20 mm.
+TEST_F(ToolOptions, LayersMakeABedWithATypeForEach) {
+  std::ofstream(folder_ / "stone.csv") << "size (mm),passing (%)\n10,0\n20,50\n40,100\n";
+  const post::Outcome outcome = run({"bed", "--width", "1.5", "--layer", "0.3", "--layer", "0.2:stone.csv:20",
+                                     "--layer", "0.1:stone.csv", "--balls", "3000", "--out", "balls.data"});
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  EXPECT_TRUE(outcome.says("Layer 2: Grading stone: 50.0 % of the mass are grains finer than 20 mm"))
+      << outcome.output;
+  EXPECT_TRUE(outcome.says("\nLayer 3: Grading stone: ")) << outcome.output;
+  const std::string curves = post::read_text(folder_ / "balls_grading.csv");
+  for (const char *curve : {"\nbed 2,", "\nbed 3,", "\nasked for without the fines 2,", "\nasked for 3,"})
+    EXPECT_NE(curves.find(curve), std::string::npos) << curve;
+  EXPECT_EQ(curves.find("bed 1"), std::string::npos); // no grading was asked for
+  const std::string text = post::read_text(folder_ / "balls.data");
+  for (const char *note :
+       {"grading uniform+stone_from_20mm+stone_from_", "layers 3\n", "layer_thicknesses 0.3,0.2,0.1\n"})
+    EXPECT_NE(text.find(std::string("# drumlin note ") + note), std::string::npos) << note;
+  EXPECT_NE(text.find("\n5 atom types\n"), std::string::npos);
+  struct Found {
+    double area = 0.0, lowest = 1e9, highest = 0.0;
+  };
+  std::map<int, Found> layers;
+  std::istringstream rows(text.substr(text.find("Atoms\n") + 6));
+  int id = 0, type = 0;
+  for (double size = 0.0, density = 0.0, x = 0.0, y = 0.0, z = 0.0;
+       rows >> id >> type >> size >> density >> x >> y >> z;) {
+    Found &layer = layers[type];
+    layer.area += 0.25 * 3.141592653589793 * size * size;
+    layer.lowest = std::min(layer.lowest, y);
+    layer.highest = std::max(layer.highest, y);
+  }
+  ASSERT_EQ(layers.size(), 3u);
+  const std::map<int, double> thickness = {{1, 0.3}, {4, 0.2}, {5, 0.1}};
+  double below = 0.0;
+  for (const auto &[number, layer] : layers) {
+    ASSERT_EQ(thickness.count(number), 1u) << number;
+    EXPECT_NEAR(layer.area, 0.825 * 1.5 * thickness.at(number), 0.03 * layer.area) << number;
+    EXPECT_GT(layer.lowest, below) << number;
+    below = layer.highest;
+  }
 }
 
 // At the ends of the allowed ranges there is an answer, or one line of error.
