@@ -1,5 +1,6 @@
 // Options with values that are not allowed: each is refused at once, in one line that names it, and nothing
 // is written.
+#include "support/files.h"
 #include "support/process.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +11,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
