@@ -10,6 +10,9 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <map>
+#include <sstream>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -158,6 +161,99 @@ TEST_P(Layers, HaveTheLawsOfThePageWithEachOtherAndWithTheDrum) {
                 2e-3 * law.rolling * radius * law.k * overlap)
         << what;
   }
+}
+
+/// Balls of a data file of drumlin/write_data: type, diameter, height of the centre.
+struct Settled {
+  int type;
+  double size, y;
+};
+std::vector<Settled> settled_balls(const std::filesystem::path &file) {
+  const std::string text = read_text(file);
+  std::istringstream lines(text.substr(text.find("Atoms")));
+  std::vector<Settled> balls;
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line) && line.rfind("Velocities", 0) != 0) {
+    std::istringstream row(line);
+    Settled ball{};
+    int id = 0;
+    double density = 0.0, x = 0.0;
+    if (row >> id >> ball.type >> ball.size >> density >> x >> ball.y) balls.push_back(ball);
+  }
+  return balls;
+}
+
+/// The tops of the layers that the file notes.
+std::vector<double> noted_tops(const std::filesystem::path &file) {
+  const std::string text = read_text(file), note = "# drumlin note layer_tops ";
+  std::istringstream list(text.substr(text.find(note) + note.size()));
+  std::vector<double> tops;
+  for (double top = 0.0; list >> top; list.ignore(1))
+    tops.push_back(top);
+  return tops;
+}
+
+/// A soft subgrade of 110 balls in the plane, 70 in three dimensions, and a base course of 60 or 50, as ./drumlin bed and in.settle make them.
+class LayeredBed : public Layers {
+protected:
+  static constexpr double width = 0.8, largest = 0.048; // m
+  static constexpr std::array<double, 2> thickness = {0.2, 0.1};
+
+  static Outcome settle(const Scratch &folder, const Variables &more, int ranks = 1) {
+    const auto &[engine, dimension] = GetParam();
+    std::vector<std::string> words = {DRUMLIN_TOOLS, "bed",     "--width", "0.8",   "--layer",
+                                      "0.2",         "--layer", "0.1",     "--out", "balls"};
+    if (dimension == "3")
+      words = {DRUMLIN_TOOLS, "bed", "--width", "0.3", "--depth", "0.15",
+               "--layer",     "0.2", "--layer", "0.1", "--out",   "balls"};
+    const Outcome made = run_program(words, {}, folder.path());
+    EXPECT_TRUE(made.ok()) << made.output;
+    const bool flat = dimension == "2";
+    Variables variables = more;
+    variables.insert(variables.end(), {{"case", flat ? "gravel" : "gravel3d"},
+                                       {"k", flat ? "1e8,1e9" : "4e6,4e7"},
+                                       {"friction", "0.5,0.8"},
+                                       {"pour_friction", "0.5,0.1"},
+                                       {"fall", "0.3"},
+                                       {"ratio", "1"},
+                                       {"balls", "balls"},
+                                       {"bed", "soil"}});
+    return run_deck(bed_deck(engine == "lammps" ? "in.settle.lammps" : "in.settle"), variables, folder.path(),
+                    ranks);
+  }
+  static std::filesystem::path bed_deck(const std::string &name) {
+    return std::filesystem::path(DRUMLIN_SOURCE_DIR) / "inputs/bed" / name;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Decks, LayeredBed,
+                         ::testing::Combine(::testing::Values("liggghts", "lammps"),
+                                            ::testing::Values("2", "3")),
+                         [](const auto &test) {
+                           return std::get<0>(test.param) + "_" + std::get<1>(test.param) + "D";
+                         });
+
+// When the bed has settled the surface of each layer is where it was asked for within half of the largest ball, and no ball lies farther
+// than one diameter of the largest one on the other side of the boundary.
+TEST_P(LayeredBed, SettlesLayerByLayer) {
+  const Scratch folder;
+  const Outcome outcome = settle(folder, {});
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  const std::vector<double> tops = noted_tops(folder / "soil.data");
+  ASSERT_EQ(tops.size(), 2u);
+  EXPECT_NEAR(tops[0], thickness[0], 0.5 * largest);
+  EXPECT_NEAR(tops[1] - tops[0], thickness[1], 0.5 * largest);
+  std::map<int, std::size_t> counts;
+  for (const auto &[type, size, y] : settled_balls(folder / "soil.data")) {
+    ++counts[type];
+    if (type == 1)
+      EXPECT_LT(y, tops[0] + largest);
+    else
+      EXPECT_GT(y, tops[0] - largest);
+  }
+  EXPECT_EQ(counts.size(), 2u);
+  EXPECT_GT(counts[1], 40u);
+  EXPECT_GT(counts[4], 20u);
 }
 
 } // namespace
