@@ -138,8 +138,8 @@ inline void set_contacts(LAMMPS *lmp, const std::vector<physics::ContactValues> 
                     {"coefficientRollingFriction", &physics::ContactValues::rolling}};
   for (const auto &[property, value] : properties) {
     if (value == &physics::ContactValues::rolling && !rolling) continue;
-    std::string line = fmt::format("fix {0} all property/global {0} peratomtypepair {1}", property,
-                                   lmp->atom->ntypes);
+    std::string line =
+        fmt::format("fix {0} all property/global {0} peratomtypepair {1}", property, lmp->atom->ntypes);
     for (const physics::ContactValues &contact : table)
       line += fmt::format(" {:.17g}", contact.*value);
     lmp->input->one(line.c_str());
