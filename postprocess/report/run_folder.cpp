@@ -99,12 +99,22 @@ void compare_with_case(Run &run) {
   run.at_case = true;
 }
 
+/// The run of a bed with the contacts of its uppermost layer, which the drum is on: in a bed of layers k and D are
+/// lists, the lowest layer first.
+Run of_top_layer(Run run) {
+  for (const char *name : {"k", "D"})
+    if (const auto found = run.parameters.find(name); found != run.parameters.end())
+      found->second.erase(0, found->second.rfind(',') + 1);
+  return run;
+}
+
 /// Fills Run::chain. Returns whether no parameter is absent.
-bool take_chain(Run &run) {
+/// \param contact the run from which k and D are taken
+bool take_chain(Run &run, const Run &contact) {
   std::vector<std::string> absent;
   ChainParameters &p = run.chain;
-  take(run, "k", p.k, absent);
-  take(run, "D", p.D, absent);
+  take(contact, "k", p.k, absent);
+  take(contact, "D", p.D, absent);
   take(run, "omega", p.omega, absent);
   take(run, "Fw", p.Fw, absent);
   take(run, "m2", p.m2, absent);
@@ -137,7 +147,7 @@ void count_cycles(Run &run) {
 }
 
 void read_chain_parameters(Run &run) {
-  if (!take_chain(run)) return;
+  if (!take_chain(run, run)) return;
   run.kind = RunKind::chain;
   run.case_name = run.text("case", "");
   if (const std::optional<double> speed = run.number("impact_speed")) run.impact_speed = *speed;
@@ -151,7 +161,7 @@ void read_bed_parameters(Run &run) {
   check_parameters(run, deck == "bed"
                             ? ""
                             : fmt::format("deck is '{}'; allowed: bed, since the folder has bed.csv", deck));
-  if (!take_chain(run))
+  if (!take_chain(run, of_top_layer(run)))
     throw std::runtime_error(fmt::format("{}: {}", run.folder.string(), run.missing.back()));
   run.kind = RunKind::bed;
   run.case_name = run.text("case", "");

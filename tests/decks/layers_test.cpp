@@ -3,7 +3,7 @@
 #include "tests/support/engine_runs.h"
 #include "tests/support/host_deck.h"
 
-#include "chain/run_files.h"
+#include "support/parameter_file.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -66,11 +66,11 @@ protected:
       GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
   }
 
-  /// The last state of layers.scene with these balls.
-  static std::map<long, Ball> last_state(const std::vector<Placed> &balls, const Variables &more) {
-    const Scratch folder;
+  /// Runs layers.scene with these balls.
+  static Outcome run_scene(const Scratch &folder, const std::vector<Placed> &balls, const Variables &more,
+                           int ranks = 1) {
     write_balls(folder / "balls", balls, static_cast<int>(laws.size()) + 2);
-    Variables variables = more;
+    Variables variables = more; // the engine takes the first of a name
     std::array<std::string, 4> lists;
     for (const Law &law : laws) {
       const std::array<double, 4> values = {law.k, law.D, law.friction, law.rolling};
@@ -84,8 +84,14 @@ protected:
                                        {"rolling", lists[3]},
                                        {"dimension", dimension},
                                        {"balls", (folder / "balls").string()}});
-    const Outcome outcome =
-        run_deck(test_deck(engine == "lammps" ? "layers.lammps" : "layers.in"), variables, folder.path());
+    return run_deck(test_deck(engine == "lammps" ? "layers.lammps" : "layers.in"), variables, folder.path(),
+                    ranks);
+  }
+  /// The last state of layers.scene with these balls.
+  static std::map<long, Ball> last_state(const std::vector<Placed> &balls, const Variables &more,
+                                         int ranks = 1) {
+    const Scratch folder;
+    const Outcome outcome = run_scene(folder, balls, more, ranks);
     EXPECT_TRUE(outcome.ok()) << outcome.output;
     return read_dump(folder / "balls.txt").back().balls;
   }
@@ -94,12 +100,10 @@ INSTANTIATE_TEST_SUITE_P(
     Decks, Layers, ::testing::Combine(::testing::Values("liggghts", "lammps"), ::testing::Values("2", "3")),
     [](const auto &test) { return std::get<0>(test.param) + "_" + std::get<1>(test.param) + "D"; });
 
-// Columns of a square lattice of two layers each, the layers in any order: each contact is a spring that carries the weight of the
-// balls above it, and the springs of a column are in series.
-TEST_P(Layers, OfALatticeSettleAsSpringsInSeries) {
-  constexpr std::size_t lower = 3, all = 7; // balls of a column
-  const std::array<std::array<std::size_t, 2>, 4> columns = {
-      {{0, 1}, {1, 0}, {2, 1}, {0, 0}}}; // layers from below
+/// Columns of a square lattice of two layers each: the layers from below, in any order.
+constexpr std::array<std::array<std::size_t, 2>, 4> columns = {{{0, 1}, {1, 0}, {2, 1}, {0, 0}}};
+constexpr std::size_t lower = 3, all = 7; ///< balls of the lower layer of a column, and of the column
+std::vector<Placed> lattice() {
   std::vector<Placed> balls;
   for (std::size_t c = 0; c < columns.size(); ++c)
     for (std::size_t n = 0; n < all; ++n)
@@ -108,6 +112,12 @@ TEST_P(Layers, OfALatticeSettleAsSpringsInSeries) {
            {-1.0 + 0.5 * static_cast<double>(c), (2.0 * static_cast<double>(n) + 1.0) * radius, 0.0},
            {},
            {}});
+  return balls;
+}
+
+// Each contact of a column is a spring that carries the weight of the balls above it, and the springs of a column are in series.
+TEST_P(Layers, OfALatticeSettleAsSpringsInSeries) {
+  const std::vector<Placed> balls = lattice();
   const std::map<long, Ball> rest = last_state(balls, {{"drag", "300"}});
   ASSERT_EQ(rest.size(), balls.size());
   for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -122,6 +132,34 @@ TEST_P(Layers, OfALatticeSettleAsSpringsInSeries) {
           << "column " << c << ", ball " << n;
     }
   }
+}
+
+TEST_P(Layers, OfALatticeAreTheSameOnRanksOneAndTwo) {
+  if (std::get<1>(GetParam()) == "3") return;
+  const std::map<long, Ball> one = last_state(lattice(), {{"drag", "300"}}),
+                             two = last_state(lattice(), {{"drag", "300"}}, 2);
+  ASSERT_EQ(one.size(), two.size());
+  for (const auto &[id, ball] : one)
+    EXPECT_EQ(ball.x, two.at(id).x) << id;
+}
+
+TEST_P(Layers, WithoutBallsOrWithTooManyNumbersAreRefused) {
+  if (std::get<1>(GetParam()) == "3") return;
+  const auto refusal = [](const std::vector<Placed> &balls, const Variables &more, const std::string &says) {
+    const Scratch folder;
+    const Outcome outcome = run_scene(folder, balls, more);
+    EXPECT_NE(outcome.status, 0);
+    EXPECT_TRUE(outcome.says("ERROR: drumlin/layers: " + says)) << outcome.output;
+    EXPECT_EQ(outcome.output.find("ERROR"), outcome.output.rfind("ERROR")) << outcome.output;
+  };
+  std::vector<Placed> without = lattice();
+  for (Placed &ball : without)
+    if (ball.type == 4) ball.type = 1;
+  refusal(without, {}, "layer 2 has '0' balls; allowed: at least one ball of type 4");
+  const std::string lists = "one number, or 3 separated by commas, one for each layer, the lowest first";
+  refusal(lattice(), {{"k", "1e6,1e6,1e6,1e6"}}, "keyword k is '1e6,1e6,1e6,1e6'; allowed: " + lists);
+  refusal(lattice(), {{"friction", "0.5,0.4"}}, "keyword friction is '0.5,0.4'; allowed: " + lists);
+  refusal(lattice(), {{"D", "0.5,-1,0"}}, "keyword D is '0.5,-1,0'; allowed: a finite number >= 0");
 }
 
 // Pairs of balls of all layers and of the drum (type 2): one approaches and slides, the other rolls. Force and torque in closed form.
@@ -254,6 +292,41 @@ TEST_P(LayeredBed, SettlesLayerByLayer) {
   EXPECT_EQ(counts.size(), 2u);
   EXPECT_GT(counts[1], 40u);
   EXPECT_GT(counts[4], 20u);
+}
+
+// A roller on a bed of layers, hardly settled: the decks hand on the lists, and a run that is stopped continues bit for bit.
+TEST_P(LayeredBed, CarriesARollerAndContinuesWhereItStopped) {
+  const auto &[engine, dimension] = GetParam();
+  if (dimension == "3") return;
+  const Scratch folder;
+  const Outcome settled = settle(folder, {{"fall", "0.01"}, {"ratio", "1e9"}, {"case", "base_course"}});
+  ASSERT_TRUE(settled.ok()) << settled.output;
+  const std::string ending = engine == "lammps" ? ".lammps" : "";
+  const Variables roller = {{"r2", "0.1"}, {"r3", "0.05"}, {"m2", "1000"}, {"m3", "500"}};
+  Variables placing = roller;
+  placing.insert(placing.end(), {{"bed", "soil"}, {"start", "roller"}, {"sink", "0"}, {"ratio", "1e9"}});
+  const Outcome placed = run_deck(bed_deck("in.place" + ending), placing, folder.path());
+  ASSERT_TRUE(placed.ok()) << placed.output;
+  const auto shake = [&, lammps = engine == "lammps"](Variables variables) {
+    // A frequency so high that the steps are short.
+    variables.insert(
+        variables.end(),
+        {{"cycles", "2"}, {"omega", "1e5"}, {"Fw", "1"}, {"balance", "1e30"}, {"start", "roller"}});
+    if (lammps) variables.emplace_back("rest", "0");
+    return run_deck(bed_deck("in.bed" + ending), variables, folder.path());
+  };
+  const Outcome whole = shake({{"out", "whole"}}),
+                stopped = shake({{"out", "parts"}, {"time_limit", "1e-3"}});
+  ASSERT_TRUE(whole.ok()) << whole.output;
+  ASSERT_TRUE(stopped.says("continue from ")) << stopped.output;
+  const Outcome continued = shake({{"out", "parts"}, {"start", "parts/stopped.restart"}});
+  ASSERT_TRUE(continued.ok()) << continued.output;
+  EXPECT_EQ(read_text(folder / "whole/bed.csv"), read_text(folder / "parts/bed.csv"));
+  std::map<std::string, std::string> made = post::read_parameters(folder / "whole/parameters.csv");
+  EXPECT_EQ(made["k"], "1e8,1e9");
+  EXPECT_EQ(made["friction"], "0.5,0.8");
+  EXPECT_EQ(made["layers"], "2");
+  EXPECT_NE(made["layer_tops"].find(","), std::string::npos);
 }
 
 } // namespace

@@ -298,6 +298,20 @@ TEST_F(BedReport, IsMadeOfARunThatEndsAtOnce) {
             std::string::npos);
 }
 
+// In a bed of layers parameters of contacts are lists, the lowest layer first; the drum is on the last.
+TEST_F(BedReport, OfLayersHasTheContactsOfTheUppermost) {
+  const Run run = read_run(root / "B");
+  std::map<std::string, std::string> values = run.parameters;
+  values["k"] = "1e8,1e9";
+  values["D"] = "0.1,0.25";
+  put("B/parameters.csv", parameters_text({values.begin(), values.end()}));
+  EXPECT_EQ(read_run(root / "B").chain.k, 1e9);
+  EXPECT_EQ(read_run(root / "B").chain.D, 0.25);
+  values["k"] = "1e8,soft";
+  put("B/parameters.csv", parameters_text({values.begin(), values.end()}));
+  expect_refusal({"B"}, {"parameters.csv", "k is 'soft'", "not a number"});
+}
+
 TEST_F(BedReport, RefusesFilesThatItCannotRead) {
   const auto damaged = [this](const std::string &file, const std::string &from, const std::string &to) {
     write_run("damaged", Transition::B);
