@@ -77,7 +77,7 @@ std::vector<BallContact> among_soil(const std::vector<Ball> &balls,
   std::vector<BallContact> soil;
   std::copy_if(contacts.begin(), contacts.end(), std::back_inserter(soil),
                [&balls](const BallContact &contact) {
-                 return balls[contact.i].type == soil_type && balls[contact.j].type == soil_type;
+                 return is_soil(balls[contact.i].type) && is_soil(balls[contact.j].type);
                });
   return soil;
 }
@@ -167,7 +167,7 @@ BedFields coarse_grained(const std::vector<Ball> &balls, const std::vector<BallC
   const std::vector<int> counts = coordination(balls.size(), soil_contacts);
   for (std::size_t b = 0; b < balls.size(); ++b) {
     const Ball &ball = balls[b];
-    if (ball.type != soil_type) continue;
+    if (!is_soil(ball.type)) continue;
     share_out(grid, ball.position, [&](std::size_t cell, double share) {
       ball_shares[cell] += share;
       fields.solid_fraction[cell] += share * volume(ball, grid.flat);

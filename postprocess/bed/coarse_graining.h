@@ -33,6 +33,9 @@ using Tensor = std::array<double, 9>;
 /// Types of balls in the decks of inputs/bed.
 enum BallType : int { soil_type = 1, drum_type = 2, frame_type = 3 };
 
+/// Whether balls of a type are soil: of the lowest layer, or of the layers above it, whose types are 4, 5, ...
+constexpr bool is_soil(int type) { return type == soil_type || type > frame_type; }
+
 struct Ball {
   long id = 0;
   int type = soil_type;

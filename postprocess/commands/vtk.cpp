@@ -137,7 +137,7 @@ void add_sizes(Sizes &sizes, const std::vector<Ball> &balls, const ContactSums &
   const auto of_soil = [&](const char *array, const auto &value) {
     std::vector<double> values;
     for (std::size_t b = 0; b < balls.size(); ++b)
-      if (balls[b].type == soil_type) values.push_back(value(b));
+      if (is_soil(balls[b].type)) values.push_back(value(b));
     sizes.add(array, std::move(values));
   };
   of_soil("velocity", [&](std::size_t b) { return magnitude(balls[b].velocity); });
@@ -182,7 +182,7 @@ Bed survey(std::map<long, StepDump> &steps) {
     bed.flat = bed.flat && in_a_plane(balls);
     for (const Ball &ball : balls) {
       bed.all.add(ball);
-      if (ball.type != soil_type) continue;
+      if (!is_soil(ball.type)) continue;
       bed.soil.add(ball);
       diameters += 2.0 * ball.radius;
       soil += 1.0;

@@ -116,7 +116,7 @@ Scales scales_of(const std::vector<Views> &all) {
       scales.flat = scales.flat && in_a_plane(instant->balls);
       for (const Ball &ball : instant->balls) {
         scales.bounds.add(ball);
-        if (ball.type == soil_type && &instant != &views.views[settled]) speeds.push_back(speed(ball));
+        if (is_soil(ball.type) && &instant != &views.views[settled]) speeds.push_back(speed(ball));
       }
       for (const BallContact &contact : instant->contacts.balls)
         scales.strongest = std::max(scales.strongest, force_parts(contact).normal);
@@ -151,7 +151,7 @@ void put_instant(CurveTable &table, const std::string &label, const Instant &ins
     const Ball &ball = instant.balls[b];
     const double radius = scales.shown_radius(ball);
     if (radius == 0.0) continue;
-    table.row(fmt::format("{} {}", label, ball.type == soil_type ? "soil" : "roller"),
+    table.row(fmt::format("{} {}", label, is_soil(ball.type) ? "soil" : "roller"),
               {ball.position[0], ball.position[1], radius, speed(ball),
                instant.has_contacts ? static_cast<double>(counts[b]) : none, none, none, none});
   }
@@ -269,7 +269,7 @@ void plan_profile(const std::vector<Views> &all, const std::string &stem, const 
     double balls = 0.0;
     for (const std::vector<Ball> *state : {&views.views[settled]->balls, &views.last})
       for (const Ball &ball : *state) {
-        if (ball.type != soil_type) continue;
+        if (!is_soil(ball.type)) continue;
         soil.add(ball);
         diameters += 2.0 * ball.radius;
         balls += 1.0;
