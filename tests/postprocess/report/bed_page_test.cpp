@@ -300,8 +300,7 @@ TEST_F(BedReport, IsMadeOfARunThatEndsAtOnce) {
 
 // In a bed of layers parameters of contacts are lists, the lowest layer first; the drum is on the last.
 TEST_F(BedReport, OfLayersHasTheContactsOfTheUppermost) {
-  const Run run = read_run(root / "B");
-  std::map<std::string, std::string> values = run.parameters;
+  std::map<std::string, std::string> values = read_run(root / "B").parameters;
   values["k"] = "1e8,1e9";
   values["D"] = "0.1,0.25";
   put("B/parameters.csv", parameters_text({values.begin(), values.end()}));
