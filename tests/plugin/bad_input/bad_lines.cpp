@@ -414,7 +414,7 @@ BadGroup boundary_absorb() {
               line("empty group",
                    "fix floor nobody boundary/absorb normal 0 0 -1 area 1 density 1800 speeds 300 170",
                    {command + "group is 'nobody', which is empty", "the boundary's balls"})),
-          line("static behind the integration", more("static yes"),
+          line("static behind the integration", "fix early soil nve/sphere\n" + more("static yes"),
                {command + "keyword static is 'yes' behind fix ", "which integrates",
                 "before all fixes that integrate balls of the boundary"}),
       }};
