@@ -63,8 +63,12 @@ public:
 
 private:
   std::size_t planned() const {
-    const std::size_t points = static_cast<std::size_t>(effort_.evaluations) + 2 * task_.vary.size() + 1;
-    return points * static_cast<std::size_t>(task_.seeds);
+    const auto seeds = static_cast<std::size_t>(task_.seeds);
+    const std::size_t beside_best = (2 * task_.vary.size() + 1) * seeds;
+    const std::size_t whole = static_cast<std::size_t>(effort_.evaluations) * seeds + beside_best;
+    // Evaluations of a calibration to other values of the targets: what it did beside its best point may be made again elsewhere.
+    const std::size_t known = evaluations_.size() * seeds;
+    return known < whole ? whole : known + beside_best;
   }
 
   /// Measures the seeds that evaluations lack, several at the same time.

@@ -214,7 +214,8 @@ std::vector<std::string> calibration_answer(const CalibrationTask &task, const C
 }
 
 void write_calibration_page(const std::filesystem::path &out, const std::string &beds,
-                            const CalibrationTask &task, const Calibration &found) {
+                            const CalibrationTask &task, const Calibration &found,
+                            const std::vector<LumpedComparison> &compared) {
   const auto failed =
       static_cast<std::size_t>(std::count_if(found.evaluations.begin(), found.evaluations.end(),
                                              [&task](const Evaluation &one) { return !one.good(task); }));
@@ -241,6 +242,13 @@ void write_calibration_page(const std::filesystem::path &out, const std::string 
   page.figure(slope_figure(task, found));
   page.table(slope_table(task, found));
   page.table(correlation_table(task, found));
+  if (!compared.empty()) {
+    page.section("Chain and bed");
+    page.paragraph("The beds of the best evaluation, and beside each the chain with the k and D that its "
+                   "record gives. The "
+                   "figures show seed 1.");
+    add_lumped_comparison(page, compared, 3);
+  }
   if (failed > 0) {
     page.section("Evaluations that failed");
     for (const Evaluation &one : found.evaluations)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "calibration/calibration.h"
+#include "roller/lumped_comparison.h"
 
 #include <filesystem>
 #include <string>
@@ -14,7 +15,9 @@ std::vector<std::string> calibration_answer(const CalibrationTask &task, const C
 
 /// Writes figures, tables and index.html into the folder.
 /// \param beds what was measured on, in words
+/// \param compared the roller's records at the best evaluation, one for each seed, beside the lumped chain; may be empty
 void write_calibration_page(const std::filesystem::path &out, const std::string &beds,
-                            const CalibrationTask &task, const Calibration &found);
+                            const CalibrationTask &task, const Calibration &found,
+                            const std::vector<LumpedComparison> &compared);
 
 } // namespace drumlin::post

@@ -7,6 +7,7 @@
 #include "studies/placed_bed.h"
 #include "studies/stiffness/results.h"
 #include "support/csv.h"
+#include "support/files.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -83,6 +84,11 @@ PackingOptions packing_of(const CalibrationTask &task) {
 
 } // namespace
 
+bool measures(const CalibrationTask &task, SoilTest test) {
+  return std::any_of(task.targets.begin(), task.targets.end(),
+                     [test](const auto &target) { return soil_quantity(target.name).test == test; });
+}
+
 /// A point of the search together with the bed of one seed.
 struct SoilTests::Point {
   const Evaluation &evaluation;
@@ -95,7 +101,7 @@ struct SoilTests::Point {
 
 SoilTests::SoilTests(CalibrationTask task, fs::path out) : task_(std::move(task)), out_(std::move(out)) {}
 
-std::vector<double> SoilTests::measure(const Evaluation &evaluation, int seed) {
+SoilTests::Point SoilTests::point_of(const Evaluation &evaluation, int seed) const {
   Point point{evaluation,
               seed,
               values_of(task_, evaluation.point, law_names),
@@ -124,24 +130,32 @@ std::vector<double> SoilTests::measure(const Evaluation &evaluation, int seed) {
       joined(point.law, values_of(task_, evaluation.point, std::array{"m2", "m3", "r2", "r3", "k23", "c23"}));
   bed.place.emplace_back("allow_change", point.allow_change);
   bed.place.emplace_back("dt", number_text(point.step, step_digits));
+  return point;
+}
 
+void SoilTests::settle(const Point &point) {
+  std::unique_lock map_lock(mutex_);
+  std::mutex &settling_of_seed = settling_[point.seed];
+  map_lock.unlock();
+  const std::lock_guard lock(settling_of_seed);
+  static_cast<void>(settled_soil(point.bed, point.seed, out_));
+}
+
+void SoilTests::remove_own_soil(const Point &point) const {
+  if (task_.varies(pour_friction)) fs::remove(settled_soil(point.bed, point.seed, out_));
+}
+
+std::vector<double> SoilTests::measure(const Evaluation &evaluation, int seed) {
+  const Point point = point_of(evaluation, seed);
   std::map<std::string, double> found;
   for (const SoilTest test : {SoilTest::roller, SoilTest::plate, SoilTest::biaxial}) {
-    if (std::none_of(task_.targets.begin(), task_.targets.end(),
-                     [test](const auto &target) { return soil_quantity(target.name).test == test; }))
-      continue;
-    if (test != SoilTest::biaxial) {
-      std::unique_lock map_lock(mutex_);
-      std::mutex &settling_of_seed = settling_[seed];
-      map_lock.unlock();
-      const std::lock_guard lock(settling_of_seed);
-      static_cast<void>(settled_soil(bed, seed, out_));
-    }
+    if (!measures(task_, test)) continue;
+    if (test != SoilTest::biaxial) settle(point);
     found.merge(test == SoilTest::roller  ? roller(point)
                 : test == SoilTest::plate ? plate(point)
                                           : biaxial(point));
   }
-  if (task_.varies(pour_friction)) fs::remove(settled_soil(bed, seed, out_));
+  remove_own_soil(point);
 
   std::vector<double> values;
   for (const CalibrationTarget &target : task_.targets)
@@ -149,7 +163,23 @@ std::vector<double> SoilTests::measure(const Evaluation &evaluation, int seed) {
   return values;
 }
 
-std::map<std::string, double> SoilTests::roller(const Point &point) {
+fs::path SoilTests::record(const Evaluation &evaluation, int seed) {
+  const fs::path place =
+      fs::absolute(out_ / "records" / fmt::format("evaluation_{}_seed_{}", evaluation.number, seed));
+  if (fs::exists(place)) return place;
+  const Point point = point_of(evaluation, seed);
+  settle(point);
+  make_output_folder(place.parent_path());
+  FolderInProgress draft(place);
+  const std::unique_ptr<DeckRun> run = run_roller(point);
+  for (const char *file : {"bed.csv", "cycles.csv", "parameters.csv"})
+    fs::copy_file(run->file(file), draft.path() / file);
+  draft.publish();
+  remove_own_soil(point);
+  return place;
+}
+
+std::unique_ptr<DeckRun> SoilTests::run_roller(const Point &point) const {
   const fs::path start = placed(point.bed, point.seed, out_);
   Variables variables = values_of(task_, point.evaluation.point, std::array{"omega", "Fw"});
   variables.insert(variables.end(), {{"start", start.string()},
@@ -158,14 +188,19 @@ std::map<std::string, double> SoilTests::roller(const Point &point) {
                                      {"samples_per_cycle", "250"}});
   const double omega = number_of(task_, point.evaluation.point, "omega", 2.0 * pi * default_frequency);
   variables.emplace_back("steps_per_cycle", std::to_string(steps_per_cycle(point.step, omega / (2.0 * pi))));
-  const DeckRun run("bed/in.bed", variables);
-  run.must_succeed();
+  auto run = std::make_unique<DeckRun>("bed/in.bed", variables);
+  run->must_succeed();
   fs::remove(start); // it would be one file of megabytes for each point and seed
-  const BedLaw law = identified_law(run.file(""));
+  return run;
+}
+
+std::map<std::string, double> SoilTests::roller(const Point &point) const {
+  const std::unique_ptr<DeckRun> run = run_roller(point);
+  const BedLaw law = identified_law(run->file(""));
   if (!std::isfinite(law.k) || !std::isfinite(law.D))
     throw std::runtime_error(
         "identify finds no k and D in the record of the roller: contact is too short or missing");
-  const BedValues values = bed_values(read_table(run.file("cycles.csv")), 1.0);
+  const BedValues values = bed_values(read_table(run->file("cycles.csv")), 1.0);
   const auto value = [&values](BedQuantity quantity) {
     return values.at(static_cast<std::size_t>(quantity));
   };
@@ -177,7 +212,7 @@ std::map<std::string, double> SoilTests::roller(const Point &point) {
           {"contact", value(BedQuantity::contact)}};
 }
 
-std::map<std::string, double> SoilTests::plate(const Point &point) {
+std::map<std::string, double> SoilTests::plate(const Point &point) const {
   constexpr double width = 0.3; // m, the deck's default
   constexpr double mega = 1e6;
   Variables variables = point.law;

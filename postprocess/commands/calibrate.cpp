@@ -2,12 +2,14 @@
 
 #include "calibration/calibration.h"
 #include "calibration/page.h"
+#include "calibration/recovery.h"
 #include "calibration/soil_tests.h"
 #include "calibration/task.h"
 #include "studies/study.h"
 #include "support/csv.h"
 #include "support/files.h"
 #include "support/options.h"
+#include "support/progress.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -28,13 +30,14 @@ namespace {
 constexpr const char *settings_name = "settings.csv";
 
 struct Arguments {
-  std::vector<std::string> targets, vary, fixed;
+  std::vector<std::string> targets, vary, fixed, known;
   std::string seeds = "5";
   std::string balls = "1000";
   std::string cycles = "6";
   std::string evaluations = "40";
   std::string jobs = "1";
   std::string target_beds = "0";
+  std::string records = "10";
   std::string name = "calibrated";
   std::string out = "results/calibration";
   bool fresh = false;
@@ -43,7 +46,8 @@ struct Arguments {
 CalibrationTask judged_task(const Arguments &arguments) {
   CalibrationTask task;
   for (const std::string &text : arguments.targets)
-    task.targets.push_back(target_from_text(text));
+    task.targets.push_back(arguments.known.empty() ? target_from_text(text)
+                                                   : measured_target_from_text(text));
   for (const std::string &text : arguments.vary)
     task.vary.push_back(varied_from_text(text));
   for (const std::string &text : arguments.fixed)
@@ -70,11 +74,14 @@ std::string judged_name(const std::string &name) {
 }
 
 /// Notes the settings in a new folder; throws UsageError if an earlier call had others.
-void note_settings(const fs::path &out, const CalibrationTask &task) {
+/// \param known parameters to be found again, in the task's order; empty for a calibration to given targets
+void note_settings(const fs::path &out, const CalibrationTask &task, const std::vector<double> &known) {
   const fs::path file = out / settings_name;
   std::string text = csv_line({"name", "value"});
   for (const auto &[name, value] : settings_of(task))
     text += csv_line({name, value});
+  for (std::size_t i = 0; i < known.size(); ++i)
+    text += csv_line({"recover " + task.vary[i].name, number_text(known[i])});
   if (!fs::exists(file))
     write_files({{file, text}});
   else if (read_text(file) != text)
@@ -85,6 +92,19 @@ void note_settings(const fs::path &out, const CalibrationTask &task) {
                     settings_name)));
 }
 
+/// The chain beside the roller's record of each seed at the best point; nothing if no target is measured by the roller.
+std::vector<LumpedComparison> compared_records(const CalibrationTask &task, const Calibration &found,
+                                               SoilTests &tests) {
+  std::vector<LumpedComparison> compared;
+  if (!measures(task, SoilTest::roller)) return compared;
+  for (int seed = 1; seed <= task.seeds; ++seed) {
+    print_progress(fmt::format("the roller's record at the best evaluation, seed {}", seed));
+    const Record record = read_record(tests.record(found.best, seed));
+    compared.push_back(compare_lumped(record, identify_record(record, {})));
+  }
+  return compared;
+}
+
 void run(const Arguments &arguments, const std::string &command) {
   constexpr int most = 100000;
   const CalibrationTask task = judged_task(arguments);
@@ -92,23 +112,40 @@ void run(const Arguments &arguments, const std::string &command) {
   effort.evaluations = count_option("--evaluations", arguments.evaluations, 1, most);
   effort.jobs = count_option("--jobs", arguments.jobs, 1, most);
   const std::string name = judged_name(arguments.name);
+  const std::vector<double> known =
+      arguments.known.empty() ? std::vector<double>{} : known_from_texts(task, arguments.known);
+  const int records = count_option("--records", arguments.records, 1, most);
   StudyOptions options;
   options.out = output_folder_option("--out", arguments.out);
   options.fresh = arguments.fresh;
   check_engine_path(options.out);
   open_study(options);
-  note_settings(options.out, task);
+  note_settings(options.out, task, known);
 
   SoilTests tests(task, options.out);
-  const Calibration found =
-      calibrate(task, effort, options.out,
-                [&tests](const Evaluation &evaluation, int seed) { return tests.measure(evaluation, seed); });
+  const MeasureSeed measure = [&tests](const Evaluation &evaluation, int seed) {
+    return tests.measure(evaluation, seed);
+  };
+  if (!known.empty()) {
+    const std::vector<RecoveredBed> beds = recover(task, known, records, effort, options.out, measure);
+    write_recovery_page(options.out, fmt::format("{} beds of {} discs of case gravel", records, task.balls),
+                        task, known, beds);
+    for (const std::string &line : recovery_answer(task, known, beds))
+      fmt::print("  {}\n", line);
+    fmt::print("{}\n", (options.out / "index.html").string());
+    return;
+  }
+  const Calibration found = calibrate(task, effort, options.out, measure);
+  const std::vector<LumpedComparison> compared = compared_records(task, found, tests);
   write_calibration_page(options.out,
                          fmt::format("beds of {} discs of case gravel, {} seeds", task.balls, task.seeds),
-                         task, found);
+                         task, found, compared);
   const std::vector<std::string> answer = calibration_answer(task, found);
   for (const std::string &line : answer)
     fmt::print("  {}\n", line);
+  if (!compared.empty())
+    for (const std::string &line : lumped_answer(compared))
+      fmt::print("  {}\n", line);
   fmt::print("{}\n", (options.out / "index.html").string());
   const fs::path case_file = options.out / ("case." + name);
   if (!found.sensitivity.identified()) {
@@ -174,13 +211,20 @@ void add_calibrate_command(CLI::App &app, Session &session) {
   option("--target-beds", &Arguments::target_beds,
          "beds of which the targets are means, whose scatter then widens the intervals; 0: they are exact",
          "COUNT");
+  list("--recover", &Arguments::known,
+       "NAME=VALUE, once for each parameter of --vary: measures beds with these values and tells whether "
+       "calibrations to them find "
+       "the values again; targets are then names without values",
+       "KNOWN");
+  option("--records", &Arguments::records, "beds that --recover measures", "COUNT");
   option("--jobs", &Arguments::jobs, "runs at the same time, one processor each", "COUNT");
   option("--name", &Arguments::name, "NAME of the file case.NAME", "NAME");
   option("--out", &Arguments::out, "folder of the results", "DIR");
   calibrate->add_flag("--fresh", arguments->fresh, "forget the evaluations of an earlier call");
   calibrate->footer(
       "Example:\n"
-      "  drumlin calibrate --target k=20e6 --target D=0.2 --vary k=1e8:2e9 --vary D=0.05:0.8 --jobs 2\n");
+      "  drumlin calibrate --target k=20e6 --target D=0.2 --vary k=1e8:2e9 --vary D=0.05:0.8 --jobs 2\n"
+      "  drumlin calibrate --target k --vary k=2e7:3e8 --recover k=8e7 --out results/recovery\n");
   calibrate->callback([arguments, &session] { run(*arguments, session.command); });
 }
 

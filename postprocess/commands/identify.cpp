@@ -27,6 +27,7 @@ constexpr const char *table_name = "identify.csv";
 struct Arguments {
   RecordArguments record;
   bool accelerations_only = false;
+  bool compare = false;
   std::optional<std::string> origin;
   std::optional<std::string> phase_within;
   std::optional<std::string> least_force;
@@ -69,19 +70,24 @@ void run(const Arguments &arguments) {
   TimedProgress progress;
   const IdentifiedRecord found =
       identify_record(record, setting, [&progress](const std::string &what) { progress.tell("{}", what); });
+  std::optional<LumpedComparison> compared;
+  if (arguments.compare) compared = compare_lumped(record, found);
   try {
     make_output_folder(place.parent_path());
   } catch (const std::runtime_error &error) {
     throw UsageError(fmt::format("--out is '{}': {}", arguments.out, error.what()));
   }
   FolderInProgress draft(place);
-  write_identification_page(draft.path(), found);
+  write_identification_page(draft.path(), found, compared ? &*compared : nullptr);
   write_files({{draft.path() / table_name, identification_csv(found)}});
   draft.publish();
   fmt::print("{}: {:.4g} cycles at {:.4g} Hz, 95 % confidence intervals\n", found.file.string(), found.cycles,
              found.frequency);
   for (const std::string &line : identification_answer(found))
     fmt::print("  {}\n", line);
+  if (compared)
+    for (const std::string &line : lumped_answer({*compared}))
+      fmt::print("  {}\n", line);
   fmt::print("{}: loops, residuals and {} windows\n", (fs::path(arguments.out) / "index.html").string(),
              found.windows.size());
 }
@@ -99,6 +105,11 @@ void add_identify_command(CLI::App &app, Session & /*session*/) {
   identify->add_flag(
       "--accelerations-only", arguments->accelerations_only,
       "do not use positions and velocities of the record: what a roller with accelerometers has");
+  identify->add_flag("--compare", arguments->compare,
+                     "solve the chain with this k and D, and draw it over the record: acceleration, force "
+                     "loop, share of contact, "
+                     "CMV, with what a spring and a dashpot cannot do; for folders of a run, whose "
+                     "parameters.csv has the bond");
   const auto text = [&](const char *name, std::optional<std::string> Arguments::*value, const char *help,
                         const char *type) {
     identify
@@ -130,7 +141,7 @@ void add_identify_command(CLI::App &app, Session & /*session*/) {
   identify->footer(
       "Examples:\n"
       "  drumlin identify results/chain\n"
-      "  drumlin identify results/bed/B --window 5 --out results/identify-bed\n"
+      "  drumlin identify results/bed/B --compare --window 5 --out results/identify-bed\n"
       "  drumlin identify measured.csv --column 'a_drum=Acc drum:g' --column 'a_frame=Acc frame:g' "
       "--sampling-rate 1000 --frequency 29 --phase 90 --phase-within 1 --me-re 7.31 --m2 3962 --m3 "
       "3379\n");

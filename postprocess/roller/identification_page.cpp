@@ -287,7 +287,8 @@ std::string identification_csv(const IdentifiedRecord &record) {
   return text;
 }
 
-void write_identification_page(const std::filesystem::path &out, const IdentifiedRecord &record) {
+void write_identification_page(const std::filesystem::path &out, const IdentifiedRecord &record,
+                               const LumpedComparison *compared) {
   const bool bed = record.file.filename() == "bed.csv";
   Page page(out, "What the record says of the soil", bed ? Scene::bed : Scene::chain);
   page.answer(
@@ -301,6 +302,10 @@ void write_identification_page(const std::filesystem::path &out, const Identifie
   page.figure(residual_figure(record));
   page.section("Along the record");
   page.figure(window_figure(record));
+  if (compared != nullptr) {
+    page.section("Chain and record");
+    add_lumped_comparison(page, {*compared}, 4);
+  }
   page.section("Method");
   page.paragraph(
       "The contact force follows from the equations of motion, F = m2 a2 + m3 a3 + (m2 + m3) g + Fe. While "

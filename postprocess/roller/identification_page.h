@@ -2,6 +2,7 @@
 #pragma once
 
 #include "roller/identified_record.h"
+#include "roller/lumped_comparison.h"
 
 #include <filesystem>
 #include <string>
@@ -17,6 +18,8 @@ std::vector<std::string> identification_answer(const IdentifiedRecord &record);
 std::string identification_csv(const IdentifiedRecord &record);
 
 /// Writes the page with plots into a folder: index.html, data, figures.
-void write_identification_page(const std::filesystem::path &out, const IdentifiedRecord &record);
+/// \param compared the chain beside the record, for a section of its own; nullptr: none
+void write_identification_page(const std::filesystem::path &out, const IdentifiedRecord &record,
+                               const LumpedComparison *compared = nullptr);
 
 } // namespace drumlin::post

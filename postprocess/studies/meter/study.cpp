@@ -1,5 +1,6 @@
 #include "studies/studies.h"
 
+#include "roller/chain_record.h"
 #include "roller/chain_solver.h"
 #include "roller/identified_record.h"
 #include "roller/meter_values.h"
@@ -26,35 +27,6 @@ constexpr int lead = 200;  // cycles before the record, in which the motion sett
 constexpr int cycles = 40; // of the record
 // So many samples because the sum of the energy over samples is inexact where the drum lands.
 constexpr int samples_per_cycle = 1000;
-
-/// The record of a roller of which everything is measured, with each sample of a history or only some.
-Record record_of(const ChainParameters &p, const ChainHistory &history, int every) {
-  Record record;
-  record.file = "chain.csv"; // x_drum counts from where drum and soil touch
-  record.interval = every * p.period() / samples_per_cycle;
-  const auto some_of = [every](const std::vector<double> &all) {
-    std::vector<double> some;
-    for (std::size_t i = 0; i < all.size(); i += static_cast<std::size_t>(every))
-      some.push_back(all[i]);
-    return some;
-  };
-  record.time = some_of(history.time);
-  record.x_drum = some_of(history.x_drum);
-  record.v_drum = some_of(history.v_drum);
-  record.a_drum = some_of(history.a_drum);
-  record.x_frame = some_of(history.x_frame);
-  record.v_frame = some_of(history.v_frame);
-  record.a_frame = some_of(history.a_frame);
-  record.F_contact = some_of(history.F_contact);
-  record.F_excitation = some_of(history.F_excitation);
-  record.omega = p.omega;
-  record.phase = 0.0;
-  record.Fw = p.Fw;
-  record.m2 = p.m2;
-  record.m3 = p.m3;
-  record.g = p.g;
-  return record;
-}
 
 /// The same as a real roller has it: both accelerations have white noise of 1 % of their standard deviation,
 /// and the phase of the exciter is off by half a degree.
@@ -97,7 +69,7 @@ SoilPoint measure(const std::string &roller, double k, std::uint64_t seed) {
     options.drum_radius = 0.759;
     options.drum_width = 2.13;
   }
-  const MeterWindow w = meter_windows(meter_cycles(record_of(p, history, 1)), options).back();
+  const MeterWindow w = meter_windows(meter_cycles(chain_record(p, history, 1)), options).back();
   const double none = std::nan("");
   SoilPoint point;
   point.roller = roller;
@@ -113,7 +85,7 @@ SoilPoint measure(const std::string &roller, double k, std::uint64_t seed) {
   point.peak_force = w.peak_force.value_or(none);
   point.contact_share = w.contact_share.value_or(none);
   constexpr int every = 4; // which is enough for identification
-  const Record record = record_of(p, history, every);
+  const Record record = chain_record(p, history, every);
   RecordSetting setting;
   setting.window = cycles;
   point.exact = found_in(record, setting);
