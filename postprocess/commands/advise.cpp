@@ -3,9 +3,11 @@
 #include "chain/run_files.h"
 #include "commands/chain_options.h"
 #include "engine/places.h"
+#include "studies/fidelity/advice.h"
 #include "studies/step_advice.h"
 #include "engine/deck_run.h"
 #include "studies/study.h"
+#include "support/csv.h"
 #include "support/options.h"
 #include "support/progress.h"
 
@@ -17,6 +19,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,10 +36,23 @@ struct Arguments {
   std::string measure = "velocity";
   std::string cycles = "30";
   std::optional<std::string> from;
+  bool bed = false;
+  std::optional<std::string> question;
+  std::optional<std::string> within;
 };
 
 /// The largest number that in.chain allows.
 constexpr int most_cycles = 10'000'000;
+
+/// What a bed is asked for by --question.
+struct BedQuestion {
+  const char *name;
+  BedQuantity quantity;
+};
+constexpr std::array<BedQuestion, 4> bed_questions = {{{"force", BedQuantity::force},
+                                                       {"acceleration", BedQuantity::acceleration},
+                                                       {"settlement", BedQuantity::settlement},
+                                                       {"stiffness", BedQuantity::stiffness}}};
 
 struct Measure {
   const char *name;
@@ -53,6 +69,49 @@ const Measure &measure_of(const std::string &name) {
       std::find_if(measures.begin(), measures.end(), [&](const Measure &m) { return name == m.name; });
   if (found == measures.end()) throw UsageError(refusal("--measure", name, "velocity, force, acceleration"));
   return *found;
+}
+
+/// A share: 0.1 or 10%.
+double judged_share(const std::string &text) {
+  const bool percent = !text.empty() && text.back() == '%';
+  const std::string number = percent ? text.substr(0, text.size() - 1) : text;
+  const std::optional<double> value = any_number_from_text(number);
+  const double share = value ? (percent ? 0.01 : 1.0) * *value : 0.0;
+  if (!(share > 0.0 && share <= 10.0))
+    throw UsageError(refusal("--within", text, "a share above 0, as 10% or 0.1, up to 1000%"));
+  return share;
+}
+
+void run_bed(const Arguments &arguments) {
+  BedAdviceRequest request;
+  const std::string &question = choice_option("--question", arguments.question.value_or(""),
+                                              {"force", "acceleration", "settlement", "stiffness"});
+  for (const BedQuestion &one : bed_questions)
+    if (question == one.name) request.question = one.quantity;
+  request.within = judged_share(arguments.within.value_or("10%"));
+  const fs::path folder =
+      arguments.from ? path_option("--from", *arguments.from) : input_file("study/fidelity");
+  if (!fs::is_regular_file(folder / "runs.csv"))
+    throw UsageError(refusal("--from", folder.string(), "folders of a fidelity study, with runs.csv"));
+  const std::vector<FidelityRun> runs = read_fidelity_runs(folder / "runs.csv");
+  const FidelityPlan plan = plan_of(runs);
+  const BedAdvice advice = advise_bed(plan, runs, request);
+  const MeanInterval &change = advice.effect.change.at(static_cast<std::size_t>(request.question));
+  fmt::print("{}: {}\n", advice.scene->name, advice.scene->change);
+  fmt::print("  for        {} within {:g} %\n", bed_quantity_name(request.question), 100.0 * request.within);
+  fmt::print(
+      "  error      {:+.1f} +- {:.1f} % against the complete scene, 95 % confidence interval over {} seeds\n",
+      100.0 * change.mean, 100.0 * change.half_width, advice.effect.seeds);
+  fmt::print("  scatter    one bed differs from another by {:.0f} % (standard deviation): the mean of {} "
+             "beds is within {:g} %\n",
+             100.0 * advice.scatter, advice.beds, 100.0 * request.within);
+  fmt::print("  time       {:.2g} s of processor time for {} cycles where it was measured, {:.2g} times that "
+             "of the complete scene; "
+             "settling and placing come in addition\n",
+             advice.cpu_s, plan.cycles, advice.effect.cost);
+  fmt::print("  scene      {}\n", scene_words(*advice.scene));
+  for (const std::string &words : scene_commands(*advice.scene, plan.cycles))
+    fmt::print("  run        {} {}\n", front_command(), words);
 }
 
 void run(const Arguments &arguments) {
@@ -119,7 +178,11 @@ void add_advise_command(CLI::App &app, Session &) {
   CLI::App *command = app.add_subcommand(
       "advise",
       "Steps per cycle that a run of the chain needs for an error, by the measured curves of the accuracy "
-      "study; for other chains than the measured ones scaled, with a margin.");
+      "study; for other chains than the measured ones scaled, with a margin. With --bed the cheapest scene "
+      "of a bed.");
+  command->footer("Examples:\n"
+                  "  drumlin advise --error 1e-3 --case II\n"
+                  "  drumlin advise --bed --question force --within 20%\n");
   add_chain_options(*command, arguments->chain);
   command->add_option("--error", arguments->error, "relative error that is allowed")
       ->type_name("NUMBER")
@@ -133,9 +196,32 @@ void add_advise_command(CLI::App &app, Session &) {
   command
       ->add_option_function<std::string>(
           "--from", [arguments](const std::string &text) { arguments->from = text; },
-          "folder of an accuracy study of your own, instead of the project's")
+          "folder of an accuracy study of your own (with --bed: of a fidelity study), instead of the "
+          "project's")
       ->type_name("DIR");
-  command->callback([arguments] { run(*arguments); });
+  command->add_flag("--bed", arguments->bed,
+                    "advise on a bed instead: the cheapest scene that the fidelity study has measured (see "
+                    "`drumlin study fidelity`)");
+  const auto text = [&](const char *name, std::optional<std::string> Arguments::*value, const char *help) {
+    command->add_option_function<std::string>(
+        name, [arguments, value](const std::string &given) { (*arguments).*value = given; }, help);
+  };
+  text("--question", &Arguments::question, "with --bed: force, acceleration, settlement or stiffness");
+  text("--within", &Arguments::within, "with --bed: error that is allowed, 10% if not given");
+  command->callback([arguments, command] {
+    const std::set<std::string> of_bed = {"--question", "--within"}, of_both = {"--bed", "--from", "--help"};
+    for (const CLI::Option *option : command->get_options()) {
+      const std::string name = option->get_name();
+      if (option->count() == 0 || of_both.count(name) > 0 || (of_bed.count(name) > 0) == arguments->bed)
+        continue;
+      throw UsageError(
+          refusal(name, option->as<std::string>(), arguments->bed ? "without --bed" : "with --bed"));
+    }
+    if (arguments->bed)
+      run_bed(*arguments);
+    else
+      run(*arguments);
+  });
 }
 
 } // namespace drumlin::post

@@ -19,6 +19,9 @@ namespace {
 
 /// Runs at the same time, each a process of its own.
 constexpr int most_jobs = 1000;
+/// Of a bed that is scaled: with fewer balls a drum has none below it.
+constexpr int least_balls = 100;
+constexpr int most_balls = 1000000;
 
 } // namespace
 
@@ -38,7 +41,14 @@ void add_study_command(CLI::App &app, Session &) {
       one->add_option("--jobs", *jobs, "runs at the same time, one processor each")
           ->type_name("COUNT")
           ->capture_default_str();
-    one->callback([options, out, jobs, run = study.run] {
+    const auto balls = std::make_shared<std::string>(std::to_string(StudyOptions().balls));
+    if (study.scaled)
+      one->add_option("--balls", *balls,
+                      "of the complete bed; box and roller are scaled with their root, the balls are not")
+          ->type_name("COUNT")
+          ->capture_default_str();
+    one->callback([options, out, jobs, balls, run = study.run] {
+      options->balls = count_option("--balls", *balls, least_balls, most_balls);
       options->jobs = count_option("--jobs", *jobs, 1, most_jobs);
       options->out = output_folder_option("--out", *out);
       open_study(*options);

@@ -322,7 +322,7 @@ PageTable comparison_table(const std::vector<LumpedComparison> &records) {
                fmt::format("{:.4g}", scale * value.lumped),
                fmt::format("{:+.1f} ± {:.1f}", percent_of * value.difference.mean,
                            percent_of * value.difference.half_width),
-               value.difference.significant() ? "yes" : "no"});
+               value.beyond_scatter() ? "yes" : "no"});
   }
   table.notes = {records.size() == 1 ? "After the ±: half of a 95 % confidence interval, over the cycles "
                                        "that count; that of the difference contains "
@@ -336,6 +336,11 @@ PageTable comparison_table(const std::vector<LumpedComparison> &records) {
 }
 
 } // namespace
+
+bool ComparedQuantity::beyond_scatter() const {
+  constexpr double negligible = 0.01;
+  return difference.significant() && std::fabs(difference.mean) > negligible * std::fabs(lumped);
+}
 
 LumpedComparison compare_lumped(const Record &record, const IdentifiedRecord &found) {
   if (record.a_drum.empty() || soil_force(record).empty() || record.F_excitation.empty())
@@ -372,7 +377,7 @@ std::vector<std::string> lumped_answer(const std::vector<LumpedComparison> &reco
     const auto q = static_cast<std::size_t>(quantity);
     const ComparedQuantity value = together(records, q);
     const bool larger = value.difference.mean > 0.0;
-    if (!value.difference.significant())
+    if (!value.beyond_scatter())
       same.emplace_back(texts.at(q).name);
     else
       lines.push_back(fmt::format("Against the chain with the same k and D, {} of the record is {} by {:.3g} "

@@ -31,6 +31,9 @@ struct ComparedQuantity {
   double
       lumped; ///< mean over as many cycles of the chain's steady motion as LumpedComparison::lumped_cycles has
   MeanInterval difference; ///< record minus chain; its interval contains those of k and D, too
+  /// Whether the interval of the difference does not contain zero, and the difference is above 1 % of the chain's value: less is the
+  /// decay of the motion from rest, and rounding.
+  bool beyond_scatter() const;
 };
 
 /// A record, the chain beside it, and what was compared.

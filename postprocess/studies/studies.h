@@ -86,6 +86,7 @@ struct Study {
   const char *summary; ///< for the help
   void (*run)(const StudyOptions &);
   bool parallel = false; ///< its runs may share the machine
+  bool scaled = false;   ///< its beds may have another number of balls
 };
 
 /// All studies, in the order of the help.
@@ -110,12 +111,14 @@ inline constexpr std::array studies = {
         "Time of a step on the chain and on settled beds, and what each optional part adds, as ratios within "
         "interleaved rounds. About twenty minutes, on a quiet machine.",
         &run_cost_study},
-    Study{
-        "fidelity",
-        "Effect and computing time of each part of a bed's model, over five seeds: condition, friction, "
-        "rolling, stiffness, time step, number, size and packing of the balls, kind of drum, frequency, two "
-        "dimensions or three. About five hours of processor time.",
-        &run_fidelity_study, true},
+    Study{"fidelity",
+          "Effect and computing time of each part of a bed's model, over five seeds: size and number of the "
+          "balls, stiffness, "
+          "time step, depth and width of the box, condition, friction, rolling, packing, grading, scheme, "
+          "kind of drum. `drumlin advise --bed` answers from its table. Hours of processor time; with "
+          "--balls 150 "
+          "minutes.",
+          &run_fidelity_study, true, true},
     Study{
         "friction",
         "A roller on beds of 1000 discs with the friction model coulomb and with the engine's history, five "

@@ -34,8 +34,9 @@ std::string record(const StudyOptions &options) {
     const std::string bytes = read_text(library);
     checksum.process_bytes(bytes.data(), bytes.size());
   }
-  return fmt::format("drumlin {} plugin {:08x}{}\n", DRUMLIN_VERSION, checksum.checksum(),
-                     options.quick ? " quick" : "");
+  return fmt::format("drumlin {} plugin {:08x}{}{}\n", DRUMLIN_VERSION, checksum.checksum(),
+                     options.quick ? " quick" : "",
+                     options.balls == StudyOptions().balls ? "" : fmt::format(" {} balls", options.balls));
 }
 
 /// Whether a cell is the text that a program prints for NaN.
@@ -60,9 +61,10 @@ void open_study(const StudyOptions &options) {
       for (const fs::directory_entry &entry : fs::directory_iterator(options.out))
         fs::remove_all(entry.path());
     } else if (read_text(file) != now)
-      throw UsageError(fmt::format("--out is '{}', whose points are of another build or of another choice of "
-                                   "--quick; allowed: --fresh, which forgets them, or another folder",
-                                   options.out.string()));
+      throw UsageError(
+          fmt::format("--out is '{}', whose points are of another build or of another choice of "
+                      "--quick or --balls; allowed: --fresh, which forgets them, or another folder",
+                      options.out.string()));
   } else if (fs::exists(options.out) && !fs::is_empty(options.out)) {
     throw UsageError(fmt::format("--out is '{}', which holds files but no study; allowed: a folder that is "
                                  "new, empty or of an earlier call",

@@ -17,6 +17,7 @@ struct StudyOptions {
   std::filesystem::path out; ///< folder of its results, made if missing
   bool fresh = false;        ///< discard the results of an earlier call
   bool quick = false;        ///< few points, to test that the study works; the results are not meaningful
+  int balls = 2500;          ///< of the complete bed, in a study whose beds are scaled
   int jobs = 1;              ///< runs at the same time, in a study that does not time them against each other
 };
 

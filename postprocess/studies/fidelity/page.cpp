@@ -19,6 +19,7 @@ namespace {
 constexpr double tolerance = 0.1;
 
 std::string percent(const MeanInterval &change) {
+  if (std::isnan(change.mean)) return no_value;
   return fmt::format("{:+.1f} ± {:.1f}", 100.0 * change.mean, 100.0 * change.half_width);
 }
 
@@ -39,6 +40,7 @@ PageTable conclusion_table(const std::vector<Effect> &effects) {
     std::array<std::vector<std::string>, 3> cells;
     for (const Effect &effect : effects) {
       const MeanInterval &change = effect.change[q];
+      if (std::isnan(change.mean)) continue;
       const std::string text = fmt::format("{} ({:+.0f} %, time x {:.2g})", effect.compared.what,
                                            100.0 * change.mean, effect.cost);
       cells[change.within(tolerance) ? 1 : change.significant() ? 0 : 2].push_back(text);
@@ -119,11 +121,15 @@ PageTable run_table(const std::vector<FidelityRun> &runs) {
     for (const FidelityRun &run : runs) {
       if (run.variant != name) continue;
       for (std::size_t q = 0; q < bed_quantities.size(); ++q)
-        values[q].push_back(run.values[q]);
+        if (std::isfinite(run.values[q])) values[q].push_back(run.values[q]);
       cpu.push_back(run.cpu_s);
     }
     std::vector<std::string> row = {name, std::to_string(cpu.size())};
     for (const std::vector<double> &quantity : values) {
+      if (quantity.empty()) {
+        row.emplace_back(no_value);
+        continue;
+      }
       const MeanInterval mean = mean_interval(quantity);
       row.push_back(fmt::format("{:.4g} ± {:.2g}", mean.mean, mean.half_width));
     }
@@ -172,14 +178,13 @@ PageFigure effect_figure(const std::vector<Effect> &effects) {
 
 } // namespace
 
-void write_fidelity_page(const std::filesystem::path &out, const std::vector<FidelityRun> &runs,
-                         const std::vector<Effect> &effects, const std::vector<std::string> &failures) {
+void write_fidelity_page(const std::filesystem::path &out, const std::string &beds,
+                         const std::vector<FidelityRun> &runs, const std::vector<Effect> &effects,
+                         const std::vector<std::string> &failures) {
   Page page(out, "What a bed needs", Scene::bed);
   page.answer("Each ingredient of a bed is added, left out or changed, on beds of the same seeds, and "
-              "compared with the finest "
-              "model of its kind. The base: 2500 discs, drum a ball, condition B, friction 0.5, second-order "
-              "scheme, 2500 "
-              "steps per cycle, 20 Hz, ten cycles.");
+              "compared with the complete scene: " +
+              beds + ".");
   page.answer(effects_words(effects));
   for (const std::string &failure : failures)
     page.answer("Missing: " + failure);

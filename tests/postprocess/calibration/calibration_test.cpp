@@ -1,5 +1,6 @@
 // Calibration with closed forms in the place of beds: the parameters that were put in must be found again.
 #include "calibration/calibration.h"
+#include "calibration/recovery.h"
 #include "calibration/search.h"
 #include "roller/chain_solver.h"
 #include "roller/identified_record.h"
@@ -7,9 +8,11 @@
 #include "support/files.h"
 #include "tests/support/chain_record.h"
 #include "tests/support/engine_runs.h"
+#include "tests/support/page.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
@@ -250,6 +253,41 @@ TEST(Calibration, WidensIntervalsForTargetsThatScatterToo) {
                                   &wide = one_bed.sensitivity.parameters[j];
     EXPECT_NEAR(std::log(wide.high / wide.low), std::sqrt(6.0) * std::log(narrow.high / narrow.low), 1e-9);
   }
+}
+
+// Each bed has a scatter of its own, as large as that of the calibrating beds: without it in the intervals, they would hold the truth
+// in three of four cases only.
+TEST(Recovery, FindsTheKnownParametersOfSingleBeds) {
+  constexpr int beds = 40;
+  post::CalibrationTask task = two_of_two(5);
+  const std::vector<double> known = {true_k, true_D};
+  const Scratch scratch;
+  std::atomic<int> calls = 0;
+  const post::MeasureSeed counted = [&calls, inner = scattered(5)](const post::Evaluation &evaluation,
+                                                                   int seed) {
+    ++calls;
+    return inner(evaluation, seed);
+  };
+  const std::vector<post::RecoveredBed> found =
+      post::recover(task, known, beds, {12, 2}, scratch.path(), counted);
+  ASSERT_EQ(found.size(), static_cast<std::size_t>(beds));
+  EXPECT_EQ(found.front().seed, 6);
+  EXPECT_EQ(found.front().values, scattered(5)({0, post::Stage::search, known, {}}, 6));
+  for (std::size_t j = 0; j < known.size(); ++j) {
+    const auto held = std::count_if(found.begin(), found.end(),
+                                    [&](const post::RecoveredBed &bed) { return bed.holds(j, known[j]); });
+    EXPECT_GE(held, 34) << j; // of 38 on average
+  }
+  // The calibrations share evaluations: apart, each of 40 would take more than 17 points on five beds.
+  EXPECT_LT(calls, beds * 17 * 5 / 2);
+  calls = 0;
+  const std::vector<post::RecoveredBed> again =
+      post::recover(task, known, beds, {12, 2}, scratch.path(), counted);
+  EXPECT_EQ(calls, 0);
+  EXPECT_EQ(again.back().values, found.back().values);
+  post::write_recovery_page(scratch / "page", "numbers", task, known, found);
+  expect_sound_page(scratch / "page", 1);
+  EXPECT_EQ(post::read_table(scratch / "page/data/recovered.csv").rows(), static_cast<std::size_t>(beds));
 }
 
 } // namespace

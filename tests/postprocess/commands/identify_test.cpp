@@ -3,6 +3,7 @@
 #include "roller/chain_solver.h"
 #include "support/csv.h"
 #include "tests/support/engine_runs.h"
+#include "tests/support/page.h"
 
 #include <gtest/gtest.h>
 
@@ -61,6 +62,25 @@ TEST_F(IdentifyCommand, WritesAnswerTableAndPage) {
   // A second call replaces the results.
   EXPECT_TRUE(identify({"run", "--accelerations-only", "--out", "found"}).ok());
   EXPECT_EQ(post::read_table(scratch_ / "found/identify.csv").rows(), 2U);
+}
+
+TEST_F(IdentifyCommand, DrawsTheChainOverTheRecord) {
+  write_run(scratch_ / "run");
+  const Outcome outcome = identify({"run", "--compare", "--out", "found"});
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  EXPECT_TRUE(
+      outcome.says("No difference beyond scatter: the drum's peak acceleration, the peak contact force"))
+      << outcome.output;
+  for (const char *file :
+       {"figures/chain_and_bed.png", "figures/cycle_by_cycle.svg", "data/chain_and_record.csv"})
+    EXPECT_TRUE(fs::is_regular_file(scratch_ / "found" / file)) << file;
+  expect_sound_page(scratch_ / "found", 5);
+  // A measured record does not have the bond.
+  std::string parameters = read_text(scratch_ / "run/parameters.csv");
+  const std::size_t bond = parameters.find("k23,");
+  post::write_files(
+      {{scratch_ / "run/parameters.csv", parameters.erase(bond, parameters.find('\n', bond) + 1 - bond)}});
+  expect_refused({"run", "--compare"}, "k23 is ''; allowed: a number in parameters.csv");
 }
 
 // What a roller has: accelerations in g with names of their own, no times, a phase.

@@ -1,9 +1,16 @@
 // The effects that the fidelity study computes, against numbers worked out by hand.
+#include "studies/fidelity/advice.h"
 #include "studies/fidelity/results.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace drumlin::test {
@@ -33,10 +40,11 @@ TEST(BedValues, AreOfTheSecondHalfAndPerMetreOfWidth) {
 
 // The seeds differ by far more than the variant changes them: only differences seed by seed show it.
 TEST(Effect, ComparesSeedBySeed) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const std::vector<FidelityRun> runs = {
-      {"base", 1, {10.0, 100.0, 1e-3, 1.0}, 2.0}, {"base", 2, {20.0, 300.0, 3e-3, 0.5}, 4.0},
-      {"base", 3, {90.0, 500.0, 5e-3, 0.6}, 3.0}, {"A", 2, {21.0, 290.0, 3e-3, 0.5}, 8.0},
-      {"A", 1, {11.0, 110.0, 1e-3, 1.0}, 6.0},    {"A", 4, {7.0, 7.0, 7.0, 7.0}, 7.0}};
+      {"base", 1, {10.0, 100.0, 1e-3, 1.0, 5e6}, 2.0}, {"base", 2, {20.0, 300.0, 3e-3, 0.5, none}, 4.0},
+      {"base", 3, {90.0, 500.0, 5e-3, 0.6, 5e6}, 3.0}, {"A", 2, {21.0, 290.0, 3e-3, 0.5, 6e6}, 8.0},
+      {"A", 1, {11.0, 110.0, 1e-3, 1.0, 6e6}, 6.0},    {"A", 4, {7.0, 7.0, 7.0, 7.0, 7.0}, 7.0}};
   const std::optional<post::Effect> found = post::effect_of(runs, {"A instead of B", "A", "base"});
   ASSERT_TRUE(found.has_value());
   const post::Effect &effect = *found;
@@ -48,8 +56,103 @@ TEST(Effect, ComparesSeedBySeed) {
   // of +10 and -10, over the mean of 100 and 300; t for 1 degree of freedom
   EXPECT_NEAR(effect.change[1].half_width, 12.7062 * 10.0 / 200.0, 1e-3);
   EXPECT_FALSE(effect.change[2].significant());
-  EXPECT_DOUBLE_EQ(effect.cost, 2.5); // of 3 and 2
+  EXPECT_DOUBLE_EQ(effect.cost, 2.5);           // of 3 and 2
+  EXPECT_DOUBLE_EQ(effect.change[4].mean, 0.2); // of seed 1 alone: seed 2 of the base has no stiffness
+  EXPECT_FALSE(effect.change[4].significant());
   EXPECT_FALSE(post::effect_of(runs, {"", "A", "B"}).has_value());
+}
+
+TEST(FidelityPlan, HasScenesOfDifferentNamesAndKeepsProportions) {
+  for (const int balls : {200, 2500}) {
+    const post::FidelityPlan plan = post::fidelity_plan(balls);
+    std::set<std::string> names, soils;
+    for (const post::FidelityScene &scene : plan.scenes) {
+      EXPECT_TRUE(names.insert(scene.name).second) << scene.name;
+      EXPECT_EQ(scene.name.find(','), std::string::npos) << scene.name;
+      EXPECT_EQ(scene.bed.packing.invalid(), "") << scene.name;
+    }
+    for (const post::BedComparison &one : plan.comparisons())
+      EXPECT_EQ(names.count(one.base), 1u) << one.variant;
+    EXPECT_EQ(plan.reference().base, "");
+    EXPECT_EQ(plan.reference().bed.packing.balls, balls);
+  }
+  // A quarter of the balls: lengths halve, masses and forces per metre are a quarter, so that the pressure under the drum over
+  // its radius stays the same.
+  const auto value = [](const post::FidelityScene &scene, const std::string &name) {
+    for (const auto &[variable, text] : scene.run_variables())
+      if (variable == name) return std::stod(text);
+    return 0.0;
+  };
+  const post::FidelityPlan small = post::fidelity_plan(625);
+  EXPECT_DOUBLE_EQ(small.reference().bed.packing.width, 1.0);
+  EXPECT_DOUBLE_EQ(value(small.reference(), "r2"), 0.175);
+  EXPECT_DOUBLE_EQ(value(small.reference(), "m2"), 500.0);
+  EXPECT_DOUBLE_EQ(value(small.reference(), "Fw"), 14.7e3);
+}
+
+// Runs on five seeds; a scene multiplies the force by a factor, and by one per seed that it does not share with the complete bed.
+class BedAdviceTest : public ::testing::Test {
+protected:
+  void add(const std::string &scene, double factor, double scatter, double cpu, int seeds = 5) {
+    for (int seed = 1; seed <= seeds; ++seed) {
+      const double force = 1e5 * (1.0 + 0.1 * (seed - 3));
+      const double own = factor * (1.0 + scatter * (seed % 2 == 0 ? 1.0 : -2.0 / 3.0));
+      runs_.push_back({scene, seed, {10.0, own * force, 1e-3, 0.5, 5e6}, cpu, 400});
+    }
+  }
+  post::BedAdvice advice(double within) const {
+    return post::advise_bed(post::plan_of(runs_), runs_, {post::BedQuantity::force, within});
+  }
+  void expect_refused(double within, const std::string &message) const {
+    try {
+      const post::BedAdvice found = advice(within);
+      ADD_FAILURE() << found.scene->name;
+    } catch (const std::runtime_error &error) {
+      EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    }
+  }
+  std::vector<FidelityRun> runs_;
+};
+
+TEST_F(BedAdviceTest, NamesTheCheapestSceneWithinTheError) {
+  add("complete", 1.0, 0.0, 10.0);
+  add("k / 10", 1.04, 0.0, 3.0);
+  add("k / 100", 0.7, 0.0, 1.0);     // cheaper, but off
+  add("large balls", 1.0, 0.2, 0.5); // right in the mean, but the interval is wide
+  add("A", 1.0, 0.0, 9.0);
+  add("one size", 1.0, 0.0, 0.1, 1); // one seed has no interval
+  const post::FidelityPlan plan = post::plan_of(runs_);
+  EXPECT_EQ(plan.reference().bed.packing.balls, 400);
+  const post::BedAdvice found = post::advise_bed(plan, runs_, {post::BedQuantity::force, 0.1});
+  ASSERT_NE(found.scene, nullptr);
+  EXPECT_EQ(found.scene->name, "k / 10");
+  EXPECT_NEAR(found.effect.change[1].mean, 0.04, 1e-12);
+  EXPECT_NEAR(found.effect.cost, 0.3, 1e-12);
+  EXPECT_EQ(found.cpu_s, 3.0);
+  EXPECT_NEAR(found.scatter, 0.1 * std::sqrt(2.5), 1e-12); // of -2 to 2 tenths
+  // 2.179 * 0.1581 / sqrt(12) is 0.0994 (12 degrees of freedom: 13 beds 0.0955; 11 degrees of freedom: 12 beds 0.1005)
+  EXPECT_EQ(found.beds, 13);
+  EXPECT_EQ(advice(0.5).scene->name, "large balls");
+  EXPECT_EQ(advice(0.03).scene->name, "A");
+
+  const std::vector<std::string> commands = post::scene_commands(*found.scene, plan.cycles);
+  ASSERT_EQ(commands.size(), 4u);
+  EXPECT_EQ(commands[0], "bed --balls 400 --width 0.8");
+  EXPECT_NE(commands[1].find("run inputs/bed/in.settle -var k 1e+08 "), std::string::npos) << commands[1];
+  EXPECT_NE(commands[3].find(" -var steps_per_cycle 2750 "), std::string::npos) << commands[3];
+}
+
+TEST_F(BedAdviceTest, RefusesWhatTheTableDoesNotAnswer) {
+  expect_refused(0.1, "the table of scenes is '0 runs'; allowed: one with runs of the scene 'complete'");
+  add("A", 1.0, 0.0, 9.0);
+  expect_refused(0.1, "the table of scenes is '5 runs'; allowed: one with runs of the scene 'complete'");
+  add("complete", 1.0, 0.0, 10.0, 1);
+  expect_refused(0.1, "allowed: one with two seeds or more of a scene and of the complete one");
+  runs_.clear();
+  add("complete", 1.0, 0.0, 10.0);
+  add("k / 10", 1.3, 0.0, 3.0);
+  expect_refused(0.1, "--within is '10%'; allowed: 30% or more, to which 'k / 10' keeps");
 }
 
 } // namespace

@@ -1,0 +1,130 @@
+#include "studies/fidelity/advice.h"
+
+#include "support/csv.h"
+#include "support/range.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+#include <stdexcept>
+
+namespace drumlin::post {
+
+namespace {
+
+std::vector<double> values_of(const std::vector<FidelityRun> &runs, const std::string &scene,
+                              std::size_t quantity) {
+  std::vector<double> values;
+  for (const FidelityRun &run : runs)
+    if (run.variant == scene && std::isfinite(run.values[quantity])) values.push_back(run.values[quantity]);
+  return values;
+}
+
+/// The largest error that a 95 % confidence interval leaves possible.
+double largest_error(const MeanInterval &change) { return std::fabs(change.mean) + change.half_width; }
+
+/// The smallest number of beds of which the mean has a half width of at most `within`; at least 2.
+int beds_for(double scatter, double within) {
+  constexpr int most = 1000000;
+  int beds = 2;
+  while (beds < most && t_factor(beds - 1.0) * scatter / std::sqrt(static_cast<double>(beds)) > within)
+    ++beds;
+  return beds;
+}
+
+/// Words `-var NAME VALUE`, the first value of each name.
+std::string variable_words(const Variables &variables) {
+  std::set<std::string> seen;
+  std::string text;
+  for (const auto &[name, value] : variables)
+    if (seen.insert(name).second) text += fmt::format(" -var {} {}", name, value);
+  return text;
+}
+
+} // namespace
+
+FidelityPlan plan_of(const std::vector<FidelityRun> &runs) {
+  const std::string name = fidelity_plan(default_balls).reference().name;
+  for (const FidelityRun &run : runs)
+    if (run.variant == name && run.balls > 0) return fidelity_plan(run.balls);
+  throw std::runtime_error(
+      refusal("the table of scenes", fmt::format("{} runs", runs.size()),
+              fmt::format("one with runs of the scene '{}', with which the others are compared", name)));
+}
+
+BedAdvice advise_bed(const FidelityPlan &plan, const std::vector<FidelityRun> &runs,
+                     const BedAdviceRequest &request) {
+  const auto q = static_cast<std::size_t>(request.question);
+  BedAdvice best;
+  double least_error = std::numeric_limits<double>::infinity();
+  std::string closest;
+  for (const FidelityScene &scene : plan.scenes) {
+    if (scene.base != plan.reference().name) continue;
+    const std::optional<Effect> effect = effect_of(runs, {scene.change, scene.name, scene.base});
+    if (!effect || !std::isfinite(effect->change[q].half_width)) continue;
+    const double error = largest_error(effect->change[q]);
+    if (error < least_error) {
+      least_error = error;
+      closest = scene.name;
+    }
+    if (error <= request.within && (best.scene == nullptr || effect->cost < best.effect.cost)) {
+      best.scene = &scene;
+      best.effect = *effect;
+    }
+  }
+  const std::string asked = fmt::format("{:g}%", 100.0 * request.within);
+  if (closest.empty())
+    throw std::runtime_error(refusal("the table of scenes", fmt::format("{} runs", runs.size()),
+                                     "one with two seeds or more of a scene and of the complete one"));
+  if (best.scene == nullptr)
+    throw std::runtime_error(
+        refusal("--within", asked,
+                fmt::format("{:.0f}% or more, to which '{}' keeps; for less take the complete scene",
+                            std::ceil(100.0 * least_error), closest)));
+  std::vector<double> times;
+  for (const FidelityRun &run : runs)
+    if (run.variant == best.scene->name) times.push_back(run.cpu_s);
+  best.cpu_s = median(times);
+  const std::vector<double> complete = values_of(runs, plan.reference().name, q);
+  const MeanInterval mean = mean_interval(complete);
+  double squares = 0.0;
+  for (const double value : complete)
+    squares += std::pow(value - mean.mean, 2);
+  best.scatter = std::sqrt(squares / static_cast<double>(complete.size() - 1)) / std::fabs(mean.mean);
+  best.beds = beds_for(best.scatter, request.within);
+  return best;
+}
+
+std::string scene_words(const FidelityScene &scene) {
+  const PackingOptions &packing = scene.bed.packing;
+  return fmt::format("{} dimensions, {} {} of {:g} to {:g} mm radius, box {:.3g} m wide",
+                     packing.dimensions(), packing.balls, packing.dimensions() == 2 ? "discs" : "balls",
+                     1e3 * packing.radius_min, 1e3 * packing.radius_max, packing.width);
+}
+
+std::vector<std::string> scene_commands(const FidelityScene &scene, int cycles) {
+  const PackingOptions &packing = scene.bed.packing;
+  const PackingOptions usual;
+  constexpr int digits = 6;
+  std::string bed =
+      fmt::format("bed --balls {} --width {}", packing.balls, number_text(packing.width, digits));
+  if (packing.depth > 0.0) bed += " --depth " + number_text(packing.depth, digits);
+  if (packing.height > 0.0) bed += " --height " + number_text(packing.height, digits);
+  if (packing.radius_min != usual.radius_min || packing.radius_max != usual.radius_max)
+    bed += fmt::format(" --radius-min {} --radius-max {}", number_text(packing.radius_min, digits),
+                       number_text(packing.radius_max, digits));
+  if (packing.grading != usual.grading) bed += " --grading " + grading_name(packing.grading);
+  const Variables ratio = {{"ratio", scene.bed.ratio}};
+  return {bed,
+          "run inputs/bed/in.settle" +
+              variable_words(joined(joined(scene.bed.settle, scene.bed.scene), ratio)),
+          "run inputs/bed/in.place" + variable_words(joined(joined(scene.bed.place, scene.bed.scene), ratio)),
+          "run inputs/bed/in.bed" +
+              variable_words(joined(scene.run_variables(), {{"cycles", std::to_string(cycles)}}))};
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,40 @@
+// Which scene of the fidelity study answers a question about a bed at the least processor time.
+#pragma once
+
+#include "studies/fidelity/plan.h"
+#include "studies/fidelity/results.h"
+
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+struct BedAdviceRequest {
+  BedQuantity question = BedQuantity::force;
+  double within = 0.1; ///< relative error that is allowed, > 0
+};
+
+/// The cheapest scene whose error stays within the request.
+struct BedAdvice {
+  const FidelityScene *scene = nullptr; ///< of the plan
+  Effect effect;                        ///< of the scene against the complete one
+  double scatter = 0.0; ///< standard deviation of single beds of the complete scene over their mean
+  int beds = 0;         ///< complete beds of which the mean has a 95 % confidence interval within the request
+  double cpu_s = 0.0;   ///< processor time of the scene's excitation, median over the seeds
+};
+
+/// A scene keeps to the request if the whole 95 % confidence interval of its change does; two seeds or more. The plan is that of the
+/// table's runs. Throws std::runtime_error: with the smallest error that can be kept to if no scene but the complete one is within.
+BedAdvice advise_bed(const FidelityPlan &plan, const std::vector<FidelityRun> &runs,
+                     const BedAdviceRequest &request);
+
+/// The plan whose complete bed has as many balls as that of the runs. Throws std::runtime_error if they have no complete bed.
+FidelityPlan plan_of(const std::vector<FidelityRun> &runs);
+
+/// The scene in words: dimensions, number and size of balls, box.
+std::string scene_words(const FidelityScene &scene);
+
+/// The words after the front script with which the scene is made and run, a line for each command.
+std::vector<std::string> scene_commands(const FidelityScene &scene, int cycles);
+
+} // namespace drumlin::post
