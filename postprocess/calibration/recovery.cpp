@@ -123,14 +123,14 @@ PageFigure interval_figure(const CalibrationTask &task, const std::vector<double
 PageTable interval_table(const CalibrationTask &task, const std::vector<double> &known,
                          const std::vector<RecoveredBed> &found) {
   PageTable table;
-  table.name = "recovered";
+  table.name = "beds";
   table.title = "Parameters found again";
   table.header = {"seed of the bed"};
   for (const CalibrationTarget &target : task.targets)
     table.header.push_back("measured " + target.name);
   for (const VariedParameter &parameter : task.vary) {
     table.header.push_back(parameter.name);
-    table.header.push_back("95 % confidence interval");
+    table.header.push_back("95 % confidence interval of " + parameter.name);
   }
   table.criterion = "all intervals hold the known values";
   for (const RecoveredBed &bed : found) {

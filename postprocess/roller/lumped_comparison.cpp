@@ -28,13 +28,14 @@ struct QuantityText {
   const char *name;  ///< in a sentence
   const char *label; ///< with unit, as in tables
   double scale;      ///< from SI to the label's unit
+  double negligible; ///< difference that does not count, whatever the value is
 };
 constexpr std::array<QuantityText, cycle_quantities.size()> texts = {
-    {{"the drum's peak acceleration", "peak acceleration of the drum (m/s2)", 1.0},
-     {"the peak contact force", "peak contact force (kN)", 1e-3},
-     {"the share of time in contact", "share of time in contact (-)", 1.0},
-     {"CMV", "CMV of a cycle (-)", 1.0},
-     {"the work done on the soil in a cycle", "work on the soil in a cycle (J)", 1.0}}};
+    {{"the drum's peak acceleration", "peak acceleration of the drum (m/s2)", 1.0, 0.0},
+     {"the peak contact force", "peak contact force (kN)", 1e-3, 0.0},
+     {"the share of time in contact", "share of time in contact (-)", 1.0, 0.01},
+     {"CMV", "CMV of a cycle (-)", 1.0, 1.0},
+     {"the work done on the soil in a cycle", "work on the soil in a cycle (J)", 1.0, 0.0}}};
 
 double number_of(const Record &record, const char *name) {
   const auto found = record.parameters.find(name);
@@ -201,6 +202,14 @@ ComparedQuantity together(const std::vector<LumpedComparison> &records, std::siz
   return {mean_interval(measured), mean_interval(lumped).mean, mean_interval(differences)};
 }
 
+/// Whether the interval of a difference does not contain zero, and the difference is large enough to count: the decay of the motion
+/// from rest, and rounding, make differences, too.
+bool beyond_scatter(const ComparedQuantity &value, std::size_t q) {
+  constexpr double share = 0.01; // of the chain's value
+  return value.difference.significant() &&
+         std::fabs(value.difference.mean) > std::max(share * std::fabs(value.lumped), texts.at(q).negligible);
+}
+
 /// What a difference beyond scatter says of the soil.
 std::string reason(CycleQuantity quantity, bool larger) {
   switch (quantity) {
@@ -322,7 +331,7 @@ PageTable comparison_table(const std::vector<LumpedComparison> &records) {
                fmt::format("{:.4g}", scale * value.lumped),
                fmt::format("{:+.1f} ± {:.1f}", percent_of * value.difference.mean,
                            percent_of * value.difference.half_width),
-               value.beyond_scatter() ? "yes" : "no"});
+               beyond_scatter(value, q) ? "yes" : "no"});
   }
   table.notes = {records.size() == 1 ? "After the ±: half of a 95 % confidence interval, over the cycles "
                                        "that count; that of the difference contains "
@@ -336,11 +345,6 @@ PageTable comparison_table(const std::vector<LumpedComparison> &records) {
 }
 
 } // namespace
-
-bool ComparedQuantity::beyond_scatter() const {
-  constexpr double negligible = 0.01;
-  return difference.significant() && std::fabs(difference.mean) > negligible * std::fabs(lumped);
-}
 
 LumpedComparison compare_lumped(const Record &record, const IdentifiedRecord &found) {
   if (record.a_drum.empty() || soil_force(record).empty() || record.F_excitation.empty())
@@ -371,13 +375,17 @@ LumpedComparison compare_lumped(const Record &record, const IdentifiedRecord &fo
   return result;
 }
 
+bool LumpedComparison::differs(CycleQuantity quantity) const {
+  return beyond_scatter(of(quantity), static_cast<std::size_t>(quantity));
+}
+
 std::vector<std::string> lumped_answer(const std::vector<LumpedComparison> &records) {
   std::vector<std::string> lines, same;
   for (const CycleQuantity quantity : cycle_quantities) {
     const auto q = static_cast<std::size_t>(quantity);
     const ComparedQuantity value = together(records, q);
     const bool larger = value.difference.mean > 0.0;
-    if (!value.beyond_scatter())
+    if (!beyond_scatter(value, q))
       same.emplace_back(texts.at(q).name);
     else
       lines.push_back(fmt::format("Against the chain with the same k and D, {} of the record is {} by {:.3g} "

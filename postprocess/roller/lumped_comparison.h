@@ -31,9 +31,6 @@ struct ComparedQuantity {
   double
       lumped; ///< mean over as many cycles of the chain's steady motion as LumpedComparison::lumped_cycles has
   MeanInterval difference; ///< record minus chain; its interval contains those of k and D, too
-  /// Whether the interval of the difference does not contain zero, and the difference is above 1 % of the chain's value: less is the
-  /// decay of the motion from rest, and rounding.
-  bool beyond_scatter() const;
 };
 
 /// A record, the chain beside it, and what was compared.
@@ -52,6 +49,9 @@ struct LumpedComparison {
   const ComparedQuantity &of(CycleQuantity quantity) const {
     return quantities.at(static_cast<std::size_t>(quantity));
   }
+  /// Whether record and chain differ beyond scatter: the interval of the difference does not contain zero, and it is above 1 % of the
+  /// chain's value (CMV: above 1; contact: above 0.01).
+  bool differs(CycleQuantity quantity) const;
 };
 
 /// Solves the chain of the record's roller with the law that identification found, in closed form, until its motion is steady, and

@@ -34,8 +34,9 @@ struct FidelityPlan {
 
 /// Number of discs of the default bed of inputs/bed.
 constexpr int default_balls = 2500;
-/// \param balls of the complete bed: box, roller and force are scaled so that they keep their proportions, the balls stay as large. In two
-/// dimensions forces per metre and masses go with the square of lengths.
+/// \param balls of the complete bed: box and roller are scaled so that they keep their proportions, the balls stay as large. In two
+/// dimensions masses and forces per metre go with the square of lengths; so does k, so that the drum on the soil keeps its natural frequency,
+/// and overlaps their size.
 FidelityPlan fidelity_plan(int balls);
 /// Three scenes of 150 discs of case loose, two seeds: to see that the study works.
 FidelityPlan quick_fidelity_plan();

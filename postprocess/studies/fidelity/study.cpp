@@ -13,7 +13,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -47,19 +46,13 @@ void run_fidelity_study(const StudyOptions &options) {
   check_engine_path(options.out);
   const FidelityPlan plan = options.quick ? quick_fidelity_plan() : fidelity_plan(options.balls);
   StudyResults results(options.out / "runs.csv", fidelity_runs());
+  // All seeds of a scene before the next scene: a study that is interrupted has whole rows for its first scenes.
   std::vector<std::vector<SeedRun>> groups;
-  std::map<std::string, std::size_t> group_of;
-  for (int seed = 1; seed <= plan.seeds; ++seed)
-    for (const FidelityScene &scene : plan.scenes) {
-      // Scenes on one bed, or on beds of the same soil, are run one after the other.
-      const std::string soil =
-          fmt::format("{} {}", seed, scene.bed.soil.empty() ? scene.bed.name : scene.bed.soil);
-      const auto [place, added] = group_of.emplace(soil, groups.size());
-      if (added) groups.emplace_back();
-      groups[place->second].push_back({scene.name, seed, [&scene, &options, &plan, seed] {
-                                         return measured(measure(scene, seed, options.out, plan.cycles));
-                                       }});
-    }
+  for (const FidelityScene &scene : plan.scenes)
+    for (int seed = 1; seed <= plan.seeds; ++seed)
+      groups.push_back({{scene.name, seed, [&scene, &options, &plan, seed] {
+                           return measured(measure(scene, seed, options.out, plan.cycles));
+                         }}});
   const std::vector<std::string> failures = make_runs(groups, options.jobs, results);
 
   std::vector<Effect> effects;

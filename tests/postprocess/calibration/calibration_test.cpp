@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstddef>
@@ -256,10 +257,28 @@ TEST(Calibration, WidensIntervalsForTargetsThatScatterToo) {
 }
 
 // Each bed has a scatter of its own, as large as that of the calibrating beds: without it in the intervals, they would hold the truth
-// in three of four cases only.
+// in three of four cases only. Intervals of one set of calibrating beds are not independent, so that there are several sets.
 TEST(Recovery, FindsTheKnownParametersOfSingleBeds) {
-  constexpr int beds = 40;
-  post::CalibrationTask task = two_of_two(5);
+  constexpr int beds = 4;
+  constexpr unsigned sets = 20;
+  const post::CalibrationTask task = two_of_two(5);
+  const std::vector<double> known = {true_k, true_D};
+  std::array<long, 2> held{};
+  for (unsigned set = 1; set <= sets; ++set) {
+    const Scratch scratch;
+    for (const post::RecoveredBed &bed :
+         post::recover(task, known, beds, {12, 1}, scratch.path(), scattered(set)))
+      for (std::size_t j = 0; j < held.size(); ++j)
+        held.at(j) += bed.holds(j, known[j]) ? 1 : 0;
+  }
+  // Of 80 intervals of 95 % 76 hold the truth on average.
+  EXPECT_GE(held[0], 68);
+  EXPECT_GE(held[1], 68);
+}
+
+TEST(Recovery, SharesEvaluationsAndContinues) {
+  constexpr int beds = 10;
+  const post::CalibrationTask task = two_of_two(5);
   const std::vector<double> known = {true_k, true_D};
   const Scratch scratch;
   std::atomic<int> calls = 0;
@@ -273,21 +292,16 @@ TEST(Recovery, FindsTheKnownParametersOfSingleBeds) {
   ASSERT_EQ(found.size(), static_cast<std::size_t>(beds));
   EXPECT_EQ(found.front().seed, 6);
   EXPECT_EQ(found.front().values, scattered(5)({0, post::Stage::search, known, {}}, 6));
-  for (std::size_t j = 0; j < known.size(); ++j) {
-    const auto held = std::count_if(found.begin(), found.end(),
-                                    [&](const post::RecoveredBed &bed) { return bed.holds(j, known[j]); });
-    EXPECT_GE(held, 34) << j; // of 38 on average
-  }
-  // The calibrations share evaluations: apart, each of 40 would take more than 17 points on five beds.
-  EXPECT_LT(calls, beds * 17 * 5 / 2);
+  EXPECT_LT(calls, beds * 17 * 5 * 2 / 3); // apart, each bed takes 17 points on five beds
   calls = 0;
-  const std::vector<post::RecoveredBed> again =
-      post::recover(task, known, beds, {12, 2}, scratch.path(), counted);
-  EXPECT_EQ(calls, 0);
-  EXPECT_EQ(again.back().values, found.back().values);
+  const std::vector<post::RecoveredBed> fewer =
+      post::recover(task, known, 3, {12, 2}, scratch.path(), counted);
+  EXPECT_LT(calls, 3 * 5 * 5); // the beds are measured; evaluations beside another best point may be new
+  EXPECT_EQ(fewer.back().values, found[2].values);
   post::write_recovery_page(scratch / "page", "numbers", task, known, found);
   expect_sound_page(scratch / "page", 1);
-  EXPECT_EQ(post::read_table(scratch / "page/data/recovered.csv").rows(), static_cast<std::size_t>(beds));
+  const post::Table rows = post::read_table(scratch / "page/data/beds.csv");
+  EXPECT_EQ(rows.numbers("seed of the bed").back(), 15.0);
 }
 
 } // namespace

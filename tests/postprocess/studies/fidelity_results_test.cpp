@@ -88,6 +88,11 @@ TEST(FidelityPlan, HasScenesOfDifferentNamesAndKeepsProportions) {
   EXPECT_DOUBLE_EQ(value(small.reference(), "r2"), 0.175);
   EXPECT_DOUBLE_EQ(value(small.reference(), "m2"), 500.0);
   EXPECT_DOUBLE_EQ(value(small.reference(), "Fw"), 14.7e3);
+  EXPECT_DOUBLE_EQ(value(small.reference(), "k"), 2.5e8); // k / m2 stays the same
+  EXPECT_DOUBLE_EQ(value(small.reference(), "dt"), 1.25e-5);
+  EXPECT_EQ(value(small.reference(), "steps_per_cycle"), 4000.0);
+  EXPECT_EQ(value(small.scenes[2], "steps_per_cycle"), 2000.0); // balls twice as large
+  EXPECT_EQ(value(post::fidelity_plan(2500).reference(), "steps_per_cycle"), 8000.0);
 }
 
 // Runs on five seeds; a scene multiplies the force by a factor, and by one per seed that it does not share with the complete bed.
@@ -139,8 +144,8 @@ TEST_F(BedAdviceTest, NamesTheCheapestSceneWithinTheError) {
   const std::vector<std::string> commands = post::scene_commands(*found.scene, plan.cycles);
   ASSERT_EQ(commands.size(), 4u);
   EXPECT_EQ(commands[0], "bed --balls 400 --width 0.8");
-  EXPECT_NE(commands[1].find("run inputs/bed/in.settle -var k 1e+08 "), std::string::npos) << commands[1];
-  EXPECT_NE(commands[3].find(" -var steps_per_cycle 2750 "), std::string::npos) << commands[3];
+  EXPECT_NE(commands[1].find("run inputs/bed/in.settle -var k 16000000 "), std::string::npos) << commands[1];
+  EXPECT_NE(commands[3].find(" -var steps_per_cycle 1250 "), std::string::npos) << commands[3];
 }
 
 TEST_F(BedAdviceTest, RefusesWhatTheTableDoesNotAnswer) {

@@ -27,13 +27,13 @@ TEST(FidelityStudy, ContinuesWhereItWasInterruptedAndABedThatFailsStopsNoOther) 
     EXPECT_GT(run.cpu_s, 0.05) << run.variant;
     EXPECT_LT(run.cpu_s, 10.0) << run.variant;
   }
-  const auto made = fs::last_write_time(study.out() / "beds/loose_2.restart");
+  const auto made = fs::last_write_time(study.out() / "beds/base_2.restart");
 
   interrupt(rows);
   fs::remove(study.out() / "index.html");
   const post::Outcome rest = study.run();
   ASSERT_TRUE(rest.ok()) << rest.output;
-  EXPECT_EQ(fs::last_write_time(study.out() / "beds/loose_2.restart"), made);
+  EXPECT_EQ(fs::last_write_time(study.out() / "beds/base_2.restart"), made);
   const std::vector<post::FidelityRun> again = post::read_fidelity_runs(rows);
   ASSERT_EQ(again.size(), runs.size());
   for (const post::FidelityRun &run : runs) {
