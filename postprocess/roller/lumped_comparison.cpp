@@ -205,7 +205,8 @@ ComparedQuantity together(const std::vector<LumpedComparison> &records, std::siz
 /// Whether the interval of a difference does not contain zero, and the difference is large enough to count: the decay of the motion
 /// from rest, and rounding, make differences, too.
 bool beyond_scatter(const ComparedQuantity &value, std::size_t q) {
-  constexpr double share = 0.01; // of the chain's value
+  // Of the chain's value. Work is summed over samples, of which none is at the instant at which the drum lands.
+  const double share = q == static_cast<std::size_t>(CycleQuantity::work) ? 0.05 : 0.01;
   return value.difference.significant() &&
          std::fabs(value.difference.mean) > std::max(share * std::fabs(value.lumped), texts.at(q).negligible);
 }

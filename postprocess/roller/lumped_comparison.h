@@ -50,7 +50,7 @@ struct LumpedComparison {
     return quantities.at(static_cast<std::size_t>(quantity));
   }
   /// Whether record and chain differ beyond scatter: the interval of the difference does not contain zero, and it is above 1 % of the
-  /// chain's value (CMV: above 1; contact: above 0.01).
+  /// chain's value (work: 5 %; CMV: above 1, too; contact: above 0.01, too).
   bool differs(CycleQuantity quantity) const;
 };
 

@@ -68,11 +68,9 @@ std::vector<BedComparison> FidelityPlan::comparisons() const {
 }
 
 FidelityPlan quick_fidelity_plan() {
-  PlacedBed bed{"base", {}, {}, "1e-2"};
-  bed.packing.balls = 150;
-  bed.packing.width = 0.6;
-  bed.scene = {{"case", "loose"}, {"m2", "100"},  {"m3", "50"},  {"r2", "0.1"},
-               {"r3", "0.05"},    {"k23", "5e4"}, {"c23", "500"}};
+  PlacedBed bed = small_bed();
+  bed.name = "base";
+  bed.scene.emplace_back("m3", "50");
   const FidelityScene base{"base", "", "", bed, {{"Fw", "2940"}}};
   FidelityScene compared = base;
   compared.base = base.name;
