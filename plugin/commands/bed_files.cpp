@@ -33,7 +33,6 @@ namespace {
 //   # drumlin note NAME VALUE
 constexpr const char *data_note = "# drumlin note ";
 constexpr const char *notes_begin = "\ndrumlin restart notes\n";
-constexpr std::streamoff longest_notes = 4096;
 
 std::string notes_text(const RestartNotes &notes) {
   std::string text = notes_begin;
