@@ -34,7 +34,7 @@ std::vector<double> history_row(const RollerState &state, const CycleSums &cycle
 }
 
 std::string cycles_header(bool with_bed, bool absorbs) {
-  const std::string columns =
+  std::string columns =
       "cycle,time,a_drum_min,a_drum_max,F_contact_min,F_contact_max,contact_share,a1_cos,a1_sin,a2_cos,"
       "a2_sin,ah_cos,ah_sin,work_excitation,dissipated_contact,dissipated_bond,kinetic,potential,"
       "stored_contact,stored_bond";

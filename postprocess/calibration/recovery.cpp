@@ -171,6 +171,7 @@ std::vector<RecoveredBed> recover(CalibrationTask task, const std::vector<double
 std::vector<std::string> recovery_answer(const CalibrationTask &task, const std::vector<double> &known,
                                          const std::vector<RecoveredBed> &found) {
   std::vector<std::string> lines;
+  lines.reserve(task.vary.size());
   for (std::size_t j = 0; j < task.vary.size(); ++j) {
     const auto held = std::count_if(found.begin(), found.end(),
                                     [&](const RecoveredBed &bed) { return bed.holds(j, known[j]); });

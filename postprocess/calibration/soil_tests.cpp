@@ -164,7 +164,7 @@ std::vector<double> SoilTests::measure(const Evaluation &evaluation, int seed) {
 }
 
 fs::path SoilTests::record(const Evaluation &evaluation, int seed) {
-  const fs::path place =
+  fs::path place =
       fs::absolute(out_ / "records" / fmt::format("evaluation_{}_seed_{}", evaluation.number, seed));
   if (fs::exists(place)) return place;
   const Point point = point_of(evaluation, seed);
