@@ -311,7 +311,7 @@ void write_vtk_series(const VtkArguments &arguments) {
     std::size_t done = 0;
     for (const auto &[step, dump] : steps) {
       const double time = static_cast<double>(step) * parameters.dt;
-      const auto add = [&, step = step](std::size_t collection, const std::string &name) {
+      const auto add = [&](std::size_t collection, const std::string &name) {
         names.push_back(name);
         series[collection].emplace_back(time, name);
         return files / name;
