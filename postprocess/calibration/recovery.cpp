@@ -176,6 +176,7 @@ std::vector<std::string> recovery_answer(const CalibrationTask &task, const std:
     const auto held = std::count_if(found.begin(), found.end(),
                                     [&](const RecoveredBed &bed) { return bed.holds(j, known[j]); });
     std::vector<double> widths;
+    widths.reserve(found.size());
     for (const RecoveredBed &bed : found)
       widths.push_back(std::sqrt(bed.estimates[j].high / bed.estimates[j].low));
     std::sort(widths.begin(), widths.end());

@@ -50,7 +50,7 @@ FidelityScene with(FidelityScene scene, const std::string &name, const std::stri
 }
 
 /// The scene with another stiffness of the contacts and the time steps for it and for the smallest ball.
-FidelityScene with_stiffness(FidelityScene scene, double k) {
+FidelityScene with_stiffness(const FidelityScene &scene, double k) {
   const double longer = scene.bed.packing.radius_min / PackingOptions().radius_min * std::sqrt(default_k / k);
   const int steps = 250 * static_cast<int>(std::ceil(default_steps / longer));
   return with(scene, scene.name, scene.change,
