@@ -235,7 +235,7 @@ std::vector<double> noted_tops(const std::filesystem::path &file) {
 /// A soft subgrade of 110 balls in the plane, 70 in three dimensions, and a base course of 60 or 50, as ./drumlin bed and in.settle make them.
 class LayeredBed : public Layers {
 protected:
-  static constexpr double width = 0.8, largest = 0.048; // m
+  static constexpr double largest = 0.048; // m, diameter
   static constexpr std::array<double, 2> thickness = {0.2, 0.1};
 
   static Outcome settle(const Scratch &folder, const Variables &more, int ranks = 1) {
@@ -326,7 +326,7 @@ TEST_P(LayeredBed, CarriesARollerAndContinuesWhereItStopped) {
   EXPECT_EQ(made["k"], "1e8,1e9");
   EXPECT_EQ(made["friction"], "0.5,0.8");
   EXPECT_EQ(made["layers"], "2");
-  EXPECT_NE(made["layer_tops"].find(","), std::string::npos);
+  EXPECT_NE(made["layer_tops"].find(','), std::string::npos);
 }
 
 } // namespace
