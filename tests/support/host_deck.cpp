@@ -46,7 +46,7 @@ Outcome run_engine(const fs::path &deck, const std::vector<std::string> &words, 
   const post::EngineCommand command = post::engine_command(deck, arguments, ranks, post::Cores::shared);
   std::vector<std::string> environment = mpi_environment(folder);
   environment.insert(environment.end(), command.environment.begin(), command.environment.end());
-  return run_program(command.words, environment, folder, 20.0);
+  return run_program(command.words, environment, folder, 60.0);
 }
 
 Outcome run_host(const std::string &pair, const std::string &lines, const fs::path &folder, int ranks) {

@@ -17,7 +17,7 @@ std::string property(const std::string &name, const std::string &value);
 std::string host_properties(const std::string &text = "");
 
 /// Runs a deck with the plugin, output in a file; `words` follow the deck on the command line. Standard
-/// limit: 20 s.
+/// limit: 60 s.
 Outcome run_engine(const std::filesystem::path &deck, const std::vector<std::string> &words,
                    const std::filesystem::path &folder, int ranks);
 

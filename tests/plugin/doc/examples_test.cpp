@@ -75,7 +75,7 @@ Outcome run_example(const Example &example, const fs::path &folder) {
     fs::create_directory_symlink(fs::path(plugin_library()).parent_path(), folder / "build/release/lib");
     fs::create_directory_symlink(fs::path(DRUMLIN_TOOLS).parent_path(), folder / "build/release/bin");
     fs::create_directory_symlink(root / "inputs", folder / "inputs");
-    return run_program({"/bin/sh", "-ec", example.text}, mpi_environment(folder), folder, 60.0);
+    return run_program({"/bin/sh", "-ec", example.text}, mpi_environment(folder), folder, 120.0);
   }
   if (example.is_deck) {
     const fs::path deck = folder / (example.language == "lammps" ? "own.lammps" : "own.in");
