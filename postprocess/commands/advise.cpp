@@ -84,8 +84,8 @@ double judged_share(const std::string &text) {
 
 void run_bed(const Arguments &arguments) {
   BedAdviceRequest request;
-  const std::string &question = choice_option("--question", arguments.question.value_or(""),
-                                              {"force", "acceleration", "settlement", "stiffness"});
+  const std::string question = choice_option("--question", arguments.question.value_or(""),
+                                             {"force", "acceleration", "settlement", "stiffness"});
   for (const BedQuestion &one : bed_questions)
     if (question == one.name) request.question = one.quantity;
   request.within = judged_share(arguments.within.value_or("10%"));
