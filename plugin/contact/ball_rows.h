@@ -35,7 +35,7 @@ struct Columns {
   to.column[3] = __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7);
 }
 
-/// The same with the rows that `row(0)` to `row(3)` point to, which need not be aligned.
+/// Columns of the four rows whose addresses are `row(0)` to `row(3)`. The addresses need not be multiples of 32 bytes.
 template <class Row>
 [[gnu::always_inline]] inline void load_columns(Columns &to, const Row &row) {
   Four a, b, c, d;
@@ -86,9 +86,10 @@ private:
 /// A contact of a block.
 struct BlockContact {
   int i, j;
-  int pair;        ///< its number in the list of pairs
-  bool touches;    ///< false in the step in which the contact ends
-  double *history; ///< of the contact; nullptr if there is none
+  int pair;     ///< its number in the list of pairs
+  bool touches; ///< false in the step in which the contact ends
+  double *
+      history; ///< numbers that the engine stores for the contact, such as the tangential spring; nullptr without any
 };
 
 namespace detail {
@@ -99,7 +100,7 @@ inline void store(physics::Numbers &numbers, int n, const Four &four) {
   std::memcpy(numbers.at + n, &four, sizeof four);
 }
 
-/// The first three columns of one less those of the other.
+/// Stores the differences `one` - `other` of the first three columns, the components of vectors.
 [[gnu::always_inline]] inline void store_difference(physics::Vectors &to, int n, const Columns &one,
                                                     const Columns &other) {
   store(to.x, n, one.column[0] - other.column[0]);

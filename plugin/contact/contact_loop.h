@@ -82,8 +82,8 @@ private:
     return engine_.histories(i) + static_cast<std::ptrdiff_t>(places_.stride) * place;
   }
 
-  /// A contact that was found. Prefetches what will be read for it: these places are scattered in memory, and
-  /// waiting for each in turn would take more time than the computation.
+  /// Describes a pair that is in contact, and prefetches the data that its force will need. These data are scattered
+  /// in memory: to wait for each in turn would take longer than to compute the force.
   BlockContact expect(int found) const {
     const Pair &pair = pairs_.pairs()[static_cast<std::size_t>(found)];
     const std::ptrdiff_t j = pair.j;
@@ -97,7 +97,7 @@ private:
     return {pair.i, pair.j, found, true, history};
   }
 
-  /// Reads what is known of the first contacts.
+  /// Copies velocities, masses and contact history of the first `count` contacts into the block.
   void take(int count) {
     for (int n = 0; n < count; ++n) {
       block_.in_contact[n] = 1.0;
@@ -111,7 +111,7 @@ private:
                                     stepped && stepping_->counted());
   }
 
-  /// Tells the engine if a contact begins or ends.
+  /// Updates the engine's flag of a contact that may begin or end in this step.
   void take_change(int n) {
     BlockContact &contact = contacts_[n];
     contact.touches = pairs_.touches(contact.pair);
@@ -131,7 +131,7 @@ private:
     return {history[place], history[place + 1], history[place + 2]};
   }
 
-  /// Computes the forces of the first contacts and adds them to the balls.
+  /// Computes the forces of the first `count` contacts and adds them to the balls.
   void exert(int count) {
     take(count);
     for (int first = 0, end = 0; first < count; first = end) {
@@ -145,7 +145,7 @@ private:
     return table_.at(atom_.type[contacts_[n].i], atom_.type[contacts_[n].j]);
   }
 
-  /// The end of the contacts that have the same coefficients as the first.
+  /// Number of the next contact, after `first`, whose coefficients differ from those of `first`; `count` if there is none.
   int end_of_law(int first, int count) const {
     int end = first;
     while (end < count && &law_of(end) == &law_of(first))
@@ -189,7 +189,8 @@ private:
   }
 
   void count_dashpots(int first, int end) {
-    double *const sums = stepping_->damping(); // outside of the loop: the compiler cannot tell that it stays
+    double *const sums =
+        stepping_->damping(); // read before the loop: the compiler cannot know that it does not change
     for (int n = first; n < end; ++n) {
       sums[contacts_[n].i] += block_.dashpot[n];
       sums[contacts_[n].j] += block_.dashpot[n];
@@ -227,7 +228,7 @@ private:
     block_.force[n] = state.force;
   }
 
-  /// Adds the forces of the first contacts to their balls, and stores their history.
+  /// Adds the forces of the first `count` contacts to their balls, and stores the contacts' history.
   void add_forces(int count) {
     if (remembers && changed_)
       for (int n = 0; n < count; ++n)
@@ -278,8 +279,8 @@ private:
   const bool moves_; // false in the set-up of a run: springs stay as they are
   const bool light_, in_setup_;
 
-  static constexpr int at_once = 32; // pairs
-  int count_ = 0;                    // contacts that are found and not computed yet
+  static constexpr int at_once = 32; // pairs that are tested for contact in one call
+  int count_ = 0;                    // contacts found whose forces are not computed yet
   bool changed_ = false;             // whether a contact begins or ends among them
   physics::ContactBlock block_;
   std::int32_t found_[at_once + 4];

@@ -15,7 +15,7 @@ namespace drumlin {
 /// A pair of balls of a neighbour list.
 struct Pair {
   int i, j;
-  int place; ///< of j in the list of i
+  int place; ///< position of j among the neighbours of i
 };
 
 /// Which pairs find_touching() has found.

@@ -205,7 +205,7 @@ void FixBoundaryAbsorb::end_of_step() {
   heat_ += 0.5 * update->dt * (before + power_); // trapezoidal rule
 }
 
-/// Heat of the dashpots, W. Summed over the ranks in each step and not at the end, so that a restarted run adds the same
+/// Power, W, that the dashpots dissipate. Summed over the ranks in each step and not at the end, so that a restarted run adds the same
 /// numbers in the same order. Collective.
 double FixBoundaryAbsorb::heat_rate() const {
   double heat = 0.0;

@@ -44,10 +44,10 @@ public:
   /// normal, m. Collective.
   double compute_vector(int) override;
 
-  /// What belongs to the balances of energy and of forces of a scene; sums over all balls.
+  /// Energies and forces of the boundary, summed over all its balls, for the balances of a scene.
   struct Totals {
     double stored = 0.0;           ///< J, in the springs
-    double heat = 0.0;             ///< J, of the dashpots since the first set-up
+    double heat = 0.0;             ///< J, dissipated by the dashpots since the first run began
     double work = 0.0;             ///< J, of the constant forces since the definition of the fix
     std::array<double, 3> force{}; ///< N, on the balls
   };
@@ -89,8 +89,8 @@ private:
   std::vector<Grounded> balls_; // an entry for each ball of this rank
   std::vector<std::pair<int, drumlin::physics::CoupledGround>> coupled_; // of this step
   double count_ = 0.0;                                                   // number of balls of the group
-  double heat_ = 0.0;  // J, of all ranks, since the first set-up
-  double power_ = 0.0; // W, of all ranks, at the end of the last step
+  double heat_ = 0.0;  // J, dissipated since the first run began, sum over all ranks
+  double power_ = 0.0; // W, dissipated at the end of the last step, sum over all ranks
   bool echoed_ = false;
 };
 

@@ -22,8 +22,9 @@ struct RollerForces {
   double excitation_power = 0.0;   ///< W, of the excitation on the drum
   double tangential_power = 0.0;   ///< W, taken from the balls by friction and rolling; of a bed only
   double ground_stored = 0.0; ///< J, springs of absorbing boundaries less the work of their constant forces
-  double ground_heat = 0.0;   ///< J, of the dashpots of absorbing boundaries since their first set-up
-  bool in_contact = false;    ///< whether a contact of the drum exerts a force
+  double ground_heat =
+      0.0; ///< J, dissipated by the dashpots of absorbing boundaries since their first run began
+  bool in_contact = false; ///< whether the soil exerts a force on the drum
 };
 
 /// Drum, frame and forces at one time.

@@ -25,7 +25,7 @@ struct BedSample {
   double void_ratio = 0.0;
   double raised = 0.0;        ///< kg m, mass times rise of all balls since the first set-up
   double friction_heat = 0.0; ///< J, of friction and rolling since the start
-  bool absorbs = false;       ///< whether there are absorbing boundaries
+  bool absorbs = false;       ///< whether fix boundary/absorb acts on the bed
 };
 
 /// Header line of the samples, and a row. \param bed nullptr: not a bed; otherwise `with_frame` must be true

@@ -46,7 +46,7 @@ public:
       for (int n = 0; n < count; ++n)
         tell(block, n, contacts[n]);
     int sums_of = sums_of_;
-    Vec3 force = force_, torque = torque_; // in registers
+    Vec3 force = force_, torque = torque_; // local copies, which the compiler keeps in registers
     for (int n = 0; n < count; ++n) {
       const int i = contacts[n].i, j = contacts[n].j;
       if (i != sums_of) {
@@ -127,8 +127,8 @@ private:
   const bool observed_, tallies_;
   double *const f_, *const t_; // forces and torques of the balls
   const int taken_;            // balls below this index take the force of a contact on this rank
-  int sums_of_ = -1;           // the ball i of the contacts at hand
-  Vec3 force_{}, torque_{};    // sums over its contacts
+  int sums_of_ = -1;           // the ball i whose contacts are being summed; -1: none
+  Vec3 force_{}, torque_{};    // N and N m, sums over the contacts of that ball
 };
 
 } // namespace LAMMPS_NS

@@ -15,7 +15,8 @@
 namespace drumlin {
 
 /// Computes the forces of all contacts between balls in a time step, instead of the engine's loop over pairs.
-/// Steps in which the engine needs the data of each contact use its own loop: see needs_engine_loop().
+/// In time steps in which the engine asks for the forces of single contacts, for output or a fix, its own loop computes them
+/// instead: see needs_engine_loop().
 /// \tparam flag bits of the engine's contact flags that say that there is a contact
 template <class Parameters, bool stepped, FrictionModel tangential, bool rolling, int flag>
 class EnginePairContacts {

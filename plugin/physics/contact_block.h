@@ -68,7 +68,7 @@ struct ContactBlock {
   Numbers stored_stiffness;  ///< N/m, the same of the tangential stiffness, where that varies
   // Computed:
   Numbers overlap;            ///< m
-  Numbers rate_half;          ///< of the overlap, m/s, with the half-step velocities
+  Numbers rate_half;          ///< m/s, rate of change of the overlap from the velocities half a step earlier
   Vectors normal;             ///< from j to i
   Vectors slip;               ///< m/s, of ball i's surface relative to j's
   Numbers arm_i, arm_j;       ///< m, from the centre of each ball to the point where friction acts

@@ -221,7 +221,7 @@ void check_work(const PackingOptions &options, double height) {
 
 namespace {
 
-/// Content of the ball of mean mass, m2 or m3.
+/// Area, m2, of a disc of mean mass, or volume, m3, of such a sphere.
 double mean_content(const PackingOptions &options) {
   const int dimensions = options.dimensions();
   if (options.sieve) return content(0.5, dimensions) * BallNumbers(*options.sieve, dimensions).mean_power();
@@ -233,7 +233,7 @@ double mean_content(const PackingOptions &options) {
   return dimensions == 2 ? pi * low * high : 4.0 / 3.0 * pi * 2.0 * low * low * high * high / (low + high);
 }
 
-/// Content of the balls of a layer that has settled, m2 or m3.
+/// Area, m2, or volume, m3, that the balls of a layer take of its settled thickness: without the voids.
 double settled_content(const BedLayer &layer) {
   const PackingOptions &options = layer.packing;
   const double base = options.width * (options.dimensions() == 2 ? 1.0 : options.depth);
@@ -382,7 +382,7 @@ std::string name_of_grading(const PackingOptions &options) {
 }
 
 /// \param parts the options of each layer, which have the same box
-/// \param more lines for the header, notes of layers
+/// \param more further comment lines of the file's header: what is noted of the layers
 std::string data_text(const std::vector<PackingOptions> &parts, const std::string &more, double density,
                       const Packing &packing) {
   const PackingOptions &options = parts.front();

@@ -126,7 +126,7 @@ std::string bed_data(const std::vector<BedLayer> &layers, double density, const 
 
 /// The balls of a packing sorted by size.
 Sieving sieved(const Packing &packing, int dimensions);
-/// Those of one layer.
+/// The balls of one layer before it settles.
 Sieving sieved_layer(const Packing &packing, int dimensions, int layer);
 
 } // namespace drumlin::post

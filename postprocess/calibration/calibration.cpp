@@ -185,8 +185,8 @@ private:
     return earlier;
   }
 
-  /// The estimated parameters, limited to their ranges and to a distance from the best point at which the evaluations near
-  /// that point can still be used in a fit around the estimate.
+  /// The point at which the fitted linear model meets the targets, moved back into the ranges of the parameters. It also stays so
+  /// close to the best evaluated point that a fit around it can use the evaluations that exist already.
   std::vector<double> estimate(const Sensitivity &sensitivity, const std::vector<double> &centre) const {
     const double reach = std::exp(fit_reach - slope_step);
     std::vector<double> point;

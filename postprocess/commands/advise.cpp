@@ -44,7 +44,7 @@ struct Arguments {
 /// The largest number that in.chain allows.
 constexpr int most_cycles = 10'000'000;
 
-/// What a bed is asked for by --question.
+/// The results of a bed that --question can name.
 struct BedQuestion {
   const char *name;
   BedQuantity quantity;
@@ -71,7 +71,7 @@ const Measure &measure_of(const std::string &name) {
   return *found;
 }
 
-/// A share: 0.1 or 10%.
+/// The allowed relative error of --within, given as 0.1 or 10%.
 double judged_share(const std::string &text) {
   const bool percent = !text.empty() && text.back() == '%';
   const std::string number = percent ? text.substr(0, text.size() - 1) : text;

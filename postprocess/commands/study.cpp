@@ -19,7 +19,7 @@ namespace {
 
 /// Runs at the same time, each a process of its own.
 constexpr int most_jobs = 1000;
-/// Of a bed that is scaled: with fewer balls a drum has none below it.
+/// Least number of balls of a scaled bed: the drum of a smaller one would have hardly any below it.
 constexpr int least_balls = 100;
 constexpr int most_balls = 1000000;
 

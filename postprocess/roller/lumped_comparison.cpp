@@ -25,7 +25,7 @@ constexpr int lumped_count = 40; // cycles of the chain of which values are mean
 constexpr std::size_t drawn = 4; // cycles in the figures of motion
 
 struct QuantityText {
-  const char *name;  ///< in a sentence
+  const char *name;  ///< words for a sentence of the page
   const char *label; ///< with unit, as in tables
   double scale;      ///< from SI to the label's unit
   double negligible; ///< difference that does not count, whatever the value is
@@ -96,7 +96,7 @@ std::vector<double> position_from_origin(const Record &record, const Identificat
   return position;
 }
 
-/// The values of each whole cycle.
+/// Peak acceleration, peak force and the other compared values of each whole cycle of a record.
 std::vector<CycleValues> values_of(const Record &record) {
   const MeterRecord meter = meter_cycles(record);
   const double per_cycle = record.period() / record.interval;

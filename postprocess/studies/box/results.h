@@ -30,9 +30,9 @@ struct BoxRun {
 };
 constexpr const char *default_box = "default rigid";
 
-/// What a run is asked for.
+/// A result of a run that the study compares.
 struct BoxQuantity {
-  const char *name;   ///< in a sentence
+  const char *name;   ///< words for a sentence of the page
   const char *column; ///< of runs.csv
   const char *unit;   ///< of tables and figures
   double scale;       ///< from SI to this unit

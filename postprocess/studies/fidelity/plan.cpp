@@ -36,7 +36,7 @@ std::string file_name(const std::string &scene) {
   return name;
 }
 
-/// The scene with other values.
+/// A copy of a scene in which some variables of its decks have other values.
 /// \param values of all its decks
 /// \param run of in.bed alone
 FidelityScene with(FidelityScene scene, const std::string &name, const std::string &change,

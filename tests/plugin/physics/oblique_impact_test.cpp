@@ -45,7 +45,7 @@ std::ostream &operator<<(std::ostream &out, const Oblique &impact) {
              << (impact.transition == Transition::A ? ", A" : ", B");
 }
 
-/// N s, N s, and the slip afterwards, m/s.
+/// Normal and tangential impulse, N s, and the tangential velocity of the contact point after the impact, m/s.
 struct Impulses {
   double normal, tangential, slip_after;
 };
@@ -164,7 +164,7 @@ private:
   [[nodiscard]] double push(const oracle::State &y) const {
     return formula_.k * power(y[overlap], formula_.p) + formula_.c * power(y[overlap], formula_.q) * y[rate];
   }
-  /// Of the sign of push(), also where d < 0.
+  /// Has the sign of the normal force, and is also defined where the overlap d is negative.
   [[nodiscard]] double end(const oracle::State &y) const {
     const double d = y[overlap];
     return std::copysign(std::pow(std::fabs(d), formula_.p - formula_.q), d) * formula_.k +
@@ -173,17 +173,17 @@ private:
   [[nodiscard]] double sticking_pull(const oracle::State &y) const {
     return y[spring] + ct(y[overlap]) * y[slip];
   }
-  /// The state with which sliding begins. Without a dashpot the spring has the force mu Fn.
+  /// Begins to slide. Without a dashpot the spring then has the force mu Fn.
   oracle::State sliding(oracle::State y, double way) {
     slides_ = way;
     if (ct(y[overlap]) == 0.0) y[spring] = way * impact_.mu * push(y);
     return y;
   }
-  /// Change of the force of the spring, N/s, as its stiffness shrinks.
+  /// Rate of change of the spring's force, N/s, while unloading makes the spring softer.
   [[nodiscard]] double unloading(const oracle::State &y) const {
     return y[rate] < 0.0 ? formula_.r * y[spring] * y[rate] / std::max(y[overlap], 1e-15) : 0.0;
   }
-  /// Of the length of the spring, m/s, while it slides.
+  /// Rate of change of the spring's length, m/s, while the contact slides.
   [[nodiscard]] double stretching(const oracle::State &y) const {
     const double d = y[overlap];
     if (ct(d) > 0.0) return (slides_ * impact_.mu * push(y) - y[spring]) / ct(d);
@@ -229,7 +229,7 @@ private:
 
   const Formula formula_;
   const Oblique impact_;
-  double slides_ = 0.0; // +1, -1: the way of the slider
+  double slides_ = 0.0; // direction of sliding, +1 or -1; 0: sticking
 };
 
 template <class Contact>

@@ -110,7 +110,7 @@ TEST(LumpedComparison, OfAChainsRecordDiffersInNothing) {
 }
 
 TEST(LumpedComparison, ShowsThatASoilStiffens) {
-  // Force with the third power of the depth.
+  // A soil that stiffens: its force grows with the third power of the drum's depth.
   const ChainParameters p = post::table1_case("II", post::Transition::B);
   const auto stiffening = [](double depth, double rate) { return 4e11 * depth * depth * depth + 5e4 * rate; };
   const ChainHistory history = on_soil(p, stiffening);
@@ -148,7 +148,8 @@ TEST(LumpedComparison, OfSeveralRecordsHasTheScatterOverThem) {
       records[i].quantities[q] = {{100.0 + difference, 90.0}, 100.0, {difference, 90.0}};
     }
   const std::vector<std::string> lines = post::lumped_answer(records);
-  // Mean 11 with Student's t for three records, 4.303 / sqrt(3).
+  // The three differences have the mean 11 and the standard deviation 1. Half of the 95 % confidence interval of their
+  // mean is t/sqrt(3), with Student's t = 4.303 for two degrees of freedom.
   EXPECT_NE(lines.front().find("the peak contact force of the record is larger by 11 ± 2.5 %"),
             std::string::npos)
       << lines.front();

@@ -95,7 +95,8 @@ TEST(FidelityPlan, HasScenesOfDifferentNamesAndKeepsProportions) {
   EXPECT_EQ(value(post::fidelity_plan(2500).reference(), "steps_per_cycle"), 8000.0);
 }
 
-// Runs on five seeds; a scene multiplies the force by a factor, and by one per seed that it does not share with the complete bed.
+// Invented runs of five seeds. add() gives each run of a scene the force of the complete bed of the same seed, times a factor of the
+// scene, times a deviation of the seed that the complete bed does not have.
 class BedAdviceTest : public ::testing::Test {
 protected:
   void add(const std::string &scene, double factor, double scatter, double cpu, int seeds = 5) {
