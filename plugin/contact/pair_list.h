@@ -44,10 +44,11 @@ using TwoFlags = std::int64_t __attribute__((vector_size(16)));
 
 } // namespace detail
 
-/// Finds the pairs `first` to `end` that touch, or did a step ago if `remembers`, without a jump that depends on
-/// whether balls touch, which processors cannot predict. \param first and end multiples of 4 \param touched for each
-/// four pairs the set of those that touched a step ago, and then of those that touch \param found their numbers; must
-/// have room for four more
+/// Finds the pairs from number `first` to before `end` that touch, and if `remembers` also those that touched a step ago.
+/// It tests four pairs at a time, without a branch that depends on whether balls touch: processors could not predict it.
+/// \param first, end multiples of 4
+/// \param touched for every four pairs, which of them touched a step ago; afterwards, which of them touch now
+/// \param found gets the numbers of the pairs that were found; must have room for four more
 template <bool remembers>
 DRUMLIN_FOR_THIS_PROCESSOR Found find_touching(const BallRows::Place *places, const Pair *pairs, int first,
                                                int end, std::uint8_t *touched, std::int32_t *found) {
