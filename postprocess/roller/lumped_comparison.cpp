@@ -5,6 +5,7 @@
 #include "roller/chain_solver.h"
 #include "roller/meter_record.h"
 #include "support/csv.h"
+#include "support/harmonics.h"
 #include "support/range.h"
 
 #include <fmt/format.h>
@@ -105,8 +106,8 @@ std::vector<CycleValues> values_of(const Record &record) {
     const MeterCycle &cycle = meter.cycles[i];
     const auto begin = static_cast<std::ptrdiff_t>(std::lround(static_cast<double>(i) * per_cycle));
     const auto end = static_cast<std::ptrdiff_t>(std::lround(static_cast<double>(i + 1) * per_cycle));
-    const double cmv =
-        300.0 * std::abs(cycle.acceleration[double_order]) / std::abs(cycle.acceleration[basic_order]);
+    const double cmv = compaction_meter_value(
+        {std::abs(cycle.acceleration[basic_order]), std::abs(cycle.acceleration[double_order]), 0.0});
     values.push_back({*std::max_element(record.a_drum.begin() + begin, record.a_drum.begin() + end),
                       cycle.peak_force.value_or(0.0), cycle.contact_share.value_or(0.0), cmv,
                       cycle.energy.value_or(0.0)});

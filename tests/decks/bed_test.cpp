@@ -3,6 +3,7 @@
 
 #include "bed/dump_readers.h"
 #include "chain/run_files.h"
+#include "support/parameter_file.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -571,6 +573,24 @@ TEST_F(Bed, EnergyErrorIsBelowAPercentWithRollingFriction) {
 
 // On the default gravel a vibrating drum stays within 2 % of its diameter of 0.2 m. Without rolling friction it settles
 // more: of four seeds by 2 to 18 mm in four cycles.
+/// Springs and dashpots of all balls of the floor are together those of the ground below it: the area times rho c_p^2/H and rho c_p.
+void expect_ground_below_floor(const std::string &output, const fs::path &folder) {
+  constexpr double area = 0.6; // m2, width of the bed times a thickness of 1 m
+  const std::string name = "fix boundary/absorb ground_floor: ";
+  const std::size_t line = output.find(name);
+  ASSERT_NE(line, std::string::npos) << output;
+  double balls = 0.0, spring = 0.0, dashpot = 0.0;
+  ASSERT_EQ(std::sscanf(output.c_str() + line + name.size(),
+                        "%lf balls, each with normal k = %lf N/m, c = %lf", &balls, &spring, &dashpot),
+            3);
+  const std::map<std::string, std::string> made = post::read_parameters(folder / "parameters.csv");
+  const auto value = [&made](const char *key) { return std::stod(made.at(key)); };
+  const double impedance = value("ground_density") * value("ground_cp");
+  EXPECT_NEAR(balls * dashpot, impedance * area, 1e-5 * impedance * area);
+  const double stiffness = impedance * value("ground_cp") / value("ground_depth") * area;
+  EXPECT_NEAR(balls * spring, stiffness, 1e-5 * stiffness);
+}
+
 TEST_F(Bed, EnergyErrorIsBelowAThousandthOnGroundThatAbsorbs) {
   for (const char *stepping : steppings) {
     const Scratch folder;
@@ -584,6 +604,7 @@ TEST_F(Bed, EnergyErrorIsBelowAThousandthOnGroundThatAbsorbs) {
                               heat = cycles.numbers("dissipated_ground"),
                               stored = cycles.numbers("stored_ground");
     EXPECT_GT(heat.back(), 0.05 * work.back()) << stepping; // so the ground takes part in the balance
+    expect_ground_below_floor(outcome.output, folder.path());
     double balance = -work.back();
     for (const char *column : {"dissipated_contact", "dissipated_bond", "dissipated_friction", "kinetic",
                                "potential", "stored_contact", "stored_bond"})
