@@ -116,4 +116,11 @@ void StudyResults::add(const Row &row) {
   finished_.insert(key_of(row));
 }
 
+std::string seed_by_seed_note(const std::string &compared) {
+  return fmt::format(
+      "After the ±: half of the 95 % confidence interval over the seeds (Student's t); {}. * marks "
+      "changes whose interval does not contain zero. By chance alone, one of twenty changes has it.",
+      compared);
+}
+
 } // namespace drumlin::post

@@ -77,4 +77,8 @@ private:
   std::set<Row> finished_;
 };
 
+/// The note below a table of means and changes over seeds, as written in pages: MEAN ± HALF WIDTH, * for a significant
+/// change. \param compared what a change compares, in words
+std::string seed_by_seed_note(const std::string &compared);
+
 } // namespace drumlin::post

@@ -44,7 +44,8 @@ const std::array<BoxQuantity, box_quantity_count> box_quantities = {
      {"damping ratio D", "D [-]", "-", 1.0}}};
 
 const CsvSchema<BoxRun> &box_runs() {
-  constexpr int digits = 9; // with fewer than all digits a missing value is an empty cell
+  constexpr int digits =
+      9; // significant digits: columns of limited digits may have empty cells, which stand for missing values (NaN)
   std::vector<CsvColumn<BoxRun>> columns = {csv_column("run", &BoxRun::run),
                                             csv_column("seed", &BoxRun::seed),
                                             csv_column("width [default widths]", &BoxRun::width),

@@ -33,7 +33,8 @@ const CsvSchema<FidelityRun> &fidelity_runs() {
         name, [q = static_cast<std::size_t>(quantity)](auto &run) -> auto & { return run.values[q]; },
         digits);
   };
-  constexpr int digits = 9; // with fewer than all digits a missing value is an empty cell
+  constexpr int digits =
+      9; // significant digits: columns of limited digits may have empty cells, which stand for missing values (NaN)
   static const CsvSchema<FidelityRun> schema(
       {csv_column("variant", &FidelityRun::variant), csv_column("seed", &FidelityRun::seed),
        value("a_drum_max_m_s2", BedQuantity::acceleration), value("F_contact_max_N", BedQuantity::force),

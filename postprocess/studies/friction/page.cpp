@@ -10,7 +10,8 @@
 namespace drumlin::post {
 
 const CsvSchema<FrictionRun> &friction_runs() {
-  constexpr int digits = 9; // with fewer than all digits a missing value is an empty cell
+  constexpr int digits =
+      9; // significant digits: columns of limited digits may have empty cells, which stand for missing values (NaN)
   static const CsvSchema<FrictionRun> schema(
       {csv_column("tangential", &FrictionRun::tangential), csv_column("seed", &FrictionRun::seed),
        csv_column("depth [-]", &FrictionRun::depth, digits),
@@ -80,9 +81,7 @@ PageTable change_table(const std::vector<FrictionRun> &runs) {
     table.add(std::move(row));
   }
   table.notes = {
-      "After the ±: half of the 95 % confidence interval over the seeds (Student's t). Changes are "
-      "taken seed by seed; * marks those whose interval does not contain zero. By chance alone, one "
-      "of twenty changes has the mark.",
+      seed_by_seed_note("each change compares two runs of one seed"),
       "Peak force, peak acceleration and share of time in contact: means over the last half of the "
       "cycles. k, D and R2: as `drumlin identify` finds them in the whole record."};
   return table;

@@ -93,10 +93,7 @@ PageTable level_table(const std::vector<BedLaw> &laws, const LawVariable &variab
                fmt::format("{:.2f}", mean_of(level.runs, &BedLaw::contact_share)),
                fmt::format("{:.3g}", 1e-3 * mean_of(level.runs, &BedLaw::peak_force)),
                pull_text(level.runs)});
-  table.notes = {
-      "After the ±: half of the 95 % confidence interval over the seeds (Student's t). Changes are "
-      "those from the default run on the same seed; * marks those whose interval does not contain "
-      "zero. By chance alone, one of twenty changes has the mark."};
+  table.notes = {seed_by_seed_note("changes are those from the default run on the same seed")};
   return table;
 }
 

@@ -53,7 +53,8 @@ const std::array<LawVariable, 3> law_variables = {
      {"frequency", "the frequency", "frequency [Hz]", &BedLaw::frequency, 1.0}}};
 
 const CsvSchema<BedLaw> &bed_laws() {
-  constexpr int digits = 9; // with fewer than all digits a missing value is an empty cell
+  constexpr int digits =
+      9; // significant digits: columns of limited digits may have empty cells, which stand for missing values (NaN)
   static const CsvSchema<BedLaw> schema(
       {csv_column("run", &BedLaw::run), csv_column("seed", &BedLaw::seed),
        csv_column("static_load [N/m]", &BedLaw::load), csv_column("Fw [N/m]", &BedLaw::Fw),
