@@ -25,14 +25,10 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr const char *pour_damping =
-    "0.3"; ///< damping ratio while a bed settles; the same at all points, which share the settled bed
 constexpr double default_frequency = 20.0; ///< Hz, of in.bed
 constexpr int step_digits = 6;             ///< of time steps
 constexpr const char *pour_friction = "pour_friction";
-
-/// Names of the law of the soil's contacts, which may change when the soil has settled.
-constexpr std::array law_names = {"k", "D", "friction", "rolling"};
+constexpr std::array law_names = {"k", "D", "friction", "rolling"}; ///< of the soil's contacts
 
 /// The value that fixed variables or a point give a variable; empty if it is the deck's default.
 std::string value_of(const CalibrationTask &task, const std::vector<double> &point, const std::string &name) {
@@ -93,9 +89,8 @@ bool measures(const CalibrationTask &task, SoilTest test) {
 struct SoilTests::Point {
   const Evaluation &evaluation;
   int seed;
-  Variables law;            ///< variables of the contact law that differ from the deck's defaults
-  std::string allow_change; ///< names of what varies of it, as the decks take them
-  double step;              ///< of time [s]
+  Variables law; ///< variables of the contact law that differ from the deck's defaults
+  double step;   ///< of time [s]
   PlacedBed bed;
 };
 
@@ -105,57 +100,28 @@ SoilTests::Point SoilTests::point_of(const Evaluation &evaluation, int seed) con
   Point point{evaluation,
               seed,
               values_of(task_, evaluation.point, law_names),
-              "none",
               time_step(task_, evaluation.point),
               {}};
-  std::vector<std::string> varied;
-  for (const char *name : law_names)
-    if (task_.varies(name)) varied.emplace_back(name);
-  if (!varied.empty()) point.allow_change = fmt::format("{}", fmt::join(varied, ","));
 
   PlacedBed &bed = point.bed;
   bed.name = fmt::format("evaluation_{}", evaluation.number);
-  bed.soil = task_.varies(pour_friction) ? bed.name + "_soil" : "soil";
   bed.packing = packing_of(task_);
   // Forces that are unbalanced at a ratio of 1, a ball's weight, are a ten-thousandth of the roller's weight.
   bed.ratio = "1";
-  bed.scene = {{"case", "gravel"}};
-  // The soil settles with the contact law of case gravel, or with the values that are fixed. Parameters that vary take effect
-  // when the roller is placed; a law with rolling friction has to be there from the beginning.
-  const Variables settling = values_of(task_, evaluation.point, std::array{pour_friction});
-  bed.settle = joined({{"pour_D", pour_damping}}, settling);
-  for (const auto &[name, value] : task_.fixed)
-    if (std::count(law_names.begin(), law_names.end(), name) > 0) bed.settle.emplace_back(name, value);
-  bed.place =
-      joined(point.law, values_of(task_, evaluation.point, std::array{"m2", "m3", "r2", "r3", "k23", "c23"}));
-  bed.place.emplace_back("allow_change", point.allow_change);
-  bed.place.emplace_back("dt", number_text(point.step, step_digits));
+  bed.scene = joined(point.law, {{"case", "gravel"}, {"dt", number_text(point.step, step_digits)}});
+  // The soil settles with the contacts that it keeps: a change of k afterwards would wedge it between its walls, or loosen it.
+  bed.settle = values_of(task_, evaluation.point, std::array{pour_friction});
+  bed.place = values_of(task_, evaluation.point, std::array{"m2", "m3", "r2", "r3", "k23", "c23"});
   return point;
 }
 
-void SoilTests::settle(const Point &point) {
-  std::unique_lock map_lock(mutex_);
-  std::mutex &settling_of_seed = settling_[point.seed];
-  map_lock.unlock();
-  const std::lock_guard lock(settling_of_seed);
-  static_cast<void>(settled_soil(point.bed, point.seed, out_));
-}
-
-void SoilTests::remove_own_soil(const Point &point) const {
-  if (task_.varies(pour_friction)) fs::remove(settled_soil(point.bed, point.seed, out_));
-}
-
-std::vector<double> SoilTests::measure(const Evaluation &evaluation, int seed) {
+std::vector<double> SoilTests::measure(const Evaluation &evaluation, int seed) const {
   const Point point = point_of(evaluation, seed);
   std::map<std::string, double> found;
-  for (const SoilTest test : {SoilTest::roller, SoilTest::plate, SoilTest::biaxial}) {
-    if (!measures(task_, test)) continue;
-    if (test != SoilTest::biaxial) settle(point);
-    found.merge(test == SoilTest::roller  ? roller(point)
-                : test == SoilTest::plate ? plate(point)
-                                          : biaxial(point));
-  }
-  remove_own_soil(point);
+  // The plate comes before the roller, which uses up the settled soil.
+  if (measures(task_, SoilTest::plate)) found.merge(plate(point));
+  if (measures(task_, SoilTest::roller)) found.merge(roller(point));
+  if (measures(task_, SoilTest::biaxial)) found.merge(biaxial(point));
 
   std::vector<double> values;
   for (const CalibrationTarget &target : task_.targets)
@@ -163,19 +129,17 @@ std::vector<double> SoilTests::measure(const Evaluation &evaluation, int seed) {
   return values;
 }
 
-fs::path SoilTests::record(const Evaluation &evaluation, int seed) {
+fs::path SoilTests::record(const Evaluation &evaluation, int seed) const {
   fs::path place =
       fs::absolute(out_ / "records" / fmt::format("evaluation_{}_seed_{}", evaluation.number, seed));
   if (fs::exists(place)) return place;
   const Point point = point_of(evaluation, seed);
-  settle(point);
   make_output_folder(place.parent_path());
   FolderInProgress draft(place);
   const std::unique_ptr<DeckRun> run = run_roller(point);
   for (const char *file : {"bed.csv", "cycles.csv", "parameters.csv"})
     fs::copy_file(run->file(file), draft.path() / file);
   draft.publish();
-  remove_own_soil(point);
   return place;
 }
 
@@ -215,13 +179,14 @@ std::map<std::string, double> SoilTests::roller(const Point &point) const {
 std::map<std::string, double> SoilTests::plate(const Point &point) const {
   constexpr double width = 0.3; // m, the deck's default
   constexpr double mega = 1e6;
+  const fs::path soil = settled_soil(point.bed, point.seed, out_);
   Variables variables = point.law;
-  variables.insert(variables.end(), {{"bed", settled_soil(point.bed, point.seed, out_).string()},
+  variables.insert(variables.end(), {{"bed", soil.string()},
                                      {"plate_width", number_text(width)},
-                                     {"allow_change", point.allow_change}});
-  variables.emplace_back("dt", number_text(point.step, step_digits));
+                                     {"dt", number_text(point.step, step_digits)}});
   const DeckRun run("soil/in.plate", variables);
   run.must_succeed();
+  if (!measures(task_, SoilTest::roller)) fs::remove(soil);
   const PlateResult result = plate_result(read_plate(run.file("plate.csv")), width);
   return {{"E_v1", mega * result.first_modulus}, {"E_v2", mega * result.second_modulus}};
 }
@@ -248,7 +213,6 @@ std::string case_text(const CalibrationTask &task, const std::vector<double> &po
   set("dimension", "2");
   for (const auto &[name, value] : values_of(task, point, law_names))
     set(name, value);
-  set("pour_D", pour_damping);
   for (const auto &[name, value] :
        values_of(task, point, std::array{pour_friction, "m2", "m3", "r2", "r3", "k23", "c23"}))
     set(name, value);

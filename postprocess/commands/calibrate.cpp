@@ -94,7 +94,7 @@ void note_settings(const fs::path &out, const CalibrationTask &task, const std::
 
 /// The chain beside the roller's record of each seed at the best point; nothing if no target is measured by the roller.
 std::vector<LumpedComparison> compared_records(const CalibrationTask &task, const Calibration &found,
-                                               SoilTests &tests) {
+                                               const SoilTests &tests) {
   std::vector<LumpedComparison> compared;
   if (!measures(task, SoilTest::roller)) return compared;
   for (int seed = 1; seed <= task.seeds; ++seed) {
@@ -122,7 +122,7 @@ void run(const Arguments &arguments, const std::string &command) {
   open_study(options);
   note_settings(options.out, task, known);
 
-  SoilTests tests(task, options.out);
+  const SoilTests tests(task, options.out);
   const MeasureSeed measure = [&tests](const Evaluation &evaluation, int seed) {
     return tests.measure(evaluation, seed);
   };
