@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -97,11 +98,17 @@ void run_bed(const Arguments &arguments) {
   const FidelityPlan plan = plan_of(runs);
   const BedAdvice advice = advise_bed(plan, runs, request);
   const MeanInterval &change = advice.effect.change.at(static_cast<std::size_t>(request.question));
-  fmt::print("{}: {}\n", advice.scene->name, advice.scene->change);
+  const bool complete = advice.scene == &plan.reference();
+  fmt::print("{}: {}\n", advice.scene->name,
+             complete ? "no cheaper scene keeps to the error that is allowed" : advice.scene->change);
   fmt::print("  for        {} within {:g} %\n", bed_quantity_name(request.question), 100.0 * request.within);
-  fmt::print(
-      "  error      {:+.1f} +- {:.1f} % against the complete scene, 95 % confidence interval over {} seeds\n",
-      100.0 * change.mean, 100.0 * change.half_width, advice.effect.seeds);
+  if (!complete)
+    fmt::print("  error      {:+.1f} +- {:.1f} % against the complete scene, 95 % confidence interval over "
+               "{} seeds\n",
+               100.0 * change.mean, 100.0 * change.half_width, advice.effect.seeds);
+  else if (!advice.closest.empty())
+    fmt::print("  closest    of the cheaper scenes, '{}' keeps to {:.0f} %\n", advice.closest,
+               std::ceil(100.0 * advice.least_error));
   fmt::print("  scatter    one bed differs from another by {:.0f} % (standard deviation): the mean of {} "
              "beds is within {:g} %\n",
              100.0 * advice.scatter, advice.beds, 100.0 * request.within);

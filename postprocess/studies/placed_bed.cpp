@@ -51,9 +51,13 @@ fs::path settled_soil(const PlacedBed &bed, int seed, const fs::path &out) {
   fs::path done = folder / (stem + ".soil");
   if (fs::exists(done)) return done;
   PackingOptions packing = bed.packing;
+  std::vector<BedLayer> layers = bed.layers;
   packing.seed = static_cast<std::uint64_t>(seed);
+  for (BedLayer &layer : layers)
+    layer.packing.seed = packing.seed;
   const fs::path balls = folder / (stem + ".balls"), unfinished = folder / (stem + ".unfinished");
-  write_files({{balls, bed_data(packing, soil_density, pack_balls(packing))}});
+  write_files({{balls, layers.empty() ? bed_data(packing, soil_density, pack_balls(packing))
+                                      : bed_data(layers, soil_density, pack_layers(layers))}});
   Variables variables = joined(bed.settle, bed.scene);
   variables.insert(variables.end(),
                    {{"ratio", bed.ratio}, {"balls", balls.string()}, {"bed", unfinished.string()}});

@@ -21,7 +21,8 @@ struct PlacedBed {
   Variables settle = {}; ///< of in.settle alone, before `scene`
   /// Name of the files of its settled soil, which beds that differ in the roller alone share; empty: `name`.
   std::string soil = {};
-  Variables place = {}; ///< of in.place alone, before `scene`
+  Variables place = {};              ///< of in.place alone, before `scene`
+  std::vector<BedLayer> layers = {}; ///< the lowest first, instead of `packing`; empty: a bed of one layer
 };
 
 /// 150 discs of case loose in a box 0.6 m wide, under a drum of 100 kg: to test a study. The mass of the frame, m3, is

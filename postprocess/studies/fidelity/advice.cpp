@@ -27,6 +27,9 @@ std::vector<double> values_of(const std::vector<FidelityRun> &runs, const std::s
 /// The largest error that a 95 % confidence interval leaves possible.
 double largest_error(const MeanInterval &change) { return std::fabs(change.mean) + change.half_width; }
 
+/// Processor time over the complete scene's above which a scene is not cheaper: times scatter that much.
+constexpr double most_of_cheaper = 0.9;
+
 /// The smallest number of beds of which the mean has a half width of at most `within`; at least 2.
 int beds_for(double scatter, double within) {
   constexpr int most = 1000000;
@@ -60,37 +63,43 @@ BedAdvice advise_bed(const FidelityPlan &plan, const std::vector<FidelityRun> &r
                      const BedAdviceRequest &request) {
   const auto q = static_cast<std::size_t>(request.question);
   BedAdvice best;
-  double least_error = std::numeric_limits<double>::infinity();
-  std::string closest;
+  best.least_error = std::numeric_limits<double>::infinity();
+  bool compared = false;
   for (const FidelityScene &scene : plan.scenes) {
     if (scene.base != plan.reference().name) continue;
     const std::optional<Effect> effect = effect_of(runs, {scene.change, scene.name, scene.base});
     if (!effect || !std::isfinite(effect->change[q].half_width)) continue;
+    compared = true;
+    if (effect->cost > most_of_cheaper) continue;
     const double error = largest_error(effect->change[q]);
-    if (error < least_error) {
-      least_error = error;
-      closest = scene.name;
+    if (error < best.least_error) {
+      best.least_error = error;
+      best.closest = scene.name;
     }
     if (error <= request.within && (best.scene == nullptr || effect->cost < best.effect.cost)) {
       best.scene = &scene;
       best.effect = *effect;
     }
   }
-  const std::string asked = fmt::format("{:g}%", 100.0 * request.within);
-  if (closest.empty())
+  if (!compared)
     throw std::runtime_error(refusal("the table of scenes", fmt::format("{} runs", runs.size()),
                                      "one with two seeds or more of a scene and of the complete one"));
-  if (best.scene == nullptr)
-    throw std::runtime_error(
-        refusal("--within", asked,
-                fmt::format("{:.0f}% or more, to which '{}' keeps; for less take the complete scene",
-                            std::ceil(100.0 * least_error), closest)));
+  const std::vector<double> complete = values_of(runs, plan.reference().name, q);
+  const MeanInterval mean = mean_interval(complete);
+  if (!mean.significant())
+    throw std::runtime_error(refusal(
+        "--question", bed_quantity_name(request.question),
+        fmt::format("one that the complete beds have: their mean is {:.2g} +- {:.2g}, which may be zero, so "
+                    "that no error relative to it can be given",
+                    mean.mean, mean.half_width)));
+  if (best.scene == nullptr) {
+    best.scene = &plan.reference();
+    best.effect = {{}, static_cast<int>(complete.size()), {}, 1.0};
+  }
   std::vector<double> times;
   for (const FidelityRun &run : runs)
     if (run.variant == best.scene->name) times.push_back(run.cpu_s);
   best.cpu_s = median(times);
-  const std::vector<double> complete = values_of(runs, plan.reference().name, q);
-  const MeanInterval mean = mean_interval(complete);
   double squares = 0.0;
   for (const double value : complete)
     squares += std::pow(value - mean.mean, 2);
@@ -110,8 +119,11 @@ std::vector<std::string> scene_commands(const FidelityScene &scene, int cycles) 
   const PackingOptions &packing = scene.bed.packing;
   const PackingOptions usual;
   constexpr int digits = 6;
-  std::string bed =
-      fmt::format("bed --balls {} --width {}", packing.balls, number_text(packing.width, digits));
+  std::string bed = "bed";
+  if (scene.bed.layers.empty()) bed += fmt::format(" --balls {}", packing.balls);
+  for (const BedLayer &layer : scene.bed.layers)
+    bed += " --layer " + number_text(layer.thickness, digits);
+  bed += " --width " + number_text(packing.width, digits);
   if (packing.depth > 0.0) bed += " --depth " + number_text(packing.depth, digits);
   if (packing.height > 0.0) bed += " --height " + number_text(packing.height, digits);
   if (packing.radius_min != usual.radius_min || packing.radius_max != usual.radius_max)

@@ -17,14 +17,18 @@ struct BedAdviceRequest {
 /// The cheapest scene whose error stays within the request.
 struct BedAdvice {
   const FidelityScene *scene = nullptr; ///< of the plan
-  Effect effect;                        ///< of the scene against the complete one
-  double scatter = 0.0; ///< standard deviation of single beds of the complete scene over their mean
-  int beds = 0;         ///< complete beds of which the mean has a 95 % confidence interval within the request
-  double cpu_s = 0.0;   ///< processor time of the scene's excitation, median over the seeds
+  Effect effect;       ///< of the scene against the complete one; without change if it is the complete one
+  std::string closest; ///< name of the cheaper scene with the smallest error; empty: none is cheaper
+  double least_error = 0.0; ///< to which the closest scene keeps, relative
+  double scatter = 0.0;     ///< standard deviation of single beds of the complete scene over their mean
+  int beds = 0;       ///< complete beds of which the mean has a 95 % confidence interval within the request
+  double cpu_s = 0.0; ///< processor time of the scene's excitation, median over the seeds
 };
 
-/// A scene keeps to the request if the whole 95 % confidence interval of its change does; two seeds or more. The plan is that of the
-/// table's runs. Throws std::runtime_error: with the smallest error that can be kept to if no scene but the complete one is within.
+/// A scene keeps to the request if the whole 95 % confidence interval of its change does; two seeds or more. One that takes more than 0.9
+/// times the processor time of the complete scene is no cheaper than it: times scatter that much. The complete scene is the advice
+/// if no cheaper one is within. The plan is that of the table's runs. Throws std::runtime_error if the table has no scene to compare,
+/// and if the mean of the complete beds does not differ from zero, so that no error relative to it can be given.
 BedAdvice advise_bed(const FidelityPlan &plan, const std::vector<FidelityRun> &runs,
                      const BedAdviceRequest &request);
 

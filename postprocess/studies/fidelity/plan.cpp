@@ -15,6 +15,7 @@ constexpr int digits = 6;              // of scaled values
 constexpr double default_k = 1e9;      // N/m, of case gravel
 constexpr double default_dt = 6.25e-6; // s, of in.place for that k and balls of 16 mm radius
 constexpr int default_steps = 32;      // per cycle, in multiples of 250
+constexpr double default_ground = 2.0; // m, below a floor that absorbs, of in.bed
 
 /// The variables of a roller and its force on a bed whose lengths are `scale` times the default's; none for the default.
 Variables roller_of(double scale) {
@@ -122,6 +123,20 @@ FidelityPlan fidelity_plan(int balls) {
   // Settled with the friction that the bed has later, and not densely with little of it.
   FidelityScene loose = changed("not compacted", "packed loosely, with the friction of the bed");
   loose.bed.settle = {{"pour_friction", "0.8"}, {"pour_rolling", "0.45"}};
+  FidelityScene absorbing =
+      changed("absorb", "floor and sides that absorb waves", {},
+              {{"boundary", "absorb"}, {"ground_depth", number_text(default_ground * scale, digits)}});
+  // A base course as thick as the drum, on a subgrade: together as thick as the complete bed.
+  FidelityScene layered =
+      changed("layers", "the lower 64 % a soft, loose subgrade (case base_course)",
+              {{"case", "base_course"}, {"k", number_text(0.1 * k, digits) + "," + number_text(k, digits)}});
+  layered.bed.packing.balls = 0;
+  for (const double thickness : {1.24, 0.7}) { // m, at the default size
+    BedLayer layer{bed.packing, std::stod(number_text(thickness * scale, digits))};
+    layer.packing.balls = balls_of(layer);
+    layered.bed.packing.balls += layer.packing.balls;
+    layered.bed.layers.push_back(layer);
+  }
   const std::string twice = std::to_string(2 * std::stoi(complete.run.front().second));
   return {
       {complete,
@@ -135,8 +150,8 @@ FidelityPlan fidelity_plan(int balls) {
        changed("history", "the engine's friction (tangential history)", {{"tangential", "history"}}), loose,
        sized("one size", "balls of one size", balls, 0.02, 0.02, k),
        changed("second", "stepping second instead of stock", {{"stepping", "second"}}),
-       changed("twice the steps", "twice the steps per cycle", {}, {{"steps_per_cycle", twice}}), deep, wide,
-       graded, changed("clump", "drum a clump instead of a ball", {{"drum", "clump"}})}};
+       changed("twice the steps", "twice the steps per cycle", {}, {{"steps_per_cycle", twice}}), absorbing,
+       layered, deep, wide, graded, changed("clump", "drum a clump instead of a ball", {{"drum", "clump"}})}};
 }
 
 } // namespace drumlin::post

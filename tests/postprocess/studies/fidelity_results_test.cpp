@@ -92,7 +92,18 @@ TEST(FidelityPlan, HasScenesOfDifferentNamesAndKeepsProportions) {
   EXPECT_DOUBLE_EQ(value(small.reference(), "dt"), 1.25e-5);
   EXPECT_EQ(value(small.reference(), "steps_per_cycle"), 4000.0);
   EXPECT_EQ(value(small.scenes[2], "steps_per_cycle"), 2000.0); // balls twice as large
-  EXPECT_EQ(value(post::fidelity_plan(2500).reference(), "steps_per_cycle"), 8000.0);
+  const post::FidelityPlan whole = post::fidelity_plan(2500);
+  EXPECT_EQ(value(whole.reference(), "steps_per_cycle"), 8000.0);
+
+  const auto layered =
+      std::find_if(whole.scenes.begin(), whole.scenes.end(),
+                   [](const post::FidelityScene &scene) { return !scene.bed.layers.empty(); });
+  ASSERT_NE(layered, whole.scenes.end());
+  EXPECT_NEAR(layered->bed.packing.balls, 2500, 50); // as deep as the complete bed
+  const std::vector<std::string> commands = post::scene_commands(*layered, 8);
+  EXPECT_EQ(commands[0], "bed --layer 1.24 --layer 0.7 --width 2");
+  EXPECT_EQ(commands[1].find("run inputs/bed/in.settle -var case base_course -var k 1e+08,1e+09 "), 0u)
+      << commands[1];
 }
 
 // Invented runs of five seeds. add() gives each run of a scene the force of the complete bed of the same seed, times a factor of the
@@ -127,7 +138,7 @@ TEST_F(BedAdviceTest, NamesTheCheapestSceneWithinTheError) {
   add("k / 10", 1.04, 0.0, 3.0);
   add("k / 100", 0.7, 0.0, 1.0);     // cheaper, but off
   add("large balls", 1.0, 0.2, 0.5); // right in the mean, but the interval is wide
-  add("A", 1.0, 0.0, 9.0);
+  add("A", 1.0, 0.0, 9.5);           // hardly cheaper than the complete scene
   add("one size", 1.0, 0.0, 0.1, 1); // one seed has no interval
   const post::FidelityPlan plan = post::plan_of(runs_);
   EXPECT_EQ(plan.reference().bed.packing.balls, 400);
@@ -141,7 +152,7 @@ TEST_F(BedAdviceTest, NamesTheCheapestSceneWithinTheError) {
   // 2.179 * 0.1581 / sqrt(12) is 0.0994 (12 degrees of freedom: 13 beds 0.0955; 11 degrees of freedom: 12 beds 0.1005)
   EXPECT_EQ(found.beds, 13);
   EXPECT_EQ(advice(0.5), "large balls");
-  EXPECT_EQ(advice(0.03), "A");
+  EXPECT_EQ(advice(0.03), "complete");
 
   const std::vector<std::string> commands = post::scene_commands(*found.scene, plan.cycles);
   ASSERT_EQ(commands.size(), 4u);
@@ -159,7 +170,15 @@ TEST_F(BedAdviceTest, RefusesWhatTheTableDoesNotAnswer) {
   runs_.clear();
   add("complete", 1.0, 0.0, 10.0);
   add("k / 10", 1.3, 0.0, 3.0); // 30 % in the mean, with a half width of 2.776 * 0.3 * 0.158 / sqrt(5)
-  expect_refused(0.1, "--within is '10%'; allowed: 36% or more, to which 'k / 10' keeps");
+  const post::FidelityPlan plan = post::plan_of(runs_);
+  const post::BedAdvice found = post::advise_bed(plan, runs_, {post::BedQuantity::force, 0.1});
+  EXPECT_EQ(found.scene, &plan.reference());
+  EXPECT_EQ(found.closest, "k / 10");
+  EXPECT_NEAR(found.least_error, 0.3589, 1e-4);
+  for (FidelityRun &run : runs_) // forces of complete beds from -2e4 to 2e4: their mean is zero
+    run.values[1] -= 1e5;
+  expect_refused(
+      0.1, "--question is 'contact force (N/m)'; allowed: one that the complete beds have: their mean is ");
 }
 
 } // namespace
