@@ -87,11 +87,11 @@ BedAdvice advise_bed(const FidelityPlan &plan, const std::vector<FidelityRun> &r
   const std::vector<double> complete = values_of(runs, plan.reference().name, q);
   const MeanInterval mean = mean_interval(complete);
   if (!mean.significant())
-    throw std::runtime_error(refusal(
-        "--question", bed_quantity_name(request.question),
-        fmt::format("one that the complete beds have: their mean is {:.2g} +- {:.2g}, which may be zero, so "
-                    "that no error relative to it can be given",
-                    mean.mean, mean.half_width)));
+    throw std::runtime_error(refusal("--question", bed_quantity_name(request.question),
+                                     fmt::format("a result whose mean over the complete beds differs from "
+                                                 "zero: theirs is {:.2g} +- {:.2g}, and no "
+                                                 "error relative to it can be given",
+                                                 mean.mean, mean.half_width)));
   if (best.scene == nullptr) {
     best.scene = &plan.reference();
     best.effect = {{}, static_cast<int>(complete.size()), {}, 1.0};
@@ -110,9 +110,13 @@ BedAdvice advise_bed(const FidelityPlan &plan, const std::vector<FidelityRun> &r
 
 std::string scene_words(const FidelityScene &scene) {
   const PackingOptions &packing = scene.bed.packing;
-  return fmt::format("{} dimensions, {} {} of {:g} to {:g} mm radius, box {:.3g} m wide",
-                     packing.dimensions(), packing.balls, packing.dimensions() == 2 ? "discs" : "balls",
-                     1e3 * packing.radius_min, 1e3 * packing.radius_max, packing.width);
+  std::string words =
+      fmt::format("{} dimensions, {} {} of {:g} to {:g} mm radius, box {:.3g} m wide", packing.dimensions(),
+                  packing.balls, packing.dimensions() == 2 ? "discs" : "balls", 1e3 * packing.radius_min,
+                  1e3 * packing.radius_max, packing.width);
+  for (const auto &[name, value] : scene.bed.scene)
+    if (name == "r2") words += fmt::format(", under a drum of {} m radius", value);
+  return words;
 }
 
 std::vector<std::string> scene_commands(const FidelityScene &scene, int cycles) {

@@ -35,7 +35,7 @@ BedAdvice advise_bed(const FidelityPlan &plan, const std::vector<FidelityRun> &r
 /// The plan whose complete bed has as many balls as that of the runs. Throws std::runtime_error if they have no complete bed.
 FidelityPlan plan_of(const std::vector<FidelityRun> &runs);
 
-/// The scene in words: dimensions, number and size of balls, box.
+/// The scene in words: dimensions, number and size of balls, box, drum if it is not the default one.
 std::string scene_words(const FidelityScene &scene);
 
 /// The words after the front script with which the scene is made and run, a line for each command.
