@@ -72,6 +72,10 @@ protected:
       ASSERT_TRUE(placed.ok()) << placed.output;
     }
   }
+  /// A cycle of 50 Hz in 1000 steps, which are as long as those of the decks' 2500 in a cycle of 20 Hz.
+  static Variables short_cycle() {
+    return {{"omega", "314.1592653589793"}, {"steps_per_cycle", "1000"}, {"samples_per_cycle", "100"}};
+  }
   static Outcome run(const fs::path &deck, const Scratch &folder, const Variables &more, int ranks = 1) {
     Variables variables = more; // the engine takes the first of a name
     for (const auto &variable : roller())
@@ -179,7 +183,7 @@ protected:
         all.push_back(variable);
       return run_deck(bed_folder() / deck, all, folder.path(), 1, 60.0, after_processor_time(processor_time));
     };
-    const Outcome stopped = shaken({}, 2.0);
+    const Outcome stopped = shaken({}, 1.0);
     EXPECT_TRUE(stopped.timed_out);
     EXPECT_EQ(stopped.status, 1);
     EXPECT_TRUE(stopped.says("ERROR: drumlin/run: stopped by a signal at step ")) << stopped.output;
@@ -187,7 +191,7 @@ protected:
     EXPECT_EQ(stopped.output.find("ERROR"), stopped.output.rfind("ERROR")) << stopped.output;
 
     const std::size_t rows_before = post::read_table(folder / "bed.csv").rows();
-    const Outcome resumed = shaken({{"start", (folder / "stopped.restart").string()}}, 1.5);
+    const Outcome resumed = shaken({{"start", (folder / "stopped.restart").string()}}, 1.0);
     EXPECT_EQ(resumed.status, 1);
     const post::Table rows = post::read_table(folder / "bed.csv");
     ASSERT_GT(rows.rows(), rows_before) << resumed.output;
@@ -203,6 +207,8 @@ protected:
       more.insert(
           more.end(),
           {{"cycles", "3"}, {"dumps_per_cycle", "2"}, {"stepping", stepping}, {"boundary", boundary}});
+      for (const auto &variable : short_cycle())
+        more.push_back(variable);
       return run(bed_folder() / deck, folder, more, ranks);
     };
     for (const int ranks : {1, 2}) {
@@ -210,9 +216,9 @@ protected:
       ASSERT_TRUE(shaken(stayed, {}, ranks).ok());
       const Outcome stopped = shaken(left, {{"time_limit", "1e-3"}}, ranks);
       ASSERT_TRUE(stopped.ok()) << stopped.output;
-      EXPECT_TRUE(stopped.says("drumlin/run: stopped at step 2500 of 7500 by limit 0.001 s; continue from "))
+      EXPECT_TRUE(stopped.says("drumlin/run: stopped at step 1000 of 3000 by limit 0.001 s; continue from "))
           << stopped.output;
-      EXPECT_EQ(post::read_table(left / "bed.csv").rows(), 251u);
+      EXPECT_EQ(post::read_table(left / "bed.csv").rows(), 101u);
       const std::string start = (left / "stopped.restart").string();
       for (const auto &[name, value] :
            Variables{{"omega", "100"}, {"Fw", "10"}, {"steps_per_cycle", "5000"}}) {
@@ -228,7 +234,7 @@ protected:
       }
       for (const char *file : {"bed.csv", "cycles.csv", "events.csv"})
         EXPECT_EQ(read_text(left / file), read_text(stayed / file)) << file << ", ranks " << ranks;
-      EXPECT_EQ(post::read_table(left / "bed.csv").rows(), 751u);
+      EXPECT_EQ(post::read_table(left / "bed.csv").rows(), 301u);
 
       const std::map<long, post::StepDump> whole = post::dumped_steps(stayed / "dump"),
                                            parts = post::dumped_steps(left / "dump");
@@ -246,7 +252,7 @@ protected:
           return sum;
         };
         const double before = summed(files.contacts), after = summed(parts.at(step).contacts);
-        if (step == 2500) // a set-up: a contact that slid then has the force of its dashpot as well
+        if (step == 1000) // a set-up: a contact that slid then has the force of its dashpot as well
           EXPECT_NEAR(after, before, 5e-2 * before);
         else
           EXPECT_EQ(after, before) << "step " << step << ", ranks " << ranks;
@@ -351,14 +357,9 @@ TEST_F(Bed, GoesTheSameWayOnRanksOneTwoAndFour) {
                                                               {"clump", "second", "absorb"}}};
   for (const auto &[drum, stepping, boundary] : scenes) {
     const Scratch one;
-    // A cycle of 50 Hz in steps as long as those of the 2500 in a cycle of 20 Hz.
-    const Variables variables = {{"cycles", "1"},
-                                 {"omega", "314.1592653589793"},
-                                 {"steps_per_cycle", "1000"},
-                                 {"samples_per_cycle", "100"},
-                                 {"drum", drum},
-                                 {"stepping", stepping},
-                                 {"boundary", boundary}};
+    Variables variables = short_cycle();
+    variables.insert(variables.end(),
+                     {{"cycles", "1"}, {"drum", drum}, {"stepping", stepping}, {"boundary", boundary}});
     const Outcome serial = shake(one, variables);
     ASSERT_TRUE(serial.ok()) << serial.output;
     const std::vector<double> alone = post::read_table(one / "bed.csv").numbers("x_drum");
@@ -379,8 +380,8 @@ TEST_F(Bed, GoesTheSameWayOnRanksOneTwoAndFour) {
 }
 
 // Beds are chaotic: over six cycles only means over many beds can agree. Five seeds, two standard errors of
-// the difference.
-TEST_F(Bed, MeansOverSeedsAgreeOnRanksOneAndTwo) {
+// the difference. Run by .ci/nightly; the tests beside it compare ranks and repeats row by row.
+TEST_F(Bed, DISABLED_MeansOverSeedsAgreeOnRanksOneAndTwo) {
   constexpr std::size_t seeds = 5;
   const std::array<const char *, 3> columns = {"settlement", "a_drum_max", "F_contact_max"};
   std::array<std::array<std::vector<double>, 3>, 2>
@@ -423,7 +424,8 @@ TEST_F(Bed, RepeatsItselfOnRanksOneAndTwo) {
   for (const char *stepping : steppings)
     for (const int ranks : {1, 2}) {
       const Scratch once, again;
-      const Variables variables = {{"cycles", "1"}, {"stepping", stepping}};
+      Variables variables = short_cycle();
+      variables.insert(variables.end(), {{"cycles", "1"}, {"stepping", stepping}});
       ASSERT_TRUE(shake(once, variables, ranks).ok());
       ASSERT_TRUE(shake(again, variables, ranks).ok());
       for (const char *file : {"bed.csv", "cycles.csv", "events.csv"})
@@ -697,7 +699,8 @@ TEST_F(Bed, RefusesFilesThatAreCutShortOrOfAnotherSceneOnRanksOneAndTwo) {
                     some = written("some.data", balls.substr(0, balls.size() / 2)),
                     none = written("none.data", whole);
   for (const int ranks : {1, 2}) {
-    for (const std::string &file : {header, half, nearly, longer, damaged, other})
+    for (const std::string &file :
+         ranks == 1 ? std::vector{header, half, nearly, longer, damaged, other} : std::vector{half})
       refused("in.bed", {{"start", file}},
               std::string("variable start is '").append(file).append("'").append(cut), ranks);
     refused("in.bed", {{"start", (scratch / "soil.restart").string()}},
@@ -825,7 +828,7 @@ TEST_F(Bed, LeavesNoOldFileWhenASignalStopsTheRunThatReplacesIt) {
   const auto stopped = [&](const char *deck, const Variables &variables) {
     fs::copy_file(scratch / "soil.restart", file, fs::copy_options::overwrite_existing);
     const Outcome outcome =
-        run_deck(bed_folder() / deck, variables, folder.path(), 1, 60.0, after_processor_time(1.5));
+        run_deck(bed_folder() / deck, variables, folder.path(), 1, 60.0, after_processor_time(1.0));
     EXPECT_TRUE(outcome.timed_out) << deck;
     EXPECT_EQ(outcome.status, 1) << deck;
     EXPECT_TRUE(outcome.says("ERROR: drumlin/run: stopped by a signal at step ")) << deck << outcome.output;
@@ -868,7 +871,7 @@ TEST_F(Bed, EndsAtASignalWhileItSettles) {
                                      {"ratio", "1e-29"},
                                      {"balls", (scratch / "balls.data").string()},
                                      {"bed", (folder / "x.restart").string()}},
-                                    folder.path(), 1, 60.0, after_processor_time(2.0));
+                                    folder.path(), 1, 60.0, after_processor_time(1.0));
   EXPECT_TRUE(settling.timed_out);
   EXPECT_EQ(settling.status, 1);
   EXPECT_TRUE(settling.says("ERROR: drumlin/settle: stopped by a signal after ")) << settling.output;
@@ -929,12 +932,22 @@ protected:
 // From the same data file, with a contact history that starts at zero in both engines: the difference is
 // rounding. Over 500 steps it stays small; later the bed makes it grow.
 TEST_F(BedInLammps, GoesAsInLiggghtsOnRanksOneTwoAndFourWithNewtonOffAndOn) {
+  // What ranks tell each other does not depend on the transition: without `split`, one division only.
+  struct Law {
+    Variables variables;
+    bool split;
+  };
+  const std::vector<Law> laws = {
+      {{}, true},
+      {{{"stepping", "second"}}, true},
+      {{{"stepping", "second"}, {"transition", "A"}}, false},
+      {{{"transition", "A"}, {"friction", "0"}, {"allow_change", "friction"}}, false}};
+  using Division = std::pair<int, const char *>; // ranks and newton
+  const std::vector<Division> one_division = {{2, "on"}}, divisions = {{1, "off"}, {2, "off"}, {4, "off"},
+                                                                       {1, "on"},  {2, "on"},  {4, "on"}};
   for (const char *drum : drums)
-    for (const Variables &law :
-         {Variables{}, Variables{{"stepping", "second"}},
-          Variables{{"stepping", "second"}, {"transition", "A"}},
-          Variables{{"transition", "A"}, {"friction", "0"}, {"allow_change", "friction"}}}) {
-      Variables variables = law;
+    for (const Law &law : laws) {
+      Variables variables = law.variables;
       // A cycle of 100 Hz in steps as long as those of the 2500 in a cycle of 20 Hz.
       variables.insert(variables.end(), {{"drum", drum},
                                          {"cycles", "1"},
@@ -952,8 +965,7 @@ TEST_F(BedInLammps, GoesAsInLiggghtsOnRanksOneTwoAndFourWithNewtonOffAndOn) {
       const Outcome liggghts = Bed::shake(here, in_liggghts);
       ASSERT_TRUE(liggghts.ok()) << liggghts.output;
       const post::Table expected = post::read_table(here / "bed.csv");
-      for (const auto &[ranks, newton] :
-           {std::pair{1, "off"}, {2, "off"}, {4, "off"}, {1, "on"}, {2, "on"}, {4, "on"}}) {
+      for (const auto &[ranks, newton] : law.split ? divisions : one_division) {
         const Scratch there;
         Variables in_lammps = variables;
         in_lammps.insert(in_lammps.end(), {{"newton", newton}, {"rest", "0"}, {"balance", "1e30"}});
@@ -1039,7 +1051,12 @@ TEST_F(BedInLammps, GoesAsInLiggghtsWithRollingFriction) {
 // Longer than other tests: it compares balls and contacts of every dump, column by column.
 TEST_F(BedInLammps, DumpsWhatLiggghtsDumpsOnRanksOneAndTwo) {
   for (const char *stepping : steppings) {
-    const Variables often = {{"cycles", "1"}, {"dumps_per_cycle", "25"}, {"stepping", stepping}};
+    const Variables often = {{"cycles", "1"},
+                             {"omega", "628.3185307179587"}, // 100 Hz in steps of the usual length
+                             {"steps_per_cycle", "500"},
+                             {"samples_per_cycle", "50"},
+                             {"dumps_per_cycle", "5"},
+                             {"stepping", stepping}};
     const Scratch here;
     ASSERT_TRUE(run(test_deck("bed_from_data.in"), here,
                     {{"fresh", (here / "fresh.restart").string()}, {"stepping", stepping}})
@@ -1049,9 +1066,8 @@ TEST_F(BedInLammps, DumpsWhatLiggghtsDumpsOnRanksOneAndTwo) {
                        {{"start", (here / "fresh.restart").string()}, {"balance", "1e30"}});
     const Outcome liggghts = Bed::shake(here, in_liggghts);
     ASSERT_TRUE(liggghts.ok()) << liggghts.output;
-    std::map<long, post::StepDump> expected = post::dumped_steps(here / "dump");
-    ASSERT_EQ(expected.size(), 26u);
-    expected.erase(expected.upper_bound(500), expected.end());
+    const std::map<long, post::StepDump> expected = post::dumped_steps(here / "dump");
+    ASSERT_EQ(expected.size(), 6u);
     for (const auto &[ranks, newton] : {std::pair{1, "off"}, {2, "off"}, {2, "on"}}) {
       const Scratch there;
       fs::create_directory(there / "dump");
@@ -1061,7 +1077,7 @@ TEST_F(BedInLammps, DumpsWhatLiggghtsDumpsOnRanksOneAndTwo) {
       const Outcome lammps = shake(there, in_lammps, ranks);
       ASSERT_TRUE(lammps.ok()) << lammps.output;
       const std::map<long, post::StepDump> found = post::dumped_steps(there / "dump");
-      ASSERT_EQ(found.size(), 26u);
+      ASSERT_EQ(found.size(), 6u);
       for (const auto &[step, files] : expected) {
         const std::string where = "step " + std::to_string(step) + ", ranks " + std::to_string(ranks);
         const std::vector<post::Ball> a = post::read_ball_dump(files.balls),
@@ -1174,7 +1190,7 @@ TEST(Bed3d, CarriesACylinderOnCopiesOfACellOnRanksOneAndTwo) {
       variables.emplace_back("bed", file("soil.restart"));
       if (name != "in.tile") variables.emplace_back("ratio", "0.01");
     } else
-      variables.insert(variables.end(), {{"Fw", "29400"}, {"cycles", "2"}});
+      variables.insert(variables.end(), {{"Fw", "29400"}, {"cycles", "1"}});
     if (name == "in.place" || name.rfind("in.bed", 0) == 0)
       variables.emplace_back("start", file("roller.restart"));
     return run_deck(bed_folder() / deck, variables, folder.path(), ranks);

@@ -119,13 +119,13 @@ std::vector<BadGroup> all_groups() {
   return groups;
 }
 
-/// The inputs named for two ranks, and every third of the others.
+/// The inputs named for two ranks, and the first of each group.
 std::vector<BadGroup> groups_for_two_ranks() {
   std::vector<BadGroup> groups;
   for (const BadGroup &group : all_groups()) {
     groups.push_back({group.name, group.deck, {}});
     for (std::size_t n = 0; n < group.inputs.size(); ++n)
-      if (group.inputs[n].two_ranks || n % 3 == 0) groups.back().inputs.push_back(group.inputs[n]);
+      if (group.inputs[n].two_ranks || n == 0) groups.back().inputs.push_back(group.inputs[n]);
   }
   return groups;
 }
