@@ -158,8 +158,9 @@ PageTable run_table(const CompressionTest &test, const std::vector<CompressionRu
                      number_cell(strength.dilatancy, 3),
                      strength.is_critical ? number_cell(strength.critical.angle()) : no_value,
                      number_cell(run.rows.back().void_ratio)},
-                    quality_of(run.rows));
+                    strength_quality(run));
   }
+  table.criterion += " and reached the strain asked for";
   table.notes = {
       "Inertial number: strain rate times diameter sqrt(density/side stress); below 1e-3 a test is "
       "quasi-static. Energy error: stored energy + heat - work of the platens, over the largest "
@@ -216,7 +217,7 @@ PageWriter read_page(const CompressionTest &test, const std::string &title, Scen
     const std::vector<Soil> soils = soils_of(runs, {test.confining});
     Page page(out, title, scene);
     page.answer(answer);
-    answer_quality(page, runs);
+    answer_strength_quality(page, runs);
     page.section("Friction and volume");
     page.figure(strength_figure(test, soils, runs));
     page.section("Friction angle");

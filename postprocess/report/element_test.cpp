@@ -46,14 +46,32 @@ std::vector<Run> read_named_runs(const std::vector<std::filesystem::path> &folde
 }
 
 bool TestQuality::good() const {
-  return inertial_number <= allowed_inertial_number && energy_error <= allowed_energy_error;
+  return inertial_number <= allowed_inertial_number && energy_error <= allowed_energy_error &&
+         strain_reached.value_or(1.0) >= complete_strain;
+}
+
+TestQuality worst_of(const std::vector<TestQuality> &qualities) {
+  TestQuality worst = qualities.front();
+  for (const TestQuality &quality : qualities) {
+    worst.inertial_number = std::max(worst.inertial_number, quality.inertial_number);
+    worst.energy_error = std::max(worst.energy_error, quality.energy_error);
+    if (quality.strain_reached)
+      worst.strain_reached = std::min(worst.strain_reached.value_or(1.0), *quality.strain_reached);
+  }
+  return worst;
 }
 
 std::vector<Acceptance> quality_criteria(const TestQuality &quality) {
-  return {{fmt::format("largest inertial number at most {:g}", allowed_inertial_number),
-           number_cell(quality.inertial_number, 2), quality.inertial_number <= allowed_inertial_number},
-          {fmt::format("largest energy error at most {:g}", allowed_energy_error),
-           number_cell(quality.energy_error, 2), quality.energy_error <= allowed_energy_error}};
+  std::vector<Acceptance> criteria = {
+      {fmt::format("largest inertial number at most {:g}", allowed_inertial_number),
+       number_cell(quality.inertial_number, 2), quality.inertial_number <= allowed_inertial_number},
+      {fmt::format("largest energy error at most {:g}", allowed_energy_error),
+       number_cell(quality.energy_error, 2), quality.energy_error <= allowed_energy_error}};
+  if (quality.strain_reached)
+    criteria.push_back({fmt::format("every run reached at least {:g} % of its strain", 100 * complete_strain),
+                        fmt::format("{:.0f} %", 100 * *quality.strain_reached),
+                        *quality.strain_reached >= complete_strain});
+  return criteria;
 }
 
 PageTable element_run_table(const std::string &name, const std::vector<std::string> &header) {

@@ -10,15 +10,18 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace drumlin::post {
 
-/// Inertial number and energy error below which a test is slow enough and exact enough.
+/// Inertial number and energy error below which a test is slow enough and exact enough, and the share of the strain
+/// asked for at which it has not been interrupted: steps are whole, so that a test may end just before its strain.
 constexpr double allowed_inertial_number = 1e-3;
 constexpr double allowed_energy_error = 1e-3;
+constexpr double complete_strain = 0.99;
 
 /// A run of an element test: of `run` only folder, name and parameters are read.
 template <class Row>
@@ -73,9 +76,11 @@ double largest(const std::vector<Row> &rows, double Row::*number) {
   return most;
 }
 
-/// Whether a test was slow enough and exact enough.
+/// Whether a test was slow enough and exact enough, and not interrupted.
 struct TestQuality {
   double inertial_number = 0.0, energy_error = 0.0; ///< the largest
+  /// Over the strain asked for; none: the test is not asked for a strain.
+  std::optional<double> strain_reached = std::nullopt;
   bool good() const;
 };
 
@@ -85,19 +90,19 @@ TestQuality quality_of(const std::vector<Row> &rows) {
   return {largest(rows, &Row::inertial_number), largest(rows, &Row::energy_error)};
 }
 
+/// The worst of all numbers. qualities: at least one.
+TestQuality worst_of(const std::vector<TestQuality> &qualities);
+
 /// The acceptance criteria of a test.
 std::vector<Acceptance> quality_criteria(const TestQuality &quality);
 
 /// Says on a page whether the worst of all runs was good.
 template <class Row>
 void answer_quality(Page &page, const std::vector<ElementRun<Row>> &runs) {
-  TestQuality worst;
-  for (const ElementRun<Row> &run : runs) {
-    const TestQuality quality = quality_of(run.rows);
-    worst = {std::max(worst.inertial_number, quality.inertial_number),
-             std::max(worst.energy_error, quality.energy_error)};
-  }
-  page.answer(quality_criteria(worst));
+  std::vector<TestQuality> qualities;
+  for (const ElementRun<Row> &run : runs)
+    qualities.push_back(quality_of(run.rows));
+  page.answer(quality_criteria(worst_of(qualities)));
 }
 
 /// A table of runs: name and sample of each, the measured quantities in `header`, and whether it was good.

@@ -94,8 +94,9 @@ PageTable run_table(const std::vector<ShearRun> &runs, const std::vector<ShearSt
                      number_cell(strength.peak.dilatancy, 3),
                      strength.is_critical ? number_cell(strength.critical.angle()) : no_value,
                      number_cell(run.rows.back().void_ratio)},
-                    quality_of(run.rows));
+                    strength_quality(run));
   }
+  table.criterion += " and reached the strain asked for";
   table.notes = {
       "Friction: on the plane of shear. Inertial number: shear rate times diameter sqrt(density/normal "
       "stress); below 1e-3 a test is quasi-static. Energy error: stored energy + heat - work of the platen, "
@@ -157,7 +158,7 @@ PageWriter read_shear_page(const std::vector<fs::path> &folders) {
     page.answer(
         "Samples of soil between two rough plates, periodic sideways, sheared by the upper one under a "
         "constant normal stress. The ratio of the stresses is the friction on the plane of shear.");
-    answer_quality(page, runs);
+    answer_strength_quality(page, runs);
     page.section("Friction and volume");
     page.figure(strength_figure(shear_test, soils, runs));
     page.section("Friction angle");

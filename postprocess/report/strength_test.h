@@ -26,6 +26,23 @@ struct StrengthTest {
   std::string title, strain_axis, angle_title, angle_axis, angle_formula; ///< words of the figure
 };
 
+/// Whether a test was slow enough and exact enough, and reached the strain that it was asked for.
+template <class Row>
+TestQuality strength_quality(const ElementRun<Row> &run) {
+  TestQuality quality = quality_of(run.rows);
+  if (const auto asked = run.run.number("strain")) quality.strain_reached = run.rows.back().strain / *asked;
+  return quality;
+}
+
+/// Says on a page whether the worst of all runs was good.
+template <class Row>
+void answer_strength_quality(Page &page, const std::vector<ElementRun<Row>> &runs) {
+  std::vector<TestQuality> qualities;
+  for (const ElementRun<Row> &run : runs)
+    qualities.push_back(strength_quality(run));
+  page.answer(quality_criteria(worst_of(qualities)));
+}
+
 /// The confining stress of each run, kPa: that asked for, else that of its first row in whole kPa.
 template <class Row>
 std::vector<double> confining_stresses(const StrengthTest<Row> &test,

@@ -135,6 +135,18 @@ TEST_F(CompressionReport, ShowsTriaxialTests) {
       << angles;
 }
 
+// A run that was interrupted at half of its strain is not a good one.
+TEST_F(CompressionReport, TellsThatARunWasInterrupted) {
+  std::string rows = header;
+  for (const CompressionRow &row : made_rows(100, 42, 27, 15))
+    rows += line(row);
+  write_run("half", "biaxial.csv", rows, "sample,random\nside,100\nseed,1\nstrain,0.3\n");
+  const std::string page = sound_page("half", "biaxial", 1);
+  EXPECT_NE(page.find("every run reached at least 99 % of its strain"), std::string::npos);
+  EXPECT_NE(page.find("2 of 3 acceptance criteria hold"), std::string::npos);
+  EXPECT_NE(page.find("50 %"), std::string::npos);
+}
+
 TEST_F(CompressionReport, HasNoLineForOneSideStress) {
   write_test("one", 100, 1, 42);
   report("one");
