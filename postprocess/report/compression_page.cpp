@@ -64,6 +64,21 @@ double dilatancy_angle(const std::vector<CompressionRow> &rows, double from, dou
   return degree * std::asin(-volume / (2.0 * axial - volume));
 }
 
+/// E50, MPa, of a peak. The stresses of a row are means since the row before and belong to the strain halfway.
+double secant_modulus(const std::vector<CompressionRow> &rows, const Failure &peak) {
+  const double half = peak.half_difference();
+  double strain = 0.0, difference = 0.0;
+  for (std::size_t n = 1; n < rows.size(); ++n) {
+    const double next_strain = 0.5 * (rows[n - 1].strain + rows[n].strain);
+    const double next = rows[n].axial_stress - rows[n].side_stress;
+    if (next >= half)
+      return 1e-3 * half / (strain + (half - difference) / (next - difference) * (next_strain - strain));
+    strain = next_strain;
+    difference = next;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
 /// Angles over the seeds of a soil, for each side stress and for all.
 PageTable seed_table(const CompressionTest &test, const std::vector<Soil> &soils,
                      const std::vector<CompressionRun> &runs, const std::vector<Strength> &strengths) {
@@ -146,22 +161,23 @@ PageTable line_table(const CompressionTest &test, const std::vector<Soil> &soils
 PageTable run_table(const CompressionTest &test, const std::vector<CompressionRun> &runs,
                     const std::vector<Strength> &strengths) {
   PageTable table = element_run_table(
-      test.name + "_runs", {"side stress (kPa)", "void ratio at the start (-)", "peak friction angle (°)",
-                            "strain at the peak (%)", "dilatancy angle (°)", "critical friction angle (°)",
-                            "void ratio at the end (-)"});
+      test.name + "_runs", {"side stress (kPa)", "void ratio at the start (-)", "E50 (MPa)",
+                            "peak friction angle (°)", "strain at the peak (%)", "dilatancy angle (°)",
+                            "critical friction angle (°)", "void ratio at the end (-)"});
   for (std::size_t n = 0; n < runs.size(); ++n) {
     const CompressionRun &run = runs[n];
     const Strength &strength = strengths[n];
     add_element_run(table, run.run,
                     {run.run.text("side"), number_cell(run.rows.front().void_ratio),
-                     number_cell(strength.peak.angle()), number_cell(100 * strength.strain, 3),
-                     number_cell(strength.dilatancy, 3),
+                     number_cell(strength.secant_modulus, 3), number_cell(strength.peak.angle()),
+                     number_cell(100 * strength.strain, 3), number_cell(strength.dilatancy, 3),
                      strength.is_critical ? number_cell(strength.critical.angle()) : no_value,
                      number_cell(run.rows.back().void_ratio)},
                     strength_quality(run));
   }
   table.criterion += " and reached the strain asked for";
   table.notes = {
+      "E50: half of the axial minus the side stress at the peak, over the strain at which it is reached. "
       "Inertial number: strain rate times diameter sqrt(density/side stress); below 1e-3 a test is "
       "quasi-static. Energy error: stored energy + heat - work of the platens, over the largest "
       "work so far."};
@@ -248,6 +264,7 @@ Strength strength_of(const std::vector<CompressionRow> &rows) {
     strength.peak = here;
     strength.strain = row.strain;
   }
+  strength.secant_modulus = secant_modulus(rows, strength.peak);
   strength.dilatancy = dilatancy_angle(rows, strength.strain - end / 30.0, strength.strain + end / 30.0);
   strength.critical = mean_stresses(rows, end / 1.5, end);
   strength.is_critical = end >= strain_of_critical_state;

@@ -36,6 +36,8 @@ struct Failure {
 struct Strength {
   Failure peak;        ///< the largest ratio within the first third of the strain, of means over a thirtieth
   double strain = 0.0; ///< at the peak
+  /// E50, MPa: half of the peak's axial minus side stress over the strain at which it is reached.
+  double secant_modulus = 0.0;
   double dilatancy = 0.0;  ///< angle, degrees, over a fifteenth of the strain around the peak
   Failure critical;        ///< means over the last third of the strain
   bool is_critical = true; ///< whether the strain reached 0.1, so that `critical` means something

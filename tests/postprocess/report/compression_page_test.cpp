@@ -55,6 +55,14 @@ TEST(CompressionStrength, IsThatOfTheCurve) {
   EXPECT_LE(strength.strain, 0.04);
 }
 
+// Axial minus side stress is E times the strain halfway to the row before, up to a constant: E50 is E.
+TEST(CompressionStrength, HasTheModulusOfALinearSample) {
+  std::vector<CompressionRow> rows = made_rows(100, 42, 42, 15);
+  for (std::size_t n = 1; n < rows.size(); ++n)
+    rows[n].axial_stress = 100 + std::min(50e3 * 0.5 * (rows[n - 1].strain + rows[n].strain), 400.0);
+  EXPECT_NEAR(strength_of(rows).secant_modulus, 50, 1e-9);
+}
+
 // A short force chain late in the test is no peak, and a test that ends at 8 % has no critical state.
 TEST(CompressionStrength, IsNotThatOfALateForceChain) {
   std::vector<CompressionRow> rows = made_rows(100, 42, 27, 15);
