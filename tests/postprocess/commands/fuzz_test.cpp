@@ -131,7 +131,7 @@ const std::vector<Subject> &subjects() {
        {"bed.csv", "events.csv", "cycles.csv", "parameters.csv", "parameters.csv"},
        run_report},
       {"dumps", 100, write_bed, dump_files, run_report},
-      {"vtk", 250, write_bed, dump_files, run_vtk},
+      {"vtk", 100, write_bed, dump_files, run_vtk},
       {"advise", 40, write_curves, {"chain.csv", "scaling.csv"}, run_advise},
   };
   return all;
