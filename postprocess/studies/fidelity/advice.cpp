@@ -1,6 +1,5 @@
 #include "studies/fidelity/advice.h"
 
-#include "support/csv.h"
 #include "support/range.h"
 
 #include <fmt/format.h>
@@ -122,17 +121,15 @@ std::string scene_words(const FidelityScene &scene) {
 std::vector<std::string> scene_commands(const FidelityScene &scene, int cycles) {
   const PackingOptions &packing = scene.bed.packing;
   const PackingOptions usual;
-  constexpr int digits = 6;
   std::string bed = "bed";
   if (scene.bed.layers.empty()) bed += fmt::format(" --balls {}", packing.balls);
   for (const BedLayer &layer : scene.bed.layers)
-    bed += " --layer " + number_text(layer.thickness, digits);
-  bed += " --width " + number_text(packing.width, digits);
-  if (packing.depth > 0.0) bed += " --depth " + number_text(packing.depth, digits);
-  if (packing.height > 0.0) bed += " --height " + number_text(packing.height, digits);
+    bed += fmt::format(" --layer {}", layer.thickness);
+  bed += fmt::format(" --width {}", packing.width);
+  if (packing.depth > 0.0) bed += fmt::format(" --depth {}", packing.depth);
+  if (packing.height > 0.0) bed += fmt::format(" --height {}", packing.height);
   if (packing.radius_min != usual.radius_min || packing.radius_max != usual.radius_max)
-    bed += fmt::format(" --radius-min {} --radius-max {}", number_text(packing.radius_min, digits),
-                       number_text(packing.radius_max, digits));
+    bed += fmt::format(" --radius-min {} --radius-max {}", packing.radius_min, packing.radius_max);
   if (packing.grading != usual.grading) bed += " --grading " + grading_name(packing.grading);
   const Variables ratio = {{"ratio", scene.bed.ratio}};
   return {bed,

@@ -38,7 +38,8 @@ FidelityPlan plan_of(const std::vector<FidelityRun> &runs);
 /// The scene in words: dimensions, number and size of balls, box, drum if it is not the default one.
 std::string scene_words(const FidelityScene &scene);
 
-/// The words after the front script with which the scene is made and run, a line for each command.
+/// The words after the front script with which the scene is made and run, a line for each command: bit for bit the run of the study's
+/// seed 1.
 std::vector<std::string> scene_commands(const FidelityScene &scene, int cycles);
 
 } // namespace drumlin::post
