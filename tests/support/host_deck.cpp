@@ -55,6 +55,12 @@ Outcome run_host(const std::string &pair, const std::string &lines, const fs::pa
   return run_engine(fs::path(DRUMLIN_SOURCE_DIR) / "tests/support/in.host", {}, folder, ranks);
 }
 
+Outcome run_lammps_host(const std::string &lines, const fs::path &folder, int ranks) {
+  write_text(folder / "lines", lines + "\nrun 20\n");
+  return run_deck(fs::path(DRUMLIN_SOURCE_DIR) / "tests/support/host.lammps",
+                  {{"lines", (folder / "lines").string()}}, folder, ranks);
+}
+
 void write_text(const fs::path &file, const std::string &text) {
   std::ofstream out(file, std::ios::binary);
   out << text;

@@ -25,6 +25,9 @@ Outcome run_engine(const std::filesystem::path &deck, const std::vector<std::str
 Outcome run_host(const std::string &pair, const std::string &lines, const std::filesystem::path &folder,
                  int ranks);
 
+/// Runs the host deck of LAMMPS, which has no pair style, with the lines under test.
+Outcome run_lammps_host(const std::string &lines, const std::filesystem::path &folder, int ranks);
+
 /// Environment with which MPI runs as root, with more ranks than cores, and several runs at once; its own
 /// files go to `folder`.
 std::vector<std::string> mpi_environment(const std::filesystem::path &folder);

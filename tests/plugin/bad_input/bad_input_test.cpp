@@ -86,7 +86,9 @@ void try_input(const BadGroup &group, const BadInput &input, int ranks) {
   const Scratch scratch;
   const EarlierRun earlier(scratch.path());
   Outcome outcome;
-  if (group.deck.empty()) {
+  if (group.lammps) {
+    outcome = run_lammps_host(input.lines + outputs, scratch.path(), ranks);
+  } else if (group.deck.empty()) {
     const std::string pair = input.pair.empty() ? host_pair_style() + host_properties() : input.pair;
     outcome = run_host(pair, input.lines + outputs, scratch.path(), ranks);
   } else {
@@ -112,10 +114,17 @@ void try_input(const BadGroup &group, const BadInput &input, int ranks) {
   if (!input.runs) earlier.expect_untouched();
 }
 
+void try_inputs(const BadGroup &group, int ranks) {
+  if (group.lammps && !post::has_lammps())
+    GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  for (const BadInput &input : group.inputs)
+    try_input(group, input, ranks);
+}
+
 std::vector<BadGroup> all_groups() {
-  std::vector<BadGroup> groups = bad_lines();
-  const std::vector<BadGroup> more = bad_variables();
-  groups.insert(groups.end(), more.begin(), more.end());
+  std::vector<BadGroup> groups = bad_laws();
+  for (const std::vector<BadGroup> &more : {bad_lines(), bad_variables()})
+    groups.insert(groups.end(), more.begin(), more.end());
   return groups;
 }
 
@@ -123,7 +132,7 @@ std::vector<BadGroup> all_groups() {
 std::vector<BadGroup> groups_for_two_ranks() {
   std::vector<BadGroup> groups;
   for (const BadGroup &group : all_groups()) {
-    groups.push_back({group.name, group.deck, {}});
+    groups.push_back({group.name, group.deck, {}, group.lammps});
     for (std::size_t n = 0; n < group.inputs.size(); ++n)
       if (group.inputs[n].two_ranks || n == 0) groups.back().inputs.push_back(group.inputs[n]);
   }
@@ -133,15 +142,9 @@ std::vector<BadGroup> groups_for_two_ranks() {
 class BadInputTest : public ::testing::TestWithParam<BadGroup> {};
 class BadInputRanksTest : public ::testing::TestWithParam<BadGroup> {};
 
-TEST_P(BadInputTest, EndsInOneClearLine) {
-  for (const BadInput &input : GetParam().inputs)
-    try_input(GetParam(), input, 1);
-}
+TEST_P(BadInputTest, EndsInOneClearLine) { try_inputs(GetParam(), 1); }
 
-TEST_P(BadInputRanksTest, EndsInOneClearLine) {
-  for (const BadInput &input : GetParam().inputs)
-    try_input(GetParam(), input, 2);
-}
+TEST_P(BadInputRanksTest, EndsInOneClearLine) { try_inputs(GetParam(), 2); }
 
 std::string group_name(const ::testing::TestParamInfo<BadGroup> &info) { return info.param.name; }
 

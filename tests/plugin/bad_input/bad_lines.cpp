@@ -4,247 +4,6 @@
 namespace drumlin::test {
 namespace {
 
-BadInput line(const std::string &name, const std::string &lines, const std::vector<std::string> &says) {
-  return {name, lines, says};
-}
-
-BadInput on_two_ranks(BadInput input) {
-  input.two_ranks = true;
-  return input;
-}
-
-BadInput in_the_run(BadInput input) {
-  input.runs = true;
-  return input;
-}
-
-BadInput in_engine_words(BadInput input) {
-  input.text = Text::engine;
-  return input;
-}
-
-/// A mistake in the pair style: settings after `model hooke/transition`, then properties.
-BadInput pair(const std::string &name, const std::string &settings, const std::string &properties,
-              const std::vector<std::string> &says) {
-  BadInput input = line(name, "", says);
-  input.pair = "pair_style gran model hooke/transition " + settings + "\npair_coeff * *\n" + properties;
-  return input;
-}
-
-/// A value that one property of the contact law may not have.
-BadInput value(const std::string &property_name, const std::string &text, const std::string &settings = "") {
-  const std::string given = property(property_name, text);
-  return pair(property_name + " " + text, settings, given + host_properties(given),
-              {"model hooke/transition", "property " + property_name, "types 1 and 1", "is " + text,
-               "a finite number >"});
-}
-
-BadInput twice_in_a_hybrid() {
-  BadInput input =
-      line("twice in a hybrid", "",
-           {"pair_style gran model hooke/transition: pair_style hybrid has gran more than once", "once"});
-  input.pair = "pair_style hybrid gran model hooke/transition gran model hooke/transition\n"
-               "pair_coeff * * gran 1\npair_coeff 3 3 gran 2\n" +
-               host_properties();
-  return input;
-}
-
-// Longer than other functions: it has a line for each mistake and nothing else.
-BadGroup pair_style() {
-  const std::string command = "pair_style gran model hooke/transition: ";
-  const std::string good = host_properties();
-  const std::string kn = property("kn", "1e7");
-  const std::string ratio = property("dampingRatio", "0.5");
-  return {
-      "PairStyle",
-      "",
-      {
-          on_two_ranks(pair("unknown transition", "transition C", good,
-                            {command + "keyword transition is 'C'", "A or B"})),
-          pair("small transition", "transition a", good, {command + "keyword transition is 'a'", "A or B"}),
-          pair("transition without value", "transition", good,
-               {command + "keyword transition is missing", "A or B"}),
-          pair("unknown damping", "damping high", good,
-               {command + "keyword damping is 'high'", "coefficient, ratio or restitution"}),
-          pair("damping without value", "damping", good,
-               {command + "keyword damping is missing", "coefficient, ratio or restitution"}),
-          pair("damping as a number", "damping 0.5", good,
-               {command + "keyword damping is '0.5'", "coefficient, ratio or restitution"}),
-          pair("unknown stepping", "stepping third", good,
-               {command + "keyword stepping is 'third'", "stock or second"}),
-          pair("stepping without value", "stepping", good,
-               {command + "keyword stepping is missing", "stock or second"}),
-          pair("unknown keyword", "limit on", good,
-               {command + "keyword is 'limit'", "transition, damping or stepping"}),
-          pair("the engine's limitForce", "limitForce on", good,
-               {command + "keyword is 'limitForce'", "transition B in place of 'limitForce on'",
-                "transition A in place of 'limitForce off'"}),
-          pair("the engine's absolute_damping", "transition A absolute_damping on", good,
-               {command + "keyword is 'absolute_damping'", "damping coefficient with property gamman_abs"}),
-          pair("the engine's tangential_damping", "tangential_damping off", good,
-               {command + "keyword is 'tangential_damping'", "property gammat_abs of 0"}),
-          pair("the engine's viscous", "viscous on", good,
-               {command + "keyword is 'viscous'", "damping ratio with property dampingRatio"}),
-          pair("LAMMPS's limit_damping", "limit_damping", good,
-               {command + "keyword is 'limit_damping'", "transition B in place of it"}),
-          pair("the engine's energies", "computeDissipatedEnergy on", good,
-               {command + "keyword is 'computeDissipatedEnergy'", "the energies of fix roller/history"}),
-          on_two_ranks(twice_in_a_hybrid()),
-          pair("cap", "tangential coulomb cap spring", good, {command + "keyword is 'cap'"}),
-          pair("a word left over", "transition A B", good, {command + "keyword is 'B'"}),
-          pair("torsion without rolling", "torsionTorque on", good, {command + "keyword is 'torsionTorque'"}),
-          pair("torsion without value", "rolling_friction cdt torsionTorque", good,
-               {command + "keyword torsionTorque is missing", "on or off"}),
-          pair("unknown torsion", "rolling_friction epsd2 torsionTorque yes", good,
-               {command + "keyword torsionTorque is 'yes'", "on or off"}),
-          pair("model too late", "transition A tangential history", good,
-               {command + "'tangential' comes too late"}),
-          pair("model without name", "tangential", good,
-               {command + "'tangential' comes too late or lacks its value"}),
-          in_engine_words(
-              pair("unknown tangential model", "tangential sticky", good, {"Invalid model specified"})),
-          in_engine_words(pair("cohesion", "cohesion sjkr", good, {"Unknown normal model"})),
-          on_two_ranks(
-              pair("no kn", "", ratio,
-                   {"property kn (normal stiffness, N/m) is missing; allowed: 'fix ID all property/global kn",
-                    "9 values"})),
-          pair("no damping ratio", "", kn,
-               {"property dampingRatio (damping ratio D", "is missing", "9 values"}),
-          pair("no damping coefficient", "damping coefficient", kn + ratio,
-               {"property gamman_abs (normal damping coefficient, N s/m", "is missing", "9 values"}),
-          pair("no restitution", "damping restitution", kn + ratio,
-               {"property coefficientRestitution (restitution e", "is missing", "9 values"}),
-      }};
-}
-
-/// A mistake in the pair style with the Hertz law, whose host properties are given but those in `properties`.
-BadInput hertz(const std::string &name, const std::string &settings, const std::string &E,
-               const std::string &nu, const std::vector<std::string> &says) {
-  BadInput input = line(name, "", says);
-  const auto of_types = [](const std::string &property_name, const std::string &value) {
-    return value.empty() ? std::string()
-                         : "fix " + property_name + " all property/global " + property_name +
-                               " peratomtype " + value + " " + value + " " + value + "\n";
-  };
-  input.pair = "pair_style gran model hertz/transition " + settings + "\npair_coeff * *\n" +
-               host_properties() + of_types("youngsModulus", E) + of_types("poissonsRatio", nu);
-  return input;
-}
-
-BadGroup hertz_law() {
-  const std::string command = "pair_style gran model hertz/transition: ";
-  return {
-      "Hertz",
-      "",
-      {
-          hertz("transition", "transition C", "1e7", "0.3",
-                {command + "keyword transition is 'C'", "A or B"}),
-          hertz("torsion", "rolling_friction epsd2 torsionTorque yes", "1e7", "0.3",
-                {command + "keyword torsionTorque is 'yes'", "on or off"}),
-          on_two_ranks(
-              hertz("no modulus", "", "", "0.3",
-                    {"model hertz/transition: property youngsModulus (Young's modulus, Pa) is missing",
-                     "peratomtype' and 3 values"})),
-          hertz("no ratio", "", "1e7", "", {"property poissonsRatio (Poisson's ratio) is missing"}),
-          hertz("negative modulus", "", "-1", "0.3",
-                {"model hertz/transition: property youngsModulus of type 1 is -1", "a finite number > 0"}),
-          hertz("ratio beyond", "", "1e7", "0.6",
-                {"property poissonsRatio of type 1 is 0.6", "a finite number > -1 and <= 0.5"}),
-          hertz("damping restitution", "damping restitution", "1e7", "0.3",
-                {"model hertz/transition: property coefficientRestitution", "is missing"}),
-      }};
-}
-
-BadGroup properties() {
-  const std::string damping = property("dampingRatio", "0.5");
-  const auto engine_value = [&damping](const std::string &text) {
-    return in_engine_words(pair("kn " + text, "", property("kn", text) + damping,
-                                {"Expected floating point parameter", "fix_property_global"}));
-  };
-  return {
-      "Properties",
-      "",
-      {
-          on_two_ranks(value("kn", "-5")),
-          value("kn", "0"),
-          value("dampingRatio", "-1"),
-          value("gamman_abs", "-1", "damping coefficient"),
-          value("coefficientRestitution", "0", "damping restitution"),
-          value("coefficientRestitution", "1.1", "damping restitution"),
-          value("coefficientRollingFriction", "-0.1"),
-          value("kt", "-1"),
-          value("gammat_abs", "-1"),
-          value("coefficientFriction", "-1", "tangential history"),
-          value("coefficientFriction", "-0.5", "tangential no_history"),
-          value("coefficientFriction", "-0.5", "tangential coulomb"),
-          pair("kn beyond a double", "", property("kn", "1e400") + damping,
-               {"property kn of types 1 and 1 is inf", "> 0"}),
-          engine_value("nan"),
-          engine_value("inf"),
-          engine_value("stiff"),
-          in_engine_words(pair("kn for two types", "",
-                               "fix kn all property/global kn peratomtypepair 2 1e7 1e7 1e7 1e7\n" + damping,
-                               {"kn", "property/global"})),
-          in_engine_words(pair("rolling friction missing", "rolling_friction cdt",
-                               property("kn", "1e7") + damping,
-                               {"coefficientRollingFriction", "rolling_model cdt"})),
-      }};
-}
-
-/// Lines in the host deck with another pair style.
-BadInput with_pair_style(const std::string &name, const std::string &pair_style_line,
-                         const std::string &lines, const std::vector<std::string> &says) {
-  BadInput input = line(name, lines, says);
-  input.pair = pair_style_line + "\npair_coeff * *\n" + host_properties();
-  return input;
-}
-
-BadGroup wall() {
-  const std::string command = "fix wall/gran model hooke/transition: ";
-  const std::string fix = "fix wall all wall/gran model hooke/transition ";
-  const std::string plane = "primitive type 1 zplane -1.8 ";
-  return {
-      "Wall",
-      "",
-      {
-          on_two_ranks(line("unknown transition", fix + plane + "transition C",
-                            {command + "keyword transition is 'C'", "A or B"})),
-          line("transition without value", fix + plane + "transition",
-               {command + "keyword transition is missing", "A or B"}),
-          line("unknown damping", fix + plane + "damping 1e5",
-               {command + "keyword damping is '1e5'", "coefficient, ratio or restitution"}),
-          line("unknown keyword", fix + plane + "limit on", {command + "keyword is 'limit'"}),
-          line("the engine's limitForce", fix + plane + "limitForce on",
-               {command + "keyword is 'limitForce'", "transition B in place of 'limitForce on'"}),
-          on_two_ranks(line("stock with a pair style with second", fix + plane + "stepping stock",
-                            {command + "keyword stepping is 'stock' and that of the pair style is 'second'",
-                             "the same stepping for both"})),
-          on_two_ranks(with_pair_style(
-              "second with a pair style with stock", "pair_style gran model hooke/transition stepping stock",
-              fix + plane,
-              {command + "keyword stepping is 'second' (its default) and that of the pair style is "
-                         "'stock'",
-               "the same stepping for both"})),
-          with_pair_style("stock, and a later pair style that changes to second",
-                          "pair_style gran model hooke/transition stepping stock",
-                          fix + plane +
-                              "stepping stock\npair_style gran model hooke/transition\npair_coeff * *",
-                          {command + "keyword stepping is 'stock' and that of the pair style is 'second'"}),
-          with_pair_style("second with the engine's law", "pair_style gran model hooke/stiffness",
-                          fix + plane,
-                          {command + "keyword stepping is 'second' (its default)",
-                           "there is no pair_style gran model hooke/transition yet"}),
-          line("unknown stepping", fix + plane + "stepping 2",
-               {command + "keyword stepping is '2'", "stock or second"}),
-          line("settings before the wall", fix + "transition A " + plane,
-               {command + "'primitive' comes too late"}),
-          line("model after the wall", fix + plane + "tangential history",
-               {command + "'tangential' comes too late"}),
-          in_engine_words(line("no wall", fix, {"wall/gran", "'mesh' or 'primitive'"})),
-          in_engine_words(line("type", fix + "primitive type 9 zplane -1.8", {"wall/gran", "type"})),
-      }};
-}
-
 // Longer than other functions: it has a line for each mistake and nothing else.
 BadGroup drum_excite() {
   const std::string command = "fix drum/excite: ";
@@ -907,15 +666,44 @@ BadGroup settle() {
       }};
 }
 
+BadGroup fixes_in_lammps() {
+  const std::string good = lammps_pair_style, absorb = "fix boundary/absorb",
+                    ground = good + "fix ground all boundary/absorb ",
+                    whole = ground + "normal 0 0 -1 area 1 density 1800 speeds 300 170";
+  return in_lammps(
+      "FixesInLammps",
+      {line(good + "fix guard all guard every 0", {"fix guard", "keyword every is '0'"}),
+       line(good + "fix excite all drum/excite amplitude 1 omega -1",
+            {"fix drum/excite", "keyword omega is '-1'"}),
+       line(ground, {absorb, "keyword normal is missing", "normal x y z"}),
+       line(ground + "normal 0 0 0", {absorb, "keyword normal is '0 0 0'", "a vector with a length"}),
+       line(ground + "density nan", {absorb, "keyword density is 'nan'", "> 0"}),
+       line(ground + "speeds 300", {absorb, "keyword speeds, of shear waves is missing", ">= 0"}),
+       line(ground + "normal 0 0 -1 area 1 density 1800 speeds 300 301",
+            {absorb, "speed of shear waves is '301 m/s'", "at most", "300 m/s"}),
+       line(whole + " depth", {absorb, "keyword depth is missing", "> 0"}),
+       line(whole + " static maybe", {absorb, "keyword static is 'maybe'", "yes or no"}),
+       line(whole + " stiffness 5",
+            {absorb, "keyword is 'stiffness'", "normal, area, density, speeds, depth or static"}),
+       line(good +
+                "group nobody id 1000\nfix ground nobody boundary/absorb normal 0 0 -1 area 1 density 1800 "
+                "speeds 300 170",
+            {absorb, "group is 'nobody', which is empty", "the boundary's balls"}),
+       line(good + "fix early all nve/sphere\n" + whole.substr(good.size()) + " static yes",
+            {absorb, "keyword static is 'yes' behind fix early (nve/sphere), which integrates",
+             "before all fixes that integrate balls of the boundary"}),
+       line("drumlin/check k 0 positive", {"drumlin/check", "variable k is '0'", "a finite number > 0"})});
+}
+
 } // namespace
 
 std::vector<BadGroup> bad_lines() {
-  return {
-      pair_style(),      properties(), hertz_law(),      wall(),          drum_excite(),    bond_spring(),
-      boundary_absorb(), clump(),      contact_events(), contact_local(), contact_energy(), roller_history(),
-      guard(),           check(),      record(),         run(),           settle(),         surface(),
-      write_restart(),   write_data(), outputs(),        take(),          variables(),      layers(),
-      largest()};
+  return {drum_excite(),    bond_spring(),    boundary_absorb(), clump(),
+          contact_events(), contact_local(),  contact_energy(),  roller_history(),
+          guard(),          check(),          record(),          run(),
+          settle(),         surface(),        write_restart(),   write_data(),
+          outputs(),        take(),           variables(),       layers(),
+          largest(),        fixes_in_lammps()};
 }
 
 } // namespace drumlin::test

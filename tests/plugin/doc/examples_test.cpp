@@ -8,6 +8,7 @@
 // page that begins with "Not run by a test:" says why. Of these, the decks and variables of `./drumlin run`
 // are still checked with the engine.
 
+#include "contact/laws.h"
 #include "tests/support/host_deck.h"
 
 #include <gtest/gtest.h>
@@ -83,10 +84,7 @@ Outcome run_example(const Example &example, const fs::path &folder) {
     return run_deck(deck, {}, folder);
   }
   fs::create_directory(folder / "results");
-  if (example.language == "lammps") {
-    write_text(folder / "lines", example.text + "run 20\n");
-    return run_deck(root / "tests/support/host.lammps", {{"lines", (folder / "lines").string()}}, folder);
-  }
+  if (example.language == "lammps") return run_lammps_host(example.text, folder, 1);
   const bool own_pair_style = example.text.find("pair_style") != std::string::npos;
   return run_host((own_pair_style ? "" : host_pair_style()) + host_properties(example.text), example.text,
                   folder, 1);
@@ -279,15 +277,16 @@ std::vector<std::string> listed_styles(const fs::path &header) {
   return names;
 }
 
-// A page for every fix and command that the plugin adds, and for those styles that one engine alone has.
+// A page for every contact law, fix and command that the plugin adds, and for those styles that one engine alone has.
 TEST(DocPages, AreThereForEveryCommand) {
-  std::vector<std::string> names = {"fix_wall_gran_transition", "pair_gran_hooke_transition",
-                                    "pair_gran_model_hooke_transition", "preload", "lammps"};
+  std::vector<std::string> names = {"fix_wall_gran_transition", "pair_gran_model_hooke_transition", "preload",
+                                    "lammps"};
+  for_each_law([&](auto law) { names.push_back(std::string("pair_gran_") + decltype(law)::type::name); });
   for (const std::string &fix : listed_styles("plugin/fixes/fixes.h"))
     names.push_back("fix_" + fix);
   for (const std::string &command : listed_styles("plugin/commands/commands.h"))
     names.push_back(command);
-  EXPECT_GE(names.size(), 5u + 7u + 9u);
+  EXPECT_GE(names.size(), 6u + 7u + 9u);
   for (std::string &name : names) {
     std::replace(name.begin(), name.end(), '/', '_');
     EXPECT_TRUE(fs::exists(root / "plugin/doc" / (name + ".md"))) << name;
