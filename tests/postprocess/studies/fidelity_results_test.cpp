@@ -70,6 +70,11 @@ TEST(FidelityPlan, HasScenesOfDifferentNamesAndKeepsProportions) {
       EXPECT_TRUE(names.insert(scene.name).second) << scene.name;
       EXPECT_EQ(scene.name.find(','), std::string::npos) << scene.name;
       EXPECT_EQ(scene.bed.packing.invalid(), "") << scene.name;
+      // A bed that hardens after it has settled is wedged between its walls: k is that of all decks, and pour_k is not given.
+      for (const post::Variables &of_one_deck : {scene.run, scene.bed.settle, scene.bed.place})
+        for (const auto &[name, value] : of_one_deck)
+          EXPECT_TRUE(name != "k" && name != "pour_k" && name != "pour_dt")
+              << scene.name << ": " << name << " " << value;
     }
     for (const post::BedComparison &one : plan.comparisons())
       EXPECT_EQ(names.count(one.base), 1u) << one.variant;
