@@ -32,6 +32,9 @@ double t_factor(double freedom);
 /// The interval by Student's t distribution; its half width is infinite for a single value.
 /// std::invalid_argument without values.
 MeanInterval mean_interval(const std::vector<double> &values);
+/// The mean of some values minus that of others, independent of them and of another scatter (Welch 1947); its half
+/// width is infinite if either are fewer than two. std::invalid_argument without values.
+MeanInterval mean_difference(const std::vector<double> &values, const std::vector<double> &others);
 
 /// A straight line y = intercept + slope x.
 struct LineFit {

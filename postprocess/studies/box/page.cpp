@@ -23,14 +23,14 @@ namespace {
 /// A change whose whole confidence interval is within it counts as negligible.
 constexpr double tolerance = 0.1;
 
-/// The finite values of a quantity over the seeds of a run, in the unit of tables.
-std::vector<double> values_of(const std::vector<BoxRun> &runs, const std::string &name,
-                              std::size_t quantity) {
-  std::vector<double> values;
-  for (const BoxRun &run : runs)
-    if (run.run == name && std::isfinite(run.values[quantity]))
-      values.push_back(box_quantities[quantity].scale * run.values[quantity]);
-  return values;
+/// The mean over the seeds of a run, in the unit of tables; none without a value.
+std::optional<MeanInterval> mean_of(const std::vector<BoxRun> &runs, const std::string &name,
+                                    std::size_t quantity) {
+  const std::vector<double> values = finite_values(runs, name, quantity);
+  if (values.empty()) return std::nullopt;
+  const MeanInterval mean = mean_interval(values);
+  return MeanInterval{box_quantities[quantity].scale * mean.mean,
+                      box_quantities[quantity].scale * mean.half_width};
 }
 
 std::string change_text(const std::optional<MeanInterval> &change, std::size_t quantity) {
@@ -76,14 +76,14 @@ PageTable change_table(const std::vector<Change> &changes) {
       row.push_back(change_text(change.of[q], q));
     table.add(std::move(row));
   }
-  table.notes = {"Mean change and half of its 95 % confidence interval over the seeds (Student's t), in "
-                 "percent of the mean of "
-                 "what it is compared with; of the settlement in mm. * marks those whose interval does not "
-                 "contain zero; by chance "
-                 "alone one of twenty has the mark.",
-                 "Runs in boxes of one size start from the same beds. Boxes of different sizes hold "
-                 "different beds, so that the "
-                 "scatter between beds is part of the change."};
+  table.notes = {
+      "Mean change and half of its 95 % confidence interval (Student's t), in percent of the mean of what it "
+      "is "
+      "compared with; of the settlement in mm. * marks those whose interval does not contain zero; by chance "
+      "alone one of twenty has the mark.",
+      "Runs in boxes of one size start from the same beds, and changes are taken seed by seed. Boxes of "
+      "different sizes hold different beds: the change is the difference of the means, with the scatter "
+      "of both (Welch)."};
   return table;
 }
 
@@ -104,13 +104,8 @@ PageTable mean_table(const std::vector<BoxRun> &runs) {
       if (run.run == name) cpu.push_back(run.cpu_s);
     std::vector<std::string> row = {name, std::to_string(cpu.size())};
     for (std::size_t q = 0; q < box_quantities.size(); ++q) {
-      const std::vector<double> values = values_of(runs, name, q);
-      if (values.empty()) {
-        row.emplace_back(no_value);
-        continue;
-      }
-      const MeanInterval mean = mean_interval(values);
-      row.push_back(fmt::format("{:.3g} ± {:.2g}", mean.mean, mean.half_width));
+      const std::optional<MeanInterval> mean = mean_of(runs, name, q);
+      row.push_back(mean ? fmt::format("{:.3g} ± {:.2g}", mean->mean, mean->half_width) : no_value);
     }
     row.push_back(fmt::format("{:.3g}", mean_interval(cpu).mean));
     table.add(std::move(row));
@@ -159,7 +154,7 @@ PageFigure size_figure(const std::vector<BoxRun> &runs, int BoxRun::*size, int B
       if (rigid && std::find(boxes.begin(), boxes.end(), box) == boxes.end()) boxes.push_back(box);
     }
     for (const auto &[times, run] : boxes) {
-      const MeanInterval mean = mean_interval(values_of(runs, run, q));
+      const MeanInterval mean = *mean_of(runs, run, q);
       if (!std::isfinite(mean.half_width)) continue; // one seed
       table.row(
           std::string(quantity.name) + " mean",
@@ -220,9 +215,9 @@ std::string changes_words(const std::vector<Change> &changes) {
           found.push_back(fmt::format("{} with {}", box_quantities[q].name, change.what));
       }
   if (count == 0) return "There is no comparison yet: it takes two seeds.";
-  return fmt::format(
-      "{} of {} changes leave the scatter of the seeds (by chance alone, one of twenty does){}{}.",
-      found.size(), count, found.empty() ? "" : ": ", fmt::join(found, "; "));
+  return fmt::format("{} of {} changes leave the scatter of the seeds, where chance alone makes {:.0f}{}{}.",
+                     found.size(), count, 0.05 * static_cast<double>(count), found.empty() ? "" : ": ",
+                     fmt::join(found, "; "));
 }
 
 } // namespace

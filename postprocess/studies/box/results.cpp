@@ -14,7 +14,12 @@ namespace {
 
 constexpr std::size_t settlement = 2; // index in box_quantities
 
-/// Change over the pairs of runs of one seed that `is_pair` accepts: the second is what the first is compared with.
+MeanInterval related(const MeanInterval &change, const std::vector<double> &bases, std::size_t quantity) {
+  const double scale = is_relative(quantity) ? std::fabs(mean_interval(bases).mean) : 1.0;
+  return {change.mean / scale, change.half_width / scale};
+}
+
+/// Change over the pairs of runs on one bed that `is_pair` accepts: the second is what the first is compared with.
 template <class IsPair>
 std::optional<MeanInterval> change_over_pairs(const std::vector<BoxRun> &runs, std::size_t quantity,
                                               const IsPair &is_pair) {
@@ -22,14 +27,13 @@ std::optional<MeanInterval> change_over_pairs(const std::vector<BoxRun> &runs, s
   for (const BoxRun &one : runs)
     for (const BoxRun &other : runs) {
       const double change = one.values[quantity] - other.values[quantity];
-      if (one.seed != other.seed || !is_pair(one, other) || !std::isfinite(change)) continue;
+      const bool same_bed = one.seed == other.seed && one.width == other.width && one.depth == other.depth;
+      if (!same_bed || !is_pair(one, other) || !std::isfinite(change)) continue;
       changes.push_back(change);
       bases.push_back(other.values[quantity]);
     }
   if (changes.size() < 2) return std::nullopt;
-  const MeanInterval change = mean_interval(changes);
-  const double scale = is_relative(quantity) ? std::fabs(mean_interval(bases).mean) : 1.0;
-  return MeanInterval{change.mean / scale, change.half_width / scale};
+  return related(mean_interval(changes), bases, quantity);
 }
 
 } // namespace
@@ -79,11 +83,29 @@ std::array<double, box_quantity_count> box_values(const std::filesystem::path &f
 
 bool is_relative(std::size_t quantity) { return quantity != settlement; }
 
+std::vector<double> finite_values(const std::vector<BoxRun> &runs, const std::string &run,
+                                  std::size_t quantity) {
+  std::vector<double> values;
+  for (const BoxRun &one : runs)
+    if (one.run == run && std::isfinite(one.values[quantity])) values.push_back(one.values[quantity]);
+  return values;
+}
+
 std::optional<MeanInterval> box_change(const std::vector<BoxRun> &runs, const BedComparison &compared,
                                        std::size_t quantity) {
-  return change_over_pairs(runs, quantity, [&compared](const BoxRun &one, const BoxRun &other) {
-    return one.run == compared.variant && other.run == compared.base;
-  });
+  const auto named = [&runs](const std::string &name) {
+    return std::find_if(runs.begin(), runs.end(), [&name](const BoxRun &run) { return run.run == name; });
+  };
+  const auto variant = named(compared.variant), base = named(compared.base);
+  if (variant == runs.end() || base == runs.end()) return std::nullopt;
+  if (variant->width == base->width && variant->depth == base->depth)
+    return change_over_pairs(runs, quantity, [&compared](const BoxRun &one, const BoxRun &other) {
+      return one.run == compared.variant && other.run == compared.base;
+    });
+  const std::vector<double> values = finite_values(runs, compared.variant, quantity),
+                            bases = finite_values(runs, compared.base, quantity);
+  if (values.size() < 2 || bases.size() < 2) return std::nullopt;
+  return related(mean_difference(values, bases), bases, quantity);
 }
 
 std::optional<MeanInterval> boundary_change(const std::vector<BoxRun> &runs, std::size_t quantity) {
@@ -91,8 +113,7 @@ std::optional<MeanInterval> boundary_change(const std::vector<BoxRun> &runs, std
   for (const BoxRun &run : runs)
     if (run.boundary == "absorb") ground = std::min(ground, run.ground_depth);
   return change_over_pairs(runs, quantity, [ground](const BoxRun &one, const BoxRun &other) {
-    return one.boundary == "absorb" && one.ground_depth == ground && other.boundary == "rigid" &&
-           one.width == other.width && one.depth == other.depth;
+    return one.boundary == "absorb" && one.ground_depth == ground && other.boundary == "rigid";
   });
 }
 

@@ -28,7 +28,6 @@ struct BoxRun {
   std::array<double, box_quantity_count> values{}; ///< in the order of box_quantities [SI]
   double cpu_s = 0.0;                              ///< processor time of the engine, excitation only
 };
-constexpr const char *default_box = "default rigid";
 
 /// A result of a run that the study compares.
 struct BoxQuantity {
@@ -46,8 +45,14 @@ const CsvSchema<BoxRun> &box_runs();
 /// them in the whole record, the settlement after the last cycle.
 std::array<double, box_quantity_count> box_values(const std::filesystem::path &folder);
 
-/// Change of a quantity from one run to another, seed by seed, over the mean of the second; none without two seeds
-/// that have both. Of the settlement, which may be zero, it is in m and not relative.
+/// The values of a run over its seeds, without those that are missing [SI].
+std::vector<double> finite_values(const std::vector<BoxRun> &runs, const std::string &run,
+                                  std::size_t quantity);
+
+/// Change of a quantity from one run to another, over the mean of the second; none without two seeds of both. In boxes
+/// of one size the beds of a seed are the same, and changes are taken seed by seed; the beds of different boxes have
+/// nothing in common, and the difference of the means has the scatter of both. Of the settlement, which may be zero,
+/// the change is in m and not relative.
 std::optional<MeanInterval> box_change(const std::vector<BoxRun> &runs, const BedComparison &compared,
                                        std::size_t quantity);
 /// Change from rigid walls to floor and sides that absorb, over all pairs of runs on one bed, in boxes of all sizes,

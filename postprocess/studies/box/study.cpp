@@ -16,21 +16,33 @@ namespace drumlin::post {
 
 namespace {
 
-/// A box, and floor and sides of it.
-struct BoxVariant {
-  std::string name;
-  int width, depth;     ///< in those of the default box
-  int ground_depth = 0; ///< below an absorbing floor [m]; 0: rigid floor and sides
+/// A box, and what floor and sides of it are in turn.
+struct Box {
+  int width, depth;               ///< in those of the default box
+  int seeds;                      ///< how many beds
+  std::vector<int> ground_depths; ///< below an absorbing floor [m]; 0: rigid floor and sides
 };
 
 struct BoxPlan {
   std::string beds; ///< in words
   PlacedBed bed;    ///< in the default box
   Variables run;    ///< of in.bed alone
-  std::vector<BoxVariant> variants;
+  std::vector<Box> boxes;
   std::vector<BedComparison> comparisons;
-  int seeds, cycles;
+  int cycles;
 };
+
+constexpr int rigid = 0, near = 1, far = 4; // m of ground
+
+std::string run_name(const Box &box, int ground_depth) {
+  std::vector<std::string> words;
+  if (box.width > 1) words.push_back(fmt::format("width {}", box.width));
+  if (box.depth > 1) words.push_back(fmt::format("depth {}", box.depth));
+  if (words.empty()) words.emplace_back("default");
+  words.emplace_back(ground_depth == rigid ? "rigid" : "absorb");
+  if (ground_depth > near) words.push_back(fmt::format("{} m", ground_depth));
+  return fmt::format("{}", fmt::join(words, " "));
+}
 
 BoxPlan quick_plan() {
   PlacedBed bed{"", {}, {}, "1e-2"};
@@ -41,10 +53,9 @@ BoxPlan quick_plan() {
   return {"100 discs of case loose, a test of the study",
           bed,
           {{"Fw", "2940"}},
-          {{default_box, 1, 1}, {"default absorb", 1, 1, 1}, {"width 2 rigid", 2, 1}},
-          {{"width 2 instead of 1", "width 2 rigid", default_box},
-           {"absorbing instead of rigid", "default absorb", default_box}},
-          2,
+          {{1, 1, 2, {rigid, near}}, {2, 1, 2, {rigid}}},
+          {{"width 2 instead of 1", "width 2 rigid", "default rigid"},
+           {"absorbing instead of rigid", "default absorb", "default rigid"}},
           4};
 }
 
@@ -56,52 +67,43 @@ BoxPlan full_plan() {
   bed.packing.width = 1.26; // m
   bed.packing.radius_min = 0.032;
   bed.packing.radius_max = 0.048;
-  constexpr int
-      near = 1,
-      far = 4; // m, of ground: nearly as deep together with the bed as beds of twice and four times its depth
+  // An interrupted study has the whole rows of its first boxes.
   return {"250 discs of case gravel, radii 32 to 48 mm, in a box 1.26 m wide, which they fill to 1.2 m",
           bed,
           {},
-          {{default_box, 1, 1},
-           {"default absorb", 1, 1, near},
-           {"default absorb 4 m", 1, 1, far},
-           {"width 2 rigid", 2, 1},
-           {"width 2 absorb", 2, 1, near},
-           {"depth 2 rigid", 1, 2},
-           {"depth 2 absorb", 1, 2, near},
-           {"width 4 rigid", 4, 1},
-           {"width 4 absorb", 4, 1, near},
-           {"depth 4 rigid", 1, 4},
-           {"depth 4 absorb", 1, 4, near}},
-          {{"a box twice as wide", "width 2 rigid", default_box},
-           {"four times as wide", "width 4 rigid", default_box},
-           {"a bed twice as deep", "depth 2 rigid", default_box},
-           {"four times as deep", "depth 4 rigid", default_box},
-           {"absorbing instead of rigid", "default absorb", default_box},
-           {"absorbing with 4 m of ground instead of rigid", "default absorb 4 m", default_box},
-           {"absorbing instead of rigid at twice the width", "width 2 absorb", "width 2 rigid"},
-           {"absorbing instead of rigid at four times the width", "width 4 absorb", "width 4 rigid"},
-           {"absorbing instead of rigid at twice the depth", "depth 2 absorb", "depth 2 rigid"},
-           {"absorbing instead of rigid at four times the depth", "depth 4 absorb", "depth 4 rigid"}},
-          3,
+          {{1, 1, 6, {rigid, near, far}},
+           {4, 1, 3, {rigid, near}},
+           {1, 2, 3, {rigid, near}},
+           {2, 1, 3, {rigid, near}},
+           {1, 4, 3, {rigid, near}},
+           {4, 4, 2, {rigid, near}}},
+          {{"absorbing instead of rigid", "default absorb", "default rigid"},
+           {"absorbing with 4 m of ground instead of 1 m", "default absorb 4 m", "default absorb"},
+           {"rigid: four times as wide", "width 4 rigid", "default rigid"},
+           {"rigid: four times as deep", "depth 4 rigid", "default rigid"},
+           {"rigid: four times as wide and deep", "width 4 depth 4 rigid", "default rigid"},
+           {"absorbing: four times as wide", "width 4 absorb", "default absorb"},
+           {"absorbing: four times as deep", "depth 4 absorb", "default absorb"},
+           {"absorbing: four times as wide and deep", "width 4 depth 4 absorb", "default absorb"}},
           6};
 }
 
-BoxRun measure(const BoxPlan &plan, const BoxVariant &variant, int seed, const std::filesystem::path &out) {
+BoxRun measure(const BoxPlan &plan, const Box &box, int ground_depth, int seed,
+               const std::filesystem::path &out) {
   PlacedBed bed = plan.bed;
-  bed.name = fmt::format("box_{}_{}", variant.width, variant.depth);
-  bed.packing.width *= variant.width;
-  bed.packing.balls *= variant.width * variant.depth;
+  bed.name = fmt::format("box_{}_{}", box.width, box.depth);
+  bed.packing.width *= box.width;
+  bed.packing.balls *= box.width * box.depth;
   BoxRun result;
-  result.run = variant.name;
+  result.run = run_name(box, ground_depth);
   result.seed = seed;
-  result.width = variant.width;
-  result.depth = variant.depth;
-  result.boundary = variant.ground_depth > 0 ? "absorb" : "rigid";
-  result.ground_depth = variant.ground_depth;
+  result.width = box.width;
+  result.depth = box.depth;
+  result.boundary = ground_depth == rigid ? "rigid" : "absorb";
+  result.ground_depth = ground_depth;
   Variables variables = joined(plan.run, bed.scene);
   variables.emplace_back("boundary", result.boundary);
-  if (variant.ground_depth > 0) variables.emplace_back("ground_depth", std::to_string(variant.ground_depth));
+  if (ground_depth != rigid) variables.emplace_back("ground_depth", std::to_string(ground_depth));
   const DeckRun run("bed/in.bed", with_start(variables, placed(bed, seed, out), plan.cycles));
   run.must_succeed();
   result.values = box_values(run.file(""));
@@ -123,14 +125,16 @@ void run_box_study(const StudyOptions &options) {
   check_engine_path(options.out);
   const BoxPlan plan = options.quick ? quick_plan() : full_plan();
   StudyResults results(options.out / "runs.csv", box_runs());
-  std::vector<std::vector<SeedRun>> groups; // one for each seed
-  for (int seed = 1; seed <= plan.seeds; ++seed) {
-    groups.emplace_back();
-    for (const BoxVariant &variant : plan.variants)
-      groups.back().push_back({variant.name, seed, [&plan, &variant, &options, seed] {
-                                 return measured(measure(plan, variant, seed, options.out));
-                               }});
-  }
+  std::vector<std::vector<SeedRun>> groups; // one for each bed, whose runs do not make it at the same time
+  for (const Box &box : plan.boxes)
+    for (int seed = 1; seed <= box.seeds; ++seed) {
+      groups.emplace_back();
+      for (const int ground_depth : box.ground_depths)
+        groups.back().push_back(
+            {run_name(box, ground_depth), seed, [&plan, &box, ground_depth, &options, seed] {
+               return measured(measure(plan, box, ground_depth, seed, options.out));
+             }});
+    }
   const std::vector<std::string> failures = make_runs(groups, options.jobs, results);
   write_box_page(options.out, plan.beds, read_points(results.file(), box_runs()), plan.comparisons, failures);
   fmt::print("{}\n", (options.out / "index.html").string());

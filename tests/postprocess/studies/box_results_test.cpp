@@ -1,4 +1,4 @@
-// Changes that another box makes: pairs by seed, relative to the mean of the base, against values computed by hand.
+// Changes that another box makes, relative to the mean of the base, against values computed by hand.
 #include "studies/box/results.h"
 
 #include <gtest/gtest.h>
@@ -38,6 +38,20 @@ TEST(BoxResults, PairsSeedsAndRelatesChangesToTheMeanOfTheBase) {
   runs[3].values[stiffness] = std::numeric_limits<double>::quiet_NaN(); // a record that gave no k
   EXPECT_FALSE(post::box_change(runs, compared, stiffness));
   EXPECT_FALSE(post::box_change(runs, {"nothing", "narrow", "base"}, force));
+}
+
+TEST(BoxResults, TakesBedsOfDifferentBoxesAsIndependent) {
+  std::vector<post::BoxRun> runs = {run_of("base", 1, 100.0), run_of("base", 2, 300.0),
+                                    run_of("wide", 1, 220.0), run_of("wide", 2, 420.0)};
+  runs[2].width = runs[3].width = 2;
+  const post::BedComparison compared{"wider", "wide", "base"};
+  const auto change = post::box_change(runs, compared, force);
+  ASSERT_TRUE(change);
+  EXPECT_NEAR(change->mean, 120.0 / 200.0, 1e-12);
+  const double t = 4.30265272975; // two degrees of freedom
+  EXPECT_NEAR(change->half_width, t * std::sqrt(2.0e4) / 200.0, 1e-8);
+  runs.pop_back();
+  EXPECT_FALSE(post::box_change(runs, compared, force));
 }
 
 TEST(BoxResults, ComparesBoundariesOnOneBedInBoxesOfAllSizes) {

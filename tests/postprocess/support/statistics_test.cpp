@@ -53,6 +53,18 @@ TEST(MeanInterval, OfOneValueIsInfinite) {
   EXPECT_THROW(mean_interval({}), std::invalid_argument);
 }
 
+// Values whose degrees of freedom are a whole number: of equal samples of two 1 + 1, with a constant the 1 of the other, and of squared
+// errors 1 and 2 with one and two degrees of freedom 3^2 / (1 + 2^2/2) = 3.
+TEST(MeanDifference, HasTheFreedomOfWelchAndSatterthwaite) {
+  const MeanInterval equal = mean_difference({11.0, 13.0}, {1.0, 3.0});
+  EXPECT_NEAR(equal.mean, 10.0, 1e-12);
+  EXPECT_NEAR(equal.half_width, 4.30265 * std::sqrt(2.0), 1e-4);
+  EXPECT_NEAR(mean_difference({1.0, 3.0}, {5.0, 5.0, 5.0}).half_width, 12.7062, 1e-4);
+  const double root = std::sqrt(6.0);
+  EXPECT_NEAR(mean_difference({1.0, 3.0}, {-root, 0.0, root}).half_width, 3.18245 * std::sqrt(3.0), 1e-4);
+  EXPECT_FALSE(mean_difference({1.0}, {2.0, 2.1}).significant());
+}
+
 // Worked out by hand: the line is 0.785 + 0.425 x, the squares of the distances from it add up to 2.79075; t = 3.18245 with 3 degrees of freedom.
 TEST(LineFit, IsTheLineOfLeastSquares) {
   const std::vector<double> x = {1, 2, 3, 4, 5}, y = {1, 2, 1.3, 3.75, 2.25};

@@ -32,7 +32,7 @@ TEST(BoxStudy, ContinuesWhereItWasInterrupted) {
   const auto of = [&runs](const char *name) {
     return std::find_if(runs.begin(), runs.end(), [name](const auto &run) { return run.run == name; });
   };
-  EXPECT_NE(of("default absorb")->values[0], of(post::default_box)->values[0]);
+  EXPECT_NE(of("default absorb")->values[0], of("default rigid")->values[0]);
   const auto placed = fs::last_write_time(wide);
 
   interrupt(rows);
