@@ -103,8 +103,8 @@ inline constexpr std::array studies = {
           &run_benchmarks_study},
     Study{"box",
           "What the box does to the answers of a bed: width and depth up to four times the default, rigid "
-          "walls "
-          "or floor and sides that absorb waves, three seeds. About ten minutes of processor time.",
+          "walls or floor and sides that absorb waves; six seeds of the default box, three of the others. "
+          "About ten minutes of processor time.",
           &run_box_study, true},
     Study{
         "cost",
