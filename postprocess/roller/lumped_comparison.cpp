@@ -212,6 +212,17 @@ bool beyond_scatter(const ComparedQuantity &value, std::size_t q) {
          std::fabs(value.difference.mean) > std::max(share * std::fabs(value.lumped), texts.at(q).negligible);
 }
 
+/// A difference and its interval in per cent of the chain's value, or in the label's unit where the chain's value is negligible, as its
+/// CMV is if contact is never lost. \param sign of the difference, written or left out
+std::string difference_text(const ComparedQuantity &value, std::size_t q, bool sign) {
+  const bool relative = std::fabs(value.lumped) > texts.at(q).negligible;
+  const double scale = relative ? 100.0 / std::fabs(value.lumped) : texts.at(q).scale;
+  const double mean = scale * value.difference.mean;
+  return fmt::format("{} ± {:.2g}{}",
+                     sign ? fmt::format("{:+.3g}", mean) : fmt::format("{:.3g}", std::fabs(mean)),
+                     scale * value.difference.half_width, relative ? " %" : "");
+}
+
 /// What a difference beyond scatter says of the soil.
 std::string reason(CycleQuantity quantity, bool larger) {
   switch (quantity) {
@@ -323,16 +334,14 @@ PageTable comparison_table(const std::vector<LumpedComparison> &records) {
   PageTable table;
   table.name = "chain_and_record";
   table.title = "Chain and record";
-  table.header = {"quantity", "record", "chain", "difference (%)", "beyond scatter"};
+  table.header = {"quantity", "record", "chain", "difference", "beyond scatter"};
   for (const CycleQuantity quantity : cycle_quantities) {
     const auto q = static_cast<std::size_t>(quantity);
     const ComparedQuantity value = together(records, q);
-    const double scale = texts.at(q).scale, percent_of = 100.0 / std::fabs(value.lumped);
+    const double scale = texts.at(q).scale;
     table.add({texts.at(q).label,
                fmt::format("{:.4g} ± {:.2g}", scale * value.record.mean, scale * value.record.half_width),
-               fmt::format("{:.4g}", scale * value.lumped),
-               fmt::format("{:+.1f} ± {:.1f}", percent_of * value.difference.mean,
-                           percent_of * value.difference.half_width),
+               fmt::format("{:.4g}", scale * value.lumped), difference_text(value, q, true),
                beyond_scatter(value, q) ? "yes" : "no"});
   }
   table.notes = {records.size() == 1 ? "After the ±: half of a 95 % confidence interval, over the cycles "
@@ -390,12 +399,10 @@ std::vector<std::string> lumped_answer(const std::vector<LumpedComparison> &reco
     if (!beyond_scatter(value, q))
       same.emplace_back(texts.at(q).name);
     else
-      lines.push_back(fmt::format("Against the chain with the same k and D, {} of the record is {} by {:.3g} "
-                                  "± {:.2g} %, probably because {}.",
-                                  texts.at(q).name, larger ? "larger" : "smaller",
-                                  100.0 * std::fabs(value.difference.mean / value.lumped),
-                                  100.0 * std::fabs(value.difference.half_width / value.lumped),
-                                  reason(quantity, larger)));
+      lines.push_back(fmt::format(
+          "Against the chain with the same k and D, {} of the record is {} by {}, probably because {}.",
+          texts.at(q).name, larger ? "larger" : "smaller", difference_text(value, q, false),
+          reason(quantity, larger)));
   }
   if (!same.empty()) lines.push_back(fmt::format("No difference beyond scatter: {}.", fmt::join(same, ", ")));
   double r2 = 0.0, settlement = 0.0;
