@@ -62,13 +62,16 @@ public:
   }
 
 private:
+  /// Evaluations times seeds, at most: a continued calibration may have made some of those beside its best point.
   std::size_t planned() const {
-    const auto seeds = static_cast<std::size_t>(task_.seeds);
-    const std::size_t beside_best = (2 * task_.vary.size() + 1) * seeds;
-    const std::size_t whole = static_cast<std::size_t>(effort_.evaluations) * seeds + beside_best;
-    // Evaluations of a calibration to other values of the targets: what it did beside its best point may be made again elsewhere.
-    const std::size_t known = evaluations_.size() * seeds;
-    return known < whole ? whole : known + beside_best;
+    const auto left = static_cast<std::size_t>(std::max(0, effort_.evaluations - searched()));
+    return (evaluations_.size() + left + 2 * task_.vary.size() + 1) * static_cast<std::size_t>(task_.seeds);
+  }
+
+  /// How many evaluations the search has made.
+  int searched() const {
+    return static_cast<int>(std::count_if(evaluations_.begin(), evaluations_.end(),
+                                          [](const Evaluation &one) { return one.stage == Stage::search; }));
   }
 
   /// Measures the seeds that evaluations lack, several at the same time.
@@ -152,9 +155,7 @@ private:
     // As many points at a time as give work to all jobs. The search can name a point again: then it has converged as far as six
     // digits go.
     const int at_once = std::max(1, effort_.jobs / task_.seeds);
-    auto done =
-        static_cast<int>(std::count_if(evaluations_.begin(), evaluations_.end(),
-                                       [](const Evaluation &one) { return one.stage == Stage::search; }));
+    int done = searched();
     while (done < effort_.evaluations) {
       std::vector<std::vector<double>> points;
       for (int i = 0; i < std::min(at_once, effort_.evaluations - done); ++i)

@@ -33,7 +33,7 @@ constexpr const char *evaluations_name = "evaluations.csv";
 
 /// Calibrates, in three stages: the search over all ranges; the points of slope_points() around its best; and
 /// the point at which the linear model of sensitivity_at() meets the targets, if all parameters are identified. Every
-/// evaluation uses the same seeds, so that differences between points are not those between seeds. An evaluation of which a seed
+/// evaluation uses the same seeds. An evaluation of which a seed
 /// fails counts in the search as the worst of those that did not. Results are written to evaluations.csv in `out`, which exists, one
 /// row for each seed when it is known; rows that are there are not measured again. Prints progress. Throws std::runtime_error if
 /// the first evaluations all fail, or if too few around the best succeed.

@@ -373,8 +373,12 @@ LumpedComparison compare_lumped(const Record &record, const IdentifiedRecord &fo
   result.lumped = chain_record(result.chain, closest_part(record, steady, static_cast<std::size_t>(samples)));
   result.record_cycles = values_of(record);
   result.lumped_cycles = values_of(chain_record(result.chain, steady));
-  result.first = result.record_cycles.size() / 2;
-  result.settlement = settlement_of(record, result.first, result.record_cycles.size());
+  // The second half, made an even number: the motion may repeat after two cycles only, and the transient from rest of a drum on soft
+  // soil alternates, too.
+  const std::size_t all = result.record_cycles.size();
+  result.first = all / 2;
+  if ((all - result.first) % 2 == 1 && result.first > 0) --result.first;
+  result.settlement = settlement_of(record, result.first, all);
   CycleValues middle{};
   for (std::size_t q = 0; q < middle.size(); ++q)
     middle[q] = mean_from(result.lumped_cycles, 0, q).mean;

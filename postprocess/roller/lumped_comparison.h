@@ -55,7 +55,7 @@ struct LumpedComparison {
 };
 
 /// Solves the chain of the record's roller with the law that identification found, in closed form, until its motion is steady, and
-/// compares. The first half of the record's cycles does not count, as in other figures of beds. std::runtime_error with one line for a
+/// compares. The first half of the record's cycles does not count, as in other figures of beds, or one cycle less, so that an even number counts. std::runtime_error with one line for a
 /// record without a law, without samples of drum and force, or without k23 and c23 in its parameters.csv.
 LumpedComparison compare_lumped(const Record &record, const IdentifiedRecord &found);
 
