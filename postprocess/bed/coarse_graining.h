@@ -33,8 +33,10 @@ using Tensor = std::array<double, 9>;
 /// Types of balls in the decks of inputs/bed.
 enum BallType : int { soil_type = 1, drum_type = 2, frame_type = 3 };
 
-/// Whether balls of a type are soil: of the lowest layer, or of the layers above it, whose types are 4, 5, ...
-constexpr bool is_soil(int type) { return type == soil_type || type > frame_type; }
+/// The layer of soil that balls of a type belong to, counted from 1, the lowest; 0 for drum and frame. The types of the layers are 1, 4,
+/// 5, ...
+constexpr int layer_of(int type) { return type == soil_type ? 1 : type > frame_type ? type - 2 : 0; }
+constexpr bool is_soil(int type) { return layer_of(type) > 0; }
 
 struct Ball {
   long id = 0;

@@ -67,6 +67,14 @@ std::string style_words(const Curve &curve) {
     return "with lines lw 1.2 dt solid lc rgb '#000000'";
   case CurveStyle::discs:
     return "with circles lc palette fill solid border lc rgb '#777777'";
+  case CurveStyle::discs_1:
+    return "with circles lc palette lw 2 fill solid border lc rgb '#737373'";
+  case CurveStyle::discs_2:
+    return "with circles lc palette lw 2 fill solid border lc rgb '#008C66'";
+  case CurveStyle::discs_3:
+    return "with circles lc palette lw 2 fill solid border lc rgb '#B34D99'";
+  case CurveStyle::discs_4:
+    return "with circles lc palette lw 2 fill solid border lc rgb '#40A6E6'";
   case CurveStyle::circles:
     return "with circles lc rgb '#000000' lw 1.6 fill empty border";
   case CurveStyle::cells:

@@ -32,6 +32,10 @@ enum class CurveStyle {
   line_4,
   line_5,
   discs,   ///< filled circles, radius in units of the axes; y names ordinate, radius and colour: "4:5:6"
+  discs_1, ///< discs_1 to discs_4: the same with a thicker edge in a colour of its own
+  discs_2,
+  discs_3,
+  discs_4,
   circles, ///< the same as outlines, black; y names ordinate and radius
   cells,   ///< rectangles coloured by value; y: ordinate, left, right, bottom, top, value, as "2:3:4:5:6:7"
   area_1,  ///< area_1 to area_6: rectangles as `cells`, without value, of a colour and a hatch or grey each

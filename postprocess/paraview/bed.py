@@ -28,19 +28,24 @@ COLOURS = {
     "coordination": ("coordination", "", 1.0, "contacts of a ball"),
     "spin": ("angular_velocity", "Magnitude", 1.0, "angular velocity [rad/s]"),
 }
-SOIL, DRUM, FRAME = 1, 2, 3
+LOWEST, DRUM, FRAME, SECOND = 1, 2, 3, 4  # types of balls; further layers are 5, 6, ...
 SAND = (0.00, 0.97, 0.95, 0.89), (0.35, 0.99, 0.84, 0.50), (0.70, 0.94, 0.55, 0.20), (1.00, 0.72, 0.23, 0.08)
 STEEL, INK = [0.10, 0.33, 0.60], [0.08, 0.08, 0.16]  # of drum and frame, of contacts and text
+# Of the edges of the balls, in a bed of layers; used again from the fifth layer on
+LAYERS = [0.45, 0.45, 0.45], [0.00, 0.55, 0.40], [0.70, 0.30, 0.60], [0.25, 0.65, 0.90]
 TEXT_BAND, BAR_BAND, MARGIN = 0.08, 0.27, 0.02  # above and to the right of the bed and around it, in heights of the picture
 SHADER = """//VTK::Color::Impl
 float square = dot(offsetVCVSOutput.xy, offsetVCVSOutput.xy);
 if (square > 1.0) { discard; }
+%s
 float shade = %s;
 ambientColor *= shade;
 diffuseColor *= shade;
 """
+ROUND, PLAIN = "0.45 + 0.55 * sqrt(1.0 - square)", "1.0"  # shades of balls, and of what is clear
 # Discs with a darker edge (ParaView's own has a black one, which looks like a contact), balls, and what is clear
-DISC, BALL, CLEAR = SHADER % "square > 0.8 ? 0.7 : 1.0", SHADER % "0.45 + 0.55 * sqrt(1.0 - square)", SHADER % "1.0"
+DISC, BALL, CLEAR = (SHADER % ("", shade) for shade in ("square > 0.8 ? 0.7 : 1.0", ROUND, PLAIN))
+EDGE = "if (square > 0.64) { ambientColor = vec3(0.0); diffuseColor = vec3(%g, %g, %g); }"
 LEAST_FORCE = 0.05  # of the one drawn widest: contacts below it are left out
 CUT_AT = 0.5  # in three dimensions the soil in front of this share of the depth is taken away, so that contacts are seen
 
@@ -182,21 +187,34 @@ def write_text(source, view, size, place, justification="Left"):
     return shown
 
 
+def layer_shaders(scene, view, font, layers):
+    """Shaders that draw the edges of the balls in the colours of their layers; the legend of these, the highest layer on top."""
+    texts = [("ball edges:", INK)] + [("layer %d" % (n + 1), LAYERS[n % len(LAYERS)]) for n in reversed(range(layers))]
+    for line, (text, colour) in enumerate(texts):
+        name = pv.Text(registrationName=text, Text=text)
+        shown = write_text(name, view, font, [1.0 - 0.8 * scene.bar_share, 0.96 - 1.2 * line * scene.line])
+        shown.Color, shown.Bold = colour, line > 0
+    return [SHADER % (EDGE % tuple(colour), PLAIN if scene.flat else ROUND) for _, colour in reversed(texts[1:])]
+
+
 def show_soil(balls, scene, colour, most, view, font):
     array, component, factor, title = COLOURS[colour]
     if array not in balls.PointData.keys():
         raise Fault("--colour is '%s': the balls have no '%s', for there were no dumps of contacts" % (colour, array))
-    soil = behind_cut(of_type(balls, SOIL, "soil"), scene, "soil behind the cut", True)
     if most is None:
         most = factor * scene.sizes.get(array, 0.0)
         most = 1.0 if most <= 0.0 else most if colour == "coordination" else round_up(most)
-    if factor != 1.0:
-        soil = pv.Calculator(registrationName="soil in kPa", Input=soil)
-        soil.Function, array = "%g*%s" % (factor, array), array + "_shown"
-        soil.ResultArrayName = array
-    shown = show_balls(soil, view, DISC if scene.flat else BALL)
-    pv.ColorBy(shown, ("POINTS", array, component) if component else ("POINTS", array))
-    scale = pv.GetColorTransferFunction(array)
+    kinds = [LOWEST] + list(range(SECOND, int(balls.PointData["type"].GetRange()[1]) + 1))  # a layer each
+    soil = [behind_cut(of_type(balls, kind, "soil %d" % n), scene, "soil %d behind the cut" % n, True) for n, kind in enumerate(kinds, 1)]
+    shaders = layer_shaders(scene, view, font, len(kinds)) if len(kinds) > 1 else [DISC if scene.flat else BALL]
+    shown_array = array if factor == 1.0 else array + "_shown"
+    for part, shader in zip(soil, shaders):
+        if factor != 1.0:
+            part = pv.Calculator(registrationName="soil in kPa", Input=part)
+            part.Function, part.ResultArrayName = "%g*%s" % (factor, array), shown_array
+        shown = show_balls(part, view, shader)
+        pv.ColorBy(shown, ("POINTS", shown_array, component) if component else ("POINTS", shown_array))
+    scale = pv.GetColorTransferFunction(shown_array)
     scale.ColorSpace = "RGB"
     scale.RGBPoints = [number for point in SAND for number in (most * point[0], *point[1:])]
     bar = pv.GetScalarBar(scale, view)
@@ -360,6 +378,7 @@ def show(folder, colour="speed", contacts=True, most=None, cycle=None, size=None
     size = look(view, scene, size)
     scene.bar_share = BAR_BAND * size[1] / size[0]
     font = max(12, size[1] // 54)
+    scene.line = font / size[1]  # height of a line of text
     balls = reader(folder, "balls", times, files["balls"])
     balls.UpdatePipeline(times[0])
     if balls.GetDataInformation().GetNumberOfPoints() == 0:

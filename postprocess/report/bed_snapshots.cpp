@@ -96,6 +96,7 @@ struct Scales {
   double fastest = 0.0;   ///< end of the scale of colours, m/s
   double strongest = 0.0; ///< largest normal force of a contact, N
   bool flat = true;       ///< two dimensions
+  int layers = 1;         ///< of soil
 
   /// Height z of the section through a bed in three dimensions, m.
   double middle() const { return 0.5 * (bounds.low[2] + bounds.high[2]); }
@@ -116,6 +117,7 @@ Scales scales_of(const std::vector<Views> &all) {
       scales.flat = scales.flat && in_a_plane(instant->balls);
       for (const Ball &ball : instant->balls) {
         scales.bounds.add(ball);
+        scales.layers = std::max(scales.layers, layer_of(ball.type));
         if (is_soil(ball.type) && &instant != &views.views[settled]) speeds.push_back(speed(ball));
       }
       for (const BallContact &contact : instant->contacts.balls)
@@ -144,6 +146,11 @@ std::string two_digits(double value) {
   return fmt::format("{:g}", std::round(value / unit) * unit);
 }
 
+/// The name of the curve of a layer's balls, counted from 1, the lowest.
+std::string soil_curve(int layer_number, const Scales &scales) {
+  return scales.layers == 1 ? " soil" : fmt::format(" soil {}", layer_number);
+}
+
 void put_instant(CurveTable &table, const std::string &label, const Instant &instant, const Scales &scales) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const std::vector<int> counts = coordination(instant.balls.size(), instant.contacts.balls);
@@ -151,7 +158,7 @@ void put_instant(CurveTable &table, const std::string &label, const Instant &ins
     const Ball &ball = instant.balls[b];
     const double radius = scales.shown_radius(ball);
     if (radius == 0.0) continue;
-    table.row(fmt::format("{} {}", label, is_soil(ball.type) ? "soil" : "roller"),
+    table.row(label + (is_soil(ball.type) ? soil_curve(layer_of(ball.type), scales) : " roller"),
               {ball.position[0], ball.position[1], radius, speed(ball),
                instant.has_contacts ? static_cast<double>(counts[b]) : none, none, none, none});
   }
@@ -192,11 +199,19 @@ Panel instant_panel(const std::string &figure, const std::string &label, const I
     panel.color_label = "speed of a ball (m/s)";
     panel.color_range = axis_range(0.0, std::max(scales.fastest, 1.0e-9));
   }
-  const auto add = [&](const char *what, const std::string &x, const std::string &y, CurveStyle style) {
+  const auto add = [&](const std::string &what, const std::string &x, const std::string &y,
+                       CurveStyle style) {
     panel.curves.push_back(curve(figure, label + what, x, y, style));
     panel.curves.back().title.clear();
   };
-  add(" soil", "$2", by_contacts ? "3:4:6" : "3:4:5", CurveStyle::discs);
+  constexpr std::array<CurveStyle, 4> edges = {CurveStyle::discs_1, CurveStyle::discs_2, CurveStyle::discs_3,
+                                               CurveStyle::discs_4};
+  for (int n = 1; n <= scales.layers; ++n) {
+    const CurveStyle edge = edges[static_cast<std::size_t>(n - 1) % edges.size()];
+    add(soil_curve(n, scales), "$2", by_contacts ? "3:4:6" : "3:4:5",
+        scales.layers == 1 ? CurveStyle::discs : edge);
+    if (scales.layers > 1) panel.curves.back().title = fmt::format("layer {}", n);
+  }
   for (int i = 0; i < force_classes && scales.strongest > 0.0; ++i) {
     const double high = scales.strongest / std::pow(2.0, force_classes - 1 - i);
     add(" contact", fmt::format("($9 > {:.6g} && $9 <= {:.6g} ? $2 : NaN)", 0.5 * high, high), "3:7:8",
@@ -229,6 +244,8 @@ std::string picture_caption(Which which, const Scales &scales, bool by_contacts)
         "wall, and their width grows with the normal force. Forces below the smallest class of the legend "
         "are "
         "not drawn";
+  if (scales.layers > 1)
+    words += ". The edges of the balls have the colours of their layers, of which the lowest is layer 1";
   if (!scales.flat)
     words += fmt::format(". The picture is the section z = {:.3g} m of the bed: the circles in which it cuts "
                          "the balls, and the contacts between balls that it cuts",
