@@ -45,8 +45,8 @@ void surface_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 /// drumlin/layers k LIST D LIST friction LIST rolling off|epsd2 LIST: gives the contacts of a bed the laws of its layers.
 void layers_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
-/// drumlin/largest NAME LIST: sets a variable to the largest number of a list.
-void largest_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
+/// drumlin/pick NAME WHICH LIST: sets a variable to the largest number of a list, or to that in a place.
+void pick_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
 /// A command as a type, for engines that want a class for each.
 template <void (*run)(LAMMPS_NS::LAMMPS *, int, char **)>
@@ -60,7 +60,7 @@ template <class Add>
 void for_each_command(Add &&add) {
   add(CommandType<check_command>(), "drumlin/check", "checks the value of a variable");
   add(CommandType<variables_command>(), "drumlin/variables", "checks the variables of the command line");
-  add(CommandType<largest_command>(), "drumlin/largest", "finds the largest number of a list");
+  add(CommandType<pick_command>(), "drumlin/pick", "takes a number from a list");
   add(CommandType<layers_command>(), "drumlin/layers", "gives contacts the laws of the layers of a bed");
   add(CommandType<outputs_command>(), "drumlin/outputs", "backs up the files of an earlier run");
   add(CommandType<take_command>(), "drumlin/take", "takes the values with which a bed was made");

@@ -606,17 +606,21 @@ BadGroup layers() {
       }};
 }
 
-BadGroup largest() {
-  const std::string command = "drumlin/largest: ";
-  return {"Largest",
-          "",
-          {
-              line("nothing", "drumlin/largest", {command + "variable is missing", "the name of a variable"}),
-              line("no list", "drumlin/largest x", {command + "list is missing", "separated by commas"}),
-              line("a word", "drumlin/largest x 1,soft", {command + "list is '1,soft'", "finite numbers"}),
-              line("a word too many", "drumlin/largest x 1 2",
-                   {command + "argument is '2'", "a variable and a list"}),
-          }};
+BadGroup pick() {
+  const std::string command = "drumlin/pick: ";
+  return {
+      "Pick",
+      "",
+      {
+          line("nothing", "drumlin/pick", {command + "variable is missing", "the name of a variable"}),
+          line("not which", "drumlin/pick x", {command + "which is missing", "largest, or the place"}),
+          line("a place between", "drumlin/pick x 1.5 1,2", {command + "which is '1.5'", "from 1"}),
+          line("a place too high", "drumlin/pick x 3 1,2", {command + "which is '3'", "at most 2"}),
+          line("no list", "drumlin/pick x 1", {command + "list is missing", "separated by commas"}),
+          line("a word", "drumlin/pick x largest 1,soft", {command + "list is '1,soft'", "finite numbers"}),
+          line("a word too many", "drumlin/pick x 1 1 2",
+               {command + "argument is '2'", "a variable, which number, and a list"}),
+      }};
 }
 
 BadGroup take() {
@@ -703,7 +707,7 @@ std::vector<BadGroup> bad_lines() {
           guard(),          check(),          record(),          run(),
           settle(),         surface(),        write_restart(),   write_data(),
           outputs(),        take(),           variables(),       layers(),
-          largest(),        fixes_in_lammps()};
+          pick(),           fixes_in_lammps()};
 }
 
 } // namespace drumlin::test
