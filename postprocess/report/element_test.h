@@ -100,6 +100,7 @@ std::vector<Acceptance> quality_criteria(const TestQuality &quality);
 template <class Row>
 void answer_quality(Page &page, const std::vector<ElementRun<Row>> &runs) {
   std::vector<TestQuality> qualities;
+  qualities.reserve(runs.size());
   for (const ElementRun<Row> &run : runs)
     qualities.push_back(quality_of(run.rows));
   page.answer(quality_criteria(worst_of(qualities)));

@@ -38,6 +38,7 @@ TestQuality strength_quality(const ElementRun<Row> &run) {
 template <class Row>
 void answer_strength_quality(Page &page, const std::vector<ElementRun<Row>> &runs) {
   std::vector<TestQuality> qualities;
+  qualities.reserve(runs.size());
   for (const ElementRun<Row> &run : runs)
     qualities.push_back(strength_quality(run));
   page.answer(quality_criteria(worst_of(qualities)));
