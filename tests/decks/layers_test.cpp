@@ -254,6 +254,8 @@ protected:
                                        {"k", flat ? "1e8,1e9" : "4e6,4e7"},
                                        {"friction", "0.5,0.8"},
                                        {"pour_friction", "0.5,0.1"},
+                                       {"pour_k", flat ? "1e8" : "4e6"}, // soft, to take fewer steps
+                                       {"pour_dt", flat ? "2e-5" : "1.25e-5"},
                                        {"fall", "0.3"},
                                        {"ratio", "1"},
                                        {"balls", "balls"},
