@@ -240,13 +240,14 @@ TEST_P(Plate, SettlesMoreInTheFirstLoadingThanInTheSecond) {
   const Outcome settled =
       run_deck(in_settle(), {{"balls", "balls.data"}, {"bed", "soil.restart"}}, bed.path());
   ASSERT_TRUE(settled.ok()) << settled.output;
-  const post::Table rows = run_element_test(GetParam(), "plate",
-                                            {{"bed", (bed / "soil.restart").string()},
-                                             {"plate_width", "0.15"},
-                                             {"max_stress", "60"},
-                                             {"stages", "3"},
-                                             {"ratio", "5e-3"}, // so that the force is within 1 % of the load at rest
-                                             {"ramp", "1000"}});
+  const post::Table rows =
+      run_element_test(GetParam(), "plate",
+                       {{"bed", (bed / "soil.restart").string()},
+                        {"plate_width", "0.15"},
+                        {"max_stress", "60"},
+                        {"stages", "3"},
+                        {"ratio", "5e-3"}, // so that the force is within 1 % of the load at rest
+                        {"ramp", "1000"}});
   EXPECT_EQ(rows.numbers("phase"), (std::vector<double>{0, 1, 1, 1, 2, 2, 2, 3, 3}));
   const std::vector<double> stress = rows.numbers("stress_kPa"), settlement = rows.numbers("settlement_mm"),
                             force = rows.numbers("plate_force_N"), error = rows.numbers("energy_error");
