@@ -26,8 +26,6 @@
 namespace drumlin::test {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// Everything here needs an lmp with the plugin.
 class InLammps : public ::testing::Test {
 protected:
