@@ -35,7 +35,8 @@ struct Columns {
   to.column[3] = __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7);
 }
 
-/// Columns of the four rows whose addresses are `row(0)` to `row(3)`. The addresses need not be multiples of 32 bytes.
+/// Reads four rows of four numbers, at the addresses `row(0)` to `row(3)`, and stores them by columns: the first numbers of all rows, then the
+/// second ones, and so on. The addresses need not be multiples of 32 bytes.
 template <class Row>
 [[gnu::always_inline]] inline void load_columns(Columns &to, const Row &row) {
   Four a, b, c, d;

@@ -279,7 +279,7 @@ private:
   const bool moves_; // false in the set-up of a run: springs stay as they are
   const bool light_, in_setup_;
 
-  static constexpr int at_once = 32; // pairs that are tested for contact in one call
+  static constexpr int at_once = 32; // pairs that one call of find_touching() tests for contact
   int count_ = 0;                    // contacts found whose forces are not computed yet
   bool changed_ = false;             // whether a contact begins or ends among them
   physics::ContactBlock block_;

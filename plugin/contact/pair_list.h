@@ -45,7 +45,8 @@ using TwoFlags = std::int64_t __attribute__((vector_size(16)));
 } // namespace detail
 
 /// Finds the pairs from number `first` to before `end` that touch, and if `remembers` also those that touched a step ago.
-/// It tests four pairs at a time, without a branch that depends on whether balls touch: processors could not predict it.
+/// It tests four pairs at a time. No branch depends on whether balls touch: the processor would often predict it wrongly, which takes
+/// more time than the test itself.
 /// \param first, end multiples of 4
 /// \param touched for every four pairs, which of them touched a step ago; afterwards, which of them touch now
 /// \param found gets the numbers of the pairs that were found; must have room for four more

@@ -15,13 +15,13 @@ namespace LAMMPS_NS {
 /// In every step finds the pairs of two types, or of two groups, or of the group, whose contact has begun or ended since the
 /// step before, and writes each make and break once, on any number of ranks.
 ///
-/// It is no ContactObserver. A make is located from overlap and rate a step earlier, when the balls did not
-/// touch, and a break from a step in which they do not touch any more; an observer receives touching balls
-/// alone, and their half-step velocities instead of those a step earlier would shift a make by up to
-/// a dt^2 / (8 v), 1.5e-8 s in the chain of case II (a and v: relative acceleration and speed). Besides, an
-/// observer of all steps receives all contacts: with it a step of 2500 discs took 2.7 times as long in LIGGGHTS
-/// and 1.9 times in LAMMPS, while the log of one ball's contacts, as it is, took less than 2 %
-/// (inputs/study/in.cost_bed).
+/// It is no ContactObserver, for two reasons. Accuracy: the time of a make is found from the overlap and its rate
+/// at the step before, and that of a break from those at the step after, when the balls do not touch. An observer
+/// receives only balls that touch. If it took their velocities of half a step before instead, the time of a make
+/// would be wrong by up to a dt^2 / (8 v), with the relative acceleration a and speed v: 1.5e-8 s in the chain of
+/// case II. Cost: an observer of every step receives the contacts of all balls. With one, a step of 2500 discs took
+/// 2.7 times as long in LIGGGHTS and 1.9 times in LAMMPS; the events of one ball, found as here, took less than
+/// 2 % more (inputs/study/in.cost_bed).
 class FixContactEvents : public drumlin::engine::GhostFix {
 public:
   FixContactEvents(LAMMPS *, int, char **);

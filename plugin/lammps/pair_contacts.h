@@ -128,7 +128,7 @@ private:
   double *const f_, *const t_; // forces and torques of the balls
   const int taken_;            // balls below this index take the force of a contact on this rank
   int sums_of_ = -1;           // the ball i whose contacts are being summed; -1: none
-  Vec3 force_{}, torque_{};    // N and N m, sums over the contacts of that ball
+  Vec3 force_{}, torque_{};    // N and N m, sums over the contacts of ball sums_of_
 };
 
 } // namespace LAMMPS_NS

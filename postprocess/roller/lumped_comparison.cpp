@@ -212,8 +212,8 @@ bool beyond_scatter(const ComparedQuantity &value, std::size_t q) {
          std::fabs(value.difference.mean) > std::max(share * std::fabs(value.lumped), texts.at(q).negligible);
 }
 
-/// A difference and its interval in per cent of the chain's value, or in the label's unit where the chain's value is negligible, as its
-/// CMV is if contact is never lost. \param sign of the difference, written or left out
+/// A difference and its interval in per cent of the chain's value, or in the unit of the label where the chain's value is almost zero. The
+/// CMV of the chain, for example, is zero if contact is never lost. \param sign whether the text has the sign of the difference
 std::string difference_text(const ComparedQuantity &value, std::size_t q, bool sign) {
   const bool relative = std::fabs(value.lumped) > texts.at(q).negligible;
   const double scale = relative ? 100.0 / std::fabs(value.lumped) : texts.at(q).scale;
@@ -373,8 +373,8 @@ LumpedComparison compare_lumped(const Record &record, const IdentifiedRecord &fo
   result.lumped = chain_record(result.chain, closest_part(record, steady, static_cast<std::size_t>(samples)));
   result.record_cycles = values_of(record);
   result.lumped_cycles = values_of(chain_record(result.chain, steady));
-  // The second half, made an even number: the motion may repeat after two cycles only, and the transient from rest of a drum on soft
-  // soil alternates, too.
+  // The second half of the cycles is compared, and one cycle more if that is an odd number: the motion may repeat only after two cycles, and
+  // on soft soil high and low peaks alternate while the motion from rest decays. An odd number would count one kind more often.
   const std::size_t all = result.record_cycles.size();
   result.first = all / 2;
   if ((all - result.first) % 2 == 1 && result.first > 0) --result.first;

@@ -83,8 +83,8 @@ bool wait_until(pid_t child, End &how, steady_clock::time_point end, LineFollowe
   }
 }
 
-/// Stops the program, and the other processes of its group if it leads one: first by stop_signal, so that mpirun can
-/// stop its ranks, and by SIGKILL if it still runs after 5 s.
+/// Sends stop_signal to the program, so that mpirun can stop its ranks, and SIGKILL if it still runs after 5 s. If the program was started
+/// with a process group of its own, all processes of the group get the signals.
 void stop(pid_t child, const Program &program, End &how) {
   const pid_t whom = program.own_group ? -child : child;
   kill(whom, program.stop_signal);

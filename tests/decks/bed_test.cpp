@@ -379,8 +379,8 @@ TEST_F(Bed, GoesTheSameWayOnRanksOneTwoAndFour) {
   }
 }
 
-// Beds are chaotic: over six cycles only means over many beds can agree. Five seeds, two standard errors of
-// the difference. Run by .ci/nightly; the tests beside it compare ranks and repeats row by row.
+// The motion of a bed is chaotic: after six cycles one rank and two agree only in means over several beds. The means of five seeds
+// may differ by two standard errors. It takes 19 s, so .ci/nightly runs it; other tests compare the rows of shorter runs on both.
 TEST_F(Bed, DISABLED_MeansOverSeedsAgreeOnRanksOneAndTwo) {
   constexpr std::size_t seeds = 5;
   const std::array<const char *, 3> columns = {"settlement", "a_drum_max", "F_contact_max"};

@@ -49,7 +49,7 @@ const std::array<BoxQuantity, box_quantity_count> box_quantities = {
 
 const CsvSchema<BoxRun> &box_runs() {
   constexpr int digits =
-      9; // significant digits: columns of limited digits may have empty cells, which stand for missing values (NaN)
+      9; // significant digits. A column with a number of digits writes a missing value (NaN) as an empty cell.
   std::vector<CsvColumn<BoxRun>> columns = {csv_column("run", &BoxRun::run),
                                             csv_column("seed", &BoxRun::seed),
                                             csv_column("width [default widths]", &BoxRun::width),

@@ -124,7 +124,8 @@ void run_box_study(const StudyOptions &options) {
   check_engine_path(options.out);
   const BoxPlan plan = options.quick ? quick_plan() : full_plan();
   StudyResults results(options.out / "runs.csv", box_runs());
-  std::vector<std::vector<SeedRun>> groups; // one for each bed, whose runs do not make it at the same time
+  std::vector<std::vector<SeedRun>>
+      groups; // runs on the same bed, one after the other: the first of them makes the bed
   for (const Box &box : plan.boxes)
     for (int seed = 1; seed <= box.seeds; ++seed) {
       groups.emplace_back();

@@ -26,7 +26,8 @@ std::vector<double> values_of(const std::vector<FidelityRun> &runs, const std::s
 /// The largest error that a 95 % confidence interval leaves possible.
 double largest_error(const MeanInterval &change) { return std::fabs(change.mean) + change.half_width; }
 
-/// Processor time over the complete scene's above which a scene is not cheaper: times scatter that much.
+/// A scene counts as cheaper than the complete one if it takes at most this share of its processor time. Measured times depend on
+/// what else the machine does, so that a smaller saving may be chance.
 constexpr double most_of_cheaper = 0.9;
 
 /// The smallest number of beds of which the mean has a half width of at most `within`; at least 2.

@@ -26,7 +26,8 @@ struct BedAdvice {
 };
 
 /// A scene keeps to the request if the whole 95 % confidence interval of its change does; two seeds or more. One that takes more than 0.9
-/// times the processor time of the complete scene is no cheaper than it: times scatter that much. The complete scene is the advice
+/// times the processor time of the complete scene does not count as cheaper, since measured times depend on what else the machine does. The
+/// complete scene is the advice
 /// if no cheaper one is within. The plan is that of the table's runs. Throws std::runtime_error if the table has no scene to compare,
 /// and if the mean of the complete beds does not differ from zero, so that no error relative to it can be given.
 BedAdvice advise_bed(const FidelityPlan &plan, const std::vector<FidelityRun> &runs,

@@ -34,7 +34,7 @@ const CsvSchema<FidelityRun> &fidelity_runs() {
         digits);
   };
   constexpr int digits =
-      9; // significant digits: columns of limited digits may have empty cells, which stand for missing values (NaN)
+      9; // significant digits. A column with a number of digits writes a missing value (NaN) as an empty cell.
   static const CsvSchema<FidelityRun> schema(
       {csv_column("variant", &FidelityRun::variant), csv_column("seed", &FidelityRun::seed),
        value("a_drum_max_m_s2", BedQuantity::acceleration), value("F_contact_max_N", BedQuantity::force),

@@ -11,7 +11,7 @@ namespace drumlin::post {
 
 const CsvSchema<FrictionRun> &friction_runs() {
   constexpr int digits =
-      9; // significant digits: columns of limited digits may have empty cells, which stand for missing values (NaN)
+      9; // significant digits. A column with a number of digits writes a missing value (NaN) as an empty cell.
   static const CsvSchema<FrictionRun> schema(
       {csv_column("tangential", &FrictionRun::tangential), csv_column("seed", &FrictionRun::seed),
        csv_column("depth [-]", &FrictionRun::depth, digits),

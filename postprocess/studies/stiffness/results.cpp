@@ -54,7 +54,7 @@ const std::array<LawVariable, 3> law_variables = {
 
 const CsvSchema<BedLaw> &bed_laws() {
   constexpr int digits =
-      9; // significant digits: columns of limited digits may have empty cells, which stand for missing values (NaN)
+      9; // significant digits. A column with a number of digits writes a missing value (NaN) as an empty cell.
   static const CsvSchema<BedLaw> schema(
       {csv_column("run", &BedLaw::run), csv_column("seed", &BedLaw::seed),
        csv_column("static_load [N/m]", &BedLaw::load), csv_column("Fw [N/m]", &BedLaw::Fw),

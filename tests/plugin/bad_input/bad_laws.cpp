@@ -1,4 +1,4 @@
-// Mistakes in the contact laws and their walls, in both engines.
+// Wrong input to the contact laws and to the walls that use them, in LIGGGHTS and in LAMMPS: the lines of a deck, and what the error must say.
 #include "tests/plugin/bad_input/bad_input.h"
 #include "tests/support/host_deck.h"
 

@@ -53,8 +53,8 @@ TEST(MeanInterval, OfOneValueIsInfinite) {
   EXPECT_THROW(mean_interval({}), std::invalid_argument);
 }
 
-// Values whose degrees of freedom are a whole number: of equal samples of two 1 + 1, with a constant the 1 of the other, and of squared
-// errors 1 and 2 with one and two degrees of freedom 3^2 / (1 + 2^2/2) = 3.
+// Samples with a whole number of degrees of freedom in Welch's formula, (a + b)^2 / (a^2/m + b^2/n), where a and b are the squared standard errors
+// of the means and m and n their degrees of freedom: 2 if a = b and m = n = 1; m if b = 0; and 9 / (1 + 4/2) = 3 if a = 1, m = 1, b = 2, n = 2.
 TEST(MeanDifference, HasTheFreedomOfWelchAndSatterthwaite) {
   const MeanInterval equal = mean_difference({11.0, 13.0}, {1.0, 3.0});
   EXPECT_NEAR(equal.mean, 10.0, 1e-12);
