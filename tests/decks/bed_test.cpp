@@ -266,17 +266,53 @@ protected:
       mass += pi * r * r * 2650.0;
     return mass;
   }
-  /// Of the soil balls, from the data file.
+  struct DataBall {
+    int type;
+    double radius, x, y; // m
+  };
+  /// The balls of a data file.
+  static std::vector<DataBall> balls_of(const fs::path &file) {
+    const std::string text = read_text(file);
+    std::istringstream lines(text.substr(text.find("Atoms")));
+    std::vector<DataBall> balls;
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line) && line.rfind("Velocities", 0) != 0) {
+      std::istringstream row(line);
+      DataBall ball{};
+      double id = 0, diameter = 0, density = 0;
+      if (!(row >> id >> ball.type >> diameter >> density >> ball.x >> ball.y)) continue;
+      ball.radius = 0.5 * diameter;
+      balls.push_back(ball);
+    }
+    return balls;
+  }
+  /// Of the soil balls as they are poured.
   static std::vector<double> radii() {
     std::vector<double> radii;
-    std::istringstream text(read_text(scratch / "balls.data"));
-    std::string line;
-    while (std::getline(text, line) && line.rfind("Atoms", 0) != 0)
-      ;
-    double id = 0, type = 0, diameter = 0, density = 0, x = 0, y = 0, z = 0;
-    while (text >> id >> type >> diameter >> density >> x >> y >> z)
-      radii.push_back(0.5 * diameter);
+    for (const DataBall &ball : balls_of(scratch / "balls.data"))
+      radii.push_back(ball.radius);
     return radii;
+  }
+  /// How deep the lowest point of a drum that is one ball lies below the mean surface that the soil had before, m. The surface is taken
+  /// farther than 1.5 radii of the drum from the middle, on lines that are 0.1 mm apart.
+  static double depth_of_drum(const fs::path &soil, const fs::path &placed) {
+    constexpr double half_width = 0.3, spacing = 1e-4; // m
+    const std::vector<DataBall> balls = balls_of(soil), after = balls_of(placed);
+    const DataBall drum =
+        *std::find_if(after.begin(), after.end(), [](const DataBall &ball) { return ball.type == 2; });
+    double sum = 0.0;
+    int lines = 0;
+    for (double x = -half_width + 0.5 * spacing; x < half_width; x += spacing) {
+      if (std::fabs(x) < 1.5 * drum.radius) continue;
+      double top = 0.0;
+      for (const DataBall &ball : balls)
+        if (const double across = std::fabs(x - ball.x); across < ball.radius)
+          top = std::max(top, ball.y + std::sqrt(ball.radius * ball.radius - across * across));
+      sum += top;
+      ++lines;
+    }
+    return sum / lines - (drum.y - drum.radius);
   }
 
   static fs::path scratch; ///< folder of the bed of most tests
@@ -620,6 +656,7 @@ TEST_F(Bed, OfGravelCarriesTheVibratingDrum) {
   const Scratch gravel;
   make(gravel, "1", {"ball"}, {{"case", "gravel"}, {"ratio", "1"}});
   double sides = 0.0; // N per m, upward, at rest
+  double depth = 0.0; // m
   const auto settlement = [&](const Variables &soil) {
     const Scratch folder;
     Variables variables = soil;
@@ -628,11 +665,13 @@ TEST_F(Bed, OfGravelCarriesTheVibratingDrum) {
     const Outcome outcome = shake(folder, variables);
     EXPECT_TRUE(outcome.ok()) << outcome.output;
     sides = post::read_table(folder / "bed.csv").numbers("F_sides").front();
+    depth = std::stod(post::read_parameters(folder / "parameters.csv").at("drum_depth"));
     return post::read_table(folder / "cycles.csv").numbers("settlement").back();
   };
   const double carried = settlement({});
   EXPECT_LT(carried, 0.004);
   EXPECT_GT(sides, 0.0);
+  EXPECT_NEAR(depth, depth_of_drum(gravel / "soil.restart.data", gravel / "ball.restart.data"), 5e-4);
   EXPECT_GT(settlement({{"rolling", "0"}, {"allow_change", "rolling"}}), carried + 0.001);
 }
 
