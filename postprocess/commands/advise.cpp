@@ -89,6 +89,7 @@ void run_bed(const Arguments &arguments) {
                                              {"force", "acceleration", "settlement", "stiffness"});
   for (const BedQuestion &one : bed_questions)
     if (question == one.name) request.question = one.quantity;
+  request.name = question;
   request.within = judged_share(arguments.within.value_or("10%"));
   const fs::path folder =
       arguments.from ? path_option("--from", *arguments.from) : input_file("study/fidelity");

@@ -87,7 +87,7 @@ BedAdvice advise_bed(const FidelityPlan &plan, const std::vector<FidelityRun> &r
   const std::vector<double> complete = values_of(runs, plan.reference().name, q);
   const MeanInterval mean = mean_interval(complete);
   if (!mean.significant())
-    throw std::runtime_error(refusal("--question", bed_quantity_name(request.question),
+    throw std::runtime_error(refusal("--question", request.name,
                                      fmt::format("a result whose mean over the complete beds differs from "
                                                  "zero: theirs is {:.2g} +- {:.2g}, and no "
                                                  "error relative to it can be given",

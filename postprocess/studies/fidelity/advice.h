@@ -11,7 +11,8 @@ namespace drumlin::post {
 
 struct BedAdviceRequest {
   BedQuantity question = BedQuantity::force;
-  double within = 0.1; ///< relative error that is allowed, > 0
+  double within = 0.1;        ///< relative error that is allowed, > 0
+  std::string name = "force"; ///< of the question, as the option --question gives it
 };
 
 /// The cheapest scene whose error stays within the request.

@@ -182,7 +182,7 @@ TEST_F(BedAdviceTest, RefusesWhatTheTableDoesNotAnswer) {
   EXPECT_NEAR(found.least_error, 0.3589, 1e-4);
   for (FidelityRun &run : runs_) // forces of complete beds from -2e4 to 2e4: their mean is zero
     run.values[1] -= 1e5;
-  expect_refused(0.1, "--question is 'contact force (N/m)'; allowed: a result whose mean over the complete "
+  expect_refused(0.1, "--question is 'force'; allowed: a result whose mean over the complete "
                       "beds differs from zero");
 }
 
