@@ -180,8 +180,9 @@ std::string error_words(const ReportResults &results) {
   if (worst == nullptr) return {};
   return fmt::format(
       "The drum velocity differs from the reference solution (direct solver) by at most {:.2e} "
-      "(relative RMS over the last five cycles; run {}).",
-      worst->chain->velocity_error_last, worst->run.name);
+      "(relative RMS over {}; run {}).",
+      worst->chain->velocity_error_last, last_cycles_words({std::min(error_cycles, worst->run.complete)}),
+      worst->run.name);
 }
 
 Answer engines_answer(const ReportResults &results) {
@@ -210,10 +211,12 @@ std::string of_each(const BedGroup &group, const std::function<std::string(const
 void add_group(Answer &answer, const BedGroup &group) {
   const Run &run = group.runs.front()->run;
   std::vector<std::string> names;
+  std::vector<int> steady;
   int cycles = run.complete;
   bool good = true;
   for (const BedResult *result : group.runs) {
     names.push_back(result->run.name);
+    steady.push_back(result->measures.steady_count);
     cycles = std::min(cycles, result->measures.cycles);
     good = good && energy_is_good(result->measures);
   }
@@ -227,11 +230,16 @@ void add_group(Answer &answer, const BedGroup &group) {
   }
   answer.sentences.push_back({scene + ".", "Bed."});
   answer.sentences.push_back({fmt::format(
-      "After {} the drum has settled by {}; the largest contact force on it in the steady cycles is {}.",
+      "After {} the drum has {} (mean over the last cycle); the largest contact force on it in {} is {}.",
       counted(static_cast<std::size_t>(cycles), "cycle", "cycles"),
-      of_each(group, [](const BedMeasures &m) { return fmt::format("{:.3f} mm", m.settlement * 1e3); }),
       of_each(group,
-              [](const BedMeasures &m) { return fmt::format("{:.2f} kN", m.extremes.force.max * 1e-3); }))});
+              [](const BedMeasures &m) {
+                return fmt::format("{} by {:.3f} mm", m.settlement < 0.0 ? "risen" : "settled",
+                                   std::abs(m.settlement) * 1e3);
+              }),
+      last_cycles_words(steady), of_each(group, [](const BedMeasures &m) {
+        return fmt::format("{:.2f} kN", m.extremes.force.max * 1e-3);
+      }))});
   answer.sentences.push_back({fmt::format(
       "The void ratio of the bed goes from {:.4f} to {}, the number of contacts per ball from {:.3f} to {}.",
       group.runs.front()->measures.void_ratio_start,

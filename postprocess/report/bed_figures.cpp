@@ -92,6 +92,14 @@ private:
     return true;
   }
 
+  /// The last cycles that a figure of at most `most` cycles draws, in words.
+  std::string last(int most) const {
+    std::vector<int> counts;
+    for (const BedResult *run : runs())
+      counts.push_back(std::min(most, run->run.complete));
+    return last_cycles_words(counts);
+  }
+
   void motion() {
     if (!has_cycles("Motion")) return;
     CurveTable table("time (s),time in window (s),drum acceleration (m/s2),contact force (N)");
@@ -102,18 +110,17 @@ private:
         table.row(label(*run), {h.time[i], h.time[i] - window.begin, h.a_drum[i], h.F_contact[i]});
       });
     }
-    const std::string time = fmt::format("time in the last {} cycles (ms)", shown_cycles);
+    const std::string time = fmt::format("time in {} (ms)", last(shown_cycles));
     Panel acceleration{"drum acceleration", time, "drum acceleration (m/s²)", {}};
     Panel force{"contact force", time, "contact force on the drum (kN)", {}};
     acceleration.tight_x = force.tight_x = true;
     curves(acceleration, "motion", "$3*1e3", "4");
     curves(force, "motion", "$3*1e3", "($5*1e-3)");
     add("motion", "Drum acceleration and contact force", {acceleration, force}, table,
-        fmt::format(
-            "Acceleration of the drum, and force of the soil on the drum, over the last {} cycles. The "
-            "force is the vertical sum over all balls in contact with the drum. It includes their "
-            "friction, so it can be tensile under condition B, too.",
-            shown_cycles),
+        fmt::format("Acceleration of the drum, and force of the soil on the drum, over {}. The "
+                    "force is the vertical sum over all balls in contact with the drum. It includes their "
+                    "friction, so it can be tensile under condition B, too.",
+                    last(shown_cycles)),
         2, motion_weight);
   }
 
@@ -132,9 +139,9 @@ private:
     }
     curves(panel, "loop", "$3*1e3", "($4*1e-3)");
     add("loop", panel.title, {panel}, table,
-        fmt::format("Contact force against the height of the drum over the last {} cycles. The area within a "
+        fmt::format("Contact force against the height of the drum over {}. The area within a "
                     "loop is the energy that the drum gives to the bed in one cycle.",
-                    loop_cycles),
+                    last(loop_cycles)),
         1);
   }
 
@@ -225,8 +232,7 @@ private:
       for_rows(*run, window, [&](std::size_t i) {
         table.row(label(*run), {time[i], time[i] - window.begin, b.F_floor[i], b.F_sides[i], b.F_thrust[i]});
       });
-      Panel panel{
-          label(*run), fmt::format("time in the last {} cycles (ms)", shown_cycles), "force (kN)", {}};
+      Panel panel{label(*run), fmt::format("time in {} (ms)", last(shown_cycles)), "force (kN)", {}};
       panel.tight_x = true;
       for (const auto &[y, title, style] : {std::tuple{"($4*1e-3)", "floor", CurveStyle::line_1},
                                             {"($6*1e-3)", "side thrust", CurveStyle::line_3},

@@ -85,7 +85,8 @@ PageTable motion_table(const std::vector<BedResult> &beds) {
       motion.notes.push_back(fmt::format("{}: {}", run.name, missing));
   }
   motion.notes.emplace_back(
-      "Steady cycles: about the second half of the run, an even number of cycles. Acceleration, forces, "
+      "Steady cycles: about the second half of the run, an even number of cycles; both of a run of two. "
+      "Acceleration, forces, "
       "share "
       "of time in contact and CMV are of every time step in these cycles. Compaction meter value CMV = 300 "
       "A2 "

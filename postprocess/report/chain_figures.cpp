@@ -70,8 +70,20 @@ void put_history(CurveTable &table, const RunResult &result, TimeWindow window) 
 constexpr const char *history_columns =
     "time (s),time in window (s),overlap (m),drum velocity (m/s),drum acceleration (m/s2),contact force (N)";
 constexpr const char *since_ms = "$3*1e3";
-const std::string last_cycles_label =
-    fmt::format("time since the start of the last {} cycles (ms)", shown_cycles);
+
+/// The last cycles that the figures draw of runs, in words.
+std::string shown_words(const std::vector<const RunResult *> &runs) {
+  std::vector<int> counts;
+  for (const RunResult *result : runs)
+    counts.push_back(std::min(shown_cycles, result->run.complete));
+  return last_cycles_words(counts);
+}
+
+/// Whether all runs are so long that their last cycles are the steady state.
+bool all_steady(const std::vector<const RunResult *> &runs) {
+  return std::all_of(runs.begin(), runs.end(),
+                     [](const RunResult *run) { return run->run.complete >= long_run_cycles; });
+}
 
 /// Curves in drawing order: B, then A above it, then the markers of the reference solution.
 void add_curves(Panel &panel, const std::string &figure, const std::vector<const RunResult *> &runs,
@@ -128,6 +140,9 @@ std::string case_words(const std::string &name, const std::vector<const RunResul
     if (!run->run.at_case)
       own += fmt::format("{}{}: {}", own.empty() ? "" : "; ", run->run.name, run->run.not_at_case);
   if (!own.empty()) return fmt::format("Not at the paper's parameters: {}.", own);
+  if (!all_steady(runs))
+    return fmt::format("With fewer than {} cycles the motion may not be steady yet, as it is in the paper.",
+                       long_run_cycles);
   if (name == "I") return "The drum never loses contact with the soil, so A and B coincide.";
   if (name == "II")
     return "The drum loses contact in every cycle. Under A the contact force is tensile until the overlap is "
@@ -255,9 +270,9 @@ void plan_case(const ReportResults &results, std::size_t index, FigurePlan &plan
   const std::string name = of_paper ? fmt::format("fig{}_case_{}", index + 4, case_name)
                                     : fmt::format("own_after_case_{}", case_name);
   CurveTable table(history_columns);
-  Panel panel{fmt::format("{}Drum acceleration at steady state, {}", of_paper ? label + "  " : "",
-                          case_title(case_name, runs)),
-              last_cycles_label,
+  Panel panel{fmt::format("{}Drum acceleration{}, {}", of_paper ? label + "  " : "",
+                          all_steady(runs) ? " at steady state" : "", case_title(case_name, runs)),
+              fmt::format("time since the start of {} (ms)", shown_words(runs)),
               "drum acceleration (m/s²)",
               {}};
   panel.tight_x = true;
@@ -269,17 +284,17 @@ void plan_case(const ReportResults &results, std::size_t index, FigurePlan &plan
   add_curves(panel, name, runs, since_ms, "6");
   PageFigure figure{"steady", of_paper ? label : "Own parameters", "", {}, table.text(), case_weights[index]};
   figure.figure = {name, panel.title, {panel}, 1};
-  figure.caption = fmt::format(
-      "Drum acceleration over the last {} cycles, {}. {} {}. Markers: reference solution. Runs: {}.",
-      shown_cycles, case_title(case_name, runs), case_words(case_name, runs), ranges, names_of(runs));
+  figure.caption = fmt::format("Drum acceleration over {}, {}. {} {}. Markers: reference solution. Runs: {}.",
+                               shown_words(runs), case_title(case_name, runs), case_words(case_name, runs),
+                               ranges, names_of(runs));
   plan.figures.push_back(std::move(figure));
 }
 
-/// A figure with a panel for each case, of runs under condition B. `fill` adds a run's rows and curves; it
-/// returns false if the run lacks the data.
+/// A figure of a quantity over the last cycles with a panel for each case, of runs under condition B. `fill`
+/// adds a run's rows and curves; it returns false if the run lacks the data.
 template <class Fill>
 void plan_panels(const ReportResults &results, FigurePlan &plan, PageFigure figure,
-                 const std::string &columns, Fill fill) {
+                 const std::string &quantity, const std::string &columns, Fill fill) {
   CurveTable table(columns);
   std::string absent;
   std::vector<const RunResult *> runs;
@@ -303,7 +318,8 @@ void plan_panels(const ReportResults &results, FigurePlan &plan, PageFigure figu
     return;
   }
   figure.csv = table.text();
-  figure.caption += fmt::format(" Runs: {}.", names_of(runs));
+  figure.caption = fmt::format("{} over {} under condition B: {} Runs: {}.", quantity, shown_words(runs),
+                               figure.caption, names_of(runs));
   if (!absent.empty()) figure.caption += fmt::format(" No run was given for case {}.", absent);
   plan.figures.push_back(std::move(figure));
 }
@@ -315,13 +331,11 @@ void plan_dem_and_direct(const ReportResults &results, FigurePlan &plan) {
       name, "Fig. 8  Drum acceleration by DEM and by the reference solution, condition B", {}, 2};
   figure.weight = fig_8_weight;
   figure.key_panel = 1; // case II, if all are there
-  figure.caption = fmt::format(
-      "Drum acceleration over the last {} cycles under condition B: the run (line), and the reference "
-      "solution "
-      "by the direct solver (markers). The differences are too small to be seen; the table below has them.",
-      shown_cycles);
+  figure.caption = "the run (line), and the reference solution by the direct solver (markers). The table "
+                   "below has the differences.";
   plan_panels(
-      results, plan, std::move(figure), "case,time (s),time in window (s),drum acceleration (m/s2)",
+      results, plan, std::move(figure), "Drum acceleration",
+      "case,time (s),time in window (s),drum acceleration (m/s2)",
       [&](const RunResult &result, CurveTable &table, Panel &panel) {
         if (result.reference == nullptr) return false;
         const Run &run = result.run;
@@ -390,17 +404,17 @@ void plan_loops(const ReportResults &results, std::size_t index, FigurePlan &pla
   loop.x_range = axis_range(-0.12 * largest * 1e3, 1.08 * largest * 1e3);
   PageFigure figure{"loops", label, "", {}, table.text()};
   figure.figure = {name,
-                   fmt::format("{}  Orbits at steady state, {}", label, case_title(case_name, runs)),
+                   fmt::format("{}  Orbits{}, {}", label, all_steady(runs) ? " at steady state" : "",
+                               case_title(case_name, runs)),
                    {phase, loop},
                    2};
   figure.caption = fmt::format(
-      "Steady state, {}: the last cycle, or the last two if the state alternates. Left: drum velocity "
-      "against "
-      "drum position. Right: contact force against overlap; the area of the loop is the energy that the "
+      "The last cycle of each run, or the last two if they differ, {}. Left: drum velocity against drum "
+      "position. Right: contact force against overlap; the area of the loop is the energy that the "
       "contact dissipates per cycle, and a vertical line is the jump of the force at a make{}. Most of the "
       "time without contact is outside of the right panel. Runs: {}.",
       case_title(case_name, runs), " or, under A, at break", names_of(runs));
-  if (case_name == "I" && all_at_case(runs))
+  if (case_name == "I" && all_at_case(runs) && all_steady(runs))
     figure.caption = fmt::format(
         "Case I, last cycle. Left: drum velocity against drum position. Right: contact force against "
         "overlap; the area of the loop is the energy that the contact dissipates per cycle. A and B "
@@ -454,7 +468,7 @@ void plan_errors(const ReportResults &results, FigurePlan &plan) {
   CurveTable table("run number (-),relative RMS error of drum velocity (-)");
   Panel panel{"Fig. R6  Error of drum velocity against the reference solution",
               "",
-              "relative RMS error, last 5 cycles (-)",
+              fmt::format("relative RMS error, last {} cycles or all of a shorter run (-)", error_cycles),
               {}};
   panel.log_y = true;
   bool any_a = false;
@@ -477,8 +491,9 @@ void plan_errors(const ReportResults &results, FigurePlan &plan) {
   PageFigure figure{"direct", "Fig. R6", "", {}, table.text()};
   figure.figure = {name, panel.title, {panel}, 1};
   figure.caption =
-      "Relative RMS error of the drum velocity of each run over its last five cycles, against the "
-      "reference solution at equal times; logarithmic scale.";
+      fmt::format("Relative RMS error of the drum velocity of each run over its last {} cycles, or all of a "
+                  "shorter run, against the reference solution at equal times; logarithmic scale.",
+                  error_cycles);
   plan.figures.push_back(std::move(figure));
 }
 
@@ -486,14 +501,11 @@ void plan_roller(const ReportResults &results, FigurePlan &plan) {
   const std::string name = "figR7_roller_force";
   PageFigure figure{"roller", "Fig. R7", "", {}, ""};
   figure.figure = {name, "Fig. R7  Contact force: of the law, and from measured motion, condition B", {}, 2};
-  figure.caption =
-      fmt::format("Contact force over the last {} cycles under condition B: from the contact law (line), and "
-                  "from the equation of motion, m2 a2 + m3 a3 + (m2 + m3) g + Fe, with accelerations by "
-                  "differences of the recorded positions (markers; none near a make or break of contact, "
-                  "where the force jumps).",
-                  shown_cycles);
+  figure.caption = "from the contact law (line), and from the equation of motion, m2 a2 + m3 a3 + (m2 + m3) "
+                   "g + Fe, with accelerations by differences of the recorded positions (markers; none near "
+                   "a make or break of contact, where the force jumps).";
   plan_panels(
-      results, plan, std::move(figure), "case,time (s),time in window (s),contact force (N)",
+      results, plan, std::move(figure), "Contact force", "case,time (s),time in window (s),contact force (N)",
       [&](const RunResult &result, CurveTable &table, Panel &panel) {
         const Run &run = result.run;
         if (!result.chain->roller) return false;

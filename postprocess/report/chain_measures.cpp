@@ -82,7 +82,7 @@ void compare_with_reference(ChainMeasures &m, const Run &run, const DirectResult
   const std::vector<double> exact =
       reference_velocity(run.history, reference.history, period, m.reference_interpolated);
   m.velocity_error_last =
-      velocity_error(run.history, exact, last_cycles_window(run.complete, 5, period), period);
+      velocity_error(run.history, exact, last_cycles_window(run.complete, error_cycles, period), period);
   if (run.complete >= 30)
     m.velocity_error_25_to_30 = velocity_error(run.history, exact, {25.0 * period, 30.0 * period}, period);
   const TimeWindow all{-std::numeric_limits<double>::infinity(), run.complete * period};

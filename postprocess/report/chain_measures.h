@@ -20,6 +20,9 @@ namespace drumlin::post {
 /// from cycle to cycle.
 constexpr int steady_cycles = 10;
 
+/// Number of cycles at the end of a run over which its velocity error counts.
+constexpr int error_cycles = 5;
+
 /// Measured values of a chain run.
 struct ChainMeasures {
   TimeWindow steady;    ///< the last cycles, s
@@ -43,7 +46,7 @@ struct ChainMeasures {
   // Comparison with the reference solution (`reference`: the direct solver at the same parameters), if there
   // is one.
   double velocity_error_last =
-      std::numeric_limits<double>::quiet_NaN();  ///< relative RMS of drum velocity, last five cycles
+      std::numeric_limits<double>::quiet_NaN();  ///< relative RMS of drum velocity, last error_cycles
   std::optional<double> velocity_error_25_to_30; ///< the same, cycles 25 to 30
   bool reference_interpolated = false; ///< whether the run has rows between those of the reference solution
   EventMatch match;                    ///< all events

@@ -19,7 +19,7 @@ struct Section {
 };
 
 constexpr Section sections[] = {
-    {"steady", "Steady drum acceleration, cases I to IV",
+    {"steady", "Drum acceleration, cases I to IV",
      "Figs. 4 to 7 of the paper, where the parameters are those of the paper. Condition A dashed, condition "
      "B "
      "(no-tension limit) solid, reference solution as markers."},
@@ -36,7 +36,7 @@ constexpr Section sections[] = {
      "A mass hits a fixed ball once, without gravity (Fig. 3 of the paper). The restitution is the rebound "
      "speed over the impact speed."},
     {"loops", "Phase portraits and force loops",
-     "The same steady states as in Figs. 4 to 7, in other coordinates. The paper has no such figures."},
+     "The same runs as in Figs. 4 to 7, in other coordinates. The paper has no such figures."},
     {"events", "Makes and breaks of contact", ""},
     {"energy", "Energy balance", "Where the work of the exciter goes."},
     {"roller", "Contact force from measured motion",

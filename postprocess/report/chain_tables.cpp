@@ -18,6 +18,14 @@ namespace {
 
 const std::string dash = no_value;
 
+/// The cycles over which the chains were measured, in words.
+std::string measured_words(const ReportResults &results) {
+  std::vector<int> counts;
+  for (const RunResult &result : results.runs)
+    if (result.chain) counts.push_back(result.chain->steady_count);
+  return last_cycles_words(counts);
+}
+
 /// A ratio as text; a dash where it is not finite, since its denominator is zero.
 std::string finite(const char *format, double value) {
   return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : dash;
@@ -233,12 +241,12 @@ PageTable events_table(const ReportResults &results) {
           fmt::format("{}: {} events, {} in the reference solution; the first {} were paired.", run.name,
                       match.run_count, match.reference_count, match.matched));
   }
-  table.notes.insert(table.notes.begin(), fmt::format("Forces, overlap and counts per cycle: over the last "
-                                                      "{} cycles of each run. Time differences: of all "
+  table.notes.insert(table.notes.begin(), fmt::format("Forces, overlap and counts per cycle: over {} of each "
+                                                      "run. Time differences: of all "
                                                       "events of the run to those of the reference solution "
                                                       "(direct solution), paired in their order; also "
                                                       "in time steps of the run.",
-                                                      steady_cycles));
+                                                      measured_words(results)));
   return table;
 }
 
@@ -263,9 +271,8 @@ PageTable meters_table(const ReportResults &results) {
   table.notes.push_back(fmt::format("Compaction meter value CMV = 300 A2 / A1 and resonance meter value RMV "
                                     "= 100 A0.5 / A1. A1, A2 and A0.5 "
                                     "are the amplitudes of drum acceleration at 1, 2 and 1/2 times the "
-                                    "excitation frequency, over the last {} "
-                                    "cycles.",
-                                    steady_cycles));
+                                    "excitation frequency, over {}.",
+                                    measured_words(results)));
   return table;
 }
 
@@ -274,7 +281,7 @@ PageTable errors_table(const ReportResults &results) {
   table.section = "direct";
   table.name = "error_table";
   table.title = "Relative RMS error of drum velocity against the reference solution";
-  table.criterion = "runs have an error of at most 1 % over their last five cycles";
+  table.criterion = "runs have an error of at most 1 % over their last five cycles, or all of a shorter run";
   table.header = {"run",
                   "case",
                   "transition",
@@ -465,13 +472,13 @@ std::vector<PageTable> make_tables(const ReportResults &results) {
   for (const Check &check : results.checks)
     add_check(steady, results, check);
   steady.notes.push_back(fmt::format(
-      "Measured over the last {} cycles. Forces and accelerations at a make of contact are those of "
+      "Measured over {}. Forces and accelerations at a make of contact are those of "
       "the located events; the share of time in contact follows from the times of the events. To all "
       "digits: the measured value rounds to the reference value. The tolerance is one unit of the last "
       "digit given or, for accelerations and forces, 2e-4 of the value, since the states of the "
       "reference were not closer to steady than that. Direct solution: the reference solution (direct "
       "solver) over the same cycles, evaluated in the same way.",
-      steady_cycles));
+      measured_words(results)));
   if (count_checks(results).not_judged > 0)
     steady.notes.push_back(fmt::format("Short run: fewer than {} cycles. Its state may not yet be steady to "
                                        "the digits given.",

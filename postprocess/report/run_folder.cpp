@@ -366,4 +366,12 @@ void name_runs(std::vector<Run> &runs) {
   }
 }
 
+std::string last_cycles_words(const std::vector<int> &counts) {
+  if (counts.empty()) return "the last cycles";
+  const auto [least, most] = std::minmax_element(counts.begin(), counts.end());
+  if (*most == 1) return "the last cycle";
+  return *least == *most ? fmt::format("the last {} cycles", *most)
+                         : fmt::format("the last {} to {} cycles", *least, *most);
+}
+
 } // namespace drumlin::post

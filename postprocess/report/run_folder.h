@@ -77,6 +77,10 @@ Run read_run(const std::filesystem::path &folder);
 /// Names every run by the end of its path; all names have the fewest path parts that make them distinct.
 void name_runs(std::vector<Run> &runs);
 
+/// The cycles at the ends of runs that a figure or table shows: "the last cycle", "the last 3 cycles", or
+/// "the last 2 to 3 cycles" where runs differ. \param counts cycles of each run
+std::string last_cycles_words(const std::vector<int> &counts);
+
 /// Smallest number of cycles of a run that is compared with the reference values.
 constexpr int long_run_cycles = 100;
 

@@ -150,9 +150,9 @@ TEST_F(BedReport, OpensWithTheNumbersOfItsTables) {
   const std::string words =
       "<p class=\"verdict bad\">✗ <strong>Bed.</strong> A roller on 2 balls (B and A): drum 2000 kg, frame "
       "1000 "
-      "kg, exciter 58.8 kN at 20 Hz. After 6 cycles the drum has settled by 36.000 mm; the largest contact "
-      "force "
-      "on it in the steady cycles is 6.00 kN. The void ratio of the bed goes from 0.2500 to 0.2000, the "
+      "kg, exciter 58.8 kN at 20 Hz. After 6 cycles the drum has settled by 36.000 mm (mean over the last "
+      "cycle); the largest contact force on it in the last 4 cycles is 6.00 kN. The void ratio of the bed "
+      "goes from 0.2500 to 0.2000, the "
       "number of "
       "contacts per ball from 3.300 to 5.000. The energy error is 9.000 % of the exciter&#39;s work.";
   for (const char *page : {"index.html", "bed.html"})
@@ -165,6 +165,37 @@ TEST_F(BedReport, OpensWithTheNumbersOfItsTables) {
   EXPECT_LT(text.find("figures/bed1_peak_key.png"), text.find("<h2>"));
   EXPECT_NE(text.find("<tr class=\"differs\"><td class=\"word\">✗ no</td><td class=\"word\">A</td>"),
             std::string::npos);
+}
+
+TEST_F(BedReport, SaysThatADrumHasRisen) {
+  write_run("up", Transition::B);
+  std::string cycles = read_text(root / "up/cycles.csv");
+  cycles.replace(cycles.rfind(",0.036"), 6, ",-0.003");
+  put("up/cycles.csv", cycles);
+  const std::string text = read_text(report({"up"}) / "bed.html");
+  EXPECT_NE(text.find("After 6 cycles the drum has risen by 3.000 mm under B (mean over the last cycle)"),
+            std::string::npos)
+      << text.substr(6000, 2500);
+}
+
+TEST_F(BedReport, NamesTheCyclesThatItDraws) {
+  for (const auto &[cycles, three, two] : {std::tuple{1, "the last cycle", "the last cycle"},
+                                           {2, "the last 2 cycles", "the last 2 cycles"},
+                                           {6, "the last 3 cycles", "the last 2 cycles"}}) {
+    write_run("some", Transition::B, cycles);
+    const std::vector<BedResult> beds = {result("some")};
+    for (const PageFigure &figure : plan_bed_figures(group_beds(beds)).figures) {
+      if (figure.figure.name == "bed1_motion") {
+        EXPECT_NE(figure.caption.find(three), std::string::npos) << cycles << figure.caption;
+      }
+      if (figure.figure.name == "bed1_motion" || figure.figure.name == "bed1_walls") {
+        EXPECT_EQ(figure.figure.panels.at(0).x_label, fmt::format("time in {} (ms)", three));
+      }
+      if (figure.figure.name == "bed1_loop") {
+        EXPECT_NE(figure.caption.find(two), std::string::npos) << cycles << figure.caption;
+      }
+    }
+  }
 }
 
 TEST_F(BedReport, PairsAWithBWhereAllElseIsAlike) {
@@ -247,6 +278,29 @@ TEST_F(BedReport, ShowsTheBedAtRestAndAtTheExtremesOfTheForce) {
   // Two discs of 1 m in a bed of 3.8 m by 2 m: one layer, since two mean diameters are 4 m.
   EXPECT_NE(figures.at("bed1_profile")->csv.find("A before whole,1,0.826734"), std::string::npos)
       << figures.at("bed1_profile")->csv;
+}
+
+// Types 1 and 4 are the two layers, the lowest first; 2 is the drum.
+TEST_F(BedReport, DrawsEachLayerWithAnEdgeOfItsColour) {
+  std::map<std::string, test::Array> arrays = test::ball_arrays();
+  arrays["type"].values = "2 4 1";
+  for (const char *step : {"0", "700", "800"})
+    put(fmt::format("A/dump/balls_{}.vtp", step), test::ball_dump(arrays));
+  const std::vector<BedResult> beds = {result("A")};
+  const FigurePlan plan = plan_bed_figures(group_beds(beds));
+  const auto picture = std::find_if(plan.figures.begin(), plan.figures.end(), [](const PageFigure &figure) {
+    return figure.figure.name == "bed1_peak";
+  });
+  ASSERT_NE(picture, plan.figures.end());
+  const std::vector<Curve> &curves = picture->figure.panels.at(0).curves;
+  ASSERT_GE(curves.size(), 2u);
+  EXPECT_EQ(curves[0].title, "layer 1");
+  EXPECT_EQ(curves[0].style, CurveStyle::discs_1);
+  EXPECT_EQ(curves[1].title, "layer 2");
+  EXPECT_EQ(curves[1].style, CurveStyle::discs_2);
+  EXPECT_NE(picture->csv.find("A soil 1,1,1,1,"), std::string::npos) << picture->csv;
+  EXPECT_NE(picture->csv.find("A soil 2,2.8,1,1,"), std::string::npos) << picture->csv;
+  EXPECT_NE(picture->caption.find("have the colours of their layers"), std::string::npos) << picture->caption;
 }
 
 // The bed reaches from z = -1.5 m to 2.5 m, its soil from -1 m to 2.2 m.

@@ -322,6 +322,8 @@ TEST_F(Report, DoesNotJudgeAShortRunAndNamesTheCommandOfALongOne) {
   EXPECT_TRUE(parse(text).well_formed);
   EXPECT_NE(text.find("not judged (short run)"), std::string::npos);
   EXPECT_NE(text.find("7 values are not judged"), std::string::npos);
+  EXPECT_NE(text.find("Fig. 4  Drum acceleration, case I"), std::string::npos);
+  EXPECT_NE(text.find("With fewer than 100 cycles the motion may not be steady yet"), std::string::npos);
   EXPECT_EQ(text.find("class=\"differs"), std::string::npos);
   const std::string command = fmt::format(
       "./drumlin run inputs/chain/in.chain -var case I -var transition B -var steps_per_cycle 2000 "
@@ -332,6 +334,20 @@ TEST_F(Report, DoesNotJudgeAShortRunAndNamesTheCommandOfALongOne) {
   const std::string json = read(root / "short-report" / "report.json");
   EXPECT_NE(json.find("\"not_judged\": 7"), std::string::npos);
   EXPECT_EQ(json.find("\"agrees\": false"), std::string::npos);
+}
+
+TEST_F(Report, NamesTheCyclesOfARunOfTwo) {
+  write_chain_run(root / "two", "II", Transition::B, 2);
+  ReportOptions options;
+  options.folders = {root / "two"};
+  options.out = root / "two-report";
+  const std::string text = read(write_report(options).page);
+  for (const char *words :
+       {"Drum acceleration over the last 2 cycles, case II", "Measured over the last 2 cycles",
+        "Contact force over the last 2 cycles", "Drum acceleration over the last 2 cycles under"})
+    EXPECT_NE(text.find(words), std::string::npos) << words;
+  for (const char *words : {"the last 3 cycles", "the last 10 cycles", "at steady state"})
+    EXPECT_EQ(text.find(words), std::string::npos) << words;
 }
 
 TEST_F(Report, CountsEachKindOfWorkToAnEndThatIsKnown) {
