@@ -1,5 +1,6 @@
 #include "studies/accuracy/page.h"
 
+#include "engine/deck_run.h"
 #include "support/files.h"
 
 #include "pages/acceptance.h"
@@ -19,6 +20,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace drumlin::post {
 
@@ -166,11 +168,23 @@ std::optional<double> error_at(const std::vector<ErrorPoint> &points, double ste
   return std::nullopt;
 }
 
+/// No error of the chain has become larger than in the curves of `drumlin advise`.
+Acceptance not_larger(const std::vector<ChainPoint> &chain, bool complete) {
+  const std::vector<std::string> larger =
+      larger_errors(chain, read_points(input_file("study/accuracy") / "chain.csv", chain_points()), complete);
+  return {fmt::format("every error of the chain: at most {:g} times that of the same row of "
+                      "inputs/study/accuracy/chain.csv",
+                      allowed_growth),
+          larger.empty() ? fmt::format("all {} rows", chain.size())
+                         : fmt::format("all rows but {}", fmt::join(larger, "; ")),
+          larger.empty()};
+}
+
 /// The acceptance criteria that the measured points can decide.
-std::vector<Acceptance> judge(const Data &data) {
+std::vector<Acceptance> judge(const Data &data, bool complete) {
   constexpr std::array<double, 4> at_800 = {1e-5, 1.2e-4, 3e-5, 2e-4}, at_6400 = {2e-7, 2e-6, 5e-7, 2e-6};
   const Series &second = all_series[0], &reference = all_series[4];
-  std::vector<Acceptance> criteria;
+  std::vector<Acceptance> criteria = {not_larger(data.chain, complete)};
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const std::vector<ErrorPoint> curve = data.curve(cases[i], second, &ChainErrors::velocity);
     for (const auto &[steps, bound] : {std::pair{800.0, at_800[i]}, std::pair{6400.0, at_6400[i]}})
@@ -449,7 +463,7 @@ private:
 
 } // namespace
 
-void write_accuracy_page(const fs::path &out) {
+void write_accuracy_page(const fs::path &out, bool complete) {
   const Data data = {read_points(out / "chain.csv", chain_points()),
                      read_points(out / "impacts.csv", impact_points()),
                      read_points(out / "scaling.csv", scaling_points())};
@@ -464,7 +478,7 @@ void write_accuracy_page(const fs::path &out) {
       "contact law; the engine's own law is hooke/stiffness with its force limited to compression. "
       "Chains run for {} cycles; errors are those of the last {}.",
       accuracy_cycles, accuracy_window));
-  const std::vector<Acceptance> criteria = judge(data);
+  const std::vector<Acceptance> criteria = judge(data, complete);
   if (const std::string words = steps_words(data); !words.empty()) page.answer(words);
   page.answer(criteria);
   page.section("Acceptance criteria");

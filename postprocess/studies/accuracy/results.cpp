@@ -1,9 +1,14 @@
 #include "studies/accuracy/results.h"
 
 #include "chain/run_files.h"
+#include "studies/study.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
 
 namespace drumlin::post {
 
@@ -85,6 +90,37 @@ const CsvSchema<ScalingPoint> &scaling_points() {
        csv_column("velocity_error", &ScalingPoint::error, measured)},
       3);
   return schema;
+}
+
+std::vector<std::string> larger_errors(const std::vector<ChainPoint> &measured,
+                                       const std::vector<ChainPoint> &known, bool complete) {
+  static const std::pair<const char *, double ChainErrors::*> errors[] = {
+      {"velocity_error", &ChainErrors::velocity},
+      {"force_error", &ChainErrors::force},
+      {"acceleration_error", &ChainErrors::acceleration},
+      {"event_time_error_s", &ChainErrors::event_time_s},
+      {"energy_residual", &ChainErrors::energy}};
+  std::vector<std::string> larger;
+  const auto report = [&](const ChainPoint &point, const std::string &words) {
+    larger.push_back(fmt::format("{} {}, {}, {} steps per cycle: {}", point.chain_case,
+                                 transition_name(point.transition), point.stepping, point.steps_per_cycle,
+                                 words));
+  };
+  for (const ChainPoint &point : measured) {
+    const ChainPoint *before = find_point(known, chain_points(), point);
+    if (before == nullptr) {
+      report(point, "not known");
+      continue;
+    }
+    for (const auto &[name, error] : errors) {
+      const double was = before->errors.*error, is = point.errors.*error;
+      if (std::isfinite(was) && !(is <= allowed_growth * was)) // NaN, too
+        report(point, fmt::format("{} {:g}, known {:g}", name, is, was));
+    }
+  }
+  for (const ChainPoint &point : known)
+    if (complete && find_point(measured, chain_points(), point) == nullptr) report(point, "not measured");
+  return larger;
 }
 
 std::vector<ErrorPoint> chain_curve(const std::vector<ChainPoint> &points, const std::string &chain_case,

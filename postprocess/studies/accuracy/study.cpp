@@ -204,7 +204,7 @@ void run_accuracy_study(const StudyOptions &options) {
   measure(plan.impacts, options.quick ? 8 : 64, impacts, progress);
   measure(plan.chain, chain, progress);
   measure(other_chains, read_points(chain.file(), chain_points()), sensitivities, scaling, progress);
-  write_accuracy_page(options.out);
+  write_accuracy_page(options.out, !options.quick);
   fmt::print("{}\n", (options.out / "index.html").string());
 }
 
