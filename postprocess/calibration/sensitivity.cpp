@@ -27,9 +27,17 @@ VectorXd offset(const std::vector<double> &point, const std::vector<double> &cen
   return d;
 }
 
-/// The coefficients of each seed: a row for the value at the centre and one for each parameter, a column for each target.
-std::vector<MatrixXd> fits(const CalibrationTask &task, const std::vector<const Evaluation *> &near,
-                           const std::vector<double> &centre) {
+/// The linear model of each seed.
+struct Fits {
+  std::vector<MatrixXd>
+      seeds; ///< a row for the value at the centre and one for each parameter, a column for each target
+  std::vector<MatrixXd> residuals; ///< a row for each point, a column for each target
+  double leverage =
+      0.0; ///< share of the variance from point to point that remains in the value at the centre
+};
+
+Fits fits(const CalibrationTask &task, const std::vector<const Evaluation *> &near,
+          const std::vector<double> &centre) {
   const Index parameters = index(task.vary.size()), targets = index(task.targets.size());
   MatrixXd terms(index(near.size()), 1 + parameters);
   for (std::size_t i = 0; i < near.size(); ++i) {
@@ -39,15 +47,16 @@ std::vector<MatrixXd> fits(const CalibrationTask &task, const std::vector<const 
   const Eigen::ColPivHouseholderQR<MatrixXd> factors(terms);
   if (factors.rank() < terms.cols())
     throw std::runtime_error("too few evaluations near the best one succeeded: its slopes are not known");
-  std::vector<MatrixXd> all;
-  all.reserve(static_cast<std::size_t>(task.seeds));
+  Fits all;
+  all.leverage = (terms.transpose() * terms).inverse()(0, 0);
   for (int seed = 0; seed < task.seeds; ++seed) {
     MatrixXd values(terms.rows(), targets);
     for (std::size_t i = 0; i < near.size(); ++i)
       for (Index j = 0; j < targets; ++j)
         values(index(i), j) =
             std::log(near[i]->seeds[static_cast<std::size_t>(seed)].values[static_cast<std::size_t>(j)]);
-    all.emplace_back(factors.solve(values));
+    all.seeds.emplace_back(factors.solve(values));
+    all.residuals.emplace_back(values - terms * all.seeds.back());
   }
   return all;
 }
@@ -58,6 +67,20 @@ MeanInterval interval_over(const std::vector<MatrixXd> &seeds, Index row, Index 
   for (const MatrixXd &seed : seeds)
     values.push_back(seed(row, column));
   return mean_interval(values);
+}
+
+/// Half the width of the interval of ln parameter if the targets were measured on beds, too: a mean of `target_beds` beds minus the mean
+/// of the seeds. The scatter of a bed is that of the seeds' fits and what the fits average out, the scatter of a seed's bed
+/// from point to point: settling is chaotic, and each point has another packing.
+/// \param step     the mean over the seeds' fits
+/// \param squares  sum of the squares of the residuals over all seeds and points
+double half_width_with_beds(const CalibrationTask &task, const MeanError &step, double squares,
+                            double leverage, std::size_t points) {
+  const double seeds = task.seeds, beds = task.target_beds;
+  const double freedom = seeds * (static_cast<double>(points) - 1.0 - static_cast<double>(task.vary.size()));
+  const Variance of_fits = {step.variance.value * (1.0 + seeds / beds), step.variance.freedom};
+  const Variance of_points = {(1.0 - leverage) * squares / freedom / beds, freedom};
+  return half_width_of_sum(of_fits, of_points);
 }
 
 void judge(const CalibrationTask &task, Sensitivity &found) {
@@ -109,7 +132,8 @@ Sensitivity sensitivity_at(const CalibrationTask &task, const std::vector<Evalua
   for (const Evaluation &one : evaluations)
     if (one.good(task) && offset(one.point, best.point).cwiseAbs().maxCoeff() <= fit_reach)
       near.push_back(&one);
-  const std::vector<MatrixXd> seeds = fits(task, near, best.point);
+  const Fits fit = fits(task, near, best.point);
+  const std::vector<MatrixXd> &seeds = fit.seeds;
 
   Sensitivity found;
   found.points = near.size();
@@ -139,15 +163,18 @@ Sensitivity sensitivity_at(const CalibrationTask &task, const std::vector<Evalua
 
   // The parameters that meet the targets differ from seed to seed. The confidence interval of an estimate follows from
   // their scatter.
-  std::vector<MatrixXd> estimates;
-  estimates.reserve(seeds.size());
-  for (const MatrixXd &seed : seeds)
-    estimates.emplace_back(inverse * (weight.asDiagonal() * (wanted - seed.row(0).transpose())));
-  const double widening =
-      task.target_beds > 0 ? std::sqrt(1.0 + static_cast<double>(task.seeds) / task.target_beds) : 1.0;
+  const MatrixXd steps = inverse * weight.asDiagonal(); // of ln parameter for those of ln target
   for (std::size_t j = 0; j < parameters; ++j) {
-    const MeanInterval step = interval_over(estimates, index(j), 0);
-    const double half_width = widening * step.half_width;
+    std::vector<double> of_seeds;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+      of_seeds.push_back(steps.row(index(j)) * (wanted - seeds[i].row(0).transpose()));
+      squares += (fit.residuals[i] * steps.row(index(j)).transpose()).squaredNorm();
+    }
+    const MeanError step = mean_error(of_seeds);
+    const double half_width = task.target_beds > 0
+                                  ? half_width_with_beds(task, step, squares, fit.leverage, near.size())
+                                  : mean_interval(of_seeds).half_width;
     ParameterEstimate estimate;
     estimate.value = best.point[j] * std::exp(step.mean);
     estimate.low = estimate.value * std::exp(-half_width);

@@ -36,12 +36,14 @@ double t_factor(double freedom) {
       boost::math::complement(boost::math::students_t_distribution<double>(freedom), upper_tail));
 }
 
-namespace {
-
-/// A mean, the square of its standard error, and the degrees of freedom of the latter.
-struct MeanError {
-  double mean, variance, freedom;
-};
+double half_width_of_sum(const Variance &one, const Variance &other) {
+  const double variance = one.value + other.value;
+  if (!(one.freedom > 0.0 && other.freedom > 0.0)) return std::numeric_limits<double>::infinity();
+  if (!(variance > 0.0)) return 0.0;
+  const double freedom =
+      variance * variance / (one.value * one.value / one.freedom + other.value * other.value / other.freedom);
+  return t_factor(freedom) * std::sqrt(variance);
+}
 
 MeanError mean_error(const std::vector<double> &values) {
   if (values.empty()) throw std::invalid_argument("a mean of no values");
@@ -52,26 +54,18 @@ MeanError mean_error(const std::vector<double> &values) {
   double squares = 0.0;
   for (const double value : values)
     squares += (value - mean) * (value - mean);
-  return {mean, squares / (n * (n - 1.0)), n - 1.0};
+  return {mean, {squares / (n * (n - 1.0)), n - 1.0}};
 }
 
-} // namespace
-
 MeanInterval mean_interval(const std::vector<double> &values) {
-  const MeanError one = mean_error(values);
-  if (!(one.freedom > 0.0)) return {one.mean, std::numeric_limits<double>::infinity()};
-  return {one.mean, t_factor(one.freedom) * std::sqrt(one.variance)};
+  const auto [mean, variance] = mean_error(values);
+  if (!(variance.freedom > 0.0)) return {mean, std::numeric_limits<double>::infinity()};
+  return {mean, t_factor(variance.freedom) * std::sqrt(variance.value)};
 }
 
 MeanInterval mean_difference(const std::vector<double> &values, const std::vector<double> &others) {
   const MeanError one = mean_error(values), other = mean_error(others);
-  const double mean = one.mean - other.mean, variance = one.variance + other.variance;
-  if (!(one.freedom > 0.0 && other.freedom > 0.0)) return {mean, std::numeric_limits<double>::infinity()};
-  if (!(variance > 0.0)) return {mean, 0.0};
-  const double freedom = variance * variance /
-                         (one.variance * one.variance / one.freedom +
-                          other.variance * other.variance / other.freedom); // Welch and Satterthwaite
-  return {mean, t_factor(freedom) * std::sqrt(variance)};
+  return {one.mean - other.mean, half_width_of_sum(one.variance, other.variance)};
 }
 
 LineFit fit_line(const std::vector<double> &x, const std::vector<double> &y) {
