@@ -1,6 +1,7 @@
 #pragma once
 // The loop over the contacts of balls in a step, for the pair styles of both engines.
 
+#include "contact/contact_observer.h"
 #include "contact/contact_settings.h"
 #include "contact/pair_list.h"
 #include "contact/stepped_contact.h"
@@ -36,18 +37,19 @@ struct LoopMemory {
 ///   mark(flag, history, touches)  stores that for the next step
 ///   mass(i)                   kg; below 0 if the ball is frozen
 ///   effective_mass(mi, mj)    kg; static
-///   exert(block, contacts, count)  adds forces to the balls, and reports them to who observes them
+///   exert(block, contacts, count)  adds forces to the balls
 ///   finish()                  called after the last contact
 template <class Engine, class Parameters, bool stepped, FrictionModel tangential, bool rolling>
 class ContactLoop {
 public:
-  /// \param stepping nullptr under `stepping stock`
+  /// \param stepping nullptr under `stepping stock` \param observers receive each contact whose balls touch
   ContactLoop(Engine &engine, const LAMMPS_NS::Atom &atom, LoopMemory &memory,
               const CoefficientTable<Parameters> &table, const HistoryPlaces &places, physics::Cap cap,
-              LAMMPS_NS::FixStepping *stepping, double dt, bool moves)
+              LAMMPS_NS::FixStepping *stepping, const ContactObservers &observers, double dt, bool moves)
       : engine_(engine), atom_(atom), rows_(memory.rows), pairs_(memory.pairs), table_(table),
-        places_(places), cap_(cap), stepping_(stepping), dt_(dt), moves_(moves),
-        light_(stepped && stepping->light()), in_setup_(stepped && stepping->in_setup()) {}
+        places_(places), cap_(cap), stepping_(stepping), observers_(observers), observed_(observers.any()),
+        dt_(dt), moves_(moves), light_(stepped && stepping->light()),
+        in_setup_(stepped && stepping->in_setup()) {}
 
   void run(const LAMMPS_NS::NeighList &list, const LAMMPS_NS::Neighbor &neighbor) {
     rows_.fill(atom_, [this](int i) { return engine_.mass(i); });
@@ -236,7 +238,50 @@ private:
     if constexpr (remembers)
       for (int n = 0; n < count; ++n)
         if (contacts_[n].touches) keep_history(n, contacts_[n].history);
+    if (observed_)
+      for (int n = 0; n < count; ++n)
+        if (contacts_[n].touches) report(n);
     engine_.exert(block_, contacts_, count);
+  }
+
+  [[gnu::noinline]] void report(int n) const {
+    const BlockContact &contact = contacts_[n];
+    const ContactCoefficients<Parameters> &coefficients = law_of(n);
+    const double overlap = block_.overlap[n];
+    const auto law = coefficients.contact.law(block_.m_eff[n], block_.r_eff[n]);
+    const double dashpot = law.dashpot(overlap);
+    ContactRecord record{};
+    record.i = contact.i;
+    record.j = contact.j;
+    record.normal = block_.normal[n];
+    record.overlap = overlap;
+    record.radius = std::min(block_.ri[n], block_.rj[n]);
+    record.share = 1.0;
+    record.spring_force = law.spring(overlap);
+    record.spring_energy = law.energy(overlap);
+    record.normal_stiffness = law.stiffness(overlap);
+    record.normal_force = block_.force[n];
+    if constexpr (stepped)
+      record.final_force = contact.history + places_.force;
+    else
+      record.normal_dashpot = dashpot;
+    if constexpr (rubs) {
+      record.tangential_dashpot = coefficients.tangential_dashpot(dashpot);
+      record.tangential_force = block_.tangential_force[n];
+      record.torque_i = block_.torque_i[n];
+      record.torque_j = block_.torque_j[n];
+    }
+    if constexpr (springs) {
+      record.tangential_stiffness = block_.kt[n];
+      record.spring = contact.history + places_.spring;
+    }
+    if constexpr (rolling) {
+      const double radius = physics::effective_radius(block_.ri[n], block_.rj[n]);
+      record.rolling_stiffness = coefficients.rolling_resistance(block_.kt[n], radius).stiffness;
+      record.torque_i = physics::sum(record.torque_i, 1.0, block_.rolling[n]);
+      record.torque_j = physics::sum(record.torque_j, -1.0, block_.rolling[n]);
+    }
+    observers_.tell(record);
   }
 
   /// The forces and the history of a contact that has ended.
@@ -275,6 +320,8 @@ private:
   const HistoryPlaces places_;
   const Cap cap_; // of friction with a spring
   LAMMPS_NS::FixStepping *const stepping_;
+  const ContactObservers &observers_;
+  const bool observed_; // in this step
   const double dt_;
   const bool moves_; // false in the set-up of a run: springs stay as they are
   const bool light_, in_setup_;

@@ -12,7 +12,7 @@ class PairGranTransition::Contacts {
 public:
   Contacts(PairGranTransition &pair, const drumlin::CoefficientTable<Parameters> &table)
       : pair_(pair), table_(table), atom_(*pair.atom), bodies_(!pair.clumps_.empty() || !pair.rigid_.empty()),
-        observed_(pair.observers_.any()), tallies_(pair.evflag != 0), f_(atom_.f[0]), t_(atom_.torque[0]),
+        tallies_(pair.evflag != 0), f_(atom_.f[0]), t_(atom_.torque[0]),
         taken_(pair.force->newton_pair ? atom_.nlocal + atom_.nghost : atom_.nlocal) {}
 
   void compute() {
@@ -24,8 +24,8 @@ public:
                                         settings.history(),
                                         settings.history()};
     drumlin::ContactLoop<Contacts, Parameters, stepped, tangential, rolling>(
-        *this, atom_, pair_.loop_memory_, table_, places, settings.cap, pair_.stepping_, pair_.update->dt,
-        pair_.update->setupflag == 0)
+        *this, atom_, pair_.loop_memory_, table_, places, settings.cap, pair_.stepping_, pair_.observers_,
+        pair_.update->dt, pair_.update->setupflag == 0)
         .run(*pair_.list, *pair_.neighbor);
   }
 
@@ -42,9 +42,9 @@ public:
 
   [[gnu::flatten]] void exert(const drumlin::physics::ContactBlock &block,
                               const drumlin::BlockContact *contacts, int count) {
-    if (observed_ || tallies_)
+    if (tallies_)
       for (int n = 0; n < count; ++n)
-        tell(block, n, contacts[n]);
+        tally(block, n, contacts[n]);
     int sums_of = sums_of_;
     Vec3 force = force_, torque = torque_; // local copies, which the compiler keeps in registers
     for (int n = 0; n < count; ++n) {
@@ -90,41 +90,18 @@ private:
     if constexpr (rubs || rolling) add(t_, i, 1.0, torque);
   }
 
-  [[gnu::noinline]] void tell(const drumlin::physics::ContactBlock &block, int n,
-                              const drumlin::BlockContact &contact) const {
-    if (observed_ && contact.touches) report(block, n, contact);
-    if (!tallies_) return;
+  [[gnu::noinline]] void tally(const drumlin::physics::ContactBlock &block, int n,
+                               const drumlin::BlockContact &contact) const {
     const Vec3 force = block.total_force[n], separation = block.separation[n];
     pair_.ev_tally_xyz(contact.i, contact.j, atom_.nlocal, pair_.force->newton_pair, 0.0, 0.0, force[0],
                        force[1], force[2], separation[0], separation[1], separation[2]);
-  }
-
-  void report(const drumlin::physics::ContactBlock &b, int n, const drumlin::BlockContact &contact) const {
-    const drumlin::Contact now{
-        {contact.i, contact.j, b.normal[n], nullptr, b.overlap[n], b.rate_half[n], b.m_eff[n], 1.0},
-        rubs ? b.slip[n] : Vec3{},
-        b.r_eff[n],
-        b.arm_i[n],
-        b.arm_j[n],
-        contact.history,
-        b.in_contact[n] != 0.0};
-    const Vec3 friction = rubs ? b.tangential_force[n] : Vec3{};
-    const drumlin::ContactForces exerted{b.force[n],
-                                         b.total_force[n],
-                                         friction,
-                                         drumlin::physics::cross(b.normal[n], friction),
-                                         rolling ? b.rolling[n] : Vec3{},
-                                         rubs || rolling ? b.kt[n] : 0.0};
-    pair_.observers_.tell(drumlin::record_of(
-        pair_.settings_, table_.at(atom_.type[contact.i], atom_.type[contact.j]), now, exerted,
-        std::min(b.ri[n], b.rj[n]), drumlin::physics::effective_radius(b.ri[n], b.rj[n])));
   }
 
   PairGranTransition &pair_;
   const drumlin::CoefficientTable<Parameters> &table_;
   const Atom &atom_;
   const bool bodies_; // whether a ball may be part of a larger body
-  const bool observed_, tallies_;
+  const bool tallies_;
   double *const f_, *const t_; // forces and torques of the balls
   const int taken_;            // balls below this index take the force of a contact on this rank
   int sums_of_ = -1;           // the ball i whose contacts are being summed; -1: none

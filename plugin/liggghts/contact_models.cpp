@@ -100,7 +100,6 @@ public:
   void compute_force(PairGran *pair, int eflag, int vflag, int adds) override {
     if constexpr (has_loop<Style>)
       if ((has_history<Style> || stepping_ != nullptr || pair->listgranhistory == nullptr) && !torsion_ &&
-          !observers_.any() && clumps_.empty() &&
           !drumlin::needs_engine_loop(*pair, *engine_->modify, eflag != 0 || vflag != 0, adds != 0)) {
         pair->evflag = pair->vflag_fdotr = 0;
         return stepping_ == nullptr ? compute_contacts<false>() : compute_contacts<true>();
@@ -118,9 +117,9 @@ private:
     if (pair_->list->inum == 0) return; // there may be no arrays
     drumlin::EnginePairContacts<
         Contact, stepped, rubs ? drumlin::FrictionModel::history : drumlin::FrictionModel::none, rolls, flag>(
-        *pair_, *engine_->atom, *engine_->neighbor)
+        *pair_, *engine_->atom, *engine_->neighbor, clumps_)
         .compute(loop_memory_, *std::get<const drumlin::CoefficientTable<Contact> *>(table()), force_offset_,
-                 stepping_, engine_->update->dt);
+                 stepping_, observers_, engine_->update->dt);
   }
 
   static std::string command() { return std::string("pair_style gran model ") + Contact::name; }

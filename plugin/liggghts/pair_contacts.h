@@ -15,19 +15,19 @@
 namespace drumlin {
 
 /// Computes the forces of all contacts between balls in a time step, instead of the engine's loop over pairs.
-/// In time steps in which the engine asks for the forces of single contacts, for output or a fix, its own loop computes them
-/// instead: see needs_engine_loop().
+/// In time steps in which the engine asks for the forces of single contacts, for output or a fix of its own, its own loop
+/// computes them instead: see needs_engine_loop().
 /// \tparam flag bits of the engine's contact flags that say that there is a contact
 template <class Parameters, bool stepped, FrictionModel tangential, bool rolling, int flag>
 class EnginePairContacts {
 public:
   EnginePairContacts(LAMMPS_NS::PairGran &pair, const LAMMPS_NS::Atom &atom,
-                     const LAMMPS_NS::Neighbor &neighbor)
-      : pair_(pair), atom_(atom), neighbor_(neighbor) {}
+                     const LAMMPS_NS::Neighbor &neighbor, const LAMMPS_NS::Clumps &clumps)
+      : pair_(pair), atom_(atom), neighbor_(neighbor), clumps_(clumps), has_clumps_(!clumps.empty()) {}
 
   /// \param force_place of the normal force in the contact history, with the second-order scheme
   void compute(LoopMemory &memory, const CoefficientTable<Parameters> &table, int force_place,
-               LAMMPS_NS::FixStepping *stepping, double dt) {
+               LAMMPS_NS::FixStepping *stepping, const ContactObservers &observers, double dt) {
     in_contact_place_ = force_place + 1;
     // The engine asks the tangential model for its history first, then the rolling and the normal model.
     const int rolling_place = tangential == FrictionModel::history ? 3 : 0;
@@ -35,7 +35,7 @@ public:
     const HistoryPlaces places{0,           stiffness_place, force_place, rolling_place, pair_.dnum_pair(),
                                pair_.dnum()};
     ContactLoop<EnginePairContacts, Parameters, stepped, tangential, rolling>(
-        *this, atom_, memory, table, places, physics::Cap::coulomb, stepping, dt, true)
+        *this, atom_, memory, table, places, physics::Cap::coulomb, stepping, observers, dt, true)
         .run(*pair_.list, neighbor_);
   }
 
@@ -50,7 +50,8 @@ public:
   }
 
   double mass(int i) const {
-    return atom_.mask[i] & pair_.freeze_group_bit() ? -atom_.rmass[i] : atom_.rmass[i];
+    const double m = has_clumps_ ? clumps_.mass_of(atom_, i, atom_.rmass[i]) : atom_.rmass[i];
+    return atom_.mask[i] & pair_.freeze_group_bit() ? -m : m;
   }
   static double effective_mass(double mi, double mj) { return engine_effective_mass(mi, mj); }
 
@@ -81,6 +82,8 @@ private:
   LAMMPS_NS::PairGran &pair_;
   const LAMMPS_NS::Atom &atom_;
   const LAMMPS_NS::Neighbor &neighbor_;
+  const LAMMPS_NS::Clumps &clumps_;
+  const bool has_clumps_;
   int in_contact_place_ = 0;
 };
 

@@ -165,7 +165,7 @@ private:
     sidata.mj = clumps_.mass_of(*atom, sidata.j, sidata.mj);
     sidata.meff = is_frozen(sidata.j)   ? sidata.mi
                   : is_frozen(sidata.i) ? sidata.mj
-                                        : physics::effective_mass(sidata.mi, sidata.mj);
+                                        : engine_effective_mass(sidata.mi, sidata.mj);
   }
 
   /// Sets the tangential stiffness of a law in which it varies, and lets the springs of the tangential and the
@@ -300,8 +300,7 @@ private:
     const auto *source = contact_source(lmp);
     if (source == nullptr) return engine_effective_mass(atom->rmass[i], atom->rmass[j]);
     const double mi = source->mass(i), mj = source->mass(j);
-    if (!clumps_.empty() || std::isinf(mi) || std::isinf(mj)) return source->effective_mass(i, j);
-    return engine_effective_mass(mi, mj);
+    return std::isinf(mi) ? mj : std::isinf(mj) ? mi : engine_effective_mass(mi, mj);
   }
 
   const bool is_wall_;

@@ -109,5 +109,32 @@ TEST_P(RollingHeap, IsTheSameInBothEngines) {
   EXPECT_GT(distance(heap("heap.lammps", "0"), liggghts), 1e-3);
 }
 
+/// LIGGGHTS computes the contacts in its own loop in steps in which it needs the pressure, else in that of the
+/// plugin: both give the same forces, bit by bit, and report the same energies to the observers.
+TEST_P(RollingHeap, IsTheSameInTheLoopsOfEngineAndPlugin) {
+  const auto &[dimension, stepping] = GetParam();
+  const auto heap = [&, d = dimension, s = stepping](const Scratch &folder, const char *observed,
+                                                     const char *pressed) {
+    const Outcome outcome = run_deck(
+        test_deck("heap.in"),
+        {{"dimension", d}, {"stepping", s}, {"observed", observed}, {"pressed", pressed}, {"steps", "4000"}},
+        folder.path());
+    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    return post::read_text(folder / "balls.txt");
+  };
+  const Scratch plain, engine, plugin;
+  const std::string expected = heap(plain, "0", "0");
+  EXPECT_EQ(heap(engine, "1", "1"), expected);
+  EXPECT_EQ(heap(plugin, "1", "0"), expected);
+  const post::Table of_engine = post::read_table(engine / "energies.csv");
+  const post::Table of_plugin = post::read_table(plugin / "energies.csv");
+  for (const char *column :
+       {"kinetic", "normal", "tangential", "damping_heat", "friction_heat", "contacts"}) {
+    const double value = of_engine.numbers(column).at(0);
+    EXPECT_GT(value, 0.0) << column;
+    EXPECT_NEAR(of_plugin.numbers(column).at(0), value, 1e-12 * value) << column;
+  }
+}
+
 } // namespace
 } // namespace drumlin::test
