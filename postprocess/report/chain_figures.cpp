@@ -74,6 +74,7 @@ constexpr const char *since_ms = "$3*1e3";
 /// The last cycles that the figures draw of runs, in words.
 std::string shown_words(const std::vector<const RunResult *> &runs) {
   std::vector<int> counts;
+  counts.reserve(runs.size());
   for (const RunResult *result : runs)
     counts.push_back(std::min(shown_cycles, result->run.complete));
   return last_cycles_words(counts);
