@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -153,6 +154,25 @@ TEST_P(OwnWeight, StandsOnTheFloorAloneBetweenSmoothWalls) {
                                   {"samples_of_strain", "1"}}));
   EXPECT_NEAR(run.first("floor_force_N"), 67 * ball_weight(), 1e-5 * 67 * ball_weight());
   EXPECT_NEAR(run.first("left_force_N"), run.first("side_force_N"), 1e-4 * run.first("side_force_N"));
+}
+
+/// The value that a file of the decks gives a variable by `variable NAME index VALUE`.
+std::string default_of(const std::string &file, const std::string &name) {
+  std::istringstream lines(read_text(chain_deck(file)));
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string command, variable, style, value;
+    words >> command >> variable >> style >> value;
+    if (command == "variable" && variable == name && style == "index") return value;
+  }
+  return "none in " + file;
+}
+
+// The strength tests are those of the soil of the default bed.
+TEST(DefaultContacts, AreThoseOfTheGravel) {
+  for (const std::string deck : {"own_weight", "compression", "in.shear"})
+    for (const std::string name : {"friction", "rolling"})
+      EXPECT_EQ(default_of("../soil/" + deck, name), default_of("../bed/case.gravel", name)) << deck;
 }
 
 const Variables disordered = {{"columns", "7"}, {"layers", "9"}, {"k", "1e7"}, {"ramp", "1000"}};
