@@ -136,7 +136,6 @@ TEST_P(Layers, OfALatticeSettleAsSpringsInSeries) {
 }
 
 TEST_P(Layers, OfALatticeAreTheSameOnRanksOneAndTwo) {
-  if (std::get<1>(GetParam()) == "3") return;
   const std::map<long, Ball> one = last_state(lattice(), {{"drag", "300"}}),
                              two = last_state(lattice(), {{"drag", "300"}}, 2);
   ASSERT_EQ(one.size(), two.size());
@@ -145,7 +144,6 @@ TEST_P(Layers, OfALatticeAreTheSameOnRanksOneAndTwo) {
 }
 
 TEST_P(Layers, WithoutBallsOrWithTooManyNumbersAreRefused) {
-  if (std::get<1>(GetParam()) == "3") return;
   const auto refusal = [](const std::vector<Placed> &balls, const Variables &more, const std::string &says) {
     const Scratch folder;
     const Outcome outcome = run_scene(folder, balls, more);
