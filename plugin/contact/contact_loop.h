@@ -247,26 +247,17 @@ private:
   [[gnu::noinline]] void report(int n) const {
     const BlockContact &contact = contacts_[n];
     const ContactCoefficients<Parameters> &coefficients = law_of(n);
-    const double overlap = block_.overlap[n];
     const auto law = coefficients.contact.law(block_.m_eff[n], block_.r_eff[n]);
-    const double dashpot = law.dashpot(overlap);
-    ContactRecord record{};
+    ContactRecord record = record_of_law(law, block_.overlap[n], stepped);
     record.i = contact.i;
     record.j = contact.j;
     record.normal = block_.normal[n];
-    record.overlap = overlap;
     record.radius = std::min(block_.ri[n], block_.rj[n]);
     record.share = 1.0;
-    record.spring_force = law.spring(overlap);
-    record.spring_energy = law.energy(overlap);
-    record.normal_stiffness = law.stiffness(overlap);
     record.normal_force = block_.force[n];
-    if constexpr (stepped)
-      record.final_force = contact.history + places_.force;
-    else
-      record.normal_dashpot = dashpot;
+    if constexpr (stepped) record.final_force = contact.history + places_.force;
     if constexpr (rubs) {
-      record.tangential_dashpot = coefficients.tangential_dashpot(dashpot);
+      record.tangential_dashpot = coefficients.tangential_dashpot(block_.dashpot[n]);
       record.tangential_force = block_.tangential_force[n];
       record.torque_i = block_.torque_i[n];
       record.torque_j = block_.torque_j[n];

@@ -33,6 +33,18 @@ struct ContactRecord {
   std::array<double, 3> torque_i, torque_j; ///< N m
 };
 
+/// A record with what the contact law gives for an overlap, m. The caller sets all other values.
+template <class Law>
+ContactRecord record_of_law(const Law &law, double overlap, bool second_order) {
+  ContactRecord record{};
+  record.overlap = overlap;
+  record.spring_force = law.spring(overlap);
+  record.spring_energy = law.energy(overlap);
+  record.normal_stiffness = law.stiffness(overlap);
+  if (!second_order) record.normal_dashpot = law.dashpot(overlap);
+  return record;
+}
+
 /// Base of a fix that receives each contact and bond in the steps in which it has called observe(true).
 class ContactObserver {
 public:

@@ -154,17 +154,12 @@ template <class Parameters>
 ContactRecord record_of(const ContactSettings &settings, const ContactCoefficients<Parameters> &coefficients,
                         const Contact &p, const ContactForces &forces, double radius, double rolling_radius) {
   const auto law = coefficients.contact.law(p.normal.m_eff, p.r_eff);
-  ContactRecord record{};
+  ContactRecord record = record_of_law(law, p.normal.overlap, !settings.stock);
   record.i = p.normal.i;
   record.j = p.normal.j;
   record.normal = p.normal.normal;
-  record.overlap = p.normal.overlap;
   record.radius = radius;
   record.share = p.normal.share;
-  record.spring_force = law.spring(p.normal.overlap);
-  record.spring_energy = law.energy(p.normal.overlap);
-  record.normal_stiffness = law.stiffness(p.normal.overlap);
-  if (settings.stock) record.normal_dashpot = law.dashpot(p.normal.overlap);
   if (settings.tangential != FrictionModel::none)
     record.tangential_dashpot = coefficients.tangential_dashpot(law.dashpot(p.normal.overlap));
   if (settings.has_spring()) {

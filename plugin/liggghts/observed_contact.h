@@ -49,16 +49,11 @@ private:
                               const LIGGGHTS::ContactModels::ForceData &j_forces) const {
     const typename Contact::Law law = Contact::of_secant(contact.kn, contact.gamman, contact.deltan);
     const bool second_order = final_force_offset_ >= 0;
-    ContactRecord record{};
+    ContactRecord record = record_of_law(law, contact.deltan, second_order);
     record.i = contact.i;
     record.j = contact.is_wall ? -1 : contact.j;
-    record.overlap = contact.deltan;
     record.radius = contact.is_wall ? contact.radi : std::min(contact.radi, contact.radj);
     record.share = contact.is_wall ? contact.area_ratio : 1.0;
-    record.spring_force = law.spring(contact.deltan);
-    record.spring_energy = law.energy(contact.deltan);
-    record.normal_stiffness = law.stiffness(contact.deltan);
-    record.normal_dashpot = second_order ? 0.0 : contact.gamman;
     if (Style::TANGENTIAL != LIGGGHTS::ContactModels::TANGENTIAL_OFF)
       record.tangential_dashpot = contact.gammat;
     if (has_spring<Style>) { // which is first in the history
