@@ -92,7 +92,7 @@ const CsvSchema<ScalingPoint> &scaling_points() {
   return schema;
 }
 
-std::vector<std::string> larger_errors(const std::vector<ChainPoint> &measured,
+std::vector<std::string> larger_errors(const std::vector<ChainPoint> &points,
                                        const std::vector<ChainPoint> &known, bool complete) {
   static const std::pair<const char *, double ChainErrors::*> errors[] = {
       {"velocity_error", &ChainErrors::velocity},
@@ -106,7 +106,7 @@ std::vector<std::string> larger_errors(const std::vector<ChainPoint> &measured,
                                  transition_name(point.transition), point.stepping, point.steps_per_cycle,
                                  words));
   };
-  for (const ChainPoint &point : measured) {
+  for (const ChainPoint &point : points) {
     const ChainPoint *before = find_point(known, chain_points(), point);
     if (before == nullptr) {
       report(point, "not known");
@@ -119,7 +119,7 @@ std::vector<std::string> larger_errors(const std::vector<ChainPoint> &measured,
     }
   }
   for (const ChainPoint &point : known)
-    if (complete && find_point(measured, chain_points(), point) == nullptr) report(point, "not measured");
+    if (complete && find_point(points, chain_points(), point) == nullptr) report(point, "not measured");
   return larger;
 }
 

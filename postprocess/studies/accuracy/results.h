@@ -52,7 +52,7 @@ constexpr double allowed_growth = 1.05;
 /// Compares errors of the chain with known ones, row by row. Returns in words each error that is more than
 /// allowed_growth times the known one or was not measured, each measured row that is not known and, if
 /// `complete`, each known row that was not measured.
-std::vector<std::string> larger_errors(const std::vector<ChainPoint> &measured,
+std::vector<std::string> larger_errors(const std::vector<ChainPoint> &points,
                                        const std::vector<ChainPoint> &known, bool complete);
 
 /// The errors of one kind over the steps per cycle, in order of steps.
