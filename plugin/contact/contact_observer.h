@@ -33,7 +33,8 @@ struct ContactRecord {
   std::array<double, 3> torque_i, torque_j; ///< N m
 };
 
-/// A record with what the contact law gives for an overlap, m. The caller sets all other values.
+/// A record whose overlap, and force, energy, stiffness and dashpot of the normal spring, are those of a contact law at
+/// this overlap, m. All other values are zero. \param second_order whether the scheme is `stepping second`
 template <class Law>
 ContactRecord record_of_law(const Law &law, double overlap, bool second_order) {
   ContactRecord record{};

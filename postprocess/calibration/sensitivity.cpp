@@ -27,13 +27,15 @@ VectorXd offset(const std::vector<double> &point, const std::vector<double> &cen
   return d;
 }
 
-/// The linear model of each seed.
+/// For the beds of each seed, a linear model of the logarithms of the targets over those of the parameters, fitted to the
+/// points, which are the evaluated sets of parameters near the best one.
 struct Fits {
-  std::vector<MatrixXd>
-      seeds; ///< a row for the value at the centre and one for each parameter, a column for each target
-  std::vector<MatrixXd> residuals; ///< a row for each point, a column for each target
-  double leverage =
-      0.0; ///< share of the variance from point to point that remains in the value at the centre
+  /// Coefficients of each seed: the value at the best point and a slope for each parameter in rows, targets in columns.
+  std::vector<MatrixXd> seeds;
+  /// Measured minus fitted values of each seed: points in rows, targets in columns.
+  std::vector<MatrixXd> residuals;
+  /// Variance of the fitted value at the best point over that of a single measured value.
+  double leverage = 0.0;
 };
 
 Fits fits(const CalibrationTask &task, const std::vector<const Evaluation *> &near,
@@ -69,11 +71,13 @@ MeanInterval interval_over(const std::vector<MatrixXd> &seeds, Index row, Index 
   return mean_interval(values);
 }
 
-/// Half the width of the interval of ln parameter if the targets were measured on beds, too: a mean of `target_beds` beds minus the mean
-/// of the seeds. The scatter of a bed is that of the seeds' fits and what the fits average out, the scatter of a seed's bed
-/// from point to point: settling is chaotic, and each point has another packing.
-/// \param step     the mean over the seeds' fits
-/// \param squares  sum of the squares of the residuals over all seeds and points
+/// Half the width of the 95 % confidence interval of the logarithm of a parameter if the targets are themselves means over
+/// `target_beds` measured beds. The error is then that of the calibrating beds and that of the target beds. The variance of a single
+/// bed is the variance between the fits of the seeds plus a part that a fit averages out: settling is chaotic, so that the bed
+/// of one seed is packed differently at each point.
+/// \param step     change of the logarithm from the best point to where the targets are met, mean over the seeds
+/// \param squares  sum of the squared residuals of all seeds and points, as changes of the logarithm of the parameter
+/// \param leverage see Fits \param points number of points of a fit
 double half_width_with_beds(const CalibrationTask &task, const MeanError &step, double squares,
                             double leverage, std::size_t points) {
   const double seeds = task.seeds, beds = task.target_beds;
@@ -163,7 +167,8 @@ Sensitivity sensitivity_at(const CalibrationTask &task, const std::vector<Evalua
 
   // The parameters that meet the targets differ from seed to seed. The confidence interval of an estimate follows from
   // their scatter.
-  const MatrixXd steps = inverse * weight.asDiagonal(); // of ln parameter for those of ln target
+  // The change of ln parameter is this times that of ln target.
+  const MatrixXd steps = inverse * weight.asDiagonal();
   for (std::size_t j = 0; j < parameters; ++j) {
     std::vector<double> of_seeds;
     double squares = 0.0;

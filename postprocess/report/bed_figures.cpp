@@ -92,7 +92,7 @@ private:
     return true;
   }
 
-  /// The last cycles that a figure of at most `most` cycles draws, in words.
+  /// The words for captions and axes that say how many cycles at the end of the runs a figure shows, which are at most `most`.
   std::string last(int most) const {
     std::vector<int> counts;
     for (const BedResult *run : runs())

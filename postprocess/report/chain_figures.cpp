@@ -71,7 +71,7 @@ constexpr const char *history_columns =
     "time (s),time in window (s),overlap (m),drum velocity (m/s),drum acceleration (m/s2),contact force (N)";
 constexpr const char *since_ms = "$3*1e3";
 
-/// The last cycles that the figures draw of runs, in words.
+/// The words for captions and axes that say how many cycles at the end of the runs a figure shows.
 std::string shown_words(const std::vector<const RunResult *> &runs) {
   std::vector<int> counts;
   counts.reserve(runs.size());
@@ -80,7 +80,7 @@ std::string shown_words(const std::vector<const RunResult *> &runs) {
   return last_cycles_words(counts);
 }
 
-/// Whether all runs are so long that their last cycles are the steady state.
+/// Whether all runs have at least long_run_cycles cycles, after which the motion is steady.
 bool all_steady(const std::vector<const RunResult *> &runs) {
   return std::all_of(runs.begin(), runs.end(),
                      [](const RunResult *run) { return run->run.complete >= long_run_cycles; });

@@ -45,8 +45,8 @@ struct ChainMeasures {
 
   // Comparison with the reference solution (`reference`: the direct solver at the same parameters), if there
   // is one.
-  double velocity_error_last =
-      std::numeric_limits<double>::quiet_NaN();  ///< relative RMS of drum velocity, last error_cycles
+  /// Relative RMS error of the drum velocity over the last error_cycles cycles.
+  double velocity_error_last = std::numeric_limits<double>::quiet_NaN();
   std::optional<double> velocity_error_25_to_30; ///< the same, cycles 25 to 30
   bool reference_interpolated = false; ///< whether the run has rows between those of the reference solution
   EventMatch match;                    ///< all events

@@ -18,7 +18,7 @@ namespace {
 
 const std::string dash = no_value;
 
-/// The cycles over which the chains were measured, in words.
+/// The words that say over how many cycles at the end of the runs the chains were measured.
 std::string measured_words(const ReportResults &results) {
   std::vector<int> counts;
   for (const RunResult &result : results.runs)

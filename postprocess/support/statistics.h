@@ -29,14 +29,14 @@ struct MeanInterval {
 /// The factor from a standard error to half the width of its 95 % confidence interval, by Student's t
 /// distribution with so many degrees of freedom (above 0).
 double t_factor(double freedom);
-/// The variance of a value and the degrees of freedom of its estimate; with none it is not known.
+/// An estimated variance and its degrees of freedom. With zero degrees of freedom the variance is not known.
 struct Variance {
   double value, freedom;
 };
-/// Half the width of the 95 % confidence interval of a value of which the error is the sum of two independent ones, with the degrees of
-/// freedom of Welch (1947) and Satterthwaite; infinite if a variance is not known.
+/// Half the width of the 95 % confidence interval of a value whose error is the sum of two independent errors with these variances. The
+/// degrees of freedom are those of Welch (1947) and Satterthwaite (1946). Infinite if a variance is not known.
 double half_width_of_sum(const Variance &one, const Variance &other);
-/// A mean and the variance of it, which is that of the values over their number.
+/// A mean, and the square of its standard error: the variance of the values over their number.
 struct MeanError {
   double mean;
   Variance variance;

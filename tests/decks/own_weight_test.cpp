@@ -156,7 +156,7 @@ TEST_P(OwnWeight, StandsOnTheFloorAloneBetweenSmoothWalls) {
   EXPECT_NEAR(run.first("left_force_N"), run.first("side_force_N"), 1e-4 * run.first("side_force_N"));
 }
 
-/// The value that a file of the decks gives a variable by `variable NAME index VALUE`.
+/// The default value of a variable: VALUE of the line `variable NAME index VALUE` in an input file.
 std::string default_of(const std::string &file, const std::string &name) {
   std::istringstream lines(read_text(chain_deck(file)));
   for (std::string line; std::getline(lines, line);) {
@@ -168,7 +168,7 @@ std::string default_of(const std::string &file, const std::string &name) {
   return "none in " + file;
 }
 
-// The strength tests are those of the soil of the default bed.
+// The element tests that measure strength have the same friction and rolling friction as the default bed.
 TEST(DefaultContacts, AreThoseOfTheGravel) {
   for (const std::string deck : {"own_weight", "compression", "in.shear"})
     for (const std::string name : {"friction", "rolling"})

@@ -109,8 +109,8 @@ TEST_P(RollingHeap, IsTheSameInBothEngines) {
   EXPECT_GT(distance(heap("heap.lammps", "0"), liggghts), 1e-3);
 }
 
-/// LIGGGHTS computes the contacts in its own loop in steps in which it needs the pressure, else in that of the
-/// plugin: both give the same forces, bit by bit, and report the same energies to the observers.
+/// In time steps in which a deck asks for the pressure, LIGGGHTS runs its own loop over the contacts; in all others the
+/// plugin runs a loop of its own. Both give the same forces, bit for bit, and the same energies in fix contact/energy.
 TEST_P(RollingHeap, IsTheSameInTheLoopsOfEngineAndPlugin) {
   const auto &[dimension, stepping] = GetParam();
   const auto heap = [&, d = dimension, s = stepping](const Scratch &folder, const char *observed,

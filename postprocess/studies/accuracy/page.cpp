@@ -168,7 +168,7 @@ std::optional<double> error_at(const std::vector<ErrorPoint> &points, double ste
   return std::nullopt;
 }
 
-/// No error of the chain has become larger than in the curves of `drumlin advise`.
+/// The criterion that no error of the chain has grown since the table was made from which `drumlin advise` answers.
 Acceptance not_larger(const std::vector<ChainPoint> &chain, bool complete) {
   const std::vector<std::string> larger =
       larger_errors(chain, read_points(input_file("study/accuracy") / "chain.csv", chain_points()), complete);

@@ -46,12 +46,12 @@ const CsvSchema<ChainPoint> &chain_points();
 const CsvSchema<ImpactPoint> &impact_points();
 const CsvSchema<ScalingPoint> &scaling_points();
 
-/// How many times its known error a measured error of the chain may have.
+/// A measured error of the chain may be at most this many times the known error, that of the committed table.
 constexpr double allowed_growth = 1.05;
 
-/// Compares errors of the chain with known ones, row by row. Returns in words each error that is more than
-/// allowed_growth times the known one or was not measured, each measured row that is not known and, if
-/// `complete`, each known row that was not measured.
+/// Compares measured errors of the chain with known ones, row by row. Returns a sentence for each error that is larger than
+/// allowed_growth times the known one or is not a number, for each measured row without a known one and, if
+/// `complete`, for each known row that was not measured.
 std::vector<std::string> larger_errors(const std::vector<ChainPoint> &points,
                                        const std::vector<ChainPoint> &known, bool complete);
 

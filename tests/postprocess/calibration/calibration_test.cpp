@@ -245,7 +245,7 @@ TEST(Calibration, SearchesOnWherePointsFail) {
 
 TEST(Calibration, WidensIntervalsForTargetsThatScatterToo) {
   post::CalibrationTask task = two_of_two(5);
-  const post::MeasureSeed steady = scattered(4, 0.1, 0.0); // a seed's bed is the same at each point
+  const post::MeasureSeed steady = scattered(4, 0.1, 0.0); // no scatter from point to point
   const Scratch scratch;
   const post::Calibration exact = post::calibrate(task, {12, 1}, scratch.path(), steady);
   task.target_beds = 1;
@@ -257,8 +257,8 @@ TEST(Calibration, WidensIntervalsForTargetsThatScatterToo) {
   }
 }
 
-// How many intervals of k and of D hold the known values, in 20 sets of calibrating beds with 4 records each. Intervals of one set are
-// not independent.
+// Counts the confidence intervals of k and of D that contain the known values, in 20 sets of calibrating beds with 4 records
+// each. The intervals of one set are not independent.
 std::array<long, 2> held_intervals(double of_seeds, double of_points) {
   constexpr int beds = 4;
   constexpr unsigned sets = 20;
@@ -274,10 +274,10 @@ std::array<long, 2> held_intervals(double of_seeds, double of_points) {
   return held;
 }
 
-// Of 80 intervals of 95 % 76 hold the truth on average.
+// Intervals of 95 % confidence contain the known value in 95 % of the cases: in 76 of 80 on average.
 constexpr long enough = 68;
 
-// Each bed has a scatter of its own, as large as that of the calibrating beds: without it in the intervals, they would hold the truth
+// The bed of a record scatters as much as each calibrating bed. Intervals that left this out would contain the known value
 // in three of four cases only.
 TEST(Recovery, FindsTheKnownParametersOfSingleBeds) {
   const std::array<long, 2> held = held_intervals(0.1, 0.02);
@@ -285,7 +285,7 @@ TEST(Recovery, FindsTheKnownParametersOfSingleBeds) {
   EXPECT_GE(held[1], enough);
 }
 
-// A fit averages a scatter that is another one at each point, and is better known than the single bed of the record.
+// If each point has a scatter of its own, a fit averages it, and scatters less than the single bed of the record.
 TEST(Recovery, FindsTheKnownParametersOfBedsWhosePackingIsAnotherAtEachPoint) {
   const std::array<long, 2> held = held_intervals(0.0, 0.1);
   EXPECT_GE(held[0], enough);

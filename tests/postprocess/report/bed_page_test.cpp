@@ -280,7 +280,7 @@ TEST_F(BedReport, ShowsTheBedAtRestAndAtTheExtremesOfTheForce) {
       << figures.at("bed1_profile")->csv;
 }
 
-// Types 1 and 4 are the two layers, the lowest first; 2 is the drum.
+// Balls of type 1 are the lower layer of soil, those of type 4 the upper one, and type 2 is the drum.
 TEST_F(BedReport, DrawsEachLayerWithAnEdgeOfItsColour) {
   std::map<std::string, test::Array> arrays = test::ball_arrays();
   arrays["type"].values = "2 4 1";
