@@ -67,6 +67,7 @@ void run(const Arguments &arguments) {
   const RecordSetting setting = judge(arguments);
   const fs::path place = judged_folder(arguments.out);
   const Record record = judged(arguments.record);
+  if (arguments.compare) require_comparable(record);
   TimedProgress progress;
   const IdentifiedRecord found =
       identify_record(record, setting, [&progress](const std::string &what) { progress.tell("{}", what); });

@@ -175,7 +175,7 @@ Bed survey(std::map<long, StepDump> &steps) {
       balls = read_ball_dump(file);
     } catch (const CutShort &fault) {
       if (all == 1) throw;
-      fmt::print("step {} left out: {}\n", step->first, fault.what());
+      print_progress(fmt::format("step {} left out: {}", step->first, fault.what()));
       step = steps.erase(step);
       continue;
     }
@@ -204,7 +204,7 @@ std::optional<BedContacts> contacts_of(const StepDump &dump, long step, const st
   try {
     return read_contact_dump(dump.contacts, balls);
   } catch (const CutShort &fault) {
-    fmt::print("contacts of step {} left out: {}\n", step, fault.what());
+    print_progress(fmt::format("contacts of step {} left out: {}", step, fault.what()));
     return std::nullopt;
   }
 }

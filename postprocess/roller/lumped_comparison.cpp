@@ -357,11 +357,17 @@ PageTable comparison_table(const std::vector<LumpedComparison> &records) {
 
 } // namespace
 
-LumpedComparison compare_lumped(const Record &record, const IdentifiedRecord &found) {
+void require_comparable(const Record &record) {
   if (record.a_drum.empty() || soil_force(record).empty() || record.F_excitation.empty())
     throw std::runtime_error(fmt::format("{}: {}", record.file.string(),
                                          refusal("the record", "without samples of drum, force or excitation",
                                                  "one with a_drum, F_contact and F_excitation")));
+  for (const char *name : {"Fw", "k23", "c23"})
+    number_of(record, name);
+}
+
+LumpedComparison compare_lumped(const Record &record, const IdentifiedRecord &found) {
+  require_comparable(record);
   LumpedComparison result;
   result.chain = chain_of(record, found);
   result.record = record;

@@ -54,9 +54,13 @@ struct LumpedComparison {
   bool differs(CycleQuantity quantity) const;
 };
 
+/// std::runtime_error with one line for a record without samples of drum, force and excitation, or without Fw, k23 and c23 in its
+/// parameters.csv: it cannot be compared, whatever law is identified.
+void require_comparable(const Record &record);
+
 /// Solves the chain of the record's roller with the law that identification found, in closed form, until its motion is steady, and
-/// compares. The first half of the record's cycles does not count, as in other figures of beds, or one cycle less, so that an even number counts. std::runtime_error with one line for a
-/// record without a law, without samples of drum and force, or without k23 and c23 in its parameters.csv.
+/// compares. The first half of the record's cycles does not count, as in other figures of beds, or one cycle less, so that an even
+/// number counts. std::runtime_error with one line for a record that require_comparable() refuses, or whose k or D is not above zero.
 LumpedComparison compare_lumped(const Record &record, const IdentifiedRecord &found);
 
 /// In words: which quantities differ beyond scatter, and what of the record a spring and a dashpot cannot do. One or several records of

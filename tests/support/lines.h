@@ -1,6 +1,8 @@
 #pragma once
 // Lines of a text, for tests that read what programs have printed or written.
 
+#include <gtest/gtest.h>
+
 #include <sstream>
 #include <string>
 #include <vector>
@@ -14,6 +16,18 @@ inline std::vector<std::string> lines_of(const std::string &text) {
   for (std::string line; std::getline(in, line);)
     lines.push_back(line);
   return lines;
+}
+
+/// Expects that what a program has printed ends in the one line of an error. Lines of progress may come before it: a program that
+/// takes a few seconds on a busy machine prints them. \param start of the line after "ERROR: "
+inline void expect_one_error(const std::string &output, const std::string &start) {
+  const std::vector<std::string> lines = lines_of(output);
+  for (std::size_t n = 0; n < lines.size(); ++n)
+    EXPECT_EQ(lines[n].rfind("ERROR: ", 0) == 0, n + 1 == lines.size()) << output;
+  if (lines.empty())
+    ADD_FAILURE() << "nothing was printed";
+  else
+    EXPECT_EQ(lines.back().rfind("ERROR: " + start, 0), 0u) << output;
 }
 
 } // namespace drumlin::test

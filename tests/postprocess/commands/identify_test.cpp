@@ -3,6 +3,7 @@
 #include "roller/chain_solver.h"
 #include "support/csv.h"
 #include "tests/support/engine_runs.h"
+#include "tests/support/lines.h"
 #include "tests/support/page.h"
 
 #include <gtest/gtest.h>
@@ -37,9 +38,8 @@ protected:
   void expect_refused(const std::vector<std::string> &words, const std::string &message) const {
     const Outcome outcome = identify(words);
     EXPECT_FALSE(outcome.ok());
-    EXPECT_TRUE(outcome.says("ERROR: drumlin identify: ")) << outcome.output;
+    expect_one_error(outcome.output, "drumlin identify: ");
     EXPECT_TRUE(outcome.says(message)) << outcome.output;
-    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
     EXPECT_FALSE(fs::exists(scratch_ / "results"));
   }
   Scratch scratch_;
@@ -81,6 +81,8 @@ TEST_F(IdentifyCommand, DrawsTheChainOverTheRecord) {
   post::write_files(
       {{scratch_ / "run/parameters.csv", parameters.erase(bond, parameters.find('\n', bond) + 1 - bond)}});
   expect_refused({"run", "--compare"}, "k23 is ''; allowed: a number in parameters.csv");
+  EXPECT_EQ(post::read_text(scratch_ / post::program_output_file).find("windows"), std::string::npos)
+      << "refused before the work";
 }
 
 // What a roller has: accelerations in g with names of their own, no times, a phase.

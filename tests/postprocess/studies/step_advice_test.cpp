@@ -5,6 +5,7 @@
 #include "support/files.h"
 #include "support/process.h"
 #include "support/usage_error.h"
+#include "tests/support/lines.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -188,10 +189,7 @@ TEST_F(AdviseCommand, RefusesBadInputInOneLine) {
   for (const auto &[words, message] : bad) {
     const Outcome outcome = run(words);
     EXPECT_EQ(outcome.status, 2) << message;
-    const std::size_t error =
-        outcome.output.find("ERROR: drumlin advise: "); // after lines of progress, if it took long
-    EXPECT_NE(error, std::string::npos) << outcome.output;
-    EXPECT_EQ(outcome.output.find('\n', error) + 1, outcome.output.size()) << outcome.output;
+    test::expect_one_error(outcome.output, "drumlin advise: ");
     EXPECT_TRUE(outcome.says(message)) << outcome.output;
   }
 }
