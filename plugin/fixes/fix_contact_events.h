@@ -15,7 +15,8 @@ namespace LAMMPS_NS {
 /// In every step finds the pairs of two types, or of two groups, or of the group, whose contact has begun or ended since the
 /// step before, and writes each make and break once, on any number of ranks.
 ///
-/// It is no ContactObserver, for two reasons. Accuracy: the time of a make is found from the overlap and its rate
+/// It is no ContactObserver, for three reasons. State: under `stepping stock` without friction a contact keeps nothing from one
+/// step to the next, so that the loop over contacts cannot tell that one has begun. Accuracy: the time of a make is found from the overlap and its rate
 /// at the step before, and that of a break from those at the step after, when the balls do not touch. An observer
 /// receives only balls that touch. If it took their velocities of half a step before instead, the time of a make
 /// would be wrong by up to a dt^2 / (8 v), with the relative acceleration a and speed v: 1.5e-8 s in the chain of

@@ -109,7 +109,7 @@ inline constexpr std::array studies = {
     Study{
         "cost",
         "Time of a step on the chain and on settled beds, and what each optional part adds, as ratios within "
-        "interleaved rounds. About twenty minutes, on a quiet machine.",
+        "interleaved rounds. Ten to twenty minutes, on a quiet machine.",
         &run_cost_study},
     Study{"fidelity",
           "Effect and computing time of each part of a bed's model, over five seeds: size and number of the "
