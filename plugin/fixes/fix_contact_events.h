@@ -16,13 +16,13 @@ namespace LAMMPS_NS {
 /// step before, and writes each make and break once, on any number of ranks.
 ///
 /// It is no ContactObserver, for three reasons. State: under `stepping stock` without friction a contact keeps nothing from one
-/// step to the next, so that the loop over contacts cannot tell that one has begun. Accuracy: the time of a make is found from the overlap and its rate
-/// at the step before, and that of a break from those at the step after, when the balls do not touch. An observer
-/// receives only balls that touch. If it took their velocities of half a step before instead, the time of a make
-/// would be wrong by up to a dt^2 / (8 v), with the relative acceleration a and speed v: 1.5e-8 s in the chain of
-/// case II. Cost: an observer receives the contacts of all balls in every step. In the bed of inputs/study/in.cost_bed,
-/// with 2500 discs, fix contact/energy, which is an observer, makes a time step 1.8 times as long in LIGGGHTS and 1.6 times
-/// in LAMMPS. This fix, used for the contacts of one ball, makes it less than 2 % longer.
+/// step to the next, so that the loop over contacts cannot tell that one has begun. Accuracy: the time of a make is found from
+/// the overlap and its rate at the step before, and that of a break from those at the step after, when the balls do not touch. An
+/// observer receives only balls that touch. If it took their velocities of half a step before instead, the time of a make would be
+/// wrong by up to a dt^2 / (8 v), with the relative acceleration a and speed v: 1.5e-8 s in the chain of case II. Cost: an observer
+/// receives the contacts of all balls in every step. In the bed of inputs/study/in.cost_bed, with 2500 discs, fix contact/energy,
+/// which is an observer, makes a time step 1.8 times as long in LIGGGHTS and 1.6 times in LAMMPS. This fix, used for the contacts of
+/// one ball, makes it less than 2 % longer.
 class FixContactEvents : public drumlin::engine::GhostFix {
 public:
   FixContactEvents(LAMMPS *, int, char **);

@@ -109,7 +109,7 @@ inline constexpr std::array studies = {
     Study{
         "cost",
         "Time of a step on the chain and on settled beds, and what each optional part adds, as ratios within "
-        "interleaved rounds. Ten to twenty minutes, on a quiet machine.",
+        "interleaved rounds. About twenty minutes, on a quiet machine.",
         &run_cost_study},
     Study{"fidelity",
           "Effect and computing time of each part of a bed's model, over five seeds: size and number of the "
@@ -130,8 +130,8 @@ inline constexpr std::array studies = {
           &run_meter_study},
     Study{"speed",
           "Balls times steps per second from 2500 balls to a quarter of a million, on one rank and on two, "
-          "compared with the engine's own law; memory; a projection to 1e8 balls. About twenty minutes, on a "
-          "quiet machine.",
+          "compared with the engine's own law; memory; a projection to 1e8 balls. Ten to twenty minutes, on "
+          "a quiet machine.",
           &run_speed_study},
     Study{
         "stability",
