@@ -75,15 +75,18 @@ BoxPlan full_plan() {
            {4, 1, 3, {rigid, near}},
            {1, 2, 3, {rigid, near}},
            {2, 1, 3, {rigid, near}},
-           {1, 4, 3, {rigid, near}}},
+           {1, 4, 3, {rigid, near}},
+           {4, 4, 3, {rigid, near}}},
           {{"absorbing instead of rigid", "default absorb", "default rigid"},
            {"absorbing with 4 m of ground instead of 1 m", "default absorb 4 m", "default absorb"},
            {"rigid: four times as wide", "width 4 rigid", "default rigid"},
            {"rigid: twice as deep", "depth 2 rigid", "default rigid"},
            {"rigid: four times as deep", "depth 4 rigid", "default rigid"},
+           {"rigid: four times as wide and deep", "width 4 depth 4 rigid", "default rigid"},
            {"absorbing: four times as wide", "width 4 absorb", "default absorb"},
            {"absorbing: twice as deep", "depth 2 absorb", "default absorb"},
-           {"absorbing: four times as deep", "depth 4 absorb", "default absorb"}},
+           {"absorbing: four times as deep", "depth 4 absorb", "default absorb"},
+           {"absorbing: four times as wide and deep", "width 4 depth 4 absorb", "default absorb"}},
           6};
 }
 
