@@ -310,9 +310,15 @@ TEST_F(ToolOptions, TheEndsOfTheRangesHaveAnAnswer) {
 
 // A solution that takes seconds prints its progress.
 TEST_F(ToolOptions, LongWorkShowsProgress) {
-  const post::Outcome outcome = run({"exact", "--omega", "0.01", "--cycles", "9", "--out", "o"});
-  EXPECT_EQ(outcome.status, 0) << outcome.output;
-  EXPECT_TRUE(outcome.says("solved to cycle ")) << outcome.output;
+  post::Program program;
+  program.words = {DRUMLIN_TOOLS, "exact", "--omega", "0.01", "--cycles", "70", "--out", "o"};
+  program.folder = folder_;
+  program.output = folder_ / post::program_output_file;
+  program.limit = 60.0;
+  program.line = [](const std::string &line) { // stops the program at the first line of progress
+    if (line.rfind("solved to cycle ", 0) == 0) throw std::runtime_error(line);
+  };
+  EXPECT_THROW(run_program(program), std::runtime_error);
 }
 
 } // namespace
