@@ -104,7 +104,7 @@ inline constexpr std::array studies = {
     Study{"box",
           "What the box does to the answers of a bed: width and depth up to four times the default, rigid "
           "walls or floor and sides that absorb waves; six seeds of the default box, three of the others. "
-          "About ten minutes of processor time.",
+          "About half an hour of processor time.",
           &run_box_study, true},
     Study{
         "cost",
