@@ -58,6 +58,7 @@ fs::path settled_soil(const PlacedBed &bed, int seed, const fs::path &out) {
   const fs::path balls = folder / (stem + ".balls"), unfinished = folder / (stem + ".unfinished");
   write_files({{balls, layers.empty() ? bed_data(packing, soil_density, pack_balls(packing))
                                       : bed_data(layers, soil_density, pack_layers(layers))}});
+  print_progress(fmt::format("settling bed {}, seed {}", bed.soil.empty() ? bed.name : bed.soil, seed));
   Variables variables = joined(bed.settle, bed.scene);
   variables.insert(variables.end(),
                    {{"ratio", bed.ratio}, {"balls", balls.string()}, {"bed", unfinished.string()}});
@@ -93,6 +94,7 @@ fs::path placed(const PlacedBed &bed, int seed, const fs::path &out) {
   fs::path done = folder / (stem + ".restart");
   if (fs::exists(done)) return done;
   const fs::path soil = settled_soil(bed, seed, out), roller = folder / (stem + ".roller");
+  print_progress(fmt::format("placing the roller on bed {}, seed {}", bed.name, seed));
   Variables variables = joined(bed.place, bed.scene);
   variables.insert(variables.end(),
                    {{"ratio", bed.ratio}, {"bed", soil.string()}, {"start", roller.string()}});
