@@ -15,14 +15,16 @@ namespace LAMMPS_NS {
 /// In every step finds the pairs of two types, or of two groups, or of the group, whose contact has begun or ended since the
 /// step before, and writes each make and break once, on any number of ranks.
 ///
-/// It is no ContactObserver, for three reasons. State: under `stepping stock` without friction a contact keeps nothing from one
-/// step to the next, so that the loop over contacts cannot tell that one has begun. Accuracy: the time of a make is found from
-/// the overlap and its rate at the step before, and that of a break from those at the step after, when the balls do not touch. An
-/// observer receives only balls that touch. If it took their velocities of half a step before instead, the time of a make would be
-/// wrong by up to a dt^2 / (8 v), with the relative acceleration a and speed v: 1.5e-8 s in the chain of case II. Cost: an observer
-/// receives the contacts of all balls in every step. In the bed of inputs/study/in.cost_bed, with 2500 discs, fix contact/energy,
-/// which is an observer, makes a time step 1.8 times as long in LIGGGHTS and 1.6 times in LAMMPS. This fix, used for the contacts of
-/// one ball, makes it less than 2 % longer.
+/// Other fixes receive the contacts of a time step as a ContactObserver. This fix compares the overlaps of pairs by itself instead:
+/// - Under `stepping stock` without friction nothing is stored for a contact from one time step to the next. The loop over contacts
+///   therefore does not know whether a contact is new.
+/// - The time of a make is computed from the overlap and its rate of change at the time step before the contact, and the time of a
+///   break from those at the time step after it. The balls do not touch then, and an observer is called for touching balls only. An
+///   observer could use the velocities half a time step earlier. The time of a make would then be wrong by up to a dt^2 / (8 v), with
+///   the relative acceleration a and the relative speed v of the balls: 1.5e-8 s in case II of the chain.
+/// - An observer is called for every contact of every ball. In inputs/study/in.cost_bed with 2500 discs, the observer
+///   fix contact/energy makes a time step 1.8 times as long in LIGGGHTS and 1.6 times as long in LAMMPS. This fix makes it less than
+///   2 % longer if it records the contacts of one ball.
 class FixContactEvents : public drumlin::engine::GhostFix {
 public:
   FixContactEvents(LAMMPS *, int, char **);

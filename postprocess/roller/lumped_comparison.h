@@ -54,13 +54,15 @@ struct LumpedComparison {
   bool differs(CycleQuantity quantity) const;
 };
 
-/// std::runtime_error with one line for a record without samples of drum, force and excitation, or without Fw, k23 and c23 in its
-/// parameters.csv: it cannot be compared, whatever law is identified.
+/// Checks that a record has what compare_lumped() needs besides the identified k and D: samples of the drum's acceleration, of the
+/// contact force and of the exciter's force, and Fw, k23 and c23 in its parameters.csv. Call it before the identification, which
+/// takes longer. Throws std::runtime_error, with a message of one line, if something is missing.
 void require_comparable(const Record &record);
 
-/// Solves the chain of the record's roller with the law that identification found, in closed form, until its motion is steady, and
-/// compares. The first half of the record's cycles does not count, as in other figures of beds, or one cycle less, so that an even
-/// number counts. std::runtime_error with one line for a record that require_comparable() refuses, or whose k or D is not above zero.
+/// Solves the chain of the record's roller with the identified k and D, in closed form, until its motion is steady, and compares it
+/// with the record. Of the record, the second half of the cycles is compared, as in other figures of beds, and one cycle more if that
+/// is an odd number. Throws std::runtime_error, with a message of one line, if require_comparable() refuses the record, or if the
+/// identified k or D is not above zero.
 LumpedComparison compare_lumped(const Record &record, const IdentifiedRecord &found);
 
 /// In words: which quantities differ beyond scatter, and what of the record a spring and a dashpot cannot do. One or several records of

@@ -110,10 +110,11 @@ TEST_P(RollingHeap, IsTheSameInBothEngines) {
   EXPECT_GT(distance(heap("heap.lammps", "0"), liggghts), 1e-3);
 }
 
-/// In time steps in which a deck asks for the pressure, LIGGGHTS runs its own loop over the contacts; in all others the
-/// plugin runs a loop of its own. Both give the same forces, bit for bit, and the same energies in fix contact/energy. With the
-/// stronger damping the second-order scheme solves for the dashpots of a ball together, after the loop; the forces in fix
-/// contact/local are those of the solution.
+/// In time steps in which a deck asks for the pressure, LIGGGHTS computes the contacts in its own loop; in all others the plugin
+/// computes them in another one. Both give the same motion and the same forces on balls, bit for bit, the same forces of contacts in
+/// fix contact/local to 1e-9 N, and the same energies in fix contact/energy. With D = 20, `stepping second` solves for the damping
+/// forces of contacts that share a ball together, after the loop: the force that fix contact/local prints must be the solved one, not
+/// the one that the loop has computed before.
 TEST_P(RollingHeap, IsTheSameInTheLoopsOfEngineAndPlugin) {
   const auto &[dimension, stepping] = GetParam();
   for (const char *damping : {"0.2", "20"}) {
@@ -134,7 +135,8 @@ TEST_P(RollingHeap, IsTheSameInTheLoopsOfEngineAndPlugin) {
     const std::string expected = heap(plain, "0", "0");
     EXPECT_EQ(heap(engine, "1", "1"), expected) << damping;
     EXPECT_EQ(heap(plugin, "1", "0"), expected) << damping;
-    const auto forces = [](const Scratch &folder) { // to 1e-9 N; the sign of a zero may differ
+    // The file has nine decimal places. "-0.000000000" counts as equal to "0.000000000".
+    const auto forces = [](const Scratch &folder) {
       return std::regex_replace(post::read_text(folder / "contacts.txt"), std::regex("-(0\\.0* )"), "$1");
     };
     EXPECT_GT(forces(engine).size(), 2000u) << damping;

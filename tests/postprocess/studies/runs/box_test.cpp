@@ -20,6 +20,8 @@ TEST(BoxStudy, ContinuesWhereItWasInterrupted) {
   const ScratchStudy study("box");
   const post::Outcome whole = study.run();
   ASSERT_TRUE(whole.ok()) << whole.output;
+  EXPECT_TRUE(whole.says("settling bed box_1_1, seed 1\n")) << whole.output;
+  EXPECT_TRUE(whole.says("placing the roller on bed box_2_1, seed 2\n")) << whole.output;
   const fs::path rows = study.out() / "runs.csv", wide = study.out() / "beds/box_2_1_2.restart";
   const std::vector<post::BoxRun> runs = post::read_points(rows, post::box_runs());
   ASSERT_EQ(runs.size(), 6u);
