@@ -75,6 +75,17 @@ double number_in(const char *option, const std::string &whole, const std::string
   return *value;
 }
 
+/// Weight of the roller per metre of width [N/m]: of drum and frame.
+double weight(const CalibrationTask &task) {
+  const auto mass = [&task](const char *name, double of_gravel) {
+    for (const auto &[fixed, value] : task.fixed)
+      if (fixed == name) return number_from_text(value);
+    return of_gravel;
+  };
+  constexpr double g = 9.81;
+  return (mass("m2", gravel_drum) + mass("m3", gravel_frame)) * g;
+}
+
 void check_once(const char *option, const std::vector<std::string> &names) {
   std::set<std::string> seen;
   for (const std::string &name : names)
@@ -191,6 +202,13 @@ void CalibrationTask::check() const {
     throw UsageError(
         refusal("--target E_v2", second->value,
                 fmt::format("no less than E_v1 = {:g} Pa, since a second loading is stiffer", first->value)));
+  // The mean of the contact force over a cycle is the weight of the roller: at most the peak times the share of time in contact.
+  const CalibrationTarget *force = find_named(targets, "force"), *contact = find_named(targets, "contact");
+  const double least = weight(*this) / (contact != nullptr ? contact->value : 1.0);
+  if (force != nullptr && force->value > 0.0 && force->value < least) // 0: its value will be measured
+    throw UsageError(refusal("--target force", force->value,
+                             fmt::format("at least {:g} N/m, the weight of the roller{}", least,
+                                         contact != nullptr ? " over the share of time in contact" : "")));
 }
 
 std::vector<std::pair<std::string, std::string>> settings_of(const CalibrationTask &task) {

@@ -50,6 +50,9 @@ struct CalibrationTarget {
   double tolerance;
 };
 
+/// Masses of drum and frame in inputs/bed/case.gravel, per metre of width [kg/m].
+constexpr double gravel_drum = 2000.0, gravel_frame = 1000.0;
+
 /// A calibration: what varies, what is wanted, and on which beds it is measured.
 struct CalibrationTask {
   std::vector<VariedParameter> vary;

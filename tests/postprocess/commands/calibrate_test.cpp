@@ -1,11 +1,16 @@
 // `drumlin calibrate` as a user meets it: bad input is refused before any run, and leaves no file.
+#include "calibration/task.h"
+#include "support/files.h"
 #include "tests/support/engine_runs.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <regex>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace drumlin::test {
@@ -40,6 +45,12 @@ TEST(CalibrateCommand, RefusesBadInputInOneLine) {
       {with({"--target", "k=30e6"}), "--target is 'k'; allowed: each name once"},
       {with({"--target", "E_v1=40e6", "--target", "E_v2=20e6"}),
        "--target E_v2 is '20000000'; allowed: no less than E_v1"},
+      {with({"--target", "force=2e4"}),
+       "--target force is '20000'; allowed: at least 29430 N/m, the weight of the roller"},
+      {with({"--target", "force=5e4", "--target", "contact=0.5"}),
+       "--target force is '50000'; allowed: at least 58860 N/m, the weight of the roller over the share"},
+      {with({"--target", "force=1e4", "--set", "m2=1500"}),
+       "--target force is '10000'; allowed: at least 24525 N/m, the weight of the roller"},
       {with({"--vary", "mass=1:2"}), "--vary is 'mass=1:2'; allowed: NAME=LOW:HIGH"},
       {with({"--vary", "D=0.2"}), "--vary is 'D=0.2'; allowed: NAME=LOW:HIGH"},
       {with({"--vary", "D=0.2:0.2"}), "--vary is 'D=0.2:0.2'; allowed: HIGH at least 1.05 times LOW"},
@@ -80,6 +91,16 @@ TEST(CalibrateCommand, RefusesBadInputInOneLine) {
     EXPECT_TRUE(outcome.says("ERROR: drumlin calibrate: " + row.message)) << outcome.output;
     EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
     EXPECT_FALSE(fs::exists(scratch / "results"));
+  }
+}
+
+TEST(CalibrateCommand, KnowsTheMassesOfTheGravelsRoller) {
+  const std::string deck = post::read_text(fs::path(DRUMLIN_SOURCE_DIR) / "inputs/bed/case.gravel");
+  for (const auto &[name, mass] : {std::pair{"m2", post::gravel_drum}, std::pair{"m3", post::gravel_frame}}) {
+    std::smatch match;
+    ASSERT_TRUE(
+        std::regex_search(deck, match, std::regex(fmt::format("variable {} +index ([0-9.e]+)", name))));
+    EXPECT_EQ(std::stod(match[1]), mass) << name;
   }
 }
 
