@@ -226,8 +226,38 @@ private:
       return;
     }
     physics::ContactState state{block_.force_before[n], block_.in_contact[n] != 0.0, {}};
-    block_.push[n] = exert_rare(law, *stepping_, now, state, contact.history[places_.force]);
+    double &stored_force = contact.history[places_.force];
+    block_.push[n] = exert_rare(law, *stepping_, now, state, stored_force);
     block_.force[n] = state.force;
+    coupled_[n] = stepping_->coupled_at(&stored_force);
+    any_coupled_ |= coupled_[n] != nullptr;
+  }
+
+  /// Passes friction and rolling resistance of the coupled contacts to FixStepping, which limits them when the normal
+  /// force is known.
+  [[gnu::noinline]] void couple_friction(int count) {
+    for (int n = 0; n < count; ++n) {
+      LAMMPS_NS::FixStepping::Coupled *const coupled = coupled_[n];
+      if (coupled == nullptr) continue;
+      coupled->dt = dt_;
+      double *const history = contacts_[n].history;
+      const ContactCoefficients<Parameters> &law = law_of(n);
+      if constexpr (springs) {
+        if (cap_ == Cap::coulomb) {
+          coupled->friction = law.tangential(block_.kt[n], block_.dashpot[n], cap_);
+          coupled->rub = block_.tangential_force[n];
+          coupled->arm_i = block_.arm_i[n];
+          coupled->arm_j = block_.arm_j[n];
+          coupled->spring = history + places_.spring;
+        }
+      }
+      if constexpr (rolling) {
+        coupled->rolling =
+            law.rolling_resistance(block_.kt[n], physics::effective_radius(block_.ri[n], block_.rj[n]));
+        coupled->roll = block_.rolling[n];
+        coupled->rolling_spring = history + places_.rolling;
+      }
+    }
   }
 
   /// Adds the forces of the first `count` contacts to their balls, and stores the contacts' history.
@@ -238,10 +268,16 @@ private:
     if constexpr (remembers)
       for (int n = 0; n < count; ++n)
         if (contacts_[n].touches) keep_history(n, contacts_[n].history);
+    if constexpr (stepped)
+      if (any_coupled_) couple_friction(count);
     if (observed_)
       for (int n = 0; n < count; ++n)
         if (contacts_[n].touches) report(n);
     engine_.exert(block_, contacts_, count);
+    if (any_coupled_) {
+      std::fill_n(coupled_, count, nullptr);
+      any_coupled_ = false;
+    }
   }
 
   [[gnu::noinline]] void report(int n) const {
@@ -255,7 +291,10 @@ private:
     record.radius = std::min(block_.ri[n], block_.rj[n]);
     record.share = 1.0;
     record.normal_force = block_.force[n];
-    if constexpr (stepped) record.final_force = contact.history + places_.force;
+    if constexpr (stepped) {
+      record.final_force = contact.history + places_.force;
+      if (any_coupled_ && coupled_[n] != nullptr) record.change = &coupled_[n]->change;
+    }
     if constexpr (rubs) {
       record.tangential_dashpot = coefficients.tangential_dashpot(block_.dashpot[n]);
       record.tangential_force = block_.tangential_force[n];
@@ -324,6 +363,9 @@ private:
   std::int32_t found_[at_once + 4];
   BlockContact contacts_[physics::block_size + at_once];
   bool one_law_ = false; // whether all have the same coefficients
+  LAMMPS_NS::FixStepping::Coupled *coupled_[physics::block_size] =
+      {}; // of the contacts of the block; nullptr: not coupled
+  bool any_coupled_ = false;
 };
 
 } // namespace drumlin

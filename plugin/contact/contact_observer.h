@@ -4,11 +4,18 @@
 
 #include "engine.h"
 #include "physics/time_step.h"
+#include "physics/vec3.h"
 
 #include <array>
 #include <vector>
 
 namespace drumlin {
+
+/// What changes in a contact when its final normal force is known: see FixStepping::Coupled.
+struct FrictionChange {
+  physics::Vec3 force{};                ///< N, of the tangential force on ball i
+  physics::Vec3 torque_i{}, torque_j{}; ///< N m
+};
 
 /// One contact of two balls, or of a ball and a wall, in one step. Stiffnesses, damping coefficients and
 /// energies are those of the contact law; the values that act on the balls are `share` times as large.
@@ -31,6 +38,20 @@ struct ContactRecord {
   const double *spring;         ///< tangential spring, m, three components; nullptr: none
   std::array<double, 3> tangential_force;   ///< on ball i, N
   std::array<double, 3> torque_i, torque_j; ///< N m
+  const FrictionChange *change; ///< what is added to these three once all forces of the step are known;
+                                ///< nullptr: nothing
+
+  // To be called when all forces of the step are known:
+  double final_normal_force() const { return share * (final_force != nullptr ? *final_force : normal_force); }
+  physics::Vec3 final_tangential_force() const {
+    return change != nullptr ? physics::sum(tangential_force, 1.0, change->force) : tangential_force;
+  }
+  physics::Vec3 final_torque_i() const {
+    return change != nullptr ? physics::sum(torque_i, 1.0, change->torque_i) : torque_i;
+  }
+  physics::Vec3 final_torque_j() const {
+    return change != nullptr ? physics::sum(torque_j, 1.0, change->torque_j) : torque_j;
+  }
 };
 
 /// A record whose overlap, and force, energy, stiffness and dashpot of the normal spring, are those of a contact law at

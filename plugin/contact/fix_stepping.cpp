@@ -138,6 +138,7 @@ void FixStepping::pre_exchange() { expected_.clear(); }
 
 void FixStepping::pre_force(int) {
   if (!in_use_) return;
+  coupled_.clear();
   if (neighbor->ago == 0 || update->dt != expected_dt_) expect_contacts();
   light_ = !counted_ && !counting_;
   if (comm->nprocs > 1 || atom->nghost > 0) drumlin::engine::forward_comm(comm, this);
@@ -253,36 +254,74 @@ void FixStepping::solve_coupled() {
       star[a] = v[a] + kick * f[i][a];
   }
   if (comm->nprocs > 1 || atom->nghost > 0) drumlin::engine::forward_comm(comm, this);
-  if (force->newton_pair) gather(3);
-  for (const Coupled &p : coupled_) {
+  if (force->newton_pair) gather(most_gathered);
+  for (Coupled &p : coupled_) {
     const auto along = [&](int ball) {
       const double *v = velocity_[ball];
       return v[0] * p.normal[0] + v[1] * p.normal[1] + v[2] * p.normal[2];
     };
     const double rate = (p.j < 0 ? 0.0 : along(p.j)) - along(p.i);
     const double acting = drumlin::physics::coupled_force(p.dashpot, rate);
-    const double change = p.share * (acting - p.dashpot.first);
-    add_force(p.i, change, p.normal);
+    limit_friction(p, acting);
+    const std::array<double, 3> change =
+        drumlin::physics::sum(p.change.force, p.share * (acting - p.dashpot.first), p.normal);
+    add_force(p.i, 1.0, change);
+    add_torque(p.i, p.change.torque_i);
     if (p.j >= 0 && p.j < nlocal)
-      add_force(p.j, -change, p.normal);
+      add_force(p.j, -1.0, change);
     else if (takes(p.j))
       for (std::size_t a = 0; a < 3; ++a)
-        gathered_[static_cast<std::size_t>(p.j) * 3 + a] -= change * p.normal[a];
+        gathered_[static_cast<std::size_t>(p.j) * most_gathered + a] -= change[a];
+    if (takes(p.j)) add_torque(p.j, p.change.torque_j);
     *p.force = acting;
   }
-  coupled_.clear();
   if (force->newton_pair) {
     drumlin::engine::reverse_comm(comm, this);
     for (int i = 0; i < nlocal; ++i) {
-      const double *change = gathered_.data() + static_cast<std::ptrdiff_t>(i) * 3;
+      const double *change = gathered_.data() + static_cast<std::ptrdiff_t>(i) * most_gathered;
       if (change[0] != 0.0 || change[1] != 0.0 || change[2] != 0.0)
         add_force(i, 1.0, {change[0], change[1], change[2]});
+      add_torque(i, {change[3], change[4], change[5]});
     }
   }
   for (const std::function<void()> &close : coupled_links_)
     close();
   coupled_links_.clear();
   constrain(true);
+}
+
+/// Limits friction and rolling resistance of a coupled contact to its final normal force, N, and stores what that
+/// changes.
+void FixStepping::limit_friction(Coupled &p, double normal_force) {
+  using drumlin::physics::sum, drumlin::physics::scaled, drumlin::physics::cross;
+  using Vec3 = drumlin::physics::Vec3;
+  p.change = {};
+  if (p.spring != nullptr) {
+    const drumlin::physics::PulledSpring now = drumlin::physics::limited_to(
+        p.friction, normal_force, {p.rub, {p.spring[0], p.spring[1], p.spring[2]}}, p.dt);
+    p.change.force = scaled(p.share, sum(now.force, -1.0, p.rub));
+    const Vec3 moment = cross(p.normal, p.change.force);
+    p.change.torque_i = scaled(-p.arm_i, moment);
+    p.change.torque_j = scaled(-p.arm_j, moment);
+    std::copy(now.spring.begin(), now.spring.end(), p.spring);
+  }
+  if (p.rolling_spring != nullptr) {
+    const Vec3 now = drumlin::physics::limited_to(p.rolling, normal_force, p.roll);
+    const Vec3 change = sum(now, -1.0, p.roll);
+    p.change.torque_i = sum(p.change.torque_i, p.share, change);
+    p.change.torque_j = sum(p.change.torque_j, -p.share, change);
+    for (std::size_t a = 0; a < 3; ++a)
+      p.rolling_spring[a] = -now[a];
+  }
+}
+
+/// Adds a torque, N m, to a ball; that of a ghost is sent to its owner.
+void FixStepping::add_torque(int i, const std::array<double, 3> &torque) {
+  if (torque[0] == 0.0 && torque[1] == 0.0 && torque[2] == 0.0) return;
+  double *const to = i < atom->nlocal ? atom->torque[i]
+                                      : gathered_.data() + static_cast<std::ptrdiff_t>(i) * most_gathered + 3;
+  for (std::size_t a = 0; a < 3; ++a)
+    to[a] += torque[a];
 }
 
 /// Merges the entries of each ball into one: constraints act on the total force on a ball, and the force that

@@ -3,9 +3,13 @@
 // damping of the step before to the contact law, and applies the parts of contact forces that act in one half
 // of a step only.
 
+#include "contact/contact_observer.h"
 #include "engine.h"
+#include "physics/friction_law.h"
+#include "physics/rolling_law.h"
 #include "physics/stepping.h"
 
+#include <deque>
 #include <functional>
 
 namespace LAMMPS_NS {
@@ -101,10 +105,27 @@ public:
     drumlin::physics::CoupledDashpot dashpot; ///< a wall's own velocity is included in at_rest
     double share;                             ///< part of the force that acts: see StepContact::share
     double *force;                            ///< where the force, N, is stored
+
+    /// Friction and rolling resistance, computed with the force of the contact solved for alone. When the force
+    /// is known they are limited to what their laws allow with it. Forces and torques are those of the whole
+    /// contact, of which `share` acts.
+    drumlin::physics::Friction friction; ///< of `tangential coulomb`
+    drumlin::physics::Vec3 rub{};        ///< N, force of friction on ball i
+    double arm_i = 0.0, arm_j = 0.0;     ///< m, from the centre of each ball to the point where friction acts
+    double *spring = nullptr;            ///< m, of friction; nullptr: there is no friction that is limited
+    drumlin::physics::Rolling rolling;
+    drumlin::physics::Vec3 roll{};    ///< N m, torque of rolling resistance on ball i
+    double *rolling_spring = nullptr; ///< N m; nullptr: there is no rolling resistance
+    double dt = 0.0;                  ///< s, time step
+    drumlin::FrictionChange change;   ///< once the force is known
   };
   /// Adds a coupled contact and returns it, for the caller to fill in. (Filling it in place is faster than
-  /// copying a finished one.)
+  /// copying a finished one.) It stays where it is until the forces of the next step are computed.
   Coupled &couple() { return coupled_.emplace_back(); }
+  /// The coupled contact that was added last, if its force is stored there; else nullptr.
+  Coupled *coupled_at(const double *stored_force) {
+    return !coupled_.empty() && coupled_.back().force == stored_force ? &coupled_.back() : nullptr;
+  }
   /// The same for a link that is not a contact and whose balls may be on different ranks: `close` is called
   /// when v* is known, and adds the force of the link by add_force(). All ranks must call couple(), since
   /// `close` may communicate.
@@ -144,6 +165,8 @@ private:
   void expect_contacts();
   void gather(std::size_t numbers);
   void solve_coupled();
+  void limit_friction(Coupled &contact, double normal_force);
+  void add_torque(int i, const std::array<double, 3> &torque);
   void send_later();
   void merge_later();
   std::array<double, 3> force_on(const Fix &fix) const;
@@ -163,7 +186,7 @@ private:
   std::vector<double> inverse_mass_; // 1/ContactSource::mass(), 1/kg; below 0: not known yet
   std::vector<double> damping_;      // sum of c in this step, N s/m
   std::vector<double> gathered_;     // sums of ghosts to be sent to owners, comm_reverse each
-  std::vector<Coupled> coupled_;     // of this step
+  std::deque<Coupled> coupled_;      // of this step
   std::vector<std::function<void()>> coupled_links_;
   std::vector<Later> later_;            // of this step
   std::vector<Later> shifts_;           // in the next opening half kick, to be taken back after it

@@ -50,7 +50,8 @@ ContactSums BedSums::contacts(const Vec3 &axis) const {
     const bool wall = e.j < 0;
     // With newton off a contact of balls on two ranks is recorded on both: it counts half on each.
     const double weight = !wall && (e.i >= atom.nlocal || e.j >= atom.nlocal) ? half : 1.0;
-    const double force = e.share * (e.final_force != nullptr ? *e.final_force : e.normal_force);
+    const double force = e.final_normal_force();
+    const Vec3 tangential = e.final_tangential_force();
     const double *vi = atom.v[e.i];
     constexpr std::array<double, 3> still{};
     const double *vj = wall ? still.data() : atom.v[e.j];
@@ -58,8 +59,8 @@ ContactSums BedSums::contacts(const Vec3 &axis) const {
     const double rate = -dot(e.normal, v.data());
     mine.normal_heat += weight * (force - e.share * e.spring_force) * rate;
     mine.normal_stored += weight * e.share * e.spring_energy;
-    mine.tangential_power -= weight * (dot(e.tangential_force, v.data()) + dot(e.torque_i, atom.omega[e.i]) +
-                                       (wall ? 0.0 : dot(e.torque_j, atom.omega[e.j])));
+    mine.tangential_power -= weight * (dot(tangential, v.data()) + dot(e.final_torque_i(), atom.omega[e.i]) +
+                                       (wall ? 0.0 : dot(e.final_torque_j(), atom.omega[e.j])));
     if (e.spring != nullptr)
       mine.tangential_stored +=
           weight * 0.5 * e.share * e.tangential_stiffness *
@@ -72,7 +73,7 @@ ContactSums BedSums::contacts(const Vec3 &axis) const {
     }
     if (wall) {
       const double across = dot(axis, e.normal.data());
-      const double up = force * across + dot(axis, e.tangential_force.data());
+      const double up = force * across + dot(axis, tangential.data());
       if (std::fabs(across) > 0.5)
         mine.floor_force += up;
       else {

@@ -51,10 +51,9 @@ void FixContactLocal::make_rows() {
     const bool wall = record.j < 0;
     if (!(atom->mask[record.i] & groupbit) && (wall || !(atom->mask[record.j] & groupbit))) continue;
     if (!wall && !engine::owns_pair(lmp, record.i, record.j)) continue;
-    const double normal =
-        record.share * (record.final_force != nullptr ? *record.final_force : record.normal_force);
+    const double normal = record.final_normal_force();
     const auto &n = record.normal;
-    const auto &t = record.tangential_force;
+    const auto t = record.final_tangential_force();
     rows_.push_back({static_cast<double>(atom->tag[record.i]),
                      wall ? 0.0 : static_cast<double>(atom->tag[record.j]), normal * n[0] + t[0],
                      normal * n[1] + t[1], normal * n[2] + t[2], n[0], n[1], n[2], record.overlap});

@@ -34,6 +34,7 @@ struct ContactForces {
   physics::Vec3 moment;        ///< N, normal x tangential force
   physics::Vec3 rolling;       ///< N m, torque of rolling resistance on ball i, of which j gets the opposite
   double tangential_stiffness; ///< N/m; 0 without friction and rolling resistance
+  LAMMPS_NS::FixStepping::Coupled *coupled; ///< nullptr: the contact is not coupled
 };
 
 // Places in a contact's history, as ContactSettings has them, for settings that are known at compile time.
@@ -98,6 +99,8 @@ inline ContactForces exert(const ContactSettings &settings,
       physics::ContactState rare{state.force, state.in_contact, {}};
       push = exert_rare(law, *stepping, n, rare, stored_force);
       state.force = rare.force;
+      out.coupled = stepping->coupled_at(&stored_force);
+      if (out.coupled != nullptr) out.coupled->dt = dt;
     }
     stored_force = state.force;
   }
@@ -119,6 +122,13 @@ inline ContactForces exert(const ContactSettings &settings,
         p.history[2] = step.spring[2];
       }
       out.tangential_force = step.force;
+      if (out.coupled != nullptr && settings.cap == physics::Cap::coulomb) {
+        out.coupled->friction = friction;
+        out.coupled->rub = step.force;
+        out.coupled->arm_i = p.arm_i;
+        out.coupled->arm_j = p.arm_j;
+        out.coupled->spring = p.history;
+      }
     } else
       out.tangential_force =
           physics::friction_step_without_history(friction, out.normal_force, p.slip, 0.0).force;
@@ -168,6 +178,7 @@ ContactRecord record_of(const ContactSettings &settings, const ContactCoefficien
   }
   record.normal_force = forces.normal_force;
   if (!settings.stock) record.final_force = p.history + settings.force_place();
+  if (forces.coupled != nullptr) record.change = &forces.coupled->change;
   record.tangential_force = forces.tangential_force;
   record.torque_i = physics::sum(forces.rolling, -p.arm_i, forces.moment);
   record.torque_j = physics::sum(physics::scaled(-1.0, forces.rolling), -p.arm_j, forces.moment);

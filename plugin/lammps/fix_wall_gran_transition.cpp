@@ -203,7 +203,7 @@ void FixWallGranTransition::touch(const Table &table, int i, int place, const ph
       const double *w = atom->omega[i];
       forces.rolling = drumlin::rolling_torque(settings, law, {normal, {w[0], w[1], w[2]}, atom->radius[i]},
                                                forces.tangential_stiffness, forces.normal_force, p.history,
-                                               update->dt, moves);
+                                               update->dt, moves, forces.coupled);
     }
     if (observers_.any())
       observers_.tell(drumlin::record_of(settings, law, p, forces, atom->radius[i], atom->radius[i]));

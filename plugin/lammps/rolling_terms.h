@@ -2,6 +2,7 @@
 // Rolling resistance of one contact, shared by the pair styles and fix wall/gran/transition.
 
 #include "contact/contact_settings.h"
+#include "contact/fix_stepping.h"
 #include "physics/rolling_law.h"
 
 namespace drumlin {
@@ -17,15 +18,21 @@ struct RollingMotion {
 /// \param kt tangential stiffness in this step, N/m
 /// \param history of the contact, see ContactSettings::history()
 /// \param moves whether the spring is advanced by a step: false in the set-up of a run
+/// \param coupled nullptr if the contact is not coupled
 template <class Parameters>
-inline physics::Vec3 rolling_torque(const ContactSettings &settings,
-                                    const ContactCoefficients<Parameters> &coefficients,
-                                    const RollingMotion &motion, double kt, double normal_force,
-                                    double *history, double dt, bool moves) {
+inline physics::Vec3
+rolling_torque(const ContactSettings &settings, const ContactCoefficients<Parameters> &coefficients,
+               const RollingMotion &motion, double kt, double normal_force, double *history, double dt,
+               bool moves, LAMMPS_NS::FixStepping::Coupled *coupled) {
   double *spring = history + settings.rolling_place();
-  const physics::RollingStep step =
-      physics::rolling_step(coefficients.rolling_resistance(kt, motion.radius), normal_force, motion.normal,
-                            motion.spin, {spring[0], spring[1], spring[2]}, moves ? dt : 0.0);
+  const physics::Rolling rolling = coefficients.rolling_resistance(kt, motion.radius);
+  const physics::RollingStep step = physics::rolling_step(
+      rolling, normal_force, motion.normal, motion.spin, {spring[0], spring[1], spring[2]}, moves ? dt : 0.0);
+  if (coupled != nullptr) {
+    coupled->rolling = rolling;
+    coupled->roll = step.torque;
+    coupled->rolling_spring = spring;
+  }
   if (moves)
     for (std::size_t a = 0; a < 3; ++a)
       spring[a] = step.spring[a];

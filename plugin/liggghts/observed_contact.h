@@ -5,6 +5,7 @@
 
 #include "contact/contact_observer.h"
 #include "liggghts/contact_table.h"
+#include "liggghts/coupled_contacts.h"
 
 #include <algorithm>
 
@@ -33,6 +34,7 @@ public:
   void connectToProperties(PropertyRegistry &registry) {
     Base::connectToProperties(registry);
     final_force_offset_ = this->get_history_offset(final_force_name);
+    coupled_.find(registry.getLAMMPS(), *this);
     observers_.find(*registry.getLAMMPS()->modify);
   }
 
@@ -67,6 +69,7 @@ private:
     }
     record.normal_force = contact.Fn;
     if (second_order) record.final_force = contact.contact_history + final_force_offset_;
+    if (const auto *coupled = coupled_.contact(contact)) record.change = &coupled->change;
     double along = 0.0;
     for (std::size_t a = 0; a < 3; ++a)
       along += i_forces.delta_F[a] * contact.en[a];
@@ -80,6 +83,7 @@ private:
   }
 
   ContactObservers observers_;
+  CoupledContacts coupled_;
   int final_force_offset_ = -1;
 };
 

@@ -14,6 +14,7 @@ ROLLING_MODEL(ROLLING_SPRING, rolling_spring, 22)
 
 #include <algorithm>
 
+#include "liggghts/coupled_contacts.h"
 #include "physics/rolling_law.h"
 
 namespace LIGGGHTS {
@@ -25,7 +26,7 @@ template <>
 class RollingModel<ROLLING_SPRING> : public RollingModelBase {
 public:
   RollingModel(LAMMPS *lmp, IContactHistorySetup *hsetup, ContactModelBase *model)
-      : RollingModelBase(lmp, hsetup, model),
+      : RollingModelBase(lmp, hsetup, model), model_(model),
         spring_offset_(hsetup->add_history_value("r_torquex_old", "1")) {
     hsetup->add_history_value("r_torquey_old", "1");
     hsetup->add_history_value("r_torquez_old", "1");
@@ -39,6 +40,7 @@ public:
   void connectToProperties(PropertyRegistry &registry) override {
     registry.registerProperty("coeffRollFrict", &MODEL_PARAMS::createCoeffRollFrict);
     registry.connect("coeffRollFrict", coefficient_, "rolling_model epsd2");
+    coupled_.find(lmp, *model_);
   }
 
   void surfacesIntersect(SurfacesIntersectData &sidata, ForceData &i_forces, ForceData &j_forces) override {
@@ -50,12 +52,20 @@ public:
     const double *wj = sidata.is_wall ? still : sidata.omega_j;
     const double radius = sidata.is_wall ? sidata.radi : physics::effective_radius(sidata.radi, sidata.radj);
     double *spring = sidata.contact_history + spring_offset_;
-    const physics::RollingStep step = physics::rolling_step(
+    const physics::Rolling rolling =
         physics::rolling_of(sidata.kt, coefficient_[sidata.itype][sidata.jtype], radius,
-                            torsion_ ? physics::Resisted::all : physics::Resisted::rolling),
-        sidata.Fn, {sidata.en[0], sidata.en[1], sidata.en[2]}, {w[0] - wj[0], w[1] - wj[1], w[2] - wj[2]},
-        {spring[0], spring[1], spring[2]}, moves ? update->dt : 0.0);
+                            torsion_ ? physics::Resisted::all : physics::Resisted::rolling);
+    const physics::RollingStep step =
+        physics::rolling_step(rolling, sidata.Fn, {sidata.en[0], sidata.en[1], sidata.en[2]},
+                              {w[0] - wj[0], w[1] - wj[1], w[2] - wj[2]}, {spring[0], spring[1], spring[2]},
+                              moves ? update->dt : 0.0);
     if (moves) std::copy(step.spring.begin(), step.spring.end(), spring);
+    if (auto *coupled = coupled_.contact(sidata)) {
+      coupled->rolling = rolling;
+      coupled->roll = step.torque;
+      coupled->rolling_spring = spring;
+      coupled->dt = update->dt;
+    }
     const double share = sidata.is_wall ? sidata.area_ratio : 1.0;
     for (std::size_t a = 0; a < 3; ++a) {
       i_forces.delta_torque[a] += share * step.torque[a];
@@ -72,6 +82,8 @@ public:
   void endPass(SurfacesIntersectData &, ForceData &, ForceData &) override {}
 
 private:
+  ContactModelBase *model_;
+  drumlin::CoupledContacts coupled_;
   double **coefficient_ = nullptr; // by types
   int spring_offset_;              // in the contact history
   bool torsion_ = false;

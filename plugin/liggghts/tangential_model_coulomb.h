@@ -14,6 +14,7 @@ TANGENTIAL_MODEL(TANGENTIAL_COULOMB, coulomb, 21)
 
 #include <algorithm>
 
+#include "liggghts/coupled_contacts.h"
 #include "physics/friction_law.h"
 
 namespace LIGGGHTS {
@@ -26,7 +27,8 @@ template <>
 class TangentialModel<TANGENTIAL_COULOMB> : public TangentialModelBase {
 public:
   TangentialModel(LAMMPS *lmp, IContactHistorySetup *hsetup, ContactModelBase *model)
-      : TangentialModelBase(lmp, hsetup, model), spring_offset_(hsetup->add_history_value("shearx", "1")) {
+      : TangentialModelBase(lmp, hsetup, model), model_(model),
+        spring_offset_(hsetup->add_history_value("shearx", "1")) {
     hsetup->add_history_value("sheary", "1");
     hsetup->add_history_value("shearz", "1");
   }
@@ -37,6 +39,7 @@ public:
   void connectToProperties(PropertyRegistry &registry) {
     registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
     registry.connect("coeffFrict", friction_, "tangential_model coulomb");
+    coupled_.find(lmp, *model_);
   }
 
   inline void surfacesIntersect(const SurfacesIntersectData &sidata, ForceData &i_forces,
@@ -49,10 +52,19 @@ public:
     const physics::Vec3 slip = moves && !sidata.is_wall
                                    ? slip_of_step(sidata, normal)
                                    : physics::Vec3{sidata.vtr1, sidata.vtr2, sidata.vtr3};
+    const physics::Friction friction{sidata.kt, sidata.gammat, friction_[sidata.itype][sidata.jtype],
+                                     physics::Cap::coulomb};
     const physics::FrictionStep step = physics::friction_step(
-        {sidata.kt, sidata.gammat, friction_[sidata.itype][sidata.jtype], physics::Cap::coulomb}, sidata.Fn,
-        normal, slip, {spring[0], spring[1], spring[2]}, moves ? update->dt : 0.0);
+        friction, sidata.Fn, normal, slip, {spring[0], spring[1], spring[2]}, moves ? update->dt : 0.0);
     if (moves) std::copy(step.spring.begin(), step.spring.end(), spring);
+    if (auto *coupled = coupled_.contact(sidata)) {
+      coupled->friction = friction;
+      coupled->rub = step.force;
+      coupled->arm_i = sidata.cri;
+      coupled->arm_j = sidata.is_wall ? 0.0 : sidata.crj;
+      coupled->spring = spring;
+      coupled->dt = update->dt;
+    }
     const double share = sidata.is_wall ? sidata.area_ratio : 1.0;
     const physics::Vec3 force = physics::scaled(share, step.force);
     const physics::Vec3 moment = physics::cross(normal, force);
@@ -85,6 +97,8 @@ private:
     return drumlin::physics::slip_velocity_of_step(relative, separation, normal, turning, update->dt);
   }
 
+  ContactModelBase *model_;
+  drumlin::CoupledContacts coupled_;
   double **friction_ = nullptr; // coefficients by types
   int spring_offset_;           // in the contact history
 };

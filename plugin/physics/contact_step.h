@@ -37,7 +37,8 @@ struct StepResult {
   double shift;         ///< N, position correction: the next drift moves a ball by dt^2/(2 m) of it more, and
                         ///< the velocity is unchanged afterwards
   bool coupled = false; ///< the force is coupled_force() of `dashpot`, once all forces of the step are known;
-                        ///< `force` is then that of the contact solved for alone, used for friction
+                        ///< `force` is then that of the contact solved for alone, with which friction is
+                        ///< computed; see limited_to() in friction_law.h
   CoupledDashpot dashpot{}; ///< if coupled
 };
 

@@ -135,6 +135,29 @@ struct FrictionStep {
   return {scaled(-1.0, pull), spring, dissipated, 0.5 * kt * dot(spring, spring), sliding};
 }
 
+/// Force on ball i and spring of coulomb_step().
+struct PulledSpring {
+  Vec3 force;  ///< N
+  Vec3 spring; ///< m
+};
+
+/// coulomb_step() with a smaller normal force than it was computed with, from its result: the pull is shortened to
+/// the new limit, and the spring gives way by what the pull loses over kt + ct/dt. A pull within the limit stays
+/// as it is. Both are then what coulomb_step() gives with that normal force, so that no energy is made. For a
+/// normal force that is known only when all forces of a step are.
+/// \param before force and spring that coulomb_step() has given \param dt s; 0: the spring stays as it is
+[[nodiscard]] inline PulledSpring limited_to(const Friction &friction, double normal_force,
+                                             const PulledSpring &before, double dt) {
+  const double limit = friction.coefficient * std::max(0.0, normal_force);
+  const double length = std::sqrt(dot(before.force, before.force));
+  if (length <= limit) return before;
+  const double lost = 1.0 - limit / length;
+  const double resistance = friction.stiffness * dt + friction.damping;
+  const bool moves = dt > 0.0 && resistance > 0.0;
+  return {scaled(limit / length, before.force),
+          moves ? sum(before.spring, lost * dt / resistance, before.force) : before.spring};
+}
+
 /// One step of friction with history: the spring takes vt dt up, is projected on the present tangent plane
 /// and, where it slides, is reset to the limit.
 ///   trial    xi* = P (xi + vt dt)

@@ -93,4 +93,12 @@ struct RollingStep {
   return {scaled(-1.0, spring), spring, heat + lost, 0.5 * dot(spring, spring) / kr, limited};
 }
 
+/// The torque on ball i of rolling_step() with a smaller normal force than it was computed with, N m; its opposite
+/// is the spring. For a normal force that is known only when all forces of a step are.
+[[nodiscard]] inline Vec3 limited_to(const Rolling &rolling, double normal_force, const Vec3 &torque) {
+  const double limit = rolling.arm * std::fabs(normal_force);
+  const double squared = dot(torque, torque);
+  return squared > limit * limit ? scaled(limit / std::sqrt(squared), torque) : torque;
+}
+
 } // namespace drumlin::physics

@@ -9,8 +9,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <fstream>
+#include <map>
 #include <regex>
+#include <sstream>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -148,6 +153,67 @@ TEST_P(RollingHeap, IsTheSameInTheLoopsOfEngineAndPlugin) {
       const double value = of_engine.numbers(column).at(0);
       EXPECT_GT(value, 0.0) << column << ' ' << damping;
       EXPECT_NEAR(of_plugin.numbers(column).at(0), value, 1e-12 * value) << column << ' ' << damping;
+    }
+  }
+}
+
+/// With heavy damping, `stepping second` computes friction first and the final normal forces of contacts that share a ball afterwards.
+/// Friction must not exceed mu times these final forces Fn, and the torque of a ball not the sum over its contacts of friction times its radius and
+/// of mu_r R Fn, the limit of rolling resistance with the effective radius R.
+TEST_P(RollingHeap, FrictionAndRollingKeepTheirLimitsAtAnyDamping) {
+  constexpr double mu = 0.4, mu_r = 0.2; // of heap.scene, as the radius, m
+  const auto radius = [](long id) { return 0.5 * (0.07 + 0.02 * std::sin(7.0 * static_cast<double>(id))); };
+  const auto &[dimension, stepping] = GetParam();
+  for (const char *deck : {"heap.in", "heap.lammps"}) {
+    if (std::string(deck) == "heap.lammps" && !post::has_lammps()) continue;
+    for (const char *damping : {"10", "40"}) {
+      const Scratch folder;
+      const Outcome outcome = run_deck(test_deck(deck),
+                                       {{"dimension", dimension},
+                                        {"stepping", stepping},
+                                        {"contact_D", damping},
+                                        {"observed", "1"},
+                                        {"steps", "4000"},
+                                        {"contacts_every", "20"}},
+                                       folder.path());
+      ASSERT_TRUE(outcome.ok()) << outcome.output;
+      std::ifstream file(folder / "contacts.txt");
+      int contacts = 0, at_limit = 0;
+      long step = 0;
+      std::map<long, std::map<long, double>>
+          largest; // torque of each ball that its contacts allow, N m, by step
+      for (std::string line; std::getline(file, line);) {
+        if (line == "ITEM: TIMESTEP" && std::getline(file, line)) step = std::stol(line);
+        std::istringstream words(line);
+        std::array<double, 8> row{};
+        std::size_t numbers = 0;
+        while (numbers < row.size() && words >> row[numbers])
+          ++numbers;
+        if (numbers < row.size()) continue; // a line of the dump's header
+        const double push = row[2] * row[5] + row[3] * row[6] + row[4] * row[7];
+        const double rub = std::hypot(row[2] - push * row[5], row[3] - push * row[6], row[4] - push * row[7]);
+        // N: the file has nine decimal places of forces, N, and of normals.
+        const double digits = 1e-8 * (1.0 + std::hypot(row[2], row[3], row[4]));
+        EXPECT_LE(rub, mu * std::max(0.0, push) + digits) << deck << ' ' << damping << ": " << line;
+        const long i = std::lround(row[0]), j = std::lround(row[1]); // j = 0: a wall
+        const double reduced = j == 0 ? radius(i) : radius(i) * radius(j) / (radius(i) + radius(j));
+        for (const long ball : {i, j})
+          largest[step][ball] += radius(ball) * rub + mu_r * reduced * std::fabs(push);
+        ++contacts;
+        at_limit += rub > 0.999 * mu * push ? 1 : 0;
+      }
+      EXPECT_GT(contacts, 1000) << deck << ' ' << damping;
+      EXPECT_GT(at_limit, contacts / 100) << deck << ' ' << damping;
+
+      int turned = 0;
+      for (const Frame &frame : read_dump(folder / "balls.txt"))
+        for (const auto &[id, ball] : frame.balls) {
+          const double torque = std::hypot(ball.torque[0], ball.torque[1], ball.torque[2]);
+          EXPECT_LE(torque, (1.0 + 1e-6) * largest[frame.step][id] + 1e-9)
+              << deck << ' ' << damping << ", ball " << id << " in step " << frame.step;
+          turned += torque > 0.0 ? 1 : 0;
+        }
+      EXPECT_GT(turned, 100) << deck << ' ' << damping;
     }
   }
 }

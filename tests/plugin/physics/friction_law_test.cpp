@@ -375,6 +375,33 @@ TEST(Coulomb, KeepsTheLimitAndIsPassiveInEveryStep) {
   EXPECT_GT(sticking, 100000);
 }
 
+// A step that is computed with one normal force and then limited to a smaller one is the step with the smaller one.
+TEST(Coulomb, IsLimitedAfterwardsAsWithTheSmallerNormalForce) {
+  std::mt19937 random(86028121);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  int shortened = 0, kept = 0;
+  for (int n = 0; n < 100000; ++n) {
+    const double dt = n % 11 == 0 ? 0.0 : decades(random, -7, -2);
+    const Friction friction{decades(random, 0, 8), n % 5 == 0 ? 0.0 : decades(random, -4, 6),
+                            n % 7 == 0 ? 0.0 : decades(random, -2, 1), Cap::coulomb};
+    const double first = decades(random, -3, 6), final = n % 3 == 0 ? -first : first * decades(random, -3, 0);
+    const double speed = decades(random, -4, 1), stretch = decades(random, -8, -2);
+    const Vec3 v{speed * unit(random), speed * unit(random), 0.0};
+    const Vec3 spring{stretch * unit(random), stretch * unit(random), 0.0};
+    const FrictionStep before = friction_step(friction, first, up, v, spring, dt),
+                       expected = friction_step(friction, final, up, v, spring, dt);
+    const PulledSpring now = limited_to(friction, final, {before.force, before.spring}, dt);
+    const double pull = length(before.force), reach = length(before.spring) + length(spring);
+    for (std::size_t a = 0; a < 3; ++a) {
+      ASSERT_NEAR(now.force[a], expected.force[a], 1e-14 * pull);
+      ASSERT_NEAR(now.spring[a], expected.spring[a], 1e-13 * reach);
+    }
+    ++(now.force == before.force ? kept : shortened);
+  }
+  EXPECT_GT(shortened, 10000);
+  EXPECT_GT(kept, 10000);
+}
+
 TEST(Coulomb,
      LetsTheSpringFollowTheLimit) { // at rest, the limit falls: kt xi + ct xi' = L, xi from 10 to 5 mm
   const double dt = 1e-5, t = 4e-3;

@@ -163,6 +163,21 @@ double decades(std::mt19937 &random, double lowest, double highest) {
   return std::pow(10.0, std::uniform_real_distribution<double>(lowest, highest)(random));
 }
 
+TEST(Rolling, IsLimitedAfterwardsAsWithTheSmallerNormalForce) {
+  const Vec3 spin{0.3, -0.7, 0.2}, spring{0.1, 0.4, 0.0};
+  for (const double dt : {0.0, 1e-5, 1e-3}) {
+    const RollingStep before = rolling_step(resistance(), weight, up, spin, spring, dt);
+    for (const double force : {0.0, 1.0, -5.0, 30.0, weight}) {
+      const RollingStep expected = rolling_step(resistance(), force, up, spin, spring, dt);
+      const Vec3 torque = limited_to(resistance(), force, before.torque);
+      for (std::size_t a = 0; a < 3; ++a) {
+        EXPECT_NEAR(torque[a], expected.torque[a], 1e-15) << dt << ' ' << force;
+        EXPECT_NEAR(-torque[a], expected.spring[a], 1e-15) << dt << ' ' << force;
+      }
+    }
+  }
+}
+
 TEST(Rolling, KeepsTheLimitAndCannotCreateEnergyInAnyStep) {
   std::mt19937 random(32452843);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
