@@ -75,7 +75,7 @@ double number_in(const char *option, const std::string &whole, const std::string
   return *value;
 }
 
-/// Weight of the roller per metre of width [N/m]: of drum and frame.
+/// Weight of drum and frame together, per metre of drum width [N/m].
 double weight(const CalibrationTask &task) {
   const auto mass = [&task](const char *name, double of_gravel) {
     for (const auto &[fixed, value] : task.fixed)
@@ -202,13 +202,15 @@ void CalibrationTask::check() const {
     throw UsageError(
         refusal("--target E_v2", second->value,
                 fmt::format("no less than E_v1 = {:g} Pa, since a second loading is stiffer", first->value)));
-  // The mean of the contact force over a cycle is the weight of the roller: at most the peak times the share of time in contact.
+  // Averaged over a cycle, the contact force on the drum equals the weight of the roller. It acts for the share `contact` of the time and never exceeds
+  // the peak `force`. So peak times share cannot be less than the weight.
   const CalibrationTarget *force = find_named(targets, "force"), *contact = find_named(targets, "contact");
   const double least = weight(*this) / (contact != nullptr ? contact->value : 1.0);
   if (force != nullptr && force->value > 0.0 && force->value < least) // 0: its value will be measured
-    throw UsageError(refusal("--target force", force->value,
-                             fmt::format("at least {:g} N/m, the weight of the roller{}", least,
-                                         contact != nullptr ? " over the share of time in contact" : "")));
+    throw UsageError(
+        refusal("--target force", force->value,
+                fmt::format("at least {:g} N/m, the weight of the roller{}", least,
+                            contact != nullptr ? " divided by the share of time in contact" : "")));
 }
 
 std::vector<std::pair<std::string, std::string>> settings_of(const CalibrationTask &task) {

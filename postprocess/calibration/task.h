@@ -50,7 +50,7 @@ struct CalibrationTarget {
   double tolerance;
 };
 
-/// Masses of drum and frame in inputs/bed/case.gravel, per metre of width [kg/m].
+/// The masses m2 of the drum and m3 of the frame that inputs/bed/case.gravel has, per metre of drum width [kg/m].
 constexpr double gravel_drum = 2000.0, gravel_frame = 1000.0;
 
 /// A calibration: what varies, what is wanted, and on which beds it is measured.

@@ -220,7 +220,7 @@ protected:
           << stopped.output;
       EXPECT_EQ(post::read_table(left / "bed.csv").rows(), 101u);
       const std::string start = (left / "stopped.restart").string();
-      // Each of three is refused whatever the ranks are: one is tried on one rank, two on two.
+      // A changed value of any of the three is refused, on any number of ranks. To save time omega is tried on one rank, the others on two.
       const Variables of_another_scene =
           ranks == 1 ? Variables{{"omega", "100"}} : Variables{{"Fw", "10"}, {"steps_per_cycle", "5000"}};
       for (const auto &[name, value] : of_another_scene) {

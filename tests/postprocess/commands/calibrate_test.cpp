@@ -48,7 +48,8 @@ TEST(CalibrateCommand, RefusesBadInputInOneLine) {
       {with({"--target", "force=2e4"}),
        "--target force is '20000'; allowed: at least 29430 N/m, the weight of the roller"},
       {with({"--target", "force=5e4", "--target", "contact=0.5"}),
-       "--target force is '50000'; allowed: at least 58860 N/m, the weight of the roller over the share"},
+       "--target force is '50000'; allowed: at least 58860 N/m, the weight of the roller divided by the "
+       "share"},
       {with({"--target", "force=1e4", "--set", "m2=1500"}),
        "--target force is '10000'; allowed: at least 24525 N/m, the weight of the roller"},
       {with({"--vary", "mass=1:2"}), "--vary is 'mass=1:2'; allowed: NAME=LOW:HIGH"},
