@@ -1,8 +1,10 @@
 #pragma once
-// What contacts and bonds report to the fixes that observe them: energy balance, guard, dumps. The observers
-// are fixes, so that each engine instance has its own.
+// What contacts and bonds report to the fixes that observe them: energy balance, guard, dumps, event log. The
+// observers are fixes, so that each engine instance has its own.
 
+#include "contact/laws.h"
 #include "engine.h"
+#include "physics/event_location.h"
 #include "physics/time_step.h"
 #include "physics/vec3.h"
 
@@ -67,7 +69,15 @@ ContactRecord record_of_law(const Law &law, double overlap, bool second_order) {
   return record;
 }
 
-/// Base of a fix that receives each contact and bond in the steps in which it has called observe(true).
+/// A pair of balls, touching or not, in one step. Positions and velocities of a state belong to the same time.
+struct PairStep {
+  int tag_i, tag_j; ///< IDs of the balls, the lower first
+  const AnyLaw &law;
+  physics::OverlapState before, after; ///< at the beginning and the end of the step
+};
+
+/// Base of a fix that receives each contact and bond in the steps in which it has called observe(true). A
+/// FixPairObserver receives the pairs that it selects in every step.
 class ContactObserver {
 public:
   ContactObserver() = default;
@@ -79,6 +89,9 @@ public:
   virtual void see_contact(const ContactRecord &) {}
   /// Receives a bond, once for each of its balls that this rank owns. \param partner ID of the other ball
   virtual void see_bond(int /*ball*/, int /*partner*/, const physics::LinkModes &) {}
+  /// Receives a pair at the end of each step, on one rank. FixPairObserver calls it for its own pairs;
+  /// observe() does not matter.
+  virtual void see_pair(const PairStep &) {}
 
   bool observing() const { return observing_; }
 

@@ -1,7 +1,6 @@
 #include "fixes/fix_contact_events.h"
 
 #include "support/arguments.h"
-#include "contact/pair_motion.h"
 #include "support/restart_record.h"
 
 #include <algorithm>
@@ -9,7 +8,6 @@
 #include <tuple>
 
 using namespace LAMMPS_NS;
-namespace engine = drumlin::engine;
 namespace physics = drumlin::physics;
 
 namespace {
@@ -36,14 +34,13 @@ bool append_argument(int narg, char **arg) {
 } // namespace
 
 FixContactEvents::FixContactEvents(LAMMPS *lammps, int narg, char **arg)
-    : GhostFix(lammps, narg, arg), file_(file_argument(error, narg, arg), append_argument(narg, arg)) {
+    : FixPairObserver(lammps, narg, arg), file_(file_argument(error, narg, arg), append_argument(narg, arg)) {
   scalar_flag = 1;
   extscalar = 0;
   global_freq = 1;
   nevery = 1;
   restart_global = 1;
   time_depend = 1;
-  comm_forward = 3;
 
   drumlin::Arguments in(error, command, narg - 5, arg + 5);
   while (!in.empty()) {
@@ -62,27 +59,22 @@ FixContactEvents::FixContactEvents(LAMMPS *lammps, int narg, char **arg)
   }
 }
 
-int FixContactEvents::setmask() {
-  return FixConst::PRE_EXCHANGE | FixConst::PRE_NEIGHBOR | FixConst::END_OF_STEP | FixConst::POST_RUN;
-}
+int FixContactEvents::setmask() { return FixPairObserver::setmask() | FixConst::POST_RUN; }
 
 void FixContactEvents::init() {
-  source_ = drumlin::contact_source(lmp);
-  if (source_ == nullptr) error->all(FLERR, engine::error_text(drumlin::other_pair_style(lmp, command)));
+  FixPairObserver::init();
   drumlin::OutputFile::check(file_.name(), comm, error, world, file_keyword);
 }
 
-void FixContactEvents::setup(int) {
+void FixContactEvents::setup(int vflag) {
   clock_.set_up(update->ntimestep, update->dt);
   file_.open(comm, error, world, file_keyword, "time,event,overlap,overlap_rate,force,id_i,id_j");
-  states_.clear(); // at set-up positions and velocities tell whether a contact acts
-  list_pairs();
+  FixPairObserver::setup(vflag);
 }
 
-bool FixContactEvents::is_selected(int i, int j) const {
+bool FixContactEvents::selects(int i, int j) const {
   const int *mask = atom->mask;
   if (!(mask[i] & groupbit) || !(mask[j] & groupbit)) return false;
-  if (!engine::owns_pair(lmp, i, j)) return false;
   if (groupbits_[0] != 0 && !((mask[i] & groupbits_[0]) && (mask[j] & groupbits_[1])) &&
       !((mask[i] & groupbits_[1]) && (mask[j] & groupbits_[0])))
     return false;
@@ -92,81 +84,17 @@ bool FixContactEvents::is_selected(int i, int j) const {
   return (a == types_[0] && b == types_[1]) || (a == types_[1] && b == types_[0]);
 }
 
-void FixContactEvents::list_pairs() {
-  pairs_.clear();
-  const NeighList *list = source_->contact_list();
-  for (int ii = 0; ii < list->inum; ++ii) {
-    const int i = list->ilist[ii];
-    for (int jj = 0; jj < list->numneigh[i]; ++jj) {
-      const int j = engine::neighbour_index(list->firstneigh[i][jj]);
-      if (!is_selected(i, j)) continue;
-      Pair pair{i, j, std::minmax(atom->tag[i], atom->tag[j]), source_->law(i, j), {}};
-      if (const auto known = states_.find(pair.tags); known != states_.end()) {
-        pair.state = known->second;
-      } else {
-        const drumlin::PairMotion now = drumlin::pair_motion(*atom, i, j);
-        pair.state = {now.overlap, now.rate};
-        // A pair that is new in the list during a run. One step earlier the gap between the balls was about
-        // the neighbour skin.
-        if (!update->setupflag) pair.state.overlap -= update->dt * now.rate;
-      }
-      pairs_.push_back(pair);
-    }
-  }
-  states_.clear();
-  pairs_outdated_ = false;
-}
-
-void FixContactEvents::pre_exchange() {
-  // Balls change ranks after this: each rank gets the states of all pairs.
-  struct Entry {
-    int tag_i, tag_j;
-    physics::OverlapState state;
-  };
-  std::vector<Entry> mine;
-  for (const Pair &pair : pairs_)
-    mine.push_back({pair.tags.first, pair.tags.second, pair.state});
-  std::vector<int> bytes(static_cast<std::size_t>(comm->nprocs));
-  std::vector<int> offsets(bytes.size());
-  int my_bytes = static_cast<int>(mine.size() * sizeof(Entry));
-  MPI_Allgather(&my_bytes, 1, MPI_INT, bytes.data(), 1, MPI_INT, world);
-  int total = 0;
-  for (std::size_t rank = 0; rank < bytes.size(); total += bytes[rank++])
-    offsets[rank] = total;
-  std::vector<Entry> all(static_cast<std::size_t>(total) / sizeof(Entry));
-  MPI_Allgatherv(mine.data(), my_bytes, MPI_BYTE, all.data(), bytes.data(), offsets.data(), MPI_BYTE, world);
-  states_.clear();
-  for (const Entry &entry : all)
-    states_[{entry.tag_i, entry.tag_j}] = entry.state;
-}
-
-void FixContactEvents::pre_neighbor() { pairs_outdated_ = true; }
-
-void FixContactEvents::refresh_ghost_velocities() {
-  if (comm->nprocs > 1 || atom->nghost > 0) engine::forward_comm(comm, this);
-}
-
-void FixContactEvents::pack_ghosts(int n, const int *list, double *buf) {
-  drumlin::pack_velocities(*atom, n, list, buf);
-}
-void FixContactEvents::unpack_ghosts(int n, int first, double *buf) {
-  drumlin::unpack_velocities(*atom, n, first, buf);
+void FixContactEvents::see_pair(const drumlin::PairStep &pair) {
+  const auto event = std::visit(
+      [&](const auto &law) { return physics::locate_transition(law, update->dt, pair.before, pair.after); },
+      pair.law);
+  if (event)
+    pending_.push_back({clock_.time(update->ntimestep - 1) + event->since, event->make ? 1 : 0,
+                        event->overlap, event->rate, event->force, pair.tag_i, pair.tag_j});
 }
 
 void FixContactEvents::end_of_step() {
-  refresh_ghost_velocities();
-  if (pairs_outdated_) list_pairs();
-  const double dt = update->dt;
-  for (Pair &pair : pairs_) {
-    const drumlin::PairMotion motion = drumlin::pair_motion(*atom, pair.i, pair.j);
-    const physics::OverlapState now{motion.overlap, motion.rate};
-    const auto event = std::visit(
-        [&](const auto &law) { return physics::locate_transition(law, dt, pair.state, now); }, pair.law);
-    if (event)
-      pending_.push_back({clock_.time(update->ntimestep - 1) + event->since, event->make ? 1 : 0,
-                          event->overlap, event->rate, event->force, pair.tags.first, pair.tags.second});
-    pair.state = now;
-  }
+  FixPairObserver::end_of_step();
   if (update->ntimestep % write_interval == 0) write_out();
 }
 

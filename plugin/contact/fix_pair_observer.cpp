@@ -1,0 +1,92 @@
+#include "contact/fix_pair_observer.h"
+
+#include "contact/pair_motion.h"
+
+#include <algorithm>
+
+using namespace LAMMPS_NS;
+namespace engine = drumlin::engine;
+namespace physics = drumlin::physics;
+
+int FixPairObserver::setmask() {
+  return FixConst::PRE_EXCHANGE | FixConst::PRE_NEIGHBOR | FixConst::END_OF_STEP;
+}
+
+void FixPairObserver::init() {
+  source_ = drumlin::contact_source(lmp);
+  if (source_ == nullptr)
+    error->all(FLERR, engine::error_text(drumlin::other_pair_style(lmp, std::string("fix ") + style)));
+}
+
+void FixPairObserver::setup(int) {
+  states_.clear(); // at set-up positions and velocities tell whether a contact acts
+  list_pairs();
+}
+
+void FixPairObserver::list_pairs() {
+  pairs_.clear();
+  const NeighList *list = source_->contact_list();
+  for (int ii = 0; ii < list->inum; ++ii) {
+    const int i = list->ilist[ii];
+    for (int jj = 0; jj < list->numneigh[i]; ++jj) {
+      const int j = engine::neighbour_index(list->firstneigh[i][jj]);
+      if (!engine::owns_pair(lmp, i, j) || !selects(i, j)) continue;
+      Pair pair{i, j, std::minmax(atom->tag[i], atom->tag[j]), source_->law(i, j), {}};
+      if (const auto known = states_.find(pair.tags); known != states_.end()) {
+        pair.state = known->second;
+      } else {
+        const drumlin::PairMotion now = drumlin::pair_motion(*atom, i, j);
+        pair.state = {now.overlap, now.rate};
+        // A pair that is new in the list during a run. One step earlier the gap between the balls was about
+        // the neighbour skin.
+        if (!update->setupflag) pair.state.overlap -= update->dt * now.rate;
+      }
+      pairs_.push_back(pair);
+    }
+  }
+  states_.clear();
+  pairs_outdated_ = false;
+}
+
+void FixPairObserver::pre_exchange() {
+  // Balls change ranks after this: each rank gets the states of all pairs.
+  struct Entry {
+    int tag_i, tag_j;
+    physics::OverlapState state;
+  };
+  std::vector<Entry> mine;
+  for (const Pair &pair : pairs_)
+    mine.push_back({pair.tags.first, pair.tags.second, pair.state});
+  std::vector<int> bytes(static_cast<std::size_t>(comm->nprocs));
+  std::vector<int> offsets(bytes.size());
+  int my_bytes = static_cast<int>(mine.size() * sizeof(Entry));
+  MPI_Allgather(&my_bytes, 1, MPI_INT, bytes.data(), 1, MPI_INT, world);
+  int total = 0;
+  for (std::size_t rank = 0; rank < bytes.size(); total += bytes[rank++])
+    offsets[rank] = total;
+  std::vector<Entry> all(static_cast<std::size_t>(total) / sizeof(Entry));
+  MPI_Allgatherv(mine.data(), my_bytes, MPI_BYTE, all.data(), bytes.data(), offsets.data(), MPI_BYTE, world);
+  states_.clear();
+  for (const Entry &entry : all)
+    states_[{entry.tag_i, entry.tag_j}] = entry.state;
+}
+
+void FixPairObserver::pre_neighbor() { pairs_outdated_ = true; }
+
+void FixPairObserver::pack_ghosts(int n, const int *list, double *buf) {
+  drumlin::pack_velocities(*atom, n, list, buf);
+}
+void FixPairObserver::unpack_ghosts(int n, int first, double *buf) {
+  drumlin::unpack_velocities(*atom, n, first, buf);
+}
+
+void FixPairObserver::end_of_step() {
+  if (comm->nprocs > 1 || atom->nghost > 0) engine::forward_comm(comm, this);
+  if (pairs_outdated_) list_pairs();
+  for (Pair &pair : pairs_) {
+    const drumlin::PairMotion motion = drumlin::pair_motion(*atom, pair.i, pair.j);
+    const physics::OverlapState now{motion.overlap, motion.rate};
+    see_pair({pair.tags.first, pair.tags.second, pair.law, pair.state, now});
+    pair.state = now;
+  }
+}
