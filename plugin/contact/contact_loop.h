@@ -225,7 +225,7 @@ private:
                            : drumlin::end_contact(law, *stepping_, now, block_.force_before[n]);
       return;
     }
-    physics::ContactState state{block_.force_before[n], block_.in_contact[n] != 0.0, {}};
+    physics::ContactState state{block_.force_before[n], block_.in_contact[n] != 0.0};
     double &stored_force = contact.history[places_.force];
     block_.push[n] = exert_rare(law, *stepping_, now, state, stored_force);
     block_.force[n] = state.force;

@@ -134,7 +134,7 @@ template <class Law>
                                  double stored_force) {
   // In this order the result is negative even if the overlap is not a number.
   contact.overlap = std::min(-std::numeric_limits<double>::min(), contact.overlap);
-  physics::ContactState state{stored_force, true, {}};
+  physics::ContactState state{stored_force, true};
   return exert_rare(law, stepping, contact, state, stored_force);
 }
 

@@ -96,7 +96,7 @@ inline ContactForces exert(const ContactSettings &settings,
     if (hold_contact(law, *stepping, n.i, n.j, step_motion(*stepping, n), n.m_eff, state))
       push = state.force;
     else {
-      physics::ContactState rare{state.force, state.in_contact, {}};
+      physics::ContactState rare{state.force, state.in_contact};
       push = exert_rare(law, *stepping, n, rare, stored_force);
       state.force = rare.force;
       out.coupled = stepping->coupled_at(&stored_force);

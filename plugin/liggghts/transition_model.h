@@ -93,7 +93,7 @@ public:
     if (stepping_) neighbor->register_contact_dist_factor(contact_distance_factor);
   }
 
-  double stressStrainExponent() { return Law::is_linear ? 1.0 : 1.5; }
+  double stressStrainExponent() { return Law::exponent; }
 
   inline void surfacesIntersect(SurfacesIntersectData &sidata, ForceData &i_forces, ForceData &j_forces) {
     if (sidata.contact_flags) *sidata.contact_flags |= LIGGGHTS::ContactModels::CONTACT_NORMAL_MODEL;
@@ -195,7 +195,7 @@ private:
   inline void second_order(SurfacesIntersectData &sidata, const Law &law, double share, ForceData &i_forces,
                            ForceData &j_forces) {
     double *const stored = sidata.contact_history + state_offset_; // force, N; 1 if in contact, else 0
-    physics::ContactState state{stored[0], stored[1] != 0.0, {}};
+    physics::ContactState state{stored[0], stored[1] != 0.0};
     if (sidata.computeflag && hold_contact(law, *stepping_, sidata.i, sidata.is_wall ? -1 : sidata.j,
                                            motion_of(sidata), sidata.meff, state)) {
       stored[0] = sidata.Fn = state.force;
@@ -218,7 +218,7 @@ private:
       return;
     }
     double *const stored = sidata.contact_history + state_offset_;
-    physics::ContactState state{stored[0], stored[1] != 0.0, {}};
+    physics::ContactState state{stored[0], stored[1] != 0.0};
     const auto push = [&](double force) { add(force, sidata.en, sidata, i_forces, j_forces); };
     exert_contact(law, *stepping_,
                   {sidata.i,
@@ -274,7 +274,7 @@ private:
     const double mi = clumps_.mass_of(*atom, scdata.i, atom->rmass[scdata.i]);
     const double m_eff = scdata.is_wall ? mi : effective_mass(scdata.i, scdata.j);
     double *const stored = scdata.contact_history + state_offset_;
-    physics::ContactState state{stored[0], true, {}};
+    physics::ContactState state{stored[0], true};
     const auto push = [&](double force) {
       if (force == 0.0) return;
       add(force, normal, scdata, i_forces, j_forces);

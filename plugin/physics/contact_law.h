@@ -37,8 +37,8 @@ struct ContactPower {
 ///   secant(d)     E/d, N/m
 ///   stored(d)     energy in the spring, J, the integral of E
 /// The second-order scheme (contact_step.h) also needs spring_change(), begins_with_jump and first_weight(),
-/// the location of events is_linear: see LinearLaw below, and hertz_contact.h for a law whose force begins
-/// with 0.
+/// the location of events is_linear, LIGGGHTS exponent: see LinearLaw below, and hertz_contact.h for a law
+/// whose force begins with 0.
 template <class Law>
 class ContactLaw {
 public:
@@ -116,6 +116,8 @@ public:
 
   /// Whether spring and dashpot are linear in overlap and rate.
   static constexpr bool is_linear = true;
+  /// Power of the overlap in spring().
+  static constexpr double exponent = 1.0;
   /// Whether the force jumps at the beginning of a contact: here from 0 to c d'.
   static constexpr bool begins_with_jump = true;
   /// Weight of a contact's first force in the closing half kick of the step in which the contact begins. In

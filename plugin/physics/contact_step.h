@@ -10,17 +10,16 @@
 
 #include "physics/contact_law.h"
 #include "physics/stepping.h"
-#include "physics/vec3.h"
 
 #include <algorithm>
 
 namespace drumlin::physics {
 
-/// The history of a contact: values that one step stores for the next.
+/// The history of a contact's normal force: values that one step stores for the next. (The springs of friction and
+/// rolling resistance are arguments of friction_step() and rolling_step().)
 struct ContactState {
   double force = 0.0;      ///< normal force at the end of the step, N
   bool in_contact = false; ///< overlap >= 0 then (> 0 under `stock`); under B the force may still be 0
-  Vec3 spring{};           ///< tangential spring, m: see friction_law.h
 };
 
 /// Masses and damping of the two balls, which advance() needs in addition to their motion.

@@ -12,12 +12,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <regex>
 #include <sstream>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace drumlin::test {
@@ -157,6 +159,34 @@ TEST_P(RollingHeap, IsTheSameInTheLoopsOfEngineAndPlugin) {
   }
 }
 
+/// A row of contacts.txt: IDs of the balls (0: a wall), force on the first, N, and normal.
+using ContactRow = std::array<double, 8>;
+
+/// N, normal force.
+double push_of(const ContactRow &row) { return row[2] * row[5] + row[3] * row[6] + row[4] * row[7]; }
+/// N, length of the tangential force.
+double friction_of(const ContactRow &row) {
+  const double push = push_of(row);
+  return std::hypot(row[2] - push * row[5], row[3] - push * row[6], row[4] - push * row[7]);
+}
+
+/// The rows of each time step.
+std::map<long, std::vector<ContactRow>> rows_of_contacts(const std::filesystem::path &dump) {
+  std::ifstream file(dump);
+  std::map<long, std::vector<ContactRow>> rows;
+  long step = 0;
+  for (std::string line; std::getline(file, line);) {
+    if (line == "ITEM: TIMESTEP" && std::getline(file, line)) step = std::stol(line);
+    std::istringstream words(line);
+    ContactRow row{};
+    std::size_t numbers = 0;
+    while (numbers < row.size() && words >> row[numbers])
+      ++numbers;
+    if (numbers == row.size()) rows[step].push_back(row); // else a line of the dump's header
+  }
+  return rows;
+}
+
 /// With heavy damping, `stepping second` computes friction first and the final normal forces of contacts that share a ball afterwards.
 /// Friction must not exceed mu times these final forces Fn, and the torque of a ball not the sum over its contacts of friction times its radius and
 /// of mu_r R Fn, the limit of rolling resistance with the effective radius R.
@@ -177,31 +207,23 @@ TEST_P(RollingHeap, FrictionAndRollingKeepTheirLimitsAtAnyDamping) {
                                         {"contacts_every", "20"}},
                                        folder.path());
       ASSERT_TRUE(outcome.ok()) << outcome.output;
-      std::ifstream file(folder / "contacts.txt");
       int contacts = 0, at_limit = 0;
-      long step = 0;
       std::map<long, std::map<long, double>>
           largest; // torque of each ball that its contacts allow, N m, by step
-      for (std::string line; std::getline(file, line);) {
-        if (line == "ITEM: TIMESTEP" && std::getline(file, line)) step = std::stol(line);
-        std::istringstream words(line);
-        std::array<double, 8> row{};
-        std::size_t numbers = 0;
-        while (numbers < row.size() && words >> row[numbers])
-          ++numbers;
-        if (numbers < row.size()) continue; // a line of the dump's header
-        const double push = row[2] * row[5] + row[3] * row[6] + row[4] * row[7];
-        const double rub = std::hypot(row[2] - push * row[5], row[3] - push * row[6], row[4] - push * row[7]);
-        // N: the file has nine decimal places of forces, N, and of normals.
-        const double digits = 1e-8 * (1.0 + std::hypot(row[2], row[3], row[4]));
-        EXPECT_LE(rub, mu * std::max(0.0, push) + digits) << deck << ' ' << damping << ": " << line;
-        const long i = std::lround(row[0]), j = std::lround(row[1]); // j = 0: a wall
-        const double reduced = j == 0 ? radius(i) : radius(i) * radius(j) / (radius(i) + radius(j));
-        for (const long ball : {i, j})
-          largest[step][ball] += radius(ball) * rub + mu_r * reduced * std::fabs(push);
-        ++contacts;
-        at_limit += rub > 0.999 * mu * push ? 1 : 0;
-      }
+      for (const auto &[step, rows] : rows_of_contacts(folder / "contacts.txt"))
+        for (const ContactRow &row : rows) {
+          const double push = push_of(row), rub = friction_of(row);
+          // N: the file has nine decimal places of forces, N, and of normals.
+          const double digits = 1e-8 * (1.0 + std::hypot(row[2], row[3], row[4]));
+          EXPECT_LE(rub, mu * std::max(0.0, push) + digits)
+              << deck << ' ' << damping << ", step " << step << ", balls " << row[0] << ' ' << row[1];
+          const long i = std::lround(row[0]), j = std::lround(row[1]); // j = 0: a wall
+          const double reduced = j == 0 ? radius(i) : radius(i) * radius(j) / (radius(i) + radius(j));
+          for (const long ball : {i, j})
+            largest[step][ball] += radius(ball) * rub + mu_r * reduced * std::fabs(push);
+          ++contacts;
+          at_limit += rub > 0.999 * mu * push ? 1 : 0;
+        }
       EXPECT_GT(contacts, 1000) << deck << ' ' << damping;
       EXPECT_GT(at_limit, contacts / 100) << deck << ' ' << damping;
 
@@ -215,6 +237,38 @@ TEST_P(RollingHeap, FrictionAndRollingKeepTheirLimitsAtAnyDamping) {
         }
       EXPECT_GT(turned, 100) << deck << ' ' << damping;
     }
+  }
+}
+
+/// Friction of a heavily damped contact is limited a second time, when its final normal force is known. Its spring must be stored as this
+/// leaves it: without a tangential dashpot the force of friction is kt times the spring, so that the energy of all springs is the sum of
+/// Ft^2/(2 kt) over the contacts.
+TEST_P(RollingHeap, TheSpringOfFrictionFollowsTheLimit) {
+  constexpr double kt = 2.0 / 7.0 * 1e5; // N/m, of heap.scene
+  const auto &[dimension, stepping] = GetParam();
+  for (const auto &[deck, undamped_friction] :
+       {std::pair("heap.in", "fix ct all property/global gammat_abs peratomtypepair 3 0 0 0 0 0 0 0 0 0"),
+        std::pair("heap.lammps", "pair_coeff * * 1e5 20 0.4 NULL 0")}) {
+    if (std::string(deck) == "heap.lammps" && !post::has_lammps()) continue;
+    const Scratch folder;
+    const Outcome outcome = run_deck(test_deck(deck),
+                                     {{"dimension", dimension},
+                                      {"stepping", stepping},
+                                      {"contact_D", "20"},
+                                      {"rolling_history", "0"},
+                                      {"line_of_law", undamped_friction},
+                                      {"observed", "1"},
+                                      {"steps", "4000"},
+                                      {"contacts_every", "4000"}},
+                                     folder.path());
+    ASSERT_TRUE(outcome.ok()) << outcome.output;
+    double stored = 0.0; // J, of the last step
+    const std::map<long, std::vector<ContactRow>> steps = rows_of_contacts(folder / "contacts.txt");
+    for (const ContactRow &row : steps.at(4000))
+      stored += friction_of(row) * friction_of(row) / (2.0 * kt);
+    const double energy = post::read_table(folder / "energies.csv").numbers("tangential").at(0);
+    EXPECT_GT(energy, 0.0) << deck;
+    EXPECT_NEAR(stored, energy, 1e-6 * energy) << deck;
   }
 }
 

@@ -97,7 +97,7 @@ void expect_normal_force(const ContactBlock &b, int n, const Contact &parameters
                   ? slip_velocity_of_step(b.velocity[n], b.separation[n], normal, turning, dt)
                   : slip_velocity(b.velocity[n], normal, turning),
               "slip", n);
-  ContactState state{b.force_before[n], true, {}};
+  ContactState state{b.force_before[n], true};
   if constexpr (stepped) {
     const StepMotion motion{overlap, rate_half, -dot(b.velocity_before[n], normal), dt};
     const StepContext context{b.m_eff[n], b.damping_over_mass[n], false};

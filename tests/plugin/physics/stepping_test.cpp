@@ -145,7 +145,7 @@ TEST(SecondOrderStep, ForceNeverPullsUnderB) {
   for (const double D : {0.0, 0.5, 2.0, 50.0})
     for (const double rate : {-5.0, -0.1, 0.0, 0.1, 5.0}) {
       const double dt = 1e-4;
-      ContactState state{1e4, true, {}};
+      ContactState state{1e4, true};
       const StepResult f = step_of({k, coefficient(D), Transition::B}, {1e-3, rate, rate, dt}, state);
       EXPECT_GE(f.force, 0.0);
       EXPECT_GE(f.kick, 0.0);
@@ -179,7 +179,7 @@ TEST(SecondOrderStep, SetUpTakesTheVelocitiesAsTheyAre) {
 // Under B a contact may exist without a force: in its next step it continues and is not made again.
 TEST(SecondOrderStep, ContactWithoutForceContinues) {
   const double dt = 1e-4, c = coefficient(0.5);
-  ContactState state{0.0, true, {}};
+  ContactState state{0.0, true};
   EXPECT_EQ(step_of({k, c, Transition::B}, {1e-4, -5.0, -5.0, dt}, state).force, 0.0);
   EXPECT_TRUE(state.in_contact);
   const double rate = 1.0, overlap = 0.5 * dt * rate; // by the motion alone it came from apart
@@ -192,7 +192,7 @@ TEST(SecondOrderStep, ContactThatHadAForceIsNotMadeAgain) {
   const double dt = 1e-4, rate = 0.1, c = coefficient(0.5);
   const double overlap = 0.9 * dt * rate; // by the motion there was a gap of 0.1 dt rate
   for (const Transition transition : {Transition::A, Transition::B}) {
-    ContactState state{c * rate, true, {}};
+    ContactState state{c * rate, true};
     const StepResult f = step_of({k, c, transition}, {overlap, rate, rate, dt}, state);
     EXPECT_NEAR(f.force, k * overlap + c * rate, 1e-2 * c * rate); // the implicit step slows it a little
     EXPECT_EQ(f.kick, f.force);
@@ -206,7 +206,7 @@ TEST(SecondOrderStep, ContactThatHadAForceIsNotMadeAgain) {
 TEST(SecondOrderStep, ContactThatIsOlderThanItsStateContinues) {
   const double dt = 1e-5, rate = 0.1, overlap = 1e-3, c = coefficient(0.5);
   const LinearLaw law(k, c, Transition::B);
-  ContactState known{law.force(overlap - dt * rate, rate), true, {}};
+  ContactState known{law.force(overlap - dt * rate, rate), true};
   const StepResult f = first_step(law, {overlap, rate, rate, dt});
   EXPECT_DOUBLE_EQ(f.force, step_of(law, {overlap, rate, rate, dt}, known).force);
   EXPECT_EQ(f.shift, 0.0);
@@ -215,7 +215,7 @@ TEST(SecondOrderStep, ContactThatIsOlderThanItsStateContinues) {
 TEST(SecondOrderStep, HeavyDashpotsAreLeftForTheSecondPass) {
   const double dt = 1e-4, c = coefficient(2.0), rate = 0.1, overlap = 1e-3;
   const LinearLaw law(k, c, Transition::B);
-  ContactState state{2e5, true, {}};
+  ContactState state{2e5, true};
   const StepResult f = step_of(law, {overlap, rate, rate, dt}, state, 1.0 / dt);
   ASSERT_TRUE(f.coupled);
   EXPECT_DOUBLE_EQ(f.kick, 2e5 + k * dt * rate); // the force that changes with the positions
@@ -256,7 +256,7 @@ TEST(SecondOrderStep, BreakOfAEndsTheTensileForceWithinTheStep) {
   for (const double share : {0.01, 0.5, 0.9}) {
     const double v = -1.0; // the overlap shrinks
     const StepMotion motion{(1.0 - share) * dt * v, v, v, dt};
-    ContactState a{c * v, true, {}}, b{0.0, true, {}}, none;
+    ContactState a{c * v, true}, b{0.0, true}, none;
     const StepResult f = step_of({k, c, Transition::A}, motion, a);
     EXPECT_EQ(f.force, 0.0);
     EXPECT_NEAR(0.5 * dt * (c * v + f.kick), share * dt * c * v, 1e-4 * dt * c); // with the opening half kick

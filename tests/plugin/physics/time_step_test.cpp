@@ -302,7 +302,7 @@ struct Packing {
         const LinearLaw law(p.k, p.c, Transition::A);
         const StepMotion motion{depth + overlap(u, 0), overlap(u, 3) / dt, overlap(before, 3) / dt, dt};
         double &normal = u(of(l, force)); // forces as dt^2 times the force, less that at rest
-        ContactState state{p.k * depth + normal / (dt * dt), true, {}};
+        ContactState state{p.k * depth + normal / (dt * dt), true};
         StepResult result = second ? advance(law, motion, state, {1.0 / own_inverse, all, false})
                                    : advance_stock(law, motion, state);
         if (second && all_coupled) { // whatever needs_coupling() says
