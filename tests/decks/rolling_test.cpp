@@ -240,6 +240,45 @@ TEST_P(RollingHeap, FrictionAndRollingKeepTheirLimitsAtAnyDamping) {
   }
 }
 
+/// The frames of a heap, by the number that a ball has in heap.scene: its ID depends on the number of ranks.
+std::vector<Frame> heap_by_number(const char *deck, const std::string &dimension, const char *newton,
+                                  int ranks) {
+  const Scratch folder;
+  const Outcome outcome = run_deck(
+      test_deck(deck), {{"dimension", dimension}, {"contact_D", "20"}, {"newton", newton}, {"steps", "2400"}},
+      folder.path(), ranks);
+  EXPECT_TRUE(outcome.ok()) << outcome.output;
+  std::vector<Frame> frames = read_dump(folder / "balls.txt");
+  const std::map<long, Ball> start = frames.at(0).balls;
+  const auto number = [&start](long id) {
+    const auto &x = start.at(id).x;
+    return 1 + std::lround(std::floor(10 * x[0]) + 5 * std::floor(10 * x[1]) +
+                           30 * std::floor(10 * (x[2] + 0.1)));
+  };
+  for (Frame &frame : frames) {
+    std::map<long, Ball> balls;
+    for (const auto &[id, ball] : frame.balls)
+      balls[number(id)] = ball;
+    frame.balls = balls;
+  }
+  return frames;
+}
+
+/// Heavily damped contacts of balls on different ranks are solved for together, and their friction and rolling resistance limited, as on one.
+TEST(HeapOnSeveralRanks, IsThatOnOne) {
+  for (const char *dimension : {"2", "3"})
+    for (const auto &[deck, newton] :
+         {std::pair("heap.in", "off"), std::pair("heap.lammps", "off"), std::pair("heap.lammps", "on")}) {
+      if (std::string(deck) == "heap.lammps" && !post::has_lammps()) continue;
+      const std::vector<Frame> one = heap_by_number(deck, dimension, newton, 1);
+      ASSERT_EQ(one.size(), 9u);
+      ASSERT_EQ(one.back().balls.size(), 60u);
+      for (const int ranks : {2, 4})
+        EXPECT_LT(distance(heap_by_number(deck, dimension, newton, ranks), one), 1e-10)
+            << dimension << "D, " << deck << ", newton " << newton << ", " << ranks << " ranks";
+    }
+}
+
 /// Friction of a heavily damped contact is limited a second time, when its final normal force is known. Its spring must be stored as this
 /// leaves it: without a tangential dashpot the force of friction is kt times the spring, so that the energy of all springs is the sum of
 /// Ft^2/(2 kt) over the contacts.
