@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <random>
 #include <string>
 #include <vector>
@@ -61,20 +60,25 @@ void expect_same_as_direct(const ChainParameters &p, int cycles, double toleranc
   expect_same_events(exact.events, direct.events, p.period(), largest(direct.history.F_contact), tolerance);
 }
 
-constexpr double two_milliseconds = 2e-3;
+/// Counts the pieces of a motion.
+class PieceCount : public MotionObserver {
+public:
+  void piece(const MotionPiece &, const PhaseDynamics &) override { ++count_; }
+  void change(const PhaseChange &) override {}
+  int count() const { return count_; }
 
-// Processor time of 200 cycles [s], the least of up to 20 attempts, which other programs may delay.
-double time_of_200_cycles(const ChainParameters &p) {
-  double least = 1.0;
-  for (int attempt = 0; attempt < 20 && least >= two_milliseconds; ++attempt) {
-    const std::clock_t begin = std::clock();
-    const ChainSolver solver(p);
-    ChainMotion motion = solver.start();
-    for (int cycle = 0; cycle < 200; ++cycle)
-      solver.finish_cycle(motion);
-    least = std::min(least, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
-  }
-  return least;
+private:
+  int count_ = 0;
+};
+
+/// Number of pieces of 200 cycles, to which the computing time is proportional.
+int pieces_of_200_cycles(const ChainParameters &p) {
+  const ChainSolver solver(p);
+  ChainMotion motion = solver.start();
+  PieceCount pieces;
+  for (int cycle = 0; cycle < 200; ++cycle)
+    solver.finish_cycle(motion, &pieces);
+  return pieces.count();
 }
 
 class EveryCase : public testing::TestWithParam<std::tuple<const char *, Transition>> {
@@ -115,27 +119,30 @@ TEST_P(EveryDamping, AgreesWithTheDirectSolver) {
 INSTANTIATE_TEST_SUITE_P(ChainSolver, EveryDamping,
                          testing::Values(0.0, 0.1, 0.99999999, 1.0, 1.00000001, 2.0, 10.0, 100.0, 1e3, 1e4));
 
-// The paper's cases, the rollers of manufacturers, and case II on soil up to more than twice as stiff as the
-// stiffest of maps and reports (200 MN/m), at any damping, with a force that lifts the drum off or does not.
-TEST(ChainSolver, TwoHundredCyclesTakeLessThanTwoMilliseconds) {
-#if !defined(__OPTIMIZE__) || defined(__SANITIZE_ADDRESS__)
-  GTEST_SKIP() << "timed in optimised builds";
-#endif
+// The paper's cases, the rollers of manufacturers, and case II on soil up to more than twice as stiff as the stiffest of maps and reports
+// (200 MN/m), at any damping, with a force that lifts the drum off or does not. A piece takes 0.3 microseconds, so that these take some 2 ms.
+TEST(ChainSolver, TwoHundredCyclesTakeAtMost6500Pieces) {
+  constexpr int most = 6500;
   for (const Transition transition : {Transition::A, Transition::B}) {
     for (const char *name : chain_cases)
-      EXPECT_LT(time_of_200_cycles(named_chain(name, transition).parameters), two_milliseconds)
+      EXPECT_LE(pieces_of_200_cycles(named_chain(name, transition).parameters), most)
           << name << ", " << transition_name(transition);
     ChainParameters p = table1_case("II", transition);
     const double weight = (p.m2 + p.m3) * p.g;
+    int largest = 0;
     for (const double D : {0.0, 0.1, 0.2, 0.99999999, 1.0, 1.00000001, 2.0, 10.0, 100.0, 1e3, 1e4})
       for (const double k : {1e6, 1e7, 1e8, 5e8})
         for (const double force : {0.5, 3.0}) {
           p.D = D;
           p.k = k;
           p.Fw = force * weight;
-          EXPECT_LT(time_of_200_cycles(p), two_milliseconds)
-              << "D = " << D << ", k = " << k << ", Fw = " << p.Fw << ", " << transition_name(transition);
+          const int pieces = pieces_of_200_cycles(p);
+          largest = std::max(largest, pieces);
+          EXPECT_LE(pieces, most) << "D = " << D << ", k = " << k << ", Fw = " << p.Fw << ", "
+                                  << transition_name(transition);
         }
+    RecordProperty(std::string("largest_") + transition_name(transition), largest);
+    EXPECT_GT(largest, most / 10);
   }
 }
 
