@@ -1,6 +1,6 @@
 #pragma once
-// What contacts and bonds report to the fixes that observe them: energy balance, guard, dumps, event log. The
-// observers are fixes, so that each engine instance has its own.
+// The interface by which fixes observe contacts and bonds: energy balance, guard, dumps and event log use it.
+// Observers are fixes, so that each engine instance has its own.
 
 #include "contact/laws.h"
 #include "engine.h"
@@ -69,15 +69,17 @@ ContactRecord record_of_law(const Law &law, double overlap, bool second_order) {
   return record;
 }
 
-/// A pair of balls, touching or not, in one step. Positions and velocities of a state belong to the same time.
+/// Two balls, which may touch or not, at the beginning and at the end of a time step. The rates belong to the
+/// same times as the overlaps.
 struct PairStep {
   int tag_i, tag_j; ///< IDs of the balls, the lower first
   const AnyLaw &law;
   physics::OverlapState before, after; ///< at the beginning and the end of the step
 };
 
-/// Base of a fix that receives each contact and bond in the steps in which it has called observe(true). A
-/// FixPairObserver receives the pairs that it selects in every step.
+/// Base class of a fix that observes contacts. Between observe(true) and observe(false) it receives each
+/// contact and each bond of every time step. FixPairObserver is the base class of fixes that follow chosen
+/// pairs of balls.
 class ContactObserver {
 public:
   ContactObserver() = default;
@@ -89,8 +91,8 @@ public:
   virtual void see_contact(const ContactRecord &) {}
   /// Receives a bond, once for each of its balls that this rank owns. \param partner ID of the other ball
   virtual void see_bond(int /*ball*/, int /*partner*/, const physics::LinkModes &) {}
-  /// Receives a pair at the end of each step, on one rank. FixPairObserver calls it for its own pairs;
-  /// observe() does not matter.
+  /// Receives a pair of balls at the end of a time step. Only FixPairObserver calls it, in every step,
+  /// whether observe(true) has been called or not.
   virtual void see_pair(const PairStep &) {}
 
   bool observing() const { return observing_; }

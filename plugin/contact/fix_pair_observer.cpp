@@ -19,7 +19,7 @@ void FixPairObserver::init() {
 }
 
 void FixPairObserver::setup(int) {
-  states_.clear(); // at set-up positions and velocities tell whether a contact acts
+  states_.clear(); // a run begins with the present positions and velocities
   list_pairs();
 }
 
@@ -37,8 +37,8 @@ void FixPairObserver::list_pairs() {
       } else {
         const drumlin::PairMotion now = drumlin::pair_motion(*atom, i, j);
         pair.state = {now.overlap, now.rate};
-        // A pair that is new in the list during a run. One step earlier the gap between the balls was about
-        // the neighbour skin.
+        // The balls have become neighbours during the run. One step earlier the gap between them was about as
+        // large as the neighbour skin.
         if (!update->setupflag) pair.state.overlap -= update->dt * now.rate;
       }
       pairs_.push_back(pair);
@@ -49,7 +49,7 @@ void FixPairObserver::list_pairs() {
 }
 
 void FixPairObserver::pre_exchange() {
-  // Balls change ranks after this: each rank gets the states of all pairs.
+  // The balls may move to other ranks now. Each rank therefore gets the overlaps and rates of all pairs.
   struct Entry {
     int tag_i, tag_j;
     physics::OverlapState state;

@@ -1,6 +1,6 @@
 #pragma once
-// Base of fixes that observe chosen pairs of balls, touching or not, at the beginning and the end of each time
-// step.
+// Base class of fixes that follow chosen pairs of balls from time step to time step, whether they touch or
+// not.
 
 #include "contact/contact_observer.h"
 #include "contact/contact_source.h"
@@ -12,37 +12,35 @@
 
 namespace LAMMPS_NS {
 
-/// A contact observer that receives pairs by see_pair(). It keeps their overlaps and rates from the end of one
-/// step to the end of the next, also while balls change ranks and the neighbour list is built anew.
+/// Stores the overlap of each chosen pair and its rate at the end of a time step, and passes them to
+/// see_pair() at the end of the next one, together with the new values. The values are kept when balls move
+/// to other ranks and when the neighbour list is built again.
 ///
-/// see_contact() is called for touching balls only, while forces are computed; the velocities of the balls are
-/// then those of half a step earlier. To locate a make or break within a step, the states before and after it
-/// are needed, of which one has no contact, with the velocities that belong to the positions. These are known
-/// at the end of a step.
+/// see_contact() cannot replace this. It receives touching balls only, and during the computation of forces,
+/// when velocity Verlet has the velocities of half a step earlier. The time at which a contact begins or ends
+/// follows from the overlaps and rates before and after it. In one of these two states the balls often do
+/// not touch.
 ///
-/// see_pair() costs only the pairs that selects() chooses; see_contact() is called for every contact of every
-/// ball. In inputs/study/in.cost_bed with 2500 discs, fix contact/energy, which receives all contacts, makes a
-/// time step 1.8 times as long in LIGGGHTS and 1.6 times as long in LAMMPS; fix contact/events makes it less
-/// than 2 % longer if it records the contacts of one ball.
+/// The computing time grows with the number of chosen pairs, not with the number of contacts in the bed.
 class FixPairObserver : public drumlin::engine::GhostFix, public drumlin::ContactObserver {
 public:
   FixPairObserver(LAMMPS *lammps, int narg, char **arg) : GhostFix(lammps, narg, arg) { comm_forward = 3; }
 
-  /// The functions of a fix that this class needs; those of the derived class are added to them.
+  /// When the engine calls this class. A derived class adds what it needs itself.
   int setmask() override;
-  /// Ends the run with an error if the deck has a pair style without a contact law of the plugin.
+  /// Stops the engine with an error message if the pair style is not one of this plugin.
   void init() override;
   void setup(int) override;
   void pre_exchange() override;
   void pre_neighbor() override;
-  /// Calls see_pair() for each pair on this rank.
+  /// Passes the chosen pairs to see_pair(). Of several ranks one passes a pair.
   void end_of_step() override;
   void pack_ghosts(int, const int *, double *) override;
   void unpack_ghosts(int, int, double *) override;
 
 protected:
-  /// Whether the pair of balls i and j (owned or ghosts) is observed. Called when the neighbour list is built,
-  /// once for each pair on one of the ranks.
+  /// Whether the balls i and j (indices of owned balls or ghosts) are a chosen pair. Called for all
+  /// neighbours after the neighbour list has been built.
   virtual bool selects(int i, int j) const = 0;
 
 private:
@@ -59,8 +57,8 @@ private:
   const drumlin::ContactSource *source_ = nullptr;
   std::vector<Pair> pairs_;
   std::map<Tags, drumlin::physics::OverlapState>
-      states_;                 // of all ranks' pairs, while the neighbour list is built
-  bool pairs_outdated_ = true; // the neighbour list was built since list_pairs()
+      states_;                 // of the pairs of all ranks, until the next list_pairs()
+  bool pairs_outdated_ = true; // whether the neighbour list has been built since list_pairs()
 };
 
 } // namespace LAMMPS_NS

@@ -12,9 +12,9 @@
 
 namespace LAMMPS_NS {
 
-/// Finds in every step the pairs of balls of the group, and of two types and two groups if these are given,
-/// whose contact has begun or ended since the step before, and writes each make and break once, on any number
-/// of ranks.
+/// Writes a row to a CSV file when two balls of the group come into contact (make) and when their contact
+/// ends (break). The keywords `types` and `between` restrict the pairs. Each event is written once, whatever
+/// the number of ranks.
 class FixContactEvents : public FixPairObserver {
 public:
   FixContactEvents(LAMMPS *, int, char **);

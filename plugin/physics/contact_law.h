@@ -36,9 +36,10 @@ struct ContactPower {
 ///   stiffness(d)  dE/dd, N/m
 ///   secant(d)     E/d, N/m
 ///   stored(d)     energy in the spring, J, the integral of E
-/// The second-order scheme (contact_step.h) also needs spring_change(), begins_with_jump and first_weight(),
-/// the location of events is_linear, LIGGGHTS exponent: see LinearLaw below, and hertz_contact.h for a law
-/// whose force begins with 0.
+/// Further members: spring_change(), begins_with_jump and first_weight() for the second-order scheme
+/// (contact_step.h), is_linear for the location of events (event_location.h), and exponent for LIGGGHTS.
+/// LinearLaw below shows them for a force that jumps when the contact begins, HertzLaw (hertz_contact.h) for
+/// one that begins at 0.
 template <class Law>
 class ContactLaw {
 public:
@@ -116,7 +117,7 @@ public:
 
   /// Whether spring and dashpot are linear in overlap and rate.
   static constexpr bool is_linear = true;
-  /// Power of the overlap in spring().
+  /// The spring force is proportional to the overlap to this power.
   static constexpr double exponent = 1.0;
   /// Whether the force jumps at the beginning of a contact: here from 0 to c d'.
   static constexpr bool begins_with_jump = true;

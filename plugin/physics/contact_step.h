@@ -15,8 +15,8 @@
 
 namespace drumlin::physics {
 
-/// The history of a contact's normal force: values that one step stores for the next. (The springs of friction and
-/// rolling resistance are arguments of friction_step() and rolling_step().)
+/// What a contact stores of its normal force from one time step to the next. (friction_step() and
+/// rolling_step() take and return the springs of friction and rolling resistance.)
 struct ContactState {
   double force = 0.0;      ///< normal force at the end of the step, N
   bool in_contact = false; ///< overlap >= 0 then (> 0 under `stock`); under B the force may still be 0

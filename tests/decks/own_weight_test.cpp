@@ -77,7 +77,7 @@ public:
   double first(const std::string &column) const { return table_.numbers(column).front(); }
   double walls() const { return last("left_force_N") + last("side_force_N"); }
   double wall_friction() const { return last("left_friction_N") + last("side_friction_N"); }
-  /// \param bound of the error of each row, over the largest work so far
+  /// \param bound of the energy error of each row, relative to the largest work so far
   void expect_energy_balance(double bound = 1e-3) const {
     for (const double error : table_.numbers("energy_error"))
       EXPECT_LT(std::fabs(error), bound);
@@ -202,8 +202,9 @@ TEST_P(OwnWeight, MobilisesTheFrictionOfTheWallsOfASilo) {
   EXPECT_LT(run.last("floor_force_N"), 0.9 * run.first("floor_force_N"));
 }
 
-// A floor that moves by 4e-9 m in a step, 2000 times the rounding of its place. Moved by another distance than its velocity says, it would make an
-// energy error of 6e-3.
+// The floor moves by 4e-9 m in a time step, and its position is a multiple of 2e-12 m, the spacing of
+// floating-point numbers there. If rounding changed this distance, the work computed from the velocity would
+// be wrong, and the energy error 6e-3.
 TEST_P(OwnWeight, BalancesTheEnergyOfASlowFloor) {
   const WeightRun run(
       GetParam(), "silo",

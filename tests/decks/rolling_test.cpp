@@ -159,18 +159,19 @@ TEST_P(RollingHeap, IsTheSameInTheLoopsOfEngineAndPlugin) {
   }
 }
 
-/// A row of contacts.txt: IDs of the balls (0: a wall), force on the first, N, and normal.
+/// A contact in the dump contacts.txt: the IDs of its two balls (0 for a wall), the three components of the
+/// force on the first ball, N, and of the unit normal.
 using ContactRow = std::array<double, 8>;
 
-/// N, normal force.
+/// Normal force, N, positive when it pushes.
 double push_of(const ContactRow &row) { return row[2] * row[5] + row[3] * row[6] + row[4] * row[7]; }
-/// N, length of the tangential force.
+/// Magnitude of the friction force, N.
 double friction_of(const ContactRow &row) {
   const double push = push_of(row);
   return std::hypot(row[2] - push * row[5], row[3] - push * row[6], row[4] - push * row[7]);
 }
 
-/// The rows of each time step.
+/// The contacts in the dump, by time step.
 std::map<long, std::vector<ContactRow>> rows_of_contacts(const std::filesystem::path &dump) {
   std::ifstream file(dump);
   std::map<long, std::vector<ContactRow>> rows;
@@ -240,7 +241,8 @@ TEST_P(RollingHeap, FrictionAndRollingKeepTheirLimitsAtAnyDamping) {
   }
 }
 
-/// The frames of a heap, by the number that a ball has in heap.scene: its ID depends on the number of ranks.
+/// The motion of a heap of heavily damped balls (D = 20), which are identified by their number in heap.scene,
+/// since the IDs that the engines give them depend on the number of ranks.
 std::vector<Frame> heap_by_number(const char *deck, const std::string &dimension, const char *newton,
                                   int ranks) {
   const Scratch folder;
@@ -264,7 +266,9 @@ std::vector<Frame> heap_by_number(const char *deck, const std::string &dimension
   return frames;
 }
 
-/// Heavily damped contacts of balls on different ranks are solved for together, and their friction and rolling resistance limited, as on one.
+/// The normal forces of heavily damped contacts that share a ball are computed together, and friction and
+/// rolling resistance are limited with the result. The motion must not depend on the number of ranks,
+/// although such contacts then lie on different ranks.
 TEST(HeapOnSeveralRanks, IsThatOnOne) {
   for (const char *dimension : {"2", "3"})
     for (const auto &[deck, newton] :
@@ -279,9 +283,10 @@ TEST(HeapOnSeveralRanks, IsThatOnOne) {
     }
 }
 
-/// Friction of a heavily damped contact is limited a second time, when its final normal force is known. Its spring must be stored as this
-/// leaves it: without a tangential dashpot the force of friction is kt times the spring, so that the energy of all springs is the sum of
-/// Ft^2/(2 kt) over the contacts.
+/// In a heavily damped contact the friction force Ft is computed with a preliminary normal force and limited
+/// again with the final one. The second limit must also shorten the tangential spring. Without a tangential
+/// dashpot |Ft| is kt times the length of the spring. The elastic energy of all tangential springs must
+/// therefore be the sum of Ft^2/(2 kt) over the contacts.
 TEST_P(RollingHeap, TheSpringOfFrictionFollowsTheLimit) {
   constexpr double kt = 2.0 / 7.0 * 1e5; // N/m, of heap.scene
   const auto &[dimension, stepping] = GetParam();
