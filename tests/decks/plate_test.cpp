@@ -182,29 +182,43 @@ class PlateOnColumns : public InEngine {};
 
 // A square lattice carries a load straight down: below the plate are columns, each a series of the springs of its balls, of the floor and of the
 // plate, which neighbours do not touch with any force.
+struct Columns {
+  static constexpr int rows = 9, columns = 15, below = 5;
+  static constexpr double k = 1e9, width = below * 2 * radius;
+
+  static post::Table load(const std::string &engine, int ranks = 1) {
+    const Scratch scratch;
+    Lattice{columns, rows, false}.make(scratch.path(), "9.81");
+    Variables variables = own_contacts;
+    variables.insert(variables.end(), {{"bed", (scratch / "soil.restart").string()},
+                                       {"plate_width", number(width)},
+                                       {"plate_thickness", "0.04"},
+                                       {"max_stress", "60"},
+                                       {"stages", "2"},
+                                       {"ramp", "500"},
+                                       {"drag", "2000"},
+                                       {"ratio", "1e-6"}});
+    return run_element_test(engine, "plate", variables, ranks);
+  }
+};
+
 TEST_P(PlateOnColumns, HasTheSubgradeReactionOfTheColumnsBelowIt) {
-  constexpr int rows = 9, columns = 15, below = 5;
-  constexpr double k = 1e9, width = below * 2 * radius;
-  const Scratch scratch;
-  Lattice{columns, rows, false}.make(scratch.path(), "9.81");
-  Variables variables = own_contacts;
-  variables.insert(variables.end(), {{"bed", (scratch / "soil.restart").string()},
-                                     {"plate_width", number(width)},
-                                     {"plate_thickness", "0.04"},
-                                     {"max_stress", "60"},
-                                     {"stages", "2"},
-                                     {"ramp", "500"},
-                                     {"drag", "2000"},
-                                     {"ratio", "1e-6"}});
-  const post::Table table = run_element_test(GetParam(), "plate", variables);
+  constexpr double width = Columns::width;
+  const post::Table table = Columns::load(GetParam());
   const std::vector<double> stress = table.numbers("stress_kPa"), settlement = table.numbers("settlement_mm");
-  const double reaction = 1e-6 * below * k / (rows + 1) / width; // MN/m3 = kPa/mm
+  const double reaction = 1e-6 * Columns::below * Columns::k / (Columns::rows + 1) / width; // MN/m3 = kPa/mm
   ASSERT_EQ(stress.size(), 7u);
   for (std::size_t n = 1; n < stress.size(); ++n) {
     EXPECT_NEAR(settlement[n], (stress[n] - stress[0]) / reaction, 1e-5 * 50 / reaction) << n;
     EXPECT_NEAR(table.numbers("plate_force_N")[n], 1e3 * stress[n] * width, 1e-4 * 60e3 * width) << n;
     EXPECT_LT(std::fabs(table.numbers("energy_error")[n]), 1e-4) << n;
   }
+}
+
+TEST_P(PlateOnColumns, IsTheSameOnTwoRanks) {
+  const post::Table one = Columns::load(GetParam()), two = Columns::load(GetParam(), 2);
+  for (const char *column : {"settlement_mm", "plate_force_N"})
+    EXPECT_LT(relative_difference(two.numbers(column), one.numbers(column)), 1e-6) << column;
 }
 
 // The plate must lie on the bed, between its walls; the bed has the contacts with which it was made.

@@ -53,6 +53,31 @@ TEST_P(Shear, FindsStrengthAndStiffnessOfAHexagonalLattice) {
   }
 }
 
+TEST_P(Shear, HasASecondOrderEnergyErrorOnALattice) {
+  std::vector<double> steps, errors;
+  for (const int finer : {1, 2, 4}) {
+    steps.push_back(0.1 * std::sqrt(pi * 0.02 * 0.02 * 2650 / 1e9) / finer);
+    const post::Table rows = run_element_test(GetParam(), "shear",
+                                              {{"sample", "hexagonal"},
+                                               {"columns", "4"},
+                                               {"layers", "9"},
+                                               {"rolling", "0"},
+                                               {"ratio", "1e-6"},
+                                               {"samples_of_strain", "4"},
+                                               {"inertial_number", "1e-3"},
+                                               {"strain", "1e-4"},
+                                               {"dt", number(steps.back())},
+                                               {"ramp", std::to_string(200 * finer)},
+                                               {"every", std::to_string(200 * finer)}});
+    double largest = 0.0;
+    for (const double error : rows.numbers("energy_error"))
+      largest = std::max(largest, std::fabs(error));
+    errors.push_back(largest);
+  }
+  EXPECT_NEAR(fitted_order(steps, errors), 2, 0.1);
+  EXPECT_LT(errors.front(), 2e-4);
+}
+
 // A dense sample fails and dilates; the normal stress stays what it should be.
 TEST_P(Shear, ShearsADisorderedSample) {
   const post::Table rows = run_element_test(GetParam(), "shear",

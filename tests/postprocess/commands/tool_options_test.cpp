@@ -74,6 +74,11 @@ TEST_F(ToolOptions, AbsurdValuesAreRefusedAtOnce) {
        "advise: --question is 'noise'; allowed: force, acceleration, settlement, stiffness"},
       {{"advise", "--bed", "--question", "force", "--within", "-3%"},
        "advise: --within is '-3%'; allowed: a share above 0"},
+      {{"advise", "--bed", "--question", "force", "--within", "2mm"},
+       "advise: --within is '2mm'; allowed: a share above 0, as 10% or 0.1, up to 1000%"},
+      {{"advise", "--bed", "--question", "settlement", "--within", "0mm"},
+       "advise: --within is '0mm'; allowed: a share above 0, as 10% or 0.1, up to 1000%, or a settlement per "
+       "cycle, as 2mm"},
       {{"advise", "--bed", "--question", "force", "--from", "nowhere"},
        "advise: --from is 'nowhere'; allowed: folders of a fidelity study"},
       {{"advise", "--bed", "--question", "force", "--k", "1e8"},

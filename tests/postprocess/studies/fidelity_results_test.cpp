@@ -52,6 +52,7 @@ TEST(Effect, ComparesSeedBySeed) {
   EXPECT_DOUBLE_EQ(effect.change[0].mean, 1.0 / 15.0);
   EXPECT_DOUBLE_EQ(effect.change[0].half_width, 0.0);
   EXPECT_TRUE(effect.change[0].significant());
+  EXPECT_DOUBLE_EQ(effect.difference[0].mean, 1.0);
   EXPECT_DOUBLE_EQ(effect.change[1].mean, 0.0);
   // of +10 and -10, over the mean of 100 and 300; t for 1 degree of freedom
   EXPECT_NEAR(effect.change[1].half_width, 12.7062 * 10.0 / 200.0, 1e-3);
@@ -164,6 +165,30 @@ TEST_F(BedAdviceTest, NamesTheCheapestSceneWithinTheError) {
   EXPECT_EQ(commands[0], "bed --balls 400 --width 0.8");
   EXPECT_NE(commands[1].find("run inputs/bed/in.settle -var k 1.6e+07 "), std::string::npos) << commands[1];
   EXPECT_NE(commands[3].find(" -var steps_per_cycle 1250 "), std::string::npos) << commands[3];
+}
+
+// The complete beds settle by -2 to 2 mm per cycle: no error relative to their mean exists, but one in mm does.
+TEST_F(BedAdviceTest, CountsErrorsOfTheSettlementInMillimetresIfAsked) {
+  add("complete", 1.0, 0.0, 10.0);
+  add("k / 10", 1.0, 0.0, 3.0);
+  add("k / 100", 1.0, 0.0, 1.0);
+  for (FidelityRun &run : runs_)
+    run.values[2] = 1e-3 * (run.seed - 3) + (run.variant == "k / 10"    ? 0.5e-3
+                                             : run.variant == "k / 100" ? 3e-3
+                                                                        : 0.0);
+  const post::FidelityPlan plan = post::plan_of(runs_);
+  const post::BedAdvice found =
+      post::advise_bed(plan, runs_, {post::BedQuantity::settlement, 1e-3, "settlement", true});
+  EXPECT_EQ(found.scene->name, "k / 10");
+  EXPECT_NEAR(found.effect.difference[2].mean, 0.5e-3, 1e-12);
+  EXPECT_NEAR(found.scatter, 1e-3 * std::sqrt(2.5), 1e-12);
+  try {
+    post::advise_bed(plan, runs_, {post::BedQuantity::settlement, 0.1, "settlement"});
+    ADD_FAILURE() << "a relative error of a mean of zero";
+  } catch (const std::runtime_error &error) {
+    EXPECT_NE(std::string(error.what()).find("or --within in mm per cycle, as 2mm"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST_F(BedAdviceTest, RefusesWhatTheTableDoesNotAnswer) {
