@@ -72,15 +72,21 @@ const Measure &measure_of(const std::string &name) {
   return *found;
 }
 
-/// The allowed relative error of --within, given as 0.1 or 10%.
-double judged_share(const std::string &text) {
-  const bool percent = !text.empty() && text.back() == '%';
-  const std::string number = percent ? text.substr(0, text.size() - 1) : text;
-  const std::optional<double> value = any_number_from_text(number);
-  const double share = value ? (percent ? 0.01 : 1.0) * *value : 0.0;
-  if (!(share > 0.0 && share <= 10.0))
-    throw UsageError(refusal("--within", text, "a share above 0, as 10% or 0.1, up to 1000%"));
-  return share;
+/// Sets the error of the request that --within allows: 0.1, 10% or, of settlement, 2mm.
+void judge_within(const std::string &text, BedAdviceRequest &request) {
+  const bool settlement = request.question == BedQuantity::settlement;
+  const auto ends_with = [&](const std::string &unit) {
+    return text.size() > unit.size() && text.compare(text.size() - unit.size(), unit.size(), unit) == 0;
+  };
+  request.absolute = settlement && ends_with("mm");
+  const std::string unit = request.absolute ? "mm" : ends_with("%") ? "%" : "";
+  const double scale = request.absolute ? 1e-3 : ends_with("%") ? 0.01 : 1.0;
+  const std::optional<double> value = any_number_from_text(text.substr(0, text.size() - unit.size()));
+  request.within = value ? scale * *value : 0.0;
+  if (!(request.within > 0.0 && request.within <= 10.0))
+    throw UsageError(refusal("--within", text,
+                             fmt::format("a share above 0, as 10% or 0.1, up to 1000%{}",
+                                         settlement ? ", or a settlement per cycle, as 2mm" : "")));
 }
 
 void run_bed(const Arguments &arguments) {
@@ -90,7 +96,7 @@ void run_bed(const Arguments &arguments) {
   for (const BedQuestion &one : bed_questions)
     if (question == one.name) request.question = one.quantity;
   request.name = question;
-  request.within = judged_share(arguments.within.value_or("10%"));
+  judge_within(arguments.within.value_or("10%"), request);
   const fs::path folder =
       arguments.from ? path_option("--from", *arguments.from) : input_file("study/fidelity");
   if (!fs::is_regular_file(folder / "runs.csv"))
@@ -98,21 +104,27 @@ void run_bed(const Arguments &arguments) {
   const std::vector<FidelityRun> runs = read_fidelity_runs(folder / "runs.csv");
   const FidelityPlan plan = plan_of(runs);
   const BedAdvice advice = advise_bed(plan, runs, request);
-  const MeanInterval &change = advice.effect.change.at(static_cast<std::size_t>(request.question));
+  const MeanInterval &change = (request.absolute ? advice.effect.difference : advice.effect.change)
+                                   .at(static_cast<std::size_t>(request.question));
+  const double scale = request.absolute ? 1e3 : 100.0;
+  const int decimals = request.absolute ? 1 : 0;
+  const double last_digit = std::pow(10.0, -decimals);
+  const std::string unit = request.absolute ? "mm" : "%";
   const bool complete = advice.scene == &plan.reference();
   fmt::print("{}: {}\n", advice.scene->name,
              complete ? "no cheaper scene keeps to the error that is allowed" : advice.scene->change);
-  fmt::print("  for        {} within {:g} %\n", bed_quantity_name(request.question), 100.0 * request.within);
+  fmt::print("  for        {} within {:g} {}\n", bed_quantity_name(request.question), scale * request.within,
+             unit);
   if (!complete)
-    fmt::print("  error      {:+.1f} +- {:.1f} % against the complete scene, 95 % confidence interval over "
+    fmt::print("  error      {:+.1f} +- {:.1f} {} against the complete scene, 95 % confidence interval over "
                "{} seeds\n",
-               100.0 * change.mean, 100.0 * change.half_width, advice.effect.seeds);
+               scale * change.mean, scale * change.half_width, unit, advice.effect.seeds);
   else if (!advice.closest.empty())
-    fmt::print("  closest    of the cheaper scenes, '{}' keeps to {:.0f} %\n", advice.closest,
-               std::ceil(100.0 * advice.least_error));
-  fmt::print("  scatter    one bed differs from another by {:.0f} % (standard deviation): the mean of {} "
-             "beds is within {:g} %\n",
-             100.0 * advice.scatter, advice.beds, 100.0 * request.within);
+    fmt::print("  closest    of the cheaper scenes, '{}' keeps to {:.{}f} {}\n", advice.closest,
+               std::ceil(scale * advice.least_error / last_digit) * last_digit, decimals, unit);
+  fmt::print("  scatter    one bed differs from another by {:.{}f} {} (standard deviation): the mean of {} "
+             "beds is within {:g} {}\n",
+             scale * advice.scatter, decimals, unit, advice.beds, scale * request.within, unit);
   fmt::print("  time       {:.2g} s of processor time for {} cycles where it was measured, {:.2g} times that "
              "of the complete scene; "
              "settling and placing come in addition\n",
@@ -190,7 +202,8 @@ void add_advise_command(CLI::App &app, Session &) {
       "of a bed.");
   command->footer("Examples:\n"
                   "  drumlin advise --error 1e-3 --case II\n"
-                  "  drumlin advise --bed --question force --within 20%\n");
+                  "  drumlin advise --bed --question force --within 20%\n"
+                  "  drumlin advise --bed --question settlement --within 2mm\n");
   add_chain_options(*command, arguments->chain);
   command->add_option("--error", arguments->error, "relative error that is allowed")
       ->type_name("NUMBER")
@@ -215,7 +228,8 @@ void add_advise_command(CLI::App &app, Session &) {
         name, [arguments, value](const std::string &given) { (*arguments).*value = given; }, help);
   };
   text("--question", &Arguments::question, "with --bed: force, acceleration, settlement or stiffness");
-  text("--within", &Arguments::within, "with --bed: error that is allowed, 10% if not given");
+  text("--within", &Arguments::within,
+       "with --bed: error that is allowed, 10% if not given; of settlement also in mm per cycle, as 2mm");
   command->callback([arguments, command] {
     const std::set<std::string> of_bed = {"--question", "--within"}, of_both = {"--bed", "--from", "--help"};
     for (const CLI::Option *option : command->get_options()) {

@@ -23,7 +23,7 @@ std::vector<double> values_of(const std::vector<FidelityRun> &runs, const std::s
   return values;
 }
 
-/// The largest error that a 95 % confidence interval leaves possible.
+/// The largest error that the 95 % confidence interval of a change leaves possible.
 double largest_error(const MeanInterval &change) { return std::fabs(change.mean) + change.half_width; }
 
 /// A scene counts as cheaper than the complete one if it takes at most this share of its processor time. Measured times depend on
@@ -68,10 +68,12 @@ BedAdvice advise_bed(const FidelityPlan &plan, const std::vector<FidelityRun> &r
   for (const FidelityScene &scene : plan.scenes) {
     if (scene.base != plan.reference().name) continue;
     const std::optional<Effect> effect = effect_of(runs, {scene.change, scene.name, scene.base});
-    if (!effect || !std::isfinite(effect->change[q].half_width)) continue;
+    if (!effect) continue;
+    const MeanInterval &change = (request.absolute ? effect->difference : effect->change)[q];
+    if (!std::isfinite(change.half_width)) continue;
     compared = true;
     if (effect->cost > most_of_cheaper) continue;
-    const double error = largest_error(effect->change[q]);
+    const double error = largest_error(change);
     if (error < best.least_error) {
       best.least_error = error;
       best.closest = scene.name;
@@ -86,15 +88,18 @@ BedAdvice advise_bed(const FidelityPlan &plan, const std::vector<FidelityRun> &r
                                      "one with two seeds or more of a scene and of the complete one"));
   const std::vector<double> complete = values_of(runs, plan.reference().name, q);
   const MeanInterval mean = mean_interval(complete);
-  if (!mean.significant())
+  if (!request.absolute && !mean.significant())
     throw std::runtime_error(refusal("--question", request.name,
                                      fmt::format("a result whose mean over the complete beds differs from "
                                                  "zero: theirs is {:.2g} +- {:.2g}, and no "
-                                                 "error relative to it can be given",
-                                                 mean.mean, mean.half_width)));
+                                                 "error relative to it can be given{}",
+                                                 mean.mean, mean.half_width,
+                                                 request.question == BedQuantity::settlement
+                                                     ? "; or --within in mm per cycle, as 2mm"
+                                                     : "")));
   if (best.scene == nullptr) {
     best.scene = &plan.reference();
-    best.effect = {{}, static_cast<int>(complete.size()), {}, 1.0};
+    best.effect = {{}, static_cast<int>(complete.size()), {}, {}, 1.0};
   }
   std::vector<double> times;
   for (const FidelityRun &run : runs)
@@ -103,7 +108,8 @@ BedAdvice advise_bed(const FidelityPlan &plan, const std::vector<FidelityRun> &r
   double squares = 0.0;
   for (const double value : complete)
     squares += std::pow(value - mean.mean, 2);
-  best.scatter = std::sqrt(squares / static_cast<double>(complete.size() - 1)) / std::fabs(mean.mean);
+  best.scatter = std::sqrt(squares / static_cast<double>(complete.size() - 1));
+  if (!request.absolute) best.scatter /= std::fabs(mean.mean);
   best.beds = beds_for(best.scatter, request.within);
   return best;
 }

@@ -11,8 +11,10 @@ namespace drumlin::post {
 
 struct BedAdviceRequest {
   BedQuantity question = BedQuantity::force;
-  double within = 0.1;        ///< relative error that is allowed, > 0
+  double within = 0.1;        ///< error that is allowed, > 0
   std::string name = "force"; ///< of the question, as the option --question gives it
+  bool absolute =
+      false; ///< errors are in the unit of the quantity; else relative to the mean of the complete scene
 };
 
 /// The cheapest scene whose error stays within the request.
@@ -20,17 +22,17 @@ struct BedAdvice {
   const FidelityScene *scene = nullptr; ///< of the plan
   Effect effect;       ///< of the scene against the complete one; without change if it is the complete one
   std::string closest; ///< name of the cheaper scene with the smallest error; empty: none is cheaper
-  double least_error = 0.0; ///< to which the closest scene keeps, relative
-  double scatter = 0.0;     ///< standard deviation of single beds of the complete scene over their mean
-  int beds = 0;       ///< complete beds of which the mean has a 95 % confidence interval within the request
-  double cpu_s = 0.0; ///< processor time of the scene's excitation, median over the seeds
+  double least_error = 0.0; ///< to which the closest scene keeps, as the request counts errors
+  double scatter = 0.0; ///< standard deviation of single beds of the complete scene, counted in the same way
+  int beds = 0;         ///< complete beds of which the mean has a 95 % confidence interval within the request
+  double cpu_s = 0.0;   ///< processor time of the scene's excitation, median over the seeds
 };
 
 /// A scene keeps to the request if the whole 95 % confidence interval of its change does; two seeds or more. One that takes more than 0.9
 /// times the processor time of the complete scene does not count as cheaper, since measured times depend on what else the machine does. The
 /// complete scene is the advice
 /// if no cheaper one is within. The plan is that of the table's runs. Throws std::runtime_error if the table has no scene to compare,
-/// and if the mean of the complete beds does not differ from zero, so that no error relative to it can be given.
+/// and, for a relative error, if the mean of the complete beds does not differ from zero.
 BedAdvice advise_bed(const FidelityPlan &plan, const std::vector<FidelityRun> &runs,
                      const BedAdviceRequest &request);
 

@@ -15,12 +15,31 @@ namespace drumlin::post {
 
 namespace {
 
-/// A change whose whole confidence interval is within it counts as negligible.
-constexpr double tolerance = 0.1;
+/// How the changes of a quantity are given: in percent of the mean of the base, but those of the settlement, whose mean may be about zero, in
+/// mm per cycle.
+struct Scale {
+  std::string unit;
+  double factor; ///< to this unit, of Effect::change or, if absolute, of Effect::difference
+  double
+      tolerance; ///< in this unit: a change whose whole confidence interval is within it counts as negligible
+  bool absolute;
+};
 
-std::string percent(const MeanInterval &change) {
+Scale scale_of(BedQuantity quantity) {
+  if (quantity == BedQuantity::settlement) return {"mm per cycle", 1e3, 1.0, true};
+  return {"%", 100.0, 10.0, false};
+}
+
+/// In the unit of its scale; NaN if no seed gives it.
+MeanInterval change_of(const Effect &effect, std::size_t q) {
+  const Scale scale = scale_of(bed_quantities[q]);
+  const MeanInterval &change = (scale.absolute ? effect.difference : effect.change)[q];
+  return {scale.factor * change.mean, scale.factor * change.half_width};
+}
+
+std::string change_words(const MeanInterval &change) {
   if (std::isnan(change.mean)) return no_value;
-  return fmt::format("{:+.1f} ± {:.1f}", 100.0 * change.mean, 100.0 * change.half_width);
+  return fmt::format("{:+.1f} ± {:.1f}", change.mean, change.half_width);
 }
 
 std::string without_unit(BedQuantity quantity) {
@@ -34,16 +53,18 @@ PageTable conclusion_table(const std::vector<Effect> &effects) {
   table.name = "needs";
   table.title = "Which ingredients a question needs";
   table.text_columns = 4;
-  table.header = {"question", "it changes with", "free to choose: changes it by less than 10 %",
+  table.header = {"question", "it changes with",
+                  "free to choose: changes it by less than 10 % (settlement: 1 mm per cycle)",
                   "not decided by these seeds"};
   for (std::size_t q = 0; q < bed_quantities.size(); ++q) {
     std::array<std::vector<std::string>, 3> cells;
     for (const Effect &effect : effects) {
-      const MeanInterval &change = effect.change[q];
+      const MeanInterval change = change_of(effect, q);
       if (std::isnan(change.mean)) continue;
-      const std::string text = fmt::format("{} ({:+.0f} %, time x {:.2g})", effect.compared.what,
-                                           100.0 * change.mean, effect.cost);
-      cells[change.within(tolerance) ? 1 : change.significant() ? 0 : 2].push_back(text);
+      const Scale scale = scale_of(bed_quantities[q]);
+      const std::string text = fmt::format("{} ({:+.{}f} {}, time x {:.2g})", effect.compared.what,
+                                           change.mean, scale.absolute ? 1 : 0, scale.unit, effect.cost);
+      cells[change.within(scale.tolerance) ? 1 : change.significant() ? 0 : 2].push_back(text);
     }
     std::vector<std::string> row = {without_unit(bed_quantities[q])};
     for (const std::vector<std::string> &cell : cells)
@@ -52,9 +73,9 @@ PageTable conclusion_table(const std::vector<Effect> &effects) {
   }
   table.notes = {
       "In brackets: the mean change, and the processor time over that of the model it is compared with.",
-      "A change is in the first column if its 95 % confidence interval does not contain zero, in the second "
-      "if the whole "
-      "interval is within 10 %, else in the third."};
+      "A change is in the second column if its whole 95 % confidence interval is within 10 % (settlement: 1 "
+      "mm per cycle), else in the "
+      "first if the interval does not contain zero, else in the third."};
   return table;
 }
 
@@ -65,7 +86,7 @@ PageTable effect_table(const std::vector<Effect> &effects) {
   table.text_columns = 3;
   table.header = {"row", "ingredient", "matters for", "seeds"};
   for (const BedQuantity quantity : bed_quantities)
-    table.header.push_back(without_unit(quantity) + " (%)");
+    table.header.push_back(fmt::format("{} ({})", without_unit(quantity), scale_of(quantity).unit));
   table.header.emplace_back("processor time (ratio)");
   for (const Effect &effect : effects) {
     std::vector<std::string> matters;
@@ -75,15 +96,16 @@ PageTable effect_table(const std::vector<Effect> &effects) {
                                     matters.empty() ? "nothing significant"
                                                     : fmt::format("{}", fmt::join(matters, ", ")),
                                     std::to_string(effect.seeds)};
-    for (const MeanInterval &change : effect.change)
-      row.push_back(percent(change));
+    for (std::size_t q = 0; q < bed_quantities.size(); ++q)
+      row.push_back(change_words(change_of(effect, q)));
     row.push_back(fmt::format("{:.2f}", effect.cost));
     table.add(std::move(row));
   }
   table.notes = {
       "Change seed by seed: mean and half of its 95 % confidence interval (Student's t), in percent of the "
       "mean of the model it "
-      "is compared with. If the interval contains zero, the change is not significant. The motion of a bed "
+      "is compared with; that of the settlement, whose mean may be about zero, in mm per cycle. If the "
+      "interval contains zero, the change is not significant. The motion of a bed "
       "is chaotic: of "
       "twenty comparisons without any effect one is significant by chance.",
       "Acceleration and force: largest values of a cycle; all means over the second half of the run."};
@@ -148,28 +170,27 @@ PageFigure effect_figure(const std::vector<Effect> &effects) {
   figure.caption = "Change: mean over the seeds and its 95 % confidence interval. A bar that crosses zero is "
                    "not significant.";
   figure.figure = {name, "Change by each ingredient", {}, 2};
-  CurveTable table("ingredient,change (%),low (%),high (%)");
+  CurveTable table("ingredient,change (% or mm per cycle),low,high");
   for (std::size_t q = 0; q < bed_quantities.size(); ++q) {
     const std::string title = without_unit(bed_quantities[q]);
     Panel panel;
     panel.title = title;
-    panel.y_label = "change (%)";
+    panel.y_label = fmt::format("change ({})", scale_of(bed_quantities[q]).unit);
     panel.curves = {curve(name, title, "$2", "3:4:5", CurveStyle::spread)};
     panel.curves.back().title.clear();
     panel.x_label = "row of the table of effects";
     double lowest = 0.0, highest = 0.0;
     for (std::size_t n = 0; n < effects.size(); ++n) {
       panel.x_ticks.push_back(std::to_string(n + 1));
-      const MeanInterval &change = effects[n].change[q];
-      table.row(title,
-                {static_cast<double>(n + 1), 100.0 * change.mean, 100.0 * (change.mean - change.half_width),
-                 100.0 * (change.mean + change.half_width)});
+      const MeanInterval change = change_of(effects[n], q);
+      table.row(title, {static_cast<double>(n + 1), change.mean, change.mean - change.half_width,
+                        change.mean + change.half_width});
       if (!std::isfinite(change.half_width)) continue; // one seed
       lowest = std::min(lowest, change.mean - change.half_width);
       highest = std::max(highest, change.mean + change.half_width);
     }
     // A range for each panel: by default gnuplot takes that of all rows of the file.
-    panel.y_range = fmt::format("[{:.4g}:{:.4g}]", 110.0 * lowest - 1.0, 110.0 * highest + 1.0);
+    panel.y_range = fmt::format("[{:.4g}:{:.4g}]", 1.1 * lowest - 1.0, 1.1 * highest + 1.0);
     figure.figure.panels.push_back(panel);
   }
   figure.csv = table.text();

@@ -91,12 +91,19 @@ FidelityPlan fidelity_plan(int balls) {
   bed.packing.width *= scale;
   const FidelityScene whole{
       "", "", "", bed, {{"Fw", number_text(58.8e3 * scale * scale, digits)}, {"balance", "10"}}};
-  const FidelityScene complete = with_stiffness(with(whole, "complete", "", {}), k);
+  FidelityScene complete = with_stiffness(with(whole, "complete", "", {}), k);
+  complete.bed.soil = complete.bed.name;
   // A scene with the stiffness and the balls of the complete one, which may have other values and balls.
   const auto changed = [&](const std::string &name, const std::string &change, const Variables &values = {},
                            const Variables &run = {}) {
     FidelityScene scene = with(complete, name, change, values, run);
     scene.base = complete.name;
+    scene.bed.soil.clear();
+    return scene;
+  };
+  // The same for a scene that differs only after the soil has settled: it shares the soil of the complete one.
+  const auto on_its_soil = [&](FidelityScene scene) {
+    scene.bed.soil = complete.bed.soil;
     return scene;
   };
   const auto sized = [&](const std::string &name, const std::string &change, int count, double smallest,
@@ -123,9 +130,9 @@ FidelityPlan fidelity_plan(int balls) {
   // Settled with the friction that the bed has later, and not densely with little of it.
   FidelityScene loose = changed("not compacted", "packed loosely, with the friction of the bed");
   loose.bed.settle = {{"pour_friction", "0.8"}, {"pour_rolling", "0.45"}};
-  FidelityScene absorbing =
+  const FidelityScene absorbing = on_its_soil(
       changed("absorb", "floor and sides that absorb waves", {},
-              {{"boundary", "absorb"}, {"ground_depth", number_text(default_ground * scale, digits)}});
+              {{"boundary", "absorb"}, {"ground_depth", number_text(default_ground * scale, digits)}}));
   // A base course as thick as the drum, on a subgrade: together as thick as the complete bed.
   FidelityScene layered =
       changed("layers", "the lower 64 % a soft, loose subgrade (case base_course)",
@@ -146,12 +153,13 @@ FidelityPlan fidelity_plan(int balls) {
        sized("k / 100", "k / 100 with a tenth of the steps", balls, 0.016, 0.024, 0.01 * k),
        sized("k / 10", "k / 10 with 0.32 times the steps", balls, 0.016, 0.024, 0.1 * k), shallow,
        changed("no rolling friction", "no rolling friction", {{"rolling", "0"}}),
-       changed("A", "A instead of B", {}, {{"transition", "A"}}),
+       on_its_soil(changed("A", "A instead of B", {}, {{"transition", "A"}})),
        changed("history", "the engine's friction (tangential history)", {{"tangential", "history"}}), loose,
        sized("one size", "balls of one size", balls, 0.02, 0.02, k),
        changed("second", "stepping second instead of stock", {{"stepping", "second"}}),
-       changed("twice the steps", "twice the steps per cycle", {}, {{"steps_per_cycle", twice}}), absorbing,
-       layered, deep, wide, graded, changed("clump", "drum a clump instead of a ball", {{"drum", "clump"}})}};
+       on_its_soil(changed("twice the steps", "twice the steps per cycle", {}, {{"steps_per_cycle", twice}})),
+       absorbing, layered, deep, wide, graded,
+       on_its_soil(changed("clump", "drum a clump instead of a ball", {{"drum", "clump"}}))}};
 }
 
 } // namespace drumlin::post

@@ -17,6 +17,8 @@ struct FidelityScene {
   PlacedBed bed;
   Variables run = {}; ///< of in.bed alone, before those of all decks
 
+  /// Name of the files of its settled soil.
+  const std::string &soil() const { return bed.soil.empty() ? bed.name : bed.soil; }
   /// The variables of in.bed except the restart file, the first of a name counts.
   Variables run_variables() const { return joined(run, bed.scene); }
 };

@@ -73,7 +73,7 @@ std::vector<FidelityRun> read_fidelity_runs(const std::filesystem::path &file) {
 }
 
 std::optional<Effect> effect_of(const std::vector<FidelityRun> &runs, const BedComparison &compared) {
-  Effect effect{compared, 0, {}, 0.0};
+  Effect effect{compared, 0, {}, {}, 0.0};
   std::array<std::vector<double>, bed_quantities.size()> differences, bases;
   std::vector<double> ratios;
   for (const FidelityRun &one : runs)
@@ -93,10 +93,10 @@ std::optional<Effect> effect_of(const std::vector<FidelityRun> &runs, const BedC
   for (std::size_t q = 0; q < bed_quantities.size(); ++q) {
     const double none = std::numeric_limits<double>::quiet_NaN();
     if (differences[q].empty()) {
-      effect.change[q] = {none, none};
+      effect.change[q] = effect.difference[q] = {none, none};
       continue;
     }
-    const MeanInterval difference = mean_interval(differences[q]);
+    const MeanInterval &difference = effect.difference[q] = mean_interval(differences[q]);
     const double scale = std::fabs(mean_interval(bases[q]).mean);
     effect.change[q] = {difference.mean / scale, difference.half_width / scale};
   }

@@ -59,8 +59,10 @@ struct Effect {
   BedComparison compared;
   int seeds;
   std::array<MeanInterval, bed_quantities.size()>
-      change;  ///< relative to the mean of the base; NaN if no seed gives it
-  double cost; ///< processor time over the base's, median over the seeds
+      change; ///< relative to the mean of the base; NaN if no seed gives it
+  std::array<MeanInterval, bed_quantities.size()>
+      difference; ///< in the unit of the quantity; NaN if no seed gives it
+  double cost;    ///< processor time over the base's, median over the seeds
 };
 /// Nothing if the two share no seed.
 std::optional<Effect> effect_of(const std::vector<FidelityRun> &runs, const BedComparison &compared);

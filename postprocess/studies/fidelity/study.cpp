@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -46,13 +47,22 @@ void run_fidelity_study(const StudyOptions &options) {
   check_engine_path(options.out);
   const FidelityPlan plan = options.quick ? quick_fidelity_plan() : fidelity_plan(options.balls);
   StudyResults results(options.out / "runs.csv", fidelity_runs());
-  // All seeds of a scene before the next scene: a study that is interrupted has whole rows for its first scenes.
+  // All seeds of a scene before the next scene: a study that is interrupted has whole rows for its first scenes. The scenes that share
+  // their soil come one after the other, with the first of them.
   std::vector<std::vector<SeedRun>> groups;
-  for (const FidelityScene &scene : plan.scenes)
-    for (int seed = 1; seed <= plan.seeds; ++seed)
-      groups.push_back({{scene.name, seed, [&scene, &options, &plan, seed] {
-                           return measured(measure(scene, seed, options.out, plan.cycles));
-                         }}});
+  std::set<std::string> soils;
+  for (const FidelityScene &scene : plan.scenes) {
+    if (!soils.insert(scene.soil()).second) continue;
+    for (int seed = 1; seed <= plan.seeds; ++seed) {
+      std::vector<SeedRun> group;
+      for (const FidelityScene &one : plan.scenes)
+        if (one.soil() == scene.soil())
+          group.push_back({one.name, seed, [&one, &options, &plan, seed] {
+                             return measured(measure(one, seed, options.out, plan.cycles));
+                           }});
+      groups.push_back(group);
+    }
+  }
   const std::vector<std::string> failures = make_runs(groups, options.jobs, results);
 
   std::vector<Effect> effects;
