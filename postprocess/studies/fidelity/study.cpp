@@ -47,8 +47,8 @@ void run_fidelity_study(const StudyOptions &options) {
   check_engine_path(options.out);
   const FidelityPlan plan = options.quick ? quick_fidelity_plan() : fidelity_plan(options.balls);
   StudyResults results(options.out / "runs.csv", fidelity_runs());
-  // All seeds of a scene before the next scene: a study that is interrupted has whole rows for its first scenes. The scenes that share
-  // their soil come one after the other, with the first of them.
+  // Scenes that share their soil are run together, seed by seed. All seeds of such a group come before the next group: a study that is
+  // interrupted has whole rows for its first groups.
   std::vector<std::vector<SeedRun>> groups;
   std::set<std::string> soils;
   for (const FidelityScene &scene : plan.scenes) {
