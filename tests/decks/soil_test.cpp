@@ -177,8 +177,8 @@ TEST_P(ElementTestRanks, AgreeOnALattice) {
 INSTANTIATE_TEST_SUITE_P(Engines, ElementTestRanks,
                          ::testing::Combine(::testing::Values("liggghts", "lammps"),
                                             ::testing::ValuesIn(element_tests)),
-                         [](const auto &info) {
-                           return std::get<0>(info.param) + "_" + std::get<1>(info.param).name;
+                         [](const auto &of) {
+                           return std::get<0>(of.param) + "_" + std::get<1>(of.param).name;
                          });
 
 // The state at rest does not depend on the step, the energy error is of second order in it.
