@@ -69,8 +69,8 @@ ContactRecord record_of_law(const Law &law, double overlap, bool second_order) {
   return record;
 }
 
-/// Two balls, which may touch or not, at the beginning and at the end of a time step. The rates belong to the
-/// same times as the overlaps.
+/// The overlap of two balls, and its rate, at the beginning and at the end of a time step. The balls need not
+/// touch: a negative overlap is the gap between them.
 struct PairStep {
   int tag_i, tag_j; ///< IDs of the balls, the lower first
   const AnyLaw &law;

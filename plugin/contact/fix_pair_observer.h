@@ -16,17 +16,19 @@ namespace LAMMPS_NS {
 /// see_pair() at the end of the next one, together with the new values. The values are kept when balls move
 /// to other ranks and when the neighbour list is built again.
 ///
-/// see_contact() cannot replace this. It receives touching balls only, and during the computation of forces,
-/// when velocity Verlet has the velocities of half a step earlier. The time at which a contact begins or ends
-/// follows from the overlaps and rates before and after it. In one of these two states the balls often do
-/// not touch.
+/// The time at which a contact begins or ends is found from the overlap and its rate at the beginning and at
+/// the end of a time step. ContactObserver::see_contact() does not give these values, for two reasons. It is
+/// called for touching balls only, but before a contact begins and after it has ended the balls do not touch.
+/// And it is called while forces are computed, when velocity Verlet has only the velocities of half a step
+/// earlier.
 ///
 /// The computing time grows with the number of chosen pairs, not with the number of contacts in the bed.
 class FixPairObserver : public drumlin::engine::GhostFix, public drumlin::ContactObserver {
 public:
   FixPairObserver(LAMMPS *lammps, int narg, char **arg) : GhostFix(lammps, narg, arg) { comm_forward = 3; }
 
-  /// When the engine calls this class. A derived class adds what it needs itself.
+  /// Tells the engine at which points of a time step it must call this fix. A derived class that needs further
+  /// calls overrides this function and adds them to the value that is returned here.
   int setmask() override;
   /// Stops the engine with an error message if the pair style is not one of this plugin.
   void init() override;

@@ -36,10 +36,12 @@ struct ContactPower {
 ///   stiffness(d)  dE/dd, N/m
 ///   secant(d)     E/d, N/m
 ///   stored(d)     energy in the spring, J, the integral of E
-/// Further members: spring_change(), begins_with_jump and first_weight() for the second-order scheme
-/// (contact_step.h), is_linear for the location of events (event_location.h), and exponent for LIGGGHTS.
-/// LinearLaw below shows them for a force that jumps when the contact begins, HertzLaw (hertz_contact.h) for
-/// one that begins at 0.
+/// and these further members, which LinearLaw below and HertzLaw (hertz_contact.h) explain:
+///   spring_change(), begins_with_jump, first_weight()   for the second-order scheme, contact_step.h
+///   is_linear    whether E is proportional to d and C constant: the times of events then have a closed form,
+///                event_location.h
+///   exponent     of d in E: LIGGGHTS asks each of its contact models for it
+/// The force of LinearLaw jumps when a contact begins, that of HertzLaw begins at 0.
 template <class Law>
 class ContactLaw {
 public:

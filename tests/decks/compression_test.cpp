@@ -106,8 +106,9 @@ TEST_P(Biaxial, FindsStrengthAndStiffnessOfAHexagonalLattice) {
   }
 }
 
-// The upper platen moves by 4 nm in a step, and its position is rounded to 15 pm. The limit is exceeded if a step is not a whole number of these, if the
-// platen does not start from rest, or if the work of the side platen is computed from its velocity.
+// The upper platen moves by 4 nm in a time step, and its position is a multiple of 15 pm, the spacing of floating-point numbers there. The limit of the
+// energy error is exceeded if the distance of a step is not a multiple of this spacing, if the platen is not at rest before it is accelerated, or if the work
+// of the side platen is computed from its velocity.
 TEST_P(Biaxial, BalancesTheEnergyOfASlowTest) {
   Variables slow = lattice("hexagonal", "0", "2e-4");
   slow.insert(slow.begin(), {"inertial_number", "2e-5"});

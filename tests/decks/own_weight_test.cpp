@@ -77,7 +77,8 @@ public:
   double first(const std::string &column) const { return table_.numbers(column).front(); }
   double walls() const { return last("left_force_N") + last("side_force_N"); }
   double wall_friction() const { return last("left_friction_N") + last("side_friction_N"); }
-  /// \param bound of the energy error of each row, relative to the largest work so far
+  /// Expects that the absolute energy error of each row of the CSV file is below a bound.
+  /// \param bound largest error that is allowed, relative to the largest work up to that row
   void expect_energy_balance(double bound = 1e-3) const {
     for (const double error : table_.numbers("energy_error"))
       EXPECT_LT(std::fabs(error), bound);

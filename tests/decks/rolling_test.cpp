@@ -163,7 +163,7 @@ TEST_P(RollingHeap, IsTheSameInTheLoopsOfEngineAndPlugin) {
 /// force on the first ball, N, and of the unit normal.
 using ContactRow = std::array<double, 8>;
 
-/// Normal force, N, positive when it pushes.
+/// Normal component of the contact force, N. It is positive if it pushes the balls apart.
 double push_of(const ContactRow &row) { return row[2] * row[5] + row[3] * row[6] + row[4] * row[7]; }
 /// Magnitude of the friction force, N.
 double friction_of(const ContactRow &row) {
@@ -266,9 +266,9 @@ std::vector<Frame> heap_by_number(const char *deck, const std::string &dimension
   return frames;
 }
 
-/// The normal forces of heavily damped contacts that share a ball are computed together, and friction and
-/// rolling resistance are limited with the result. The motion must not depend on the number of ranks,
-/// although such contacts then lie on different ranks.
+/// The normal forces of heavily damped contacts that share a ball are computed together. The friction force and
+/// the torque of rolling resistance of each contact are then limited in proportion to its normal force. On
+/// several ranks, contacts that share a ball may belong to different ranks. The motion must be the same.
 TEST(HeapOnSeveralRanks, IsThatOnOne) {
   for (const char *dimension : {"2", "3"})
     for (const auto &[deck, newton] :
@@ -283,10 +283,11 @@ TEST(HeapOnSeveralRanks, IsThatOnOne) {
     }
 }
 
-/// In a heavily damped contact the friction force Ft is computed with a preliminary normal force and limited
-/// again with the final one. The second limit must also shorten the tangential spring. Without a tangential
-/// dashpot |Ft| is kt times the length of the spring. The elastic energy of all tangential springs must
-/// therefore be the sum of Ft^2/(2 kt) over the contacts.
+/// The friction force Ft of a heavily damped contact is limited twice: to the friction coefficient times a
+/// preliminary normal force, and, when all normal forces are known, to the coefficient times the final one. The
+/// second limitation must also shorten the tangential spring, so that its force is again Ft. Without a
+/// tangential dashpot the energy of this spring is Ft^2/(2 kt). The test compares the elastic energy of all
+/// tangential springs with the sum of Ft^2/(2 kt) over the contacts.
 TEST_P(RollingHeap, TheSpringOfFrictionFollowsTheLimit) {
   constexpr double kt = 2.0 / 7.0 * 1e5; // N/m, of heap.scene
   const auto &[dimension, stepping] = GetParam();

@@ -13,8 +13,9 @@ struct BedAdviceRequest {
   BedQuantity question = BedQuantity::force;
   double within = 0.1;        ///< error that is allowed, > 0
   std::string name = "force"; ///< of the question, as the option --question gives it
-  bool absolute =
-      false; ///< errors are in the unit of the quantity; else relative to the mean of the complete scene
+  /// Whether errors are given in the unit of the quantity. Otherwise they are relative to the mean of the complete
+  /// scene.
+  bool absolute = false;
 };
 
 /// The cheapest scene whose error stays within the request.
@@ -22,10 +23,16 @@ struct BedAdvice {
   const FidelityScene *scene = nullptr; ///< of the plan
   Effect effect;       ///< of the scene against the complete one; without change if it is the complete one
   std::string closest; ///< name of the cheaper scene with the smallest error; empty: none is cheaper
-  double least_error = 0.0; ///< to which the closest scene keeps, as the request counts errors
-  double scatter = 0.0; ///< standard deviation of single beds of the complete scene, counted in the same way
-  int beds = 0;         ///< complete beds of which the mean has a 95 % confidence interval within the request
-  double cpu_s = 0.0;   ///< processor time of the scene's excitation, median over the seeds
+  /// Largest error of the closest scene that its 95 % confidence interval leaves possible: relative, or in the unit
+  /// of the quantity if the request is absolute.
+  double least_error = 0.0;
+  /// Standard deviation of the result from one bed of the complete scene to another: relative to its mean, or in
+  /// the unit of the quantity if the request is absolute.
+  double scatter = 0.0;
+  /// How many beds of the complete scene must be averaged so that the 95 % confidence interval of their mean has a
+  /// half width of at most BedAdviceRequest::within.
+  int beds = 0;
+  double cpu_s = 0.0; ///< processor time of the scene's excitation, median over the seeds
 };
 
 /// A scene keeps to the request if the whole 95 % confidence interval of its change does; two seeds or more. One that takes more than 0.9
