@@ -101,8 +101,12 @@ FidelityPlan fidelity_plan(int balls) {
     scene.bed.soil.clear();
     return scene;
   };
-  // The same for a scene that differs only after the soil has settled: it shares the soil of the complete one.
-  const auto on_its_soil = [&](FidelityScene scene) {
+  // A scene that differs from the complete one only after the soil has settled: it shares the soil.
+  // `values` are given to in.place and in.bed, `run` to in.bed alone.
+  const auto on_its_soil = [&](const std::string &name, const std::string &change, const Variables &values,
+                               const Variables &run = {}) {
+    FidelityScene scene = changed(name, change, {}, joined(values, run));
+    scene.bed.place = values;
     scene.bed.soil = complete.bed.soil;
     return scene;
   };
@@ -130,9 +134,9 @@ FidelityPlan fidelity_plan(int balls) {
   // Settled with the friction that the bed has later, and not densely with little of it.
   FidelityScene loose = changed("not compacted", "packed loosely, with the friction of the bed");
   loose.bed.settle = {{"pour_friction", "0.8"}, {"pour_rolling", "0.45"}};
-  const FidelityScene absorbing = on_its_soil(
-      changed("absorb", "floor and sides that absorb waves", {},
-              {{"boundary", "absorb"}, {"ground_depth", number_text(default_ground * scale, digits)}}));
+  const FidelityScene absorbing =
+      on_its_soil("absorb", "floor and sides that absorb waves",
+                  {{"boundary", "absorb"}, {"ground_depth", number_text(default_ground * scale, digits)}});
   // A base course as thick as the drum, on a subgrade: together as thick as the complete bed.
   FidelityScene layered =
       changed("layers", "the lower 64 % a soft, loose subgrade (case base_course)",
@@ -153,13 +157,13 @@ FidelityPlan fidelity_plan(int balls) {
        sized("k / 100", "k / 100 with a tenth of the steps", balls, 0.016, 0.024, 0.01 * k),
        sized("k / 10", "k / 10 with 0.32 times the steps", balls, 0.016, 0.024, 0.1 * k), shallow,
        changed("no rolling friction", "no rolling friction", {{"rolling", "0"}}),
-       on_its_soil(changed("A", "A instead of B", {}, {{"transition", "A"}})),
+       on_its_soil("A", "A instead of B", {{"transition", "A"}}),
        changed("history", "the engine's friction (tangential history)", {{"tangential", "history"}}), loose,
        sized("one size", "balls of one size", balls, 0.02, 0.02, k),
        changed("second", "stepping second instead of stock", {{"stepping", "second"}}),
-       on_its_soil(changed("twice the steps", "twice the steps per cycle", {}, {{"steps_per_cycle", twice}})),
+       on_its_soil("twice the steps", "twice the steps per cycle", {}, {{"steps_per_cycle", twice}}),
        absorbing, layered, deep, wide, graded,
-       on_its_soil(changed("clump", "drum a clump instead of a ball", {{"drum", "clump"}}))}};
+       on_its_soil("clump", "drum a clump instead of a ball", {{"drum", "clump"}})}};
 }
 
 } // namespace drumlin::post

@@ -77,6 +77,18 @@ TEST(FidelityPlan, HasScenesOfDifferentNamesAndKeepsProportions) {
           EXPECT_TRUE(name != "k" && name != "pour_k" && name != "pour_dt")
               << scene.name << ": " << name << " " << value;
     }
+    // What shares the soil of the complete scene must settle as it does; four scenes differ later only.
+    int sharing = 0;
+    for (const post::FidelityScene &scene : plan.scenes) {
+      if (&scene == &plan.reference() || scene.soil() != plan.reference().soil()) continue;
+      ++sharing;
+      const std::vector<std::string> commands = post::scene_commands(scene, 8),
+                                     complete = post::scene_commands(plan.reference(), 8);
+      EXPECT_EQ(commands[0], complete[0]) << scene.name;
+      EXPECT_EQ(commands[1], complete[1]) << scene.name;
+      EXPECT_NE(commands[3], complete[3]) << scene.name;
+    }
+    EXPECT_EQ(sharing, 4);
     for (const post::BedComparison &one : plan.comparisons())
       EXPECT_EQ(names.count(one.base), 1u) << one.variant;
     EXPECT_EQ(plan.reference().base, "");

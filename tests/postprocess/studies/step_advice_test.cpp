@@ -171,6 +171,28 @@ TEST_F(AdviseCommand, AnswersFromTheStudyThatComesWithTheProject) {
   EXPECT_TRUE(far.says("outside    D = 20, tested from ")) << far.output;
 }
 
+// The soil settles by -2 to 2 mm per cycle in the complete scene, and by 0.5 mm more with k / 10.
+TEST_F(AdviseCommand, TakesTheErrorOfASettlementInMillimetres) {
+  std::string rows =
+      "variant,seed,a_drum_max_m_s2,F_contact_max_N,settlement_m_per_cycle,contact_share,cpu_s,"
+      "balls,k_N_m_per_m\n";
+  for (int seed = 1; seed <= 5; ++seed) {
+    rows += fmt::format("complete,{},10,1e5,{},0.5,10,400,5e6\n", seed, 1e-3 * (seed - 3));
+    rows += fmt::format("k / 10,{},10,1e5,{},0.5,3,400,5e6\n", seed, 1e-3 * (seed - 2.5));
+  }
+  write_files({{folder_ / "runs.csv", rows}});
+  const auto ask = [this](const std::string &within) {
+    return run({"--bed", "--from", ".", "--question", "settlement", "--within", within});
+  };
+  const Outcome wide = ask("0.6mm"), narrow = ask("0.4mm");
+  EXPECT_EQ(wide.output.find("k / 10: "), 0u) << wide.output;
+  EXPECT_TRUE(wide.says("within 0.6 mm")) << wide.output;
+  EXPECT_TRUE(wide.says("error      +0.5 +- 0.0 mm against the complete scene")) << wide.output;
+  EXPECT_TRUE(wide.says("differs from another by 1.6 mm")) << wide.output;
+  EXPECT_EQ(narrow.output.find("complete: "), 0u) << narrow.output;
+  EXPECT_TRUE(narrow.says("'k / 10' keeps to 0.5 mm")) << narrow.output;
+}
+
 TEST_F(AdviseCommand, RefusesBadInputInOneLine) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> bad = {
       {{"--error", "0"}, "--error is '0'; allowed: a number from 1e-15 and below 1"},
