@@ -71,6 +71,19 @@ double worst_error(Transition transition, double D, double speed, int steps_per_
   return worst;
 }
 
+/// The power of the overlap to which a spring force is proportional, from its forces at d and 2 d.
+template <class Law>
+double measured_exponent(const Law &law) {
+  constexpr double d = 1e-4; // m
+  return std::log2(law.spring(2.0 * d) / law.spring(d));
+}
+
+// LIGGGHTS asks each contact model for this power.
+TEST(SpringExponent, IsThatOfTheForce) {
+  EXPECT_NEAR(HertzLaw::exponent, measured_exponent(law_of(Transition::B, 0.3)), 1e-12);
+  EXPECT_NEAR(LinearLaw::exponent, measured_exponent(LinearLaw(1e8, 1e5, Transition::B)), 1e-12);
+}
+
 class HertzImpact : public testing::TestWithParam<std::tuple<Transition, double>> {
 protected:
   Transition transition = std::get<0>(GetParam());
