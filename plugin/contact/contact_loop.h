@@ -9,6 +9,8 @@
 #include "physics/contact_block.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace drumlin {
 
@@ -48,8 +50,7 @@ public:
               LAMMPS_NS::FixStepping *stepping, const ContactObservers &observers, double dt, bool moves)
       : engine_(engine), atom_(atom), rows_(memory.rows), pairs_(memory.pairs), table_(table),
         places_(places), cap_(cap), stepping_(stepping), observers_(observers), observed_(observers.any()),
-        dt_(dt), moves_(moves), light_(stepped && stepping->light()),
-        in_setup_(stepped && stepping->in_setup()) {}
+        dt_(dt), moves_(moves), in_setup_(stepped && stepping->in_setup()) {}
 
   void run(const LAMMPS_NS::NeighList &list, const LAMMPS_NS::Neighbor &neighbor) {
     rows_.fill(atom_, [this](int i) { return engine_.mass(i); });
@@ -158,9 +159,9 @@ private:
   /// Computes the forces of some contacts of the block.
   void compute(int first, int end) {
     const ContactCoefficients<Parameters> &law = law_of(first);
-    const bool coupled = push(first, end, law.contact);
+    const bool rare = push(first, end, law.contact);
     if constexpr (stepped) {
-      if (changed_ || in_setup_ || (coupled && !light_))
+      if (changed_ || in_setup_ || rare)
         for (int n = first; n < end; ++n)
           exert_unless_it_goes_on(n, law.contact);
       else if (stepping_->counting())
@@ -179,6 +180,34 @@ private:
       physics::compute_friction<false, Cap::total>(block_, first, end, law, dt);
     if constexpr (!rubs) physics::compute_total_force(block_, first, end);
     if constexpr (rolling) physics::compute_rolling(block_, first, end, law, dt);
+    if constexpr (springs || rolling)
+      if (changed_ && moves_)
+        for (int n = first; n < end; ++n)
+          if (contacts_[n].touches && block_.in_contact[n] == 0.0) begin_springs(n, law);
+  }
+
+  /// Friction and rolling resistance of a contact that begins, whose springs have been stretched for a part of the step
+  /// only. (The engines' friction laws take the whole step.)
+  [[gnu::noinline]] void begin_springs(int n, const ContactCoefficients<Parameters> &law) {
+    const double time = physics::time_in_contact(block_.overlap[n], block_.rate_half[n], dt_);
+    const Vec3 normal = block_.normal[n];
+    if (springs && cap_ == Cap::coulomb) {
+      const physics::FrictionStep step =
+          physics::friction_step(law.tangential(block_.kt[n], block_.dashpot[n], cap_), block_.force[n],
+                                 normal, block_.slip[n], {}, time);
+      block_.spring.set(n, step.spring);
+      block_.tangential_force.set(n, step.force);
+      block_.total_force.set(n, physics::sum(step.force, block_.push[n], normal));
+      set_torques(n, step.force);
+    }
+    if constexpr (rolling) {
+      const double radius = physics::effective_radius(block_.ri[n], block_.rj[n]);
+      const physics::RollingStep step =
+          physics::rolling_step(law.rolling_resistance(block_.kt[n], radius), block_.force[n], normal,
+                                physics::sum(block_.wi[n], -1.0, block_.wj[n]), {}, time);
+      block_.rolling_spring.set(n, step.spring);
+      block_.rolling.set(n, step.torque);
+    }
   }
 
   bool push(int first, int end, const Parameters &law) {
@@ -214,9 +243,10 @@ private:
   void exert_unless_it_goes_on(int n, const Parameters &parameters) {
     const BlockContact &contact = contacts_[n];
     const bool goes_on = contact.touches && !in_setup_ && block_.in_contact[n] != 0.0;
-    if (goes_on && light_) return;
+    if (goes_on && block_.coupled[n] == 0.0 &&
+        !physics::lost_its_force(block_.force_before[n], block_.force[n]))
+      return stepping_->counting() ? count_dashpots(n, n + 1) : void();
     const auto law = parameters.law(block_.m_eff[n], block_.r_eff[n]);
-    if (goes_on && block_.coupled[n] == 0.0) return stepping_->counting() ? count_dashpots(n, n + 1) : void();
     const StepContact now{contact.i,         contact.j,           block_.normal[n], nullptr,
                           block_.overlap[n], block_.rate_half[n], block_.m_eff[n],  1.0};
     if (!contact.touches) {
@@ -227,10 +257,13 @@ private:
     }
     physics::ContactState state{block_.force_before[n], block_.in_contact[n] != 0.0};
     double &stored_force = contact.history[places_.force];
-    block_.push[n] = exert_rare(law, *stepping_, now, state, stored_force);
+    block_.push[n] = exert_contact(law, *stepping_, now, state, stored_force);
     block_.force[n] = state.force;
     coupled_[n] = stepping_->coupled_at(&stored_force);
     any_coupled_ |= coupled_[n] != nullptr;
+    if constexpr (rubs || rolling)
+      if (const LAMMPS_NS::FixStepping::Begun *begun = stepping_->begun_at(&stored_force))
+        begun_.emplace_back(n, *begun);
   }
 
   /// Passes friction and rolling resistance of the coupled contacts to FixStepping, which limits them when the normal
@@ -238,26 +271,42 @@ private:
   [[gnu::noinline]] void couple_friction(int count) {
     for (int n = 0; n < count; ++n) {
       LAMMPS_NS::FixStepping::Coupled *const coupled = coupled_[n];
-      if (coupled == nullptr) continue;
-      coupled->dt = dt_;
-      double *const history = contacts_[n].history;
-      const ContactCoefficients<Parameters> &law = law_of(n);
-      if constexpr (springs) {
-        if (cap_ == Cap::coulomb) {
-          coupled->friction = law.tangential(block_.kt[n], block_.dashpot[n], cap_);
-          coupled->rub = block_.tangential_force[n];
-          coupled->arm_i = block_.arm_i[n];
-          coupled->arm_j = block_.arm_j[n];
-          coupled->spring = history + places_.spring;
-        }
-      }
-      if constexpr (rolling) {
-        coupled->rolling =
-            law.rolling_resistance(block_.kt[n], physics::effective_radius(block_.ri[n], block_.rj[n]));
-        coupled->roll = block_.rolling[n];
-        coupled->rolling_spring = history + places_.rolling;
+      if (coupled != nullptr) describe(n, *coupled, cap_ == Cap::coulomb);
+    }
+  }
+
+  /// \param limited whether friction with a spring is described, too
+  void describe(int n, LAMMPS_NS::FixStepping::Rubbing &rubbing, bool limited) const {
+    double *const history = contacts_[n].history;
+    const ContactCoefficients<Parameters> &law = law_of(n);
+    if constexpr (rubs) {
+      if (limited) {
+        rubbing.friction = law.tangential(block_.kt[n], block_.dashpot[n], cap_);
+        rubbing.rub = block_.tangential_force[n];
+        rubbing.slip = block_.slip[n];
+        rubbing.arm_i = block_.arm_i[n];
+        rubbing.arm_j = block_.arm_j[n];
+        if constexpr (springs) rubbing.spring = history + places_.spring;
       }
     }
+    if constexpr (rolling) {
+      rubbing.rolling =
+          law.rolling_resistance(block_.kt[n], physics::effective_radius(block_.ri[n], block_.rj[n]));
+      rubbing.roll = block_.rolling[n];
+      rubbing.rolling_spring = history + places_.rolling;
+    }
+  }
+
+  /// Friction and rolling resistance of contacts that begin: those of the closing half kick.
+  [[gnu::noinline]] void close_friction() {
+    for (auto &[n, begun] : begun_) {
+      describe(n, begun, true);
+      const auto closing = stepping_->close_friction(begun);
+      block_.total_force.set(n, physics::sum(closing.friction, block_.push[n], block_.normal[n]));
+      if constexpr (rubs) set_torques(n, closing.friction);
+      if constexpr (rolling) block_.rolling.set(n, closing.rolling);
+    }
+    begun_.clear();
   }
 
   /// Adds the forces of the first `count` contacts to their balls, and stores the contacts' history.
@@ -273,6 +322,8 @@ private:
     if (observed_)
       for (int n = 0; n < count; ++n)
         if (contacts_[n].touches) report(n);
+    if constexpr (stepped)
+      if (!begun_.empty()) close_friction();
     engine_.exert(block_, contacts_, count);
     if (any_coupled_) {
       std::fill_n(coupled_, count, nullptr);
@@ -323,9 +374,29 @@ private:
     if constexpr (rubs) {
       block_.torque_i.set(n, {});
       block_.torque_j.set(n, {});
+      if (pushes && cap_ != Cap::coulomb && block_.force_before[n] < 0.0) end_friction(n);
     }
     if constexpr (rolling) block_.rolling.set(n, {});
     std::fill_n(contacts_[n].history, places_.count, 0.0);
+  }
+
+  /// Friction in the closing half kick of a contact that has ended in tension.
+  void end_friction(int n) {
+    const double *const history = contacts_[n].history;
+    const ContactCoefficients<Parameters> &law = law_of(n);
+    const double kt = stores_stiffness ? history[places_.stiffness] : block_.kt[n];
+    const Vec3 spring = springs ? vector_at(history, places_.spring) : Vec3{};
+    const Vec3 friction = physics::closing_friction_of_end(law.tangential(kt, block_.dashpot[n], cap_),
+                                                           springs, block_.force_before[n], block_.push[n],
+                                                           block_.normal[n], block_.slip[n], spring);
+    block_.total_force.set(n, physics::sum(block_.total_force[n], 1.0, friction));
+    set_torques(n, friction);
+  }
+
+  void set_torques(int n, const Vec3 &friction) {
+    const Vec3 moment = physics::cross(block_.normal[n], friction);
+    block_.torque_i.set(n, physics::scaled(-block_.arm_i[n], moment));
+    block_.torque_j.set(n, physics::scaled(-block_.arm_j[n], moment));
   }
 
   void keep_history(int n, double *history) const {
@@ -354,7 +425,7 @@ private:
   const bool observed_; // in this step
   const double dt_;
   const bool moves_; // false in the set-up of a run: springs stay as they are
-  const bool light_, in_setup_;
+  const bool in_setup_;
 
   static constexpr int at_once = 32; // pairs that one call of find_touching() tests for contact
   int count_ = 0;                    // contacts found whose forces are not computed yet
@@ -366,6 +437,7 @@ private:
   LAMMPS_NS::FixStepping::Coupled *coupled_[physics::block_size] =
       {}; // of the contacts of the block; nullptr: not coupled
   bool any_coupled_ = false;
+  std::vector<std::pair<int, LAMMPS_NS::FixStepping::Begun>> begun_; // contacts of the block that begin
 };
 
 } // namespace drumlin

@@ -91,6 +91,10 @@ public:
   virtual void see_contact(const ContactRecord &) {}
   /// Receives a bond, once for each of its balls that this rank owns. \param partner ID of the other ball
   virtual void see_bond(int /*ball*/, int /*partner*/, const physics::LinkModes &) {}
+  /// Receives heat, J, that the trapezoidal rule over the powers of the contacts misses in a step in which a contact
+  /// begins or ends, under `stepping second`: of the normal dashpot, and of friction. Called in every step while forces
+  /// are computed, on the ranks that see_contact() is called on, whether observe(true) has been called or not.
+  virtual void see_heat(int /*i*/, int /*j*/, double /*normal*/, double /*tangential*/) {}
   /// Receives a pair of balls at the end of a time step. Only FixPairObserver calls it, in every step,
   /// whether observe(true) has been called or not.
   virtual void see_pair(const PairStep &) {}
@@ -125,6 +129,10 @@ public:
   void tell(const ContactRecord &record) const {
     for (ContactObserver *observer : all_)
       if (observer->observing()) observer->see_contact(record);
+  }
+  void tell_heat(int i, int j, double normal, double tangential) const {
+    for (ContactObserver *observer : all_)
+      observer->see_heat(i, j, normal, tangential);
   }
   void tell_bond(int ball, int partner, const physics::LinkModes &modes) const {
     for (ContactObserver *observer : all_)

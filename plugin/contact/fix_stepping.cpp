@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char *helper_id = "drumlin_stepping";
 constexpr int exchanged = 5;     // numbers that move with a ball to another rank
-constexpr int most_gathered = 6; // most numbers that a ghost sends to its owner
+constexpr int most_gathered = 9; // most numbers that a ghost sends to its owner
 
 /// Constraints that share forces among the balls of a group, over all ranks, which must all call them.
 bool joins(const std::string &style) { return style == "aveforce" || style == "clump"; }
@@ -72,6 +72,7 @@ int FixStepping::setmask() {
 void FixStepping::init() {
   comm_reverse =
       most_gathered; // for which the engine makes room at the begin of each run; gather() may ask for less
+  observers_.find(*modify);
   constraints_.clear();
   for (int n = 0; n < modify->nfix; ++n)
     for (const char *name : {"setforce", "freeze", "lineforce", "planeforce", "aveforce", "clump"})
@@ -92,6 +93,7 @@ void FixStepping::setup_pre_force(int) {
   in_setup_ = true;
   light_ = false;
   coupled_.clear();
+  begun_.force = nullptr;
   coupled_links_.clear();
   later_.clear();
   shifts_.clear();
@@ -139,6 +141,7 @@ void FixStepping::pre_exchange() { expected_.clear(); }
 void FixStepping::pre_force(int) {
   if (!in_use_) return;
   coupled_.clear();
+  begun_.force = nullptr;
   if (neighbor->ago == 0 || update->dt != expected_dt_) expect_contacts();
   light_ = !counted_ && !counting_;
   if (comm->nprocs > 1 || atom->nghost > 0) drumlin::engine::forward_comm(comm, this);
@@ -229,13 +232,15 @@ void FixStepping::send_later() {
       for (std::size_t a = 0; a < 3; ++a) {
         gathered(item.i)[static_cast<std::ptrdiff_t>(a)] += item.rest[a];
         gathered(item.i)[static_cast<std::ptrdiff_t>(a) + 3] += item.shift[a];
+        gathered(item.i)[static_cast<std::ptrdiff_t>(a) + 6] += item.torque[a];
       }
   drumlin::engine::reverse_comm(comm, this);
   later_.swap(kept);
   for (int i = 0; i < atom->nlocal; ++i) {
-    Later item{i, {}, {}};
+    Later item{i, {}, {}, {}};
     std::copy_n(gathered(i), 3, item.rest.begin());
     std::copy_n(gathered(i) + 3, 3, item.shift.begin());
+    std::copy_n(gathered(i) + 6, 3, item.torque.begin());
     if (std::any_of(gathered(i), gathered(i) + most_gathered, [](double value) { return value != 0.0; }))
       later_.push_back(item);
   }
@@ -298,7 +303,7 @@ void FixStepping::limit_friction(Coupled &p, double normal_force) {
   p.change = {};
   if (p.spring != nullptr) {
     const drumlin::physics::PulledSpring now = drumlin::physics::limited_to(
-        p.friction, normal_force, {p.rub, {p.spring[0], p.spring[1], p.spring[2]}}, p.dt);
+        p.friction, normal_force, {p.rub, {p.spring[0], p.spring[1], p.spring[2]}}, dt_);
     p.change.force = scaled(p.share, sum(now.force, -1.0, p.rub));
     const Vec3 moment = cross(p.normal, p.change.force);
     p.change.torque_i = scaled(-p.arm_i, moment);
@@ -313,6 +318,25 @@ void FixStepping::limit_friction(Coupled &p, double normal_force) {
     for (std::size_t a = 0; a < 3; ++a)
       p.rolling_spring[a] = -now[a];
   }
+}
+
+FixStepping::RubbingForces FixStepping::close_friction(const Begun &p) {
+  using drumlin::physics::sum, drumlin::physics::scaled, drumlin::physics::cross;
+  using Vec3 = drumlin::physics::Vec3;
+  const Vec3 spring = p.spring != nullptr ? Vec3{p.spring[0], p.spring[1], p.spring[2]} : Vec3{};
+  RubbingForces closing;
+  closing.friction = scaled(p.share, drumlin::physics::closing_friction(p.friction, p.step.force, p.step.kick,
+                                                                        p.step.weight, {p.rub, spring}));
+  if (p.rolling_spring != nullptr)
+    closing.rolling =
+        scaled(p.share, drumlin::physics::closing_torque(p.rolling, p.step.force, p.step.kick, p.roll));
+  const Vec3 rest = sum(scaled(p.share, p.rub), -1.0, closing.friction);
+  const Vec3 rolling = sum(scaled(p.share, p.roll), -1.0, closing.rolling);
+  const Vec3 moment = cross(p.normal, rest);
+  if (takes(p.i)) add_after_kick(p.i, rest, {}, sum(rolling, -p.arm_i, moment));
+  if (takes(p.j)) add_after_kick(p.j, scaled(-1.0, rest), {}, sum(scaled(-1.0, rolling), -p.arm_j, moment));
+  tell_heat(p.i, p.j, 0.0, 0.5 * dt_ * drumlin::physics::dot(rest, p.slip));
+  return closing;
 }
 
 /// Adds a torque, N m, to a ball; that of a ghost is sent to its owner.
@@ -334,6 +358,7 @@ void FixStepping::merge_later() {
       for (std::size_t a = 0; a < 3; ++a) {
         later_[kept - 1].rest[a] += item.rest[a];
         later_[kept - 1].shift[a] += item.shift[a];
+        later_[kept - 1].torque[a] += item.torque[a];
       }
     else
       later_[kept++] = item;
@@ -346,7 +371,7 @@ void FixStepping::end_of_step() {
   for (const Constraint &constraint : constraints_)
     if (constraint.joins)
       for (int i = 0; i < atom->nlocal; ++i)
-        if (atom->mask[i] & constraint.fix->groupbit) later_.push_back({i, {}, {}});
+        if (atom->mask[i] & constraint.fix->groupbit) later_.push_back({i, {}, {}, {}});
   merge_later();
   double **v = atom->v;
   for (int i = 0; i < atom->nlocal; ++i) {
@@ -357,8 +382,11 @@ void FixStepping::end_of_step() {
   }
   double **f = atom->f;
   hold_body_forces();
-  for (const Later &item : later_)
+  for (const Later &item : later_) {
     add_force(item.i, 1.0, item.rest);
+    for (std::size_t a = 0; a < 3; ++a)
+      atom->torque[item.i][a] += item.torque[a];
+  }
   constrain(!later_.empty());
   hold_body_forces();
   // The part of a shift that passes the constraints is the difference that it makes to the constrained force.

@@ -5,9 +5,9 @@
 
 #include "contact/contact_observer.h"
 #include "engine.h"
+#include "physics/contact_step.h"
 #include "physics/friction_law.h"
 #include "physics/rolling_law.h"
-#include "physics/stepping.h"
 
 #include <deque>
 #include <functional>
@@ -91,33 +91,37 @@ public:
   /// Announces a link on owned ball i that is not a contact (a bond), with its k, N/m, and c, N s/m. To be
   /// called before each build of the neighbour list (pre_neighbor), which discards earlier announcements.
   void expect(int i, double k, double c) { expected_.push_back({i, k, c}); }
-  /// Forces, N, that are added after the closing half kick of this step to a ball i with takes(i): `rest`
-  /// acts in the next opening half kick; `shift` acts in the next drift only (StepResult::shift).
-  void add_after_kick(int i, const std::array<double, 3> &rest, const std::array<double, 3> &shift) {
-    later_.push_back({i, rest, shift});
+  /// Forces, N, that are added after the closing half kick of this step to a ball i with takes(i): `rest`, and
+  /// `torque`, N m, act in the next opening half kick; `shift` acts in the next drift only (StepResult::shift).
+  void add_after_kick(int i, const std::array<double, 3> &rest, const std::array<double, 3> &shift,
+                      const std::array<double, 3> &torque = {}) {
+    later_.push_back({i, rest, shift, torque});
   }
 
+  /// Friction and rolling resistance of a contact, computed with its normal force at the end of the step (of a coupled
+  /// contact: with that of the contact solved for alone). Forces and torques are those of the whole contact.
+  struct Rubbing {
+    drumlin::physics::Friction
+        friction;                    ///< of `tangential coulomb`; of any friction for a contact that begins
+    drumlin::physics::Vec3 rub{};    ///< N, force of friction on ball i
+    drumlin::physics::Vec3 slip{};   ///< m/s, of ball i's surface relative to j's; of a contact that begins
+    double arm_i = 0.0, arm_j = 0.0; ///< m, from the centre of each ball to the point where friction acts
+    double *spring = nullptr;        ///< m, of friction; nullptr: there is no spring
+    drumlin::physics::Rolling rolling;
+    drumlin::physics::Vec3 roll{};    ///< N m, torque of rolling resistance on ball i
+    double *rolling_spring = nullptr; ///< N m; nullptr: there is no rolling resistance
+  };
+
   /// A contact that is solved for together with others when all forces of the step are known: see
-  /// CoupledDashpot and coupled_force().
-  struct Coupled {
+  /// CoupledDashpot and coupled_force(). Its friction and rolling resistance are then limited to what their laws allow
+  /// with its normal force.
+  struct Coupled : Rubbing {
     int i, j; ///< j < 0: a wall
     std::array<double, 3> normal;
     drumlin::physics::CoupledDashpot dashpot; ///< a wall's own velocity is included in at_rest
     double share;                             ///< part of the force that acts: see StepContact::share
     double *force;                            ///< where the force, N, is stored
-
-    /// Friction and rolling resistance, computed with the force of the contact solved for alone. When the force
-    /// is known they are limited to what their laws allow with it. Forces and torques are those of the whole
-    /// contact, of which `share` acts.
-    drumlin::physics::Friction friction; ///< of `tangential coulomb`
-    drumlin::physics::Vec3 rub{};        ///< N, force of friction on ball i
-    double arm_i = 0.0, arm_j = 0.0;     ///< m, from the centre of each ball to the point where friction acts
-    double *spring = nullptr;            ///< m, of friction; nullptr: there is no friction that is limited
-    drumlin::physics::Rolling rolling;
-    drumlin::physics::Vec3 roll{};    ///< N m, torque of rolling resistance on ball i
-    double *rolling_spring = nullptr; ///< N m; nullptr: there is no rolling resistance
-    double dt = 0.0;                  ///< s, time step
-    drumlin::FrictionChange change;   ///< once the force is known
+    drumlin::FrictionChange change;           ///< once the force is known
   };
   /// Adds a coupled contact and returns it, for the caller to fill in. (Filling it in place is faster than
   /// copying a finished one.) It stays where it is until the forces of the next step are computed.
@@ -126,6 +130,34 @@ public:
   Coupled *coupled_at(const double *stored_force) {
     return !coupled_.empty() && coupled_.back().force == stored_force ? &coupled_.back() : nullptr;
   }
+
+  /// A contact that begins in this step: its friction acts in the closing half kick with another value than in the next
+  /// opening one, as its normal force does.
+  struct Begun : Rubbing {
+    int i, j; ///< j < 0: a wall
+    std::array<double, 3> normal;
+    double share;        ///< as of a coupled contact
+    const double *force; ///< where the force, N, is stored
+    drumlin::physics::StepResult step;
+  };
+  /// Announces a contact that begins, for the caller to fill in what Rubbing has.
+  Begun &begin() { return begun_ = {}; }
+  /// The contact that has begun last, if its force is stored there; else nullptr.
+  Begun *begun_at(const double *stored_force) {
+    return begun_.force == stored_force && stored_force != nullptr ? &begun_ : nullptr;
+  }
+  /// Friction, N, and rolling resistance, N m, on ball i of the share of a contact that acts.
+  struct RubbingForces {
+    drumlin::physics::Vec3 friction{}, rolling{};
+  };
+  /// Those of a contact that begins, in the closing half kick. Adds what they lack in the next opening half kick.
+  RubbingForces close_friction(const Begun &contact);
+
+  /// Passes heat that the trapezoidal rule misses in the step in which a contact begins or ends to the observers.
+  void tell_heat(int i, int j, double normal, double tangential) const {
+    observers_.tell_heat(i, j, normal, tangential);
+  }
+
   /// The same for a link that is not a contact and whose balls may be on different ranks: `close` is called
   /// when v* is known, and adds the force of the link by add_force(). All ranks must call couple(), since
   /// `close` may communicate.
@@ -139,7 +171,7 @@ public:
 private:
   struct Later {
     int i;
-    std::array<double, 3> rest, shift;
+    std::array<double, 3> rest, shift, torque;
   };
   /// A fix that takes forces away (setforce, freeze, ...), and its sum of the forces taken away, which is
   /// restored when the fix acts a second time in a step; nullptr if it has no such sum.
@@ -187,6 +219,8 @@ private:
   std::vector<double> damping_;      // sum of c in this step, N s/m
   std::vector<double> gathered_;     // sums of ghosts to be sent to owners, comm_reverse each
   std::deque<Coupled> coupled_;      // of this step
+  Begun begun_{};                    // the last
+  drumlin::ContactObservers observers_;
   std::vector<std::function<void()>> coupled_links_;
   std::vector<Later> later_;            // of this step
   std::vector<Later> shifts_;           // in the next opening half kick, to be taken back after it

@@ -58,11 +58,12 @@ template <class Law>
 inline bool hold_contact(const Law &law, LAMMPS_NS::FixStepping &stepping, int i, int j,
                          const physics::StepMotion &motion, double m_eff, physics::ContactState &state) {
   if (!state.in_contact) return false;
-  if (!stepping.light()) {
-    if (!physics::goes_on(law, motion, state, step_context(stepping, i, j, m_eff))) return false;
-    count(stepping, i, j, law.dashpot(motion.overlap));
-  }
-  state.force = physics::going_on(law, motion, state.force, m_eff);
+  if (!stepping.light() && !physics::goes_on(law, motion, state, step_context(stepping, i, j, m_eff)))
+    return false;
+  const double force = physics::going_on(law, motion, state.force, m_eff);
+  if (physics::lost_its_force(state.force, force)) return false;
+  state.force = force;
+  if (stepping.counting()) count(stepping, i, j, law.dashpot(motion.overlap));
   return true;
 }
 
@@ -98,33 +99,34 @@ inline void exert_later(LAMMPS_NS::FixStepping &stepping, const StepContact &p,
   if (stepping.takes(p.j)) later(p.j, -1.0);
 }
 
-/// Applies the second-order scheme to one contact, in any situation.
+/// Applies the second-order scheme to one contact, in any situation. Not inlined: most contacts are treated by
+/// hold_contact() in most steps.
 /// \param state of the step before on entry, of this step on return
 /// \param stored_force where the contact's history keeps ContactState::force; for a coupled contact the force
 /// is written there when all forces of the step are known
-/// \param push called with the force, N, of the closing half kick, StepContact::share included; adds it along
-/// the normal to ball i and its opposite to ball j
-template <class Law, class Push>
-void exert_contact(const Law &law, LAMMPS_NS::FixStepping &stepping, const StepContact &p,
-                   physics::ContactState &state, double &stored_force, Push &&push) {
+/// \returns the force, N, of the closing half kick, StepContact::share included, along the normal on ball i
+template <class Law>
+[[gnu::noinline]] double exert_contact(const Law &law, LAMMPS_NS::FixStepping &stepping, const StepContact &p,
+                                       physics::ContactState &state, double &stored_force) {
+  const physics::ContactState before = state;
+  const physics::StepMotion motion = step_motion(stepping, p);
   const physics::StepResult step =
-      physics::advance(law, step_motion(stepping, p), state, step_context(stepping, p.i, p.j, p.m_eff));
-  push(p.share * step.kick);
+      physics::advance(law, motion, state, step_context(stepping, p.i, p.j, p.m_eff));
   exert_later(stepping, p, step);
   if (step.coupled) couple(stepping, p, step.dashpot, stored_force);
+  if (step.begins) {
+    LAMMPS_NS::FixStepping::Begun &contact = stepping.begin();
+    contact.i = p.i;
+    contact.j = p.j;
+    contact.normal = p.normal;
+    contact.share = p.share;
+    contact.force = &stored_force;
+    contact.step = step;
+  }
+  const double heat = physics::heat_of_change(law, motion, before, step, p.m_eff);
+  if (heat != 0.0) stepping.tell_heat(p.i, p.j, p.share * heat, 0.0);
   if (state.in_contact) count(stepping, p.i, p.j, law.dashpot(p.overlap));
-}
-
-/// exert_contact() as a function that is not inlined, for the rare steps in which a contact begins, ends or
-/// is heavily damped. \param state of the step before on entry, of this step on return
-/// \returns the force of the closing half kick along the normal, N
-template <class Law>
-[[gnu::noinline]] double exert_rare(const Law &law, LAMMPS_NS::FixStepping &stepping,
-                                    const StepContact &contact, physics::ContactState &state,
-                                    double &stored_force) {
-  double push = 0.0;
-  exert_contact(law, stepping, contact, state, stored_force, [&push](double force) { push += force; });
-  return push;
+  return p.share * step.kick;
 }
 
 /// The step in which a contact ends. \param contact a copy, whose overlap is made negative even if rounding
@@ -135,7 +137,7 @@ template <class Law>
   // In this order the result is negative even if the overlap is not a number.
   contact.overlap = std::min(-std::numeric_limits<double>::min(), contact.overlap);
   physics::ContactState state{stored_force, true};
-  return exert_rare(law, stepping, contact, state, stored_force);
+  return exert_contact(law, stepping, contact, state, stored_force);
 }
 
 } // namespace drumlin

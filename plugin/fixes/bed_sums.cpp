@@ -42,14 +42,30 @@ std::size_t BedSums::vertical_component(const Vec3 &axis) {
   return most;
 }
 
+void BedSums::clear() {
+  records_.clear();
+  missed_heat_ = missed_work_ = 0.0;
+}
+
+void BedSums::add_heat(int i, int j, double normal, double tangential) {
+  missed_heat_ += weight(i, j) * normal;
+  missed_work_ += weight(i, j) * tangential;
+}
+
+/// With newton off a contact of balls on two ranks is recorded on both: it counts half on each.
+double BedSums::weight(int i, int j) const {
+  const int owned = lmp_->atom->nlocal;
+  return !lmp_->force->newton_pair && (i >= owned || j >= owned) ? 0.5 : 1.0;
+}
+
 ContactSums BedSums::contacts(const Vec3 &axis) const {
   const LAMMPS_NS::Atom &atom = *lmp_->atom;
-  const double half = lmp_->force->newton_pair ? 1.0 : 0.5;
   ContactSums mine;
+  mine.missed_heat = missed_heat_;
+  mine.missed_work = missed_work_;
   for (const ContactRecord &e : records_) {
     const bool wall = e.j < 0;
-    // With newton off a contact of balls on two ranks is recorded on both: it counts half on each.
-    const double weight = !wall && (e.i >= atom.nlocal || e.j >= atom.nlocal) ? half : 1.0;
+    const double weight = this->weight(e.i, e.j);
     const double force = e.final_normal_force();
     const Vec3 tangential = e.final_tangential_force();
     const double *vi = atom.v[e.i];

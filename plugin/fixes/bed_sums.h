@@ -15,6 +15,8 @@ struct ContactSums {
       0.0; ///< W, of the normal dashpots; under B with the spring energy lost while the force is 0
   double tangential_power =
       0.0; ///< W, taken from the balls by friction and rolling: heat and energy of their springs
+  double missed_heat = 0.0;       ///< J, of the normal dashpots in this step, see ContactObserver::see_heat()
+  double missed_work = 0.0;       ///< J, the same of friction
   double normal_stored = 0.0;     ///< J, in normal springs
   double tangential_stored = 0.0; ///< J, in tangential springs
   double contacts = 0.0;          ///< number of contacts with at least one soil ball
@@ -48,8 +50,10 @@ public:
   explicit BedSums(engine::LAMMPS *lmp, int soil_groupbit) : lmp_(lmp), soil_(soil_groupbit) {}
 
   /// Discards the recorded contacts; to be called before the forces of a step are computed.
-  void clear() { records_.clear(); }
+  void clear();
   void add(const ContactRecord &record) { records_.push_back(record); }
+  /// What ContactObserver::see_heat() receives.
+  void add_heat(int i, int j, double normal, double tangential);
 
   /// Sums over the recorded contacts with the present velocities. The copies of balls that belong to another
   /// process (ghosts) must have the velocities of the original balls. To be called on all processes.
@@ -63,11 +67,13 @@ public:
   double void_ratio(const std::array<double, 3> &axis, double window_top, double solid) const;
 
 private:
+  double weight(int i, int j) const;
   static std::size_t vertical_component(const std::array<double, 3> &axis);
 
   engine::LAMMPS *lmp_;
   int soil_;
   std::vector<ContactRecord> records_;
+  double missed_heat_ = 0.0, missed_work_ = 0.0; // J
 };
 
 } // namespace drumlin

@@ -27,9 +27,11 @@ void CycleSums::add_step(const RollerState &before, const RollerState &now, doub
   F_max = std::max(F_max, now.forces.contact);
   contact_steps += now.forces.in_contact ? 1.0 : 0.0;
   work += half * (before.forces.excitation_power + now.forces.excitation_power);
-  contact_dissipated += half * (before.forces.contact_dissipated + now.forces.contact_dissipated);
+  contact_dissipated +=
+      half * (before.forces.contact_dissipated + now.forces.contact_dissipated) + now.forces.contact_missed;
   bond_dissipated += half * (before.forces.bond_dissipated + now.forces.bond_dissipated);
-  tangential_work += half * (before.forces.tangential_power + now.forces.tangential_power);
+  tangential_work +=
+      half * (before.forces.tangential_power + now.forces.tangential_power) + now.forces.tangential_missed;
   sinking -= now.drum.x;
 
   constexpr double pi = 3.141592653589793;

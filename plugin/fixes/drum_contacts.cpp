@@ -2,35 +2,46 @@
 
 #include "contact/pair_motion.h"
 
+#include <utility>
+
 namespace drumlin {
 
 void DrumContacts::list_pairs(const ContactSource &source, int drum, int frame) {
   pairs_.clear();
   source_ = &source;
   const LAMMPS_NS::NeighList *list = source.contact_list();
-  const LAMMPS_NS::Atom &atom = *lmp_->atom;
-  const int *mask = atom.mask;
-  const int roller = drum | frame;
+  drum_ = drum;
+  roller_ = drum | frame;
   for (int ii = 0; ii < list->inum; ++ii) {
     const int i = list->ilist[ii];
     for (int jj = 0; jj < list->numneigh[i]; ++jj) {
       const int j = engine::neighbour_index(list->firstneigh[i][jj]);
-      const bool i_drum = mask[i] & drum;
-      const bool j_drum = mask[j] & drum;
-      if (i_drum == j_drum || ((i_drum ? mask[j] : mask[i]) & roller)) continue;
-      // With newton off a pair of balls on two ranks is in the lists of both: it counts where the drum's ball
-      // is owned.
-      if ((i_drum ? i : j) >= atom.nlocal && !lmp_->force->newton_pair) continue;
-      pairs_.push_back({i, j, i_drum ? 1.0 : -1.0, source.law(i, j),
+      const double sign = this->sign(i, j);
+      if (sign == 0.0) continue;
+      pairs_.push_back({i, j, sign, source.law(i, j),
                         source.friction_model() == FrictionModel::history ? source.tangential_spring(i, jj)
                                                                           : TangentialSpring{}});
     }
   }
 }
 
+/// With newton off a pair of balls on two ranks is in the lists of both: it counts where the drum's ball is owned.
+double DrumContacts::sign(int i, int j) const {
+  const LAMMPS_NS::Atom &atom = *lmp_->atom;
+  const bool i_drum = atom.mask[i] & drum_;
+  const bool j_drum = atom.mask[j] & drum_;
+  if (i_drum == j_drum || ((i_drum ? atom.mask[j] : atom.mask[i]) & roller_)) return 0.0;
+  if ((i_drum ? i : j) >= atom.nlocal && !lmp_->force->newton_pair) return 0.0;
+  return i_drum ? 1.0 : -1.0;
+}
+
+void DrumContacts::add_heat(int i, int j, double heat) {
+  if (j >= 0 && sign(i, j) != 0.0) missed_heat_ += heat;
+}
+
 /// Adds the force, dissipated power, stored energy and number of contacts of a pair.
 template <class Law>
-void DrumContacts::add(std::array<double, 4> &sums, const Pair &pair, const Law &law,
+void DrumContacts::add(std::array<double, 5> &sums, const Pair &pair, const Law &law,
                        const std::array<double, 3> &axis) const {
   const LAMMPS_NS::Atom &atom = *lmp_->atom;
   const auto along = [&axis](const double *v) { return v[0] * axis[0] + v[1] * axis[1] + v[2] * axis[2]; };
@@ -49,13 +60,14 @@ void DrumContacts::add(std::array<double, 4> &sums, const Pair &pair, const Law 
   sums[3] += law.acts(m.overlap, m.rate) ? 1.0 : 0.0;
 }
 
-DrumContactSums DrumContacts::sums(const std::array<double, 3> &axis) const {
-  std::array<double, 4> mine{};
+DrumContactSums DrumContacts::sums(const std::array<double, 3> &axis) {
+  std::array<double, 5> mine{};
+  mine[4] = std::exchange(missed_heat_, 0.0);
   for (const Pair &pair : pairs_)
     std::visit([&](const auto &law) { add(mine, pair, law, axis); }, pair.law);
-  std::array<double, 4> all = mine;
-  if (lmp_->comm->nprocs > 1) MPI_Allreduce(mine.data(), all.data(), 4, MPI_DOUBLE, MPI_SUM, lmp_->world);
-  return {all[0], all[1], all[2], all[3] > 0.0};
+  std::array<double, 5> all = mine;
+  if (lmp_->comm->nprocs > 1) MPI_Allreduce(mine.data(), all.data(), 5, MPI_DOUBLE, MPI_SUM, lmp_->world);
+  return {all[0], all[1], all[4], all[2], all[3] > 0.0};
 }
 
 } // namespace drumlin

@@ -12,10 +12,11 @@ namespace drumlin {
 
 /// Sums over the contacts of the drum.
 struct DrumContactSums {
-  double force = 0.0;      ///< N, on the drum along the axis, friction included
-  double dissipated = 0.0; ///< W, of the normal dashpots
-  double stored = 0.0;     ///< J, in the normal springs
-  bool in_contact = false; ///< whether a contact exerts a force
+  double force = 0.0;       ///< N, on the drum along the axis, friction included
+  double dissipated = 0.0;  ///< W, of the normal dashpots
+  double missed_heat = 0.0; ///< J, of these dashpots in the last step, see ContactObserver::see_heat()
+  double stored = 0.0;      ///< J, in the normal springs
+  bool in_contact = false;  ///< whether a contact exerts a force
 };
 
 /// The pairs of the neighbour list that may become such contacts, with their coefficients.
@@ -27,10 +28,13 @@ public:
   /// \param drum, frame bits of the groups; frame 0: there is no frame
   void list_pairs(const ContactSource &source, int drum, int frame);
 
+  /// Takes the heat of a contact, J, if it is one of the drum's: see ContactObserver::see_heat().
+  void add_heat(int i, int j, double heat);
+
   /// Sums with the present positions and velocities. Ghosts must have the velocities of their owners.
   /// Collective.
   /// \param axis unit vector that points upwards
-  DrumContactSums sums(const std::array<double, 3> &axis) const;
+  DrumContactSums sums(const std::array<double, 3> &axis);
 
 private:
   struct Pair {
@@ -41,10 +45,15 @@ private:
   };
 
   template <class Law>
-  void add(std::array<double, 4> &sums, const Pair &pair, const Law &law,
+  void add(std::array<double, 5> &sums, const Pair &pair, const Law &law,
            const std::array<double, 3> &axis) const;
 
+  /// 1: ball i alone belongs to the drum, -1: ball j alone does, and the other one is not of the roller; 0: neither.
+  double sign(int i, int j) const;
+
   engine::LAMMPS *lmp_;
+  int drum_ = 0, roller_ = 0; // bits of the groups
+  double missed_heat_ = 0.0;  // J, since the last call of sums()
   const ContactSource *source_ = nullptr;
   std::vector<Pair> pairs_;
 };

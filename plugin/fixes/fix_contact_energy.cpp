@@ -49,13 +49,13 @@ void FixContactEnergy::evaluate() {
   balls_ = sums_.balls(any_axis, 0.0);
 }
 
-/// Integrates the powers over the step by the trapezoidal rule.
+/// Integrates the powers over the step by the trapezoidal rule, with what it misses of contacts that begin or end.
 void FixContactEnergy::end_of_step() {
   const drumlin::ContactSums before = now_;
   evaluate();
   const double half_step = 0.5 * update->dt;
-  normal_heat_ += half_step * (before.normal_heat + now_.normal_heat);
-  tangential_work_ += half_step * (before.tangential_power + now_.tangential_power);
+  normal_heat_ += half_step * (before.normal_heat + now_.normal_heat) + now_.missed_heat;
+  tangential_work_ += half_step * (before.tangential_power + now_.tangential_power) + now_.missed_work;
 }
 
 void FixContactEnergy::pack_ghosts(int n, const int *list, double *buf) {

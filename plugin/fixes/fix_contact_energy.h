@@ -22,6 +22,9 @@ public:
   void pre_force(int) override;
   void end_of_step() override;
   void see_contact(const drumlin::ContactRecord &record) override { sums_.add(record); }
+  void see_heat(int i, int j, double normal, double tangential) override {
+    sums_.add_heat(i, j, normal, tangential);
+  }
   void pack_ghosts(int, const int *, double *) override;
   void unpack_ghosts(int, int, double *) override;
   /// 0: kinetic energy, J; 1, 2: energy of the normal and of the tangential springs, J; 3, 4: heat of the

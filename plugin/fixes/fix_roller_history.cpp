@@ -204,12 +204,15 @@ void FixRollerHistory::evaluate() {
   forces = {};
   forces.contact = contacts.force;
   forces.contact_dissipated = contacts.dissipated;
+  forces.contact_missed = contacts.missed_heat;
   forces.contact_stored = contacts.stored;
   forces.in_contact = contacts.in_contact;
   add_forces_of_partners();
   if (!bed_) return;
   bed_contacts_ = bed_->contacts(axis_);
   forces.contact_dissipated = bed_contacts_.normal_heat;
+  forces.contact_missed = bed_contacts_.missed_heat;
+  forces.tangential_missed = bed_contacts_.missed_work;
   forces.contact_stored = bed_contacts_.normal_stored + bed_contacts_.tangential_stored;
   forces.tangential_power = bed_contacts_.tangential_power;
   add_ground();
@@ -297,6 +300,13 @@ void FixRollerHistory::flush() {
 }
 
 void FixRollerHistory::post_run() { flush(); }
+
+void FixRollerHistory::see_heat(int i, int j, double normal, double tangential) {
+  if (bed_)
+    bed_->add_heat(i, j, normal, tangential);
+  else
+    contacts_.add_heat(i, j, normal);
+}
 
 void FixRollerHistory::pack_ghosts(int n, const int *list, double *buf) {
   drumlin::pack_motion(*atom, n, list, buf);

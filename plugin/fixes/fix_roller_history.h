@@ -37,6 +37,7 @@ public:
   void pre_force(int) override;
   void end_of_step() override;
   void see_contact(const drumlin::ContactRecord &record) override { bed_->add(record); }
+  void see_heat(int i, int j, double normal, double tangential) override;
   void post_run() override;
   void pack_ghosts(int, const int *, double *) override;
   void unpack_ghosts(int, int, double *) override;

@@ -16,11 +16,13 @@ struct RollerForces {
   double excitation = 0.0;         ///< N, positive along the direction of fix drum/excite
   double bond = 0.0;               ///< N, positive in tension
   double contact_dissipated = 0.0; ///< W
+  double contact_missed = 0.0;     ///< J, heat of this step, see ContactObserver::see_heat()
   double contact_stored = 0.0;     ///< J
   double bond_dissipated = 0.0;    ///< W
   double bond_stored = 0.0;        ///< J
   double excitation_power = 0.0;   ///< W, of the excitation on the drum
   double tangential_power = 0.0;   ///< W, taken from the balls by friction and rolling; of a bed only
+  double tangential_missed = 0.0;  ///< J, the same of friction; of a bed only
   double ground_stored = 0.0; ///< J, springs of absorbing boundaries less the work of their constant forces
   double ground_heat =
       0.0; ///< J, dissipated by the dashpots of absorbing boundaries since their first run began

@@ -35,6 +35,12 @@ struct ContactForces {
   physics::Vec3 rolling;       ///< N m, torque of rolling resistance on ball i, of which j gets the opposite
   double tangential_stiffness; ///< N/m; 0 without friction and rolling resistance
   LAMMPS_NS::FixStepping::Coupled *coupled; ///< nullptr: the contact is not coupled
+  LAMMPS_NS::FixStepping::Begun *begun;     ///< nullptr: the contact does not begin in this step
+
+  /// Where friction and rolling resistance are described, of a contact that is coupled or begins; nullptr for others.
+  LAMMPS_NS::FixStepping::Rubbing *rubbing() const {
+    return coupled != nullptr ? static_cast<LAMMPS_NS::FixStepping::Rubbing *>(coupled) : begun;
+  }
 };
 
 // Places in a contact's history, as ContactSettings has them, for settings that are known at compile time.
@@ -75,6 +81,12 @@ inline double tangential_stiffness(const ContactSettings &settings, const Coeffi
   return kt;
 }
 
+/// Time, s, of a step for which a spring of a contact is stretched: see physics::time_in_contact(). \param moves see exert()
+inline double time_of_spring(const Contact &p, double dt, bool moves) {
+  if (!moves) return 0.0;
+  return p.in_contact ? dt : physics::time_in_contact(p.normal.overlap, p.normal.rate_half, dt);
+}
+
 /// Computes the forces of one contact whose surfaces overlap, and updates its history.
 /// \param stepping nullptr under `stepping stock`
 /// \param moves whether the tangential spring is advanced by a step: false in the set-up of a run
@@ -97,10 +109,10 @@ inline ContactForces exert(const ContactSettings &settings,
       push = state.force;
     else {
       physics::ContactState rare{state.force, state.in_contact};
-      push = exert_rare(law, *stepping, n, rare, stored_force);
+      push = exert_contact(law, *stepping, n, rare, stored_force);
       state.force = rare.force;
       out.coupled = stepping->coupled_at(&stored_force);
-      if (out.coupled != nullptr) out.coupled->dt = dt;
+      out.begun = stepping->begun_at(&stored_force);
     }
     stored_force = state.force;
   }
@@ -113,25 +125,29 @@ inline ContactForces exert(const ContactSettings &settings,
     const physics::Friction friction =
         coefficients.tangential(out.tangential_stiffness, law.dashpot(n.overlap), settings.cap);
     if constexpr (tangential == FrictionModel::history) {
-      const physics::FrictionStep step =
-          physics::friction_step(friction, out.normal_force, n.normal, p.slip,
-                                 {p.history[0], p.history[1], p.history[2]}, moves ? dt : 0.0);
+      const physics::FrictionStep step = physics::friction_step(
+          friction, out.normal_force, n.normal, p.slip, {p.history[0], p.history[1], p.history[2]},
+          settings.cap == physics::Cap::coulomb ? time_of_spring(p, dt, moves)
+          : moves                               ? dt
+                                                : 0.0);
       if (moves) {
         p.history[0] = step.spring[0];
         p.history[1] = step.spring[1];
         p.history[2] = step.spring[2];
       }
       out.tangential_force = step.force;
-      if (out.coupled != nullptr && settings.cap == physics::Cap::coulomb) {
-        out.coupled->friction = friction;
-        out.coupled->rub = step.force;
-        out.coupled->arm_i = p.arm_i;
-        out.coupled->arm_j = p.arm_j;
-        out.coupled->spring = p.history;
-      }
     } else
       out.tangential_force =
           physics::friction_step_without_history(friction, out.normal_force, p.slip, 0.0).force;
+    if (out.begun != nullptr || (out.coupled != nullptr && settings.cap == physics::Cap::coulomb)) {
+      LAMMPS_NS::FixStepping::Rubbing &rubbing = *out.rubbing();
+      rubbing.friction = friction;
+      rubbing.rub = out.tangential_force;
+      rubbing.slip = p.slip;
+      rubbing.arm_i = p.arm_i;
+      rubbing.arm_j = p.arm_j;
+      if (tangential == FrictionModel::history) rubbing.spring = p.history;
+    }
     out.moment = physics::cross(n.normal, out.tangential_force);
   }
   out.force = physics::sum(out.tangential_force, push, n.normal);

@@ -201,12 +201,20 @@ void FixWallGranTransition::touch(const Table &table, int i, int place, const ph
     forces = drumlin::exert<stepped, tangential, rolling>(settings, law, stepping_, p, update->dt, moves);
     if constexpr (rolling) {
       const double *w = atom->omega[i];
-      forces.rolling = drumlin::rolling_torque(settings, law, {normal, {w[0], w[1], w[2]}, atom->radius[i]},
-                                               forces.tangential_stiffness, forces.normal_force, p.history,
-                                               update->dt, moves, forces.coupled);
+      forces.rolling = drumlin::rolling_torque(
+          settings, law, {normal, {w[0], w[1], w[2]}, atom->radius[i]}, forces.tangential_stiffness,
+          forces.normal_force, p.history, drumlin::time_of_spring(p, update->dt, moves), forces.rubbing());
     }
     if (observers_.any())
       observers_.tell(drumlin::record_of(settings, law, p, forces, atom->radius[i], atom->radius[i]));
+    if constexpr (stepped && (tangential != FrictionModel::none || rolling))
+      if (forces.begun != nullptr) {
+        const FixStepping::RubbingForces closing = stepping_->close_friction(*forces.begun);
+        forces.force = physics::sum(forces.force, -1.0, forces.tangential_force);
+        forces.force = physics::sum(forces.force, 1.0, closing.friction);
+        forces.moment = physics::cross(normal, closing.friction);
+        forces.rolling = closing.rolling;
+      }
   }
   for (std::size_t a = 0; a < 3; ++a) {
     atom->f[i][a] += forces.force[a];

@@ -17,23 +17,23 @@ struct RollingMotion {
 /// Computes the torque on ball i, N m, of which ball j gets the opposite, and updates the spring.
 /// \param kt tangential stiffness in this step, N/m
 /// \param history of the contact, see ContactSettings::history()
-/// \param moves whether the spring is advanced by a step: false in the set-up of a run
-/// \param coupled nullptr if the contact is not coupled
+/// \param time for which the spring is stretched, s, see time_of_spring(); 0 in the set-up of a run
+/// \param rubbing see ContactForces::rubbing()
 template <class Parameters>
-inline physics::Vec3
-rolling_torque(const ContactSettings &settings, const ContactCoefficients<Parameters> &coefficients,
-               const RollingMotion &motion, double kt, double normal_force, double *history, double dt,
-               bool moves, LAMMPS_NS::FixStepping::Coupled *coupled) {
+inline physics::Vec3 rolling_torque(const ContactSettings &settings,
+                                    const ContactCoefficients<Parameters> &coefficients,
+                                    const RollingMotion &motion, double kt, double normal_force,
+                                    double *history, double time, LAMMPS_NS::FixStepping::Rubbing *rubbing) {
   double *spring = history + settings.rolling_place();
   const physics::Rolling rolling = coefficients.rolling_resistance(kt, motion.radius);
-  const physics::RollingStep step = physics::rolling_step(
-      rolling, normal_force, motion.normal, motion.spin, {spring[0], spring[1], spring[2]}, moves ? dt : 0.0);
-  if (coupled != nullptr) {
-    coupled->rolling = rolling;
-    coupled->roll = step.torque;
-    coupled->rolling_spring = spring;
+  const physics::RollingStep step = physics::rolling_step(rolling, normal_force, motion.normal, motion.spin,
+                                                          {spring[0], spring[1], spring[2]}, time);
+  if (rubbing != nullptr) {
+    rubbing->rolling = rolling;
+    rubbing->roll = step.torque;
+    rubbing->rolling_spring = spring;
   }
-  if (moves)
+  if (time > 0.0)
     for (std::size_t a = 0; a < 3; ++a)
       spring[a] = step.spring[a];
   return step.torque;

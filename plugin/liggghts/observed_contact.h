@@ -8,6 +8,7 @@
 #include "liggghts/coupled_contacts.h"
 
 #include <algorithm>
+#include <string>
 
 namespace drumlin {
 
@@ -36,6 +37,10 @@ public:
     final_force_offset_ = this->get_history_offset(final_force_name);
     coupled_.find(registry.getLAMMPS(), *this);
     observers_.find(*registry.getLAMMPS()->modify);
+    if (Style::TANGENTIAL != LIGGGHTS::ContactModels::TANGENTIAL_OFF) {
+      registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
+      registry.connect("coeffFrict", friction_, (std::string("model ") + Contact::name).c_str());
+    }
   }
 
   void surfacesIntersect(LIGGGHTS::ContactModels::SurfacesIntersectData &contact,
@@ -43,9 +48,63 @@ public:
                          LIGGGHTS::ContactModels::ForceData &j_forces) {
     Base::surfacesIntersect(contact, i_forces, j_forces);
     if (contact.computeflag && observers_.any()) tell(contact, i_forces, j_forces);
+    if (auto *begun = coupled_.begun(contact)) close_friction(*begun, contact, i_forces, j_forces);
   }
 
 private:
+  /// Replaces friction and rolling resistance of a contact that begins by those of the closing half kick.
+  [[gnu::noinline]] void close_friction(LAMMPS_NS::FixStepping::Begun &begun,
+                                        const LIGGGHTS::ContactModels::SurfacesIntersectData &contact,
+                                        LIGGGHTS::ContactModels::ForceData &i_forces,
+                                        LIGGGHTS::ContactModels::ForceData &j_forces) const {
+    constexpr bool of_the_engine = Style::TANGENTIAL == LIGGGHTS::ContactModels::TANGENTIAL_HISTORY ||
+                                   Style::TANGENTIAL == LIGGGHTS::ContactModels::TANGENTIAL_NO_HISTORY;
+    if (of_the_engine) { // whose models do not know that the contact begins
+      begun.friction = {contact.kt, contact.gammat, friction_[contact.itype][contact.jtype],
+                        has_spring<Style> ? physics::Cap::spring : physics::Cap::total};
+      begun.rub = physics::scaled(1.0 / begun.share, tangential_part(i_forces, contact.en));
+      begun.slip = {contact.vtr1, contact.vtr2, contact.vtr3};
+      begun.arm_i = contact.cri;
+      begun.arm_j = contact.is_wall ? 0.0 : contact.crj;
+      if (has_spring<Style>) begun.spring = contact.contact_history;
+    }
+    const auto closing = coupled_.stepping().close_friction(begun);
+    const physics::Vec3 moment = physics::cross(begun.normal, closing.friction);
+    const double push = begun.share * begun.step.kick;
+    constexpr bool resists = Style::ROLLING != LIGGGHTS::ContactModels::ROLLING_OFF;
+    const physics::Vec3 of_rolling =
+        resists ? rolling_part(begun, i_forces) : physics::Vec3{}; // unchanged if it is the engine's
+    const physics::Vec3 rolling = begun.rolling_spring != nullptr ? closing.rolling : of_rolling;
+    for (std::size_t a = 0; a < 3; ++a) {
+      i_forces.delta_F[a] = push * contact.en[a] + closing.friction[a];
+      i_forces.delta_torque[a] = rolling[a] - begun.arm_i * moment[a];
+      if (contact.is_wall) continue;
+      j_forces.delta_F[a] = -i_forces.delta_F[a];
+      j_forces.delta_torque[a] = -rolling[a] - begun.arm_j * moment[a];
+    }
+  }
+
+  /// Torque of rolling resistance on ball i, N m.
+  static physics::Vec3 rolling_part(const LAMMPS_NS::FixStepping::Begun &begun,
+                                    const LIGGGHTS::ContactModels::ForceData &forces) {
+    const physics::Vec3 moment = physics::cross(begun.normal, physics::scaled(begun.share, begun.rub));
+    physics::Vec3 part{};
+    for (std::size_t a = 0; a < 3; ++a)
+      part[a] = forces.delta_torque[a] + begun.arm_i * moment[a];
+    return part;
+  }
+
+  static physics::Vec3 tangential_part(const LIGGGHTS::ContactModels::ForceData &forces,
+                                       const double *normal) {
+    double along = 0.0;
+    for (std::size_t a = 0; a < 3; ++a)
+      along += forces.delta_F[a] * normal[a];
+    physics::Vec3 part{};
+    for (std::size_t a = 0; a < 3; ++a)
+      part[a] = forces.delta_F[a] - along * normal[a];
+    return part;
+  }
+
   [[gnu::noinline]] void tell(const LIGGGHTS::ContactModels::SurfacesIntersectData &contact,
                               const LIGGGHTS::ContactModels::ForceData &i_forces,
                               const LIGGGHTS::ContactModels::ForceData &j_forces) const {
@@ -70,12 +129,9 @@ private:
     record.normal_force = contact.Fn;
     if (second_order) record.final_force = contact.contact_history + final_force_offset_;
     if (const auto *coupled = coupled_.contact(contact)) record.change = &coupled->change;
-    double along = 0.0;
-    for (std::size_t a = 0; a < 3; ++a)
-      along += i_forces.delta_F[a] * contact.en[a];
+    record.tangential_force = tangential_part(i_forces, contact.en);
     for (std::size_t a = 0; a < 3; ++a) {
       record.normal[a] = contact.en[a];
-      record.tangential_force[a] = i_forces.delta_F[a] - along * contact.en[a];
       record.torque_i[a] = i_forces.delta_torque[a];
       record.torque_j[a] = j_forces.delta_torque[a];
     }
@@ -85,6 +141,7 @@ private:
   ContactObservers observers_;
   CoupledContacts coupled_;
   int final_force_offset_ = -1;
+  double **friction_ = nullptr; // coefficients by types; nullptr without friction
 };
 
 } // namespace drumlin

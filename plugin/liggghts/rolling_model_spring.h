@@ -58,13 +58,12 @@ public:
     const physics::RollingStep step =
         physics::rolling_step(rolling, sidata.Fn, {sidata.en[0], sidata.en[1], sidata.en[2]},
                               {w[0] - wj[0], w[1] - wj[1], w[2] - wj[2]}, {spring[0], spring[1], spring[2]},
-                              moves ? update->dt : 0.0);
+                              drumlin::time_of_spring(sidata, spring, moves, update->dt));
     if (moves) std::copy(step.spring.begin(), step.spring.end(), spring);
-    if (auto *coupled = coupled_.contact(sidata)) {
-      coupled->rolling = rolling;
-      coupled->roll = step.torque;
-      coupled->rolling_spring = spring;
-      coupled->dt = update->dt;
+    if (auto *rubbing = coupled_.rubbing(sidata)) {
+      rubbing->rolling = rolling;
+      rubbing->roll = step.torque;
+      rubbing->rolling_spring = spring;
     }
     const double share = sidata.is_wall ? sidata.area_ratio : 1.0;
     for (std::size_t a = 0; a < 3; ++a) {

@@ -54,16 +54,17 @@ public:
                                    : physics::Vec3{sidata.vtr1, sidata.vtr2, sidata.vtr3};
     const physics::Friction friction{sidata.kt, sidata.gammat, friction_[sidata.itype][sidata.jtype],
                                      physics::Cap::coulomb};
-    const physics::FrictionStep step = physics::friction_step(
-        friction, sidata.Fn, normal, slip, {spring[0], spring[1], spring[2]}, moves ? update->dt : 0.0);
+    const physics::FrictionStep step =
+        physics::friction_step(friction, sidata.Fn, normal, slip, {spring[0], spring[1], spring[2]},
+                               drumlin::time_of_spring(sidata, spring, moves, update->dt));
     if (moves) std::copy(step.spring.begin(), step.spring.end(), spring);
-    if (auto *coupled = coupled_.contact(sidata)) {
-      coupled->friction = friction;
-      coupled->rub = step.force;
-      coupled->arm_i = sidata.cri;
-      coupled->arm_j = sidata.is_wall ? 0.0 : sidata.crj;
-      coupled->spring = spring;
-      coupled->dt = update->dt;
+    if (auto *rubbing = coupled_.rubbing(sidata)) {
+      rubbing->friction = friction;
+      rubbing->rub = step.force;
+      rubbing->slip = slip;
+      rubbing->arm_i = sidata.cri;
+      rubbing->arm_j = sidata.is_wall ? 0.0 : sidata.crj;
+      rubbing->spring = spring;
     }
     const double share = sidata.is_wall ? sidata.area_ratio : 1.0;
     const physics::Vec3 force = physics::scaled(share, step.force);

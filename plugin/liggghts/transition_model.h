@@ -219,17 +219,17 @@ private:
     }
     double *const stored = sidata.contact_history + state_offset_;
     physics::ContactState state{stored[0], stored[1] != 0.0};
-    const auto push = [&](double force) { add(force, sidata.en, sidata, i_forces, j_forces); };
-    exert_contact(law, *stepping_,
-                  {sidata.i,
-                   sidata.is_wall ? -1 : sidata.j,
-                   {sidata.en[0], sidata.en[1], sidata.en[2]},
-                   sidata.is_wall ? sidata.v_j : nullptr,
-                   sidata.deltan,
-                   -sidata.vn,
-                   sidata.meff,
-                   share},
-                  state, stored[0], push);
+    const double push = exert_contact(law, *stepping_,
+                                      {sidata.i,
+                                       sidata.is_wall ? -1 : sidata.j,
+                                       {sidata.en[0], sidata.en[1], sidata.en[2]},
+                                       sidata.is_wall ? sidata.v_j : nullptr,
+                                       sidata.deltan,
+                                       -sidata.vn,
+                                       sidata.meff,
+                                       share},
+                                      state, stored[0]);
+    add(push, sidata.en, sidata, i_forces, j_forces);
     stored[0] = sidata.Fn = state.force;
     stored[1] = 1.0;
   }
@@ -275,24 +275,23 @@ private:
     const double m_eff = scdata.is_wall ? mi : effective_mass(scdata.i, scdata.j);
     double *const stored = scdata.contact_history + state_offset_;
     physics::ContactState state{stored[0], true};
-    const auto push = [&](double force) {
-      if (force == 0.0) return;
-      add(force, normal, scdata, i_forces, j_forces);
-      scdata.has_force_update = true;
-    };
     const double ri = atom->radius[scdata.i];
     const double r_eff =
         scdata.is_wall ? radius_for<Contact>(ri) : radius_for<Contact>(ri, atom->radius[scdata.j]);
-    exert_contact(table_.at(scdata.itype, scdata.jtype).contact.law(m_eff, r_eff), *stepping_,
-                  {scdata.i,
-                   scdata.is_wall ? -1 : scdata.j,
-                   {normal[0], normal[1], normal[2]},
-                   scdata.is_wall ? scdata.v_j : nullptr,
-                   std::min(scdata.radsum - r, -std::numeric_limits<double>::min()),
-                   rate_half,
-                   m_eff,
-                   1.0},
-                  state, stored[0], push);
+    const double push =
+        exert_contact(table_.at(scdata.itype, scdata.jtype).contact.law(m_eff, r_eff), *stepping_,
+                      {scdata.i,
+                       scdata.is_wall ? -1 : scdata.j,
+                       {normal[0], normal[1], normal[2]},
+                       scdata.is_wall ? scdata.v_j : nullptr,
+                       std::min(scdata.radsum - r, -std::numeric_limits<double>::min()),
+                       rate_half,
+                       m_eff,
+                       1.0},
+                      state, stored[0]);
+    if (push == 0.0) return;
+    add(push, normal, scdata, i_forces, j_forces);
+    scdata.has_force_update = true;
   }
 
   /// The effective mass that the contact had in the steps before.

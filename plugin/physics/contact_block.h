@@ -88,12 +88,12 @@ struct ContactBlock {
 enum class Slip { none, at_end, in_middle };
 
 /// Motion and normal force of all contacts of a block. Where the second-order scheme is used, `push` and `force`
-/// are those of contacts that go on and are not coupled (goes_on()). \returns whether any is coupled
+/// are those of contacts that go on and are not coupled (goes_on()). \returns whether any is coupled or has lost its force
 template <bool stepped, Slip slip, class Parameters>
 DRUMLIN_FOR_THIS_PROCESSOR bool compute_normal_forces(ContactBlock &b, int first, int end,
                                                       const Parameters &of_types, double dt) {
   const Parameters parameters = of_types; // a copy, which the arrays of the block cannot overlap
-  std::int64_t coupled = 0;               // as wide as the numbers beside it
+  std::int64_t rare = 0;                  // as wide as the numbers beside it
   DRUMLIN_INDEPENDENT_CONTACTS
   for (int n = first; n < end; ++n) {
     const double distance = std::sqrt(b.squared[n]);
@@ -118,7 +118,7 @@ DRUMLIN_FOR_THIS_PROCESSOR bool compute_normal_forces(ContactBlock &b, int first
       const StepMotion motion{overlap, rate_half, rate_before, dt};
       const bool needs = needs_coupling(dt, law.stiffness(overlap), dashpot, b.damping_over_mass[n]);
       b.coupled[n] = needs ? 1.0 : 0.0;
-      coupled |= needs ? 1 : 0;
+      rare |= needs ? 1 : 0;
       b.push[n] = b.force[n] = going_on(law, motion, b.force_before[n], m_eff);
     } else {
       ContactState state;
@@ -134,7 +134,10 @@ DRUMLIN_FOR_THIS_PROCESSOR bool compute_normal_forces(ContactBlock &b, int first
     b.arm_i[n] = arm_i;
     b.arm_j[n] = arm_j;
   }
-  return coupled != 0;
+  if constexpr (stepped)
+    for (int n = first; n < end; ++n)
+      rare |= lost_its_force(b.force_before[n], b.force[n]) ? 1 : 0;
+  return rare != 0;
 }
 
 /// Tangential stiffness of all contacts of a block. Where it varies, the springs of friction and of rolling

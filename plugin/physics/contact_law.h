@@ -41,6 +41,7 @@ struct ContactPower {
 ///   is_linear    whether E is proportional to d and C constant: the times of events then have a closed form,
 ///                event_location.h
 ///   exponent     of d in E: LIGGGHTS asks each of its contact models for it
+///   dashpot_exponent   of d in C
 /// The force of LinearLaw jumps when a contact begins, that of HertzLaw begins at 0.
 template <class Law>
 class ContactLaw {
@@ -121,10 +122,12 @@ public:
   static constexpr bool is_linear = true;
   /// The spring force is proportional to the overlap to this power.
   static constexpr double exponent = 1.0;
+  /// The dashpot coefficient is proportional to the overlap to this power.
+  static constexpr double dashpot_exponent = 0.0;
   /// Whether the force jumps at the beginning of a contact: here from 0 to c d'.
   static constexpr bool begins_with_jump = true;
-  /// Weight of a contact's first force in the closing half kick of the step in which the contact begins. In
-  /// the step in which a contact ends under A, its last force has the weight first_weight(share) - 1.
+  /// Weight of the dashpot's first force in the closing half kick of the step in which the contact begins. In
+  /// the step in which the overlap ends, its last force has the weight first_weight(share) - 1.
   /// \param share part of the step, 0 to 1, in which the force acted
   [[nodiscard]] static double first_weight(double share) { return 2.0 * share; }
 

@@ -31,10 +31,13 @@ struct StepContext {
 
 /// The forces of a contact in a step.
 struct StepResult {
-  double force;         ///< N, contact force at t+dt, which acts in the opening half kick of the next step
-  double kick;          ///< N, force that acts in the closing half kick of this step instead
-  double shift;         ///< N, position correction: the next drift moves a ball by dt^2/(2 m) of it more, and
-                        ///< the velocity is unchanged afterwards
+  double force; ///< N, contact force at t+dt, which acts in the opening half kick of the next step
+  double kick;  ///< N, force that acts in the closing half kick of this step instead
+  double shift; ///< N, position correction: the next drift moves a ball by dt^2/(2 m) of it more, and
+                ///< the velocity is unchanged afterwards
+  double
+      weight; ///< of the force of a tangential dashpot in the closing half kick: 1, but in the step of a make
+  bool begins = false;  ///< the contact begins in this step
   bool coupled = false; ///< the force is coupled_force() of `dashpot`, once all forces of the step are known;
                         ///< `force` is then that of the contact solved for alone, with which friction is
                         ///< computed; see limited_to() in friction_law.h
@@ -46,9 +49,9 @@ struct StepResult {
 
 namespace detail {
 
-/// The step of a make, of a law whose force begins with a jump: the contact acts for theta dt, theta = d /
-/// (dt d'+), between F0 = c d' at d = 0 (Eq. 4) and F. The impulse theta dt (F0 + F) / 2 is given to the
-/// closing half kick, which makes v(t+dt) physical:
+/// The step of a make, of a law whose force begins with a jump, the linear law: the contact acts for theta dt, theta = d /
+/// (dt d'+), between F0 = c d' at d = 0 (Eq. 4) and F. The impulse theta dt (F0 + F) / 2 is given to the closing half
+/// kick, which makes v(t+dt) physical:
 ///   F = k d + c (d'_pred - dt/2 kick / m),   kick = theta (F0 + F).
 /// The drift of the step did not contain the contact force, so that the overlap is too large by about
 /// theta s d (s = c dt / (2 m)); the correction is d theta s / (1 + theta s), which is less than d at any
@@ -59,7 +62,6 @@ namespace detail {
 template <class Law>
 [[nodiscard]] inline StepResult made_with_jump(const Law &law, const StepMotion &motion, double theta,
                                                double c_over_m) {
-  const double k = law.stiffness(0.0);
   const double c = law.dashpot(0.0);
   const double rate_predicted = motion.rate_predicted();
   const double rate_at_make = motion.rate_before + (1.0 - theta) * (rate_predicted - motion.rate_before);
@@ -69,49 +71,103 @@ template <class Law>
   // (s_step > 1), its force is limited to the momentum of the ball; otherwise it would reverse the motion.
   const double first = c * std::max(0.0, rate_at_make) / std::max(1.0, s);
   const double slowed = 1.0 / (1.0 + s);
-  const double force =
-      (k * slowed * motion.overlap + c * rate_predicted - s * first) / (std::max(1.0, s_step) + s);
-  const double acting = law.limited(force);
-  return {acting, theta * (first + acting), slowed * theta * c * motion.overlap / motion.dt - 0.5 * acting};
+  const double spring = law.spring(slowed * motion.overlap);
+  const double force = law.limited((spring + c * rate_predicted - s * first) / (std::max(1.0, s_step) + s));
+  const double jump = force - spring;
+  return {force, theta * (first + force), slowed * theta * c * motion.overlap / motion.dt - 0.5 * jump,
+          law.first_weight(theta), true};
 }
 
-/// The step of a make, of a law whose force begins with 0. The closing half kick gets the first force times
-/// Law::first_weight(). There is no position correction: it would be of higher order than the scheme.
-///   F = E + C (d'_pred - dt/2 kick / m),   kick = weight F.
+/// The step of a make, of a law whose force begins with 0. The force G = C d' of the dashpot gets the weight
+/// Law::first_weight() in the closing half kick. The force E of the spring grows so slowly that it needs none. There is
+/// no position correction: it would be of higher order than the scheme.
+///   F = E + G,   G = C (d'_pred - dt/2 kick / m),   kick = E + weight G.
 template <class Law>
 [[nodiscard]] inline StepResult made_from_zero(const Law &law, const StepMotion &motion, double theta,
                                                double c_over_m) {
   const double weight = law.first_weight(theta);
   const double s = 0.5 * motion.dt * c_over_m;
-  const double force = law.spring_and_dashpot(motion.overlap, motion.rate_predicted()) / (1.0 + s * weight);
-  const double acting = law.limited(force);
-  return {acting, weight * acting, 0.0};
+  const double spring = law.spring(motion.overlap);
+  const double dashpot =
+      (law.dashpot(motion.overlap) * motion.rate_predicted() - s * spring) / (1.0 + s * weight);
+  const double force = law.limited(spring + dashpot);
+  return {force, spring + weight * (force - spring), 0.0, weight, true};
 }
 
-/// The step of a make, of any law: the contact has acted for the share theta of the step.
+/// The step of a make, of any law: the contact has acted for the share theta of the step. Without a dashpot the forces
+/// of all steps are those of the engines' scheme, which loses no energy in an impact: a weight in this step alone would
+/// make it gain some.
 template <class Law>
 [[nodiscard]] inline StepResult made(const Law &law, const StepMotion &motion, double c_over_m) {
   // A ball at rest that just touches has neither overlap nor rate.
   const double theta = motion.overlap > 0.0 ? motion.overlap / (motion.dt * motion.rate_half) : 0.0;
+  if (c_over_m == 0.0) {
+    const double force = law.spring(motion.overlap);
+    return {force, force, 0.0, law.first_weight(theta), true};
+  }
   if constexpr (Law::begins_with_jump)
     return made_with_jump(law, motion, theta, c_over_m);
   else
     return made_from_zero(law, motion, theta, c_over_m);
 }
 
-/// The step in which a contact ends under A, in tension. The tension acts only for the share of the step
-/// before d = 0, but the opening half kick and the drift contained it as if it acted through the whole step:
-/// kick and shift remove the excess. All are 0 under B, which has no tension, without a dashpot, and if there
-/// was no overlap at the beginning of the step.
+/// Overlap, m, and forces of spring and dashpot, N, at the end of the step before; 0 if there was no overlap.
+struct LastForces {
+  double overlap, spring, dashpot;
+  [[nodiscard]] double sum() const { return spring + dashpot; }
+};
+template <class Law>
+[[nodiscard]] inline LastForces last_forces(const Law &law, const StepMotion &motion) {
+  const double before = motion.overlap_before();
+  if (before <= 0.0) return {0.0, 0.0, 0.0};
+  return {before, law.spring(before), law.dashpot(before) * motion.rate_before};
+}
+
+/// Closing half kick, N, of the step in which the force of a contact becomes 0 under B, whether the overlap ends in this
+/// step or not. The two half kicks together have the impulse of the force until it is 0, and never pull.
+///
+/// The force of a linear law falls to 0 in the share of the step that follows from the forces at its two ends.
+///
+/// Of another law the forces of the spring act as in the engines' scheme; what is added is the impulse of the dashpot,
+/// as in broken(), which acts until spring and dashpot balance: with |G| and E at an earlier time, its impulse from then
+/// on is smaller than that until the end of the overlap by the factor 1 - |G|/(2 E). Where the overlap ends in the next
+/// step, the spring's force of this step, which would act in two half kicks, is given to this one. 0 if spring and
+/// dashpot balance for a step or longer before the overlap ends: the steps then resolve the kink of the force.
+template <class Law>
+[[nodiscard]] inline double released(const Law &law, const StepMotion &motion) {
+  const LastForces last = last_forces(law, motion);
+  const double force = last.sum();
+  if (!(last.dashpot < 0.0) || force <= 0.0) return 0.0;
+  if constexpr (Law::is_linear) {
+    const double now = law.spring_and_dashpot(motion.overlap, motion.rate_predicted());
+    return now < 0.0 ? force * now / (force - now) : 0.0;
+  }
+  const double way = -motion.dt * motion.rate_half; // m, by which the overlap shrinks in a step
+  const double share = last.overlap / way; // until the end of the overlap, above 1 if that is in the next
+  if (!(motion.overlap < way) || -share * last.dashpot >= last.spring) return 0.0;
+  double kick = share * last.dashpot * last.dashpot / (last.spring * (1.0 + Law::dashpot_exponent));
+  if (motion.overlap > 0.0)
+    kick += 2.0 * law.spring(motion.overlap) + (1.0 + law.first_weight(motion.overlap / way)) *
+                                                   law.dashpot(motion.overlap) * motion.rate_predicted();
+  else
+    kick += (law.first_weight(share) - 1.0) * last.dashpot;
+  return std::max(kick, -force);
+}
+
+/// The step in which the overlap ends. Under A the dashpot pulls just before, and its force jumps to 0 at d = 0. The
+/// contact acts only for the share of the step before, but the opening half kick and the drift contained its force as if
+/// it acted through the whole step: kick and shift remove the excess. All are 0 without a dashpot, and if there was no
+/// overlap at the beginning of the step.
 template <class Law>
 [[nodiscard]] inline StepResult broken(const Law &law, const StepMotion &motion) {
-  const double before = motion.overlap_before();
-  if (!law.ends_in_tension() || before <= 0.0 || law.dashpot(before) == 0.0) return {0.0, 0.0, 0.0};
-  const double share = before / (before - motion.overlap);
-  const double tensile = law.force(before, motion.rate_before);
-  const double kick = (law.first_weight(share) - 1.0) * tensile;
-  if constexpr (Law::begins_with_jump) return {0.0, kick, -(1.0 - share) * (1.0 - share) * tensile};
-  return {0.0, kick, 0.0};
+  if (!law.ends_in_tension()) return {0.0, released(law, motion), 0.0, 1.0};
+  const LastForces last = last_forces(law, motion);
+  if (!(last.dashpot < 0.0)) return {0.0, 0.0, 0.0, 1.0};
+  const double share = last.overlap / (last.overlap - motion.overlap);
+  const double kick = (law.first_weight(share) - 1.0) * last.dashpot;
+  if constexpr (Law::begins_with_jump)
+    return {0.0, kick - (1.0 - share) * last.spring, -(1.0 - share) * (1.0 - share) * last.dashpot, 1.0};
+  return {0.0, kick, 0.0, 1.0};
 }
 
 } // namespace detail
@@ -126,6 +182,10 @@ template <class Law>
          !needs_coupling(motion.dt, law.stiffness(motion.overlap), law.dashpot(motion.overlap),
                          context.damping_over_mass);
 }
+
+/// Whether the force, N, of a contact that continues became 0 in this step, as under B at the end of a contact: advance()
+/// then has more to do than going_on().
+[[nodiscard]] inline bool lost_its_force(double before, double now) { return (now == 0.0) & (before > 0.0); }
 
 /// Force, N, of a contact that continues (see goes_on()), under its transition condition.
 template <class Law>
@@ -144,12 +204,12 @@ template <class Law>
   const bool was_in_contact = state.in_contact;
   if (motion.overlap < 0.0) {
     state = {};
-    return was_in_contact && !context.in_setup ? detail::broken(law, motion) : StepResult{0.0, 0.0, 0.0};
+    return was_in_contact && !context.in_setup ? detail::broken(law, motion) : StepResult{0.0, 0.0, 0.0, 1.0};
   }
   state.in_contact = true;
   if (context.in_setup) {
     state.force = law.force(motion.overlap, motion.rate_half);
-    return {state.force, state.force, 0.0};
+    return {state.force, state.force, 0.0, 1.0};
   }
   // Both conditions are needed. An old contact with a small overlap may fulfil came_from_apart() as well:
   // when one of its balls makes contact with a third, the position correction moves that ball.
@@ -163,9 +223,43 @@ template <class Law>
   state.force = going_on(law, motion, before, context.m_eff);
   if (!needs_coupling(motion.dt, law.stiffness(motion.overlap), law.dashpot(motion.overlap),
                       context.damping_over_mass))
-    return {state.force, state.force, 0.0};
+    return {state.force, lost_its_force(before, state.force) ? detail::released(law, motion) : state.force,
+            0.0, 1.0};
   const CoupledDashpot dashpot = coupled_dashpot(law, motion, before, context.damping_over_mass);
-  return {state.force, dashpot.first, 0.0, true, dashpot};
+  return {state.force, dashpot.first, 0.0, 1.0, false, true, dashpot};
+}
+
+/// Heat of a contact's dashpot that the trapezoidal rule misses in a step in which the contact begins or ends, J. (The
+/// rule sums the power (F - E) d' of the dashpot at the end of each step, times dt.) With a dashpot, the heat of such a
+/// step is the energy that the contact takes from the balls and does not store, here with the accelerations that the
+/// contact causes in the half kicks and those of the other forces, taken as constant. 0 without a dashpot.
+/// \param before, step the state that advance() was called with, and what it returned
+template <class Law>
+[[nodiscard]] inline double heat_of_change(const Law &law, const StepMotion &motion,
+                                           const ContactState &before, const StepResult &step, double m_eff) {
+  const double dt = motion.dt, per_mass = dt / m_eff;
+  const auto closing_work =
+      [&](double others) { // J; others: m/s, change of the rate by other forces in half a step
+        return 0.5 * dt * step.kick * (motion.rate_half + 0.5 * others - 0.25 * per_mass * step.kick);
+      };
+  const double slowing = motion.rate_half - motion.rate_before; // m/s, in the opening half kick
+  if (step.begins) {
+    const double d = motion.overlap;
+    if (law.dashpot(d) == 0.0) return 0.0;
+    const double spring = law.spring(d), dashpot = step.force - spring;
+    const double rate = motion.rate_predicted() - 0.5 * per_mass * step.kick;
+    const double corrected = 0.5 * dt * per_mass * step.shift; // m, of the overlap in the next drift
+    const double next = d + dt * (rate - 0.5 * per_mass * step.force) - corrected;
+    const double drift = 0.5 * (spring + (next > 0.0 ? law.spring(next) : 0.0)) * corrected;
+    return closing_work(slowing) - law.energy(d) + drift - 0.5 * dt * dashpot * rate -
+           0.125 * dt * per_mass * (dashpot - spring) * step.force;
+  }
+  const double others = slowing + 0.5 * per_mass * before.force;
+  if (motion.overlap > 0.0) // its force has become 0
+    return step.kick == step.force ? 0.0 : closing_work(others);
+  const double d = motion.overlap_before();
+  if (!before.in_contact || d <= 0.0 || law.dashpot(d) == 0.0) return 0.0;
+  return law.energy(d) + 0.5 * dt * law.spring(d) * motion.rate_half + closing_work(others);
 }
 
 /// The same with the engines' own scheme, `stock`: the dashpot force is computed with the half-step velocity,
@@ -174,7 +268,7 @@ template <class Law>
 [[nodiscard]] inline StepResult advance_stock(const Law &law, const StepMotion &motion, ContactState &state) {
   state.in_contact = motion.overlap > 0.0;
   state.force = law.force(motion.overlap, motion.rate_half);
-  return {state.force, state.force, 0.0};
+  return {state.force, state.force, 0.0, 1.0};
 }
 
 } // namespace drumlin::physics

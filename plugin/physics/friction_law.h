@@ -45,6 +45,12 @@ struct Friction {
   }
 };
 
+/// Limit of friction, N, with a normal force, N: see Cap.
+[[nodiscard]] inline double friction_limit(const Friction &friction, double normal_force) {
+  return friction.coefficient *
+         (friction.cap == Cap::coulomb ? std::max(0.0, normal_force) : std::fabs(normal_force));
+}
+
 /// Result of one step of friction.
 struct FrictionStep {
   Vec3 force;        ///< N, on ball i, at the end of the step
@@ -111,7 +117,7 @@ struct FrictionStep {
                                                const Vec3 &spring_before, double dt) {
   const double kt = friction.stiffness;
   const double ct = friction.damping;
-  const double limit = friction.coefficient * std::max(0.0, normal_force);
+  const double limit = friction_limit(friction, normal_force);
   const Vec3 &vt = tangential_velocity;
 
   const double off_plane = dot(spring_before, normal);
@@ -148,7 +154,7 @@ struct PulledSpring {
 /// \param before force and spring that coulomb_step() has given \param dt s; 0: the spring stays as it is
 [[nodiscard]] inline PulledSpring limited_to(const Friction &friction, double normal_force,
                                              const PulledSpring &before, double dt) {
-  const double limit = friction.coefficient * std::max(0.0, normal_force);
+  const double limit = friction_limit(friction, normal_force);
   const double length = std::sqrt(dot(before.force, before.force));
   if (length <= limit) return before;
   const double lost = 1.0 - limit / length;
@@ -156,6 +162,25 @@ struct PulledSpring {
   const bool moves = dt > 0.0 && resistance > 0.0;
   return {scaled(limit / length, before.force),
           moves ? sum(before.spring, lost * dt / resistance, before.force) : before.spring};
+}
+
+/// Friction in the closing half kick of the step in which a contact begins, N, on ball i: the limit is that of the
+/// normal force of this half kick, and the dashpot's force has the weight of the normal dashpot's. So the impulse of a
+/// ball that slides is mu times the normal impulse. The spring's force has no weight, as that of the normal spring.
+/// \param normal_force at the end of the step, N, with which `after` was computed \param kick N, of the closing half
+/// kick; \param weight of the dashpot: see StepResult \param after force and spring of the step, which act in the next
+/// opening half kick
+[[nodiscard]] inline Vec3 closing_friction(const Friction &friction, double normal_force, double kick,
+                                           double weight, const PulledSpring &after) {
+  const double limit = friction_limit(friction, kick), of_step = friction_limit(friction, normal_force);
+  if (of_step == 0.0) return {};
+  const double length = std::sqrt(dot(after.force, after.force));
+  constexpr double rounding = 1e-12;
+  if (length >= (1.0 - rounding) * of_step) return scaled(limit / of_step, after.force); // it slides
+  const Vec3 elastic = scaled(-friction.stiffness, after.spring);
+  const Vec3 closing = sum(scaled(1.0 - weight, elastic), weight, after.force);
+  const double squared = dot(closing, closing);
+  return squared > limit * limit ? scaled(limit / std::sqrt(squared), closing) : closing;
 }
 
 /// One step of friction with history: the spring takes vt dt up, is projected on the present tangent plane
@@ -187,7 +212,7 @@ struct PulledSpring {
     return coulomb_step(friction, normal_force, normal, tangential_velocity, spring_before, dt);
   const double kt = friction.stiffness;
   const double ct = friction.damping;
-  const double limit = friction.coefficient * std::fabs(normal_force);
+  const double limit = friction_limit(friction, normal_force);
   const Vec3 &vt = tangential_velocity;
 
   const Vec3 moved = sum(spring_before, dt, vt);
@@ -235,6 +260,19 @@ struct PulledSpring {
   const bool sliding = friction.damping * speed > limit;
   const double factor = sliding ? limit / speed : friction.damping;
   return {scaled(-factor, tangential_velocity), Vec3{}, factor * speed * speed * dt, 0.0, sliding};
+}
+
+/// Friction in the closing half kick of the step in which a contact ends in tension, N, on ball i: that of the end of the
+/// step before, times the weight of the normal force. (In tension Cap::coulomb has no friction.)
+/// \param has_spring whether friction has a spring; \param force_before normal force of the step before, N, not 0
+/// \param kick normal force of the closing half kick, N
+[[nodiscard]] inline Vec3 closing_friction_of_end(const Friction &friction, bool has_spring,
+                                                  double force_before, double kick, const Vec3 &normal,
+                                                  const Vec3 &tangential_velocity, const Vec3 &spring) {
+  const Vec3 before =
+      has_spring ? friction_step(friction, force_before, normal, tangential_velocity, spring, 0.0).force
+                 : friction_step_without_history(friction, force_before, tangential_velocity, 0.0).force;
+  return scaled(kick / force_before, before);
 }
 
 } // namespace drumlin::physics

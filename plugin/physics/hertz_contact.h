@@ -52,6 +52,7 @@ public:
 
   static constexpr bool is_linear = false;
   static constexpr double exponent = 1.5;
+  static constexpr double dashpot_exponent = 0.25;
   /// The force begins with 0, but not smoothly: with the time since the make to the power 1/4.
   static constexpr bool begins_with_jump = false;
   /// After the make the force grows as t^(1/4), and the steps sum it instead of integrating it. By the

@@ -101,4 +101,16 @@ struct RollingStep {
   return squared > limit * limit ? scaled(limit / std::sqrt(squared), torque) : torque;
 }
 
+/// The torque on ball i in the closing half kick of the step in which a contact begins, N m, from that of the end of the
+/// step: its limit is that of the normal force of this half kick. \param normal_force at the end of the step, N
+/// \param kick N, of the closing half kick
+[[nodiscard]] inline Vec3 closing_torque(const Rolling &rolling, double normal_force, double kick,
+                                         const Vec3 &torque) {
+  const double of_step = rolling.arm * std::fabs(normal_force);
+  constexpr double rounding = 1e-12;
+  if (of_step > 0.0 && dot(torque, torque) >= (1.0 - rounding) * of_step * of_step)
+    return scaled(std::fabs(kick / normal_force), torque);
+  return limited_to(rolling, kick, torque);
+}
+
 } // namespace drumlin::physics

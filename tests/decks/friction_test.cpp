@@ -114,8 +114,10 @@ Replay replay(const Throw &scene, const BallsRun &run, bool forget) {
         const Vec3 slip = sum(sum(v, -dot(v, direction), direction), 1, cross(spin, lever));
         vt = sum(slip, -dot(slip, normal), normal);
       }
+      // The spring of `coulomb` begins to stretch when the surfaces touch.
+      const bool begins = scene.coulomb() && !touching && overlap < -vn * scene.dt;
       const physics::FrictionStep step =
-          physics::friction_step(scene.friction, Fn, normal, vt, spring, scene.dt);
+          physics::friction_step(scene.friction, Fn, normal, vt, spring, begins ? overlap / -vn : scene.dt);
       spring = step.spring;
       ++(step.sliding ? result.sliding : result.sticking);
       force = sum(sum(force, Fn, normal), 1, step.force);

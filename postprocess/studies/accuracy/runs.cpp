@@ -124,6 +124,11 @@ ImpactErrors measure_impacts(Transition transition, double damping_ratio, const 
                                          {"speed", number_text(speed)},
                                          {"steps_per_contact", number_text(steps_per_contact)},
                                          {"phases", std::to_string(phases)}});
+  return impact_errors(run, phases, transition, damping_ratio, speed);
+}
+
+ImpactErrors impact_errors(const DeckRun &run, int phases, Transition transition, double damping_ratio,
+                           double speed) {
   run.must_succeed();
   const std::vector<TextDump> dumps = read_text_dumps(run.file("rebound.txt"));
   if (dumps.empty() || dumps.back().rows.size() != static_cast<std::size_t>(phases))

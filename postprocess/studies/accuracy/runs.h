@@ -4,6 +4,7 @@
 
 #include "chain/direct_solver.h"
 #include "chain/parameters.h"
+#include "engine/deck_run.h"
 
 #include <string>
 
@@ -45,5 +46,8 @@ struct ImpactErrors {
 };
 ImpactErrors measure_impacts(Transition transition, double damping_ratio, const std::string &stepping,
                              double steps_per_contact, int phases);
+/// The same of a run of study/in.impacts, at this speed, m/s.
+ImpactErrors impact_errors(const DeckRun &run, int phases, Transition transition, double damping_ratio,
+                           double speed);
 
 } // namespace drumlin::post

@@ -5,6 +5,7 @@
 #include "chain/direct_solver.h"
 #include "chain/parameters.h"
 #include "chain/run_files.h"
+#include "studies/accuracy/runs.h"
 #include "studies/benchmarks/checks.h"
 #include "studies/stability/bed.h"
 #include "support/progress.h"
@@ -338,6 +339,45 @@ void add_impact_rows(std::vector<Extreme> &rows, bool quick) {
   }
 }
 
+/// Impacts with few steps in a contact, against those of the engine's scheme.
+Extreme coarse_row(Transition transition, double D, bool hertz, int steps) {
+  constexpr int places = 20;
+  Extreme row;
+  row.group = "Few steps in a contact";
+  row.name = fmt::format("{} law; {}: D = {:g}; {} steps", hertz ? "Hertz" : "linear",
+                         transition_name(transition), D, steps);
+  row.deck = "study/in.impacts";
+  row.variables = {{"transition", transition_name(transition)},
+                   {"hertz", hertz ? "1" : "0"},
+                   {"D", number_text(D)},
+                   {"steps_per_contact", std::to_string(steps)},
+                   {"contacts", "8"},
+                   {"phases", std::to_string(places)}};
+  row.expected =
+      fmt::format("largest error of the rebound over {} places of the make at most 1.2 times that of "
+                  "stepping stock (ratio of the two)",
+                  places);
+  row.allowed = 1.2;
+  row.error = [transition, D, variables = row.variables, deck = row.deck](const DeckRun &run) {
+    constexpr double speed = 0.5; // m/s, the deck's
+    Variables stock = variables;
+    stock.emplace_back("stepping", "stock");
+    return impact_errors(run, places, transition, D, speed).worst /
+           impact_errors(DeckRun(deck, stock), places, transition, D, speed).worst;
+  };
+  return row;
+}
+
+void add_coarse_rows(std::vector<Extreme> &rows, bool quick) {
+  for (const bool hertz : {false, true})
+    for (const Transition transition : {Transition::A, Transition::B})
+      for (const double D : {0.0, 0.003, 0.03, 0.3, 2.0})
+        for (const int steps : {10, 20, 40}) {
+          if (transition == Transition::A && D >= 1.0) continue; // the contact does not end
+          if (!quick || (D == 0.003 && steps == 20)) rows.push_back(coarse_row(transition, D, hertz, steps));
+        }
+}
+
 /// An impact with the Hertz law: a sphere on a rigid plane, test 3 of Chung and Ooi with one variable changed.
 Extreme hertz_row(const std::string &name, const std::string &variable, double value,
                   const Variables &more = {}) {
@@ -453,6 +493,7 @@ std::vector<Extreme> extremes(bool quick) {
   add_rest_rows(rows, quick);
   add_impact_rows(rows, quick);
   add_hertz_rows(rows, quick);
+  add_coarse_rows(rows, quick);
   add_bed_rows(rows, quick);
   add_stop_rows(rows);
   if (!quick) { // at the end, since it takes minutes

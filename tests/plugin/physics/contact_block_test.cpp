@@ -102,9 +102,10 @@ void expect_normal_force(const ContactBlock &b, int n, const Contact &parameters
     const StepMotion motion{overlap, rate_half, -dot(b.velocity_before[n], normal), dt};
     const StepContext context{b.m_eff[n], b.damping_over_mass[n], false};
     EXPECT_EQ(b.coupled[n] == 0.0, goes_on(law, motion, state, context)) << n;
+    const bool lost = lost_its_force(state.force, going_on(law, motion, state.force, b.m_eff[n]));
     const StepResult result = advance(law, motion, state, context);
     expect_same(b.force[n], state.force, "force", n);
-    if (!result.coupled) expect_same(b.push[n], result.kick, "kick", n);
+    if (!result.coupled && !lost) expect_same(b.push[n], result.kick, "kick", n);
   } else {
     const StepResult result = advance_stock(law, {overlap, rate_half, rate_half, dt}, state);
     expect_same(b.push[n], result.kick, "kick", n);

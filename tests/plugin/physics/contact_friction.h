@@ -2,9 +2,8 @@
 /// Friction of one contact, step by step, for tests of whole impacts: as compute_tangential_stiffness() and
 /// compute_friction() do it for a block of contacts.
 
-#include "physics/contact_law.h"
+#include "physics/contact_step.h"
 #include "physics/friction_law.h"
-#include "physics/stepping.h"
 
 namespace verlet {
 
@@ -27,16 +26,27 @@ public:
         contact_.tangential(overlap_of_spring(motion.overlap, motion.rate_half, motion.dt), r_eff_);
     spring_ = scaled(kept_spring(stiffness_, kt), spring_);
     stiffness_ = kt;
-    const FrictionStep now =
-        friction_step({kt, ct, coefficient_, cap_}, normal_force, normal, slip, spring_, motion.dt);
+    friction_ = {kt, ct, coefficient_, cap_};
+    const bool begins = !touched_ && cap_ == Cap::coulomb;
+    const double time = begins ? time_in_contact(motion.overlap, motion.rate_half, motion.dt) : motion.dt;
+    const FrictionStep now = friction_step(friction_, normal_force, normal, slip, spring_, time);
     spring_ = now.spring;
+    touched_ = true;
     return now;
+  }
+
+  /// Friction in the closing half kick, N, from that of the end of the step. \param push of the normal law
+  [[nodiscard]] drumlin::physics::Vec3 closing(const drumlin::physics::StepResult &push,
+                                               const drumlin::physics::FrictionStep &now) const {
+    if (!push.begins) return now.force;
+    return closing_friction(friction_, push.force, push.kick, push.weight, {now.force, now.spring});
   }
 
   /// The contact has ended.
   void end() {
     spring_ = {};
     stiffness_ = 0.0;
+    touched_ = false;
   }
 
 private:
@@ -44,6 +54,8 @@ private:
   const double coefficient_, r_eff_;
   const drumlin::physics::Cap cap_;
   double stiffness_ = 0.0;
+  bool touched_ = false;
+  drumlin::physics::Friction friction_;
   drumlin::physics::Vec3 spring_{};
 };
 

@@ -94,7 +94,7 @@ Found run(const Impact<Contact> &impact) {
     const StepResult push =
         impact.stock ? advance_stock(law, motion, state) : advance(law, motion, state, {m_eff});
     const double arm_i = impact.ri - 0.5 * motion.overlap, arm_j = impact.rj - 0.5 * motion.overlap;
-    Vec3 rub{};
+    Vec3 rub{}, closing{};
     if (motion.overlap > 0.0) {
       touched = true;
       const Vec3 slip = slip_velocity_of_step(v, apart, normal, sum(scaled(arm_i, wi), arm_j, wj), dt);
@@ -102,17 +102,22 @@ Found run(const Impact<Contact> &impact) {
           friction.step(motion, push.force, 0.5 * law.dashpot(motion.overlap), normal, slip);
       judge(now, impact.friction * std::max(0.0, push.force), stored, -dt * dot(now.force, slip), found);
       rub = now.force;
+      closing = friction.closing(push, now);
       stored = now.stored;
     } else {
       friction.end();
       stored = 0.0;
     }
-    const Vec3 moment = cross(normal, rub);
-    torque_i = scaled(-arm_i, moment);
-    torque_j = scaled(-arm_j, moment);
+    const auto turn = [&](const Vec3 &friction_force) {
+      const Vec3 moment = cross(normal, friction_force);
+      torque_i = scaled(-arm_i, moment);
+      torque_j = scaled(-arm_j, moment);
+    };
+    turn(closing);
+    kick(sum(closing, push.kick, normal));
+    turn(rub);
     force = sum(rub, push.force, normal);
     shift = push.shift;
-    kick(sum(rub, push.kick, normal));
     const bool free = motion.overlap <= 0.0 || (law.transition() == Transition::B && push.force == 0.0);
     over = touched && free && dot(v, normal) > 0.0;
   }
