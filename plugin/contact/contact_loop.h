@@ -106,6 +106,7 @@ private:
       block_.in_contact[n] = 1.0;
       if constexpr (remembers) take_history(n, contacts_[n].history);
     }
+    new_count_ = 0;
     if (remembers && changed_)
       for (int n = 0; n < count; ++n)
         take_change(n);
@@ -121,6 +122,7 @@ private:
     int &flag = engine_.flags(contact.i)[pairs_.pairs()[static_cast<std::size_t>(contact.pair)].place];
     block_.in_contact[n] = engine_.touched(flag, contact.history) ? 1.0 : 0.0;
     engine_.mark(flag, contact.history, contact.touches);
+    if (contact.touches && block_.in_contact[n] == 0.0) new_[new_count_++] = n;
   }
 
   void take_history(int n, const double *history) {
@@ -181,9 +183,9 @@ private:
     if constexpr (!rubs) physics::compute_total_force(block_, first, end);
     if constexpr (rolling) physics::compute_rolling(block_, first, end, law, dt);
     if constexpr (springs || rolling)
-      if (changed_ && moves_)
-        for (int n = first; n < end; ++n)
-          if (contacts_[n].touches && block_.in_contact[n] == 0.0) begin_springs(n, law);
+      if (moves_)
+        for (int new_one = 0; new_one < new_count_; ++new_one)
+          if (const int n = new_[new_one]; n >= first && n < end) begin_springs(n, law);
   }
 
   /// Friction and rolling resistance of a contact that begins, whose springs have been stretched for a part of the step
@@ -262,8 +264,8 @@ private:
     coupled_[n] = stepping_->coupled_at(&stored_force);
     any_coupled_ |= coupled_[n] != nullptr;
     if constexpr (rubs || rolling)
-      if (const LAMMPS_NS::FixStepping::Begun *begun = stepping_->begun_at(&stored_force))
-        begun_.emplace_back(n, *begun);
+      if (LAMMPS_NS::FixStepping::Begun *begun = stepping_->begun_at(&stored_force))
+        begun_.emplace_back(n, begun);
   }
 
   /// Passes friction and rolling resistance of the coupled contacts to FixStepping, which limits them when the normal
@@ -299,9 +301,9 @@ private:
 
   /// Friction and rolling resistance of contacts that begin: those of the closing half kick.
   [[gnu::noinline]] void close_friction() {
-    for (auto &[n, begun] : begun_) {
-      describe(n, begun, true);
-      const auto closing = stepping_->close_friction(begun);
+    for (const auto &[n, begun] : begun_) {
+      describe(n, *begun, true);
+      const auto closing = stepping_->close_friction(*begun);
       block_.total_force.set(n, physics::sum(closing.friction, block_.push[n], block_.normal[n]));
       if constexpr (rubs) set_torques(n, closing.friction);
       if constexpr (rolling) block_.rolling.set(n, closing.rolling);
@@ -433,11 +435,13 @@ private:
   physics::ContactBlock block_;
   std::int32_t found_[at_once + 4];
   BlockContact contacts_[physics::block_size + at_once];
+  int new_[physics::block_size]; // contacts of the block that begin
+  int new_count_ = 0;
   bool one_law_ = false; // whether all have the same coefficients
   LAMMPS_NS::FixStepping::Coupled *coupled_[physics::block_size] =
       {}; // of the contacts of the block; nullptr: not coupled
   bool any_coupled_ = false;
-  std::vector<std::pair<int, LAMMPS_NS::FixStepping::Begun>> begun_; // contacts of the block that begin
+  std::vector<std::pair<int, LAMMPS_NS::FixStepping::Begun *>> begun_; // contacts of the block that begin
 };
 
 } // namespace drumlin

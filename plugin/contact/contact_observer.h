@@ -130,6 +130,7 @@ public:
     for (ContactObserver *observer : all_)
       if (observer->observing()) observer->see_contact(record);
   }
+  bool exist() const { return !all_.empty(); }
   void tell_heat(int i, int j, double normal, double tangential) const {
     for (ContactObserver *observer : all_)
       observer->see_heat(i, j, normal, tangential);

@@ -93,7 +93,7 @@ void FixStepping::setup_pre_force(int) {
   in_setup_ = true;
   light_ = false;
   coupled_.clear();
-  begun_.force = nullptr;
+  begun_.clear();
   coupled_links_.clear();
   later_.clear();
   shifts_.clear();
@@ -141,7 +141,7 @@ void FixStepping::pre_exchange() { expected_.clear(); }
 void FixStepping::pre_force(int) {
   if (!in_use_) return;
   coupled_.clear();
-  begun_.force = nullptr;
+  begun_.clear();
   if (neighbor->ago == 0 || update->dt != expected_dt_) expect_contacts();
   light_ = !counted_ && !counting_;
   if (comm->nprocs > 1 || atom->nghost > 0) drumlin::engine::forward_comm(comm, this);

@@ -141,10 +141,10 @@ public:
     drumlin::physics::StepResult step;
   };
   /// Announces a contact that begins, for the caller to fill in what Rubbing has.
-  Begun &begin() { return begun_ = {}; }
+  Begun &begin() { return begun_.emplace_back(); }
   /// The contact that has begun last, if its force is stored there; else nullptr.
   Begun *begun_at(const double *stored_force) {
-    return begun_.force == stored_force && stored_force != nullptr ? &begun_ : nullptr;
+    return !begun_.empty() && begun_.back().force == stored_force ? &begun_.back() : nullptr;
   }
   /// Friction, N, and rolling resistance, N m, on ball i of the share of a contact that acts.
   struct RubbingForces {
@@ -153,6 +153,8 @@ public:
   /// Those of a contact that begins, in the closing half kick. Adds what they lack in the next opening half kick.
   RubbingForces close_friction(const Begun &contact);
 
+  /// Whether an observer takes heat.
+  bool observed() const { return observers_.exist(); }
   /// Passes heat that the trapezoidal rule misses in the step in which a contact begins or ends to the observers.
   void tell_heat(int i, int j, double normal, double tangential) const {
     observers_.tell_heat(i, j, normal, tangential);
@@ -219,7 +221,7 @@ private:
   std::vector<double> damping_;      // sum of c in this step, N s/m
   std::vector<double> gathered_;     // sums of ghosts to be sent to owners, comm_reverse each
   std::deque<Coupled> coupled_;      // of this step
-  Begun begun_{};                    // the last
+  std::deque<Begun> begun_;          // the same
   drumlin::ContactObservers observers_;
   std::vector<std::function<void()>> coupled_links_;
   std::vector<Later> later_;            // of this step

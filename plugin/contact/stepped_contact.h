@@ -123,8 +123,8 @@ template <class Law>
     contact.force = &stored_force;
     contact.step = step;
   }
-  const double heat = physics::heat_of_change(law, motion, before, step, p.m_eff);
-  if (heat != 0.0) stepping.tell_heat(p.i, p.j, p.share * heat, 0.0);
+  if (stepping.observed())
+    stepping.tell_heat(p.i, p.j, p.share * physics::heat_of_change(law, motion, before, step, p.m_eff), 0.0);
   if (state.in_contact) count(stepping, p.i, p.j, law.dashpot(p.overlap));
   return p.share * step.kick;
 }

@@ -134,7 +134,7 @@ DRUMLIN_FOR_THIS_PROCESSOR bool compute_normal_forces(ContactBlock &b, int first
     b.arm_i[n] = arm_i;
     b.arm_j[n] = arm_j;
   }
-  if constexpr (stepped)
+  if constexpr (stepped) // in a loop of its own, since the compiler finds no instruction for both
     for (int n = first; n < end; ++n)
       rare |= lost_its_force(b.force_before[n], b.force[n]) ? 1 : 0;
   return rare != 0;
