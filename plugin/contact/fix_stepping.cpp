@@ -274,6 +274,7 @@ void FixStepping::solve_coupled() {
         gathered_[static_cast<std::size_t>(p.j) * most_gathered + a] -= change[a];
     if (takes(p.j)) add_torque(p.j, p.change.torque_j);
     *p.force = acting;
+    if (p.report) p.report(change);
   }
   if (force->newton_pair) {
     drumlin::engine::reverse_comm(comm, this);

@@ -96,6 +96,15 @@ public:
   void add_after_kick(int i, const std::array<double, 3> &rest, const std::array<double, 3> &shift) {
     later_.push_back({i, rest, shift});
   }
+  /// Number of calls of add_after_kick() in this step, and the sum of `rest`, N, of those from the number `first`
+  /// on, which are those of one contact with a wall.
+  std::size_t announced() const { return later_.size(); }
+  std::array<double, 3> rest_since(std::size_t first) const {
+    std::array<double, 3> total{};
+    for (; first < later_.size(); ++first)
+      total = drumlin::physics::sum(total, 1.0, later_[first].rest);
+    return total;
+  }
 
   /// A contact that is solved for together with others when all forces of the step are known: see
   /// CoupledDashpot and coupled_force().
@@ -118,6 +127,9 @@ public:
     double *rolling_spring = nullptr; ///< N m; nullptr: there is no rolling resistance
     double dt = 0.0;                  ///< s, time step
     drumlin::FrictionChange change;   ///< once the force is known
+    /// For a wall that reports its force; empty for others. Called when the force is known, with what that has
+    /// changed in the force of the contact on ball i, N.
+    std::function<void(const std::array<double, 3> &)> report;
   };
   /// Adds a coupled contact and returns it, for the caller to fill in. (Filling it in place is faster than
   /// copying a finished one.) It stays where it is until the forces of the next step are computed.
