@@ -73,17 +73,13 @@ void FixStepping::init() {
   comm_reverse =
       most_gathered; // for which the engine makes room at the begin of each run; gather() may ask for less
   constraints_.clear();
-  for (int n = 0; n < modify->nfix; ++n)
+  for (Fix *fix : drumlin::engine::fixes(modify))
     for (const char *name : {"setforce", "freeze", "lineforce", "planeforce", "aveforce", "clump"})
-      if (std::string(modify->fix[n]->style) == name) {
+      if (std::string(fix->style) == name) {
         int dimensions = 0;
-        void *body_force =
-            std::string(name) == "clump" ? modify->fix[n]->extract("force", dimensions) : nullptr;
-        constraints_.push_back({modify->fix[n],
-                                drumlin::engine::reaction(modify->fix[n]),
-                                joins(name),
-                                static_cast<double *>(body_force),
-                                {}});
+        void *body_force = std::string(name) == "clump" ? fix->extract("force", dimensions) : nullptr;
+        constraints_.push_back(
+            {fix, drumlin::engine::reaction(fix), joins(name), static_cast<double *>(body_force), {}});
       }
 }
 

@@ -140,9 +140,9 @@ void FixRollerHistory::find_partners() {
                           "fix roller/history: keyword bond is '{}'; allowed: the ID of a fix bond/spring",
                           bond_id_)));
   ground_.clear();
-  for (int n = 0; bed_ && n < modify->nfix; ++n)
-    if (const auto *boundary = dynamic_cast<const FixBoundaryAbsorb *>(modify->fix[n]))
-      ground_.push_back(boundary);
+  if (!bed_) return;
+  for (const Fix *fix : engine::fixes(modify))
+    if (const auto *boundary = dynamic_cast<const FixBoundaryAbsorb *>(fix)) ground_.push_back(boundary);
 }
 
 double FixRollerHistory::along(const double *vector) const {

@@ -27,13 +27,6 @@ inline void stop_on_fault(const LAMMPS *lmp, const std::string &command, std::st
   lmp->error->all(FLERR, engine::error_text(command + ": " + fault));
 }
 
-/// A fix by its ID; nullptr if there is none.
-inline LAMMPS_NS::Fix *find_fix(LAMMPS_NS::Modify *modify, const std::string &id) {
-  const int index =
-      modify->find_fix(id.c_str()); // NOLINT(readability-redundant-string-cstr): LIGGGHTS takes a char *
-  return index < 0 ? nullptr : modify->fix[index];
-}
-
 /// Whether a pair of balls of the contact law's neighbour list is counted on this rank, so that sums and
 /// tables over all ranks have each pair once. With newton off a pair across ranks is in the lists of both: it
 /// counts where the ball with the lower ID is owned.
