@@ -48,9 +48,9 @@ void FixRollerHistory::parse(int narg, char **arg) {
     } else if (keyword == "frame") {
       const int index = in.group("keyword frame", group);
       frame_group_ = group->names[index];
-      frame_.groupbit = group->bitmask[index];
+      frame_.groupbit = engine::group_bit(index);
     } else if (keyword == "soil") {
-      soil_groupbit_ = group->bitmask[in.group("keyword soil", group)];
+      soil_groupbit_ = engine::group_bit(in.group("keyword soil", group));
     } else if (keyword == "excite") {
       excite_id_ = in.word("keyword excite", "the ID of a fix drum/excite");
     } else if (keyword == "bond") {

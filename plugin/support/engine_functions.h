@@ -27,6 +27,10 @@ inline void stop_on_fault(const LAMMPS *lmp, const std::string &command, std::st
   lmp->error->all(FLERR, engine::error_text(command + ": " + fault));
 }
 
+/// The bit of a group, by its number, in the masks of balls: both engines number bits as groups. (LAMMPS means to hide
+/// its list of bits.)
+inline int group_bit(int group) { return 1 << group; }
+
 /// Whether a pair of balls of the contact law's neighbour list is counted on this rank, so that sums and
 /// tables over all ranks have each pair once. With newton off a pair across ranks is in the lists of both: it
 /// counts where the ball with the lower ID is owned.
