@@ -27,7 +27,7 @@ public:
       else if (keyword == "force")
         force_ = in.number("keyword force", Range::positive);
       else if (keyword == "fixed") {
-        fixed_groupbit_ = group->bitmask[in.group("keyword fixed", group)];
+        fixed_groupbit_ = engine::group_bit(in.group("keyword fixed", group));
       } else
         in.fail("keyword", keyword, "ratio, every, limit, force or fixed");
     }

@@ -130,7 +130,7 @@ void surface_command(LAMMPS *lmp, int narg, char **arg) {
   if (spacing == 0.0) in.fail("keyword spacing is missing; allowed: a finite number > 0");
   if (lmp->domain->box_exist == 0)
     in.fail("simulation box is missing; allowed: the command after create_box or read_data");
-  const double height = Lines(lmp, in, spacing).mean_height(lmp->group->bitmask[group], middle, beyond);
+  const double height = Lines(lmp, in, spacing).mean_height(engine::group_bit(group), middle, beyond);
   if (std::isnan(height))
     in.fail("group", lmp->group->names[group], "one with a ball that a vertical line meets there");
   std::string words[] = {name, "string", fmt::format("{:.17g}", height)};

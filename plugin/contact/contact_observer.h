@@ -114,10 +114,10 @@ private:
 class ContactObservers {
 public:
   /// Looks up the observers among the fixes. To be called in the initialization of each run.
-  void find(const LAMMPS_NS::Modify &modify) {
+  void find(LAMMPS_NS::Modify &modify) {
     all_.clear();
-    for (int n = 0; n < modify.nfix; ++n)
-      if (auto *observer = dynamic_cast<ContactObserver *>(modify.fix[n])) all_.push_back(observer);
+    for (LAMMPS_NS::Fix *fix : engine::fixes(&modify))
+      if (auto *observer = dynamic_cast<ContactObserver *>(fix)) all_.push_back(observer);
   }
 
   bool any() const {

@@ -74,17 +74,13 @@ void FixStepping::init() {
       most_gathered; // for which the engine makes room at the begin of each run; gather() may ask for less
   observers_.find(*modify);
   constraints_.clear();
-  for (int n = 0; n < modify->nfix; ++n)
+  for (Fix *fix : drumlin::engine::fixes(modify))
     for (const char *name : {"setforce", "freeze", "lineforce", "planeforce", "aveforce", "clump"})
-      if (std::string(modify->fix[n]->style) == name) {
+      if (std::string(fix->style) == name) {
         int dimensions = 0;
-        void *body_force =
-            std::string(name) == "clump" ? modify->fix[n]->extract("force", dimensions) : nullptr;
-        constraints_.push_back({modify->fix[n],
-                                drumlin::engine::reaction(modify->fix[n]),
-                                joins(name),
-                                static_cast<double *>(body_force),
-                                {}});
+        void *body_force = std::string(name) == "clump" ? fix->extract("force", dimensions) : nullptr;
+        constraints_.push_back(
+            {fix, drumlin::engine::reaction(fix), joins(name), static_cast<double *>(body_force), {}});
       }
 }
 
@@ -279,6 +275,7 @@ void FixStepping::solve_coupled() {
         gathered_[static_cast<std::size_t>(p.j) * most_gathered + a] -= change[a];
     if (takes(p.j)) add_torque(p.j, p.change.torque_j);
     *p.force = acting;
+    if (p.report) p.report(change);
   }
   if (force->newton_pair) {
     drumlin::engine::reverse_comm(comm, this);

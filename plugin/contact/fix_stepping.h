@@ -97,6 +97,15 @@ public:
                       const std::array<double, 3> &torque = {}) {
     later_.push_back({i, rest, shift, torque});
   }
+  /// Number of calls of add_after_kick() in this step, and the sum of `rest`, N, of those from the number `first`
+  /// on, which are those of one contact with a wall.
+  std::size_t announced() const { return later_.size(); }
+  std::array<double, 3> rest_since(std::size_t first) const {
+    std::array<double, 3> total{};
+    for (; first < later_.size(); ++first)
+      total = drumlin::physics::sum(total, 1.0, later_[first].rest);
+    return total;
+  }
 
   /// Friction and rolling resistance of a contact, computed with its normal force at the end of the step (of a coupled
   /// contact: with that of the contact solved for alone). Forces and torques are those of the whole contact.
@@ -122,6 +131,9 @@ public:
     double share;                             ///< part of the force that acts: see StepContact::share
     double *force;                            ///< where the force, N, is stored
     drumlin::FrictionChange change;           ///< once the force is known
+    /// For a wall that reports its force; empty for others. Called when the force is known, with what that has
+    /// changed in the force of the contact on ball i, N.
+    std::function<void(const std::array<double, 3> &)> report;
   };
   /// Adds a coupled contact and returns it, for the caller to fill in. (Filling it in place is faster than
   /// copying a finished one.) It stays where it is until the forces of the next step are computed.

@@ -91,8 +91,9 @@ void FixBoundaryAbsorb::init() {
 
 /// The constant forces are taken at the start of the first step, before the balls move.
 void FixBoundaryAbsorb::refuse_earlier_integration() const {
-  for (int n = 0; n < modify->nfix && modify->fix[n] != this; ++n) {
-    const Fix &earlier = *modify->fix[n];
+  for (const Fix *fix : engine::fixes(modify)) {
+    if (fix == this) return;
+    const Fix &earlier = *fix;
     if (!earlier.time_integrate) continue;
     int moves = 0;
     for (int i = 0; i < atom->nlocal; ++i)

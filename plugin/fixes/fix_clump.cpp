@@ -42,10 +42,10 @@ void FixClump::init() {
   constexpr std::array<const char *, 6> harmless = {"lineforce", "planeforce",  "setforce",
                                                     "freeze",    "drum/excite", "clump"};
   bool later = false;
-  for (int n = 0; n < modify->nfix; ++n) {
-    const Fix &other = *modify->fix[n];
-    const bool forces = later && (modify->fmask[n] & FixConst::POST_FORCE);
-    later = later || &other == this;
+  for (Fix *fix : drumlin::engine::fixes(modify)) {
+    const Fix &other = *fix;
+    const bool forces = later && (drumlin::engine::fix_mask(modify, fix) & FixConst::POST_FORCE);
+    later = later || fix == this;
     if (forces && std::find(harmless.begin(), harmless.end(), std::string(other.style)) == harmless.end() &&
         common_balls(other) > 0)
       error->all(FLERR, drumlin::engine::error_text(

@@ -40,10 +40,10 @@ private:
 class Clumps {
 public:
   /// In the initialization of each run.
-  void find(const Modify &modify) {
+  void find(Modify &modify) {
     all_.clear();
-    for (int n = 0; n < modify.nfix; ++n)
-      if (const auto *clump = dynamic_cast<const FixClump *>(modify.fix[n])) all_.push_back(clump);
+    for (const Fix *fix : drumlin::engine::fixes(&modify))
+      if (const auto *clump = dynamic_cast<const FixClump *>(fix)) all_.push_back(clump);
   }
   bool empty() const { return all_.empty(); }
   const std::vector<const FixClump *> &all() const { return all_; }

@@ -50,7 +50,7 @@ FixContactEvents::FixContactEvents(LAMMPS *lammps, int narg, char **arg)
         type = static_cast<int>(in.integer("keyword types", 1, atom->ntypes));
     } else if (keyword == "between") {
       for (int &bit : groupbits_)
-        bit = group->bitmask[in.group("keyword between", group)];
+        bit = drumlin::engine::group_bit(in.group("keyword between", group));
     } else if (keyword == "append") {
       in.choice("keyword append", {"yes", "no"});
     } else {

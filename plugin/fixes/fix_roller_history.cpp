@@ -48,9 +48,9 @@ void FixRollerHistory::parse(int narg, char **arg) {
     } else if (keyword == "frame") {
       const int index = in.group("keyword frame", group);
       frame_group_ = group->names[index];
-      frame_.groupbit = group->bitmask[index];
+      frame_.groupbit = engine::group_bit(index);
     } else if (keyword == "soil") {
-      soil_groupbit_ = group->bitmask[in.group("keyword soil", group)];
+      soil_groupbit_ = engine::group_bit(in.group("keyword soil", group));
     } else if (keyword == "excite") {
       excite_id_ = in.word("keyword excite", "the ID of a fix drum/excite");
     } else if (keyword == "bond") {
@@ -140,9 +140,9 @@ void FixRollerHistory::find_partners() {
                           "fix roller/history: keyword bond is '{}'; allowed: the ID of a fix bond/spring",
                           bond_id_)));
   ground_.clear();
-  for (int n = 0; bed_ && n < modify->nfix; ++n)
-    if (const auto *boundary = dynamic_cast<const FixBoundaryAbsorb *>(modify->fix[n]))
-      ground_.push_back(boundary);
+  if (!bed_) return;
+  for (const Fix *fix : engine::fixes(modify))
+    if (const auto *boundary = dynamic_cast<const FixBoundaryAbsorb *>(fix)) ground_.push_back(boundary);
 }
 
 double FixRollerHistory::along(const double *vector) const {

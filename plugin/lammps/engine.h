@@ -111,13 +111,17 @@ inline void forward_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Fix *fix) { version::
 /// Sends numbers of ghosts to their owners by the fix's pack_gathered() and join_gathered().
 inline void reverse_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Fix *fix) { version::reverse_comm(comm, fix); }
 
+using version::find_fix;
+using version::fix_mask;
+using version::fixes;
+
 /// Present acceleration, m/s2, of the deck's first fix gravity; zero without one.
 inline std::array<double, 3> gravity(LAMMPS_NS::Modify *modify) {
-  for (int n = 0; n < modify->nfix; ++n)
-    if (const std::string style = modify->fix[n]->style;
+  for (LAMMPS_NS::Fix *fix : fixes(modify))
+    if (const std::string style = fix->style;
         style == "gravity" || style.rfind("gravity/", 0) == 0) { // gravity/omp with -sf omp
       int dimension = 0;
-      if (const auto *g = static_cast<const double *>(modify->fix[n]->extract("gvec", dimension)))
+      if (const auto *g = static_cast<const double *>(fix->extract("gvec", dimension)))
         return {g[0], g[1], g[2]};
     }
   return {0.0, 0.0, 0.0};

@@ -183,6 +183,7 @@ void FixWallGranTransition::touch(const Table &table, int i, int place, const ph
   p.in_contact = remembered[0] != 0.0;
 
   drumlin::ContactForces forces{};
+  const std::size_t announced = stepped ? stepping_->announced() : 0;
   if (!touches) { // it did, a step ago
     if constexpr (stepped)
       forces.force = physics::scaled(
@@ -219,7 +220,15 @@ void FixWallGranTransition::touch(const Table &table, int i, int place, const ph
   for (std::size_t a = 0; a < 3; ++a) {
     atom->f[i][a] += forces.force[a];
     atom->torque[i][a] += forces.rolling[a] - p.arm_i * forces.moment[a];
-    force_[a] += forces.force[a];
+  }
+  force_ = physics::sum(force_, 1.0, forces.force);
+  if constexpr (
+      stepped) { // half of what acts in the closing half kick, half of what acts in the next opening one
+    force_ = physics::sum(force_, 0.5, stepping_->rest_since(announced));
+    if (forces.coupled != nullptr)
+      forces.coupled->report = [this](const physics::Vec3 &change) {
+        force_ = physics::sum(force_, 1.0, change);
+      };
   }
 }
 

@@ -6,13 +6,20 @@
 #include "comm.h"
 #include "domain.h"
 #include "fix.h"
+#include "force.h"
+#include "input.h"
+#include "lammps.h"
 #include "lmptype.h"
+#include "modify.h"
 #include "neigh_request.h"
 #include "neighbor.h"
 #include "pair.h"
 #include "region.h"
 
+#include <algorithm>
 #include <string>
+#include <type_traits>
+#include <vector>
 
 namespace drumlin::engine::version {
 
@@ -37,6 +44,38 @@ inline void reverse_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Fix *fix) {
   comm->reverse_comm(fix);
 #else
   comm->reverse_comm_fix(fix);
+#endif
+}
+
+/// All fixes, in the order of the deck.
+inline std::vector<LAMMPS_NS::Fix *> fixes(LAMMPS_NS::Modify *modify) {
+#if DRUMLIN_LAMMPS_FIX_LIST
+  return modify->get_fix_list();
+#else
+  std::vector<LAMMPS_NS::Fix *> all(static_cast<std::size_t>(modify->nfix));
+  std::copy_n(modify->fix, modify->nfix, all.begin());
+  return all;
+#endif
+}
+
+/// A fix by its ID, or nullptr.
+inline LAMMPS_NS::Fix *find_fix(LAMMPS_NS::Modify *modify, const std::string &id) {
+#if DRUMLIN_LAMMPS_FIX_LIST
+  return modify->get_fix_by_id(id);
+#else
+  const int index = modify->find_fix(id);
+  return index < 0 ? nullptr : modify->fix[index];
+#endif
+}
+
+/// When the engine calls a fix: the bits of FixConst.
+inline int fix_mask(LAMMPS_NS::Modify *modify, LAMMPS_NS::Fix *fix) {
+#if DRUMLIN_LAMMPS_FIX_MASK
+  return modify->get_fix_mask(fix);
+#else
+  for (int n = 0; n < modify->nfix; ++n)
+    if (modify->fix[n] == fix) return modify->fmask[n];
+  return 0;
 #endif
 }
 
@@ -70,6 +109,24 @@ inline void request_list(LAMMPS_NS::Neighbor *neighbor, LAMMPS_NS::Pair *pair, i
   LAMMPS_NS::NeighRequest *request = neighbor->requests[index];
   request->size = 1;
   request->history = history ? 1 : 0;
+#endif
+}
+
+/// Enters a style of a plugin that another instance in the process has loaded into the list of this one. Later releases
+/// have one list for all instances. \param category pair, fix or command \param make the style's creator, in any type
+inline void enter_style([[maybe_unused]] LAMMPS_NS::LAMMPS *lmp, [[maybe_unused]] const std::string &category,
+                        [[maybe_unused]] const char *name, [[maybe_unused]] void (*make)()) {
+#if DRUMLIN_LAMMPS_STYLES_OF_INSTANCE
+  // The cast of the function's type is the one that the engine's own plugin interface makes.
+  const auto enter = [&](auto &styles) {
+    styles[name] = reinterpret_cast<typename std::decay_t<decltype(styles)>::mapped_type>(make);
+  };
+  if (category == "pair")
+    enter(*lmp->force->pair_map);
+  else if (category == "fix")
+    enter(*lmp->modify->fix_map);
+  else
+    enter(*lmp->input->command_map);
 #endif
 }
 

@@ -52,7 +52,7 @@ PairGranTransition::~PairGranTransition() {
   if (!settings_.stock) FixStepping::dismiss(lmp);
   delete[] svector;
   for (const std::string &id : {placeholder_id, history_id})
-    if (modify->find_fix(id) >= 0) modify->delete_fix(id);
+    if (engine::find_fix(modify, id) != nullptr) modify->delete_fix(id);
   if (!allocated) return;
   memory->destroy(setflag);
   memory->destroy(cutsq);
@@ -156,14 +156,17 @@ void PairGranTransition::check_engine() const {
     refuse("the atom style has no radius or no mass of its own; allowed: atom_style sphere");
   if (comm->ghost_velocity == 0) refuse("ghosts have no velocity; allowed: comm_modify vel yes before");
   if (settings_.stock) return;
-  for (int n = 0; n < modify->nfix; ++n)
-    if (modify->fix[n]->rigid_flag)
-      refuse(std::string("fix ") + modify->fix[n]->id + " (" + modify->fix[n]->style +
+  const std::vector<Fix *> fixes = engine::fixes(modify);
+  for (const Fix *fix : fixes)
+    if (fix->rigid_flag)
+      refuse(std::string("fix ") + fix->id + " (" + fix->style +
              ") makes rigid bodies and stepping is 'second'; allowed: stepping stock, or fix clump");
-  for (int n = 0; n < modify->nfix && modify->fix[n] != FixStepping::find(lmp); ++n)
-    if (modify->fix[n]->time_integrate)
-      refuse(std::string("fix ") + modify->fix[n]->id + " (" + modify->fix[n]->style +
+  for (const Fix *fix : fixes) {
+    if (fix == FixStepping::find(lmp)) break;
+    if (fix->time_integrate)
+      refuse(std::string("fix ") + fix->id + " (" + fix->style +
              ") stands before it; allowed: pair_style before the fixes that integrate, or stepping stock");
+  }
 }
 
 void PairGranTransition::init_style() {
@@ -182,22 +185,23 @@ void PairGranTransition::init_style() {
   observers_.find(*modify);
   clumps_.find(*modify);
   rigid_.clear();
-  for (int n = 0; n < modify->nfix; ++n)
-    if (modify->fix[n]->rigid_flag) rigid_.push_back(modify->fix[n]);
+  const std::vector<Fix *> fixes = engine::fixes(modify);
+  for (Fix *fix : fixes)
+    if (fix->rigid_flag) rigid_.push_back(fix);
   if (rigid_.empty()) rigid_mass_.clear();
 
   freeze_groupbit_ = 0;
-  for (int n = 0; n < modify->nfix; ++n)
-    if (std::string(modify->fix[n]->style) == "freeze") freeze_groupbit_ = modify->fix[n]->groupbit;
+  for (const Fix *fix : fixes)
+    if (std::string(fix->style) == "freeze") freeze_groupbit_ = fix->groupbit;
 
   const auto ntypes = static_cast<std::size_t>(atom->ntypes);
   std::vector<double> mine(2 * (ntypes + 1), 0.0);
   std::vector<double> all = mine;
-  for (int n = 0; n < modify->nfix; ++n) // balls that are still to come
-    if (const std::string style = modify->fix[n]->style; style == "pour" || style == "deposit")
+  for (Fix *fix : fixes) // balls that are still to come
+    if (const std::string style = fix->style; style == "pour" || style == "deposit")
       for (int type = 1; type <= atom->ntypes; ++type) {
         int extracted = type;
-        if (const auto *radius = static_cast<double *>(modify->fix[n]->extract("radius", extracted)))
+        if (const auto *radius = static_cast<double *>(fix->extract("radius", extracted)))
           mine[static_cast<std::size_t>(type)] = std::max(mine[static_cast<std::size_t>(type)], *radius);
       }
   for (int i = 0; i < atom->nlocal; ++i) {
@@ -211,8 +215,8 @@ void PairGranTransition::init_style() {
   frozen_reach_.assign(middle, all.end());
 
   walls_.clear();
-  for (int n = 0; n < modify->nfix; ++n)
-    if (const auto *wall = dynamic_cast<const drumlin::Walls *>(modify->fix[n])) walls_.push_back(wall);
+  for (const Fix *fix : fixes)
+    if (const auto *wall = dynamic_cast<const drumlin::Walls *>(fix)) walls_.push_back(wall);
 }
 
 std::string PairGranTransition::missing_coefficients(int itype, int jtype) const {

@@ -51,13 +51,6 @@ void *create_fix(void *lmp, int narg, char **arg) {
   return static_cast<Fix *>(new FixStyle(static_cast<LAMMPS *>(lmp), narg, arg));
 }
 
-/// Enters a style into a list of the engine. The cast of the function's type is the one that the engine's own
-/// plugin interface makes.
-template <class Styles, class Make>
-void enter(Styles &styles, const char *name, Make *make) {
-  styles[name] = reinterpret_cast<typename Styles::mapped_type>(reinterpret_cast<void (*)()>(make));
-}
-
 /// The name of the pair style with a law. The engine keeps the pointer.
 template <class Contact>
 const char *pair_style_name() {
@@ -86,25 +79,18 @@ public:
   }
 
   void add(const char *category, const char *name, const char *info, lammpsplugin_factory1 *create) {
-    const LAMMPS &engine = *static_cast<LAMMPS *>(lmp_);
     plugin_.creator.v1 = create;
-    if (!listed_)
-      add(category, name, info);
-    else if (std::string(category) == "pair")
-      enter(*engine.force->pair_map, name, create);
-    else
-      enter(*engine.input->command_map, name, create);
+    add(category, name, info, reinterpret_cast<void (*)()>(create));
   }
   void add_fix(const char *name, const char *info, lammpsplugin_factory2 *create) {
     plugin_.creator.v2 = create;
-    if (!listed_)
-      add("fix", name, info);
-    else
-      enter(*static_cast<LAMMPS *>(lmp_)->modify->fix_map, name, create);
+    add("fix", name, info, reinterpret_cast<void (*)()>(create));
   }
 
 private:
-  void add(const char *category, const char *name, const char *info) {
+  void add(const char *category, const char *name, const char *info, void (*create)()) {
+    if (listed_)
+      return drumlin::engine::version::enter_style(static_cast<LAMMPS *>(lmp_), category, name, create);
     plugin_.style = category;
     plugin_.name = name;
     plugin_.info = info;
@@ -120,8 +106,8 @@ private:
 } // namespace
 
 double drumlin::engine::inertia_share(const LAMMPS *lmp) {
-  for (int n = 0; n < lmp->modify->nfix; ++n)
-    if (auto *fix = dynamic_cast<LAMMPS_NS::FixNVESphere *>(lmp->modify->fix[n])) return inertia_of(*fix);
+  for (Fix *fix : fixes(lmp->modify))
+    if (auto *integrates = dynamic_cast<LAMMPS_NS::FixNVESphere *>(fix)) return inertia_of(*integrates);
   return 0.4;
 }
 

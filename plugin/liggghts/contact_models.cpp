@@ -23,6 +23,7 @@
 #include "liggghts/observed_contact.h"
 #include "liggghts/pair_contacts.h"
 #include "liggghts/registration.h"
+#include "liggghts/wall_report.h"
 
 #include <algorithm>
 #include <string>
@@ -30,9 +31,11 @@
 namespace {
 
 using namespace LIGGGHTS::ContactModels; // NOLINT: the engine's model constants
+using LAMMPS_NS::FixMeshSurface;
 using LAMMPS_NS::FixWallGran;
 using LAMMPS_NS::LAMMPS;
 using LAMMPS_NS::PairGran;
+using LAMMPS_NS::TriMesh;
 
 // The layout of the contact data in Debian's binary, which is built without superquadrics.
 static_assert(sizeof(SurfacesIntersectData) == 368,
@@ -93,6 +96,12 @@ public:
     take_stiffness_offset(this->get_history_offset(drumlin::tangential_stiffness_name));
     force_offset_ = this->get_history_offset(drumlin::final_force_name);
     stepping_ = force_offset_ < 0 ? nullptr : LAMMPS_NS::FixStepping::find(engine_);
+    if (stepping_ != nullptr && pair_->storeContactForcesStress())
+      engine_->error->all(
+          FLERR,
+          drumlin::engine::error_text(
+              command() + ": stepping is 'second' and there is a fix continuum/weighted, which takes forces "
+                          "that are not final; allowed: stepping stock with this fix"));
     observers_.find(*engine_->modify);
     clumps_.find(*engine_->modify);
   }
@@ -151,10 +160,19 @@ public:
   void init_granular() override {
     prepare<Style, Contact>(engine_);
     Base::init_granular();
+    report_.begin(*engine_, *this);
+  }
+
+  void compute_force(FixWallGran *wall, SurfacesIntersectData &contact, bool touches, double *v_wall,
+                     FixMeshSurface *fix_mesh, int mesh_number, TriMesh *mesh, int triangle) override {
+    report_.of_contact(*wall, contact, {fix_mesh, mesh, triangle, v_wall}, [&](FixMeshSurface *told) {
+      Base::compute_force(wall, contact, touches, v_wall, told, mesh_number, mesh, triangle);
+    });
   }
 
 private:
   LAMMPS *engine_;
+  drumlin::WallReport report_;
 };
 
 /// \tparam Word the rolling model whose name in a deck means this combination

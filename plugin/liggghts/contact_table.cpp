@@ -71,8 +71,8 @@ void PairContacts::begin(LAMMPS_NS::PairGran *pair, FrictionModel friction_model
   friction_model_ = friction_model;
   cap_ = cap;
   meshes_ = false;
-  for (int n = 0; n < lmp_->modify->nfix; ++n)
-    if (const auto *wall = dynamic_cast<const LAMMPS_NS::FixWallGran *>(lmp_->modify->fix[n]))
+  for (const LAMMPS_NS::Fix *fix : engine::fixes(lmp_->modify))
+    if (const auto *wall = dynamic_cast<const LAMMPS_NS::FixWallGran *>(fix))
       meshes_ = meshes_ || wall->is_mesh_wall();
 }
 

@@ -29,6 +29,7 @@
 
 #include "physics/contact_mixing.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <fmt/format.h>
@@ -108,6 +109,26 @@ inline void forward_comm(LAMMPS_NS::Comm *comm, LAMMPS_NS::Fix *fix) { comm->for
 /// Does nothing: contact history needs newton off in LIGGGHTS, and then ghosts have nothing to send to their
 /// owners.
 inline void reverse_comm(LAMMPS_NS::Comm *, LAMMPS_NS::Fix *) {}
+
+/// All fixes, in the order of the deck.
+inline std::vector<LAMMPS_NS::Fix *> fixes(LAMMPS_NS::Modify *modify) {
+  std::vector<LAMMPS_NS::Fix *> all(static_cast<std::size_t>(modify->nfix));
+  std::copy_n(modify->fix, modify->nfix, all.begin());
+  return all;
+}
+
+/// A fix by its ID; nullptr if there is none.
+inline LAMMPS_NS::Fix *find_fix(LAMMPS_NS::Modify *modify, const std::string &id) {
+  const int index = modify->find_fix(id.c_str());
+  return index < 0 ? nullptr : modify->fix[index];
+}
+
+/// When the engine calls a fix: the bits of FixConst.
+inline int fix_mask(LAMMPS_NS::Modify *modify, const LAMMPS_NS::Fix *fix) {
+  for (int n = 0; n < modify->nfix; ++n)
+    if (modify->fix[n] == fix) return modify->fmask[n];
+  return 0;
+}
 
 /// Present acceleration, m/s2, of the deck's first fix gravity; zero without one.
 inline std::array<double, 3> gravity(LAMMPS_NS::Modify *modify) {

@@ -25,8 +25,8 @@ public:
 
   int setmask() override { return FixConst::POST_RUN; }
   void post_run() override {
-    for (int n = 0; n < modify->nfix; ++n)
-      if (std::string(modify->fix[n]->style) == "contacthistory") modify->fix[n]->setup_pre_exchange();
+    for (Fix *fix : drumlin::engine::fixes(modify))
+      if (std::string(fix->style) == "contacthistory") fix->setup_pre_exchange();
   }
 
   static constexpr const char *style_name = "drumlin/keep_history";

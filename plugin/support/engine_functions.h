@@ -27,12 +27,9 @@ inline void stop_on_fault(const LAMMPS *lmp, const std::string &command, std::st
   lmp->error->all(FLERR, engine::error_text(command + ": " + fault));
 }
 
-/// A fix by its ID; nullptr if there is none.
-inline LAMMPS_NS::Fix *find_fix(LAMMPS_NS::Modify *modify, const std::string &id) {
-  const int index =
-      modify->find_fix(id.c_str()); // NOLINT(readability-redundant-string-cstr): LIGGGHTS takes a char *
-  return index < 0 ? nullptr : modify->fix[index];
-}
+/// The bit of a group, by its number, in the masks of balls: both engines number bits as groups. (LAMMPS means to hide
+/// its list of bits.)
+inline int group_bit(int group) { return 1 << group; }
 
 /// Whether a pair of balls of the contact law's neighbour list is counted on this rank, so that sums and
 /// tables over all ranks have each pair once. With newton off a pair across ranks is in the lists of both: it

@@ -180,6 +180,13 @@ bool globs(const std::string &cmake) {
   return std::regex_search(without_comments(cmake), call);
 }
 
+/// Members of LAMMPS's Modify and Group that releases of autumn 2026 hide or remove, or are to hide.
+bool uses_hidden_lists(const std::string &source) {
+  static const std::regex use(
+      R"re(\b(nfix|ncompute|fmask)\b|modify(\.|->)((fix|compute)\[|find_(fix|compute)\()|group(\.|->)bitmask\b)re");
+  return std::regex_search(source, use);
+}
+
 std::string text_of(const fs::path &file) {
   std::ifstream stream(file);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
@@ -269,6 +276,14 @@ TEST(Boundaries, TheDirectSolverAndThePostprocessorKnowNothingOfThePlugin) {
     }
 }
 
+TEST(Boundaries, ListsThatLammpsHidesAreKnownToOneHeader) {
+  for (const fs::path &file : files("plugin", is_source)) {
+    const std::string name = file.lexically_relative(root / "plugin").string();
+    if (name == "lammps/lammps_version.h" || starts_with(name, "liggghts/")) continue;
+    EXPECT_FALSE(uses_hidden_lists(text_of(file))) << name;
+  }
+}
+
 TEST(Boundaries, EverySourceIsNamedNotGlobbed) {
   const std::vector<fs::path> lists = files(".", is_cmake);
   ASSERT_GE(lists.size(), 5U);
@@ -324,6 +339,10 @@ TEST(BoundaryChecks, RefuseWhatDoesNotFit) {
                            "../../plugin/physics/contact_law.h", "fixes/anything.h", "support/arguments.h"})
     EXPECT_FALSE(fits_judge({name, true})) << name;
   EXPECT_FALSE(fits_judge({"physics/contact_law.h", false}));
+
+  EXPECT_TRUE(uses_hidden_lists("for (int n = 0; n < modify->nfix; ++n)"));
+  EXPECT_TRUE(uses_hidden_lists("modify->find_fix(id) >= 0"));
+  EXPECT_FALSE(uses_hidden_lists("engine::find_fix(modify, id) != nullptr"));
 
   EXPECT_TRUE(globs("file(GLOB sources *.cpp)"));
   EXPECT_TRUE(globs("file( glob_recurse s *.cpp)"));

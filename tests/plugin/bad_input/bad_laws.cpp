@@ -56,6 +56,10 @@ BadGroup pair_style() {
                {command + "keyword stepping is 'third'", "stock or second"}),
           pair("stepping without value", "stepping", good,
                {command + "keyword stepping is missing", "stock or second"}),
+          on_two_ranks(line(
+              "stress from forces that are not final",
+              "fix stress all continuum/weighted kernel_radius 2 compute stress",
+              {command + "stepping is 'second' and there is a fix continuum/weighted", "stepping stock"})),
           pair("unknown keyword", "limit on", good,
                {command + "keyword is 'limit'", "transition, damping or stepping"}),
           pair("the engine's limitForce", "limitForce on", good,
