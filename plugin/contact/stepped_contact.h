@@ -18,7 +18,7 @@ struct StepContact {
   const double *wall_velocity;  ///< m/s, of a wall; nullptr: at rest
   double overlap;               ///< m
   double rate_half; ///< of the overlap, m/s, with the half-step velocities v+, which the engine has here
-  double m_eff;     ///< kg
+  double m_eff;     ///< kg, of the contact law
   double share;     ///< part of the force that acts: 1, or less where triangles of a mesh share it
 };
 
@@ -56,8 +56,10 @@ inline void count(LAMMPS_NS::FixStepping &stepping, int i, int j, double c) {
 /// calls exert_contact()
 template <class Law>
 inline bool hold_contact(const Law &law, LAMMPS_NS::FixStepping &stepping, int i, int j,
-                         const physics::StepMotion &motion, double m_eff, physics::ContactState &state) {
+                         const std::array<double, 3> &normal, const physics::StepMotion &motion, double m_eff,
+                         physics::ContactState &state) {
   if (!state.in_contact) return false;
+  m_eff = stepping.moving_mass(i, j, normal, m_eff);
   if (!stepping.light()) {
     if (!physics::goes_on(law, motion, state, step_context(stepping, i, j, m_eff))) return false;
     count(stepping, i, j, law.dashpot(motion.overlap));
@@ -108,7 +110,8 @@ template <class Law, class Push>
 void exert_contact(const Law &law, LAMMPS_NS::FixStepping &stepping, const StepContact &p,
                    physics::ContactState &state, double &stored_force, Push &&push) {
   const physics::StepResult step =
-      physics::advance(law, step_motion(stepping, p), state, step_context(stepping, p.i, p.j, p.m_eff));
+      physics::advance(law, step_motion(stepping, p), state,
+                       step_context(stepping, p.i, p.j, stepping.moving_mass(p.i, p.j, p.normal, p.m_eff)));
   push(p.share * step.kick);
   exert_later(stepping, p, step);
   if (step.coupled) couple(stepping, p, step.dashpot, stored_force);

@@ -21,7 +21,7 @@ void DrumContacts::list_pairs(const ContactSource &source, int drum, int frame) 
       // With newton off a pair of balls on two ranks is in the lists of both: it counts where the drum's ball
       // is owned.
       if ((i_drum ? i : j) >= atom.nlocal && !lmp_->force->newton_pair) continue;
-      pairs_.push_back({i, j, i_drum ? 1.0 : -1.0, source.law(i, j),
+      pairs_.push_back({i, j, i_drum ? 1.0 : -1.0, PairLaw(source, i, j),
                         source.friction_model() == FrictionModel::history ? source.tangential_spring(i, jj)
                                                                           : TangentialSpring{}});
     }
@@ -38,7 +38,8 @@ void DrumContacts::add(std::array<double, 4> &sums, const Pair &pair, const Law 
   const double F = law.force(m.overlap, m.rate);
   sums[0] += pair.sign * F * along(m.normal.data());
   if (m.overlap > 0.0 && source_->friction_model() != FrictionModel::none) {
-    const physics::Friction friction = source_->friction(pair.i, pair.j, pair.law, m.overlap, pair.spring);
+    const physics::Friction friction =
+        source_->friction(pair.i, pair.j, pair.law.law(), m.overlap, pair.spring);
     if (friction.coefficient > 0.0)
       sums[0] += pair.sign * along(friction_force(atom, pair.i, pair.j, m, friction, F, pair.spring.length,
                                                   lmp_->update->dt)
@@ -49,10 +50,12 @@ void DrumContacts::add(std::array<double, 4> &sums, const Pair &pair, const Law 
   sums[3] += law.acts(m.overlap, m.rate) ? 1.0 : 0.0;
 }
 
-DrumContactSums DrumContacts::sums(const std::array<double, 3> &axis) const {
+DrumContactSums DrumContacts::sums(const std::array<double, 3> &axis) {
   std::array<double, 4> mine{};
-  for (const Pair &pair : pairs_)
-    std::visit([&](const auto &law) { add(mine, pair, law, axis); }, pair.law);
+  for (Pair &pair : pairs_) {
+    pair.law.follow(*source_, pair.i, pair.j);
+    std::visit([&](const auto &law) { add(mine, pair, law, axis); }, pair.law.law());
+  }
   std::array<double, 4> all = mine;
   if (lmp_->comm->nprocs > 1) MPI_Allreduce(mine.data(), all.data(), 4, MPI_DOUBLE, MPI_SUM, lmp_->world);
   return {all[0], all[1], all[2], all[3] > 0.0};

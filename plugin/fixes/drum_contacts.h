@@ -30,13 +30,13 @@ public:
   /// Sums with the present positions and velocities. Ghosts must have the velocities of their owners.
   /// Collective.
   /// \param axis unit vector that points upwards
-  DrumContactSums sums(const std::array<double, 3> &axis) const;
+  DrumContactSums sums(const std::array<double, 3> &axis);
 
 private:
   struct Pair {
     int i, j;
     double sign; // 1: ball i belongs to the drum; -1: ball j does
-    AnyLaw law;
+    PairLaw law;
     TangentialSpring spring; // of the tangential model
   };
 

@@ -299,7 +299,7 @@ void FixRollerHistory::flush() {
 void FixRollerHistory::post_run() { flush(); }
 
 void FixRollerHistory::pack_ghosts(int n, const int *list, double *buf) {
-  drumlin::pack_motion(*atom, n, list, buf);
+  drumlin::pack_motion(*atom, n, list, buf, velocity_of_ghosts());
 }
 
 void FixRollerHistory::unpack_ghosts(int n, int first, double *buf) {
