@@ -2,6 +2,8 @@
 
 #include "contact/contact_settings.h"
 
+#include "fix_deform.h"
+
 namespace drumlin {
 
 AnyLaw ContactSource::law(int i, int j) const {
@@ -30,6 +32,22 @@ physics::Friction ContactSource::friction(int i, int j, const AnyLaw &law, doubl
         return p.tangential(kt, c, cap());
       },
       table());
+}
+
+/// The engines ask for the group of another ball than the one whose ghost they give the velocity of the side.
+void check_deforming_box(const engine::LAMMPS *lmp, const std::string &command) {
+  constexpr int velocities = 2; // remap v, in both engines
+  for (int n = 0; n < lmp->modify->nfix; ++n) {
+    const auto *fix = std::string(lmp->modify->fix[n]->style).rfind("deform", 0) == 0
+                          ? static_cast<const LAMMPS_NS::FixDeform *>(lmp->modify->fix[n])
+                          : nullptr;
+    if (fix != nullptr && fix->remapflag == velocities && fix->igroup != 0)
+      lmp->error->all(FLERR,
+                      engine::error_text(command + ": group of fix " + fix->id + " (deform) is '" +
+                                         lmp->group->names[fix->igroup] +
+                                         "', with remap v; allowed: all, for which the engine gives ghosts "
+                                         "the velocity of the side"));
+  }
 }
 
 std::string other_pair_style(const engine::LAMMPS *lmp, const std::string &command) {

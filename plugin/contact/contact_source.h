@@ -89,6 +89,10 @@ private:
   AnyLaw law_;
 };
 
+/// Ends the run if the engine gives ghosts wrong velocities across the sides of a box that deforms. \param command for the
+/// error
+void check_deforming_box(const engine::LAMMPS *lmp, const std::string &command);
+
 /// The error text of a fix that needs one of the plugin's contact laws, where the deck has another pair
 /// style.
 std::string other_pair_style(const engine::LAMMPS *lmp, const std::string &command);

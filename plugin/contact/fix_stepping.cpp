@@ -18,11 +18,15 @@ constexpr int most_gathered = 6; // most numbers that a ghost sends to its owner
 /// Fixes that give balls another velocity than the forces on them would.
 bool moves(const std::string &style) { return style == "move" || style == "nve/noforce"; }
 
-/// The bits of a mass. Their sum over balls changes when a mass does, and takes less time than a comparison with a copy.
-std::uint64_t bits_of(double mass) {
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, &mass, sizeof bits);
-  return bits;
+/// Sum of the bits of masses, which changes when a mass does. It takes less time than a comparison with copies.
+std::uint64_t sum_of_bits(const double *masses, int count) {
+  std::uint64_t sum = 0;
+  for (int i = 0; i < count; ++i) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, masses + i, sizeof bits);
+    sum += bits;
+  }
+  return sum;
 }
 
 /// Constraints that share forces among the balls of a group, over all ranks, which must all call them.
@@ -137,16 +141,14 @@ void FixStepping::look_for_moved() {
 /// Velocities and masses at the begin of the step. Other fixes may have changed them since the last one.
 void FixStepping::open_step() {
   if (!in_use_) return;
-  std::uint64_t masses = 0;
   double **v = atom->v;
-  const double *rmass = atom->rmass;
   for (int i = 0; i < atom->nlocal; ++i) {
     double *before = row(i);
     before[0] = v[i][0];
     before[1] = v[i][1];
     before[2] = v[i][2];
-    masses += bits_of(rmass[i]);
   }
+  const std::uint64_t masses = sum_of_bits(atom->rmass, atom->nlocal);
   mass_differs_ = masses != masses_;
   masses_ = masses;
   if (masses_change_) take_masses();
@@ -155,11 +157,9 @@ void FixStepping::open_step() {
 /// The masses of this rank's balls, as their contacts feel them. They stay until the next search for neighbours, after
 /// which other balls may be on the rank, unless a ball's mass changes.
 void FixStepping::take_masses() {
-  masses_ = 0;
-  for (int i = 0; i < atom->nlocal; ++i) {
-    masses_ += bits_of(atom->rmass[i]);
+  masses_ = sum_of_bits(atom->rmass, atom->nlocal);
+  for (int i = 0; i < atom->nlocal; ++i)
     inverse_mass_[static_cast<std::size_t>(i)] = 1.0 / source_->mass(i);
-  }
 }
 
 /// A fix that moves balls may leave them free in some directions, in which they are integrated as other balls. In all
@@ -536,11 +536,13 @@ int FixStepping::unpack_exchange(int i, double *buf) {
 void FixStepping::pack_ghosts(int n, const int *list, double *buf) {
   const std::array<double, 3> &of_ghosts = velocity_of_ghosts();
   const bool jumps = of_ghosts[0] != 0.0 || of_ghosts[1] != 0.0 || of_ghosts[2] != 0.0;
-  for (int m = 0; m < n; ++m, buf += shared) {
-    std::copy_n(row(list[m]), shared, buf);
+  for (int m = 0; m < n; ++m) {
+    double *const ghost = buf + static_cast<std::ptrdiff_t>(m) * shared;
+    for (int a = 0; a < shared; ++a)
+      ghost[a] = row(list[m])[a];
     if (jumps)
       for (std::size_t a = 0; a < 3; ++a)
-        buf[a] += of_ghosts[a];
+        ghost[a] += of_ghosts[a];
   }
 }
 
