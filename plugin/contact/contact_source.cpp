@@ -2,8 +2,6 @@
 
 #include "contact/contact_settings.h"
 
-#include "fix_deform.h"
-
 namespace drumlin {
 
 AnyLaw ContactSource::law(int i, int j) const {

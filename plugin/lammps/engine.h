@@ -8,6 +8,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix.h"
+#include "fix_deform.h"
 #include "fix_freeze.h"
 #include "fix_setforce.h"
 #include "force.h"

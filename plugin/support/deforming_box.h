@@ -1,8 +1,6 @@
 #pragma once
 // Velocities across the periodic sides of a box that fix deform deforms with `remap v`. The images of a ball then move
-// relative to it. engine.h includes this header before it defines GhostFix.
-
-#include "domain.h"
+// relative to it. Each engine's engine.h includes this header behind the engine's domain.h, before it defines GhostFix.
 
 #include <array>
 #include <cmath>
