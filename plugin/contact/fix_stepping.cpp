@@ -214,8 +214,9 @@ void FixStepping::post_integrate() {
     const auto n = static_cast<std::size_t>(i);
     row(i)[sum] = damping_[n] * inverse_mass_[n];
     damping_[n] = 0.0;
-    if (is_moved(i) && is_unchanged(i)) row(i)[sum] = 0.0;
   }
+  for (int i = 0; any_moved_ && i < atom->nlocal; ++i)
+    if (is_moved(i) && is_unchanged(i)) row(i)[sum] = 0.0;
   std::fill_n(damping_.begin() + atom->nlocal, atom->nghost, 0.0);
 }
 
