@@ -50,7 +50,8 @@ public:
               LAMMPS_NS::FixStepping *stepping, const ContactObservers &observers, double dt, bool moves)
       : engine_(engine), atom_(atom), rows_(memory.rows), pairs_(memory.pairs), table_(table),
         places_(places), cap_(cap), stepping_(stepping), observers_(observers), observed_(observers.any()),
-        dt_(dt), moves_(moves), in_setup_(stepped && stepping->in_setup()) {}
+        dt_(dt), moves_(moves), moved_(stepped && stepping->any_moved()),
+        in_setup_(stepped && stepping->in_setup()) {}
 
   void run(const LAMMPS_NS::NeighList &list, const LAMMPS_NS::Neighbor &neighbor) {
     rows_.fill(atom_, [this](int i) { return engine_.mass(i); });
@@ -163,7 +164,7 @@ private:
     const ContactCoefficients<Parameters> &law = law_of(first);
     const bool rare = push(first, end, law.contact);
     if constexpr (stepped) {
-      if (changed_ || in_setup_ || rare)
+      if (changed_ || in_setup_ || moved_ || rare)
         for (int n = first; n < end; ++n)
           exert_unless_it_goes_on(n, law.contact);
       else if (stepping_->counting())
@@ -245,6 +246,7 @@ private:
   void exert_unless_it_goes_on(int n, const Parameters &parameters) {
     const BlockContact &contact = contacts_[n];
     const bool goes_on = contact.touches && !in_setup_ && block_.in_contact[n] != 0.0;
+    if (goes_on && moved_) exert_on_moved(n, parameters);
     if (goes_on && block_.coupled[n] == 0.0 &&
         !physics::lost_its_force(block_.force_before[n], block_.force[n]))
       return stepping_->counting() ? count_dashpots(n, n + 1) : void();
@@ -266,6 +268,17 @@ private:
     if constexpr (rubs || rolling)
       if (LAMMPS_NS::FixStepping::Begun *begun = stepping_->begun_at(&stored_force))
         begun_.emplace_back(n, begun);
+  }
+
+  /// The normal force of a contact that goes on and may have a ball whose motion does not depend on it.
+  [[gnu::noinline]] void exert_on_moved(int n, const Parameters &parameters) {
+    const double m_eff = block_.m_eff[n];
+    const double moving = stepping_->moving_mass(contacts_[n].i, contacts_[n].j, block_.normal[n], m_eff);
+    if (moving == m_eff) return;
+    const physics::StepMotion motion{block_.overlap[n], block_.rate_half[n],
+                                     -physics::dot(block_.velocity_before[n], block_.normal[n]), dt_};
+    block_.push[n] = block_.force[n] =
+        physics::going_on(parameters.law(m_eff, block_.r_eff[n]), motion, block_.force_before[n], moving);
   }
 
   /// Passes friction and rolling resistance of the coupled contacts to FixStepping, which limits them when the normal
@@ -427,6 +440,7 @@ private:
   const bool observed_; // in this step
   const double dt_;
   const bool moves_; // false in the set-up of a run: springs stay as they are
+  const bool moved_; // whether there are balls whose motion does not depend on the forces on them
   const bool in_setup_;
 
   static constexpr int at_once = 32; // pairs that one call of find_touching() tests for contact

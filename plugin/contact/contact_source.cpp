@@ -32,6 +32,22 @@ physics::Friction ContactSource::friction(int i, int j, const AnyLaw &law, doubl
       table());
 }
 
+/// The engines ask for the group of another ball than the one whose ghost they give the velocity of the side.
+void check_deforming_box(const engine::LAMMPS *lmp, const std::string &command) {
+  constexpr int velocities = 2; // remap v, in both engines
+  for (const LAMMPS_NS::Fix *one : engine::fixes(lmp->modify)) {
+    const auto *fix = std::string(one->style).rfind("deform", 0) == 0
+                          ? static_cast<const LAMMPS_NS::FixDeform *>(one)
+                          : nullptr;
+    if (fix != nullptr && fix->remapflag == velocities && fix->igroup != 0)
+      lmp->error->all(FLERR,
+                      engine::error_text(command + ": group of fix " + fix->id + " (deform) is '" +
+                                         lmp->group->names[fix->igroup] +
+                                         "', with remap v; allowed: all, for which the engine gives ghosts "
+                                         "the velocity of the side"));
+  }
+}
+
 std::string other_pair_style(const engine::LAMMPS *lmp, const std::string &command) {
   const char *style = lmp->force->pair_style;
   return command + ": pair_style is '" + (style != nullptr ? style : "none") +

@@ -8,6 +8,7 @@
 #include "physics/friction_law.h"
 #include "physics/stepping.h"
 
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -37,6 +38,10 @@ public:
   virtual AnyTable table() const = 0;
   /// The law of balls i and j (local or ghost indices).
   AnyLaw law(int i, int j) const;
+  /// What that law depends on besides the types of the balls: their masses, kg, and radii, m.
+  std::array<double, 4> sizes(int i, int j) const {
+    return {mass(i), mass(j), balls().radius[i], balls().radius[j]};
+  }
   /// The present friction of balls i and j, whose law is `law` and whose overlap, m, is given. Not for
   /// FrictionModel::none.
   physics::Friction friction(int i, int j, const AnyLaw &law, double overlap,
@@ -68,6 +73,25 @@ protected:
   virtual const LAMMPS_NS::Atom &balls() const = 0;
   virtual physics::Cap cap() const = 0;
 };
+
+/// The law of a pair of balls for a fix that needs it in every step.
+class PairLaw {
+public:
+  PairLaw(const ContactSource &source, int i, int j) : sizes_(source.sizes(i, j)), law_(source.law(i, j)) {}
+  /// Makes the law anew if the mass or the radius of a ball has changed.
+  void follow(const ContactSource &source, int i, int j) {
+    if (source.sizes(i, j) != sizes_) *this = PairLaw(source, i, j);
+  }
+  const AnyLaw &law() const { return law_; }
+
+private:
+  std::array<double, 4> sizes_;
+  AnyLaw law_;
+};
+
+/// Ends the run if the engine gives ghosts wrong velocities across the sides of a box that deforms. \param command for the
+/// error
+void check_deforming_box(const engine::LAMMPS *lmp, const std::string &command);
 
 /// The error text of a fix that needs one of the plugin's contact laws, where the deck has another pair
 /// style.

@@ -31,7 +31,7 @@ void FixPairObserver::list_pairs() {
     for (int jj = 0; jj < list->numneigh[i]; ++jj) {
       const int j = engine::neighbour_index(list->firstneigh[i][jj]);
       if (!engine::owns_pair(lmp, i, j) || !selects(i, j)) continue;
-      Pair pair{i, j, std::minmax(atom->tag[i], atom->tag[j]), source_->law(i, j), {}};
+      Pair pair{i, j, std::minmax(atom->tag[i], atom->tag[j]), {*source_, i, j}, {}};
       if (const auto known = states_.find(pair.tags); known != states_.end()) {
         pair.state = known->second;
       } else {
@@ -74,7 +74,7 @@ void FixPairObserver::pre_exchange() {
 void FixPairObserver::pre_neighbor() { pairs_outdated_ = true; }
 
 void FixPairObserver::pack_ghosts(int n, const int *list, double *buf) {
-  drumlin::pack_velocities(*atom, n, list, buf);
+  drumlin::pack_velocities(*atom, n, list, buf, velocity_of_ghosts());
 }
 void FixPairObserver::unpack_ghosts(int n, int first, double *buf) {
   drumlin::unpack_velocities(*atom, n, first, buf);
@@ -86,7 +86,8 @@ void FixPairObserver::end_of_step() {
   for (Pair &pair : pairs_) {
     const drumlin::PairMotion motion = drumlin::pair_motion(*atom, pair.i, pair.j);
     const physics::OverlapState now{motion.overlap, motion.rate};
-    see_pair({pair.tags.first, pair.tags.second, pair.law, pair.state, now});
+    pair.law.follow(*source_, pair.i, pair.j);
+    see_pair({pair.tags.first, pair.tags.second, pair.law.law(), pair.state, now});
     pair.state = now;
   }
 }

@@ -50,7 +50,7 @@ private:
   struct Pair {
     int i, j;
     Tags tags;
-    drumlin::AnyLaw law;
+    drumlin::PairLaw law;
     drumlin::physics::OverlapState state; // at the end of the last step
   };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <string>
 
 using namespace LAMMPS_NS;
@@ -12,8 +13,21 @@ using namespace LAMMPS_NS;
 namespace {
 
 constexpr const char *helper_id = "drumlin_stepping";
-constexpr int exchanged = 5;     // numbers that move with a ball to another rank
 constexpr int most_gathered = 9; // most numbers that a ghost sends to its owner
+
+/// Fixes that give balls another velocity than the forces on them would.
+bool moves(const std::string &style) { return style == "move" || style == "nve/noforce"; }
+
+/// Sum of the bits of masses, which changes when a mass does. It takes less time than a comparison with copies.
+std::uint64_t sum_of_bits(const double *masses, int count) {
+  std::uint64_t sum = 0;
+  for (int i = 0; i < count; ++i) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, masses + i, sizeof bits);
+    sum += bits;
+  }
+  return sum;
+}
 
 /// Constraints that share forces among the balls of a group, over all ranks, which must all call them.
 bool joins(const std::string &style) { return style == "aveforce" || style == "clump"; }
@@ -65,14 +79,22 @@ FixStepping::~FixStepping() {
 }
 
 int FixStepping::setmask() {
-  return FixConst::POST_INTEGRATE | FixConst::PRE_EXCHANGE | FixConst::PRE_FORCE |
-         drumlin::engine::closes_forces | FixConst::END_OF_STEP;
+  return drumlin::engine::opens_step | FixConst::POST_INTEGRATE | FixConst::PRE_EXCHANGE |
+         FixConst::PRE_FORCE | drumlin::engine::closes_forces | FixConst::END_OF_STEP;
 }
 
 void FixStepping::init() {
   comm_reverse =
       most_gathered; // for which the engine makes room at the begin of each run; gather() may ask for less
   observers_.find(*modify);
+  moved_bits_ = free_bits_ = 0;
+  for (const Fix *fix : drumlin::engine::fixes(modify)) {
+    const std::string name = fix->style;
+    if (moves(name))
+      moved_bits_ |= fix->groupbit;
+    else if (fix->time_integrate != 0 || name == "freeze" || name.rfind("multisphere", 0) == 0)
+      free_bits_ |= fix->groupbit;
+  }
   constraints_.clear();
   for (Fix *fix : drumlin::engine::fixes(modify))
     for (const char *name : {"setforce", "freeze", "lineforce", "planeforce", "aveforce", "clump"})
@@ -93,23 +115,85 @@ void FixStepping::setup_pre_force(int) {
   coupled_links_.clear();
   later_.clear();
   shifts_.clear();
+  relative_ = masses_change_ = false;
   std::fill(damping_.begin(), damping_.end(), 0.0);
   for (int i = 0; i < atom->nlocal; ++i) {
     set_arrays(i);
     std::copy_n(atom->v[i], 3, velocity_[i]);
   }
+  look_for_moved();
   expect_contacts();
+}
+
+/// Whether any ball, on any rank, is_moved().
+void FixStepping::look_for_moved() {
+  any_moved_ = true;
+  int any = 0;
+  for (int i = 0; i < atom->nlocal && any == 0; ++i)
+    any = is_moved(i) ? 1 : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, world);
+  any_moved_ = any != 0;
+}
+
+/// Velocities and masses at the begin of the step. Other fixes may have changed them since the last one.
+void FixStepping::open_step() {
+  if (!in_use_) return;
+  double **v = atom->v;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    double *before = row(i);
+    before[0] = v[i][0];
+    before[1] = v[i][1];
+    before[2] = v[i][2];
+  }
+  const std::uint64_t masses = sum_of_bits(atom->rmass, atom->nlocal);
+  mass_differs_ = masses != masses_;
+  masses_ = masses;
+  if (masses_change_) take_masses();
+}
+
+/// The masses of this rank's balls, as their contacts feel them. They stay until the next search for neighbours, after
+/// which other balls may be on the rank, unless a ball's mass changes.
+void FixStepping::take_masses() {
+  masses_ = sum_of_bits(atom->rmass, atom->nlocal);
+  for (int i = 0; i < atom->nlocal; ++i)
+    inverse_mass_[static_cast<std::size_t>(i)] = 1.0 / source_->mass(i);
+}
+
+/// A fix that moves balls may leave them free in some directions, in which they are integrated as other balls. In all
+/// others the velocity that it has given is that of the end of the step already: for them v(t) is replaced by this
+/// velocity, so that 2 v+ - v(t), too, is the velocity at the end of the step.
+void FixStepping::follow_moved() {
+  constexpr double rounding = 1e-12;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if ((atom->mask[i] & moved_bits_) == 0) continue;
+    const double kick = 0.5 * update->dt / atom->rmass[i];
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double now = atom->v[i][a], by_force = velocity_[i][a] + kick * atom->f[i][a];
+      if (std::fabs(now - by_force) > rounding * std::fabs(now)) velocity_[i][a] = now;
+    }
+  }
+}
+
+double FixStepping::moving_mass_of_moved(int i, int j, const std::array<double, 3> &normal,
+                                         double m_eff) const {
+  if (!is_moved(i) && (j < 0 || !is_moved(j))) return m_eff;
+  const auto inverse = [&](int ball) { // along the normal
+    double free = 0.0;
+    for (std::size_t a = 0; a < 3; ++a)
+      if (!is_driven(ball, a)) free += normal[a] * normal[a];
+    return free / source_->mass(ball);
+  };
+  return 1.0 / (inverse(i) + (j < 0 ? 0.0 : inverse(j)));
 }
 
 void FixStepping::post_integrate() {
   if (!in_use_) return;
+  if (any_moved_) follow_moved();
   for (const Later &item : shifts_) {
     double *v = atom->v[item.i];
-    const double *before = velocity_[item.i];
-    if (v[0] == before[0] && v[1] == before[1] && v[2] == before[2])
-      continue; // not integrated: its velocity does not change
+    const bool rests = is_unchanged(item.i); // or is not integrated
     for (std::size_t a = 0; a < 3; ++a)
-      v[a] -= 0.5 * update->dt * item.shift[a] / atom->rmass[item.i];
+      if (!rests && !is_driven(item.i, a)) v[a] -= 0.5 * update->dt * item.shift[a] / atom->rmass[item.i];
   }
   shifts_.clear();
   in_setup_ = false;
@@ -128,17 +212,33 @@ void FixStepping::post_integrate() {
     row(i)[sum] = damping_[n] * inverse_mass_[n];
     damping_[n] = 0.0;
   }
+  for (int i = 0; any_moved_ && i < atom->nlocal; ++i)
+    if (is_moved(i) && is_unchanged(i)) row(i)[sum] = 0.0;
   std::fill_n(damping_.begin() + atom->nlocal, atom->nghost, 0.0);
 }
 
 void FixStepping::setup_pre_exchange() { expected_.clear(); }
-void FixStepping::pre_exchange() { expected_.clear(); }
+void FixStepping::pre_exchange() {
+  expected_.clear();
+  if (!in_use_ || !domain->deform_vremap) return;
+  // A ball that the engine now puts back into the box through a deforming side gets another velocity.
+  for (int i = 0; i < atom->nlocal; ++i)
+    for (std::size_t a = 0; a < 3; ++a)
+      velocity_[i][a] = atom->v[i][a] - velocity_[i][a];
+  relative_ = true;
+}
 
 void FixStepping::pre_force(int) {
   if (!in_use_) return;
   coupled_.clear();
   begun_.clear();
+  if (relative_)
+    for (int i = 0; i < atom->nlocal; ++i)
+      for (std::size_t a = 0; a < 3; ++a)
+        velocity_[i][a] = atom->v[i][a] - velocity_[i][a];
+  relative_ = false;
   if (neighbor->ago == 0 || update->dt != expected_dt_) expect_contacts();
+  counting_ = counting_ || masses_change_; // what was expected may no longer hold
   light_ = !counted_ && !counting_;
   if (comm->nprocs > 1 || atom->nghost > 0) drumlin::engine::forward_comm(comm, this);
 }
@@ -148,7 +248,9 @@ void FixStepping::pre_force(int) {
 /// these largest values, it is false for all contacts until the next search for neighbours, so that leaving
 /// out the count changes no result.
 void FixStepping::expect_contacts() {
-  const drumlin::ContactSource *source = drumlin::contact_source(lmp);
+  source_ = drumlin::contact_source(lmp);
+  const drumlin::ContactSource *const source = source_;
+  take_masses();
   const NeighList *list = source->contact_list();
   std::vector<drumlin::physics::Dashpots> balls(static_cast<std::size_t>(atom->nlocal + atom->nghost));
   const auto ball = [&](int i) -> drumlin::physics::Dashpots & { return balls[static_cast<std::size_t>(i)]; };
@@ -185,8 +287,7 @@ void FixStepping::expect_contacts() {
     ball(link.i).add(link.k, link.c);
 
   for (int i = 0; i < atom->nlocal; ++i) {
-    double &inverse_mass = inverse_mass_[static_cast<std::size_t>(i)];
-    if (inverse_mass < 0.0) inverse_mass = 1.0 / source->mass(i);
+    const double inverse_mass = inverse_mass_[static_cast<std::size_t>(i)];
     if (inverse_mass == 0.0) continue;
     ball(i).add(source->wall_dashpots(i));
     mine = {std::max(mine[0], ball(i).sum * inverse_mass), std::max(mine[1], ball(i).stiffest)};
@@ -208,8 +309,9 @@ void FixStepping::close_forces() {
   const auto of_a_ghost = [this](const Later &item) { return item.i >= atom->nlocal; };
   const bool sends = force->newton_pair && std::any_of(later_.begin(), later_.end(), of_a_ghost);
   const bool couples = !coupled_.empty() || !coupled_links_.empty();
-  std::array<int, 2> any{sends ? 1 : 0, couples ? 1 : 0};
-  if (comm->nprocs > 1) MPI_Allreduce(MPI_IN_PLACE, any.data(), 2, MPI_INT, MPI_MAX, world);
+  std::array<int, 3> any{sends ? 1 : 0, couples ? 1 : 0, mass_differs_ ? 1 : 0};
+  if (comm->nprocs > 1) MPI_Allreduce(MPI_IN_PLACE, any.data(), 3, MPI_INT, MPI_MAX, world);
+  masses_change_ = any[2] != 0;
   if (any[0] != 0) send_later();
   if (any[1] != 0) solve_coupled();
 }
@@ -249,10 +351,9 @@ void FixStepping::solve_coupled() {
   for (int i = 0; i < nlocal; ++i) {
     const double *v = atom->v[i];
     double *star = velocity_[i]; // overwrites v(t), which this step no longer needs
-    const bool rests = v[0] == star[0] && v[1] == star[1] && v[2] == star[2]; // forces do not move it
-    const double kick = rests ? 0.0 : 0.5 * update->dt / atom->rmass[i];
+    const double kick = is_unchanged(i) ? 0.0 : 0.5 * update->dt / atom->rmass[i]; // 0: forces do not move it
     for (std::size_t a = 0; a < 3; ++a)
-      star[a] = v[a] + kick * f[i][a];
+      star[a] = v[a] + (is_driven(i, a) ? 0.0 : kick) * f[i][a];
   }
   if (comm->nprocs > 1 || atom->nghost > 0) drumlin::engine::forward_comm(comm, this);
   if (force->newton_pair) gather(most_gathered);
@@ -370,13 +471,6 @@ void FixStepping::end_of_step() {
       for (int i = 0; i < atom->nlocal; ++i)
         if (atom->mask[i] & constraint.fix->groupbit) later_.push_back({i, {}, {}, {}});
   merge_later();
-  double **v = atom->v;
-  for (int i = 0; i < atom->nlocal; ++i) {
-    double *before = row(i);
-    before[0] = v[i][0];
-    before[1] = v[i][1];
-    before[2] = v[i][2];
-  }
   double **f = atom->f;
   hold_body_forces();
   for (const Later &item : later_) {
@@ -450,34 +544,31 @@ void FixStepping::grow_arrays(int nmax) {
     values->resize(static_cast<std::size_t>(nmax));
 }
 
-void FixStepping::copy_arrays(int i, int j, int) {
-  std::array<double, exchanged> ball{};
-  FixStepping::pack_exchange(i, ball.data());
-  FixStepping::unpack_exchange(j, ball.data());
-}
+void FixStepping::copy_arrays(int i, int j, int) { std::copy_n(row(i), shared, row(j)); }
 
-void FixStepping::set_arrays(int i) {
-  std::array<double, exchanged> ball{};
-  ball.back() = -1.0;
-  FixStepping::unpack_exchange(i, ball.data());
-}
+void FixStepping::set_arrays(int i) { std::fill_n(row(i), shared, 0.0); }
 
 int FixStepping::pack_exchange(int i, double *buf) {
-  FixStepping::pack_ghosts(1, &i, buf);
-  buf[shared] = inverse_mass_[static_cast<std::size_t>(i)];
-  return exchanged;
+  std::copy_n(row(i), shared, buf);
+  return shared;
 }
 
 int FixStepping::unpack_exchange(int i, double *buf) {
-  FixStepping::unpack_ghosts(1, i, buf);
-  inverse_mass_[static_cast<std::size_t>(i)] = buf[shared];
-  return exchanged;
+  std::copy_n(buf, shared, row(i));
+  return shared;
 }
 
 void FixStepping::pack_ghosts(int n, const int *list, double *buf) {
-  for (int m = 0; m < n; ++m)
+  const std::array<double, 3> &of_ghosts = velocity_of_ghosts();
+  const bool jumps = of_ghosts[0] != 0.0 || of_ghosts[1] != 0.0 || of_ghosts[2] != 0.0;
+  for (int m = 0; m < n; ++m) {
+    double *const ghost = buf + static_cast<std::ptrdiff_t>(m) * shared;
     for (int a = 0; a < shared; ++a)
-      *buf++ = row(list[m])[a];
+      ghost[a] = row(list[m])[a];
+    if (jumps)
+      for (std::size_t a = 0; a < 3; ++a)
+        ghost[a] += of_ghosts[a];
+  }
 }
 
 void FixStepping::unpack_ghosts(int n, int begin, double *buf) { std::copy_n(buf, n * shared, row(begin)); }

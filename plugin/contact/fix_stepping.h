@@ -4,11 +4,13 @@
 // of a step only.
 
 #include "contact/contact_observer.h"
+#include "contact/contact_source.h"
 #include "engine.h"
 #include "physics/contact_step.h"
 #include "physics/friction_law.h"
 #include "physics/rolling_law.h"
 
+#include <cstdint>
 #include <deque>
 #include <functional>
 
@@ -39,6 +41,7 @@ public:
   void init() override;
   void setup_pre_exchange() override;
   void setup_pre_force(int) override;
+  void open_step() override;
   void post_integrate() override;
   void pre_exchange() override;
   void pre_force(int) override;
@@ -74,8 +77,18 @@ public:
   /// integration (post_integrate) and before the values of ghosts are updated (pre_force).
   void foresee(int i, const std::array<double, 3> &change) {
     for (std::size_t a = 0; a < 3; ++a)
-      velocity_[i][a] -= 0.5 * update->dt * change[a] / atom->rmass[i];
+      if (!is_driven(i, a)) velocity_[i][a] -= 0.5 * update->dt * change[a] / atom->rmass[i];
   }
+  /// Whether there are balls whose motion, in one direction at least, does not depend on the forces on them: those of fix
+  /// move, and those that no fix integrates. For this scheme they have infinite mass in these directions.
+  bool any_moved() const { return any_moved_; }
+  /// Effective mass, kg, with which a contact changes the velocities of its balls: `m_eff` of the contact law unless one of
+  /// them is moved. Infinite if both are. \param j below 0: a wall \param normal unit vector
+  double moving_mass(int i, int j, const std::array<double, 3> &normal, double m_eff) const {
+    return any_moved_ ? moving_mass_of_moved(i, j, normal, m_eff) : m_eff;
+  }
+  /// Whether a component of the velocity of ball i does not depend on the forces on it. Known when forces are computed.
+  bool is_driven(int i, std::size_t component) const { return is_moved(i) && is_unchanged(i, component); }
   /// Sum of c/m over the contacts of ball i (owned or ghost) in the last step, 1/s; 0 if it was not computed,
   /// since no contact could need coupling: see expect_contacts().
   double damping_over_mass(int i) const { return counted_ ? row(i)[sum] : 0.0; }
@@ -209,6 +222,17 @@ private:
   /// ball.
   double *row(int i) const { return velocity_[0] + static_cast<std::ptrdiff_t>(i) * shared; }
   void expect_contacts();
+  void look_for_moved();
+  void follow_moved();
+  /// Whether the motion of ball i (owned or ghost) does not depend on the forces on it, in one direction at least.
+  bool is_moved(int i) const {
+    return any_moved_ && ((atom->mask[i] & moved_bits_) != 0 || (atom->mask[i] & free_bits_) == 0);
+  }
+  /// Whether a component of the velocity of ball i is the same before and after the opening half kick.
+  bool is_unchanged(int i, std::size_t a) const { return velocity_[i][a] == atom->v[i][a]; }
+  bool is_unchanged(int i) const { return is_unchanged(i, 0) && is_unchanged(i, 1) && is_unchanged(i, 2); }
+  double moving_mass_of_moved(int i, int j, const std::array<double, 3> &normal, double m_eff) const;
+  void take_masses();
   void gather(std::size_t numbers);
   void solve_coupled();
   void limit_friction(Coupled &contact, double normal_force);
@@ -224,12 +248,20 @@ private:
   bool light_ = false;
   bool counting_ = false; // whether the contacts of this step are counted
   bool counted_ = false;  // whether those of the last were
+  bool any_moved_ = false;
+  int moved_bits_ = 0;         // groups of the fixes that move balls otherwise than by the forces on them
+  int free_bits_ = 0;          // groups of those that integrate, and of frozen balls, whose contacts know it
+  bool relative_ = false;      // whether rows of owned balls hold v+ - v(t) in place of v(t)
+  std::uint64_t masses_ = 0;   // sum of the bits of the masses of owned balls: changes when a mass does
+  bool mass_differs_ = false;  // whether one of this rank's has changed since the step before,
+  bool masses_change_ = false; // or one of any rank's
+  const drumlin::ContactSource *source_ = nullptr; // since the set-up of the run
   double dt_ = 0.0;
   double expected_dt_ = 0.0;       // time step for which counting_ was decided
   std::vector<Expected> expected_; // links that are not contacts
   // One entry per ball:
   double **velocity_ = nullptr;      // v(t), at the end of a step v*, m/s; sum of c/m in the last step, 1/s
-  std::vector<double> inverse_mass_; // 1/ContactSource::mass(), 1/kg; below 0: not known yet
+  std::vector<double> inverse_mass_; // 1/ContactSource::mass(), 1/kg, of owned balls
   std::vector<double> damping_;      // sum of c in this step, N s/m
   std::vector<double> gathered_;     // sums of ghosts to be sent to owners, comm_reverse each
   std::deque<Coupled> coupled_;      // of this step

@@ -68,11 +68,12 @@ inline std::array<double, 3> friction_force(const LAMMPS_NS::Atom &atom, int i, 
 
 /// Packs the velocities of owned balls, and unpacks them into the ghosts, which have the half-step velocity
 /// after the forces were computed.
-inline void pack_velocities(const LAMMPS_NS::Atom &atom, int n, const int *list, double *buf) {
-  int m = 0;
+/// \param of_ghosts m/s, of the ghosts relative to the balls: see GhostFix::velocity_of_ghosts()
+inline void pack_velocities(const LAMMPS_NS::Atom &atom, int n, const int *list, double *buf,
+                            const std::array<double, 3> &of_ghosts) {
   for (int a = 0; a < n; ++a)
-    for (int b = 0; b < 3; ++b)
-      buf[m++] = atom.v[list[a]][b];
+    for (std::size_t b = 0; b < 3; ++b)
+      *buf++ = atom.v[list[a]][b] + of_ghosts[b];
 }
 
 inline void unpack_velocities(const LAMMPS_NS::Atom &atom, int n, int first, const double *buf) {
@@ -83,8 +84,9 @@ inline void unpack_velocities(const LAMMPS_NS::Atom &atom, int n, int first, con
 }
 
 /// The same with the angular velocities: six numbers per ball.
-inline void pack_motion(const LAMMPS_NS::Atom &atom, int n, const int *list, double *buf) {
-  pack_velocities(atom, n, list, buf);
+inline void pack_motion(const LAMMPS_NS::Atom &atom, int n, const int *list, double *buf,
+                        const std::array<double, 3> &of_ghosts) {
+  pack_velocities(atom, n, list, buf, of_ghosts);
   buf += 3 * n;
   for (int a = 0; a < n; ++a)
     buf = std::copy_n(atom.omega[list[a]], 3, buf);

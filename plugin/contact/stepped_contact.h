@@ -18,7 +18,7 @@ struct StepContact {
   const double *wall_velocity;  ///< m/s, of a wall; nullptr: at rest
   double overlap;               ///< m
   double rate_half; ///< of the overlap, m/s, with the half-step velocities v+, which the engine has here
-  double m_eff;     ///< kg
+  double m_eff;     ///< kg, of the contact law
   double share;     ///< part of the force that acts: 1, or less where triangles of a mesh share it
 };
 
@@ -56,8 +56,10 @@ inline void count(LAMMPS_NS::FixStepping &stepping, int i, int j, double c) {
 /// calls exert_contact()
 template <class Law>
 inline bool hold_contact(const Law &law, LAMMPS_NS::FixStepping &stepping, int i, int j,
-                         const physics::StepMotion &motion, double m_eff, physics::ContactState &state) {
+                         const std::array<double, 3> &normal, const physics::StepMotion &motion, double m_eff,
+                         physics::ContactState &state) {
   if (!state.in_contact) return false;
+  m_eff = stepping.moving_mass(i, j, normal, m_eff);
   if (!stepping.light() && !physics::goes_on(law, motion, state, step_context(stepping, i, j, m_eff)))
     return false;
   const double force = physics::going_on(law, motion, state.force, m_eff);
@@ -109,9 +111,10 @@ template <class Law>
 [[gnu::noinline]] double exert_contact(const Law &law, LAMMPS_NS::FixStepping &stepping, const StepContact &p,
                                        physics::ContactState &state, double &stored_force) {
   const physics::ContactState before = state;
+  const double m_eff = stepping.moving_mass(p.i, p.j, p.normal, p.m_eff);
   const physics::StepMotion motion = step_motion(stepping, p);
   const physics::StepResult step =
-      physics::advance(law, motion, state, step_context(stepping, p.i, p.j, p.m_eff));
+      physics::advance(law, motion, state, step_context(stepping, p.i, p.j, m_eff));
   exert_later(stepping, p, step);
   if (step.coupled) couple(stepping, p, step.dashpot, stored_force);
   if (step.begins) {
@@ -124,7 +127,7 @@ template <class Law>
     contact.step = step;
   }
   if (stepping.observed())
-    stepping.tell_heat(p.i, p.j, p.share * physics::heat_of_change(law, motion, before, step, p.m_eff), 0.0);
+    stepping.tell_heat(p.i, p.j, p.share * physics::heat_of_change(law, motion, before, step, m_eff), 0.0);
   if (state.in_contact) count(stepping, p.i, p.j, law.dashpot(p.overlap));
   return p.share * step.kick;
 }

@@ -18,7 +18,7 @@ void DrumContacts::list_pairs(const ContactSource &source, int drum, int frame) 
       const int j = engine::neighbour_index(list->firstneigh[i][jj]);
       const double sign = this->sign(i, j);
       if (sign == 0.0) continue;
-      pairs_.push_back({i, j, sign, source.law(i, j),
+      pairs_.push_back({i, j, sign, PairLaw(source, i, j),
                         source.friction_model() == FrictionModel::history ? source.tangential_spring(i, jj)
                                                                           : TangentialSpring{}});
     }
@@ -49,7 +49,8 @@ void DrumContacts::add(std::array<double, 5> &sums, const Pair &pair, const Law 
   const double F = law.force(m.overlap, m.rate);
   sums[0] += pair.sign * F * along(m.normal.data());
   if (m.overlap > 0.0 && source_->friction_model() != FrictionModel::none) {
-    const physics::Friction friction = source_->friction(pair.i, pair.j, pair.law, m.overlap, pair.spring);
+    const physics::Friction friction =
+        source_->friction(pair.i, pair.j, pair.law.law(), m.overlap, pair.spring);
     if (friction.coefficient > 0.0)
       sums[0] += pair.sign * along(friction_force(atom, pair.i, pair.j, m, friction, F, pair.spring.length,
                                                   lmp_->update->dt)
@@ -63,8 +64,10 @@ void DrumContacts::add(std::array<double, 5> &sums, const Pair &pair, const Law 
 DrumContactSums DrumContacts::sums(const std::array<double, 3> &axis) {
   std::array<double, 5> mine{};
   mine[4] = std::exchange(missed_heat_, 0.0);
-  for (const Pair &pair : pairs_)
-    std::visit([&](const auto &law) { add(mine, pair, law, axis); }, pair.law);
+  for (Pair &pair : pairs_) {
+    pair.law.follow(*source_, pair.i, pair.j);
+    std::visit([&](const auto &law) { add(mine, pair, law, axis); }, pair.law.law());
+  }
   std::array<double, 5> all = mine;
   if (lmp_->comm->nprocs > 1) MPI_Allreduce(mine.data(), all.data(), 5, MPI_DOUBLE, MPI_SUM, lmp_->world);
   return {all[0], all[1], all[4], all[2], all[3] > 0.0};

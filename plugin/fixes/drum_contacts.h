@@ -40,7 +40,7 @@ private:
   struct Pair {
     int i, j;
     double sign; // 1: ball i belongs to the drum; -1: ball j does
-    AnyLaw law;
+    PairLaw law;
     TangentialSpring spring; // of the tangential model
   };
 

@@ -13,6 +13,12 @@ using namespace LAMMPS_NS;
 using drumlin::Range;
 namespace physics = drumlin::physics;
 
+namespace {
+
+physics::Vec3 squared(const physics::Vec3 &v) { return {v[0] * v[0], v[1] * v[1], v[2] * v[2]}; }
+
+} // namespace
+
 FixBondSpring::FixBondSpring(LAMMPS *lammps, int narg, char **arg) : GhostFix(lammps, narg, arg) {
   scalar_flag = vector_flag = 1;
   size_vector = 5;
@@ -81,7 +87,7 @@ void FixBondSpring::find_balls() {
 
 FixBondSpring::State FixBondSpring::gather_state() {
   struct Ball { // state of a ball, which all ranks need; numbers only, for MPI
-    double x[3], v[3], v_before[3], inverse_mass, damping_over_mass, found;
+    double x[3], v[3], v_before[3], inverse_mass[3], damping_over_mass, found;
   };
   constexpr int numbers = sizeof(Ball) / sizeof(double);
   Ball mine[2] = {};
@@ -89,8 +95,10 @@ FixBondSpring::State FixBondSpring::gather_state() {
     if (const int i = local_[b]; i >= 0) {
       std::copy_n(atom->x[i], 3, mine[b].x);
       std::copy_n(atom->v[i], 3, mine[b].v);
-      mine[b].inverse_mass = 1.0 / atom->rmass[i];
+      std::fill_n(mine[b].inverse_mass, 3, 1.0 / atom->rmass[i]);
       if (stepping_) {
+        for (std::size_t a = 0; a < 3; ++a)
+          if (stepping_->is_driven(i, a)) mine[b].inverse_mass[a] = 0.0;
         std::copy_n(stepping_->velocity_before(i), 3, mine[b].v_before);
         mine[b].damping_over_mass = stepping_->damping_over_mass(i);
       }
@@ -104,16 +112,24 @@ FixBondSpring::State FixBondSpring::gather_state() {
                    "fix bond/spring: ball is '{}', which was lost at step {}; allowed: both balls in the box",
                    tags_[all[0].found != 1.0 ? 0 : 1], update->ntimestep)));
   std::array<double, 3> d{all[1].x[0] - all[0].x[0], all[1].x[1] - all[0].x[1], all[1].x[2] - all[0].x[2]};
+  const std::array<double, 3> apart = d;
   drumlin::engine::minimum_image(domain, d);
   State s{};
+  s.velocity_of_image = drumlin::engine::velocity_of_image(*domain, physics::sum(d, -1.0, apart));
   s.distance = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-  s.inverse_masses = all[0].inverse_mass + all[1].inverse_mass;
   s.damping_over_mass = all[0].damping_over_mass + all[1].damping_over_mass;
   for (std::size_t a = 0; a < 3; ++a) {
     s.direction[a] = d[a] / s.distance;
-    s.rate += (all[1].v[a] - all[0].v[a]) * s.direction[a];
-    s.rate_before += (all[1].v_before[a] - all[0].v_before[a]) * s.direction[a];
+    s.rate += (all[1].v[a] - all[0].v[a] + s.velocity_of_image[a]) * s.direction[a];
+    s.rate_before += (all[1].v_before[a] - all[0].v_before[a] + s.velocity_of_image[a]) * s.direction[a];
   }
+  for (std::size_t b = 0; b < 2; ++b) {
+    const double *of = all[b].inverse_mass;
+    const bool same = of[0] == of[1] && of[1] == of[2];
+    s.inverse_mass[b] = of[0];
+    if (!same) s.inverse_mass[b] = physics::dot({of[0], of[1], of[2]}, squared(s.direction));
+  }
+  s.inverse_masses = s.inverse_mass[0] + s.inverse_mass[1];
   return s;
 }
 
@@ -125,10 +141,11 @@ physics::BondForce FixBondSpring::bond_under(double tension) const {
   return physics::bond_force(bond_, state_.distance, rate);
 }
 
-/// The bond as a link of its ball of this mass, kg, from which the ball's critical time step follows.
-physics::LinkModes FixBondSpring::modes(double mass) const {
+/// The bond as a link of one of its balls, from which the ball's critical time step follows.
+physics::LinkModes FixBondSpring::modes(std::size_t ball) const {
   physics::LinkModes modes;
-  modes.burden = physics::link_burden(1.0 / mass, state_.inverse_masses - 1.0 / mass);
+  const double own = state_.inverse_mass[ball];
+  modes.burden = physics::link_burden(own, state_.inverse_masses - own);
   modes.normal = state_.direction;
   modes.normal_spring = bond_.stiffness * state_.inverse_masses;
   if (stepping_ == nullptr) modes.normal_dashpot = bond_.damping * state_.inverse_masses;
@@ -166,7 +183,7 @@ void FixBondSpring::post_force(int vflag) {
   for (std::size_t b = 0; b < 2; ++b)
     if (const int i = local_[b]; i >= 0) {
       if (stepping_ && stepping_->counting()) stepping_->add_damping(i, bond_.damping);
-      if (observers_.any()) observers_.tell_bond(i, tags_[1 - b], modes(atom->rmass[i]));
+      if (observers_.any() && state_.inverse_mass[b] > 0.0) observers_.tell_bond(i, tags_[1 - b], modes(b));
     }
   if (stepping_ != nullptr && !update->setupflag) return post_force_second_order();
   store(physics::bond_force(bond_, state_.distance, state_.rate));
@@ -210,7 +227,7 @@ double FixBondSpring::predicted_rate() const {
         mine -= sign_[b] * stepping_->predicted_velocity(i)[a] * state_.direction[a];
   double rate = mine;
   if (comm->nprocs > 1) MPI_Allreduce(&mine, &rate, 1, MPI_DOUBLE, MPI_SUM, world);
-  return rate;
+  return rate + physics::dot(state_.velocity_of_image, state_.direction);
 }
 
 void FixBondSpring::apply(double tension) {

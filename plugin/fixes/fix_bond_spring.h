@@ -39,13 +39,15 @@ private:
   struct State {
     double distance;
     double rate; // with the present velocities: those of the middle of the step while forces are computed
-    double rate_before;              // with the velocities at the beginning of the step
-    double inverse_masses;           // sum of 1/m over both balls
-    double damping_over_mass;        // sum of c/m over the links of both balls
-    std::array<double, 3> direction; // from i to j
+    double rate_before;                      // with the velocities at the beginning of the step
+    std::array<double, 2> inverse_mass;      // of each ball along the bond; 0 if forces do not move it there
+    double inverse_masses;                   // their sum
+    double damping_over_mass;                // sum of c/m over the links of both balls
+    std::array<double, 3> direction;         // from i to j
+    std::array<double, 3> velocity_of_image; // of the image of j that is nearest to i, relative to j
   };
   drumlin::physics::BondForce bond_under(double tension) const;
-  drumlin::physics::LinkModes modes(double mass) const;
+  drumlin::physics::LinkModes modes(std::size_t ball) const;
   State gather_state();
   double predicted_rate() const;
   void post_force_second_order();

@@ -87,6 +87,11 @@ void FixBoundaryAbsorb::init() {
   stepping_ = FixStepping::find(lmp);
   observers_.find(*modify);
   if (keep_static_) refuse_earlier_integration();
+  if (domain->deform_flag)
+    error->all(FLERR,
+               engine::error_text(std::string(command) +
+                                  ": the box is deformed by fix deform; allowed: a box that stays as it "
+                                  "is, since the ground outside of it does"));
 }
 
 /// The constant forces are taken at the start of the first step, before the balls move.

@@ -75,12 +75,17 @@ void FixClump::setup(int vflag) { post_force(vflag); }
 void FixClump::post_force(int) {
   double **f = atom->f;
   force_ = {};
+  double mass = 0.0; // of this rank's balls, which may have changed
   for (int i = 0; i < atom->nlocal; ++i)
-    if (atom->mask[i] & groupbit)
+    if (atom->mask[i] & groupbit) {
+      mass += atom->rmass[i];
       for (std::size_t a = 0; a < 3; ++a)
         force_[a] += f[i][a];
-  std::array<double, 3> all{};
-  MPI_Allreduce(force_.data(), all.data(), 3, MPI_DOUBLE, MPI_SUM, world);
+    }
+  const std::array<double, 4> mine{force_[0], force_[1], force_[2], mass};
+  std::array<double, 4> all{};
+  MPI_Allreduce(mine.data(), all.data(), 4, MPI_DOUBLE, MPI_SUM, world);
+  drumlin::engine::follow_mass(mass_, all[3]);
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->mask[i] & groupbit)
       for (std::size_t a = 0; a < 3; ++a)

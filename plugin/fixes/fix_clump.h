@@ -24,7 +24,7 @@ public:
   /// "force": the force on the body that its balls on this rank contribute, N, three numbers.
   void *extract(const char *name, int &dimensions) override;
 
-  /// Mass of the body, kg; valid from init() on.
+  /// Mass of the body, kg, at the last time that forces were distributed; valid from init() on.
   double mass() const { return mass_; }
 
 private:

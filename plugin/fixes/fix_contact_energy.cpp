@@ -59,7 +59,7 @@ void FixContactEnergy::end_of_step() {
 }
 
 void FixContactEnergy::pack_ghosts(int n, const int *list, double *buf) {
-  drumlin::pack_motion(*atom, n, list, buf);
+  drumlin::pack_motion(*atom, n, list, buf, velocity_of_ghosts());
 }
 
 void FixContactEnergy::unpack_ghosts(int n, int first, double *buf) {

@@ -165,12 +165,20 @@ void FixDrumExcite::post_force(int) {
   double **f = atom->f;
   const double *rmass = atom->rmass;
   const int *mask = atom->mask;
+  balls_.clear();
+  double mass = 0.0; // of this rank's balls, which may have changed
   for (int i = 0; i < atom->nlocal; ++i)
     if (mask[i] & groupbit) {
-      const double share = rmass[i] / mass_;
-      for (int a = 0; a < 3; ++a)
-        f[i][a] += share * F[a];
+      balls_.push_back(i);
+      mass += rmass[i];
     }
+  if (comm->nprocs > 1) MPI_Allreduce(MPI_IN_PLACE, &mass, 1, MPI_DOUBLE, MPI_SUM, world);
+  engine::follow_mass(mass_, mass);
+  for (const int i : balls_) {
+    const double share = rmass[i] / mass_;
+    for (std::size_t a = 0; a < 3; ++a)
+      f[i][a] += share * F[a];
+  }
 }
 
 double FixDrumExcite::now() const { return clock_.time(update->ntimestep); }

@@ -47,7 +47,8 @@ private:
   class FixStepping *stepping_ = nullptr; // nullptr under stock stepping
   Vector acted_{};                        // force of the last step
   drumlin::Clock clock_;
-  double mass_ = 0.0; // of the group
+  double mass_ = 0.0;      // of the group
+  std::vector<int> balls_; // of the group on this rank, in this step
   bool echoed_ = false;
 };
 

@@ -309,7 +309,7 @@ void FixRollerHistory::see_heat(int i, int j, double normal, double tangential) 
 }
 
 void FixRollerHistory::pack_ghosts(int n, const int *list, double *buf) {
-  drumlin::pack_motion(*atom, n, list, buf);
+  drumlin::pack_motion(*atom, n, list, buf, velocity_of_ghosts());
 }
 
 void FixRollerHistory::unpack_ghosts(int n, int first, double *buf) {

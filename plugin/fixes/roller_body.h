@@ -11,7 +11,7 @@ namespace drumlin {
 /// A group of balls and the origin of its coordinate along the axis.
 struct RollerBody {
   int groupbit = 0;        ///< 0: there is no such body
-  double mass = 0.0;       ///< kg
+  double mass = 0.0;       ///< kg; locate() updates it
   double origin = 0.0;     ///< m, coordinate along the axis where x = 0
   bool has_origin = false; ///< otherwise locate() takes the position that it finds as the origin
 

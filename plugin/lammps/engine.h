@@ -8,6 +8,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix.h"
+#include "fix_deform.h"
 #include "fix_freeze.h"
 #include "fix_setforce.h"
 #include "force.h"
@@ -28,6 +29,7 @@
 
 #include "lammps/lammps_version.h"
 #include "physics/contact_mixing.h"
+#include "support/deforming_box.h"
 
 #include <array>
 #include <cstdio>
@@ -64,9 +66,14 @@ public:
   /// of the step; if setmask() has `closes_forces`. LAMMPS calls fixes in the order of the deck: this fix
   /// must be defined before those that integrate.
   virtual void close_forces() {}
+  /// Called at the beginning of a step, before velocities and positions change; if setmask() has `opens_step`. The fix must
+  /// be defined before those that integrate.
+  virtual void open_step() {}
 
-  int pack_forward_comm(int n, int *balls, double *numbers, int, int *) final {
+  int pack_forward_comm(int n, int *balls, double *numbers, int periodic, int *shift) final {
+    velocity_of_ghosts_ = velocity_of_image(*domain, periodic != 0 ? shift : nullptr);
     pack_ghosts(n, balls, numbers);
+    velocity_of_ghosts_ = {};
     return n * comm_forward;
   }
   void unpack_forward_comm(int n, int first, double *numbers) final { unpack_ghosts(n, first, numbers); }
@@ -76,16 +83,24 @@ public:
   }
   void unpack_reverse_comm(int n, int *balls, double *numbers) final { join_gathered(n, balls, numbers); }
   void final_integrate() final { close_forces(); }
+  void initial_integrate(int) override { open_step(); }
 
 protected:
+  /// While pack_ghosts() is called for ghosts: their velocity, m/s, relative to their owners. Zero except across a
+  /// periodic side of a box that deforms.
+  const std::array<double, 3> &velocity_of_ghosts() const { return velocity_of_ghosts_; }
   /// Lets `fix_modify` add the fix's scalar to the potential energy, and what it adds by v_tally() to the
   /// pressure.
   void offer_energy_and_virial() { energy_global_flag = virial_global_flag = virial_peratom_flag = 1; }
   /// To be called when forces are computed, before v_tally(); sets `evflag` if the virial is needed in this
   /// step.
   void begin_virial(int vflag) { v_init(vflag); }
+
+private:
+  std::array<double, 3> velocity_of_ghosts_{};
 };
 constexpr int closes_forces = LAMMPS_NS::FixConst::FINAL_INTEGRATE;
+constexpr int opens_step = LAMMPS_NS::FixConst::INITIAL_INTEGRATE;
 
 /// Number of bytes at the end of a restart file by which the engine recognizes that the file is complete.
 constexpr int restart_end_mark = 16;

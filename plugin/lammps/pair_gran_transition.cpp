@@ -155,6 +155,7 @@ void PairGranTransition::check_engine() const {
   if (!atom->radius_flag || !atom->rmass_flag)
     refuse("the atom style has no radius or no mass of its own; allowed: atom_style sphere");
   if (comm->ghost_velocity == 0) refuse("ghosts have no velocity; allowed: comm_modify vel yes before");
+  drumlin::check_deforming_box(lmp, "pair_style " + style_name());
   if (settings_.stock) return;
   const std::vector<Fix *> fixes = engine::fixes(modify);
   for (const Fix *fix : fixes)

@@ -85,6 +85,11 @@ public:
       engine_->error->all(FLERR, drumlin::engine::error_text(command() +
                                                              ": pair_style hybrid has gran more than once; "
                                                              "allowed: once"));
+    if (engine_->domain->triclinic != 0)
+      engine_->error->all(FLERR, drumlin::engine::error_text(
+                                     command() + ": the box is triclinic, through whose sides this engine "
+                                                 "loses balls and contacts; allowed: region block"));
+    drumlin::check_deforming_box(engine_, command());
     prepare<Style, Contact>(engine_);
     PairContacts::begin(pair_,
                         drumlin::has_spring<Style>                   ? drumlin::FrictionModel::history

@@ -8,6 +8,7 @@
 #include "domain.h"
 #include "error.h"
 #include "fix.h"
+#include "fix_deform.h"
 #include "fix_freeze.h"
 #include "fix_gravity.h"
 #include "fix_setforce.h"
@@ -28,6 +29,7 @@
 #include "variable.h"
 
 #include "physics/contact_mixing.h"
+#include "support/deforming_box.h"
 
 #include <algorithm>
 #include <array>
@@ -63,23 +65,35 @@ public:
   /// Called when all forces of the step are known, before velocity Verlet computes the velocities at the end
   /// of the step; if setmask() has `closes_forces`.
   virtual void close_forces() {}
+  /// Called at the beginning of a step, before velocities and positions change; if setmask() has `opens_step`.
+  virtual void open_step() {}
 
-  int pack_comm(int n, int *balls, double *numbers, int, int *) final {
+  int pack_comm(int n, int *balls, double *numbers, int periodic, int *shift) final {
+    velocity_of_ghosts_ = velocity_of_image(*domain, periodic != 0 ? shift : nullptr);
     pack_ghosts(n, balls, numbers);
+    velocity_of_ghosts_ = {};
     return comm_forward; // LIGGGHTS expects the number of values per ball
   }
   void unpack_comm(int n, int first, double *numbers) final { unpack_ghosts(n, first, numbers); }
   void pre_final_integrate() final { close_forces(); }
+  void pre_initial_integrate() final { open_step(); }
 
 protected:
+  /// While pack_ghosts() is called for ghosts: their velocity, m/s, relative to their owners. Zero except across a
+  /// periodic side of a box that deforms.
+  const std::array<double, 3> &velocity_of_ghosts() const { return velocity_of_ghosts_; }
   /// Lets the fix contribute to the pressure by v_tally(). (LIGGGHTS has no potential energy, to which LAMMPS
   /// can add the fix's scalar.)
   void offer_energy_and_virial() { virial_flag = 1; }
   /// To be called when forces are computed, before v_tally(); sets `evflag` if the virial is needed in this
   /// step.
   void begin_virial(int vflag) { vflag ? v_setup(vflag) : void(evflag = 0); }
+
+private:
+  std::array<double, 3> velocity_of_ghosts_{};
 };
 constexpr int closes_forces = LAMMPS_NS::FixConst::PRE_FINAL_INTEGRATE;
+constexpr int opens_step = LAMMPS_NS::FixConst::PRE_INITIAL_INTEGRATE;
 
 /// Number of bytes at the end of a restart file by which the engine recognizes that the file is complete;
 /// LIGGGHTS has none.

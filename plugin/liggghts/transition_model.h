@@ -196,7 +196,8 @@ private:
                            ForceData &j_forces) {
     double *const stored = sidata.contact_history + state_offset_; // force, N; 1 if in contact, else 0
     physics::ContactState state{stored[0], stored[1] != 0.0};
-    if (sidata.computeflag && hold_contact(law, *stepping_, sidata.i, sidata.is_wall ? -1 : sidata.j,
+    const std::array<double, 3> normal{sidata.en[0], sidata.en[1], sidata.en[2]};
+    if (sidata.computeflag && hold_contact(law, *stepping_, sidata.i, sidata.is_wall ? -1 : sidata.j, normal,
                                            motion_of(sidata), sidata.meff, state)) {
       stored[0] = sidata.Fn = state.force;
       add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);

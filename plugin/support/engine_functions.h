@@ -40,6 +40,13 @@ inline bool owns_pair(const LAMMPS *lmp, int i, int j) {
   return lmp->force->newton_pair || (atom.tag[i] < atom.tag[j] ? i : j) < atom.nlocal;
 }
 
+/// Replaces a stored mass by the present sum over a group, unless these differ by rounding only: the sum depends on the
+/// order of the balls in memory. A group whose balls are lost keeps its mass.
+inline void follow_mass(double &stored, double now) {
+  constexpr double rounding = 1e-12;
+  if (now > 0.0 && std::fabs(now - stored) > rounding * stored) stored = now;
+}
+
 /// Index of a neighbour from an entry of a neighbour list, without the flags that the engine packs into its
 /// highest bits.
 inline int neighbour_index(int packed) { return packed & NEIGHMASK; }
