@@ -233,6 +233,7 @@ BadGroup oedometer() {
   group.inputs.push_back(variables(
       "a load that presses balls flat", {{"loads", "25 1e6"}},
       {"drumlin/check: variable loads is '1e6'", "allowed: a finite number below ", "half a radius"}));
+  group.inputs.push_back(variable("dt", "1", "allowed: a finite number below "));
   group.inputs.push_back(variable("prepare_time", "1e9", "allowed: a finite number below "));
   group.inputs.push_back(variables("a lattice in the plane", {{"sample", "hexagonal"}, {"dimension", "3"}},
                                    {"drumlin/check: variable dimension is '3'", "allowed: 2"}));

@@ -603,6 +603,11 @@ BadGroup layers() {
           line("an empty entry", "drumlin/layers k 1e8,", {command + "keyword k is '1e8,'", "> 0"}),
           on_two_ranks(line("more layers than types", "drumlin/layers k 1e8,1e9",
                             {command + "keyword k is '1e8,1e9'", "one number, since the bed has one layer"})),
+          on_two_ranks(line("k too stiff for the time step",
+                            "timestep 1e-3\ndrumlin/layers k 1e18 D 0 friction 0 rolling off 0",
+                            {command + "keyword k is '1e18', with which two of the lightest balls of layer 1 "
+                                       "have the critical step ",
+                             "with the time step 0.001 s"})),
           line("D negative", "drumlin/layers k 1e8 D -0.1", {command + "keyword D is '-0.1'", ">= 0"}),
           line("friction negative", "drumlin/layers k 1e8 D 0 friction -1",
                {command + "keyword friction is '-1'", ">= 0"}),
