@@ -298,7 +298,7 @@ std::string figure_script(const Figure &figure, const std::vector<bool> &is_empt
 Outcome run_gnuplot(const fs::path &gnuplot, const fs::path &folder, const std::string &script) {
   // --default-settings: a .gnuplot file of the user must not change the report.
   constexpr double limit = 600.0; // s: the largest pictures take some ten
-  const Outcome outcome = run_program({gnuplot.string(), "--default-settings", script}, {}, folder, limit);
+  Outcome outcome = run_program({gnuplot.string(), "--default-settings", script}, {}, folder, limit);
   std::error_code ignored;
   fs::remove(folder / program_output_file, ignored);
   return outcome;
