@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
@@ -208,6 +209,11 @@ void write_noted_data(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const Res
     if (title_end == std::string::npos) return {};
     return text.insert(title_end + 1, header);
   });
+}
+
+bool can_be_read(const std::string &file) {
+  std::error_code failed;
+  return std::filesystem::is_regular_file(file, failed) && access(file.c_str(), R_OK) == 0;
 }
 
 RestartNotes notes_of(const std::string &file) {

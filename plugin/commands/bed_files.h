@@ -41,6 +41,9 @@ void write_noted_restart(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const 
 void write_noted_data(LAMMPS_NS::LAMMPS *lmp, const std::string &file, const RestartNotes &notes,
                       const std::string &what);
 
+/// Whether there is a regular file of this name that can be read. Not collective.
+bool can_be_read(const std::string &file);
+
 /// Notes of a complete restart file or of a data file; none of any other file. Not collective.
 RestartNotes notes_of(const std::string &file);
 

@@ -47,6 +47,10 @@ public:
                                                              {"each", &Check::each},
                                                              {"integer", &Check::integer},
                                                              {"multiple_of", &Check::multiple_of},
+                                                             {"above", &Check::above},
+                                                             {"below", &Check::below},
+                                                             {"at_most", &Check::at_most},
+                                                             {"not_given", &Check::not_given},
                                                              {"directory", &Check::directory},
                                                              {"output_folder", &Check::output_folder},
                                                              {"file", &Check::file},
@@ -129,6 +133,36 @@ private:
       reject(fmt::format("a multiple of {}, which is {}", other, other_value));
   }
 
+  // The limit of a value is often a formula of other variables or of the scene: the words behind it name these.
+  void above() {
+    against("above", [](double value, double limit) { return value > limit; });
+  }
+  void below() {
+    against("below", [](double value, double limit) { return value < limit; });
+  }
+  void at_most() {
+    against("at most", [](double value, double limit) { return value <= limit; });
+  }
+  /// For a variable that has no effect in a scene, and is none there unless the command line gives it.
+  void not_given() {
+    const std::string with = rest();
+    if (value_ != "none") reject("not given " + with);
+  }
+
+  std::string rest() {
+    std::string words;
+    while (!in_.empty())
+      words += (words.empty() ? "" : " ") + in_.word("word");
+    return words;
+  }
+  template <class Holds>
+  void against(const std::string &relation, const Holds &holds) {
+    const double limit = in_.number("rule " + relation + ", the limit");
+    const std::string of = in_.empty() ? "" : ", " + rest();
+    if (const double number = parse_number(value_); !std::isfinite(number) || !holds(number, limit))
+      reject(fmt::format("a finite number {} {:.6g}{}", relation, limit, of));
+  }
+
   static constexpr const char *folder_allowed =
       "a folder that can be made or written, without * and % in its path, and not /, /dev, /proc or /sys";
   void output_folder() { reject_if(is_rank_0() && !can_be_folder(value_), folder_allowed); }
@@ -141,12 +175,8 @@ private:
   }
 
   void file() {
-    std::string maker;
-    while (!in_.empty())
-      maker += (maker.empty() ? "" : " ") + in_.word("command that makes the file");
-    std::error_code failed;
-    reject_if(is_rank_0() &&
-                  (!std::filesystem::is_regular_file(value_, failed) || access(value_.c_str(), R_OK) != 0),
+    const std::string maker = rest();
+    reject_if(is_rank_0() && !can_be_read(value_),
               "a file that can be read" + (maker.empty() ? "" : ", which '" + maker + "' makes"));
   }
 

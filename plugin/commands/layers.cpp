@@ -1,6 +1,7 @@
 #include "commands/commands.h"
 
 #include "physics/contact_mixing.h"
+#include "physics/time_step.h"
 #include "support/arguments.h"
 
 #include <algorithm>
@@ -55,6 +56,34 @@ std::vector<int> ball_counts(const LAMMPS *lmp, int layers) {
   return counts;
 }
 
+/// Mass of the lightest ball of each layer on all ranks, kg; infinity without balls. Collective.
+std::vector<double> least_masses(const LAMMPS *lmp, int layers) {
+  std::vector<double> masses(static_cast<std::size_t>(layers), std::numeric_limits<double>::infinity());
+  for (int i = 0; i < lmp->atom->nlocal; ++i)
+    if (const int layer = layer_of(lmp->atom->type[i]); layer >= 0) {
+      double &least = masses[static_cast<std::size_t>(layer)];
+      least = std::min(least, lmp->atom->rmass[i]);
+    }
+  MPI_Allreduce(MPI_IN_PLACE, masses.data(), layers, MPI_DOUBLE, MPI_MIN, lmp->world);
+  return masses;
+}
+
+/// Refuses a stiffness with which two balls of a layer have a critical step below the time step: the first of their contacts would
+/// throw them out of the box before fix guard sees it. Collective.
+void check_stiffnesses(const LAMMPS *lmp, const Arguments &in, const std::string &given,
+                       const std::vector<ContactValues> &laws) {
+  const std::vector<double> masses = least_masses(lmp, static_cast<int>(laws.size()));
+  const double dt = lmp->update->dt;
+  for (std::size_t layer = 0; layer < laws.size(); ++layer) {
+    const double m_eff = 0.5 * masses[layer], k = laws[layer].stiffness;
+    if (const double critical = physics::critical_step_stock(k, 0.0, m_eff); dt > critical)
+      in.fail(fmt::format("keyword k is '{}', with which two of the lightest balls of layer {} have the "
+                          "critical step {:.3g} s; "
+                          "allowed: at most {:.3g} N/m with the time step {:.3g} s",
+                          given, layer + 1, critical, 4.0 * m_eff / (dt * dt), dt));
+  }
+}
+
 } // namespace
 
 void layers_command(LAMMPS *lmp, int narg, char **arg) {
@@ -73,6 +102,7 @@ void layers_command(LAMMPS *lmp, int narg, char **arg) {
       laws[layer].*value = numbers[layer];
   };
   in.choice("keyword", {"k"});
+  const std::string stiffnesses = in.empty() ? "" : in.peek();
   read("k", &ContactValues::stiffness, Range::positive);
   in.choice("keyword", {"D"});
   read("D", &ContactValues::damping_ratio, Range::non_negative);
@@ -88,6 +118,7 @@ void layers_command(LAMMPS *lmp, int narg, char **arg) {
     in.fail(fmt::format("layer {} has '0' balls; allowed: at least one ball of type {}", layer + 1,
                         type_of(layer)));
   }
+  check_stiffnesses(lmp, in, stiffnesses, laws);
   std::vector<ContactValues> table;
   for (int a = 1; a <= types; ++a)
     for (int b = 1; b <= types; ++b)

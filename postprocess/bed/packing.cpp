@@ -16,8 +16,8 @@ namespace {
 constexpr double pi = 3.141592653589793;
 /// Cells that the search for neighbours may have, 8 bytes each.
 constexpr double most_cells = 5e7;
-/// Pairs of balls that may be looked at while the balls are placed: about an hour.
-constexpr double most_pairs = 1e12;
+/// Cells and balls that may be looked at while the balls are placed: about an hour. Ten million balls at the default share need a tenth.
+constexpr double most_work = 1e11;
 /// Height of the box above the soil balls, m: space for drum and frame.
 constexpr double room_above = 2.0;
 /// Drum and frame: a box cannot change its number of types later.
@@ -68,40 +68,75 @@ std::vector<double> radii_of(const PackingOptions &options, Random &random) {
   return radii;
 }
 
-/// Balls by the cell that holds their centre; a cell is as wide as the largest ball, so that only neighbour
-/// cells count.
+/// Balls by their size and the cell that holds their centre. Balls of one level are at most twice as large as each other, and a
+/// cell of the level is as wide as the largest of them, so that a search looks at few balls, whatever the grading.
 class Cells {
 public:
-  Cells(const std::array<double, 3> &size, double cell) : cell_(cell) {
-    std::size_t cells = 1;
-    for (std::size_t a = 0; a < 3; ++a) {
-      count_[a] = static_cast<long>(size[a] / cell) + 1;
-      cells *= static_cast<std::size_t>(count_[a]);
+  /// \param most about the number of cells of a level, which smaller balls share
+  Cells(const std::array<double, 3> &size, double largest, double smallest, double most) {
+    for (double radius = largest;; radius *= 0.5) {
+      Level level{2.0 * radius, {}, {}};
+      double cells = 1.0;
+      for (std::size_t a = 0; a < 3; ++a) {
+        level.count[a] = static_cast<long>(size[a] / level.width) + 1;
+        cells *= static_cast<double>(level.count[a]);
+      }
+      if (!levels_.empty() && cells > most) return;
+      level.first.assign(static_cast<std::size_t>(cells), -1);
+      levels_.push_back(std::move(level));
+      if (radius * 0.5 < smallest) return;
     }
-    first_.assign(cells, -1);
   }
 
   void add(const std::vector<PackedBall> &balls) {
-    const std::array<long, 3> at = place(balls.back().centre);
-    next_.push_back(std::exchange(first_[index(at)], static_cast<long>(balls.size()) - 1));
+    const PackedBall &ball = balls.back();
+    auto level = levels_.begin();
+    while (std::next(level) != levels_.end() && ball.radius <= 0.5 * std::next(level)->width)
+      ++level;
+    level->is_empty = false;
+    long &first = level->first[level->index(level->place(ball.centre, 0.0))];
+    next_.push_back(std::exchange(first, static_cast<long>(balls.size()) - 1));
   }
 
-  bool is_free(const PackedBall &ball, const std::vector<PackedBall> &balls) const {
-    const std::array<long, 3> at = place(ball.centre);
-    std::array<long, 3> from{}, to{};
-    for (std::size_t a = 0; a < 3; ++a) {
-      from[a] = std::max(0L, at[a] - 1);
-      to[a] = std::min(count_[a] - 1, at[a] + 1);
-    }
-    for (long i = from[0]; i <= to[0]; ++i)
-      for (long j = from[1]; j <= to[1]; ++j)
-        for (long k = from[2]; k <= to[2]; ++k)
-          for (long n = first_[index({i, j, k})]; n >= 0; n = next_[static_cast<std::size_t>(n)])
-            if (touch(ball, balls[static_cast<std::size_t>(n)])) return false;
-    return true;
+  bool is_free(const PackedBall &ball, const std::vector<PackedBall> &balls) {
+    return std::none_of(levels_.begin(), levels_.end(),
+                        [&](const Level &level) { return !level.is_empty && touches(level, ball, balls); });
   }
+
+  /// Cells and balls that all searches have looked at.
+  double work() const { return work_; }
 
 private:
+  struct Level {
+    double width; ///< of a cell, m: no ball of the level is larger
+    std::array<long, 3> count;
+    std::vector<long> first; ///< ball of each cell, the first of a chain; -1: none
+    bool is_empty = true;
+
+    std::array<long, 3> place(const std::array<double, 3> &centre, double shift) const {
+      std::array<long, 3> at{};
+      for (std::size_t a = 0; a < 3; ++a)
+        at[a] = std::clamp(static_cast<long>((centre[a] + shift) / width), 0L, count[a] - 1);
+      return at;
+    }
+    std::size_t index(const std::array<long, 3> &at) const {
+      return static_cast<std::size_t>((at[0] * count[1] + at[1]) * count[2] + at[2]);
+    }
+  };
+
+  bool touches(const Level &level, const PackedBall &ball, const std::vector<PackedBall> &balls) {
+    constexpr double and_rounding = 1.0 + 1e-9;
+    const double reach = (ball.radius + 0.5 * level.width) * and_rounding;
+    const std::array<long, 3> from = level.place(ball.centre, -reach), to = level.place(ball.centre, reach);
+    for (long i = from[0]; i <= to[0]; ++i)
+      for (long j = from[1]; j <= to[1]; ++j)
+        for (long k = from[2]; k <= to[2]; ++k, ++work_)
+          for (long n = level.first[level.index({i, j, k})]; n >= 0;
+               n = next_[static_cast<std::size_t>(n)], ++work_)
+            if (touch(ball, balls[static_cast<std::size_t>(n)])) return true;
+    return false;
+  }
+
   static bool touch(const PackedBall &a, const PackedBall &b) {
     const double x = a.centre[0] - b.centre[0];
     const double y = a.centre[1] - b.centre[1];
@@ -109,17 +144,10 @@ private:
     const double reach = a.radius + b.radius;
     return x * x + y * y + z * z <= reach * reach;
   }
-  std::array<long, 3> place(const std::array<double, 3> &centre) const {
-    return {static_cast<long>(centre[0] / cell_), static_cast<long>(centre[1] / cell_),
-            static_cast<long>(centre[2] / cell_)};
-  }
-  std::size_t index(const std::array<long, 3> &at) const {
-    return static_cast<std::size_t>((at[0] * count_[1] + at[1]) * count_[2] + at[2]);
-  }
 
-  double cell_;
-  std::array<long, 3> count_{};
-  std::vector<long> first_, next_; // chains of balls; -1 ends one
+  std::vector<Level> levels_; ///< the largest balls first
+  std::vector<long> next_;    ///< of each ball, the next of its chain; -1: none
+  double work_ = 0.0;
 };
 
 /// Area of a disc or volume of a ball, m2 or m3.
@@ -194,10 +222,8 @@ double filled_height(const PackingOptions &options, double content_of_all) {
   return options.height;
 }
 
-/// Refuses, before any work, boxes of too many cells and numbers of balls that would take hours.
-/// std::invalid_argument
-void check_work(const PackingOptions &options, double height) {
-  const auto count = static_cast<double>(options.balls);
+/// Refuses, before any work, boxes of too many cells. std::invalid_argument
+void check_cells(const PackingOptions &options, double height) {
   const double side = 2.0 * options.largest_radius();
   const double cell_number =
       (options.width / side + 1.0) * (options.depth / side + 1.0) * (height / side + 1.0);
@@ -206,15 +232,6 @@ void check_work(const PackingOptions &options, double height) {
         refusal(options.height > options.width ? "height" : "width", std::max(options.height, options.width),
                 fmt::format("a box of at most {:g} times the largest ball's volume (area in two dimensions)",
                             most_cells)));
-  constexpr double tries = 5.0; // per ball, about
-  const double neighbours =
-      (options.dimensions() == 2 ? 9.0 : 27.0) * std::min(1.0, 1.0 / cell_number) * count;
-  if (tries * neighbours * count > most_pairs)
-    throw std::invalid_argument(
-        refusal("balls", options.balls,
-                fmt::format("at most {:.0f} with radii from {} to {} m in this box, else it takes hours",
-                            std::sqrt(most_pairs / (tries * neighbours / count)), options.smallest_radius(),
-                            options.largest_radius())));
 }
 
 } // namespace
@@ -311,12 +328,13 @@ Packing pack_balls(const PackingOptions &options, const std::function<void(std::
   for (const double r : radii)
     all += content(r, dimensions);
   const double height = filled_height(options, all);
-  check_work(options, height);
+  check_cells(options, height);
 
   std::vector<PackedBall> balls;
   balls.reserve(radii.size());
   std::size_t all_tries = 0;
-  Cells cells({options.width, options.depth, height}, 2.0 * options.largest_radius());
+  Cells cells({options.width, options.depth, height}, options.largest_radius(), options.smallest_radius(),
+              2.0 * static_cast<double>(options.balls));
   for (const double r : radii) {
     PackedBall ball{{}, r};
     int failed = 0;
@@ -330,6 +348,12 @@ Packing pack_balls(const PackingOptions &options, const std::function<void(std::
                 "fewer balls, or a wider or higher box (width {}, height {:.3f} m): {} found a place and "
                 "the next none in {} tries",
                 options.width, height, balls.size(), attempts)));
+      if (cells.work() > most_work)
+        throw std::invalid_argument(refusal(
+            "balls", options.balls,
+            fmt::format("fewer balls, or a wider or higher box (width {}, height {:.3f} m): {} found a "
+                        "place before the search took too long",
+                        options.width, height, balls.size())));
       ball.centre[0] = random.between(r, options.width - r);
       if (dimensions == 3) ball.centre[1] = random.between(r, options.depth - r);
       ball.centre[2] = random.between(r, height - r);

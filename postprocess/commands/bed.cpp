@@ -56,6 +56,7 @@ struct Arguments {
   std::array<std::string, number_options.size()> numbers;
   std::optional<std::string> sieve, cut;
   std::vector<std::string> layers;
+  bool has_balls = false;        ///< whether --balls was given
   std::string instead_of_layers; ///< an option that was given and says the same as --layer; empty: none
   std::string instead_of_sieve;  ///< an option that was given and says the sizes in another way; empty: none
 };
@@ -129,6 +130,24 @@ BedRequest::Layer asked_layer(const std::string &text, const PackingOptions &box
   return layer;
 }
 
+/// Refuses options that have no effect with these layers: the number of balls decides where a sieve curve is cut that has no
+/// cut of its own, and radii are those of layers without a curve.
+void judge_effects(const Arguments &arguments) {
+  const auto any_has = [&arguments](std::ptrdiff_t parts) {
+    return std::any_of(arguments.layers.begin(), arguments.layers.end(), [parts](const std::string &layer) {
+      return std::count(layer.begin(), layer.end(), ':') + 1 == parts;
+    });
+  };
+  if (arguments.has_balls && !any_has(2))
+    throw UsageError(refusal(
+        "--balls", arguments.balls,
+        "only with a layer THICKNESS:SIEVE, where it decides the cut; else its thickness says the number"));
+  if (!arguments.instead_of_sieve.empty() && !any_has(1))
+    throw UsageError(
+        refusal("--layer", arguments.layers.front(),
+                fmt::format("without {}: the curves say the sizes", arguments.instead_of_sieve)));
+}
+
 /// Sets the layers from `--layer`.
 void judge_layers(const Arguments &arguments, BedRequest &request) {
   if (arguments.layers.empty()) return;
@@ -148,6 +167,7 @@ void judge_layers(const Arguments &arguments, BedRequest &request) {
       throw UsageError(refusal("--layer", layer,
                                fmt::format("layers of at most {} balls in all", PackingOptions::most_balls)));
   }
+  judge_effects(arguments);
 }
 
 void run(const Arguments &arguments) {
@@ -379,6 +399,7 @@ void add_bed_command(CLI::App &app, Session &) {
       ->type_name("FILE")
       ->capture_default_str();
   bed->callback([arguments, bed] {
+    arguments->has_balls = bed->count("--balls") > 0;
     for (const char *option : {"--radius-min", "--radius-max", "--grading"})
       if (bed->count(option) > 0) arguments->instead_of_sieve = option;
     for (const char *option : {"--sieve", "--cut", "--height"})

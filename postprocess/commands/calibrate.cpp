@@ -225,7 +225,13 @@ void add_calibrate_command(CLI::App &app, Session &session) {
       "Example:\n"
       "  drumlin calibrate --target k=20e6 --target D=0.2 --vary k=1e8:2e9 --vary D=0.05:0.8 --jobs 2\n"
       "  drumlin calibrate --target k --vary k=2e7:3e8 --recover k=8e7 --out results/recovery\n");
-  calibrate->callback([arguments, &session] { run(*arguments, session.command); });
+  calibrate->callback([arguments, calibrate, &session] {
+    if (arguments->known.empty() && calibrate->count("--records") > 0)
+      throw UsageError(refusal("--records", arguments->records, "only with --recover"));
+    if (!arguments->known.empty() && calibrate->count("--name") > 0)
+      throw UsageError(refusal("--name", arguments->name, "not with --recover, which writes no case file"));
+    run(*arguments, session.command);
+  });
 }
 
 } // namespace drumlin::post

@@ -130,6 +130,10 @@ Task judge(const MapArguments &arguments) {
       throw UsageError(
           refusal("--Fw", *arguments.chain.numbers[i], "not together with me_re, from which Fw follows"));
   for (const auto &[axis, option] : axes) {
+    for (std::size_t i = 0; i < chain_numbers.size(); ++i)
+      if (arguments.chain.numbers[i] && axis.name == chain_numbers[i].name)
+        throw UsageError(refusal(fmt::format("--{}", axis.name), *arguments.chain.numbers[i],
+                                 fmt::format("not together with the axis {} of {}", axis.name, option)));
     if (axis.name == "Fw" && moment)
       throw UsageError(refusal(option, "Fw", "not together with me_re, from which Fw follows"));
     if (axis.name == "me_re" && arguments.me_re)
@@ -419,13 +423,15 @@ void add_map_command(CLI::App &app, Session & /*session*/) {
   map->add_option("--cycles", arguments->cycles, "cycles of the excitation at each point, 100 or more")
       ->type_name("COUNT")
       ->capture_default_str();
-  map->add_option("--threads", arguments->threads, "points at the same time")
-      ->type_name("COUNT")
-      ->capture_default_str();
+  CLI::Option *threads = map->add_option("--threads", arguments->threads, "points at the same time")
+                             ->type_name("COUNT")
+                             ->capture_default_str();
   map->add_option("--out", arguments->out, "folder of the results")->type_name("DIR")->capture_default_str();
   map->add_flag("--fresh", arguments->fresh, "forget the points of an earlier call");
-  map->callback([arguments, x, y] {
+  map->callback([arguments, x, y, threads] {
     arguments->axes_given = x->count() > 0 || y->count() > 0;
+    if (arguments->sweep && threads->count() > 0)
+      throw UsageError(refusal("--threads", arguments->threads, "without --sweep, which is one computation"));
     print_map(*arguments);
   });
 }

@@ -197,7 +197,17 @@ void add_meter_command(CLI::App &app, Session & /*session*/) {
                 "  drumlin meter field.csv --column 'time=Time:ms' --column 'a_drum=Acc Z:-g' --frequency 29 "
                 "--low-pass 200 \\\n"
                 "      --window 20 --export field-passes.csv --speed 4");
-  meter->callback([arguments] { run(*arguments); });
+  meter->callback([arguments, meter] {
+    const auto needs = [meter](const char *option, const char *other) {
+      if (meter->count(option) > 0 && meter->count(other) == 0)
+        throw UsageError(refusal(option, meter->get_option(option)->as<std::string>(),
+                                 fmt::format("only with {}", other)));
+    };
+    needs("--poisson", "--drum-radius");
+    needs("--speed", "--export");
+    needs("--pass", "--export");
+    run(*arguments);
+  });
 }
 
 } // namespace drumlin::post

@@ -214,7 +214,8 @@ int legend_rows(const Panel &panel, int width) {
 }
 
 /// \param width of the panel in px
-std::string panel_script(const Panel &panel, int width) {
+/// \param is_empty whether it has no point to draw, which gnuplot takes for an error: the axes get a note instead
+std::string panel_script(const Panel &panel, int width, bool is_empty) {
   std::string s;
   s += panel.title.empty() ? "  unset title\n"
                            : fmt::format("  set title {} noenhanced\n", gnuplot_string(panel.title));
@@ -233,10 +234,15 @@ std::string panel_script(const Panel &panel, int width) {
   s += x_axis_script(panel);
   if (panel.equal_scales) s += "  set size ratio -1\n";
   s += color_script(panel);
-  s += "  plot ";
-  for (std::size_t i = 0; i < panel.curves.size(); ++i)
-    s += (i == 0 ? "" : ", \\\n       ") + curve_script(panel.curves[i]);
-  s += "\n";
+  if (is_empty) {
+    s += "  unset logscale\n  set label 1 \"no values to draw\" at graph 0.5, graph 0.5 center\n"
+         "  set autoscale x\n  plot [0:1] [0:1] 2 notitle\n  unset label 1\n";
+  } else {
+    s += "  plot ";
+    for (std::size_t i = 0; i < panel.curves.size(); ++i)
+      s += (i == 0 ? "" : ", \\\n       ") + curve_script(panel.curves[i]);
+    s += "\n";
+  }
   if (panel.equal_scales) s += "  set size noratio\n";
   if (!panel.color_label.empty()) s += "  unset colorbox\n  set rmargin -1\n";
   return s;
@@ -249,6 +255,73 @@ int columns_of(const Figure &figure) {
 int rows_of(const Figure &figure) {
   const int columns = columns_of(figure);
   return (static_cast<int>(figure.panels.size()) + columns - 1) / columns;
+}
+
+/// What the terminals have in common.
+constexpr const char *settings = "set encoding utf8\n"
+                                 "set datafile separator comma\n"
+                                 "set datafile missing ''\n"
+                                 "set grid lc rgb '#dddddd' lt 1 lw 0.6\n"
+                                 "set border lw 1.0\n"
+                                 "set tics nomirror out\n"
+                                 "set xzeroaxis lt 1 lw 0.8 dt solid lc rgb '#999999'\n"
+                                 "set key bmargin center horizontal Left reverse samplen 2.5\n";
+
+/// \param is_empty of each panel, see panel_script()
+std::string figure_script(const Figure &figure, const std::vector<bool> &is_empty) {
+  const int rows = rows_of(figure);
+  const int columns = columns_of(figure);
+  const bool many = figure.panels.size() > 1;
+  const int width = figure_width(figure);
+  const int height = figure_height(figure);
+  std::string s =
+      fmt::format("# {}\n# Run in this folder: gnuplot {}.gp\n{}", figure.title, figure.name, settings);
+  s += fmt::format("do for [kind in \"{4}\"] {{\n"
+                   "  if (kind eq \"svg\") {{ set terminal svg size {0},{1} enhanced rounded font 'DejaVu "
+                   "Sans,Helvetica,Arial,15' "
+                   "background '#ffffff' }}\n"
+                   "  else {{ set terminal pngcairo size {2},{3} enhanced rounded fontscale 1.5 linewidth "
+                   "1.5 pointscale 1.5 font "
+                   "'DejaVu Sans,11.5' background '#ffffff' }}\n",
+                   width, height, width * 3 / 2, height * 3 / 2, figure.only_png ? "png" : "svg png");
+  s += fmt::format("  set output \"{}.\".kind\n", figure.name);
+  if (many)
+    s += fmt::format("  set multiplot layout {},{} title {} noenhanced\n", rows, columns,
+                     gnuplot_string(figure.title));
+  for (std::size_t n = 0; n < figure.panels.size(); ++n)
+    s += panel_script(figure.panels[n], width / columns, is_empty[n]);
+  if (many) s += "  unset multiplot\n";
+  return s + "  unset output\n}\n";
+}
+
+/// Runs a script in a folder.
+Outcome run_gnuplot(const fs::path &gnuplot, const fs::path &folder, const std::string &script) {
+  // --default-settings: a .gnuplot file of the user must not change the report.
+  constexpr double limit = 600.0; // s: the largest pictures take some ten
+  Outcome outcome = run_program({gnuplot.string(), "--default-settings", script}, {}, folder, limit);
+  std::error_code ignored;
+  fs::remove(folder / program_output_file, ignored);
+  return outcome;
+}
+
+/// Whether gnuplot has ended because a panel has no point: all its values are missing, or not positive on a logarithmic axis.
+bool found_no_point(const Outcome &outcome) {
+  return !outcome.ok() && !outcome.timed_out && !outcome.says("Cannot find or open file") &&
+         (outcome.says("y value undefined!") || outcome.says("range is invalid"));
+}
+
+/// Those panels in which gnuplot finds no point.
+std::vector<bool> empty_panels(const fs::path &gnuplot, const fs::path &folder, const Figure &figure) {
+  std::vector<bool> is_empty;
+  const std::string name = figure.name + "_panel.gp";
+  for (const Panel &panel : figure.panels) {
+    write_files({{folder / name, fmt::format("{}set terminal dumb\nset output '/dev/null'\n{}", settings,
+                                             panel_script(panel, figure_width(figure), false))}});
+    is_empty.push_back(found_no_point(run_gnuplot(gnuplot, folder, name)));
+  }
+  std::error_code ignored;
+  fs::remove(folder / name, ignored);
+  return is_empty;
 }
 
 } // namespace
@@ -288,36 +361,7 @@ int figure_height(const Figure &figure) {
 }
 
 std::string gnuplot_script(const Figure &figure) {
-  const int rows = rows_of(figure);
-  const int columns = columns_of(figure);
-  const bool many = figure.panels.size() > 1;
-  const int width = figure_width(figure);
-  const int height = figure_height(figure);
-  std::string s = fmt::format("# {}\n# Run in this folder: gnuplot {}.gp\n", figure.title, figure.name);
-  s += "set encoding utf8\n"
-       "set datafile separator comma\n"
-       "set datafile missing ''\n"
-       "set grid lc rgb '#dddddd' lt 1 lw 0.6\n"
-       "set border lw 1.0\n"
-       "set tics nomirror out\n"
-       "set xzeroaxis lt 1 lw 0.8 dt solid lc rgb '#999999'\n"
-       "set key bmargin center horizontal Left reverse samplen 2.5\n";
-  s += fmt::format("do for [kind in \"{4}\"] {{\n"
-                   "  if (kind eq \"svg\") {{ set terminal svg size {0},{1} enhanced rounded font 'DejaVu "
-                   "Sans,Helvetica,Arial,15' "
-                   "background '#ffffff' }}\n"
-                   "  else {{ set terminal pngcairo size {2},{3} enhanced rounded fontscale 1.5 linewidth "
-                   "1.5 pointscale 1.5 font "
-                   "'DejaVu Sans,11.5' background '#ffffff' }}\n",
-                   width, height, width * 3 / 2, height * 3 / 2, figure.only_png ? "png" : "svg png");
-  s += fmt::format("  set output \"{}.\".kind\n", figure.name);
-  if (many)
-    s += fmt::format("  set multiplot layout {},{} title {} noenhanced\n", rows, columns,
-                     gnuplot_string(figure.title));
-  for (const Panel &panel : figure.panels)
-    s += panel_script(panel, width / columns);
-  if (many) s += "  unset multiplot\n";
-  return s + "  unset output\n}\n";
+  return figure_script(figure, std::vector<bool>(figure.panels.size()));
 }
 
 bool is_whole_picture(const fs::path &file) {
@@ -336,12 +380,11 @@ bool is_whole_picture(const fs::path &file) {
 void render(const fs::path &gnuplot, const fs::path &folder, const Figure &figure) {
   const fs::path script = folder / (figure.name + ".gp");
   write_files({{script, gnuplot_script(figure)}});
-  // --default-settings: a .gnuplot file of the user must not change the report.
-  constexpr double limit = 600.0; // s: the largest pictures take some ten
-  const Outcome outcome =
-      run_program({gnuplot.string(), "--default-settings", figure.name + ".gp"}, {}, folder, limit);
-  std::error_code ignored;
-  fs::remove(folder / program_output_file, ignored);
+  Outcome outcome = run_gnuplot(gnuplot, folder, script.filename());
+  if (found_no_point(outcome)) {
+    write_files({{script, figure_script(figure, empty_panels(gnuplot, folder, figure))}});
+    outcome = run_gnuplot(gnuplot, folder, script.filename());
+  }
   if (!outcome.ok())
     throw std::runtime_error(fmt::format("gnuplot failed on {}: {}", script.string(), outcome.output));
   for (const char *kind : {".svg", ".png"}) {

@@ -750,7 +750,7 @@ TEST_F(Bed, RefusesFilesThatAreCutShortOrOfAnotherSceneOnRanksOneAndTwo) {
             "variable stepping is 'second'; allowed: stock, with which ", ranks);
     refused("in.settle",
             {{"case", "sand"}, {"balls", (scratch / "balls.data").string()}, {"bed", "x.restart"}},
-            "variable case_file is ", ranks);
+            "variable case is '", ranks);
     refused("in.place", {{"bed", (scratch / "ball.restart").string()}, {"start", "x.restart"}},
             ", made with bed roller; allowed: made with bed soil", ranks);
     refused("in.settle", {{"balls", some}, {"bed", "x.restart"}},
@@ -921,6 +921,86 @@ TEST_F(Bed, EndsAtASignalWhileItSettles) {
 
 TEST_F(Bed, EndsAtASignalAndContinues) { expect_ends_at_a_signal("in.bed", {}); }
 
+// A restart file of any step has the whole state: what differs from an uninterrupted run is that the engine sets up the run again at this step.
+TEST_F(Bed, ContinuesAfterASignalLikeARunDividedThere) {
+  const Scratch folder;
+  const std::string deck = read_text(bed_folder() / "in.bed");
+  const std::size_t last = deck.rfind("\ndrumlin/run ");
+  ASSERT_NE(last, std::string::npos);
+  const auto shaken = [&](const std::string &out, const std::string &start, const std::string &commands,
+                          const post::StopCondition &stop = {}) {
+    post::write_files({{folder / "deck", commands.empty() ? deck : deck.substr(0, last + 1) + commands}});
+    Variables variables = {{"here", bed_folder().string()},
+                           {"omega", "0.12566370614359174"}, // a period of 50 s, without end for a test
+                           {"steps_per_cycle", "2500000"},
+                           {"samples_per_cycle", "250000"},
+                           {"Fw", "2940"},
+                           {"start", start},
+                           {"out", out}};
+    for (const auto &variable : roller())
+      variables.push_back(variable);
+    return run_deck(folder / "deck", variables, folder.path(), 1, 60.0, stop);
+  };
+  const std::string placed = (scratch / "ball.restart").string(), says = "stopped by a signal at step ";
+  const Outcome stopped = shaken("left", placed, "", after_processor_time(1.0));
+  ASSERT_TRUE(stopped.says(says)) << stopped.output;
+  const long step = std::stol(stopped.output.substr(stopped.output.find(says) + says.size()));
+  const std::string rest = fmt::format("drumlin/run {}\n", step + 500);
+  const Outcome resumed = shaken("left", "left/stopped.restart", rest);
+  ASSERT_TRUE(resumed.ok()) << resumed.output;
+  const Outcome divided = shaken("stayed", placed, fmt::format("drumlin/run {}\n{}", step, rest));
+  ASSERT_TRUE(divided.ok()) << divided.output;
+  for (const char *file : {"bed.csv", "events.csv", "cycles.csv"})
+    EXPECT_EQ(read_text(folder / "left" / file), read_text(folder / "stayed" / file)) << file;
+}
+
+// Three balls side by side, and one that rolls off the top of the middle one so slowly under a strong drag that it needs 2 million steps; then one that falls
+// from high above for as long.
+TEST(BedAtRest, LeavesOutAFewRollingBallsIfAsked) {
+  const Scratch folder;
+  const auto write_balls = [&folder](double falls_from) {
+    std::string balls = fmt::format(
+        "balls\n\n{} atoms\n3 atom types\n\n-0.12 0.12 xlo xhi\n0 8 ylo yhi\n-0.04 0.04 zlo zhi\n\nAtoms\n\n",
+        falls_from > 0.0 ? 5 : 4);
+    for (int id = 1; id <= 3; ++id)
+      balls += fmt::format("{} 1 0.08 2650 {} 0.04 0\n", id, 0.08 * (id - 2));
+    balls +=
+        fmt::format("4 1 0.08 2650 {:.17g} {:.17g} 0\n", 0.08 * std::sin(0.1), 0.04 + 0.08 * std::cos(0.1));
+    if (falls_from > 0.0) balls += fmt::format("5 1 0.08 2650 -0.08 {} 0\n", falls_from);
+    post::write_files({{folder / "balls", balls}});
+  };
+  for (const std::string deck : {"in.settle", "in.settle.lammps"}) {
+    if (deck == "in.settle.lammps" && !post::has_lammps()) continue;
+    const auto settle = [&](const Variables &more, int ranks = 1) {
+      Variables variables = more;
+      variables.insert(
+          variables.end(),
+          {{"balls", "balls"}, {"bed", "soil"}, {"fall", "0"}, {"drag", "1000"}, {"settle_limit", "60000"}});
+      return run_deck(bed_folder() / deck, variables, folder.path(), ranks);
+    };
+    const Variables a_third = {{"loose", "0.34"}, {"loose_steps", "5000"}};
+    const auto expect_moving = [&](const Variables &more) {
+      const Outcome moving = settle(more);
+      EXPECT_EQ(moving.status, 1);
+      EXPECT_TRUE(moving.says("ERROR: drumlin/settle: unbalanced ratio is '")) << moving.output;
+      EXPECT_FALSE(fs::exists(folder / "soil"));
+    };
+    write_balls(0.0);
+    expect_moving({});                                           // by default none may move
+    expect_moving({{"loose", "0.24"}, {"loose_steps", "5000"}}); // 1 of 4 balls is more
+    for (const int ranks : {1, 2}) {
+      const Outcome settled = settle(a_third, ranks);
+      EXPECT_TRUE(settled.ok()) << settled.output;
+      EXPECT_TRUE(settled.says(", 1 of 4 balls still not at rest, all others for 5000 steps"))
+          << settled.output;
+      EXPECT_TRUE(fs::exists(folder / "soil"));
+      fs::remove(folder / "soil");
+    }
+    write_balls(7.0);
+    expect_moving({{"loose", "0.9"}, {"loose_steps", "5000"}});
+  }
+}
+
 // The error comes before the bed has settled, not after.
 TEST_F(Bed, RefusesNamesThatCannotBeWrittenAtTheBeginning) {
   const Scratch folder;
@@ -945,8 +1025,9 @@ TEST_F(Bed, RefusesNamesThatCannotBeWrittenAtTheBeginning) {
 
 TEST_F(Bed, NeedsSpaceForTheRoller) {
   for (const auto &[name, value, says] :
-       {std::array{"r2", "0.5", "variable room_beside is '-0.2'; allowed: a finite number > 0"},
-        std::array{"r3", "2", "variable room_above is '-"}}) {
+       {std::array{"r2", "0.5",
+                   "variable r2 is '0.5'; allowed: a finite number below 0.3, half the width of the box"},
+        std::array{"r3", "2", "variable r3 is '2'; allowed: a finite number below "}}) {
     const Scratch folder;
     Variables variables = {{name, value}};
     for (const auto &variable : roller())

@@ -226,9 +226,15 @@ TEST_P(PlateOnColumns, RefusesAPlateThatIsNotOnTheBed) {
   const Scratch scratch;
   Lattice{5, 2, false}.make(scratch.path(), "9.81");
   for (const auto &[more, says] : std::vector<std::pair<Variables, std::string>>{
-           {{{"plate_offset", "0.2"}}, "ERROR: drumlin/check: variable right_of_plate is '-0.15"},
-           {{{"plate_offset", "-0.2"}}, "ERROR: drumlin/check: variable left_of_plate is '-0.15"},
-           {{{"plate_width", "0.3"}}, "ERROR: drumlin/check: variable left_of_plate is '-0.05"},
+           {{{"plate_offset", "0.2"}},
+            "ERROR: drumlin/check: variable plate_offset is '0.2'; allowed: a finite number below 0.05, so "
+            "that"},
+           {{{"plate_offset", "-0.2"}},
+            "ERROR: drumlin/check: variable plate_offset is '-0.2'; allowed: a finite number above -0.05, so "
+            "that"},
+           {{{"plate_width", "0.3"}},
+            "ERROR: drumlin/check: variable plate_width is '0.3'; allowed: a finite number below 0.2, the "
+            "width of"},
            {{{"k", "1e8"}}, "ERROR: drumlin/take: variable k is '1e8'; allowed: 1e9"}}) {
     Variables variables = more; // the engine takes the first of a name
     variables.insert(variables.end(), {{"bed", (scratch / "soil.restart").string()}, {"plate_width", "0.1"}});

@@ -100,6 +100,45 @@ TEST_P(Shear, ShearsADisorderedSample) {
     EXPECT_LT(std::fabs(error), 1e-3);
 }
 
+// Ranks add forces in other orders. Until the rows climb over each other this makes no difference, then it grows: the motion is unstable.
+TEST_P(Shear, HasTheSameStrengthOnTwoRanks) {
+  const Variables variables = {{"sample", "hexagonal"}, {"columns", "4"},
+                               {"layers", "7"},         {"friction", "0.3"},
+                               {"rolling", "0"},        {"samples_of_strain", "20"},
+                               {"ramp", "400"},         {"inertial_number", "1e-4"},
+                               {"strain", "3e-4"}};
+  const post::Table one = run_element_test(GetParam(), "shear", variables),
+                    two = run_element_test(GetParam(), "shear", variables, 2);
+  const std::vector<double> of_one = ratios(one), of_two = ratios(two);
+  ASSERT_EQ(of_one.size(), of_two.size());
+  const auto strength =
+      static_cast<std::size_t>(std::max_element(of_one.begin(), of_one.end()) - of_one.begin());
+  EXPECT_NEAR(of_one[strength], 1 / std::sqrt(3.0), 1e-2);
+  ASSERT_LT(strength + 2, of_one.size()) << "the sample does not yield";
+  for (const char *column : {"shear_stress_kPa", "normal_stress_kPa", "stored_J", "work_J"})
+    for (std::size_t n = 0; n <= strength; ++n)
+      EXPECT_NEAR(two.numbers(column)[n], one.numbers(column)[n],
+                  1e-6 * std::fabs(one.numbers(column)[strength]))
+          << column << n;
+  for (std::size_t n = strength; n < of_one.size(); ++n)
+    EXPECT_NEAR(of_two[n], of_one[n], 2e-2) << n;
+}
+
+// The platen of a dense sample that dilates rises above the box in which the sample was made.
+TEST_P(Shear, FollowsALatticeThatDilatesFar) {
+  const post::Table rows = run_element_test(GetParam(), "shear",
+                                            {{"sample", "hexagonal"},
+                                             {"columns", "4"},
+                                             {"layers", "20"},
+                                             {"rolling", "0.45"},
+                                             {"samples_of_strain", "20"},
+                                             {"inertial_number", "5e-3"},
+                                             {"strain", "0.08"}});
+  EXPECT_LT(rows.numbers("volumetric_strain").back(), -0.085);
+  for (const double stress : rows.numbers("normal_stress_kPa"))
+    EXPECT_NEAR(stress, 100, 20);
+}
+
 INSTANTIATE_TEST_SUITE_P(Engines, Shear, ::testing::Values("liggghts", "lammps"));
 
 } // namespace

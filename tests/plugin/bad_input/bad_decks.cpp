@@ -158,6 +158,14 @@ BadGroup bed_settle() {
     group.inputs.push_back(
         variable("k", list, "allowed: a finite number > 0, or several, separated by commas"));
   group.inputs.push_back(variable("settle_limit", "-1", whole));
+  group.inputs.push_back(variable("loose", "1", "allowed: a finite number below 1"));
+  group.inputs.push_back(variable("loose_steps", "0", whole));
+  group.inputs.push_back(
+      variables("a case without a file", {{"case", "sand"}},
+                {"drumlin/check: variable case is '", "allowed: a file that can be read"}));
+  group.inputs.push_back(
+      variable("drag", "1e9", "allowed: a finite number below 160000, which is 1/pour_dt"));
+  group.inputs.push_back(variable("fall", "1e9", "allowed: a finite number below "));
   group.inputs.push_back(
       variable("balls", "none.data",
                "allowed: a file that can be read, which './drumlin bed --out none.data' makes", true));
@@ -168,6 +176,8 @@ BadGroup bed_place() {
   BadGroup group{"BedPlace", "bed/in.place", {}};
   group.inputs.push_back(variable("settle_limit", "1.5", whole));
   group.inputs.push_back(variable("sink", "-1", non_negative));
+  group.inputs.push_back(variable("sink", "1e9", "allowed: a finite number below "));
+  group.inputs.push_back(variable("drag", "1e9", "allowed: a finite number below 160000, which is 1/dt"));
   group.inputs.push_back(variable("ratio", "0", positive));
   group.inputs.push_back(
       variable("bed", "none.restart", "./drumlin run inputs/bed/in.settle -var bed none.restart", true));
@@ -180,6 +190,8 @@ BadGroup bed() {
     for (const char *value : {"0", "-1", "nan"})
       group.inputs.push_back(variable(name, value, positive));
   group.inputs.push_back(variable("Fw", "-1", non_negative));
+  for (const char *name : {"ground_depth", "ground_density", "ground_cp", "ground_cs", "side_height"})
+    group.inputs.push_back(variable(name, "300", "allowed: not given with boundary rigid"));
   for (const char *name : {"cycles", "steps_per_cycle", "samples_per_cycle"})
     for (const char *value : {"0", "1.5"})
       group.inputs.push_back(variable(name, value, whole));
@@ -206,9 +218,29 @@ BadGroup oedometer() {
   group.inputs.push_back(variable("guard", "1", "allowed: on or off"));
   group.inputs.push_back(variable("dimension", "4", "allowed: 2 or 3"));
   group.inputs.push_back(variables("balls that fall through the plates", {{"spread", "0.9"}},
-                                   {"drumlin/check: variable excess_over_holes is '-", positive}));
+                                   {"drumlin/check: variable spread is '0.9'",
+                                    "allowed: a finite number below 0.481481, so that no ball falls"}));
+  group.inputs.push_back(variables("balls that fall through the plates in space",
+                                   {{"spread", "0.23"}, {"dimension", "3"}},
+                                   {"drumlin/check: variable spread is '0.23'",
+                                    "allowed: a finite number below 0.224705, so that no ball falls"}));
+  for (const char *drag : {"drag", "prepare_drag"})
+    group.inputs.push_back(variable(drag, "1e9", "allowed: a finite number below "));
+  group.inputs.push_back(variables(
+      "a seating stress that presses balls flat", {{"seating", "1e6"}},
+      {"drumlin/check: variable seating is '1e6'", "allowed: a finite number below ", "half a radius"},
+      true));
+  group.inputs.push_back(variables(
+      "a load that presses balls flat", {{"loads", "25 1e6"}},
+      {"drumlin/check: variable loads is '1e6'", "allowed: a finite number below ", "half a radius"}));
+  group.inputs.push_back(variable("dt", "1", "allowed: a finite number below "));
+  group.inputs.push_back(variable("prepare_time", "1e9", "allowed: a finite number below "));
   group.inputs.push_back(variables("a lattice in the plane", {{"sample", "hexagonal"}, {"dimension", "3"}},
                                    {"drumlin/check: variable dimension is '3'", "allowed: 2"}));
+  group.inputs.push_back(variables("a seed without random numbers", {{"sample", "cubic"}, {"seed", "2"}},
+                                   {"drumlin/check: variable seed is '2'", "allowed: 1"}));
+  group.inputs.push_back(
+      variables("rows in the plane", {{"rows", "4"}}, {"drumlin/check: variable rows is '4'", "allowed: 1"}));
   group.inputs.push_back(variables("a lattice of several sizes", {{"sample", "cubic"}, {"spread", "0.1"}},
                                    {"drumlin/check: variable spread is '0.1'", "allowed: 0"}));
   group.inputs.push_back(variables("an unknown sample", {{"sample", "clay"}},
@@ -249,8 +281,11 @@ BadGroup biaxial() {
     group.inputs.push_back(variable(name, "0", positive));
   group.inputs.push_back(variable("rolling", "-0.1", non_negative));
   group.inputs.push_back(variable("samples_of_strain", "0", whole));
-  group.inputs.push_back(variables("platens that meet", {{"strain", "1"}},
-                                   {"drumlin/check: variable height_left is '0'", positive}, true));
+  group.inputs.push_back(variables(
+      "platens that meet", {{"strain", "1"}},
+      {"drumlin/check: variable strain is '1'", "allowed: a finite number below 1, where the platens meet"},
+      true));
+  group.inputs.push_back(variable("side", "1e7", "allowed: a finite number below "));
   group.inputs.push_back(
       variables("an unknown sample", {{"sample", "cubic"}},
                 {"drumlin/check: variable sample is 'cubic'", "allowed: hexagonal, square or random"}));
@@ -259,8 +294,15 @@ BadGroup biaxial() {
   const Variables lattice = {{"sample", "hexagonal"}, {"columns", "4"}, {"layers", "5"}, {"seating", "100"}};
   Variables fast = lattice;
   fast.insert(fast.end(), {{"inertial_number", "100"}});
-  group.inputs.push_back(variables("a platen that never reaches its speed", fast,
-                                   {"drumlin/check: variable steps_after_ramp is '-", positive}));
+  group.inputs.push_back(
+      variables("a platen that never reaches its speed", fast,
+                {"drumlin/check: variable inertial_number is '100'", "allowed: a finite number below ",
+                 "with strain 0.15 and ramp 2000 and dt "}));
+  Variables slow = lattice;
+  slow.insert(slow.end(), {{"inertial_number", "1e-20"}});
+  group.inputs.push_back(
+      variables("a test without end", slow,
+                {"drumlin/check: variable inertial_number is '1e-20'", "allowed: a finite number above "}));
   return group;
 }
 
@@ -284,9 +326,13 @@ BadGroup plate() {
   group.inputs.push_back(variable("plate_offset", "left", "allowed: a finite number"));
   group.inputs.push_back(variable("reload", "2", "allowed: 0 or 1"));
   group.inputs.push_back(variables("a plate narrower than a ball of it", {{"plate_width", "0.01"}},
-                                   {"drumlin/check: variable width_beyond_a_ball is '-0.01'", non_negative}));
-  group.inputs.push_back(variables("stages below the seating stress", {{"max_stress", "50"}},
-                                   {"drumlin/check: variable stress_above_seating is '-", positive}));
+                                   {"drumlin/check: variable plate_thickness is '0.02'",
+                                    "allowed: a finite number at most 0.01, which is plate_width"}));
+  group.inputs.push_back(variable("drag", "1e9", "allowed: a finite number below "));
+  group.inputs.push_back(
+      variables("stages below the seating stress", {{"max_stress", "50"}},
+                {"drumlin/check: variable seating is '10'",
+                 "allowed: a finite number below 8.33333, the stress of the first stage"}));
   group.inputs.push_back(variables("a ramp that is no multiple", {{"ramp", "700"}},
                                    {"variable ramp is '700'", "allowed: a multiple of every, which is 500"}));
   group.inputs.push_back(
@@ -302,6 +348,7 @@ BadGroup moved_plate(const char *name, const char *deck, const char *load) {
     group.inputs.push_back(variable(load, value, positive));
   for (const char *rate : {"strain", "inertial_number"})
     group.inputs.push_back(variable(rate, "0", positive, true));
+  group.inputs.push_back(variable("inertial_number", "1e5", "allowed: a finite number below "));
   group.inputs.push_back(variable("samples_of_strain", "0", whole));
   group.inputs.push_back(variable("sample", "cubic", "allowed: hexagonal or random"));
   group.inputs.push_back(variable("dimension", "3", "allowed: 2"));
@@ -316,11 +363,15 @@ BadGroup silo() {
   BadGroup group{"Silo", "soil/in.silo", {}};
   for (const char *value : {"-0.1", "nan", "rough"})
     group.inputs.push_back(variable("wall_friction", value, non_negative));
+  group.inputs.push_back(variables("walls with friction, balls without", {{"friction", "0"}},
+                                   {"drumlin/check: variable friction is '0'",
+                                    "allowed: a finite number above 0, with wall_friction 0.3"}));
   return group;
 }
 
 BadGroup repose() {
   BadGroup group{"Repose", "soil/in.repose", {}};
+  group.inputs.push_back(variable("g", "1e9", "allowed: a finite number below "));
   group.inputs.push_back(variable("floor", "sand", "allowed: balls or plate", true));
   group.inputs.push_back(variable("friction", "-0.1", non_negative));
   return group;

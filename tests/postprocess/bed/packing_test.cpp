@@ -1,10 +1,13 @@
 // The random bed before it settles: its geometry and grading against closed forms.
 #include "bed/packing.h"
 
+#include "bed/known_gradings.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -129,20 +132,28 @@ TEST(BedPacking, RefusesWhatCannotBePackedAndSaysWhatCan) {
   EXPECT_EQ(refusal(none), "balls is '0'; allowed: a whole number from 1 to 10000000");
 }
 
-// Cells for the search of neighbours, and pairs to look at, are counted before any is made.
-TEST(BedPacking, BoundsItsWorkBeforeItBegins) {
+// Cells for the search of neighbours are counted before any is made.
+TEST(BedPacking, BoundsItsCellsBeforeItBegins) {
   PackingOptions wide;
   wide.width = 1e5;
   wide.depth = 1e4;
   wide.height = 1e3;
   EXPECT_EQ(refusal(wide).rfind("width is '100000'; allowed: a box of at most ", 0), 0u) << refusal(wide);
-  PackingOptions mixed;
-  mixed.balls = PackingOptions::most_balls;
-  mixed.depth = 2.0;
-  mixed.radius_min = 1e-3;
-  mixed.radius_max = 1.0;
-  mixed.grading = post::Grading::mass;
-  EXPECT_EQ(refusal(mixed).rfind("balls is '10000000'; allowed: at most ", 0), 0u) << refusal(mixed);
+}
+
+// The search for free positions looks at neighbours only, however many small balls lie beside large ones: the work goes with the number of balls.
+TEST(BedPacking, PlacesAWideGradingInATimeThatGoesWithItsBalls) {
+  PackingOptions options;
+  options.width = 1.0;
+  options.sieve = post::find_grading("WMM")->curve().coarser_than(0.3e-3);
+  const auto seconds = [&options](int balls) {
+    options.balls = balls;
+    const std::clock_t begin = std::clock();
+    EXPECT_EQ(static_cast<int>(post::pack_balls(options).balls.size()), balls);
+    return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  };
+  const double few = seconds(20'000), many = seconds(160'000);
+  EXPECT_LT(many, 25.0 * few + 0.2) << few; // with the square of their number it would be 64 times as long
 }
 
 // Too many balls for the box are refused before the first is placed; the message names the least height, with

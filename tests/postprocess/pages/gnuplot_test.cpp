@@ -92,6 +92,39 @@ TEST(Picture, ThatIsCutShortIsAnError) {
   fs::remove_all(folder);
 }
 
+// Records of zeros or constants have such figures: gnuplot takes a panel without points for an error.
+TEST(Pictures, AreDrawnOfConstantsAndWithoutPoints) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "constants";
+  fs::create_directories(folder);
+  write_files({{folder / "f.csv", "x,missing,zero,constant\n1,,0,3\n1,,0,3\n1,,0,3\n"}});
+  const auto panel = [](const std::string &x, const std::string &y, bool log) {
+    Panel one;
+    one.curves = {{"f.csv", x, y, "a curve", CurveStyle::plain}};
+    one.log_y = log;
+    one.tight_x = true;
+    return one;
+  };
+  Figure figure;
+  figure.name = "f";
+  figure.columns = 3;
+  figure.panels = {panel("1", "2", false), panel("1", "3", true),  panel("2", "1", false),
+                   panel("1", "3", false), panel("1", "4", false), panel("1", "4", true)};
+  figure.panels[3].y_range = "[0:*]";
+  figure.panels[4].x_range = "[0:*]";
+  render(find_gnuplot(), folder, figure);
+  for (const char *picture : {"f.svg", "f.png"})
+    EXPECT_TRUE(is_whole_picture(folder / picture)) << picture;
+  const std::string script = read_text(folder / "f.gp"), note = "no values to draw";
+  std::size_t notes = 0;
+  for (std::size_t at = script.find(note); at != std::string::npos; at = script.find(note, at + 1))
+    ++notes;
+  EXPECT_EQ(notes, 3U) << script;
+  // Other errors of gnuplot stay errors.
+  figure.panels[0].curves[0].data = "no such file.csv";
+  EXPECT_THROW(render(find_gnuplot(), folder, figure), std::runtime_error);
+  fs::remove_all(folder);
+}
+
 TEST(Script, HasNoRangeWithoutExtent) {
   EXPECT_EQ(axis_range(-1.0, 2.5), "[-1:2.5]");
   EXPECT_EQ(axis_range(1.0, 1.0), "");
