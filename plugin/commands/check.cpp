@@ -145,9 +145,14 @@ private:
     while (!in_.empty())
       maker += (maker.empty() ? "" : " ") + in_.word("command that makes the file");
     std::error_code failed;
+    // The name that in.bed gives to the restart file of a run that was stopped.
+    const bool stopped = std::filesystem::path(value_).filename() == "stopped.restart";
     reject_if(is_rank_0() &&
                   (!std::filesystem::is_regular_file(value_, failed) || access(value_.c_str(), R_OK) != 0),
-              "a file that can be read" + (maker.empty() ? "" : ", which '" + maker + "' makes"));
+              "a file that can be read" +
+                  (stopped         ? ", which a run writes when it is stopped, and removes when it has ended"
+                   : maker.empty() ? ""
+                                   : ", which '" + maker + "' makes"));
   }
 
   void data_file() { stop_on(is_rank_0() ? data_file_fault(value_) : ""); }
