@@ -15,10 +15,10 @@ namespace drumlin {
 /// A row of a run's parameters: a name and a value, in quotes if they need them (RFC 4180).
 std::string record_row(const std::string &name, const std::string &value);
 /// The last row: whether and why the run has ended.
-constexpr const char *ended_name = "ended";
-constexpr const char *ended_not = "no";
-constexpr const char *ended_yes = "yes";
-constexpr const char *ended_by_error = "an error, which the engine's output names";
+constexpr char ended_name[] = "ended";
+constexpr char ended_not[] = "no";
+constexpr char ended_yes[] = "yes";
+constexpr char ended_by_error[] = "an error, which the engine's output names";
 
 /// Files whose names differ by a number only, as dumps have: FOLDER/PREFIX NUMBER SUFFIX.
 struct NumberedFiles {

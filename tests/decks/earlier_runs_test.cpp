@@ -294,6 +294,20 @@ TEST(EarlierRuns, AndInputsAreNotReplaced) {
       EXPECT_FALSE(fs::exists(folder / "measured.csv.earlier"));
     }
   }
+  // The data file of in.settle has the name of the balls from which it starts.
+  run_program({DRUMLIN_TOOLS, "bed", "--balls", "20", "--width", "0.5", "--out", "bed.data"}, {},
+              folder.path());
+  const std::string balls = read_text(folder / "bed.data");
+  for (const char *deck : {"../bed/in.settle", "../bed/in.settle.lammps"}) {
+    if (std::string(deck) == "../bed/in.settle.lammps" && !post::has_lammps()) continue;
+    const Outcome settled =
+        run_deck(chain_deck(deck), {{"balls", "bed.data"}, {"bed", "bed"}}, folder.path());
+    EXPECT_EQ(settled.status, 1);
+    EXPECT_TRUE(
+        settled.says("file is 'bed.data'; allowed: another file than 'bed.data', which the run has read"))
+        << settled.output;
+    EXPECT_EQ(read_text(folder / "bed.data"), balls);
+  }
   const Outcome twice = run_host(host_properties() + host_pair_style(),
                                  "fix a all contact/events file one.csv types 1 2\n"
                                  "fix b all contact/events file one.csv types 1 2",
