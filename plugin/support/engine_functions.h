@@ -15,13 +15,6 @@ inline void log_message(const LAMMPS *lmp, const std::string &text) {
     }
 }
 
-/// A fix by its ID; nullptr if there is none.
-inline LAMMPS_NS::Fix *find_fix(LAMMPS_NS::Modify *modify, const std::string &id) {
-  const int index =
-      modify->find_fix(id.c_str()); // NOLINT(readability-redundant-string-cstr): LIGGGHTS takes a char *
-  return index < 0 ? nullptr : modify->fix[index];
-}
-
 /// Notes why the run ends before its time, in the parameters that fix drumlin/outputs knows.
 void note_end(const LAMMPS *lmp, const std::string &why);
 
@@ -41,6 +34,13 @@ inline void stop_on_fault(const LAMMPS *lmp, const std::string &command, std::st
   fault.resize(static_cast<std::size_t>(length));
   MPI_Bcast(fault.data(), length, MPI_CHAR, 0, lmp->world);
   stop(lmp, command + ": " + fault);
+}
+
+/// A fix by its ID; nullptr if there is none.
+inline LAMMPS_NS::Fix *find_fix(LAMMPS_NS::Modify *modify, const std::string &id) {
+  const int index =
+      modify->find_fix(id.c_str()); // NOLINT(readability-redundant-string-cstr): LIGGGHTS takes a char *
+  return index < 0 ? nullptr : modify->fix[index];
 }
 
 /// Whether a pair of balls of the contact law's neighbour list is counted on this rank, so that sums and

@@ -260,6 +260,7 @@ TEST_F(ToolOptions, CurvesOfABedAreNotReplaced) {
   for (const char *name : {"bed.csv", "bed_grading.csv"})
     std::ofstream(folder_ / name) << curve;
   fs::create_hard_link(folder_ / "bed.csv", folder_ / "hard.data");
+  std::ofstream(folder_ / "mine.in") << "units si\n";
   const std::vector<Bad> table = {
       {{"bed", "--sieve", "bed.csv", "--out", "bed.csv"},
        "--out is 'bed.csv'; allowed: another file than --sieve 'bed.csv'"},
@@ -269,9 +270,9 @@ TEST_F(ToolOptions, CurvesOfABedAreNotReplaced) {
        "--out is 'bed_grading.csv'; allowed: another file than --sieve 'bed_grading.csv', which is read"},
       {{"bed", "--layer", "0.1:bed.csv:20", "--out", "bed.csv"},
        "--out is 'bed.csv'; allowed: another file than --layer"},
-      {{"run", "inputs/chain/in.chain", "-log", DRUMLIN_SOURCE_DIR "/inputs/chain/in.chain"},
-       "-log is '" DRUMLIN_SOURCE_DIR "/inputs/chain/in.chain'; allowed: another file than DECK"},
-      {{"run", "inputs/bed/in.settle", "-var", "balls", "bed.csv", "-log", "hard.data"},
+      {{"run", "mine.in", "-log", "./mine.in"},
+       "-log is './mine.in'; allowed: another file than DECK 'mine.in', which is read"},
+      {{"run", "mine.in", "-var", "balls", "bed.csv", "-log", "hard.data"},
        "-log is 'hard.data'; allowed: another file than -var 'bed.csv'"}};
   for (const Bad &bad : table) {
     const post::Outcome outcome = run(bad.words);
@@ -279,6 +280,7 @@ TEST_F(ToolOptions, CurvesOfABedAreNotReplaced) {
     EXPECT_TRUE(outcome.says("ERROR: drumlin " + bad.words[0] + ": " + bad.says)) << outcome.output;
     for (const char *name : {"bed.csv", "bed_grading.csv", "hard.data"})
       EXPECT_EQ(post::read_text(folder_ / name), curve) << name;
+    EXPECT_EQ(post::read_text(folder_ / "mine.in"), "units si\n");
     EXPECT_FALSE(fs::exists(folder_ / "bed.data"));
   }
 }

@@ -659,6 +659,17 @@ TEST_F(Report, RefusesToReplaceWhatIsNoReport) {
   expect_refusal(quote(root / "runs") + " --out " + quote(root / "mine" / "thesis.txt"), "is not a folder");
 }
 
+TEST_F(Report, RefusesToReplaceWhatItReads) {
+  const fs::path place = root / "earlier";
+  fs::remove_all(place);
+  fs::copy(root / "report", place, fs::copy_options::recursive);
+  const fs::path run = copy("linked");
+  fs::rename(run / "chain.csv", place / "data/mine.csv");
+  fs::create_symlink(place / "data/mine.csv", run / "chain.csv");
+  expect_refusal(quote(run) + " --out " + quote(place), "chain.csv that is to be reported on");
+  EXPECT_TRUE(fs::exists(place / "data/mine.csv"));
+}
+
 TEST_F(Report, NamesThePackageOfAMissingGnuplot) {
   expect_refusal(quote(root / "runs") + " " + out(), "gnuplot-nox", "PATH=/nonexistent");
 }
