@@ -96,6 +96,7 @@ void keep_apart(const std::vector<GivenPath> &inputs, const std::vector<GivenPat
 std::vector<GivenPath> files_in(const char *option, const fs::path &folder,
                                 const std::vector<std::string> &names) {
   std::vector<GivenPath> files;
+  files.reserve(names.size());
   for (const std::string &name : names)
     files.push_back({option, folder / name});
   return files;
