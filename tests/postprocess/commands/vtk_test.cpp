@@ -271,8 +271,10 @@ TEST_F(VtkCommand, DoesNotReplaceTheDumps) {
   fs::create_hard_link(folder_ / "run/dump/contacts_0.dump", folder_ / "new/scene.json");
   const auto before = files("run");
   for (const auto &[out, says] :
-       {std::pair{"run/dump", "--out is 'run/dump/balls_0.vtp'; allowed: another file than DIR 'run/dump/balls_0.vtp'"},
-        {"new", "--out is 'new/scene.json'; allowed: another file than DIR 'run/dump/contacts_0.dump', which is read"}}) {
+       {std::pair{"run/dump",
+                  "--out is 'run/dump/balls_0.vtp'; allowed: another file than DIR 'run/dump/balls_0.vtp'"},
+        {"new", "--out is 'new/scene.json'; allowed: another file than DIR 'run/dump/contacts_0.dump', which "
+                "is read"}}) {
     const Outcome outcome = run({"run", "--out", out});
     EXPECT_EQ(outcome.status, 2) << outcome.output;
     EXPECT_TRUE(outcome.says(std::string("ERROR: drumlin vtk: ") + says)) << outcome.output;
