@@ -178,9 +178,8 @@ void write_checked(LAMMPS_NS::LAMMPS *lmp, const std::string &engine_command, co
   }
   MPI_Bcast(&failed, 1, MPI_INT, 0, lmp->world);
   if (failed != 0)
-    lmp->error->all(
-        FLERR, engine::error_text(fmt::format(
-                   "{} is '{}', which cannot be written; allowed: a file on a disk with room", what, file)));
+    engine::stop(lmp, fmt::format("{} is '{}', which cannot be written; allowed: a file on a disk with room",
+                                  what, file));
 }
 
 } // namespace

@@ -176,8 +176,13 @@ private:
 
   void file() {
     const std::string maker = rest();
+    // The name that in.bed gives to the restart file of a run that was stopped.
+    const bool stopped = std::filesystem::path(value_).filename() == "stopped.restart";
     reject_if(is_rank_0() && !can_be_read(value_),
-              "a file that can be read" + (maker.empty() ? "" : ", which '" + maker + "' makes"));
+              "a file that can be read" +
+                  (stopped         ? ", which a run writes when it is stopped, and removes when it has ended"
+                   : maker.empty() ? ""
+                                   : ", which '" + maker + "' makes"));
   }
 
   void data_file() { stop_on(is_rank_0() ? data_file_fault(value_) : ""); }

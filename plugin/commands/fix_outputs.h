@@ -13,9 +13,17 @@ namespace LAMMPS_NS {
 class FixOutputs : public Fix {
 public:
   FixOutputs(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) { nevery = 1; }
+  ~FixOutputs() override;
 
   /// Adds the fix to the engine, or replaces it. \param set on rank 0; nullptr on the others
   static void provide(LAMMPS *lammps, std::unique_ptr<drumlin::OutputSet> set);
+
+  /// The fix of this engine instance; nullptr if the deck has no output files.
+  static FixOutputs *of(const LAMMPS *lammps);
+  /// The run's parameters: see OutputSet::record().
+  void record(const std::string &file);
+  /// Why the run ends before its time.
+  void note_end(const std::string &why);
 
   int setmask() override { return FixConst::END_OF_STEP | FixConst::POST_RUN; }
   void setup(int) override;
@@ -35,6 +43,7 @@ private:
   std::unique_ptr<drumlin::OutputSet> set_;
   std::optional<drumlin::engine::bigint> first_;
   bool committed_ = false;
+  bool running_ = false;
 };
 
 } // namespace LAMMPS_NS

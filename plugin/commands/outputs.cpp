@@ -17,6 +17,7 @@ struct Outputs {
   engine::bigint step = 0; ///< step from which the run continues; 0: a new run
   double time = 0.0;       ///< s, at that step
   std::vector<std::string> files;
+  std::vector<std::string> inputs;   ///< files that the deck has read
   std::vector<std::string> restarts; ///< restart files, which a run that continues does not back up
   std::vector<NumberedFiles> numbered;
 };
@@ -26,8 +27,8 @@ Outputs read_outputs(Arguments &in) {
   const auto in_folder = [&outputs](const std::string &name) {
     return outputs.folder.empty() ? name : outputs.folder + '/' + name;
   };
-  const std::vector<std::string> keywords = {"folder", "subfolder", "continue",
-                                             "files",  "restart",   "numbered"};
+  const std::vector<std::string> keywords = {"folder", "subfolder", "continue", "files",
+                                             "inputs", "restart",   "numbered"};
   const auto is_keyword = [&keywords](const std::string &word) {
     return std::find(keywords.begin(), keywords.end(), word) != keywords.end();
   };
@@ -43,6 +44,9 @@ Outputs read_outputs(Arguments &in) {
     } else if (keyword == "files")
       while (!in.empty() && !is_keyword(in.peek()))
         outputs.files.push_back(in_folder(in.word("file")));
+    else if (keyword == "inputs")
+      while (!in.empty() && !is_keyword(in.peek()))
+        outputs.inputs.push_back(in.word("keyword inputs"));
     else if (keyword == "restart")
       outputs.restarts.push_back(in_folder(in.word("keyword restart")));
     else if (keyword == "numbered")
@@ -52,7 +56,7 @@ Outputs read_outputs(Arguments &in) {
         outputs.numbered.push_back({folder, prefix, in.word("keyword numbered, suffix")});
       }
     else
-      in.fail("keyword", keyword, "folder, subfolder, continue, files, restart or numbered");
+      in.fail("keyword", keyword, "inputs, folder, subfolder, continue, files, restart or numbered");
   }
   return outputs;
 }
@@ -60,6 +64,7 @@ Outputs read_outputs(Arguments &in) {
 /// Makes the folders and backs up the files of an earlier run. \param half_step s, half of the time step:
 /// rows up to the step are kept even if their time is rounded up
 void prepare(OutputSet &set, const Outputs &outputs, double half_step) {
+  set.keep(outputs.inputs);
   if (!outputs.folder.empty()) set.lock_folder(outputs.folder);
   if (!outputs.subfolder.empty()) set.make_folder(outputs.subfolder);
   for (const std::string &file : outputs.files)
@@ -67,9 +72,10 @@ void prepare(OutputSet &set, const Outputs &outputs, double half_step) {
       set.truncate_table(file, outputs.time + half_step);
     else
       set.replace(file);
-  if (outputs.step == 0)
-    for (const std::string &file : outputs.restarts)
-      set.replace(file);
+  for (const std::string &file : outputs.restarts) {
+    if (outputs.step == 0) set.replace(file);
+    set.continues_from(file);
+  }
   set.replace_numbered(outputs.numbered, outputs.step > 0 ? static_cast<long>(outputs.step) + 1 : 0);
 }
 

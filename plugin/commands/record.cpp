@@ -1,5 +1,6 @@
 #include "commands/commands.h"
 
+#include "commands/fix_outputs.h"
 #include "support/arguments.h"
 #include "support/command_line.h"
 #include "support/whole_file.h"
@@ -10,15 +11,6 @@ namespace drumlin {
 namespace {
 
 using LAMMPS_NS::LAMMPS;
-
-/// A cell of a CSV file, in quotes if it needs them (RFC 4180).
-std::string quoted(const std::string &text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text)
-    result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + "\"";
-}
 
 /// The command line of this process, after its LD_PRELOAD=..., without which LIGGGHTS would run without the
 /// plugin.
@@ -45,17 +37,20 @@ void record_command(LAMMPS *lmp, int narg, char **arg) {
   rows.emplace_back("plugin", std::string("drumlin ") + DRUMLIN_VERSION);
   rows.emplace_back("ranks", std::to_string(lmp->comm->nprocs));
   rows.emplace_back("command", command_line());
+  LAMMPS_NS::FixOutputs *outputs = LAMMPS_NS::FixOutputs::of(lmp);
+  if (outputs != nullptr) rows.emplace_back(ended_name, ended_not);
   int failed = 0;
   if (lmp->comm->me == 0) {
     std::string text = "name,value\n";
     for (const auto &[key, value] : rows)
-      text += quoted(key) + ',' + quoted(value) + '\n';
+      text += record_row(key, value);
     failed = !is_output_file(name) || !write_whole_file(name, text);
   }
   MPI_Bcast(&failed, 1, MPI_INT, 0, lmp->world);
   if (failed)
     in.fail("file is '" + name + "', which cannot be written; allowed: " + output_name_allowed +
             ", on a disk with room");
+  if (outputs != nullptr) outputs->record(name);
 }
 
 } // namespace drumlin

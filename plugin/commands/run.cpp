@@ -69,10 +69,10 @@ public:
                            now / done * static_cast<double>(last_ - update->ntimestep)));
       if (StopSignal::received(lmp)) {
         if (!restart_.empty()) write_noted_restart(lmp, restart_, notes_, "drumlin/run: keyword restart");
-        error->all(FLERR,
-                   engine::error_text(fmt::format(
-                       "drumlin/run: stopped by a signal at step {} of {}; allowed: to {}", update->ntimestep,
-                       last_, restart_.empty() ? "run to the last step" : "continue from " + restart_)));
+        engine::stop(lmp,
+                     fmt::format("drumlin/run: stopped by a signal at step {} of {}; allowed: to {}",
+                                 update->ntimestep, last_,
+                                 restart_.empty() ? "run to the last step" : "continue from " + restart_));
       }
       if (update->ntimestep < last_ && now + longest > limit_) return stop();
     }
@@ -82,9 +82,11 @@ private:
   /// Ends the engine because there is no time for another piece.
   void stop() {
     write_noted_restart(lmp, restart_, notes_, "drumlin/run: keyword restart");
-    engine::log_message(
-        lmp, fmt::format("drumlin/run: stopped at step {} of {} by limit {:.6g} s; continue from {}\n",
-                         update->ntimestep, last_, limit_, restart_));
+    const std::string end =
+        fmt::format("drumlin/run: stopped at step {} of {} by limit {:.6g} s; continue from {}",
+                    update->ntimestep, last_, limit_, restart_);
+    engine::note_end(lmp, end);
+    engine::log_message(lmp, end + "\n");
     // The engine's command `quit` would exit with status 1, but this is no error.
     MPI_Barrier(world);
     MPI_Finalize();

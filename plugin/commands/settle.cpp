@@ -58,10 +58,10 @@ public:
       unrest = measure();
       settled = is_rest(unrest);
       if (StopSignal::received(lmp))
-        error->all(FLERR, engine::error_text(fmt::format(
-                              "drumlin/settle: stopped by a signal after {} steps, unbalanced ratio {:.3g}; "
-                              "allowed: to run until it has settled",
-                              update->ntimestep - first, unrest.ratio)));
+        engine::stop(
+            lmp, fmt::format("drumlin/settle: stopped by a signal after {} steps, unbalanced ratio {:.3g}; "
+                             "allowed: to run until it has settled",
+                             update->ntimestep - first, unrest.ratio));
       const engine::bigint done = update->ntimestep - first;
       if (done / every_ % pieces_per_line == 0)
         engine::log_message(
@@ -77,16 +77,15 @@ public:
     update->beginstep = update->endstep = 0;
     const engine::bigint steps = update->ntimestep - first;
     if (!settled)
-      error->all(FLERR, engine::error_text(
-                            limit_ == 0
-                                ? fmt::format("drumlin/settle: unbalanced ratio is '{:.3g}', the scene is "
-                                              "not in equilibrium; allowed: at most "
-                                              "{:.3g}",
-                                              unrest.ratio, ratio_)
-                                : fmt::format("drumlin/settle: unbalanced ratio is '{:.3g}' after {} steps, "
-                                              "no equilibrium; allowed: at most {:.3g} "
-                                              "within {} steps (a scene without damping never comes to rest)",
-                                              unrest.ratio, steps, ratio_, limit_)));
+      engine::stop(lmp, limit_ == 0
+                            ? fmt::format("drumlin/settle: unbalanced ratio is '{:.3g}', the scene is "
+                                          "not in equilibrium; allowed: at most "
+                                          "{:.3g}",
+                                          ratio, ratio_)
+                            : fmt::format("drumlin/settle: unbalanced ratio is '{:.3g}' after {} steps, "
+                                          "no equilibrium; allowed: at most {:.3g} "
+                                          "within {} steps (a scene without damping never comes to rest)",
+                                          ratio, steps, ratio_, limit_));
     engine::log_message(
         lmp, fmt::format("drumlin/settle: unbalanced ratio {:.3g} after {} steps{}\n", unrest.ratio, steps,
                          unrest.ratio <= ratio_

@@ -193,18 +193,18 @@ void FixGuard::end_links() {
 
 void FixGuard::check_limits(bigint step) const {
   if (deepest_.value > overlap_)
-    error->all(FLERR, drumlin::engine::error_text(fmt::format(
-                          "fix guard: overlap of {} is '{:.3g}' of the smaller radius at step {}; allowed: "
-                          "at most {:.3g} of it "
-                          "(usual causes: contacts too soft for their load, balls created with overlap)",
-                          pair_name(deepest_.ball, deepest_.partner), deepest_.value, step, overlap_)));
+    drumlin::engine::stop(
+        lmp, fmt::format("fix guard: overlap of {} is '{:.3g}' of the smaller radius at step {}; allowed: "
+                         "at most {:.3g} of it "
+                         "(usual causes: contacts too soft for their load, balls created with overlap)",
+                         pair_name(deepest_.ball, deepest_.partner), deepest_.value, step, overlap_));
   if (update->dt > step_ * critical_.value)
-    error->all(FLERR, drumlin::engine::error_text(fmt::format(
-                          "fix guard: time step is '{:.4g} s' at step {}, where ball {:.0f} has the critical "
-                          "step {:.4g} s (mostly "
-                          "because of the link of {}); allowed: at most {:.4g} s",
-                          update->dt, step, critical_.ball, critical_.value,
-                          pair_name(critical_.ball, critical_.partner), step_ * critical_.value)));
+    drumlin::engine::stop(
+        lmp, fmt::format("fix guard: time step is '{:.4g} s' at step {}, where ball {:.0f} has the critical "
+                         "step {:.4g} s (mostly "
+                         "because of the link of {}); allowed: at most {:.4g} s",
+                         update->dt, step, critical_.ball, critical_.value,
+                         pair_name(critical_.ball, critical_.partner), step_ * critical_.value));
 }
 
 void FixGuard::log_at_setup() {
@@ -246,10 +246,9 @@ void FixGuard::check_numbers() {
       }
   std::array<double, 9> all{};
   MPI_Allreduce(mine.data(), all.data(), 9, MPI_DOUBLE, MPI_SUM, world);
-  error->all(FLERR,
-             drumlin::engine::error_text(fmt::format("fix guard: ball {} is '{} {} {} m, {} {} {} m/s, {} {} "
-                                                     "{} N' (position, velocity, force) at step {}; allowed: "
-                                                     "finite numbers (usual cause: too large a time step)",
-                                                     worst, all[0], all[1], all[2], all[3], all[4], all[5],
-                                                     all[6], all[7], all[8], update->ntimestep)));
+  drumlin::engine::stop(lmp, fmt::format("fix guard: ball {} is '{} {} {} m, {} {} {} m/s, {} {} "
+                                         "{} N' (position, velocity, force) at step {}; allowed: "
+                                         "finite numbers (usual cause: too large a time step)",
+                                         worst, all[0], all[1], all[2], all[3], all[4], all[5], all[6],
+                                         all[7], all[8], update->ntimestep));
 }

@@ -34,10 +34,9 @@ void RollerBody::locate(engine::LAMMPS *lmp, const std::array<double, 3> &axis, 
   motion.x = position - origin;
   motion.v = all[1] / mass;
   if (!std::isfinite(motion.x) || !std::isfinite(motion.v))
-    lmp->error->all(FLERR,
-                    engine::error_text(fmt::format("fix roller/history: {} is '{} m, {} m/s' at step {}; "
-                                                   "allowed: finite position and velocity",
-                                                   name, motion.x, motion.v, lmp->update->ntimestep)));
+    engine::stop(lmp, fmt::format("fix roller/history: {} is '{} m, {} m/s' at step {}; "
+                                  "allowed: finite position and velocity",
+                                  name, motion.x, motion.v, lmp->update->ntimestep));
 }
 
 } // namespace drumlin

@@ -15,6 +15,15 @@ inline void log_message(const LAMMPS *lmp, const std::string &text) {
     }
 }
 
+/// Notes why the run ends before its time, in the parameters that fix drumlin/outputs knows.
+void note_end(const LAMMPS *lmp, const std::string &why);
+
+/// Ends the run on all ranks with the line "ERROR: TEXT", and notes it in the run's parameters. Collective.
+inline void stop(const LAMMPS *lmp, const std::string &text) {
+  note_end(lmp, text);
+  lmp->error->all(FLERR, engine::error_text(text));
+}
+
 /// Ends the run on all ranks with the line "ERROR: COMMAND: FAULT" if rank 0 has found a fault. Collective.
 /// \param fault on rank 0 "KEYWORD is 'VALUE'; allowed: WHAT", or empty if all is well; ignored on other
 /// ranks
@@ -24,7 +33,7 @@ inline void stop_on_fault(const LAMMPS *lmp, const std::string &command, std::st
   if (length == 0) return;
   fault.resize(static_cast<std::size_t>(length));
   MPI_Bcast(fault.data(), length, MPI_CHAR, 0, lmp->world);
-  lmp->error->all(FLERR, engine::error_text(command + ": " + fault));
+  stop(lmp, command + ": " + fault);
 }
 
 /// The bit of a group, by its number, in the masks of balls: both engines number bits as groups. (LAMMPS means to hide

@@ -4,8 +4,11 @@
 #include "engine.h"
 #include "support/whole_file.h"
 
+#include <cerrno>
 #include <cstdio>
 #include <string>
+#include <sys/file.h>
+#include <unistd.h>
 
 namespace drumlin {
 
@@ -38,11 +41,19 @@ public:
     opened_ = true;
     int failed = 0;
     if (comm->me == 0) {
-      file_ = std::fopen(name_.c_str(), append_ ? "a" : "w");
-      if (file_ && (!append_ || std::ftell(file_) == 0)) std::fprintf(file_, "%s\n", header);
-      failed = file_ == nullptr;
+      // Opened without truncating it: a file that another fix writes is refused, and stays as it is.
+      file_ = std::fopen(name_.c_str(), "a");
+      if (file_ == nullptr)
+        failed = 1;
+      else if (flock(fileno(file_), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+        failed = taken;
+      else if (!append_ && ftruncate(fileno(file_), 0) != 0)
+        failed = 1;
+      else if (!append_ || std::ftell(file_) == 0)
+        std::fprintf(file_, "%s\n", header);
     }
-    stop_if(failed, name_, error, world, what, output_name_allowed);
+    stop_if(failed, name_, error, world, what,
+            failed == taken ? "a file that no other fix and no other run writes" : output_name_allowed);
   }
 
   const std::string &name() const { return name_; }
@@ -55,6 +66,8 @@ public:
   }
 
 private:
+  static constexpr int taken = 2; ///< another fix or run writes the file
+
   static void stop_if(int failed, const std::string &name, LAMMPS_NS::Error *error, MPI_Comm world,
                       const std::string &what, const std::string &allowed) {
     MPI_Bcast(&failed, 1, MPI_INT, 0, world);

@@ -15,6 +15,7 @@
 #include <stdexcept>
 #include <sys/file.h>
 #include <unistd.h>
+#include <utility>
 
 namespace drumlin {
 
@@ -74,6 +75,16 @@ bool is_whole_dump(const fs::path &file) {
   return !text.empty() && text.back() == '\n' && left <= 0;
 }
 
+/// Replaces the last row of a run's parameters; not of a file that does not end with it.
+void replace_end(const std::string &file, const std::string &before, const std::string &now) {
+  std::ifstream in(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (text.size() < before.size() || text.compare(text.size() - before.size(), before.size(), before) != 0)
+    return;
+  text.erase(text.size() - before.size());
+  write_whole_file(file, text + now);
+}
+
 /// All sets of this process that are not destroyed, of all engine instances: when a command fails, the engine
 /// calls exit() without destroying its fixes, and only a function of the process, registered by atexit(), can
 /// then restore the files.
@@ -82,19 +93,32 @@ std::set<OutputSet *> &open_sets() {
   return sets;
 }
 
+/// A cell of a CSV file.
+std::string quoted(const std::string &text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char c : text)
+    result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return result + "\"";
+}
+
 } // namespace
+
+std::string record_row(const std::string &name, const std::string &value) {
+  return quoted(name) + ',' + quoted(value) + '\n';
+}
 
 OutputSet::OutputSet() {
   open_sets().insert(this);
   static const int registered = std::atexit([] {
     for (OutputSet *set : open_sets())
-      set->roll_back();
+      set->finish(ended_by_error);
   });
   static_cast<void>(registered);
 }
 
 OutputSet::~OutputSet() {
-  if (!committed_) roll_back();
+  finish(ended_yes);
   open_sets().erase(this);
   if (folder_lock_ >= 0) close(folder_lock_);
 }
@@ -128,6 +152,10 @@ void OutputSet::back_up(const fs::path &file) {
     files_.emplace(file, false);
     return;
   }
+  for (const std::string &input : inputs_)
+    if (fs::equivalent(file, input, code))
+      throw std::runtime_error(fmt::format(
+          "file is '{}'; allowed: another file than '{}', which the run has read", file.string(), input));
   fs::rename(file, backup_of(file), code);
   if (code)
     throw std::runtime_error(fmt::format(
@@ -223,9 +251,25 @@ void OutputSet::commit() {
     if (kept) fs::remove(backup_of(file), code);
 }
 
+void OutputSet::note_end(const std::string &why) {
+  const std::string before = record_row(ended_name, end_.empty() ? ended_not : end_);
+  end_ = why;
+  if (committed_ && !record_.empty()) replace_end(record_, before, record_row(ended_name, end_));
+}
+
+void OutputSet::finish(const std::string &otherwise) {
+  if (!committed_) return roll_back();
+  if (end_.empty()) note_end(otherwise);
+  std::error_code code;
+  if (end_ == ended_yes)
+    for (const std::string &file : restarts_)
+      if (is_output_file(file)) fs::remove(file, code);
+}
+
 void OutputSet::roll_back() {
-  if (committed_) return;
   committed_ = true; // so that exit() does not roll back a second time
+  record_.clear();
+  restarts_.clear();
   std::error_code code;
   for (const NumberedFiles &pattern : numbered_)
     for (const fs::path &file : files_in(pattern.folder))

@@ -426,14 +426,17 @@ std::string data_text(const std::vector<PackingOptions> &parts, const std::strin
       packing.balls.size(), smallest, largest, grading, options.width, options.depth, packing.height,
       options.seed);
   auto out = std::back_inserter(text);
-  const Sieving sizes = sieved_if(packing, options.dimensions(), [](const PackedBall &) { return true; });
-  const std::pair<const char *, double> notes[] = {{"r_min", smallest},
-                                                   {"r_max", largest},
-                                                   {"d50", sizes.size(0.5)},
-                                                   {"C_u", grain_sizes(sizes).uniformity()}};
-  fmt::format_to(out, "# drumlin note grading {}\n", grading); // drumlin/take of in.settle reads these lines
-  for (const auto &[name, value] : notes)
-    fmt::format_to(out, "# drumlin note {} {}\n", name, value);
+  std::string medians, uniformities; // of each layer
+  for (std::size_t n = 0; n < parts.size(); ++n) {
+    const GrainSizes sizes = grain_sizes(sieved_layer(packing, options.dimensions(), static_cast<int>(n)));
+    medians += fmt::format("{}{}", n == 0 ? "" : ",", sizes.d50);
+    uniformities += fmt::format("{}{}", n == 0 ? "" : ",", sizes.uniformity());
+  }
+  // drumlin/take of in.settle reads these lines.
+  fmt::format_to(out,
+                 "# drumlin note grading {}\n# drumlin note r_min {}\n# drumlin note r_max {}\n"
+                 "# drumlin note d50 {}\n# drumlin note C_u {}\n",
+                 grading, smallest, largest, medians, uniformities);
   text += more;
   fmt::format_to(out, "\n{} atoms\n{} atom types\n\n", packing.balls.size(), parts.size() + roller_types);
   fmt::format_to(out, "{:.17g} {:.17g} xlo xhi\n0 {:.17g} ylo yhi\n{:.17g} {:.17g} zlo zhi\n",

@@ -120,8 +120,8 @@ Packing pack_layers(const std::vector<BedLayer> &layers,
 /// a ball in kg/m3, of a disc 1 m thick. The header notes for later decks: the grading as one word, the radii of the
 /// smallest and largest ball, m, d50, m, and C_u.
 std::string bed_data(const PackingOptions &options, double density, const Packing &packing);
-/// The same for a bed of layers. Of the notes the grading is that of each layer, the lowest first, joined by +; the
-/// others are of all balls; the number of layers and their thicknesses are noted, too.
+/// The same for a bed of layers. Of the notes the grading is that of each layer, the lowest first, joined by +, d50 and C_u
+/// are those of each layer, separated by commas, and the radii are of all balls; the number of layers and their thicknesses are noted, too.
 std::string bed_data(const std::vector<BedLayer> &layers, double density, const Packing &packing);
 
 /// The balls of a packing sorted by size.

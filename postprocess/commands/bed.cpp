@@ -170,6 +170,30 @@ void judge_layers(const Arguments &arguments, BedRequest &request) {
   judge_effects(arguments);
 }
 
+/// The figure of a grading beside the balls, and its files.
+std::string grading_figure(const fs::path &out) { return out.stem().string() + "_grading"; }
+std::vector<std::string> grading_files(const fs::path &out) {
+  const std::string figure = grading_figure(out);
+  return {figure + ".csv", figure + ".gp", figure + ".svg", figure + ".png"};
+}
+
+/// Refuses results in the place of a curve that is read.
+void keep_curves(const Arguments &arguments, const fs::path &out) {
+  std::vector<GivenPath> curves;
+  const auto add = [&curves](const char *option, const std::string &text) {
+    if (find_grading(text) == nullptr) curves.push_back({option, path_option(option, text)});
+  };
+  if (arguments.sieve) add("--sieve", *arguments.sieve);
+  for (const std::string &layer : arguments.layers) {
+    std::vector<std::string> parts;
+    boost::split(parts, layer, [](char letter) { return letter == ':'; });
+    if (parts.size() > 1) add("--layer", parts[1]);
+  }
+  std::vector<GivenPath> outputs = files_in("--out", out.parent_path(), grading_files(out));
+  outputs.push_back({"--out", out});
+  keep_apart(curves, outputs);
+}
+
 void run(const Arguments &arguments) {
   BedRequest request;
   PackingOptions &options = request.packing;
@@ -180,6 +204,7 @@ void run(const Arguments &arguments) {
   options.seed = seed_option("--seed", arguments.seed);
   request.density = number_option("--density", arguments.density, {1e-3, 1e6, "kg/m3"});
   request.out = output_file_option("--out", arguments.out);
+  keep_curves(arguments, request.out);
   try {
     options.grading = grading_from_name(arguments.grading);
     judge_sieve(arguments, request);
@@ -314,7 +339,7 @@ void write_bed(const BedRequest &request) {
     throw UsageError(fmt::format("--{}", fault.what()));
   }
   const std::vector<GradingPair> gradings = grading_pairs(request, packing);
-  const std::string figure = out.stem().string() + "_grading";
+  const std::string figure = grading_figure(out);
   std::optional<FilesInProgress> files;
   try {
     if (out.has_parent_path()) make_parent_folder(out);
@@ -341,8 +366,7 @@ void write_bed(const BedRequest &request) {
     drawn.panels.push_back(grading_panel(figure, pair));
   }
   render(gnuplot, (*files / figure).parent_path(), drawn);
-  files->publish({figure + ".csv", figure + ".gp", figure + ".svg", figure + ".png"},
-                 [](const std::string &) { return false; });
+  files->publish(grading_files(out), [](const std::string &) { return false; });
   fmt::print("{}: the grading of the bed beside the one asked for\n",
              (folder / (figure + ".png")).lexically_normal().string());
 }

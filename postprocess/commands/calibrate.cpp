@@ -117,6 +117,7 @@ void run(const Arguments &arguments, const std::string &command) {
   const int records = count_option("--records", arguments.records, 1, most);
   StudyOptions options;
   options.out = output_folder_option("--out", arguments.out);
+  keep_apart({}, {{"--out", options.out, true}});
   options.fresh = arguments.fresh;
   check_engine_path(options.out);
   open_study(options);

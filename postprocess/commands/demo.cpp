@@ -48,6 +48,7 @@ constexpr int least_balls = 300;
 /// The narrowest box, m: the drum is 0.7 m wide.
 constexpr double least_width = 1.0;
 
+constexpr const char *results_folder = "results/demo";
 constexpr const char *page_folder = "report";
 
 struct Arguments {
@@ -227,7 +228,7 @@ private:
     print(fmt::format(" {:5.1f} s\n", time.count()));
   }
 
-  const fs::path results_ = "results/demo", bed_ = results_ / "bed", start_ = bed_ / "roller.restart";
+  const fs::path results_ = results_folder, bed_ = results_ / "bed", start_ = bed_ / "roller.restart";
   Plan plan_;
   fs::path decks_;
   bool with_lammps_;
@@ -249,7 +250,8 @@ void run(const Arguments &arguments) {
         fmt::format("results and report are written to the working folder '{}'; allowed: one that "
                     "can be written",
                     fs::current_path().string()));
-  output_folder_option("report", page_folder);
+  keep_apart({}, {{"the folder", results_folder, true},
+                  {"the report", output_folder_option("report", page_folder), true}});
   std::signal(SIGPIPE, SIG_IGN); // print() reports a closed pipe
   bool with_lammps = engine_fault(Engine::lammps).empty();
   if (with_lammps)

@@ -14,6 +14,7 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 namespace drumlin::post {
@@ -34,6 +35,7 @@ struct Arguments {
 
 struct Task {
   ChainParameters parameters;
+  std::optional<double> me_re; ///< kg m, from which Fw follows; none: Fw is given
   DirectOptions options;
   fs::path out;
 };
@@ -43,7 +45,9 @@ constexpr std::array<const char *, 4> file_names = {"chain.csv", "events.csv", "
 
 Task judge(const Arguments &arguments) {
   Task task;
-  task.parameters = judged(arguments.chain);
+  const NamedChain chain = judged_chain(arguments.chain);
+  task.parameters = chain.parameters;
+  task.me_re = chain.me_re;
   DirectOptions &options = task.options;
   options.cycles = number_option("--cycles", arguments.cycles, DirectOptions::cycles_range);
   options.samples_per_cycle =
@@ -55,6 +59,7 @@ Task judge(const Arguments &arguments) {
   if (fault.empty()) fault = too_much_work(task.parameters, options);
   if (!fault.empty()) throw UsageError("--" + fault);
   task.out = output_folder_option("--out", arguments.out);
+  keep_apart({}, files_in("--out", task.out, {file_names.begin(), file_names.end()}));
   for (const char *name : file_names)
     try {
       check_output_file(task.out / name);
@@ -76,7 +81,8 @@ std::vector<std::pair<std::string, std::string>> record(const Arguments &argumen
                  {"samples_per_cycle", fmt::format("{}", task.options.samples_per_cycle)},
                  {"solver", fmt::format("{} {}", direct_solver_name(), cost.bdf ? "Adams and BDF" : "Adams")},
                  {"rtol", number_text(task.options.rtol)},
-                 {"command", command}});
+                 {"command", command},
+                 {"ended", "yes"}});
   return values;
 }
 
@@ -95,9 +101,14 @@ void run(const Arguments &arguments, const std::string &command) {
                {task.out / file_names[1], events_text(result.events)},
                {task.out / file_names[2], cycles_text(result.cycles)},
                {task.out / file_names[3], parameters_text(record(arguments, task, result.cost, command))}});
-  fmt::print("{}: {} samples, {} events, {} cycles (case {}, transition {}; {} steps)\n", task.out.string(),
-             result.history.size(), result.events.size(), result.cycles.size(), arguments.chain.chain_case,
-             arguments.chain.transition, result.cost.steps);
+  const std::string of_moment =
+      task.me_re
+          ? fmt::format(", of the eccentric moment {:g} kg m of the case, whatever the masses", *task.me_re)
+          : "";
+  fmt::print("{}: {} samples, {} events, {} cycles (case {}, transition {}; {} steps), Fw {:g} N{}\n",
+             task.out.string(), result.history.size(), result.events.size(), result.cycles.size(),
+             arguments.chain.chain_case, arguments.chain.transition, result.cost.steps, task.parameters.Fw,
+             of_moment);
 }
 
 } // namespace

@@ -66,6 +66,7 @@ fs::path judged_folder(const std::string &text) {
 void run(const Arguments &arguments) {
   const RecordSetting setting = judge(arguments);
   const fs::path place = judged_folder(arguments.out);
+  keep_apart(files_of(arguments.record), {{"--out", place, true}});
   const Record record = judged(arguments.record);
   if (arguments.compare) require_comparable(record);
   TimedProgress progress;

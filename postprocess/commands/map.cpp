@@ -153,6 +153,7 @@ Task judge(const MapArguments &arguments) {
         judge_corner(grid.at(x, y));
   judge_engine(arguments, task);
   task.out = output_folder_option("--out", arguments.out);
+  keep_apart({}, {{"--out", task.out, true}});
   return task;
 }
 
@@ -163,6 +164,12 @@ std::string settings(const Task &task) {
                        axis.log ? ":log" : "");
   };
   std::vector<std::pair<std::string, std::string>> values = parameter_values(grid.chain.base);
+  const auto is_axis = [&task, &grid](const char *name) {
+    return task.sweep ? task.sweep->name == name : grid.x.name == name || grid.y.name == name;
+  };
+  const bool varies = is_axis("Fw") || is_axis("me_re") || (grid.chain.me_re && is_axis("omega"));
+  for (auto &[name, value] : values)
+    if (name == "Fw") value = varies ? "" : number_text(grid.chain.with({}).Fw);
   values.emplace_back("me_re", grid.chain.me_re ? number_text(*grid.chain.me_re) : "");
   if (task.sweep) {
     values.emplace_back("sweep", words(*task.sweep));

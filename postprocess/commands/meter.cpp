@@ -85,7 +85,11 @@ Task judge(const Arguments &arguments) {
     task.passes.speed = number_option("--speed", *arguments.speed, Range{1e-3, 1e3, "km/h"});
   task.passes.pass = count_option("--pass", arguments.pass, 1, 65535);
   task.out = checked_out(arguments.out);
-  if (arguments.exported) task.exported = output_file_option("--export", *arguments.exported);
+  std::vector<GivenPath> outputs = {{"--out", task.out, true}};
+  if (arguments.exported)
+    outputs.push_back(
+        {"--export", task.exported.emplace(output_file_option("--export", *arguments.exported))});
+  keep_apart(files_of(arguments.record), outputs);
   return task;
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 
@@ -101,6 +102,15 @@ void add_record_options(CLI::App &command, RecordArguments &arguments) {
             number.help)
         ->type_name("NUMBER")
         ->group("Measured records");
+}
+
+std::vector<GivenPath> files_of(const RecordArguments &arguments) {
+  const std::vector<std::string> of_run = {"chain.csv", "bed.csv", "cycles.csv", "parameters.csv"};
+  const std::filesystem::path path = path_option("RECORD", arguments.record);
+  const bool folder = std::filesystem::is_directory(path);
+  if (!folder && std::find(of_run.begin(), of_run.end(), path.filename()) == of_run.end())
+    return {{"RECORD", path}};
+  return files_in("RECORD", folder ? path : path.parent_path(), of_run);
 }
 
 Record judged(const RecordArguments &arguments) {

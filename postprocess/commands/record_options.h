@@ -3,6 +3,7 @@
 #pragma once
 
 #include "record/record.h"
+#include "support/options.h"
 
 #include <filesystem>
 #include <optional>
@@ -26,6 +27,9 @@ struct RecordArguments {
 
 /// Adds RECORD, --column and so on; `arguments` must outlive the app.
 void add_record_options(CLI::App &command, RecordArguments &arguments);
+
+/// The files that make up the record: of a run all from which it may be read.
+std::vector<GivenPath> files_of(const RecordArguments &arguments);
 
 /// Reads the record that was asked for; UsageError for options that cannot be used, std::runtime_error for a file that cannot.
 Record judged(const RecordArguments &arguments);

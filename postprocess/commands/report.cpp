@@ -28,10 +28,12 @@ void print_report(const ReportArguments &arguments) {
   if (outcome.checks.all > 0)
     fmt::print("{} of {} checks against reference values agree\n", outcome.checks.agree, outcome.checks.all);
   if (outcome.checks.not_judged > 0)
-    fmt::print("{} values are not judged, for their runs are too short; these are long enough:\n",
+    fmt::print("{} values are not judged, for their runs are too short or were cut; these are long enough:\n",
                outcome.checks.not_judged);
   for (const std::string &command : outcome.judging_commands)
     fmt::print("  {}\n", command);
+  for (const LeftOut &folder : outcome.left_out)
+    fmt::print("left out: {}: {}\n", folder.folder.string(), folder.why);
   fmt::print("{}\n", outcome.page.string());
 }
 

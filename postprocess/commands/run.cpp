@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstddef>
 #include <cstdio>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,22 @@ constexpr int most_ranks = 1'000'000;
 
 std::string usage() { return fmt::format("{} run [-np N] DECK [engine arguments]", front_command()); }
 
+/// Refuses a log in the place of the deck or of a file that a variable names.
+void keep_inputs(const std::filesystem::path &deck, const std::vector<std::string> &words) {
+  std::vector<GivenPath> inputs = {{"DECK", deck}}, logs;
+  bool values = false; // words behind -var
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string &word = words[i];
+    if (!word.empty() && word.front() == '-')
+      values = word == "-var" || word == "-v";
+    else if (values && std::filesystem::is_regular_file(word))
+      inputs.push_back({"-var", word});
+    const bool log = word == "-log" || word == "-l" || word == "-screen" || word == "-sc";
+    if (log && i + 1 < words.size() && words[i + 1] != "none") logs.push_back({word, words[i + 1]});
+  }
+  keep_apart(inputs, logs);
+}
+
 void run(const std::vector<std::string> &words) {
   int ranks = 1;
   std::size_t next = 0;
@@ -31,7 +48,9 @@ void run(const std::vector<std::string> &words) {
   if (next >= words.size()) throw UsageError("the deck is missing; allowed: " + usage());
   const std::string &deck = words[next];
   const std::vector<std::string> rest(words.begin() + static_cast<std::ptrdiff_t>(next) + 1, words.end());
-  EngineCommand command = engine_command(find_deck(deck), plain_words(rest), ranks);
+  const std::filesystem::path file = find_deck(deck);
+  keep_inputs(file, rest);
+  EngineCommand command = engine_command(file, plain_words(rest), ranks);
   if (engine_of(deck) == Engine::lammps)
     if (const std::string fault = lammps_package_fault(); !fault.empty()) throw UsageError(fault);
 

@@ -49,6 +49,10 @@ constexpr std::array<const char *, 3> collections = {"balls.pvd", "contacts.pvd"
 /// Ranges over all steps that a picture needs, for postprocess/paraview/bed.py.
 constexpr const char *scene_name = "scene.json";
 
+std::string balls_name(long step) { return fmt::format("balls_{}.vtp", step); }
+std::string contacts_name(long step) { return fmt::format("contacts_{}.vtp", step); }
+std::string fields_name(long step) { return fmt::format("fields_{}.vti", step); }
+
 bool is_ours(const std::string &name) {
   static const std::regex pattern(R"((balls|contacts)(_\d+\.vtp|\.pvd)|fields(_\d+\.vti|\.pvd)|scene\.json)");
   return std::regex_match(name, pattern);
@@ -253,6 +257,19 @@ void check_out(const fs::path &out) {
                       out.string(), entry.path().filename().string(), collections[0]));
 }
 
+/// Refuses a folder in which the results would replace a file of the run.
+void keep_run(const fs::path &folder, const fs::path &out, const std::map<long, StepDump> &steps) {
+  std::vector<GivenPath> read = {{"DIR", folder / "parameters.csv"}};
+  std::vector<std::string> written = {collections.begin(), collections.end()};
+  written.emplace_back(scene_name);
+  for (const auto &[step, dump] : steps) {
+    read.push_back({"DIR", dump.balls});
+    if (!dump.contacts.empty()) read.push_back({"DIR", dump.contacts});
+    written.insert(written.end(), {balls_name(step), contacts_name(step), fields_name(step)});
+  }
+  keep_apart(read, files_in("--out", out, written));
+}
+
 /// The parameters of the run, and the values that are the same for all its steps; incomplete steps are
 /// removed from `steps`. UsageError for files that cannot be used.
 std::pair<RunParameters, Bed> read_run(const fs::path &folder, const fs::path &out,
@@ -278,13 +295,15 @@ FieldGrid grid_for(const VtkArguments &arguments, const Bed &bed) {
   }
 }
 
-std::string scene_text(const Bed &bed, const RunParameters &run, const Sizes &sizes) {
+/// Times, s, and vertical forces of the soil on the drum, N, of the steps whose contacts are known.
+using DrumForces = std::vector<std::pair<double, double>>;
+
+std::string scene_text(const Bed &bed, const RunParameters &run, const Sizes &sizes,
+                       const DrumForces &forces) {
   const auto corners = [](const Bounds &bounds) { return nlohmann::json{bounds.low, bounds.high}; };
-  nlohmann::json scene = {{"dimension", bed.flat ? 2 : 3},
-                          {"mean_diameter", bed.mean_diameter},
-                          {"bounds", corners(bed.all)},
-                          {"soil_bounds", corners(bed.soil)},
-                          {"sizes", sizes.json()}};
+  nlohmann::json scene = {{"dimension", bed.flat ? 2 : 3}, {"mean_diameter", bed.mean_diameter},
+                          {"bounds", corners(bed.all)},    {"soil_bounds", corners(bed.soil)},
+                          {"sizes", sizes.json()},         {"force_on_drum", forces}};
   if (run.omega) scene["period"] = 2.0 * pi / *run.omega;
   return scene.dump(1) + "\n";
 }
@@ -300,11 +319,13 @@ void write_vtk_series(const VtkArguments &arguments) {
     throw UsageError(refusal("DIR", folder.string(),
                              "the folder of a bed run with dumps, with dump/balls_STEP.vtp or .dump"));
   const auto [parameters, bed] = read_run(folder, out, steps);
+  keep_run(folder, out, steps);
   const FieldGrid grid = grid_for(arguments, bed);
 
   std::vector<std::string> names;
   Series series;
   Sizes sizes;
+  DrumForces forces;
   try {
     FilesInProgress files(out);
     TimedProgress progress;
@@ -320,13 +341,13 @@ void write_vtk_series(const VtkArguments &arguments) {
       const std::optional<BedContacts> contacts = contacts_of(dump, step, balls);
       ContactSums sums;
       if (contacts) sums = {coordination(balls.size(), contacts->balls), ball_pressures(balls, *contacts)};
-      write_ball_points(add(0, fmt::format("balls_{}.vtp", step)), balls, sums,
-                        values_of_step(time, parameters, balls, contacts));
+      const StepValues values = values_of_step(time, parameters, balls, contacts);
+      if (contacts) forces.emplace_back(time, values.back().second);
+      write_ball_points(add(0, balls_name(step)), balls, sums, values);
       add_sizes(sizes, balls, sums, contacts);
       if (contacts) {
-        write_contact_lines(add(1, fmt::format("contacts_{}.vtp", step)), balls, *contacts);
-        write_field_image(add(2, fmt::format("fields_{}.vti", step)), grid,
-                          coarse_grained(balls, contacts->balls, grid));
+        write_contact_lines(add(1, contacts_name(step)), balls, *contacts);
+        write_field_image(add(2, fields_name(step)), grid, coarse_grained(balls, contacts->balls, grid));
       }
       progress.tell("{} of {} steps written", ++done, steps.size());
     }
@@ -337,7 +358,7 @@ void write_vtk_series(const VtkArguments &arguments) {
         texts.emplace_back(files / collections[i], collection_text(series[i]));
       }
     names.emplace_back(scene_name);
-    texts.emplace_back(files / scene_name, scene_text(bed, parameters, sizes));
+    texts.emplace_back(files / scene_name, scene_text(bed, parameters, sizes, forces));
     write_files(texts);
     files.publish(names, is_ours);
   } catch (const fs::filesystem_error &fault) {

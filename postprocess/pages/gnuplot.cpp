@@ -195,12 +195,19 @@ std::string curve_script(const Curve &curve) {
                      style_words(curve), title);
 }
 
-/// Rows that the legend of a panel needs below axes of a width in px. Keys have columns as wide as the
-/// longest name.
-int legend_rows(const Panel &panel, int width) {
-  constexpr double letter = 8.8;    // px
-  constexpr std::size_t sample = 6; // letters that line sample and gap take
-  constexpr double margins = 90.0;  // px, left and right of the axes
+/// The legend of a panel, below its axes.
+struct Legend {
+  int rows = 1;
+  /// Letters by which gnuplot is to make each column wider than its names. It thinks that letters are wider in SVG files
+  /// than they are, and would need more rows there, which would lie on the axis label.
+  int wider_png = 0, wider_svg = 0;
+};
+
+/// \param width of the panel, px. Keys have columns as wide as the longest name.
+Legend legend_of(const Panel &panel, int width) {
+  constexpr double letter = 8.8, letter_svg = 10.5; // px; the latter in gnuplot's reckoning
+  constexpr double sample = 6.0, sample_svg = 5.6;  // letters that line sample and gap take
+  constexpr double margins = 90.0;                  // px, left and right of the axes
   std::size_t longest = 0;
   int names = 0;
   for (const Curve &curve : panel.curves) {
@@ -208,9 +215,15 @@ int legend_rows(const Panel &panel, int width) {
     longest = std::max(longest, curve.title.size());
     ++names;
   }
-  const int per_row =
-      std::max(1, static_cast<int>((width - margins) / (letter * static_cast<double>(longest + sample))));
-  return std::max(1, (names + per_row - 1) / per_row);
+  const auto letters = static_cast<double>(longest);
+  const int per_row = std::max(1, static_cast<int>((width - margins) / (letter * (letters + sample))));
+  Legend legend;
+  legend.rows = std::max(1, (names + per_row - 1) / per_row);
+  legend.wider_png = legend.rows > 1 ? 0 : -2;
+  const double column = letter * (letters + sample) / letter_svg; // letters of gnuplot's in SVG
+  legend.wider_svg =
+      std::min(legend.wider_png, static_cast<int>(std::floor(column - (letters + sample_svg))));
+  return legend;
 }
 
 /// \param width of the panel in px
@@ -226,11 +239,12 @@ std::string panel_script(const Panel &panel, int width, bool is_empty) {
   s += panel.log_x && !panel.plain_numbers ? "  set format x '10^{%T}'\n" : "  set format x '%g'\n";
   s += panel.log_y ? "  set logscale y\n  set format y '10^{%T}'\n" : "  set format y '%g'\n";
   s += fmt::format("  set yrange {}\n", panel.y_range.empty() ? "[*:*]" : panel.y_range);
-  const int rows = legend_rows(panel, width);
+  const Legend legend = legend_of(panel, width);
   const double tics_and_label = panel.x_ticks.empty() ? 4.0 : 2.0; // lines of text
   const double row = 1.4;
-  s += fmt::format("  set bmargin {}\n  set key maxrows {} width {}\n",
-                   tics_and_label + row * rows + tic_lines(panel), rows, rows > 1 ? 0 : -2);
+  s += fmt::format("  set bmargin {}\n  set key maxrows {} width (kind eq \"svg\" ? {} : {})\n",
+                   tics_and_label + row * legend.rows + tic_lines(panel), legend.rows, legend.wider_svg,
+                   legend.wider_png);
   s += x_axis_script(panel);
   if (panel.equal_scales) s += "  set size ratio -1\n";
   s += color_script(panel);

@@ -68,6 +68,7 @@ class Scene:
             self.bounds = read["bounds"]
             self.mean_diameter = float(read["mean_diameter"])
             self.period = read.get("period")
+            self.forces = [(float(time), float(force)) for time, force in read.get("force_on_drum", [])]
             self.sizes = {name: float(size["quantile_99"]) or float(size["largest"]) for name, size in read["sizes"].items()}
             if "coordination" in self.sizes:  # whole numbers: a scale has room for all
                 self.sizes["coordination"] = float(read["sizes"]["coordination"]["largest"])
@@ -116,6 +117,16 @@ def whole_steps(folder, names):
     if not times:
         raise Fault("DIR is '%s': no step has all its files (%s)" % (folder, ", ".join(names)))
     return times, files
+
+
+def time_of_picture(scene, times, wanted):
+    """The step next to the wanted time; without one that with the largest force of the soil on the drum, of those with the same the
+    first; the last one where no force is known."""
+    if wanted is None:
+        near = {"%.9g" % time: time for time in times}
+        forces = [(force, near["%.9g" % time]) for time, force in scene.forces if "%.9g" % time in near]
+        return max(forces, key=lambda found: (found[0], -found[1]))[1] if forces else times[-1]
+    return min(times, key=lambda time: abs(time - wanted))
 
 
 def reader(folder, name, times, files):
@@ -359,7 +370,7 @@ def show_text(balls, scene, contacts, view, font):
 
 
 def show(folder, colour="speed", contacts=True, most=None, cycle=None, size=None):
-    """Shows the run in the active view, or in a new one; returns view, its size and the times."""
+    """Shows the run in the active view, or in a new one; returns view, its size, the times and the scene."""
     scene = Scene(folder)
     contacts = contacts and os.path.isfile(os.path.join(folder, "contacts.pvd"))
     times, files = whole_steps(folder, ["balls", "contacts"] if contacts else ["balls"])
@@ -388,7 +399,7 @@ def show(folder, colour="speed", contacts=True, most=None, cycle=None, size=None
     if contacts:
         show_contacts(reader(folder, "contacts", times, files["contacts"]), scene, view)
     show_text(balls, scene, contacts, view, font)
-    return view, size, times
+    return view, size, times, scene
 
 
 def selected_folder():
@@ -423,7 +434,7 @@ def main(words):
     parser.add_argument("--colour", choices=sorted(COLOURS), default="speed", help="of the soil balls (default: speed)")
     parser.add_argument("--max", type=above_zero(float), metavar="VALUE",
                         help="upper end of the colours, in the unit shown (default: what 99 %% of the soil balls never exceed)")
-    parser.add_argument("--time", type=float, metavar="S", help="of the picture [s]; the step next to it is shown (default: the last)")
+    parser.add_argument("--time", type=float, metavar="S", help="of the picture [s]; the step next to it is shown (default: that with the largest force of the soil on the drum)")
     parser.add_argument("--cycle", type=above_zero(int), metavar="N", help="only this cycle of the excitation, from 1 (default: all)")
     parser.add_argument("--png", metavar="FILE", help="a picture")
     parser.add_argument("--animation", metavar="FILE", help="all steps: .avi or .ogv, or .png for a numbered series")
@@ -438,15 +449,14 @@ def main(words):
             raise Fault("%s is '%s'; allowed: a file ending in %s" % (option, file, ", ".join(endings)))
         if file and not os.access(os.path.dirname(os.path.abspath(file)), os.W_OK):  # ParaView itself would continue
             raise Fault("%s is '%s'; allowed: a file in a folder that can be written to" % (option, file))
-    view, size, times = show(given.folder, given.colour, not given.no_contacts, given.max, given.cycle, given.size)
+    view, size, times, scene = show(given.folder, given.colour, not given.no_contacts, given.max, given.cycle, given.size)
     view.ViewSize = size
     animation = pv.GetAnimationScene()
     animation.UpdateAnimationUsingDataTimeSteps()  # as ParaView with windows does by itself
-    wanted = times[-1] if given.time is None else given.time
-    animation.AnimationTime = view.ViewTime = min(times, key=lambda time: abs(time - wanted))
+    animation.AnimationTime = view.ViewTime = time_of_picture(scene, times, given.time)
     if given.png:
         pv.SaveScreenshot(given.png, view, ImageResolution=size, CompressionLevel="9")
-        print(given.png)
+        print("%s: t = %.6g s" % (given.png, view.ViewTime))
     if given.animation:
         pv.SaveAnimation(given.animation, view, ImageResolution=size, FrameRate=25, FrameWindow=[0, len(times) - 1])
         print(given.animation)

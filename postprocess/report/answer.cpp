@@ -106,7 +106,7 @@ Answer reference_values_answer(const ReportResults &results) {
   if (count.not_judged > 0)
     answer.sentences.push_back(
         {fmt::format("{} values are not judged: the reference values are of steady states, "
-                     "which need runs of {} cycles or more; the table of runs has the "
+                     "which need runs of {} cycles or more that have ended; the table of runs has the "
                      "commands for such runs.",
                      count.not_judged, long_run_cycles),
          count.all > 0 ? "" : "Agreement."});
@@ -213,12 +213,13 @@ void add_group(Answer &answer, const BedGroup &group) {
   std::vector<std::string> names;
   std::vector<int> steady;
   int cycles = run.complete;
-  bool good = true;
+  bool good = true, judged = true;
   for (const BedResult *result : group.runs) {
     names.push_back(result->run.name);
     steady.push_back(result->measures.steady_count);
     cycles = std::min(cycles, result->measures.cycles);
     good = good && energy_is_good(result->measures);
+    judged = judged && result->run.cut.empty();
   }
   const std::string scene =
       fmt::format("A roller on {} balls ({}): drum {:g} kg, frame {:g} kg, exciter {:g} kN at {:g} Hz",
@@ -250,7 +251,7 @@ void add_group(Answer &answer, const BedGroup &group) {
     answer.sentences.push_back({fmt::format(
         "The energy error is {} of the exciter's work.",
         of_each(group, [](const BedMeasures &m) { return fmt::format("{:.3f} %", m.imbalance_percent); }))});
-  if (answer.verdict != Verdict::bad) answer.verdict = good ? Verdict::good : Verdict::bad;
+  if (answer.verdict != Verdict::bad && judged) answer.verdict = good ? Verdict::good : Verdict::bad;
 }
 
 } // namespace

@@ -18,10 +18,20 @@ std::string fixed(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : dash;
 }
 
-/// A size that the files of the bed note, as a multiple of a unit; a dash in runs of beds of earlier versions.
+/// A size that the files of the bed note, as a multiple of a unit, or a list of those of the layers; a dash in runs
+/// of beds of earlier versions.
 std::string noted(const Run &run, const std::string &name, double per_unit) {
   const std::string text = run.text(name, "unknown");
-  return text == "unknown" ? dash : fmt::format("{:.3g}", *run.number(name) * per_unit);
+  if (text == "unknown") return dash;
+  std::string sizes;
+  for (std::size_t at = 0, end = 0; end != std::string::npos; at = end + 1) {
+    end = text.find(',', at);
+    Run part;
+    part.folder = run.folder;
+    part.parameters[name] = text.substr(at, end - at);
+    sizes += fmt::format("{}{:.3g}", at == 0 ? "" : ", ", part.number(name).value_or(0.0) * per_unit);
+  }
+  return sizes;
 }
 
 /// "Run bed/B (condition B)" or "Runs bed/B (condition B) and bed/A (condition A)".
@@ -126,9 +136,9 @@ PageTable state_table(const std::vector<BedResult> &beds) {
                fixed(m.coordination_end, 3), fixed(m.void_ratio_start, 4), fixed(m.void_ratio_end, 4),
                fixed(m.imbalance_percent, 3), fixed(m.depth_percent, 1), result.run.text("grading", dash),
                sizes, noted(result.run, "d50", 1e3), noted(result.run, "C_u", 1.0)},
-              !std::isfinite(m.imbalance_percent) ? RowState::plain
-              : energy_is_good(m)                 ? RowState::agrees
-                                                  : RowState::differs);
+              !std::isfinite(m.imbalance_percent) || !result.run.cut.empty() ? RowState::plain
+              : energy_is_good(m)                                            ? RowState::agrees
+                                                                             : RowState::differs);
   }
   state.notes.emplace_back(
       "Settlement: mean position of the drum over a cycle, below its position at rest, "
@@ -142,9 +152,7 @@ PageTable state_table(const std::vector<BedResult> &beds) {
       "lowest point before the excitation, below the mean surface that the soil had before the drum was "
       "placed, "
       "away from the drum; negative above. Grading, sizes (diameters), d50 and Cu = d60 / d10, by mass, are "
-      "those "
-      "of all "
-      "balls that drumlin bed made.");
+      "those of the balls that drumlin bed made; of layers of each, the lowest first.");
   return state;
 }
 

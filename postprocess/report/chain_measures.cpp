@@ -212,6 +212,9 @@ void judge(Check &check, double value, double low, double high, double tolerance
     check.agreement = Agreement::differs; // also if the value is not a number
 }
 
+/// Whether a run's steady state is compared with the reference values.
+bool is_judged(const Run &run) { return run.cut.empty() && run.complete >= long_run_cycles; }
+
 Check steady_check(std::size_t index, const RunResult &result, const ReferenceValue &reference) {
   Check check;
   check.run = index;
@@ -227,7 +230,7 @@ Check steady_check(std::size_t index, const RunResult &result, const ReferenceVa
   if (count) check.reference = "none";
   check.tolerance =
       reference.tolerance == 0.0 ? "exact" : fmt::format("{:.{}f}", reference.tolerance, decimals);
-  const bool judged = result.run.complete >= long_run_cycles;
+  const bool judged = is_judged(result.run);
   const std::optional<double> value = measured(*result.chain, result.run.has_events, reference.quantity);
   if (!value) {
     if (!judged) check.agreement = Agreement::not_judged;
@@ -292,6 +295,7 @@ void compare_impact(std::size_t index, const RunResult &result, std::vector<Chec
       check.note.clear();
     }
   }
+  if (!result.run.cut.empty()) check.agreement = Agreement::not_judged;
   checks.push_back(std::move(check));
 }
 
@@ -320,6 +324,7 @@ void compare_words(ReportResults &results) {
       judge(check, largest, 0.0, 0.0, 1.0e-6, 0.0);
       check.measured = fmt::format("{:.2g}", largest);
     }
+    if (!one_a->run.cut.empty() || !one_b->run.cut.empty()) check.agreement = Agreement::not_judged;
     results.words.push_back(check);
   }
   const RunResult *two = best_run(results, "II", Transition::B);
@@ -335,8 +340,7 @@ void compare_words(ReportResults &results) {
     judge(check, three->chain->extremes.acceleration.max / two->chain->extremes.acceleration.max,
           reference.ratio, reference.ratio, reference.tolerance, 0.005);
     check.measured = fmt::format("{:.4f}", check.value);
-    if (two->run.complete < long_run_cycles || three->run.complete < long_run_cycles)
-      check.agreement = Agreement::not_judged;
+    if (!is_judged(two->run) || !is_judged(three->run)) check.agreement = Agreement::not_judged;
     results.words.push_back(check);
   }
   const RunResult *four = best_run(results, "IV", Transition::A);
@@ -349,7 +353,7 @@ void compare_words(ReportResults &results) {
     check.source = "paper, section 4.1.4: \"remains in the sinusoidal shape\"";
     judge(check, four->chain->amplitudes.second / four->chain->amplitudes.fundamental, 0.0, 0.0, 1.0e-4, 0.0);
     check.measured = fmt::format("{:.2g}", check.value);
-    if (four->run.complete < long_run_cycles) check.agreement = Agreement::not_judged;
+    if (!is_judged(four->run)) check.agreement = Agreement::not_judged;
     results.words.push_back(check);
   }
 }
@@ -414,8 +418,8 @@ void compare(ReportResults &results) {
 const RunResult *best_run(const ReportResults &results, const std::string &case_name, Transition transition) {
   const auto rank = [](const RunResult &result) {
     const double error = result.chain->velocity_error_last;
-    return std::tuple(!result.run.at_case, result.run.complete < long_run_cycles, result.run.direct,
-                      std::isnan(error) ? std::numeric_limits<double>::infinity() : error);
+    return std::tuple(!result.run.cut.empty(), !result.run.at_case, result.run.complete < long_run_cycles,
+                      result.run.direct, std::isnan(error) ? std::numeric_limits<double>::infinity() : error);
   };
   const RunResult *best = nullptr;
   for (const RunResult &result : results.runs) {

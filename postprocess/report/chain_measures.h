@@ -58,7 +58,7 @@ enum class Agreement {
   tolerance,   ///< within the stated tolerance
   differs,
   not_measured,
-  not_judged ///< the run has too few cycles for the reference values
+  not_judged ///< the run was cut, or has too few cycles for the reference values
 };
 
 /// One comparison, in the reference's unit.
@@ -116,7 +116,7 @@ RunResult analyse(Run run, DirectSolutions &direct);
 /// Compares all runs with the reference values: fills checks, restitution and words.
 void compare(ReportResults &results);
 
-/// The run that the figures show for a case and a transition. Preferred are, in this order: runs with the
+/// The run that the figures show for a case and a transition. Preferred are, in this order: runs that were not cut, those with the
 /// parameters of the case, long runs, runs in an engine, and the smallest velocity error. nullptr if there is
 /// no such run.
 const RunResult *best_run(const ReportResults &results, const std::string &case_name, Transition transition);

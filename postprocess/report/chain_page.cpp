@@ -4,6 +4,8 @@
 #include "report/answer.h"
 #include "report/engine_comparison.h"
 
+#include "support/text.h"
+
 #include <utility>
 
 #include <fmt/format.h>
@@ -72,6 +74,11 @@ std::string opening_html(const ReportContent &content) {
         {fmt::format("{} {}.", studies,
                      studies == 1 ? "study has a page of its own" : "studies have pages of their own"),
          "Studies."});
+  if (const std::size_t others = content.left_out.size(); others > 0)
+    answer.sentences.push_back(
+        {fmt::format("{} left out, and not judged: the last section says why.",
+                     others == 1 ? "One folder is" : fmt::format("{} folders are", others)),
+         "Left out."});
   return answer_html(answer.sentences, answer.verdict, scene_html(scene_of(content))) +
          key_figures_html(content.keys);
 }
@@ -105,6 +112,16 @@ std::string versions_html(const ReportContent &content) {
          "</p>\n";
 }
 
+/// Folders that are not part of the report, and why.
+std::string left_out_html(const std::vector<LeftOut> &folders) {
+  if (folders.empty()) return {};
+  std::string s = "<h3 id=\"left_out\">Left out</h3>\n<ul>\n";
+  for (const LeftOut &folder : folders)
+    s += fmt::format("<li><code>{}</code>: {}</li>\n", html_escaped(valid_utf8(folder.folder.string())),
+                     html_escaped(folder.why));
+  return s + "</ul>\n";
+}
+
 std::string contents_of(const Section &section, const ReportContent &content) {
   const std::string id = section.id;
   std::string s;
@@ -113,7 +130,7 @@ std::string contents_of(const Section &section, const ReportContent &content) {
   for (const PageTable &table : content.tables)
     if (table.section == id) s += table_html(table);
   if (id == "studies") s += studies_html(content.studies);
-  if (id == "runs") s += versions_html(content);
+  if (id == "runs") s += left_out_html(content.left_out) + versions_html(content);
   return s.empty() ? "<p class=\"absent\">The given runs have nothing for this section.</p>\n" : s;
 }
 

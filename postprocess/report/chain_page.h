@@ -43,6 +43,7 @@ struct ReportContent {
   std::vector<PageTable> bed_tables;
   std::vector<PageTable> tables; ///< all, those of beds included
   std::vector<StudyLink> studies;
+  std::vector<LeftOut> left_out; ///< runs that were cut, and what cannot be read
   ReportVersions versions;
 };
 

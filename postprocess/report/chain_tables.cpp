@@ -55,7 +55,8 @@ std::string case_text(const Run &run) {
 }
 
 /// Whether an error is small enough to be marked as good; plain if it was not measured.
-RowState state_of_error(double relative) {
+RowState state_of_error(const Run &run, double relative) {
+  if (!run.cut.empty()) return RowState::plain;
   return std::isnan(relative)               ? RowState::plain
          : std::abs(relative) <= good_error ? RowState::agrees
                                             : RowState::differs;
@@ -69,7 +70,7 @@ std::string range_text(const std::optional<Extremes> &extremes, double scale, in
   return low == high ? low : low + " to " + high;
 }
 
-std::string agreement_text(const Check &check) {
+std::string agreement_text(const Check &check, const Run &run) {
   std::string words;
   switch (check.agreement) {
   case Agreement::same_digits:
@@ -85,7 +86,7 @@ std::string agreement_text(const Check &check) {
     words = "not measured";
     break;
   case Agreement::not_judged:
-    words = "not judged (short run)";
+    words = run.cut.empty() ? "not judged (short run)" : "not judged (cut run)";
     break;
   }
   return words;
@@ -114,7 +115,7 @@ void add_check(PageTable &table, const ReportResults &results, const Check &chec
              number && std::isfinite(check.relative_difference)
                  ? fmt::format("{:.1e}", check.relative_difference)
                  : dash,
-             check.tolerance, agreement_text(check), direct, from_direct, check.note, check.source},
+             check.tolerance, agreement_text(check, run), direct, from_direct, check.note, check.source},
             check.agrees()                             ? RowState::agrees
             : check.agreement == Agreement::not_judged ? RowState::plain
                                                        : RowState::differs);
@@ -166,10 +167,12 @@ PageTable runs_table(const ReportResults &results) {
   for (std::size_t i = 0; i < results.runs.size(); ++i) {
     const Run &run = results.runs[i].run;
     const CheckCount count = count_checks(results, i);
-    const std::string cycles =
-        run.kind == RunKind::chain
-            ? fmt::format("{}{}", run.complete, run.complete < long_run_cycles ? " (short run)" : "")
-            : dash;
+    const std::string cycles = run.kind == RunKind::chain
+                                   ? fmt::format("{}{}", run.complete,
+                                                 !run.cut.empty()                 ? " (cut)"
+                                                 : run.complete < long_run_cycles ? " (short run)"
+                                                                                  : "")
+                                   : dash;
     table.add({run.name, case_text(run), transition_text(run),
                run.direct ? "exact" : run.text("stepping", dash), steps_text(run), cycles, engine_text(run),
                run.direct ? dash : run.text("ranks", dash), run.direct ? dash : run.text("plugin", dash),
@@ -182,11 +185,12 @@ PageTable runs_table(const ReportResults &results) {
                                          : RowState::differs);
     if (run.kind == RunKind::chain && !run.at_case)
       table.notes.push_back(fmt::format("{} has no reference values: {}.", run.name, run.not_at_case));
-    if (count.not_judged > 0)
+    if (count.not_judged > 0 && run.kind == RunKind::chain)
       table.notes.push_back(
-          fmt::format("{}: {} values are not judged, since the run has {} cycles and the reference values "
+          fmt::format("{}: {} values are not judged, since the run {} {} cycles and the reference values "
                       "need {}. This command makes a run that is long enough: {}",
-                      run.name, count.not_judged, run.complete, long_run_cycles, judging_command(run)));
+                      run.name, count.not_judged, run.cut.empty() ? "has" : "was cut after", run.complete,
+                      long_run_cycles, judging_command(run)));
     for (const std::string &missing : run.missing)
       table.notes.push_back(fmt::format("{}: {}", run.name, missing));
   }
@@ -232,7 +236,7 @@ PageTable events_table(const ReportResults &results) {
                    ? fmt::format("{:.3g}", match.largest_difference / run.timestep)
                    : dash,
                paired ? fmt::format("{:.4f}", match.at_time) : dash},
-              !result.reference ? RowState::plain
+              !result.reference || !run.cut.empty() ? RowState::plain
               : match.run_count == match.reference_count && match.matched == match.run_count
                   ? RowState::agrees
                   : RowState::differs);
@@ -310,7 +314,7 @@ PageTable errors_table(const ReportResults &results) {
                fmt::format("{}", run.complete), scientific(m.velocity_error_last),
                m.velocity_error_25_to_30 ? scientific(*m.velocity_error_25_to_30) : dash,
                known ? scientific(*known) : dash, stock ? scientific(*stock) : dash},
-              state_of_error(m.velocity_error_last));
+              state_of_error(run, m.velocity_error_last));
     interpolated = interpolated || m.reference_interpolated;
   }
   table.notes.emplace_back(
@@ -355,7 +359,7 @@ PageTable energy_table(const ReportResults &results) {
                joule(e.change_kinetic), joule(e.change_potential), joule(e.change_stored_contact),
                joule(e.change_stored_bond), scientific(e.energy_error()),
                scientific(e.energy_error_percent())},
-              state_of_error(0.01 * e.energy_error_percent()));
+              state_of_error(result.run, 0.01 * e.energy_error_percent()));
   }
   if (!table.rows.empty())
     table.notes.insert(
@@ -396,7 +400,7 @@ PageTable roller_table(const ReportResults &results) {
                fmt::format("{:.3g}", force.largest_difference), fmt::format("{:.6g}", force.largest_force),
                scientific(force.largest_difference / force.largest_force),
                fmt::format("{:.5f}", force.at_time), fmt::format("{}", force.rows)},
-              state_of_error(force.largest_difference / force.largest_force));
+              state_of_error(result.run, force.largest_difference / force.largest_force));
   }
   if (!table.rows.empty())
     table.notes.insert(
@@ -480,9 +484,10 @@ std::vector<PageTable> make_tables(const ReportResults &results) {
       "solver) over the same cycles, evaluated in the same way.",
       measured_words(results)));
   if (count_checks(results).not_judged > 0)
-    steady.notes.push_back(fmt::format("Short run: fewer than {} cycles. Its state may not yet be steady to "
-                                       "the digits given.",
-                                       long_run_cycles));
+    steady.notes.push_back(
+        fmt::format("Short run: fewer than {} cycles, or cut. Its state may not yet be steady to "
+                    "the digits given.",
+                    long_run_cycles));
   tables.push_back(std::move(steady));
 
   PageTable words = check_table("reference", "paper_words", "What the paper says in words");

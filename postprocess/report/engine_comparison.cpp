@@ -58,7 +58,7 @@ double event_distance(const Run &one, const Run &other) {
 std::vector<std::pair<std::size_t, std::size_t>> engine_pairs(const ReportResults &results) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   const auto is_engine = [](const Run &run) {
-    return run.kind == RunKind::chain && !run.direct && !engine_name(run).empty();
+    return run.kind == RunKind::chain && run.cut.empty() && !run.direct && !engine_name(run).empty();
   };
   for (std::size_t a = 0; a < results.runs.size(); ++a)
     for (std::size_t b = 0; b < results.runs.size(); ++b) {

@@ -23,9 +23,13 @@ fs::path checked_place(const fs::path &out, const ReportFolders &folders) {
     if (!fs::is_directory(place)) refuse("is not a folder");
     if (!fs::is_empty(place) && !fs::is_regular_file(place / summary_file)) refuse("holds other files");
     const std::string inside = fs::canonical(place).string() + "/";
-    for (const fs::path &folder : folders.all())
+    for (const fs::path &folder : folders.all()) {
       if ((fs::canonical(folder).string() + "/").rfind(inside, 0) == 0)
         refuse("holds the folder " + folder.string() + " that is to be reported on");
+      for (const fs::directory_entry &entry : fs::directory_iterator(folder))
+        if (entry.is_regular_file() && fs::canonical(entry.path()).string().rfind(inside, 0) == 0)
+          refuse("holds the file " + entry.path().string() + " that is to be reported on");
+    }
   }
   try {
     make_output_folder(place.parent_path());

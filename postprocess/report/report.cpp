@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -37,17 +38,52 @@ std::string gnuplot_version(const fs::path &gnuplot, const fs::path &scratch) {
   return text.empty() ? "gnuplot" : text;
 }
 
-/// Reads all run folders. Throws UsageError for whatever cannot be read, since the input is at fault then.
-std::vector<Run> read_runs(const std::vector<fs::path> &folders) {
-  std::vector<Run> runs;
+/// A folder with a file that cannot be read, as of a run that was killed while it wrote.
+LeftOut unreadable(const fs::path &folder, const std::string &why) {
+  std::string cut;
   try {
-    for (const fs::path &folder : folders)
-      runs.push_back(read_run(folder));
-    name_runs(runs);
-  } catch (const std::runtime_error &error) {
-    throw UsageError(error.what());
+    const std::map<std::string, std::string> parameters = read_parameters(folder / "parameters.csv");
+    if (parameters.count("ended") != 0) cut = why_cut(parameters);
+  } catch (const std::runtime_error &) { // then that is why
   }
+  return {folder, cut.empty() ? why : fmt::format("{}; {}", cut, why), !cut.empty()};
+}
+
+/// Reads the run folders; those that cannot be read are left out.
+std::vector<Run> read_runs(const std::vector<fs::path> &folders, std::vector<LeftOut> &left_out) {
+  std::vector<Run> runs;
+  for (const fs::path &folder : folders)
+    try {
+      runs.push_back(read_run(folder));
+    } catch (const std::runtime_error &error) {
+      left_out.push_back(unreadable(folder, error.what()));
+    }
+  name_runs(runs);
   return runs;
+}
+
+/// Reads the runs of element tests for their pages; those that were cut or cannot be read are left out.
+std::vector<std::pair<ElementTest, PageWriter>> read_element_tests(const ReportFolders &folders,
+                                                                   std::vector<LeftOut> &left_out) {
+  std::vector<std::pair<ElementTest, PageWriter>> pages;
+  for (const ElementTest &test : element_tests()) {
+    const auto found = folders.element_tests.find(test.name);
+    if (found == folders.element_tests.end()) continue;
+    std::vector<fs::path> whole;
+    for (const fs::path &folder : found->second)
+      try {
+        if (const std::string cut = why_cut(read_parameters(folder / "parameters.csv")); !cut.empty()) {
+          left_out.push_back({folder, cut, true});
+        } else {
+          test.read({folder});
+          whole.push_back(folder);
+        }
+      } catch (const std::runtime_error &error) {
+        left_out.push_back(unreadable(folder, error.what()));
+      }
+    if (!whole.empty()) pages.emplace_back(test, test.read(whole));
+  }
+  return pages;
 }
 
 /// The title of a study's page as plain text; its folder's name if the page has none.
@@ -88,9 +124,9 @@ void as_usage(const Work &work) {
   }
 }
 
-/// Measures the runs and plans tables and figures.
-ReportContent make_content(std::vector<Run> runs, const ProgressSink &say) {
-  const bool any_beds =
+/// Measures the runs and plans tables and figures; runs with tables that cannot be read are left out.
+ReportContent make_content(std::vector<Run> runs, std::vector<LeftOut> left_out, const ProgressSink &say) {
+  bool any_beds =
       std::any_of(runs.begin(), runs.end(), [](const Run &run) { return run.kind == RunKind::bed; });
   CountedProgress reading(runs.size() + (any_beds ? 1 : 0), "runs", say);
   ReportContent content;
@@ -99,13 +135,18 @@ ReportContent make_content(std::vector<Run> runs, const ProgressSink &say) {
     reading.begins(run.kind == RunKind::chain
                        ? fmt::format("{}: reference solution and measured values", run.name)
                        : fmt::format("{}: measured values", run.name));
-    as_usage([&] {
+    const fs::path place = run.folder;
+    try {
       if (run.kind == RunKind::bed)
         content.beds.push_back(analyse_bed(std::move(run)));
       else
         content.results.runs.push_back(analyse(std::move(run), direct));
-    });
+    } catch (const std::runtime_error &error) {
+      left_out.push_back(unreadable(place, error.what()));
+    }
   }
+  content.left_out = std::move(left_out);
+  any_beds = !content.beds.empty();
   compare(content.results);
   const bool only_beds = content.results.runs.empty() && any_beds;
   if (!only_beds) {
@@ -182,13 +223,14 @@ ReportOutcome write_report(const ReportOptions &options) {
     folders = find_report_folders(options.folders);
     place = checked_place(options.out, folders);
   });
-  std::vector<std::pair<ElementTest, PageWriter>> element_pages;
-  as_usage([&] {
-    for (const ElementTest &test : element_tests())
-      if (const auto found = folders.element_tests.find(test.name); found != folders.element_tests.end())
-        element_pages.emplace_back(test, test.read(found->second));
-  });
-  ReportContent content = make_content(read_runs(folders.runs), options.progress);
+  const auto element_pages = read_element_tests(folders, folders.left_out);
+  std::vector<Run> runs = read_runs(folders.runs, folders.left_out);
+  ReportContent content = make_content(std::move(runs), std::move(folders.left_out), options.progress);
+  if (content.results.runs.empty() && content.beds.empty() && element_pages.empty() &&
+      folders.studies.empty() &&
+      std::none_of(content.left_out.begin(), content.left_out.end(),
+                   [](const LeftOut &folder) { return folder.cut; }))
+    throw UsageError(content.left_out.front().why);
   choose_keys(content);
   CountedProgress drawing(content.figures.figures.size() + content.figures.absent.size() +
                               content.bed_figures.figures.size() + content.bed_figures.absent.size() + 1,
@@ -209,7 +251,8 @@ ReportOutcome write_report(const ReportOptions &options) {
   if (!content.beds.empty()) pages.emplace_back(folder / "bed.html", bed_page(content));
   write_files(pages);
   draft.publish();
-  return {place / "index.html", count_checks(content.results), judging_commands(content.results)};
+  return {place / "index.html", count_checks(content.results), judging_commands(content.results),
+          content.left_out};
 }
 
 } // namespace drumlin::post

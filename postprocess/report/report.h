@@ -24,6 +24,7 @@ struct ReportOutcome {
   std::filesystem::path page; ///< index.html
   CheckCount checks;
   std::vector<std::string> judging_commands; ///< that repeat runs which are too short to be judged, each once
+  std::vector<LeftOut> left_out;             ///< runs that were cut, and what cannot be read
 };
 
 /// Makes the report in a temporary folder next to `out` and moves it there when it is complete. Throws

@@ -10,6 +10,7 @@
 
 #include "chain/reference_values.h"
 #include "report/element_tests.h"
+#include "report/place.h"
 #include "support/text.h"
 #include "support/usage_error.h"
 
@@ -41,6 +42,25 @@ std::vector<fs::path> *list_of(const fs::path &folder, ReportFolders &found) {
   for (const ElementTest &test : element_tests())
     if (fs::is_regular_file(folder / test.csv())) return &found.element_tests[test.name];
   return nullptr;
+}
+
+/// Whether a folder has what an interrupted call of a tool leaves.
+bool is_unfinished(const fs::path &folder) {
+  const std::string name = folder.filename().string();
+  return name.front() == '.' || name.rfind("unfinished.", 0) == 0;
+}
+
+/// A run that was cut before it wrote a table; nothing if the folder is none.
+std::optional<LeftOut> cut_at_start(const fs::path &folder) {
+  const fs::path file = folder / "parameters.csv";
+  if (!fs::is_regular_file(file)) return std::nullopt;
+  try {
+    const std::map<std::string, std::string> parameters = read_parameters(file);
+    if (parameters.count("ended") != 0)
+      if (const std::string why = why_cut(parameters); !why.empty()) return LeftOut{folder, why, true};
+  } catch (const std::runtime_error &) { // a file of that name which is something else
+  }
+  return std::nullopt;
 }
 
 /// Sets `value` to a parameter; adds its name to `absent` if the run does not have it.
@@ -195,6 +215,9 @@ void read_parameter_texts(Run &run, bool bed) {
   }
   for (const auto &[name, value] : read_parameters(file))
     run.parameters.emplace(valid_utf8(name), valid_utf8(value));
+  run.cut = why_cut(run.parameters);
+  run.parameters.erase("ended");
+  if (!run.cut.empty()) run.missing.push_back(fmt::format("not judged: {}.", run.cut));
 }
 
 /// Takes the parameters over, by the kind of run.
@@ -281,6 +304,17 @@ std::vector<fs::path> ReportFolders::all() const {
   return folders;
 }
 
+std::string why_cut(const std::map<std::string, std::string> &parameters) {
+  const auto found = parameters.find("ended");
+  if (found == parameters.end())
+    return "its parameters.csv does not say whether it has ended, as of a run by drumlin 0.2 or earlier, or "
+           "by a "
+           "deck without drumlin/outputs";
+  if (found->second == "yes") return {};
+  if (found->second == "no") return "it was killed, or is still running";
+  return "it was cut: " + found->second;
+}
+
 std::string files_of_runs() {
   std::vector<std::string> files = {"chain.csv", "bed.csv"};
   for (const ElementTest &test : element_tests())
@@ -304,6 +338,7 @@ ReportFolders find_report_folders(const std::vector<fs::path> &arguments) {
           fmt::format("'{}' is no folder; allowed are run folders (with {}), studies and parents of them",
                       argument.string(), files_of_runs()));
     ReportFolders found;
+    std::vector<LeftOut> earlier_reports;
     if (std::vector<fs::path> *own = list_of(argument, found))
       own->push_back(argument);
     else
@@ -311,11 +346,25 @@ ReportFolders find_report_folders(const std::vector<fs::path> &arguments) {
            end;
            entry != end; ++entry) {
         if (!entry->is_directory()) continue;
+        if (is_unfinished(entry->path())) {
+          entry.disable_recursion_pending();
+          continue;
+        }
+        if (fs::is_regular_file(entry->path() / summary_file)) {
+          entry.disable_recursion_pending();
+          earlier_reports.push_back({entry->path(), "it is an earlier report"});
+          continue;
+        }
         std::vector<fs::path> *list = list_of(entry->path(), found);
         if (list == &found.studies) entry.disable_recursion_pending();
-        if (list != nullptr) list->push_back(entry->path());
+        if (list != nullptr)
+          list->push_back(entry->path());
+        else if (std::optional<LeftOut> cut = cut_at_start(entry->path()))
+          found.left_out.push_back(std::move(*cut));
       }
-    if (found.all().empty())
+    if (found.all().empty() && found.left_out.empty())
+      if (std::optional<LeftOut> cut = cut_at_start(argument)) found.left_out.push_back(std::move(*cut));
+    if (found.all().empty() && found.left_out.empty())
       throw UsageError(
           fmt::format("'{}' has neither {} nor a study in it or below it; allowed are run folders, "
                       "studies and parents of them",
@@ -324,6 +373,9 @@ ReportFolders find_report_folders(const std::vector<fs::path> &arguments) {
     take(found.studies, folders.studies);
     for (auto &[name, of_test] : found.element_tests)
       take(of_test, folders.element_tests[name]);
+    found.left_out.insert(found.left_out.end(), earlier_reports.begin(), earlier_reports.end());
+    for (LeftOut &folder : found.left_out)
+      if (seen.insert(fs::canonical(folder.folder)).second) folders.left_out.push_back(std::move(folder));
   }
   return folders;
 }

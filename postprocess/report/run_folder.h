@@ -27,6 +27,7 @@ struct Run {
   std::string name; ///< end of the folder's path, as short as distinguishes the runs
   RunKind kind = RunKind::unknown;
   std::map<std::string, std::string> parameters; ///< all of parameters.csv, as text
+  std::string cut;                               ///< why the run is not judged: see why_cut(); empty: it is
   std::vector<std::string> missing; ///< sentences: what is missing, and what the report lacks because of it
 
   std::string case_name;     ///< "I" to "IV", or another name from parameters.csv; empty if it has none
@@ -54,20 +55,32 @@ struct Run {
   Transition transition() const { return kind == RunKind::impact ? impact.transition : chain.transition; }
 };
 
+/// A folder that the report only names.
+struct LeftOut {
+  std::filesystem::path folder;
+  std::string why;
+  bool cut = false; ///< a run that was cut; otherwise a folder that cannot be read, or an earlier report
+};
+
 /// The folders that a report is made from.
 struct ReportFolders {
   std::vector<std::filesystem::path> runs;    ///< hold chain.csv or bed.csv
   std::vector<std::filesystem::path> studies; ///< hold index.html and study.txt, or regimes.csv of a map
   std::map<std::string, std::vector<std::filesystem::path>> element_tests; ///< by name of the test
+  std::vector<LeftOut> left_out; ///< earlier reports, and runs that were cut before their first row
 
   std::vector<std::filesystem::path> all() const;
 };
+
+/// Why a run is not judged, by the row `ended` of its parameters: it was cut, or does not say that it has ended.
+/// Empty if it has ended.
+std::string why_cut(const std::map<std::string, std::string> &parameters);
 
 /// The files by which folders of runs are recognised, in words: "chain.csv, bed.csv, ... or ...".
 std::string files_of_runs();
 
 /// Run and study folders: each argument is such a folder, or has some below it at any depth. Runs within a
-/// study folder belong to the study and are left out. Sorted below each argument, each folder once. Throws
+/// study folder belong to the study and are left out, as are earlier reports and unfinished folders. Sorted below each argument, each folder once. Throws
 /// UsageError naming an argument without any.
 ReportFolders find_report_folders(const std::vector<std::filesystem::path> &arguments);
 

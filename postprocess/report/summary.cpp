@@ -38,6 +38,7 @@ Json bed_json(const BedResult &bed) {
   Json json;
   json["name"] = bed.run.name;
   json["parameters"] = bed.run.parameters;
+  json["cut"] = bed.run.cut;
   json["cycles"] = m.cycles;
   json["steady_cycles"] = m.steady_count;
   if (m.cycles > 0) {
@@ -75,9 +76,13 @@ std::string summary_json(const ReportContent &content) {
     Json run;
     run["name"] = result.run.name;
     run["parameters"] = result.run.parameters;
+    run["cut"] = result.run.cut;
     run["missing"] = result.run.missing;
     json["runs"].push_back(run);
   }
+  for (const LeftOut &folder : content.left_out)
+    json["left_out"].push_back(
+        {{"folder", folder.folder.string()}, {"why", folder.why}, {"cut", folder.cut}});
   for (const BedResult &bed : content.beds)
     json["beds"].push_back(bed_json(bed));
   json["comparisons"] = Json::array();

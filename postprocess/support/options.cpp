@@ -7,11 +7,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <charconv>
 #include <climits>
 #include <limits>
+#include <map>
 #include <stdexcept>
+#include <system_error>
 
 namespace drumlin::post {
 
@@ -23,7 +27,80 @@ namespace {
   throw UsageError(refusal(option, text, allowed));
 }
 
+/// What all paths to one file or folder have in common: device and inode, or of one that is not made yet its
+/// name behind all links.
+std::string identity(const fs::path &path) {
+  struct stat found = {};
+  if (::stat(path.c_str(), &found) == 0) return fmt::format("{}:{}", found.st_dev, found.st_ino);
+  std::error_code code;
+  return fs::weakly_canonical(fs::absolute(path), code).string();
+}
+
+/// Whether a path is below a folder, by its name as given or behind all links.
+bool is_below(const fs::path &path, const fs::path &folder) {
+  const auto starts = [](const fs::path &long_path, const fs::path &beginning) {
+    auto part = long_path.begin();
+    for (const fs::path &of_beginning : beginning) {
+      if (of_beginning.empty()) continue; // behind a slash at the end
+      if (part == long_path.end() || *part++ != of_beginning) return false;
+    }
+    return true;
+  };
+  std::error_code code;
+  const fs::path real = fs::weakly_canonical(fs::absolute(path), code);
+  const fs::path real_folder = fs::weakly_canonical(fs::absolute(folder), code);
+  return (!code && starts(real, real_folder)) ||
+         starts(fs::absolute(path).lexically_normal(), fs::absolute(folder).lexically_normal());
+}
+
+/// Refuses a folder in which two regular files are one: what is written to one would change the other.
+void refuse_twins(const GivenPath &output) {
+  std::map<std::string, std::string> names;
+  std::error_code code;
+  for (fs::directory_iterator entry(output.path, code), end; entry != end; entry.increment(code)) {
+    if (!entry->is_regular_file(code)) continue;
+    const std::string name = entry->path().filename().string();
+    const auto [other, is_new] = names.emplace(identity(entry->path()), name);
+    if (!is_new)
+      refuse(output.option.c_str(), output.path.string(),
+             fmt::format("a folder in which '{}' and '{}' are not one file", std::min(name, other->second),
+                         std::max(name, other->second)));
+  }
+}
+
 } // namespace
+
+void keep_apart(const std::vector<GivenPath> &inputs, const std::vector<GivenPath> &outputs) {
+  const auto refuse_pair = [](const GivenPath &output, const GivenPath &other, const char *use) {
+    refuse(output.option.c_str(), output.path.string(),
+           fmt::format("another {} than {} '{}', which is {}", output.folder ? "folder" : "file",
+                       other.option, shown(other.path.string()), use));
+  };
+  std::map<std::string, const GivenPath *> read, written;
+  for (const GivenPath &input : inputs)
+    read.emplace(identity(input.path), &input);
+  for (const GivenPath &output : outputs) {
+    const std::string id = identity(output.path);
+    if (const auto found = read.find(id); found != read.end()) refuse_pair(output, *found->second, "read");
+    if (const auto [found, is_new] = written.emplace(id, &output); !is_new)
+      refuse_pair(output, *found->second, "written, too");
+    if (!output.folder) continue;
+    for (const GivenPath &input : inputs)
+      if (is_below(input.path, output.path)) refuse_pair(output, input, "read");
+    for (const GivenPath &other : outputs)
+      if (&other != &output && is_below(other.path, output.path)) refuse_pair(other, output, "written, too");
+    refuse_twins(output);
+  }
+}
+
+std::vector<GivenPath> files_in(const char *option, const fs::path &folder,
+                                const std::vector<std::string> &names) {
+  std::vector<GivenPath> files;
+  files.reserve(names.size());
+  for (const std::string &name : names)
+    files.push_back({option, folder / name});
+  return files;
+}
 
 double number_option(const char *option, const std::string &text, const Range &range) {
   try {

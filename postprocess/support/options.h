@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <initializer_list>
 #include <string>
+#include <vector>
 
 namespace drumlin::post {
 
@@ -35,5 +36,21 @@ std::filesystem::path output_folder_option(const char *option, const std::string
 
 /// A file for a result (see check_output_file in files.h).
 std::filesystem::path output_file_option(const char *option, const std::string &text);
+
+/// What a command reads or writes, and the option that names it.
+struct GivenPath {
+  std::string option;
+  std::filesystem::path path; ///< need not exist
+  bool folder = false;        ///< a folder, all of whose content is read, or may be replaced
+};
+
+/// Refuses a result that would replace what the command reads, or another of its results: the same file under two
+/// names, through links, too, a file in a folder that is replaced, or two files of such a folder that are one.
+/// For paths, too, that are not made yet. To be called before anything is written.
+void keep_apart(const std::vector<GivenPath> &inputs, const std::vector<GivenPath> &outputs);
+
+/// The files of these names in a folder.
+std::vector<GivenPath> files_in(const char *option, const std::filesystem::path &folder,
+                                const std::vector<std::string> &names);
 
 } // namespace drumlin::post

@@ -230,10 +230,20 @@ protected:
             other.says(fmt::format("ERROR: drumlin/take: variable {} is '{}'; allowed: ", name, value)))
             << other.output;
       }
-      for (int n = 0; n < 2; ++n) { // continued twice from one file, the tables have each row once
-        const Outcome resumed = shaken(left, {{"start", start}}, ranks);
+      EXPECT_EQ(post::read_parameters(left / "parameters.csv").at("ended"),
+                "drumlin/run: stopped at step 1000 of 3000 by limit 0.001 s; continue from " + start);
+      const std::string copy = (stayed / "copy.restart").string();
+      fs::copy_file(start, copy);
+      for (const std::string &from : {start, copy}) { // continued twice, the tables have each row once
+        const Outcome resumed = shaken(left, {{"start", from}}, ranks);
         ASSERT_TRUE(resumed.ok()) << resumed.output;
+        EXPECT_EQ(post::read_parameters(left / "parameters.csv").at("ended"), "yes");
+        EXPECT_FALSE(fs::exists(start)); // of a run that has ended there is nothing to continue
       }
+      const Outcome gone = shaken(left, {{"start", start}}, ranks);
+      EXPECT_TRUE(gone.says("ERROR: drumlin/check: variable start is '" + start +
+                            "'; allowed: a file that can be read, which a run writes when it is stopped"))
+          << gone.output;
       for (const char *file : {"bed.csv", "cycles.csv", "events.csv"})
         EXPECT_EQ(read_text(left / file), read_text(stayed / file)) << file << ", ranks " << ranks;
       EXPECT_EQ(post::read_table(left / "bed.csv").rows(), 301u);

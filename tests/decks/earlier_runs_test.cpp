@@ -1,6 +1,10 @@
 // The files of a run: earlier results stay until a new run has passed its first steps, two runs do not mix,
 // signals and full disks are errors, and nothing but regular files is replaced.
 #include "tests/support/engine_runs.h"
+#include "tests/support/host_deck.h"
+
+#include "report/report.h"
+#include "support/parameter_file.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -164,6 +168,154 @@ TEST(EarlierRuns, ReplaceRegularFilesOnly) {
       EXPECT_EQ(read_text(folder / "target"), "kept\n");
     }
   }
+}
+
+/// Whether and why a run has ended, in its own words.
+std::string end_of(const fs::path &folder) {
+  return post::read_parameters(folder / "parameters.csv").at("ended");
+}
+
+constexpr const char *own_outputs = "drumlin/outputs folder out files parameters.csv\n"
+                                    "drumlin/record out/parameters.csv deck own\n";
+
+// Lines behind 150 steps of a deck of one's own.
+TEST(EndOfARun, StandsInItsParametersInEitherEngine) {
+  struct End {
+    std::string lines, says;
+    bool in_lammps = true; ///< there the host deck has neither contacts nor gravity
+  };
+  const std::vector<End> ends = {
+      {"", "yes"},
+      {"no_such_command", "an error, which the engine's output names"},
+      {"drumlin/run 1000 every 10 limit 1e-9 restart out/s.restart",
+       "drumlin/run: stopped at step 160 of 1000 by limit 1e-09 s; continue from out/s.restart"},
+      {"drumlin/settle ratio 1e-30 limit 10 every 5", "drumlin/settle: unbalanced ratio is '", false},
+      {"fix guard all guard every 1 links 1 overlap 1e-12\nrun 100",
+       "fix guard: overlap of balls 1 and 2 is '", false}};
+  for (const bool lammps : {false, true})
+    for (const End &end : ends) {
+      if (lammps && !(end.in_lammps && post::has_lammps())) continue;
+      const Scratch folder;
+      const std::string lines = std::string(own_outputs) + "run 150\n" + end.lines;
+      const Outcome outcome = lammps
+                                  ? run_lammps_host(lines, folder.path(), 1)
+                                  : run_host(host_properties() + host_pair_style(), lines, folder.path(), 1);
+      ASSERT_TRUE(fs::exists(folder / "out/parameters.csv")) << end.says << outcome.output;
+      EXPECT_EQ(end_of(folder / "out").rfind(end.says, 0), 0u) << end_of(folder / "out") << outcome.output;
+      EXPECT_FALSE(fs::exists(folder / "out/parameters.csv.unfinished"));
+    }
+}
+
+TEST(EndOfARun, OfAChainIsToldApartOnRanksOneAndTwo) {
+  for (const char *deck : {"in.chain", "in.chain.lammps"})
+    for (const int ranks : {1, 2}) {
+      if (std::string(deck) == "in.chain.lammps" && !post::has_lammps()) continue;
+      const Scratch folder;
+      const auto run = [&](const Variables &variables, const post::StopCondition &stop_when) {
+        return run_deck(chain_deck(deck), variables, folder.path(), ranks, 60.0, stop_when);
+      };
+      ASSERT_TRUE(run({{"cycles", "1"}}, {}).ok());
+      EXPECT_EQ(end_of(folder.path()), "yes") << deck << ranks;
+      // The guard ends the run when the first steps, after which no earlier results come back, are over.
+      const Outcome guarded = run({{"cycles", "1"}, {"Fw", "3e8"}, {"steps_per_cycle", "20000"}}, {});
+      EXPECT_EQ(guarded.status, 1) << guarded.output;
+      EXPECT_EQ(end_of(folder.path()).rfind("fix guard: overlap of balls 1 and 2 is '", 0), 0u)
+          << deck << ranks << end_of(folder.path()) << guarded.output;
+      if (ranks > 1) continue; // mpirun may kill a rank before it has noted its end
+      const auto has_rows = [&] {
+        std::error_code code;
+        return fs::file_size(folder / "chain.csv", code) > 5000 && !code;
+      };
+      fs::remove(folder / "chain.csv");
+      run({{"cycles", "1000000"}}, [&](pid_t) { return has_rows(); });
+      EXPECT_EQ(end_of(folder.path()).rfind("drumlin/run: stopped by a signal at step ", 0), 0u)
+          << deck << end_of(folder.path());
+      fs::remove(folder / "chain.csv");
+      run({{"cycles", "1000000"}}, [&](pid_t engine) {
+        if (has_rows()) ::kill(engine, SIGKILL);
+        return false;
+      });
+      EXPECT_EQ(end_of(folder.path()), "no") << deck;
+    }
+}
+
+// The engine's own command run ends after a signal, and the deck goes on.
+TEST(EndOfARun, OfTheEnginesOwnCommandIsNoted) {
+  const Scratch folder;
+  write_text(folder / "pair", host_properties() + host_pair_style());
+  write_text(folder / "lines", std::string(own_outputs) + "run 1000000000\n");
+  const Outcome stopped = run_deck(fs::path(DRUMLIN_SOURCE_DIR) / "tests/support/in.host", {}, folder.path(),
+                                   1, 60.0, after_processor_time(1.0));
+  EXPECT_EQ(end_of(folder / "out").rfind("stopped by a signal or a limit of time at step ", 0), 0u)
+      << end_of(folder / "out") << stopped.output;
+}
+
+// A sample whose balls are too soft for the second load: the loads before are there.
+TEST(EndOfARun, OfATestOfSoilIsInItsReport) {
+  const Scratch folder, out;
+  const Outcome stopped = run_deck(
+      chain_deck("../soil/in.oedometer"),
+      {{"sample", "hexagonal"}, {"columns", "4"}, {"layers", "4"}, {"loads", "25 50 1e5"}}, folder.path());
+  ASSERT_EQ(stopped.status, 1) << stopped.output;
+  ASSERT_TRUE(stopped.says("ERROR: fix guard: overlap of ")) << stopped.output;
+  EXPECT_EQ(end_of(folder.path()).rfind("fix guard: overlap of ", 0), 0u) << end_of(folder.path());
+  EXPECT_EQ(post::read_parameters(folder / "parameters.csv").at("loads"), "25,50,1e5");
+  post::ReportOptions options;
+  options.folders = {folder.path()};
+  options.out = out / "report";
+  const post::ReportOutcome outcome = post::write_report(options);
+  ASSERT_EQ(outcome.left_out.size(), 1u);
+  EXPECT_TRUE(outcome.left_out[0].cut);
+  EXPECT_EQ(outcome.left_out[0].why.rfind("it was cut: fix guard: overlap of ", 0), 0u)
+      << outcome.left_out[0].why;
+  EXPECT_NE(read_text(outcome.page).find("it was cut: fix guard: overlap of "), std::string::npos);
+  EXPECT_FALSE(fs::exists(out / "report/oedometer"));
+}
+
+// Under any name and through links; two fixes do not write one file.
+TEST(EarlierRuns, AndInputsAreNotReplaced) {
+  const Scratch folder;
+  write_text(folder / "measured.csv", "kept\n");
+  fs::create_hard_link(folder / "measured.csv", folder / "hard.csv");
+  for (const bool lammps : {false, true}) {
+    if (lammps && !post::has_lammps()) continue;
+    const auto run = [&](const std::string &lines) {
+      return lammps ? run_lammps_host(lines, folder.path(), 1)
+                    : run_host(host_properties() + host_pair_style(), lines, folder.path(), 1);
+    };
+    for (const char *output : {"measured.csv", "./measured.csv", "hard.csv"}) {
+      const Outcome refused = run(fmt::format("drumlin/outputs files {} inputs measured.csv", output));
+      EXPECT_EQ(refused.status, 1);
+      EXPECT_TRUE(refused.says(fmt::format("ERROR: drumlin/outputs: file is '{}'; allowed: another file than "
+                                           "'measured.csv', which the run has read",
+                                           output)))
+          << refused.output;
+      EXPECT_EQ(read_text(folder / "measured.csv"), "kept\n");
+      EXPECT_FALSE(fs::exists(folder / "measured.csv.earlier"));
+    }
+  }
+  // The data file of in.settle has the name of the balls from which it starts.
+  run_program({DRUMLIN_TOOLS, "bed", "--balls", "20", "--width", "0.5", "--out", "bed.data"}, {},
+              folder.path());
+  const std::string balls = read_text(folder / "bed.data");
+  for (const char *deck : {"../bed/in.settle", "../bed/in.settle.lammps"}) {
+    if (std::string(deck) == "../bed/in.settle.lammps" && !post::has_lammps()) continue;
+    const Outcome settled =
+        run_deck(chain_deck(deck), {{"balls", "bed.data"}, {"bed", "bed"}}, folder.path());
+    EXPECT_EQ(settled.status, 1);
+    EXPECT_TRUE(
+        settled.says("file is 'bed.data'; allowed: another file than 'bed.data', which the run has read"))
+        << settled.output;
+    EXPECT_EQ(read_text(folder / "bed.data"), balls);
+  }
+  const Outcome twice = run_host(host_properties() + host_pair_style(),
+                                 "fix a all contact/events file one.csv types 1 2\n"
+                                 "fix b all contact/events file one.csv types 1 2",
+                                 folder.path(), 1);
+  EXPECT_EQ(twice.status, 1);
+  EXPECT_TRUE(twice.says(
+      "one.csv', which cannot be written; allowed: a file that no other fix and no other run writes"))
+      << twice.output;
 }
 
 TEST(EarlierRuns, OnAFullDiskAreAnError) {

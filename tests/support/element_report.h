@@ -17,12 +17,12 @@ namespace drumlin::test {
 /// A folder for the runs, and the report of them.
 class ElementReport : public ::testing::Test {
 protected:
-  /// Writes a run. \param parameters lines "name,value"
+  /// Writes a run. \param parameters lines "name,value" \param ended their last row
   void write_run(const std::string &folder, const std::string &csv, const std::string &text,
-                 const std::string &parameters) const {
+                 const std::string &parameters, const std::string &ended = "ended,yes\n") const {
     std::filesystem::create_directories(root / folder);
-    post::write_files(
-        {{root / folder / csv, text}, {root / folder / "parameters.csv", "name,value\n" + parameters}});
+    post::write_files({{root / folder / csv, text},
+                       {root / folder / "parameters.csv", "name,value\n" + parameters + ended}});
   }
 
   /// Writes the report of a folder in `root` and returns the text of its first page.

@@ -40,7 +40,8 @@ void write_chain_run(const fs::path &folder, const std::string &case_name, Trans
                                {"steps_per_cycle", "2000"},
                                {"timestep", number_text(p.period() / 2000)},
                                {"engine", "a test"},
-                               {"command", command}});
+                               {"command", command},
+                               {"ended", "yes"}});
   write_files({{folder / "parameters.csv", parameters_text(values)}});
 }
 
@@ -70,7 +71,8 @@ void write_impact_run(const fs::path &folder, Transition transition, double damp
                                                             {"D", number_text(p.damping_ratio)},
                                                             {"m2", number_text(p.mass)},
                                                             {"speed", number_text(p.speed)},
-                                                            {"steps_per_contact", "200"}})}});
+                                                            {"steps_per_contact", "200"},
+                                                            {"ended", "yes"}})}});
 }
 
 void write_bed_run(const fs::path &folder, Transition transition, int cycles, const std::string &friction) {
@@ -113,7 +115,8 @@ void write_bed_run(const fs::path &folder, Transition transition, int cycles, co
                                {"C_u", "1.75"},
                                {"steps_per_cycle", "800"},
                                {"timestep", number_text(period / 800)},
-                               {"command", "liggghts -in <in.bed> -var out " + folder.filename().string()}});
+                               {"command", "liggghts -in <in.bed> -var out " + folder.filename().string()},
+                               {"ended", "yes"}});
   write_files({{folder / "parameters.csv", parameters_text(values)}});
 }
 

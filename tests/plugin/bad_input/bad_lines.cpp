@@ -557,6 +557,10 @@ BadGroup outputs() {
           on_two_ranks(
               line("a folder as file", "drumlin/outputs files out",
                    {command + "file is 'out', which cannot be written", "a file in a folder that exists"})),
+          on_two_ranks(line("a file that was read",
+                            "drumlin/outputs folder out files chain.csv inputs ./out/chain.csv",
+                            {command + "file is 'out/chain.csv'",
+                             "another file than './out/chain.csv', which the run has read"})),
           on_two_ranks(
               line("a folder with other files", "drumlin/outputs numbered out balls_ .vtp",
                    {command + "folder is 'out' with the file '", "a folder with nothing but dumps"})),

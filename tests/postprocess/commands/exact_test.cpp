@@ -2,6 +2,7 @@
 #include "chain/direct_solver.h"
 #include "chain/run_files.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <sys/wait.h>
@@ -95,6 +96,33 @@ TEST_F(ExactCommand, WritesWhatTheSolverFound) {
   EXPECT_EQ(post::number_from_text(record.at("c")), parameters.damping());
   EXPECT_NE(record.at("command").find("drumlin exact --case III"), std::string::npos);
   EXPECT_EQ(std::distance(fs::directory_iterator(out), fs::directory_iterator()), 4);
+  EXPECT_NE(outcome.out.find(" steps), Fw 58800 N\n"), std::string::npos) << outcome.out;
+  EXPECT_EQ(record.at("ended"), "yes");
+}
+
+// Of a roller the eccentric moment stays when masses or frequency are others, and the command says so.
+TEST_F(ExactCommand, SaysFromWhichMomentTheForceFollows) {
+  const Outcome outcome = run("exact --case CA3500-high --m2 6000 --omega 100 --cycles 1 --out o");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const double me_re = *post::named_chain("CA3500-high", post::Transition::B).me_re;
+  EXPECT_NE(outcome.out.find(fmt::format(", Fw {:g} N, of the eccentric moment {:g} kg m of the case",
+                                         me_re * 1e4, me_re)),
+            std::string::npos)
+      << outcome.out;
+  EXPECT_NE(run("exact --case CA3500-high --Fw 1e5 --cycles 1 --out o").out.find(", Fw 100000 N\n"),
+            std::string::npos);
+}
+
+TEST_F(ExactCommand, RefusesFilesThatAreOne) {
+  fs::create_directories(folder_ / "o");
+  std::ofstream(folder_ / "o/shared") << "kept\n";
+  fs::create_symlink("shared", folder_ / "o/chain.csv");
+  fs::create_symlink("shared", folder_ / "o/events.csv");
+  const Outcome outcome = run("exact --cycles 1 --out o");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.err, "ERROR: drumlin exact: --out is 'o/events.csv'; allowed: another file than --out "
+                         "'o/chain.csv', which is written, too\n");
+  EXPECT_EQ(get(folder_ / "o/shared"), "kept\n");
 }
 
 TEST_F(ExactCommand, EveryOverrideArrives) {

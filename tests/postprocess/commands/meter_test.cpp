@@ -52,6 +52,42 @@ protected:
 const std::vector<std::string> as_measured = {"--column",        "time=Time:ms", "--column",
                                               "a_drum=Acc Z:-g", "--frequency",  "29"};
 
+// Whatever the name: no result replaces the record, or another result.
+TEST_F(MeterCommand, KeepsTheRecord) {
+  write_measured("field.csv", 600);
+  write_chain_run(folder_ / "run", "II", Transition::B, 12);
+  fs::create_hard_link(folder_ / "field.csv", folder_ / "hard.csv");
+  fs::create_symlink("field.csv", folder_ / "soft.csv");
+  fs::create_symlink(".", folder_ / "here");
+  const std::string field = read_text(folder_ / "field.csv"), chain = read_text(folder_ / "run/chain.csv");
+  const auto refused = [&](std::vector<std::string> words, const std::string &says) {
+    const Outcome outcome = meter(std::move(words));
+    EXPECT_EQ(outcome.status, 2) << outcome.output;
+    EXPECT_TRUE(outcome.says("ERROR: drumlin meter: " + says)) << outcome.output;
+    EXPECT_EQ(lines_of(outcome.output).size(), 1U) << outcome.output;
+    EXPECT_EQ(read_text(folder_ / "field.csv"), field);
+    EXPECT_EQ(read_text(folder_ / "run/chain.csv"), chain);
+    EXPECT_FALSE(fs::exists(folder_ / "results"));
+  };
+  for (const char *name : {"field.csv", "./field.csv", "hard.csv", "soft.csv", "here/here/field.csv"}) {
+    std::vector<std::string> words = {"field.csv", "--export", name};
+    words.insert(words.end(), as_measured.begin(), as_measured.end());
+    refused(words, std::string("--export is '") + name +
+                       "'; allowed: another file than RECORD 'field.csv', which is read");
+  }
+  for (const char *record : {"run", "run/chain.csv"}) // what a run is read from
+    for (const char *file : {"run/chain.csv", "run/cycles.csv", "run/parameters.csv"})
+      refused({record, "--export", file},
+              std::string("--export is '") + file + "'; allowed: another file than RECORD");
+  refused({"run", "--export", "results/meter/meter.csv"},
+          "--export is 'results/meter/meter.csv'; allowed: another file than --out 'results/meter', which is "
+          "written, too");
+  write_files({{folder_ / "run/meter.csv", "of an earlier call"}});
+  refused({"run", "--out", "run"},
+          "--out is 'run'; allowed: another folder than RECORD 'run/chain.csv', which is read");
+  refused({"run/chain.csv", "--out", "here/run"}, "--out is 'here/run'; allowed: another folder than RECORD");
+}
+
 TEST_F(MeterCommand, RecordOfARun) {
   write_chain_run(folder_ / "run", "II", Transition::B, 20);
   const Outcome outcome =

@@ -1,6 +1,7 @@
 // Options with values that are not allowed: each is refused at once, in one line that names it, and nothing
 // is written.
 #include "support/files.h"
+#include "support/parameter_file.h"
 #include "support/process.h"
 #include "tests/support/lines.h"
 
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -273,9 +275,74 @@ TEST_F(ToolOptions, SieveFileMakesABedAndItsGrading) {
     EXPECT_NE(text.find(std::string("# drumlin note ") + note), std::string::npos) << note;
 }
 
+// A curve that is read, under the name that a result would have, or in its place.
+TEST_F(ToolOptions, CurvesOfABedAreNotReplaced) {
+  const std::string curve = "size (mm),passing (%)\n10,0\n20,50\n40,100\n";
+  for (const char *name : {"bed.csv", "bed_grading.csv"})
+    std::ofstream(folder_ / name) << curve;
+  fs::create_hard_link(folder_ / "bed.csv", folder_ / "hard.data");
+  std::ofstream(folder_ / "mine.in") << "units si\n";
+  const std::vector<Bad> table = {
+      {{"bed", "--sieve", "bed.csv", "--out", "bed.csv"},
+       "--out is 'bed.csv'; allowed: another file than --sieve 'bed.csv'"},
+      {{"bed", "--sieve", "bed.csv", "--out", "hard.data"},
+       "--out is 'hard.data'; allowed: another file than --sieve 'bed.csv'"},
+      {{"bed", "--sieve", "bed_grading.csv", "--out", "bed.data"},
+       "--out is 'bed_grading.csv'; allowed: another file than --sieve 'bed_grading.csv', which is read"},
+      {{"bed", "--layer", "0.1:bed.csv:20", "--out", "bed.csv"},
+       "--out is 'bed.csv'; allowed: another file than --layer"},
+      {{"run", "mine.in", "-log", "./mine.in"},
+       "-log is './mine.in'; allowed: another file than DECK 'mine.in', which is read"},
+      {{"run", "mine.in", "-var", "balls", "bed.csv", "-log", "hard.data"},
+       "-log is 'hard.data'; allowed: another file than -var 'bed.csv'"}};
+  for (const Bad &bad : table) {
+    const post::Outcome outcome = run(bad.words);
+    EXPECT_EQ(outcome.status, 2) << outcome.output;
+    EXPECT_TRUE(outcome.says("ERROR: drumlin " + bad.words[0] + ": " + bad.says)) << outcome.output;
+    for (const char *name : {"bed.csv", "bed_grading.csv", "hard.data"})
+      EXPECT_EQ(post::read_text(folder_ / name), curve) << name;
+    EXPECT_EQ(post::read_text(folder_ / "mine.in"), "units si\n");
+    EXPECT_FALSE(fs::exists(folder_ / "bed.data"));
+  }
+}
+
+// A map appends to its table: another file of the folder that is the same would get its rows.
+TEST_F(ToolOptions, FoldersWhoseFilesAreOneAreRefused) {
+  for (const char *command : {"map", "study", "calibrate"}) {
+    const fs::path out = folder_ / command;
+    fs::create_directories(out);
+    std::ofstream(out / "a.csv") << "kept\n";
+    fs::create_hard_link(out / "a.csv", out / "b.csv");
+    std::vector<std::string> words = {command};
+    if (words[0] == "study") words.emplace_back("stability");
+    if (words[0] == "calibrate") words.insert(words.end(), {"--target", "k=2e7", "--vary", "k=1e8:1e9"});
+    words.insert(words.end(), {"--out", command});
+    const post::Outcome outcome = run(words);
+    EXPECT_EQ(outcome.status, 2) << outcome.output;
+    EXPECT_TRUE(outcome.says("allowed: a folder in which 'a.csv' and 'b.csv' are not one file"))
+        << outcome.output;
+    EXPECT_EQ(post::read_text(out / "a.csv"), "kept\n");
+  }
+}
+
+// The force in the record of a map is the one of its points: it follows from the eccentric moment, or differs from point to point.
+TEST_F(ToolOptions, AMapRecordsItsForce) {
+  const auto force = [this](std::vector<std::string> words) {
+    words.insert(words.begin(), {"map", "--cycles", "100", "--fresh", "--out", "m"});
+    const post::Outcome outcome = run(words);
+    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    return post::read_parameters(folder_ / "m/parameters.csv").at("Fw");
+  };
+  EXPECT_EQ(force({"--x", "k:1e7:2e7:2", "--y", "D:0.1:0.2:2"}), "58800");
+  EXPECT_EQ(force({"--x", "k:1e7:2e7:2", "--y", "D:0.1:0.2:2", "--me-re", "4", "--omega", "100"}), "40000");
+  EXPECT_EQ(force({"--x", "k:1e7:2e7:2", "--y", "omega:100:120:2", "--me-re", "4"}), "");
+  EXPECT_EQ(force({"--x", "k:1e7:2e7:2", "--y", "Fw:1e4:2e4:2"}), "");
+}
+
 // The balls of a layer have its type, lie above those of the layer below, and fill the thickness that was asked for when they take 82.5 % of the
 // area. Half of the mass of this curve is finer than 20 mm.
 TEST_F(ToolOptions, LayersMakeABedWithATypeForEach) {
+
   std::ofstream(folder_ / "stone.csv") << "size (mm),passing (%)\n10,0\n20,50\n40,100\n";
   const post::Outcome outcome = run({"bed", "--width", "1.5", "--layer", "0.3", "--layer", "0.2:stone.csv:20",
                                      "--layer", "0.1:stone.csv", "--balls", "3000", "--out", "balls.data"});
@@ -292,6 +359,23 @@ TEST_F(ToolOptions, LayersMakeABedWithATypeForEach) {
        {"grading uniform+stone_from_20mm+stone_from_", "layers 3\n", "layer_thicknesses 0.3,0.2,0.1\n"})
     EXPECT_NE(text.find(std::string("# drumlin note ") + note), std::string::npos) << note;
   EXPECT_NE(text.find("\n5 atom types\n"), std::string::npos);
+  // d50 and C_u of each layer. Of discs whose radii are equally frequent from a to b half of the mass has a radius up to
+  // ((a^3 + b^3)/2)^(1/3); stone from 20 mm has a d50 of 20 2^0.5 mm, and d60/d10 = 2^0.5.
+  const auto list = [&text](const std::string &note) {
+    std::vector<double> numbers;
+    std::istringstream words(text.substr(text.find("# drumlin note " + note + " ") + 16 + note.size()));
+    char comma = ',';
+    for (double number = 0.0; comma == ',' && words >> number; words.get(comma))
+      numbers.push_back(number);
+    return numbers;
+  };
+  const std::vector<double> medians = list("d50"), uniformities = list("C_u");
+  ASSERT_EQ(medians.size(), 3u) << text.substr(0, 500);
+  ASSERT_EQ(uniformities.size(), 3u);
+  EXPECT_NEAR(medians[0], 2 * std::cbrt(0.5 * (std::pow(0.016, 3) + std::pow(0.024, 3))), 1e-3);
+  EXPECT_NEAR(medians[1], 0.02 * std::sqrt(2.0), 3e-4);
+  EXPECT_NEAR(uniformities[1], std::sqrt(2.0), 0.02);
+  EXPECT_LT(medians[2], 0.025); // half of it is finer than 20 mm
   struct Found {
     double area = 0.0, lowest = 1e9, highest = 0.0;
   };

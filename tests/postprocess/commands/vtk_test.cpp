@@ -217,6 +217,8 @@ TEST_F(VtkCommand, WritesTheRangesOfTheValues) {
   EXPECT_EQ(scene["sizes"]["coordination"]["largest"], 2.0);
   EXPECT_EQ(scene["sizes"]["normal_force"]["largest"], 430.0);
   EXPECT_NEAR(scene["bounds"][1][1].get<double>(), 5.9, 1e-6); // top of the drum
+  ASSERT_EQ(scene["force_on_drum"].size(), 3u);                // of each step, for the picture of the largest
+  EXPECT_EQ(scene["force_on_drum"][1], (std::vector<double>{25.0, 400.0}));
   EXPECT_NEAR(scene["soil_bounds"][1][1].get<double>(), 2.0, 1e-6);
 }
 
@@ -260,6 +262,25 @@ TEST_F(VtkCommand, ReplacesAnEarlierResultAndNothingElse) {
             (std::vector<std::string>{"balls.pvd", "balls_0.vtp", "balls_200.vtp", "contacts.pvd",
                                       "contacts_0.vtp", "contacts_200.vtp", "fields.pvd", "fields_0.vti",
                                       "fields_200.vti", "scene.json", "view.pvsm"}));
+}
+
+// The dumps have the names of the results; a file of the results may be a dump under another name.
+TEST_F(VtkCommand, DoesNotReplaceTheDumps) {
+  put("run/dump/balls.pvd", "of an earlier result");
+  put("new/balls.pvd", "of an earlier result");
+  fs::create_hard_link(folder_ / "run/dump/contacts_0.dump", folder_ / "new/scene.json");
+  const auto before = files("run");
+  for (const auto &[out, says] :
+       {std::pair{"run/dump",
+                  "--out is 'run/dump/balls_0.vtp'; allowed: another file than DIR 'run/dump/balls_0.vtp'"},
+        {"new", "--out is 'new/scene.json'; allowed: another file than DIR 'run/dump/contacts_0.dump', which "
+                "is read"}}) {
+    const Outcome outcome = run({"run", "--out", out});
+    EXPECT_EQ(outcome.status, 2) << outcome.output;
+    EXPECT_TRUE(outcome.says(std::string("ERROR: drumlin vtk: ") + says)) << outcome.output;
+    EXPECT_EQ(files("run"), before);
+    EXPECT_EQ(names("new"), (std::vector<std::string>{"balls.pvd", "scene.json"}));
+  }
 }
 
 struct Bad {

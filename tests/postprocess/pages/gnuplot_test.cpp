@@ -17,6 +17,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -195,6 +196,47 @@ TEST(Legend, HasTheRowsThatItsNamesNeed) {
   for (Curve &curve : figure.panels[0].curves)
     curve.title.clear();
   EXPECT_NE(gnuplot_script(figure).find("set key maxrows 1 "), std::string::npos);
+}
+
+/// Heights, px from the top, at which a text stands in an SVG file of gnuplot's.
+std::vector<double> heights_of(const std::string &svg, const std::string &text) {
+  std::vector<double> heights;
+  for (const char *end : {"</tspan>", "</text>"}) {
+    const std::string whole = ">" + text + end;
+    for (std::size_t at = svg.find(whole); at != std::string::npos; at = svg.find(whole, at + 1))
+      heights.push_back(std::stod(svg.substr(svg.find(',', svg.rfind("translate(", at)) + 1)));
+  }
+  return heights;
+}
+
+// gnuplot thinks that letters are wider in SVG files than they are.
+TEST(Legend, IsBelowTheAxisLabelInSvgFiles) {
+  const fs::path folder = fs::temp_directory_path() / fmt::format("drumlin-legend-{}", ::getpid());
+  fs::create_directories(folder);
+  write_files({{folder / "f.csv", "x,y\n0,-1e6\n1,2e6\n"}});
+  for (const int columns : {1, 2, 3})
+    for (const char *longest : {"A", "dissipated", "work of the exciter", "the energy of the drum alone"}) {
+      Figure figure;
+      figure.name = "f";
+      figure.title = "title";
+      figure.columns = columns;
+      Panel panel;
+      panel.x_label = "below axes";
+      for (const char *name : {longest, "dissipated", "potential", "error"})
+        panel.curves.push_back({"f.csv", "1", "2", name, CurveStyle::plain});
+      figure.panels.assign(static_cast<std::size_t>(columns), panel);
+      render(find_gnuplot(), folder, figure);
+      const std::string svg = read_text(folder / "f.svg");
+      const std::vector<double> labels = heights_of(svg, "below axes");
+      ASSERT_EQ(labels.size(), figure.panels.size());
+      for (const char *name : {longest, "potential", "error"})
+        for (const double height : heights_of(svg, name)) {
+          EXPECT_GT(height, labels.front() + 15.0) << columns << " columns, " << longest << ": " << name;
+          EXPECT_LT(height, figure_height(figure)) << columns << " columns, " << longest << ": " << name;
+        }
+      EXPECT_EQ(heights_of(svg, "error").size(), figure.panels.size());
+    }
+  fs::remove_all(folder);
 }
 
 } // namespace

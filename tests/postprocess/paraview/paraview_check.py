@@ -88,6 +88,20 @@ def contact_rows(file):
     return rows
 
 
+def dumped_balls(run, step):
+    file = os.path.join(run, "dump", "balls_%d" % step)
+    return vtk_dump(file + ".vtp") if os.path.exists(file + ".vtp") else text_dump(file + ".dump")
+
+
+def dumped_contacts(run, step):
+    return contact_rows(os.path.join(run, "dump", "contacts_%d.dump" % step))
+
+
+def force_on_drum(balls, contacts):
+    drum = {int(ball["id"]) for ball in balls if ball["type"] == DRUM}
+    return math.fsum(contact["force"][1] * ((contact["id1"] in drum) - (contact["id2"] in drum)) for contact in contacts)
+
+
 def parameters(run):
     with open(os.path.join(run, "parameters.csv")) as text:
         return dict(line.rstrip("\n").split(",", 1) for line in text)
@@ -104,9 +118,7 @@ def check_step(run, step, time, readers, flat, history):
     what = "step %d" % step
     for reader in readers.values():
         reader.UpdatePipeline(time)
-    file = os.path.join(run, "dump", "balls_%d" % step)
-    balls = vtk_dump(file + ".vtp") if os.path.exists(file + ".vtp") else text_dump(file + ".dump")
-    contacts = contact_rows(os.path.join(run, "dump", "contacts_%d.dump" % step))
+    balls, contacts = dumped_balls(run, step), dumped_contacts(run, step)
     points = readers["balls"]
     near(points.GetDataInformation().GetNumberOfPoints(), len(balls), what + ": number of points")
     for name, of in (("id", "id"), ("type", "type"), ("radius", "radius"), ("mass", "mass")):
@@ -125,11 +137,10 @@ def check_step(run, step, time, readers, flat, history):
     near_range(lines.CellData, "normal_force", [contact["normal"] for contact in contacts], what)
     near_range(lines.CellData, "overlap", [contact["overlap"] for contact in contacts], what)
     near_range(lines.CellData, "force", [math.hypot(*contact["force"]) for contact in contacts], what)
-    number, pressed, on_drum = {int(b["id"]): 0 for b in balls}, {int(b["id"]): 0.0 for b in balls}, 0.0
+    number, pressed = {int(b["id"]): 0 for b in balls}, {int(b["id"]): 0.0 for b in balls}
     by_id = {int(ball["id"]): ball for ball in balls}
     for contact in contacts:
         one, other = contact["id1"], contact["id2"]
-        on_drum += contact["force"][1] * ((by_id[one]["type"] == DRUM) - (other > 0 and by_id[other]["type"] == DRUM))
         if other == 0:
             pressed[one] += contact["normal"] * (by_id[one]["radius"] - contact["overlap"])
             continue
@@ -142,7 +153,7 @@ def check_step(run, step, time, readers, flat, history):
     near_range(points.PointData, "coordination", list(number.values()), what)
     near_range(points.PointData, "pressure", list(pressed.values()), what)
     shown = servermanager.Fetch(points).GetFieldData().GetArray("F_contact").GetTuple1(0)
-    near(shown, on_drum, what + ": force on the drum", 1e-9)
+    near(shown, force_on_drum(balls, contacts), what + ": force on the drum", 1e-9)
     row = bisect.bisect(history[0], time - 1e-9)
     if row < len(history[0]) and abs(history[0][row] - time) < 1e-9:
         # bed.csv has the velocities at the end of the step in its dashpots, a dump those that acted in it
@@ -171,7 +182,8 @@ def check_numbers(run):
     history = forces_by_time(run)
     for n in sorted({0, len(steps) // 4, len(steps) // 2, len(steps) - 1}):
         check_step(run, steps[n], steps[n] * dt, readers, flat, history)
-    return len(steps), steps[len(steps) // 4] * dt
+    strongest = max(steps, key=lambda step: force_on_drum(dumped_balls(run, step), dumped_contacts(run, step)))
+    return len(steps), steps[len(steps) // 4] * dt, strongest * dt
 
 
 def pixels(file):
@@ -182,7 +194,7 @@ def pixels(file):
     return [colours.GetTuple3(n) for n in range(0, colours.GetNumberOfTuples(), 7)]
 
 
-def check_pictures(run, script, time):
+def check_pictures(run, script, time, strongest):
     program = shutil.which("pvpython")
     vtk = os.path.join(run, "vtk")
 
@@ -199,6 +211,9 @@ def check_pictures(run, script, time):
         white = sum(min(p) > 250 for p in seen) / len(seen)
         print("%s.png: %.3f of it contacts and text, %.3f drum and frame, %.3f empty" % (colour, ink, steel, white))
         check(ink > 0.01 and steel > 0.02 and white < 0.7, "%s.png does not show the bed" % colour)
+    status, said = draw(vtk, "--png", "strongest.png")
+    check(status == 0 and "strongest.png: t = %.6g s" % strongest in said, "bed.py without --time shows not the largest force, at %.6g s: %s" % (
+        strongest, said))
     copy = "damaged vtk & more"
     for name, damage, expected, says in (
             ("balls cut short", lambda names: cut(names[0]), 0, "is cut short"),
@@ -235,7 +250,7 @@ def rubbish(file):
 
 if __name__ == "__main__":
     print("ParaView %s" % pv.GetParaViewVersion())
-    number, quarter = check_numbers(sys.argv[1])
+    number, quarter, strongest = check_numbers(sys.argv[1])
     if len(sys.argv) > 2:
-        check_pictures(sys.argv[1], sys.argv[2], quarter)
+        check_pictures(sys.argv[1], sys.argv[2], quarter, strongest)
     print("%d steps, %d comparisons: as the engine dumped it" % (number, compared))

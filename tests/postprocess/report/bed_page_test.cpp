@@ -167,6 +167,21 @@ TEST_F(BedReport, OpensWithTheNumbersOfItsTables) {
             std::string::npos);
 }
 
+// The energy error of these runs is too large, and is marked so where the run has ended.
+TEST_F(BedReport, DoesNotJudgeARunThatWasCut) {
+  write_run("cut", Transition::B);
+  std::string parameters = read_text(root / "cut/parameters.csv");
+  parameters.replace(parameters.find("ended,yes"), 9, "ended,no");
+  put("cut/parameters.csv", parameters);
+  const fs::path out = report({"cut"});
+  for (const char *page : {"index.html", "bed.html"}) {
+    const std::string text = read_text(out / page);
+    EXPECT_NE(text.find("not judged: it was killed, or is still running."), std::string::npos) << page;
+    for (const char *verdict : {"verdict good", "verdict bad", "class=\"agrees\"", "class=\"differs\""})
+      EXPECT_EQ(text.find(verdict), std::string::npos) << page << verdict;
+  }
+}
+
 TEST_F(BedReport, SaysThatADrumHasRisen) {
   write_run("up", Transition::B);
   std::string cycles = read_text(root / "up/cycles.csv");
@@ -371,7 +386,7 @@ TEST_F(BedReport, RefusesFilesThatItCannotRead) {
     std::string text = read_text(root / "damaged" / file);
     text.replace(text.find(from), from.size(), to);
     put("damaged/" + file, text);
-    return std::vector<std::string>{"A", "damaged"};
+    return std::vector<std::string>{"damaged"};
   };
   expect_refusal(damaged("bed.csv", ",void_ratio", ",voids"), {"bed.csv", "void_ratio"});
   expect_refusal(damaged("bed.csv", "9e4", "much"), {"bed.csv", "line 2", "F_floor", "much"});

@@ -135,6 +135,27 @@ TEST_F(OwnWeightReport, ShowsHeapsOnAPageOfTheirOwn) {
       << data("repose", "repose_soils");
 }
 
+// Three rows, as of a test that was killed. It is named, with the reason, and not judged; the others are as without it.
+TEST_F(OwnWeightReport, NamesTestsThatWereCut) {
+  const std::vector<OwnWeightRow> rows = failing(36);
+  const std::string cut = text({rows[0], rows[1], rows[2]});
+  for (const char *kind : {"wall", "silo", "repose"})
+    write_run(std::string("cut/") + kind, std::string(kind) + ".csv", cut, parameters(1), "ended,no\n");
+  write_run("cut/of 0.2", "wall.csv", cut, parameters(1), "");
+  const std::string page = report("cut");
+  EXPECT_NE(page.find("4 folders are left out, and not judged"), std::string::npos);
+  EXPECT_NE(page.find("cut/silo</code>: it was killed, or is still running"), std::string::npos) << page;
+  EXPECT_NE(page.find("cut/of 0.2</code>: its parameters.csv does not say whether it has ended"),
+            std::string::npos);
+  EXPECT_EQ(page.find("acceptance criteria hold"), std::string::npos);
+  for (const char *kind : {"wall", "silo", "repose"})
+    EXPECT_FALSE(std::filesystem::exists(root / "report" / kind));
+  write_run("cut/whole", "wall.csv", text(failing(35)), parameters(1));
+  EXPECT_NE(report("cut").find("wall/index.html"), std::string::npos);
+  EXPECT_NE(read_text(root / "report/wall/index.html").find("2 acceptance criteria hold"), std::string::npos);
+  EXPECT_EQ(read_text(root / "report/wall/data/wall_runs.csv").find("of 0.2"), std::string::npos);
+}
+
 TEST_F(OwnWeightReport, RefusesWhatItCannotRead) {
   const std::vector<OwnWeightRow> rows = failing(36);
   const std::string good = text({rows[0], rows[1]});

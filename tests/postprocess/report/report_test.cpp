@@ -586,12 +586,88 @@ TEST_F(Report, RefusesFilesThatItCannotRead) {
   expect_refusal(quote(wrong) + " " + out(), "'C'");
 }
 
+// Beside a run that is whole: one whose table was cut within a row, an earlier report, and what an interrupted one left.
+TEST_F(Report, LeavesOutWhatCannotBeRead) {
+  const fs::path mixed = root / "mixed";
+  fs::remove_all(mixed);
+  fs::create_directories(mixed);
+  for (const char *name : {"whole", "half", "killed"})
+    fs::copy(root / "runs" / "II-B", mixed / name);
+  for (const char *name : {"half", "killed"})
+    fs::resize_file(mixed / name / "chain.csv", fs::file_size(mixed / name / "chain.csv") - 60);
+  std::string parameters = read(mixed / "killed/parameters.csv");
+  parameters.replace(parameters.find("ended,yes"), 9, "ended,no");
+  write(mixed / "killed/parameters.csv", parameters);
+  fs::copy(root / "report", mixed / "last week", fs::copy_options::recursive);
+  fs::copy(root / "report", mixed / ".half.new-1", fs::copy_options::recursive);
+  fs::remove(mixed / ".half.new-1/report.json");
+  write(mixed / ".half.new-1/data/oedometer.csv", "stress_kPa\n");
+  ReportOptions options;
+  options.folders = {mixed};
+  options.out = root / "mixed-report";
+  const ReportOutcome made = write_report(options);
+  EXPECT_GT(made.checks.all, 0u); // those of the run that is whole
+  ASSERT_EQ(made.left_out.size(), 3u);
+  std::map<std::string, std::string> why;
+  for (const LeftOut &folder : made.left_out)
+    why[folder.folder.filename().string()] = folder.why;
+  EXPECT_EQ(why["last week"], "it is an earlier report");
+  EXPECT_NE(why["half"].find("chain.csv"), std::string::npos) << why["half"];
+  EXPECT_EQ(why["killed"].rfind("it was killed, or is still running; ", 0), 0u) << why["killed"];
+  const std::string text = read(made.page);
+  EXPECT_TRUE(parse(text).well_formed);
+  EXPECT_NE(text.find("3 folders are left out, and not judged"), std::string::npos);
+  EXPECT_NE(text.find("last week</code>: it is an earlier report"), std::string::npos);
+}
+
+TEST_F(Report, DoesNotJudgeARunThatWasCut) {
+  for (const auto &[row, says] :
+       {std::pair{"ended,no\n", "not judged: it was killed, or is still running."},
+        {"ended,\"drumlin/run: stopped at step 5 of 9, here\"\n",
+         "not judged: it was cut: drumlin/run: stopped at step 5 of 9, here."},
+        {"", "not judged: its parameters.csv does not say whether it has ended, "}}) {
+    fs::remove_all(root / "cut");
+    fs::create_directories(root / "cut");
+    for (const char *name : {"II-B", "I-A", "impact-B"}) {
+      fs::copy(root / "runs" / name, root / "cut" / name);
+      std::string parameters = read(root / "cut" / name / "parameters.csv");
+      parameters.replace(parameters.find("ended,yes\n"), 10, row);
+      write(root / "cut" / name / "parameters.csv", parameters);
+    }
+    ReportOptions options;
+    options.folders = {root / "cut"};
+    options.out = root / "cut-report";
+    const ReportOutcome made = write_report(options);
+    EXPECT_EQ(made.checks.all, 0u) << row;
+    EXPECT_GT(made.checks.not_judged, 10u) << row;
+    const std::string text = read(made.page);
+    EXPECT_TRUE(parse(text).well_formed);
+    EXPECT_NE(text.find(says), std::string::npos) << says;
+    EXPECT_NE(text.find(" (cut)"), std::string::npos);
+    for (const char *verdict :
+         {"verdict good", "verdict bad", "<tr class=\"agrees\"", "<tr class=\"differs\""})
+      EXPECT_EQ(text.find(verdict), std::string::npos)
+          << row << text.substr(std::min(text.size(), text.find(verdict)), 300);
+  }
+}
+
 TEST_F(Report, RefusesToReplaceWhatIsNoReport) {
   fs::create_directories(root / "mine");
   write(root / "mine" / "thesis.txt", "years\n");
   expect_refusal(quote(root / "runs") + " --out " + quote(root / "mine"), "holds other files");
   EXPECT_EQ(read(root / "mine" / "thesis.txt"), "years\n");
   expect_refusal(quote(root / "runs") + " --out " + quote(root / "mine" / "thesis.txt"), "is not a folder");
+}
+
+TEST_F(Report, RefusesToReplaceWhatItReads) {
+  const fs::path place = root / "earlier";
+  fs::remove_all(place);
+  fs::copy(root / "report", place, fs::copy_options::recursive);
+  const fs::path run = copy("linked");
+  fs::rename(run / "chain.csv", place / "data/mine.csv");
+  fs::create_symlink(place / "data/mine.csv", run / "chain.csv");
+  expect_refusal(quote(run) + " --out " + quote(place), "chain.csv that is to be reported on");
+  EXPECT_TRUE(fs::exists(place / "data/mine.csv"));
 }
 
 TEST_F(Report, NamesThePackageOfAMissingGnuplot) {
