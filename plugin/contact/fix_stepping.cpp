@@ -1,6 +1,7 @@
 #include "contact/fix_stepping.h"
 
 #include "contact/contact_settings.h"
+#include "support/other_styles.h"
 
 #include <algorithm>
 #include <array>
@@ -14,6 +15,10 @@ namespace {
 constexpr const char *helper_id = "drumlin_stepping";
 constexpr int exchanged = 5;     // numbers that move with a ball to another rank
 constexpr int most_gathered = 6; // most numbers that a ghost sends to its owner
+
+/// Factor of a force that is to move a ball in a drift of the time step `now` as far as it would have done in
+/// one of the time step `before`.
+double shift_scale(double before, double now) { return (before / now) * (before / now); }
 
 /// Constraints that share forces among the balls of a group, over all ranks, which must all call them.
 bool joins(const std::string &style) { return style == "aveforce" || style == "clump"; }
@@ -72,6 +77,9 @@ int FixStepping::setmask() {
 void FixStepping::init() {
   comm_reverse =
       most_gathered; // for which the engine makes room at the begin of each run; gather() may ask for less
+  dt_varies_ = false;
+  for (const Fix *fix : drumlin::engine::fixes(*modify))
+    dt_varies_ = dt_varies_ || drumlin::changes_time_step(fix->style);
   constraints_.clear();
   for (int n = 0; n < modify->nfix; ++n)
     for (const char *name : {"setforce", "freeze", "lineforce", "planeforce", "aveforce", "clump"})
@@ -90,6 +98,7 @@ void FixStepping::init() {
 void FixStepping::setup_pre_force(int) {
   if (!in_use_) return;
   in_setup_ = true;
+  told_dt_ = update->dt;
   light_ = false;
   coupled_.clear();
   coupled_links_.clear();
@@ -105,6 +114,13 @@ void FixStepping::setup_pre_force(int) {
 
 void FixStepping::post_integrate() {
   if (!in_use_) return;
+  if (update->dt != told_dt_)
+    error->all(FLERR,
+               drumlin::engine::error_text(fmt::format(
+                   "stepping second: time step is '{:.9g}' at step {}, changed from {:.9g} s within a run "
+                   "without a word to the fixes that integrate; allowed: another time step by fix dt/reset, "
+                   "or for a run with its set-up (no keyword pre no)",
+                   update->dt, update->ntimestep, told_dt_)));
   for (const Later &item : shifts_) {
     double *v = atom->v[item.i];
     const double *before = velocity_[item.i];
@@ -194,7 +210,8 @@ void FixStepping::expect_contacts() {
   }
   std::array<double, 2> all = mine;
   if (comm->nprocs > 1) MPI_Allreduce(mine.data(), all.data(), 2, MPI_DOUBLE, MPI_MAX, world);
-  counting_ = drumlin::physics::needs_coupling(update->dt, all[1], 1.0, 2.0 * all[0]);
+  // Where the time step may grow within the run the sums of a step are needed for any time step of the next.
+  counting_ = dt_varies_ || drumlin::physics::needs_coupling(update->dt, all[1], 1.0, 2.0 * all[0]);
   expected_dt_ = update->dt;
 }
 
@@ -364,15 +381,28 @@ void FixStepping::end_of_step() {
   // The part of a shift that passes the constraints is the difference that it makes to the constrained force.
   shifts_.swap(later_);
   later_.clear();
+  shift_dt_ = update->dt;
+  const double scale = shift_scale(dt_, shift_dt_);
   for (Later &item : shifts_)
     for (std::size_t a = 0; a < 3; ++a) {
       item.rest[a] = f[item.i][a];
-      f[item.i][a] += item.shift[a];
+      f[item.i][a] += scale * item.shift[a];
     }
   constrain(!shifts_.empty());
   for (Later &item : shifts_)
     for (std::size_t a = 0; a < 3; ++a)
       item.shift[a] = f[item.i][a] - item.rest[a];
+}
+
+void FixStepping::reset_dt() {
+  told_dt_ = update->dt;
+  const double more = shift_scale(shift_dt_, update->dt) - 1.0;
+  shift_dt_ = update->dt;
+  for (Later &item : shifts_)
+    for (std::size_t a = 0; a < 3; ++a) {
+      atom->f[item.i][a] += more * item.shift[a];
+      item.shift[a] += more * item.shift[a];
+    }
 }
 
 void FixStepping::add_force(int i, double factor, const std::array<double, 3> &vector) {

@@ -44,6 +44,8 @@ public:
   void pre_force(int) override;
   void close_forces() override;
   void end_of_step() override;
+  /// Called when a fix changes the time step within a run.
+  void reset_dt() override;
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;
   void set_arrays(int) override;
@@ -179,6 +181,9 @@ private:
   bool counting_ = false; // whether the contacts of this step are counted
   bool counted_ = false;  // whether those of the last were
   double dt_ = 0.0;
+  double told_dt_ = 0.0;           // time step of which the engine has told its fixes
+  bool dt_varies_ = false;         // whether a fix may change it within the run
+  double shift_dt_ = 0.0;          // time step of the drift in which shifts_ act
   double expected_dt_ = 0.0;       // time step for which counting_ was decided
   std::vector<Expected> expected_; // links that are not contacts
   // One entry per ball:

@@ -146,7 +146,7 @@ void PairGranTransition::coeff(int narg, char **arg) {
     in.fail("types are '" + types[0] + "' and '" + types[1] + "'; allowed: types I <= J of the box");
 }
 
-void PairGranTransition::check_engine() const {
+void PairGranTransition::check_engine() {
   const auto refuse = [this](const std::string &why) {
     error->all(FLERR, engine::error_text("pair_style " + style_name() + ": " + why));
   };
@@ -155,11 +155,12 @@ void PairGranTransition::check_engine() const {
   if (!atom->radius_flag || !atom->rmass_flag)
     refuse("the atom style has no radius or no mass of its own; allowed: atom_style sphere");
   if (comm->ghost_velocity == 0) refuse("ghosts have no velocity; allowed: comm_modify vel yes before");
-  if (settings_.stock) return;
-  for (int n = 0; n < modify->nfix; ++n)
+  for (int n = 0; n < modify->nfix && !settings_.stock; ++n)
     if (modify->fix[n]->rigid_flag)
       refuse(std::string("fix ") + modify->fix[n]->id + " (" + modify->fix[n]->style +
              ") makes rigid bodies and stepping is 'second'; allowed: stepping stock, or fix clump");
+  deck_check_.of_pair(lmp, "pair_style " + style_name(), !settings_.stock);
+  if (settings_.stock) return;
   for (int n = 0; n < modify->nfix && modify->fix[n] != FixStepping::find(lmp); ++n)
     if (modify->fix[n]->time_integrate)
       refuse(std::string("fix ") + modify->fix[n]->id + " (" + modify->fix[n]->style +

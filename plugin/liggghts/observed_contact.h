@@ -75,6 +75,7 @@ private:
       along += i_forces.delta_F[a] * contact.en[a];
     for (std::size_t a = 0; a < 3; ++a) {
       record.normal[a] = contact.en[a];
+      if (contact.is_wall) record.wall_velocity[a] = contact.v_j[a];
       record.tangential_force[a] = i_forces.delta_F[a] - along * contact.en[a];
       record.torque_i[a] = i_forces.delta_torque[a];
       record.torque_j[a] = j_forces.delta_torque[a];

@@ -34,6 +34,11 @@ inline LAMMPS_NS::Fix *find_fix(LAMMPS_NS::Modify *modify, const std::string &id
   return index < 0 ? nullptr : modify->fix[index];
 }
 
+/// All fixes, in the order in which the engine calls them.
+inline std::vector<LAMMPS_NS::Fix *> fixes(const LAMMPS_NS::Modify &modify) {
+  return {modify.fix, modify.fix + modify.nfix};
+}
+
 /// Whether a pair of balls of the contact law's neighbour list is counted on this rank, so that sums and
 /// tables over all ranks have each pair once. With newton off a pair across ranks is in the lists of both: it
 /// counts where the ball with the lower ID is owned.
