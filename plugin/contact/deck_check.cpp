@@ -77,7 +77,7 @@ void DeckCheck::of_pair(engine::LAMMPS *lmp, const std::string &command, bool se
 
 void DeckCheck::of_fix(engine::LAMMPS *lmp, const Fix &fix) {
   if (lmp->update->whichflag == 0 || contact_source(lmp) != nullptr) return;
-  for (const Fix *first : engine::fixes(*lmp->modify)) {
+  for (const Fix *first : engine::fixes(lmp->modify)) {
     if (!is_own(*first)) continue;
     if (first == &fix) look(lmp, std::string("fix ") + fix.style, false);
     return;
@@ -93,7 +93,7 @@ void DeckCheck::look(engine::LAMMPS *lmp, const std::string &command, bool secon
   std::string untried;
   const auto add = [&untried](const std::string &text) { untried += (untried.empty() ? "" : ", ") + text; };
   if (!atom_style_is_right(lmp)) add(std::string("atom_style ") + lmp->atom->atom_style);
-  for (const Fix *fix : engine::fixes(*lmp->modify)) {
+  for (const Fix *fix : engine::fixes(lmp->modify)) {
     if (is_internal(fix->style)) continue;
     const std::string name = std::string("fix ") + fix->id + " (" + fix->style + ")";
     const OtherFixes *fixes = other_fixes_with(fix->style);

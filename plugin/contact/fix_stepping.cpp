@@ -78,7 +78,7 @@ void FixStepping::init() {
   comm_reverse =
       most_gathered; // for which the engine makes room at the begin of each run; gather() may ask for less
   dt_varies_ = false;
-  for (const Fix *fix : drumlin::engine::fixes(*modify))
+  for (const Fix *fix : drumlin::engine::fixes(modify))
     dt_varies_ = dt_varies_ || drumlin::changes_time_step(fix->style);
   constraints_.clear();
   for (int n = 0; n < modify->nfix; ++n)

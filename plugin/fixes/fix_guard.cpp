@@ -64,7 +64,7 @@ int FixGuard::setmask() {
 void FixGuard::init() {
   deck_check_.of_fix(lmp, *this);
   frozen_ = 0;
-  for (const Fix *fix : drumlin::engine::fixes(*modify))
+  for (const Fix *fix : drumlin::engine::fixes(modify))
     if (std::string(fix->style) == "freeze") frozen_ |= fix->groupbit;
 }
 

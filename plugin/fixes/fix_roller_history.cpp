@@ -129,7 +129,7 @@ void FixRollerHistory::init() {
     frame_.mass = group->mass(index);
   }
   find_partners();
-  for (const Fix *fix : engine::fixes(*modify))
+  for (const Fix *fix : engine::fixes(modify))
     if (steps_per_cycle_ > 0 && drumlin::changes_time_step(fix->style))
       error->all(FLERR,
                  engine::error_text(fmt::format(

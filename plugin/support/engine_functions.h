@@ -35,8 +35,8 @@ inline LAMMPS_NS::Fix *find_fix(LAMMPS_NS::Modify *modify, const std::string &id
 }
 
 /// All fixes, in the order in which the engine calls them.
-inline std::vector<LAMMPS_NS::Fix *> fixes(const LAMMPS_NS::Modify &modify) {
-  return {modify.fix, modify.fix + modify.nfix};
+inline std::vector<LAMMPS_NS::Fix *> fixes(const LAMMPS_NS::Modify *modify) {
+  return {modify->fix, modify->fix + modify->nfix};
 }
 
 /// Whether a pair of balls of the contact law's neighbour list is counted on this rank, so that sums and

@@ -47,7 +47,7 @@ constexpr OtherFixes other_fixes[] = {
      "mesh/surface mesh/surface/planar mesh/surface/stress mesh/surface/stress/servo move/mesh "
      "move/mesh/file move/mesh/gran wall/gran wall/gran/region"},
     {"inserts balls or shares them out among the ranks", Verdict::right, Verdict::right,
-     "balance insert/pack insert/rate/region pour"},
+     "balance insert/pack insert/rate/region insert/stream pour"},
     {"makes rigid bodies", Verdict::refused, Verdict::right, "rigid rigid/nve rigid/nve/small rigid/small"},
     {"changes velocities, positions or the forces of contacts beside the integration", Verdict::refused,
      Verdict::right,
@@ -69,7 +69,7 @@ constexpr OtherFixes other_fixes[] = {
      "efield/lepton efield/tip4p electrode/conp electrode/conq electrode/thermo electron/stopping "
      "electron/stopping/fit enforce2d eos/cv eos/table eos/table/rx evaporate external ffl "
      "fiber/spring/simple filter/corotate gcmc gemc gjf gld gle grem heat/flow heat/gran "
-     "heat/gran/conduction hmc hyper/global hyper/local ilves imd insert/stream ipi lambda/apip "
+     "heat/gran/conduction hmc hyper/global hyper/local ilves imd ipi lambda/apip "
      "lambda/la/csp/apip lambda_thermostat/apip langevin/drude langevin/eff langevin/spin latte "
      "lb/fluid lb/momentum lb/pc lb/rigid/pc/sphere lb/viscous manifoldforce massflow/mesh/sieve "
      "mdi/engine mdi/qm mdi/qmmm meso/move mol/swap mscg msst multicontact/halfspace multisphere "

@@ -85,6 +85,7 @@ Outcome run(const Scene &scene, const Scratch &folder, int ranks = 1) {
 /// The last frame of a run.
 std::map<long, Ball> last_frame(const Scene &scene, int ranks = 1) {
   const Scratch folder;
+  write_floor(folder / "floor.stl", 0.1, false);
   const Outcome outcome = run(scene, folder, ranks);
   EXPECT_TRUE(outcome.ok()) << outcome.output;
   EXPECT_FALSE(outcome.says("WARNING: pair_style")) << outcome.output;
@@ -135,6 +136,7 @@ const Beside besides[] = {
     {"M", "fix f a wall/lj1043 zlo -0.1 1 0.1 0.25 units box"},
     {"M", "fix f a wall/morse zlo -0.1 1 10 0.1 0.25 units box"},
     {"M", "fix f a indent 500 sphere 0 0 0.15 0.05 units box"},
+    {"M", "fix f a wall/gran hooke/history 1e5 NULL 0 NULL 0 0 xplane NULL 0.053"},
     {"M", "comm_style tiled\nfix f all balance 100 1.0 shift x 5 1.0"},
     {"L", "communicate multi vel yes"},
 };
@@ -178,6 +180,22 @@ TEST(OtherStylesOnRanks, GiveTheResultsOfOneRank) {
   const Scene scene{true, "second", 1e-4, 400, "comm_style tiled\nfix f all balance 50 1.0 shift x 5 1.0"};
   EXPECT_LT(difference(last_frame(scene, 2), last_frame(scene, 1)), 1e-12);
 }
+
+class NeighborStyles : public ::testing::TestWithParam<const char *> {};
+
+// A drum of 0.7 m over a ball of 0.1 m.
+TEST_P(NeighborStyles, FindContactsOfUnequalBallsInLammps) {
+  SKIP_WITHOUT_LAMMPS(true);
+  Scene scene{true, "second", 1e-5, 100,
+              std::string("neighbor 0.02 ") + GetParam() + "\nset atom 2 diameter 0.7 mass 1"};
+  scene.second_start = "0 0 0.4505";
+  scene.velocity = "0 0 0";
+  const auto balls = last_frame(scene);
+  EXPECT_GT(balls.at(2).f[2], 10.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Lammps, NeighborStyles, ::testing::Values("nsq", "bin", "multi", "multi/old"),
+                         [](const auto &test) { return name_of(std::string(test.param)); });
 
 // --- another time step within a run -------------------------------------------------------------------------------
 
@@ -358,6 +376,10 @@ const Insertion insertions[] = {
      templates +
          "fix f all insert/rate/region seed 32452843 distributiontemplate d nparticles 1 particlerate 1e6 "
          "insert_every 10000000 overlapcheck yes vel constant 0 0 -1 all_in yes region in"},
+    {"insert_stream", false,
+     templates + "fix face all mesh/surface/planar file floor.stl type 1 move 0.5 0 0.4\n"
+                 "fix f all insert/stream seed 32452867 distributiontemplate d nparticles 1 particlerate 1e4 "
+                 "overlapcheck yes all_in no vel constant 0 0 -1 insertion_face face extrude_length 0.25"},
     {"pour", true,
      "region in block 0.5 0.7 -0.1 0.1 0.055 0.4 units box\nfix g all gravity 9.81 vector 0 0 -1\n"
      "fix f all pour 1 1 4767548 vol 0.9 100 diam one 0.1 dens 1909.86 1909.86 vel 0 0 0 0 -1 region in"},
