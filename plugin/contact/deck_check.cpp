@@ -90,29 +90,40 @@ void DeckCheck::look(engine::LAMMPS *lmp, const std::string &command, bool secon
            std::string("atom_style is '") + lmp->atom->atom_style +
                "', whose balls have no mass of their own; allowed: sphere");
   check_run(lmp, command);
-  std::string untried;
-  const auto add = [&untried](const std::string &text) { untried += (untried.empty() ? "" : ", ") + text; };
-  if (!atom_style_is_right(lmp)) add(std::string("atom_style ") + lmp->atom->atom_style);
+  std::string untried, growing;
+  bool guarded = false;
+  const auto add = [](std::string &names, const std::string &name) {
+    names += (names.empty() ? "" : ", ") + name;
+  };
+  if (!atom_style_is_right(lmp)) add(untried, std::string("atom_style ") + lmp->atom->atom_style);
   for (const Fix *fix : engine::fixes(lmp->modify)) {
     if (is_internal(fix->style)) continue;
     const std::string name = std::string("fix ") + fix->id + " (" + fix->style + ")";
     const OtherFixes *fixes = other_fixes_with(fix->style);
     const Verdict verdict = fixes == nullptr ? Verdict::untried : second ? fixes->second : fixes->stock;
-    if (verdict == Verdict::untried) add(name);
+    if (verdict == Verdict::untried) add(untried, name);
     if (verdict == Verdict::refused)
       refuse(lmp, command,
              fmt::format("stepping is '{}' and {} {}; allowed: {}", second ? "second" : "stock", name,
                          fixes->what, allowed_text(*fixes)));
+    if (without_suffix(fix->style) == "adapt") add(growing, name);
+    guarded = guarded || std::string(fix->style) == "guard";
   }
+  if (!untried.empty())
+    untried = fmt::format(
+        "{}: it has not been tried beside {}; taken for granted: these add forces of their own at most, "
+        "after those of contacts and before the end of the step, and change no position, velocity, mass, "
+        "radius, type, group, box or time step",
+        command, untried);
+  if (!growing.empty() && !guarded)
+    add(untried,
+        fmt::format(
+            "{}: {} may let balls grow, and there is no fix guard, which finds contacts that the neighbour "
+            "list then misses",
+            command, growing));
   if (untried.empty() || untried == warned_) return;
   warned_ = untried;
-  if (lmp->comm->me == 0)
-    lmp->error->warning(
-        FLERR, engine::error_text(fmt::format("{}: it has not been tried beside {}; taken for granted: these "
-                                              "add forces of their own at most, after those of contacts "
-                                              "and before the end of the step, and change no position, "
-                                              "velocity, mass, radius, type, group, box or time step",
-                                              command, untried)));
+  if (lmp->comm->me == 0) lmp->error->warning(FLERR, engine::error_text(untried));
 }
 
 } // namespace drumlin

@@ -16,10 +16,6 @@ constexpr const char *helper_id = "drumlin_stepping";
 constexpr int exchanged = 5;     // numbers that move with a ball to another rank
 constexpr int most_gathered = 6; // most numbers that a ghost sends to its owner
 
-/// Factor of a force that is to move a ball in a drift of the time step `now` as far as it would have done in
-/// one of the time step `before`.
-double shift_scale(double before, double now) { return (before / now) * (before / now); }
-
 /// Constraints that share forces among the balls of a group, over all ranks, which must all call them.
 bool joins(const std::string &style) { return style == "aveforce" || style == "clump"; }
 
@@ -381,12 +377,10 @@ void FixStepping::end_of_step() {
   // The part of a shift that passes the constraints is the difference that it makes to the constrained force.
   shifts_.swap(later_);
   later_.clear();
-  shift_dt_ = update->dt;
-  const double scale = shift_scale(dt_, shift_dt_);
   for (Later &item : shifts_)
     for (std::size_t a = 0; a < 3; ++a) {
       item.rest[a] = f[item.i][a];
-      f[item.i][a] += scale * item.shift[a];
+      f[item.i][a] += item.shift[a];
     }
   constrain(!shifts_.empty());
   for (Later &item : shifts_)
@@ -394,16 +388,7 @@ void FixStepping::end_of_step() {
       item.shift[a] = f[item.i][a] - item.rest[a];
 }
 
-void FixStepping::reset_dt() {
-  told_dt_ = update->dt;
-  const double more = shift_scale(shift_dt_, update->dt) - 1.0;
-  shift_dt_ = update->dt;
-  for (Later &item : shifts_)
-    for (std::size_t a = 0; a < 3; ++a) {
-      atom->f[item.i][a] += more * item.shift[a];
-      item.shift[a] += more * item.shift[a];
-    }
-}
+void FixStepping::reset_dt() { told_dt_ = update->dt; }
 
 void FixStepping::add_force(int i, double factor, const std::array<double, 3> &vector) {
   for (std::size_t a = 0; a < 3; ++a)

@@ -183,7 +183,6 @@ private:
   double dt_ = 0.0;
   double told_dt_ = 0.0;           // time step of which the engine has told its fixes
   bool dt_varies_ = false;         // whether a fix may change it within the run
-  double shift_dt_ = 0.0;          // time step of the drift in which shifts_ act
   double expected_dt_ = 0.0;       // time step for which counting_ was decided
   std::vector<Expected> expected_; // links that are not contacts
   // One entry per ball:
