@@ -359,6 +359,7 @@ INSTANTIATE_TEST_SUITE_P(Engines, GrowingBalls,
 struct Insertion {
   const char *name;
   bool lammps;
+  double time; // s, until the ball has met the floor
   std::string lines;
 };
 void PrintTo(const Insertion &insertion, std::ostream *out) { *out << insertion.name; }
@@ -368,19 +369,19 @@ const std::string templates =
     "constant 0.05\nfix d all particledistribution/discrete 15485867 1 t 1.0\n"
     "region in block 0.5 0.7 -0.1 0.1 0.055 0.2 units box\n";
 const Insertion insertions[] = {
-    {"insert_pack", false,
+    {"insert_pack", false, 0.3,
      templates +
          "fix f all insert/pack seed 32452843 distributiontemplate d insert_every once overlapcheck yes "
          "vel constant 0 0 -1 all_in yes particles_in_region 1 region in"},
-    {"insert_rate_region", false,
+    {"insert_rate_region", false, 0.3,
      templates +
          "fix f all insert/rate/region seed 32452843 distributiontemplate d nparticles 1 particlerate 1e6 "
          "insert_every 10000000 overlapcheck yes vel constant 0 0 -1 all_in yes region in"},
-    {"insert_stream", false,
+    {"insert_stream", false, 0.65,
      templates + "fix face all mesh/surface/planar file floor.stl type 1 move 0.5 0 0.4\n"
                  "fix f all insert/stream seed 32452867 distributiontemplate d nparticles 1 particlerate 1e4 "
                  "overlapcheck yes all_in no vel constant 0 0 -1 insertion_face face extrude_length 0.25"},
-    {"pour", true,
+    {"pour", true, 0.3,
      "region in block 0.5 0.7 -0.1 0.1 0.055 0.4 units box\nfix g all gravity 9.81 vector 0 0 -1\n"
      "fix f all pour 1 1 4767548 vol 0.9 100 diam one 0.1 dens 1909.86 1909.86 vel 0 0 0 0 -1 region in"},
 };
@@ -391,8 +392,10 @@ class Inserted : public ::testing::TestWithParam<Insertion> {};
 TEST_P(Inserted, BallsGoWithTheSecondOrderScheme) {
   SKIP_WITHOUT_LAMMPS(GetParam().lammps);
   const std::string lines = GetParam().lines;
-  const auto fine = last_frame({GetParam().lammps, "stock", 1e-5, 30000, lines});
-  const auto second = last_frame({GetParam().lammps, "second", 1e-4, 3000, lines});
+  const auto fine = last_frame(
+      {GetParam().lammps, "stock", 1e-5, static_cast<int>(std::lround(GetParam().time / 1e-5)), lines});
+  const auto second = last_frame(
+      {GetParam().lammps, "second", 1e-4, static_cast<int>(std::lround(GetParam().time / 1e-4)), lines});
   ASSERT_EQ(fine.size(), 3u);
   ASSERT_EQ(second.size(), 3u);
   const Ball &one = fine.at(3), &other = second.at(3);
