@@ -87,7 +87,8 @@ void FixGuard::setup_pre_neighbor() { pre_neighbor(); }
 void FixGuard::pre_neighbor() {
   listed_.clear();
   for (int i = 0; atom->radius_flag && i < atom->nlocal; ++i)
-    listed_.push_back({{atom->x[i][0], atom->x[i][1], atom->x[i][2]}, atom->radius[i]});
+    listed_.push_back(
+        {static_cast<double>(atom->tag[i]), {atom->x[i][0], atom->x[i][1], atom->x[i][2]}, atom->radius[i]});
 }
 
 /// Before the list is built again, when the balls have moved the farthest from where it was built.
@@ -108,6 +109,8 @@ void FixGuard::check_lists() const {
   const int known = std::min(atom->nlocal, static_cast<int>(listed_.size()));
   for (int i = 0; i < known; ++i) {
     const Listed &then = listed_[static_cast<std::size_t>(i)];
+    if (then.tag != static_cast<double>(atom->tag[i]))
+      continue; // balls were deleted: the list is built again now
     const double *x = atom->x[i];
     const double way = std::hypot(x[0] - then.x[0], x[1] - then.x[1], x[2] - then.x[2]);
     const double growth = std::max(0.0, atom->radius[i] - then.radius);

@@ -65,6 +65,7 @@ private:
 
   /// A ball when the neighbour list was built.
   struct Listed {
+    double tag;              // ID
     std::array<double, 3> x; // m
     double radius;           // m
   };
