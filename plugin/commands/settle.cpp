@@ -81,11 +81,11 @@ public:
                             ? fmt::format("drumlin/settle: unbalanced ratio is '{:.3g}', the scene is "
                                           "not in equilibrium; allowed: at most "
                                           "{:.3g}",
-                                          ratio, ratio_)
+                                          unrest.ratio, ratio_)
                             : fmt::format("drumlin/settle: unbalanced ratio is '{:.3g}' after {} steps, "
                                           "no equilibrium; allowed: at most {:.3g} "
                                           "within {} steps (a scene without damping never comes to rest)",
-                                          ratio, steps, ratio_, limit_));
+                                          unrest.ratio, steps, ratio_, limit_));
     engine::log_message(
         lmp, fmt::format("drumlin/settle: unbalanced ratio {:.3g} after {} steps{}\n", unrest.ratio, steps,
                          unrest.ratio <= ratio_

@@ -22,22 +22,23 @@ struct FrictionChange {
 /// One contact of two balls, or of a ball and a wall, in one step. Stiffnesses, damping coefficients and
 /// energies are those of the contact law; the values that act on the balls are `share` times as large.
 struct ContactRecord {
-  int i, j;                     ///< indices of the balls; j < 0: a wall at rest
-  std::array<double, 3> normal; ///< from j to i
-  double overlap;               ///< m
-  double radius;                ///< of the smaller ball, m
-  double share;                 ///< 1; less where triangles of a mesh share the force of one contact
-  double spring_force;          ///< N, of the normal spring alone
-  double spring_energy;         ///< J, in the normal spring
-  double normal_stiffness;      ///< N/m
-  double normal_dashpot;        ///< N s/m; 0 under `stepping second`, where it does not limit the time step
-  double tangential_stiffness;  ///< N/m; 0 without a tangential spring
-  double tangential_dashpot;    ///< N s/m; 0 without a tangential dashpot
-  double rolling_stiffness;     ///< N m; 0 without a rolling spring
-  double normal_force;          ///< N, positive when it pushes
-  const double *final_force;    ///< where the final normal force is stored once all forces of the step are
-                                ///< known (`stepping second`); nullptr: normal_force is final
-  const double *spring;         ///< tangential spring, m, three components; nullptr: none
+  int i, j;                            ///< indices of the balls; j < 0: a wall
+  std::array<double, 3> normal;        ///< from j to i
+  std::array<double, 3> wall_velocity; ///< m/s, of a wall's surface at the contact; 0 between balls
+  double overlap;                      ///< m
+  double radius;                       ///< of the smaller ball, m
+  double share;                        ///< 1; less where triangles of a mesh share the force of one contact
+  double spring_force;                 ///< N, of the normal spring alone
+  double spring_energy;                ///< J, in the normal spring
+  double normal_stiffness;             ///< N/m
+  double normal_dashpot;       ///< N s/m; 0 under `stepping second`, where it does not limit the time step
+  double tangential_stiffness; ///< N/m; 0 without a tangential spring
+  double tangential_dashpot;   ///< N s/m; 0 without a tangential dashpot
+  double rolling_stiffness;    ///< N m; 0 without a rolling spring
+  double normal_force;         ///< N, positive when it pushes
+  const double *final_force;   ///< where the final normal force is stored once all forces of the step are
+                               ///< known (`stepping second`); nullptr: normal_force is final
+  const double *spring;        ///< tangential spring, m, three components; nullptr: none
   std::array<double, 3> tangential_force;   ///< on ball i, N
   std::array<double, 3> torque_i, torque_j; ///< N m
   const FrictionChange *change; ///< what is added to these three once all forces of the step are known;
@@ -74,6 +75,7 @@ ContactRecord record_of_law(const Law &law, double overlap, bool second_order) {
 struct PairStep {
   int tag_i, tag_j; ///< IDs of the balls, the lower first
   const AnyLaw &law;
+  double dt;                           ///< s, length of the step
   physics::OverlapState before, after; ///< at the beginning and the end of the step
 };
 

@@ -9,7 +9,7 @@ namespace engine = drumlin::engine;
 namespace physics = drumlin::physics;
 
 int FixPairObserver::setmask() {
-  return FixConst::PRE_EXCHANGE | FixConst::PRE_NEIGHBOR | FixConst::END_OF_STEP;
+  return FixConst::POST_INTEGRATE | FixConst::PRE_EXCHANGE | FixConst::PRE_NEIGHBOR | FixConst::END_OF_STEP;
 }
 
 void FixPairObserver::init() {
@@ -39,7 +39,7 @@ void FixPairObserver::list_pairs() {
         pair.state = {now.overlap, now.rate};
         // The balls have become neighbours during the run. One step earlier the gap between them was about as
         // large as the neighbour skin.
-        if (!update->setupflag) pair.state.overlap -= update->dt * now.rate;
+        if (!update->setupflag) pair.state.overlap -= dt_ * now.rate;
       }
       pairs_.push_back(pair);
     }
@@ -47,6 +47,8 @@ void FixPairObserver::list_pairs() {
   states_.clear();
   pairs_outdated_ = false;
 }
+
+void FixPairObserver::post_integrate() { dt_ = update->dt; }
 
 void FixPairObserver::pre_exchange() {
   // The balls may move to other ranks now. Each rank therefore gets the overlaps and rates of all pairs.
@@ -87,7 +89,7 @@ void FixPairObserver::end_of_step() {
     const drumlin::PairMotion motion = drumlin::pair_motion(*atom, pair.i, pair.j);
     const physics::OverlapState now{motion.overlap, motion.rate};
     pair.law.follow(*source_, pair.i, pair.j);
-    see_pair({pair.tags.first, pair.tags.second, pair.law.law(), pair.state, now});
+    see_pair({pair.tags.first, pair.tags.second, pair.law.law(), dt_, pair.state, now});
     pair.state = now;
   }
 }

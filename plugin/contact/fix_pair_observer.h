@@ -33,6 +33,7 @@ public:
   /// Stops the engine with an error message if the pair style is not one of this plugin.
   void init() override;
   void setup(int) override;
+  void post_integrate() override;
   void pre_exchange() override;
   void pre_neighbor() override;
   /// Passes the chosen pairs to see_pair(). Of several ranks one passes a pair.
@@ -57,6 +58,7 @@ private:
   void list_pairs();
 
   const drumlin::ContactSource *source_ = nullptr;
+  double dt_ = 0.0; // s, of the present step; at the end of a step another fix may have set that of the next
   std::vector<Pair> pairs_;
   std::map<Tags, drumlin::physics::OverlapState>
       states_;                 // of the pairs of all ranks, until the next list_pairs()

@@ -1,6 +1,7 @@
 #include "contact/fix_stepping.h"
 
 #include "contact/contact_settings.h"
+#include "support/other_styles.h"
 
 #include <algorithm>
 #include <array>
@@ -88,12 +89,14 @@ void FixStepping::init() {
       most_gathered; // for which the engine makes room at the begin of each run; gather() may ask for less
   observers_.find(*modify);
   moved_bits_ = free_bits_ = 0;
+  dt_varies_ = false;
   for (const Fix *fix : drumlin::engine::fixes(modify)) {
     const std::string name = fix->style;
     if (moves(name))
       moved_bits_ |= fix->groupbit;
     else if (fix->time_integrate != 0 || name == "freeze" || name.rfind("multisphere", 0) == 0)
       free_bits_ |= fix->groupbit;
+    dt_varies_ = dt_varies_ || drumlin::changes_time_step(name);
   }
   constraints_.clear();
   for (Fix *fix : drumlin::engine::fixes(modify))
@@ -109,6 +112,7 @@ void FixStepping::init() {
 void FixStepping::setup_pre_force(int) {
   if (!in_use_) return;
   in_setup_ = true;
+  told_dt_ = update->dt;
   light_ = false;
   coupled_.clear();
   begun_.clear();
@@ -188,6 +192,13 @@ double FixStepping::moving_mass_of_moved(int i, int j, const std::array<double, 
 
 void FixStepping::post_integrate() {
   if (!in_use_) return;
+  if (update->dt != told_dt_)
+    error->all(FLERR,
+               drumlin::engine::error_text(fmt::format(
+                   "stepping second: time step is '{:.9g}' at step {}, changed from {:.9g} s within a run "
+                   "without a word to the fixes that integrate; allowed: another time step by fix dt/reset, "
+                   "or for a run with its set-up (no keyword pre no)",
+                   update->dt, update->ntimestep, told_dt_)));
   if (any_moved_) follow_moved();
   for (const Later &item : shifts_) {
     double *v = atom->v[item.i];
@@ -294,7 +305,8 @@ void FixStepping::expect_contacts() {
   }
   std::array<double, 2> all = mine;
   if (comm->nprocs > 1) MPI_Allreduce(mine.data(), all.data(), 2, MPI_DOUBLE, MPI_MAX, world);
-  counting_ = drumlin::physics::needs_coupling(update->dt, all[1], 1.0, 2.0 * all[0]);
+  // Where the time step may grow within the run the sums of a step are needed for any time step of the next.
+  counting_ = dt_varies_ || drumlin::physics::needs_coupling(update->dt, all[1], 1.0, 2.0 * all[0]);
   expected_dt_ = update->dt;
 }
 
@@ -493,6 +505,8 @@ void FixStepping::end_of_step() {
     for (std::size_t a = 0; a < 3; ++a)
       item.shift[a] = f[item.i][a] - item.rest[a];
 }
+
+void FixStepping::reset_dt() { told_dt_ = update->dt; }
 
 void FixStepping::add_force(int i, double factor, const std::array<double, 3> &vector) {
   for (std::size_t a = 0; a < 3; ++a)

@@ -47,6 +47,8 @@ public:
   void pre_force(int) override;
   void close_forces() override;
   void end_of_step() override;
+  /// Called when a fix changes the time step within a run.
+  void reset_dt() override;
   void grow_arrays(int) override;
   void copy_arrays(int, int, int) override;
   void set_arrays(int) override;
@@ -257,6 +259,8 @@ private:
   bool masses_change_ = false; // or one of any rank's
   const drumlin::ContactSource *source_ = nullptr; // since the set-up of the run
   double dt_ = 0.0;
+  double told_dt_ = 0.0;           // time step of which the engine has told its fixes
+  bool dt_varies_ = false;         // whether a fix may change it within the run
   double expected_dt_ = 0.0;       // time step for which counting_ was decided
   std::vector<Expected> expected_; // links that are not contacts
   // One entry per ball:

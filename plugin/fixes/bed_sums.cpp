@@ -69,8 +69,7 @@ ContactSums BedSums::contacts(const Vec3 &axis) const {
     const double force = e.final_normal_force();
     const Vec3 tangential = e.final_tangential_force();
     const double *vi = atom.v[e.i];
-    constexpr std::array<double, 3> still{};
-    const double *vj = wall ? still.data() : atom.v[e.j];
+    const double *vj = wall ? e.wall_velocity.data() : atom.v[e.j];
     const Vec3 v{vi[0] - vj[0], vi[1] - vj[1], vi[2] - vj[2]};
     const double rate = -dot(e.normal, v.data());
     mine.normal_heat += weight * (force - e.share * e.spring_force) * rate;

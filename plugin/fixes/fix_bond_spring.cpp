@@ -55,6 +55,7 @@ FixBondSpring::FixBondSpring(LAMMPS *lammps, int narg, char **arg) : GhostFix(la
 int FixBondSpring::setmask() { return FixConst::PRE_NEIGHBOR | FixConst::POST_FORCE; }
 
 void FixBondSpring::init() {
+  deck_check_.of_fix(lmp, *this);
   stepping_ = FixStepping::find(lmp);
   observers_.find(*modify);
   for (const int tag : tags_) {

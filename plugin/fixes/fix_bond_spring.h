@@ -1,6 +1,7 @@
 #pragma once
 // fix bond/spring: a bonded spring-dashpot between two balls. See plugin/doc/fix_bond_spring.md.
 
+#include "contact/deck_check.h"
 #include "engine.h"
 #include "contact/contact_observer.h"
 #include "physics/bond_law.h"
@@ -63,6 +64,7 @@ private:
   bool current_length_ = true; // the length is the distance at the first set-up
   bool whole_ = true;
   class FixStepping *stepping_ = nullptr; // nullptr under stock stepping
+  drumlin::DeckCheck deck_check_;
   bool echoed_ = false;
   State state_{};
   drumlin::ContactObservers observers_;

@@ -77,6 +77,7 @@ int FixBoundaryAbsorb::setmask() {
 }
 
 void FixBoundaryAbsorb::init() {
+  deck_check_.of_fix(lmp, *this);
   count_ = static_cast<double>(group->count(igroup));
   if (count_ == 0.0)
     error->all(FLERR, engine::error_text(fmt::format(
@@ -148,6 +149,7 @@ physics::Vec3 FixBoundaryAbsorb::constant_force(int i) const {
 
 /// Takes the constant forces before the first step, when all fixes have added their forces of the set-up.
 void FixBoundaryAbsorb::initial_integrate(int) {
+  dt_ = update->dt;
   if (!keep_static_ || static_known_) return;
   for (int i = 0; i < atom->nlocal; ++i)
     if (atom->mask[i] & groupbit) {
@@ -208,7 +210,7 @@ void FixBoundaryAbsorb::add(int i, const Vector &more) {
 void FixBoundaryAbsorb::end_of_step() {
   const double before = power_;
   power_ = heat_rate();
-  heat_ += 0.5 * update->dt * (before + power_); // trapezoidal rule
+  heat_ += 0.5 * dt_ * (before + power_); // trapezoidal rule
 }
 
 /// Power, W, that the dashpots dissipate. Summed over the ranks in each step and not at the end, so that a restarted run adds the same

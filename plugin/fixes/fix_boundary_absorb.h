@@ -2,6 +2,7 @@
 // fix boundary/absorb: a boundary of balls that absorbs waves. See plugin/doc/fix_boundary_absorb.md.
 
 #include "contact/contact_observer.h"
+#include "contact/deck_check.h"
 #include "engine.h"
 #include "physics/absorbing_boundary.h"
 
@@ -91,6 +92,8 @@ private:
   double count_ = 0.0;                                                   // number of balls of the group
   double heat_ = 0.0;  // J, dissipated since the first run began, sum over all ranks
   double power_ = 0.0; // W, dissipated at the end of the last step, sum over all ranks
+  drumlin::DeckCheck deck_check_;
+  double dt_ = 0.0; // s, of the present step: at its end another fix may set that of the next
   bool echoed_ = false;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <limits>
 #include <string>
 
 using namespace LAMMPS_NS;
@@ -22,6 +23,7 @@ FixClump::FixClump(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg
 int FixClump::setmask() { return FixConst::POST_FORCE; }
 
 void FixClump::init() {
+  deck_check_.of_fix(lmp, *this);
   const double balls = static_cast<double>(group->count(igroup));
   if (balls == 0.0)
     error->all(FLERR,
@@ -29,6 +31,8 @@ void FixClump::init() {
                    "fix clump: group is '{}', which is empty; allowed: a group with the balls of the body",
                    group->names[igroup])));
   mass_ = group->mass(igroup);
+  if (update->whichflag != 0)
+    refuse_unequal_velocities(); // 0: not a run, but a command that needs the engine's lists
   Clumps clumps;
   clumps.find(*modify);
   for (const FixClump *other : clumps.all())
@@ -68,6 +72,30 @@ int FixClump::common_balls(const Fix &other) const {
   int all = 0;
   MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_SUM, world);
   return all;
+}
+
+/// Balls that do not move together from the start would never do so: their forces give them one acceleration. The
+/// body's mass in their contacts would then make energy. Differences by rounding are allowed.
+void FixClump::refuse_unequal_velocities() const {
+  constexpr double relative = 1e-6, absolute = 1e-9; // of the speed; m/s
+  std::array<double, 6> most{};                      // of the velocity along x to z, and of its negative
+  most.fill(-std::numeric_limits<double>::infinity());
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (atom->mask[i] & groupbit)
+      for (std::size_t a = 0; a < 3; ++a) {
+        most[a] = std::max(most[a], atom->v[i][a]);
+        most[a + 3] = std::max(most[a + 3], -atom->v[i][a]);
+      }
+  MPI_Allreduce(MPI_IN_PLACE, most.data(), static_cast<int>(most.size()), MPI_DOUBLE, MPI_MAX, world);
+  const double speed = *std::max_element(most.begin(), most.end());
+  for (std::size_t a = 0; a < 3; ++a)
+    if (most[a] + most[a + 3] > relative * speed + absolute)
+      error->all(
+          FLERR,
+          drumlin::engine::error_text(fmt::format(
+              "fix clump: velocity of the balls of group {} along {} is '{:.9g} to {:.9g} m/s'; allowed: one "
+              "velocity for all balls of a body, from the start (command velocity GROUP set)",
+              group->names[igroup], "xyz"[a], -most[a + 3], most[a])));
 }
 
 void FixClump::setup(int vflag) { post_force(vflag); }

@@ -1,6 +1,7 @@
 #pragma once
 // fix clump: a group of balls that translates as one rigid body. See plugin/doc/fix_clump.md.
 
+#include "contact/deck_check.h"
 #include "engine.h"
 
 #include <array>
@@ -29,9 +30,11 @@ public:
 
 private:
   int common_balls(const Fix &other) const;
+  void refuse_unequal_velocities() const;
 
   double mass_ = 0.0;
   std::array<double, 3> force_{}; // on the balls of this rank, before it is distributed, N
+  drumlin::DeckCheck deck_check_;
   bool echoed_ = false;
 };
 

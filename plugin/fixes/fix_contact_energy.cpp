@@ -36,7 +36,10 @@ void FixContactEnergy::init() {
 }
 
 void FixContactEnergy::setup_pre_force(int step) { pre_force(step); }
-void FixContactEnergy::pre_force(int) { sums_.clear(); }
+void FixContactEnergy::pre_force(int) {
+  sums_.clear();
+  dt_ = update->dt;
+}
 
 void FixContactEnergy::setup(int) {
   evaluate();
@@ -53,7 +56,7 @@ void FixContactEnergy::evaluate() {
 void FixContactEnergy::end_of_step() {
   const drumlin::ContactSums before = now_;
   evaluate();
-  const double half_step = 0.5 * update->dt;
+  const double half_step = 0.5 * dt_;
   normal_heat_ += half_step * (before.normal_heat + now_.normal_heat) + now_.missed_heat;
   tangential_work_ += half_step * (before.tangential_power + now_.tangential_power) + now_.missed_work;
 }

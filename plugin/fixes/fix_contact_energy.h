@@ -37,6 +37,7 @@ private:
   drumlin::BedSums sums_;
   drumlin::ContactSums now_;       // of the last evaluated step
   drumlin::BallSums balls_;        // of the last evaluated step
+  double dt_ = 0.0;                // s, of the present step: at its end another fix may set that of the next
   double normal_heat_ = 0.0;       // J, since the first set-up
   double tangential_work_ = 0.0;   // J, taken from the balls by friction and rolling since then
   std::optional<double> spring_0_; // J, in the tangential springs at the first set-up

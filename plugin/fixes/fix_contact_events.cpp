@@ -86,11 +86,16 @@ bool FixContactEvents::selects(int i, int j) const {
 
 void FixContactEvents::see_pair(const drumlin::PairStep &pair) {
   const auto event = std::visit(
-      [&](const auto &law) { return physics::locate_transition(law, update->dt, pair.before, pair.after); },
+      [&](const auto &law) { return physics::locate_transition(law, pair.dt, pair.before, pair.after); },
       pair.law);
   if (event)
     pending_.push_back({clock_.time(update->ntimestep - 1) + event->since, event->make ? 1 : 0,
                         event->overlap, event->rate, event->force, pair.tag_i, pair.tag_j});
+}
+
+void FixContactEvents::post_integrate() {
+  FixPairObserver::post_integrate();
+  clock_.follow(update->ntimestep, update->dt);
 }
 
 void FixContactEvents::end_of_step() {

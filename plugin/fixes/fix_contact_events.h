@@ -22,6 +22,7 @@ public:
   int setmask() override;
   void init() override;
   void setup(int) override;
+  void post_integrate() override;
   void end_of_step() override;
   void post_run() override;
   void see_pair(const drumlin::PairStep &) override;

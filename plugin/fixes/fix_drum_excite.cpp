@@ -96,6 +96,7 @@ void FixDrumExcite::parse_excitation(drumlin::Arguments &in, const std::string &
 int FixDrumExcite::setmask() { return FixConst::POST_INTEGRATE | FixConst::POST_FORCE; }
 
 void FixDrumExcite::init() {
+  deck_check_.of_fix(lmp, *this);
   if (group->count(igroup) == 0)
     error->all(FLERR,
                engine::error_text(fmt::format(
@@ -149,6 +150,7 @@ void FixDrumExcite::setup(int vflag) {
 // Second-order stepping predicts the velocity at the end of the step from the force of the last step. The
 // excitation force at the end of the step is already known, so that its change is part of the prediction.
 void FixDrumExcite::post_integrate() {
+  clock_.follow(update->ntimestep, update->dt);
   if (stepping_ == nullptr) return;
   const Vector F = force_now();
   for (int i = 0; i < atom->nlocal; ++i)

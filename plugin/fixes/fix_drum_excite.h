@@ -1,6 +1,7 @@
 #pragma once
 // fix drum/excite: the excitation force of the vibratory drum. See plugin/doc/fix_drum_excite.md.
 
+#include "contact/deck_check.h"
 #include "engine.h"
 #include "physics/excitation.h"
 #include "support/clock.h"
@@ -49,6 +50,7 @@ private:
   drumlin::Clock clock_;
   double mass_ = 0.0;      // of the group
   std::vector<int> balls_; // of the group on this rank, in this step
+  drumlin::DeckCheck deck_check_;
   bool echoed_ = false;
 };
 

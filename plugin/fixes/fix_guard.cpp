@@ -56,7 +56,17 @@ FixGuard::FixGuard(LAMMPS *lammps, int narg, char **arg) : GhostFix(lammps, narg
   }
 }
 
-int FixGuard::setmask() { return FixConst::INITIAL_INTEGRATE | FixConst::PRE_FORCE | FixConst::END_OF_STEP; }
+int FixGuard::setmask() {
+  return FixConst::INITIAL_INTEGRATE | FixConst::PRE_EXCHANGE | FixConst::PRE_NEIGHBOR | FixConst::PRE_FORCE |
+         FixConst::END_OF_STEP;
+}
+
+void FixGuard::init() {
+  deck_check_.of_fix(lmp, *this);
+  frozen_ = 0;
+  for (const Fix *fix : drumlin::engine::fixes(modify))
+    if (std::string(fix->style) == "freeze") frozen_ |= fix->groupbit;
+}
 
 void FixGuard::setup_pre_force(int) {
   links_of_setup_ = true;
@@ -73,19 +83,95 @@ void FixGuard::initial_integrate(int) {
   links_of_setup_ = false;
 }
 
+void FixGuard::setup_pre_neighbor() { pre_neighbor(); }
+void FixGuard::pre_neighbor() {
+  listed_.clear();
+  for (int i = 0; atom->radius_flag && i < atom->nlocal; ++i)
+    listed_.push_back(
+        {static_cast<double>(atom->tag[i]), {atom->x[i][0], atom->x[i][1], atom->x[i][2]}, atom->radius[i]});
+}
+
+/// Before the list is built again, when the balls have moved the farthest from where it was built.
+void FixGuard::pre_exchange() { check_lists(); }
+
+/// Ends the run if balls may touch that the neighbour list does not have. A pair is in the list if its distance was at
+/// most radii + skin when the list was built, and at most the cutoff, which the engine takes from the radii at the
+/// set-up of a run. The engine builds the list again when balls have moved, but not when they have grown.
+void FixGuard::check_lists() const {
+  struct Reach { // the two largest values of different balls of a rank, m; numbers only, for MPI
+    double grown = 0.0, held = 0.0, way[2] = {}, used[2] = {}, radius[2] = {};
+  } mine;
+  const auto add = [](double *two, double value) {
+    if (value <= two[1]) return;
+    two[1] = std::min(value, two[0]);
+    two[0] = std::max(value, two[0]);
+  };
+  const int known = std::min(atom->nlocal, static_cast<int>(listed_.size()));
+  for (int i = 0; i < known; ++i) {
+    const Listed &then = listed_[static_cast<std::size_t>(i)];
+    if (then.tag != static_cast<double>(atom->tag[i]))
+      continue; // balls were deleted: the list is built again now
+    const double *x = atom->x[i];
+    const double way = std::hypot(x[0] - then.x[0], x[1] - then.x[1], x[2] - then.x[2]);
+    const double growth = std::max(0.0, atom->radius[i] - then.radius);
+    if (growth > 0.0) mine.grown = 1.0;
+    add(mine.way, way);
+    add(mine.used, way + growth);
+    if (atom->mask[i] & frozen_)
+      mine.held = std::max(mine.held, atom->radius[i]); // such balls have no contacts with one another
+    else
+      add(mine.radius, atom->radius[i]);
+  }
+  constexpr int numbers = sizeof(Reach) / sizeof(double);
+  std::vector<Reach> ranks(static_cast<std::size_t>(comm->nprocs));
+  MPI_Allgather(&mine, numbers, MPI_DOUBLE, ranks.data(), numbers, MPI_DOUBLE, world);
+  Reach all;
+  for (const Reach &rank : ranks) {
+    all.grown = std::max(all.grown, rank.grown);
+    all.held = std::max(all.held, rank.held);
+    for (std::size_t n = 0; n < 2; ++n) {
+      add(all.way, rank.way[n]);
+      add(all.used, rank.used[n]);
+      add(all.radius, rank.radius[n]);
+    }
+  }
+  const double skin = neighbor->skin, cutoff = neighbor->cutneighmax;
+  const double used = all.used[0] + all.used[1], radii = all.radius[0] + std::max(all.radius[1], all.held);
+  if ((all.grown > 0.0 || neighbor->build_once != 0) && used > skin)
+    error->all(
+        FLERR,
+        drumlin::engine::error_text(fmt::format(
+            "fix guard: growth and motion of two balls since the neighbour list was built is '{:.4g} m' at "
+            "step "
+            "{}, so that contacts may be missing; allowed: at most the skin, {:.4g} m (a larger one, or "
+            "neigh_modify delay 0 every 1 check no)",
+            used, update->ntimestep, skin)));
+  constexpr double rounding = 1e-9;
+  if (radii > (1.0 + rounding) * (cutoff - skin) && radii + all.way[0] + all.way[1] > cutoff)
+    error->all(
+        FLERR,
+        drumlin::engine::error_text(fmt::format(
+            "fix guard: radii of two balls are '{:.4g} m' in sum at step {}, so that contacts may be "
+            "missing, since the neighbour list reaches {:.4g} m; allowed: at most this (a larger skin, or "
+            "several runs, at whose set-up it follows the radii)",
+            radii, update->ntimestep, cutoff)));
+}
+
 void FixGuard::pre_force(int) {
-  if (update->ntimestep % links_ == 0) begin_links();
+  if (update->ntimestep % links_ == 0 || update->dt > links_dt_) begin_links();
 }
 
 void FixGuard::end_of_step() {
   if (update->ntimestep % every_ == 0) check_numbers();
-  if (update->ntimestep % links_ == 0) end_links();
+  if (observing()) end_links();
+  if (update->ntimestep % links_ == 0) check_lists();
 }
 
 void FixGuard::begin_links() {
   const int balls = atom->nlocal + (force->newton_pair ? atom->nghost : 0);
   balls_.assign(static_cast<std::size_t>(balls), {});
   source_ = drumlin::contact_source(lmp);
+  links_dt_ = update->dt;
   observe(true);
 }
 

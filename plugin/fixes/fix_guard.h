@@ -5,6 +5,7 @@
 #include "engine.h"
 #include "contact/contact_observer.h"
 #include "contact/contact_source.h"
+#include "contact/deck_check.h"
 
 #include <limits>
 #include <string>
@@ -20,9 +21,13 @@ public:
   FixGuard(LAMMPS *, int, char **);
 
   int setmask() override;
+  void init() override;
   void setup_pre_force(int) override;
   void setup(int) override;
   void initial_integrate(int) override;
+  void setup_pre_neighbor() override;
+  void pre_exchange() override;
+  void pre_neighbor() override;
   void pre_force(int) override;
   void end_of_step() override;
   void pack_gathered(int, int, double *) override;
@@ -58,6 +63,14 @@ private:
     void join(const Ball &other);
   };
 
+  /// A ball when the neighbour list was built.
+  struct Listed {
+    double tag;              // ID
+    std::array<double, 3> x; // m
+    double radius;           // m
+  };
+
+  void check_lists() const;
   void see(int i, int partner, const drumlin::physics::LinkModes &modes, double overlap);
   void begin_links();
   void end_links();
@@ -70,10 +83,14 @@ private:
   bigint links_ = 100;          // steps between checks of contacts and bonds
   double step_ = 1.0;           // largest allowed time step over the critical step
   double overlap_ = 0.5;        // largest allowed overlap over the smaller radius
+  double links_dt_ = 0.0;       // time step at the last check of contacts and bonds, s
   bool links_of_setup_ = false; // whether the links of the set-up are still to be checked
+  int frozen_ = 0;              // bits of the groups of fixes freeze
+  std::vector<Listed> listed_;  // of this rank
   std::vector<Ball> balls_;     // of this rank, ghosts included with newton on
   Extreme critical_{}, fastest_{}, deepest_{};
-  std::string logged_;                             // the last line of log_at_setup()
+  std::string logged_; // the last line of log_at_setup()
+  drumlin::DeckCheck deck_check_;
   const drumlin::ContactSource *source_ = nullptr; // gives the effective masses of contacts
 };
 

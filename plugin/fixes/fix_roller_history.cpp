@@ -5,6 +5,7 @@
 #include "fixes/fix_boundary_absorb.h"
 #include "fixes/fix_drum_excite.h"
 #include "support/arguments.h"
+#include "support/other_styles.h"
 #include "support/restart_record.h"
 
 #include <algorithm>
@@ -82,8 +83,23 @@ void FixRollerHistory::parse(int narg, char **arg) {
 }
 
 int FixRollerHistory::setmask() {
-  return FixConst::PRE_NEIGHBOR | FixConst::END_OF_STEP | FixConst::POST_RUN |
+  return FixConst::POST_INTEGRATE | FixConst::PRE_NEIGHBOR | FixConst::END_OF_STEP | FixConst::POST_RUN |
          (bed_ ? FixConst::PRE_FORCE : 0);
+}
+
+void FixRollerHistory::post_integrate() {
+  refuse_other_step();
+  clock_.follow(update->ntimestep, update->dt);
+}
+
+/// A cycle of the table is a number of steps: it would have another period, and its harmonics another phase.
+void FixRollerHistory::refuse_other_step() const {
+  if (steps_per_cycle_ == 0 || update->dt == clock_.dt()) return;
+  error->all(FLERR, engine::error_text(fmt::format(
+                        "{}: keyword cycles is '{}' steps per cycle, and the time step has changed "
+                        "from {:.9g} to {:.9g} s; allowed: one time step as long as the fix is "
+                        "defined, or no keyword cycles",
+                        command, steps_per_cycle_, clock_.dt(), update->dt)));
 }
 
 void FixRollerHistory::setup_pre_force(int step) { pre_force(step); }
@@ -113,6 +129,13 @@ void FixRollerHistory::init() {
     frame_.mass = group->mass(index);
   }
   find_partners();
+  for (const Fix *fix : engine::fixes(modify))
+    if (steps_per_cycle_ > 0 && drumlin::changes_time_step(fix->style))
+      error->all(FLERR,
+                 engine::error_text(fmt::format(
+                     "{}: keyword cycles is '{}' steps per cycle, and fix {} ({}) changes the time step; "
+                     "allowed: one time step as long as the fix is defined, or no keyword cycles",
+                     command, steps_per_cycle_, fix->id, fix->style)));
 
   const std::array<double, 3> g = engine::gravity(modify);
   if (!has_axis_) {
@@ -151,6 +174,7 @@ double FixRollerHistory::along(const double *vector) const {
 
 void FixRollerHistory::setup(int) {
   const bool first = !clock_.running();
+  if (!first) refuse_other_step();
   clock_.set_up(update->ntimestep, update->dt);
   open_files();
   pairs_outdated_ = true;
@@ -255,7 +279,7 @@ void FixRollerHistory::end_of_step() {
   const drumlin::RollerState before = state_;
   evaluate();
   if (steps_per_cycle_ > 0) {
-    cycle_.add_step(before, state_, update->dt, steps_per_cycle_);
+    cycle_.add_step(before, state_, clock_.dt(), steps_per_cycle_);
     if (static_cast<int>(cycle_.steps) == steps_per_cycle_) {
       write_cycle();
       cycle_.begin_next(state_);

@@ -33,6 +33,7 @@ public:
   void init() override;
   void setup_pre_force(int) override;
   void setup(int) override;
+  void post_integrate() override;
   void pre_neighbor() override;
   void pre_force(int) override;
   void end_of_step() override;
@@ -56,6 +57,7 @@ private:
   };
 
   void parse(int narg, char **arg);
+  void refuse_other_step() const;
   void find_partners();
   void open_files();
   void set_reference();

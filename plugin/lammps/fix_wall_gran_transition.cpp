@@ -7,13 +7,60 @@
 #include <algorithm>
 #include <cmath>
 
+#include "region_cone.h"
+#include "region_intersect.h"
+#include "region_union.h"
+
 using namespace LAMMPS_NS;
 using drumlin::FrictionModel;
 namespace physics = drumlin::physics;
 
 namespace {
+
 constexpr const char *command = "fix wall/gran/transition";
+
+// Private members of the engine's regions. C++ allows an explicit instantiation to name a private member as a
+// template argument; the friend function of the instance gives access to it.
+template <auto Member>
+struct ConeAccess {
+  friend auto &axis_of(RegCone &cone) { return cone.*Member; }
+};
+auto &axis_of(RegCone &cone);
+template struct ConeAccess<&RegCone::axis>;
+template <auto Member>
+struct UnionAccess {
+  friend auto &parts_of(RegUnion &region) { return region.*Member; }
+};
+auto &parts_of(RegUnion &region);
+template struct UnionAccess<&RegUnion::idsub>;
+template <auto Member>
+struct IntersectAccess {
+  friend auto &parts_of(RegIntersect &region) { return region.*Member; }
+};
+auto &parts_of(RegIntersect &region);
+template struct IntersectAccess<&RegIntersect::idsub>;
+
+/// The cone along y in a region, or in its parts, whose flat ends act on balls inside of it; nullptr if there is none.
+/// The engine gives these ends a direction along z: a wall from them makes energy.
+/// \param outside whether the wall is the outer side of the region
+const Region *broken_cone(Domain *domain, Region *region, bool outside) {
+  if (region == nullptr) return nullptr;
+  const bool of_inside = (region->interior != 0) != outside;
+  const auto among = [&](char **parts) -> const Region * {
+    for (int n = 0; n < region->nregion; ++n)
+      if (const Region *cone =
+              broken_cone(domain, drumlin::engine::version::find_region(domain, parts[n]), !of_inside))
+        return cone;
+    return nullptr;
+  };
+  if (auto *joined = dynamic_cast<RegUnion *>(region)) return among(parts_of(*joined));
+  if (auto *common = dynamic_cast<RegIntersect *>(region)) return among(parts_of(*common));
+  auto *cone = dynamic_cast<RegCone *>(region);
+  const bool capped = region->openflag == 0 || region->open_faces[0] == 0 || region->open_faces[1] == 0;
+  return cone != nullptr && axis_of(*cone) == 'y' && of_inside && capped ? region : nullptr;
 }
+
+} // namespace
 
 FixWallGranTransition::FixWallGranTransition(LAMMPS *lammps, int narg, char **arg) : Fix(lammps, narg, arg) {
   vector_flag = 1;
@@ -85,6 +132,12 @@ void FixWallGranTransition::init() {
   if (region_ == nullptr) refuse("is gone; allowed: a region that stays while the fix does");
   if (region_->cmax != places_)
     refuse("has another number of faces than before; allowed: the region that it was");
+  if (const Region *cone = broken_cone(domain, region_, false))
+    refuse(cone == region_
+               ? "is a cone along y, whose flat ends LAMMPS gives another direction; allowed: a cone with "
+                 "open 1 open 2 and fixes of their own for its ends, or one along x or z"
+               : "has a part that is a cone along y, whose flat ends LAMMPS gives another direction; "
+                 "allowed: such a cone with open 1 open 2, or one along x or z");
   if (region_->dynamic_check() != 0) refuse("moves; allowed: a region at rest");
   near_.resize(static_cast<std::size_t>(places_));
 }

@@ -146,7 +146,7 @@ void PairGranTransition::coeff(int narg, char **arg) {
     in.fail("types are '" + types[0] + "' and '" + types[1] + "'; allowed: types I <= J of the box");
 }
 
-void PairGranTransition::check_engine() const {
+void PairGranTransition::check_engine() {
   const auto refuse = [this](const std::string &why) {
     error->all(FLERR, engine::error_text("pair_style " + style_name() + ": " + why));
   };
@@ -156,12 +156,13 @@ void PairGranTransition::check_engine() const {
     refuse("the atom style has no radius or no mass of its own; allowed: atom_style sphere");
   if (comm->ghost_velocity == 0) refuse("ghosts have no velocity; allowed: comm_modify vel yes before");
   drumlin::check_deforming_box(lmp, "pair_style " + style_name());
-  if (settings_.stock) return;
   const std::vector<Fix *> fixes = engine::fixes(modify);
   for (const Fix *fix : fixes)
-    if (fix->rigid_flag)
+    if (!settings_.stock && fix->rigid_flag)
       refuse(std::string("fix ") + fix->id + " (" + fix->style +
              ") makes rigid bodies and stepping is 'second'; allowed: stepping stock, or fix clump");
+  deck_check_.of_pair(lmp, "pair_style " + style_name(), !settings_.stock);
+  if (settings_.stock) return;
   for (const Fix *fix : fixes) {
     if (fix == FixStepping::find(lmp)) break;
     if (fix->time_integrate)

@@ -4,6 +4,7 @@
 #include "engine.h"
 #include "contact/contact_loop.h"
 #include "contact/contact_source.h"
+#include "contact/deck_check.h"
 #include "fixes/fix_clump.h"
 #include "lammps/contact_terms.h"
 
@@ -87,7 +88,7 @@ private:
   template <class Parameters>
   void tell_single(const drumlin::ContactCoefficients<Parameters> &, const drumlin::PairMotion &, int i,
                    int j, const double *remembered, double &force_over_distance);
-  void check_engine() const;
+  void check_engine();
   void share_rigid_masses();
   /// The history of the contact of ball i with its neighbour j; nullptr if j is not in i's neighbour list.
   const double *history(int i, int j) const;
@@ -98,6 +99,7 @@ private:
   FixStepping *stepping_ = nullptr;
   drumlin::LoopMemory loop_memory_;
   int freeze_groupbit_ = 0;
+  drumlin::DeckCheck deck_check_;
   drumlin::ContactObservers observers_;
   Clumps clumps_;
   std::vector<const drumlin::Walls *> walls_;

@@ -16,6 +16,7 @@
 #include "neighbor.h"
 
 #include "engine.h"
+#include "contact/deck_check.h"
 #include "contact/fix_stepping.h"
 #include "liggghts/contact_table.h"
 #include "liggghts/fix_keep_history.h"
@@ -109,6 +110,13 @@ public:
                           "that are not final; allowed: stepping stock with this fix"));
     observers_.find(*engine_->modify);
     clumps_.find(*engine_->modify);
+    constexpr int multi = 2; // Neighbor::style
+    if (engine_->neighbor->style == multi)
+      engine_->error->all(
+          FLERR, drumlin::engine::error_text(command() +
+                                             ": neighbor style is 'multi', with which this engine finds no "
+                                             "contact of balls; allowed: bin or nsq"));
+    deck_check_.of_pair(engine_, command(), stepping_ != nullptr);
   }
 
   void compute_force(PairGran *pair, int eflag, int vflag, int adds) override {
@@ -143,6 +151,7 @@ private:
   LAMMPS_NS::FixStepping *stepping_ = nullptr; // none under stock stepping
   drumlin::LoopMemory loop_memory_;
   drumlin::ContactObservers observers_;
+  drumlin::DeckCheck deck_check_;
   LAMMPS_NS::Clumps clumps_;
   int force_offset_ = -1; // of the normal force in the contact history, with the second-order scheme
   bool torsion_ = false;  // whether rolling resistance also resists torsion

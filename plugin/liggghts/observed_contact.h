@@ -132,6 +132,7 @@ private:
     record.tangential_force = tangential_part(i_forces, contact.en);
     for (std::size_t a = 0; a < 3; ++a) {
       record.normal[a] = contact.en[a];
+      if (contact.is_wall) record.wall_velocity[a] = contact.v_j[a];
       record.torque_i[a] = i_forces.delta_torque[a];
       record.torque_j[a] = j_forces.delta_torque[a];
     }

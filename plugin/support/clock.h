@@ -1,6 +1,6 @@
 #pragma once
 // The clock of a fix: time since the fix's first run, through further runs, restarts and changes of the time
-// step.
+// step, between runs and within one.
 
 #include "engine.h"
 
@@ -19,12 +19,18 @@ public:
       running_ = true;
       base_step_ = step;
       dt_ = dt;
-    } else if (dt != dt_) {
-      base_time_ = time(step);
-      base_step_ = step;
-      dt_ = dt;
-    }
+    } else
+      change_step(step, dt);
   }
+
+  /// Follows a change of the time step within a run. Call in each step when the balls have moved
+  /// (post_integrate): the step that has begun then is the first with the time step dt. In an engine's end_of_step a
+  /// fix cannot know whether dt is still that of the step that ends, or already that of the next.
+  /// \param step the number of this step
+  void follow(engine::bigint step, double dt) { change_step(step - 1, dt); }
+
+  /// The time step, s, of the last step.
+  double dt() const { return dt_; }
 
   /// Time at a step, s. Valid after set_up() or restore().
   double time(engine::bigint step) const { return base_time_ + static_cast<double>(step - base_step_) * dt_; }
@@ -42,6 +48,14 @@ public:
   }
 
 private:
+  /// From the end of a step on, the time step is dt.
+  void change_step(engine::bigint step, double dt) {
+    if (dt == dt_) return;
+    base_time_ = time(step);
+    base_step_ = step;
+    dt_ = dt;
+  }
+
   bool running_ = false;
   double base_time_ = 0.0;
   engine::bigint base_step_ = 0;

@@ -333,6 +333,13 @@ BadGroup wall_in_lammps() {
        line(good + "variable dx equal step\nregion pipe cylinder z 0 0 1 INF INF move v_dx NULL NULL\n"
                    "fix pipe all wall/gran/transition 2 region pipe",
             {wall, "region 'pipe' moves", "a region at rest"}),
+       on_two_ranks(line(
+           good +
+               "region hopper cone y 0 0 1.5 1.5 -1 1\nfix hopper all wall/gran/transition 2 region hopper",
+           {wall, "region 'hopper' is a cone along y", "open 1 open 2"})),
+       line(good + "region hopper cone y 0 0 1.5 1 -1 1 open 1\nregion box2 block -1 1 -1 1 -1 1\n"
+                   "region both union 2 hopper box2\nfix hopper all wall/gran/transition 2 region both",
+            {wall, "region 'both' has a part that is a cone along y", "open 1 open 2"}),
        line(good + "fix floor all wall/gran/transition 2 zplane NULL NULL", {wall, "both places are NULL"}),
        line(good + "fix floor all wall/gran/transition 2 zplane 1 0", {wall, "allowed: LOW < HIGH"}),
        line("pair_style gran/hooke/history 1e5 NULL 1 NULL 0.4 1\npair_coeff * *\nfix floor all "

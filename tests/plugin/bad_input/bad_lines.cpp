@@ -181,21 +181,29 @@ BadGroup boundary_absorb() {
 
 BadGroup clump() {
   const std::string command = "fix clump: ";
-  return {"Clump",
-          "",
-          {
-              line("a word too many", "fix body drum clump rigid",
-                   {command + "argument is 'rigid'", "fix ID group clump"}),
-              line("group all", "fix body all clump", {command + "group is 'all'", "the balls of the body"}),
-              on_two_ranks(line("empty group", "fix body nobody clump",
-                                {command + "group is 'nobody', which is empty", "balls of the body"})),
-              on_two_ranks(line("a ball in two", "fix one drum clump\nfix two roller clump",
-                                {command + "group is 'drum', of which 1 balls are in the clump '",
-                                 "each ball in one clump only"})),
-              line("a force fix after it", "fix body drum clump\nfix bond all bond/spring 2 3 1e6 1e4",
-                   {command + "group is 'drum', on which the later fix bond (bond/spring) exerts forces",
-                    "after all fixes"}),
-          }};
+  return {
+      "Clump",
+      "",
+      {
+          line("a word too many", "fix body drum clump rigid",
+               {command + "argument is 'rigid'", "fix ID group clump"}),
+          line("group all", "fix body all clump", {command + "group is 'all'", "the balls of the body"}),
+          on_two_ranks(line("empty group", "fix body nobody clump",
+                            {command + "group is 'nobody', which is empty", "balls of the body"})),
+          on_two_ranks(line("a ball in two", "fix one drum clump\nfix two roller clump",
+                            {command + "group is 'drum', of which 1 balls are in the clump '",
+                             "each ball in one clump only"})),
+          line("a force fix after it", "fix body drum clump\nfix bond all bond/spring 2 3 1e6 1e4",
+               {command + "group is 'drum', on which the later fix bond (bond/spring) exerts forces",
+                "after all fixes"}),
+          on_two_ranks(line("unequal velocities", "velocity drum set 0 0 -1 units box\nfix body roller clump",
+                            {command + "velocity of the balls of group roller along z is '-1 to 0 m/s'",
+                             "one velocity for all balls of a body"})),
+          in_the_run(line("unequal velocities in a second run",
+                          "fix body roller clump\nrun 5\nvelocity frame set 2 0 0 units box sum yes",
+                          {command + "velocity of the balls of group roller along x is '0 to 2 m/s'",
+                           "one velocity for all balls of a body"})),
+      }};
 }
 
 BadGroup contact_events() {
@@ -344,6 +352,15 @@ BadGroup roller_history() {
                {command + "group is 'nobody', which is empty", "the drum's balls"}),
           line("no axis and no gravity", "unfix gravity\n" + more(""),
                {command + "keyword axis is missing", "axis x y z"}),
+          on_two_ranks(
+              line("cycles and a time step that varies", "fix dt all dt/reset 1 1e-6 1e-4 1e-5 units box",
+                   {command +
+                        "keyword cycles is '10' steps per cycle, and fix dt (dt/reset) changes the time step",
+                    "one time step as long as the fix is defined, or no keyword cycles"})),
+          in_the_run(line("cycles and two time steps", more("cycles out/c.csv 10") + "\nrun 5\ntimestep 2e-5",
+                          {command + "keyword cycles is '10' steps per cycle, and the time step has changed "
+                                     "from 1e-05 to 2e-05 s",
+                           "one time step as long as the fix is defined, or no keyword cycles"})),
           with_the_stock_law(with("file out/x.csv every 10"), "fix roller/history"),
           on_two_ranks(
               with_the_stock_law("fix events all contact/events file out/x.csv", "fix contact/events")),
@@ -698,6 +715,56 @@ BadGroup settle() {
       }};
 }
 
+/// What decks have besides the plugin.
+BadGroup other_styles() {
+  const std::string pair = "pair_style gran model hooke/transition: ";
+  return {
+      "OtherStyles",
+      "",
+      {
+          on_two_ranks(line("run_style respa 2 2", {pair + "run_style is 'respa'", "verlet"})),
+          on_two_ranks(line(
+              "neighbor 0.25 multi",
+              {pair + "neighbor style is 'multi', with which this engine finds no contact", "bin or nsq"})),
+          on_two_ranks(line(
+              "fix slow all momentum 10 linear 1 1 1",
+              {pair + "stepping is 'second' and fix slow (momentum) changes velocities", "stepping stock"})),
+          line("unfix integrate\nfix slow all nve/limit absolute 0.1",
+               {pair + "stepping is 'second' and fix slow (nve/limit) changes velocities", "stepping stock"}),
+          in_the_run(
+              line("another time step without a set-up", "run 5\ntimestep 2e-5\nrun 5 pre no",
+                   {"stepping second: time step is '2e-05' at step 6, changed from 1e-05 s within a run",
+                    "no keyword pre no"})),
+      }};
+}
+
+BadGroup other_styles_in_lammps() {
+  const std::string pair = "pair_style gran/hooke/transition: ", good = lammps_pair_style,
+                    moves = good + "fix move all nve/sphere\n";
+  return in_lammps(
+      "OtherStylesInLammps",
+      {on_two_ranks(line(good + "run_style respa 2 2", {pair + "run_style is 'respa'", "verlet"})),
+       on_two_ranks(
+           line(good + "minimize 1e-6 1e-6 10 10",
+                {pair + "command is 'minimize', which does not move balls in time", "allowed: run"})),
+       line(good + "min_style quickmin\nminimize 1e-6 1e-6 10 10",
+            {pair + "command is 'minimize', which does not move balls in time", "allowed: run"}),
+       line(moves + "dump d all custom 5 out/all.dump id type x y z vx vy vz\nrun 10\nundump d\nrerun "
+                    "out/all.dump dump x y "
+                    "z vx vy vz",
+            {pair + "command is 'rerun', which does not move balls in time", "allowed: run"}),
+       on_two_ranks(line(good + "fix cool all temp/berendsen 1 1 0.1",
+                         {pair + "stepping is 'second' and fix cool (temp/berendsen) changes velocities",
+                          "stepping stock"})),
+       line(good + "fix move all nve/limit 0.01",
+            {pair + "stepping is 'second' and fix move (nve/limit) changes velocities", "stepping stock"}),
+       line(good + "fix back all wall/reflect zlo -1.9",
+            {pair + "stepping is 'second' and fix back (wall/reflect) changes velocities", "stepping stock"}),
+       line("variable half equal 0.5\npair_style hybrid/scaled v_half gran/hooke/transition 1.0 lj/cut 0.1\n"
+            "pair_coeff * * lj/cut 0 1\npair_coeff * * gran/hooke/transition 1e5 0.2",
+            {pair + "pair_style is 'hybrid/scaled'", "hybrid or hybrid/overlay"})});
+}
+
 BadGroup fixes_in_lammps() {
   const std::string good = lammps_pair_style, absorb = "fix boundary/absorb",
                     ground = good + "fix ground all boundary/absorb ",
@@ -730,12 +797,30 @@ BadGroup fixes_in_lammps() {
 } // namespace
 
 std::vector<BadGroup> bad_lines() {
-  return {drum_excite(),    bond_spring(),    boundary_absorb(), clump(),
-          contact_events(), contact_local(),  contact_energy(),  roller_history(),
-          guard(),          check(),          record(),          run(),
-          settle(),         surface(),        write_restart(),   write_data(),
-          outputs(),        take(),           variables(),       layers(),
-          pick(),           fixes_in_lammps()};
+  return {drum_excite(),
+          bond_spring(),
+          boundary_absorb(),
+          clump(),
+          contact_events(),
+          contact_local(),
+          contact_energy(),
+          roller_history(),
+          guard(),
+          check(),
+          record(),
+          run(),
+          settle(),
+          surface(),
+          write_restart(),
+          write_data(),
+          outputs(),
+          take(),
+          variables(),
+          layers(),
+          pick(),
+          other_styles(),
+          other_styles_in_lammps(),
+          fixes_in_lammps()};
 }
 
 } // namespace drumlin::test

@@ -1,0 +1,105 @@
+// The page on other styles of the engines against the plugin's lists, and both against the engines that are installed.
+#include "support/other_styles.h"
+
+#include "tests/support/host_deck.h"
+#include "tests/support/lines.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+using Verdicts =
+    std::map<std::string, std::pair<std::string, std::string>>; // of `second` and `stock`, by fix
+
+std::string word_of(Verdict verdict) {
+  return verdict == Verdict::right ? "right" : verdict == Verdict::refused ? "refused" : "untried";
+}
+
+std::vector<std::string> words_of(const std::string &text) {
+  std::istringstream in(text);
+  std::vector<std::string> words;
+  for (std::string word; in >> word;)
+    words.push_back(word);
+  return words;
+}
+
+Verdicts of_the_plugin() {
+  Verdicts all;
+  for (const OtherFixes &fixes : other_fixes)
+    for (const std::string &name : words_of(std::string(fixes.names)))
+      EXPECT_TRUE(all.emplace(name, std::pair(word_of(fixes.second), word_of(fixes.stock))).second)
+          << name << " twice";
+  return all;
+}
+
+/// Names in the block below a heading.
+std::vector<std::string> block(const std::string &page, const std::string &heading) {
+  const std::size_t begin = page.find("```text\n", page.find("\n### " + heading + "\n"));
+  return words_of(page.substr(begin + 8, page.find("```", begin + 8) - begin - 8));
+}
+
+Verdicts of_the_page() {
+  const std::string page =
+      read_text(std::filesystem::path(DRUMLIN_SOURCE_DIR) / "plugin/doc/with_other_styles.md");
+  Verdicts all;
+  const auto add = [&all](const std::string &name, const std::string &second, const std::string &stock) {
+    EXPECT_TRUE(all.emplace(name, std::pair(second, stock)).second) << name << " twice";
+  };
+  const std::size_t begin = page.find("\n## Fixes\n");
+  for (const std::string &line : lines_of(page.substr(begin, page.find("\n### ", begin) - begin))) {
+    std::vector<std::string> cells;
+    std::istringstream in(line);
+    for (std::string cell; std::getline(in, cell, '|');)
+      cells.push_back(cell);
+    if (cells.size() < 5 || cells[1] == " fix " || cells[1].rfind("---", 0) == 0) continue;
+    const auto trimmed = [](const std::string &cell) { return words_of(cell).at(0); };
+    add(trimmed(cells[1]), trimmed(cells[3]), trimmed(cells[4]));
+  }
+  for (const char *heading : {"Fixes that compute, store or write", "Fixes of the plugin"})
+    for (const std::string &name : block(page, heading))
+      add(name, "right", "right");
+  for (const std::string &name : block(page, "Fixes that have not been tried"))
+    add(name, "untried", "untried");
+  return all;
+}
+
+TEST(PageOnOtherStyles, HasTheListsOfThePlugin) {
+  const Verdicts page = of_the_page(), plugin = of_the_plugin();
+  EXPECT_GT(plugin.size(), 300u);
+  for (const auto &[name, verdicts] : plugin)
+    EXPECT_EQ(page.count(name) == 0 ? Verdicts::mapped_type() : page.at(name), verdicts) << name;
+  for (const auto &[name, verdicts] : page)
+    EXPECT_EQ(plugin.count(name), 1u) << name;
+}
+
+/// The fixes that an engine lists when it is asked for help.
+std::vector<std::string> fixes_of(const std::vector<std::string> &command) {
+  const Scratch folder;
+  const Outcome help = run_program(command, mpi_environment(folder.path()), folder.path(), 60.0);
+  std::size_t begin = help.output.find("* Fix styles");
+  EXPECT_NE(begin, std::string::npos) << help.output;
+  begin = help.output.find('\n', begin);
+  return words_of(help.output.substr(begin, help.output.find("* Compute styles", begin) - begin));
+}
+
+TEST(PageOnOtherStyles, HasTheFixesOfTheEngines) {
+  std::vector<std::vector<std::string>> engines = {{"liggghts", "-h"}};
+  if (post::has_lammps()) engines.push_back({LAMMPS_PROGRAM, "-h"});
+  for (const std::vector<std::string> &engine : engines) {
+    const std::vector<std::string> fixes = fixes_of(engine);
+    EXPECT_GT(fixes.size(), 50u);
+    for (const std::string &name : fixes)
+      EXPECT_NE(other_fixes_with(name), nullptr) << engine.front() << ": " << name;
+  }
+}
+
+} // namespace
+} // namespace drumlin::test
