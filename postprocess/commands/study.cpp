@@ -51,7 +51,7 @@ void add_study_command(CLI::App &app, Session &) {
       options->balls = count_option("--balls", *balls, least_balls, most_balls);
       options->jobs = count_option("--jobs", *jobs, 1, most_jobs);
       options->out = output_folder_option("--out", *out);
-      open_study(*options);
+      const ResumedFolder folder = open_study(*options);
       run(*options);
     });
   }
