@@ -40,11 +40,6 @@ inline void stop_on_fault(const LAMMPS *lmp, const std::string &command, std::st
 /// its list of bits.)
 inline int group_bit(int group) { return 1 << group; }
 
-/// All fixes, in the order in which the engine calls them.
-inline std::vector<LAMMPS_NS::Fix *> fixes(const LAMMPS_NS::Modify *modify) {
-  return {modify->fix, modify->fix + modify->nfix};
-}
-
 /// Whether a pair of balls of the contact law's neighbour list is counted on this rank, so that sums and
 /// tables over all ranks have each pair once. With newton off a pair across ranks is in the lists of both: it
 /// counts where the ball with the lower ID is owned.

@@ -1,13 +1,14 @@
 #include "calibration/evaluations.h"
 
-#include "studies/study.h"
 #include "support/csv.h"
+#include "support/resumed.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace drumlin::post {
 
@@ -21,6 +22,19 @@ Stage stage_of(const Table &table, std::size_t row, const std::string &cell) {
   if (found == stage_names.end())
     csv_refusal(table.file(), table.line(row), "stage", cell, "search, slopes, estimate");
   return static_cast<Stage>(found - stage_names.begin());
+}
+
+/// Whole numbers of a column, from 1.
+std::vector<int> whole_numbers(const Table &table, const std::string &column, int most) {
+  std::vector<int> numbers;
+  for (const std::string &cell : table.text(column)) {
+    const std::optional<long> number = whole_number_from_text(cell);
+    if (!number || *number < 1 || *number > most)
+      csv_refusal(table.file(), table.line(numbers.size()), column, cell,
+                  fmt::format("a whole number from 1 to {}", most));
+    numbers.push_back(static_cast<int>(*number));
+  }
+  return numbers;
 }
 
 } // namespace
@@ -109,7 +123,9 @@ std::vector<Evaluation> read_evaluations(const CalibrationTask &task, const std:
   std::vector<Evaluation> evaluations;
   if (!std::filesystem::exists(file)) return evaluations;
   const Table table = finished_rows(file);
-  const std::vector<double> numbers = table.numbers("evaluation"), seeds = table.numbers("seed");
+  if (table.header().empty()) return evaluations;
+  const std::vector<int> numbers = whole_numbers(table, "evaluation", std::numeric_limits<int>::max()),
+                         seeds = whole_numbers(table, "seed", task.seeds);
   const std::vector<std::string> stages = table.text("stage"), failures = table.text("failure");
   std::vector<std::vector<double>> points;
   for (const VariedParameter &parameter : task.vary)
@@ -118,21 +134,27 @@ std::vector<Evaluation> read_evaluations(const CalibrationTask &task, const std:
   for (const CalibrationTarget &target : task.targets)
     values.push_back(table.text("measured " + target.name));
   for (std::size_t i = 0; i < table.rows(); ++i) {
-    const int number = static_cast<int>(numbers[i]);
+    Evaluation one;
+    one.number = numbers[i];
+    one.stage = stage_of(table, i, stages[i]);
+    for (const std::vector<double> &column : points)
+      one.point.push_back(column[i]);
     auto found = std::find_if(evaluations.begin(), evaluations.end(),
-                              [number](const Evaluation &one) { return one.number == number; });
-    if (found == evaluations.end()) {
-      Evaluation fresh;
-      fresh.number = number;
-      fresh.stage = stage_of(table, i, stages[i]);
-      for (const std::vector<double> &column : points)
-        fresh.point.push_back(column[i]);
-      found = evaluations.insert(evaluations.end(), fresh);
+                              [&one](const Evaluation &other) { return other.number == one.number; });
+    if (found == evaluations.end()) found = evaluations.insert(evaluations.end(), one);
+    if (found->stage != one.stage || found->point != one.point)
+      csv_refusal(file, table.line(i), "evaluation", std::to_string(one.number),
+                  "one stage and one point for all its seeds, or --fresh, which measures again");
+    if (std::any_of(found->seeds.begin(), found->seeds.end(),
+                    [&](const SeedResult &other) { return other.seed == seeds[i]; }))
+      refuse_double(table, i, evaluation_keys);
+    SeedResult result{seeds[i], {}, failures[i]};
+    for (std::size_t j = 0; j < values.size() && result.failure.empty(); ++j) {
+      const std::string column = "measured " + task.targets[j].name;
+      result.values.push_back(csv_number(file, table.line(i), column, values[j][i]));
+      if (!(result.values.back() > 0.0))
+        csv_refusal(file, table.line(i), column, values[j][i], "a number above 0");
     }
-    SeedResult result{static_cast<int>(seeds[i]), {}, failures[i]};
-    for (std::size_t j = 0; j < values.size() && result.failure.empty(); ++j)
-      result.values.push_back(
-          csv_number(file, table.line(i), "measured " + task.targets[j].name, values[j][i]));
     found->seeds.push_back(result);
   }
   for (Evaluation &evaluation : evaluations)

@@ -197,10 +197,14 @@ std::vector<std::string> calibration_answer(const CalibrationTask &task, const C
     const std::string &name = task.vary[i].name;
     if (!one.unidentified.empty())
       lines.push_back(fmt::format("Parameter {} is not identified: {}.", name, one.unidentified));
-    else
+    else if (best_is_within(found))
       lines.push_back(fmt::format(
           "Parameter {} = {:.4g}; by the slopes the targets are met at {:.4g}, 95 % confidence interval {}.",
           name, found.best.point[i], one.value, between(one.low, one.high)));
+    else
+      lines.push_back(fmt::format("Parameter {} = {:.4g}, at which the targets are met by the slopes, 95 % "
+                                  "confidence interval {}; the best evaluation has {:.4g}.",
+                                  name, one.value, between(one.low, one.high), found.best.point[i]));
   }
   for (std::size_t i = 0; i < task.targets.size(); ++i) {
     const CalibrationTarget &target = task.targets[i];

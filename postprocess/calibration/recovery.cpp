@@ -2,17 +2,17 @@
 
 #include "pages/figure_data.h"
 #include "pages/page.h"
-#include "studies/placed_bed.h"
-#include "studies/study.h"
+#include "engine/deck_run.h"
 #include "support/csv.h"
+#include "support/parallel.h"
 #include "support/progress.h"
+#include "support/resumed.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <mutex>
 #include <stdexcept>
 
@@ -44,44 +44,35 @@ std::vector<RecoveredBed> records_of(const CalibrationTask &task, const std::vec
                                      int jobs, const std::filesystem::path &out, const MeasureSeed &measure) {
   Evaluation at_known; // number 0: calibrate() counts from 1
   at_known.point = known;
-  StudyResults rows(out / recovered_name, record_header(task), 1);
+  ResumedTable rows(out / recovered_name, record_header(task), 1);
   CountedProgress progress(static_cast<std::size_t>(beds), "beds with known parameters");
-  std::mutex mutex; // of rows, progress and failure
-  std::string failure;
+  std::mutex mutex; // of rows and progress
   std::vector<RecoveredBed> records(static_cast<std::size_t>(beds));
-  std::vector<std::function<void()>> tasks;
-  for (int i = 0; i < beds; ++i) {
-    RecoveredBed &record = records[static_cast<std::size_t>(i)];
-    record.seed = task.seeds + 1 + i;
-    if (rows.has({std::to_string(record.seed)})) {
-      record.values = known_values(task, rows.file(), record.seed);
-      progress.found();
+  std::vector<RecoveredBed *> missing;
+  for (RecoveredBed &record : records) {
+    record.seed = task.seeds + 1 + static_cast<int>(&record - records.data());
+    if (!rows.has({std::to_string(record.seed)})) {
+      missing.push_back(&record);
       continue;
     }
-    tasks.emplace_back([&] {
-      std::vector<double> values;
-      std::string fault;
-      try {
-        values = measure(at_known, record.seed);
-      } catch (const std::exception &error) {
-        fault = fmt::format("seed {}: {}", record.seed, error.what());
-      }
-      const std::lock_guard lock(mutex);
-      if (!fault.empty()) {
-        failure = fault;
-        return;
-      }
-      record.values = values;
-      std::vector<std::string> row = {std::to_string(record.seed)};
-      for (const double value : values)
-        row.push_back(number_text(value));
-      rows.add(row);
-      progress.measured(fmt::format("seed {}", record.seed));
-    });
+    record.values = known_values(task, rows.file(), record.seed);
+    progress.found();
   }
-  in_parallel(tasks, jobs);
-  if (!failure.empty())
-    throw std::runtime_error("a bed with the known parameters cannot be measured: " + failure);
+  in_parallel(missing.size(), jobs, [&](std::size_t i) {
+    RecoveredBed &record = *missing[i];
+    try {
+      record.values = measure(at_known, record.seed);
+    } catch (const SceneFault &fault) {
+      throw std::runtime_error(fmt::format("a bed with the known parameters cannot be measured: seed {}: {}",
+                                           record.seed, fault.what()));
+    }
+    std::vector<std::string> row = {std::to_string(record.seed)};
+    for (const double value : record.values)
+      row.push_back(number_text(value));
+    const std::lock_guard lock(mutex);
+    rows.add(row);
+    progress.measured(fmt::format("seed {}", record.seed));
+  });
   return records;
 }
 
@@ -160,6 +151,12 @@ std::vector<RecoveredBed> recover(CalibrationTask task, const std::vector<double
                                   const MeasureSeed &measure) {
   std::vector<RecoveredBed> found = records_of(task, known, beds, effort.jobs, out, measure);
   task.target_beds = 1;
+  const std::vector<Evaluation> earlier = read_evaluations(task, out / evaluations_name);
+  if (std::any_of(earlier.begin(), earlier.end(),
+                  [](const Evaluation &one) { return one.stage != Stage::search; }))
+    print_progress("continued: the intervals of the first beds are also from evaluations that were made for "
+                   "later beds, unlike "
+                   "those of a call without an interruption");
   for (RecoveredBed &bed : found) {
     for (std::size_t i = 0; i < task.targets.size(); ++i)
       task.targets[i].value = bed.values[i];

@@ -130,16 +130,17 @@ std::vector<double> SoilTests::measure(const Evaluation &evaluation, int seed) c
 }
 
 fs::path SoilTests::record(const Evaluation &evaluation, int seed) const {
-  fs::path place =
-      fs::absolute(out_ / "records" / fmt::format("evaluation_{}_seed_{}", evaluation.number, seed));
-  if (fs::exists(place)) return place;
   const Point point = point_of(evaluation, seed);
-  make_output_folder(place.parent_path());
-  FolderInProgress draft(place);
-  const std::unique_ptr<DeckRun> run = run_roller(point);
-  for (const char *file : {"bed.csv", "cycles.csv", "parameters.csv"})
-    fs::copy_file(run->file(file), draft.path() / file);
-  draft.publish();
+  const fs::path folder = fs::absolute(out_ / "records");
+  fs::path place = folder / placed_name(point.bed, seed);
+  if (!fs::exists(place)) {
+    make_output_folder(folder);
+    FolderInProgress draft(place);
+    const std::unique_ptr<DeckRun> run = run_roller(point);
+    for (const char *file : {"bed.csv", "cycles.csv", "parameters.csv"})
+      fs::copy_file(run->file(file), draft.path() / file);
+    draft.publish();
+  }
   return place;
 }
 
@@ -162,7 +163,7 @@ std::map<std::string, double> SoilTests::roller(const Point &point) const {
   const std::unique_ptr<DeckRun> run = run_roller(point);
   const BedLaw law = identified_law(run->file(""));
   if (!std::isfinite(law.k) || !std::isfinite(law.D))
-    throw std::runtime_error(
+    throw SceneFault(
         "identify finds no k and D in the record of the roller: contact is too short or missing");
   const BedValues values = bed_values(read_table(run->file("cycles.csv")), 1.0);
   const auto value = [&values](BedQuantity quantity) {

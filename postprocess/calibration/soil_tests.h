@@ -21,7 +21,8 @@ public:
   /// \param out folder of the calibration; the beds are in its folder beds
   SoilTests(CalibrationTask task, std::filesystem::path out);
 
-  /// The values of the targets at a point; std::runtime_error with the engine's reason. Thread-safe.
+  /// The values of the targets at a point; SceneFault with the engine's reason, std::runtime_error for faults that may pass.
+  /// Thread-safe.
   std::vector<double> measure(const Evaluation &evaluation, int seed) const;
 
   /// The folder of the roller's run at a point, with bed.csv and parameters.csv; made if an earlier call has not kept it. Its parent

@@ -5,29 +5,35 @@
 #include "calibration/recovery.h"
 #include "calibration/soil_tests.h"
 #include "calibration/task.h"
+#include "engine/places.h"
 #include "studies/study.h"
 #include "support/csv.h"
 #include "support/files.h"
 #include "support/options.h"
 #include "support/progress.h"
+#include "support/text.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <memory>
+#include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include <unistd.h>
 
 namespace drumlin::post {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr const char *settings_name = "settings.csv";
 
 struct Arguments {
   std::vector<std::string> targets, vary, fixed, known;
@@ -73,23 +79,47 @@ std::string judged_name(const std::string &name) {
   return name;
 }
 
-/// Notes the settings in a new folder; throws UsageError if an earlier call had others.
+constexpr const char *at_once_name = "points at a time";
+
+/// How many points the search asks for at a time: as many as give work to all jobs, or as many as an earlier call asked for, so that
+/// this one finds the same.
+int points_at_once(const fs::path &settings, int jobs, int seeds) {
+  const int now = std::max(1, jobs / seeds);
+  if (!fs::is_regular_file(settings)) return now;
+  std::istringstream lines(read_text(settings));
+  const std::string start = fmt::format("{},", at_once_name);
+  for (std::string line; std::getline(lines, line);)
+    if (const auto count =
+            line.rfind(start, 0) == 0 ? whole_number_from_text(line.substr(start.size())) : std::nullopt;
+        count && *count > 0 && *count != now && *count <= std::numeric_limits<int>::max()) {
+      print_progress(fmt::format("the search asks for {} points at a time, as in the earlier call", *count));
+      return static_cast<int>(*count);
+    }
+  return now;
+}
+
+/// All that the results depend on.
 /// \param known parameters to be found again, in the task's order; empty for a calibration to given targets
-void note_settings(const fs::path &out, const CalibrationTask &task, const std::vector<double> &known) {
-  const fs::path file = out / settings_name;
-  std::string text = csv_line({"name", "value"});
+std::string settings_text(const CalibrationTask &task, const std::vector<double> &known, int at_once) {
+  std::string text = build_line();
   for (const auto &[name, value] : settings_of(task))
     text += csv_line({name, value});
   for (std::size_t i = 0; i < known.size(); ++i)
     text += csv_line({"recover " + task.vary[i].name, number_text(known[i])});
-  if (!fs::exists(file))
-    write_files({{file, text}});
-  else if (read_text(file) != text)
-    throw UsageError(refusal(
-        "--out", out.string(),
-        fmt::format("a folder of a calibration with the same targets, ranges and beds ({} has those of the "
-                    "earlier one), --fresh, which forgets it, or another folder",
-                    settings_name)));
+  return text + csv_line({at_once_name, std::to_string(at_once)});
+}
+
+/// What a user does with a case file: the decks take it from their own folder, which in an installation cannot be written.
+std::string use_of(const fs::path &case_file, const std::string &name) {
+  const fs::path decks = places().inputs / "bed";
+  if (!places().installed && ::access(decks.c_str(), W_OK) == 0)
+    return fmt::format("{}: copy it to inputs/bed, and give in.settle -var case {}", case_file.string(),
+                       name);
+  return fmt::format("{0}: copy the decks to a folder of your own, this file to them, and give their "
+                     "in.settle -var case {2}:\n"
+                     "  cp -r {1} . && cp {0} inputs/bed && {3} run inputs/bed/in.settle -var case {2}",
+                     shell_word(case_file.string()), shell_word(places().inputs.string()), name,
+                     front_command());
 }
 
 /// The chain beside the roller's record of each seed at the best point; nothing if no target is measured by the roller.
@@ -115,30 +145,29 @@ void run(const Arguments &arguments, const std::string &command) {
   const std::vector<double> known =
       arguments.known.empty() ? std::vector<double>{} : known_from_texts(task, arguments.known);
   const int records = count_option("--records", arguments.records, 1, most);
-  StudyOptions options;
-  options.out = output_folder_option("--out", arguments.out);
-  keep_apart({}, {{"--out", options.out, true}});
-  options.fresh = arguments.fresh;
-  check_engine_path(options.out);
-  open_study(options);
-  note_settings(options.out, task, known);
+  const fs::path out = output_folder_option("--out", arguments.out);
+  keep_apart({}, {{"--out", out, true}});
+  check_engine_path(out);
+  effort.at_once = arguments.fresh ? std::max(1, effort.jobs / task.seeds)
+                                   : points_at_once(out / settings_name, effort.jobs, task.seeds);
+  const ResumedFolder folder(out, "calibration", settings_text(task, known, effort.at_once), arguments.fresh);
 
-  const SoilTests tests(task, options.out);
+  const SoilTests tests(task, out);
   const MeasureSeed measure = [&tests](const Evaluation &evaluation, int seed) {
     return tests.measure(evaluation, seed);
   };
   if (!known.empty()) {
-    const std::vector<RecoveredBed> beds = recover(task, known, records, effort, options.out, measure);
-    write_recovery_page(options.out, fmt::format("{} beds of {} discs of case gravel", records, task.balls),
-                        task, known, beds);
+    const std::vector<RecoveredBed> beds = recover(task, known, records, effort, out, measure);
+    write_recovery_page(out, fmt::format("{} beds of {} discs of case gravel", records, task.balls), task,
+                        known, beds);
     for (const std::string &line : recovery_answer(task, known, beds))
       fmt::print("  {}\n", line);
-    fmt::print("{}\n", (options.out / "index.html").string());
+    fmt::print("{}\n", (out / "index.html").string());
     return;
   }
-  const Calibration found = calibrate(task, effort, options.out, measure);
+  const Calibration found = calibrate(task, effort, out, measure);
   const std::vector<LumpedComparison> compared = compared_records(task, found, tests);
-  write_calibration_page(options.out,
+  write_calibration_page(out,
                          fmt::format("beds of {} discs of case gravel, {} seeds", task.balls, task.seeds),
                          task, found, compared);
   const std::vector<std::string> answer = calibration_answer(task, found);
@@ -147,8 +176,8 @@ void run(const Arguments &arguments, const std::string &command) {
   if (!compared.empty())
     for (const std::string &line : lumped_answer(compared))
       fmt::print("  {}\n", line);
-  fmt::print("{}\n", (options.out / "index.html").string());
-  const fs::path case_file = options.out / ("case." + name);
+  fmt::print("{}\n", (out / "index.html").string());
+  const fs::path case_file = out / ("case." + name);
   if (!found.sensitivity.identified()) {
     fs::remove(case_file);
     std::vector<std::string> unknown;
@@ -161,8 +190,9 @@ void run(const Arguments &arguments, const std::string &command) {
   }
   std::vector<std::string> heading = {"A bed calibrated by", "", "  " + command, ""};
   heading.insert(heading.end(), answer.begin(), answer.end());
-  write_files({{case_file, case_text(task, found.best.point, heading)}});
-  fmt::print("{}: copy it to inputs/bed, and give in.settle -var case {}\n", case_file.string(), name);
+  fs::remove(case_file); // of an earlier call, in case that there is none of this one
+  write_files({{case_file, case_text(task, found_point(task, found), heading)}});
+  fmt::print("{}\n", use_of(case_file, name));
 }
 
 } // namespace

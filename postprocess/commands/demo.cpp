@@ -102,7 +102,10 @@ public:
         all_(with_lammps ? 26 : 18) {}
 
   void run() {
-    fs::remove_all(results_);
+    fs::create_directories(results_);
+    const FolderLock lock = lock_output_folder(results_, "the folder of results");
+    for (const fs::directory_entry &entry : fs::directory_iterator(results_))
+      fs::remove_all(entry.path());
     for (const char *transition : {"A", "B"}) {
       run_impact(transition);
       for (const char *chain_case : {"I", "II", "III", "IV"})
@@ -194,7 +197,7 @@ private:
     StudyOptions study;
     study.out = results_ / "meter";
     study.quick = plan_.quick;
-    open_study(study);
+    const ResumedFolder folder = open_study(study);
     run_meter_study(study);
   }
 

@@ -97,6 +97,7 @@ void run(const Arguments &arguments, const std::string &command) {
   } catch (const std::runtime_error &error) {
     throw UsageError(fmt::format("--out is '{}': {}", task.out.string(), error.what()));
   }
+  const FolderLock lock = lock_output_folder(task.out);
   write_files({{task.out / file_names[0], chain_text(result.history)},
                {task.out / file_names[1], events_text(result.events)},
                {task.out / file_names[2], cycles_text(result.cycles)},

@@ -1,6 +1,7 @@
 // The tool behind ./drumlin: one program, one subcommand per job.
 #include "commands/commands.h"
 #include "support/range.h"
+#include "support/stop_signal.h"
 #include "support/usage_error.h"
 
 #include <CLI/CLI.hpp>
@@ -120,11 +121,14 @@ int run(int argc, char **argv) {
 
 int main(int argc, char **argv) {
   open_standard_streams();
+  drumlin::post::stop_where_told();
   try {
     const int status = run(argc, argv);
     const bool printed = std::fflush(stdout) == 0 && static_cast<bool>(std::cout.flush());
     return status != 0 || printed ? status
                                   : fail("", "standard output cannot be written; allowed: one that can", 1);
+  } catch (const drumlin::post::StoppedBySignal &signal) {
+    drumlin::post::end_by(signal);
   } catch (...) { // there was no memory for a message
     return 1;
   }

@@ -8,22 +8,25 @@
 #include "roller/engine_points.h"
 #include "roller/map_figures.h"
 #include "roller/regime_map.h"
-#include "studies/study.h"
 #include "support/csv.h"
 #include "support/files.h"
 #include "support/options.h"
 #include "support/progress.h"
+#include "support/resumed.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace drumlin::post {
@@ -36,6 +39,7 @@ constexpr int most_values = 2000; ///< per axis
 constexpr int most_cycles = 100000;
 constexpr int least_cycles = 100; ///< fewer do not let a motion settle
 constexpr int most_threads = 256;
+constexpr int most_engine_points = 10000;
 constexpr const char *points_name = "regimes.csv";
 constexpr const char *boundaries_name = "boundaries.csv";
 constexpr const char *record_name = "parameters.csv";
@@ -78,12 +82,11 @@ void judge_corner(const ChainParameters &parameters) {
 
 // Judges --engine and --engine-points, with the axes of the map.
 void judge_engine(const MapArguments &arguments, Task &task) {
-  constexpr int most_points = 10000;
   if (arguments.engine_points) {
     if (!arguments.engine)
       throw UsageError(refusal("--engine-points", *arguments.engine_points, "only with --engine"));
-    task.engine_points =
-        static_cast<std::size_t>(count_option("--engine-points", *arguments.engine_points, 1, most_points));
+    task.engine_points = static_cast<std::size_t>(
+        count_option("--engine-points", *arguments.engine_points, 1, most_engine_points));
   }
   if (!arguments.engine) return;
   const std::string &name = choice_option("--engine", *arguments.engine, {"liggghts", "lammps"});
@@ -181,49 +184,76 @@ std::string settings(const Task &task) {
   return parameters_text(values);
 }
 
-std::string points_header(const MapGrid &grid) {
-  return fmt::format(
-      "{},{},regime,period [cycles],CMV [-],RMV [-],peak_force [N],contact_share [-],multiplier [-],"
-      "exponent [1/cycle],exponent_low [1/cycle],exponent_high [1/cycle]\n",
-      grid.x.label(), grid.y.label());
-}
+/// A row of regimes.csv; the values of the axes name it.
+struct MapPoint {
+  double x = 0.0, y = 0.0;
+  RegimePoint point;
+};
 
-std::string point_row(const MapGrid &grid, std::size_t i, const RegimePoint &p) {
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", number_text(grid.x_of(i)),
-                     number_text(grid.y_of(i)), regime_names[static_cast<std::size_t>(p.regime)], p.period,
-                     number_text(p.meter.cmv), number_text(p.meter.rmv), number_text(p.meter.peak_force),
-                     number_text(p.meter.contact_share), number_text(p.multiplier),
-                     number_text(p.exponent.mean), number_text(p.exponent.low), number_text(p.exponent.high));
-}
-
-// The points that an interrupted call has measured; an incomplete last row is ignored.
-std::vector<RegimePoint> earlier_points(const fs::path &file, const MapGrid &grid) {
-  std::string text = read_text(file);
-  const std::size_t end = text.rfind('\n');
-  text.resize(end == std::string::npos ? 0 : end + 1);
-  const std::string header = points_header(grid);
-  if (text.compare(0, header.size(), header) != 0) text = header;
-  write_files({{file, text}});
-  const Table table = read_table(file);
-  std::vector<RegimePoint> points(std::min(table.rows(), grid.size()));
-  const std::vector<std::string> regimes = table.text("regime");
-  const std::vector<double> periods = table.numbers("period [cycles]");
-  const auto column = [&](const char *name, const auto &set) {
-    const std::vector<double> values = table.numbers(name);
-    for (std::size_t i = 0; i < points.size(); ++i)
-      set(points[i], values[i]);
+CsvSchema<MapPoint> map_columns(const MapGrid &grid) {
+  const auto number = [](const char *name, auto part) {
+    return csv_column_of<MapPoint, double>(name, part, all_digits);
   };
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto *const found = std::find(regime_names.begin(), regime_names.end(), regimes[i]);
-    if (found == regime_names.end())
-      csv_fault(file, table.line(i), "regime", refusal("it", regimes[i], "a regime"));
-    points[i].regime = static_cast<Regime>(found - regime_names.begin());
-    points[i].period = static_cast<int>(periods[i]);
-  }
-  column("CMV [-]", [](RegimePoint &p, double v) { p.meter.cmv = v; });
-  column("RMV [-]", [](RegimePoint &p, double v) { p.meter.rmv = v; });
-  column("peak_force [N]", [](RegimePoint &p, double v) { p.meter.peak_force = v; });
-  column("contact_share [-]", [](RegimePoint &p, double v) { p.meter.contact_share = v; });
+  return CsvSchema<MapPoint>(
+      {csv_column(grid.x.label(), &MapPoint::x),
+       csv_column(grid.y.label(), &MapPoint::y),
+       {"regime",
+        [](const MapPoint &row) { return regime_names[static_cast<std::size_t>(row.point.regime)]; },
+        [](MapPoint &row, const std::string &cell) {
+          const auto *const found = std::find(regime_names.begin(), regime_names.end(), cell);
+          if (found == regime_names.end())
+            throw std::invalid_argument(fmt::format("{}", fmt::join(regime_names, ", ")));
+          row.point.regime = static_cast<Regime>(found - regime_names.begin());
+        }},
+       csv_column("period [cycles]", &MapPoint::point, &RegimePoint::period),
+       number(
+           "CMV [-]", [](auto &row) -> auto & { return row.point.meter.cmv; }),
+       number(
+           "RMV [-]", [](auto &row) -> auto & { return row.point.meter.rmv; }),
+       number(
+           "peak_force [N]", [](auto &row) -> auto & { return row.point.meter.peak_force; }),
+       number(
+           "contact_share [-]", [](auto &row) -> auto & { return row.point.meter.contact_share; }),
+       csv_column("multiplier [-]", &MapPoint::point, &RegimePoint::multiplier),
+       number(
+           "exponent [1/cycle]", [](auto &row) -> auto & { return row.point.exponent.mean; }),
+       number(
+           "exponent_low [1/cycle]", [](auto &row) -> auto & { return row.point.exponent.low; }),
+       number(
+           "exponent_high [1/cycle]", [](auto &row) -> auto & { return row.point.exponent.high; })},
+      2);
+}
+
+/// All points of the map in its order; those that an earlier call has written are not computed again.
+std::vector<RegimePoint> map_points(const Task &task) {
+  const MapGrid &grid = task.grid;
+  const CsvSchema<MapPoint> columns = map_columns(grid);
+  ResumedTable table(task.out / points_name, columns);
+  std::map<std::pair<double, double>, RegimePoint> earlier;
+  for (const MapPoint &row : read_points(table.file(), columns))
+    earlier[{row.x, row.y}] = row.point;
+  std::vector<RegimePoint> points(grid.size());
+  std::vector<std::size_t> missing;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (table.has(columns.key({grid.x_of(i), grid.y_of(i), {}})))
+      points[i] = earlier.at({grid.x_of(i), grid.y_of(i)});
+    else
+      missing.push_back(i);
+  table.finish(); // before hours of work, for rows that belong to no point
+  if (missing.size() < points.size())
+    fmt::print("{} of {} points are there already\n", points.size() - missing.size(), points.size());
+  TimedProgress progress;
+  judge_points(grid, missing, task.threads, [&](std::size_t first, const std::vector<RegimePoint> &more) {
+    std::vector<ResumedTable::Row> rows;
+    for (std::size_t i = 0; i < more.size(); ++i) {
+      const std::size_t number = missing[first + i];
+      points[number] = more[i];
+      rows.push_back(columns.cells({grid.x_of(number), grid.y_of(number), more[i]}));
+    }
+    table.add(rows);
+    progress.tell("{} of {} points", points.size() - missing.size() + first + more.size(), points.size());
+  });
+  table.finish();
   return points;
 }
 
@@ -264,26 +294,6 @@ void write_page(const Task &task, const std::vector<Figure> &figures,
                           contents, body)}});
 }
 
-// Opens a new folder, or one that has results of the same map, which are then continued.
-bool holds_same(const Task &task, const std::string &record, bool fresh) {
-  const fs::path file = task.out / record_name;
-  if (!fs::exists(file)) {
-    if (fs::exists(task.out) && !fs::is_empty(task.out))
-      throw UsageError(refusal("--out", task.out.string(), "a folder that is new, empty or of a map"));
-  } else if (!fresh) {
-    if (read_text(file) == record) return true;
-    throw UsageError(
-        refusal("--out", task.out.string(),
-                "a folder of a map with the same options, --fresh, which forgets it, or another folder"));
-  }
-  try {
-    make_output_folder(task.out);
-  } catch (const std::runtime_error &error) {
-    throw UsageError(fmt::format("--out is '{}': {}", task.out.string(), error.what()));
-  }
-  return false;
-}
-
 // Runs the chain in the engine at some points of the map, those that an earlier call has not finished; all of
 // them in the order of spread_points().
 std::vector<EnginePoint> engine_runs(const Task &task, const std::vector<RegimePoint> &points) {
@@ -292,18 +302,25 @@ std::vector<EnginePoint> engine_runs(const Task &task, const std::vector<RegimeP
   const char *name = *task.engine == Engine::lammps ? "lammps" : "liggghts";
   const fs::path file = task.out / fmt::format("engine_points_{}.csv", name);
   const CsvSchema<EnginePoint> columns = engine_point_columns(grid);
-  StudyResults results(file, columns);
+  ResumedTable results(file, columns);
+  const auto key = [&](std::size_t point) {
+    EnginePoint like;
+    like.x = grid.x_of(point);
+    like.y = grid.y_of(point);
+    return columns.key(like);
+  };
   const std::vector<std::size_t> chosen = spread_points(grid, task.engine_points);
   TimedProgress progress;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
-    EnginePoint like;
-    like.x = grid.x_of(chosen[i]);
-    like.y = grid.y_of(chosen[i]);
-    if (!results.has(columns.key(like)))
+    if (!results.has(key(chosen[i])))
       results.add(columns.cells(run_engine_point(grid, chosen[i], points[chosen[i]], *task.engine)));
     progress.tell("{} of {} runs of {}", i + 1, chosen.size(), name);
   }
-  return columns.rows(read_table(file));
+  for (const std::size_t point :
+       spread_points(grid, most_engine_points)) // an earlier call may have made more
+    results.has(key(point));
+  results.finish();
+  return read_points(file, columns);
 }
 
 void print_engine_runs(const MapGrid &grid, const std::vector<EnginePoint> &runs) {
@@ -320,25 +337,10 @@ void print_engine_runs(const MapGrid &grid, const std::vector<EnginePoint> &runs
       runs.size());
 }
 
-void run_map(const Task &task, bool same, const std::string &record) {
+void run_map(const Task &task) {
   const MapGrid &grid = task.grid;
-  const fs::path file = task.out / points_name;
-  std::vector<RegimePoint> points;
-  if (same && fs::exists(file))
-    points = earlier_points(file, grid);
-  else
-    write_files({{file, points_header(grid)}, {task.out / record_name, record}});
-  if (!points.empty()) fmt::print("{} of {} points are there already\n", points.size(), grid.size());
+  const std::vector<RegimePoint> points = map_points(task);
   TimedProgress progress;
-  judge_points(grid, points.size(), task.threads, [&](const std::vector<RegimePoint> &more) {
-    std::string text;
-    for (const RegimePoint &point : more) {
-      text += point_row(grid, points.size(), point);
-      points.push_back(point);
-    }
-    append_text(file, text);
-    progress.tell("{} of {} points", points.size(), grid.size());
-  });
   const std::vector<BoundaryPoint> boundaries =
       find_boundaries(grid, points, task.threads,
                       [&](double share) { progress.tell("boundaries: {:.0f} %", 100.0 * share); });
@@ -359,7 +361,7 @@ void run_map(const Task &task, bool same, const std::string &record) {
   print_engine_runs(grid, runs);
 }
 
-void run_sweep(const Task &task, const std::string &record) {
+void run_sweep(const Task &task) {
   constexpr int kept = 32;
   TimedProgress progress;
   const Sweep found = sweep(task.grid.chain, *task.sweep, task.grid.cycles, kept,
@@ -373,9 +375,7 @@ void run_sweep(const Task &task, const std::string &record) {
     boundaries += fmt::format("{},{}\n", point.kind, number_text(point.x));
     fmt::print("  {:<20}{} = {:.10g}\n", point.kind, task.sweep->name, point.x);
   }
-  write_files({{task.out / "sweep.csv", samples},
-               {task.out / boundaries_name, boundaries},
-               {task.out / record_name, record}});
+  write_files({{task.out / "sweep.csv", samples}, {task.out / boundaries_name, boundaries}});
   draw(task.out, sweep_figures(task.grid.chain, *task.sweep, found));
   fmt::print("{}: {} samples of {} values, up and down\n", task.out.string(), found.samples.size(),
              task.sweep->count);
@@ -386,11 +386,12 @@ void run_sweep(const Task &task, const std::string &record) {
 void print_map(const MapArguments &arguments) {
   const Task task = judge(arguments);
   const std::string record = settings(task);
-  const bool same = holds_same(task, record, arguments.fresh);
+  const ResumedFolder folder(task.out, "map", record, arguments.fresh);
+  write_files({{task.out / record_name, record}});
   if (task.sweep)
-    run_sweep(task, record);
+    run_sweep(task);
   else
-    run_map(task, same, record);
+    run_map(task);
 }
 
 void add_map_command(CLI::App &app, Session & /*session*/) {

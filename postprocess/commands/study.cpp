@@ -52,7 +52,7 @@ void add_study_command(CLI::App &app, Session &) {
       options->jobs = count_option("--jobs", *jobs, 1, most_jobs);
       options->out = output_folder_option("--out", *out);
       keep_apart({}, {{"--out", options->out, true}});
-      open_study(*options);
+      const ResumedFolder folder = open_study(*options);
       run(*options);
     });
   }

@@ -4,8 +4,8 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <regex>
 #include <stdexcept>
-#include <system_error>
 
 #include <fmt/format.h>
 
@@ -13,25 +13,39 @@ namespace drumlin::post {
 
 namespace fs = std::filesystem;
 
-DeckRun::DeckRun(const std::string &deck, const Variables &variables, int ranks, double limit) : deck_(deck) {
-  std::string name = (fs::temp_directory_path() / "drumlin-study-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
-  folder_ = name;
+namespace {
+
+/// Whether an engine's ERROR line tells of the machine or of a signal instead of the scene.
+bool may_pass(const std::string &line) {
+  static const std::regex words(
+      "signal|disk|[Ff]ile|folder|[Cc]ould not|[Cc]annot|[Mm]emory|alloc|MPI|interrupt",
+      std::regex::optimize);
+  return std::regex_search(line, words);
+}
+
+} // namespace
+
+DeckRun::DeckRun(const std::string &deck, const Variables &variables, int ranks, double limit)
+    : deck_(deck), temporary_(fs::temp_directory_path(), "drumlin-study-"),
+      folder_(temporary_.path() / "run") {
+  fs::create_directory(folder_);
   const auto begin = std::chrono::steady_clock::now();
   outcome_ = run_deck(input_file(deck), variables, folder_, ranks, limit);
   wall_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-DeckRun::~DeckRun() {
-  std::error_code ignored;
-  fs::remove_all(folder_, ignored);
-}
-
 const DeckRun &DeckRun::must_succeed() const {
   if (outcome_.ok()) return *this;
-  std::string why = outcome_.timed_out ? "was stopped at its time limit" : engine_error(outcome_.output);
-  if (why.empty()) why = fmt::format("exit status {}", outcome_.status);
-  throw std::runtime_error(fmt::format("{}: {}", deck_, why));
+  const std::string why =
+      outcome_.timed_out ? "was stopped at its time limit" : engine_error(outcome_.output);
+  const std::string text =
+      fmt::format("{}: {}", deck_, why.empty() ? fmt::format("exit status {}", outcome_.status) : why);
+  constexpr int least_of_signals = 128;
+  // A line without its end has been cut by a full disk.
+  if (!outcome_.timed_out && outcome_.status < least_of_signals && outcome_.says(why + "\n") &&
+      why.rfind("ERROR", 0) == 0 && !may_pass(why))
+    throw SceneFault(text);
+  throw std::runtime_error(text);
 }
 
 double DeckRun::printed(const std::string &text) const {

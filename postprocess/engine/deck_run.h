@@ -2,11 +2,20 @@
 #pragma once
 
 #include "engine/engine_run.h"
+#include "support/files.h"
 
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 
 namespace drumlin::post {
+
+/// What the scene of a run causes: the same run fails in the same way whenever it is made again. All other faults, such as those
+/// of a full disk or of an engine that was killed, may pass.
+class SceneFault : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
 
 /// A run of a deck in a temporary folder, which lives as long as this object.
 class DeckRun {
@@ -14,12 +23,10 @@ public:
   /// \param deck relative to inputs/, e.g. "chain/in.chain"
   /// \param limit seconds after which the run is stopped
   DeckRun(const std::string &deck, const Variables &variables, int ranks = 1, double limit = 3600.0);
-  ~DeckRun();
-  DeckRun(const DeckRun &) = delete;
-  DeckRun &operator=(const DeckRun &) = delete;
 
   const Outcome &outcome() const { return outcome_; }
-  /// Throws std::runtime_error with the engine's ERROR line, or its last line, if the run failed.
+  /// Throws std::runtime_error with the engine's ERROR line, or its exit status, if the run failed: SceneFault if the engine ended
+  /// by itself, with a line that names neither files nor signals.
   const DeckRun &must_succeed() const;
   /// A file that the run wrote.
   std::filesystem::path file(const std::string &name) const { return folder_ / name; }
@@ -33,7 +40,8 @@ public:
 
 private:
   std::string deck_;
-  std::filesystem::path folder_;
+  TemporaryFolder temporary_;
+  std::filesystem::path folder_; ///< in the temporary one, which is held: decks hold their folder, too
   Outcome outcome_;
   double wall_seconds_ = 0.0;
 };

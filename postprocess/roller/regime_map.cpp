@@ -1,16 +1,14 @@
 #include "roller/regime_map.h"
 
 #include "support/csv.h"
+#include "support/parallel.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <mutex>
 #include <stdexcept>
-#include <thread>
 
 namespace drumlin::post {
 
@@ -27,31 +25,6 @@ const ChainNumber *number_named(const std::string &name) {
 const Range &range_of(const std::string &name) {
   const ChainNumber *number = number_named(name);
   return number == nullptr ? me_re_range : number->range;
-}
-
-// Calls work(i) for i from 0 to count - 1 by several threads; the first fault is thrown when all have ended.
-template <class Work>
-void in_parallel(std::size_t count, int threads, const Work &work) {
-  std::atomic<std::size_t> next = 0;
-  std::exception_ptr fault;
-  std::mutex guard;
-  const auto worker = [&] {
-    try {
-      for (std::size_t i = next++; i < count; i = next++)
-        work(i);
-    } catch (...) {
-      const std::lock_guard<std::mutex> lock(guard);
-      if (!fault) fault = std::current_exception();
-      next = count;
-    }
-  };
-  std::vector<std::thread> others;
-  for (int i = 1; i < threads; ++i)
-    others.emplace_back(worker);
-  worker();
-  for (std::thread &other : others)
-    other.join();
-  if (fault) std::rethrow_exception(fault);
 }
 
 } // namespace
@@ -130,16 +103,16 @@ ChainParameters MapGrid::at(double x_value, double y_value) const {
   return chain.with({{x.name, x_value}, {y.name, y_value}});
 }
 
-void judge_points(const MapGrid &grid, std::size_t first, int threads,
-                  const std::function<void(const std::vector<RegimePoint> &)> &done) {
+void judge_points(const MapGrid &grid, const std::vector<std::size_t> &numbers, int threads,
+                  const std::function<void(std::size_t, const std::vector<RegimePoint> &)> &done) {
   constexpr std::size_t at_once = 200;
-  while (first < grid.size()) {
-    std::vector<RegimePoint> points(std::min(at_once, grid.size() - first));
+  for (std::size_t first = 0; first < numbers.size(); first += at_once) {
+    std::vector<RegimePoint> points(std::min(at_once, numbers.size() - first));
     in_parallel(points.size(), threads, [&](std::size_t i) {
-      points[i] = judge_regime(grid.at(grid.x_of(first + i), grid.y_of(first + i)), grid.cycles);
+      const std::size_t number = numbers[first + i];
+      points[i] = judge_regime(grid.at(grid.x_of(number), grid.y_of(number)), grid.cycles);
     });
-    done(points);
-    first += points.size();
+    done(first, points);
   }
 }
 

@@ -49,9 +49,10 @@ struct MapGrid {
   ChainParameters at(double x_value, double y_value) const;
 };
 
-/// Judges the points from `first` on by several threads; `done` gets the next points, in order.
-void judge_points(const MapGrid &grid, std::size_t first, int threads,
-                  const std::function<void(const std::vector<RegimePoint> &)> &done);
+/// Judges points of a map, given by their numbers, by several threads; `done` gets some of them after others, in order: the place
+/// of the first in `numbers`, and the points.
+void judge_points(const MapGrid &grid, const std::vector<std::size_t> &numbers, int threads,
+                  const std::function<void(std::size_t, const std::vector<RegimePoint> &)> &done);
 
 /// A point of a boundary between regimes, on the line between two neighbours of the grid, located to 1e-11 of
 /// it.

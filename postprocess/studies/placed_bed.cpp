@@ -2,16 +2,15 @@
 
 #include "engine/deck_run.h"
 #include "support/files.h"
+#include "support/parallel.h"
 #include "support/progress.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <mutex>
-#include <thread>
 
 namespace drumlin::post {
 
@@ -23,6 +22,28 @@ fs::path bed_folder(const fs::path &out) {
   fs::path folder = fs::absolute(out / "beds");
   fs::create_directories(folder);
   return folder;
+}
+
+std::string words_of(const Variables &variables) {
+  std::string words;
+  for (const auto &[name, value] : variables)
+    words += name + "=" + value + " ";
+  return words;
+}
+
+std::string words_of(const PackingOptions &packing) {
+  return fmt::format("{} {} {} {} {} {} {} ", packing.balls, packing.width, packing.depth, packing.height,
+                     packing.radius_min, packing.radius_max,
+                     grading_name(packing.grading) + packing.sieve_name);
+}
+
+/// Name of the file of a bed's soil, without its ending, with the fingerprint of all that it is made of.
+std::string soil_stem(const PlacedBed &bed, int seed) {
+  std::string made_of = words_of(bed.packing);
+  for (const BedLayer &layer : bed.layers)
+    made_of += fmt::format("{} {}", layer.thickness, words_of(layer.packing));
+  made_of += words_of(bed.settle) + words_of(bed.scene) + bed.ratio;
+  return fmt::format("{}_{}_{}", bed.soil.empty() ? bed.name : bed.soil, seed, fingerprint(made_of));
 }
 
 } // namespace
@@ -46,41 +67,25 @@ PlacedBed gravel_bed() {
 }
 
 fs::path settled_soil(const PlacedBed &bed, int seed, const fs::path &out) {
-  const fs::path folder = bed_folder(out);
-  const std::string stem = fmt::format("{}_{}", bed.soil.empty() ? bed.name : bed.soil, seed);
-  fs::path done = folder / (stem + ".soil");
-  if (fs::exists(done)) return done;
   PackingOptions packing = bed.packing;
   std::vector<BedLayer> layers = bed.layers;
   packing.seed = static_cast<std::uint64_t>(seed);
   for (BedLayer &layer : layers)
     layer.packing.seed = packing.seed;
-  const fs::path balls = folder / (stem + ".balls"), unfinished = folder / (stem + ".unfinished");
+  const fs::path folder = bed_folder(out);
+  fs::path done = folder / (soil_stem(bed, seed) + ".soil");
+  if (fs::exists(done)) return done;
+  const TemporaryFolder unfinished(folder, "unfinished.");
+  const fs::path balls = unfinished.path() / "balls", soil = unfinished.path() / "soil";
   write_files({{balls, layers.empty() ? bed_data(packing, soil_density, pack_balls(packing))
                                       : bed_data(layers, soil_density, pack_layers(layers))}});
   print_progress(fmt::format("settling bed {}, seed {}", bed.soil.empty() ? bed.name : bed.soil, seed));
   Variables variables = joined(bed.settle, bed.scene);
   variables.insert(variables.end(),
-                   {{"ratio", bed.ratio}, {"balls", balls.string()}, {"bed", unfinished.string()}});
+                   {{"ratio", bed.ratio}, {"balls", balls.string()}, {"bed", soil.string()}});
   DeckRun("bed/in.settle", variables).must_succeed();
-  fs::rename(unfinished, done);
-  fs::remove(unfinished.string() + ".data"); // for in.tile
-  fs::remove(balls);
+  fs::rename(soil, done);
   return done;
-}
-
-void in_parallel(const std::vector<std::function<void()>> &tasks, int jobs) {
-  std::atomic<std::size_t> next = 0;
-  std::vector<std::thread> workers;
-  const std::size_t count = std::min(static_cast<std::size_t>(jobs), tasks.size());
-  workers.reserve(count);
-  for (std::size_t worker = 0; worker < count; ++worker)
-    workers.emplace_back([&] {
-      for (std::size_t task = next++; task < tasks.size(); task = next++)
-        tasks[task]();
-    });
-  for (std::thread &worker : workers)
-    worker.join();
 }
 
 Variables joined(Variables first, const Variables &second) {
@@ -88,20 +93,25 @@ Variables joined(Variables first, const Variables &second) {
   return first;
 }
 
+std::string placed_name(const PlacedBed &bed, int seed) {
+  return fmt::format("{}_{}_{}", bed.name, seed, fingerprint(soil_stem(bed, seed) + words_of(bed.place)));
+}
+
 fs::path placed(const PlacedBed &bed, int seed, const fs::path &out) {
   const fs::path folder = bed_folder(out);
-  const std::string stem = fmt::format("{}_{}", bed.name, seed);
-  fs::path done = folder / (stem + ".restart");
-  if (fs::exists(done)) return done;
-  const fs::path soil = settled_soil(bed, seed, out), roller = folder / (stem + ".roller");
-  print_progress(fmt::format("placing the roller on bed {}, seed {}", bed.name, seed));
-  Variables variables = joined(bed.place, bed.scene);
-  variables.insert(variables.end(),
-                   {{"ratio", bed.ratio}, {"bed", soil.string()}, {"start", roller.string()}});
-  DeckRun("bed/in.place", variables).must_succeed();
-  fs::rename(roller, done);
-  fs::remove(roller.string() + ".data"); // for LAMMPS
-  if (bed.soil.empty()) fs::remove(soil);
+  fs::path done = folder / (placed_name(bed, seed) + ".restart");
+  if (!fs::exists(done)) {
+    const fs::path soil = settled_soil(bed, seed, out);
+    const TemporaryFolder unfinished(folder, "unfinished.");
+    const fs::path roller = unfinished.path() / "roller";
+    print_progress(fmt::format("placing the roller on bed {}, seed {}", bed.name, seed));
+    Variables variables = joined(bed.place, bed.scene);
+    variables.insert(variables.end(),
+                     {{"ratio", bed.ratio}, {"bed", soil.string()}, {"start", roller.string()}});
+    DeckRun("bed/in.place", variables).must_succeed();
+    fs::rename(roller, done);
+  }
+  if (bed.soil.empty()) fs::remove(folder / (soil_stem(bed, seed) + ".soil"));
   return done;
 }
 
@@ -114,39 +124,39 @@ Variables with_start(Variables variables, const fs::path &start, int cycles) {
 }
 
 std::vector<std::string> make_runs(const std::vector<std::vector<SeedRun>> &groups, int jobs,
-                                   StudyResults &results) {
+                                   ResumedTable &results) {
   std::size_t runs = 0;
   for (const std::vector<SeedRun> &group : groups)
     runs += group.size();
   CountedProgress progress(runs);
   std::mutex mutex; // of results, progress and failures
   std::vector<std::string> failures;
-  std::vector<std::function<void()>> tasks;
-  tasks.reserve(groups.size());
   for (const std::vector<SeedRun> &group : groups)
-    tasks.emplace_back([&] {
-      for (const SeedRun &run : group) {
-        {
-          const std::lock_guard lock(mutex);
-          if (results.has({run.name, std::to_string(run.seed)})) {
-            progress.found();
-            continue;
-          }
-        }
-        const std::string what = fmt::format("seed {}, {}: ", run.seed, run.name);
-        try {
-          const MeasuredRun measured = run.measure();
-          const std::lock_guard lock(mutex);
-          results.add(measured.row);
-          progress.measured(what + measured.words);
-        } catch (const std::exception &fault) { // a bed that fails does not stop the others
-          const std::lock_guard lock(mutex);
-          failures.push_back(what + fault.what());
-          progress.measured(failures.back());
+    for (const SeedRun &run : group)
+      results.has({run.name, std::to_string(run.seed)}); // so that the table gets their order
+  in_parallel(groups.size(), jobs, [&](std::size_t number) {
+    for (const SeedRun &run : groups[number]) {
+      {
+        const std::lock_guard lock(mutex);
+        if (results.has({run.name, std::to_string(run.seed)})) {
+          progress.found();
+          continue;
         }
       }
-    });
-  in_parallel(tasks, jobs);
+      const std::string what = fmt::format("seed {}, {}: ", run.seed, run.name);
+      try {
+        const MeasuredRun measured = run.measure();
+        const std::lock_guard lock(mutex);
+        results.add(measured.row);
+        progress.measured(what + measured.words);
+      } catch (const std::exception &fault) { // a bed that fails does not stop the others
+        const std::lock_guard lock(mutex);
+        failures.push_back(what + fault.what());
+        progress.measured(failures.back());
+      }
+    }
+  });
+  results.finish();
   return failures;
 }
 

@@ -35,11 +35,12 @@ constexpr double soil_density = 2650.0; ///< of the balls [kg/m3]
 
 Variables joined(Variables first, const Variables &second);
 
-/// Runs the tasks, `jobs` at a time. A task must not throw.
-void in_parallel(const std::vector<std::function<void()>> &tasks, int jobs);
-
-/// The restart file of a bed's soil at rest, in the folder `beds` of the study; made if an earlier call did not finish it.
+/// The restart file of a bed's soil at rest, in the folder `beds` of the study; made if an earlier call did not finish it. Its name
+/// has the fingerprint of all that the soil is made of.
 std::filesystem::path settled_soil(const PlacedBed &bed, int seed, const std::filesystem::path &out);
+
+/// Name of a bed with its roller, of one seed, with the fingerprint of all that soil and roller are made of.
+std::string placed_name(const PlacedBed &bed, int seed);
 
 /// The restart file of a bed with its roller at rest, in the folder `beds` of the study; made if an earlier
 /// call did not finish it. Beds that share their soil are not made at the same time.
@@ -51,7 +52,7 @@ Variables with_start(Variables variables, const std::filesystem::path &start, in
 
 /// What a run gave.
 struct MeasuredRun {
-  StudyResults::Row row; ///< of the results
+  ResumedTable::Row row; ///< of the results
   std::string words;     ///< for the progress
 };
 
@@ -65,6 +66,6 @@ struct SeedRun {
 /// Makes the runs that the results do not have: those of a group one after the other, `jobs` groups at the
 /// same time. A run that fails does not stop the others. Returns the failures, one sentence each.
 std::vector<std::string> make_runs(const std::vector<std::vector<SeedRun>> &groups, int jobs,
-                                   StudyResults &results);
+                                   ResumedTable &results);
 
 } // namespace drumlin::post

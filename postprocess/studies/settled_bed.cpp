@@ -1,7 +1,9 @@
 #include "studies/settled_bed.h"
 
 #include "engine/deck_run.h"
+#include "support/files.h"
 #include "support/progress.h"
+#include "support/resumed.h"
 
 #include <fmt/format.h>
 
@@ -14,11 +16,14 @@ std::string CostBed::name() const { return fmt::format("bed {}", balls()); }
 Variables CostBed::sides() const { return {{"sides", layers > 1 ? "p" : "f"}}; }
 
 fs::path settled(const CostBed &bed, const fs::path &folder) {
-  fs::path file = folder / fmt::format("bed_{}.data", bed.balls());
+  const std::string made_of = fmt::format("{} {} {} {} {} {}", bed.columns, bed.layers, bed.rows,
+                                          bed.settling, bed.copies_x, bed.copies_y);
+  fs::path file = folder / fmt::format("bed_{}_{}.data", bed.balls(), fingerprint(made_of));
   if (fs::exists(file)) return file;
-  const fs::path unfinished = folder / "unfinished.data";
+  const TemporaryFolder place(fs::absolute(folder), "unfinished.");
+  const fs::path unfinished = place.path() / "bed.data";
   Variables variables = bed.sides();
-  variables.emplace_back("data", fs::absolute(unfinished).string());
+  variables.emplace_back("data", unfinished.string());
   if (bed.copies_x * bed.copies_y > 1) {
     CostBed cell = bed;
     cell.copies_x = cell.copies_y = 1;

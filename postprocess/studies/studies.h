@@ -33,9 +33,9 @@ void run_box_study(const StudyOptions &options);
 /// `drumlin study cost`: wall time of a time step, and the time that each optional part adds to it. Also
 /// throws std::runtime_error if variants with the same contact law do not end with the balls at the same
 /// positions.
-///   bed_2500.data, ...  settled beds that all variants start from
-///   runs.csv            wall time of each run
-///   index.html          tables and a figure
+///   bed_2500_X.data, ...  settled beds that all variants start from; X depends on what they are made of
+///   runs.csv              wall time of each run
+///   index.html            tables and a figure
 void run_cost_study(const StudyOptions &options);
 
 /// `drumlin study fidelity`: effect of each part of a bed's model on the results, and its computing time. If

@@ -1,19 +1,14 @@
 #include "studies/study.h"
 
 #include "engine/engine_run.h"
+#include "engine/places.h"
 #include "support/files.h"
-#include "support/range.h"
 #include "support/usage_error.h"
 
-#include <algorithm>
-#include <boost/crc.hpp>
-#include <cmath>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <optional>
+
 #include <set>
-#include <stdexcept>
-#include <utility>
+#include <string>
 
 namespace drumlin::post {
 
@@ -21,28 +16,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char *record_name = "study.txt";
-
-/// Identifies the build of the plugin: the version, and a checksum over its libraries in order of their
-/// names.
-std::string record(const StudyOptions &options) {
-  std::set<fs::path> libraries;
-  for (const fs::directory_entry &entry : fs::directory_iterator(fs::path(plugin_library()).parent_path()))
-    if (entry.path().extension() == ".so") libraries.insert(entry.path());
-  boost::crc_32_type checksum;
-  for (const fs::path &library : libraries) {
-    const std::string bytes = read_text(library);
-    checksum.process_bytes(bytes.data(), bytes.size());
-  }
-  return fmt::format("drumlin {} plugin {:08x}{}{}\n", DRUMLIN_VERSION, checksum.checksum(),
-                     options.quick ? " quick" : "",
-                     options.balls == StudyOptions().balls ? "" : fmt::format(" {} balls", options.balls));
-}
-
-/// Whether a cell is the text that a program prints for NaN.
-bool is_nan(const std::string &cell) {
-  const std::optional<double> number = any_number_from_text(cell);
-  return number && std::isnan(*number);
+/// Whether a file of inputs can change the results of a study: a deck or what decks include, but not a case of a bed that a user
+/// has added.
+bool is_deck(const fs::path &file) {
+  static const std::set<std::string> others = {".csv", ".md", ".png", ".svg"},
+                                     cases = {"case.base_course", "case.gravel", "case.loose"};
+  const std::string name = file.filename().string();
+  const bool of_bed = file.parent_path().filename() == "bed" && name.rfind("case.", 0) == 0;
+  return others.count(file.extension().string()) == 0 && (!of_bed || cases.count(name) > 0);
 }
 
 } // namespace
@@ -53,67 +34,23 @@ void check_engine_path(const fs::path &out) {
         "--out is '{}'; allowed: a path without spaces, at which the engine would split it", out.string()));
 }
 
-void open_study(const StudyOptions &options) {
-  const fs::path file = options.out / record_name;
-  const std::string now = record(options);
-  if (fs::exists(file)) {
-    if (options.fresh) { // its content, not the folder itself, which may be a symbolic link
-      for (const fs::directory_entry &entry : fs::directory_iterator(options.out))
-        fs::remove_all(entry.path());
-    } else if (read_text(file) != now)
-      throw UsageError(
-          fmt::format("--out is '{}', whose points are of another build or of another choice of "
-                      "--quick or --balls; allowed: --fresh, which forgets them, or another folder",
-                      options.out.string()));
-  } else if (fs::exists(options.out) && !fs::is_empty(options.out)) {
-    throw UsageError(fmt::format("--out is '{}', which holds files but no study; allowed: a folder that is "
-                                 "new, empty or of an earlier call",
-                                 options.out.string()));
-  }
-  try {
-    make_output_folder(options.out);
-  } catch (const std::runtime_error &fault) {
-    throw UsageError(fmt::format("--out is '{}': {}", options.out.string(), fault.what()));
-  }
-  write_files({{file, now}});
+std::string build_line() {
+  std::set<fs::path> files;
+  for (const fs::directory_entry &entry : fs::directory_iterator(fs::path(plugin_library()).parent_path()))
+    if (entry.path().extension() == ".so") files.insert(entry.path());
+  for (const char *room : {"bed", "benchmarks", "chain", "soil", "study"})
+    for (const fs::directory_entry &entry : fs::directory_iterator(places().inputs / room))
+      if (entry.is_regular_file() && is_deck(entry.path())) files.insert(entry.path());
+  std::string made_of;
+  for (const fs::path &file : files)
+    made_of += file.filename().string() + fingerprint(read_text(file));
+  return fmt::format("plugin and decks {}\n", fingerprint(made_of));
 }
 
-Table finished_rows(const fs::path &file) {
-  const Table table = read_table(file, CutRows::forget);
-  std::vector<std::vector<std::string>> rows;
-  std::vector<std::size_t> lines;
-  for (std::size_t i = 0; i < table.rows(); ++i) {
-    if (std::any_of(table.row(i).begin(), table.row(i).end(), is_nan)) continue;
-    rows.push_back(table.row(i));
-    lines.push_back(table.line(i));
-  }
-  return {file, table.header(), std::move(rows), std::move(lines)};
-}
-
-StudyResults::StudyResults(fs::path file, Row columns, std::size_t keys)
-    : file_(std::move(file)), columns_(std::move(columns)), keys_(keys) {
-  if (!fs::exists(file_)) {
-    write_files({{file_, csv_line(columns_)}});
-    return;
-  }
-  const Table table = finished_rows(file_);
-  if (table.header() != columns_)
-    throw UsageError(refusal(fmt::format("the header of {}", file_.string()),
-                             fmt::format("{}", fmt::join(table.header(), ",")),
-                             fmt::format("{}, or --fresh, which measures again", fmt::join(columns_, ","))));
-  std::string whole = csv_line(columns_);
-  for (std::size_t i = 0; i < table.rows(); ++i) {
-    whole += csv_line(table.row(i));
-    finished_.insert(key_of(table.row(i)));
-  }
-  if (whole != read_text(file_)) write_files({{file_, whole}});
-}
-
-void StudyResults::add(const Row &row) {
-  if (row.size() != columns_.size())
-    throw std::logic_error("a row of another length than the header of " + file_.string());
-  append_text(file_, csv_line(row));
-  finished_.insert(key_of(row));
+ResumedFolder open_study(const StudyOptions &options) {
+  return {options.out, "study",
+          build_line() + (options.quick ? "quick\n" : "") + fmt::format("balls {}\n", options.balls),
+          options.fresh};
 }
 
 std::string seed_by_seed_note(const std::string &compared) {

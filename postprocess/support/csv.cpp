@@ -284,7 +284,7 @@ std::size_t CsvRows::line() const { return state_->scanner.line(); }
 
 Table read_table(const fs::path &file, CutRows cut) {
   std::string text = read_whole_file(file);
-  if (cut == CutRows::forget) text.erase(text.rfind('\n') + 1); // npos + 1 is 0
+  if (cut != CutRows::refuse) text.erase(text.rfind('\n') + 1); // npos + 1 is 0
   RowScanner scanner(file, std::move(text));
   std::vector<std::string> header = read_header(scanner);
   std::vector<std::vector<std::string>> rows;

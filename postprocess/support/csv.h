@@ -47,7 +47,8 @@ private:
 /// header, or a last row without line end, whose last number may lack digits.
 enum class CutRows {
   refuse, ///< a row of another length than the header is a fault; the line end of the last one may be missing
-  forget  ///< the row is left out
+  last,   ///< a last row without line end is left out; a row of another length is a fault
+  forget  ///< both are left out
 };
 
 /// Reads any CSV file with a header line.

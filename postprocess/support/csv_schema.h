@@ -105,8 +105,10 @@ public:
 
   /// The cells that name a row.
   std::vector<std::string> key(const Row &row) const {
-    std::vector<std::string> all = cells(row);
-    all.resize(keys_);
+    std::vector<std::string> all;
+    all.reserve(keys_);
+    for (std::size_t i = 0; i < keys_; ++i)
+      all.push_back(columns_[i].cell(row));
     return all;
   }
 

@@ -1,18 +1,20 @@
 #include "support/files.h"
 
+#include "support/stop_signal.h"
+#include "support/usage_error.h"
+
 #include <iterator>
 #include <fstream>
 #include <fmt/format.h>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
-#include <csignal>
 #include <cstring>
 #include <cstddef>
 #include <set>
@@ -149,35 +151,26 @@ private:
   int file_ = -1;
 };
 
-/// Whether a name is the prefix followed by the number of a process that does not exist any more.
-bool is_leftover(const std::string &name, const std::string &prefix) {
-  if (name.size() <= prefix.size() || name.compare(0, prefix.size(), prefix) != 0) return false;
-  pid_t process = 0;
-  const char *end = name.data() + name.size();
-  const auto [stop, code] = std::from_chars(name.data() + prefix.size(), end, process);
-  return code == std::errc() && stop == end && process > 0 && ::kill(process, 0) != 0 && errno == ESRCH;
-}
-
-/// The temporary folders in `parent`, named by `prefix` and a process number, whose processes were killed.
-std::vector<fs::path> leftovers(const fs::path &parent, const std::string &prefix) {
+/// The folders in `parent` whose names are the prefix and a number.
+std::vector<fs::path> numbered(const fs::path &parent, const std::string &prefix) {
   std::vector<fs::path> found;
   std::error_code ignored;
-  for (fs::directory_iterator entry(parent, ignored), end; entry != end; entry.increment(ignored))
-    if (entry->symlink_status(ignored).type() == fs::file_type::directory &&
-        is_leftover(entry->path().filename().string(), prefix))
+  for (fs::directory_iterator entry(parent, ignored), end; entry != end; entry.increment(ignored)) {
+    const std::string name = entry->path().filename().string();
+    if (name.size() > prefix.size() && name.compare(0, prefix.size(), prefix) == 0 &&
+        name.find_first_not_of("0123456789.", prefix.size()) == std::string::npos &&
+        entry->symlink_status(ignored).type() == fs::file_type::directory)
       found.push_back(entry->path());
+  }
   return found;
 }
 
-/// Removes the temporary folders of killed processes. Errors are ignored: a folder that cannot be removed
-/// does no harm.
-void remove_leftovers(const fs::path &parent, const std::string &prefix) {
-  std::error_code ignored;
-  for (const fs::path &folder : leftovers(parent, prefix))
-    fs::remove_all(folder, ignored);
+[[noreturn]] void refuse_second_call(const fs::path &out, const char *option = "--out") {
+  throw UsageError(
+      fmt::format("{} is '{}', into which another call writes; allowed: another folder, or to wait for "
+                  "the end of that call",
+                  option, out.string()));
 }
-
-std::string own_name(const std::string &prefix) { return fmt::format("{}{}", prefix, ::getpid()); }
 
 void must_be_writable(const fs::path &file) {
   if (const std::string fault = fault_of_file(file); !fault.empty()) fail(file, fault);
@@ -204,6 +197,7 @@ void make_parent_folder(const fs::path &file) {
 }
 
 void write_files(const std::vector<FileText> &files) {
+  end_if_told();
   const fs::path *current = nullptr;
   try {
     std::vector<Temporary> temporaries;
@@ -251,16 +245,60 @@ void append_text(const fs::path &file, const std::string &text) {
   }
 }
 
-TemporaryFolder::TemporaryFolder(const fs::path &parent, const std::string &prefix)
-    : path_(parent / own_name(prefix)) {
-  remove_leftovers(parent, prefix);
-  fs::remove_all(path_);
-  fs::create_directory(path_);
+FolderLock::FolderLock(const fs::path &folder)
+    : file_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (file_ < 0) return;
+  struct stat held = {}, now = {};
+  if (::flock(file_, LOCK_EX | LOCK_NB) != 0)
+    of_another_ = errno == EWOULDBLOCK;
+  else if (::fstat(file_, &held) == 0 && ::stat(folder.c_str(), &now) == 0 && held.st_ino == now.st_ino)
+    return; // else another process has removed the folder meanwhile, and may have made it again
+  ::close(std::exchange(file_, -1));
+}
+
+FolderLock::~FolderLock() {
+  if (file_ >= 0) ::close(file_);
+}
+
+FolderLock::FolderLock(FolderLock &&other) noexcept
+    : file_(std::exchange(other.file_, -1)), of_another_(other.of_another_) {}
+
+FolderLock &FolderLock::operator=(FolderLock &&other) noexcept {
+  std::swap(file_, other.file_);
+  std::swap(of_another_, other.of_another_);
+  return *this;
+}
+
+FolderLock lock_output_folder(const fs::path &folder, const char *option) {
+  FolderLock lock(folder);
+  if (lock.of_another()) refuse_second_call(folder, option);
+  return lock;
+}
+
+TemporaryFolder::TemporaryFolder(const fs::path &parent, const std::string &prefix) : prefix_(prefix) {
+  std::error_code ignored;
+  for (const fs::path &earlier : numbered(parent, prefix))
+    if (const FolderLock lock(earlier); lock.held()) fs::remove_all(earlier, ignored);
+  // Between making and locking it, a process that starts now may take it for the folder of a killed one.
+  for (int number = 0; path_.empty() || !fs::exists(path_); ++number) {
+    path_ = parent / fmt::format("{}{}.{}", prefix, ::getpid(), number);
+    if (!fs::create_directory(path_))
+      path_.clear();
+    else if (lock_ = FolderLock(path_); lock_.of_another())
+      path_.clear(); // for that process will remove it
+  }
 }
 
 TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;
   fs::remove_all(path_, ignored);
+}
+
+bool TemporaryFolder::has_others() const {
+  const std::vector<fs::path> all = numbered(path_.parent_path(), prefix_);
+  return std::any_of(all.begin(), all.end(), [this](const fs::path &folder) {
+    return folder != path_ && FolderLock(folder).of_another();
+  });
 }
 
 namespace {
@@ -271,23 +309,23 @@ std::string prefix_beside(const fs::path &place, const char *which) {
   return fmt::format(".{}.{}-", place.filename().string(), which);
 }
 
-/// Prefix of the name of the folder for new content. First repairs the state after a kill: if a process was
-/// killed between the two renames of publish(), the earlier folder gets its name back.
-std::string prefix_after_rescue(const fs::path &place) {
-  const std::string earlier = prefix_beside(place, "old");
-  const std::vector<fs::path> left = leftovers(place.parent_path(), earlier);
-  if (!left.empty() && !fs::exists(place)) fs::rename(left.front(), place);
-  remove_leftovers(place.parent_path(), earlier);
-  return prefix_beside(place, "new");
-}
-
 } // namespace
 
 FolderInProgress::FolderInProgress(const fs::path &place)
-    : place_(place), folder_(place.parent_path(), prefix_after_rescue(place)) {}
+    : place_(place), folder_(place.parent_path(), prefix_beside(place, "new")) {
+  if (folder_.has_others()) refuse_second_call(place);
+  // A process that was killed between the two renames of publish() has left the earlier folder without its name.
+  for (const fs::path &earlier : numbered(place.parent_path(), prefix_beside(place, "old"))) {
+    std::error_code ignored;
+    if (fs::exists(place))
+      fs::remove_all(earlier, ignored);
+    else
+      fs::rename(earlier, place);
+  }
+}
 
 void FolderInProgress::publish() {
-  const fs::path old = place_.parent_path() / own_name(prefix_beside(place_, "old"));
+  const fs::path old = place_.parent_path() / fmt::format("{}{}", prefix_beside(place_, "old"), ::getpid());
   const bool replaces = fs::exists(place_);
   if (replaces) fs::rename(place_, old);
   std::error_code error;
@@ -302,7 +340,9 @@ void FolderInProgress::publish() {
 
 FilesInProgress::FilesInProgress(const fs::path &folder)
     : folder_(folder), made_(fs::create_directories(folder)),
-      temporary_(std::in_place, folder, "unfinished.") {}
+      temporary_(std::in_place, folder, "unfinished.") {
+  if (temporary_->has_others()) refuse_second_call(folder);
+}
 
 FilesInProgress::~FilesInProgress() {
   temporary_.reset();

@@ -48,8 +48,31 @@ void replace_file(const std::filesystem::path &finished, const std::filesystem::
 /// why not; the part that was added is then removed again where that is possible.
 void append_text(const std::filesystem::path &file, const std::string &text);
 
-/// A temporary folder, PARENT/PREFIX followed by the number of this process. The destructor removes it with
-/// all that is still in it. The constructor first removes such folders of processes that were killed.
+/// Holds a folder for this process, as decks hold theirs (flock), until the object ends or the process does, however it
+/// ends. Some network file systems cannot lock a folder: there nobody is refused.
+class FolderLock {
+public:
+  FolderLock() = default; ///< holds nothing
+  explicit FolderLock(const std::filesystem::path &folder);
+  ~FolderLock();
+  FolderLock(FolderLock &&other) noexcept;
+  FolderLock &operator=(FolderLock &&other) noexcept;
+  bool held() const { return file_ >= 0; }
+  /// Whether it is not held because another object or process holds the folder.
+  bool of_another() const { return of_another_; }
+
+private:
+  int file_ = -1;
+  bool of_another_ = false;
+};
+
+/// Holds a folder of results. Throws UsageError if another call writes into it.
+/// \param option by which the folder is given
+FolderLock lock_output_folder(const std::filesystem::path &folder, const char *option = "--out");
+
+/// A temporary folder, PARENT/PREFIX followed by a number, which is held as long as this object lives. The destructor
+/// removes it with all that is still in it. The constructor first removes such folders that nobody holds: those of
+/// processes that were killed.
 class TemporaryFolder {
 public:
   TemporaryFolder(const std::filesystem::path &parent, const std::string &prefix);
@@ -57,9 +80,13 @@ public:
   TemporaryFolder(const TemporaryFolder &) = delete;
   TemporaryFolder &operator=(const TemporaryFolder &) = delete;
   const std::filesystem::path &path() const { return path_; }
+  /// Whether another process holds a folder of the same parent and prefix.
+  bool has_others() const;
 
 private:
   std::filesystem::path path_;
+  std::string prefix_;
+  FolderLock lock_;
 };
 
 /// Results that replace a folder as a whole once all of them are there. They are made in a temporary folder
@@ -67,7 +94,8 @@ private:
 class FolderInProgress {
 public:
   /// \param place absolute, without a trailing slash; its parent exists. If a process was killed while it
-  /// published, the earlier folder is put back first.
+  /// published, the earlier folder is put back first. Throws UsageError for the option --out if another process makes
+  /// results for the same place.
   explicit FolderInProgress(const std::filesystem::path &place);
   /// Where the results are made.
   const std::filesystem::path &path() const { return folder_.path(); }
@@ -85,6 +113,7 @@ private:
 /// has made it and it is still empty.
 class FilesInProgress {
 public:
+  /// Throws UsageError for the option --out if another process makes files for the same folder.
   explicit FilesInProgress(const std::filesystem::path &folder);
   ~FilesInProgress();
   FilesInProgress(const FilesInProgress &) = delete;

@@ -1,6 +1,7 @@
 #include "support/process.h"
 
 #include "support/files.h"
+#include "support/stop_signal.h"
 
 #include <array>
 #include <cerrno>
@@ -14,7 +15,7 @@
 #include <thread>
 
 #include <fcntl.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -71,13 +72,14 @@ private:
 };
 
 /// Waits until the process has ended, or the time has come or the condition holds; whether it has ended.
-bool wait_until(pid_t child, End &how, steady_clock::time_point end, LineFollower *follower = nullptr,
-                const StopCondition &stop_when = {}) {
+bool wait_until(pid_t child, End &how, steady_clock::time_point end, bool ends_if_told = false,
+                LineFollower *follower = nullptr, const StopCondition &stop_when = {}) {
   for (;;) {
     if (follower != nullptr) follower->follow();
     const pid_t ended = wait4(child, &how.status, WNOHANG, &how.used);
     if (ended == child) return true;
     if (ended < 0 && errno != EINTR) throw std::runtime_error(std::string("wait4: ") + std::strerror(errno));
+    if (ends_if_told) end_if_told();
     if (steady_clock::now() >= end || (stop_when && stop_when(child))) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
@@ -97,6 +99,26 @@ double seconds(const timeval &time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
+/// What a child process does to become the program. Between fork() and exec() only functions that are safe there may be called.
+/// Returns the number of the error.
+int become(const Program &program, char **argv, char **envp, pid_t parent) {
+  if (program.own_group) ::setpgid(0, 0);
+  // It ends with this process, even if that is killed: nobody would read its results, and a later call might write the
+  // same files.
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (::getppid() != parent) ::_exit(EXIT_FAILURE);
+  ::signal(SIGPIPE, SIG_DFL); // which this process may ignore
+  const int input = ::open("/dev/null", O_RDONLY);
+  const int output = ::open(program.output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  if (input < 0 || output < 0 || ::dup2(input, STDIN_FILENO) < 0 || ::dup2(output, STDOUT_FILENO) < 0 ||
+      ::dup2(output, STDERR_FILENO) < 0 || ::chdir(program.folder.c_str()) != 0)
+    return errno;
+  for (const int file : {input, output})
+    if (file > STDERR_FILENO) ::close(file);
+  ::execvpe(argv[0], argv, envp);
+  return errno;
+}
+
 /// Starts the program; the number of its process.
 pid_t start(const Program &program) {
   std::vector<std::string> arguments = program.words;
@@ -105,27 +127,25 @@ pid_t start(const Program &program) {
     entries.emplace_back(*entry);
   const std::vector<char *> argv = pointers(arguments);
   const std::vector<char *> envp = pointers(entries);
-
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, program.output.c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
-  posix_spawn_file_actions_addchdir_np(&files, program.folder.c_str());
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t usual; // signals that this process may ignore, but its children should not
-  sigemptyset(&usual);
-  sigaddset(&usual, SIGPIPE);
-  posix_spawnattr_setsigdefault(&attributes, &usual);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  const int group = program.own_group ? POSIX_SPAWN_SETPGROUP : 0;
-  posix_spawnattr_setflags(&attributes, static_cast<short>(group | POSIX_SPAWN_SETSIGDEF));
+  std::array<int, 2> fault{}; // a pipe, which gets the number of an error
+  int failed = ::pipe2(fault.data(), O_CLOEXEC) == 0 ? 0 : errno;
   pid_t child = 0;
-  const int failed = posix_spawnp(&child, argv[0], &files, &attributes, argv.data(), envp.data());
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&files);
+  if (failed == 0) {
+    const pid_t parent = ::getpid();
+    child = ::fork();
+    if (child == 0) {
+      failed = become(program, const_cast<char **>(argv.data()), const_cast<char **>(envp.data()), parent);
+      static_cast<void>(::write(fault[1], &failed, sizeof failed) > 0);
+      ::_exit(EXIT_FAILURE);
+    }
+    if (child < 0) failed = errno;
+    ::close(fault[1]);
+    ssize_t got = 0;
+    while (child > 0 && (got = ::read(fault[0], &failed, sizeof failed)) < 0 && errno == EINTR) {
+    }
+    ::close(fault[0]);
+    if (got > 0) ::waitpid(child, nullptr, 0);
+  }
   if (failed != 0)
     throw std::runtime_error("cannot start " + program.words.front() + ": " + std::strerror(failed));
   return child;
@@ -141,7 +161,7 @@ Outcome run_program(const Program &program) {
                                              std::chrono::duration<double>(program.limit));
   LineFollower follower(program.output, program.line);
   try {
-    if (!wait_until(child, how, end, &follower, program.stop_when)) {
+    if (!wait_until(child, how, end, true, &follower, program.stop_when)) {
       outcome.timed_out = true;
       stop(child, program, how);
     }

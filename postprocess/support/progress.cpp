@@ -1,5 +1,7 @@
 #include "support/progress.h"
 
+#include "support/stop_signal.h"
+
 #include <algorithm>
 #include <cstdio>
 
@@ -13,6 +15,7 @@ void print_progress(const std::string &line) {
 }
 
 bool TimedProgress::due() {
+  end_if_told();
   const auto now = steady_clock::now();
   if (now - told_ < std::chrono::seconds(2)) return false;
   told_ = now;

@@ -29,6 +29,18 @@ post::Outcome ScratchStudy::run() const {
   return post::run_program({DRUMLIN_TOOLS, "study", name_, "--quick", "--out", "out"}, {}, folder_, 200);
 }
 
+fs::path made_file(const fs::path &folder, const std::string &begin, const std::string &end) {
+  fs::path found;
+  for (const fs::directory_entry &entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind(begin, 0) != 0 || entry.path().extension() != end) continue;
+    EXPECT_TRUE(found.empty()) << found << " and " << entry.path();
+    found = entry.path();
+  }
+  EXPECT_FALSE(found.empty()) << begin;
+  return found;
+}
+
 void interrupt(const fs::path &file) {
   std::istringstream in(post::read_text(file));
   std::string line, kept;

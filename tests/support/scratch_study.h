@@ -25,6 +25,10 @@ private:
   std::filesystem::path folder_;
 };
 
+/// The one file of a folder whose name begins and ends so; between is what it depends on.
+std::filesystem::path made_file(const std::filesystem::path &folder, const std::string &begin,
+                                const std::string &end);
+
 /// Removes every second row of a file and cuts the last one short, as if the study had been killed.
 void interrupt(const std::filesystem::path &file);
 

@@ -135,7 +135,7 @@ std::vector<ScalingPoint> scaling_plan(bool quick, Sensitivities &sensitivities)
   return plan;
 }
 
-void measure(std::vector<ImpactPoint> plan, int phases, StudyResults &results, CountedProgress &progress) {
+void measure(std::vector<ImpactPoint> plan, int phases, ResumedTable &results, CountedProgress &progress) {
   for (ImpactPoint &point : plan) {
     if (results.has(impact_points().key(point))) {
       progress.found();
@@ -148,9 +148,10 @@ void measure(std::vector<ImpactPoint> plan, int phases, StudyResults &results, C
                                   transition_name(point.transition), point.damping_ratio, point.stepping,
                                   point.steps_per_contact));
   }
+  results.finish();
 }
 
-void measure(std::vector<ChainPoint> plan, StudyResults &results, CountedProgress &progress) {
+void measure(std::vector<ChainPoint> plan, ResumedTable &results, CountedProgress &progress) {
   References references;
   for (ChainPoint &point : plan) {
     if (results.has(chain_points().key(point))) {
@@ -166,10 +167,11 @@ void measure(std::vector<ChainPoint> plan, StudyResults &results, CountedProgres
     progress.measured(fmt::format("chain {} {}, {}, {} steps per cycle", point.chain_case,
                                   transition_name(point.transition), point.stepping, point.steps_per_cycle));
   }
+  results.finish();
 }
 
 void measure(std::vector<ScalingPoint> plan, const std::vector<ChainPoint> &known,
-             Sensitivities &sensitivities, StudyResults &results, CountedProgress &progress) {
+             Sensitivities &sensitivities, ResumedTable &results, CountedProgress &progress) {
   for (ScalingPoint &point : plan) {
     if (results.has(scaling_points().key(point))) {
       progress.found();
@@ -188,6 +190,7 @@ void measure(std::vector<ScalingPoint> plan, const std::vector<ChainPoint> &know
     progress.measured(fmt::format("scaling, set {}, {}, error {:g}, {} steps per cycle", point.set,
                                   point.stepping, point.target, point.steps_per_cycle));
   }
+  results.finish();
 }
 
 } // namespace
@@ -196,9 +199,9 @@ void run_accuracy_study(const StudyOptions &options) {
   const Plan plan = plan_of(options.quick);
   Sensitivities sensitivities;
   const std::vector<ScalingPoint> other_chains = scaling_plan(options.quick, sensitivities);
-  StudyResults chain(options.out / "chain.csv", chain_points());
-  StudyResults impacts(options.out / "impacts.csv", impact_points());
-  StudyResults scaling(options.out / "scaling.csv", scaling_points());
+  ResumedTable chain(options.out / "chain.csv", chain_points());
+  ResumedTable impacts(options.out / "impacts.csv", impact_points());
+  ResumedTable scaling(options.out / "scaling.csv", scaling_points());
   CountedProgress progress(plan.chain.size() + plan.impacts.size() + other_chains.size());
 
   measure(plan.impacts, options.quick ? 8 : 64, impacts, progress);

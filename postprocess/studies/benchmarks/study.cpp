@@ -17,7 +17,7 @@ void run_benchmarks_study(const StudyOptions &options) {
   const std::vector<BenchmarkPoint> points = benchmark_points(options.quick);
   std::vector<std::string> engines = {"liggghts"};
   if (has_lammps()) engines.emplace_back("lammps");
-  StudyResults results(options.out / "runs.csv", benchmark_runs());
+  ResumedTable results(options.out / "runs.csv", benchmark_runs());
   CountedProgress progress(engines.size() * points.size());
   for (const BenchmarkPoint &point : points)
     for (const std::string &engine : engines) {
@@ -29,6 +29,7 @@ void run_benchmarks_study(const StudyOptions &options) {
       progress.measured(
           fmt::format("{} {}, {} = {:g}, {}", point.test, point.material, point.variable, point.at, engine));
     }
+  results.finish();
   write_benchmarks_page(options.out);
   fmt::print("{}\n", (options.out / "index.html").string());
 }

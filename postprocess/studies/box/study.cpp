@@ -126,7 +126,7 @@ MeasuredRun measured(const BoxRun &run) {
 void run_box_study(const StudyOptions &options) {
   check_engine_path(options.out);
   const BoxPlan plan = options.quick ? quick_plan() : full_plan();
-  StudyResults results(options.out / "runs.csv", box_runs());
+  ResumedTable results(options.out / "runs.csv", box_runs());
   std::vector<std::vector<SeedRun>>
       groups; // runs on the same bed, one after the other: the first of them makes the bed
   for (const Box &box : plan.boxes)

@@ -132,7 +132,7 @@ void run_cost_study(const StudyOptions &options) {
   const std::vector<Scene> all = scenes(options.quick);
   // Many short rounds: how busy the machine is changes within minutes.
   const int rounds = options.quick ? 1 : 25;
-  StudyResults results(options.out / "runs.csv", cost_runs());
+  ResumedTable results(options.out / "runs.csv", cost_runs());
   std::size_t variants = 0;
   for (const Scene &scene : all)
     variants += scene.variants.size();
@@ -149,6 +149,7 @@ void run_cost_study(const StudyOptions &options) {
         progress.measured(fmt::format("round {}, {}, {}: {:.4g} us per step", round, run.scene, run.variant,
                                       run.us_per_step()));
       }
+  results.finish();
   check_same_work(all, read_cost_runs(results.file()));
   write_cost_page(options.out);
   fmt::print("{}\n", (options.out / "index.html").string());

@@ -46,7 +46,7 @@ MeasuredRun measured(const FidelityRun &run) {
 void run_fidelity_study(const StudyOptions &options) {
   check_engine_path(options.out);
   const FidelityPlan plan = options.quick ? quick_fidelity_plan() : fidelity_plan(options.balls);
-  StudyResults results(options.out / "runs.csv", fidelity_runs());
+  ResumedTable results(options.out / "runs.csv", fidelity_runs());
   // Scenes that share their soil are run together, seed by seed. All seeds of such a group come before the next group: a study that is
   // interrupted has whole rows for its first groups.
   std::vector<std::vector<SeedRun>> groups;

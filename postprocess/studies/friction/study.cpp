@@ -76,7 +76,7 @@ MeasuredRun measure(const FrictionPlan &plan, const std::string &tangential, int
 void run_friction_study(const StudyOptions &options) {
   check_engine_path(options.out);
   const FrictionPlan plan = options.quick ? quick_plan() : full_plan();
-  StudyResults results(options.out / "runs.csv", friction_runs());
+  ResumedTable results(options.out / "runs.csv", friction_runs());
   std::vector<std::vector<SeedRun>> groups;
   for (int seed = 1; seed <= plan.seeds; ++seed)
     for (const char *model : {"coulomb", "history"})

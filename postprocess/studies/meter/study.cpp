@@ -103,7 +103,7 @@ void run_meter_study(const StudyOptions &options) {
   const int count = options.quick ? 8 : 41;
   const std::vector<SoilRoller> rollers(options.quick ? soil_rollers.end() - 1 : soil_rollers.begin(),
                                         soil_rollers.end());
-  StudyResults results(options.out / "records.csv", soil_points());
+  ResumedTable results(options.out / "records.csv", soil_points());
   TimedProgress progress;
   std::size_t done = 0;
   for (const SoilRoller &roller : rollers)
@@ -117,6 +117,7 @@ void run_meter_study(const StudyOptions &options) {
       results.add(soil_points().cells(measure(roller.name, k, done)));
       progress.tell("{} of {} records", done, rollers.size() * static_cast<std::size_t>(count));
     }
+  results.finish();
   std::vector<SoilPoint> rows = read_points(results.file(), soil_points());
   std::sort(rows.begin(), rows.end(), [](const SoilPoint &a, const SoilPoint &b) { return a.k < b.k; });
   write_soil_page(options.out, rows);

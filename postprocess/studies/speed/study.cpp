@@ -94,7 +94,7 @@ void run_speed_study(const StudyOptions &options) {
                                      {copies, options.quick ? 20 : 60}};
   const int rounds = options.quick ? 1 : 5;
   const std::vector<Law> all = laws();
-  StudyResults results(options.out / "runs.csv", speed_runs());
+  ResumedTable results(options.out / "runs.csv", speed_runs());
   CountedProgress progress(2 * static_cast<std::size_t>(rounds) * scenes.size() * all.size());
   for (int round = 1; round <= rounds; ++round)
     for (const Scene &scene : scenes)
@@ -110,6 +110,7 @@ void run_speed_study(const StudyOptions &options) {
               fmt::format("round {}, {}, {}, {} rank{}: {:.3g} million steps of balls per second", round,
                           run.scene, run.law, ranks, ranks > 1 ? "s" : "", run.million_per_second()));
         }
+  results.finish();
   check_same_work(read_speed_runs(results.file()));
   write_speed_page(options.out, {plane.name(), cell.name(), copies.name()});
   fmt::print("{}\n", (options.out / "index.html").string());

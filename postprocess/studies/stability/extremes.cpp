@@ -520,16 +520,16 @@ const CsvSchema<ExtremeRow> &extreme_rows() {
 }
 
 std::vector<ExtremeVerdict> measure_extremes(const StudyOptions &options) {
-  StudyResults results(options.out / "extremes.csv", extreme_rows());
+  ResumedTable results(options.out / "extremes.csv", extreme_rows());
   const std::vector<ExtremeRow> known = read_points(results.file(), extreme_rows());
   const std::vector<Extreme> all = extremes(options.quick);
   CountedProgress progress(all.size());
   std::vector<ExtremeVerdict> verdicts;
   for (const Extreme &extreme : all) {
     ExtremeRow row{extreme.group, extreme.name, command_of(extreme)};
-    if (const ExtremeRow *earlier = find_point(known, extreme_rows(), row); earlier != nullptr) {
+    if (results.has(extreme_rows().key(row))) {
       progress.found();
-      row = *earlier;
+      row = *find_point(known, extreme_rows(), row);
     } else {
       row = measure(extreme);
       results.add(extreme_rows().cells(row));
@@ -538,6 +538,7 @@ std::vector<ExtremeVerdict> measure_extremes(const StudyOptions &options) {
     }
     verdicts.push_back({extreme, row.error, row.found, row.verdict == holding});
   }
+  results.finish();
   return verdicts;
 }
 

@@ -132,7 +132,7 @@ const CsvSchema<MapRow> &map_rows() {
 }
 
 std::vector<MapPoint> measure_stability_map(const StudyOptions &options) {
-  StudyResults results(options.out / "map.csv", map_rows());
+  ResumedTable results(options.out / "map.csv", map_rows());
   const std::vector<MapRow> known = read_points(results.file(), map_rows());
   const std::vector<double> ratios = damping_ratios(options.quick);
   std::vector<const HeldScene *> scenes;
@@ -144,9 +144,9 @@ std::vector<MapPoint> measure_stability_map(const StudyOptions &options) {
     for (const std::string stepping : {"second", "stock"})
       for (const double D : ratios) {
         MapRow row{scene->name, stepping, D};
-        if (const MapRow *earlier = find_point(known, map_rows(), row); earlier != nullptr) {
+        if (results.has(map_rows().key(row))) {
           progress.found();
-          row = *earlier;
+          row = *find_point(known, map_rows(), row);
         } else {
           row = measure(*scene, stepping, D, options.quick);
           results.add(map_rows().cells(row));
@@ -156,6 +156,7 @@ std::vector<MapPoint> measure_stability_map(const StudyOptions &options) {
         }
         map.push_back({scene, stepping, D, row.stable, row.unstable, row.limit});
       }
+  results.finish();
   return map;
 }
 

@@ -73,9 +73,10 @@ LawPlan full_plan() {
 BedLaw measure(const LawPlan &plan, const LawVariant &variant, int seed, const std::filesystem::path &out) {
   PlacedBed bed = plan.bed;
   bed.name = "m3_" + variant.m3;
-  bed.scene.emplace_back("m3", variant.m3);
-  const DeckRun run("bed/in.bed", with_start(joined(joined(variant.run, plan.run), bed.scene),
-                                             placed(bed, seed, out), plan.cycles));
+  bed.place = {{"m3", variant.m3}}; // the settled soil does not depend on it
+  const DeckRun run("bed/in.bed",
+                    with_start(joined(joined(variant.run, plan.run), joined(bed.place, bed.scene)),
+                               placed(bed, seed, out), plan.cycles));
   run.must_succeed();
   BedLaw law = identified_law(run.file(""));
   law.run = variant.name;
@@ -97,7 +98,7 @@ MeasuredRun measured(const BedLaw &law) {
 void run_stiffness_study(const StudyOptions &options) {
   check_engine_path(options.out);
   const LawPlan plan = options.quick ? quick_plan() : full_plan();
-  StudyResults results(options.out / "runs.csv", bed_laws());
+  ResumedTable results(options.out / "runs.csv", bed_laws());
   std::vector<std::vector<SeedRun>> groups; // one for each seed, whose beds share the settled soil
   for (int seed = 1; seed <= plan.seeds; ++seed) {
     groups.emplace_back();

@@ -2,6 +2,7 @@
 #include "calibration/calibration.h"
 #include "calibration/recovery.h"
 #include "calibration/search.h"
+#include "engine/deck_run.h"
 #include "roller/chain_solver.h"
 #include "roller/identified_record.h"
 #include "support/csv.h"
@@ -20,6 +21,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace drumlin::test {
@@ -216,10 +218,126 @@ TEST(Calibration, ContinuesWithoutMeasuringAgain) {
   EXPECT_EQ(rest.evaluations.front().point, whole.evaluations.front().point);
 }
 
+/// The text of evaluations.csv after a calibration that begins with `text`.
+std::string continued(const post::CalibrationTask &task, const post::CalibrationEffort &effort,
+                      const post::MeasureSeed &measure, const std::string &text) {
+  const Scratch scratch;
+  const fs::path file = scratch / post::evaluations_name;
+  post::write_files({{file, text}});
+  post::calibrate(task, effort, scratch.path(), measure);
+  return post::read_text(file);
+}
+
+// Interrupted after any row, or within one, with points of which some fail, and with several points at a time, of which an interruption
+// leaves any.
+TEST(Calibration, ContinuedGivesWhatOneWithoutInterruptionGives) {
+  const post::CalibrationTask task = two_of_two(2);
+  const post::MeasureSeed measure = [inner = scattered(6)](const post::Evaluation &evaluation, int seed) {
+    if (evaluation.point[0] > 3e9) throw post::SceneFault("no contact");
+    return inner(evaluation, seed);
+  };
+  for (const post::CalibrationEffort &effort :
+       {post::CalibrationEffort{9, 1, 1}, post::CalibrationEffort{9, 4, 2}}) {
+    const std::string whole = continued(task, effort, measure, "");
+    EXPECT_NE(whole.find("no contact"), std::string::npos);
+    std::vector<std::size_t> ends; // of the lines
+    for (std::size_t end = whole.find('\n'); end != std::string::npos; end = whole.find('\n', end + 1))
+      ends.push_back(end + 1);
+    ASSERT_GT(ends.size(), 26U);
+    for (std::size_t line = 0; line + 1 < ends.size(); ++line) {
+      EXPECT_EQ(continued(task, effort, measure, whole.substr(0, ends[line])), whole) << line;
+      EXPECT_EQ(continued(task, effort, measure, whole.substr(0, ends[line] + 9)), whole) << line;
+      // Of the points that were measured at the same time, only the last seed of the last has arrived.
+      const std::size_t at_once = 2 * static_cast<std::size_t>(effort.at_once);
+      if (line % at_once != 0 || line + at_once > 2 * 9) continue;
+      const std::string last =
+          whole.substr(ends[line + at_once - 1], ends[line + at_once] - ends[line + at_once - 1]);
+      EXPECT_EQ(continued(task, effort, measure, whole.substr(0, ends[line]) + last), whole) << line;
+    }
+  }
+}
+
+TEST(Calibration, SaysThatEvaluationsAreOfAnotherSearch) {
+  const post::CalibrationTask task = two_of_two(2);
+  const std::string two_at_once = continued(task, {8, 1, 4}, scattered(6), "");
+  testing::internal::CaptureStdout();
+  continued(task, {12, 1, 1}, scattered(6), two_at_once);
+  const std::string said = testing::internal::GetCapturedStdout();
+  EXPECT_NE(said.find("the evaluations that are there are of another search"), std::string::npos) << said;
+}
+
+// A full disk, or an engine that was killed: the calibration ends, and continues as if it had not happened.
+TEST(Calibration, EndsWithAFailureThatMayPass) {
+  const post::CalibrationTask task = two_of_two(2);
+  const std::string whole = continued(task, {9, 1}, scattered(8), "");
+  for (const int jobs : {1, 3}) {
+    const Scratch scratch;
+    std::atomic<int> calls = 0;
+    const post::MeasureSeed passing = [&calls, inner = scattered(8)](const post::Evaluation &evaluation,
+                                                                     int seed) {
+      if (++calls == 7) throw std::runtime_error("exit status 137");
+      return inner(evaluation, seed);
+    };
+    try {
+      post::calibrate(task, {9, jobs}, scratch.path(), passing);
+      ADD_FAILURE() << "it went on";
+    } catch (const std::runtime_error &fault) {
+      EXPECT_EQ(std::string(fault.what()), "exit status 137");
+    }
+    EXPECT_EQ(post::read_text(scratch / post::evaluations_name).find("137"), std::string::npos);
+    post::calibrate(task, {9, jobs}, scratch.path(), passing);
+    EXPECT_EQ(post::read_text(scratch / post::evaluations_name), whole);
+  }
+}
+
+TEST(Calibration, RefusesRowsOfNoCalibration) {
+  const post::CalibrationTask task = two_of_two(2);
+  const std::string header = "evaluation,seed,stage,k,D,measured k,measured D,failure\n";
+  const std::string row = "1,1,search,1e9,0.2,1e6,0.2,\n";
+  for (const auto &[rows, message] : std::vector<std::pair<std::string, std::string>>{
+           {row + row, "line 3, column 'evaluation,seed' is '1,1'; allowed: each once, or --fresh"},
+           {row + "1,2,search,2e9,0.2,1e6,0.2,\n",
+            "line 3, column 'evaluation' is '1'; allowed: one stage and one point"},
+           {row + "1,3,search,1e9,0.2,1e6,0.2,\n",
+            "line 3, column 'seed' is '3'; allowed: a whole number from 1 to 2"},
+           {"0,1,search,1e9,0.2,1e6,0.2,\n",
+            "line 2, column 'evaluation' is '0'; allowed: a whole number from 1"},
+           {"1,1,search,1e9,0.2,1e6,-0.2,\n",
+            "line 2, column 'measured D' is '-0.2'; allowed: a number above 0"},
+           {"1,1,search,1e9,0.2,,0.2,\n", "line 2, column 'measured k' is ''; allowed: a finite number"},
+           {"1,1,start,1e9,0.2,1e6,0.2,\n",
+            "line 2, column 'stage' is 'start'; allowed: search, slopes, estimate"}}) {
+    try {
+      continued(task, {3, 1}, scattered(8), header + rows);
+      ADD_FAILURE() << rows;
+    } catch (const std::runtime_error &fault) {
+      EXPECT_NE(std::string(fault.what()).find(message), std::string::npos) << fault.what();
+    }
+  }
+}
+
+TEST(Calibration, GivesParametersWithinTheirIntervals) {
+  const post::CalibrationTask task = two_of_two(2);
+  post::Calibration found;
+  found.best.point = {9e8, 0.2};
+  found.sensitivity.parameters = {{9.2e8, 8.5e8, 1e9, {}}, {0.21, 0.15, 0.3, {}}};
+  EXPECT_EQ(post::found_point(task, found), found.best.point);
+  found.best.point[0] = 1.095e9;
+  EXPECT_EQ(post::found_point(task, found), (std::vector<double>{9.2e8, 0.21}));
+  found.sensitivity.parameters[1] = {1.5, 1.1, 2.0, {}}; // beyond the range of D
+  try {
+    post::found_point(task, found);
+    ADD_FAILURE() << "outside of the range";
+  } catch (const std::runtime_error &fault) {
+    EXPECT_EQ(std::string(fault.what()).find("--vary is 'D=0.05:0.8'; allowed: a range with 1.5, "), 0U)
+        << fault.what();
+  }
+}
+
 TEST(Calibration, SearchesOnWherePointsFail) {
   const post::CalibrationTask task = two_of_two(3);
   const post::MeasureSeed failing = [inner = scattered(2)](const post::Evaluation &evaluation, int seed) {
-    if (evaluation.point[0] > 2e9 && seed == 2) throw std::runtime_error("no contact");
+    if (evaluation.point[0] > 2e9 && seed == 2) throw post::SceneFault("no contact");
     std::vector<double> values = inner(evaluation, seed);
     if (evaluation.point[1] > 0.6) values[1] = -0.1; // which has no logarithm
     return values;
@@ -235,7 +353,7 @@ TEST(Calibration, SearchesOnWherePointsFail) {
   const Scratch empty;
   try {
     post::calibrate(task, {25, 1}, empty.path(), [](const post::Evaluation &, int) -> std::vector<double> {
-      throw std::runtime_error("no contact");
+      throw post::SceneFault("no contact");
     });
     ADD_FAILURE() << "it did not give up";
   } catch (const std::runtime_error &fault) {

@@ -74,8 +74,8 @@ TEST(CalibratedBed, ContinuesWhereItWasInterrupted) {
 
   words[3] = "k=2e6";
   const Outcome other = calibrate();
-  EXPECT_TRUE(other.says(
-      "ERROR: drumlin calibrate: --out is 'out'; allowed: a folder of a calibration with the same targets"))
+  EXPECT_TRUE(other.says("ERROR: drumlin calibrate: --out is 'out'; allowed: the folder of a calibration "
+                         "with the same settings"))
       << other.output;
 }
 

@@ -14,7 +14,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -502,18 +501,13 @@ TEST_F(Report, GivesThePapersTitlesToThePapersParametersOnly) {
 }
 
 TEST_F(Report, ClearsAwayWhatAKilledReportLeft) {
-  // A process that has ended.
-  const pid_t child = ::fork();
-  if (child == 0) ::_exit(0);
-  ASSERT_EQ(::waitpid(child, nullptr, 0), child);
   const fs::path place = root / "killed" / "a report";
   const auto in_folder = [&](const std::string &name) { return root / "killed" / name; };
-  const fs::path half = in_folder(fmt::format(".a report.new-{}", child));
-  const fs::path old = in_folder(fmt::format(".a report.old-{}", child));
-  const fs::path running = in_folder(fmt::format(".a report.new-{}", ::getppid()));
-  const fs::path other = in_folder(fmt::format(".another.new-{}", child));
-  const fs::path file = in_folder(fmt::format(".a report.new-{}0000000", child));
-  for (const fs::path &folder : {half, old, running, other})
+  const fs::path half = in_folder(".a report.new-123.0"), earlier = in_folder(".a report.new-1");
+  const fs::path old = in_folder(".a report.old-123");
+  const fs::path other = in_folder(".another.new-123.0"), own = in_folder(".a report.new-thesis");
+  const fs::path file = in_folder(".a report.new-1230000000");
+  for (const fs::path &folder : {half, earlier, old, other, own})
     fs::create_directories(folder / "figures");
   write(file, "of no report");
   write(old / "report.json", "{}");
@@ -530,11 +524,22 @@ TEST_F(Report, ClearsAwayWhatAKilledReportLeft) {
   options.out = place;
   write_report(options);
   EXPECT_TRUE(fs::is_regular_file(place / "index.html"));
-  EXPECT_FALSE(fs::exists(half));
-  EXPECT_FALSE(fs::exists(old));
-  EXPECT_TRUE(fs::exists(running));
-  EXPECT_TRUE(fs::exists(other));
-  EXPECT_TRUE(fs::exists(file));
+  for (const fs::path &folder : {half, earlier, old})
+    EXPECT_FALSE(fs::exists(folder)) << folder;
+  for (const fs::path &kept : {other, own, file})
+    EXPECT_TRUE(fs::exists(kept)) << kept;
+}
+
+TEST_F(Report, IsRefusedWhereAnotherCallMakesOne) {
+  const fs::path place = root / "shared" / "report";
+  fs::create_directories(place.parent_path());
+  const TemporaryFolder running(place.parent_path(), ".report.new-");
+  const auto [status, errors] = command(quote(root / "runs" / "I-A") + " --out " + quote(place));
+  EXPECT_EQ(status, 2);
+  EXPECT_NE(errors.find("', into which another call writes; allowed: another folder"), std::string::npos)
+      << errors;
+  EXPECT_FALSE(fs::exists(place));
+  EXPECT_TRUE(fs::exists(running.path()));
 }
 
 TEST_F(Report, DoesWithoutOptionalFiles) {

@@ -14,9 +14,13 @@
 #include <cmath>
 #include <complex>
 #include <filesystem>
+#include <functional>
+#include <numeric>
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -139,7 +143,9 @@ TEST(RegimeMap, BoundariesLieWhereTheEventsOfTheMotionSay) {
   grid.x = axis_from_text("--x", "k:5e6:40e6:8", 100);
   grid.y = axis_from_text("--y", "D:0.08:0.3:4", 100);
   std::vector<RegimePoint> points;
-  judge_points(grid, 0, 2, [&](const std::vector<RegimePoint> &more) {
+  std::vector<std::size_t> all(grid.size());
+  std::iota(all.begin(), all.end(), 0U);
+  judge_points(grid, all, 2, [&](std::size_t, const std::vector<RegimePoint> &more) {
     points.insert(points.end(), more.begin(), more.end());
   });
   ASSERT_EQ(points.size(), grid.size());
@@ -223,6 +229,59 @@ TEST_F(MapCommand, ContinuesWhereItWasInterrupted) {
   ASSERT_TRUE(again.ok()) << again.output;
   EXPECT_TRUE(again.says("10 of 35 points are there already")) << again.output;
   EXPECT_EQ(read_text(file), whole);
+}
+
+TEST_F(MapCommand, FillsGapsAndRefusesRowsOfNoMap) {
+  ASSERT_TRUE(map(few()).ok());
+  const fs::path file = folder() / "m/regimes.csv";
+  const std::string whole = read_text(file);
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < whole.size(); begin = whole.find('\n', begin) + 1)
+    lines.push_back(whole.substr(begin, whole.find('\n', begin) + 1 - begin));
+  const auto text = [](const std::vector<std::string> &rows) {
+    std::string all;
+    for (const std::string &row : rows)
+      all += row;
+    return all;
+  };
+  const auto changed = [&](const std::function<void(std::vector<std::string> &)> &change) {
+    std::vector<std::string> rows = lines;
+    change(rows);
+    write_files({{file, text(rows)}});
+    return text(rows);
+  };
+  using Rows = std::vector<std::string>;
+  for (const std::function<void(Rows &)> &change : std::vector<std::function<void(Rows &)>>{
+           [](Rows &rows) { rows.erase(rows.begin() + 10, rows.begin() + 20); }, // in the middle
+           [](Rows &rows) { std::reverse(rows.begin() + 1, rows.end()); },
+           [](Rows &rows) { rows = {rows[0].substr(0, 20)}; }}) {
+    changed(change);
+    const Outcome again = map(few());
+    EXPECT_TRUE(again.ok()) << again.output;
+    EXPECT_EQ(read_text(file), whole);
+  }
+  for (const auto &[change, message] : std::vector<std::pair<std::function<void(Rows &)>, std::string>>{
+           {[](Rows &rows) { rows.insert(rows.begin() + 3, rows[7]); }, "allowed: each once, or --fresh"},
+           {[](Rows &rows) { rows[5] = "1" + rows[5]; }, "allowed: a row of this call, or --fresh"},
+           {[](Rows &rows) { rows[5] = "1,2\n"; }, "the number of cells is '2'; allowed: 12"},
+           {[](Rows &rows) { rows[0].replace(rows[0].find("CMV"), 3, "CMX"); },
+            "the header of m/regimes.csv is"}}) {
+    const std::string before = changed(change);
+    const Outcome refused = map(few());
+    EXPECT_NE(refused.status, 0);
+    drumlin::test::expect_one_error(refused.output, "drumlin map: ");
+    EXPECT_TRUE(refused.says(message)) << refused.output;
+    EXPECT_EQ(read_text(file), before);
+  }
+}
+
+TEST_F(MapCommand, TakesOneCallAtATime) {
+  ASSERT_TRUE(map(few()).ok());
+  const FolderLock other(folder() / "m");
+  const Outcome refused = map(few());
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(refused.says("ERROR: drumlin map: --out is 'm', into which another call writes; allowed: "))
+      << refused.output;
 }
 
 TEST_F(MapCommand, AnotherMapDoesNotReplaceOne) {

@@ -8,9 +8,14 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
+
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace drumlin::test {
 namespace {
@@ -58,6 +63,47 @@ TEST(Process, IsStoppedWhenAReaderOfItsLinesFails) {
     EXPECT_THROW(run_program(program), std::runtime_error);
     EXPECT_LT(seconds_since(begin), 30.0);
     EXPECT_NE(::kill(std::stoi(read_text(scratch / "number")), 0), 0);
+  }
+}
+
+TEST(Process, EndsWithTheProcessThatStartedIt) {
+  for (const bool own_group : {true, false}) {
+    const Scratch scratch;
+    Program program =
+        shell(scratch, "echo $$ >number.unfinished; mv number.unfinished number; exec sleep 50");
+    program.own_group = own_group;
+    const pid_t parent = ::fork();
+    if (parent == 0) {
+      run_program(program);
+      ::_exit(0);
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    while (!fs::exists(scratch / "number") && seconds_since(begin) < 30.0)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    const pid_t child = std::stoi(read_text(scratch / "number"));
+    ::kill(parent, SIGKILL);
+    ::waitpid(parent, nullptr, 0);
+    // A zombie, if nobody waits for it here, has ended, too.
+    const auto runs = [child] {
+      std::ifstream stat("/proc/" + std::to_string(child) + "/stat");
+      std::string number, name, state;
+      return stat >> number >> name >> state && state != "Z";
+    };
+    while (runs() && seconds_since(begin) < 30.0)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    EXPECT_FALSE(runs());
+  }
+}
+
+TEST(Process, WithoutItsProgramIsAnError) {
+  const Scratch scratch;
+  Program program = shell(scratch, "");
+  program.words = {"no-such-program"};
+  try {
+    run_program(program);
+    ADD_FAILURE() << "it was started";
+  } catch (const std::runtime_error &fault) {
+    EXPECT_EQ(std::string(fault.what()), "cannot start no-such-program: No such file or directory");
   }
 }
 

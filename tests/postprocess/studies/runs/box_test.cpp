@@ -22,7 +22,7 @@ TEST(BoxStudy, ContinuesWhereItWasInterrupted) {
   ASSERT_TRUE(whole.ok()) << whole.output;
   EXPECT_TRUE(whole.says("settling bed box_1_1, seed 1\n")) << whole.output;
   EXPECT_TRUE(whole.says("placing the roller on bed box_2_1, seed 2\n")) << whole.output;
-  const fs::path rows = study.out() / "runs.csv", wide = study.out() / "beds/box_2_1_2.restart";
+  const fs::path rows = study.out() / "runs.csv";
   const std::vector<post::BoxRun> runs = post::read_points(rows, post::box_runs());
   ASSERT_EQ(runs.size(), 6u);
   for (const post::BoxRun &run : runs) {
@@ -35,6 +35,7 @@ TEST(BoxStudy, ContinuesWhereItWasInterrupted) {
     return std::find_if(runs.begin(), runs.end(), [name](const auto &run) { return run.run == name; });
   };
   EXPECT_NE(of("default absorb")->values[0], of("default rigid")->values[0]);
+  const fs::path wide = made_file(study.out() / "beds", "box_2_1_2_", ".restart");
   const auto placed = fs::last_write_time(wide);
 
   interrupt(rows);

@@ -4,6 +4,7 @@
 #include "support/files.h"
 #include "support/process.h"
 #include "tests/support/page.h"
+#include "tests/support/scratch_study.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -36,7 +37,8 @@ TEST_F(CostStudy, ContinuesWhereItWasInterrupted) {
   const std::string text = post::read_text(rows);
   const std::vector<post::CostRun> runs = post::read_cost_runs(rows);
   EXPECT_EQ(runs.size(), 21u);
-  const auto beds = fs::last_write_time(out / "bed_100.data");
+  const fs::path bed = made_file(out, "bed_100_", ".data");
+  const auto beds = fs::last_write_time(bed);
 
   // A kill in the midst of the last row but one.
   const std::size_t cut = text.rfind('\n', text.rfind('\n', text.size() - 2) - 1) + 10;
@@ -45,7 +47,7 @@ TEST_F(CostStudy, ContinuesWhereItWasInterrupted) {
   const post::Outcome rest = study("out");
   ASSERT_TRUE(rest.ok()) << rest.output;
   EXPECT_TRUE(rest.says("[20/21]") && rest.says("[21/21]") && !rest.says("[19/21]")) << rest.output;
-  EXPECT_EQ(fs::last_write_time(out / "bed_100.data"), beds) << "the bed is settled once";
+  EXPECT_EQ(fs::last_write_time(bed), beds) << "the bed is settled once";
   const std::vector<post::CostRun> again = post::read_cost_runs(rows);
   ASSERT_EQ(again.size(), runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i) {

@@ -27,13 +27,14 @@ TEST(FidelityStudy, ContinuesWhereItWasInterruptedAndABedThatFailsStopsNoOther) 
     EXPECT_GT(run.cpu_s, 0.05) << run.variant;
     EXPECT_LT(run.cpu_s, 10.0) << run.variant;
   }
-  const auto made = fs::last_write_time(study.out() / "beds/base_2.restart");
+  const fs::path base = made_file(study.out() / "beds", "base_2_", ".restart");
+  const auto made = fs::last_write_time(base);
 
   interrupt(rows);
   fs::remove(study.out() / "index.html");
   const post::Outcome rest = study.run();
   ASSERT_TRUE(rest.ok()) << rest.output;
-  EXPECT_EQ(fs::last_write_time(study.out() / "beds/base_2.restart"), made);
+  EXPECT_EQ(fs::last_write_time(base), made);
   const std::vector<post::FidelityRun> again = post::read_fidelity_runs(rows);
   ASSERT_EQ(again.size(), runs.size());
   for (const post::FidelityRun &run : runs) {
@@ -44,7 +45,7 @@ TEST(FidelityStudy, ContinuesWhereItWasInterruptedAndABedThatFailsStopsNoOther) 
   }
   expect_sound_page(study.out(), 1);
 
-  const fs::path bed = study.out() / "beds/rolling_2.restart";
+  const fs::path bed = made_file(study.out() / "beds", "rolling_2_", ".restart");
   fs::remove(rows);
   fs::remove(bed);
   fs::create_directory(bed); // no deck takes that for a bed

@@ -26,13 +26,14 @@ TEST(SpeedStudy, ContinuesWhereItWasInterrupted) {
             post::has_lammps() ? 36u : 18u); // three scenes, three laws of each engine, one rank and two
   for (const post::SpeedRun &run : runs)
     EXPECT_GT(run.peak_bytes, 1e6) << run.scene << ", " << run.law; // no process of the engine is smaller
-  const auto copies = fs::last_write_time(study.out() / "bed_288.data");
+  const fs::path bed = made_file(study.out(), "bed_288_", ".data");
+  const auto copies = fs::last_write_time(bed);
 
   interrupt(rows);
   fs::remove(study.out() / "index.html");
   const post::Outcome rest = study.run();
   ASSERT_TRUE(rest.ok()) << rest.output;
-  EXPECT_EQ(fs::last_write_time(study.out() / "bed_288.data"), copies) << "the copies are made once";
+  EXPECT_EQ(fs::last_write_time(bed), copies) << "the copies are made once";
   const std::vector<post::SpeedRun> again = post::read_speed_runs(rows);
   ASSERT_EQ(again.size(), runs.size());
   for (const post::SpeedRun &run : runs) {

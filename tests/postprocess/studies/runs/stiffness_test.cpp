@@ -23,8 +23,7 @@ TEST(StiffnessStudy, ContinuesWhereItWasInterrupted) {
   const ScratchStudy study("stiffness");
   const post::Outcome whole = study.run();
   ASSERT_TRUE(whole.ok()) << whole.output;
-  const fs::path rows = study.out() / "runs.csv", soil = study.out() / "beds/loose_2.soil",
-                 heavy = study.out() / "beds/m3_100_2.restart";
+  const fs::path rows = study.out() / "runs.csv";
   const std::vector<post::BedLaw> laws = laws_of(rows);
   ASSERT_EQ(laws.size(), 8u);
   for (const post::BedLaw &law : laws) {
@@ -37,6 +36,8 @@ TEST(StiffnessStudy, ContinuesWhereItWasInterrupted) {
             4);
   for (const post::LawVariable &variable : post::law_variables)
     EXPECT_EQ(post::levels_of(laws, variable).size(), 2u) << variable.name;
+  const fs::path soil = made_file(study.out() / "beds", "loose_2_", ".soil"),
+                 heavy = made_file(study.out() / "beds", "m3_100_2_", ".restart");
   const auto settled = fs::last_write_time(soil), placed = fs::last_write_time(heavy);
 
   interrupt(rows);

@@ -1,0 +1,256 @@
+// Commands that are killed at random times and called again give what they give without an interruption. Three kills of each; the
+// environment variable DRUMLIN_KILLS asks for another number.
+#include "engine/places.h"
+#include "support/files.h"
+#include "support/process.h"
+#include "tests/support/engine_runs.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <random>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+int kills() {
+  const char *wanted = std::getenv("DRUMLIN_KILLS");
+  return wanted == nullptr ? 3 : std::atoi(wanted);
+}
+
+/// All files below a folder by their names, without what differs from call to call: dates, and names of temporary folders.
+std::map<std::string, std::string> content(const fs::path &folder) {
+  static const std::regex varies("[0-9]{4}-[0-9]{2}-[0-9]{2} [0-9]{2}:[0-9]{2} UTC|" +
+                                 fs::temp_directory_path().string() + "/[^,\\s]*");
+  std::map<std::string, std::string> files;
+  for (const fs::directory_entry &entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = fs::relative(entry.path(), folder).string();
+    files[name] =
+        entry.is_directory() ? "folder" : std::regex_replace(read_text(entry.path()), varies, "VARIES");
+  }
+  return files;
+}
+
+/// A table's text without the column of processor times.
+std::string without_times(const std::string &table) {
+  const std::size_t column = [&] {
+    const std::string header = table.substr(0, table.find('\n'));
+    const std::size_t place = header.find("cpu");
+    return static_cast<std::size_t>(
+        std::count(header.begin(), header.begin() + static_cast<std::ptrdiff_t>(place), ','));
+  }();
+  std::string text;
+  std::size_t cell = 0;
+  for (const char letter : table) {
+    if (letter == ',' || letter == '\n') cell = letter == ',' ? cell + 1 : 0;
+    if (cell != column || letter == ',') text += letter;
+  }
+  return text;
+}
+
+/// Calls a command without interruption in the folder `whole` of a scratch folder, then in others, where it is killed at random times
+/// until it ends by itself; as often as kills() says. `compare` gets the folders of `--out` of the two.
+template <class Compare>
+void kill_and_resume(const std::vector<std::string> &words, const Scratch &scratch, const Compare &compare) {
+  post::Program program;
+  program.words = {DRUMLIN_TOOLS};
+  program.words.insert(program.words.end(), words.begin(), words.end());
+  const auto call = [&](const std::string &folder, double limit, int signal) {
+    fs::create_directory(scratch / folder);
+    program.folder = scratch / folder;
+    program.output = scratch / (folder + ".txt");
+    program.limit = limit;
+    program.stop_signal = signal;
+    return run_program(program);
+  };
+  const auto begin = std::chrono::steady_clock::now();
+  const Outcome whole = call("whole", 600.0, SIGKILL);
+  ASSERT_TRUE(whole.ok()) << whole.output;
+  const double length = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  std::mt19937 random(std::random_device{}());
+  int killed = 0, folders = 0;
+  while (killed < kills() && !testing::Test::HasFailure()) {
+    const std::string folder = fmt::format("killed-{}", ++folders);
+    for (int times = 1;; ++times) {
+      const double limit = std::uniform_real_distribution<double>(0.0, length / 3.0)(random);
+      const Outcome outcome =
+          call(folder, killed < kills() && times < 20 ? limit : 600.0, killed % 2 == 0 ? SIGKILL : SIGTERM);
+      if (!outcome.timed_out) {
+        ASSERT_TRUE(outcome.ok()) << outcome.output;
+        break;
+      }
+      ++killed;
+    }
+    compare(scratch / "whole/out", scratch / folder / "out");
+    EXPECT_EQ(content(scratch / folder).count("out"), 1U);
+    for (const fs::directory_entry &entry : fs::directory_iterator(scratch / folder))
+      EXPECT_EQ(entry.path().filename(), "out");
+  }
+  fmt::print("{} kills in {} folders\n", killed, folders);
+}
+
+void expect_same(const fs::path &whole, const fs::path &resumed) {
+  const auto expected = content(whole), found = content(resumed);
+  for (const auto &[name, text] : expected)
+    EXPECT_TRUE(found.count(name) == 1 && found.at(name) == text)
+        << name << (found.count(name) == 1 ? " differs" : " is missing");
+  for (const auto &[name, text] : found)
+    EXPECT_EQ(expected.count(name), 1U) << name;
+}
+
+TEST(KilledAndCalledAgain, AMapIsTheSame) {
+  kill_and_resume({"map", "--x", "k:5e6:40e6:40", "--y", "D:0.1:0.5:30", "--out", "out"}, Scratch(),
+                  expect_same);
+}
+
+TEST(KilledAndCalledAgain, AStudyOfTheMeterIsTheSame) {
+  kill_and_resume({"study", "meter", "--quick", "--out", "out"}, Scratch(), expect_same);
+}
+
+TEST(KilledAndCalledAgain, AStudyOfBedsIsTheSame) {
+  for (const char *jobs : {"1", "2"})
+    kill_and_resume({"study", "box", "--quick", "--jobs", jobs, "--out", "out"}, Scratch(),
+                    [](const fs::path &whole, const fs::path &resumed) {
+                      EXPECT_EQ(without_times(read_text(resumed / "runs.csv")),
+                                without_times(read_text(whole / "runs.csv")));
+                      const auto expected = content(whole), found = content(resumed);
+                      for (const auto &[name, text] : expected)
+                        EXPECT_EQ(found.count(name), 1U) << name;
+                      EXPECT_EQ(found.size(), expected.size());
+                    });
+}
+
+/// A calibration on beds of 60 discs under a small roller, which takes some ten seconds.
+const std::vector<std::string> small_calibration = {
+    "calibrate", "--target", "k=1e6",   "--vary",        "k=2e6:2e7", "--seeds", "2",      "--balls",
+    "60",        "--cycles", "4",       "--evaluations", "3",         "--jobs",  "2",      "--out",
+    "out",       "--set",    "m2=100",  "--set",         "m3=50",     "--set",   "r2=0.1", "--set",
+    "r3=0.05",   "--set",    "k23=5e4", "--set",         "c23=500",   "--set",   "Fw=2940"};
+
+TEST(KilledAndCalledAgain, ACalibrationIsTheSame) {
+  kill_and_resume(small_calibration, Scratch(), expect_same);
+}
+
+/// The processes that a process has started.
+std::vector<pid_t> children_of(pid_t parent) {
+  std::vector<pid_t> children;
+  std::error_code ignored; // a thread can end meanwhile
+  for (const fs::directory_entry &thread :
+       fs::directory_iterator(fmt::format("/proc/{}/task", parent), ignored)) {
+    std::ifstream in(thread.path() / "children");
+    for (pid_t child = 0; in >> child;)
+      children.push_back(child);
+  }
+  return children;
+}
+
+// What ends an engine from outside is no property of the scene: the calibration ends, too, in one line, and continues.
+TEST(KilledEngine, EndsACalibrationThatContinues) {
+  const Scratch scratch;
+  std::vector<std::string> words = small_calibration;
+  words.insert(words.begin(), DRUMLIN_TOOLS);
+  const auto call = [&](const std::string &folder, const post::StopCondition &asked) {
+    fs::create_directory(scratch / folder);
+    return run_program(words, {}, scratch / folder, 300.0, asked);
+  };
+  const auto rows = [&](const std::string &folder) {
+    const fs::path file = scratch / folder / "out/evaluations.csv";
+    return fs::exists(file) ? read_text(file) : "";
+  };
+  ASSERT_TRUE(call("whole", {}).ok());
+  for (const int signal : {SIGKILL, SIGTERM}) {
+    const std::string folder = fmt::format("signal-{}", signal);
+    bool sent = false;
+    const Outcome killed = call(folder, [&](pid_t tool) {
+      const std::string text = rows(folder);
+      if (!sent && std::count(text.begin(), text.end(), '\n') == 3) // two beds of the first point
+        for (const pid_t engine : children_of(tool))
+          sent = ::kill(engine, signal) == 0 || sent;
+      return false;
+    });
+    ASSERT_TRUE(sent);
+    EXPECT_EQ(killed.status, 1) << killed.output;
+    const std::size_t error = killed.output.rfind("ERROR: drumlin calibrate: bed/in.");
+    ASSERT_NE(error, std::string::npos) << killed.output;
+    EXPECT_EQ(killed.output.find('\n', error) + 1, killed.output.size());
+    std::istringstream lines(rows(folder)); // no failure among them
+    for (std::string line; std::getline(lines, line);)
+      EXPECT_NE(rows("whole").find(line + '\n'), std::string::npos) << line;
+    const Outcome again = call(folder, {});
+    EXPECT_TRUE(again.ok()) << again.output;
+    expect_same(scratch / "whole/out", scratch / folder / "out");
+  }
+}
+
+TEST(KilledAndCalledAgain, AReportIsTheSame) {
+  const Scratch scratch;
+  ASSERT_TRUE(
+      run_program({DRUMLIN_TOOLS, "exact", "--cycles", "30", "--out", "run"}, {}, scratch.path()).ok());
+  const std::string run = (scratch / "run").string();
+  kill_and_resume({"report", run, "--out", "out"}, Scratch(), expect_same);
+}
+
+// In an installation the decks are in a folder that a user cannot write: the case file goes into a copy of theirs.
+TEST(CaseFile, GoesIntoACopyOfInstalledDecks) {
+  const Scratch scratch;
+  post::write_files(
+      {{scratch / "places",
+        fmt::format("inputs={}\nliggghts_plugin={}\nliggghts={}\ninstalled=yes\n",
+                    post::places().inputs.string(), post::plugin_library(), post::places().liggghts)}});
+  std::vector<std::string> words = small_calibration;
+  words.insert(words.begin(), DRUMLIN_TOOLS);
+  const Outcome outcome =
+      run_program(words, {"DRUMLIN_PLACES=" + (scratch / "places").string()}, scratch.path(), 300.0);
+  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  const std::string command = fmt::format(
+      "\n  cp -r {} . && cp out/case.calibrated inputs/bed && drumlin run ", post::places().inputs.string());
+  ASSERT_TRUE(outcome.says(command)) << outcome.output;
+  // The line is followed as far as the copies.
+  ASSERT_TRUE(run_program({"sh", "-c", command.substr(0, command.rfind(" && "))}, {}, scratch.path()).ok());
+  EXPECT_TRUE(fs::is_regular_file(scratch / "inputs/bed/case.calibrated"));
+  EXPECT_TRUE(fs::is_regular_file(scratch / "inputs/bed/in.settle"));
+}
+
+// Ctrl-C, or what a scheduler sends: no temporary folder stays beside the results.
+TEST(StoppedBySignal, ACommandClearsAway) {
+  const Scratch scratch;
+  ASSERT_TRUE(
+      run_program({DRUMLIN_TOOLS, "exact", "--cycles", "30", "--out", "run"}, {}, scratch.path()).ok());
+  for (const char *command : {"report", "identify", "meter"})
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+      SCOPED_TRACE(fmt::format("{}, signal {}", command, signal));
+      post::Program program;
+      program.words = {DRUMLIN_TOOLS, command, "run", "--out", "out"};
+      program.folder = scratch.path();
+      program.output = scratch / "screen.txt";
+      program.stop_signal = signal;
+      bool begun = false;
+      program.stop_when = [&](pid_t) {
+        for (const fs::directory_entry &entry : fs::directory_iterator(scratch.path()))
+          begun = begun || entry.path().filename().string().rfind(".out.new-", 0) == 0;
+        return begun;
+      };
+      const Outcome outcome = run_program(program);
+      EXPECT_TRUE(begun);
+      EXPECT_EQ(outcome.status, 128 + signal) << outcome.output;
+      for (const fs::directory_entry &entry : fs::directory_iterator(scratch.path()))
+        EXPECT_NE(entry.path().filename().string().front(), '.') << entry.path();
+      EXPECT_FALSE(fs::exists(scratch / "out"));
+    }
+}
+
+} // namespace
+} // namespace drumlin::test
