@@ -389,23 +389,9 @@ private:
     if constexpr (rubs) {
       block_.torque_i.set(n, {});
       block_.torque_j.set(n, {});
-      if (pushes && cap_ != Cap::coulomb && block_.force_before[n] < 0.0) end_friction(n);
     }
     if constexpr (rolling) block_.rolling.set(n, {});
     std::fill_n(contacts_[n].history, places_.count, 0.0);
-  }
-
-  /// Friction in the closing half kick of a contact that has ended in tension.
-  void end_friction(int n) {
-    const double *const history = contacts_[n].history;
-    const ContactCoefficients<Parameters> &law = law_of(n);
-    const double kt = stores_stiffness ? history[places_.stiffness] : block_.kt[n];
-    const Vec3 spring = springs ? vector_at(history, places_.spring) : Vec3{};
-    const Vec3 friction = physics::closing_friction_of_end(law.tangential(kt, block_.dashpot[n], cap_),
-                                                           springs, block_.force_before[n], block_.push[n],
-                                                           block_.normal[n], block_.slip[n], spring);
-    block_.total_force.set(n, physics::sum(block_.total_force[n], 1.0, friction));
-    set_torques(n, friction);
   }
 
   void set_torques(int n, const Vec3 &friction) {

@@ -264,8 +264,7 @@ void FixWallGranTransition::touch(const Table &table, int i, int place, const ph
     if constexpr (stepped && (tangential != FrictionModel::none || rolling))
       if (forces.begun != nullptr) {
         const FixStepping::RubbingForces closing = stepping_->close_friction(*forces.begun);
-        forces.force = physics::sum(forces.force, -1.0, forces.tangential_force);
-        forces.force = physics::sum(forces.force, 1.0, closing.friction);
+        forces.force = physics::sum(closing.friction, forces.begun->step.kick, normal);
         forces.moment = physics::cross(normal, closing.friction);
         forces.rolling = closing.rolling;
       }

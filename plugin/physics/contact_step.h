@@ -255,8 +255,8 @@ template <class Law>
            0.125 * dt * per_mass * (dashpot - spring) * step.force;
   }
   const double others = slowing + 0.5 * per_mass * before.force;
-  if (motion.overlap > 0.0) // its force has become 0
-    return step.kick == step.force ? 0.0 : closing_work(others);
+  if (motion.overlap > 0.0) // it goes on, or its force has become 0
+    return step.coupled || step.kick == step.force ? 0.0 : closing_work(others);
   const double d = motion.overlap_before();
   if (!before.in_contact || d <= 0.0 || law.dashpot(d) == 0.0) return 0.0;
   return law.energy(d) + 0.5 * dt * law.spring(d) * motion.rate_half + closing_work(others);

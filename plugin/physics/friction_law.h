@@ -262,17 +262,4 @@ struct PulledSpring {
   return {scaled(-factor, tangential_velocity), Vec3{}, factor * speed * speed * dt, 0.0, sliding};
 }
 
-/// Friction in the closing half kick of the step in which a contact ends in tension, N, on ball i: that of the end of the
-/// step before, times the weight of the normal force. (In tension Cap::coulomb has no friction.)
-/// \param has_spring whether friction has a spring; \param force_before normal force of the step before, N, not 0
-/// \param kick normal force of the closing half kick, N
-[[nodiscard]] inline Vec3 closing_friction_of_end(const Friction &friction, bool has_spring,
-                                                  double force_before, double kick, const Vec3 &normal,
-                                                  const Vec3 &tangential_velocity, const Vec3 &spring) {
-  const Vec3 before =
-      has_spring ? friction_step(friction, force_before, normal, tangential_velocity, spring, 0.0).force
-                 : friction_step_without_history(friction, force_before, tangential_velocity, 0.0).force;
-  return scaled(kick / force_before, before);
-}
-
 } // namespace drumlin::physics

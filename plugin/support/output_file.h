@@ -43,11 +43,9 @@ public:
     if (comm->me == 0) {
       // Opened without truncating it: a file that another fix writes is refused, and stays as it is.
       file_ = std::fopen(name_.c_str(), "a");
-      if (file_ == nullptr)
-        failed = 1;
-      else if (flock(fileno(file_), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+      if (file_ != nullptr && flock(fileno(file_), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
         failed = taken;
-      else if (!append_ && ftruncate(fileno(file_), 0) != 0)
+      else if (file_ == nullptr || (!append_ && ftruncate(fileno(file_), 0) != 0))
         failed = 1;
       else if (!append_ || std::ftell(file_) == 0)
         std::fprintf(file_, "%s\n", header);

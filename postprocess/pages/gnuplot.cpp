@@ -329,8 +329,8 @@ std::vector<bool> empty_panels(const fs::path &gnuplot, const fs::path &folder, 
   std::vector<bool> is_empty;
   const std::string name = figure.name + "_panel.gp";
   for (const Panel &panel : figure.panels) {
-    write_files({{folder / name, fmt::format("{}set terminal dumb\nset output '/dev/null'\n{}", settings,
-                                             panel_script(panel, figure_width(figure), false))}});
+    write_files({{folder / name, fmt::format("{}set terminal dumb\nset output '/dev/null'\nkind = 'svg'\n{}",
+                                             settings, panel_script(panel, figure_width(figure), false))}});
     is_empty.push_back(found_no_point(run_gnuplot(gnuplot, folder, name)));
   }
   std::error_code ignored;

@@ -27,7 +27,7 @@ fs::path bed_folder(const fs::path &out) {
 std::string words_of(const Variables &variables) {
   std::string words;
   for (const auto &[name, value] : variables)
-    words += name + "=" + value + " ";
+    words += fmt::format("{}={} ", name, value);
   return words;
 }
 

@@ -282,10 +282,9 @@ TemporaryFolder::TemporaryFolder(const fs::path &parent, const std::string &pref
   // Between making and locking it, a process that starts now may take it for the folder of a killed one.
   for (int number = 0; path_.empty() || !fs::exists(path_); ++number) {
     path_ = parent / fmt::format("{}{}.{}", prefix, ::getpid(), number);
-    if (!fs::create_directory(path_))
-      path_.clear();
-    else if (lock_ = FolderLock(path_); lock_.of_another())
-      path_.clear(); // for that process will remove it
+    const bool made = fs::create_directory(path_);
+    if (made) lock_ = FolderLock(path_);
+    if (!made || lock_.of_another()) path_.clear(); // the other process will remove it
   }
 }
 

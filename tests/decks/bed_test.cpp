@@ -893,7 +893,7 @@ TEST_F(Bed, LeavesNoOldFileWhenASignalStopsTheRunThatReplacesIt) {
   stopped("in.place", placing);
 }
 
-// A drum that is shot through the floor, and soil that a far too long step throws out of the box: without any
+// A drum that is shot through the floor, and soil that a far too strong dashpot throws out of the box: without any
 // other check that would stop the run.
 TEST_F(Bed, ALostBallIsAnErrorOnRanksOneAndTwo) {
   for (const int ranks : {1, 2}) {
@@ -904,7 +904,8 @@ TEST_F(Bed, ALostBallIsAnErrorOnRanksOneAndTwo) {
         << roller.output;
     const Outcome soil = run(bed_folder() / "in.settle", folder,
                              {{"guard", "off"},
-                              {"k", "1e12"},
+                              {"D", "1e9"},
+                              {"stepping", "stock"},
                               {"balls", (scratch / "balls.data").string()},
                               {"bed", (folder / "x.restart").string()}},
                              ranks);

@@ -255,11 +255,11 @@ TEST(EndOfARun, OfATestOfSoilIsInItsReport) {
   const Scratch folder, out;
   const Outcome stopped = run_deck(
       chain_deck("../soil/in.oedometer"),
-      {{"sample", "hexagonal"}, {"columns", "4"}, {"layers", "4"}, {"loads", "25 50 1e5"}}, folder.path());
+      {{"sample", "random"}, {"columns", "4"}, {"layers", "4"}, {"loads", "25 50 2e4"}}, folder.path());
   ASSERT_EQ(stopped.status, 1) << stopped.output;
   ASSERT_TRUE(stopped.says("ERROR: fix guard: overlap of ")) << stopped.output;
   EXPECT_EQ(end_of(folder.path()).rfind("fix guard: overlap of ", 0), 0u) << end_of(folder.path());
-  EXPECT_EQ(post::read_parameters(folder / "parameters.csv").at("loads"), "25,50,1e5");
+  EXPECT_EQ(post::read_parameters(folder / "parameters.csv").at("loads"), "25,50,2e4");
   post::ReportOptions options;
   options.folders = {folder.path()};
   options.out = out / "report";

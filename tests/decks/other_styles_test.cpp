@@ -30,7 +30,7 @@ struct Scene {
   double damping = 60.0;                           // N s/m
   double friction = 0.0;                           // mu
   std::string floor = "primitive type 1 zplane 0"; // of LIGGGHTS
-  std::string before_floor = "";                   // lines
+  std::string before_floor{};                      // lines
   std::string velocity = "0.3 0 -1";               // m/s, of ball 1
   std::string start = "0 0 0.051", second_start = "0.3 0 0.5";
   std::string skin = "0.02";

@@ -100,10 +100,15 @@ Rebound rebound(const Law &law, bool stock, double dt, double onset) {
     d += dt * (rate - 0.5 * dt * shift);
     const StepMotion motion{d, rate, before, dt};
     const ContactState old = state;
-    const StepResult step = stock ? advance_stock(law, motion, state) : advance(law, motion, state, {1.0});
+    // The sum of c/m is that of the contact alone: a heavy dashpot is left for the second pass.
+    const double damping = old.in_contact && d > 0.0 ? law.dashpot(d) : 0.0;
+    StepResult step = stock ? advance_stock(law, motion, state) : advance(law, motion, state, {1.0, damping});
+    if (!stock) heat += heat_of_change(law, motion, old, step, 1.0);
+    if (step.coupled)
+      step.force = step.kick = state.force =
+          drumlin::physics::coupled_force(step.dashpot, rate - 0.5 * dt * step.dashpot.first);
     force = step.force;
     shift = step.shift;
-    if (!stock) heat += heat_of_change(law, motion, old, step, 1.0);
     rate -= 0.5 * dt * step.kick;
     const double now = d > 0.0 ? (force - law.spring(d)) * rate : 0.0;
     heat += 0.5 * dt * (power + now);

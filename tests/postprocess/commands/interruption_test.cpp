@@ -135,7 +135,7 @@ TEST(KilledAndCalledAgain, AStudyOfBedsIsTheSame) {
 
 /// A calibration on beds of 60 discs under a small roller, which takes some ten seconds.
 const std::vector<std::string> small_calibration = {
-    "calibrate", "--target", "k=1e6",   "--vary",        "k=2e6:2e7", "--seeds", "2",      "--balls",
+    "calibrate", "--target", "k=1e6",   "--vary",        "k=2e6:2e7", "--seeds", "3",      "--balls",
     "60",        "--cycles", "4",       "--evaluations", "3",         "--jobs",  "2",      "--out",
     "out",       "--set",    "m2=100",  "--set",         "m3=50",     "--set",   "r2=0.1", "--set",
     "r3=0.05",   "--set",    "k23=5e4", "--set",         "c23=500",   "--set",   "Fw=2940"};
