@@ -165,8 +165,7 @@ private:
     const bool rare = push(first, end, law.contact);
     if constexpr (stepped) {
       if (changed_ || in_setup_ || moved_ || rare)
-        for (int n = first; n < end; ++n)
-          exert_unless_it_goes_on(n, law.contact);
+        exert_rare(first, end, law.contact);
       else if (stepping_->counting())
         count_dashpots(first, end);
     }
@@ -242,14 +241,24 @@ private:
     }
   }
 
-  /// The normal force of a contact that begins or ends in this step, or is solved for together with others.
-  void exert_unless_it_goes_on(int n, const Parameters &parameters) {
+  /// The normal forces of contacts of which some may need more than going_on().
+  void exert_rare(int first, int end, const Parameters &parameters) {
+    const bool counting = stepping_->counting();
+    for (int n = first; n < end; ++n) {
+      const bool goes_on = contacts_[n].touches && !in_setup_ && block_.in_contact[n] != 0.0;
+      if (goes_on && moved_) exert_on_moved(n, parameters);
+      if (!goes_on || block_.coupled[n] != 0.0 ||
+          physics::lost_its_force(block_.force_before[n], block_.force[n]))
+        exert_one(n, parameters);
+      else if (counting)
+        count_dashpots(n, n + 1);
+    }
+  }
+
+  /// The normal force of a contact that begins, ends or loses its force in this step, or is solved for together with
+  /// others.
+  [[gnu::noinline]] void exert_one(int n, const Parameters &parameters) {
     const BlockContact &contact = contacts_[n];
-    const bool goes_on = contact.touches && !in_setup_ && block_.in_contact[n] != 0.0;
-    if (goes_on && moved_) exert_on_moved(n, parameters);
-    if (goes_on && block_.coupled[n] == 0.0 &&
-        !physics::lost_its_force(block_.force_before[n], block_.force[n]))
-      return stepping_->counting() ? count_dashpots(n, n + 1) : void();
     const auto law = parameters.law(block_.m_eff[n], block_.r_eff[n]);
     const StepContact now{contact.i,         contact.j,           block_.normal[n], nullptr,
                           block_.overlap[n], block_.rate_half[n], block_.m_eff[n],  1.0};

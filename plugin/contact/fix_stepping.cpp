@@ -443,8 +443,9 @@ FixStepping::RubbingForces FixStepping::close_friction(const Begun &p) {
   const Vec3 rest = sum(scaled(p.share, p.rub), -1.0, closing.friction);
   const Vec3 rolling = sum(scaled(p.share, p.roll), -1.0, closing.rolling);
   const Vec3 moment = cross(p.normal, rest);
-  if (takes(p.i)) add_after_kick(p.i, rest, {}, sum(rolling, -p.arm_i, moment));
-  if (takes(p.j)) add_after_kick(p.j, scaled(-1.0, rest), {}, sum(scaled(-1.0, rolling), -p.arm_j, moment));
+  if (takes(p.i)) add_to_announced(p.announced, p.i, rest, sum(rolling, -p.arm_i, moment));
+  if (takes(p.j))
+    add_to_announced(p.announced + 1, p.j, scaled(-1.0, rest), sum(scaled(-1.0, rolling), -p.arm_j, moment));
   tell_heat(p.i, p.j, 0.0, 0.5 * dt_ * drumlin::physics::dot(rest, p.slip));
   return closing;
 }
@@ -458,21 +459,38 @@ void FixStepping::add_torque(int i, const std::array<double, 3> &torque) {
     to[a] += torque[a];
 }
 
+/// add_after_kick() with the entry at a place if that is of the ball: fewer entries are merged in less time.
+void FixStepping::add_to_announced(std::size_t place, int i, const std::array<double, 3> &rest,
+                                   const std::array<double, 3> &torque) {
+  if (place >= later_.size() || later_[place].i != i) return add_after_kick(i, rest, {}, torque);
+  for (std::size_t a = 0; a < 3; ++a) {
+    later_[place].rest[a] += rest[a];
+    later_[place].torque[a] += torque[a];
+  }
+}
+
 /// Merges the entries of each ball into one: constraints act on the total force on a ball, and the force that
 /// is removed later is the difference that all its shifts together make.
 void FixStepping::merge_later() {
-  std::stable_sort(later_.begin(), later_.end(), [](const Later &a, const Later &b) { return a.i < b.i; });
-  std::size_t kept = 0;
-  for (const Later &item : later_)
-    if (kept > 0 && later_[kept - 1].i == item.i)
-      for (std::size_t a = 0; a < 3; ++a) {
-        later_[kept - 1].rest[a] += item.rest[a];
-        later_[kept - 1].shift[a] += item.shift[a];
-        later_[kept - 1].torque[a] += item.torque[a];
-      }
-    else
-      later_[kept++] = item;
-  later_.resize(kept);
+  order_.clear(); // sorted instead of the entries, which are large
+  for (std::size_t n = 0; n < later_.size(); ++n)
+    order_.emplace_back(later_[n].i, n);
+  std::sort(order_.begin(), order_.end());
+  merged_.clear();
+  for (const auto &[ball, n] : order_) {
+    const Later &item = later_[n];
+    if (merged_.empty() || merged_.back().i != ball) {
+      merged_.push_back(item);
+      continue;
+    }
+    Later &all = merged_.back();
+    for (std::size_t a = 0; a < 3; ++a) {
+      all.rest[a] += item.rest[a];
+      all.shift[a] += item.shift[a];
+      all.torque[a] += item.torque[a];
+    }
+  }
+  later_.swap(merged_);
 }
 
 void FixStepping::end_of_step() {

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <utility>
 
 namespace LAMMPS_NS {
 
@@ -166,6 +167,7 @@ public:
     double share;        ///< as of a coupled contact
     const double *force; ///< where the force, N, is stored
     drumlin::physics::StepResult step;
+    std::size_t announced; ///< FixStepping::announced() before its calls of add_after_kick()
   };
   /// Announces a contact that begins, for the caller to fill in what Rubbing has.
   Begun &begin() { return begun_.emplace_back(); }
@@ -240,6 +242,8 @@ private:
   void limit_friction(Coupled &contact, double normal_force);
   void add_torque(int i, const std::array<double, 3> &torque);
   void send_later();
+  void add_to_announced(std::size_t place, int i, const std::array<double, 3> &rest,
+                        const std::array<double, 3> &torque);
   void merge_later();
   std::array<double, 3> force_on(const Fix &fix) const;
   void hold_body_forces();
@@ -272,7 +276,9 @@ private:
   std::deque<Begun> begun_;          // the same
   drumlin::ContactObservers observers_;
   std::vector<std::function<void()>> coupled_links_;
-  std::vector<Later> later_;            // of this step
+  std::vector<Later> later_;  // of this step
+  std::vector<Later> merged_; // and order_: memory of merge_later()
+  std::vector<std::pair<int, std::size_t>> order_;
   std::vector<Later> shifts_;           // in the next opening half kick, to be taken back after it
   std::vector<Constraint> constraints_; // act again after the forces have been changed
 };

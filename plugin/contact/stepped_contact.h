@@ -115,6 +115,7 @@ template <class Law>
   const physics::StepMotion motion = step_motion(stepping, p);
   const physics::StepResult step =
       physics::advance(law, motion, state, step_context(stepping, p.i, p.j, m_eff));
+  const std::size_t announced = stepping.announced();
   exert_later(stepping, p, step);
   if (step.coupled) couple(stepping, p, step.dashpot, stored_force);
   if (step.begins) {
@@ -125,6 +126,7 @@ template <class Law>
     contact.share = p.share;
     contact.force = &stored_force;
     contact.step = step;
+    contact.announced = announced;
   }
   if (stepping.observed())
     stepping.tell_heat(p.i, p.j, p.share * physics::heat_of_change(law, motion, before, step, m_eff), 0.0);

@@ -53,7 +53,7 @@ TEST_F(FaultsOfRuns, AreTheScenesWhereTheEngineSaysSo) {
 }
 
 TEST_F(FaultsOfRuns, MayPassWhereTheMachineIsAtFault) {
-  const std::string slow = fault({}, 0.2), missing = fault({{"balls", "none"}});
+  const std::string slow = fault({}, 1e-3), missing = fault({{"balls", "none"}});
   EXPECT_EQ(slow, "may pass: bed/in.settle: was stopped at its time limit");
   EXPECT_EQ(missing.rfind("may pass: bed/in.settle: ERROR: ", 0), 0U) << missing;
   // A limit on the size of files stands for a full disk.
