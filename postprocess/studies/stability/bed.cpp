@@ -132,7 +132,8 @@ void add_bed_rows(std::vector<Extreme> &rows, bool quick) {
   }
   rows.push_back(bed_row("no drum", {}));
   const auto with_drum = [&](const std::string &name, const Variables &more) {
-    Variables variables = {{"drum_mass", "100"}, {"settling", "600000"}}; // with friction 10 it swings for seconds
+    Variables variables = {{"drum_mass", "100"},
+                           {"settling", "600000"}}; // with friction 10 it swings for seconds
     variables.insert(variables.end(), more.begin(), more.end());
     rows.push_back(bed_row(name, variables));
   };
