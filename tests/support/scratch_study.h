@@ -25,7 +25,7 @@ private:
   std::filesystem::path folder_;
 };
 
-/// The one file of a folder whose name begins and ends so; between is what it depends on.
+/// The one file of a folder whose name begins and ends as given, with a fingerprint between.
 std::filesystem::path made_file(const std::filesystem::path &folder, const std::string &begin,
                                 const std::string &end);
 

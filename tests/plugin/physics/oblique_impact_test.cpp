@@ -373,7 +373,7 @@ TEST(ObliqueImpactOfHistory, ExceedsCoulombsLimit) {
 
 /// How the error of slip after an impact shrinks with the step, where the slider acts: twice the steps divide
 /// it by 2^order. Normal dashpot none, so that the order is that of friction. The changes from stick to slide
-/// fall anywhere within a step: means of many.
+/// fall anywhere within a step, and so does the make: means of many.
 double order_of_impact(const Oblique &impact) {
   LinearContact contact = contact_of<LinearContact>(impact);
   contact.tangential_stiffness = 0.6 * kn; // with 2/7 kn both directions swing alike, and errors cancel
@@ -381,19 +381,21 @@ double order_of_impact(const Oblique &impact) {
   const auto error = [&](int steps) {
     double sum = 0.0;
     for (int n = 0; n < 20; ++n)
-      sum += std::fabs(in_steps(contact, impact, true, pi / std::sqrt(kn) / (steps + 7 * n), 0.0).slip_after -
-                       exact);
+      sum += std::fabs(
+          in_steps(contact, impact, true, pi / std::sqrt(kn) / (steps + 7 * n), (n + 0.5) / 20.0).slip_after -
+          exact);
     return sum;
   };
   return std::log2(error(200) / error(850)) / std::log2(917.0 / 267.0);
 }
 
-TEST(ObliqueImpactOrder, IsOneWithADashpotAndTwoWithout) {
-  for (const double degrees : {20.0, 45.0, 60.0}) // the last two slide and stick
-    for (const double damping : {0.0, 0.3})
-      EXPECT_NEAR(order_of_impact({degrees, 0.0, 0.5, Transition::B, damping * std::sqrt(kn)}),
-                  damping > 0.0 ? 1.0 : 2.0, 0.15)
-          << degrees << ' ' << damping;
+// Without a dashpot a ball that sticks at first errs in the first order if its spring takes up the whole step of the make.
+TEST(ObliqueImpactOrder, IsOneWithADashpotAndTwoOrMoreWithout) {
+  for (const double degrees : {20.0, 45.0, 60.0}) { // the last two slide and stick
+    EXPECT_GT(order_of_impact({degrees, 0.0, 0.5}), 1.85) << degrees;
+    EXPECT_NEAR(order_of_impact({degrees, 0.0, 0.5, Transition::B, 0.3 * std::sqrt(kn)}), 1.0, 0.15)
+        << degrees;
+  }
 }
 
 } // namespace
