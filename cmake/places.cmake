@@ -37,7 +37,7 @@ install(FILES README.md ARCHITECTURE.md CHANGELOG.md CITATION.cff DESTINATION ${
 # Pages and their pictures, in folders as here, so that links among them hold.
 foreach(folder inputs plugin/doc postprocess)
   install(DIRECTORY ${folder}/ DESTINATION ${folder_of_pages}/${folder} FILES_MATCHING
-          PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg" PATTERN study EXCLUDE)
+          PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg")
 endforeach()
 install(DIRECTORY postprocess/ DESTINATION ${folder_of_shares} FILES_MATCHING PATTERN "*.py")
 
