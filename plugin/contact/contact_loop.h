@@ -166,8 +166,8 @@ private:
     if constexpr (stepped) {
       if (changed_ || in_setup_ || moved_ || rare)
         exert_rare(first, end, law.contact);
-      else if (stepping_->counting())
-        count_dashpots(first, end);
+      else
+        went_on(first, end, law.contact);
     }
     if constexpr (rubs || rolling) {
       if (moves_)
@@ -243,15 +243,29 @@ private:
 
   /// The normal forces of contacts of which some may need more than going_on().
   void exert_rare(int first, int end, const Parameters &parameters) {
-    const bool counting = stepping_->counting();
     for (int n = first; n < end; ++n) {
       const bool goes_on = contacts_[n].touches && !in_setup_ && block_.in_contact[n] != 0.0;
       if (goes_on && moved_) exert_on_moved(n, parameters);
       if (!goes_on || block_.coupled[n] != 0.0 ||
           physics::lost_its_force(block_.force_before[n], block_.force[n]))
         exert_one(n, parameters);
-      else if (counting)
-        count_dashpots(n, n + 1);
+      else
+        went_on(n, n + 1, parameters);
+    }
+  }
+
+  /// What else is to be done about contacts that went on and were not solved for together with others.
+  void went_on(int first, int end, const Parameters &parameters) {
+    if (stepping_->counting()) count_dashpots(first, end);
+    if constexpr (!Parameters::Law::is_linear)
+      if (stepping_->counts_heat()) tell_heat(first, end, parameters);
+  }
+
+  [[gnu::noinline]] void tell_heat(int first, int end, const Parameters &parameters) const {
+    for (int n = first; n < end; ++n) {
+      const physics::StepMotion motion{block_.overlap[n], block_.rate_half[n], block_.rate_half[n], dt_};
+      const auto law = parameters.law(block_.m_eff[n], block_.r_eff[n]);
+      stepping_->tell_heat(contacts_[n].i, contacts_[n].j, physics::heat_of_spring(law, motion), 0.0);
     }
   }
 
