@@ -198,7 +198,7 @@ private:
     physics::ContactState state{stored[0], stored[1] != 0.0};
     const std::array<double, 3> normal{sidata.en[0], sidata.en[1], sidata.en[2]};
     if (sidata.computeflag && hold_contact(law, *stepping_, sidata.i, sidata.is_wall ? -1 : sidata.j, normal,
-                                           motion_of(sidata), sidata.meff, state)) {
+                                           motion_of(sidata), sidata.meff, share, state)) {
       stored[0] = sidata.Fn = state.force;
       add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);
     } else
