@@ -2,7 +2,7 @@
 #pragma once
 
 #include "calibration/calibration.h"
-#include "roller/lumped_comparison.h"
+#include "identify/lumped_comparison.h"
 
 #include <filesystem>
 #include <string>

@@ -1,8 +1,7 @@
 #include "calibration/soil_tests.h"
 
+#include "bed/element_results.h"
 #include "engine/deck_run.h"
-#include "report/compression_page.h"
-#include "report/plate_page.h"
 #include "studies/fidelity/results.h"
 #include "studies/placed_bed.h"
 #include "studies/stiffness/results.h"

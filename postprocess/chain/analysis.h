@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "chain/parameters.h"
-#include "chain/run_files.h"
+#include "runs/chain_files.h"
 #include "support/harmonics.h"
 
 namespace drumlin::post {

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "chain/parameters.h"
-#include "chain/run_files.h"
+#include "runs/chain_files.h"
 
 #include <functional>
 #include <string>

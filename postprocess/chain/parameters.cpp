@@ -1,5 +1,7 @@
 #include "chain/parameters.h"
 
+#include "support/csv.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -86,6 +88,13 @@ NamedChain named_chain(const std::string &name, Transition transition) {
 
 ChainParameters table1_case(const std::string &name, Transition transition) {
   return named_chain(name, transition).parameters;
+}
+
+std::vector<std::pair<std::string, std::string>> parameter_values(const ChainParameters &p) {
+  std::vector<std::pair<std::string, std::string>> values = {{"transition", transition_name(p.transition)}};
+  for (const ChainNumber &number : chain_numbers)
+    values.emplace_back(number.name, number_text(p.*number.value));
+  return values;
 }
 
 } // namespace drumlin::post

@@ -8,6 +8,8 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace drumlin::post {
 
@@ -63,6 +65,9 @@ struct ChainNumber {
 
 /// All parameters that are numbers: k, D, omega, Fw, m2, m3, k23, c23, g.
 extern const std::array<ChainNumber, 9> chain_numbers;
+
+/// The chain's parameters by the names that decks, commands and parameters.csv give them, as text.
+std::vector<std::pair<std::string, std::string>> parameter_values(const ChainParameters &parameters);
 
 /// A chain that has a name, as the deck inputs/chain/case.NAME sets it.
 struct NamedChain {

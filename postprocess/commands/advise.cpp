@@ -1,6 +1,6 @@
 #include "commands/commands.h"
 
-#include "chain/run_files.h"
+#include "runs/chain_files.h"
 #include "commands/chain_options.h"
 #include "engine/places.h"
 #include "studies/fidelity/advice.h"

@@ -7,7 +7,7 @@
 #include "engine/engine_command.h"
 #include "engine/engine_run.h"
 #include "engine/places.h"
-#include "studies/studies.h"
+#include "map/meter_study/study.h"
 #include "studies/study.h"
 #include "support/files.h"
 #include "support/options.h"
@@ -198,7 +198,7 @@ private:
     study.out = results_ / "meter";
     study.quick = plan_.quick;
     const ResumedFolder folder = open_study(study);
-    run_meter_study(study);
+    run_meter_study(study.out, study.quick);
   }
 
   void engine_run(const DemoRun &run) {

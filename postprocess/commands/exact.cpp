@@ -2,7 +2,7 @@
 
 #include "chain/direct_solver.h"
 #include "chain/parameters.h"
-#include "chain/run_files.h"
+#include "runs/chain_files.h"
 #include "commands/chain_options.h"
 #include "support/files.h"
 #include "support/options.h"

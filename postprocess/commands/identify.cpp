@@ -1,7 +1,7 @@
 #include "commands/commands.h"
 
 #include "commands/record_options.h"
-#include "roller/identification_page.h"
+#include "identify/page.h"
 #include "support/files.h"
 #include "support/options.h"
 #include "support/progress.h"

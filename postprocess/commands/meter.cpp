@@ -1,7 +1,7 @@
 #include "commands/commands.h"
 
 #include "commands/record_options.h"
-#include "roller/meter_page.h"
+#include "meter/page.h"
 #include "support/files.h"
 #include "support/options.h"
 

@@ -15,8 +15,6 @@
 
 namespace drumlin::post {
 
-namespace {} // namespace
-
 void print_report(const ReportArguments &arguments) {
   ReportOptions options;
   for (const std::string &folder : arguments.folders)

@@ -1,5 +1,9 @@
 #include "commands/commands.h"
 
+#ifdef DRUMLIN_LAB
+#include "lab/studies.h"
+#endif
+#include "map/meter_study/study.h"
 #include "studies/studies.h"
 #include "studies/study.h"
 #include "support/options.h"
@@ -9,6 +13,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,12 +29,44 @@ constexpr int most_jobs = 1000;
 constexpr int least_balls = 100;
 constexpr int most_balls = 1000000;
 
+/// The studies of the laboratory, which a build may not have.
+constexpr std::array lab_names = {"accuracy", "benchmarks", "cost", "speed", "stability"};
+
+/// All studies of this build, in the order of the help.
+std::vector<Study> all_studies() {
+  std::vector<Study> studies(bed_studies.begin(), bed_studies.end());
+  studies.push_back(
+      {"meter",
+       "What the meters of rollers show on soil of 1 to 200 MN/m, where a value may mean several "
+       "stiffnesses, and what identification finds in the same records. Half a minute, without an engine.",
+       [](const StudyOptions &options) { run_meter_study(options.out, options.quick); }});
+#ifdef DRUMLIN_LAB
+  studies.insert(studies.end(), lab_studies.begin(), lab_studies.end());
+#endif
+  std::sort(studies.begin(), studies.end(),
+            [](const Study &a, const Study &b) { return std::string(a.name) < b.name; });
+  return studies;
+}
+
+/// Says why there is no study of a name. Throws UsageError.
+[[noreturn]] void refuse(const std::string &name, const std::vector<Study> &studies) {
+  if (std::find(lab_names.begin(), lab_names.end(), name) != lab_names.end())
+    throw UsageError(
+        refusal("NAME", name, "a study of the laboratory only in a build with -DDRUMLIN_LAB=ON"));
+  std::vector<std::string> names;
+  names.reserve(studies.size());
+  for (const Study &study : studies)
+    names.emplace_back(study.name);
+  throw UsageError(refusal("NAME", name, fmt::format("{}", fmt::join(names, ", "))));
+}
+
 } // namespace
 
 void add_study_command(CLI::App &app, Session &) {
   CLI::App *command =
       app.add_subcommand("study", "Measures what steps, laws and options cost and what they "
                                   "bring. An interrupted study continues where it was interrupted.");
+  const std::vector<Study> studies = all_studies();
   for (const Study &study : studies) {
     const auto options = std::make_shared<StudyOptions>();
     const auto out = std::make_shared<std::string>(std::string("results/study/") + study.name);
@@ -57,15 +95,10 @@ void add_study_command(CLI::App &app, Session &) {
     });
   }
   command->allow_extras(); // to name a study that does not exist
-  command->callback([command] {
+  command->callback([command, studies] {
     if (!command->get_subcommands().empty()) return;
-    std::vector<std::string> names;
-    names.reserve(studies.size());
-    for (const Study &study : studies)
-      names.emplace_back(study.name);
     const std::vector<std::string> given = command->remaining();
-    throw UsageError(
-        refusal("NAME", given.empty() ? "" : given.front(), fmt::format("{}", fmt::join(names, ", "))));
+    refuse(given.empty() ? "" : given.front(), studies);
   });
 }
 

@@ -4,7 +4,7 @@
 #include "bed/coarse_graining.h"
 #include "bed/dump_readers.h"
 #include "bed/vtk_writers.h"
-#include "chain/run_files.h"
+#include "runs/chain_files.h"
 #include "support/files.h"
 #include "support/options.h"
 #include "support/progress.h"

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "pages/html.h"
-#include "report/bed_measures.h"
-#include "report/chain_measures.h"
+#include "report/bed/measures.h"
+#include "report/chain/measures.h"
 
 #include <string>
 #include <vector>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "report/chain_tables.h"
+#include "report/chain/tables.h"
 #include "support/progress.h"
 
 namespace drumlin::post {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "chain/reference_values.h"
-#include "report/element_tests.h"
+#include "report/soil/element_tests.h"
 #include "report/place.h"
 #include "support/text.h"
 #include "support/usage_error.h"

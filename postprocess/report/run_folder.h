@@ -9,7 +9,7 @@
 
 #include "chain/analysis.h"
 #include "chain/parameters.h"
-#include "chain/run_files.h"
+#include "runs/chain_files.h"
 
 namespace drumlin::post {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "report/chain_page.h"
+#include "report/content.h"
 
 namespace drumlin::post {
 

@@ -12,7 +12,7 @@
 
 #include "chain/direct_solver.h"
 #include "chain/parameters.h"
-#include "studies/accuracy/results.h"
+#include "advice/step_errors.h"
 
 #include <functional>
 #include <string>

@@ -17,6 +17,15 @@ struct StudyOptions {
   int jobs = 1;              ///< runs at the same time, in a study that does not time them against each other
 };
 
+/// A study as `drumlin study NAME` offers it.
+struct Study {
+  const char *name;
+  const char *summary; ///< for the help
+  void (*run)(const StudyOptions &);
+  bool parallel = false; ///< its runs may share the machine
+  bool scaled = false;   ///< its beds may have another number of balls
+};
+
 /// Throws UsageError for a folder that the engine would split at a space.
 void check_engine_path(const std::filesystem::path &out);
 

@@ -13,6 +13,7 @@
 #include <regex>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -128,36 +129,66 @@ bool fits_physics(const Include &include) {
                                   include.name.find("..") == std::string::npos);
 }
 
-/// The level of a room: it may include rooms of lower levels, and itself.
+/// The level of a room: it may include rooms of lower levels, and itself. A folder within a room has a level among the folders
+/// of that room, 0 if it is not named here: it may include its room's own headers and folders of lower levels. What lies directly
+/// in a room may include all its folders.
 using Heights = std::map<std::string, int>;
 const Heights plugin_rooms{{"physics", 0},  {"support", 1},  {"contact", 2}, {"fixes", 3},
                            {"commands", 3}, {"liggghts", 4}, {"lammps", 4}};
-const Heights postprocess_rooms{{"support", 0}, {"chain", 1},       {"bed", 1},     {"engine", 1},
-                                {"record", 1},  {"pages", 1},       {"roller", 2},  {"report", 3},
-                                {"studies", 3}, {"calibration", 4}, {"commands", 5}};
+const Heights postprocess_rooms{{"support", 0},      {"engine", 1},       {"pages", 1},  {"runs", 2},
+                                {"chain", 3},        {"bed", 3},          {"record", 4}, {"meter", 5},
+                                {"identify", 6},     {"map", 7},          {"advice", 8}, {"studies", 9},
+                                {"calibration", 10}, {"report", 11},      {"lab", 12},   {"commands", 13},
+                                {"report/bed", 1},   {"lab/stability", 1}};
 
-/// Whether a file of `room` may include a header by its path from the top of the rooms, "ROOM/...".
-bool fits_room(const std::string &room, const std::string &header, const Heights &rooms) {
-  const auto other = rooms.find(header.substr(0, header.find('/')));
-  if (other == rooms.end() || header.find("..") != std::string::npos) return false;
-  return other->first == room || other->second < rooms.at(room);
+/// "ROOM" and "FOLDER" of a path "ROOM/FOLDER/...", without the name of the file; empty where there is none.
+std::pair<std::string, std::string> room_and_folder(const std::string &path) {
+  const fs::path folders = fs::path(path).parent_path();
+  std::vector<std::string> names;
+  for (const fs::path &name : folders)
+    names.push_back(name.string());
+  names.resize(std::max<std::size_t>(2, names.size()));
+  return {names[0], names[1]};
+}
+
+/// Whether a file may include a header, both by their paths from the top of the rooms, "ROOM/..." or "ROOM/FOLDER/...".
+bool fits_room(const std::string &file, const std::string &header, const Heights &rooms) {
+  if (header.find("..") != std::string::npos) return false;
+  const auto [room, folder] = room_and_folder(file);
+  const auto [other, its_folder] = room_and_folder(header);
+  if (rooms.count(other) == 0) return false;
+  if (other != room) return rooms.at(other) < rooms.at(room);
+  if (room == "studies") return true; // whose folders share their results
+  if (folder.empty() || its_folder.empty() || folder == its_folder) return true;
+  const auto level = [&rooms](const std::string &name) {
+    const auto found = rooms.find(name);
+    return found == rooms.end() ? 0 : found->second;
+  };
+  return level(room + "/" + its_folder) < level(room + "/" + folder);
+}
+
+/// Of the commands, `study` alone may include the laboratory, which a build may lack.
+bool fits_postprocess(const std::string &file, const std::string &header) {
+  if (starts_with(header, "lab/") && starts_with(file, "commands/") && file != "commands/study.cpp")
+    return false;
+  return fits_room(file, header, postprocess_rooms);
 }
 
 /// Rooms between the core and the adapters know an engine through engine.h alone; libraries that are no
 /// engine's are named here.
-bool fits_shared(const std::string &room, const Include &include) {
-  if (include.quoted) return include.name == "engine.h" || fits_room(room, include.name, plugin_rooms);
+bool fits_shared(const std::string &file, const Include &include) {
+  if (include.quoted) return include.name == "engine.h" || fits_room(file, include.name, plugin_rooms);
   return is_standard(include) || starts_with(include.name, "fmt/") || starts_with(include.name, "sys/") ||
          include.name == "unistd.h" || include.name == "fcntl.h";
 }
 
 /// An adapter may include any header of its engine as well, which the plugin does not have, but not the other
 /// adapter.
-bool fits_adapter(const std::string &room, const Include &include) {
+bool fits_adapter(const std::string &file, const Include &include) {
   if (include.name.find("..") != std::string::npos) return false;
   if (!include.quoted || include.name == "stub.h") return true;
   if (plugin_rooms.count(include.name.substr(0, include.name.find('/'))) == 1)
-    return fits_room(room, include.name, plugin_rooms);
+    return fits_room(file, include.name, plugin_rooms);
   return !fs::exists(root / "plugin" / include.name);
 }
 
@@ -219,12 +250,15 @@ std::vector<fs::path> files(const fs::path &folder, const std::function<bool(con
   return found;
 }
 
-void expect_includes(const fs::path &folder, const std::function<bool(const Include &)> &fit) {
+/// \param fit gets the path of a file from the top folder of `folder`, and what it includes
+void expect_includes(const fs::path &folder,
+                     const std::function<bool(const std::string &, const Include &)> &fit) {
   const std::vector<fs::path> sources = files(folder, is_source);
   ASSERT_FALSE(sources.empty()) << folder;
   for (const fs::path &file : sources)
     for (const Include &include : includes_of(text_of(file)))
-      EXPECT_TRUE(fit(include)) << file.lexically_relative(root).string() << " includes " << include.name;
+      EXPECT_TRUE(fit(file.lexically_relative(root / *folder.begin()).generic_string(), include))
+          << file.lexically_relative(root).string() << " includes " << include.name;
 }
 
 /// Folders below `folder` that hold sources, at any depth, by their first name.
@@ -238,7 +272,9 @@ std::set<std::string> rooms_of(const fs::path &folder) {
 }
 
 TEST(Boundaries, ThePhysicsCoreIncludesTheStandardLibraryOnly) {
-  expect_includes("plugin/physics", fits_physics);
+  expect_includes("plugin/physics", [](const std::string &file, const Include &include) {
+    return fits_physics(include) && (!include.quoted || fits_room(file, include.name, plugin_rooms));
+  });
   for (const fs::path &file : files("plugin/physics", is_source))
     for (const Include &include : includes_of(text_of(file)))
       if (include.quoted) {
@@ -250,8 +286,8 @@ TEST(Boundaries, RoomsOfThePluginIncludeWhatIsBelowThem) {
   for (const std::string &room : rooms_of("plugin")) {
     ASSERT_EQ(plugin_rooms.count(room), 1U) << room;
     const bool adapter = room == "liggghts" || room == "lammps";
-    expect_includes(fs::path("plugin") / room, [&](const Include &include) {
-      return adapter ? fits_adapter(room, include) : fits_shared(room, include);
+    expect_includes(fs::path("plugin") / room, [&](const std::string &file, const Include &include) {
+      return adapter ? fits_adapter(file, include) : fits_shared(file, include);
     });
   }
 }
@@ -259,15 +295,15 @@ TEST(Boundaries, RoomsOfThePluginIncludeWhatIsBelowThem) {
 TEST(Boundaries, RoomsOfThePostprocessorIncludeWhatIsBelowThem) {
   for (const std::string &room : rooms_of("postprocess")) {
     ASSERT_EQ(postprocess_rooms.count(room), 1U) << room;
-    expect_includes(fs::path("postprocess") / room, [&](const Include &include) {
-      return !include.quoted || fits_room(room, include.name, postprocess_rooms);
+    expect_includes(fs::path("postprocess") / room, [](const std::string &file, const Include &include) {
+      return !include.quoted || fits_postprocess(file, include.name);
     });
   }
 }
 
 TEST(Boundaries, TheDirectSolverAndThePostprocessorKnowNothingOfThePlugin) {
   for (const char *folder : {"tests/postprocess", "postprocess", "tests/support"})
-    expect_includes(folder, fits_judge);
+    expect_includes(folder, [](const std::string &, const Include &include) { return fits_judge(include); });
   for (const char *folder : {"tests/postprocess", "postprocess"})
     for (const fs::path &file : files(folder, is_cmake)) {
       const std::string text = without_comments(text_of(file));
@@ -312,25 +348,35 @@ TEST(BoundaryChecks, RefuseWhatDoesNotFit) {
   for (const char *name : {"engine.h", "fixes/clock.h", "../fixes/clock.h", "physics/../engine.h", "cmath"})
     EXPECT_FALSE(fits_physics({name, true})) << name;
 
-  EXPECT_TRUE(fits_shared("fixes", {"engine.h", true}));
-  EXPECT_TRUE(fits_shared("fixes", {"physics/contact_law.h", true}));
-  EXPECT_TRUE(fits_shared("fixes", {"fixes/fix_guard.h", true}));
+  EXPECT_TRUE(fits_shared("fixes/fix_guard.cpp", {"engine.h", true}));
+  EXPECT_TRUE(fits_shared("fixes/fix_guard.cpp", {"physics/contact_law.h", true}));
+  EXPECT_TRUE(fits_shared("fixes/fix_guard.cpp", {"fixes/fix_guard.h", true}));
   for (const char *name : {"atom.h", "liggghts/engine.h", "lammps/engine.h", "../liggghts/engine.h", "fix.h",
                            "commands/commands.h"}) {
-    EXPECT_FALSE(fits_shared("fixes", {name, true})) << name;
-    EXPECT_FALSE(fits_shared("fixes", {name, false})) << name;
+    EXPECT_FALSE(fits_shared("fixes/fix_guard.cpp", {name, true})) << name;
+    EXPECT_FALSE(fits_shared("fixes/fix_guard.cpp", {name, false})) << name;
   }
-  EXPECT_FALSE(fits_shared("support", {"contact/pair_motion.h", true}));
+  EXPECT_FALSE(fits_shared("support/arguments.cpp", {"contact/pair_motion.h", true}));
 
-  EXPECT_TRUE(fits_adapter("lammps", {"pair.h", true}));
-  EXPECT_TRUE(fits_adapter("lammps", {"fixes/fix_guard.h", true}));
-  EXPECT_FALSE(fits_adapter("lammps", {"liggghts/contact_table.h", true}));
+  EXPECT_TRUE(fits_adapter("lammps/pair.cpp", {"pair.h", true}));
+  EXPECT_TRUE(fits_adapter("lammps/pair.cpp", {"fixes/fix_guard.h", true}));
+  EXPECT_FALSE(fits_adapter("lammps/pair.cpp", {"liggghts/contact_table.h", true}));
 
-  EXPECT_TRUE(fits_room("report", "chain/analysis.h", postprocess_rooms));
-  EXPECT_TRUE(fits_room("studies", "studies/accuracy/page.h", postprocess_rooms));
-  EXPECT_FALSE(fits_room("chain", "report/run_folder.h", postprocess_rooms));
-  EXPECT_FALSE(fits_room("studies", "report/run_folder.h", postprocess_rooms));
-  EXPECT_FALSE(fits_room("chain", "nowhere/run_folder.h", postprocess_rooms));
+  EXPECT_TRUE(fits_postprocess("report/answer.cpp", "chain/analysis.h"));
+  EXPECT_TRUE(fits_postprocess("lab/accuracy/page.cpp", "lab/accuracy/results.h"));
+  EXPECT_TRUE(fits_postprocess("lab/accuracy/page.cpp", "lab/studies.h"));
+  EXPECT_TRUE(fits_postprocess("lab/stability/extremes.cpp", "lab/accuracy/runs.h"));
+  EXPECT_TRUE(fits_postprocess("report/report.cpp", "report/chain/page.h"));
+  EXPECT_TRUE(fits_postprocess("commands/study.cpp", "lab/studies.h"));
+  for (const auto &[file, header] : {std::pair("chain/analysis.cpp", "report/run_folder.h"),
+                                     {"meter/values.cpp", "identify/identification.h"},
+                                     {"calibration/soil_tests.cpp", "report/soil/plate.h"},
+                                     {"chain/analysis.cpp", "nowhere/run_folder.h"},
+                                     {"lab/accuracy/page.cpp", "lab/stability/map.h"},
+                                     {"lab/accuracy/page.cpp", "lab/benchmarks/runs.h"},
+                                     {"report/chain/page.cpp", "report/bed/page.h"},
+                                     {"commands/demo.cpp", "lab/studies.h"}})
+    EXPECT_FALSE(fits_postprocess(file, header)) << file << " " << header;
 
   EXPECT_TRUE(fits_judge({"cvode/cvode.h", false}));
   EXPECT_TRUE(fits_judge({"tests/support/ode.h", true}));

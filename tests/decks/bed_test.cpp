@@ -2,8 +2,8 @@
 #include "tests/support/engine_runs.h"
 
 #include "bed/dump_readers.h"
-#include "chain/run_files.h"
-#include "support/parameter_file.h"
+#include "runs/chain_files.h"
+#include "runs/parameter_file.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 // and the reference solution of `drumlin study benchmarks`, and LAMMPS against LIGGGHTS.
 #include "tests/support/engine_runs.h"
 
-#include "studies/benchmarks/checks.h"
-#include "studies/benchmarks/runs.h"
+#include "lab/benchmarks/checks.h"
+#include "lab/benchmarks/runs.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Boundaries of regimes that are computed in closed form and from orbits, against runs of the chain in the
 // engine on both sides of them, as near as the error of these runs permits.
-#include "roller/orbits.h"
+#include "map/orbits.h"
 #include "tests/support/engine_runs.h"
 
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include "tests/support/host_deck.h"
 
 #include "report/report.h"
-#include "support/parameter_file.h"
+#include "runs/parameter_file.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // The decks of the bed on balls of a given grading: the files note it, and the time steps follow the smallest ball.
 #include "tests/support/engine_runs.h"
 
-#include "support/parameter_file.h"
+#include "runs/parameter_file.h"
 
 #include <gtest/gtest.h>
 

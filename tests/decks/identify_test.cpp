@@ -1,5 +1,5 @@
 // Stiffness and damping found from runs of the engine at the decks' default steps.
-#include "roller/identified_record.h"
+#include "identify/identified_record.h"
 #include "tests/support/chain_record.h"
 #include "tests/support/engine_runs.h"
 

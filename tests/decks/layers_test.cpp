@@ -3,7 +3,7 @@
 #include "tests/support/engine_runs.h"
 #include "tests/support/host_deck.h"
 
-#include "support/parameter_file.h"
+#include "runs/parameter_file.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

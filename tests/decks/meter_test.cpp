@@ -1,7 +1,7 @@
 // Meter values of the chain in the engine: from the sums over every step, against those of the exact solution.
 #include "tests/support/engine_runs.h"
 
-#include "roller/meter_values.h"
+#include "meter/values.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // A run of the chain as the record of a roller.
 #pragma once
 
-#include "roller/chain_record.h"
+#include "record/chain_record.h"
 
 namespace drumlin::test {
 

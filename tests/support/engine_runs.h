@@ -2,7 +2,7 @@
 #pragma once
 
 #include "chain/parameters.h"
-#include "chain/run_files.h"
+#include "runs/chain_files.h"
 #include "engine/engine_run.h"
 #include "support/files.h"
 

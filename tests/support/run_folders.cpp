@@ -2,7 +2,7 @@
 
 #include "chain/analysis.h"
 #include "chain/direct_solver.h"
-#include "chain/run_files.h"
+#include "runs/chain_files.h"
 #include "support/files.h"
 #include "tests/support/dump_texts.h"
 

@@ -1,6 +1,6 @@
 #include "studies/box/results.h"
 
-#include "roller/meter_values.h"
+#include "meter/values.h"
 #include "studies/stiffness/results.h"
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include "studies/placed_bed.h"
 #include "studies/stiffness/results.h"
 #include "studies/study.h"
-#include "support/parameter_file.h"
+#include "runs/parameter_file.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // Results of the stiffness study: the rows of its file runs.csv, and what a variable changes.
 #pragma once
 
-#include "roller/identified_record.h"
+#include "identify/identified_record.h"
 #include "studies/study.h"
 #include "support/statistics.h"
 

@@ -1,6 +1,6 @@
 // `drumlin exact` as a user calls it: its files, messages and exit status.
 #include "chain/direct_solver.h"
-#include "chain/run_files.h"
+#include "runs/chain_files.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

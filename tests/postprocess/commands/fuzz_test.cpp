@@ -5,7 +5,7 @@
 //
 // The number of a mutant is the seed of everything that is random in it: a failure names it, and the same
 // number gives the same damage.
-#include "chain/run_files.h"
+#include "runs/chain_files.h"
 #include "support/files.h"
 #include "support/process.h"
 #include "tests/support/damaged_files.h"

@@ -1,7 +1,7 @@
 // ./drumlin vtk on dumps written by hand: its files, and its messages on files that are no dumps.
 #include "bed/coarse_graining.h"
 #include "bed/dump_readers.h"
-#include "chain/run_files.h"
+#include "runs/chain_files.h"
 #include "support/files.h"
 #include "support/process.h"
 #include "tests/support/dump_texts.h"

@@ -3,7 +3,7 @@
 
 #include "chain/direct_solver.h"
 #include "chain/parameters.h"
-#include "chain/run_files.h"
+#include "runs/chain_files.h"
 #include "support/csv.h"
 #include "support/files.h"
 

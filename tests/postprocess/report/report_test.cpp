@@ -1,9 +1,10 @@
 // A report made from direct solutions: its pages are strict XML, and every link leads to a file.
+#include "pages/html.h"
 #include "report/report.h"
 
 #include "chain/direct_solver.h"
-#include "chain/run_files.h"
-#include "report/chain_page.h"
+#include "runs/chain_files.h"
+#include "report/chain/page.h"
 #include "report/run_folder.h"
 #include "support/files.h"
 #include "support/text.h"

@@ -1,7 +1,7 @@
 // Advice from invented curves for which the answer is known, and the command as a user calls it.
 #include "studies/step_advice.h"
 
-#include "chain/run_files.h"
+#include "runs/chain_files.h"
 #include "support/files.h"
 #include "support/process.h"
 #include "support/usage_error.h"

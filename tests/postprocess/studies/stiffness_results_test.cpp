@@ -3,7 +3,7 @@
 #include "studies/stiffness/results.h"
 
 #include "chain/direct_solver.h"
-#include "chain/run_files.h"
+#include "runs/chain_files.h"
 #include "support/files.h"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,66 @@
+// Identification of a roller's record: the law of the whole record and of windows of cycles.
+#pragma once
+
+#include "record/record.h"
+#include "identify/identification.h"
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+/// How a record is identified.
+struct RecordSetting {
+  bool accelerations_only = false; ///< positions and velocities of the record are not used
+  /// Whether x_drum = 0 is where drum and soil just touch; not given: yes for chain.csv, else no.
+  std::optional<bool> known_origin;
+  /// Largest error of the exciter's phase [rad], as in IdentificationSetting.
+  double phase_within = 0.0;
+  /// Share of the largest force as in IdentificationSetting; not given: 0 for chain.csv, 0.2 for others.
+  std::optional<double> least_force;
+  int window = 10; ///< cycles, 4 or more
+};
+
+/// The law of a window of cycles.
+struct LawWindow {
+  int first_cycle = 1; ///< counted from 1
+  double begin = 0.0;  ///< [s]
+  double end = 0.0;    ///< [s]
+  std::optional<LawEstimate> law;
+  std::string why_not; ///< the reason if there is no law
+};
+
+/// What a record says.
+struct IdentifiedRecord {
+  std::filesystem::path file;
+  double frequency = 0.0; ///< of the excitation [Hz]
+  double cycles = 0.0;
+  bool known_origin = false;
+  bool phase_known = true; ///< no error of the exciter's phase was allowed
+  bool positions = false;  ///< whether a position or velocity of the drum was used
+  bool frame = false;      ///< whether the frame's acceleration is in the record
+  double force_difference =
+      -1.0; ///< RMS of force minus F_contact of the record over RMS of that; -1: not there
+  /// What a meter shows for the whole record, of its even number of cycles (meter_values.h) [N/m]; apparent
+  /// where contact is lost.
+  std::optional<double> k_B, k_1;
+  std::vector<double> time; ///< [s]
+  double per_cycle = 0.0;   ///< samples per cycle
+  Identification whole;
+  std::vector<LawWindow> windows;
+};
+
+/// The signals of a record, from its accelerations, masses and excitation; the record's column
+/// F_contact is not used. If the record has no acceleration of the frame, it is taken as zero. Gravity is 9.81 m/s2 if the record does not
+/// give it. std::runtime_error with one line for what is missing.
+DrumSignals signals_of(const Record &record, bool accelerations_only);
+
+/// Identifies a record; std::runtime_error with one line if it cannot be done. `progress` is called with what
+/// is being done.
+IdentifiedRecord identify_record(const Record &record, const RecordSetting &setting,
+                                 const std::function<void(const std::string &)> &progress = {});
+
+} // namespace drumlin::post

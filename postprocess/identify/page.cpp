@@ -1,0 +1,325 @@
+#include "identify/page.h"
+
+#include "pages/figure_data.h"
+#include "pages/page.h"
+#include "support/csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace drumlin::post {
+
+namespace {
+
+constexpr double degrees = 57.29577951308232; // per radian
+
+// A value with its interval in a unit, with two digits of the half width.
+std::string with_interval(const MeanInterval &value, double unit) {
+  if (!std::isfinite(value.mean)) return no_value;
+  const double mean = value.mean / unit;
+  const double half = value.half_width / unit;
+  if (!(half > 0.0) || !std::isfinite(half)) return fmt::format("{:.6g} +- {:.2g}", mean, half);
+  constexpr int most_decimals = 6;
+  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(half))), 0, most_decimals);
+  return fmt::format("{:.{}f} +- {:.{}f}", mean, decimals, half, decimals);
+}
+
+bool has_flights(const Identification &found) {
+  return std::any_of(found.pieces.begin(), found.pieces.end(),
+                     [](const ContactPiece &piece) { return !piece.flight.empty(); });
+}
+
+std::string pull_sentence(const Identification &found) {
+  const std::string tension = fmt::format("{:.3g} kN", found.tension / 1e3);
+  if (found.pull == Pull::pulls)
+    return fmt::format("The contact pulls (transition A): tension up to {} is measured.", tension);
+  if (found.pull == Pull::does_not_pull)
+    return fmt::format(
+        "The contact does not pull (transition B): under A it would, with {} before each break.", tension);
+  return has_flights(found)
+             ? "Whether the contact can pull cannot be told: the tension under A would be too small or too "
+               "short to be seen."
+             : "Whether the contact can pull cannot be told: contact is not lost.";
+}
+
+// Whether nothing in the record tells the phase, so that its uncertainty decides over that of k and c.
+bool phase_decides(const IdentifiedRecord &record) {
+  return !record.phase_known && !has_flights(record.whole) && !(record.positions && record.known_origin);
+}
+
+std::string source_sentence(const IdentifiedRecord &record) {
+  std::string text = record.positions ? "From accelerations, position and velocity of the drum"
+                                      : "From accelerations alone, integrated over each contact";
+  if (record.positions)
+    text += record.known_origin ? "; x_drum = 0 is where drum and soil just touch."
+                                : "; where drum and soil just touch is unknown and found for each contact.";
+  else
+    text += ".";
+  if (!record.frame) text += " No acceleration of the frame: it counts as zero.";
+  return text;
+}
+
+struct Row {
+  std::string name;
+  double begin, end;
+  const LawEstimate *law;
+};
+
+std::vector<Row> rows_of(const IdentifiedRecord &record) {
+  std::vector<Row> rows = {{"all", record.time.front(), record.time.back(), &record.whole.law}};
+  for (const LawWindow &window : record.windows)
+    rows.push_back({fmt::format("{}", window.first_cycle), window.begin, window.end,
+                    window.law ? &*window.law : nullptr});
+  return rows;
+}
+
+PageTable window_table(const IdentifiedRecord &record) {
+  PageTable table;
+  table.name = "windows";
+  table.title = "Law of the contact, 95 % confidence intervals";
+  table.header = {"from cycle",
+                  "time (s)",
+                  "k (MN/m)",
+                  "c (kN s/m)",
+                  "D (-)",
+                  "R2 (-)",
+                  "share in contact (-)",
+                  "contacts or cycles of them",
+                  "phase error (degrees)"};
+  for (const Row &row : rows_of(record)) {
+    const std::string time = fmt::format("{:.4g} to {:.4g}", row.begin, row.end);
+    if (row.law == nullptr) {
+      table.add({row.name, time, no_value, no_value, no_value, no_value, no_value, no_value, no_value});
+      continue;
+    }
+    const LawEstimate &law = *row.law;
+    table.add({row.name, time, with_interval(law.k, 1e6), with_interval(law.c, 1e3),
+               with_interval(law.D, 1.0), fmt::format("{:.5f}", law.r2),
+               fmt::format("{:.3f}", law.contact_share), fmt::format("{}", law.blocks),
+               with_interval(law.phase, 1.0 / degrees)});
+  }
+  for (const LawWindow &window : record.windows)
+    if (!window.law)
+      table.notes.push_back(fmt::format("From cycle {}: {}.", window.first_cycle, window.why_not));
+  return table;
+}
+
+// The last cycles of the record.
+SampleRun shown_samples(const IdentifiedRecord &record) {
+  constexpr double cycles = 4.0;
+  const auto count = std::min(record.time.size(), static_cast<std::size_t>(cycles * record.per_cycle));
+  return {record.time.size() - count, record.time.size()};
+}
+
+PageFigure loop_figure(const IdentifiedRecord &record) {
+  const std::string name = "loop";
+  PageFigure figure;
+  figure.label = "Fig. 1";
+  figure.weight = 2.0;
+  figure.caption = "Contact force over the position of the drum and over time in the last four cycles: force "
+                   "from the equations of motion, and law that was fitted to it. The position is the fitted "
+                   "motion.";
+  if (!record.positions || !record.known_origin)
+    figure.caption += " Its origin was found for each contact: the law has no force at rest there.";
+  figure.figure = {name, "Contact force and fitted law", {}, 2};
+  CurveTable table("time (s),drum position (mm),contact force (kN)");
+  const Identification &found = record.whole;
+  const SampleRun shown = shown_samples(record);
+  for (std::size_t i = shown.first; i < shown.end; ++i)
+    table.row("equations of motion", {record.time[i], 1e3 * found.x[i], found.force[i] / 1e3});
+  for (std::size_t i = shown.first; i < shown.end; ++i) {
+    if (std::isnan(found.fitted[i]))
+      table.row("no contact", {record.time[i], 0.0, 0.0}); // a row of another curve ends the line
+    else
+      table.row("fitted law", {record.time[i], 1e3 * found.x[i], found.fitted[i] / 1e3});
+  }
+  Panel loop;
+  loop.title = "Loop";
+  loop.x_label = "drum position (mm)";
+  loop.y_label = "contact force (kN)";
+  loop.curves = {curve(name, "fitted law", "$3", "4", CurveStyle::condition_a),
+                 curve(name, "equations of motion", "$3", "4", CurveStyle::dots_up)};
+  Panel history;
+  history.title = "History";
+  history.x_label = "time (s)";
+  history.y_label = "contact force (kN)";
+  history.tight_x = true;
+  history.curves = {curve(name, "fitted law", "$2", "4", CurveStyle::condition_a),
+                    curve(name, "equations of motion", "$2", "4", CurveStyle::dots_up)};
+  figure.figure.panels = {loop, history};
+  figure.csv = table.text();
+  return figure;
+}
+
+PageFigure residual_figure(const IdentifiedRecord &record) {
+  const std::string name = "residuals";
+  PageFigure figure;
+  figure.label = "Fig. 2";
+  figure.caption = "Force from the equations of motion minus that of the law, in contact, over the phase of "
+                   "the excitation. A pattern means that the law does not describe the contact.";
+  figure.figure = {name, "Residuals", {}, 1};
+  CurveTable table("cycles,residual (kN)");
+  const Identification &found = record.whole;
+  constexpr std::size_t most_points = 20000;
+  const std::size_t stride = 1 + found.force.size() / most_points;
+  for (std::size_t i = 0; i < found.force.size(); i += stride) {
+    if (std::isnan(found.fitted[i])) continue;
+    const double cycles = record.time[i] * record.frequency;
+    table.row("residual", {cycles - std::floor(cycles), (found.force[i] - found.fitted[i]) / 1e3});
+  }
+  Panel panel;
+  panel.x_label = "time in the cycle over its length (-)";
+  panel.y_label = "residual (kN)";
+  panel.curves = {curve(name, "residual", "$2", "3", CurveStyle::dots_up)};
+  panel.curves.back().title.clear();
+  figure.figure.panels = {panel};
+  figure.csv = table.text();
+  return figure;
+}
+
+PageFigure window_figure(const IdentifiedRecord &record) {
+  const std::string name = "along";
+  PageFigure figure;
+  figure.label = "Fig. 3";
+  figure.weight = 1.0;
+  figure.caption =
+      "Stiffness and damping ratio of the windows, with 95 % confidence intervals, along the record.";
+  figure.figure = {name, "Along the record", {}, 2};
+  CurveTable table("time (s),value,low,high");
+  const auto add = [&](const char *curve_name, double time, const MeanInterval &value, double unit) {
+    table.row(curve_name, {time, value.mean / unit, (value.mean - value.half_width) / unit,
+                           (value.mean + value.half_width) / unit});
+  };
+  for (const LawWindow &window : record.windows)
+    if (window.law) {
+      const double time = 0.5 * (window.begin + window.end);
+      add("k", time, window.law->k, 1e6);
+      add("D", time, window.law->D, 1.0);
+    }
+  const auto panel = [&](const char *curve_name, const char *label, MeanInterval LawEstimate::*value,
+                         double unit) {
+    Panel one;
+    one.x_label = "time (s)";
+    one.y_label = label;
+    one.curves = {curve(name, curve_name, "$2", "3:4:5", CurveStyle::spread)};
+    one.curves.back().title.clear();
+    double low = 0.0;
+    double high = 0.0;
+    for (const LawWindow &window : record.windows) {
+      if (!window.law || !std::isfinite(((*window.law).*value).mean)) continue;
+      const MeanInterval &shown = (*window.law).*value;
+      low = std::min(low, (shown.mean - shown.half_width) / unit);
+      high = std::max(high, (shown.mean + shown.half_width) / unit);
+    }
+    constexpr double margin = 1.1;
+    one.y_range = axis_range(margin * low, margin * high);
+    return one;
+  };
+  figure.figure.panels = {panel("k", "stiffness k (MN/m)", &LawEstimate::k, 1e6),
+                          panel("D", "damping ratio D (-)", &LawEstimate::D, 1.0)};
+  figure.csv = table.text();
+  return figure;
+}
+
+} // namespace
+
+std::vector<std::string> identification_answer(const IdentifiedRecord &record) {
+  const LawEstimate &law = record.whole.law;
+  std::vector<std::string> lines = {
+      fmt::format("k = {} MN/m", with_interval(law.k, 1e6)),
+      fmt::format("c = {} kN s/m", with_interval(law.c, 1e3)),
+      fmt::format("D = {}", with_interval(law.D, 1.0)),
+      pull_sentence(record.whole),
+      fmt::format("R2 = {:.6f}; RMS residual of the force {:.3g} kN; {} samples in contact, {:.1f} % of all; "
+                  "{} contacts or cycles of them.",
+                  law.r2, law.force_noise / 1e3, law.samples, 100.0 * law.contact_share, law.blocks),
+      record.phase_known
+          ? std::string("The exciter's phase counts as exact.")
+          : fmt::format("Error of the exciter's phase: {} degrees.", with_interval(law.phase, 1.0 / degrees)),
+      source_sentence(record)};
+  if (phase_decides(record))
+    lines.emplace_back(
+        "Contact is not lost and no position from the point of first contact is known: an error "
+        "of the phase acts on the force as k and c do, and makes most of their intervals. A "
+        "phase known better, or stiffer soil, on which the drum lifts off, narrows them.");
+  if (record.k_B && record.k_1)
+    lines.push_back(
+        fmt::format("A meter would show k_B = {:.4g} MN/m, with the forces of the frame {:.4g} MN/m: the "
+                    "soil's stiffness in unbroken contact only.",
+                    *record.k_B / 1e6, *record.k_1 / 1e6));
+  if (record.force_difference >= 0.0)
+    lines.push_back(fmt::format("The force differs from F_contact of the record by {:.1e} of its RMS.",
+                                record.force_difference));
+  return lines;
+}
+
+std::string identification_csv(const IdentifiedRecord &record) {
+  std::string text = csv_line({"window", "begin [s]", "end [s]", "k [N/m]", "k_half_width [N/m]", "c [N s/m]",
+                               "c_half_width [N s/m]", "D [-]", "D_half_width [-]", "phase_error [rad]",
+                               "phase_half_width [rad]", "R2 [-]", "residual [N]", "contact_share [-]",
+                               "contacts", "samples", "pulls"});
+  const auto cell = [](double value) { return std::isfinite(value) ? number_text(value) : std::string(); };
+  for (const Row &row : rows_of(record)) {
+    std::vector<std::string> cells = {row.name, cell(row.begin), cell(row.end)};
+    if (row.law != nullptr) {
+      const LawEstimate &law = *row.law;
+      for (const MeanInterval &value : {law.k, law.c, law.D, law.phase}) {
+        cells.push_back(cell(value.mean));
+        cells.push_back(cell(value.half_width));
+      }
+      for (const double value : {law.r2, law.force_noise, law.contact_share})
+        cells.push_back(cell(value));
+      cells.push_back(fmt::format("{}", law.blocks));
+      cells.push_back(fmt::format("{}", law.samples));
+    } else {
+      constexpr std::size_t missing = 13;
+      cells.resize(cells.size() + missing);
+    }
+    const Pull pull = record.whole.pull;
+    cells.emplace_back(row.name != "all"             ? ""
+                       : pull == Pull::pulls         ? "yes"
+                       : pull == Pull::does_not_pull ? "no"
+                                                     : "cannot be told");
+    text += csv_line(cells);
+  }
+  return text;
+}
+
+void write_identification_page(const std::filesystem::path &out, const IdentifiedRecord &record,
+                               const LumpedComparison *compared) {
+  const bool bed = record.file.filename() == "bed.csv";
+  Page page(out, "What the record says of the soil", bed ? Scene::bed : Scene::chain);
+  page.answer(
+      fmt::format("{}, {:.4g} cycles at {:.4g} Hz.", record.file.string(), record.cycles, record.frequency));
+  for (const std::string &line : identification_answer(record))
+    page.answer(line.back() == '.' ? line : line + ".");
+  page.section("Law of the contact");
+  page.table(window_table(record));
+  page.figure(loop_figure(record));
+  page.section("Residuals");
+  page.figure(residual_figure(record));
+  page.section("Along the record");
+  page.figure(window_figure(record));
+  if (compared != nullptr) {
+    page.section("Chain and record");
+    add_lumped_comparison(page, {*compared}, 4);
+  }
+  page.section("Method");
+  page.paragraph(
+      "The contact force follows from the equations of motion, F = m2 a2 + m3 a3 + (m2 + m3) g + Fe. While "
+      "drum "
+      "and soil touch, the law is F = -k x - c v, with x and v the integrals of the measured acceleration "
+      "from "
+      "the start of each contact and their two integration constants as unknowns. k, c, the phase of the "
+      "exciter and these constants minimize the squared residuals of force, position and velocity together, "
+      "each weighted by its own scatter. Confidence intervals allow any correlation of the residuals within "
+      "a "
+      "contact (or a cycle of one that lasts longer). They cover scatter and the phase, not what the law "
+      "leaves "
+      "out: a pattern in the residuals shows that.");
+  page.write();
+}
+
+} // namespace drumlin::post

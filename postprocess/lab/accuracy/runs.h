@@ -1,0 +1,31 @@
+// The runs of the accuracy study: the chain and single impacts at many step sizes, each compared with its
+// reference solution.
+#pragma once
+
+#include "advice/step_errors.h"
+#include "engine/deck_run.h"
+
+#include <string>
+
+namespace drumlin::post {
+
+/// Runs in.chain. \param stepping "second" or "stock"
+ChainErrors measure_chain(const ChainParameters &parameters, const std::string &stepping, int steps_per_cycle,
+                          const DirectResult &reference);
+
+/// Runs a case of Table 1 by the engine's own contact law: velocity error and times only.
+ChainErrors measure_engine_law(const std::string &case_name, int steps_per_cycle,
+                               const DirectResult &reference);
+
+/// Errors of the restitution over the phases of the onset, absolute.
+struct ImpactErrors {
+  double worst;
+  double rms;
+};
+ImpactErrors measure_impacts(Transition transition, double damping_ratio, const std::string &stepping,
+                             double steps_per_contact, int phases);
+/// The same of a run of study/in.impacts, at this speed, m/s.
+ImpactErrors impact_errors(const DeckRun &run, int phases, Transition transition, double damping_ratio,
+                           double speed);
+
+} // namespace drumlin::post

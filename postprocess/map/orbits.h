@@ -1,0 +1,108 @@
+// Periodic motions (orbits) of the chain, their stability, and the parameters at which they lose it. The
+// Poincare map takes the state at the start of a cycle of the excitation to that at the start of the next. It
+// is linearised exactly: over a piece (MotionPiece) by the matrix exponential, at an event by the saltation
+// matrix (PhaseChange::saltation).
+//
+// Source of the saltation matrix and of Floquet multipliers of motions with events: di Bernardo, Budd,
+// Champneys, Kowalczyk, "Piecewise-smooth Dynamical Systems", Springer 2008.
+#pragma once
+
+#include "chain/closed_form.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <complex>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace drumlin::post {
+
+/// Result of following a motion over some cycles.
+struct Passage {
+  ChainState end = ChainState::Zero();
+  Eigen::Matrix4d jacobian = Eigen::Matrix4d::Identity(); ///< d end / d start; only if asked for
+  int makes = 0;
+  int breaks = 0;
+  double contact_time = 0.0;                       ///< [s]
+  ContactPhase last_phase = ContactPhase::contact; ///< at the end
+  bool always_contact() const { return breaks == 0 && makes == 0 && last_phase == ContactPhase::contact; }
+};
+
+/// Follows the motion from `state` at the start of a cycle over `cycles` cycles.
+Passage pass(const ChainSolver &solver, const ChainState &state, int cycles, bool with_jacobian = false);
+
+/// Scales of position and velocity by which differences of states are divided: those that the forces of
+/// excitation and gravity cause within 1/omega, the time of one radian of the cycle.
+ChainState state_scale(const ChainParameters &parameters);
+
+/// A motion that repeats itself after `period` cycles.
+struct PeriodicOrbit {
+  int period = 1;
+  ChainState state = ChainState::Zero();             ///< at the start of a cycle
+  Passage passage;                                   ///< over the period, with Jacobian
+  std::array<std::complex<double>, 4> multipliers{}; ///< Floquet multipliers, largest modulus first
+  double residual = 0.0;                             ///< |end - state| in units of state_scale()
+  bool stable() const { return std::abs(multipliers[0]) < 1.0; }
+  bool always_contact() const { return passage.always_contact(); }
+};
+
+/// Eigenvalues of a monodromy matrix, largest modulus first.
+std::array<std::complex<double>, 4> floquet_multipliers(const Eigen::Matrix4d &monodromy);
+
+/// Solves for an orbit by Newton's method, from a guess. No value if the residual does not become less than
+/// 1e-11, or if the state exceeds 1e3 times state_scale().
+std::optional<PeriodicOrbit> find_orbit(const ChainSolver &solver, const ChainState &guess, int period);
+
+/// State at the start of a cycle of the linear steady state with unbroken contact, even if the contact law
+/// would break the contact. Throws std::runtime_error for an undamped resonance.
+ChainState steady_contact_state(const ChainParameters &parameters);
+
+/// How far that steady state is from losing contact: the least contact force [N] for condition B, k times the
+/// least overlap [N] for A. Negative if the contact is lost. Closed form: mean minus amplitude.
+double contact_margin(const ChainParameters &parameters);
+
+/// An exponential rate with its 95 % confidence interval, per cycle.
+struct Exponent {
+  double mean = 0.0, low = 0.0, high = 0.0;
+};
+
+/// Largest Lyapunov exponent over `cycles` from a motion at the start of a cycle, after `lead` cycles in
+/// which the small difference of two motions turns to the direction of fastest growth. The confidence
+/// interval is that of the mean of 20 blocks of cycles (Student's t, 19 degrees of freedom). `state` is
+/// replaced by the state at the end.
+Exponent largest_exponent(const ChainSolver &solver, ChainState &state, int lead, int cycles);
+
+/// The parameters of the chain as a function of the one that is varied.
+using ChainFamily = std::function<ChainParameters(double)>;
+
+struct BranchPoint {
+  double value = 0.0;
+  PeriodicOrbit orbit;
+};
+
+/// Follows the orbit `start`, stable or not, while the varied parameter goes from one value to another in
+/// `steps` steps, or more where Newton's method needs shorter ones. Ends early where no orbit is found even
+/// with a step of 1e-7 of the range, for instance where a stable and an unstable orbit meet and vanish
+/// (fold).
+std::vector<BranchPoint> continue_orbit(const ChainFamily &family, double from, double to, int steps,
+                                        const PeriodicOrbit &start);
+
+/// Value of the varied parameter at which an orbit changes its kind.
+struct Change {
+  double value = 0.0; ///< value of the varied parameter, relative error 1e-11
+  bool smooth = true; ///< doubling: a multiplier passes -1; false: it jumps over -1, since the orbit meets a
+                      ///< boundary of the contact
+};
+
+/// The value between `from` and `to` at which the steady state with unbroken contact begins or ends, decided
+/// by whether the computed motion has a break. No value if the contact is unbroken at both or at neither.
+std::optional<Change> locate_contact_loss(const ChainFamily &family, double from, double to);
+
+/// Where a multiplier of the orbit that begins as `start` at `from` passes -1. No value if the sign of det(J
+/// + I) is the same at both ends or the orbit cannot be followed.
+std::optional<Change> locate_doubling(const ChainFamily &family, double from, double to,
+                                      const PeriodicOrbit &start);
+
+} // namespace drumlin::post

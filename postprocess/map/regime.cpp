@@ -1,0 +1,222 @@
+#include "map/regime.h"
+
+#include "support/harmonics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <vector>
+
+namespace drumlin::post {
+
+const std::array<const char *, regime_count> regime_names = {
+    "continuous contact", "partial uplift", "period 2", "higher period", "aperiodic", "undecided"};
+
+namespace {
+
+// Gauss's rule of 12 points on [-1, 1], the positive half: Abramowitz and Stegun, Handbook of Mathematical
+// Functions, table 25.4.
+struct Node {
+  double place, weight;
+};
+constexpr std::array<Node, 6> gauss = {{{0.125233408511468915, 0.249147045813402785},
+                                        {0.367831498998180194, 0.233492536538354809},
+                                        {0.587317954286617447, 0.203167426723065922},
+                                        {0.769902674194304687, 0.160078328543346226},
+                                        {0.904117256370474857, 0.106939325995318431},
+                                        {0.981560634246719251, 0.047175336386511827}}};
+
+class Meter : public MotionObserver {
+public:
+  explicit Meter(const ChainSolver &solver) : solver_(solver) {}
+
+  void begin_cycle(int cycle) { turn_ = (cycle % 2 == 0 ? 0.0 : 3.14159265358979323846); }
+
+  void piece(const MotionPiece &piece, const PhaseDynamics & /*dynamics*/) override {
+    const double half = 0.5 * piece.end;
+    for (const Node &node : gauss)
+      for (const double side : {-1.0, 1.0})
+        add(piece, half * (1.0 + side * node.place), node.weight * half * piece.length);
+    if (piece.phase != ContactPhase::contact) return;
+    contact_ += piece.end * piece.length;
+    peak(piece);
+  }
+  void change(const PhaseChange & /*change*/) override {}
+
+  MeterValues values(int cycles) const {
+    const double basic = std::abs(amplitude_[1]);
+    MeterValues values;
+    if (basic > 0.0) {
+      const HarmonicAmplitudes amplitudes = {basic, std::abs(amplitude_[2]), std::abs(amplitude_[0])};
+      values.cmv = compaction_meter_value(amplitudes);
+      values.rmv = resonance_meter_value(amplitudes);
+    }
+    values.peak_force = peak_;
+    values.contact_share = std::min(1.0, contact_ / (cycles * solver_.parameters().period()));
+    return values;
+  }
+
+private:
+  void add(const MotionPiece &piece, double s, double weight) {
+    const double a = weight * piece.drum_acceleration(s);
+    const double half_angle = 0.5 * (solver_.parameters().omega * (piece.begin + s * piece.length)) + turn_;
+    const std::complex<double> half(std::cos(half_angle), std::sin(half_angle));
+    const std::complex<double> once = half * half;
+    amplitude_[0] += a * half;
+    amplitude_[1] += a * once;
+    amplitude_[2] += a * once * once;
+  }
+
+  // Largest force in a piece: where its rate changes from rise to fall between points so close that it does
+  // so once.
+  void peak(const MotionPiece &piece) {
+    constexpr int parts = 8;
+    const auto force = [&](double s) { return solver_.force(piece.phase, piece.state(s)); };
+    const auto rate = [&](double s) {
+      return -(solver_.parameters().k * piece.state(s)[1] +
+               solver_.parameters().damping() * piece.drum_acceleration(s));
+    };
+    double lo = 0.0;
+    double rise = rate(lo);
+    peak_ = std::max({peak_, force(0.0), force(piece.end)});
+    for (int part = 1; part <= parts; ++part) {
+      double hi = piece.end * part / parts;
+      const double next = rate(hi);
+      const double end = hi;
+      if (rise > 0.0 && next < 0.0) {
+        while (hi - lo > 1e-9) { // the force is flat here: its own error is the square
+          const double middle = 0.5 * (lo + hi);
+          (rate(middle) > 0.0 ? lo : hi) = middle;
+        }
+        peak_ = std::max(peak_, force(lo));
+      }
+      lo = end;
+      rise = next;
+    }
+  }
+
+  const ChainSolver &solver_;
+  double turn_ = 0.0;
+  std::array<std::complex<double>, 3> amplitude_{}; // at 0.5, 1 and 2 times the excitation
+  double peak_ = 0.0;
+  double contact_ = 0.0;
+};
+
+double distance(const ChainState &a, const ChainState &b, const ChainState &scale) {
+  return (a - b).cwiseQuotient(scale).norm();
+}
+
+// The orbit with its shortest period: Newton's method for a period also finds the orbits whose period is a
+// fraction of it.
+PeriodicOrbit with_shortest_period(const ChainSolver &solver, const PeriodicOrbit &orbit) {
+  constexpr double same = 1e-8;
+  const ChainState scale = state_scale(solver.parameters());
+  for (int period = 1; 2 * period <= orbit.period; ++period) {
+    if (orbit.period % period != 0) continue;
+    if (distance(pass(solver, orbit.state, period).end, orbit.state, scale) > same) continue;
+    if (const auto shorter = find_orbit(solver, orbit.state, period)) return *shorter;
+  }
+  return orbit;
+}
+
+// The stable orbit that the states at the starts of the last cycles approach; the shortest period is tried
+// first.
+std::optional<PeriodicOrbit> reached_orbit(const ChainSolver &solver, const std::vector<ChainState> &states) {
+  constexpr double near = 0.02; // of the scale, after which Newton is tried
+  constexpr double met = 1e-6;
+  const ChainState scale = state_scale(solver.parameters());
+  const std::size_t last = states.size() - 1;
+  const std::size_t longest = std::min<std::size_t>(longest_period, last / 2);
+  const auto returns =
+      [&](std::size_t period) { // as long as the period: an aperiodic motion does so by chance
+        for (std::size_t i = last; i > last - period; --i)
+          if (distance(states[i], states[i - period], scale) > near) return false;
+        return true;
+      };
+  for (std::size_t period = 1; period <= longest; ++period) {
+    if (!returns(period)) continue;
+    std::optional<PeriodicOrbit> orbit = find_orbit(solver, states[last], static_cast<int>(period));
+    if (!orbit || !orbit->stable()) continue;
+    const ChainState &long_ago = states[last - longest / period * period];
+    const double now = distance(states[last], orbit->state, scale);
+    if (now < met || (now < near && now < distance(long_ago, orbit->state, scale)))
+      return with_shortest_period(solver, *orbit);
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+MeterValues meter_values(const ChainSolver &solver, const ChainState &state, int cycles) {
+  Meter meter(solver);
+  ChainMotion motion = solver.start_at(state);
+  for (int cycle = 0; cycle < cycles; ++cycle) {
+    meter.begin_cycle(cycle);
+    solver.finish_cycle(motion, &meter);
+  }
+  return meter.values(cycles);
+}
+
+namespace {
+
+// Continues the motion for some cycles. Returns the states at the ends of the last of them.
+std::vector<ChainState> last_states(const ChainSolver &solver, ChainMotion &motion, int cycles) {
+  std::vector<ChainState> states;
+  for (int cycle = 0; cycle < cycles; ++cycle) {
+    solver.finish_cycle(motion);
+    if (cycle + 2 * longest_period + 1 >= cycles) states.push_back(motion.state);
+  }
+  return states;
+}
+
+RegimePoint of_orbit(const ChainSolver &solver, const PeriodicOrbit &orbit, long followed) {
+  RegimePoint point;
+  point.followed = static_cast<int>(followed);
+  point.period = orbit.period;
+  point.multiplier = std::abs(orbit.multipliers[0]);
+  constexpr double forgotten = -1e3; // a multiplier of zero has no logarithm
+  const double rate = point.multiplier > 0.0 ? std::log(point.multiplier) / point.period : forgotten;
+  point.exponent = {rate, rate, rate};
+  point.regime = orbit.always_contact() ? Regime::continuous_contact
+                 : orbit.period == 1    ? Regime::partial_uplift
+                 : orbit.period == 2    ? Regime::period_2
+                                        : Regime::higher_period;
+  point.meter = meter_values(solver, orbit.state, orbit.period % 2 == 0 ? orbit.period : 2 * orbit.period);
+  return point;
+}
+
+} // namespace
+
+RegimePoint judge_regime(const ChainParameters &parameters, int cycles) {
+  const ChainSolver solver(parameters);
+  ChainMotion motion = solver.start();
+  for (int stretch = 0; stretch < longest_transient; ++stretch) {
+    const std::vector<ChainState> states = last_states(solver, motion, cycles);
+    if (const auto orbit = reached_orbit(solver, states)) return of_orbit(solver, *orbit, motion.cycle);
+  }
+
+  // The motion is aperiodic, or approaches its orbit very slowly.
+  constexpr int lead = 20;
+  constexpr int rounds = 3;
+  constexpr double clearly =
+      0.02; // per cycle: slower growth is also that of a motion which leaves an unstable orbit
+  RegimePoint point;
+  long followed = motion.cycle;
+  ChainState state = motion.state;
+  for (int round = 0; round < rounds && point.regime == Regime::undecided; ++round) {
+    point.exponent = largest_exponent(solver, state, lead, (round + 1) * cycles);
+    motion = solver.start_at(state);
+    const std::vector<ChainState> states = last_states(solver, motion, 2 * longest_period + 1);
+    followed += lead + (round + 1) * cycles + motion.cycle;
+    if (const auto orbit = reached_orbit(solver, states)) return of_orbit(solver, *orbit, followed);
+    state = motion.state;
+    if (point.exponent.low > 0.0 && (point.exponent.mean > clearly || round + 1 == rounds))
+      point.regime = Regime::aperiodic;
+  }
+  point.followed = static_cast<int>(followed);
+  constexpr int window = 64;
+  point.meter = meter_values(solver, state, window);
+  return point;
+}
+
+} // namespace drumlin::post

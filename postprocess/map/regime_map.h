@@ -1,0 +1,88 @@
+// Regimes over two numbers of the chain, and motions along one.
+#pragma once
+
+#include "map/regime.h"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+/// An axis of a map: the number's name as in decks, or me_re, the eccentric moment m_e r_e [kg m] with Fw =
+/// m_e r_e omega^2.
+struct MapAxis {
+  std::string name;
+  double from = 0.0;
+  double to = 0.0;
+  int count = 0;    ///< of values, the first at `from`, the last at `to`
+  bool log = false; ///< values in equal ratios instead of equal steps
+
+  double value(double place) const; ///< place 0 to count - 1, also between
+  std::string unit() const;         ///< "N/m"; "-" for a ratio
+  std::string label() const;        ///< "k [N/m]"
+};
+
+/// "NAME:FROM:TO:COUNT" or "NAME:FROM:TO:COUNT:log"; std::invalid_argument as support/range.h words it.
+MapAxis axis_from_text(const std::string &option, const std::string &text, int most_values);
+
+/// The chain that others of a map differ from.
+struct MapChain {
+  ChainParameters base;
+  std::optional<double> me_re; ///< eccentric moment [kg m]; none: the amplitude is Fw whatever the frequency
+
+  /// The chain with the numbers set by axes; Fw is computed from me_re last.
+  ChainParameters with(const std::vector<std::pair<std::string, double>> &values) const;
+};
+
+/// Points of a map in rows along x.
+struct MapGrid {
+  MapChain chain;
+  MapAxis x, y;
+  int cycles = 300;
+
+  std::size_t size() const { return static_cast<std::size_t>(x.count) * static_cast<std::size_t>(y.count); }
+  double x_of(std::size_t point) const;
+  double y_of(std::size_t point) const;
+  ChainParameters at(double x_value, double y_value) const;
+};
+
+/// Judges points of a map, given by their numbers, by several threads; `done` gets some of them after others, in order: the place
+/// of the first in `numbers`, and the points.
+void judge_points(const MapGrid &grid, const std::vector<std::size_t> &numbers, int threads,
+                  const std::function<void(std::size_t, const std::vector<RegimePoint> &)> &done);
+
+/// A point of a boundary between regimes, on the line between two neighbours of the grid, located to 1e-11 of
+/// it.
+struct BoundaryPoint {
+  std::string kind; ///< "loss of contact", "period doubling" (a multiplier passes -1) or "border" (it jumps
+                    ///< beyond -1)
+  double x = 0.0;
+  double y = 0.0;
+};
+
+/// Where unbroken contact ends (closed form) and where orbits double.
+std::vector<BoundaryPoint> find_boundaries(const MapGrid &grid, const std::vector<RegimePoint> &points,
+                                           int threads, const std::function<void(double)> &progress = {});
+
+/// Once-per-cycle samples along an axis.
+struct SweepSample {
+  bool up = true;
+  double value = 0.0;
+  double x_drum = 0.0; ///< at the start of a cycle [m]
+  double v_drum = 0.0; ///< [m/s]
+};
+struct Sweep {
+  std::vector<SweepSample> samples;
+  std::vector<BoundaryPoint> boundaries; ///< y unused
+};
+
+/// Follows the motion from one value to the next, up and then down, `cycles` cycles at each, of which the
+/// last `kept` are samples. Doublings are those of the orbit of period 1 that unbroken contact or the first
+/// value begins with.
+Sweep sweep(const MapChain &chain, const MapAxis &axis, int cycles, int kept,
+            const std::function<void(double)> &progress = {});
+
+} // namespace drumlin::post

@@ -1,0 +1,323 @@
+#include "meter/cycles.h"
+
+#include "chain/analysis.h"
+#include "runs/chain_files.h"
+#include "support/csv.h"
+#include "support/range.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace drumlin::post {
+
+namespace {
+
+constexpr double usual_gravity = 9.81;
+constexpr double computed_contact = 0.02; // of the largest force: less counts as no contact
+
+/// A part of an interval between two samples that lies within one cycle.
+struct Part {
+  std::size_t row;   // the interval begins with this sample
+  std::size_t cycle; // counted from 0
+  double from, to;   // shares of the interval
+};
+
+/// Calls `take` for each part of the record's whole cycles.
+template <class Take>
+void for_each_part(const Record &record, std::size_t cycles, const Take &take) {
+  const double h = record.interval;
+  const double period = record.period();
+  const double rounding = 1e-6 * h;
+  for (std::size_t row = 0; row + 1 < record.size(); ++row) {
+    const double begin = h * static_cast<double>(row);
+    const auto cycle = static_cast<std::size_t>((begin + rounding) / period);
+    const double border = static_cast<double>(cycle + 1) * period;
+    const bool divided = border < begin + h - rounding;
+    const double share = divided ? std::max(0.0, (border - begin) / h) : 1.0;
+    if (cycle < cycles) take(Part{row, cycle, 0.0, share});
+    if (divided && cycle + 1 < cycles) take(Part{row, cycle + 1, share, 1.0});
+  }
+}
+
+/// A signal's value at a share of the interval that begins with `row`.
+double at(const std::vector<double> &values, std::size_t row, double share) {
+  return values[row] + share * (values[row + 1] - values[row]);
+}
+
+std::complex<double> turn(double angle) { return {std::cos(angle), -std::sin(angle)}; }
+
+/// Adds the harmonics of acceleration computed from differences of velocity. The mean acceleration between two
+/// samples is assigned to the instant half-way between them. Taking this mean reduces the amplitude of a
+/// steady oscillation; division by the ratio sin(x)/x corrects this.
+void add_from_velocity(const Record &record, std::vector<MeterCycle> &cycles) {
+  const std::vector<double> &v = record.v_drum;
+  const double h = record.interval;
+  const double scale = 2.0 / record.period();
+  for_each_part(record, cycles.size(), [&](const Part &part) {
+    const double mean = (v[part.row + 1] - v[part.row]) / h;
+    const double before = part.row > 0 ? (v[part.row] - v[part.row - 1]) / h : mean;
+    const double middle = record.time[part.row] + 0.5 * (part.from + part.to) * h;
+    const double length = (part.to - part.from) * h;
+    for (std::size_t j = 0; j < meter_orders.size(); ++j) {
+      const double frequency = meter_orders[j] * *record.omega;
+      const double half = 0.5 * frequency * h;
+      cycles[part.cycle].acceleration[j] +=
+          scale * length * mean * (half / std::sin(half)) * turn(frequency * middle);
+      // A jump of height J at a share s of the interval has its impulse J (1 - s) h late by s h / 2.
+      cycles[part.cycle].bound[j] += scale * std::abs(mean - before) * frequency * h * length / 8.0;
+    }
+  });
+}
+
+/// Harmonics from samples of acceleration by the trapezoidal rule.
+void add_from_acceleration(const Record &record, std::vector<MeterCycle> &cycles) {
+  const std::vector<double> &a = record.a_drum;
+  const double h = record.interval;
+  const double scale = 2.0 / record.period();
+  for_each_part(record, cycles.size(), [&](const Part &part) {
+    const double length = (part.to - part.from) * h;
+    for (std::size_t j = 0; j < meter_orders.size(); ++j) {
+      const double frequency = meter_orders[j] * *record.omega;
+      const auto value = [&](std::size_t row) { return a[row] * turn(frequency * record.time[row]); };
+      const auto between = [&](double share) {
+        return at(a, part.row, share) * turn(frequency * (record.time[part.row] + share * h));
+      };
+      cycles[part.cycle].acceleration[j] += scale * 0.5 * length * (between(part.from) + between(part.to));
+      // A jump of height J between two samples makes two second differences of J, and an error of J h / 2 at most.
+      if (part.row > 0)
+        cycles[part.cycle].bound[j] +=
+            scale * 0.25 * length *
+            std::abs(value(part.row + 1) - 2.0 * value(part.row) + value(part.row - 1));
+    }
+  });
+}
+
+/// Order 1 of a signal, for each cycle; nothing for a signal that the record does not have.
+void add_first_order(const Record &record, const std::vector<double> &values,
+                     std::optional<std::complex<double>> MeterCycle::*into, std::vector<MeterCycle> &cycles) {
+  if (values.empty()) return;
+  for (MeterCycle &cycle : cycles)
+    cycle.*into = std::complex<double>();
+  const double h = record.interval;
+  for_each_part(record, cycles.size(), [&](const Part &part) {
+    const auto between = [&](double share) {
+      return at(values, part.row, share) * turn(*record.omega * (record.time[part.row] + share * h));
+    };
+    *(cycles[part.cycle].*into) +=
+        (part.to - part.from) * h / record.period() * (between(part.from) + between(part.to));
+  });
+}
+
+/// Share of contact, largest force, energy and what Lundberg's formula needs, from samples.
+class ContactSums {
+public:
+  ContactSums(const Record &record, const std::vector<double> &force, bool computed,
+              std::vector<MeterCycle> &cycles)
+      : record_(record), force_(force), cycles_(cycles) {
+    touching_ = computed ? computed_contact * *std::max_element(force.begin(), force.end()) : 0.0;
+    for (MeterCycle &cycle : cycles_) {
+      cycle.contact_share = 0.0;
+      cycle.peak_force = 0.0;
+      if (!record.v_drum.empty()) cycle.energy = 0.0;
+    }
+  }
+  void add() {
+    for_each_part(record_, cycles_.size(), [this](const Part &part) { add(part); });
+    if (!record_.x_drum.empty()) add_deflections();
+  }
+
+private:
+  bool touches(std::size_t row) const { return force_[row] > touching_; }
+
+  void add(const Part &part) {
+    MeterCycle &cycle = cycles_[part.cycle];
+    const double length = (part.to - part.from) * record_.interval;
+    const double ends = (touches(part.row) ? 0.5 : 0.0) + (touches(part.row + 1) ? 0.5 : 0.0);
+    *cycle.contact_share += ends * length / record_.period();
+    cycle.peak_force =
+        std::max({*cycle.peak_force, at(force_, part.row, part.from), at(force_, part.row, part.to)});
+    if (!cycle.energy) return;
+    const auto power = [&](double share) {
+      return -at(force_, part.row, share) * at(record_.v_drum, part.row, share);
+    };
+    *cycle.energy += 0.5 * length * (power(part.from) + power(part.to));
+  }
+
+  void add_deflections() {
+    const std::vector<double> &x = record_.x_drum;
+    const bool of_chain = record_.file.filename() == "chain.csv";
+    std::vector<std::optional<std::size_t>> lowest(cycles_.size());
+    for_each_part(record_, cycles_.size(), [&](const Part &part) {
+      if (part.from == 0.0 && (!lowest[part.cycle] || x[part.row] < x[*lowest[part.cycle]]))
+        lowest[part.cycle] = part.row;
+    });
+    for (std::size_t i = 0; i < cycles_.size(); ++i) {
+      if (!lowest[i] || !touches(*lowest[i])) continue;
+      std::size_t begin = *lowest[i];
+      const auto least = static_cast<std::size_t>(
+          std::max(0.0, static_cast<double>(begin) - record_.period() / record_.interval));
+      while (begin > least && touches(begin))
+        --begin;
+      const bool begins = !touches(begin);
+      if (!begins && !of_chain) continue;
+      const double zero = of_chain ? 0.0 : 0.5 * (x[begin] + x[begin + 1]);
+      cycles_[i].deflection = zero - x[*lowest[i]];
+      cycles_[i].low_force = force_[*lowest[i]];
+    }
+  }
+
+  const Record &record_;
+  const std::vector<double> &force_;
+  std::vector<MeterCycle> &cycles_;
+  double touching_ = 0.0;
+};
+
+/// A table of cycles without its first row, cycle 0, which has the energies at the start.
+struct StepSums {
+  CycleColumns columns;
+  CycleHarmonics harmonics;
+  std::size_t first = 0;
+  std::size_t cycles() const {
+    return harmonics.fundamental.size() - std::min(first, harmonics.fundamental.size());
+  }
+};
+
+StepSums read_sums(const Record &record) {
+  StepSums sums;
+  if (record.cycles_file.empty()) return sums;
+  sums.columns = read_cycle_columns(record.cycles_file);
+  sums.harmonics = cycle_harmonics(sums.columns);
+  if (sums.columns.has("cycle") && sums.columns.rows > 0 && sums.columns.at("cycle").front() == 0.0)
+    sums.first = 1;
+  return sums;
+}
+
+/// Replaces what samples gave by the sums over every step.
+void take_sums(const StepSums &sums, double period, std::vector<MeterCycle> &cycles) {
+  const CycleColumns &columns = sums.columns;
+  const bool bed = columns.has("settlement");
+  const bool energies = !bed && columns.has("dissipated_contact") && columns.has("stored_contact");
+  const auto given = [&](std::size_t row) {
+    return columns.at("dissipated_contact")[row] + columns.at("stored_contact")[row];
+  };
+  for (std::size_t i = 0; i < cycles.size(); ++i) {
+    const std::size_t row = i + sums.first;
+    MeterCycle &cycle = cycles[i];
+    if (columns.has("time")) cycle.begin = columns.at("time")[row] - period;
+    if (std::abs(cycle.begin) < 1e-9 * period) cycle.begin = 0.0; // the difference of two rounded times
+    cycle.bound = {};
+    cycle.acceleration = {};
+    cycle.acceleration[half_order] = sums.harmonics.half[row];
+    cycle.acceleration[basic_order] = sums.harmonics.fundamental[row];
+    cycle.acceleration[double_order] = sums.harmonics.second[row];
+    if (columns.has("contact_share")) cycle.contact_share = columns.at("contact_share")[row];
+    if (columns.has("F_contact_max")) cycle.peak_force = columns.at("F_contact_max")[row];
+    if (energies && row > 0) cycle.energy = given(row) - given(row - 1);
+  }
+}
+
+/// The excitation of a run without samples: F_e = Fw sin(omega t + phase).
+void take_excitation(const Record &record, std::vector<MeterCycle> &cycles) {
+  if (!record.time.empty() || !record.Fw || !record.phase) return;
+  for (MeterCycle &cycle : cycles)
+    cycle.excitation = *record.Fw * std::complex<double>(std::sin(*record.phase), -std::cos(*record.phase));
+}
+
+std::size_t whole_cycles(const Record &record) {
+  constexpr double rounding = 1e-6;
+  return record.time.empty() ? 0 : static_cast<std::size_t>(record.cycles() + rounding);
+}
+
+/// Amplitude at a multiple of the excitation frequency over samples first to last.
+double amplitude_at(const Record &record, double order, std::size_t first, std::size_t last) {
+  const bool velocity = !record.v_drum.empty();
+  const double frequency = order * *record.omega;
+  const double half = 0.5 * frequency * record.interval;
+  std::complex<double> sum;
+  for (std::size_t i = first; i < last; ++i) {
+    const double middle = record.time[i] + 0.5 * record.interval;
+    sum += velocity ? (record.v_drum[i + 1] - record.v_drum[i]) / record.interval * turn(frequency * middle)
+                    : 0.5 * (record.a_drum[i] * turn(frequency * record.time[i]) +
+                             record.a_drum[i + 1] * turn(frequency * record.time[i + 1]));
+  }
+  const double weakened = velocity && half > 0.0 ? half / std::sin(half) : 1.0;
+  return 2.0 / static_cast<double>(last - first) * std::abs(sum) * weakened;
+}
+
+} // namespace
+
+std::vector<SpectrumLine> spectrum(const Record &record, double begin, double end) {
+  if (record.time.empty() || (record.v_drum.empty() && record.a_drum.empty())) return {};
+  const auto row = [&record](double time) {
+    const double place = std::round((time - record.time.front()) / record.interval);
+    return std::min(record.size() - 1, static_cast<std::size_t>(std::max(0.0, place)));
+  };
+  const std::size_t first = row(begin);
+  const std::size_t last = row(end);
+  const auto cycles = static_cast<int>(std::lround((end - begin) / record.period()));
+  constexpr int most_lines = 40; // per multiple of the excitation frequency
+  constexpr int highest = 6;
+  const int step = (cycles + most_lines - 1) / most_lines;
+  const double samples = record.period() / record.interval;
+  std::vector<SpectrumLine> lines;
+  for (int k = step; k < highest * cycles && k < 0.4 * samples * cycles; k += step) {
+    const double order = static_cast<double>(k) / cycles;
+    lines.push_back({order / record.period(), amplitude_at(record, order, first, last)});
+  }
+  return lines;
+}
+
+std::vector<double> soil_force(const Record &record) {
+  if (!record.F_contact.empty()) return record.F_contact;
+  if (record.a_drum.empty() || record.a_frame.empty() || record.F_excitation.empty() || !record.m2 ||
+      !record.m3)
+    return {};
+  const double g = record.g.value_or(usual_gravity);
+  std::vector<double> force(record.size());
+  for (std::size_t i = 0; i < force.size(); ++i)
+    force[i] =
+        *record.m2 * (record.a_drum[i] + g) + *record.m3 * (record.a_frame[i] + g) + record.F_excitation[i];
+  return force;
+}
+
+MeterRecord meter_cycles(const Record &record) {
+  MeterRecord result;
+  const double period = record.period();
+  result.omega = *record.omega;
+  result.m2 = record.m2;
+  result.m3 = record.m3;
+  const StepSums sums = read_sums(record);
+  const bool summed = sums.cycles() > 0;
+  const std::size_t count = summed && record.time.empty() ? sums.cycles()
+                            : summed                      ? std::min(sums.cycles(), whole_cycles(record))
+                                                          : whole_cycles(record);
+  if (count < least_cycles)
+    csv_fault(record.file, 0, {},
+              refusal("the number of whole cycles", fmt::format("{}", count),
+                      fmt::format("{} or more", least_cycles)));
+  result.cycles.resize(count);
+  for (std::size_t i = 0; i < count; ++i)
+    result.cycles[i].begin =
+        (record.time.empty() ? 0.0 : record.time.front()) + period * static_cast<double>(i);
+  result.source = summed                   ? HarmonicSource::every_step
+                  : !record.v_drum.empty() ? HarmonicSource::velocity
+                                           : HarmonicSource::acceleration;
+  if (result.source == HarmonicSource::velocity)
+    add_from_velocity(record, result.cycles);
+  else if (!summed && record.a_drum.empty())
+    csv_fault(record.file, 0, {}, "has neither v_drum nor a_drum; allowed: a record with one of them");
+  else if (!summed)
+    add_from_acceleration(record, result.cycles);
+  add_first_order(record, record.a_frame, &MeterCycle::frame, result.cycles);
+  add_first_order(record, record.F_excitation, &MeterCycle::excitation, result.cycles);
+  const std::vector<double> force = soil_force(record);
+  result.computed_force = record.F_contact.empty() && !force.empty();
+  if (!force.empty()) ContactSums(record, force, result.computed_force, result.cycles).add();
+  if (summed) take_sums(sums, period, result.cycles);
+  take_excitation(record, result.cycles);
+  return result;
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,319 @@
+#include "meter/page.h"
+
+#include "pages/figure_data.h"
+#include "pages/page.h"
+#include "support/csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace drumlin::post {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// A column of meter.csv, of the table on the page and of the terminal.
+struct MeterColumn {
+  const char *header; ///< with unit
+  std::optional<double> (*value)(const MeterWindow &);
+};
+
+template <std::size_t order>
+std::optional<double> amplitude(const MeterWindow &window) {
+  return window.amplitude[order];
+}
+
+constexpr std::array<MeterColumn, 19> columns = {
+    {{"begin [s]", [](const MeterWindow &w) { return std::optional(w.begin); }},
+     {"end [s]", [](const MeterWindow &w) { return std::optional(w.end); }},
+     {"A_0.5 [m/s2]", amplitude<0>},
+     {"A_1 [m/s2]", amplitude<1>},
+     {"A_1.5 [m/s2]", amplitude<2>},
+     {"A_2 [m/s2]", amplitude<3>},
+     {"A_2.5 [m/s2]", amplitude<4>},
+     {"A_3 [m/s2]", amplitude<5>},
+     {"CMV [-]", [](const MeterWindow &w) { return w.cmv; }},
+     {"CMV_bound [-]",
+      [](const MeterWindow &w) { return w.cmv ? std::optional(w.cmv_bound) : std::nullopt; }},
+     {"RMV [-]", [](const MeterWindow &w) { return w.rmv; }},
+     {"RMV_bound [-]",
+      [](const MeterWindow &w) { return w.rmv ? std::optional(w.rmv_bound) : std::nullopt; }},
+     {"contact_share [-]", [](const MeterWindow &w) { return w.contact_share; }},
+     {"peak_force [N]", [](const MeterWindow &w) { return w.peak_force; }},
+     {"energy_two_cycles [J]", [](const MeterWindow &w) { return w.energy; }},
+     {"k_B [N/m]", [](const MeterWindow &w) { return w.k_B; }},
+     {"k_1 [N/m]", [](const MeterWindow &w) { return w.k_1; }},
+     {"c_1 [N s/m]", [](const MeterWindow &w) { return w.c_1; }},
+     {"E_vib [Pa]", [](const MeterWindow &w) { return w.E_vib; }}}};
+
+const char *mode_name(const MeterWindow &window) { return mode_names[static_cast<std::size_t>(window.mode)]; }
+
+/// Whether stiffnesses of a window are the soil's; in other modes they are apparent.
+bool stiffness_valid(const MeterWindow &window) { return window.mode == OperatingMode::continuous_contact; }
+
+/// A value that sums over every step do not give is left out.
+bool is_given(const MeterResult &result, std::size_t column) {
+  constexpr std::array<std::size_t, 3> of_samples = {4, 6, 7};
+  return result.cycles.source != HarmonicSource::every_step ||
+         std::find(of_samples.begin(), of_samples.end(), column) == of_samples.end();
+}
+
+std::string text_of(std::optional<double> value, const char *format, double scale = 1.0) {
+  return value && std::isfinite(*value) ? fmt::format(fmt::runtime(format), scale * *value) : no_value;
+}
+
+PageTable value_table(const MeterResult &result) {
+  PageTable table;
+  table.name = "windows";
+  table.title = "Values over each window";
+  table.text_columns = 1;
+  table.header = {"mode",
+                  "begin (s)",
+                  "CMV (-)",
+                  "off by at most (-)",
+                  "RMV (-)",
+                  "share of contact (-)",
+                  "peak force (kN)",
+                  "energy in two cycles (J)",
+                  "k_B (MN/m)",
+                  "k_1 (MN/m)",
+                  "c_1 (kN s/m)",
+                  "E_vib (MPa)"};
+  for (const MeterWindow &w : result.windows)
+    table.add({mode_name(w), fmt::format("{:.4g}", w.begin), text_of(w.cmv, "{:.2f}"),
+               result.cycles.source == HarmonicSource::every_step ? no_value : text_of(w.cmv_bound, "{:.2g}"),
+               text_of(w.rmv, "{:.2f}"), text_of(w.contact_share, "{:.3f}"),
+               text_of(w.peak_force, "{:.1f}", 1e-3), text_of(w.energy, "{:.1f}"),
+               text_of(w.k_B, "{:.2f}", 1e-6), text_of(w.k_1, "{:.2f}", 1e-6), text_of(w.c_1, "{:.1f}", 1e-3),
+               text_of(w.E_vib, "{:.1f}", 1e-6)});
+  table.notes = {
+      source_words(result),
+      "k_B, k_1 and c_1 are the soil's in continuous contact; in other modes they are apparent values. " +
+          std::string(no_value) + ": the record does not give it."};
+  return table;
+}
+
+PageTable formula_table(const MeterResult &result) {
+  PageTable table;
+  table.name = "formulas";
+  table.title = "What the values are";
+  table.header = {"value", "formula", "valid for", "source"};
+  table.text_columns = 4;
+  table.add({"A_n", "amplitude of the drum's acceleration at n times the excitation frequency",
+             "whole cycles; an even number of them for half orders", "definition"});
+  table.add({"CMV", "300 A_2 / A_1", "one roller at one setting; falls again when the drum double jumps",
+             "Advances in Civil Engineering 2011, 783836"});
+  table.add({"RMV", fmt::format("{:g} A_0.5 / A_1", result.options.rmv_constant),
+             "shows double jump; sources have 100 or 300 as constant", "as CMV"});
+  table.add({"energy in two cycles", "-2 x mean of the integral of F dx over a cycle",
+             "any mode; the quantity behind Omega, without the scale of that meter", "definition"});
+  table.add({"k_B", "omega^2 (m_d + m_e r_e cos(phi) / A_z)",
+             "continuous contact; the force of the frame is not counted", "equation of motion of the drum"});
+  table.add({"k_1, c_1", "-F/x at the excitation frequency: real part, imaginary part over omega",
+             "continuous contact on a linear soil", "equations of motion of drum and frame"});
+  table.add({"E_vib", "z = (1 - nu^2)/E F/L 2/pi (1.8864 + ln(L/B)), B = sqrt(16/pi R (1 - nu^2)/E F/L)",
+             "a homogeneous half-space, contact longer than wide", "Lundberg's line contact"});
+  table.add({"mode",
+             fmt::format("harmonics of successive cycles equal to {:g} of their size", result.options.same),
+             "rocking is not seen", "Adam 1996, in Acta Geotechnica 2024, 10.1007/s11440-024-02342-8"});
+  return table;
+}
+
+/// A panel of values over time.
+Panel value_panel(const std::string &name, const std::string &title, const std::string &label, int column) {
+  Panel panel;
+  panel.title = title;
+  panel.x_label = "time [s]";
+  panel.y_label = label;
+  panel.y_range = "[0:*]";
+  panel.tight_x = true;
+  panel.curves = {curve(name, "window", "$2", fmt::format("{}", column), CurveStyle::series_1)};
+  panel.curves.back().title.clear();
+  return panel;
+}
+
+PageFigure values_figure(const MeterResult &result) {
+  const std::string name = "values";
+  PageFigure figure;
+  figure.label = "Fig. 1";
+  figure.weight = 1.0;
+  figure.caption = "Values along the record, each point a window, drawn at its middle.";
+  figure.figure = {name, "Values along the record", {}, 2};
+  CurveTable table("time [s],CMV [-],RMV [-],peak force [kN],energy in two cycles [J]");
+  const double none = std::nan("");
+  for (const MeterWindow &w : result.windows)
+    table.row("window", {0.5 * (w.begin + w.end), w.cmv.value_or(none), w.rmv.value_or(none),
+                         1e-3 * w.peak_force.value_or(none), w.energy.value_or(none)});
+  figure.csv = table.text();
+  const MeterWindow &last = result.windows.back();
+  figure.figure.panels = {value_panel(name, "CMV", "CMV [-]", 3), value_panel(name, "RMV", "RMV [-]", 4)};
+  if (last.peak_force)
+    figure.figure.panels.push_back(value_panel(name, "Peak force", "contact force [kN]", 5));
+  if (last.energy) figure.figure.panels.push_back(value_panel(name, "Energy", "energy in two cycles [J]", 6));
+  return figure;
+}
+
+std::optional<PageFigure> spectrum_figure(const MeterResult &result) {
+  const MeterWindow &last = result.windows.back();
+  const std::vector<SpectrumLine> lines = spectrum(result.record, last.begin, last.end);
+  if (lines.empty()) return std::nullopt;
+  const std::string name = "spectrum";
+  PageFigure figure;
+  figure.label = "Fig. 2";
+  figure.weight = 0.8;
+  figure.caption =
+      fmt::format("Amplitudes of the drum's acceleration in the last window. The excitation has {:.4g} Hz.",
+                  1.0 / result.record.period());
+  CurveTable table("frequency [Hz],amplitude [m/s2]");
+  for (const SpectrumLine &line : lines) {
+    table.row("spectrum", {line.frequency, 0.0});
+    table.row("spectrum", {line.frequency, line.amplitude});
+    table.row("spectrum", {line.frequency, 0.0});
+  }
+  figure.csv = table.text();
+  Panel panel;
+  panel.x_label = "frequency [Hz]";
+  panel.y_label = "amplitude [m/s^2]";
+  panel.curves = {curve(name, "spectrum", "$2", "3", CurveStyle::plain)};
+  panel.curves.back().title.clear();
+  panel.tight_x = true;
+  figure.figure = {name, "Spectrum", {panel}, 1};
+  return figure;
+}
+
+std::optional<PageFigure> loop_figure(const MeterResult &result) {
+  const std::vector<double> force = soil_force(result.record);
+  const std::vector<double> &x = result.record.x_drum;
+  if (force.empty() || x.empty()) return std::nullopt;
+  const std::string name = "loop";
+  PageFigure figure;
+  figure.label = "Fig. 3";
+  figure.weight = 0.9;
+  figure.caption =
+      "Contact force over the drum's displacement downwards in the last two cycles of the last window.";
+  CurveTable table("displacement down [mm],contact force [kN]");
+  const MeterWindow &last = result.windows.back();
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (result.record.time[i] >= last.end - 2.0 * result.record.period() && result.record.time[i] <= last.end)
+      table.row("loop", {-1e3 * x[i], 1e-3 * force[i]});
+  figure.csv = table.text();
+  Panel panel;
+  panel.x_label = "displacement down [mm]";
+  panel.y_label = "contact force [kN]";
+  panel.curves = {curve(name, "loop", "$2", "3", CurveStyle::condition_b)};
+  panel.curves.back().title.clear();
+  figure.figure = {name, "Loop", {panel}, 1};
+  return figure;
+}
+
+} // namespace
+
+std::string meter_csv(const MeterResult &result) {
+  std::vector<std::string> header;
+  header.reserve(columns.size() + 2);
+  for (const MeterColumn &column : columns)
+    header.emplace_back(column.header);
+  header.insert(header.end(), {"mode", "stiffness"});
+  std::string text = csv_line(header);
+  for (const MeterWindow &window : result.windows) {
+    std::vector<std::string> cells;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const std::optional<double> value = columns[i].value(window);
+      cells.push_back(value && std::isfinite(*value) && is_given(result, i) ? number_text(*value) : "");
+    }
+    cells.insert(cells.end(), {mode_name(window), stiffness_valid(window) ? "of the soil" : "apparent"});
+    text += csv_line(cells);
+  }
+  return text;
+}
+
+std::string source_words(const MeterResult &result) {
+  const MeterWindow &last = result.windows.back();
+  const std::string off = std::isfinite(last.cmv_bound)
+                              ? fmt::format("CMV of the last window may be off by {:.2g}, RMV by {:.2g}",
+                                            last.cmv_bound, last.rmv_bound)
+                              : std::string("they have no bound with so few samples");
+  switch (result.cycles.source) {
+  case HarmonicSource::every_step:
+    return "Harmonics are sums over every time step (cycles.csv).";
+  case HarmonicSource::velocity:
+    return fmt::format("Harmonics are from changes of velocity between samples: {}.", off);
+  case HarmonicSource::acceleration:
+    break;
+  }
+  return fmt::format(
+      "Harmonics are from samples of acceleration; a jump may lie anywhere between two of them: {}.", off);
+}
+
+std::string answer_line(const MeterResult &result) {
+  const MeterWindow &w = result.windows.back();
+  std::string text =
+      fmt::format("{}, CMV {}, RMV {}", mode_name(w), text_of(w.cmv, "{:.2f}"), text_of(w.rmv, "{:.2f}"));
+  const char *apparent = stiffness_valid(w) ? "" : "apparent ";
+  if (w.k_B) text += fmt::format(", {}k_B {:.2f} MN/m", apparent, 1e-6 * *w.k_B);
+  if (w.k_1) text += fmt::format(", {}k_1 {:.2f} MN/m", apparent, 1e-6 * *w.k_1);
+  if (w.E_vib) text += fmt::format(", E_vib {:.1f} MPa", 1e-6 * *w.E_vib);
+  if (w.energy) text += fmt::format(", {:.1f} J in two cycles", *w.energy);
+  return text;
+}
+
+std::string all_passes_csv(const MeterResult &result, const PassOptions &options) {
+  constexpr double cell = 0.34; // m
+  std::string text =
+      "Time,CellN_m,CellE_m,Elevation_m,PassNumber,LastRadioLtncy,DesignName,Machine,Speed_km/h,"
+      "LastGPSMode,GPSAccTol_m,TargPassCount,ValidPos,Lift,LastCMV,TargCMV,LastMDP,TargMDP,LastRMV,"
+      "LastFreq_Hz,LastAmp_mm,TargThickness_m,MachineGear,VibeState,LastTemp,_c\r\n";
+  const auto place = [&](std::size_t i) {
+    if (!options.speed) return static_cast<long>(i);
+    return std::lround(*options.speed / 3.6 * result.windows[i].begin / cell);
+  };
+  const std::string frequency = fmt::format("{:.1f}", result.cycles.omega / (2.0 * pi));
+  for (std::size_t i = 0; i < result.windows.size(); ++i) {
+    if (i + 1 < result.windows.size() && place(i + 1) == place(i))
+      continue; // a later window is in the same cell
+    const MeterWindow &w = result.windows[i];
+    const auto known = [](std::optional<double> value, const char *format, double scale) {
+      return value && std::isfinite(*value) ? fmt::format(fmt::runtime(format), scale * *value)
+                                            : std::string("?");
+    };
+    const auto milliseconds = static_cast<long long>(std::llround(1e3 * std::max(0.0, w.begin)));
+    const long long days = milliseconds / 86400000;
+    text += fmt::format("2000/Jan/{:02d} "
+                        "{:02d}:{:02d}:{:02d}.{:03d},{:.2f},0.00,?,{},?,?,?,{},?,?,?,Yes,?,{},?,?,?,{},{},{},"
+                        "?,Forward,On,?\r\n",
+                        days + 1, milliseconds / 3600000 % 24, milliseconds / 60000 % 60,
+                        milliseconds / 1000 % 60, milliseconds % 1000, cell * static_cast<double>(place(i)),
+                        options.pass, known(options.speed, "{:.1f}", 1.0), known(w.cmv, "{:.1f}", 1.0),
+                        known(w.rmv, "{:.1f}", 1.0), frequency, known(w.displacement, "{:.2f}", 1e3));
+  }
+  return text;
+}
+
+void write_meter_page(const std::filesystem::path &folder, const MeterResult &result) {
+  const bool bed = result.record.file.filename() == "bed.csv";
+  Page page(folder, "What the roller's meter shows", bed ? Scene::bed : Scene::chain);
+  const MeterWindow &last = result.windows.back();
+  page.answer(fmt::format("In the last {} cycles, at {:.4g} Hz: {}.", result.options.window,
+                          result.cycles.omega / (2.0 * pi), answer_line(result)));
+  page.answer(source_words(result));
+  if (!stiffness_valid(last) && last.k_B)
+    page.answer(
+        "The drum does not stay in contact, or its contact is not known: the stiffnesses are apparent.");
+  if (result.cycles.computed_force)
+    page.answer("The contact force is computed from the accelerations of drum and frame.");
+  page.section("Values along the record");
+  page.figure(values_figure(result));
+  page.table(value_table(result));
+  page.section("The last window");
+  if (const auto figure = spectrum_figure(result)) page.figure(*figure);
+  if (const auto figure = loop_figure(result)) page.figure(*figure);
+  page.section("Formulas");
+  page.table(formula_table(result));
+  page.write();
+}
+
+} // namespace drumlin::post

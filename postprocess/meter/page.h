@@ -1,0 +1,43 @@
+// The files of meter values: CSV tables for machines, and a page with plots.
+#pragma once
+
+#include "meter/values.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+/// Meter values of a record with what they were made from.
+struct MeterResult {
+  Record record;
+  MeterRecord cycles;
+  MeterOptions options;
+  std::vector<MeterWindow> windows;
+};
+
+/// meter.csv: a row for each window, units in the header, an empty cell where a value cannot be computed.
+std::string meter_csv(const MeterResult &result);
+
+/// What the values come from and how exact that is, as a sentence.
+std::string source_words(const MeterResult &result);
+
+/// The last window in one line: mode, CMV with its bound, RMV and the other values that there are.
+std::string answer_line(const MeterResult &result);
+
+/// How a roller travelled while the record was made.
+struct PassOptions {
+  std::optional<double> speed; ///< [km/h]; unknown: one cell for each window
+  int pass = 1;                ///< number of the pass
+};
+
+/// The "all passes" table of compaction software: a row for each cell of 0.34 m along the roller's path, with CMV, RMV, frequency
+/// and amplitude of the last window in it; CRLF line ends, '?' for what is not known. The path runs north from 0; times
+/// count from 2000/Jan/01 00:00:00.
+std::string all_passes_csv(const MeterResult &result, const PassOptions &options);
+
+/// Writes a page index.html with plots (values along the record, spectrum, loop) and their data into a folder that exists.
+void write_meter_page(const std::filesystem::path &folder, const MeterResult &result);
+
+} // namespace drumlin::post

@@ -1,0 +1,198 @@
+#include "meter/values.h"
+
+#include "support/range.h"
+
+#include <boost/math/tools/toms748_solve.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+
+namespace drumlin::post {
+
+const std::array<const char *, mode_count> mode_names = {"continuous contact", "partial uplift",
+                                                         "double jump", "irregular", "same in each cycle"};
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+using Cycles = std::vector<MeterCycle>;
+
+/// Mean over the window of what every cycle of it has.
+std::optional<double> mean_of(const Cycles &cycles, const MeterWindow &window, std::size_t count,
+                              std::optional<double> MeterCycle::*value) {
+  double sum = 0.0;
+  for (std::size_t i = window.first; i < window.first + count; ++i) {
+    if (!(cycles[i].*value)) return std::nullopt;
+    sum += *(cycles[i].*value);
+  }
+  return sum / static_cast<double>(count);
+}
+
+std::optional<std::complex<double>> mean_of(const Cycles &cycles, const MeterWindow &window,
+                                            std::size_t count,
+                                            std::optional<std::complex<double>> MeterCycle::*value) {
+  std::complex<double> sum;
+  for (std::size_t i = window.first; i < window.first + count; ++i) {
+    if (!(cycles[i].*value)) return std::nullopt;
+    sum += *(cycles[i].*value);
+  }
+  return sum / static_cast<double>(count);
+}
+
+/// Relative difference of the harmonics of order 1 and 2 between cycles that are `apart` from one another.
+double difference(const Cycles &cycles, const MeterWindow &window, std::size_t count, std::size_t apart) {
+  double differences = 0.0;
+  double sizes = 0.0;
+  for (std::size_t i = window.first; i + apart < window.first + count; ++i)
+    for (const std::size_t order : {basic_order, double_order}) {
+      differences += std::norm(cycles[i + apart].acceleration[order] - cycles[i].acceleration[order]);
+      sizes += std::norm(cycles[i].acceleration[order]);
+    }
+  return sizes > 0.0 ? std::sqrt(differences / sizes) : 0.0;
+}
+
+OperatingMode mode_of(const Cycles &cycles, const MeterWindow &window, std::size_t count, double same) {
+  constexpr double rounding = 1e-9;
+  if (window.contact_share && *window.contact_share > 1.0 - rounding)
+    return OperatingMode::continuous_contact;
+  if (difference(cycles, window, count, 1) <= same)
+    return window.contact_share ? OperatingMode::partial_uplift : OperatingMode::same_each_cycle;
+  return difference(cycles, window, count, 2) <= same ? OperatingMode::double_jump : OperatingMode::irregular;
+}
+
+/// 'constant times numerator over denominator', how far it may be off if both may be.
+double ratio_bound(double constant, double numerator, double above, double denominator, double below) {
+  if (!(denominator > below)) return std::numeric_limits<double>::infinity();
+  return constant * ((numerator + above) / (denominator - below) - numerator / denominator);
+}
+
+void take_amplitudes(const Cycles &cycles, const MeterOptions &options, std::size_t count,
+                     MeterWindow &window) {
+  std::array<double, meter_orders.size()> bound{};
+  for (std::size_t j = 0; j < meter_orders.size(); ++j) {
+    std::vector<std::complex<double>> harmonics;
+    for (std::size_t i = window.first; i < window.first + count; ++i) {
+      harmonics.push_back(cycles[i].acceleration[j]);
+      bound[j] += cycles[i].bound[j] / static_cast<double>(count);
+    }
+    window.amplitude[j] = amplitude_over(harmonics, 0, count);
+  }
+  const HarmonicAmplitudes amplitudes = {window.amplitude[basic_order], window.amplitude[double_order],
+                                         window.amplitude[half_order]};
+  if (!(amplitudes.fundamental > 0.0)) return;
+  window.cmv = compaction_meter_value(amplitudes);
+  window.rmv = resonance_meter_value(amplitudes, options.rmv_constant);
+  window.cmv_bound = ratio_bound(compaction_meter_value({1.0, 1.0, 0.0}), amplitudes.second,
+                                 bound[double_order], amplitudes.fundamental, bound[basic_order]);
+  window.rmv_bound = ratio_bound(options.rmv_constant, amplitudes.half, bound[half_order],
+                                 amplitudes.fundamental, bound[basic_order]);
+}
+
+/// Stiffness and damping at the excitation frequency.
+void take_stiffness(const MeterRecord &record, std::size_t count, MeterWindow &window) {
+  std::complex<double> a;
+  for (std::size_t i = window.first; i < window.first + count; ++i)
+    a += record.cycles[i].acceleration[basic_order] / static_cast<double>(count);
+  const double squared = record.omega * record.omega;
+  window.displacement = std::abs(a) / squared;
+  const std::optional<std::complex<double>> excitation =
+      mean_of(record.cycles, window, count, &MeterCycle::excitation);
+  if (!record.m2 || !excitation || std::abs(a) == 0.0) return;
+  const std::complex<double> x = -a / squared;
+  const std::complex<double> from_drum = *record.m2 * a + *excitation; // soil force without that of the frame
+  window.k_B = -(from_drum / x).real();
+  const std::optional<std::complex<double>> frame = mean_of(record.cycles, window, count, &MeterCycle::frame);
+  if (!record.m3 || !frame) return;
+  const std::complex<double> stiffness = -(from_drum + *record.m3 * *frame) / x;
+  window.k_1 = stiffness.real();
+  window.c_1 = stiffness.imag() / record.omega;
+}
+
+void take_modulus(const Cycles &cycles, const MeterOptions &options, std::size_t count, MeterWindow &window) {
+  if (!options.drum_radius || !options.drum_width) return;
+  const LineContact contact = {*options.drum_radius, *options.drum_width, options.poisson};
+  double sum = 0.0;
+  int found = 0;
+  for (std::size_t i = window.first; i < window.first + count; ++i) {
+    if (!cycles[i].low_force || !cycles[i].deflection) continue;
+    if (const auto modulus = lundberg_modulus(*cycles[i].low_force, *cycles[i].deflection, contact)) {
+      sum += *modulus;
+      ++found;
+    }
+  }
+  if (found > 0) window.E_vib = sum / found;
+}
+
+} // namespace
+
+std::vector<MeterWindow> meter_windows(const MeterRecord &record, const MeterOptions &options) {
+  const auto count = static_cast<std::size_t>(options.window);
+  const std::size_t total = record.cycles.size();
+  if (total < count)
+    throw std::runtime_error(refusal("the window", fmt::format("{} cycles", count),
+                                     fmt::format("at most the {} whole cycles of the record", total)));
+  const double period = 2.0 * pi / record.omega;
+  std::vector<MeterWindow> windows(total / count);
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    MeterWindow &window = windows[i];
+    window.first = total % count + i * count;
+    window.begin = record.cycles[window.first].begin;
+    window.end = window.begin + period * static_cast<double>(count);
+    take_amplitudes(record.cycles, options, count, window);
+    window.contact_share = mean_of(record.cycles, window, count, &MeterCycle::contact_share);
+    if (const auto energy = mean_of(record.cycles, window, count, &MeterCycle::energy))
+      window.energy = 2.0 * *energy;
+    if (mean_of(record.cycles, window, count, &MeterCycle::peak_force)) {
+      window.peak_force = 0.0;
+      for (std::size_t cycle = window.first; cycle < window.first + count; ++cycle)
+        window.peak_force = std::max(*window.peak_force, *record.cycles[cycle].peak_force);
+    }
+    take_stiffness(record, count, window);
+    take_modulus(record.cycles, options, count, window);
+    window.mode = mode_of(record.cycles, window, count, options.same);
+  }
+  return windows;
+}
+
+namespace {
+
+/// Deflection for u = (1 - nu^2)/E F/L [m].
+double deflection_of(double u, const LineContact &contact) {
+  const double width = std::sqrt(16.0 / pi * contact.radius * u);
+  return u * 2.0 / pi * (1.8864 + std::log(contact.length / width));
+}
+
+double compliance(double force, const LineContact &contact) {
+  return (1.0 - contact.poisson * contact.poisson) * force / contact.length;
+}
+
+} // namespace
+
+double lundberg_deflection(double force, double modulus, const LineContact &contact) {
+  return deflection_of(compliance(force, contact) / modulus, contact);
+}
+
+std::optional<double> lundberg_modulus(double force, double deflection, const LineContact &contact) {
+  if (!(force > 0.0) || !(deflection > 0.0)) return std::nullopt;
+  // The deflection grows with u as long as the contact is longer than wide.
+  const double most = pi * contact.length * contact.length / (16.0 * contact.radius);
+  if (deflection > deflection_of(most, contact)) return std::nullopt;
+  // The root is sought in the logarithm of u, from one where the deflection is too small to one where it is not.
+  const auto excess = [&](double log_u) {
+    return std::log(deflection_of(std::exp(log_u), contact) / deflection);
+  };
+  double low = std::log(std::min(most, deflection)) - 1.0;
+  while (excess(low) > 0.0)
+    low -= 1.0;
+  std::uintmax_t steps = 200;
+  const auto bracket = boost::math::tools::toms748_solve(
+      excess, low, std::log(most), boost::math::tools::eps_tolerance<double>(50), steps);
+  return compliance(force, contact) / std::exp(0.5 * (bracket.first + bracket.second));
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,154 @@
+#include "report/bed/measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "report/chain/measures.h"
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// Mean over the rows of a window, both ends included.
+double mean(const std::vector<double> &time, const std::vector<double> &value, TimeWindow window) {
+  double sum = 0.0;
+  double rows = 0.0;
+  for (std::size_t i = 0; i < time.size(); ++i)
+    if (time[i] >= window.begin && time[i] <= window.end) {
+      sum += value[i];
+      rows += 1.0;
+    }
+  return sum / rows;
+}
+
+/// Number of cycles at the end that count as steady; even if there are two or more.
+int steady_part(int cycles) {
+  if (cycles < 2) return cycles;
+  return std::min(steady_cycles, (cycles / 2 + 1) / 2 * 2);
+}
+
+BedMeasures measure(const Run &run, const BedHistory &bed) {
+  const std::vector<double> &time = run.history.time;
+  const CycleColumns &cycles = *run.cycles;
+  const double period = run.chain.period();
+  BedMeasures m;
+  m.cycles = std::min(run.complete, static_cast<int>(cycles.rows) - 1); // row 0 is the start
+  m.depth_percent = 50.0 * run.number("drum_depth").value_or(not_a_number) /
+                    run.number("r2").value_or(not_a_number); // runs of earlier versions note neither
+  m.coordination_start = bed.coordination.front();
+  m.void_ratio_start = bed.void_ratio.front();
+  m.imbalance_percent = 100.0 * energy_imbalance(bed).back() / std::abs(bed.work_excitation.back());
+  if (m.cycles < 1) {
+    m.coordination_end = m.void_ratio_end = not_a_number;
+    return m;
+  }
+  m.steady_count = steady_part(m.cycles);
+  m.steady = last_cycles_window(m.cycles, m.steady_count, period);
+  const auto count = static_cast<std::size_t>(m.steady_count);
+  // Without events: those of a bed are of single balls, but the force on the drum is the sum over all balls.
+  m.extremes = steady_extremes(run.history, {}, run.cycles, run.chain, m.steady, count);
+  m.amplitudes = harmonic_amplitudes(cycles, count);
+  for (std::size_t i = cycles.rows - count; i < cycles.rows; ++i)
+    m.contact_share += cycles.at("contact_share")[i] / m.steady_count;
+  const std::vector<double> &settlement = cycles.at("settlement");
+  m.settlement = settlement.back();
+  m.settlement_per_cycle = (settlement.back() - settlement[cycles.rows - 1 - count]) / m.steady_count;
+  const double slack = 1.0e-6 * period;
+  TimeWindow last = last_cycles_window(m.cycles, 1, period);
+  last = {last.begin - slack, last.end + slack};
+  m.coordination_end = mean(time, bed.coordination, last);
+  m.void_ratio_end = mean(time, bed.void_ratio, last);
+  return m;
+}
+
+/// Whether two runs have equal parameters apart from transition, restart file, number of cycles and how they
+/// were run.
+bool alike(const Run &a, const Run &b) {
+  const auto told = [](const Run &run) {
+    std::map<std::string, std::string> parameters = run.parameters;
+    for (const char *name :
+         {"transition", "start", "cycles", "drum_depth", "engine", "plugin", "ranks", "command"})
+      parameters.erase(name);
+    return parameters;
+  };
+  return told(a) == told(b);
+}
+
+} // namespace
+
+BedHistory read_bed_history(const fs::path &file) {
+  const Table table = read_table(file);
+  BedHistory bed;
+  bed.coordination = table.numbers("coordination");
+  bed.void_ratio = table.numbers("void_ratio");
+  bed.kinetic = table.numbers("kinetic");
+  bed.potential = table.numbers("potential");
+  bed.elastic = table.numbers("elastic");
+  bed.dissipated = table.numbers("dissipated");
+  bed.work_excitation = table.numbers("work_excitation");
+  bed.F_floor = table.numbers("F_floor");
+  bed.F_sides = table.numbers("F_sides");
+  bed.F_thrust = table.numbers("F_thrust");
+  return bed;
+}
+
+std::vector<double> energy_imbalance(const BedHistory &bed) {
+  std::vector<double> imbalance(bed.kinetic.size());
+  for (std::size_t i = 0; i < imbalance.size(); ++i)
+    imbalance[i] =
+        bed.kinetic[i] + bed.potential[i] + bed.elastic[i] + bed.dissipated[i] - bed.work_excitation[i];
+  const double first = imbalance.empty() ? 0.0 : imbalance.front();
+  for (double &value : imbalance)
+    value -= first;
+  return imbalance;
+}
+
+BedResult analyse_bed(Run run) {
+  const fs::path cycles_file = run.folder / "cycles.csv";
+  if (!run.cycles) throw std::runtime_error(fmt::format("{}: is missing", cycles_file.string()));
+  for (const char *name : {"contact_share", "settlement"})
+    if (!run.cycles->has(name))
+      throw std::runtime_error(fmt::format("{}: column '{}' is missing", cycles_file.string(), name));
+  if (run.cycles->rows == 0) throw std::runtime_error(fmt::format("{}: has no rows", cycles_file.string()));
+  BedResult result;
+  result.bed = read_bed_history(run.folder / "bed.csv");
+  result.measures = measure(run, result.bed);
+  result.run = std::move(run);
+  return result;
+}
+
+std::vector<BedGroup> group_beds(const std::vector<BedResult> &beds) {
+  std::vector<BedGroup> groups;
+  std::vector<bool> placed(beds.size(), false);
+  for (std::size_t i = 0; i < beds.size(); ++i) {
+    if (placed[i]) continue;
+    std::optional<std::size_t> partner;
+    for (std::size_t j = i + 1; j < beds.size(); ++j) {
+      if (placed[j] || beds[j].run.transition() == beds[i].run.transition() ||
+          !alike(beds[i].run, beds[j].run))
+        continue;
+      const bool same_start = beds[i].run.text("start") == beds[j].run.text("start");
+      if (!partner || same_start) partner = j;
+      if (same_start) break;
+    }
+    BedGroup group{{&beds[i]}};
+    if (partner) {
+      placed[*partner] = true;
+      group.runs.push_back(&beds[*partner]);
+      if (beds[i].run.transition() == Transition::A) std::swap(group.runs[0], group.runs[1]);
+    }
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,202 @@
+#include "report/bed/page.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "pages/scene.h"
+#include "report/answer.h"
+#include "report/bed/figures.h"
+#include "report/chain/page.h"
+
+namespace drumlin::post {
+
+namespace {
+
+const std::string dash = no_value;
+
+std::string fixed(double value, int decimals) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : dash;
+}
+
+/// A size that the files of the bed note, as a multiple of a unit, or a list of those of the layers; a dash in runs
+/// of beds of earlier versions.
+std::string noted(const Run &run, const std::string &name, double per_unit) {
+  const std::string text = run.text(name, "unknown");
+  if (text == "unknown") return dash;
+  std::string sizes;
+  for (std::size_t at = 0, end = 0; end != std::string::npos; at = end + 1) {
+    end = text.find(',', at);
+    Run part;
+    part.folder = run.folder;
+    part.parameters[name] = text.substr(at, end - at);
+    sizes += fmt::format("{}{:.3g}", at == 0 ? "" : ", ", part.number(name).value_or(0.0) * per_unit);
+  }
+  return sizes;
+}
+
+/// "Run bed/B (condition B)" or "Runs bed/B (condition B) and bed/A (condition A)".
+std::string title_of(const BedGroup &group) {
+  std::string title = group.runs.size() > 1 ? "Runs" : "Run";
+  for (const BedResult *result : group.runs)
+    title += fmt::format("{} {} (condition {})", result == group.runs.front() ? "" : " and", result->run.name,
+                         transition_name(result->run.transition()));
+  return title;
+}
+
+std::string words_of(const BedGroup &group) {
+  const Run &run = group.runs.front()->run;
+  const double frequency = 1.0 / run.chain.period();
+  return fmt::format(
+      "{} soil balls, friction {}, damping ratio {:g}. The exciter's force is {:g} kN at {:g} Hz, "
+      "the mass of the drum {:g} kg and of the frame {:g} kg.",
+      run.text("balls", "?"), run.text("friction", "?"), run.chain.D, run.chain.Fw * 1e-3, frequency,
+      run.chain.m2, run.chain.m3);
+}
+
+PageTable motion_table(const std::vector<BedResult> &beds) {
+  PageTable motion;
+  motion.section = "bed";
+  motion.name = "bed_runs";
+  motion.title = "Motion of the roller";
+  motion.text_columns = 2;
+  motion.header = {"run",
+                   "transition",
+                   "friction (-)",
+                   "balls",
+                   "frequency (Hz)",
+                   "cycles (-)",
+                   "steady cycles",
+                   "largest drum acceleration (m/s²)",
+                   "largest contact force (kN)",
+                   "smallest contact force (kN)",
+                   "share of time in contact (-)",
+                   "CMV (-)",
+                   "stepping",
+                   "steps per cycle",
+                   "ranks",
+                   "command"};
+  motion.shown_columns = motion.header.size() - 4;
+  for (const BedResult &result : beds) {
+    const Run &run = result.run;
+    const BedMeasures &m = result.measures;
+    const bool any = m.cycles > 0;
+    const auto steady = [any](double value, int decimals) { return any ? fixed(value, decimals) : dash; };
+    motion.add(
+        {run.name, transition_name(run.transition()), run.text("friction", dash), run.text("balls", dash),
+         fmt::format("{:g}", 1.0 / run.chain.period()), fmt::format("{}", m.cycles),
+         any ? fmt::format("{} to {}", m.cycles - m.steady_count + 1, m.cycles) : dash,
+         steady(m.extremes.acceleration.max, 2), steady(m.extremes.force.max * 1e-3, 2),
+         steady(m.extremes.force.min * 1e-3, 2), steady(m.contact_share, 4),
+         m.amplitudes ? fixed(compaction_meter_value(*m.amplitudes), 2) : dash, run.text("stepping", dash),
+         run.steps_per_cycle > 0 ? fmt::format("{}", run.steps_per_cycle) : dash, run.text("ranks", dash),
+         run.text("command", dash)});
+    if (!any) motion.notes.push_back(fmt::format("{}: ends before its first complete cycle.", run.name));
+    for (const std::string &missing : run.missing)
+      motion.notes.push_back(fmt::format("{}: {}", run.name, missing));
+  }
+  motion.notes.emplace_back(
+      "Steady cycles: about the second half of the run, an even number of cycles; both of a run of two. "
+      "Acceleration, forces, "
+      "share "
+      "of time in contact and CMV are of every time step in these cycles. Compaction meter value CMV = 300 "
+      "A2 "
+      "/ A1, of the amplitudes of drum acceleration at twice and once the excitation frequency.");
+  return motion;
+}
+
+PageTable state_table(const std::vector<BedResult> &beds) {
+  PageTable state;
+  state.section = "bed";
+  state.name = "bed_states";
+  state.title = "State of the bed";
+  state.text_columns = 2;
+  state.criterion = "runs have an energy error of at most 1 % of the exciter's work";
+  state.header = {"run",
+                  "transition",
+                  "settlement at the end (mm)",
+                  "settlement per cycle (mm)",
+                  "coordination at the start (-)",
+                  "coordination at the end (-)",
+                  "void ratio at the start (-)",
+                  "void ratio at the end (-)",
+                  "imbalance of energy (% of work)",
+                  "drum at rest, depth below the surface (% of its diameter)",
+                  "grading",
+                  "smallest and largest ball (mm)",
+                  "d50 (mm)",
+                  "coefficient of uniformity Cu (-)"};
+  for (const BedResult &result : beds) {
+    const BedMeasures &m = result.measures;
+    const bool any = m.cycles > 0;
+    const auto steady = [any](double value, int decimals) { return any ? fixed(value, decimals) : dash; };
+    const std::string smallest = noted(result.run, "r_min", 2e3), largest = noted(result.run, "r_max", 2e3);
+    const std::string sizes = largest == dash ? dash : fmt::format("{} to {}", smallest, largest);
+    state.add({result.run.name, transition_name(result.run.transition()), steady(m.settlement * 1e3, 3),
+               steady(m.settlement_per_cycle * 1e3, 3), fixed(m.coordination_start, 3),
+               fixed(m.coordination_end, 3), fixed(m.void_ratio_start, 4), fixed(m.void_ratio_end, 4),
+               fixed(m.imbalance_percent, 3), fixed(m.depth_percent, 1), result.run.text("grading", dash),
+               sizes, noted(result.run, "d50", 1e3), noted(result.run, "C_u", 1.0)},
+              !std::isfinite(m.imbalance_percent) || !result.run.cut.empty() ? RowState::plain
+              : energy_is_good(m)                                            ? RowState::agrees
+                                                                             : RowState::differs);
+  }
+  state.notes.emplace_back(
+      "Settlement: mean position of the drum over a cycle, below its position at rest, "
+      "negative above it, as where the drum jumps; per cycle: mean over the "
+      "steady cycles. Coordination: mean number of contacts of a soil ball. Coordination and void ratio at "
+      "the "
+      "end are means over the last cycle. Imbalance of energy is the energy error: kinetic + potential + "
+      "elastic "
+      "+ dissipated energy - work of the exciter at the end, less the same at the start. Depth of the drum: "
+      "of its "
+      "lowest point before the excitation, below the mean surface that the soil had before the drum was "
+      "placed, "
+      "away from the drum; negative above. Grading, sizes (diameters), d50 and Cu = d60 / d10, by mass, are "
+      "those of the balls that drumlin bed made; of layers of each, the lowest first.");
+  return state;
+}
+
+} // namespace
+
+std::vector<PageTable> bed_tables(const std::vector<BedResult> &beds) {
+  return {motion_table(beds), state_table(beds)};
+}
+
+std::string bed_page(const ReportContent &content) {
+  const Answer answer = bed_answer(content.groups);
+  std::vector<PageLink> links = {{"index.html", "Report of the runs"}, {"#answer", "Answer"}};
+  std::string s = answer_html(answer.sentences, answer.verdict, scene_html(Scene::bed)) +
+                  key_figures_html(content.bed_keys);
+  int number = 0;
+  const auto begin = [&](const std::string &id, const std::string &title) {
+    const std::string numbered = fmt::format("{}. {}", ++number, title);
+    links.push_back({"#" + id, numbered});
+    s += fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", id, html_escaped(numbered));
+  };
+  begin("numbers", "Numbers");
+  s +=
+      "<p>Drum and frame stand on a bed of balls and move up and down only; the exciter acts on the drum. In "
+      "two dimensions masses, forces and energies are per metre perpendicular to the picture. Condition A "
+      "dashed, condition B (no-tension limit) solid.</p>\n";
+  for (const PageTable &table : content.bed_tables)
+    s += table_html(table);
+  s += "</section>\n";
+  for (std::size_t i = 0; i < content.groups.size(); ++i) {
+    begin(bed_section(i), title_of(content.groups[i]));
+    s += fmt::format("<p>{}</p>\n", html_escaped(words_of(content.groups[i])));
+    s += section_html(content.bed_figures, bed_section(i)) + "</section>\n";
+  }
+  begin("runs", "Commands and versions");
+  std::vector<std::pair<std::string, std::string>> commands;
+  commands.reserve(content.beds.size());
+  for (const BedResult &result : content.beds)
+    commands.emplace_back(result.run.name, result.run.text("command"));
+  s += commands_html(commands) +
+       fmt::format("<h3 id=\"versions\">Versions</h3>\n<p>Report by drumlin {}; figures by "
+                   "{}.</p>\n</section>\n",
+                   html_escaped(content.versions.drumlin), html_escaped(content.versions.gnuplot));
+  return html_page("Roller on a bed of balls", made_line(content.versions), links, s);
+}
+
+} // namespace drumlin::post

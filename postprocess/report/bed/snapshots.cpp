@@ -1,0 +1,372 @@
+#include "report/bed/snapshots.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bed/coarse_graining.h"
+#include "bed/dump_readers.h"
+#include "pages/figure_data.h"
+
+namespace drumlin::post {
+
+namespace {
+
+/// The bed at one instant.
+struct Instant {
+  double time = 0.0;  ///< s
+  double force = 0.0; ///< on the drum, N, of the nearest row of bed.csv
+  bool has_contacts = false;
+  std::vector<Ball> balls;
+  BedContacts contacts;
+};
+
+/// The instants that the pictures show, in order.
+enum Which : std::size_t { settled, peak, least, instants };
+
+/// A run's instants; those that its dumps do not have are empty.
+struct Views {
+  const BedResult *result = nullptr;
+  std::array<std::optional<Instant>, instants> views;
+  std::vector<Ball> last; ///< at the last dump; empty with a single one
+};
+
+constexpr double bright_share = 0.98; ///< share of soil balls whose speed is within the scale of colours
+constexpr int force_classes = 5; ///< classes of contact forces, each up to twice the force of the class below
+constexpr double widest = 6.0;   ///< line width of the largest force, pt
+constexpr double layer = 2.0;    ///< height of a layer of the profile, in mean diameters of the soil balls
+constexpr double peak_weight = 10.0; ///< the page opens with the bed under the largest force
+
+/// Row of bed.csv nearest to a time.
+std::size_t row_near(const ChainHistory &history, double time) {
+  const auto next = std::lower_bound(history.time.begin(), history.time.end(), time);
+  auto row = static_cast<std::size_t>(next - history.time.begin());
+  if (row == history.size() || (row > 0 && time - history.time[row - 1] < history.time[row] - time)) --row;
+  return row;
+}
+
+Instant read_instant(const BedResult &result, long step, const StepDump &dump) {
+  Instant instant;
+  instant.time = static_cast<double>(step) * result.run.timestep;
+  instant.force = result.run.history.F_contact[row_near(result.run.history, instant.time)];
+  instant.has_contacts = !dump.contacts.empty();
+  instant.balls = read_ball_dump(dump.balls);
+  if (instant.has_contacts) instant.contacts = read_contact_dump(dump.contacts, instant.balls);
+  return instant;
+}
+
+/// The first dump is the bed at rest. Of the later dumps, `peak` has the largest and `least` the smallest
+/// force on the drum. Nothing if the run has no dumps.
+std::optional<Views> read_views(const BedResult &result) {
+  const std::map<long, StepDump> steps = dumped_steps(result.run.folder / "dump");
+  if (steps.empty()) return std::nullopt;
+  if (!(result.run.timestep > 0.0))
+    throw std::runtime_error(
+        fmt::format("{}: timestep is missing or not above 0; the time of a dump follows from it",
+                    (result.run.folder / "parameters.csv").string()));
+  Views out;
+  out.result = &result;
+  out.views[settled] = read_instant(result, steps.begin()->first, steps.begin()->second);
+  if (steps.size() == 1) return out;
+  const ChainHistory &h = result.run.history;
+  const auto force = [&](const std::pair<const long, StepDump> &step) {
+    return h.F_contact[row_near(h, static_cast<double>(step.first) * result.run.timestep)];
+  };
+  const auto [low, high] =
+      std::minmax_element(std::next(steps.begin()), steps.end(),
+                          [&](const auto &a, const auto &b) { return force(a) < force(b); });
+  out.views[peak] = read_instant(result, high->first, high->second);
+  if (low != high) out.views[least] = read_instant(result, low->first, low->second);
+  out.last = read_ball_dump(std::prev(steps.end())->second.balls);
+  return out;
+}
+
+double speed(const Ball &ball) { return std::hypot(ball.velocity[0], ball.velocity[1], ball.velocity[2]); }
+
+/// Scales that all pictures of a group share, so that they can be compared.
+struct Scales {
+  Bounds bounds;
+  double fastest = 0.0;   ///< end of the scale of colours, m/s
+  double strongest = 0.0; ///< largest normal force of a contact, N
+  bool flat = true;       ///< two dimensions
+  int layers = 1;         ///< of soil
+
+  /// Height z of the section through a bed in three dimensions, m.
+  double middle() const { return 0.5 * (bounds.low[2] + bounds.high[2]); }
+  /// Radius of a ball's circle in the picture, m: in three dimensions that of the section through the ball, 0
+  /// if the section misses it.
+  double shown_radius(const Ball &ball) const {
+    const double off = flat ? 0.0 : ball.position[2] - middle();
+    return std::sqrt(std::max(0.0, ball.radius * ball.radius - off * off));
+  }
+};
+
+Scales scales_of(const std::vector<Views> &all) {
+  Scales scales;
+  std::vector<double> speeds;
+  for (const Views &views : all)
+    for (const std::optional<Instant> &instant : views.views) {
+      if (!instant) continue;
+      scales.flat = scales.flat && in_a_plane(instant->balls);
+      for (const Ball &ball : instant->balls) {
+        scales.bounds.add(ball);
+        scales.layers = std::max(scales.layers, layer_of(ball.type));
+        if (is_soil(ball.type) && &instant != &views.views[settled]) speeds.push_back(speed(ball));
+      }
+      for (const BallContact &contact : instant->contacts.balls)
+        scales.strongest = std::max(scales.strongest, force_parts(contact).normal);
+      for (const WallContact &contact : instant->contacts.walls)
+        scales.strongest = std::max(scales.strongest, force_parts(contact).normal);
+    }
+  if (!speeds.empty()) {
+    const auto place =
+        speeds.begin() + static_cast<std::ptrdiff_t>(bright_share * static_cast<double>(speeds.size() - 1));
+    std::nth_element(speeds.begin(), place, speeds.end());
+    scales.fastest = *place;
+  }
+  // Rounded up to two digits, for the labels of the scale.
+  for (double *value : {&scales.fastest, &scales.strongest})
+    if (*value > 0.0) {
+      const double unit = std::pow(10.0, std::floor(std::log10(*value)) - 1.0);
+      *value = std::ceil(*value / unit) * unit;
+    }
+  return scales;
+}
+
+/// A number to two digits, without an exponent below 1e6.
+std::string two_digits(double value) {
+  const double unit = value > 0.0 ? std::pow(10.0, std::floor(std::log10(value)) - 1.0) : 1.0;
+  return fmt::format("{:g}", std::round(value / unit) * unit);
+}
+
+/// The name of the curve of a layer's balls, counted from 1, the lowest.
+std::string soil_curve(int layer_number, const Scales &scales) {
+  return scales.layers == 1 ? " soil" : fmt::format(" soil {}", layer_number);
+}
+
+void put_instant(CurveTable &table, const std::string &label, const Instant &instant, const Scales &scales) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<int> counts = coordination(instant.balls.size(), instant.contacts.balls);
+  for (std::size_t b = 0; b < instant.balls.size(); ++b) {
+    const Ball &ball = instant.balls[b];
+    const double radius = scales.shown_radius(ball);
+    if (radius == 0.0) continue;
+    table.row(label + (is_soil(ball.type) ? soil_curve(layer_of(ball.type), scales) : " roller"),
+              {ball.position[0], ball.position[1], radius, speed(ball),
+               instant.has_contacts ? static_cast<double>(counts[b]) : none, none, none, none});
+  }
+  const auto put_line = [&](const Vector &to, const Vector &l, double force) {
+    table.row(label + " contact", {to[0] - l[0], to[1] - l[1], none, none, none, l[0], l[1], force});
+  };
+  const auto shown = [&](std::size_t ball) { return scales.shown_radius(instant.balls[ball]) > 0.0; };
+  for (const BallContact &contact : instant.contacts.balls)
+    if (shown(contact.i) && shown(contact.j))
+      put_line(instant.balls[contact.i].position, contact.branch, force_parts(contact).normal);
+  for (const WallContact &contact : instant.contacts.walls) {
+    if (!shown(contact.i)) continue;
+    const Ball &ball = instant.balls[contact.i];
+    const Vector from = foot(ball, contact);
+    put_line(ball.position, {ball.position[0] - from[0], ball.position[1] - from[1], 0.0},
+             force_parts(contact).normal);
+  }
+}
+
+Panel instant_panel(const std::string &figure, const std::string &label, const Instant &instant,
+                    const Scales &scales, bool by_contacts) {
+  Panel panel;
+  panel.title = fmt::format("{}: {:.4g} s, {:.1f} kN on the drum", label, instant.time, instant.force * 1e-3);
+  panel.x_label = "x (m)";
+  panel.y_label = "y (m)";
+  panel.equal_scales = true;
+  const double margin = 0.02 * (scales.bounds.high[0] - scales.bounds.low[0]);
+  const auto range = [&](std::size_t axis) {
+    return axis_range(scales.bounds.low[axis] - margin, scales.bounds.high[axis] + margin);
+  };
+  panel.x_range = range(0);
+  panel.y_range = range(1);
+  if (by_contacts) {
+    panel.color_label = "contacts of a ball (-)";
+    panel.color_range = "[-0.5:6.5]";
+    panel.color_whole = true;
+  } else {
+    panel.color_label = "speed of a ball (m/s)";
+    panel.color_range = axis_range(0.0, std::max(scales.fastest, 1.0e-9));
+  }
+  const auto add = [&](const std::string &what, const std::string &x, const std::string &y,
+                       CurveStyle style) {
+    panel.curves.push_back(curve(figure, label + what, x, y, style));
+    panel.curves.back().title.clear();
+  };
+  constexpr std::array<CurveStyle, 4> edges = {CurveStyle::discs_1, CurveStyle::discs_2, CurveStyle::discs_3,
+                                               CurveStyle::discs_4};
+  for (int n = 1; n <= scales.layers; ++n) {
+    const CurveStyle edge = edges[static_cast<std::size_t>(n - 1) % edges.size()];
+    add(soil_curve(n, scales), "$2", by_contacts ? "3:4:6" : "3:4:5",
+        scales.layers == 1 ? CurveStyle::discs : edge);
+    if (scales.layers > 1) panel.curves.back().title = fmt::format("layer {}", n);
+  }
+  for (int i = 0; i < force_classes && scales.strongest > 0.0; ++i) {
+    const double high = scales.strongest / std::pow(2.0, force_classes - 1 - i);
+    add(" contact", fmt::format("($9 > {:.6g} && $9 <= {:.6g} ? $2 : NaN)", 0.5 * high, high), "3:7:8",
+        CurveStyle::segments);
+    panel.curves.back().width = widest * 0.75 * high / scales.strongest; // of the middle of the class
+    panel.curves.back().title =
+        fmt::format("{} to {} kN", two_digits(0.5e-3 * high), two_digits(1e-3 * high));
+  }
+  add(" roller", "$2", "3:4", CurveStyle::circles);
+  return panel;
+}
+
+std::string picture_caption(Which which, const Scales &scales, bool by_contacts) {
+  std::string words;
+  switch (which) {
+  case settled:
+    words = "The bed at rest, before the excitation (first dump)";
+    break;
+  case peak:
+    words = "The bed at the dump with the largest force on the drum";
+    break;
+  default:
+    words = "The bed at the dump with the smallest force on the drum";
+  }
+  words += by_contacts ? "; colours: contacts of each soil ball with other balls"
+                       : "; colours: speed of the soil balls (the fastest 2 % exceed the scale)";
+  if (scales.strongest > 0.0)
+    words +=
+        ". Black lines are the force chains: they join the centres of two balls in contact, or a ball and a "
+        "wall, and their width grows with the normal force. Forces below the smallest class of the legend "
+        "are "
+        "not drawn";
+  if (scales.layers > 1)
+    words += ". The edges of the balls have the colours of their layers, of which the lowest is layer 1";
+  if (!scales.flat)
+    words += fmt::format(". The picture is the section z = {:.3g} m of the bed: the circles in which it cuts "
+                         "the balls, and the contacts between balls that it cuts",
+                         scales.middle());
+  return words + ". Open circles: the drum and, above it, the frame, which has a mass but touches no soil.";
+}
+
+/// Adds the solid fraction of the soil over the depth, between x = low and x = high (m), to a table. Returns
+/// the largest value.
+double put_profile(CurveTable &table, const std::string &label, const std::vector<Ball> &balls,
+                   const Bounds &soil, double low, double high, double diameter) {
+  FieldGrid grid;
+  grid.flat = in_a_plane(balls);
+  const double depth = soil.high[1] - soil.low[1];
+  grid.cells[1] = static_cast<std::size_t>(std::max(1.0, std::round(depth / (layer * diameter))));
+  grid.origin = {low, soil.low[1], grid.flat ? 0.0 : soil.low[2]};
+  grid.sides = {high - low, depth / static_cast<double>(grid.cells[1]),
+                grid.flat ? 1.0 : soil.high[2] - soil.low[2]};
+  const BedFields fields = coarse_grained(balls, {}, grid);
+  for (std::size_t c = 0; c < grid.cells[1]; ++c)
+    table.row(label, {depth - (static_cast<double>(c) + 0.5) * grid.sides[1], fields.solid_fraction[c]});
+  return *std::max_element(fields.solid_fraction.begin(), fields.solid_fraction.end());
+}
+
+void plan_profile(const std::vector<Views> &all, const std::string &stem, const std::string &section,
+                  FigurePlan &plan) {
+  const std::string name = stem + "profile";
+  CurveTable table("depth (m),solid fraction (-)");
+  Panel whole{"across the whole box", "solid fraction (-)", "depth below the highest ball (m)", {}};
+  Panel below{"below the drum", "solid fraction (-)", "depth below the highest ball (m)", {}};
+  double densest = 0.0;
+  for (const Views &views : all) {
+    if (views.last.empty()) continue;
+    const std::string label = transition_name(views.result->run.transition());
+    const bool a = views.result->run.transition() == Transition::A;
+    Bounds soil;
+    double diameters = 0.0;
+    double balls = 0.0;
+    for (const std::vector<Ball> *state : {&views.views[settled]->balls, &views.last})
+      for (const Ball &ball : *state) {
+        if (!is_soil(ball.type)) continue;
+        soil.add(ball);
+        diameters += 2.0 * ball.radius;
+        balls += 1.0;
+      }
+    if (soil.empty()) continue;
+    const auto add = [&](const std::string &when, const std::vector<Ball> &state, CurveStyle style) {
+      const auto put = [&](Panel &panel, const std::string &where, double low, double high) {
+        const std::string row = fmt::format("{} {} {}", label, when, where);
+        densest = std::max(densest, put_profile(table, row, state, soil, low, high, diameters / balls));
+        panel.curves.push_back(curve(name, row, "$3", "2", style));
+        panel.curves.back().title = fmt::format("{} {}", label, when);
+      };
+      put(whole, "whole", soil.low[0], soil.high[0]);
+      Bounds drum; // one ball or a clump of many
+      for (const Ball &ball : state)
+        if (ball.type == drum_type) drum.add(ball);
+      if (!drum.empty()) put(below, "below", drum.low[0], drum.high[0]);
+    };
+    add("before", views.views[settled]->balls, a ? CurveStyle::series_5 : CurveStyle::series_3);
+    add("after", views.last, a ? CurveStyle::series_2 : CurveStyle::series_1);
+  }
+  if (whole.curves.empty()) return;
+  PageFigure figure{section, "", "", {}, table.text()};
+  figure.figure = {name, "Solid fraction over the depth", {}, 2};
+  for (Panel *panel : {&whole, &below}) {
+    if (panel->curves.empty()) continue;
+    panel->y_range = "[*:*] reverse";
+    panel->x_range = axis_range(0.8 * densest, 1.03 * densest); // the changes are small
+    figure.figure.panels.push_back(*panel);
+  }
+  figure.caption = fmt::format(
+      "Solid fraction: area (in three dimensions volume) of the soil balls over that of the layer, at the "
+      "first dump (before) and at the last (after), in layers of about {:g} mean diameters. Left: across the "
+      "whole box; right: below the drum. Layers that hold air or a part of the drum lie outside of the "
+      "scale; the CSV file has them.",
+      layer);
+  plan.figures.push_back(std::move(figure));
+}
+
+} // namespace
+
+void plan_bed_pictures(const BedGroup &group, const std::string &stem, const std::string &section,
+                       FigurePlan &plan) {
+  std::vector<Views> all;
+  for (const BedResult *result : group.runs) {
+    if (std::optional<Views> views = read_views(*result))
+      all.push_back(std::move(*views));
+    else
+      plan.absent.push_back({section, "The picture of " + result->run.name,
+                             "the run has no dumps; run it with -var dumps_per_cycle 10 to get them"});
+  }
+  if (all.empty()) return;
+  const Scales scales = scales_of(all);
+  constexpr std::array<std::pair<const char *, const char *>, instants> names = {
+      {{"settled", "The bed at rest"},
+       {"peak", "The bed at the largest force on the drum"},
+       {"least", "The bed at the smallest force on the drum"}}};
+  for (const Which which : {settled, peak, least}) {
+    const std::string name = stem + names[which].first;
+    CurveTable table("x (m),y (m),radius (m),speed (m/s),contacts (-),dx (m),dy (m),normal force (N)");
+    std::vector<Panel> panels;
+    // At rest there is no speed to show.
+    const bool by_contacts = which == settled && std::all_of(all.begin(), all.end(), [](const Views &views) {
+                               return views.views[settled]->has_contacts;
+                             });
+    for (const Views &views : all) {
+      const std::optional<Instant> &instant = views.views[which];
+      if (!instant) continue;
+      const std::string label = transition_name(views.result->run.transition());
+      put_instant(table, label, *instant, scales);
+      panels.push_back(instant_panel(name, label, *instant, scales, by_contacts));
+    }
+    if (panels.empty()) continue;
+    PageFigure figure{section, "", picture_caption(which, scales, by_contacts), {}, table.text()};
+    figure.figure = {name, names[which].second, panels, 2};
+    figure.figure.only_png = true;
+    if (which == peak) figure.weight = peak_weight;
+    plan.figures.push_back(std::move(figure));
+  }
+  plan_profile(all, stem, section, plan);
+}
+
+} // namespace drumlin::post

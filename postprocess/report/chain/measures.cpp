@@ -1,0 +1,433 @@
+#include "report/chain/measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <tuple>
+
+#include <fmt/format.h>
+
+namespace drumlin::post {
+
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+std::size_t row_at(const std::vector<double> &time, double t) {
+  return static_cast<std::size_t>(std::lower_bound(time.begin(), time.end(), t) - time.begin());
+}
+
+/// Drum velocity of the reference solution at the times of the run, by cubic interpolation where it has no
+/// row at that time.
+std::vector<double> reference_velocity(const ChainHistory &run, const ChainHistory &reference, double period,
+                                       bool &interpolated) {
+  std::vector<double> out;
+  out.reserve(run.size());
+  std::size_t r = 0;
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    const double t = run.time[i];
+    while (r + 2 < reference.size() && reference.time[r + 1] <= t)
+      ++r;
+    const double h = reference.time[r + 1] - reference.time[r];
+    const double s = (t - reference.time[r]) / h;
+    if (s > 1.0 + 1.0e-6) break; // rows of the run after its last complete cycle
+    if (std::abs(s) * h < 1.0e-9 * period) {
+      out.push_back(reference.v_drum[r]);
+    } else if (std::abs(1.0 - s) * h < 1.0e-9 * period) {
+      out.push_back(reference.v_drum[r + 1]);
+    } else {
+      interpolated = true;
+      const double s2 = s * s;
+      const double s3 = s2 * s;
+      out.push_back(reference.v_drum[r] * (2 * s3 - 3 * s2 + 1) +
+                    reference.v_drum[r + 1] * (3 * s2 - 2 * s3) +
+                    h * (reference.a_drum[r] * (s3 - 2 * s2 + s) + reference.a_drum[r + 1] * (s3 - s2)));
+    }
+  }
+  return out;
+}
+
+double velocity_error(const ChainHistory &run, const std::vector<double> &reference, TimeWindow window,
+                      double period) {
+  const double slack = 1.0e-6 * period;
+  const std::size_t first = std::min(row_at(run.time, window.begin - slack), reference.size());
+  const std::size_t last = std::min(row_at(run.time, window.end + slack), reference.size());
+  return relative_rms(run.v_drum, reference, first, last);
+}
+
+void widen(std::optional<Extremes> &extremes, double value) {
+  if (!extremes) {
+    extremes = Extremes{value, value};
+    return;
+  }
+  extremes->min = std::min(extremes->min, value);
+  extremes->max = std::max(extremes->max, value);
+}
+
+double share_from_samples(const ChainHistory &history, TimeWindow window) {
+  std::size_t all = 0;
+  std::size_t touching = 0;
+  for (std::size_t i = 0; i < history.size(); ++i) {
+    if (history.time[i] < window.begin || history.time[i] >= window.end) continue;
+    ++all;
+    if (history.F_contact[i] != 0.0) ++touching;
+  }
+  return all == 0 ? not_a_number : static_cast<double>(touching) / static_cast<double>(all);
+}
+
+/// Fills the values that compare a run with its reference solution.
+void compare_with_reference(ChainMeasures &m, const Run &run, const DirectResult &reference) {
+  const double period = run.chain.period();
+  const std::vector<double> exact =
+      reference_velocity(run.history, reference.history, period, m.reference_interpolated);
+  m.velocity_error_last =
+      velocity_error(run.history, exact, last_cycles_window(run.complete, error_cycles, period), period);
+  if (run.complete >= 30)
+    m.velocity_error_25_to_30 = velocity_error(run.history, exact, {25.0 * period, 30.0 * period}, period);
+  const TimeWindow all{-std::numeric_limits<double>::infinity(), run.complete * period};
+  m.match = match_events(events_in(run.events, all), events_in(reference.events, all));
+}
+
+/// \param reference the reference solution; nullptr if there is none
+ChainMeasures measure_chain(const Run &run, const DirectResult *reference) {
+  ChainMeasures m;
+  const ChainParameters &p = run.chain;
+  const double period = p.period();
+  m.steady_count = std::min(steady_cycles, run.complete);
+  if (m.steady_count > 1) m.steady_count = m.steady_count / 2 * 2;
+  m.steady = last_cycles_window(run.complete, m.steady_count, period);
+  m.extremes = steady_extremes(run.history, run.events, run.cycles, p, m.steady,
+                               static_cast<std::size_t>(m.steady_count));
+  m.share_exact = run.has_events;
+  m.contact_share = run.has_events ? contact_share(run.events, m.steady, run.history.F_contact.front() != 0.0)
+                                   : share_from_samples(run.history, m.steady);
+  for (const ContactEvent &event : run.events)
+    if (event.time > 0.0) ++(event.make ? m.makes : m.breaks);
+  std::size_t makes = 0;
+  std::size_t breaks = 0;
+  for (const ContactEvent &event : events_in(run.events, m.steady)) {
+    if (event.make) {
+      ++makes;
+      widen(m.force_at_make, event.force);
+    } else {
+      ++breaks;
+      widen(m.force_at_break, event.force);
+      widen(m.overlap_at_break, event.overlap);
+    }
+  }
+  m.makes_per_cycle = static_cast<double>(makes) / std::max(1, m.steady_count);
+  m.breaks_per_cycle = static_cast<double>(breaks) / std::max(1, m.steady_count);
+
+  std::optional<HarmonicAmplitudes> integrated;
+  if (run.cycles) integrated = harmonic_amplitudes(*run.cycles, static_cast<std::size_t>(m.steady_count));
+  m.amplitudes_every_step = integrated.has_value();
+  if (integrated) {
+    m.amplitudes = *integrated;
+  } else {
+    const TimeWindow wider{m.steady.begin - period / run.samples_per_cycle, m.steady.end};
+    const EventSeries series = with_events(run.history, run.events, p, wider);
+    m.amplitudes = harmonic_amplitudes(series.time, series.acceleration, p.omega, m.steady);
+  }
+  if (run.cycles)
+    m.energy = energy_balance(*run.cycles, m.energy_missing);
+  else
+    m.energy_missing = "cycles.csv";
+  m.roller = roller_force(run.history, run.events, p);
+
+  if (reference != nullptr) compare_with_reference(m, run, *reference);
+  return m;
+}
+
+/// The reference solution in the form of a run, so that it is measured in the same way.
+Run as_run(const Run &run, const DirectResult &reference) {
+  Run out;
+  out.kind = RunKind::chain;
+  out.direct = true;
+  out.chain = run.chain;
+  out.history = reference.history;
+  out.events = reference.events;
+  out.has_events = true;
+  out.complete = run.complete;
+  out.samples_per_cycle = run.samples_per_cycle;
+  CycleColumns cycles;
+  cycles.rows = reference.cycles.size();
+  for (const CycleSummary &cycle : reference.cycles) {
+    cycles.columns["a_drum_min"].push_back(cycle.a_drum_min);
+    cycles.columns["a_drum_max"].push_back(cycle.a_drum_max);
+    cycles.columns["F_contact_min"].push_back(cycle.F_contact_min);
+    cycles.columns["F_contact_max"].push_back(cycle.F_contact_max);
+  }
+  out.cycles = std::move(cycles);
+  return out;
+}
+
+/// The measured value of a quantity in SI units; nothing if the run does not have it.
+std::optional<double> measured(const ChainMeasures &m, bool has_events, Quantity quantity) {
+  switch (quantity) {
+  case Quantity::drum_acceleration_min:
+    return m.extremes.acceleration.min;
+  case Quantity::drum_acceleration_max:
+    return m.extremes.acceleration.max;
+  case Quantity::contact_force_min:
+    return m.extremes.force.min;
+  case Quantity::contact_force_max:
+    return m.extremes.force.max;
+  case Quantity::contact_share:
+    return m.contact_share;
+  case Quantity::force_at_break:
+    if (m.force_at_break) return m.force_at_break->min;
+    return std::nullopt;
+  case Quantity::overlap_at_break:
+    if (m.overlap_at_break) return m.overlap_at_break->max;
+    return std::nullopt;
+  case Quantity::force_at_make:
+    if (m.force_at_make) return m.force_at_make->max;
+    return std::nullopt;
+  case Quantity::breaks_per_cycle:
+    if (has_events) return m.breaks_per_cycle;
+    return std::nullopt;
+  case Quantity::makes_per_cycle:
+    if (has_events) return m.makes_per_cycle;
+    return std::nullopt;
+  case Quantity::compaction_meter_value:
+    return compaction_meter_value(m.amplitudes);
+  }
+  return std::nullopt;
+}
+
+/// Fills value, differences and agreement. `half_digit` is half a unit of the last digit given.
+void judge(Check &check, double value, double low, double high, double tolerance, double half_digit) {
+  check.value = value;
+  check.difference = value < low ? value - low : value > high ? value - high : 0.0;
+  const double nearest = value < low ? low : value > high ? high : value;
+  check.relative_difference = nearest != 0.0 ? check.difference / std::abs(nearest) : not_a_number;
+  const double off = std::abs(check.difference);
+  const double rounding = 1.0e-12 * std::max(std::abs(low), std::abs(high));
+  if (off <= std::min(half_digit, tolerance) + rounding)
+    check.agreement = Agreement::same_digits;
+  else if (off <= tolerance + rounding)
+    check.agreement = Agreement::tolerance;
+  else
+    check.agreement = Agreement::differs; // also if the value is not a number
+}
+
+/// Whether a run's steady state is compared with the reference values.
+bool is_judged(const Run &run) { return run.cut.empty() && run.complete >= long_run_cycles; }
+
+Check steady_check(std::size_t index, const RunResult &result, const ReferenceValue &reference) {
+  Check check;
+  check.run = index;
+  check.quantity = quantity_name(reference.quantity);
+  check.unit = reference.unit;
+  check.source = reference.source;
+  const int decimals = reference.decimals;
+  check.reference = reference.low == reference.high ? fmt::format("{:.{}f}", reference.low, decimals)
+                                                    : fmt::format("{:.{}f} to {:.{}f}", reference.low,
+                                                                  decimals, reference.high, decimals);
+  const bool count =
+      reference.quantity == Quantity::breaks_per_cycle || reference.quantity == Quantity::makes_per_cycle;
+  if (count) check.reference = "none";
+  check.tolerance =
+      reference.tolerance == 0.0 ? "exact" : fmt::format("{:.{}f}", reference.tolerance, decimals);
+  const bool judged = is_judged(result.run);
+  const std::optional<double> value = measured(*result.chain, result.run.has_events, reference.quantity);
+  if (!value) {
+    if (!judged) check.agreement = Agreement::not_judged;
+    check.note = "the run has no such event in its last cycles, or recorded none";
+    return check;
+  }
+  if (result.reference_chain)
+    if (const std::optional<double> direct = measured(*result.reference_chain, true, reference.quantity))
+      check.direct = *direct * reference.scale;
+  judge(check, *value * reference.scale, reference.low, reference.high, reference.tolerance,
+        0.5 * std::pow(10.0, -decimals));
+  if (!judged) check.agreement = Agreement::not_judged;
+  check.measured = count && *value == 0.0
+                       ? "none"
+                       : fmt::format("{:.{}f}", check.value + 0.0, std::max(decimals + 2, count ? 1 : 0));
+  if (reference.quantity == Quantity::contact_share && !result.chain->share_exact)
+    check.note = "from samples, not from located events";
+  const bool extreme = reference.quantity == Quantity::drum_acceleration_min ||
+                       reference.quantity == Quantity::drum_acceleration_max ||
+                       reference.quantity == Quantity::contact_force_min ||
+                       reference.quantity == Quantity::contact_force_max;
+  if (extreme && !result.chain->extremes.every_step)
+    check.note = "from samples and events, not from every step";
+  if (reference.quantity == Quantity::compaction_meter_value && !result.chain->amplitudes_every_step)
+    check.note = "from samples and events, not from every step";
+  return check;
+}
+
+void compare_impact(std::size_t index, const RunResult &result, std::vector<Check> &checks) {
+  const ImpactParameters &p = result.run.impact;
+  const std::string transition = transition_name(p.transition);
+  const double exact = closed_form_restitution(transition, p.damping_ratio);
+  Check check;
+  check.run = index;
+  check.quantity = "restitution";
+  double low = exact;
+  double tolerance = 1.0e-4;
+  check.source = "closed form";
+  for (const ReferenceRestitution &reference : reference_restitutions())
+    if (reference.transition == transition && std::abs(reference.damping_ratio - p.damping_ratio) < 1.0e-9) {
+      low = reference.restitution;
+      tolerance = reference.tolerance;
+      check.source = reference.source;
+    }
+  check.reference = fmt::format("{:.6f}", low);
+  check.tolerance = fmt::format("{:g}", tolerance);
+  if (!result.impact) {
+    check.note = "the mass does not move towards the ball at the start of the record";
+  } else if (!result.impact->hits) {
+    check.note = "the mass does not reach the ball within the record";
+  } else if (!result.impact->ended) {
+    check.note = "the record ends before the rebound";
+  } else {
+    judge(check, result.impact->restitution(), low, low, tolerance, 0.5e-6);
+    check.measured = fmt::format("{:.8f}", check.value);
+  }
+  if (exact == 0.0) { // A, over-damped: no rebound is the answer
+    check.reference = "no rebound";
+    if (result.impact && result.impact->hits) {
+      check.measured = result.impact->ended ? "rebound" : "no rebound";
+      check.agreement = result.impact->ended ? Agreement::differs : Agreement::same_digits;
+      check.note.clear();
+    }
+  }
+  if (!result.run.cut.empty()) check.agreement = Agreement::not_judged;
+  checks.push_back(std::move(check));
+}
+
+void compare_words(ReportResults &results) {
+  const auto index_of = [&results](const RunResult *result) {
+    return static_cast<std::size_t>(result - results.runs.data());
+  };
+  const RunResult *one_a = best_run(results, "I", Transition::A);
+  const RunResult *one_b = best_run(results, "I", Transition::B);
+  if (one_a != nullptr && one_b != nullptr && one_a->run.at_case && one_b->run.at_case) {
+    Check check;
+    check.run = index_of(one_b);
+    check.quantity = "case I: largest difference of drum acceleration between A and B";
+    check.unit = "m/s²";
+    check.reference = "0";
+    check.tolerance = "1e-06";
+    check.source = "paper, section 4.1.1: \"identical\"";
+    const std::vector<double> &a = one_a->run.history.a_drum;
+    const std::vector<double> &b = one_b->run.history.a_drum;
+    if (one_a->run.samples_per_cycle != one_b->run.samples_per_cycle) {
+      check.note = "A and B have different numbers of samples per cycle";
+    } else {
+      double largest = 0.0;
+      for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+        largest = std::max(largest, std::abs(a[i] - b[i]));
+      judge(check, largest, 0.0, 0.0, 1.0e-6, 0.0);
+      check.measured = fmt::format("{:.2g}", largest);
+    }
+    if (!one_a->run.cut.empty() || !one_b->run.cut.empty()) check.agreement = Agreement::not_judged;
+    results.words.push_back(check);
+  }
+  const RunResult *two = best_run(results, "II", Transition::B);
+  const RunResult *three = best_run(results, "III", Transition::B);
+  if (two != nullptr && three != nullptr && two->run.at_case && three->run.at_case) {
+    const ReferencePeakRatio reference;
+    Check check;
+    check.run = index_of(three);
+    check.quantity = "largest drum acceleration, case III over case II (B)";
+    check.reference = "0.40";
+    check.tolerance = fmt::format("{:g}", reference.tolerance);
+    check.source = reference.source;
+    judge(check, three->chain->extremes.acceleration.max / two->chain->extremes.acceleration.max,
+          reference.ratio, reference.ratio, reference.tolerance, 0.005);
+    check.measured = fmt::format("{:.4f}", check.value);
+    if (!is_judged(two->run) || !is_judged(three->run)) check.agreement = Agreement::not_judged;
+    results.words.push_back(check);
+  }
+  const RunResult *four = best_run(results, "IV", Transition::A);
+  if (four != nullptr && four->run.at_case) {
+    Check check;
+    check.run = index_of(four);
+    check.quantity = "case IV, A: second harmonic over fundamental";
+    check.reference = "0";
+    check.tolerance = "1e-04";
+    check.source = "paper, section 4.1.4: \"remains in the sinusoidal shape\"";
+    judge(check, four->chain->amplitudes.second / four->chain->amplitudes.fundamental, 0.0, 0.0, 1.0e-4, 0.0);
+    check.measured = fmt::format("{:.2g}", check.value);
+    if (!is_judged(four->run)) check.agreement = Agreement::not_judged;
+    results.words.push_back(check);
+  }
+}
+
+} // namespace
+
+std::shared_ptr<const DirectResult> DirectSolutions::solve(const ChainParameters &parameters, int cycles,
+                                                           int samples_per_cycle, double impact_speed) {
+  const ChainParameters &p = parameters;
+  const std::string key =
+      fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {}", p.m2, p.m3, p.k, p.D, p.omega, p.Fw, p.k23, p.c23,
+                  p.g, transition_name(p.transition), cycles, samples_per_cycle, impact_speed);
+  std::shared_ptr<const DirectResult> &entry = known_[key];
+  if (!entry) {
+    DirectOptions options;
+    options.cycles = cycles;
+    options.samples_per_cycle = samples_per_cycle;
+    options.impact_speed = impact_speed;
+    if (const std::string fault = too_much_work(parameters, options); !fault.empty())
+      throw std::runtime_error(fault);
+    entry = std::make_shared<const DirectResult>(solve_direct(parameters, options));
+  }
+  return entry;
+}
+
+RunResult analyse(Run run, DirectSolutions &direct) {
+  RunResult result;
+  result.run = std::move(run);
+  const Run &r = result.run;
+  if (r.kind == RunKind::chain && r.complete >= 1) {
+    try {
+      result.reference = direct.solve(r.chain, r.complete, r.samples_per_cycle, r.impact_speed);
+    } catch (const std::exception &failure) {
+      result.run.missing.push_back(fmt::format(
+          "no comparison with the reference solution, since the direct solver failed: {}.", failure.what()));
+    }
+    result.chain = measure_chain(r, result.reference.get());
+    if (result.reference)
+      result.reference_chain = measure_chain(as_run(r, *result.reference), result.reference.get());
+  } else if (r.kind == RunKind::chain) {
+    result.run.missing.emplace_back(
+        "nothing is measured, since chain.csv ends before the first complete cycle.");
+  } else if (r.kind == RunKind::impact) {
+    result.impact = measure_impact(r.history, r.events);
+  }
+  return result;
+}
+
+void compare(ReportResults &results) {
+  for (std::size_t i = 0; i < results.runs.size(); ++i) {
+    const RunResult &result = results.runs[i];
+    if (result.run.kind == RunKind::impact) compare_impact(i, result, results.restitution);
+    if (!result.chain || !result.run.at_case) continue;
+    const std::string transition = transition_name(result.run.chain.transition);
+    for (const ReferenceValue &reference : reference_values())
+      if (reference.case_name == result.run.case_name && reference.transition == transition)
+        results.checks.push_back(steady_check(i, result, reference));
+  }
+  compare_words(results);
+}
+
+const RunResult *best_run(const ReportResults &results, const std::string &case_name, Transition transition) {
+  const auto rank = [](const RunResult &result) {
+    const double error = result.chain->velocity_error_last;
+    return std::tuple(!result.run.cut.empty(), !result.run.at_case, result.run.complete < long_run_cycles,
+                      result.run.direct, std::isnan(error) ? std::numeric_limits<double>::infinity() : error);
+  };
+  const RunResult *best = nullptr;
+  for (const RunResult &result : results.runs) {
+    if (!result.chain || result.run.case_name != case_name || result.run.chain.transition != transition)
+      continue;
+    if (best == nullptr || rank(result) < rank(*best)) best = &result;
+  }
+  return best;
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,159 @@
+#include "report/chain/page.h"
+
+#include "pages/scene.h"
+#include "report/answer.h"
+#include "report/chain/engine_comparison.h"
+
+#include "support/text.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace drumlin::post {
+
+namespace {
+
+struct Section {
+  const char *id;
+  const char *title;
+  const char *words;
+};
+
+constexpr Section sections[] = {
+    {"steady", "Drum acceleration, cases I to IV",
+     "Figs. 4 to 7 of the paper, where the parameters are those of the paper. Condition A dashed, condition "
+     "B "
+     "(no-tension limit) solid, reference solution as markers."},
+    {"reference", "Reference values",
+     "Every measured value that has a reference value, the compaction meter values, and what the paper "
+     "states "
+     "in words."},
+    {"direct", "Error against the reference solution",
+     "The reference solution is that of the direct solver: it integrates the equations of motion of the same "
+     "chain between located events, without an engine. Tables call it the direct solution. Fig. 8 is that of "
+     "the paper."},
+    {"engines", "LIGGGHTS against LAMMPS", "The same chains in both engines."},
+    {"impact", "Single impact",
+     "A mass hits a fixed ball once, without gravity (Fig. 3 of the paper). The restitution is the rebound "
+     "speed over the impact speed."},
+    {"loops", "Phase portraits and force loops",
+     "The same runs as in Figs. 4 to 7, in other coordinates. The paper has no such figures."},
+    {"events", "Makes and breaks of contact", ""},
+    {"energy", "Energy balance", "Where the work of the exciter goes."},
+    {"roller", "Contact force from measured motion",
+     "A roller cannot measure the contact force itself, but motion: the equation of motion gives Fc = m2 a2 "
+     "+ "
+     "m3 a3 + (m2 + m3) g + Fe. Here the accelerations are differences of the positions in chain.csv, and "
+     "the "
+     "result must equal the force of the contact law."},
+    {"bed", "Roller on a bed of balls", ""},
+    {"studies", "Studies",
+     "What time steps, laws and options cost and what they bring, each on its own page."},
+    {"runs", "Runs, commands and versions", ""},
+};
+
+/// Whether a section has a subject in this report: runs on beds have their own page, and the last section is
+/// always there.
+bool belongs(const std::string &section, const ReportContent &content) {
+  if (section == "bed") return !content.beds.empty();
+  if (section == "engines") return !engine_pairs(content.results).empty();
+  if (section == "studies") return !content.studies.empty() || content.beds.empty();
+  return !content.results.runs.empty() || section == "runs";
+}
+
+Scene scene_of(const ReportContent &content) {
+  return content.results.runs.empty() && !content.beds.empty() ? Scene::bed : Scene::chain;
+}
+
+std::string opening_html(const ReportContent &content) {
+  Answer answer = chain_answer(content.results);
+  answer.add(bed_answer(content.groups));
+  if (const std::size_t studies = content.studies.size(); studies > 0)
+    answer.sentences.push_back(
+        {fmt::format("{} {}.", studies,
+                     studies == 1 ? "study has a page of its own" : "studies have pages of their own"),
+         "Studies."});
+  if (const std::size_t others = content.left_out.size(); others > 0)
+    answer.sentences.push_back(
+        {fmt::format("{} left out, and not judged: the last section says why.",
+                     others == 1 ? "One folder is" : fmt::format("{} folders are", others)),
+         "Left out."});
+  return answer_html(answer.sentences, answer.verdict, scene_html(scene_of(content))) +
+         key_figures_html(content.keys);
+}
+
+std::string beds_html(const std::vector<BedResult> &beds) {
+  std::string s =
+      "<p><a href=\"bed.html\">Figures and commands of these runs</a> are on a page of their own: ";
+  for (std::size_t i = 0; i < beds.size(); ++i)
+    s += (i == 0 ? "" : ", ") + html_escaped(beds[i].run.name);
+  return s + ".</p>\n";
+}
+
+std::string studies_html(const std::vector<StudyLink> &studies) {
+  if (studies.empty()) return {};
+  std::string s = "<ul>\n";
+  for (const StudyLink &study : studies)
+    s +=
+        fmt::format("<li><a href=\"{}\">{}</a></li>\n", html_escaped(study.place), html_escaped(study.title));
+  return s + "</ul>\n";
+}
+
+std::string versions_html(const ReportContent &content) {
+  std::vector<std::pair<std::string, std::string>> commands;
+  commands.reserve(content.results.runs.size());
+  for (const RunResult &result : content.results.runs)
+    commands.emplace_back(result.run.name, result.run.text("command"));
+  const ReportVersions &versions = content.versions;
+  return (commands.empty() ? "" : commands_html(commands)) + "<h3 id=\"versions\">Versions</h3>\n<p>" +
+         html_escaped(fmt::format("Report by drumlin {}; reference solutions by {}; figures by {}.",
+                                  versions.drumlin, versions.direct_solver, versions.gnuplot)) +
+         "</p>\n";
+}
+
+/// Folders that are not part of the report, and why.
+std::string left_out_html(const std::vector<LeftOut> &folders) {
+  if (folders.empty()) return {};
+  std::string s = "<h3 id=\"left_out\">Left out</h3>\n<ul>\n";
+  for (const LeftOut &folder : folders)
+    s += fmt::format("<li><code>{}</code>: {}</li>\n", html_escaped(valid_utf8(folder.folder.string())),
+                     html_escaped(folder.why));
+  return s + "</ul>\n";
+}
+
+std::string contents_of(const Section &section, const ReportContent &content) {
+  const std::string id = section.id;
+  std::string s;
+  if (id == "bed") s += beds_html(content.beds);
+  s += section_html(content.figures, id);
+  for (const PageTable &table : content.tables)
+    if (table.section == id) s += table_html(table);
+  if (id == "studies") s += studies_html(content.studies);
+  if (id == "runs") s += left_out_html(content.left_out) + versions_html(content);
+  return s.empty() ? "<p class=\"absent\">The given runs have nothing for this section.</p>\n" : s;
+}
+
+} // namespace
+
+std::string made_line(const ReportVersions &versions) {
+  return fmt::format("Made on {} by drumlin {}.", versions.made_at, versions.drumlin);
+}
+
+std::string report_page(const ReportContent &content) {
+  std::vector<PageLink> links = {{"#answer", "Answer"}};
+  std::string s = opening_html(content);
+  int number = 0;
+  for (const Section &section : sections) {
+    if (!belongs(section.id, content)) continue;
+    const std::string title = fmt::format("{}. {}", ++number, section.title);
+    links.push_back({fmt::format("#{}", section.id), title});
+    s += fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", section.id, html_escaped(title));
+    if (section.words[0] != '\0') s += fmt::format("<p>{}</p>\n", html_escaped(section.words));
+    s += contents_of(section, content) + "</section>\n";
+  }
+  if (!content.beds.empty()) links.push_back({"bed.html", "Page on the beds"});
+  return html_page("Roller on soil: report of the runs", made_line(content.versions), links, s);
+}
+
+} // namespace drumlin::post

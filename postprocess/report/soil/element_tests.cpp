@@ -1,0 +1,22 @@
+#include "report/soil/element_tests.h"
+
+#include "report/soil/compression.h"
+#include "report/soil/oedometer.h"
+#include "report/soil/own_weight.h"
+#include "report/soil/plate.h"
+#include "report/soil/shear.h"
+
+namespace drumlin::post {
+
+std::vector<ElementTest> element_tests() {
+  return {{"oedometer", oedometer_title, read_oedometer_page},
+          {"biaxial", biaxial_title, read_biaxial_page},
+          {"triaxial", triaxial_title, read_triaxial_page},
+          {"plate", plate_title, read_plate_page},
+          {"shear", shear_title, read_shear_page},
+          {"repose", repose_title, read_repose_page},
+          {"silo", silo_title, read_silo_page},
+          {"wall", wall_title, read_wall_page}};
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,80 @@
+// The CSV files of a chain run: chain.csv, events.csv, cycles.csv, and parameters.csv (runs/parameter_file.h).
+// One reader and one writer per file, for the engine's output and for the direct solver's alike. Errors and
+// numbers are as in support/csv.h.
+#pragma once
+
+#include "support/csv.h"
+#include "runs/parameter_file.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+/// Time series of a chain, one vector per column of chain.csv, all of one length (the frame's may be empty).
+struct ChainHistory {
+  std::vector<double> time;         ///< from the start of the excitation [s]
+  std::vector<double> x_drum;       ///< 0 where drum and soil just touch, up positive [m]
+  std::vector<double> v_drum;       ///< [m/s]
+  std::vector<double> a_drum;       ///< [m/s2]
+  std::vector<double> x_frame;      ///< equals x_drum where the bond is unstretched [m]; empty if no frame
+  std::vector<double> v_frame;      ///< [m/s]; empty if no frame
+  std::vector<double> a_frame;      ///< [m/s2]; empty if no frame
+  std::vector<double> F_contact;    ///< positive in compression [N]
+  std::vector<double> F_excitation; ///< F_e, positive pushes the drum down [N]; zeros if the file has none
+  std::vector<double> F_bond; ///< c23 (v_frame - v_drum) + k23 (x_frame - x_drum) [N]; empty if no frame
+
+  /// Number of rows.
+  std::size_t size() const { return time.size(); }
+  /// Whether the frame's columns are there.
+  bool has_frame() const { return !x_frame.empty(); }
+};
+
+/// A contact made or broken: one row of events.csv.
+struct ContactEvent {
+  double time = 0.0;         ///< [s]
+  bool make = true;          ///< made, else broken
+  double overlap = 0.0;      ///< d, positive when overlapping [m]
+  double overlap_rate = 0.0; ///< d' [m/s]
+  double force = 0.0;        ///< just after make or just before break, positive in compression [N]
+  long id_i = 1;             ///< the lower of the two particles' ids (soil)
+  long id_j = 2;             ///< the higher (drum)
+};
+
+/// Extremes and contact share of one cycle of the excitation: one row of cycles.csv.
+struct CycleSummary {
+  int cycle = 0;              ///< counted from 1
+  double time = 0.0;          ///< start of the cycle [s]
+  double a_drum_min = 0.0;    ///< extremes over the cycle [m/s2]
+  double a_drum_max = 0.0;    ///< [m/s2]
+  double F_contact_min = 0.0; ///< extremes over the cycle, both sides of the jumps [N]
+  double F_contact_max = 0.0; ///< [N]
+  double contact_share = 0.0; ///< share of the cycle's time in contact [-]
+  int makes = 0;              ///< contacts made in the cycle
+  int breaks = 0;             ///< contacts broken in the cycle
+};
+
+/// Numeric columns of a cycles.csv by name; rows are excitation cycles in order.
+struct CycleColumns {
+  std::map<std::string, std::vector<double>> columns;
+  std::size_t rows = 0;
+  bool has(const std::string &name) const { return columns.count(name) != 0; }
+  const std::vector<double> &at(const std::string &name) const { return columns.at(name); }
+};
+
+/// Reads chain.csv. The frame's four columns may be missing (all of them), so may F_excitation (then zeros).
+ChainHistory read_chain(const std::filesystem::path &file);
+/// Reads events.csv.
+std::vector<ContactEvent> read_events(const std::filesystem::path &file);
+/// Reads the columns of a cycles.csv that are known; any may be missing.
+CycleColumns read_cycle_columns(const std::filesystem::path &file);
+
+/// The text of the files.
+std::string chain_text(const ChainHistory &history);
+std::string events_text(const std::vector<ContactEvent> &events);
+std::string cycles_text(const std::vector<CycleSummary> &cycles);
+
+} // namespace drumlin::post

@@ -1,0 +1,243 @@
+// Meter values: each formula against its closed form and against an independent computation, records of the direct solver
+// against reference values, and the files that other programs read.
+#include "meter/page.h"
+#include "meter/values.h"
+#include "map/regime.h"
+
+#include "chain/direct_solver.h"
+#include "chain/parameters.h"
+#include "tests/support/chain_record.h"
+#include "tests/support/lines.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+
+namespace {
+
+using namespace drumlin::post;
+
+constexpr double pi = 3.14159265358979323846;
+
+/// The record of a run of the direct solver.
+Record record_of(const ChainParameters &parameters, int cycles, int samples) {
+  DirectOptions options;
+  options.cycles = cycles;
+  options.samples_per_cycle = samples;
+  const ChainHistory history = solve_direct(parameters, options).history;
+  Record record = test::record_of(parameters, history);
+  record.interval = parameters.period() / samples;
+  record.F_contact = history.F_contact;
+  return record;
+}
+
+MeterWindow last_window(const Record &record, const MeterOptions &options = {}) {
+  return meter_windows(meter_cycles(record), options).back();
+}
+
+/// A record of accelerations alone, sum of cosines at multiples of 20 Hz.
+Record synthetic(double samples_per_cycle, int cycles, const std::vector<std::pair<double, double>> &parts) {
+  Record record;
+  record.file = "measured.csv";
+  record.omega = 40.0 * pi;
+  record.interval = 0.05 / samples_per_cycle;
+  const int count = static_cast<int>(cycles * samples_per_cycle) + 1;
+  for (int i = 0; i <= count; ++i) {
+    record.time.push_back(0.3 + i * record.interval);
+    double a = 0.0;
+    for (const auto &[order, amplitude] : parts)
+      a += amplitude * std::cos(order * *record.omega * record.time.back() + order);
+    record.a_drum.push_back(a);
+  }
+  return record;
+}
+
+TEST(Meter, AmplitudesOfAKnownSignal) {
+  const std::vector<std::pair<double, double>> parts = {{0.5, 1.0},  {1.0, 40.0}, {1.5, 2.0},
+                                                        {2.0, 16.0}, {2.5, 3.0},  {3.0, 4.0}};
+  const MeterWindow whole = last_window(synthetic(64.0, 20, parts));
+  for (std::size_t j = 0; j < parts.size(); ++j)
+    EXPECT_NEAR(whole.amplitude[j], parts[j].second, 1e-11) << meter_orders[j];
+  EXPECT_NEAR(*whole.cmv, 300.0 * 16.0 / 40.0, 1e-9);
+  EXPECT_NEAR(*whole.rmv, 100.0 * 1.0 / 40.0, 1e-9);
+  MeterOptions other;
+  other.rmv_constant = 300.0;
+  EXPECT_NEAR(*last_window(synthetic(64.0, 20, parts), other).rmv, 7.5, 1e-9);
+  // A cycle that is no whole number of samples: of second order in the interval.
+  const MeterWindow broken = last_window(synthetic(333.3, 20, parts));
+  EXPECT_NEAR(*broken.cmv, 120.0, 0.02);
+  EXPECT_LT(std::abs(*broken.cmv - 120.0), broken.cmv_bound);
+}
+
+TEST(Meter, ModesOfKnownSignals) {
+  EXPECT_EQ(last_window(synthetic(50.0, 20, {{1.0, 40.0}, {2.0, 9.0}})).mode, OperatingMode::same_each_cycle);
+  EXPECT_EQ(last_window(synthetic(50.0, 20, {{0.5, 30.0}, {1.0, 40.0}, {1.5, 20.0}})).mode,
+            OperatingMode::double_jump);
+  EXPECT_EQ(last_window(synthetic(50.0, 20, {{1.0, 40.0}, {1.31, 30.0}})).mode, OperatingMode::irregular);
+}
+
+struct Known {
+  const char *name;
+  double cmv; // reference value, from Fourier integrals over each phase of the exact solution
+};
+constexpr Known known_cmv[] = {{"II", 155.948}, {"III", 105.730}, {"IV", 247.175}};
+
+TEST(Meter, CmvOfTheDirectSolution) {
+  for (const Known &known : known_cmv) {
+    Record record = record_of(table1_case(known.name, Transition::B), 120, 2000);
+    const MeterWindow exact = last_window(record);
+    EXPECT_NEAR(*exact.cmv / known.cmv, 1.0, 1e-5) << known.name;
+    EXPECT_EQ(exact.mode, OperatingMode::partial_uplift);
+    // A jump of the acceleration lies anywhere between two samples.
+    record.v_drum.clear();
+    const MeterWindow sampled = last_window(record);
+    EXPECT_NEAR(*sampled.cmv / known.cmv, 1.0, 4e-3) << known.name;
+    EXPECT_LT(std::abs(*sampled.cmv - known.cmv), sampled.cmv_bound) << known.name;
+  }
+}
+
+TEST(Meter, BoundsHoldForCoarseRecords) {
+  for (const Known &known : known_cmv)
+    for (const int samples : {50, 130, 400}) {
+      Record record = record_of(table1_case(known.name, Transition::B), 120, samples);
+      const MeterWindow velocity = last_window(record);
+      EXPECT_LT(std::abs(*velocity.cmv - known.cmv), velocity.cmv_bound) << known.name << samples;
+      record.v_drum.clear();
+      const MeterWindow acceleration = last_window(record);
+      EXPECT_LT(std::abs(*acceleration.cmv - known.cmv), acceleration.cmv_bound) << known.name << samples;
+      EXPECT_LT(velocity.cmv_bound, acceleration.cmv_bound) << known.name << samples;
+    }
+}
+
+TEST(Meter, DoubleJumpAgainstTheClosedFormSolver) {
+  ChainParameters p = table1_case("II", Transition::B);
+  p.k = 60e6;
+  p.D = 0.2;
+  const RegimePoint known = judge_regime(p, 300);
+  ASSERT_EQ(known.regime, Regime::period_2);
+  const MeterWindow window = last_window(record_of(p, 150, 500));
+  EXPECT_EQ(window.mode, OperatingMode::double_jump);
+  EXPECT_NEAR(*window.cmv / known.meter.cmv, 1.0, 1e-3);
+  EXPECT_NEAR(*window.rmv / known.meter.rmv, 1.0, 1e-3);
+}
+
+TEST(Meter, StiffnessAndEnergyInContinuousContact) {
+  const ChainParameters p = table1_case("I", Transition::B);
+  const MeterWindow window = last_window(record_of(p, 100, 400));
+  EXPECT_EQ(window.mode, OperatingMode::continuous_contact);
+  EXPECT_NEAR(*window.k_1 / p.k, 1.0, 1e-6);
+  EXPECT_NEAR(*window.c_1 / p.damping(), 1.0, 1e-6);
+  // k_B counts the frame as part of the soil: its dynamic stiffness in closed form.
+  const std::complex<double> bond(p.k23, p.omega * p.c23);
+  const double inertia = p.m3 * p.omega * p.omega;
+  const std::complex<double> frame = -bond * inertia / (bond - inertia);
+  EXPECT_NEAR(*window.k_B / (p.k + frame.real()), 1.0, 1e-6);
+  // The dashpot of the soil takes pi c omega X^2 per cycle.
+  EXPECT_NEAR(*window.energy /
+                  (2.0 * pi * p.damping() * p.omega * *window.displacement * *window.displacement),
+              1.0, 1e-5);
+  EXPECT_LT(*window.cmv, 1e-3);
+}
+
+TEST(Meter, ForceFromAccelerationsGivesTheSame) {
+  Record record = record_of(table1_case("II", Transition::B), 60, 500);
+  const MeterWindow recorded = last_window(record);
+  const std::vector<double> force = record.F_contact;
+  record.F_contact.clear();
+  const std::vector<double> computed = soil_force(record);
+  for (std::size_t i = 0; i < force.size(); ++i)
+    ASSERT_NEAR(computed[i], force[i], 1e-4);
+  const MeterWindow window = last_window(record);
+  EXPECT_NEAR(*window.energy, *recorded.energy, 1e-6 * *recorded.energy);
+  EXPECT_NEAR(*window.contact_share, *recorded.contact_share, 0.03);
+}
+
+/// Deflection in the middle of the contact by integration of Boussinesq's solution over Hertz's pressure, constant along the
+/// width of the drum: 2 asinh(L/2x) is the integral of 1/r along it.
+double integrated_deflection(double force, double modulus, const LineContact &contact) {
+  const double plane = (1.0 - contact.poisson * contact.poisson) / modulus;
+  const double half = 0.5 * std::sqrt(16.0 / pi * contact.radius * plane * force / contact.length);
+  double sum = 0.0;
+  constexpr int steps = 200000;
+  for (int i = 0; i < steps; ++i) {
+    const double angle = (i + 0.5) * 0.5 * pi / steps; // x = half sin(angle) takes the square root away
+    sum += std::cos(angle) * std::cos(angle) * std::asinh(contact.length / (2.0 * half * std::sin(angle)));
+  }
+  const double pressure = 2.0 * force / (pi * half * contact.length);
+  return plane / pi * pressure * 4.0 * half * sum * 0.5 * pi / steps;
+}
+
+TEST(Lundberg, DeflectionsAndModulus) {
+  const LineContact drum = {0.759, 2.13, 0.35};
+  const double moduli[] = {20e6, 40e6, 80e6, 160e6};
+  const double at_72[] = {4.932e-3, 2.629e-3, 1.397e-3, 0.739e-3};
+  const double at_200[] = {12.359e-3, 6.634e-3, 3.544e-3, 1.886e-3};
+  for (int i = 0; i < 4; ++i)
+    for (const auto &[force, expected] : {std::pair{72e3, at_72[i]}, std::pair{200e3, at_200[i]}}) {
+      const double z = lundberg_deflection(force, moduli[i], drum);
+      EXPECT_NEAR(z, expected, 0.5e-6);
+      EXPECT_NEAR(*lundberg_modulus(force, z, drum) / moduli[i], 1.0, 1e-6);
+      EXPECT_NEAR(z / integrated_deflection(force, moduli[i], drum), 1.0, 5e-3);
+    }
+  // For a narrow contact the integral has the same logarithm and the constant 2 ln 2 + 1/2, of which 1.8864 is rounded.
+  EXPECT_NEAR(lundberg_deflection(1e3, 1e9, drum) / integrated_deflection(1e3, 1e9, drum), 1.0, 2e-5);
+  EXPECT_FALSE(lundberg_modulus(0.0, 1e-3, drum));
+  EXPECT_FALSE(lundberg_modulus(72e3, 0.0, drum));
+  EXPECT_FALSE(lundberg_modulus(72e3, 2.0, drum)); // wider than long
+}
+
+TEST(Meter, ModulusFromTheLowestPosition) {
+  // The dashpot gives no force where the drum turns round: there F = k z.
+  const ChainParameters p = table1_case("II", Transition::B);
+  MeterOptions options;
+  options.drum_radius = 0.759;
+  options.drum_width = 2.13;
+  const Record record = record_of(p, 120, 2000);
+  const MeterRecord cycles = meter_cycles(record);
+  const MeterCycle &last = cycles.cycles.back();
+  EXPECT_NEAR(*last.low_force / (p.k * *last.deflection), 1.0, 0.02);
+  const auto expected = lundberg_modulus(p.k * *last.deflection, *last.deflection, {0.759, 2.13, 0.35});
+  EXPECT_NEAR(*meter_windows(cycles, options).back().E_vib / *expected, 1.0, 0.02);
+  EXPECT_FALSE(meter_windows(cycles, {}).back().E_vib);
+}
+
+TEST(Meter, WindowsEndWithTheRecord) {
+  const MeterRecord record = meter_cycles(synthetic(50.0, 47, {{1.0, 40.0}}));
+  const std::vector<MeterWindow> windows = meter_windows(record, {});
+  ASSERT_EQ(windows.size(), 4U);
+  EXPECT_EQ(windows.front().first, 7U);
+  EXPECT_NEAR(windows.back().end, 0.3 + 47 * 0.05, 1e-9);
+  MeterOptions longer;
+  longer.window = 48;
+  EXPECT_THROW(meter_windows(record, longer), std::runtime_error);
+}
+
+TEST(Meter, AllPassesFileOfCompactionSoftware) {
+  MeterResult result;
+  result.record = synthetic(50.0, 40, {{0.5, 1.0}, {1.0, 40.0}, {2.0, 16.0}});
+  result.cycles = meter_cycles(result.record);
+  result.windows = meter_windows(result.cycles, result.options);
+  const std::string text = all_passes_csv(result, {});
+  const std::vector<std::string> lines = lines_of(text);
+  ASSERT_EQ(lines.size(), 5U);
+  EXPECT_EQ(lines[0].substr(0, 26), "Time,CellN_m,CellE_m,Eleva");
+  EXPECT_EQ(lines[0].substr(lines[0].size() - 12), "LastTemp,_c\r");
+  // 40 / (40 pi)^2 = 2.53 mm
+  EXPECT_EQ(lines[1],
+            "2000/Jan/01 "
+            "00:00:00.300,0.00,0.00,?,1,?,?,?,?,?,?,?,Yes,?,120.0,?,?,?,2.5,20.0,2.53,?,Forward,On,?\r");
+  EXPECT_EQ(lines[2].substr(0, 30), "2000/Jan/01 00:00:00.800,0.34,");
+  PassOptions slow;
+  slow.speed = 1.0; // 0.14 m in a window: the later window of a cell counts
+  EXPECT_EQ(lines_of(all_passes_csv(result, slow)).size(), 3U);
+}
+
+} // namespace
+
+} // namespace drumlin::test

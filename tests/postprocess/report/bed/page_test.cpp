@@ -1,0 +1,409 @@
+// The report of bed runs: its numbers against those worked out by hand from small records, its pages as
+// strict XML.
+#include "report/bed/page.h"
+
+#include "chain/direct_solver.h"
+#include "runs/chain_files.h"
+#include "report/bed/figures.h"
+#include "report/bed/measures.h"
+#include "report/report.h"
+#include "support/files.h"
+#include "support/usage_error.h"
+#include "tests/support/dump_texts.h"
+#include "tests/support/page.h"
+#include "tests/support/run_folders.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace drumlin::post;
+namespace test = drumlin::test;
+namespace fs = std::filesystem;
+
+/// Six cycles at 20 Hz, of which the last four are steady.
+class BedReport : public ::testing::Test {
+protected:
+  BedReport() : root(fs::temp_directory_path() / fmt::format("drumlin-bed-{}", ::getpid())) {
+    fs::remove_all(root);
+    write_run("A", Transition::A);
+    write_run("B", Transition::B);
+  }
+  ~BedReport() override {
+    std::error_code ignored;
+    fs::remove_all(root, ignored);
+  }
+
+  void put(const std::string &file, const std::string &text) const {
+    fs::create_directories((root / file).parent_path());
+    std::ofstream(root / file) << text;
+  }
+
+  void write_run(const std::string &name, Transition transition, int cycles = 6,
+                 const std::string &friction = "0.5") const {
+    test::write_bed_run(root / name, transition, cycles, friction);
+  }
+
+  void write_dumps(const std::string &name) const { test::write_bed_dumps(root / name); }
+
+  BedResult result(const std::string &name) const {
+    auto run = read_run(root / name);
+    run.name = name;
+    return analyse_bed(std::move(run));
+  }
+
+  fs::path report(const std::vector<std::string> &names) const {
+    ReportOptions options;
+    for (const std::string &name : names)
+      options.folders.push_back(root / name);
+    options.out = root / "report";
+    write_report(options);
+    return options.out;
+  }
+
+  /// Expects that the report is refused with one line that has the words, and that an earlier report stays.
+  void expect_refusal(const std::vector<std::string> &names, const std::vector<std::string> &words) const {
+    try {
+      report(names);
+      FAIL() << "was accepted";
+    } catch (const UsageError &error) {
+      const std::string text = error.what();
+      EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+      for (const std::string &word : words)
+        EXPECT_NE(text.find(word), std::string::npos) << text;
+    }
+  }
+
+  fs::path root;
+};
+
+TEST_F(BedReport, MeasuresWhatTheRecordsSay) {
+  const BedMeasures m = result("A").measures;
+  EXPECT_EQ(m.cycles, 6);
+  EXPECT_EQ(m.steady_count, 4);
+  EXPECT_DOUBLE_EQ(m.extremes.acceleration.max, 16.0); // not the 99 of cycle 1
+  EXPECT_DOUBLE_EQ(m.extremes.force.max, 6000.0);      // not those of cycle 2
+  EXPECT_DOUBLE_EQ(m.extremes.force.min, -600.0);
+  EXPECT_DOUBLE_EQ(m.contact_share, 0.75);
+  EXPECT_DOUBLE_EQ(m.settlement, 0.036);
+  EXPECT_DOUBLE_EQ(m.settlement_per_cycle, (0.036 - 0.004) / 4.0);
+  ASSERT_TRUE(m.amplitudes);
+  EXPECT_DOUBLE_EQ(compaction_meter_value(*m.amplitudes), 300.0 * 0.5 / 5.0);
+  EXPECT_DOUBLE_EQ(m.imbalance_percent, 9.0); // of 100 J: 7 - 20 + 3 + 120 - 100 = 10 J, 1 J at the start
+  EXPECT_DOUBLE_EQ(m.coordination_start, 3.3);
+  EXPECT_DOUBLE_EQ(m.coordination_end, 5.0); // 1 to 9
+  EXPECT_DOUBLE_EQ(m.void_ratio_start, 0.25);
+  EXPECT_NEAR(m.void_ratio_end, 0.2, 1e-15);
+}
+
+TEST_F(BedReport, MeasuresAnEvenNumberOfCycles) {
+  for (const auto &[cycles, steady] : {std::pair{1, 1}, {2, 2}, {3, 2}, {5, 2}, {7, 4}, {10, 6}, {40, 10}}) {
+    write_run("some", Transition::B, cycles);
+    EXPECT_EQ(result("some").measures.steady_count, steady) << cycles;
+    EXPECT_EQ(result("some").measures.amplitudes.has_value(), cycles > 1) << cycles;
+  }
+}
+
+// A signal or a limit of time has stopped it: its measures are those of the cycles that it has.
+TEST_F(BedReport, MarksAPartialRun) {
+  const std::string partial = "a partial run, 6 of 10 cycles: it was stopped, or is not done yet.";
+  const auto told = [this, &partial] {
+    const std::vector<std::string> missing = result("A").run.missing;
+    return std::count(missing.begin(), missing.end(), partial);
+  };
+  EXPECT_EQ(told(), 0);
+  std::ofstream(root / "A/parameters.csv", std::ios::app) << "cycles,10\n";
+  EXPECT_EQ(told(), 1);
+  EXPECT_NE(read_text(report({"A", "B"}) / "bed.html").find("A: " + partial), std::string::npos);
+}
+
+TEST_F(BedReport, PrintsTheMeasures) {
+  const std::vector<PageTable> tables = bed_tables({result("B")});
+  const std::vector<std::vector<std::string>> rows = {
+      {"B", "B", "0.5", "2", "20", "6", "3 to 6", "16.00", "6.00", "-0.60", "0.7500", "30.00", "second",
+       "800"},
+      {"B", "B", "36.000", "8.000", "3.300", "5.000", "0.2500", "0.2000", "9.000", "3.0"}};
+  ASSERT_EQ(tables.size(), rows.size());
+  for (std::size_t t = 0; t < rows.size(); ++t) {
+    ASSERT_EQ(tables[t].rows.size(), 1u);
+    EXPECT_EQ(tables[t].rows[0].size(), tables[t].header.size());
+    for (std::size_t i = 0; i < rows[t].size(); ++i)
+      EXPECT_EQ(tables[t].rows[0][i], rows[t][i]) << tables[t].header[i];
+  }
+}
+
+TEST_F(BedReport, OpensWithTheNumbersOfItsTables) {
+  write_dumps("A");
+  const fs::path out = report({"A", "B"});
+  // The energy error of the records is 9 % of the work, which is not good.
+  const std::string words =
+      "<p class=\"verdict bad\">✗ <strong>Bed.</strong> A roller on 2 balls (B and A): drum 2000 kg, frame "
+      "1000 "
+      "kg, exciter 58.8 kN at 20 Hz. After 6 cycles the drum has settled by 36.000 mm (mean over the last "
+      "cycle); the largest contact force on it in the last 4 cycles is 6.00 kN. The void ratio of the bed "
+      "goes from 0.2500 to 0.2000, the "
+      "number of "
+      "contacts per ball from 3.300 to 5.000. The energy error is 9.000 % of the exciter&#39;s work.";
+  for (const char *page : {"index.html", "bed.html"})
+    EXPECT_NE(read_text(out / page).find(words), std::string::npos)
+        << page << read_text(out / page).substr(6000, 2500);
+  const std::string text = read_text(out / "bed.html");
+  const std::size_t commands = text.find("id=\"commands\"");
+  EXPECT_GT(commands, text.rfind("<figure"));
+  EXPECT_GT(commands, text.rfind("<table"));
+  EXPECT_LT(text.find("figures/bed1_peak_key.png"), text.find("<h2>"));
+  EXPECT_NE(text.find("<tr class=\"differs\"><td class=\"word\">✗ no</td><td class=\"word\">A</td>"),
+            std::string::npos);
+}
+
+// The energy error of these runs is too large, and is marked so where the run has ended.
+TEST_F(BedReport, DoesNotJudgeARunThatWasCut) {
+  write_run("cut", Transition::B);
+  std::string parameters = read_text(root / "cut/parameters.csv");
+  parameters.replace(parameters.find("ended,yes"), 9, "ended,no");
+  put("cut/parameters.csv", parameters);
+  const fs::path out = report({"cut"});
+  for (const char *page : {"index.html", "bed.html"}) {
+    const std::string text = read_text(out / page);
+    EXPECT_NE(text.find("not judged: it was killed, or is still running."), std::string::npos) << page;
+    for (const char *verdict : {"verdict good", "verdict bad", "class=\"agrees\"", "class=\"differs\""})
+      EXPECT_EQ(text.find(verdict), std::string::npos) << page << verdict;
+  }
+}
+
+TEST_F(BedReport, SaysThatADrumHasRisen) {
+  write_run("up", Transition::B);
+  std::string cycles = read_text(root / "up/cycles.csv");
+  cycles.replace(cycles.rfind(",0.036"), 6, ",-0.003");
+  put("up/cycles.csv", cycles);
+  const std::string text = read_text(report({"up"}) / "bed.html");
+  EXPECT_NE(text.find("After 6 cycles the drum has risen by 3.000 mm under B (mean over the last cycle)"),
+            std::string::npos)
+      << text.substr(6000, 2500);
+}
+
+TEST_F(BedReport, NamesTheCyclesThatItDraws) {
+  for (const auto &[cycles, three, two] : {std::tuple{1, "the last cycle", "the last cycle"},
+                                           {2, "the last 2 cycles", "the last 2 cycles"},
+                                           {6, "the last 3 cycles", "the last 2 cycles"}}) {
+    write_run("some", Transition::B, cycles);
+    const std::vector<BedResult> beds = {result("some")};
+    for (const PageFigure &figure : plan_bed_figures(group_beds(beds)).figures) {
+      if (figure.figure.name == "bed1_motion") {
+        EXPECT_NE(figure.caption.find(three), std::string::npos) << cycles << figure.caption;
+      }
+      if (figure.figure.name == "bed1_motion" || figure.figure.name == "bed1_walls") {
+        EXPECT_EQ(figure.figure.panels.at(0).x_label, fmt::format("time in {} (ms)", three));
+      }
+      if (figure.figure.name == "bed1_loop") {
+        EXPECT_NE(figure.caption.find(two), std::string::npos) << cycles << figure.caption;
+      }
+    }
+  }
+}
+
+TEST_F(BedReport, PairsAWithBWhereAllElseIsAlike) {
+  write_run("rough", Transition::A, 6, "0.9");
+  write_run("again", Transition::A);
+  const std::vector<BedResult> beds = {result("rough"), result("A"), result("again"), result("B")};
+  const std::vector<BedGroup> groups = group_beds(beds);
+  ASSERT_EQ(groups.size(), 3u);
+  EXPECT_EQ(groups[0].runs, std::vector<const BedResult *>{&beds[0]});
+  EXPECT_EQ(groups[1].runs, (std::vector<const BedResult *>{&beds[3], &beds[1]}));
+  EXPECT_EQ(groups[2].runs, std::vector<const BedResult *>{&beds[2]});
+}
+
+TEST_F(BedReport, IsSoundWithBedsOnly) {
+  write_dumps("A");
+  const fs::path out = report({"A", "B"});
+  const test::Parsed index = test::expect_sound_page(out, 0);
+  EXPECT_EQ(index.ids.count("impact"), 0u);
+  EXPECT_NE(std::find(index.links.begin(), index.links.end(), "bed.html"), index.links.end());
+  // Motion, loop, settlement, state, energies, walls, three pictures, profile.
+  const test::Parsed page = test::expect_sound_page(out, 10, "bed.html");
+  for (const std::string &image : page.images) {
+    const std::string stem = fs::path(image).stem().string();
+    const Table data = read_table(out / "data" / (stem.substr(0, stem.rfind("_key")) + ".csv"));
+    EXPECT_GT(data.rows(), 1u) << image;
+    for (const std::string &name : data.header())
+      EXPECT_TRUE(name == "curve" || name.find(" (") != std::string::npos) << image << ": " << name;
+  }
+  const std::string text = read_text(out / "bed.html");
+  EXPECT_NE(
+      text.find("The picture of B is left out: the run has no dumps; run it with -var dumps_per_cycle 10"),
+      std::string::npos);
+  EXPECT_NE(text.find("<span>&lt;in.bed&gt;</span>"), std::string::npos);
+  for (const char *name : {"bed_runs.csv", "bed_states.csv"})
+    EXPECT_EQ(read_table(out / "data" / name).rows(), 2u);
+  const Table states = read_table(out / "data/bed_states.csv");
+  EXPECT_EQ(states.text("grading").front(), "WMM_from_14mm");
+  EXPECT_EQ(states.text("smallest and largest ball (mm)").front(), "14 to 53");
+  EXPECT_EQ(states.text("d50 (mm)").front(), "30.1");
+  EXPECT_EQ(states.text("coefficient of uniformity Cu (-)").front(), "1.75");
+}
+
+TEST_F(BedReport, IsOnOnePageWithChains) {
+  const ChainParameters p = table1_case("II", Transition::B);
+  DirectOptions options;
+  options.cycles = 4;
+  const DirectResult direct = solve_direct(p, options);
+  fs::create_directories(root / "chain");
+  write_files({{root / "chain" / "chain.csv", chain_text(direct.history)}});
+  std::vector<std::pair<std::string, std::string>> values = parameter_values(p);
+  values.emplace_back("case", "II");
+  write_files({{root / "chain" / "parameters.csv", parameters_text(values)}});
+  const fs::path out = report({"A", "chain"});
+  const test::Parsed index = test::expect_sound_page(out, 1);
+  EXPECT_EQ(index.ids.count("impact"), 1u);
+  EXPECT_EQ(index.ids.count("bed"), 1u);
+  test::expect_sound_page(out, 6, "bed.html");
+  const fs::path without = report({"chain"});
+  EXPECT_FALSE(fs::exists(without / "bed.html"));
+  EXPECT_EQ(test::expect_sound_page(without, 1).ids.count("bed"), 0u);
+}
+
+TEST_F(BedReport, ShowsTheBedAtRestAndAtTheExtremesOfTheForce) {
+  write_dumps("A");
+  const std::vector<BedResult> beds = {result("A")};
+  const FigurePlan plan = plan_bed_figures(group_beds(beds));
+  std::map<std::string, const PageFigure *> figures;
+  for (const PageFigure &figure : plan.figures)
+    figures[figure.figure.name] = &figure;
+  const auto title = [&](const std::string &name) { return figures.at(name)->figure.panels.at(0).title; };
+  EXPECT_EQ(title("bed1_settled"), "A: 0 s, 0.0 kN on the drum");
+  EXPECT_EQ(title("bed1_peak"), "A: 0.04375 s, 7.0 kN on the drum");
+  EXPECT_EQ(title("bed1_least"), "A: 0.05 s, 0.0 kN on the drum");
+  // The drum's 400 N on ball 1, below it, and 100 N along the line from ball 2 to ball 1.
+  const std::string &csv = figures.at("bed1_peak")->csv;
+  EXPECT_NE(csv.find("A contact,1,3.9,,,,0,-2.9,400\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("A contact,2.8,1,,,,-1.8,0,100\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("A contact,1,0.05"), std::string::npos) << csv; // from the floor
+  EXPECT_NE(csv.find("A roller,1,3.9,2,0,1,,,\n"), std::string::npos) << csv;
+  // Two discs of 1 m in a bed of 3.8 m by 2 m: one layer, since two mean diameters are 4 m.
+  EXPECT_NE(figures.at("bed1_profile")->csv.find("A before whole,1,0.826734"), std::string::npos)
+      << figures.at("bed1_profile")->csv;
+}
+
+// Balls of type 1 are the lower layer of soil, those of type 4 the upper one, and type 2 is the drum.
+TEST_F(BedReport, DrawsEachLayerWithAnEdgeOfItsColour) {
+  std::map<std::string, test::Array> arrays = test::ball_arrays();
+  arrays["type"].values = "2 4 1";
+  for (const char *step : {"0", "700", "800"})
+    put(fmt::format("A/dump/balls_{}.vtp", step), test::ball_dump(arrays));
+  const std::vector<BedResult> beds = {result("A")};
+  const FigurePlan plan = plan_bed_figures(group_beds(beds));
+  const auto picture = std::find_if(plan.figures.begin(), plan.figures.end(), [](const PageFigure &figure) {
+    return figure.figure.name == "bed1_peak";
+  });
+  ASSERT_NE(picture, plan.figures.end());
+  const std::vector<Curve> &curves = picture->figure.panels.at(0).curves;
+  ASSERT_GE(curves.size(), 2u);
+  EXPECT_EQ(curves[0].title, "layer 1");
+  EXPECT_EQ(curves[0].style, CurveStyle::discs_1);
+  EXPECT_EQ(curves[1].title, "layer 2");
+  EXPECT_EQ(curves[1].style, CurveStyle::discs_2);
+  EXPECT_NE(picture->csv.find("A soil 1,1,1,1,"), std::string::npos) << picture->csv;
+  EXPECT_NE(picture->csv.find("A soil 2,2.8,1,1,"), std::string::npos) << picture->csv;
+  EXPECT_NE(picture->caption.find("have the colours of their layers"), std::string::npos) << picture->caption;
+}
+
+// The bed reaches from z = -1.5 m to 2.5 m, its soil from -1 m to 2.2 m.
+TEST_F(BedReport, CutsABedOfThreeDimensionsInTheMiddle) {
+  for (const char *step : {"0", "800"})
+    put(std::string("A/dump/balls_") + step + ".vtp",
+        test::ball_dump(test::ball_arrays(), "1 3.9 0.5 2.8 1 1.2 1 1 0"));
+  const std::vector<BedResult> beds = {result("A")};
+  const FigurePlan plan = plan_bed_figures(group_beds(beds));
+  std::map<std::string, const PageFigure *> figures;
+  for (const PageFigure &figure : plan.figures)
+    figures[figure.figure.name] = &figure;
+  const PageFigure &picture = *figures.at("bed1_peak");
+  for (const char *circle : {"A soil,1,1,0.86602", "A soil,2.8,1,0.71414", "A roller,1,3.9,2,"})
+    EXPECT_NE(picture.csv.find(circle), std::string::npos) << picture.csv;
+  EXPECT_NE(picture.caption.find("section z = 0.5 m"), std::string::npos) << picture.caption;
+  // Two balls of radius 1 m in 3.8 m by 2 m by 3.2 m.
+  EXPECT_NE(figures.at("bed1_profile")->csv.find("A before whole,1,0.34447"), std::string::npos)
+      << figures.at("bed1_profile")->csv;
+}
+
+TEST_F(BedReport, DrawsOneProfileBelowADrumOfManyBalls) {
+  std::map<std::string, test::Array> arrays = test::ball_arrays();
+  arrays["type"].values = "2 2 1"; // ball 2 is of the drum
+  for (const char *step : {"0", "800"})
+    put(std::string("A/dump/balls_") + step + ".vtp", test::ball_dump(arrays));
+  const std::vector<BedResult> beds = {result("A")};
+  const FigurePlan plan = plan_bed_figures(group_beds(beds));
+  for (const PageFigure &figure : plan.figures) {
+    if (figure.figure.name != "bed1_profile") continue;
+    ASSERT_EQ(figure.figure.panels.size(), 2u);
+    EXPECT_EQ(figure.figure.panels[1].curves.size(), 2u); // before and after
+    return;
+  }
+  FAIL() << "no profile";
+}
+
+TEST_F(BedReport, IsMadeOfARunThatEndsAtOnce) {
+  write_run("short", Transition::B, 6);
+  std::string bed = read_text(root / "short" / "bed.csv");
+  std::size_t end = 0;
+  for (int line = 0; line < 5; ++line)
+    end = bed.find('\n', end) + 1;
+  put("short/bed.csv", bed.substr(0, end));
+  put("short/cycles.csv", "cycle,contact_share,settlement\n0,1,0\n");
+  const fs::path out = report({"short"});
+  test::expect_sound_page(out, 2, "bed.html");
+  EXPECT_NE(read_text(out / "bed.html").find("short: ends before its first complete cycle"),
+            std::string::npos);
+}
+
+// In a bed of layers parameters of contacts are lists, the lowest layer first; the drum is on the last.
+TEST_F(BedReport, OfLayersHasTheContactsOfTheUppermost) {
+  std::map<std::string, std::string> values = read_run(root / "B").parameters;
+  values["k"] = "1e8,1e9";
+  values["D"] = "0.1,0.25";
+  put("B/parameters.csv", parameters_text({values.begin(), values.end()}));
+  EXPECT_EQ(read_run(root / "B").chain.k, 1e9);
+  EXPECT_EQ(read_run(root / "B").chain.D, 0.25);
+  values["k"] = "1e8,soft";
+  put("B/parameters.csv", parameters_text({values.begin(), values.end()}));
+  expect_refusal({"B"}, {"parameters.csv", "k is 'soft'", "not a number"});
+}
+
+TEST_F(BedReport, RefusesFilesThatItCannotRead) {
+  const auto damaged = [this](const std::string &file, const std::string &from, const std::string &to) {
+    write_run("damaged", Transition::B);
+    std::string text = read_text(root / "damaged" / file);
+    text.replace(text.find(from), from.size(), to);
+    put("damaged/" + file, text);
+    return std::vector<std::string>{"damaged"};
+  };
+  expect_refusal(damaged("bed.csv", ",void_ratio", ",voids"), {"bed.csv", "void_ratio"});
+  expect_refusal(damaged("bed.csv", "9e4", "much"), {"bed.csv", "line 2", "F_floor", "much"});
+  expect_refusal(damaged("cycles.csv", ",settlement", ",depth"), {"cycles.csv", "settlement"});
+  expect_refusal(damaged("parameters.csv", "deck,bed", "deck,sand"), {"parameters.csv", "'sand'", "bed"});
+  expect_refusal(damaged("parameters.csv", "transition,B", "transition,C"), {"parameters.csv", "'C'"});
+  expect_refusal(damaged("parameters.csv", "omega,", "omego,"), {"parameters.csv", "omega"});
+  write_run("damaged", Transition::B);
+  fs::remove(root / "damaged" / "cycles.csv");
+  expect_refusal({"damaged"}, {"cycles.csv", "missing"});
+  write_run("damaged", Transition::B);
+  fs::remove(root / "damaged" / "parameters.csv");
+  expect_refusal({"damaged"}, {"parameters.csv"});
+  write_run("damaged", Transition::B);
+  put("damaged/dump/balls_0.vtp", "no dump");
+  expect_refusal({"damaged"}, {"balls_0.vtp"});
+  EXPECT_FALSE(fs::exists(root / "report"));
+}
+
+} // namespace
