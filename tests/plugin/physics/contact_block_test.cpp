@@ -61,7 +61,6 @@ std::unique_ptr<ContactBlock> random_block(std::mt19937 &random) {
     b->wi.set(n, vector(3.0));
     b->wj.set(n, vector(3.0));
     b->damping_over_mass[n] = 3e3 * (1.0 + any(random));
-    b->in_contact[n] = 1.0;
     b->force_before[n] = 10.0 * any(random);
     b->spring.set(n, vector(1e-4));
     b->stored_stiffness[n] = n % 3 == 0 ? 0.0 : 3e4 * (1.0 + 0.9 * any(random));
