@@ -156,9 +156,9 @@ TEST_P(Layers, WithoutBallsOrWithTooManyNumbersAreRefused) {
     if (ball.type == 4) ball.type = 1;
   refusal(without, {}, "layer 2 has '0' balls; allowed: at least one ball of type 4");
   const std::string lists = "one number, or 3 separated by commas, one for each layer, the lowest first";
-  refusal(lattice(), {{"k", "1e6,1e6,1e6,1e6"}}, "variable k is '1e6,1e6,1e6,1e6'; allowed: " + lists);
-  refusal(lattice(), {{"friction", "0.5,0.4"}}, "variable friction is '0.5,0.4'; allowed: " + lists);
-  refusal(lattice(), {{"D", "0.5,-1,0"}}, "variable D is '0.5,-1,0'; allowed: a finite number >= 0");
+  refusal(lattice(), {{"k", "1e6,1e6,1e6,1e6"}}, "keyword k is '1e6,1e6,1e6,1e6'; allowed: " + lists);
+  refusal(lattice(), {{"friction", "0.5,0.4"}}, "keyword friction is '0.5,0.4'; allowed: " + lists);
+  refusal(lattice(), {{"D", "0.5,-1,0"}}, "keyword D is '0.5,-1,0'; allowed: a finite number >= 0");
 }
 
 // Pairs of balls of all layers and of the drum (type 2): one approaches and slides, the other rolls. Force and torque in closed form.
