@@ -42,10 +42,10 @@ using LAMMPS_NS::TriMesh;
 static_assert(sizeof(SurfacesIntersectData) == 368,
               "contact data of this LIGGGHTS differ from the stock binary's");
 
-/// Whether a combination keeps a tangential spring or a rolling torque as contact history, which has to be
-/// reset when the contact ends.
+/// Whether a combination keeps a tangential spring or a rolling torque as contact history, which has to be reset when the
+/// contact ends, as what a law remembers has.
 template <class Style>
-constexpr bool has_history = drumlin::has_spring<Style> || Style::ROLLING == ROLLING_SPRING;
+constexpr bool has_springs = drumlin::has_spring<Style> || Style::ROLLING == ROLLING_SPRING;
 
 template <class Style>
 constexpr drumlin::OtherModels other_models{drumlin::has_spring<Style>, Style::ROLLING == ROLLING_SPRING,
@@ -54,7 +54,8 @@ constexpr drumlin::OtherModels other_models{drumlin::has_spring<Style>, Style::R
 /// Prepares the engine for a combination, before that reads its properties.
 template <class Style, class Contact>
 void prepare(LAMMPS *engine) {
-  if (has_history<Style>) engine->neighbor->register_contact_dist_factor(drumlin::contact_distance_factor);
+  if (has_springs<Style> || Contact::remembers)
+    engine->neighbor->register_contact_dist_factor(drumlin::contact_distance_factor);
   if (Style::TANGENTIAL != TANGENTIAL_OFF)
     drumlin::provide_friction_default(engine, std::string("model ") + Contact::name, engine->atom->ntypes);
 }
@@ -92,16 +93,19 @@ public:
                                                  "loses balls and contacts; allowed: region block"));
     drumlin::check_deforming_box(engine_, command());
     prepare<Style, Contact>(engine_);
-    PairContacts::begin(pair_,
-                        drumlin::has_spring<Style>                   ? drumlin::FrictionModel::history
-                        : Style::TANGENTIAL == TANGENTIAL_NO_HISTORY ? drumlin::FrictionModel::no_history
-                                                                     : drumlin::FrictionModel::none,
-                        Style::TANGENTIAL == TANGENTIAL_COULOMB ? drumlin::physics::Cap::coulomb
-                                                                : drumlin::physics::Cap::spring);
+    stepping_ =
+        this->get_history_offset(drumlin::force_name) < 0 ? nullptr : LAMMPS_NS::FixStepping::find(engine_);
+    drumlin::ContactSettings settings;
+    settings.tangential = drumlin::has_spring<Style>                   ? drumlin::FrictionModel::history
+                          : Style::TANGENTIAL == TANGENTIAL_NO_HISTORY ? drumlin::FrictionModel::no_history
+                                                                       : drumlin::FrictionModel::none;
+    settings.cap = Style::TANGENTIAL == TANGENTIAL_COULOMB ? drumlin::physics::Cap::coulomb
+                                                           : drumlin::physics::Cap::spring;
+    settings.rolling = Style::ROLLING == ROLLING_SPRING;
+    settings.stock = stepping_ == nullptr;
+    settings.take_law<Contact>();
+    PairContacts::begin(pair_, settings);
     Base::init_granular();
-    take_stiffness_offset(this->get_history_offset(drumlin::tangential_stiffness_name));
-    force_offset_ = this->get_history_offset(drumlin::final_force_name);
-    stepping_ = force_offset_ < 0 ? nullptr : LAMMPS_NS::FixStepping::find(engine_);
     if (stepping_ != nullptr && pair_->storeContactForcesStress())
       engine_->error->all(
           FLERR,
@@ -121,7 +125,9 @@ public:
 
   void compute_force(PairGran *pair, int eflag, int vflag, int adds) override {
     if constexpr (has_loop<Style>)
-      if ((has_history<Style> || stepping_ != nullptr || pair->listgranhistory == nullptr) && !torsion_ &&
+      if ((has_springs<Style> || Contact::remembers || stepping_ != nullptr ||
+           pair->listgranhistory == nullptr) &&
+          !torsion_ &&
           !drumlin::needs_engine_loop(*pair, *engine_->modify, eflag != 0 || vflag != 0, adds != 0)) {
         pair->evflag = pair->vflag_fdotr = 0;
         return stepping_ == nullptr ? compute_contacts<false>() : compute_contacts<true>();
@@ -140,7 +146,7 @@ private:
     drumlin::EnginePairContacts<
         Contact, stepped, rubs ? drumlin::FrictionModel::history : drumlin::FrictionModel::none, rolls, flag>(
         *pair_, *engine_->atom, *engine_->neighbor, clumps_)
-        .compute(loop_memory_, *std::get<const drumlin::CoefficientTable<Contact> *>(table()), force_offset_,
+        .compute(loop_memory_, *std::get<const drumlin::CoefficientTable<Contact> *>(table()), places(),
                  stepping_, observers_, engine_->update->dt);
   }
 
@@ -153,8 +159,7 @@ private:
   drumlin::ContactObservers observers_;
   drumlin::DeckCheck deck_check_;
   LAMMPS_NS::Clumps clumps_;
-  int force_offset_ = -1; // of the normal force in the contact history, with the second-order scheme
-  bool torsion_ = false;  // whether rolling resistance also resists torsion
+  bool torsion_ = false; // whether rolling resistance also resists torsion
 };
 
 template <class Style, class Contact>

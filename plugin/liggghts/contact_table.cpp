@@ -63,13 +63,13 @@ const ContactSource *contact_source(LAMMPS *lmp) {
   return contacts != nullptr && contacts->has_table() ? contacts : nullptr;
 }
 
-void PairContacts::begin(LAMMPS_NS::PairGran *pair, FrictionModel friction_model, physics::Cap cap) {
+void PairContacts::begin(LAMMPS_NS::PairGran *pair, const ContactSettings &settings) {
   pair_ = pair;
   table_.reset();
   wall_tables_.clear();
   clumps_.find(*lmp_->modify);
-  friction_model_ = friction_model;
-  cap_ = cap;
+  settings_ = settings;
+  places_ = settings.places(history_order);
   meshes_ = false;
   for (const LAMMPS_NS::Fix *fix : engine::fixes(lmp_->modify))
     if (const auto *wall = dynamic_cast<const LAMMPS_NS::FixWallGran *>(fix))
@@ -108,11 +108,9 @@ physics::Dashpots PairContacts::wall_dashpots(int i) const {
 
 const LAMMPS_NS::NeighList *PairContacts::contact_list() const { return pair_->list; }
 
-// The engine builds the tangential model before any other that asks for history: its spring comes first.
-TangentialSpring PairContacts::tangential_spring(int i, int jj) const {
-  const double *history =
-      pair_->listgranhistory->firstdouble[i] + static_cast<std::ptrdiff_t>(pair_->dnum()) * jj;
-  return {history, stiffness_offset_ < 0 ? nullptr : history + stiffness_offset_};
+const double *PairContacts::history(int i, int jj) const {
+  if (pair_->listgranhistory == nullptr) return nullptr;
+  return pair_->listgranhistory->firstdouble[i] + static_cast<std::ptrdiff_t>(pair_->dnum()) * jj;
 }
 
 const LAMMPS_NS::Atom &PairContacts::balls() const { return *lmp_->atom; }

@@ -1,12 +1,15 @@
 #pragma once
 // Coefficients of the contact law for each pair of types, read from the deck's `fix property/global` values.
 
+#include "contact/contact_history.h"
 #include "contact/contact_settings.h"
 #include "contact/contact_source.h"
 #include "fixes/fix_clump.h"
+#include "contact_interface.h"
 #include "lammps.h"
 #include "liggghts/type_property.h"
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -21,10 +24,24 @@ namespace drumlin {
 /// With a distance factor above 1 the engine calls surfacesClose() for a contact that has just ended.
 constexpr double contact_distance_factor = 1.01;
 
-/// Name in the contact history of the normal force that acted in the step, N, under second-order stepping.
-constexpr const char *final_force_name = "normal_force_before";
-/// Name in the contact history of the tangential stiffness, N/m, of a law in which it varies.
-constexpr const char *tangential_stiffness_name = "tangential_stiffness";
+/// The order in which a contact's numbers are stored, which restart files have: the engine builds the tangential and the
+/// rolling model first, which announce their springs.
+constexpr std::array<Remembered, 6> history_order{Remembered::spring,    Remembered::rolling_spring,
+                                                  Remembered::stiffness, Remembered::force,
+                                                  Remembered::touches,   Remembered::memory};
+/// Name of the normal force in a contact's history.
+constexpr const char *force_name = numbers_of(Remembered::force).names[0];
+
+/// Announces to the engine that contacts remember something. \returns the place of its first number
+inline int announce(LIGGGHTS::IContactHistorySetup &history, Remembered what) {
+  const RememberedNumbers &numbers = numbers_of(what);
+  int first = 0;
+  for (std::size_t n = 0; n < numbers.count(); ++n) {
+    const int place = history.add_history_value(numbers.names[n], numbers.turns_round ? "1" : "0");
+    if (n == 0) first = place;
+  }
+  return first;
+}
 
 /// Effective mass, kg, with the engine's formula: its rounding differs from that of physics::effective_mass().
 inline double engine_effective_mass(double mi, double mj) { return mi * mj / (mi + mj); }
@@ -69,9 +86,10 @@ public:
   AnyTable table() const override { return *table_; }
   double mass(int i) const override;
   physics::Dashpots wall_dashpots(int i) const override;
-  FrictionModel friction_model() const override { return friction_model_; }
+  FrictionModel friction_model() const override { return settings_.tangential; }
   const LAMMPS_NS::NeighList *contact_list() const override;
-  TangentialSpring tangential_spring(int i, int jj) const override;
+  const double *history(int i, int jj) const override;
+  const HistoryPlaces &places() const override { return places_; }
 
   void take(const AnyTable &table) { table_ = table; }
   void take_wall(const AnyTable &table) { wall_tables_.push_back(table); }
@@ -79,12 +97,9 @@ public:
 
 protected:
   ~PairContacts() = default;
-  /// \param cap what limits friction with a tangential spring
-  void begin(LAMMPS_NS::PairGran *pair, FrictionModel friction_model, physics::Cap cap);
-  /// \param offset in the contact history, of the tangential stiffness; below 0: it is not stored
-  void take_stiffness_offset(int offset) { stiffness_offset_ = offset; }
+  void begin(LAMMPS_NS::PairGran *pair, const ContactSettings &settings);
   const LAMMPS_NS::Atom &balls() const override;
-  physics::Cap cap() const override { return cap_; }
+  physics::Cap cap() const override { return settings_.cap; }
 
 private:
   LAMMPS_NS::LAMMPS *lmp_;
@@ -93,9 +108,8 @@ private:
   std::vector<AnyTable> wall_tables_;
   LAMMPS_NS::Clumps clumps_;
   bool meshes_ = false;
-  int stiffness_offset_ = -1;
-  FrictionModel friction_model_ = FrictionModel::none;
-  physics::Cap cap_ = physics::Cap::spring;
+  ContactSettings settings_;
+  HistoryPlaces places_;
 };
 
 /// The PairContacts of this engine instance; nullptr if it has another pair style.

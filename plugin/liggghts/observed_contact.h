@@ -26,7 +26,7 @@ constexpr bool has_spring = Style::TANGENTIAL == LIGGGHTS::ContactModels::TANGEN
 /// What the engine calls for each contact: its models, then the observers.
 /// \tparam Contact parameters of the law of the style's normal model
 template <class Style, class Contact>
-class ObservedContact : public LIGGGHTS::ContactModels::ContactModel<Style> {
+class ObservedContact : public LIGGGHTS::ContactModels::ContactModel<Style>, public WithNormalModel<Contact> {
   using Base = LIGGGHTS::ContactModels::ContactModel<Style>;
 
 public:
@@ -34,7 +34,7 @@ public:
 
   void connectToProperties(PropertyRegistry &registry) {
     Base::connectToProperties(registry);
-    final_force_offset_ = this->get_history_offset(final_force_name);
+    final_force_offset_ = this->get_history_offset(force_name);
     coupled_.find(registry.getLAMMPS(), *this);
     observers_.find(*registry.getLAMMPS()->modify);
     if (Style::TANGENTIAL != LIGGGHTS::ContactModels::TANGENTIAL_OFF) {
@@ -108,9 +108,8 @@ private:
   [[gnu::noinline]] void tell(const LIGGGHTS::ContactModels::SurfacesIntersectData &contact,
                               const LIGGGHTS::ContactModels::ForceData &i_forces,
                               const LIGGGHTS::ContactModels::ForceData &j_forces) const {
-    const typename Contact::Law law = Contact::of_secant(contact.kn, contact.gamman, contact.deltan);
     const bool second_order = final_force_offset_ >= 0;
-    ContactRecord record = record_of_law(law, contact.deltan, second_order);
+    ContactRecord record = record_of_law(this->normal_model->law_of(contact), contact.deltan, second_order);
     record.i = contact.i;
     record.j = contact.is_wall ? -1 : contact.j;
     record.radius = contact.is_wall ? contact.radi : std::min(contact.radi, contact.radj);

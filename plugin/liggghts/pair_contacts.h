@@ -25,15 +25,9 @@ public:
                      const LAMMPS_NS::Neighbor &neighbor, const LAMMPS_NS::Clumps &clumps)
       : pair_(pair), atom_(atom), neighbor_(neighbor), clumps_(clumps), has_clumps_(!clumps.empty()) {}
 
-  /// \param force_place of the normal force in the contact history, with the second-order scheme
-  void compute(LoopMemory &memory, const CoefficientTable<Parameters> &table, int force_place,
+  void compute(LoopMemory &memory, const CoefficientTable<Parameters> &table, const HistoryPlaces &places,
                LAMMPS_NS::FixStepping *stepping, const ContactObservers &observers, double dt) {
-    in_contact_place_ = force_place + 1;
-    // The engine asks the tangential model for its history first, then the rolling and the normal model.
-    const int rolling_place = tangential == FrictionModel::history ? 3 : 0;
-    const int stiffness_place = rolling_place + (rolling ? 3 : 0);
-    const HistoryPlaces places{0,           stiffness_place, force_place, rolling_place, pair_.dnum_pair(),
-                               pair_.dnum()};
+    in_contact_place_ = places[Remembered::touches];
     ContactLoop<EnginePairContacts, Parameters, stepped, tangential, rolling>(
         *this, atom_, memory, table, places, physics::Cap::coulomb, stepping, observers, dt, true)
         .run(*pair_.list, neighbor_);
@@ -41,6 +35,7 @@ public:
 
   int *flags(int i) const { return pair_.listgranhistory->firstneigh[i]; }
   double *histories(int i) const { return pair_.listgranhistory->firstdouble[i]; }
+  int stride() const { return pair_.dnum(); }
   bool touched(int flags, const double *history) const {
     return stepped ? history[in_contact_place_] != 0.0 : flags != 0;
   }

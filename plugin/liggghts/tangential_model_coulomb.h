@@ -28,10 +28,7 @@ class TangentialModel<TANGENTIAL_COULOMB> : public TangentialModelBase {
 public:
   TangentialModel(LAMMPS *lmp, IContactHistorySetup *hsetup, ContactModelBase *model)
       : TangentialModelBase(lmp, hsetup, model), model_(model),
-        spring_offset_(hsetup->add_history_value("shearx", "1")) {
-    hsetup->add_history_value("sheary", "1");
-    hsetup->add_history_value("shearz", "1");
-  }
+        spring_offset_(drumlin::announce(*hsetup, drumlin::Remembered::spring)) {}
 
   void registerSettings(Settings &) {}
   void postSettings(IContactHistorySetup *, ContactModelBase *) {}

@@ -10,7 +10,7 @@
 /// share 1 / (1 + (2 w H/c_p)^2) of the energy of a wave of angular frequency w is reflected.
 
 #include "physics/parameter_checks.h"
-#include "physics/contact_law.h"
+#include "physics/linear_contact.h"
 #include "physics/stepping.h"
 #include "physics/time_step.h"
 #include "physics/vec3.h"

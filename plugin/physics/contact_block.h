@@ -66,6 +66,7 @@ struct ContactBlock {
   Vectors spring;            ///< m, of friction, before and then after the step
   Vectors rolling_spring;    ///< N m, the same of the torque of rolling resistance
   Numbers stored_stiffness;  ///< N/m, the same of the tangential stiffness, where that varies
+  Numbers memory_before;     ///< what the contact remembers for its law at the beginning of the step
   // Computed:
   Numbers overlap;            ///< m
   Numbers rate_half;          ///< m/s, rate of change of the overlap from the velocities half a step earlier
@@ -76,6 +77,7 @@ struct ContactBlock {
   Numbers force;              ///< N, normal force at the end of the step, used for friction
   Numbers push;               ///< N, normal force of the closing half kick
   Numbers dashpot;            ///< N s/m, of the normal dashpot
+  Numbers memory;             ///< what the contact remembers for its law at the end of the step
   Numbers coupled;            ///< 1: needs_coupling(), else 0; second-order scheme only
   Numbers kt;                 ///< N/m, tangential stiffness
   Vectors tangential_force;   ///< N, on ball i
@@ -111,12 +113,12 @@ DRUMLIN_FOR_THIS_PROCESSOR bool compute_normal_forces(ContactBlock &b, int first
       b.slip.set(n, slip == Slip::in_middle ? slip_velocity_of_step(velocity, separation, normal, turning, dt)
                                             : slip_velocity(velocity, normal, turning));
     }
-    const auto law = parameters.law(m_eff, r_eff);
+    auto law = parameters.law(m_eff, r_eff, Parameters::remembers ? b.memory_before[n] : 0.0);
     const double dashpot = law.dashpot(overlap);
     if constexpr (stepped) {
       const double rate_before = -dot(b.velocity_before[n], normal);
       const StepMotion motion{overlap, rate_half, rate_before, dt};
-      const bool needs = needs_coupling(dt, law.stiffness(overlap), dashpot, b.damping_over_mass[n]);
+      const bool needs = needs_coupling(dt, law.stiffest(overlap), dashpot, b.damping_over_mass[n]);
       b.coupled[n] = needs ? 1.0 : 0.0;
       rare |= needs ? 1 : 0;
       b.push[n] = b.force[n] = going_on(law, motion, b.force_before[n], m_eff);
@@ -125,6 +127,10 @@ DRUMLIN_FOR_THIS_PROCESSOR bool compute_normal_forces(ContactBlock &b, int first
       const StepMotion motion{overlap, rate_half, rate_half, dt};
       b.push[n] = advance_stock(law, motion, state).kick;
       b.force[n] = state.force;
+    }
+    if constexpr (Parameters::remembers) {
+      law.remember(overlap);
+      b.memory[n] = law.memory();
     }
     b.normal.set(n, normal);
     b.overlap[n] = overlap;

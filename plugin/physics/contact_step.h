@@ -179,7 +179,7 @@ template <class Law>
 [[nodiscard]] inline bool goes_on(const Law &law, const StepMotion &motion, const ContactState &state,
                                   const StepContext &context) {
   return state.in_contact && !context.in_setup &&
-         !needs_coupling(motion.dt, law.stiffness(motion.overlap), law.dashpot(motion.overlap),
+         !needs_coupling(motion.dt, law.stiffest(motion.overlap), law.dashpot(motion.overlap),
                          context.damping_over_mass);
 }
 
@@ -221,7 +221,7 @@ template <class Law>
   // An overlap from before this step but no history: a ball on a mesh has moved to another triangle.
   const double before = was_in_contact ? state.force : law.force(motion.overlap_before(), motion.rate_before);
   state.force = going_on(law, motion, before, context.m_eff);
-  if (!needs_coupling(motion.dt, law.stiffness(motion.overlap), law.dashpot(motion.overlap),
+  if (!needs_coupling(motion.dt, law.stiffest(motion.overlap), law.dashpot(motion.overlap),
                       context.damping_over_mass))
     return {state.force, lost_its_force(before, state.force) ? detail::released(law, motion) : state.force,
             0.0, 1.0};

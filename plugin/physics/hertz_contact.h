@@ -7,6 +7,7 @@
 /// any impact speed.
 
 #include "physics/contact_law.h"
+#include "physics/parameter_checks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +42,7 @@ public:
 
   [[nodiscard]] double spring(double overlap) const { return k_ * overlap * std::sqrt(overlap); }
   [[nodiscard]] double dashpot(double overlap) const { return c_ * std::sqrt(std::sqrt(overlap)); }
-  [[nodiscard]] double stiffness(double overlap) const { return 1.5 * k_ * std::sqrt(overlap); }
+  [[nodiscard]] double slope(double overlap) const { return 1.5 * k_ * std::sqrt(overlap); }
   [[nodiscard]] double secant(double overlap) const { return k_ * std::sqrt(overlap); }
   [[nodiscard]] double stored(double overlap) const {
     return 0.4 * k_ * overlap * overlap * std::sqrt(overlap);
@@ -74,6 +75,7 @@ struct HertzContact {
   static constexpr const char *name = "hertz/transition";
   static constexpr bool depends_on_radius = true;
   static constexpr bool tangential_varies = true;
+  static constexpr bool remembers = false;
 
   double youngs_modulus = 0.0;                 ///< effective, E*, Pa, finite and > 0
   double shear_modulus = 0.0;                  ///< effective, G*, Pa, finite and > 0
@@ -107,7 +109,7 @@ struct HertzContact {
 
   /// The law of a contact of effective mass m_eff, kg, > 0, and effective radius, m, > 0. The dashpot
   /// coefficient c, N s/m^(5/4), is 2 D sqrt(5/4 k m_eff), or the coefficient itself if that was given.
-  [[nodiscard]] HertzLaw law(double m_eff, double r_eff) const {
+  [[nodiscard]] HertzLaw law(double m_eff, double r_eff, double = 0.0) const {
     const double k = stiffness(r_eff);
     const double c =
         damping_kind == Damping::coefficient ? damping : 2.0 * damping * std::sqrt(1.25 * k * m_eff);
@@ -118,14 +120,6 @@ struct HertzContact {
   /// slip. Not 0 at d = 0, so that a force over it stays finite.
   [[nodiscard]] double tangential(double overlap, double r_eff) const {
     return 8.0 * shear_modulus * std::sqrt(r_eff * std::max(overlap, std::numeric_limits<double>::min()));
-  }
-
-  /// The law, without transition condition, of which secant(), N/m, and dashpot(), N s/m, are known at an
-  /// overlap, m, >= 0.
-  [[nodiscard]] static HertzLaw of_secant(double secant, double dashpot, double overlap) {
-    const double root = std::sqrt(overlap);
-    return overlap > 0.0 ? HertzLaw(secant / root, dashpot / std::sqrt(root), Transition::A)
-                         : HertzLaw(0.0, 0.0, Transition::A);
   }
 };
 

@@ -3,6 +3,8 @@
 #include "physics/contact_block.h"
 
 #include "physics/hertz_contact.h"
+#include "physics/linear_contact.h"
+#include "tests/plugin/physics/yielding_contact.h"
 
 #include <gtest/gtest.h>
 
@@ -14,6 +16,7 @@
 namespace {
 
 using namespace drumlin::physics;
+using yielding::YieldingContact;
 
 /// Coefficients as the adapters have them.
 template <class Contact>
@@ -29,6 +32,11 @@ void set_stiffness(LinearContact &contact) {
   contact.tangential_stiffness = 3e4;
 }
 void set_stiffness(HertzContact &contact) { contact.set_moduli(1e7, 0.3, 1e7, 0.3); }
+void set_stiffness(YieldingContact &contact) {
+  contact.stiffness = 1e5;
+  contact.unloading_stiffness = 3e5;
+  contact.tangential_stiffness = 3e4;
+}
 
 template <class Contact>
 Coefficients<Contact> coefficients(Transition transition, Damping kind) {
@@ -63,6 +71,7 @@ std::unique_ptr<ContactBlock> random_block(std::mt19937 &random) {
     b->damping_over_mass[n] = 3e3 * (1.0 + any(random));
     b->in_contact[n] = 1.0;
     b->force_before[n] = 10.0 * any(random);
+    b->memory_before[n] = (reach - distance) * (n % 4 == 0 ? 0.0 : 1.0 + any(random));
     b->spring.set(n, vector(1e-4));
     b->stored_stiffness[n] = n % 3 == 0 ? 0.0 : 3e4 * (1.0 + 0.9 * any(random));
     b->rolling_spring.set(n, vector(1e-3));
@@ -89,7 +98,7 @@ void expect_normal_force(const ContactBlock &b, int n, const Contact &parameters
   const Vec3 normal = scaled(1.0 / std::sqrt(b.squared[n]), b.separation[n]);
   const double overlap = b.ri[n] + b.rj[n] - std::sqrt(b.squared[n]);
   const double rate_half = -dot(b.velocity[n], normal);
-  const auto law = parameters.law(b.m_eff[n], effective_radius(b.ri[n], b.rj[n]));
+  auto law = parameters.law(b.m_eff[n], effective_radius(b.ri[n], b.rj[n]), b.memory_before[n]);
   expect_same(b.normal[n], normal, "normal", n);
   const Vec3 turning = sum(scaled(b.arm_i[n], b.wi[n]), b.arm_j[n], b.wj[n]);
   expect_same(b.slip[n],
@@ -111,6 +120,10 @@ void expect_normal_force(const ContactBlock &b, int n, const Contact &parameters
     expect_same(b.push[n], result.kick, "kick", n);
     expect_same(b.force[n], state.force, "force", n);
   }
+  if constexpr (Contact::remembers) {
+    law.remember(overlap);
+    expect_same(b.memory[n], law.memory(), "memory", n);
+  }
 }
 
 /// The tangential stiffness of contact n in the step.
@@ -127,7 +140,7 @@ void expect_friction(const ContactBlock &b, int n, const Coefficients<Contact> &
                      const ContactBlock &before) {
   const double r_eff = effective_radius(b.ri[n], b.rj[n]);
   const double kt = stiffness_of(b, n, all.contact);
-  const Friction friction = all.tangential(kt, all.contact.law(b.m_eff[n], r_eff).dashpot(b.overlap[n]), cap);
+  const Friction friction = all.tangential(kt, all.contact.law(b.m_eff[n], r_eff, 0.0).dashpot(b.overlap[n]), cap);
   const double kept = Contact::tangential_varies ? kept_spring(before.stored_stiffness[n], kt) : 1.0;
   const FrictionStep step = springs ? friction_step(friction, b.force[n], b.normal[n], b.slip[n],
                                                     scaled(kept, before.spring[n]), dt)
@@ -187,6 +200,8 @@ TEST(ContactBlock, HasTheBitsOfItsContactsOneByOne) {
   expect_block_as_contacts<HertzContact, true, Slip::in_middle, true, Cap::coulomb>();
   expect_block_as_contacts<HertzContact, true, Slip::at_end, true, Cap::total>();
   expect_block_as_contacts<HertzContact, true, Slip::at_end, false, Cap::total>();
+  expect_block_as_contacts<YieldingContact, false, Slip::in_middle, true, Cap::coulomb>();
+  expect_block_as_contacts<YieldingContact, true, Slip::in_middle, true, Cap::coulomb>();
 }
 
 } // namespace

@@ -3,7 +3,7 @@
 /// contact by contact and bond by bond, never the difference of the others.
 
 #include "physics/bond_law.h"
-#include "physics/contact_law.h"
+#include "physics/linear_contact.h"
 #include "physics/excitation.h"
 #include "tests/plugin/physics/velocity_verlet.h"
 

@@ -1,7 +1,7 @@
 /// Error messages for values that are not allowed: they have the name, the value and what is allowed.
 
 #include "physics/bond_law.h"
-#include "physics/contact_law.h"
+#include "physics/linear_contact.h"
 #include "physics/excitation.h"
 #include "physics/friction_law.h"
 

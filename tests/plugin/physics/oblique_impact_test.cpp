@@ -4,6 +4,7 @@
 #include "physics/contact_step.h"
 #include "physics/friction_law.h"
 #include "physics/hertz_contact.h"
+#include "physics/linear_contact.h"
 #include "tests/plugin/physics/contact_friction.h"
 #include "tests/support/ode.h"
 

@@ -6,6 +6,7 @@
 #include "physics/contact_step.h"
 #include "physics/friction_law.h"
 #include "physics/hertz_contact.h"
+#include "physics/linear_contact.h"
 #include "tests/plugin/physics/contact_friction.h"
 
 #include <gtest/gtest.h>
@@ -195,7 +196,7 @@ Impact<Contact> random_impact(Draw &draw) {
   impact.dt =
       std::min({impact.contact_time / draw.decades(1.3, 2.3),
                 half_of_longest_step(impact.contact.tangential(overlap, r_eff), 0.5 * c, 2.0 / 7.0 * m_eff),
-                half_of_longest_step(law.stiffness(overlap), impact.stock ? c : 0.0, m_eff)});
+                half_of_longest_step(law.slope(overlap), impact.stock ? c : 0.0, m_eff)});
   return impact;
 }
 

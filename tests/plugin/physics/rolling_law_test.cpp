@@ -3,7 +3,7 @@
 
 #include "physics/rolling_law.h"
 
-#include "physics/contact_law.h"
+#include "physics/linear_contact.h"
 #include "tests/support/ode.h"
 #include "tests/support/oscillator.h"
 

@@ -4,6 +4,7 @@
 #include "tests/plugin/physics/velocity_verlet.h"
 
 #include "physics/hertz_contact.h"
+#include "physics/linear_contact.h"
 
 #include "tests/support/oscillator.h"
 

@@ -89,8 +89,10 @@ public:
     damping_ = damping;
     v = half + 0.5 * dt_ * kick / mass_;
     double largest = 0.0;
-    for (const Partner &p : partners_)
+    for (Partner &p : partners_) {
       largest = std::max(largest, p.state.force);
+      p.law.remember(overlap(p));
+    }
     return largest;
   }
 
