@@ -53,14 +53,14 @@ public:
     const int pairs = static_cast<int>(pairs_.pairs().size());
     for (int first = 0; first < pairs; first += at_once) {
       const Found found = pairs_.find<has_history>(rows_, first, std::min(pairs, first + at_once), found_);
+      changed_ |= found.changed << count_;
       for (int n = 0; n < found.count; ++n)
         contacts_[count_++] = expect(found_[n]);
-      changed_ |= found.changed;
       if (count_ < physics::block_size) continue;
       exert(physics::block_size);
       count_ -= physics::block_size;
       std::copy_n(contacts_ + physics::block_size, count_, contacts_);
-      changed_ = found.changed && count_ > 0;
+      changed_ >>= physics::block_size;
     }
     exert(count_);
     engine_.finish();
@@ -69,6 +69,7 @@ public:
 private:
   using Vec3 = physics::Vec3;
   using Cap = physics::Cap;
+  using ContactSet = physics::ContactSet;
   static constexpr bool rubs = tangential != FrictionModel::none;
   static constexpr bool springs = tangential == FrictionModel::history;
   static constexpr bool stores_stiffness = Parameters::tangential_varies && (springs || rolling);
@@ -100,23 +101,30 @@ private:
       block_.in_contact[n] = 1.0;
       if constexpr (has_history) take_history(n, contacts_[n].history);
     }
-    new_count_ = 0;
-    if (has_history && changed_)
-      for (int n = 0; n < count; ++n)
-        take_change(n);
+    new_ = 0;
+    if constexpr (has_history) for_each(changed_, 0, count, [this](int n) { take_change(n); });
     one_law_ =
         read_balls<stepped, Engine>(block_, rows_, contacts_, count, stepped ? stepping_->rows() : nullptr,
                                     stepped && stepping_->counted());
   }
 
-  /// Updates the engine's flag of a contact that may begin or end in this step.
+  /// Calls `treat` with the numbers of those of `contacts` that are at least `first` and below `end`, in their order.
+  template <class Treat>
+  static void for_each(ContactSet contacts, int first, int end, const Treat &treat) {
+    for (ContactSet left = contacts & between(first, end); left != 0; left &= left - 1)
+      treat(__builtin_ctzll(left));
+  }
+
+  static ContactSet between(int first, int end) { return (ContactSet{1} << end) - (ContactSet{1} << first); }
+
+  /// Updates the engine's flag of a contact that begins or ends in this step.
   void take_change(int n) {
     BlockContact &contact = contacts_[n];
     contact.touches = pairs_.touches(contact.pair);
     int &flag = engine_.flags(contact.i)[pairs_.pairs()[static_cast<std::size_t>(contact.pair)].place];
     block_.in_contact[n] = engine_.touched(flag, contact.history) ? 1.0 : 0.0;
     engine_.mark(flag, contact.history, contact.touches);
-    if (contact.touches && block_.in_contact[n] == 0.0) new_[new_count_++] = n;
+    if (contact.touches) new_ |= ContactSet{1} << n;
   }
 
   void take_history(int n, const double *history) {
@@ -157,12 +165,11 @@ private:
   /// Computes the forces of some contacts of the block.
   void compute(int first, int end) {
     const ContactCoefficients<Parameters> &law = law_of(first);
-    const bool rare = push(first, end, law.contact);
+    ContactSet rare = push(first, end, law.contact);
     if constexpr (stepped) {
-      if (changed_ || in_setup_ || moved_ || rare)
-        exert_rare(first, end, law.contact);
-      else if (stepping_->counting())
-        count_dashpots(first, end);
+      rare |= in_setup_ ? between(first, end) : changed_;
+      if (moved_) rare |= with_moved_balls(first, end);
+      exert_rare(rare, first, end, law.contact);
     }
     if constexpr (rubs || rolling) {
       if (moves_)
@@ -178,9 +185,7 @@ private:
     if constexpr (!rubs) physics::compute_total_force(block_, first, end);
     if constexpr (rolling) physics::compute_rolling(block_, first, end, law, dt);
     if constexpr (springs || rolling)
-      if (moves_)
-        for (int new_one = 0; new_one < new_count_; ++new_one)
-          if (const int n = new_[new_one]; n >= first && n < end) begin_springs(n, law);
+      if (moves_) for_each(new_, first, end, [&](int n) { begin_springs(n, law); });
   }
 
   /// Friction and rolling resistance of a contact that begins, whose springs have been stretched for a part of the step
@@ -207,7 +212,7 @@ private:
     }
   }
 
-  bool push(int first, int end, const Parameters &law) {
+  ContactSet push(int first, int end, const Parameters &law) {
     using physics::Slip;
     if constexpr (!rubs)
       return physics::compute_normal_forces<stepped, Slip::none>(block_, first, end, law, dt_);
@@ -236,18 +241,15 @@ private:
     }
   }
 
-  /// The normal forces of contacts of which some may need more than going_on().
-  void exert_rare(int first, int end, const Parameters &parameters) {
-    const bool counting = stepping_->counting();
+  /// Those contacts that have a ball whose motion does not depend on their force.
+  [[gnu::noinline]] ContactSet with_moved_balls(int first, int end) const {
+    ContactSet all = 0;
     for (int n = first; n < end; ++n) {
-      const bool goes_on = contacts_[n].touches && !in_setup_ && block_.in_contact[n] != 0.0;
-      if (goes_on && moved_) exert_on_moved(n, parameters);
-      if (!goes_on || block_.coupled[n] != 0.0 ||
-          physics::lost_its_force(block_.force_before[n], block_.force[n]))
-        exert_one(n, parameters);
-      else if (counting)
-        count_dashpots(n, n + 1);
+      const double m_eff = block_.m_eff[n];
+      if (stepping_->moving_mass(contacts_[n].i, contacts_[n].j, block_.normal[n], m_eff) != m_eff)
+        all |= ContactSet{1} << n;
     }
+    return all;
   }
 
   /// The law of a contact with what it remembered at the beginning of the step.
@@ -255,8 +257,20 @@ private:
     return parameters.law(block_.m_eff[n], block_.r_eff[n], remembers ? block_.memory_before[n] : 0.0);
   }
 
-  /// The normal force of a contact that begins, ends or loses its force in this step, or is solved for together with
-  /// others.
+  /// The normal forces of the contacts that need more than going_on(), and the dashpots of the others.
+  void exert_rare(ContactSet rare, int first, int end, const Parameters &parameters) {
+    const bool counting = stepping_->counting();
+    int counted = first;
+    for_each(rare, first, end, [&](int n) {
+      if (counting) count_dashpots(counted, n);
+      counted = n + 1;
+      exert_one(n, parameters);
+    });
+    if (counting) count_dashpots(counted, end);
+  }
+
+  /// The normal force of a contact that begins, ends or loses its force in this step, has a ball whose motion does not
+  /// depend on it, or is solved for together with others.
   [[gnu::noinline]] void exert_one(int n, const Parameters &parameters) {
     const BlockContact &contact = contacts_[n];
     const auto law = law_before(n, parameters);
@@ -277,17 +291,6 @@ private:
     if constexpr (rubs || rolling)
       if (LAMMPS_NS::FixStepping::Begun *begun = stepping_->begun_at(&stored_force))
         begun_.emplace_back(n, begun);
-  }
-
-  /// The normal force of a contact that goes on and may have a ball whose motion does not depend on it.
-  [[gnu::noinline]] void exert_on_moved(int n, const Parameters &parameters) {
-    const double m_eff = block_.m_eff[n];
-    const double moving = stepping_->moving_mass(contacts_[n].i, contacts_[n].j, block_.normal[n], m_eff);
-    if (moving == m_eff) return;
-    const physics::StepMotion motion{block_.overlap[n], block_.rate_half[n],
-                                     -physics::dot(block_.velocity_before[n], block_.normal[n]), dt_};
-    block_.push[n] = block_.force[n] =
-        physics::going_on(law_before(n, parameters), motion, block_.force_before[n], moving);
   }
 
   /// Passes friction and rolling resistance of the coupled contacts to FixStepping, which limits them when the normal
@@ -335,12 +338,11 @@ private:
 
   /// Adds the forces of the first `count` contacts to their balls, and stores the contacts' history.
   void add_forces(int count) {
-    if (has_history && changed_)
+    if constexpr (has_history) {
       for (int n = 0; n < count; ++n)
-        if (!contacts_[n].touches) end_contact(n);
-    if constexpr (has_history)
-      for (int n = 0; n < count; ++n)
-        if (contacts_[n].touches) keep_history(n, contacts_[n].history);
+        keep_history(n, contacts_[n].history);
+      for_each(changed_ & ~new_, 0, count, [this](int n) { end_contact(n); });
+    }
     if constexpr (stepped)
       if (any_coupled_) couple_friction(count);
     if (observed_)
@@ -443,12 +445,11 @@ private:
 
   static constexpr int at_once = 32; // pairs that one call of find_touching() tests for contact
   int count_ = 0;                    // contacts found whose forces are not computed yet
-  bool changed_ = false;             // whether a contact begins or ends among them
+  ContactSet changed_ = 0;           // those of them that begin or end
   physics::ContactBlock block_;
   std::int32_t found_[at_once + 4];
   BlockContact contacts_[physics::block_size + at_once];
-  int new_[physics::block_size]; // contacts of the block that begin
-  int new_count_ = 0;
+  ContactSet new_ = 0;   // contacts of the block that begin
   bool one_law_ = false; // whether all have the same coefficients
   LAMMPS_NS::FixStepping::Coupled *coupled_[physics::block_size] =
       {}; // of the contacts of the block; nullptr: not coupled

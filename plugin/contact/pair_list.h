@@ -21,21 +21,29 @@ struct Pair {
 /// Which pairs find_touching() has found.
 struct Found {
   int count = 0;
-  bool changed = false; ///< whether a contact begins or ends among them
+  std::uint64_t changed = 0; ///< bit n: the contact of the n-th of them begins or ends
 };
 
 namespace detail {
 
-/// For each set of four pairs, as a sum of 1, 2, 4 and 8: its members, one after the other.
+/// For each set of four pairs, as a sum of 1, 2, 4 and 8: its members, one after the other, and for each set of pairs
+/// among them, where they stand in that order, as a sum of 1 for the first place, 2 for the second, and so on.
 struct Members {
   std::int32_t at[16][4];
   std::int8_t count[16];
+  std::uint8_t places[16][16];
 };
 constexpr Members members_of_sets() {
   Members all{};
   for (int set = 0; set < 16; ++set)
     for (int member = 0; member < 4; ++member)
-      if ((set >> member & 1) != 0) all.at[set][all.count[set]++] = member;
+      if ((set >> member & 1) != 0) {
+        const int place = all.count[set]++;
+        all.at[set][place] = member;
+        for (int some = 0; some < 16; ++some)
+          if ((some >> member & 1) != 0)
+            all.places[set][some] = static_cast<std::uint8_t>(all.places[set][some] | 1 << place);
+      }
   return all;
 }
 inline constexpr Members members = members_of_sets();
@@ -49,11 +57,12 @@ using TwoFlags = std::int64_t __attribute__((vector_size(16)));
 /// more time than the test itself.
 /// \param first, end multiples of 4
 /// \param touched for every four pairs, which of them touched a step ago; afterwards, which of them touch now
-/// \param found gets the numbers of the pairs that were found; must have room for four more
+/// \param found gets the numbers of the pairs that were found, 64 at most; must have room for four more
 template <bool remembers>
 DRUMLIN_FOR_THIS_PROCESSOR Found find_touching(const BallRows::Place *places, const Pair *pairs, int first,
                                                int end, std::uint8_t *touched, std::int32_t *found) {
-  int count = 0, changes = 0;
+  int count = 0;
+  std::uint64_t changed = 0;
   for (int n = first; n < end; n += 4) {
     Four apart[4];
     for (int c = 0; c < 4; ++c) {
@@ -74,13 +83,13 @@ DRUMLIN_FOR_THIS_PROCESSOR Found find_touching(const BallRows::Place *places, co
       const int before = touched[n / 4];
       touched[n / 4] = static_cast<std::uint8_t>(now);
       set |= before;
-      changes |= now ^ before;
+      changed |= std::uint64_t{detail::members.places[set][now ^ before]} << count;
     }
     for (int c = 0; c < 4; ++c)
       found[count + c] = n + detail::members.at[set][c];
     count += detail::members.count[set];
   }
-  return {count, changes != 0};
+  return {count, changed};
 }
 
 /// The pairs of a neighbour list one after the other, and which of them touch.

@@ -30,6 +30,25 @@ namespace drumlin::physics {
 /// Contacts of a block: few enough for all their values to stay in the processor's first cache.
 constexpr int block_size = 32;
 
+/// Some contacts of a block: bit n is set if contact n is one of them.
+using ContactSet = std::uint64_t;
+
+namespace detail {
+
+/// The bit of each contact, from memory: not every processor can shift several numbers by different amounts at once.
+struct Bits {
+  ContactSet of[block_size];
+};
+constexpr Bits bits_of_contacts() {
+  Bits all{};
+  for (int n = 0; n < block_size; ++n)
+    all.of[n] = ContactSet{1} << n;
+  return all;
+}
+inline constexpr Bits bits = bits_of_contacts();
+
+} // namespace detail
+
 /// A number for each contact of a block.
 struct alignas(64) Numbers {
   double at[block_size];
@@ -78,7 +97,6 @@ struct ContactBlock {
   Numbers push;               ///< N, normal force of the closing half kick
   Numbers dashpot;            ///< N s/m, of the normal dashpot
   Numbers memory;             ///< what the contact remembers for its law at the end of the step
-  Numbers coupled;            ///< 1: needs_coupling(), else 0; second-order scheme only
   Numbers kt;                 ///< N/m, tangential stiffness
   Vectors tangential_force;   ///< N, on ball i
   Vectors total_force;        ///< N, on ball i
@@ -90,12 +108,13 @@ struct ContactBlock {
 enum class Slip { none, at_end, in_middle };
 
 /// Motion and normal force of all contacts of a block. Where the second-order scheme is used, `push` and `force`
-/// are those of contacts that go on and are not coupled (goes_on()). \returns whether any is coupled or has lost its force
+/// are those of contacts that go on and are not coupled (goes_on()). \returns those that are coupled or have lost their
+/// force
 template <bool stepped, Slip slip, class Parameters>
-DRUMLIN_FOR_THIS_PROCESSOR bool compute_normal_forces(ContactBlock &b, int first, int end,
-                                                      const Parameters &of_types, double dt) {
+DRUMLIN_FOR_THIS_PROCESSOR ContactSet compute_normal_forces(ContactBlock &b, int first, int end,
+                                                            const Parameters &of_types, double dt) {
   const Parameters parameters = of_types; // a copy, which the arrays of the block cannot overlap
-  std::int64_t rare = 0;                  // as wide as the numbers beside it
+  ContactSet rare = 0;                    // as wide as the numbers beside it
   DRUMLIN_INDEPENDENT_CONTACTS
   for (int n = first; n < end; ++n) {
     const double distance = std::sqrt(b.squared[n]);
@@ -119,8 +138,7 @@ DRUMLIN_FOR_THIS_PROCESSOR bool compute_normal_forces(ContactBlock &b, int first
       const double rate_before = -dot(b.velocity_before[n], normal);
       const StepMotion motion{overlap, rate_half, rate_before, dt};
       const bool needs = needs_coupling(dt, law.stiffest(overlap), dashpot, b.damping_over_mass[n]);
-      b.coupled[n] = needs ? 1.0 : 0.0;
-      rare |= needs ? 1 : 0;
+      rare |= needs ? detail::bits.of[n] : 0;
       b.push[n] = b.force[n] = going_on(law, motion, b.force_before[n], m_eff);
     } else {
       ContactState state;
@@ -142,8 +160,8 @@ DRUMLIN_FOR_THIS_PROCESSOR bool compute_normal_forces(ContactBlock &b, int first
   }
   if constexpr (stepped) // in a loop of its own, since the compiler finds no instruction for both
     for (int n = first; n < end; ++n)
-      rare |= lost_its_force(b.force_before[n], b.force[n]) ? 1 : 0;
-  return rare != 0;
+      rare |= lost_its_force(b.force_before[n], b.force[n]) ? detail::bits.of[n] : 0;
+  return rare;
 }
 
 /// Tangential stiffness of all contacts of a block. Where it varies, the springs of friction and of rolling
