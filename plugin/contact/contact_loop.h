@@ -257,16 +257,30 @@ private:
     return parameters.law(block_.m_eff[n], block_.r_eff[n], remembers ? block_.memory_before[n] : 0.0);
   }
 
-  /// The normal forces of the contacts that need more than going_on(), and the dashpots of the others.
+  /// The normal forces of the contacts that need more than going_on().
   void exert_rare(ContactSet rare, int first, int end, const Parameters &parameters) {
-    const bool counting = stepping_->counting();
-    int counted = first;
+    int done = first;
     for_each(rare, first, end, [&](int n) {
-      if (counting) count_dashpots(counted, n);
-      counted = n + 1;
+      went_on(done, n, parameters);
+      done = n + 1;
       exert_one(n, parameters);
     });
-    if (counting) count_dashpots(counted, end);
+    went_on(done, end, parameters);
+  }
+
+  /// What else is to be done about contacts that went on and were not solved for together with others.
+  void went_on(int first, int end, const Parameters &parameters) {
+    if (stepping_->counting()) count_dashpots(first, end);
+    if constexpr (!Parameters::Law::is_linear)
+      if (stepping_->counts_heat()) tell_heat(first, end, parameters);
+  }
+
+  [[gnu::noinline]] void tell_heat(int first, int end, const Parameters &parameters) const {
+    for (int n = first; n < end; ++n) {
+      const physics::StepMotion motion{block_.overlap[n], block_.rate_half[n], block_.rate_half[n], dt_};
+      stepping_->tell_heat(contacts_[n].i, contacts_[n].j,
+                           physics::heat_of_spring(law_before(n, parameters), motion), 0.0);
+    }
   }
 
   /// The normal force of a contact that begins, ends or loses its force in this step, has a ball whose motion does not

@@ -93,9 +93,11 @@ public:
   virtual void see_contact(const ContactRecord &) {}
   /// Receives a bond, once for each of its balls that this rank owns. \param partner ID of the other ball
   virtual void see_bond(int /*ball*/, int /*partner*/, const physics::LinkModes &) {}
-  /// Receives heat, J, that the trapezoidal rule over the powers of the contacts misses in a step in which a contact
-  /// begins or ends, under `stepping second`: of the normal dashpot, and of friction. Called in every step while forces
-  /// are computed, on the ranks that see_contact() is called on, whether observe(true) has been called or not.
+  /// Whether see_heat() is called.
+  virtual bool takes_heat() const { return false; }
+  /// Receives heat, J, that the trapezoidal rule over the powers of the contacts misses in a step, under `stepping
+  /// second`: of the normal dashpot, and of friction. Called in every step while forces are computed, on the ranks that
+  /// see_contact() is called on, whether observe(true) has been called or not.
   virtual void see_heat(int /*i*/, int /*j*/, double /*normal*/, double /*tangential*/) {}
   /// Receives a pair of balls at the end of a time step. Only FixPairObserver calls it, in every step,
   /// whether observe(true) has been called or not.
@@ -118,8 +120,12 @@ public:
   /// Looks up the observers among the fixes. To be called in the initialization of each run.
   void find(LAMMPS_NS::Modify &modify) {
     all_.clear();
+    takes_heat_ = false;
     for (LAMMPS_NS::Fix *fix : engine::fixes(&modify))
-      if (auto *observer = dynamic_cast<ContactObserver *>(fix)) all_.push_back(observer);
+      if (auto *observer = dynamic_cast<ContactObserver *>(fix)) {
+        all_.push_back(observer);
+        takes_heat_ |= observer->takes_heat();
+      }
   }
 
   bool any() const {
@@ -132,10 +138,10 @@ public:
     for (ContactObserver *observer : all_)
       if (observer->observing()) observer->see_contact(record);
   }
-  bool exist() const { return !all_.empty(); }
+  bool take_heat() const { return takes_heat_; }
   void tell_heat(int i, int j, double normal, double tangential) const {
     for (ContactObserver *observer : all_)
-      observer->see_heat(i, j, normal, tangential);
+      if (observer->takes_heat()) observer->see_heat(i, j, normal, tangential);
   }
   void tell_bond(int ball, int partner, const physics::LinkModes &modes) const {
     for (ContactObserver *observer : all_)
@@ -144,6 +150,7 @@ public:
 
 private:
   std::vector<ContactObserver *> all_;
+  bool takes_heat_ = false; // whether any of them does
 };
 
 } // namespace drumlin

@@ -183,8 +183,8 @@ public:
   RubbingForces close_friction(const Begun &contact);
 
   /// Whether an observer takes heat.
-  bool observed() const { return observers_.exist(); }
-  /// Passes heat that the trapezoidal rule misses in the step in which a contact begins or ends to the observers.
+  bool counts_heat() const { return observers_.take_heat(); }
+  /// Passes heat that the trapezoidal rule misses in a step to the observers.
   void tell_heat(int i, int j, double normal, double tangential) const {
     observers_.tell_heat(i, j, normal, tangential);
   }

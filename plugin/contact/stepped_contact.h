@@ -52,12 +52,12 @@ inline void count(LAMMPS_NS::FixStepping &stepping, int i, int j, double c) {
 }
 
 /// physics::advance() for a contact that continues (physics::goes_on()), for inner loops.
-/// \param j below 0: a wall \returns false, and changes nothing, in all other situations: the caller then
+/// \param j below 0: a wall \param share see StepContact \returns false, and changes nothing, in all other situations: the caller then
 /// calls exert_contact()
 template <class Law>
 inline bool hold_contact(const Law &law, LAMMPS_NS::FixStepping &stepping, int i, int j,
                          const std::array<double, 3> &normal, const physics::StepMotion &motion, double m_eff,
-                         physics::ContactState &state) {
+                         double share, physics::ContactState &state) {
   if (!state.in_contact) return false;
   m_eff = stepping.moving_mass(i, j, normal, m_eff);
   if (!stepping.light() && !physics::goes_on(law, motion, state, step_context(stepping, i, j, m_eff)))
@@ -65,6 +65,8 @@ inline bool hold_contact(const Law &law, LAMMPS_NS::FixStepping &stepping, int i
   const double force = physics::going_on(law, motion, state.force, m_eff);
   if (physics::lost_its_force(state.force, force)) return false;
   state.force = force;
+  if constexpr (!Law::is_linear)
+    if (stepping.counts_heat()) stepping.tell_heat(i, j, share * physics::heat_of_spring(law, motion), 0.0);
   if (stepping.counting()) count(stepping, i, j, law.dashpot(motion.overlap));
   return true;
 }
@@ -128,7 +130,7 @@ template <class Law>
     contact.step = step;
     contact.announced = announced;
   }
-  if (stepping.observed())
+  if (stepping.counts_heat())
     stepping.tell_heat(p.i, p.j, p.share * physics::heat_of_change(law, motion, before, step, m_eff), 0.0);
   if (state.in_contact) count(stepping, p.i, p.j, law.dashpot(p.overlap));
   return p.share * step.kick;

@@ -22,6 +22,7 @@ public:
   void pre_force(int) override;
   void end_of_step() override;
   void see_contact(const drumlin::ContactRecord &record) override { sums_.add(record); }
+  bool takes_heat() const override { return true; }
   void see_heat(int i, int j, double normal, double tangential) override {
     sums_.add_heat(i, j, normal, tangential);
   }

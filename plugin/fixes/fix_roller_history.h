@@ -38,6 +38,7 @@ public:
   void pre_force(int) override;
   void end_of_step() override;
   void see_contact(const drumlin::ContactRecord &record) override { bed_->add(record); }
+  bool takes_heat() const override { return true; }
   void see_heat(int i, int j, double normal, double tangential) override;
   void post_run() override;
   void pack_ghosts(int, const int *, double *) override;

@@ -105,7 +105,7 @@ inline ContactForces exert(const ContactSettings &settings,
     double &stored_force = *p.stored(Remembered::force);
     state.force = stored_force;
     state.in_contact = p.in_contact;
-    if (hold_contact(law, *stepping, n.i, n.j, n.normal, step_motion(*stepping, n), n.m_eff, state))
+    if (hold_contact(law, *stepping, n.i, n.j, n.normal, step_motion(*stepping, n), n.m_eff, n.share, state))
       push = state.force;
     else {
       physics::ContactState rare{state.force, state.in_contact};

@@ -216,7 +216,7 @@ private:
     physics::ContactState state = state_of(sidata);
     const std::array<double, 3> normal{sidata.en[0], sidata.en[1], sidata.en[2]};
     if (sidata.computeflag && hold_contact(law, *stepping_, sidata.i, sidata.is_wall ? -1 : sidata.j, normal,
-                                           motion_of(sidata), sidata.meff, state)) {
+                                           motion_of(sidata), sidata.meff, share, state)) {
       *stored(sidata, Remembered::force) = sidata.Fn = state.force;
       add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);
     } else

@@ -188,6 +188,60 @@ TEST_P(HertzImpactsUnderSecond, ErrorFallsWithTheSquareOfTheStep) {
   }
 }
 
+/// Duration of an undamped contact, s. \param m, R effective mass, kg, and radius, m
+double duration(double E_eff, double m, double R, double v) {
+  const double k = 4.0 / 3.0 * E_eff * std::sqrt(R);
+  return 0.8 * std::tgamma(0.4) * std::tgamma(0.5) / std::tgamma(0.9) * std::pow(1.25 * m * v * v / k, 0.4) /
+         v;
+}
+
+// The contact of the fastest pair takes 23 steps, and the others more.
+TEST_P(HertzImpactsUnderSecond, BecomeHeatInFewSteps) {
+  constexpr double E_eff = 0.5 * E / (1 - nu * nu);
+  for (const auto &[transition, D] : {std::pair{"A", 0.1}, {"A", 0.5}, {"B", 0.3}, {"B", 1.0}, {"B", 3.0}}) {
+    const double dt = duration(E_eff, 0.5 * mass, 0.5 * radius, std::cos(angles.front())) / 23;
+    const Impacts found =
+        head_on_impacts({{"transition", transition}, {"D", number(D)}, {"dt", number(dt)}, {"steps", "500"}});
+    double before = 0, heat = 0;
+    for (const double angle : angles) {
+      const double v = std::cos(angle), e = closed_form(transition, D);
+      before += 0.5 * 2 * mass * v * v;
+      heat += 0.5 * 1.5 * mass * v * v * (1 - e * e);
+    }
+    EXPECT_NEAR(found.normal_heat, found.lost(), 1e-4 * before) << transition << ' ' << D;
+    EXPECT_NEAR(found.normal_heat, heat, 1e-3 * before) << transition << ' ' << D;
+  }
+}
+
+// The same in the energies of a drum that strikes a ball at rest.
+TEST_P(HertzImpactsUnderSecond, BecomeHeatInTheCyclesOfADrum) {
+  constexpr double E_eff = 0.5 * 2e8 / (1 - nu * nu);
+  for (const auto &[transition, D] : {std::pair{"A", 0.5}, {"B", 0.3}, {"B", 1.0}, {"B", 3.0}}) {
+    const Scratch folder;
+    const Outcome outcome =
+        run("pair", folder,
+            {{"normal", "hertz"},
+             {"damping", "ratio"},
+             {"transition", transition},
+             {"c", number(D)},
+             {"one", "0 0.2001 0.5"},
+             {"dt", number(duration(E_eff, 1, 0.025, 1) / 23)},
+             {"steps", "400"},
+             {"integrated", "one"},
+             {"first", "velocity one set 0 -1 0"},
+             {"second", "fix hold two freeze"},
+             {"third", "fix cycles one roller/history file " + (folder / "c.csv").string() +
+                           " every 400 axis 0 1 0 cycles " + (folder / "cycles.csv").string() + " 400"}});
+    ASSERT_TRUE(outcome.ok()) << outcome.output;
+    const post::Table cycles = post::read_table(folder / "cycles.csv");
+    const double e = closed_form(transition, D), before = cycles.numbers("kinetic").front(),
+                 heat = cycles.numbers("dissipated_contact").back();
+    EXPECT_NEAR(before, 0.5, 1e-12);
+    EXPECT_NEAR(heat, before - cycles.numbers("kinetic").back(), 1e-4 * before) << transition << ' ' << D;
+    EXPECT_NEAR(heat, before * (1 - e * e), 1e-3 * before) << transition << ' ' << D;
+  }
+}
+
 /// Velocities along the floor and up after the impact of a ball, by steps of 2 ns: transition B, no
 /// tangential dashpot. The tangential force F grows by kt u while the contact is loaded and shrinks with kt
 /// besides while it is unloaded; it is at most mu Fn.
