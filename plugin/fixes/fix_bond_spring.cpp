@@ -4,6 +4,7 @@
 #include "contact/fix_stepping.h"
 #include "support/restart_record.h"
 
+#include "physics/linear_contact.h"
 #include "physics/stepping.h"
 
 #include <algorithm>

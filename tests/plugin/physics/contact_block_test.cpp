@@ -141,7 +141,8 @@ void expect_friction(const ContactBlock &b, int n, const Coefficients<Contact> &
                      const ContactBlock &before) {
   const double r_eff = effective_radius(b.ri[n], b.rj[n]);
   const double kt = stiffness_of(b, n, all.contact);
-  const Friction friction = all.tangential(kt, all.contact.law(b.m_eff[n], r_eff, 0.0).dashpot(b.overlap[n]), cap);
+  const Friction friction =
+      all.tangential(kt, all.contact.law(b.m_eff[n], r_eff, 0.0).dashpot(b.overlap[n]), cap);
   const double kept = Contact::tangential_varies ? kept_spring(before.stored_stiffness[n], kt) : 1.0;
   const FrictionStep step = springs ? friction_step(friction, b.force[n], b.normal[n], b.slip[n],
                                                     scaled(kept, before.spring[n]), dt)

@@ -5,7 +5,6 @@
 
 #include "tests/plugin/physics/velocity_verlet.h"
 #include "tests/plugin/physics/yielding_contact.h"
-#include "tests/plugin/physics/velocity_verlet.h"
 #include "tests/support/ode.h"
 #include "tests/support/oscillator.h"
 
@@ -280,7 +279,7 @@ TEST(LawThatRemembers, StoresThePartOfItsWorkThatItGivesBack) {
     before = d;
   }
   EXPECT_GT(heat, 1.0);
-  EXPECT_NEAR(work, law.energy(before) + heat, 1e-6 * work);
+  EXPECT_NEAR(work, law.energy(before) + heat, 1e-5 * work); // of first order in dt in steps across a kink
 }
 
 // Without a dashpot the work of the way back is k1/k2 of that of the way in.

@@ -2,6 +2,7 @@
 // oscillator.
 
 #include "physics/event_location.h"
+#include "physics/linear_contact.h"
 
 #include "tests/support/oscillator.h"
 

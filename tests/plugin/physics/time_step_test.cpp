@@ -1,6 +1,7 @@
 /// Stability limits against the eigenvalues of the matrix of one step with `stepping stock`.
 
 #include "physics/contact_step.h"
+#include "physics/linear_contact.h"
 #include "physics/time_step.h"
 #include "tests/plugin/physics/velocity_verlet.h"
 

@@ -53,8 +53,8 @@ struct YieldingContact {
   double tangential_stiffness = 0.0;
 
   YieldingLaw law(double m_eff, double, double memory) const {
-    const double c = damping_kind == Damping::coefficient ? damping
-                                                          : 2.0 * damping * std::sqrt(m_eff * stiffness);
+    const double c =
+        damping_kind == Damping::coefficient ? damping : 2.0 * damping * std::sqrt(m_eff * stiffness);
     return {stiffness, unloading_stiffness, c, transition, memory};
   }
   double tangential(double, double) const { return tangential_stiffness; }
