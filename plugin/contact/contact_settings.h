@@ -5,7 +5,6 @@
 #include "contact/contact_source.h"
 #include "contact/laws.h"
 #include "physics/friction_law.h"
-#include "physics/restitution.h"
 #include "physics/rolling_law.h"
 #include "support/arguments.h"
 
@@ -15,9 +14,6 @@
 #include <vector>
 
 namespace drumlin {
-
-/// kt, N/m, of the linear law where a deck gives none: 2/7 of the normal stiffness.
-inline double default_tangential_stiffness(double normal_stiffness) { return 2.0 / 7.0 * normal_stiffness; }
 
 /// Coefficients of a pair of types, of the law with the parameters `Contact`. Where a deck does not give ct,
 /// it is half of the normal damping coefficient.
@@ -134,15 +130,19 @@ struct ContactSettings {
     return all;
   }
 
-  /// Sets the damping of a law's parameters to what a deck gives, and the transition. A restitution, > 0 and
-  /// <= 1, becomes the D that gives it under the transition condition.
+  /// Sets the damping of a law's parameters to what a deck gives, and the transition.
   template <class Contact>
   void set_damping(Contact &contact, double given) const {
-    contact.damping = damping == DampingInput::restitution
-                          ? physics::damping_ratio_of_restitution(transition, given)
-                          : given;
-    contact.damping_kind = kind();
     contact.transition = transition;
+    contact.damping_kind = kind();
+    if (damping == DampingInput::restitution)
+      contact.set_restitution(given);
+    else
+      contact.damping = given;
+  }
+  /// Which numbers a deck may give for it.
+  Range damping_range() const {
+    return damping == DampingInput::restitution ? Range{0.0, true, 1.0} : Range::non_negative;
   }
   /// What that damping means.
   physics::Damping kind() const {

@@ -39,7 +39,7 @@ FixBondSpring::FixBondSpring(LAMMPS *lammps, int narg, char **arg) : GhostFix(la
   while (!in.empty()) {
     const std::string keyword = in.word("keyword");
     if (keyword == "length") {
-      const std::string allowed = std::string("current or ") + drumlin::allowed_text(Range::positive);
+      const std::string allowed = "current or " + drumlin::allowed_text(Range::positive);
       const std::string length = in.word("keyword length", allowed);
       current_length_ = length == "current";
       if (current_length_) continue;

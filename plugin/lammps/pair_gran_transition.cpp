@@ -87,7 +87,7 @@ void PairGranTransition::settings(int narg, char **arg) {
   std::visit(
       [&](const auto &table) {
         using Parameters = std::decay_t<decltype(table.at(0, 0).contact)>;
-        take_settings(drumlin::read_settings(in, drumlin::LawWords<Parameters>::all));
+        take_settings(drumlin::read_settings(in, drumlin::LawWords<Parameters>::all()));
       },
       tables_);
   // A second pair_style line: coefficients mean something else under other settings, and contacts may
@@ -232,10 +232,10 @@ std::string PairGranTransition::missing_coefficients(int itype, int jtype) const
   const std::string types = std::to_string(i) + " " + std::to_string(j);
   const std::string stiffness = std::visit(
       [](const auto &table) {
-        return drumlin::LawWords<std::decay_t<decltype(table.at(0, 0).contact)>>::stiffness;
+        return drumlin::LawWords<std::decay_t<decltype(table.at(0, 0).contact)>>::stiffness();
       },
       tables_);
-  return "types " + types + " have no coefficients; allowed: 'pair_coeff " + types + " " + stiffness +
+  return "types " + types + " have no coefficients; allowed: 'pair_coeff " + types + stiffness +
          " damping ...' or 'pair_coeff * * ...' before (coefficients are not mixed)";
 }
 
@@ -411,11 +411,10 @@ void PairGranTransition::read_restart_settings(FILE *file) {
 void PairGranTransition::write_restart(FILE *file) {
   write_restart_settings(file);
   const auto write = [&](auto table) { // a copy
-    using Words = drumlin::LawWords<std::decay_t<decltype(table.at(0, 0).contact)>>;
     for (int i = 1; i <= atom->ntypes; ++i)
       for (int j = i; j <= atom->ntypes; ++j) {
         std::vector<double> numbers{static_cast<double>(setflag[i][j])};
-        for (const double *number : Words::numbers(table.at(i, j)))
+        for (const double *number : drumlin::restart_numbers(table.at(i, j)))
           numbers.push_back(*number);
         if (settings_.rolling) numbers.push_back(table.at(i, j).rolling);
         std::fwrite(numbers.data(), sizeof(double), numbers.size(), file);
@@ -432,7 +431,7 @@ void PairGranTransition::read_restart(FILE *file) {
     for (int i = 1; i <= atom->ntypes; ++i)
       for (int j = i; j <= atom->ntypes; ++j) {
         ContactCoefficients<Parameters> p;
-        const auto places = drumlin::LawWords<Parameters>::numbers(p);
+        const std::vector<double *> places = drumlin::restart_numbers(p);
         std::vector<double> numbers(1 + places.size() + (settings_.rolling ? 1 : 0));
         const int count = static_cast<int>(numbers.size());
         if (comm->me == 0)

@@ -124,10 +124,10 @@ DampingProperties::DampingProperties(LAMMPS *lmp, const std::string &command, in
 }
 
 void provide_friction_default(LAMMPS *lmp, const std::string &command, int ntypes) {
-  if (TypePairProperty given(lmp, command, friction_property, ntypes); given.given()) {
+  if (TypeProperty given(lmp, command, friction_property, ntypes); given.given()) {
     for (int i = 1; i <= ntypes; ++i)
       for (int j = 1; j <= ntypes; ++j)
-        given(i, j, true);
+        given(i, j, Range::non_negative);
     return;
   }
   std::vector<std::string> words = {"drumlin_friction", "all",

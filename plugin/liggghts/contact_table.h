@@ -50,11 +50,50 @@ inline double engine_effective_mass(double mi, double mj) { return mi * mj / (mi
 /// more than one.
 LAMMPS_NS::PairGran *gran_pair(LAMMPS_NS::LAMMPS *lmp);
 
-/// Reads the parameters of a law from the properties of a deck. Each law has its own specialization, with
-///   LawProperties(LAMMPS *, const std::string &command, int ntypes)  ends the run if a property is missing
-///   Contact operator()(int i, int j)                                  for a pair of types, damping not set
+/// Reads the parameters of a law from the properties of a deck.
 template <class Contact>
-class LawProperties;
+class LawProperties {
+public:
+  /// Ends the run if a property is missing.
+  LawProperties(LAMMPS_NS::LAMMPS *lmp, const std::string &command, int ntypes) {
+    for (const auto &p : Contact::parameters()) {
+      if (p.property == nullptr) continue;
+      of_pairs_.emplace_back(lmp, command, p.property, ntypes);
+      if (!p.of_friction) of_pairs_.back().require(meaning_of(p));
+    }
+    for (const physics::MaterialParameter &p : Contact::material()) {
+      of_types_.emplace_back(lmp, command, p.property, ntypes, TypeProperty::Of::type);
+      of_types_.back().require(meaning_of(p));
+    }
+  }
+
+  /// For a pair of types; damping and transition are not set.
+  Contact operator()(int i, int j) {
+    Contact contact;
+    if constexpr (constexpr std::size_t numbers = Contact::material().size(); numbers > 0) {
+      const auto of_type = [this](int type) {
+        std::array<double, numbers> values{};
+        for (std::size_t n = 0; n < numbers; ++n)
+          values[n] = of_types_[n](type, Contact::material()[n].range);
+        return values;
+      };
+      contact.set_material(of_type(i), of_type(j));
+    }
+    for (const bool of_friction : {false, true}) {
+      if (of_friction) contact.set_defaults();
+      auto property = of_pairs_.begin();
+      for (const auto &p : Contact::parameters()) {
+        if (p.property == nullptr) continue;
+        if (p.of_friction == of_friction && property->given()) contact.*p.value = (*property)(i, j, p.range);
+        ++property;
+      }
+    }
+    return contact;
+  }
+
+private:
+  std::vector<TypeProperty> of_pairs_, of_types_;
+};
 
 /// The properties of all laws: damping, tangential damping and friction.
 class DampingProperties {
@@ -65,16 +104,14 @@ public:
   /// Sets them for a pair of types. Tangential damping is c / 2 where the deck gives none.
   template <class Contact>
   void set(ContactCoefficients<Contact> &p, int i, int j, const ContactSettings &settings) {
-    const bool restitution = settings.damping == DampingInput::restitution;
-    settings.set_damping(p.contact,
-                         damping_(i, j, !restitution, restitution ? 1.0 : TypePairProperty::infinity));
-    if (tangential_.given()) p.set_tangential_damping(tangential_(i, j, true));
-    if (friction_.given()) p.friction = friction_(i, j, true);
-    if (rolling_.given()) p.rolling = rolling_(i, j, true);
+    settings.set_damping(p.contact, damping_(i, j, settings.damping_range()));
+    if (tangential_.given()) p.set_tangential_damping(tangential_(i, j, Range::non_negative));
+    if (friction_.given()) p.friction = friction_(i, j, Range::non_negative);
+    if (rolling_.given()) p.rolling = rolling_(i, j, Range::non_negative);
   }
 
 private:
-  TypePairProperty damping_, tangential_, friction_, rolling_;
+  TypeProperty damping_, tangential_, friction_, rolling_;
 };
 
 /// Access of walls, FixStepping and fixes to the pair style, which derives from it. It collects the tables in

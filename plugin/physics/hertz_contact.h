@@ -7,12 +7,13 @@
 /// any impact speed.
 
 #include "physics/contact_law.h"
-#include "physics/parameter_checks.h"
+#include "physics/law_parameters.h"
+#include "physics/restitution.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <string>
 
 namespace drumlin::physics {
 
@@ -77,8 +78,8 @@ struct HertzContact {
   static constexpr bool tangential_varies = true;
   static constexpr bool remembers = false;
 
-  double youngs_modulus = 0.0;                 ///< effective, E*, Pa, finite and > 0
-  double shear_modulus = 0.0;                  ///< effective, G*, Pa, finite and > 0
+  double youngs_modulus = 0.0;                 ///< effective, E*, Pa
+  double shear_modulus = 0.0;                  ///< effective, G*, Pa
   double damping = 0.0;                        ///< c in N s/m^(5/4) or D without dimension, finite and >= 0
   Damping damping_kind = Damping::coefficient; ///< which of the two `damping` is
   Transition transition = Transition::B;
@@ -91,17 +92,24 @@ struct HertzContact {
     shear_modulus = 1.0 / (2.0 * (2.0 - nu1) * (1.0 + nu1) / E1 + 2.0 * (2.0 - nu2) * (1.0 + nu2) / E2);
   }
 
-  /// Empty if every value is allowed, else what is wrong: name, value, what is allowed.
-  [[nodiscard]] std::string invalid() const {
-    using detail::Allowed;
-    std::string text =
-        detail::violation("effective Young's modulus", youngs_modulus, "Pa", Allowed::positive);
-    if (text.empty())
-      text = detail::violation("effective shear modulus", shear_modulus, "Pa", Allowed::positive);
-    if (!text.empty()) return text;
-    return damping_kind == Damping::ratio
-               ? detail::violation("damping ratio", damping, "", Allowed::not_negative)
-               : detail::violation("damping coefficient", damping, "N s/m^1.25", Allowed::not_negative);
+  static constexpr std::array<LawParameter<HertzContact>, 2> parameters() {
+    return {
+        {{&HertzContact::youngs_modulus, "effective Young's modulus", "Pa", Range::positive, nullptr, "E*"},
+         {&HertzContact::shear_modulus, "effective shear modulus", "Pa", Range::positive, nullptr, "G*"}}};
+  }
+  static constexpr std::array<MaterialParameter, 2> material() {
+    return {{{"Young's modulus", "Pa", Range::positive, "youngsModulus", "E"},
+             {"Poisson's ratio", "", {-1.0, true, 0.5}, "poissonsRatio", "nu"}}};
+  }
+  /// Takes the parameters from those of the materials of the two bodies.
+  void set_material(const std::array<double, 2> &one, const std::array<double, 2> &other) {
+    set_moduli(one[0], one[1], other[0], other[1]);
+  }
+  void set_defaults() {}
+  /// The relation of D and e is that of the linear law: see above.
+  void set_restitution(double e) {
+    damping = damping_ratio_of_restitution(transition, e);
+    damping_kind = Damping::ratio;
   }
 
   /// k, N/m^(3/2), 4/3 E* sqrt(R). \param r_eff effective radius R, m, > 0

@@ -2,10 +2,11 @@
 /// The linear contact of the paper, Eq. (2).
 
 #include "physics/contact_law.h"
-#include "physics/parameter_checks.h"
+#include "physics/law_parameters.h"
+#include "physics/restitution.h"
 
+#include <array>
 #include <cmath>
-#include <string>
 
 namespace drumlin::physics {
 
@@ -53,19 +54,25 @@ struct LinearContact {
   /// Whether a contact remembers a number for its law: see ContactLaw.
   static constexpr bool remembers = false;
 
-  double stiffness = 0.0;                      ///< k, N/m, finite and > 0
+  double stiffness = 0.0;                      ///< k, N/m
   double damping = 0.0;                        ///< c in N s/m or D without dimension, finite and >= 0
   Damping damping_kind = Damping::coefficient; ///< which of the two `damping` is
   Transition transition = Transition::B;       ///< B, the condition that the paper recommends
-  double tangential_stiffness = 0.0;           ///< kt, N/m, of the spring of friction, finite and >= 0
+  double tangential_stiffness = 0.0;           ///< kt, N/m, of the spring of friction
 
-  /// Empty if every value is allowed, else what is wrong: name, value, what is allowed.
-  [[nodiscard]] std::string invalid() const {
-    std::string text = detail::violation("stiffness", stiffness, "N/m", detail::Allowed::positive);
-    if (!text.empty()) return text;
-    return damping_kind == Damping::ratio
-               ? detail::violation("damping ratio", damping, "", detail::Allowed::not_negative)
-               : detail::violation("damping coefficient", damping, "N s/m", detail::Allowed::not_negative);
+  static constexpr std::array<LawParameter<LinearContact>, 2> parameters() {
+    return {{{&LinearContact::stiffness, "normal stiffness", "N/m", Range::positive, "kn", "k"},
+             {&LinearContact::tangential_stiffness, "tangential stiffness", "N/m", Range::non_negative, "kt",
+              "kt", true}}};
+  }
+  /// What a deck may give instead of those that have no LIGGGHTS property.
+  static constexpr std::array<MaterialParameter, 0> material() { return {}; }
+  /// Sets the parameters that a deck may leave out, from the others.
+  void set_defaults() { tangential_stiffness = 2.0 / 7.0 * stiffness; }
+  /// Sets the damping to that of a restitution e, > 0 and <= 1, of an impact without gravity.
+  void set_restitution(double e) {
+    damping = damping_ratio_of_restitution(transition, e);
+    damping_kind = Damping::ratio;
   }
 
   /// Dashpot coefficient c, N s/m: c = 2 D sqrt(m_eff k), Eq. (10), or the coefficient itself if that was

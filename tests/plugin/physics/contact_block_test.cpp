@@ -2,9 +2,8 @@
 
 #include "physics/contact_block.h"
 
-#include "physics/hertz_contact.h"
-#include "physics/linear_contact.h"
 #include "tests/plugin/physics/yielding_contact.h"
+#include "tests/support/law_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -27,21 +26,22 @@ struct Coefficients {
   Rolling rolling_resistance(double kt, double radius) const { return rolling_of(kt, mu_r, radius); }
 };
 
-void set_stiffness(LinearContact &contact) {
-  contact.stiffness = 1e5;
-  contact.tangential_stiffness = 3e4;
+template <class Contact>
+Contact contact_of_stiffness() { // forces of some 10 N at the overlaps of these blocks
+  return drumlin::test::sample_contact<Contact>(Contact::depends_on_radius ? 1e7 : 1e5);
 }
-void set_stiffness(HertzContact &contact) { contact.set_moduli(1e7, 0.3, 1e7, 0.3); }
-void set_stiffness(YieldingContact &contact) {
+template <>
+YieldingContact contact_of_stiffness() {
+  YieldingContact contact;
   contact.stiffness = 1e5;
   contact.unloading_stiffness = 3e5;
   contact.tangential_stiffness = 3e4;
+  return contact;
 }
 
 template <class Contact>
 Coefficients<Contact> coefficients(Transition transition, Damping kind) {
-  Coefficients<Contact> all{{}, 0.3, 0.4, 0.1};
-  set_stiffness(all.contact);
+  Coefficients<Contact> all{contact_of_stiffness<Contact>(), 0.3, 0.4, 0.1};
   all.contact.damping = 0.4;
   all.contact.damping_kind = kind;
   all.contact.transition = transition;
@@ -192,18 +192,18 @@ void expect_block_as_contacts() {
       }
 }
 
+template <class Contact>
+void expect_all_blocks() {
+  expect_block_as_contacts<Contact, false, Slip::at_end, true, Cap::total>();
+  expect_block_as_contacts<Contact, false, Slip::in_middle, true, Cap::coulomb>();
+  expect_block_as_contacts<Contact, true, Slip::in_middle, true, Cap::coulomb>();
+  expect_block_as_contacts<Contact, true, Slip::at_end, true, Cap::spring>();
+  expect_block_as_contacts<Contact, true, Slip::at_end, false, Cap::total>();
+}
+
 TEST(ContactBlock, HasTheBitsOfItsContactsOneByOne) {
-  expect_block_as_contacts<LinearContact, false, Slip::at_end, true, Cap::total>();
-  expect_block_as_contacts<LinearContact, false, Slip::in_middle, true, Cap::coulomb>();
-  expect_block_as_contacts<LinearContact, true, Slip::in_middle, true, Cap::coulomb>();
-  expect_block_as_contacts<LinearContact, true, Slip::at_end, true, Cap::spring>();
-  expect_block_as_contacts<LinearContact, true, Slip::at_end, false, Cap::total>();
-  expect_block_as_contacts<HertzContact, false, Slip::in_middle, true, Cap::coulomb>();
-  expect_block_as_contacts<HertzContact, true, Slip::in_middle, true, Cap::coulomb>();
-  expect_block_as_contacts<HertzContact, true, Slip::at_end, true, Cap::total>();
-  expect_block_as_contacts<HertzContact, true, Slip::at_end, false, Cap::total>();
-  expect_block_as_contacts<YieldingContact, false, Slip::in_middle, true, Cap::coulomb>();
-  expect_block_as_contacts<YieldingContact, true, Slip::in_middle, true, Cap::coulomb>();
+  drumlin::for_each_law([](auto law) { expect_all_blocks<typename decltype(law)::type>(); });
+  expect_all_blocks<YieldingContact>();
 }
 
 } // namespace

@@ -152,16 +152,6 @@ TEST(HertzLaw, StiffnessAndEnergyBelongToTheSpring) {
   }
 }
 
-TEST(HertzLaw, RefusesBadParameters) {
-  EXPECT_EQ((HertzContact{1e8, 1e7, 0.5, Damping::ratio, Transition::A}).invalid(), "");
-  EXPECT_EQ((HertzContact{-1.0, 1e7, 0.5, Damping::ratio, Transition::A}).invalid(),
-            "effective Young's modulus is '-1 Pa'; allowed: finite and > 0");
-  EXPECT_EQ((HertzContact{1e8, 0.0, 0.5, Damping::ratio, Transition::A}).invalid(),
-            "effective shear modulus is '0 Pa'; allowed: finite and > 0");
-  EXPECT_EQ((HertzContact{1.0, 1.0, -2.0, Damping::coefficient, Transition::A}).invalid(),
-            "damping coefficient is '-2 N s/m^1.25'; allowed: finite and >= 0");
-}
-
 // Johnson, Contact Mechanics (1985), Eqs. (4.22) to (4.24) and (7.43): a steel ball of 10 mm radius on one of
 // 20 mm.
 TEST(HertzLaw, HasTheStiffnessOfTwoSpheres) {
