@@ -1,11 +1,14 @@
-# Writes the cases of the chain, as the decks inputs/chain/case.* have them, into a file for the post-processor: they are typed once.
-# Each becomes one line {"NAME", k, D, omega, m_e r_e, m2, m3, k23, c23}, in which numbers may be expressions with PI, as in the decks. The
-# cases of the paper's Table 1 end after omega: they have what is the default of the chain.
+# Writes the cases of the chain, as the decks inputs/chain/case.* have them, into a file for the
+# post-processor: they are typed once. Each becomes one line {"NAME", k, D, omega, m_e r_e, m2, m3, k23, c23},
+# in which numbers may be expressions with PI, as in the decks. The cases of the paper's Table 1 end after
+# omega: they have what is the default of the chain.
 function(drumlin_deck_number result deck name)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${deck})
   file(STRINGS ${deck} line REGEX "^variable +${name} +index ")
-  if(NOT line MATCHES "^variable +${name} +index +([0-9.e]+|[$][(]([0-9.e]+[*]PI)[)]|[$][(]([0-9.e]+)[*]v_omega\\^2[)])( |$)")
-    message(FATAL_ERROR "${deck}: variable ${name} is '${line}'; allowed: index and a number, $(NUMBER*PI) or $(NUMBER*v_omega^2)")
+  set(value "([0-9.e]+|[$][(]([0-9.e]+[*]PI)[)]|[$][(]([0-9.e]+)[*]v_omega\\^2[)])")
+  if(NOT line MATCHES "^variable +${name} +index +${value}( |$)")
+    message(FATAL_ERROR "${deck}: variable ${name} is '${line}'; "
+                        "allowed: index and a number, $(NUMBER*PI) or $(NUMBER*v_omega^2)")
   endif()
   if(CMAKE_MATCH_2)
     set(${result} ${CMAKE_MATCH_2} PARENT_SCOPE)

@@ -1,5 +1,6 @@
-# Installation, and the file `places`, which tells drumlin-tools and the front script where decks, plugin and engines are. It lies next to
-# drumlin-tools, and its paths are relative to its own folder, so that a build folder or an installation can be moved.
+# Installation, and the file `places`, which tells drumlin-tools and the front script where decks, plugin and
+# engines are. It lies next to drumlin-tools, and its paths are relative to its own folder, so that a build
+# folder or an installation can be moved.
 set(folder_of_parts lib/drumlin)
 set(folder_of_shares share/drumlin)
 set(folder_of_pages share/doc/drumlin)
@@ -37,14 +38,15 @@ install(FILES README.md ARCHITECTURE.md CHANGELOG.md CITATION.cff DESTINATION ${
 # Pages and their pictures, in folders as here, so that links among them hold.
 foreach(folder inputs plugin/doc postprocess)
   install(DIRECTORY ${folder}/ DESTINATION ${folder_of_pages}/${folder} FILES_MATCHING
-          PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg" PATTERN study EXCLUDE)
+          PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg")
 endforeach()
 install(DIRECTORY postprocess/ DESTINATION ${folder_of_shares} FILES_MATCHING PATTERN "*.py")
 
-# Installed decks and scripts name the program as it is called there, in comments and in the messages of `drumlin/check`. The job scripts speak
-# of both.
+# Installed decks and scripts name the program as it is called there, in comments and in the messages of
+# `drumlin/check`. The job scripts speak of both.
 install(CODE "
-  execute_process(COMMAND find \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${folder_of_shares}\" -type f ! -name *.png ! -name *.svg ! -path */jobs/*
+  execute_process(COMMAND find \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${folder_of_shares}\" -type f
+                          ! -name *.png ! -name *.svg ! -path */jobs/*
                           -exec sed -i s,[.]/drumlin,drumlin,g {} + COMMAND_ERROR_IS_FATAL ANY)")
 
 # The package of this Debian, by `cpack -G DEB` in the build folder.
@@ -57,7 +59,8 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON) # libraries of the release that it is built on
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "gnuplot-nox | gnuplot, openmpi-bin")
-if(DRUMLIN_LIGGGHTS AND NOT LIGGGHTS_SOURCE_DIR) # whose library the plugin does not name, so that the list above does not have it
+# The plugin does not name the engine's library, so that the list above does not have it.
+if(DRUMLIN_LIGGGHTS AND NOT LIGGGHTS_SOURCE_DIR)
   string(APPEND CPACK_DEBIAN_PACKAGE_DEPENDS ", liggghts (>= ${LIGGGHTS_VERSION}), liggghts (<< ${LIGGGHTS_VERSION}.1)")
 endif()
 include(CPack)

@@ -1,5 +1,5 @@
-# Draws absorb.svg. Points: w H/c_p and the reflected share of the energy of waves on a chain, from tests/decks/absorb_test.cpp (31 balls a wavelength,
-# second-order stepping).
+# Draws absorb.svg. Points: w H/c_p and the reflected share of the energy of waves on a chain, from
+# tests/decks/absorb_test.cpp (31 balls a wavelength, second-order stepping).
 $measured << END
 0.1 0.9610
 0.2 0.8579

@@ -1,6 +1,7 @@
-# Draws contact_law.svg: the contact force over the overlap in one impact, in dimensionless form. The overlap of an impact at the speed v on a
-# spring k with the damping ratio D, in units of v/w0 with w0 = sqrt(k/m), is d(t) = exp(-D t) sin(s t)/s, s = sqrt(1 - D^2), t in units of 1/w0;
-# the force is k d + c d' = d + 2 D d' in units of k v/w0.
+# Draws contact_law.svg: the contact force over the overlap in one impact, in dimensionless form. The overlap
+# of an impact at the speed v on a spring k with the damping ratio D, in units of v/w0 with w0 = sqrt(k/m), is
+# d(t) = exp(-D t) sin(s t)/s, s = sqrt(1 - D^2), t in units of 1/w0; the force is k d + c d' = d + 2 D d' in
+# units of k v/w0.
 load "style.gnuplot"
 set output "contact_law.svg"
 D = 0.3
@@ -25,5 +26,6 @@ set label 4 "B: break at Fc = 0" at d(t_zero)+0.03,-0.06 left
 set label 5 "A: break at d = 0, in tension" at 0.03,F(t_open)-0.02 left
 plot sample [0:1] '+' using (0):(2*D*$1) with lines lw 2.5 lc rgb black notitle, [0:1] \
      '+' using (d($1*t_zero)):(F($1*t_zero)) with lines lw 2.5 lc rgb black title "A and B", [0:1] \
-     '+' using (d(t_zero+$1*(t_open-t_zero))):(F(t_zero+$1*(t_open-t_zero))) with lines lw 2.5 dt (8,5) lc rgb blue title "A", [0:1] \
+     '+' using (d(t_zero+$1*(t_open-t_zero))):(F(t_zero+$1*(t_open-t_zero))) \
+       with lines lw 2.5 dt (8,5) lc rgb blue title "A", [0:1] \
      '+' using (d(t_zero)*$1):(0) with lines lw 4 dt (2,4) lc rgb black title "B: no tension"

@@ -1,5 +1,5 @@
-# Draws coulomb.svg. Columns: D, ratio with history at 72, 76, 80, 85 degrees, with coulomb at the same, of balls 1 to 4
-# of tests/decks/oblique.scene (second-order stepping, B, mu = 0.5).
+# Draws coulomb.svg. Columns: D, ratio with history at 72, 76, 80, 85 degrees, with coulomb at the same, of
+# balls 1 to 4 of tests/decks/oblique.scene (second-order stepping, B, mu = 0.5).
 $ratio << END
 0 1.0000 1.0000 1.0000 1.0000 1.0000 1.0000 1.0000 1.0000
 0.05 1.0178 1.0143 1.0114 1.0094 1.0000 1.0000 1.0000 1.0000
@@ -25,5 +25,6 @@ set xlabel "damping ratio D"
 set ylabel "tangential over {/Symbol m} times normal impulse"
 set key left top
 set yrange [0:7]
-plot for [n=1:4] $ratio using 1:(column(n+1)) with linespoints lw 1.5 pt 7 ps 0.4 lc n title "history, ".word("72 76 80 85", n)." degrees", \
+plot for [n=1:4] $ratio using 1:(column(n+1)) with linespoints lw 1.5 pt 7 ps 0.4 lc n \
+       title "history, ".word("72 76 80 85", n)." degrees", \
      for [n=1:4] $ratio using 1:(column(n+5)) with lines lw 2 lc rgb "black" title n == 1 ? "coulomb, all four" : ""

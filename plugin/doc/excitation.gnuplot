@@ -1,5 +1,6 @@
-# Draws excitation.svg: the force and the frequency of fix drum/excite with a ramp and a sweep, in the formulas of its page:
-# amplitude 58.8e3, frequency 10 (Hz), start 0.05, ramp 0.3, sweep to 30 Hz within 0.6 s.
+# Draws excitation.svg: the force and the frequency of fix drum/excite with a ramp and a sweep, in the
+# formulas of its page: amplitude 58.8e3, frequency 10 (Hz), start 0.05, ramp 0.3, sweep to 30 Hz within 0.6
+# s.
 load "style.gnuplot"
 set terminal svg size 640,480 font "sans-serif,13" background "white"
 set output "excitation.svg"

@@ -75,7 +75,7 @@ struct BedLayer {
 };
 
 /// The share of area (or volume) that balls of case gravel take of a bed when they have settled, as measured
-/// (inputs/bed/README.md). Other friction and other gradings change it by 4 % at most.
+/// (inputs/study/grading). Other friction and other gradings change it by 4 % at most.
 double settled_share(int dimensions);
 
 /// The number of balls that make a layer of its thickness. At least 1; more than PackingOptions::most_balls are

@@ -1,10 +1,12 @@
-"""A bed run in ParaView: soil balls by colour, contacts as thick as their force, drum and frame, phase and forces as text.
+"""A bed run in ParaView: soil balls by colour, contacts as thick as their force, drum and frame, phase and
+forces as text.
 
     pvpython postprocess/paraview/bed.py results/bed/B/vtk --png bed.png --time 0.02
     pvpython postprocess/paraview/bed.py results/bed/B/vtk --animation bed.avi --cycle 1 --colour pressure
 
-The folder is the one that ./drumlin vtk has written. Without a screen, run pvpython by xvfb-run. In ParaView itself: open balls.pvd of
-that folder, then Macros > Import new macro (once) and this file; it takes the folder of the file that is selected in the pipeline.
+The folder is the one that ./drumlin vtk has written. Without a screen, run pvpython by xvfb-run. In ParaView
+itself: open balls.pvd of that folder, then Macros > Import new macro (once) and this file; it takes the folder
+of the file that is selected in the pipeline.
 Needs ParaView 5.10 or newer.
 """
 
@@ -33,7 +35,8 @@ SAND = (0.00, 0.97, 0.95, 0.89), (0.35, 0.99, 0.84, 0.50), (0.70, 0.94, 0.55, 0.
 STEEL, INK = [0.10, 0.33, 0.60], [0.08, 0.08, 0.16]  # of drum and frame, of contacts and text
 # Of the edges of the balls, in a bed of layers; used again from the fifth layer on
 LAYERS = [0.45, 0.45, 0.45], [0.00, 0.55, 0.40], [0.70, 0.30, 0.60], [0.25, 0.65, 0.90]
-TEXT_BAND, BAR_BAND, MARGIN = 0.08, 0.27, 0.02  # above and to the right of the bed and around it, in heights of the picture
+# Above and to the right of the bed and around it, in heights of the picture.
+TEXT_BAND, BAR_BAND, MARGIN = 0.08, 0.27, 0.02
 SHADER = """//VTK::Color::Impl
 float square = dot(offsetVCVSOutput.xy, offsetVCVSOutput.xy);
 if (square > 1.0) { discard; }
@@ -43,11 +46,13 @@ ambientColor *= shade;
 diffuseColor *= shade;
 """
 ROUND, PLAIN = "0.45 + 0.55 * sqrt(1.0 - square)", "1.0"  # shades of balls, and of what is clear
-# Discs with a darker edge (ParaView's own has a black one, which looks like a contact), balls, and what is clear
+# Discs with a darker edge (ParaView's own has a black one, which looks like a contact), balls, and what is
+# clear.
 DISC, BALL, CLEAR = (SHADER % ("", shade) for shade in ("square > 0.8 ? 0.7 : 1.0", ROUND, PLAIN))
 EDGE = "if (square > 0.64) { ambientColor = vec3(0.0); diffuseColor = vec3(%g, %g, %g); }"
 LEAST_FORCE = 0.05  # of the one drawn widest: contacts below it are left out
-CUT_AT = 0.5  # in three dimensions the soil in front of this share of the depth is taken away, so that contacts are seen
+# In three dimensions the soil in front of this share of the depth is taken away, so that contacts are seen.
+CUT_AT = 0.5
 
 
 class Fault(Exception):
@@ -60,7 +65,8 @@ class Scene:
     def __init__(self, folder):
         file = os.path.join(folder, "scene.json")
         if not os.path.isfile(os.path.join(folder, "balls.pvd")) or not os.path.isfile(file):
-            raise Fault("DIR is '%s'; allowed: a folder with balls.pvd and scene.json, as ./drumlin vtk writes it" % folder)
+            raise Fault("DIR is '%s'; allowed: a folder with balls.pvd and scene.json, as ./drumlin vtk writes it"
+                        % folder)
         try:
             with open(file, encoding="utf-8") as text:
                 read = json.load(text)
@@ -69,7 +75,8 @@ class Scene:
             self.mean_diameter = float(read["mean_diameter"])
             self.period = read.get("period")
             self.forces = [(float(time), float(force)) for time, force in read.get("force_on_drum", [])]
-            self.sizes = {name: float(size["quantile_99"]) or float(size["largest"]) for name, size in read["sizes"].items()}
+            self.sizes = {name: float(size["quantile_99"]) or float(size["largest"])
+                          for name, size in read["sizes"].items()}
             if "coordination" in self.sizes:  # whole numbers: a scale has room for all
                 self.sizes["coordination"] = float(read["sizes"]["coordination"]["largest"])
             if self.flat:  # discs, whatever their radius
@@ -101,7 +108,8 @@ def listed(file):
 
 
 def whole_steps(folder, names):
-    """The files of each collection by time: of the steps whose files are all there and whole. Says which are left out."""
+    """The files of each collection by time: of the steps whose files are all there and whole. Says which are left
+    out."""
     lists = {name: dict(listed(os.path.join(folder, name + ".pvd"))) for name in names}
     times, files = [], {name: [] for name in names}
     for time in sorted(lists["balls"]):
@@ -120,8 +128,8 @@ def whole_steps(folder, names):
 
 
 def time_of_picture(scene, times, wanted):
-    """The step next to the wanted time; without one that with the largest force of the soil on the drum, of those with the same the
-    first; the last one where no force is known."""
+    """The step next to the wanted time; without one that with the largest force of the soil on the drum, of those
+    with the same the first; the last one where no force is known."""
     if wanted is None:
         near = {"%.9g" % time: time for time in times}
         forces = [(force, near["%.9g" % time]) for time, force in scene.forces if "%.9g" % time in near]
@@ -130,7 +138,8 @@ def time_of_picture(scene, times, wanted):
 
 
 def reader(folder, name, times, files):
-    """A reader of these steps. ParaView's own does not get over a file that is missing, so it is given a list without it."""
+    """A reader of these steps. ParaView's own does not get over a file that is missing, so it is given a list without
+    it."""
     file = os.path.join(folder, name + ".pvd")
     if len(times) == len(listed(file)):
         return pv.PVDReader(registrationName=name, FileName=file)
@@ -199,7 +208,8 @@ def write_text(source, view, size, place, justification="Left"):
 
 
 def layer_shaders(scene, view, font, layers):
-    """Shaders that draw the edges of the balls in the colours of their layers; the legend of these, the highest layer on top."""
+    """Shaders that draw the edges of the balls in the colours of their layers; the legend of these, the highest layer
+    on top."""
     texts = [("ball edges:", INK)] + [("layer %d" % (n + 1), LAYERS[n % len(LAYERS)]) for n in reversed(range(layers))]
     for line, (text, colour) in enumerate(texts):
         name = pv.Text(registrationName=text, Text=text)
@@ -216,7 +226,8 @@ def show_soil(balls, scene, colour, most, view, font):
         most = factor * scene.sizes.get(array, 0.0)
         most = 1.0 if most <= 0.0 else most if colour == "coordination" else round_up(most)
     kinds = [LOWEST] + list(range(SECOND, int(balls.PointData["type"].GetRange()[1]) + 1))  # a layer each
-    soil = [behind_cut(of_type(balls, kind, "soil %d" % n), scene, "soil %d behind the cut" % n, True) for n, kind in enumerate(kinds, 1)]
+    soil = [behind_cut(of_type(balls, kind, "soil %d" % n), scene, "soil %d behind the cut" % n, True)
+            for n, kind in enumerate(kinds, 1)]
     shaders = layer_shaders(scene, view, font, len(kinds)) if len(kinds) > 1 else [DISC if scene.flat else BALL]
     shown_array = array if factor == 1.0 else array + "_shown"
     for part, shader in zip(soil, shaders):
@@ -245,7 +256,8 @@ def show_soil(balls, scene, colour, most, view, font):
 
 
 def show_roller(balls, scene, view, font):
-    """In two dimensions drum and frame are circles, behind the contacts; in three they are clear, the frame is one ball on top."""
+    """In two dimensions drum and frame are circles, behind the contacts; in three they are clear, the frame is one ball
+    on top."""
     for kind, name in ((DRUM, "drum"), (FRAME, "frame")):
         part = of_type(balls, kind, name)
         part.UpdatePipeline()
@@ -253,7 +265,8 @@ def show_roller(balls, scene, view, font):
             continue
         if scene.flat:
             for inner, opacity in ((0.0, 0.12), (0.488, 1.0)):
-                disc = pv.Disk(registrationName="disc", InnerRadius=inner, OuterRadius=0.5, CircumferentialResolution=120)
+                disc = pv.Disk(registrationName="disc", InnerRadius=inner, OuterRadius=0.5,
+                               CircumferentialResolution=120)
                 circle = pv.GlyphWithCustomSource(registrationName=name + " outline", Input=part, GlyphSource=disc)
                 circle.ScaleArray, circle.ScaleFactor = ["POINTS", "diameter"], 1.0
                 circle.OrientationArray, circle.GlyphMode = ["POINTS", "No orientation array"], "All Points"
@@ -296,7 +309,8 @@ def show_contacts(contacts, scene, view):
     thickness = pv.Calculator(registrationName="thickness", Input=lines)
     thickness.ResultArrayName = "thickness"
     widest = 0.25 * scene.mean_diameter  # a line narrower than a pixel would have gaps
-    thickness.Function = "max(%.17g*min(abs(normal_force)/%.17g, 1), %.17g)" % (widest, full, min(widest, 0.45 * scene.pixel))
+    thickness.Function = "max(%.17g*min(abs(normal_force)/%.17g, 1), %.17g)" % (
+        widest, full, min(widest, 0.45 * scene.pixel))
     tubes = pv.Tube(registrationName="force chains", Input=thickness)
     tubes.Scalars = ["POINTS", "thickness"]
     tubes.VaryRadius = "By Absolute Scalar"
@@ -309,13 +323,15 @@ def show_contacts(contacts, scene, view):
 
 
 def look(view, scene, size):
-    """Parallel, and all of the bed as large as the window has room for it, below the text and left of the colour bar."""
+    """Parallel, and all of the bed as large as the window has room for it, below the text and left of the colour
+    bar."""
     towards = (0.0, 0.0, 1.0) if scene.flat else (0.32, 0.25, 0.91)  # the viewer, from the bed; y is up
     length = math.sqrt(sum(part * part for part in towards))
     back = [part / length for part in towards]
     flat = math.hypot(back[0], back[2])
     right = [back[2] / flat, 0.0, -back[0] / flat]
-    up = [back[1] * right[2] - back[2] * right[1], back[2] * right[0] - back[0] * right[2], back[0] * right[1] - back[1] * right[0]]
+    up = [back[1] * right[2] - back[2] * right[1], back[2] * right[0] - back[0] * right[2],
+          back[0] * right[1] - back[1] * right[0]]
     low, high = scene.bounds
     corners = [[pair[bit] for pair, bit in zip(zip(low, high), bits)] for bits in
                [(i & 1, i >> 1 & 1, i >> 2 & 1) for i in range(8)]]
@@ -354,7 +370,8 @@ def show_text(balls, scene, contacts, view, font):
     unit = "kN/m" if scene.flat else "kN"  # per metre along the axis of the drum
     parts = [("t = %.4f s", "t_value", None), ("     cycle %d, phase %.0f deg", "cycle[0], phase[0]", "phase"),
              ("\\nforce on the drum: by the soil %.1f " + unit + " up", "F_contact[0]/1e3", "F_contact"),
-             (", by the exciter %.1f " + unit + " %s", "abs(F_excitation[0])/1e3, 'down' if F_excitation[0] >= 0 else 'up'", "F_excitation")]
+             (", by the exciter %.1f " + unit + " %s",
+              "abs(F_excitation[0])/1e3, 'down' if F_excitation[0] >= 0 else 'up'", "F_excitation")]
     parts = [part for part in parts if part[2] is None or part[2] in known]
     caption = pv.PythonAnnotation(registrationName="caption", Input=balls)
     caption.ArrayAssociation = "Field Data"
@@ -362,7 +379,8 @@ def show_text(balls, scene, contacts, view, font):
     write_text(caption, view, font, [0.02, 0.935])
     full = scene.sizes.get("normal_force", 0.0)
     if contacts and full > 0.0:
-        lines = "lines: contacts,\nas wide as their\nforce; widest:\n%.3g {0} or more,\nnone below\n%.2g {0}".format(unit)
+        lines = ("lines: contacts,\nas wide as their\nforce; widest:\n%.3g {0} or more,\nnone below\n%.2g {0}"
+                 .format(unit))
         if not scene.flat:
             lines += ";\nthe soil in front\nis not drawn"
         key = pv.Text(registrationName="width of the lines", Text=lines % (1e-3 * full, 1e-3 * LEAST_FORCE * full))
@@ -379,7 +397,8 @@ def show(folder, colour="speed", contacts=True, most=None, cycle=None, size=None
             raise Fault("--cycle is '%d': the run's excitation is not known; allowed: no --cycle" % cycle)
         of_cycle = [n for n, time in enumerate(times) if cycle - 1 - 1e-9 <= time / scene.period <= cycle + 1e-9]
         if not of_cycle:
-            raise Fault("--cycle is '%d': no steps; allowed: 1 to %d" % (cycle, math.ceil(times[-1] / scene.period - 1e-9)))
+            raise Fault("--cycle is '%d': no steps; allowed: 1 to %d"
+                        % (cycle, math.ceil(times[-1] / scene.period - 1e-9)))
         times = [times[n] for n in of_cycle]
         files = {name: [files[name][n] for n in of_cycle] for name in files}
     view = pv.GetActiveViewOrCreate("RenderView")
@@ -433,9 +452,13 @@ def main(words):
     parser.add_argument("folder", metavar="DIR", help="the folder that ./drumlin vtk has written, with balls.pvd")
     parser.add_argument("--colour", choices=sorted(COLOURS), default="speed", help="of the soil balls (default: speed)")
     parser.add_argument("--max", type=above_zero(float), metavar="VALUE",
-                        help="upper end of the colours, in the unit shown (default: what 99 %% of the soil balls never exceed)")
-    parser.add_argument("--time", type=float, metavar="S", help="of the picture [s]; the step next to it is shown (default: that with the largest force of the soil on the drum)")
-    parser.add_argument("--cycle", type=above_zero(int), metavar="N", help="only this cycle of the excitation, from 1 (default: all)")
+                        help="upper end of the colours, in the unit shown "
+                             "(default: what 99 %% of the soil balls never exceed)")
+    parser.add_argument("--time", type=float, metavar="S",
+                        help="of the picture [s]; the step next to it is shown "
+                             "(default: that with the largest force of the soil on the drum)")
+    parser.add_argument("--cycle", type=above_zero(int), metavar="N",
+                        help="only this cycle of the excitation, from 1 (default: all)")
     parser.add_argument("--png", metavar="FILE", help="a picture")
     parser.add_argument("--animation", metavar="FILE", help="all steps: .avi or .ogv, or .png for a numbered series")
     parser.add_argument("--no-contacts", action="store_true", help="balls alone")
@@ -444,12 +467,14 @@ def main(words):
     given = parser.parse_args(words)
     if not given.png and not given.animation:
         raise Fault("nothing to do; allowed: --png FILE, --animation FILE")
-    for option, file, endings in (("--png", given.png, (".png",)), ("--animation", given.animation, (".avi", ".ogv", ".png"))):
+    for option, file, endings in (("--png", given.png, (".png",)),
+                                  ("--animation", given.animation, (".avi", ".ogv", ".png"))):
         if file and not file.endswith(endings):
             raise Fault("%s is '%s'; allowed: a file ending in %s" % (option, file, ", ".join(endings)))
         if file and not os.access(os.path.dirname(os.path.abspath(file)), os.W_OK):  # ParaView itself would continue
             raise Fault("%s is '%s'; allowed: a file in a folder that can be written to" % (option, file))
-    view, size, times, scene = show(given.folder, given.colour, not given.no_contacts, given.max, given.cycle, given.size)
+    view, size, times, scene = show(given.folder, given.colour, not given.no_contacts, given.max,
+                                     given.cycle, given.size)
     view.ViewSize = size
     animation = pv.GetAnimationScene()
     animation.UpdateAnimationUsingDataTimeSteps()  # as ParaView with windows does by itself

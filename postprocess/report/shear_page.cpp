@@ -77,7 +77,7 @@ PageTable seed_table(const std::vector<Soil> &soils, const std::vector<ShearRun>
       "thirtieths. On the plane of shear: the angle whose tangent is shear over normal stress. After Davis: "
       "sin φ = t/(cos ψ + t sin ψ) with t that ratio, the friction angle of a soil in which stress and "
       "strain increment have the same directions, to be compared with that of a biaxial test. At the peak "
-      "the directions may differ: the angle is then too small (inputs/soil/README.md)."};
+      "the directions may differ: the angle is then too small (inputs/study/strength)."};
   return table;
 }
 

@@ -16,7 +16,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <iterator>
 #include <regex>
+#include <set>
 #include <sstream>
 
 namespace drumlin::test {
@@ -117,8 +119,11 @@ TEST_P(DocExamplesTest, Run) {
 
 /// Every engine command's page has its parts, and its section Examples an example that runs.
 TEST_P(DocExamplesTest, HaveTheirPlace) {
-  if (GetParam().rfind("plugin/doc/", 0) != 0 || GetParam() == "plugin/doc/in_your_own_deck.md" ||
-      GetParam() == "plugin/doc/with_other_styles.md")
+  static const std::vector<std::string> others = {"in_your_own_deck.md", "stepping.md",
+                                                  "with_other_styles.md"};
+  const fs::path file = GetParam();
+  if (file.parent_path() != "plugin/doc" ||
+      std::find(others.begin(), others.end(), file.filename()) != others.end())
     return; // no command's page
   const std::string page = read_text(root / GetParam());
   for (const char *part :
@@ -171,20 +176,65 @@ std::vector<fs::path> all_pages() {
   return files;
 }
 
-// Links and pictures of every page are there.
-TEST(DocPages, LinkToWhatIsThere) {
-  static const std::regex link(R"re(\]\(([^)#:]+)\))re");
-  std::size_t links = 0;
-  for (const fs::path &file : all_pages()) {
-    const std::string page = read_text(file);
-    for (std::sregex_iterator i(page.begin(), page.end(), link), end; i != end; ++i, ++links)
-      EXPECT_TRUE(fs::exists(file.parent_path() / (*i)[1].str())) << file << ": " << (*i)[1];
+/// The names by which links reach the headings of a page: small letters, without punctuation, blanks as hyphens.
+std::set<std::string> anchors_of(const std::string &page) {
+  std::set<std::string> anchors;
+  bool fenced = false;
+  for (const std::string &line : lines_of(page)) {
+    if (line.rfind("```", 0) == 0) fenced = !fenced;
+    const std::size_t begin = line.find_first_not_of('#');
+    if (fenced || begin == 0 || begin == std::string::npos || line[begin] != ' ') continue;
+    std::string name;
+    for (const unsigned char c : line.substr(begin + 1))
+      if (c == ' ')
+        name += '-';
+      else if (std::isalnum(c) != 0 || c == '-' || c == '_')
+        name += static_cast<char>(std::tolower(c));
+    anchors.insert(name);
   }
-  EXPECT_GT(links, 50U);
+  return anchors;
 }
 
-/// The command lines in indented blocks of a page.
-std::vector<std::string> indented_commands(const std::string &page) {
+TEST(DocPages, HaveTheAnchorsOfTheirHeadings) {
+  EXPECT_EQ(anchors_of("# A bed's `k`: 2 D\ntext\n```\n# no heading\n```\n## in.bed\n"),
+            (std::set<std::string>{"a-beds-k-2-d", "inbed"}));
+}
+
+// Links and pictures of every page are there, and the headings that links name.
+TEST(DocPages, LinkToWhatIsThere) {
+  static const std::regex link(R"re(\]\(([^)#:]*)(?:#([^)]*))?\))re");
+  std::size_t links = 0, headings = 0;
+  for (const fs::path &file : all_pages()) {
+    const std::string page = read_text(file);
+    for (std::sregex_iterator i(page.begin(), page.end(), link), end; i != end; ++i, ++links) {
+      const std::string name = (*i)[1], heading = (*i)[2];
+      const fs::path target = name.empty() ? file : file.parent_path() / name;
+      ASSERT_TRUE(fs::exists(target)) << file << ": " << name;
+      if (heading.empty()) continue;
+      EXPECT_EQ(anchors_of(read_text(target)).count(heading), 1U) << file << ": " << name << "#" << heading;
+      ++headings;
+    }
+  }
+  EXPECT_GT(links, 200U);
+  EXPECT_GT(headings, 20U);
+}
+
+// A README is read in five minutes.
+TEST(DocPages, OfAFolderHaveAtMost1200Words) {
+  std::size_t readmes = 0;
+  for (const fs::path &file : all_pages()) {
+    if (file.filename() != "README.md") continue;
+    std::istringstream words(read_text(file));
+    EXPECT_LE(std::distance(std::istream_iterator<std::string>(words), {}), 1200) << file;
+    ++readmes;
+  }
+  EXPECT_GT(readmes, 7U);
+}
+
+/// The command lines in indented blocks of a page; one that ends with a backslash continues in the next line.
+std::vector<std::string> indented_commands(const std::string &whole_page) {
+  static const std::regex continued(R"re( *\\\n +)re");
+  const std::string page = std::regex_replace(whole_page, continued, " ");
   static const std::regex command(
       R"re( {4}((?:\./drumlin|cmake|mpirun|pvpython|mpicxx|LD_PRELOAD=)[^#]*).*)re");
   std::vector<std::string> commands;
@@ -252,8 +302,9 @@ std::vector<std::string> pages() {
   for (const fs::directory_entry &entry : fs::directory_iterator(root / "plugin/doc"))
     if (entry.path().extension() == ".md") names.push_back("plugin/doc/" + entry.path().filename().string());
   std::sort(names.begin(), names.end());
-  for (const char *name : {"README.md", "inputs/benchmarks/README.md", "inputs/chain/README.md",
-                           "inputs/soil/README.md", "postprocess/README.md"})
+  for (const char *name :
+       {"README.md", "inputs/benchmarks/README.md", "inputs/chain/README.md", "inputs/soil/README.md",
+        "postprocess/README.md", "postprocess/identify.md", "postprocess/map.md", "postprocess/meter.md"})
     names.emplace_back(name);
   return names;
 }

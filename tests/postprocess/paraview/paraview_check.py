@@ -2,8 +2,9 @@
 
     pvpython tests/postprocess/paraview/paraview_check.py RUN [BED_PY]
 
-RUN has dump/, vtk/, parameters.csv and bed.csv. The dumps are read here by a few lines of plain Python, which share nothing with what
-wrote vtk/. Pictures go to the working folder; without BED_PY there are none. Ends with status 1 at the first difference.
+RUN has dump/, vtk/, parameters.csv and bed.csv. The dumps are read here by a few lines of plain Python, which share
+nothing with what wrote vtk/. Pictures go to the working folder; without BED_PY there are none. Ends with status 1 at
+the first difference.
 """
 
 import base64
@@ -33,7 +34,8 @@ def check(true, what):
 
 
 def near(found, expected, what, tolerance=1e-12):
-    check(abs(found - expected) <= tolerance * max(1e-30, abs(expected)), "%s is %r, expected %r" % (what, found, expected))
+    check(abs(found - expected) <= tolerance * max(1e-30, abs(expected)),
+          "%s is %r, expected %r" % (what, found, expected))
 
 
 def near_range(data, name, values, what, component=-1):
@@ -70,7 +72,8 @@ def vtk_dump(file):
         if parts == 1:
             columns[words["Name"]] = values
         for axis in range(parts if parts == 3 else 0):
-            columns[{"Points": "", "v": "v", "omega": "omega", "f": "f"}.get(words["Name"], words["Name"]) + "xyz"[axis]] = values[axis::3]
+            columns[{"Points": "", "v": "v", "omega": "omega", "f": "f"}.get(words["Name"], words["Name"])
+                    + "xyz"[axis]] = values[axis::3]
     count = len(columns["id"])
     return [{name: column[n] for name, column in columns.items() if len(column) == count} for n in range(count)]
 
@@ -99,7 +102,8 @@ def dumped_contacts(run, step):
 
 def force_on_drum(balls, contacts):
     drum = {int(ball["id"]) for ball in balls if ball["type"] == DRUM}
-    return math.fsum(contact["force"][1] * ((contact["id1"] in drum) - (contact["id2"] in drum)) for contact in contacts)
+    return math.fsum(contact["force"][1] * ((contact["id1"] in drum) - (contact["id2"] in drum))
+                     for contact in contacts)
 
 
 def parameters(run):
@@ -164,16 +168,20 @@ def check_step(run, step, time, readers, flat, history):
     volume = math.prod(image.GetSpacing()[:2 if flat else 3])
     density = image.GetCellData().GetArray("bulk_density")
     mass = volume * math.fsum(density.GetTuple1(n) for n in range(density.GetNumberOfTuples()))
-    near(mass, math.fsum(ball["mass"] for ball in balls if ball["type"] not in (DRUM, FRAME)), what + ": mass of the soil in the fields", 1e-9)
-    print("%s, t = %.6g s: %d balls, %d contacts, %d cells; speed up to %.4g m/s, normal force up to %.5g N, on the drum %.6g N" % (
+    near(mass, math.fsum(ball["mass"] for ball in balls if ball["type"] not in (DRUM, FRAME)),
+         what + ": mass of the soil in the fields", 1e-9)
+    print("%s, t = %.6g s: %d balls, %d contacts, %d cells; speed up to %.4g m/s, normal force up to %.5g N, "
+          "on the drum %.6g N" % (
         what, time, len(balls), len(contacts), density.GetNumberOfTuples(), max(size(ball, "v") for ball in balls),
         max(contact["normal"] for contact in contacts), shown))
 
 
 def check_numbers(run):
     dt, flat = float(parameters(run)["timestep"]), parameters(run)["dimension"] == "2"
-    steps = sorted(int(re.findall(r"_(\d+)\.dump$", name)[0]) for name in glob.glob(os.path.join(run, "dump", "contacts_*.dump")))
-    readers = {name: pv.PVDReader(FileName=os.path.join(run, "vtk", name + ".pvd")) for name in ("balls", "contacts", "fields")}
+    steps = sorted(int(re.findall(r"_(\d+)\.dump$", name)[0])
+                   for name in glob.glob(os.path.join(run, "dump", "contacts_*.dump")))
+    readers = {name: pv.PVDReader(FileName=os.path.join(run, "vtk", name + ".pvd"))
+               for name in ("balls", "contacts", "fields")}
     for name, reader in readers.items():
         times = list(reader.TimestepValues)
         check(len(times) == len(steps), "%s: %d times, expected %d" % (name, len(times), len(steps)))
@@ -212,23 +220,26 @@ def check_pictures(run, script, time, strongest):
         print("%s.png: %.3f of it contacts and text, %.3f drum and frame, %.3f empty" % (colour, ink, steel, white))
         check(ink > 0.01 and steel > 0.02 and white < 0.7, "%s.png does not show the bed" % colour)
     status, said = draw(vtk, "--png", "strongest.png")
-    check(status == 0 and "strongest.png: t = %.6g s" % strongest in said, "bed.py without --time shows not the largest force, at %.6g s: %s" % (
-        strongest, said))
+    check(status == 0 and "strongest.png: t = %.6g s" % strongest in said,
+          "bed.py without --time shows not the largest force, at %.6g s: %s" % (strongest, said))
     copy = "damaged vtk & more"
     for name, damage, expected, says in (
             ("balls cut short", lambda names: cut(names[0]), 0, "is cut short"),
             ("contacts missing", lambda names: os.remove(names[0].replace("balls_", "contacts_")), 0, "is missing"),
             ("a list cut short", lambda names: cut(os.path.join(copy, "balls.pvd")), 1,
              "ERROR: paraview_bed: '%s/balls.pvd' is no whole list" % copy),
-            ("no scene", lambda names: os.remove(os.path.join(copy, "scene.json")), 1, "ERROR: paraview_bed: DIR is '%s'" % copy),
+            ("no scene", lambda names: os.remove(os.path.join(copy, "scene.json")), 1,
+             "ERROR: paraview_bed: DIR is '%s'" % copy),
             ("a scene cut short", lambda names: cut(os.path.join(copy, "scene.json")), 1, "scene.json' is damaged"),
             ("balls of rubbish", lambda names: [rubbish(name) for name in names], 1, "cannot be read; allowed")):
         shutil.copytree(vtk, copy)
         damage(sorted(glob.glob(os.path.join(copy, "balls_*.vtp"))))
         status, said = draw(copy, "--png", "damaged.png", "--size", "300", "300")
-        check(status == expected and says in said and "Traceback" not in said, "%s: status %d: %s" % (name, status, said))
+        check(status == expected and says in said and "Traceback" not in said,
+              "%s: status %d: %s" % (name, status, said))
         shutil.rmtree(copy)
-    for words, says in ((("nowhere", "--png", "a.png"), "DIR is 'nowhere'; allowed"), ((vtk,), "nothing to do; allowed"),
+    for words, says in ((("nowhere", "--png", "a.png"), "DIR is 'nowhere'; allowed"),
+                        ((vtk,), "nothing to do; allowed"),
                         ((vtk, "--png", "no/a.png"), "--png is 'no/a.png'; allowed"),
                         ((vtk, "--png", "a.jpg"), "--png is 'a.jpg'; allowed"),
                         ((vtk, "--png", "a.png", "--cycle", "99"), "--cycle is '99'"),
