@@ -1,5 +1,6 @@
 #include "commands/commands.h"
 
+#include "contact/fix_stepping.h"
 #include "physics/contact_mixing.h"
 #include "physics/time_step.h"
 #include "support/arguments.h"
@@ -20,17 +21,17 @@ constexpr int types_without_layer = 2;
 int layer_of(int type) { return type == 1 ? 0 : type > 3 ? type - 3 : -1; }
 int type_of(int layer) { return layer == 0 ? 1 : layer + 3; }
 
-/// The values of one keyword, one for each layer.
-std::vector<double> values(Arguments &in, const std::string &keyword, Range range, int layers) {
-  const std::string text = in.word("keyword " + keyword, "a number for each layer, separated by commas");
+/// The values of one keyword, one for each layer. \param name of the keyword, or of the variable that gives its values
+std::vector<double> values(Arguments &in, const std::string &name, Range range, int layers) {
+  const std::string text = in.word(name, "a number for each layer, separated by commas");
   std::vector<double> numbers;
   for (const std::string &entry : list_entries(text)) {
     numbers.push_back(parse_number(entry));
-    if (!in_range(numbers.back(), range)) in.fail("keyword " + keyword, text, allowed_text(range));
+    if (!in_range(numbers.back(), range)) in.fail(name, text, allowed_text(range));
   }
   if (numbers.size() == 1) numbers.resize(static_cast<std::size_t>(layers), numbers[0]);
   if (numbers.size() != static_cast<std::size_t>(layers))
-    in.fail("keyword " + keyword, text,
+    in.fail(name, text,
             layers == 1
                 ? "one number, since the bed has one layer"
                 : fmt::format("one number, or {} separated by commas, one for each layer, the lowest first",
@@ -68,26 +69,53 @@ std::vector<double> least_masses(const LAMMPS *lmp, int layers) {
   return masses;
 }
 
-/// Refuses a stiffness with which two balls of a layer have a critical step below the time step: the first of their contacts would
-/// throw them out of the box before fix guard sees it. Collective.
-void check_stiffnesses(const LAMMPS *lmp, const Arguments &in, const std::string &given,
-                       const std::vector<ContactValues> &laws) {
+/// A list of the command, for errors: what the user calls it, and its text.
+struct Given {
+  std::string name, text;
+};
+
+/// What the user calls a list whose variable is `name`: of `a/b` it is a, or b if that has the same value.
+std::string variable_of(LAMMPS *lmp, const std::string &name, const std::string &value) {
+  const std::size_t slash = name.find('/');
+  if (slash == std::string::npos) return "variable " + name;
+  std::string other = name.substr(slash + 1);
+  auto &all = *lmp->input->variable;
+  const char *followed = all.find(other.data()) >= 0 ? all.retrieve(other.data()) : nullptr;
+  return "variable " + (followed != nullptr && value == followed ? other : name.substr(0, slash));
+}
+
+/// Refuses a stiffness, or a damping ratio, with which two balls of a layer have a critical step below the time step: the
+/// first of their contacts would throw them out of the box before fix guard sees it. Collective.
+void check_stability(LAMMPS *lmp, const Arguments &in, const Given &k, const Given &D,
+                     const std::vector<ContactValues> &laws) {
   const std::vector<double> masses = least_masses(lmp, static_cast<int>(laws.size()));
   const double dt = lmp->update->dt;
   for (std::size_t layer = 0; layer < laws.size(); ++layer) {
-    const double m_eff = 0.5 * masses[layer], k = laws[layer].stiffness;
-    if (const double critical = physics::critical_step_stock(k, 0.0, m_eff); dt > critical)
-      in.fail(fmt::format("keyword k is '{}', with which two of the lightest balls of layer {} have the "
+    const double m_eff = 0.5 * masses[layer], stiffness = laws[layer].stiffness;
+    const auto refuse = [&](const Given &given, double critical, double largest, const char *unit) {
+      in.fail(fmt::format("{} is '{}', with which two of the lightest balls of layer {} have the "
                           "critical step {:.3g} s; "
-                          "allowed: at most {:.3g} N/m with the time step {:.3g} s",
-                          given, layer + 1, critical, 4.0 * m_eff / (dt * dt), dt));
+                          "allowed: at most {:.3g}{} with the time step {:.3g} s",
+                          given.name, given.text, layer + 1, critical, largest, unit, dt));
+    };
+    if (const double critical = physics::critical_step_stock(stiffness, 0.0, m_eff); dt > critical)
+      refuse(k, critical, 4.0 * m_eff / (dt * dt), " N/m");
+    if (std::isinf(m_eff) || LAMMPS_NS::FixStepping::find(lmp) != nullptr)
+      continue; // under `stepping second` the dashpots do not limit the step
+    const double w = physics::angular_frequency(stiffness, m_eff), q = 0.5 * w * dt;
+    const double c = 2.0 * laws[layer].damping_ratio * m_eff * w;
+    if (const double critical = physics::critical_step_stock(stiffness, c, m_eff); dt > critical)
+      refuse(D, critical, 0.5 * (1.0 - q * q) / q, "");
   }
 }
 
 } // namespace
 
 void layers_command(LAMMPS *lmp, int narg, char **arg) {
-  Arguments in(lmp->error, "drumlin/layers", narg, arg);
+  // The names of the variables come last: errors in what stands before them use them.
+  constexpr int variables = 4;
+  const bool named = narg > variables && std::string(arg[narg - variables - 1]) == "variables";
+  Arguments in(lmp->error, "drumlin/layers", named ? narg - variables - 1 : narg, arg);
   if (lmp->domain->box_exist == 0)
     in.fail("simulation box is missing; allowed: the command after create_box, read_data or read_restart");
   const int types = lmp->atom->ntypes;
@@ -96,29 +124,31 @@ void layers_command(LAMMPS *lmp, int narg, char **arg) {
         "the number of types is '{}'; allowed: at least 3: lowest layer, drum, frame and walls", types));
   const int layers = types - types_without_layer;
   std::vector<ContactValues> laws(static_cast<std::size_t>(layers));
-  const auto read = [&](const std::string &keyword, double ContactValues::*value, Range range) {
-    const std::vector<double> numbers = values(in, keyword, range, layers);
+  const auto read = [&](int n, const std::string &keyword, double ContactValues::*value, Range range) {
+    const std::string text = in.empty() ? "" : in.peek();
+    const Given given{named ? variable_of(lmp, arg[narg - variables + n], text) : "keyword " + keyword, text};
+    const std::vector<double> numbers = values(in, given.name, range, layers);
     for (std::size_t layer = 0; layer < laws.size(); ++layer)
       laws[layer].*value = numbers[layer];
+    return given;
   };
   in.choice("keyword", {"k"});
-  const std::string stiffnesses = in.empty() ? "" : in.peek();
-  read("k", &ContactValues::stiffness, Range::positive);
+  const Given k = read(0, "k", &ContactValues::stiffness, Range::positive);
   in.choice("keyword", {"D"});
-  read("D", &ContactValues::damping_ratio, Range::non_negative);
+  const Given D = read(1, "D", &ContactValues::damping_ratio, Range::non_negative);
   in.choice("keyword", {"friction"});
-  read("friction", &ContactValues::friction, Range::non_negative);
+  read(2, "friction", &ContactValues::friction, Range::non_negative);
   in.choice("keyword", {"rolling"});
   const bool rolling = in.choice("keyword rolling, model", {"off", "epsd2"}) == 1;
-  read("rolling", &ContactValues::rolling, Range::non_negative);
-  in.expect_end("k LIST D LIST friction LIST rolling off|epsd2 LIST");
+  read(3, "rolling", &ContactValues::rolling, Range::non_negative);
+  in.expect_end("k LIST D LIST friction LIST rolling off|epsd2 LIST [variables NAME NAME NAME NAME]");
   const std::vector<int> counts = ball_counts(lmp, layers);
   if (const auto none = std::find(counts.begin(), counts.end(), 0); layers > 1 && none != counts.end()) {
     const auto layer = static_cast<int>(none - counts.begin());
     in.fail(fmt::format("layer {} has '0' balls; allowed: at least one ball of type {}", layer + 1,
                         type_of(layer)));
   }
-  check_stiffnesses(lmp, in, stiffnesses, laws);
+  check_stability(lmp, in, k, D, laws);
   std::vector<ContactValues> table;
   for (int a = 1; a <= types; ++a)
     for (int b = 1; b <= types; ++b)

@@ -51,10 +51,11 @@ constexpr OtherFixes other_fixes[] = {
     {"makes rigid bodies", Verdict::refused, Verdict::right, "rigid rigid/nve rigid/nve/small rigid/small"},
     {"changes velocities, positions or the forces of contacts beside the integration", Verdict::refused,
      Verdict::right,
-     "damping/cundall ehex flow/gauss heat langevin momentum momentum/chunk nph nph/sphere npt npt/sphere "
-     "nve/limit nvt nvt/sllod nvt/sphere press/berendsen press/langevin recenter temp/berendsen temp/csld "
-     "temp/csvr temp/rescale thermal/conductivity viscosity wall/piston wall/reflect "
-     "wall/reflect/stochastic"},
+     "ehex flow/gauss heat langevin momentum momentum/chunk nph nph/sphere npt npt/sphere nve/limit nvt "
+     "nvt/sllod nvt/sphere press/berendsen recenter temp/berendsen temp/csld temp/csvr temp/rescale "
+     "thermal/conductivity viscosity wall/piston wall/reflect wall/reflect/stochastic"},
+    {"changes velocities or the box beside the integration", Verdict::refused, Verdict::untried,
+     "damping/cundall press/langevin"},
     {"computes the forces of a step more than once", Verdict::refused, Verdict::refused,
      "numdiff numdiff/virial"},
     {"has not been tried with the plugin", Verdict::untried, Verdict::untried,

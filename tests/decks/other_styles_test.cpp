@@ -92,13 +92,13 @@ std::map<long, Ball> last_frame(const Scene &scene, int ranks = 1) {
   return outcome.ok() ? read_dump(folder / "state.dump").back().balls : std::map<long, Ball>();
 }
 
-/// Largest difference of positions, m, and velocities, m/s, of ball 1.
-double difference(const std::map<long, Ball> &one, const std::map<long, Ball> &other) {
-  if (one.count(1) == 0 || other.count(1) == 0) return HUGE_VAL;
+/// Largest difference of positions, m, and velocities, m/s, of a ball.
+double difference(const std::map<long, Ball> &one, const std::map<long, Ball> &other, long id = 1) {
+  if (one.count(id) == 0 || other.count(id) == 0) return HUGE_VAL;
   double most = 0.0;
   for (std::size_t a = 0; a < 3; ++a)
-    most = std::max(
-        {most, std::fabs(one.at(1).x[a] - other.at(1).x[a]), std::fabs(one.at(1).v[a] - other.at(1).v[a])});
+    most = std::max({most, std::fabs(one.at(id).x[a] - other.at(id).x[a]),
+                     std::fabs(one.at(id).v[a] - other.at(id).v[a])});
   return most;
 }
 
@@ -137,6 +137,8 @@ const Beside besides[] = {
     {"M", "fix f a wall/morse zlo -0.1 1 10 0.1 0.25 units box"},
     {"M", "fix f a indent 500 sphere 0 0 0.15 0.05 units box"},
     {"M", "fix f a wall/gran hooke/history 1e5 NULL 0 NULL 0 0 xplane NULL 0.053"},
+    {"M", "region w block -1 0.053 -1 1 -1 1 units box\n"
+          "fix f a wall/gran/region hooke/history 1e5 NULL 0 NULL 0 0 region w"},
     {"M", "comm_style tiled\nfix f all balance 100 1.0 shift x 5 1.0"},
     {"L", "communicate multi vel yes"},
 };
@@ -282,6 +284,7 @@ struct MovingWall {
 };
 
 const std::string mesh = "fix m all mesh/surface file floor.stl type 1";
+const std::string planar = "fix m all mesh/surface/planar file floor.stl type 1";
 const std::string of_mesh = "mesh n_meshes 1 meshes m";
 const MovingWall walls[] = {
     {"shear", "", "primitive type 1 zplane 0 shear x 1.0", "-1 0 -1", "0 0 -1", "primitive type 1 zplane 0",
@@ -291,6 +294,13 @@ const MovingWall walls[] = {
     {"belt", mesh + " surface_vel 1 0 0", of_mesh, "-1 0 -1", "0 0 -1", of_mesh, mesh},
     {"moved_mesh", mesh + "\nfix mm all move/mesh mesh m linear 1 0 0.5", of_mesh, "-1 0 -1.5", "0 0 -1",
      of_mesh, mesh},
+    {"moved_mesh_file", mesh + "\nfix mm all move/mesh/file mesh m linear 1 0 0.5", of_mesh, "-1 0 -1.5",
+     "0 0 -1", of_mesh, mesh},
+    {"moved_mesh_gran", mesh + "\nfix mm all move/mesh/gran mesh m linear 1 0 0.5", of_mesh, "-1 0 -1.5",
+     "0 0 -1", of_mesh, mesh},
+    {"moved_planar_mesh", planar + "\nfix mm all move/mesh mesh m linear 1 0 0.5", of_mesh, "-1 0 -1.5",
+     "0 0 -1", "primitive type 1 zplane 0", ""},
+    {"planar_mesh", planar, of_mesh, "0.5 0.2 -1", "0.5 0.2 -1", "primitive type 1 zplane 0", ""},
 };
 
 class HeatAtAMovingWall : public ::testing::TestWithParam<std::tuple<std::string, MovingWall>> {};
@@ -320,6 +330,123 @@ INSTANTIATE_TEST_SUITE_P(Walls, HeatAtAMovingWall,
                          [](const auto &test) {
                            return std::string(std::get<1>(test.param).name) + "_" + std::get<0>(test.param);
                          });
+
+// --- fixes that change velocities beside the integration --------------------------------------------------------------
+
+struct Changing {
+  bool lammps;
+  const char *line; // the fix f, which integrates, too, if its name begins with n
+};
+void PrintTo(const Changing &changing, std::ostream *out) { *out << changing.line; }
+
+// Energies of 1 J are temperatures of some 1e22 K.
+const Changing changing[] = {
+    {false, "momentum 3 linear 1 1 1 angular"},
+    {false, "nve/limit absolute 1e-5"},
+    {true, "momentum 3 linear 1 1 1 angular"},
+    {true, "momentum/chunk 3 chunks linear 1 1 1 angular"},
+    {true, "flow/gauss 1 0 1"},
+    {true, "nve/limit 1e-5"},
+    {true, "ehex 1 1.0"},
+    {true, "heat 1 1.0"},
+    {true, "langevin 1e22 1e22 0.01 4711"},
+    {true, "nvt temp 1e22 1e22 0.01"},
+    {true, "nvt/sphere temp 1e22 1e22 0.01"},
+    {true, "nvt/sllod temp 1e22 1e22 0.01"},
+    {true, "npt temp 1e22 1e22 0.01 iso 1 1 0.1"},
+    {true, "npt/sphere temp 1e22 1e22 0.01 iso 1 1 0.1"},
+    {true, "nph iso 1 1 0.1"},
+    {true, "nph/sphere iso 1 1 0.1"},
+    {true, "press/berendsen iso 1 1 1 modulus 100"},
+    {true, "recenter 0.01 0 0"},
+    {true, "temp/berendsen 1e22 1e22 0.01"},
+    {true, "temp/csld 1e22 1e22 0.01 4711"},
+    {true, "temp/csvr 1e22 1e22 0.01 4711"},
+    {true, "temp/rescale 2 1e22 1e22 1e20 1"},
+    {true, "thermal/conductivity 2 x 4"},
+    {true, "viscosity 2 y x 4"},
+    {true, "wall/reflect zlo -0.21"},
+    {true, "wall/reflect/stochastic diffusive 4711 zlo -0.21 1e22 0 0 0"},
+    {true, "wall/piston zlo vel 5"},
+};
+
+/// Balls 1 and 2 fly at each other, with the law of the plugin under `stock` or with the engine's own; ball 3 flies alone.
+std::string collision(const Changing &test, bool own_law, bool with_fix) {
+  constexpr double c = 60.0, m_eff = 0.5 * mass;
+  std::string text = test.lammps ? "plugin load ${plugin}\natom_style sphere\ncomm_modify vel yes\n"
+                                 : "atom_style granular\ncommunicate single vel yes\n";
+  const std::string line = test.line, style = line.substr(0, line.find(' '));
+  const bool sheared = style == "nvt/sllod";
+  text += fmt::format("units si\natom_modify map array sort 0 0\nnewton off\nboundary {0}\n"
+                      "region box {1} -0.5 0.5 -0.5 0.5 -0.5 0.5 {2}units box\ncreate_box 2 box\n"
+                      "neighbor 0.02 bin\nneigh_modify delay 0\ncreate_atoms 1 single -0.051 0 0.01\n"
+                      "create_atoms 2 single 0.051 0.01 0\ncreate_atoms 2 single -0.4 0.3 -0.2\n"
+                      "set group all diameter {3}\nset group all mass {4}\n"
+                      "group a id 1\ngroup b id 2\ngroup c id 3\n",
+                      line.find("wall") == 0 ? "f p s" : "p p p", sheared ? "prism" : "block",
+                      sheared ? "0 0 0 " : "", 2 * radius, mass);
+  if (test.lammps)
+    text += own_law ? fmt::format("pair_style gran/hooke {} 0 {} 0 0 0\npair_coeff * *\n", k, c / m_eff)
+                    : fmt::format("pair_style gran/hooke/transition tangential off transition A damping "
+                                  "coefficient stepping stock\npair_coeff * * {} {}\n",
+                                  k, c);
+  else {
+    text += own_law
+                ? "pair_style gran model hooke/stiffness tangential off tangential_damping off "
+                  "absolute_damping on limitForce off\n"
+                : "pair_style gran model hooke/transition tangential off transition A damping coefficient "
+                  "stepping stock\n";
+    text += "pair_coeff * *\n";
+    for (const auto &[name, value] :
+         {std::pair("kn", k), {"kt", 0.0}, {"gamman_abs", c}, {"gammat_abs", 0.0}})
+      text += fmt::format("fix {0} all property/global {0} peratomtypepair 2 {1} {1} {1} {1}\n", name, value);
+  }
+  text += "velocity a set 1 0.1 0 units box\nvelocity b set -0.7 -0.1 0.2 units box\n"
+          "velocity c set 0.2 0.5 -1 units box\n";
+  text += "fix g all gravity 5 vector 1 0 -1\n";
+  if (style == "ehex") text += "region all block INF INF INF INF INF INF\n";
+  if (style == "momentum/chunk") text += "compute chunks all chunk/atom type\n";
+  if (with_fix) text += "fix f all " + line + "\n";
+  if (sheared) text += "fix d all deform 1 xy erate 0.1 remap v\n";
+  if (!with_fix || line[0] != 'n') text += "fix integrate all nve/sphere\n";
+  text += fmt::format("timestep 2e-5\nthermo_modify lost error norm no\nthermo 1000000\n"
+                      "dump state all custom 1000 state.dump id x y z vx vy vz fx fy fz omegax omegay omegaz "
+                      "tqx tqy tqz\ndump_modify state sort id format {} \"%d %.17g %.17g %.17g %.17g %.17g "
+                      "%.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g\"\nrun 1000\n",
+                      test.lammps ? "line" : "");
+  return text;
+}
+
+class ChangedVelocities : public ::testing::TestWithParam<Changing> {};
+
+// With the engine's own law of the same force the balls move alike, and otherwise than without the fix.
+TEST_P(ChangedVelocities, GoWithTheEnginesSchemeAsWithTheEnginesLaw) {
+  const Changing &test = GetParam();
+  SKIP_WITHOUT_LAMMPS(test.lammps);
+  const auto last = [&test](bool own_law, bool with_fix) {
+    const Scratch folder;
+    const auto file = folder / (test.lammps ? "deck.lammps" : "deck.in");
+    write_text(file, collision(test, own_law, with_fix));
+    const Outcome outcome = run_deck(file, {}, folder.path());
+    if (outcome.says("Unrecognized fix style")) return std::map<long, Ball>();
+    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    return outcome.ok() ? read_dump(folder / "state.dump").back().balls : std::map<long, Ball>();
+  };
+  const auto plugin = last(false, true);
+  if (plugin.empty() && !HasFailure()) GTEST_SKIP() << "not in this LAMMPS";
+  const auto own = last(true, true), without = last(false, false);
+  double changed = 0.0;
+  for (long id = 1; id <= 3; ++id) {
+    EXPECT_LT(difference(plugin, own, id), 1e-9) << id;
+    changed = std::max(changed, difference(plugin, without, id));
+  }
+  EXPECT_GT(changed, 1e-6) << "the fix has done nothing";
+}
+
+INSTANTIATE_TEST_SUITE_P(Fixes, ChangedVelocities, ::testing::ValuesIn(changing), [](const auto &test) {
+  const std::string line = test.param.line;
+  return name_of("fix f a " + line) + (test.param.lammps ? "_lammps" : "_liggghts");
+});
 
 // --- contacts beyond the neighbour list ---------------------------------------------------------------------------
 

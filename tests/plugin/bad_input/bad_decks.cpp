@@ -234,6 +234,13 @@ BadGroup oedometer() {
       "a load that presses balls flat", {{"loads", "25 1e6"}},
       {"drumlin/check: variable loads is '1e6'", "allowed: a finite number below ", "half a radius"}));
   group.inputs.push_back(variable("dt", "1", "allowed: a finite number below "));
+  group.inputs.push_back(variable("D", "1e9", "unstable under stepping stock"));
+  group.inputs.push_back(variables(
+      "a density with which the drag is too large", {{"density", "1e20"}},
+      {"drumlin/check: variable density is '1e20'", "allowed: a finite number below ", "prepare_drag"}));
+  group.inputs.push_back(variables("a drag with which the density does not matter",
+                                   {{"density", "1e20"}, {"prepare_drag", "1e9"}},
+                                   {"drumlin/check: variable prepare_drag is '1e9'"}));
   group.inputs.push_back(variable("prepare_time", "1e9", "allowed: a finite number below "));
   group.inputs.push_back(variables("a lattice in the plane", {{"sample", "hexagonal"}, {"dimension", "3"}},
                                    {"drumlin/check: variable dimension is '3'", "allowed: 2"}));

@@ -629,6 +629,18 @@ BadGroup layers() {
                             {command + "keyword k is '1e18', with which two of the lightest balls of layer 1 "
                                        "have the critical step ",
                              "with the time step 0.001 s"})),
+          on_two_ranks(line("D too large for the time step",
+                            "timestep 1e-6\npair_style gran model hooke/transition damping ratio stepping "
+                            "stock\ndrumlin/layers k 1e8 D 1e9 friction 0 rolling off 0",
+                            {command + "keyword D is '1e9', with which two of the lightest balls of layer 1 "
+                                       "have the critical step ",
+                             "with the time step 1e-06 s"})),
+          line("a list that has a variable",
+               "drumlin/layers k 0 D 0 friction 0 rolling off 0 variables pour_k D f r",
+               {command + "variable pour_k is '0'", "> 0"}),
+          line("a list whose variable follows another",
+               "variable k index 0\ndrumlin/layers k 0 D 0 friction 0 rolling off 0 variables pour_k/k D f r",
+               {command + "variable k is '0'", "> 0"}),
           line("D negative", "drumlin/layers k 1e8 D -0.1", {command + "keyword D is '-0.1'", ">= 0"}),
           line("friction negative", "drumlin/layers k 1e8 D 0 friction -1",
                {command + "keyword friction is '-1'", ">= 0"}),
