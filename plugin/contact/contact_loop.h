@@ -5,9 +5,9 @@
 #include "contact/contact_observer.h"
 #include "contact/contact_settings.h"
 #include "contact/pair_list.h"
-#include "contact/stepped_contact.h"
+#include "contact/exert_contact.h"
 #include "engine.h"
-#include "physics/contact_block.h"
+#include "physics/scheme/contact_block.h"
 
 #include <algorithm>
 #include <utility>

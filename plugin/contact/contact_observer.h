@@ -2,10 +2,10 @@
 // The interface by which fixes observe contacts and bonds: energy balance, guard, dumps and event log use it.
 // Observers are fixes, so that each engine instance has its own.
 
-#include "contact/laws.h"
+#include "physics/laws/laws.h"
 #include "engine.h"
-#include "physics/event_location.h"
-#include "physics/time_step.h"
+#include "physics/scheme/event_location.h"
+#include "physics/scheme/stability_limit.h"
 #include "physics/vec3.h"
 
 #include <array>

@@ -2,10 +2,10 @@
 // Settings and coefficients of the contact law, the same for both engines, and the keywords that both have.
 
 #include "contact/contact_history.h"
-#include "contact/contact_source.h"
-#include "contact/laws.h"
-#include "physics/friction_law.h"
-#include "physics/rolling_law.h"
+#include "physics/laws/friction_law.h"
+#include "physics/laws/laws.h"
+#include "physics/laws/rolling_law.h"
+#include "physics/scheme/implicit_dashpot.h"
 #include "support/arguments.h"
 
 #include <string>
@@ -14,6 +14,10 @@
 #include <vector>
 
 namespace drumlin {
+
+/// The friction model. history: with a tangential spring, limited as Friction::cap says; no_history: a
+/// dashpot alone.
+enum class FrictionModel { none, no_history, history };
 
 /// Coefficients of a pair of types, of the law with the parameters `Contact`. Where a deck does not give ct,
 /// it is half of the normal damping coefficient.

@@ -4,10 +4,9 @@
 // the deck uses another pair style.
 
 #include "engine.h"
-#include "contact/contact_history.h"
-#include "contact/laws.h"
-#include "physics/friction_law.h"
-#include "physics/stepping.h"
+#include "contact/contact_settings.h"
+#include "physics/laws/friction_law.h"
+#include "physics/scheme/implicit_dashpot.h"
 
 #include <array>
 #include <cmath>
@@ -15,12 +14,6 @@
 
 namespace drumlin {
 
-/// The friction model. history: with a tangential spring, limited as Friction::cap says; no_history: a
-/// dashpot alone.
-enum class FrictionModel { none, no_history, history };
-
-template <class Contact>
-class CoefficientTable; // contact_settings.h
 template <class Contact>
 using TableOf = const CoefficientTable<Contact> *;
 /// The coefficients of all pairs of types, of the law that the deck has chosen.

@@ -5,9 +5,9 @@
 
 #include "contact/contact_observer.h"
 #include "contact/contact_settings.h"
-#include "contact/stepped_contact.h"
-#include "physics/contact_law.h"
-#include "physics/friction_law.h"
+#include "contact/exert_contact.h"
+#include "physics/laws/contact_law.h"
+#include "physics/laws/friction_law.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@
 namespace drumlin {
 
 /// A contact in one step.
-struct Contact {
+struct WallContact {
   StepContact normal;
   physics::Vec3 slip;          ///< m/s, of ball i's surface relative to j's
   double r_eff;                ///< m, effective radius; 0 for a law that does not depend on it
@@ -56,7 +56,7 @@ constexpr std::array<Remembered, 5> history_order{Remembered::spring, Remembered
 /// Tangential stiffness of one contact in a step, N/m. Where it varies, the springs of friction and of rolling
 /// resistance in the contact history follow its change. \param moves see exert()
 template <FrictionModel tangential, bool rolling, class Coefficients>
-inline double tangential_stiffness(const Coefficients &coefficients, const Contact &p, double dt,
+inline double tangential_stiffness(const Coefficients &coefficients, const WallContact &p, double dt,
                                    bool moves) {
   using Parameters = decltype(coefficients.contact);
   const StepContact &n = p.normal;
@@ -82,7 +82,7 @@ inline double tangential_stiffness(const Coefficients &coefficients, const Conta
 }
 
 /// Time, s, of a step for which a spring of a contact is stretched: see physics::time_in_contact(). \param moves see exert()
-inline double time_of_spring(const Contact &p, double dt, bool moves) {
+inline double time_of_spring(const WallContact &p, double dt, bool moves) {
   if (!moves) return 0.0;
   return p.in_contact ? dt : physics::time_in_contact(p.normal.overlap, p.normal.rate_half, dt);
 }
@@ -93,7 +93,7 @@ inline double time_of_spring(const Contact &p, double dt, bool moves) {
 template <bool stepped, FrictionModel tangential, bool rolling, class Parameters>
 inline ContactForces exert(const ContactSettings &settings,
                            const ContactCoefficients<Parameters> &coefficients,
-                           LAMMPS_NS::FixStepping *stepping, const Contact &p, double dt, bool moves) {
+                           LAMMPS_NS::FixStepping *stepping, const WallContact &p, double dt, bool moves) {
   const StepContact &n = p.normal;
   auto law = coefficients.contact.law(n.m_eff, p.r_eff, p.memory);
   ContactForces out{};
@@ -178,7 +178,7 @@ void with_models(const ContactSettings &settings, Run &&run) {
 /// The record of a contact for observers. \param radius of the smaller ball, m \param rolling_radius effective, m
 template <class Parameters>
 ContactRecord record_of(const ContactSettings &settings, const ContactCoefficients<Parameters> &coefficients,
-                        const Contact &p, const ContactForces &forces, double radius, double rolling_radius) {
+                        const WallContact &p, const ContactForces &forces, double radius, double rolling_radius) {
   const double memory = Parameters::remembers ? *p.stored(Remembered::memory) : 0.0;
   const auto law = coefficients.contact.law(p.normal.m_eff, p.r_eff, memory);
   ContactRecord record = record_of_law(law, p.normal.overlap, !settings.stock);

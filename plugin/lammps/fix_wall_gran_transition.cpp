@@ -227,7 +227,7 @@ void FixWallGranTransition::touch(const Table &table, int i, int place, const ph
   const double mass = pair_->mass_unless_frozen(i);
   const double *v = atom->v[i];
 
-  drumlin::Contact p{};
+  drumlin::WallContact p{};
   p.normal.i = i;
   p.normal.j = -1;
   p.normal.normal = normal;

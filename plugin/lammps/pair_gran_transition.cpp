@@ -3,7 +3,7 @@
 #include "fix_dummy.h"
 #include "support/arguments.h"
 #include "contact/pair_motion.h"
-#include "lammps/pair_contacts.h"
+#include "lammps/loop_adapter.h"
 #include "lammps/pair_words.h"
 #include "lammps/fix_neigh_history_transition.h"
 
@@ -320,7 +320,7 @@ void PairGranTransition::compute(int eflag, int vflag) {
       [this](const auto &table) {
         drumlin::with_models(settings_, [&](auto stepped, auto tangential, auto rolling) {
           using Parameters = std::decay_t<decltype(table.at(0, 0).contact)>;
-          Contacts<Parameters, decltype(stepped)::value, decltype(tangential)::value,
+          LoopAdapter<Parameters, decltype(stepped)::value, decltype(tangential)::value,
                    decltype(rolling)::value>(*this, table)
               .compute();
         });

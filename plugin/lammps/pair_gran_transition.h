@@ -85,7 +85,7 @@ private:
   template <class Parameters>
   void set_coefficients(int i, int j, const drumlin::ContactCoefficients<Parameters> &);
   template <class Parameters, bool stepped, drumlin::FrictionModel tangential, bool rolling>
-  class Contacts; // see pair_contacts.h
+  class LoopAdapter; // see loop_adapter.h
   template <class Parameters>
   void tell_single(const drumlin::ContactCoefficients<Parameters> &, const drumlin::PairMotion &, int i,
                    int j, const double *remembered, double &force_over_distance);

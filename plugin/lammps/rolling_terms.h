@@ -3,7 +3,7 @@
 
 #include "contact/contact_settings.h"
 #include "contact/fix_stepping.h"
-#include "physics/rolling_law.h"
+#include "physics/laws/rolling_law.h"
 
 namespace drumlin {
 

@@ -18,11 +18,11 @@
 #include "engine.h"
 #include "contact/deck_check.h"
 #include "contact/fix_stepping.h"
-#include "liggghts/contact_table.h"
+#include "liggghts/pair_source.h"
 #include "liggghts/fix_keep_history.h"
 #include "liggghts/model_settings.h"
 #include "liggghts/observed_contact.h"
-#include "liggghts/pair_contacts.h"
+#include "liggghts/loop_adapter.h"
 #include "liggghts/registration.h"
 #include "liggghts/wall_report.h"
 
@@ -67,12 +67,12 @@ constexpr bool has_loop = (Style::TANGENTIAL == TANGENTIAL_OFF || Style::TANGENT
 
 template <class Style, class Contact>
 class TransitionPair : public LIGGGHTS::PairStyles::Granular<drumlin::ObservedContact<Style, Contact>>,
-                       public drumlin::PairContacts {
+                       public drumlin::PairSource {
   using Base = LIGGGHTS::PairStyles::Granular<drumlin::ObservedContact<Style, Contact>>;
 
 public:
   TransitionPair(LAMMPS *engine, PairGran *pair, int64_t hash)
-      : Base(engine, pair, hash), PairContacts(engine), engine_(engine), pair_(pair) {}
+      : Base(engine, pair, hash), PairSource(engine), engine_(engine), pair_(pair) {}
   ~TransitionPair() override { LAMMPS_NS::FixStepping::dismiss(engine_); }
 
   void settings(int narg, char **arg, LIGGGHTS::IContactHistorySetup *history) override {
@@ -104,7 +104,7 @@ public:
     settings.rolling = Style::ROLLING == ROLLING_SPRING;
     settings.stock = stepping_ == nullptr;
     settings.take_law<Contact>();
-    PairContacts::begin(pair_, settings);
+    PairSource::begin(pair_, settings);
     Base::init_granular();
     if (stepping_ != nullptr && pair_->storeContactForcesStress())
       engine_->error->all(
@@ -143,7 +143,7 @@ private:
     constexpr int flag =
         CONTACT_NORMAL_MODEL | (rubs ? CONTACT_TANGENTIAL_MODEL : 0) | (rolls ? CONTACT_ROLLING_MODEL : 0);
     if (pair_->list->inum == 0) return; // there may be no arrays
-    drumlin::EnginePairContacts<
+    drumlin::LoopAdapter<
         Contact, stepped, rubs ? drumlin::FrictionModel::history : drumlin::FrictionModel::none, rolls, flag>(
         *pair_, *engine_->atom, *engine_->neighbor, clumps_)
         .compute(loop_memory_, *std::get<const drumlin::CoefficientTable<Contact> *>(table()), places(),

@@ -2,7 +2,7 @@
 // Where LIGGGHTS's contact models find a contact that is solved for together with others, or begins.
 
 #include "contact/fix_stepping.h"
-#include "liggghts/contact_table.h"
+#include "liggghts/pair_source.h"
 
 #include "contact_interface.h"
 

@@ -4,7 +4,7 @@
 #include "contact_models.h"
 
 #include "contact/contact_observer.h"
-#include "liggghts/contact_table.h"
+#include "liggghts/pair_source.h"
 #include "liggghts/coupled_contacts.h"
 
 #include <algorithm>

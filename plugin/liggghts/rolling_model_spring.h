@@ -15,7 +15,7 @@ ROLLING_MODEL(ROLLING_SPRING, rolling_spring, 22)
 #include <algorithm>
 
 #include "liggghts/coupled_contacts.h"
-#include "physics/rolling_law.h"
+#include "physics/laws/rolling_law.h"
 
 namespace LIGGGHTS {
 namespace ContactModels {

@@ -15,7 +15,7 @@ TANGENTIAL_MODEL(TANGENTIAL_COULOMB, coulomb, 21)
 #include <algorithm>
 
 #include "liggghts/coupled_contacts.h"
-#include "physics/friction_law.h"
+#include "physics/laws/friction_law.h"
 
 namespace LIGGGHTS {
 namespace ContactModels {

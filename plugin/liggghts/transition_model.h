@@ -19,10 +19,10 @@
 #include "contact/contact_source.h"
 #include "fixes/fix_clump.h"
 #include "contact/fix_stepping.h"
-#include "contact/stepped_contact.h"
-#include "liggghts/contact_table.h"
-#include "physics/contact_step.h"
-#include "physics/rolling_law.h"
+#include "contact/exert_contact.h"
+#include "liggghts/pair_source.h"
+#include "physics/scheme/advance.h"
+#include "physics/laws/rolling_law.h"
 
 namespace drumlin {
 
@@ -168,7 +168,7 @@ private:
     stepping_ = LAMMPS_NS::FixStepping::find(lmp);
     if (stepping_stock_ == (stepping_ == nullptr)) return;
     const std::string own = stepping_stock_ ? "'stock'" : "'second' (its default)";
-    const bool law = pair_contacts(lmp) != nullptr;
+    const bool law = pair_source(lmp) != nullptr;
     const std::string pair =
         stepping_stock_ || law
             ? "and that of the pair style is " + std::string(stepping_stock_ ? "'second'" : "'stock'")

@@ -12,7 +12,7 @@
 #include "update.h"
 
 #include "contact/fix_stepping.h"
-#include "liggghts/contact_table.h"
+#include "liggghts/pair_source.h"
 #include "liggghts/coupled_contacts.h"
 #include "physics/vec3.h"
 

@@ -2,7 +2,7 @@
 // 4 ranks, and from restart files.
 #include "tests/support/balls_run.h"
 #include "tests/support/frame_distance.h"
-#include "tests/support/law_samples.h"
+#include "tests/plugin/law_samples.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Wrong input to the contact laws and to the walls that use them, in LIGGGHTS and in LAMMPS: the lines of a deck, and what the error must say.
 #include "tests/plugin/bad_input/bad_input.h"
 #include "tests/support/host_deck.h"
-#include "tests/support/law_samples.h"
+#include "tests/plugin/law_samples.h"
 
 #include <fmt/format.h>
 

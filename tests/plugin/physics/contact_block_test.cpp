@@ -1,9 +1,9 @@
 /// The forces of a block of contacts have the same bits as those of its contacts one by one.
 
-#include "physics/contact_block.h"
+#include "physics/scheme/contact_block.h"
 
 #include "tests/plugin/physics/yielding_contact.h"
-#include "tests/support/law_samples.h"
+#include "tests/plugin/law_samples.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// The contact law instant by instant: closed forms, definitions and identities. Whole impacts are in
 /// restitution_test.
 
-#include "physics/linear_contact.h"
+#include "physics/laws/linear_contact.h"
 
 #include "tests/plugin/physics/velocity_verlet.h"
 #include "tests/plugin/physics/yielding_contact.h"

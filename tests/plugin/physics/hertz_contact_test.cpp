@@ -2,12 +2,12 @@
 /// e, which is that of the linear law with the same D, and against CVODE; oblique ones against CVODE; its
 /// tangential and its rolling spring, whose stiffness follows the overlap.
 
-#include "physics/event_location.h"
-#include "physics/friction_law.h"
-#include "physics/hertz_contact.h"
-#include "physics/linear_contact.h"
-#include "physics/restitution.h"
-#include "physics/rolling_law.h"
+#include "physics/scheme/event_location.h"
+#include "physics/laws/friction_law.h"
+#include "physics/laws/hertz_contact.h"
+#include "physics/laws/linear_contact.h"
+#include "physics/laws/restitution.h"
+#include "physics/laws/rolling_law.h"
 #include "tests/plugin/physics/contact_friction.h"
 #include "tests/plugin/physics/velocity_verlet.h"
 #include "tests/support/ode.h"

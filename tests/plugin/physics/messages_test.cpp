@@ -1,8 +1,8 @@
 /// Error messages for values that are not allowed: they have the name, the value and what is allowed.
 
-#include "physics/bond_law.h"
-#include "physics/excitation.h"
-#include "physics/friction_law.h"
+#include "physics/bodies/bond_law.h"
+#include "physics/bodies/excitation.h"
+#include "physics/laws/friction_law.h"
 
 #include <gtest/gtest.h>
 

@@ -3,10 +3,10 @@
 /// DRUMLIN_IMPACTS sets the number of impacts of each law, DRUMLIN_SEED their seed; a hundred thousand take half a
 /// minute.
 
-#include "physics/contact_step.h"
-#include "physics/friction_law.h"
+#include "physics/scheme/advance.h"
+#include "physics/laws/friction_law.h"
 #include "tests/plugin/physics/contact_friction.h"
-#include "tests/support/law_samples.h"
+#include "tests/plugin/law_samples.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 /// The engines' part of a step, for tests of laws and of advance(): velocity Verlet as in fix nve/sphere, of
 /// balls on a line.
 
-#include "physics/contact_step.h"
+#include "physics/scheme/advance.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 /// overlap that it has had, D, unloaded and loaded again along k2 (d - (1 - k1/k2) D) >= 0 (Walton and Braun 1986, J. Rheol. 30,
 /// 949-980), with a linear dashpot.
 
-#include "physics/linear_contact.h"
+#include "physics/laws/linear_contact.h"
 
 #include <algorithm>
 

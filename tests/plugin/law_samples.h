@@ -1,7 +1,7 @@
 #pragma once
 /// Parameters for every law of the list, from the table of each: what tests of all laws take.
 
-#include "contact/laws.h"
+#include "physics/laws/laws.h"
 
 #include <cmath>
 #include <cstddef>

@@ -6,9 +6,9 @@
 /// sqrt(5/4 k m)) the restitution is therefore that of the linear law with the same D, under A and B and at
 /// any impact speed.
 
-#include "physics/contact_law.h"
-#include "physics/law_parameters.h"
-#include "physics/restitution.h"
+#include "physics/laws/contact_law.h"
+#include "physics/laws/law_parameters.h"
+#include "physics/laws/restitution.h"
 
 #include <algorithm>
 #include <array>

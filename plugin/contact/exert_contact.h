@@ -3,7 +3,7 @@
 // from FixStepping, and applies its result to the balls. Shared by the adapters of both engines.
 
 #include "contact/fix_stepping.h"
-#include "physics/contact_step.h"
+#include "physics/scheme/advance.h"
 
 #include <algorithm>
 #include <array>

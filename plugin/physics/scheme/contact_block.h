@@ -3,9 +3,9 @@
 // compiler computes two or four contacts with one instruction. The formulas are those of plugin/physics, and
 // the results have the same bits as those of one contact after the other.
 
-#include "physics/contact_step.h"
-#include "physics/friction_law.h"
-#include "physics/rolling_law.h"
+#include "physics/scheme/advance.h"
+#include "physics/laws/friction_law.h"
+#include "physics/laws/rolling_law.h"
 
 #include <cmath>
 #include <cstdint>

@@ -8,15 +8,15 @@
 namespace LAMMPS_NS {
 
 template <class Parameters, bool stepped, drumlin::FrictionModel tangential, bool rolling>
-class PairGranTransition::Contacts {
+class PairGranTransition::LoopAdapter {
 public:
-  Contacts(PairGranTransition &pair, const drumlin::CoefficientTable<Parameters> &table)
+  LoopAdapter(PairGranTransition &pair, const drumlin::CoefficientTable<Parameters> &table)
       : pair_(pair), table_(table), atom_(*pair.atom), bodies_(!pair.clumps_.empty() || !pair.rigid_.empty()),
         tallies_(pair.evflag != 0), f_(atom_.f[0]), t_(atom_.torque[0]),
         taken_(pair.force->newton_pair ? atom_.nlocal + atom_.nghost : atom_.nlocal) {}
 
   void compute() {
-    drumlin::ContactLoop<Contacts, Parameters, stepped, tangential, rolling>(
+    drumlin::ContactLoop<LoopAdapter, Parameters, stepped, tangential, rolling>(
         *this, atom_, pair_.loop_memory_, table_, pair_.places_, pair_.settings_.cap, pair_.stepping_,
         pair_.observers_, pair_.update->dt, pair_.update->setupflag == 0)
         .run(*pair_.list, *pair_.neighbor);

@@ -10,7 +10,7 @@
 #include "update.h"
 
 #include "contact/contact_loop.h"
-#include "liggghts/contact_table.h"
+#include "liggghts/pair_source.h"
 
 namespace drumlin {
 
@@ -19,16 +19,16 @@ namespace drumlin {
 /// computes them instead: see needs_engine_loop().
 /// \tparam flag bits of the engine's contact flags that say that there is a contact
 template <class Parameters, bool stepped, FrictionModel tangential, bool rolling, int flag>
-class EnginePairContacts {
+class LoopAdapter {
 public:
-  EnginePairContacts(LAMMPS_NS::PairGran &pair, const LAMMPS_NS::Atom &atom,
+  LoopAdapter(LAMMPS_NS::PairGran &pair, const LAMMPS_NS::Atom &atom,
                      const LAMMPS_NS::Neighbor &neighbor, const LAMMPS_NS::Clumps &clumps)
       : pair_(pair), atom_(atom), neighbor_(neighbor), clumps_(clumps), has_clumps_(!clumps.empty()) {}
 
   void compute(LoopMemory &memory, const CoefficientTable<Parameters> &table, const HistoryPlaces &places,
                LAMMPS_NS::FixStepping *stepping, const ContactObservers &observers, double dt) {
     in_contact_place_ = places[Remembered::touches];
-    ContactLoop<EnginePairContacts, Parameters, stepped, tangential, rolling>(
+    ContactLoop<LoopAdapter, Parameters, stepped, tangential, rolling>(
         *this, atom_, memory, table, places, physics::Cap::coulomb, stepping, observers, dt, true)
         .run(*pair_.list, neighbor_);
   }

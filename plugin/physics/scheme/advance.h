@@ -8,8 +8,8 @@
 /// "opening" half kick is the velocity update before the drift of velocity Verlet, a "closing" one that after
 /// the forces.
 
-#include "physics/contact_law.h"
-#include "physics/stepping.h"
+#include "physics/laws/contact_law.h"
+#include "physics/scheme/implicit_dashpot.h"
 
 #include <algorithm>
 

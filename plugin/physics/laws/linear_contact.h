@@ -1,9 +1,9 @@
 #pragma once
 /// The linear contact of the paper, Eq. (2).
 
-#include "physics/contact_law.h"
-#include "physics/law_parameters.h"
-#include "physics/restitution.h"
+#include "physics/laws/contact_law.h"
+#include "physics/laws/law_parameters.h"
+#include "physics/laws/restitution.h"
 
 #include <array>
 #include <cmath>

@@ -34,7 +34,7 @@ struct ContactPower {
 ///   secant(d)     E/d, N/m
 ///   stored(d)     energy in the spring, J, that the contact can give back
 /// and these further members, which LinearLaw (linear_contact.h) and HertzLaw (hertz_contact.h) explain:
-///   spring_change(), begins_with_jump, first_weight()   for the second-order scheme, contact_step.h
+///   spring_change(), begins_with_jump, first_weight()   for the second-order scheme, advance.h
 ///   is_linear    whether E is proportional to d and C constant: the times of events then have a closed form,
 ///                event_location.h
 ///   exponent     of d in E: LIGGGHTS asks each of its contact models for it

@@ -116,9 +116,9 @@ private:
 
 /// Access of walls, FixStepping and fixes to the pair style, which derives from it. It collects the tables in
 /// the initialization of each run: the pair style's own first, then those of the walls.
-class PairContacts : public ContactSource {
+class PairSource : public ContactSource {
 public:
-  explicit PairContacts(LAMMPS_NS::LAMMPS *lmp) : lmp_(lmp) {}
+  explicit PairSource(LAMMPS_NS::LAMMPS *lmp) : lmp_(lmp) {}
 
   AnyTable table() const override { return *table_; }
   double mass(int i) const override;
@@ -133,7 +133,7 @@ public:
   bool has_table() const { return table_.has_value(); }
 
 protected:
-  ~PairContacts() = default;
+  ~PairSource() = default;
   void begin(LAMMPS_NS::PairGran *pair, const ContactSettings &settings);
   const LAMMPS_NS::Atom &balls() const override;
   physics::Cap cap() const override { return settings_.cap; }
@@ -149,12 +149,12 @@ private:
   HistoryPlaces places_;
 };
 
-/// The PairContacts of this engine instance; nullptr if it has another pair style.
-PairContacts *pair_contacts(LAMMPS_NS::LAMMPS *lmp);
+/// The PairSource of this engine instance; nullptr if it has another pair style.
+PairSource *pair_source(LAMMPS_NS::LAMMPS *lmp);
 
 /// Reads and checks the properties; ends the run with one line that names property, types, value and what is
 /// allowed. The pair style knows the table from then on. \param is_wall the table is a wall's, not the pair
-/// style's: see PairContacts
+/// style's: see PairSource
 template <class Contact>
 void read_table(CoefficientTable<Contact> &table, LAMMPS_NS::LAMMPS *lmp, int ntypes,
                 const ContactSettings &settings, bool is_wall) {
@@ -168,7 +168,7 @@ void read_table(CoefficientTable<Contact> &table, LAMMPS_NS::LAMMPS *lmp, int nt
       p.contact = law(i, j);
       damping.set(p, i, j, settings);
     }
-  if (PairContacts *contacts = pair_contacts(lmp))
+  if (PairSource *contacts = pair_source(lmp))
     is_wall ? contacts->take_wall(&table) : contacts->take(&table);
 }
 

@@ -1,4 +1,4 @@
-#include "liggghts/contact_table.h"
+#include "liggghts/pair_source.h"
 
 #include "engine.h"
 #include "fix_rigid.h"
@@ -53,17 +53,17 @@ LAMMPS_NS::PairGran *gran_pair(LAMMPS *lmp) {
   return dynamic_cast<LAMMPS_NS::PairGran *>(lmp->force->pair_match("gran", 1));
 }
 
-PairContacts *pair_contacts(LAMMPS *lmp) {
+PairSource *pair_source(LAMMPS *lmp) {
   auto *proxy = dynamic_cast<LAMMPS_NS::PairGranProxy *>(gran_pair(lmp));
-  return proxy == nullptr ? nullptr : dynamic_cast<PairContacts *>(style_of(*proxy));
+  return proxy == nullptr ? nullptr : dynamic_cast<PairSource *>(style_of(*proxy));
 }
 
 const ContactSource *contact_source(LAMMPS *lmp) {
-  const PairContacts *contacts = pair_contacts(lmp);
+  const PairSource *contacts = pair_source(lmp);
   return contacts != nullptr && contacts->has_table() ? contacts : nullptr;
 }
 
-void PairContacts::begin(LAMMPS_NS::PairGran *pair, const ContactSettings &settings) {
+void PairSource::begin(LAMMPS_NS::PairGran *pair, const ContactSettings &settings) {
   pair_ = pair;
   table_.reset();
   wall_tables_.clear();
@@ -76,7 +76,7 @@ void PairContacts::begin(LAMMPS_NS::PairGran *pair, const ContactSettings &setti
       meshes_ = meshes_ || wall->is_mesh_wall();
 }
 
-double PairContacts::mass(int i) const {
+double PairSource::mass(int i) const {
   const LAMMPS_NS::Atom &atom = *lmp_->atom;
   if (atom.mask[i] & pair_->freeze_group_bit()) return std::numeric_limits<double>::infinity();
   const double own =
@@ -84,7 +84,7 @@ double PairContacts::mass(int i) const {
   return clumps_.mass_of(atom, i, own);
 }
 
-physics::Dashpots PairContacts::wall_dashpots(int i) const {
+physics::Dashpots PairSource::wall_dashpots(int i) const {
   const LAMMPS_NS::Atom &atom = *lmp_->atom;
   physics::Dashpots all;
   if (meshes_) all.sum = std::numeric_limits<double>::infinity();
@@ -106,14 +106,14 @@ physics::Dashpots PairContacts::wall_dashpots(int i) const {
   return all;
 }
 
-const LAMMPS_NS::NeighList *PairContacts::contact_list() const { return pair_->list; }
+const LAMMPS_NS::NeighList *PairSource::contact_list() const { return pair_->list; }
 
-const double *PairContacts::history(int i, int jj) const {
+const double *PairSource::history(int i, int jj) const {
   if (pair_->listgranhistory == nullptr) return nullptr;
   return pair_->listgranhistory->firstdouble[i] + static_cast<std::ptrdiff_t>(pair_->dnum()) * jj;
 }
 
-const LAMMPS_NS::Atom &PairContacts::balls() const { return *lmp_->atom; }
+const LAMMPS_NS::Atom &PairSource::balls() const { return *lmp_->atom; }
 
 DampingProperties::DampingProperties(LAMMPS *lmp, const std::string &command, int ntypes,
                                      const ContactSettings &settings)
