@@ -53,32 +53,13 @@ constexpr std::array<Remembered, 5> history_order{Remembered::spring, Remembered
                                                   Remembered::force, Remembered::rolling_spring,
                                                   Remembered::memory};
 
-/// Tangential stiffness of one contact in a step, N/m. Where it varies, the springs of friction and of rolling
-/// resistance in the contact history follow its change. \param moves see exert()
-template <FrictionModel tangential, bool rolling, class Coefficients>
-inline double tangential_stiffness(const Coefficients &coefficients, const WallContact &p, double dt,
-                                   bool moves) {
-  using Parameters = decltype(coefficients.contact);
+/// Tangential stiffness of one contact in a step, N/m. \param moves see exert()
+template <class Parameters>
+inline double tangential_stiffness(const Parameters &contact, const WallContact &p, double dt, bool moves) {
   const StepContact &n = p.normal;
-  if constexpr (!Parameters::tangential_varies) return coefficients.contact.tangential(n.overlap, p.r_eff);
-  const double kt =
-      coefficients.contact.tangential(physics::overlap_of_spring(n.overlap, n.rate_half, dt), p.r_eff);
-  if constexpr (tangential == FrictionModel::history || rolling) {
-    double &stored = *p.stored(Remembered::stiffness);
-    if (!moves) return stored > 0.0 ? stored : kt;
-    if constexpr (tangential == FrictionModel::history) {
-      const double kept = physics::kept_spring(stored, kt);
-      for (int a = 0; a < 3; ++a)
-        p.stored(Remembered::spring)[a] *= kept;
-    }
-    if constexpr (rolling) {
-      const double kept = physics::kept_torque(stored, kt);
-      for (int a = 0; a < 3; ++a)
-        p.stored(Remembered::rolling_spring)[a] *= kept;
-    }
-    stored = kt;
-  }
-  return kt;
+  if constexpr (!Parameters::tangential_varies) return contact.tangential(n.overlap, p.r_eff);
+  const double kt = contact.tangential(physics::overlap_of_spring(n.overlap, n.rate_half, dt), p.r_eff);
+  return follow_stiffness(*p.places, p.history, kt, moves);
 }
 
 /// Time, s, of a step for which a spring of a contact is stretched: see physics::time_in_contact(). \param moves see exert()
@@ -123,7 +104,7 @@ inline ContactForces exert(const ContactSettings &settings,
   }
   constexpr bool rubs = tangential != FrictionModel::none;
   if constexpr (rubs || rolling)
-    out.tangential_stiffness = tangential_stiffness<tangential, rolling>(coefficients, p, dt, moves);
+    out.tangential_stiffness = tangential_stiffness(coefficients.contact, p, dt, moves);
   if constexpr (rubs) {
     const physics::Friction friction =
         coefficients.tangential(out.tangential_stiffness, law.dashpot(n.overlap), settings.cap);
@@ -178,7 +159,8 @@ void with_models(const ContactSettings &settings, Run &&run) {
 /// The record of a contact for observers. \param radius of the smaller ball, m \param rolling_radius effective, m
 template <class Parameters>
 ContactRecord record_of(const ContactSettings &settings, const ContactCoefficients<Parameters> &coefficients,
-                        const WallContact &p, const ContactForces &forces, double radius, double rolling_radius) {
+                        const WallContact &p, const ContactForces &forces, double radius,
+                        double rolling_radius) {
   const double memory = Parameters::remembers ? *p.stored(Remembered::memory) : 0.0;
   const auto law = coefficients.contact.law(p.normal.m_eff, p.r_eff, memory);
   ContactRecord record = record_of_law(law, p.normal.overlap, !settings.stock);

@@ -62,8 +62,9 @@ void prepare(LAMMPS *engine) {
 
 /// Whether all models of a combination are the plugin's, so that ContactLoop can compute its contacts.
 template <class Style>
-constexpr bool has_loop = (Style::TANGENTIAL == TANGENTIAL_OFF || Style::TANGENTIAL == TANGENTIAL_COULOMB) &&
-                          (Style::ROLLING == ROLLING_OFF || Style::ROLLING == ROLLING_SPRING);
+constexpr bool has_loop = (Style::TANGENTIAL == TANGENTIAL_OFF ||
+                           drumlin::has_spring<Style>)&&(Style::ROLLING == ROLLING_OFF ||
+                                                         Style::ROLLING == ROLLING_SPRING);
 
 template <class Style, class Contact>
 class TransitionPair : public LIGGGHTS::PairStyles::Granular<drumlin::ObservedContact<Style, Contact>>,
@@ -143,11 +144,11 @@ private:
     constexpr int flag =
         CONTACT_NORMAL_MODEL | (rubs ? CONTACT_TANGENTIAL_MODEL : 0) | (rolls ? CONTACT_ROLLING_MODEL : 0);
     if (pair_->list->inum == 0) return; // there may be no arrays
-    drumlin::LoopAdapter<
-        Contact, stepped, rubs ? drumlin::FrictionModel::history : drumlin::FrictionModel::none, rolls, flag>(
+    drumlin::LoopAdapter<Contact, stepped,
+                         rubs ? drumlin::FrictionModel::history : drumlin::FrictionModel::none, rolls, flag>(
         *pair_, *engine_->atom, *engine_->neighbor, clumps_)
         .compute(loop_memory_, *std::get<const drumlin::CoefficientTable<Contact> *>(table()), places(),
-                 stepping_, observers_, engine_->update->dt);
+                 cap(), stepping_, observers_, engine_->update->dt);
   }
 
   static std::string command() { return std::string("pair_style gran model ") + Contact::name; }
@@ -194,13 +195,13 @@ private:
   drumlin::WallReport report_;
 };
 
-/// \tparam Word the rolling model whose name in a deck means this combination
-template <class Contact, int Tangential, int Rolling, int Word = Rolling>
+/// \tparam TangentialWord, RollingWord the models whose names in a deck mean this combination
+template <class Contact, int Tangential, int TangentialWord, int Rolling, int RollingWord = Rolling>
 void add_combination() {
   constexpr int normal = drumlin::normal_model_number<Contact>;
-  using Style =
-      drumlin::NamedStyle<GranStyle<normal, Tangential, COHESION_OFF, Rolling, SURFACE_DEFAULT>,
-                          GranStyle<normal, Tangential, COHESION_OFF, Word, SURFACE_DEFAULT>::HASHCODE>;
+  using Style = drumlin::NamedStyle<
+      GranStyle<normal, Tangential, COHESION_OFF, Rolling, SURFACE_DEFAULT>,
+      GranStyle<normal, TangentialWord, COHESION_OFF, RollingWord, SURFACE_DEFAULT>::HASHCODE>;
   LIGGGHTS::PairStyles::Factory::instance().addStyle(
       "gran", Style::HASHCODE,
       [](LAMMPS *lmp, PairGran *parent, int64_t hash) -> LIGGGHTS::PairStyles::IGranularPairStyle * {
@@ -213,11 +214,11 @@ void add_combination() {
       });
 }
 
-template <class Contact, int Tangential>
+template <class Contact, int Tangential, int Word = Tangential>
 void add_rolling_combinations() {
-  add_combination<Contact, Tangential, ROLLING_OFF>();
-  add_combination<Contact, Tangential, ROLLING_CDT>();
-  add_combination<Contact, Tangential, ROLLING_SPRING, ROLLING_EPSD2>();
+  add_combination<Contact, Tangential, Word, ROLLING_OFF>();
+  add_combination<Contact, Tangential, Word, ROLLING_CDT>();
+  add_combination<Contact, Tangential, Word, ROLLING_SPRING, ROLLING_EPSD2>();
 }
 
 template <class Contact>
@@ -225,7 +226,7 @@ void add_law() {
   Factory::instance().addNormalModel(Contact::name, drumlin::normal_model_number<Contact>);
   add_rolling_combinations<Contact, TANGENTIAL_OFF>();
   add_rolling_combinations<Contact, TANGENTIAL_NO_HISTORY>();
-  add_rolling_combinations<Contact, TANGENTIAL_HISTORY>();
+  add_rolling_combinations<Contact, TANGENTIAL_SPRING, TANGENTIAL_HISTORY>();
   add_rolling_combinations<Contact, TANGENTIAL_COULOMB>();
 }
 

@@ -21,15 +21,16 @@ namespace drumlin {
 template <class Parameters, bool stepped, FrictionModel tangential, bool rolling, int flag>
 class LoopAdapter {
 public:
-  LoopAdapter(LAMMPS_NS::PairGran &pair, const LAMMPS_NS::Atom &atom,
-                     const LAMMPS_NS::Neighbor &neighbor, const LAMMPS_NS::Clumps &clumps)
+  LoopAdapter(LAMMPS_NS::PairGran &pair, const LAMMPS_NS::Atom &atom, const LAMMPS_NS::Neighbor &neighbor,
+              const LAMMPS_NS::Clumps &clumps)
       : pair_(pair), atom_(atom), neighbor_(neighbor), clumps_(clumps), has_clumps_(!clumps.empty()) {}
 
   void compute(LoopMemory &memory, const CoefficientTable<Parameters> &table, const HistoryPlaces &places,
-               LAMMPS_NS::FixStepping *stepping, const ContactObservers &observers, double dt) {
+               physics::Cap cap, LAMMPS_NS::FixStepping *stepping, const ContactObservers &observers,
+               double dt) {
     in_contact_place_ = places[Remembered::touches];
-    ContactLoop<LoopAdapter, Parameters, stepped, tangential, rolling>(
-        *this, atom_, memory, table, places, physics::Cap::coulomb, stepping, observers, dt, true)
+    ContactLoop<LoopAdapter, Parameters, stepped, tangential, rolling>(*this, atom_, memory, table, places,
+                                                                       cap, stepping, observers, dt, true)
         .run(*pair_.list, neighbor_);
   }
 

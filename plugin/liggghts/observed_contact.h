@@ -20,7 +20,7 @@ struct NamedStyle : Style {
 
 /// The tangential model has a spring.
 template <class Style>
-constexpr bool has_spring = Style::TANGENTIAL == LIGGGHTS::ContactModels::TANGENTIAL_HISTORY ||
+constexpr bool has_spring = Style::TANGENTIAL == LIGGGHTS::ContactModels::TANGENTIAL_SPRING ||
                             Style::TANGENTIAL == LIGGGHTS::ContactModels::TANGENTIAL_COULOMB;
 
 /// What the engine calls for each contact: its models, then the observers.
@@ -57,16 +57,14 @@ private:
                                         const LIGGGHTS::ContactModels::SurfacesIntersectData &contact,
                                         LIGGGHTS::ContactModels::ForceData &i_forces,
                                         LIGGGHTS::ContactModels::ForceData &j_forces) const {
-    constexpr bool of_the_engine = Style::TANGENTIAL == LIGGGHTS::ContactModels::TANGENTIAL_HISTORY ||
-                                   Style::TANGENTIAL == LIGGGHTS::ContactModels::TANGENTIAL_NO_HISTORY;
-    if (of_the_engine) { // whose models do not know that the contact begins
+    constexpr bool of_the_engine = Style::TANGENTIAL == LIGGGHTS::ContactModels::TANGENTIAL_NO_HISTORY;
+    if (of_the_engine) { // whose model does not know that the contact begins
       begun.friction = {contact.kt, contact.gammat, friction_[contact.itype][contact.jtype],
-                        has_spring<Style> ? physics::Cap::spring : physics::Cap::total};
+                        physics::Cap::total};
       begun.rub = physics::scaled(1.0 / begun.share, tangential_part(i_forces, contact.en));
       begun.slip = {contact.vtr1, contact.vtr2, contact.vtr3};
       begun.arm_i = contact.cri;
       begun.arm_j = contact.is_wall ? 0.0 : contact.crj;
-      if (has_spring<Style>) begun.spring = contact.contact_history;
     }
     const auto closing = coupled_.stepping().close_friction(begun);
     const physics::Vec3 moment = physics::cross(begun.normal, closing.friction);

@@ -168,8 +168,7 @@ void read_table(CoefficientTable<Contact> &table, LAMMPS_NS::LAMMPS *lmp, int nt
       p.contact = law(i, j);
       damping.set(p, i, j, settings);
     }
-  if (PairSource *contacts = pair_source(lmp))
-    is_wall ? contacts->take_wall(&table) : contacts->take(&table);
+  if (PairSource *contacts = pair_source(lmp)) is_wall ? contacts->take_wall(&table) : contacts->take(&table);
 }
 
 /// Makes the property coefficientFriction, with 0.5 for all pairs of types, if the deck gives none: the

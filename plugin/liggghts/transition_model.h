@@ -194,20 +194,8 @@ private:
   inline void take_tangential_stiffness(SurfacesIntersectData &sidata, const Contact &contact, double r_eff) {
     const double dt = update->dt;
     sidata.kt = contact.tangential(physics::overlap_of_spring(sidata.deltan, -sidata.vn, dt), r_eff);
-    if (places_[Remembered::stiffness] < 0) return;
-    double &before = *stored(sidata, Remembered::stiffness);
-    if (!sidata.computeflag ||
-        !sidata.shearupdate) { // in a set-up, or for computes: the spring does not move
-      if (before > 0.0) sidata.kt = before;
-      return;
-    }
-    const auto keep = [&](Remembered spring, double share) {
-      for (int a = 0; a < 3; ++a)
-        stored(sidata, spring)[a] *= share;
-    };
-    if (tangential_spring_) keep(Remembered::spring, physics::kept_spring(before, sidata.kt));
-    if (rolling_spring_) keep(Remembered::rolling_spring, physics::kept_torque(before, sidata.kt));
-    before = sidata.kt;
+    const bool moves = sidata.computeflag && sidata.shearupdate; // not in a set-up, nor for computes
+    sidata.kt = follow_stiffness(places_, sidata.contact_history, sidata.kt, moves);
   }
 
   /// Sets sidata.Fn and adds the force.
