@@ -97,19 +97,20 @@ private:
   void non_negative() { in(value_, Range::non_negative, ""); }
   void finite() { in(value_, Range::any, ""); }
   void each() {
-    const int range = in_.choice("rule each, the rule of a number", {"finite", "positive", "non_negative"});
+    const int rule = in_.choice("rule each, the rule of a number", {"finite", "positive", "non_negative"});
+    const Range &range = rule == 0 ? Range::any : rule == 1 ? Range::positive : Range::non_negative;
     for (const std::string &entry : list_entries(value_))
-      in(entry, static_cast<Range>(range), ", or several, separated by commas");
+      in(entry, range, ", or several, separated by commas");
   }
   /// \param number_word a number of the value
-  void in(const std::string &number_word, Range range, const char *or_else) {
+  void in(const std::string &number_word, const Range &range, const char *or_else) {
     // With numbers outside of these bounds products of quantities could overflow or underflow.
     constexpr double smallest = 1e-30;
     constexpr double largest = 1e30;
     const double number = parse_number(number_word);
     const double size = std::fabs(number);
     if (!in_range(number, range) || size > largest || (size != 0.0 && size < smallest))
-      reject(std::string(allowed_text(range)) +
+      reject(allowed_text(range) +
              (std::isfinite(number) && in_range(number, range) ? ", between 1e-30 and 1e30 in size" : "") +
              or_else);
   }

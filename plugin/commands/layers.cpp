@@ -1,8 +1,8 @@
 #include "commands/commands.h"
 
 #include "contact/fix_stepping.h"
-#include "physics/contact_mixing.h"
-#include "physics/time_step.h"
+#include "physics/laws/contact_mixing.h"
+#include "physics/scheme/stability_limit.h"
 #include "support/arguments.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 // four rows are turned into four columns by instructions that need no memory.
 
 #include "engine.h"
-#include "physics/contact_block.h"
+#include "physics/scheme/contact_block.h"
 
 #include <algorithm>
 #include <cmath>

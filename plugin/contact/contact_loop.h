@@ -1,28 +1,19 @@
 #pragma once
 // The loop over the contacts of balls in a step, for the pair styles of both engines.
 
+#include "contact/contact_history.h"
 #include "contact/contact_observer.h"
 #include "contact/contact_settings.h"
 #include "contact/pair_list.h"
-#include "contact/stepped_contact.h"
+#include "contact/exert_contact.h"
 #include "engine.h"
-#include "physics/contact_block.h"
+#include "physics/scheme/contact_block.h"
 
 #include <algorithm>
 #include <utility>
 #include <vector>
 
 namespace drumlin {
-
-/// Where in a contact's history its numbers are.
-struct HistoryPlaces {
-  int spring;    ///< of friction: three numbers
-  int stiffness; ///< tangential stiffness, where that varies and a spring depends on it
-  int force;     ///< normal force; second-order scheme only
-  int rolling;   ///< torque of rolling resistance: three numbers
-  int count;     ///< numbers of the contact law in the history of a contact
-  int stride;    ///< from a contact's history to the next, at least `count`
-};
 
 /// Memory of a loop, which the pair style keeps: the rows are filled anew in each step, the pairs when the
 /// engine has searched for neighbours.
@@ -35,6 +26,7 @@ struct LoopMemory {
 /// the balls one after the other in the order of the list: sums are the same whatever the blocks are.
 /// `Engine` is the adapter, with these functions:
 ///   flags(i), histories(i)    of the contacts of ball i: whether they touched, and the numbers stored
+///   stride()                  numbers from the history of a contact to that of the next
 ///   touched(flag, history)    whether the balls touched in the step before
 ///   mark(flag, history, touches)  stores that for the next step
 ///   mass(i)                   kg; below 0 if the ball is frozen
@@ -56,11 +48,11 @@ public:
   void run(const LAMMPS_NS::NeighList &list, const LAMMPS_NS::Neighbor &neighbor) {
     rows_.fill(atom_, [this](int i) { return engine_.mass(i); });
     pairs_.follow(list, neighbor, atom_.nlocal + atom_.nghost, [this](int i, int place) {
-      return remembers && engine_.touched(engine_.flags(i)[place], history_of(i, place));
+      return has_history && engine_.touched(engine_.flags(i)[place], history_of(i, place));
     });
     const int pairs = static_cast<int>(pairs_.pairs().size());
     for (int first = 0; first < pairs; first += at_once) {
-      const Found found = pairs_.find<remembers>(rows_, first, std::min(pairs, first + at_once), found_);
+      const Found found = pairs_.find<has_history>(rows_, first, std::min(pairs, first + at_once), found_);
       changed_ |= found.changed << count_;
       for (int n = 0; n < found.count; ++n)
         contacts_[count_++] = expect(found_[n]);
@@ -81,10 +73,11 @@ private:
   static constexpr bool rubs = tangential != FrictionModel::none;
   static constexpr bool springs = tangential == FrictionModel::history;
   static constexpr bool stores_stiffness = Parameters::tangential_varies && (springs || rolling);
-  static constexpr bool remembers = stepped || rolling || springs;
+  static constexpr bool remembers = Parameters::remembers; // the law
+  static constexpr bool has_history = stepped || rolling || springs || remembers;
 
   double *history_of(int i, int place) const {
-    return engine_.histories(i) + static_cast<std::ptrdiff_t>(places_.stride) * place;
+    return engine_.histories(i) + static_cast<std::ptrdiff_t>(engine_.stride()) * place;
   }
 
   /// Describes a pair that is in contact, and prefetches the data that its force will need. These data are scattered
@@ -96,7 +89,7 @@ private:
     if constexpr (stepped) __builtin_prefetch(stepping_->rows() + 4 * j);
     __builtin_prefetch(atom_.f[0] + 3 * j, 1);
     if constexpr (rubs || rolling) __builtin_prefetch(atom_.torque[0] + 3 * j, 1);
-    if constexpr (!remembers) return {pair.i, pair.j, found, true, nullptr};
+    if constexpr (!has_history) return {pair.i, pair.j, found, true, nullptr};
     double *const history = history_of(pair.i, pair.place);
     __builtin_prefetch(history, 1);
     return {pair.i, pair.j, found, true, history};
@@ -104,7 +97,7 @@ private:
 
   /// Copies velocities, masses and contact history of the first `count` contacts into the block.
   void take(int count) {
-    if constexpr (remembers) {
+    if constexpr (has_history) {
       for (int n = 0; n < count; ++n)
         take_history(n, contacts_[n].history);
       new_ = 0;
@@ -134,10 +127,12 @@ private:
   }
 
   void take_history(int n, const double *history) {
-    if constexpr (springs) block_.spring.set(n, vector_at(history, places_.spring));
-    if constexpr (stores_stiffness) block_.stored_stiffness[n] = history[places_.stiffness];
-    if constexpr (stepped) block_.force_before[n] = history[places_.force];
-    if constexpr (rolling) block_.rolling_spring.set(n, vector_at(history, places_.rolling));
+    if constexpr (springs) block_.spring.set(n, vector_at(history, places_[Remembered::spring]));
+    if constexpr (stores_stiffness) block_.stored_stiffness[n] = history[places_[Remembered::stiffness]];
+    if constexpr (stepped) block_.force_before[n] = history[places_[Remembered::force]];
+    if constexpr (remembers) block_.memory_before[n] = history[places_[Remembered::memory]];
+    if constexpr (rolling)
+      block_.rolling_spring.set(n, vector_at(history, places_[Remembered::rolling_spring]));
   }
 
   static Vec3 vector_at(const double *history, int place) {
@@ -256,7 +251,12 @@ private:
     return all;
   }
 
-  /// The normal forces of the contacts that need more than going_on(), and the dashpots of the others.
+  /// The law of a contact with what it remembered at the beginning of the step.
+  typename Parameters::Law law_before(int n, const Parameters &parameters) const {
+    return parameters.law(block_.m_eff[n], block_.r_eff[n], remembers ? block_.memory_before[n] : 0.0);
+  }
+
+  /// The normal forces of the contacts that need more than going_on().
   void exert_rare(ContactSet rare, int first, int end, const Parameters &parameters) {
     int done = first;
     for_each(rare, first, end, [&](int n) {
@@ -277,8 +277,8 @@ private:
   [[gnu::noinline]] void tell_heat(int first, int end, const Parameters &parameters) const {
     for (int n = first; n < end; ++n) {
       const physics::StepMotion motion{block_.overlap[n], block_.rate_half[n], block_.rate_half[n], dt_};
-      const auto law = parameters.law(block_.m_eff[n], block_.r_eff[n]);
-      stepping_->tell_heat(contacts_[n].i, contacts_[n].j, physics::heat_of_spring(law, motion), 0.0);
+      stepping_->tell_heat(contacts_[n].i, contacts_[n].j,
+                           physics::heat_of_spring(law_before(n, parameters), motion), 0.0);
     }
   }
 
@@ -286,7 +286,7 @@ private:
   /// depend on it, or is solved for together with others.
   [[gnu::noinline]] void exert_one(int n, const Parameters &parameters) {
     const BlockContact &contact = contacts_[n];
-    const auto law = parameters.law(block_.m_eff[n], block_.r_eff[n]);
+    const auto law = law_before(n, parameters);
     const StepContact now{contact.i,         contact.j,           block_.normal[n], nullptr,
                           block_.overlap[n], block_.rate_half[n], block_.m_eff[n],  1.0};
     if (!contact.touches) {
@@ -294,7 +294,7 @@ private:
       return;
     }
     physics::ContactState state{block_.force_before[n], (new_ >> n & 1) == 0};
-    double &stored_force = contact.history[places_.force];
+    double &stored_force = contact.history[places_[Remembered::force]];
     block_.push[n] = exert_contact(law, *stepping_, now, state, stored_force);
     block_.force[n] = state.force;
     coupled_[n] = stepping_->coupled_at(&stored_force);
@@ -324,14 +324,14 @@ private:
         rubbing.slip = block_.slip[n];
         rubbing.arm_i = block_.arm_i[n];
         rubbing.arm_j = block_.arm_j[n];
-        if constexpr (springs) rubbing.spring = history + places_.spring;
+        if constexpr (springs) rubbing.spring = history + places_[Remembered::spring];
       }
     }
     if constexpr (rolling) {
       rubbing.rolling =
           law.rolling_resistance(block_.kt[n], physics::effective_radius(block_.ri[n], block_.rj[n]));
       rubbing.roll = block_.rolling[n];
-      rubbing.rolling_spring = history + places_.rolling;
+      rubbing.rolling_spring = history + places_[Remembered::rolling_spring];
     }
   }
 
@@ -349,7 +349,7 @@ private:
 
   /// Adds the forces of the first `count` contacts to their balls, and stores the contacts' history.
   void add_forces(int count) {
-    if constexpr (remembers) {
+    if constexpr (has_history) {
       for (int n = 0; n < count; ++n)
         keep_history(n, contacts_[n].history);
       for_each(changed_ & ~new_, 0, count, [this](int n) { end_contact(n); });
@@ -371,7 +371,8 @@ private:
   [[gnu::noinline]] void report(int n) const {
     const BlockContact &contact = contacts_[n];
     const ContactCoefficients<Parameters> &coefficients = law_of(n);
-    const auto law = coefficients.contact.law(block_.m_eff[n], block_.r_eff[n]);
+    const auto law =
+        coefficients.contact.law(block_.m_eff[n], block_.r_eff[n], remembers ? block_.memory[n] : 0.0);
     ContactRecord record = record_of_law(law, block_.overlap[n], stepped);
     record.i = contact.i;
     record.j = contact.j;
@@ -380,7 +381,7 @@ private:
     record.share = 1.0;
     record.normal_force = block_.force[n];
     if constexpr (stepped) {
-      record.final_force = contact.history + places_.force;
+      record.final_force = contact.history + places_[Remembered::force];
       if (any_coupled_ && coupled_[n] != nullptr) record.change = &coupled_[n]->change;
     }
     if constexpr (rubs) {
@@ -391,7 +392,7 @@ private:
     }
     if constexpr (springs) {
       record.tangential_stiffness = block_.kt[n];
-      record.spring = contact.history + places_.spring;
+      record.spring = contact.history + places_[Remembered::spring];
     }
     if constexpr (rolling) {
       const double radius = physics::effective_radius(block_.ri[n], block_.rj[n]);
@@ -413,7 +414,7 @@ private:
       block_.torque_j.set(n, {});
     }
     if constexpr (rolling) block_.rolling.set(n, {});
-    std::fill_n(contacts_[n].history, places_.count, 0.0);
+    std::fill_n(contacts_[n].history, places_.count(), 0.0);
   }
 
   void set_torques(int n, const Vec3 &friction) {
@@ -423,11 +424,13 @@ private:
   }
 
   void keep_history(int n, double *history) const {
-    if constexpr (stepped) history[places_.force] = block_.force[n];
+    if constexpr (stepped) history[places_[Remembered::force]] = block_.force[n];
+    if constexpr (remembers) history[places_[Remembered::memory]] = block_.memory[n];
     if (!moves_) return;
-    if constexpr (springs) keep_vector(history, places_.spring, block_.spring[n]);
-    if constexpr (stores_stiffness) history[places_.stiffness] = block_.stored_stiffness[n];
-    if constexpr (rolling) keep_vector(history, places_.rolling, block_.rolling_spring[n]);
+    if constexpr (springs) keep_vector(history, places_[Remembered::spring], block_.spring[n]);
+    if constexpr (stores_stiffness) history[places_[Remembered::stiffness]] = block_.stored_stiffness[n];
+    if constexpr (rolling)
+      keep_vector(history, places_[Remembered::rolling_spring], block_.rolling_spring[n]);
   }
 
   static void keep_vector(double *history, int place, const Vec3 &vector) {

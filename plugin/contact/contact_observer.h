@@ -2,10 +2,10 @@
 // The interface by which fixes observe contacts and bonds: energy balance, guard, dumps and event log use it.
 // Observers are fixes, so that each engine instance has its own.
 
-#include "contact/laws.h"
+#include "physics/laws/laws.h"
 #include "engine.h"
-#include "physics/event_location.h"
-#include "physics/time_step.h"
+#include "physics/scheme/event_location.h"
+#include "physics/scheme/stability_limit.h"
 #include "physics/vec3.h"
 
 #include <array>
@@ -28,7 +28,7 @@ struct ContactRecord {
   double overlap;                      ///< m
   double radius;                       ///< of the smaller ball, m
   double share;                        ///< 1; less where triangles of a mesh share the force of one contact
-  double spring_force;                 ///< N, of the normal spring alone
+  double elastic_force;                ///< N, d spring_energy / d overlap
   double spring_energy;                ///< J, in the normal spring
   double normal_stiffness;             ///< N/m
   double normal_dashpot;       ///< N s/m; 0 under `stepping second`, where it does not limit the time step
@@ -63,9 +63,9 @@ template <class Law>
 ContactRecord record_of_law(const Law &law, double overlap, bool second_order) {
   ContactRecord record{};
   record.overlap = overlap;
-  record.spring_force = law.spring(overlap);
+  record.elastic_force = law.elastic(overlap);
   record.spring_energy = law.energy(overlap);
-  record.normal_stiffness = law.stiffness(overlap);
+  record.normal_stiffness = law.stiffest(overlap);
   if (!second_order) record.normal_dashpot = law.dashpot(overlap);
   return record;
 }

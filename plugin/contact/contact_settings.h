@@ -1,11 +1,11 @@
 #pragma once
 // Settings and coefficients of the contact law, the same for both engines, and the keywords that both have.
 
-#include "contact/contact_source.h"
-#include "contact/laws.h"
-#include "physics/friction_law.h"
-#include "physics/restitution.h"
-#include "physics/rolling_law.h"
+#include "contact/contact_history.h"
+#include "physics/laws/friction_law.h"
+#include "physics/laws/laws.h"
+#include "physics/laws/rolling_law.h"
+#include "physics/scheme/implicit_dashpot.h"
 #include "support/arguments.h"
 
 #include <string>
@@ -15,8 +15,9 @@
 
 namespace drumlin {
 
-/// kt, N/m, of the linear law where a deck gives none: 2/7 of the normal stiffness.
-inline double default_tangential_stiffness(double normal_stiffness) { return 2.0 / 7.0 * normal_stiffness; }
+/// The friction model. history: with a tangential spring, limited as Friction::cap says; no_history: a
+/// dashpot alone.
+enum class FrictionModel { none, no_history, history };
 
 /// Coefficients of a pair of types, of the law with the parameters `Contact`. Where a deck does not give ct,
 /// it is half of the normal damping coefficient.
@@ -83,7 +84,7 @@ inline double radius_for(double r) {
 template <class Contact>
 void add_dashpot(physics::Dashpots &all, const Contact &contact, double m_eff, double r_eff, double overlap) {
   const auto law = contact.law(m_eff, r_eff);
-  all.add(law.stiffness(overlap), law.dashpot(overlap));
+  all.add(law.stiffest(overlap), law.dashpot(overlap));
 }
 
 /// What a deck gives for the normal dashpot: c, D, or the restitution e of an impact without gravity.
@@ -98,26 +99,54 @@ struct ContactSettings {
   physics::Cap cap = physics::Cap::total;
   bool rolling = false;           ///< whether there is rolling resistance
   bool tangential_varies = false; ///< of the law, as its parameters say
+  bool remembers = false;         ///< the same
 
-  /// Numbers that a contact remembers: the tangential spring, the tangential stiffness where that varies and a
-  /// spring depends on it, then with the second-order scheme the normal force, then with rolling resistance the
-  /// torque of its spring.
-  int history() const { return rolling_place() + (rolling ? 3 : 0); }
-  int rolling_place() const { return force_place() + (stock ? 0 : 1); }
-  int force_place() const { return stiffness_place() + (stores_stiffness() ? 1 : 0); }
-  int stiffness_place() const { return has_spring() ? 3 : 0; }
+  template <class Parameters>
+  void take_law() {
+    tangential_varies = Parameters::tangential_varies;
+    remembers = Parameters::remembers;
+  }
+
   bool has_spring() const { return tangential == FrictionModel::history; }
-  bool stores_stiffness() const { return tangential_varies && (has_spring() || rolling); }
+  /// Whether a contact stores what an engine's list of remembered numbers has.
+  bool stores(Remembered what) const {
+    switch (what) {
+    case Remembered::spring:
+      return has_spring();
+    case Remembered::rolling_spring:
+      return rolling;
+    case Remembered::stiffness:
+      return tangential_varies && (has_spring() || rolling);
+    case Remembered::memory:
+      return remembers;
+    case Remembered::force:
+    case Remembered::touches:
+      return !stock;
+    }
+    return false;
+  }
+  /// Where in a contact's history its numbers are. \param order in which the engine's adapter stores them
+  template <class Order>
+  HistoryPlaces places(const Order &order) const {
+    HistoryPlaces all;
+    for (const Remembered what : order)
+      if (stores(what)) all.add(what);
+    return all;
+  }
 
-  /// Sets the damping of a law's parameters to what a deck gives, and the transition. A restitution, > 0 and
-  /// <= 1, becomes the D that gives it under the transition condition.
+  /// Sets the damping of a law's parameters to what a deck gives, and the transition.
   template <class Contact>
   void set_damping(Contact &contact, double given) const {
-    contact.damping = damping == DampingInput::restitution
-                          ? physics::damping_ratio_of_restitution(transition, given)
-                          : given;
-    contact.damping_kind = kind();
     contact.transition = transition;
+    contact.damping_kind = kind();
+    if (damping == DampingInput::restitution)
+      contact.set_restitution(given);
+    else
+      contact.damping = given;
+  }
+  /// Which numbers a deck may give for it.
+  Range damping_range() const {
+    return damping == DampingInput::restitution ? Range{0.0, true, 1.0} : Range::non_negative;
   }
   /// What that damping means.
   physics::Damping kind() const {

@@ -4,13 +4,13 @@
 
 namespace drumlin {
 
-AnyLaw ContactSource::law(int i, int j) const {
+AnyLaw ContactSource::law(int i, int j, double memory) const {
   const LAMMPS_NS::Atom &atom = balls();
   return std::visit(
       [&](const auto *coefficients) -> AnyLaw {
         const auto &contact = coefficients->at(atom.type[i], atom.type[j]).contact;
         using Contact = std::decay_t<decltype(contact)>;
-        return contact.law(effective_mass(i, j), radius_for<Contact>(atom.radius[i], atom.radius[j]));
+        return contact.law(effective_mass(i, j), radius_for<Contact>(atom.radius[i], atom.radius[j]), memory);
       },
       table());
 }

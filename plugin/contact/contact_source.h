@@ -4,9 +4,9 @@
 // the deck uses another pair style.
 
 #include "engine.h"
-#include "contact/laws.h"
-#include "physics/friction_law.h"
-#include "physics/stepping.h"
+#include "contact/contact_settings.h"
+#include "physics/laws/friction_law.h"
+#include "physics/scheme/implicit_dashpot.h"
 
 #include <array>
 #include <cmath>
@@ -14,12 +14,6 @@
 
 namespace drumlin {
 
-/// The friction model. history: with a tangential spring, limited as Friction::cap says; no_history: a
-/// dashpot alone.
-enum class FrictionModel { none, no_history, history };
-
-template <class Contact>
-class CoefficientTable; // contact_settings.h
 template <class Contact>
 using TableOf = const CoefficientTable<Contact> *;
 /// The coefficients of all pairs of types, of the law that the deck has chosen.
@@ -36,8 +30,8 @@ class ContactSource {
 public:
   /// The coefficients of the law. Valid from the initialization of a run on.
   virtual AnyTable table() const = 0;
-  /// The law of balls i and j (local or ghost indices).
-  AnyLaw law(int i, int j) const;
+  /// The law of balls i and j (local or ghost indices). \param memory of their contact, see law_memory()
+  AnyLaw law(int i, int j, double memory) const;
   /// What that law depends on besides the types of the balls: their masses, kg, and radii, m.
   std::array<double, 4> sizes(int i, int j) const {
     return {mass(i), mass(j), balls().radius[i], balls().radius[j]};
@@ -61,9 +55,17 @@ public:
   virtual FrictionModel friction_model() const = 0;
   /// Neighbour list of the pairs of balls that have this law, each pair once (twice across ranks with newton off).
   virtual const LAMMPS_NS::NeighList *contact_list() const = 0;
-  /// Tangential spring of ball i and its jj-th neighbour in that list; valid until the list is built anew.
-  /// For FrictionModel::history only.
-  virtual TangentialSpring tangential_spring(int i, int jj) const = 0;
+  /// What the contact of ball i and its jj-th neighbour in that list remembers; valid until the list is built anew.
+  /// nullptr if contacts remember nothing.
+  virtual const double *history(int i, int jj) const = 0;
+  /// Where in that its numbers are.
+  virtual const HistoryPlaces &places() const = 0;
+  /// The tangential spring of that contact.
+  TangentialSpring tangential_spring(int i, int jj) const {
+    return {stored(i, jj, Remembered::spring), stored(i, jj, Remembered::stiffness)};
+  }
+  /// What it remembers for its law; nullptr: the law remembers nothing.
+  const double *law_memory(int i, int jj) const { return stored(i, jj, Remembered::memory); }
 
 protected:
   ContactSource() = default;
@@ -72,20 +74,31 @@ protected:
   ContactSource &operator=(const ContactSource &) = default;
   virtual const LAMMPS_NS::Atom &balls() const = 0;
   virtual physics::Cap cap() const = 0;
+
+private:
+  const double *stored(int i, int jj, Remembered what) const {
+    const int place = places()[what];
+    return place < 0 ? nullptr : history(i, jj) + place;
+  }
 };
+
+/// What ContactSource::law_memory() points to.
+inline double memory_at(const double *memory) { return memory != nullptr ? *memory : 0.0; }
 
 /// The law of a pair of balls for a fix that needs it in every step.
 class PairLaw {
 public:
-  PairLaw(const ContactSource &source, int i, int j) : sizes_(source.sizes(i, j)), law_(source.law(i, j)) {}
-  /// Makes the law anew if the mass or the radius of a ball has changed.
-  void follow(const ContactSource &source, int i, int j) {
-    if (source.sizes(i, j) != sizes_) *this = PairLaw(source, i, j);
+  PairLaw(const ContactSource &source, int i, int j, double memory)
+      : sizes_(source.sizes(i, j)), memory_(memory), law_(source.law(i, j, memory)) {}
+  /// Makes the law anew if the mass or the radius of a ball, or what the contact remembers, has changed.
+  void follow(const ContactSource &source, int i, int j, double memory) {
+    if (memory != memory_ || source.sizes(i, j) != sizes_) *this = PairLaw(source, i, j, memory);
   }
   const AnyLaw &law() const { return law_; }
 
 private:
   std::array<double, 4> sizes_;
+  double memory_;
   AnyLaw law_;
 };
 

@@ -31,17 +31,19 @@ void FixPairObserver::list_pairs() {
     for (int jj = 0; jj < list->numneigh[i]; ++jj) {
       const int j = engine::neighbour_index(list->firstneigh[i][jj]);
       if (!engine::owns_pair(lmp, i, j) || !selects(i, j)) continue;
-      Pair pair{i, j, std::minmax(atom->tag[i], atom->tag[j]), {*source_, i, j}, {}};
-      if (const auto known = states_.find(pair.tags); known != states_.end()) {
-        pair.state = known->second;
+      const Tags tags = std::minmax(atom->tag[i], atom->tag[j]);
+      const double *remembered = source_->law_memory(i, jj);
+      State state{};
+      if (const auto known = states_.find(tags); known != states_.end()) {
+        state = known->second;
       } else {
         const drumlin::PairMotion now = drumlin::pair_motion(*atom, i, j);
-        pair.state = {now.overlap, now.rate};
+        state = {{now.overlap, now.rate}, drumlin::memory_at(remembered)};
         // The balls have become neighbours during the run. One step earlier the gap between them was about as
         // large as the neighbour skin.
-        if (!update->setupflag) pair.state.overlap -= dt_ * now.rate;
+        if (!update->setupflag) state = {{now.overlap - dt_ * now.rate, now.rate}, 0.0};
       }
-      pairs_.push_back(pair);
+      pairs_.push_back({i, j, tags, remembered, {*source_, i, j, state.memory}, state});
     }
   }
   states_.clear();
@@ -54,7 +56,7 @@ void FixPairObserver::pre_exchange() {
   // The balls may move to other ranks now. Each rank therefore gets the overlaps and rates of all pairs.
   struct Entry {
     int tag_i, tag_j;
-    physics::OverlapState state;
+    State state;
   };
   std::vector<Entry> mine;
   for (const Pair &pair : pairs_)
@@ -88,8 +90,8 @@ void FixPairObserver::end_of_step() {
   for (Pair &pair : pairs_) {
     const drumlin::PairMotion motion = drumlin::pair_motion(*atom, pair.i, pair.j);
     const physics::OverlapState now{motion.overlap, motion.rate};
-    pair.law.follow(*source_, pair.i, pair.j);
-    see_pair({pair.tags.first, pair.tags.second, pair.law.law(), dt_, pair.state, now});
-    pair.state = now;
+    pair.law.follow(*source_, pair.i, pair.j, pair.state.memory);
+    see_pair({pair.tags.first, pair.tags.second, pair.law.law(), dt_, pair.state.overlap, now});
+    pair.state = {now, drumlin::memory_at(pair.memory)};
   }
 }

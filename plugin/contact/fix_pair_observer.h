@@ -48,11 +48,17 @@ protected:
 
 private:
   using Tags = std::pair<int, int>; // lower first
+  /// At the end of the last step.
+  struct State {
+    drumlin::physics::OverlapState overlap;
+    double memory; // what the contact remembers for its law
+  };
   struct Pair {
     int i, j;
     Tags tags;
-    drumlin::PairLaw law;
-    drumlin::physics::OverlapState state; // at the end of the last step
+    const double *memory; // of the contact; nullptr: its law has none
+    drumlin::PairLaw law; // of the present step, with what the contact remembered at its beginning
+    State state;
   };
 
   void list_pairs();
@@ -60,9 +66,8 @@ private:
   const drumlin::ContactSource *source_ = nullptr;
   double dt_ = 0.0; // s, of the present step; at the end of a step another fix may have set that of the next
   std::vector<Pair> pairs_;
-  std::map<Tags, drumlin::physics::OverlapState>
-      states_;                 // of the pairs of all ranks, until the next list_pairs()
-  bool pairs_outdated_ = true; // whether the neighbour list has been built since list_pairs()
+  std::map<Tags, State> states_; // of the pairs of all ranks, until the next list_pairs()
+  bool pairs_outdated_ = true;   // whether the neighbour list has been built since list_pairs()
 };
 
 } // namespace LAMMPS_NS

@@ -6,9 +6,9 @@
 #include "contact/contact_observer.h"
 #include "contact/contact_source.h"
 #include "engine.h"
-#include "physics/contact_step.h"
-#include "physics/friction_law.h"
-#include "physics/rolling_law.h"
+#include "physics/scheme/advance.h"
+#include "physics/laws/friction_law.h"
+#include "physics/laws/rolling_law.h"
 
 #include <cstdint>
 #include <deque>

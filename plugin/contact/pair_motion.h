@@ -2,7 +2,7 @@
 // Kinematics of a pair of balls at the end of a step, when position and velocity belong to the same instant.
 
 #include "engine.h"
-#include "physics/friction_law.h"
+#include "physics/laws/friction_law.h"
 
 #include <algorithm>
 #include <cmath>

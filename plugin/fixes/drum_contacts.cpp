@@ -18,9 +18,9 @@ void DrumContacts::list_pairs(const ContactSource &source, int drum, int frame) 
       const int j = engine::neighbour_index(list->firstneigh[i][jj]);
       const double sign = this->sign(i, j);
       if (sign == 0.0) continue;
-      pairs_.push_back({i, j, sign, PairLaw(source, i, j),
-                        source.friction_model() == FrictionModel::history ? source.tangential_spring(i, jj)
-                                                                          : TangentialSpring{}});
+      const double *memory = source.law_memory(i, jj);
+      pairs_.push_back(
+          {i, j, sign, PairLaw(source, i, j, memory_at(memory)), source.tangential_spring(i, jj), memory});
     }
   }
 }
@@ -65,7 +65,7 @@ DrumContactSums DrumContacts::sums(const std::array<double, 3> &axis) {
   std::array<double, 5> mine{};
   mine[4] = std::exchange(missed_heat_, 0.0);
   for (Pair &pair : pairs_) {
-    pair.law.follow(*source_, pair.i, pair.j);
+    pair.law.follow(*source_, pair.i, pair.j, memory_at(pair.memory));
     std::visit([&](const auto &law) { add(mine, pair, law, axis); }, pair.law.law());
   }
   std::array<double, 5> all = mine;

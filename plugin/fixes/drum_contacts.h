@@ -42,6 +42,7 @@ private:
     double sign; // 1: ball i belongs to the drum; -1: ball j does
     PairLaw law;
     TangentialSpring spring; // of the tangential model
+    const double *memory;    // of the contact; nullptr: its law has none
   };
 
   template <class Law>

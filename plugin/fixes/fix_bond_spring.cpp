@@ -4,7 +4,8 @@
 #include "contact/fix_stepping.h"
 #include "support/restart_record.h"
 
-#include "physics/stepping.h"
+#include "physics/laws/linear_contact.h"
+#include "physics/scheme/implicit_dashpot.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -38,7 +39,7 @@ FixBondSpring::FixBondSpring(LAMMPS *lammps, int narg, char **arg) : GhostFix(la
   while (!in.empty()) {
     const std::string keyword = in.word("keyword");
     if (keyword == "length") {
-      const std::string allowed = std::string("current or ") + drumlin::allowed_text(Range::positive);
+      const std::string allowed = "current or " + drumlin::allowed_text(Range::positive);
       const std::string length = in.word("keyword length", allowed);
       current_length_ = length == "current";
       if (current_length_) continue;
@@ -191,7 +192,7 @@ void FixBondSpring::post_force(int vflag) {
   apply(acted_.force);
 }
 
-/// The force under second-order stepping. The formulas are those of a contact, see physics/stepping.h.
+/// The force under second-order stepping. The formulas are those of a contact, see physics/scheme/implicit_dashpot.h.
 void FixBondSpring::post_force_second_order() {
   const physics::StepMotion motion{state_.distance - bond_.length, state_.rate, state_.rate_before,
                                    update->dt};

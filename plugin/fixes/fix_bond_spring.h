@@ -4,7 +4,7 @@
 #include "contact/deck_check.h"
 #include "engine.h"
 #include "contact/contact_observer.h"
-#include "physics/bond_law.h"
+#include "physics/bodies/bond_law.h"
 
 #include <optional>
 

@@ -4,7 +4,7 @@
 #include "contact/contact_observer.h"
 #include "contact/deck_check.h"
 #include "engine.h"
-#include "physics/absorbing_boundary.h"
+#include "physics/bodies/absorbing_boundary.h"
 
 #include <array>
 #include <utility>

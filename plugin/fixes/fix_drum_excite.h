@@ -3,7 +3,7 @@
 
 #include "contact/deck_check.h"
 #include "engine.h"
-#include "physics/excitation.h"
+#include "physics/bodies/excitation.h"
 #include "support/clock.h"
 
 #include <optional>

@@ -5,9 +5,9 @@
 
 #include "contact/contact_observer.h"
 #include "contact/contact_settings.h"
-#include "contact/stepped_contact.h"
-#include "physics/contact_law.h"
-#include "physics/friction_law.h"
+#include "contact/exert_contact.h"
+#include "physics/laws/contact_law.h"
+#include "physics/laws/friction_law.h"
 
 #include <algorithm>
 #include <array>
@@ -17,13 +17,18 @@
 namespace drumlin {
 
 /// A contact in one step.
-struct Contact {
+struct WallContact {
   StepContact normal;
-  physics::Vec3 slip;  ///< m/s, of ball i's surface relative to j's
-  double r_eff;        ///< m, effective radius; 0 for a law that does not depend on it
-  double arm_i, arm_j; ///< m, from the centre of each ball to the point where friction acts
-  double *history;     ///< see ContactSettings::history(); nullptr if there is none
-  bool in_contact;     ///< in the step before
+  physics::Vec3 slip;          ///< m/s, of ball i's surface relative to j's
+  double r_eff;                ///< m, effective radius; 0 for a law that does not depend on it
+  double arm_i, arm_j;         ///< m, from the centre of each ball to the point where friction acts
+  double *history;             ///< what the contact remembers,
+  const HistoryPlaces *places; ///< and where its numbers are
+  double memory;               ///< for its law, at the beginning of the step
+  bool in_contact;             ///< in the step before
+
+  /// What it remembers, which must be stored.
+  double *stored(Remembered what) const { return history + (*places)[what]; }
 };
 
 /// The force of a contact on ball i, of which j gets the opposite. The torque on each ball is -arm times
@@ -43,46 +48,22 @@ struct ContactForces {
   }
 };
 
-// Places in a contact's history, as ContactSettings has them, for settings that are known at compile time.
-template <class Parameters, FrictionModel tangential, bool rolling>
-constexpr bool stores_stiffness = Parameters::tangential_varies &&
-                                  (tangential == FrictionModel::history || rolling);
-template <FrictionModel tangential>
-constexpr int stiffness_place = tangential == FrictionModel::history ? 3 : 0;
-template <class Parameters, FrictionModel tangential, bool rolling>
-constexpr int force_place = stiffness_place<tangential> +
-                            (stores_stiffness<Parameters, tangential, rolling> ? 1 : 0);
+/// The order in which a contact's numbers are stored, which restart files have.
+constexpr std::array<Remembered, 5> history_order{Remembered::spring, Remembered::stiffness,
+                                                  Remembered::force, Remembered::rolling_spring,
+                                                  Remembered::memory};
 
-/// Tangential stiffness of one contact in a step, N/m. Where it varies, the springs of friction and of rolling
-/// resistance in the contact history follow its change. \param moves see exert()
-template <FrictionModel tangential, bool rolling, class Coefficients>
-inline double tangential_stiffness(const ContactSettings &settings, const Coefficients &coefficients,
-                                   const Contact &p, double dt, bool moves) {
-  using Parameters = decltype(coefficients.contact);
+/// Tangential stiffness of one contact in a step, N/m. \param moves see exert()
+template <class Parameters>
+inline double tangential_stiffness(const Parameters &contact, const WallContact &p, double dt, bool moves) {
   const StepContact &n = p.normal;
-  if constexpr (!Parameters::tangential_varies) return coefficients.contact.tangential(n.overlap, p.r_eff);
-  const double kt =
-      coefficients.contact.tangential(physics::overlap_of_spring(n.overlap, n.rate_half, dt), p.r_eff);
-  if constexpr (stores_stiffness<Parameters, tangential, rolling>) {
-    double &stored = p.history[stiffness_place<tangential>];
-    if (!moves) return stored > 0.0 ? stored : kt;
-    if constexpr (tangential == FrictionModel::history) {
-      const double kept = physics::kept_spring(stored, kt);
-      for (int a = 0; a < 3; ++a)
-        p.history[a] *= kept;
-    }
-    if constexpr (rolling) {
-      const double kept = physics::kept_torque(stored, kt);
-      for (int a = 0; a < 3; ++a)
-        p.history[settings.rolling_place() + a] *= kept;
-    }
-    stored = kt;
-  }
-  return kt;
+  if constexpr (!Parameters::tangential_varies) return contact.tangential(n.overlap, p.r_eff);
+  const double kt = contact.tangential(physics::overlap_of_spring(n.overlap, n.rate_half, dt), p.r_eff);
+  return follow_stiffness(*p.places, p.history, kt, moves);
 }
 
 /// Time, s, of a step for which a spring of a contact is stretched: see physics::time_in_contact(). \param moves see exert()
-inline double time_of_spring(const Contact &p, double dt, bool moves) {
+inline double time_of_spring(const WallContact &p, double dt, bool moves) {
   if (!moves) return 0.0;
   return p.in_contact ? dt : physics::time_in_contact(p.normal.overlap, p.normal.rate_half, dt);
 }
@@ -93,16 +74,16 @@ inline double time_of_spring(const Contact &p, double dt, bool moves) {
 template <bool stepped, FrictionModel tangential, bool rolling, class Parameters>
 inline ContactForces exert(const ContactSettings &settings,
                            const ContactCoefficients<Parameters> &coefficients,
-                           LAMMPS_NS::FixStepping *stepping, const Contact &p, double dt, bool moves) {
+                           LAMMPS_NS::FixStepping *stepping, const WallContact &p, double dt, bool moves) {
   const StepContact &n = p.normal;
-  const auto law = coefficients.contact.law(n.m_eff, p.r_eff);
+  auto law = coefficients.contact.law(n.m_eff, p.r_eff, p.memory);
   ContactForces out{};
   physics::ContactState state;
   double push = 0.0; // along the normal, N
   if constexpr (!stepped) {
     push = physics::advance_stock(law, {n.overlap, n.rate_half, n.rate_half, dt}, state).kick;
   } else {
-    double &stored_force = p.history[force_place<Parameters, tangential, rolling>];
+    double &stored_force = *p.stored(Remembered::force);
     state.force = stored_force;
     state.in_contact = p.in_contact;
     if (hold_contact(law, *stepping, n.i, n.j, n.normal, step_motion(*stepping, n), n.m_eff, n.share, state))
@@ -117,24 +98,24 @@ inline ContactForces exert(const ContactSettings &settings,
     stored_force = state.force;
   }
   out.normal_force = state.force;
+  if constexpr (Parameters::remembers) {
+    law.remember(n.overlap);
+    *p.stored(Remembered::memory) = law.memory();
+  }
   constexpr bool rubs = tangential != FrictionModel::none;
   if constexpr (rubs || rolling)
-    out.tangential_stiffness =
-        tangential_stiffness<tangential, rolling>(settings, coefficients, p, dt, moves);
+    out.tangential_stiffness = tangential_stiffness(coefficients.contact, p, dt, moves);
   if constexpr (rubs) {
     const physics::Friction friction =
         coefficients.tangential(out.tangential_stiffness, law.dashpot(n.overlap), settings.cap);
     if constexpr (tangential == FrictionModel::history) {
+      double *const spring = p.stored(Remembered::spring);
       const physics::FrictionStep step = physics::friction_step(
-          friction, out.normal_force, n.normal, p.slip, {p.history[0], p.history[1], p.history[2]},
+          friction, out.normal_force, n.normal, p.slip, {spring[0], spring[1], spring[2]},
           settings.cap == physics::Cap::coulomb ? time_of_spring(p, dt, moves)
           : moves                               ? dt
                                                 : 0.0);
-      if (moves) {
-        p.history[0] = step.spring[0];
-        p.history[1] = step.spring[1];
-        p.history[2] = step.spring[2];
-      }
+      if (moves) std::copy_n(step.spring.begin(), 3, spring);
       out.tangential_force = step.force;
     } else
       out.tangential_force =
@@ -146,7 +127,7 @@ inline ContactForces exert(const ContactSettings &settings,
       rubbing.slip = p.slip;
       rubbing.arm_i = p.arm_i;
       rubbing.arm_j = p.arm_j;
-      if (tangential == FrictionModel::history) rubbing.spring = p.history;
+      if (tangential == FrictionModel::history) rubbing.spring = p.stored(Remembered::spring);
     }
     out.moment = physics::cross(n.normal, out.tangential_force);
   }
@@ -178,8 +159,10 @@ void with_models(const ContactSettings &settings, Run &&run) {
 /// The record of a contact for observers. \param radius of the smaller ball, m \param rolling_radius effective, m
 template <class Parameters>
 ContactRecord record_of(const ContactSettings &settings, const ContactCoefficients<Parameters> &coefficients,
-                        const Contact &p, const ContactForces &forces, double radius, double rolling_radius) {
-  const auto law = coefficients.contact.law(p.normal.m_eff, p.r_eff);
+                        const WallContact &p, const ContactForces &forces, double radius,
+                        double rolling_radius) {
+  const double memory = Parameters::remembers ? *p.stored(Remembered::memory) : 0.0;
+  const auto law = coefficients.contact.law(p.normal.m_eff, p.r_eff, memory);
   ContactRecord record = record_of_law(law, p.normal.overlap, !settings.stock);
   record.i = p.normal.i;
   record.j = p.normal.j;
@@ -190,10 +173,10 @@ ContactRecord record_of(const ContactSettings &settings, const ContactCoefficien
     record.tangential_dashpot = coefficients.tangential_dashpot(law.dashpot(p.normal.overlap));
   if (settings.has_spring()) {
     record.tangential_stiffness = forces.tangential_stiffness;
-    record.spring = p.history;
+    record.spring = p.stored(Remembered::spring);
   }
   record.normal_force = forces.normal_force;
-  if (!settings.stock) record.final_force = p.history + settings.force_place();
+  if (!settings.stock) record.final_force = p.stored(Remembered::force);
   if (forces.coupled != nullptr) record.change = &forces.coupled->change;
   record.tangential_force = forces.tangential_force;
   record.torque_i = physics::sum(forces.rolling, -p.arm_i, forces.moment);

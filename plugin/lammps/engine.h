@@ -28,7 +28,7 @@
 #include "version.h"
 
 #include "lammps/lammps_version.h"
-#include "physics/contact_mixing.h"
+#include "physics/laws/contact_mixing.h"
 #include "support/deforming_box.h"
 
 #include <array>

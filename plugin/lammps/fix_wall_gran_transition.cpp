@@ -122,7 +122,11 @@ void FixWallGranTransition::init() {
     error->all(FLERR, drumlin::engine::error_text(drumlin::other_pair_style(lmp, command)));
   check_coefficients();
   observers_.find(*modify);
-  stepping_ = pair_->contact_settings().stock ? nullptr : FixStepping::find(lmp);
+  const drumlin::ContactSettings &settings = pair_->contact_settings();
+  stepping_ = settings.stock ? nullptr : FixStepping::find(lmp);
+  places_of_side_ = {};
+  for (const drumlin::Remembered what : drumlin::history_order)
+    if (what == drumlin::Remembered::spring || settings.stores(what)) places_of_side_.add(what);
   if (region_id_.empty()) return;
   const auto refuse = [this](const char *why) {
     error->all(FLERR,
@@ -223,7 +227,7 @@ void FixWallGranTransition::touch(const Table &table, int i, int place, const ph
   const double mass = pair_->mass_unless_frozen(i);
   const double *v = atom->v[i];
 
-  drumlin::Contact p{};
+  drumlin::WallContact p{};
   p.normal.i = i;
   p.normal.j = -1;
   p.normal.normal = normal;
@@ -232,17 +236,19 @@ void FixWallGranTransition::touch(const Table &table, int i, int place, const ph
   p.normal.m_eff = mass;
   p.normal.share = 1.0;
   p.r_eff = drumlin::radius_for<Parameters>(atom->radius[i]);
-  p.history = remembered + (settings.has_spring() ? 1 : 4);
+  p.history = remembered + 1;
+  p.places = &places_of_side_;
+  if constexpr (Parameters::remembers) p.memory = *p.stored(drumlin::Remembered::memory);
   p.in_contact = remembered[0] != 0.0;
 
   drumlin::ContactForces forces{};
   const std::size_t announced = stepped ? stepping_->announced() : 0;
   if (!touches) { // it did, a step ago
     if constexpr (stepped)
-      forces.force = physics::scaled(
-          drumlin::end_contact(law.contact.law(p.normal.m_eff, p.r_eff), *stepping_, p.normal,
-                               p.history[drumlin::force_place<Parameters, tangential, rolling>]),
-          normal);
+      forces.force =
+          physics::scaled(drumlin::end_contact(law.contact.law(p.normal.m_eff, p.r_eff, p.memory), *stepping_,
+                                               p.normal, *p.stored(drumlin::Remembered::force)),
+                          normal);
     std::fill_n(remembered, of_a_side, 0.0);
   } else {
     remembered[0] = 1.0;
@@ -256,8 +262,9 @@ void FixWallGranTransition::touch(const Table &table, int i, int place, const ph
     if constexpr (rolling) {
       const double *w = atom->omega[i];
       forces.rolling = drumlin::rolling_torque(
-          settings, law, {normal, {w[0], w[1], w[2]}, atom->radius[i]}, forces.tangential_stiffness,
-          forces.normal_force, p.history, drumlin::time_of_spring(p, update->dt, moves), forces.rubbing());
+          law, {normal, {w[0], w[1], w[2]}, atom->radius[i]}, forces.tangential_stiffness,
+          forces.normal_force, p.stored(drumlin::Remembered::rolling_spring),
+          drumlin::time_of_spring(p, update->dt, moves), forces.rubbing());
     }
     if (observers_.any())
       observers_.tell(drumlin::record_of(settings, law, p, forces, atom->radius[i], atom->radius[i]));
@@ -319,18 +326,17 @@ void FixWallGranTransition::unpack_restart(int i, int nth) {
   for (int n = 0; n < nth; ++n)
     values += static_cast<int>(values[0]);
   const int count = static_cast<int>(values[0]) - 1;
-  constexpr int of_earlier = 5; // numbers of a side in a file of version 0.2.0: touch, spring, force
-  if (count == places_ * of_earlier) {
-    std::fill_n(memory_[i], numbers(), 0.0);
+  std::fill_n(memory_[i], numbers(), 0.0);
+  for (const int of_file :
+       {5, 9, of_a_side}) { // numbers of a side in files of version 0.2.0, of later ones, and of this
+    if (count != places_ * of_file) continue;
     for (int place = 0; place < places_; ++place)
-      std::copy_n(values + 1 + static_cast<std::ptrdiff_t>(place) * of_earlier, of_earlier, row(i, place));
+      std::copy_n(values + 1 + static_cast<std::ptrdiff_t>(place) * of_file, of_file, row(i, place));
     return;
   }
-  if (count != numbers())
-    error->one(FLERR, drumlin::engine::error_text(std::string(command) +
-                                                  ": the restart file holds another wall under the ID '" +
-                                                  id + "'; allowed: the wall that it was, or another ID"));
-  std::copy_n(values + 1, numbers(), memory_[i]);
+  error->one(FLERR, drumlin::engine::error_text(std::string(command) +
+                                                ": the restart file holds another wall under the ID '" + id +
+                                                "'; allowed: the wall that it was, or another ID"));
 }
 
 double FixWallGranTransition::memory_usage() {

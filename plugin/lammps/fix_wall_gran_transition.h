@@ -40,7 +40,7 @@ public:
   int sides() const override { return region_id_.empty() ? (has_[0] ? 1 : 0) + (has_[1] ? 1 : 0) : places_; }
 
 private:
-  static constexpr int of_a_side = 9; // touch, then ContactSettings::history() numbers, at most
+  static constexpr int of_a_side = 10; // whether it touches, then what a contact can remember, at most
   int numbers() const { return places_ * of_a_side; }
   double *row(int i, int place) { return memory_[i] + static_cast<std::ptrdiff_t>(place) * of_a_side; }
   void check_coefficients() const;
@@ -64,6 +64,8 @@ private:
   double **memory_ = nullptr;     // of each ball, for each side
   std::array<double, 3> force_{}; // N, of this rank
   const PairGranTransition *pair_ = nullptr;
+  drumlin::HistoryPlaces
+      places_of_side_; // behind the first number; a spring has its place whether there is one or not
   drumlin::ContactObservers observers_;
   FixStepping *stepping_ = nullptr;
 };

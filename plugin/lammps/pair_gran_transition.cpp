@@ -3,7 +3,7 @@
 #include "fix_dummy.h"
 #include "support/arguments.h"
 #include "contact/pair_motion.h"
-#include "lammps/pair_contacts.h"
+#include "lammps/loop_adapter.h"
 #include "lammps/pair_words.h"
 #include "lammps/fix_neigh_history_transition.h"
 
@@ -83,12 +83,11 @@ const drumlin::ContactSource *drumlin::contact_source(engine::LAMMPS *lmp) {
 
 void PairGranTransition::settings(int narg, char **arg) {
   drumlin::Arguments in(error, "pair_style " + style_name(), narg, arg);
-  const int history_before = settings_.history();
+  const int numbers_before = places_.count();
   std::visit(
       [&](const auto &table) {
         using Parameters = std::decay_t<decltype(table.at(0, 0).contact)>;
-        settings_ = drumlin::read_settings(in, drumlin::LawWords<Parameters>::all);
-        settings_.tangential_varies = Parameters::tangential_varies;
+        take_settings(drumlin::read_settings(in, drumlin::LawWords<Parameters>::all()));
       },
       tables_);
   // A second pair_style line: coefficients mean something else under other settings, and contacts may
@@ -96,12 +95,20 @@ void PairGranTransition::settings(int narg, char **arg) {
   if (allocated)
     for (int i = 1; i <= atom->ntypes; ++i)
       std::fill_n(setflag[i] + 1, atom->ntypes, 0);
-  if (history_ != nullptr && settings_.history() != history_before) {
+  if (history_ != nullptr && places_.count() != numbers_before) {
     modify->replace_fix(history_id, placeholder_id + " all DUMMY", 1);
     history_ = nullptr;
   }
   // While the deck is parsed: a fix added later, in the initialization of a run, would miss that run.
   settings_.stock ? FixStepping::dismiss(lmp) : void(FixStepping::provide(lmp));
+}
+
+void PairGranTransition::take_settings(const drumlin::ContactSettings &settings) {
+  settings_ = settings;
+  std::visit(
+      [this](const auto &table) { settings_.take_law<std::decay_t<decltype(table.at(0, 0).contact)>>(); },
+      tables_);
+  places_ = settings_.places(drumlin::history_order);
 }
 
 void PairGranTransition::allocate() {
@@ -173,15 +180,14 @@ void PairGranTransition::check_engine() {
 
 void PairGranTransition::init_style() {
   check_engine();
-  const bool remembers = settings_.history() > 0;
-  engine::version::request_list(neighbor, this, instance_me, remembers);
-  if (remembers && history_ == nullptr)
-    history_ = static_cast<FixNeighHistory *>(
-        modify->replace_fix(placeholder_id,
-                            history_id + " all " + FixNeighHistoryTransition::style_name + " " +
-                                std::to_string(settings_.history()),
-                            1));
-  if (remembers) history_->pair = this;
+  const bool has_history = places_.count() > 0;
+  engine::version::request_list(neighbor, this, instance_me, has_history);
+  if (has_history && history_ == nullptr)
+    history_ = static_cast<FixNeighHistory *>(modify->replace_fix(
+        placeholder_id,
+        history_id + " all " + FixNeighHistoryTransition::style_name + " " + std::to_string(places_.count()),
+        1));
+  if (has_history) history_->pair = this;
   stepping_ = settings_.stock ? nullptr : FixStepping::find(lmp);
 
   observers_.find(*modify);
@@ -226,10 +232,10 @@ std::string PairGranTransition::missing_coefficients(int itype, int jtype) const
   const std::string types = std::to_string(i) + " " + std::to_string(j);
   const std::string stiffness = std::visit(
       [](const auto &table) {
-        return drumlin::LawWords<std::decay_t<decltype(table.at(0, 0).contact)>>::stiffness;
+        return drumlin::LawWords<std::decay_t<decltype(table.at(0, 0).contact)>>::stiffness();
       },
       tables_);
-  return "types " + types + " have no coefficients; allowed: 'pair_coeff " + types + " " + stiffness +
+  return "types " + types + " have no coefficients; allowed: 'pair_coeff " + types + stiffness +
          " damping ...' or 'pair_coeff * * ...' before (coefficients are not mixed)";
 }
 
@@ -301,9 +307,9 @@ physics::Dashpots PairGranTransition::wall_dashpots(int i) const {
   return all;
 }
 
-drumlin::TangentialSpring PairGranTransition::tangential_spring(int i, int jj) const {
-  const double *spring = history_->firstvalue[i] + static_cast<std::ptrdiff_t>(settings_.history()) * jj;
-  return {spring, settings_.tangential_varies ? spring + settings_.stiffness_place() : nullptr};
+const double *PairGranTransition::history(int i, int jj) const {
+  if (places_.count() == 0) return nullptr;
+  return history_->firstvalue[i] + static_cast<std::ptrdiff_t>(places_.count()) * jj;
 }
 
 void PairGranTransition::compute(int eflag, int vflag) {
@@ -314,7 +320,7 @@ void PairGranTransition::compute(int eflag, int vflag) {
       [this](const auto &table) {
         drumlin::with_models(settings_, [&](auto stepped, auto tangential, auto rolling) {
           using Parameters = std::decay_t<decltype(table.at(0, 0).contact)>;
-          Contacts<Parameters, decltype(stepped)::value, decltype(tangential)::value,
+          LoopAdapter<Parameters, decltype(stepped)::value, decltype(tangential)::value,
                    decltype(rolling)::value>(*this, table)
               .compute();
         });
@@ -322,10 +328,9 @@ void PairGranTransition::compute(int eflag, int vflag) {
       tables_);
 }
 
-const double *PairGranTransition::history(int i, int j) const {
+const double *PairGranTransition::history_of_pair(int i, int j) const {
   for (int jj = 0; jj < list->numneigh[i]; ++jj)
-    if (engine::neighbour_index(list->firstneigh[i][jj]) == j)
-      return history_->firstvalue[i] + static_cast<std::ptrdiff_t>(settings_.history()) * jj;
+    if (engine::neighbour_index(list->firstneigh[i][jj]) == j) return history(i, jj);
   return nullptr;
 }
 
@@ -336,8 +341,8 @@ double PairGranTransition::single(int i, int j, int itype, int jtype, double, do
   force_over_distance = 0.0;
   std::fill_n(svector, single_extra, 0.0);
   const drumlin::PairMotion now = drumlin::pair_motion(*atom, i, j);
-  const double *remembered = settings_.history() > 0 ? history(i, j) : nullptr;
-  if (now.overlap <= 0.0 || (settings_.history() > 0 && remembered == nullptr)) return 0.0;
+  const double *remembered = places_.count() > 0 ? history_of_pair(i, j) : nullptr;
+  if (now.overlap <= 0.0 || (places_.count() > 0 && remembered == nullptr)) return 0.0;
   std::visit(
       [&](const auto &table) {
         tell_single(table.at(itype, jtype), now, i, j, remembered, force_over_distance);
@@ -353,17 +358,23 @@ void PairGranTransition::tell_single(const ContactCoefficients<Parameters> &law,
                                      const drumlin::PairMotion &now, int i, int j, const double *remembered,
                                      double &force_over_distance) {
   const double r_eff = drumlin::radius_for<Parameters>(atom->radius[i], atom->radius[j]);
-  const auto normal = law.contact.law(effective_mass(i, j), r_eff);
+  const auto stored = [&](drumlin::Remembered what) {
+    return places_[what] < 0 ? nullptr : remembered + places_[what];
+  };
+  using drumlin::Remembered;
+  const auto normal =
+      law.contact.law(effective_mass(i, j), r_eff, drumlin::memory_at(stored(Remembered::memory)));
   const double normal_force =
-      settings_.stock ? normal.force(now.overlap, now.rate) : remembered[settings_.force_place()];
+      settings_.stock ? normal.force(now.overlap, now.rate) : *stored(Remembered::force);
   force_over_distance = normal_force / (atom->radius[i] + atom->radius[j] - now.overlap);
-  const bool rubs = settings_.tangential != FrictionModel::none, springs = settings_.has_spring();
-  const double *stored = settings_.stores_stiffness() ? remembered + settings_.stiffness_place() : nullptr;
-  const double kt = stored != nullptr && *stored > 0.0 ? *stored : law.contact.tangential(now.overlap, r_eff);
+  const bool rubs = settings_.tangential != FrictionModel::none;
+  const double *stiffness = stored(Remembered::stiffness);
+  const double kt =
+      stiffness != nullptr && *stiffness > 0.0 ? *stiffness : law.contact.tangential(now.overlap, r_eff);
   const physics::Friction friction =
       rubs ? law.tangential(kt, normal.dashpot(now.overlap), settings_.cap) : physics::Friction{};
   const physics::Vec3 across = drumlin::friction_force(*atom, i, j, now, friction, normal_force,
-                                                       springs ? remembered : nullptr, update->dt);
+                                                       stored(Remembered::spring), update->dt);
   const physics::Vec3 slip = drumlin::tangential_velocity(*atom, i, j, now);
   double *value = std::copy_n(across.begin(), 3, svector);
   *value++ = std::sqrt(physics::dot(across, across));
@@ -373,12 +384,9 @@ void PairGranTransition::tell_single(const ContactCoefficients<Parameters> &law,
   *value = now.overlap;
 }
 
-/// The springs turn round when the balls change places, the tangential stiffness and the normal force do not.
 void PairGranTransition::transfer_history(double *source, double *target DRUMLIN_TRANSFER_TYPES) {
-  for (int n = 0; n < settings_.history(); ++n) {
-    const bool turns_round = n < settings_.stiffness_place() || n >= settings_.rolling_place();
-    target[n] = turns_round ? -source[n] : source[n];
-  }
+  for (int n = 0; n < places_.count(); ++n)
+    target[n] = places_.turns_round(n) ? -source[n] : source[n];
 }
 
 /// Pair style hybrid keeps the settings of its parts, and no coefficients. Rolling resistance is the second bit of a word, so that
@@ -394,26 +402,19 @@ void PairGranTransition::read_restart_settings(FILE *file) {
   int words[5] = {};
   if (comm->me == 0) utils::sfread(FLERR, words, sizeof(int), 5, file, nullptr, error);
   MPI_Bcast(words, 5, MPI_INT, 0, world);
-  settings_ = {
-      static_cast<physics::Transition>(words[0]),
-      static_cast<drumlin::DampingInput>(words[1]),
-      (words[2] & 1) != 0,
-      static_cast<FrictionModel>(words[3]),
-      static_cast<physics::Cap>(words[4]),
-      (words[2] & 2) != 0,
-      std::visit([](const auto &table) { return decltype(table.at(0, 0).contact)::tangential_varies; },
-                 tables_)};
+  take_settings({static_cast<physics::Transition>(words[0]), static_cast<drumlin::DampingInput>(words[1]),
+                 (words[2] & 1) != 0, static_cast<FrictionModel>(words[3]),
+                 static_cast<physics::Cap>(words[4]), (words[2] & 2) != 0});
   if (!settings_.stock) FixStepping::provide(lmp);
 }
 
 void PairGranTransition::write_restart(FILE *file) {
   write_restart_settings(file);
   const auto write = [&](auto table) { // a copy
-    using Words = drumlin::LawWords<std::decay_t<decltype(table.at(0, 0).contact)>>;
     for (int i = 1; i <= atom->ntypes; ++i)
       for (int j = i; j <= atom->ntypes; ++j) {
         std::vector<double> numbers{static_cast<double>(setflag[i][j])};
-        for (const double *number : Words::numbers(table.at(i, j)))
+        for (const double *number : drumlin::restart_numbers(table.at(i, j)))
           numbers.push_back(*number);
         if (settings_.rolling) numbers.push_back(table.at(i, j).rolling);
         std::fwrite(numbers.data(), sizeof(double), numbers.size(), file);
@@ -430,7 +431,7 @@ void PairGranTransition::read_restart(FILE *file) {
     for (int i = 1; i <= atom->ntypes; ++i)
       for (int j = i; j <= atom->ntypes; ++j) {
         ContactCoefficients<Parameters> p;
-        const auto places = drumlin::LawWords<Parameters>::numbers(p);
+        const std::vector<double *> places = drumlin::restart_numbers(p);
         std::vector<double> numbers(1 + places.size() + (settings_.rolling ? 1 : 0));
         const int count = static_cast<int>(numbers.size());
         if (comm->me == 0)

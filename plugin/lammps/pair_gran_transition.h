@@ -56,7 +56,8 @@ public:
   double mass_unless_frozen(int i) const;
   drumlin::physics::Dashpots wall_dashpots(int i) const override;
   drumlin::FrictionModel friction_model() const override { return settings_.tangential; }
-  drumlin::TangentialSpring tangential_spring(int i, int jj) const override;
+  const double *history(int i, int jj) const override;
+  const drumlin::HistoryPlaces &places() const override { return places_; }
   const NeighList *contact_list() const override { return list; }
 
   /// The pair style of this engine instance if it is of this class, or the only part of a hybrid pair style
@@ -84,17 +85,19 @@ private:
   template <class Parameters>
   void set_coefficients(int i, int j, const drumlin::ContactCoefficients<Parameters> &);
   template <class Parameters, bool stepped, drumlin::FrictionModel tangential, bool rolling>
-  class Contacts; // see pair_contacts.h
+  class LoopAdapter; // see loop_adapter.h
   template <class Parameters>
   void tell_single(const drumlin::ContactCoefficients<Parameters> &, const drumlin::PairMotion &, int i,
                    int j, const double *remembered, double &force_over_distance);
   void check_engine();
   void share_rigid_masses();
-  /// The history of the contact of ball i with its neighbour j; nullptr if j is not in i's neighbour list.
-  const double *history(int i, int j) const;
+  void take_settings(const drumlin::ContactSettings &settings);
+  /// The history of the contact of balls i and j; nullptr if j is not in i's neighbour list, or if there is none.
+  const double *history_of_pair(int i, int j) const;
 
   drumlin::ContactSettings settings_;
-  Tables tables_; // of the law
+  drumlin::HistoryPlaces places_; // that follow from them
+  Tables tables_;                 // of the law
   FixNeighHistory *history_ = nullptr;
   FixStepping *stepping_ = nullptr;
   drumlin::LoopMemory loop_memory_;

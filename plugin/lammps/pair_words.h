@@ -6,6 +6,8 @@
 #include "contact/contact_settings.h"
 
 #include <array>
+#include <string>
+#include <vector>
 
 namespace drumlin {
 
@@ -56,76 +58,92 @@ inline bool next_is_given(Arguments &in, const char *what) {
   return false;
 }
 
-/// What pair_coeff gives of the parameters of a law, but its damping. Each law has its own specialization.
-template <class Parameters>
-struct LawWords;
-
-template <>
-struct LawWords<physics::LinearContact> {
-  static constexpr const char *stiffness = "k";
-  static constexpr const char *all = "I J k damping [mu [kt [ct]]] [rolling mu_r]";
-  static constexpr const char *before_friction = "I J k damping";
-  static constexpr const char *behind_friction = " mu [kt|NULL [ct|NULL]]";
-
+/// The words of pair_coeff for a law, which follow from the table of its parameters, for error texts.
+template <class Contact>
+struct LawWords {
+  static std::string of_pair() {
+    std::string words;
+    for (const auto &p : Contact::parameters())
+      if (!p.of_friction) words += std::string(" ") + p.word;
+    return words;
+  }
+  static std::string of_material() {
+    std::string words;
+    for (const physics::MaterialParameter &p : Contact::material())
+      words += std::string(" ") + p.word;
+    return words;
+  }
+  static bool has_material() { return Contact::material().size() > 0; }
   /// What stands before the damping.
-  static void read(Arguments &in, physics::LinearContact &p) {
-    p.stiffness = in.number("normal stiffness k", Range::positive);
-    p.tangential_stiffness = default_tangential_stiffness(p.stiffness);
+  static std::string stiffness() { return has_material() ? of_material() : of_pair(); }
+  /// The forms of a line up to the damping, each with an end.
+  static std::string forms(const std::string &end) {
+    const std::string own = "I J" + stiffness() + " damping" + end;
+    return has_material() ? own + " or I J effective" + of_pair() + " damping" + end : own;
   }
-  /// What stands behind the friction coefficient, but ct.
-  static void read_tangential(Arguments &in, physics::LinearContact &p) {
-    if (next_is_given(in, "tangential stiffness kt"))
-      p.tangential_stiffness = in.number("tangential stiffness kt", Range::positive);
+  static std::string all() {
+    std::string friction = "[ct]", close;
+    for (const auto &p : Contact::parameters())
+      if (p.of_friction) {
+        friction = std::string("[") + p.word + " " + friction;
+        close += "]";
+      }
+    return forms(" [mu " + friction + close + "] [rolling mu_r]");
   }
-  /// What a restart file stores, in this order.
-  static std::array<double *, 6> numbers(ContactCoefficients<physics::LinearContact> &p) {
-    return {&p.contact.stiffness,  &p.contact.damping,         &p.friction, &p.contact.tangential_stiffness,
-            &p.tangential_damping, &p.tangential_damping_share};
+  static std::string behind_friction() {
+    std::string friction = "[ct|NULL", close = "]";
+    for (const auto &p : Contact::parameters())
+      if (p.of_friction) {
+        friction = std::string("[") + p.word + "|NULL " + friction;
+        close += "]";
+      }
+    return (has_material() ? ", then mu " : " mu ") + friction + close;
   }
 };
 
-template <>
-struct LawWords<physics::HertzContact> {
-  static constexpr const char *stiffness = "E nu";
-  static constexpr const char *all =
-      "I J E nu damping [mu [ct]] [rolling mu_r] or I J effective E* G* damping [mu [ct]] [rolling mu_r]";
-  static constexpr const char *before_friction = "I J E nu damping or I J effective E* G* damping";
-  static constexpr const char *behind_friction = ", then mu [ct|NULL]";
+/// Reads a parameter of a law.
+template <class Parameter>
+double read_parameter(Arguments &in, const Parameter &p) {
+  return in.number(std::string(p.name) + " " + p.word, p.range);
+}
 
-  /// E and nu of two bodies of one material, or the effective moduli of two that differ.
-  static void read(Arguments &in, physics::HertzContact &p) {
-    if (!in.empty() && in.peek() == "effective") {
-      in.word("effective");
-      p.youngs_modulus = in.number("effective Young's modulus E*", Range::positive);
-      p.shear_modulus = in.number("effective shear modulus G*", Range::positive);
-      return;
+/// What stands before the damping: numbers of the materials, the same for both bodies, or after the word `effective` those
+/// of the pair; of a law without materials those of the pair.
+template <class Contact>
+void read_before_damping(Arguments &in, Contact &contact) {
+  if constexpr (constexpr std::size_t numbers = Contact::material().size(); numbers > 0) {
+    if (in.empty() || in.peek() != "effective") {
+      std::array<double, numbers> values{};
+      for (std::size_t n = 0; n < numbers; ++n)
+        values[n] = read_parameter(in, Contact::material()[n]);
+      contact.set_material(values, values);
+      return contact.set_defaults();
     }
-    const double E = in.number("Young's modulus E", Range::positive);
-    const std::string word = in.empty() ? "" : in.peek();
-    const double nu = in.number("Poisson's ratio nu");
-    if (nu <= -1.0 || nu > 0.5)
-      in.fail("Poisson's ratio nu is '" + word + "'; allowed: a number > -1 and <= 0.5");
-    p.set_moduli(E, nu, E, nu);
+    in.word("effective");
   }
-  /// The spring of friction follows from the moduli.
-  static void read_tangential(Arguments &, physics::HertzContact &) {}
-  static std::array<double *, 6> numbers(ContactCoefficients<physics::HertzContact> &p) {
-    return {&p.contact.youngs_modulus, &p.contact.shear_modulus,   &p.contact.damping, &p.friction,
-            &p.tangential_damping,     &p.tangential_damping_share};
-  }
-};
+  for (const auto &p : Contact::parameters())
+    if (!p.of_friction) contact.*p.value = read_parameter(in, p);
+  contact.set_defaults();
+}
+
+/// What a restart file stores, in this order.
+template <class Contact>
+std::vector<double *> restart_numbers(ContactCoefficients<Contact> &p) {
+  std::vector<double *> numbers, of_friction;
+  for (const auto &one : Contact::parameters())
+    (one.of_friction ? of_friction : numbers).push_back(&(p.contact.*one.value));
+  numbers.insert(numbers.end(), {&p.contact.damping, &p.friction});
+  numbers.insert(numbers.end(), of_friction.begin(), of_friction.end());
+  numbers.insert(numbers.end(), {&p.tangential_damping, &p.tangential_damping_share});
+  return numbers;
+}
 
 /// Damping, N s/m, D or e.
 inline double read_damping(Arguments &in, const ContactSettings &settings) {
-  const bool restitution = settings.damping == DampingInput::restitution;
-  const std::string word = in.empty() ? "" : in.peek();
-  const double damping = in.number(restitution                               ? "restitution e"
-                                   : settings.damping == DampingInput::ratio ? "damping ratio D"
-                                                                             : "damping coefficient c",
-                                   restitution ? Range::positive : Range::non_negative);
-  if (restitution && damping > 1.0)
-    in.fail("restitution e is '" + word + "'; allowed: a finite number > 0 and <= 1");
-  return damping;
+  return in.number(settings.damping == DampingInput::restitution ? "restitution e"
+                   : settings.damping == DampingInput::ratio     ? "damping ratio D"
+                                                                 : "damping coefficient c",
+                   settings.damping_range());
 }
 
 /// `rolling mu_r`, needed with rolling resistance and refused without.
@@ -146,19 +164,20 @@ template <class Parameters>
 ContactCoefficients<Parameters> read_coefficients(Arguments &in, const ContactSettings &settings) {
   using Words = LawWords<Parameters>;
   ContactCoefficients<Parameters> p;
-  Words::read(in, p.contact);
+  read_before_damping(in, p.contact);
   settings.set_damping(p.contact, read_damping(in, settings));
   if (settings.tangential != FrictionModel::none) {
     p.friction = in.number("friction coefficient mu", Range::non_negative);
-    Words::read_tangential(in, p.contact);
+    for (const auto &one : Parameters::parameters())
+      if (one.of_friction && next_is_given(in, one.name)) p.contact.*one.value = read_parameter(in, one);
     if (next_is_given(in, "tangential damping ct"))
       p.set_tangential_damping(in.number("tangential damping coefficient ct", Range::non_negative));
   }
   p.rolling = read_rolling(in, settings);
   const bool rubs = settings.tangential != FrictionModel::none;
   if (!in.empty())
-    in.fail("'" + in.peek() + "' is left over; allowed: " + Words::before_friction +
-            (rubs ? Words::behind_friction : "") + (settings.rolling ? " rolling mu_r" : "") +
+    in.fail("'" + in.peek() + "' is left over; allowed: " + Words::forms("") +
+            (rubs ? Words::behind_friction() : "") + (settings.rolling ? " rolling mu_r" : "") +
             (rubs ? "" : "; friction needs keyword tangential of pair_style"));
   return p;
 }

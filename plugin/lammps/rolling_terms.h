@@ -3,7 +3,7 @@
 
 #include "contact/contact_settings.h"
 #include "contact/fix_stepping.h"
-#include "physics/rolling_law.h"
+#include "physics/laws/rolling_law.h"
 
 namespace drumlin {
 
@@ -16,15 +16,13 @@ struct RollingMotion {
 
 /// Computes the torque on ball i, N m, of which ball j gets the opposite, and updates the spring.
 /// \param kt tangential stiffness in this step, N/m
-/// \param history of the contact, see ContactSettings::history()
+/// \param spring of the contact, three numbers of its history
 /// \param time for which the spring is stretched, s, see time_of_spring(); 0 in the set-up of a run
 /// \param rubbing see ContactForces::rubbing()
 template <class Parameters>
-inline physics::Vec3 rolling_torque(const ContactSettings &settings,
-                                    const ContactCoefficients<Parameters> &coefficients,
+inline physics::Vec3 rolling_torque(const ContactCoefficients<Parameters> &coefficients,
                                     const RollingMotion &motion, double kt, double normal_force,
-                                    double *history, double time, LAMMPS_NS::FixStepping::Rubbing *rubbing) {
-  double *spring = history + settings.rolling_place();
+                                    double *spring, double time, LAMMPS_NS::FixStepping::Rubbing *rubbing) {
   const physics::Rolling rolling = coefficients.rolling_resistance(kt, motion.radius);
   const physics::RollingStep step = physics::rolling_step(rolling, normal_force, motion.normal, motion.spin,
                                                           {spring[0], spring[1], spring[2]}, time);

@@ -18,11 +18,11 @@
 #include "engine.h"
 #include "contact/deck_check.h"
 #include "contact/fix_stepping.h"
-#include "liggghts/contact_table.h"
+#include "liggghts/pair_source.h"
 #include "liggghts/fix_keep_history.h"
 #include "liggghts/model_settings.h"
 #include "liggghts/observed_contact.h"
-#include "liggghts/pair_contacts.h"
+#include "liggghts/loop_adapter.h"
 #include "liggghts/registration.h"
 #include "liggghts/wall_report.h"
 
@@ -42,10 +42,10 @@ using LAMMPS_NS::TriMesh;
 static_assert(sizeof(SurfacesIntersectData) == 368,
               "contact data of this LIGGGHTS differ from the stock binary's");
 
-/// Whether a combination keeps a tangential spring or a rolling torque as contact history, which has to be
-/// reset when the contact ends.
+/// Whether a combination keeps a tangential spring or a rolling torque as contact history, which has to be reset when the
+/// contact ends, as what a law remembers has.
 template <class Style>
-constexpr bool has_history = drumlin::has_spring<Style> || Style::ROLLING == ROLLING_SPRING;
+constexpr bool has_springs = drumlin::has_spring<Style> || Style::ROLLING == ROLLING_SPRING;
 
 template <class Style>
 constexpr drumlin::OtherModels other_models{drumlin::has_spring<Style>, Style::ROLLING == ROLLING_SPRING,
@@ -54,24 +54,26 @@ constexpr drumlin::OtherModels other_models{drumlin::has_spring<Style>, Style::R
 /// Prepares the engine for a combination, before that reads its properties.
 template <class Style, class Contact>
 void prepare(LAMMPS *engine) {
-  if (has_history<Style>) engine->neighbor->register_contact_dist_factor(drumlin::contact_distance_factor);
+  if (has_springs<Style> || Contact::remembers)
+    engine->neighbor->register_contact_dist_factor(drumlin::contact_distance_factor);
   if (Style::TANGENTIAL != TANGENTIAL_OFF)
     drumlin::provide_friction_default(engine, std::string("model ") + Contact::name, engine->atom->ntypes);
 }
 
 /// Whether all models of a combination are the plugin's, so that ContactLoop can compute its contacts.
 template <class Style>
-constexpr bool has_loop = (Style::TANGENTIAL == TANGENTIAL_OFF || Style::TANGENTIAL == TANGENTIAL_COULOMB) &&
-                          (Style::ROLLING == ROLLING_OFF || Style::ROLLING == ROLLING_SPRING);
+constexpr bool has_loop = (Style::TANGENTIAL == TANGENTIAL_OFF ||
+                           drumlin::has_spring<Style>)&&(Style::ROLLING == ROLLING_OFF ||
+                                                         Style::ROLLING == ROLLING_SPRING);
 
 template <class Style, class Contact>
 class TransitionPair : public LIGGGHTS::PairStyles::Granular<drumlin::ObservedContact<Style, Contact>>,
-                       public drumlin::PairContacts {
+                       public drumlin::PairSource {
   using Base = LIGGGHTS::PairStyles::Granular<drumlin::ObservedContact<Style, Contact>>;
 
 public:
   TransitionPair(LAMMPS *engine, PairGran *pair, int64_t hash)
-      : Base(engine, pair, hash), PairContacts(engine), engine_(engine), pair_(pair) {}
+      : Base(engine, pair, hash), PairSource(engine), engine_(engine), pair_(pair) {}
   ~TransitionPair() override { LAMMPS_NS::FixStepping::dismiss(engine_); }
 
   void settings(int narg, char **arg, LIGGGHTS::IContactHistorySetup *history) override {
@@ -92,16 +94,19 @@ public:
                                                  "loses balls and contacts; allowed: region block"));
     drumlin::check_deforming_box(engine_, command());
     prepare<Style, Contact>(engine_);
-    PairContacts::begin(pair_,
-                        drumlin::has_spring<Style>                   ? drumlin::FrictionModel::history
-                        : Style::TANGENTIAL == TANGENTIAL_NO_HISTORY ? drumlin::FrictionModel::no_history
-                                                                     : drumlin::FrictionModel::none,
-                        Style::TANGENTIAL == TANGENTIAL_COULOMB ? drumlin::physics::Cap::coulomb
-                                                                : drumlin::physics::Cap::spring);
+    stepping_ =
+        this->get_history_offset(drumlin::force_name) < 0 ? nullptr : LAMMPS_NS::FixStepping::find(engine_);
+    drumlin::ContactSettings settings;
+    settings.tangential = drumlin::has_spring<Style>                   ? drumlin::FrictionModel::history
+                          : Style::TANGENTIAL == TANGENTIAL_NO_HISTORY ? drumlin::FrictionModel::no_history
+                                                                       : drumlin::FrictionModel::none;
+    settings.cap = Style::TANGENTIAL == TANGENTIAL_COULOMB ? drumlin::physics::Cap::coulomb
+                                                           : drumlin::physics::Cap::spring;
+    settings.rolling = Style::ROLLING == ROLLING_SPRING;
+    settings.stock = stepping_ == nullptr;
+    settings.take_law<Contact>();
+    PairSource::begin(pair_, settings);
     Base::init_granular();
-    take_stiffness_offset(this->get_history_offset(drumlin::tangential_stiffness_name));
-    force_offset_ = this->get_history_offset(drumlin::final_force_name);
-    stepping_ = force_offset_ < 0 ? nullptr : LAMMPS_NS::FixStepping::find(engine_);
     if (stepping_ != nullptr && pair_->storeContactForcesStress())
       engine_->error->all(
           FLERR,
@@ -121,7 +126,9 @@ public:
 
   void compute_force(PairGran *pair, int eflag, int vflag, int adds) override {
     if constexpr (has_loop<Style>)
-      if ((has_history<Style> || stepping_ != nullptr || pair->listgranhistory == nullptr) && !torsion_ &&
+      if ((has_springs<Style> || Contact::remembers || stepping_ != nullptr ||
+           pair->listgranhistory == nullptr) &&
+          !torsion_ &&
           !drumlin::needs_engine_loop(*pair, *engine_->modify, eflag != 0 || vflag != 0, adds != 0)) {
         pair->evflag = pair->vflag_fdotr = 0;
         return stepping_ == nullptr ? compute_contacts<false>() : compute_contacts<true>();
@@ -137,11 +144,11 @@ private:
     constexpr int flag =
         CONTACT_NORMAL_MODEL | (rubs ? CONTACT_TANGENTIAL_MODEL : 0) | (rolls ? CONTACT_ROLLING_MODEL : 0);
     if (pair_->list->inum == 0) return; // there may be no arrays
-    drumlin::EnginePairContacts<
-        Contact, stepped, rubs ? drumlin::FrictionModel::history : drumlin::FrictionModel::none, rolls, flag>(
+    drumlin::LoopAdapter<Contact, stepped,
+                         rubs ? drumlin::FrictionModel::history : drumlin::FrictionModel::none, rolls, flag>(
         *pair_, *engine_->atom, *engine_->neighbor, clumps_)
-        .compute(loop_memory_, *std::get<const drumlin::CoefficientTable<Contact> *>(table()), force_offset_,
-                 stepping_, observers_, engine_->update->dt);
+        .compute(loop_memory_, *std::get<const drumlin::CoefficientTable<Contact> *>(table()), places(),
+                 cap(), stepping_, observers_, engine_->update->dt);
   }
 
   static std::string command() { return std::string("pair_style gran model ") + Contact::name; }
@@ -153,8 +160,7 @@ private:
   drumlin::ContactObservers observers_;
   drumlin::DeckCheck deck_check_;
   LAMMPS_NS::Clumps clumps_;
-  int force_offset_ = -1; // of the normal force in the contact history, with the second-order scheme
-  bool torsion_ = false;  // whether rolling resistance also resists torsion
+  bool torsion_ = false; // whether rolling resistance also resists torsion
 };
 
 template <class Style, class Contact>
@@ -189,13 +195,13 @@ private:
   drumlin::WallReport report_;
 };
 
-/// \tparam Word the rolling model whose name in a deck means this combination
-template <class Contact, int Tangential, int Rolling, int Word = Rolling>
+/// \tparam TangentialWord, RollingWord the models whose names in a deck mean this combination
+template <class Contact, int Tangential, int TangentialWord, int Rolling, int RollingWord = Rolling>
 void add_combination() {
   constexpr int normal = drumlin::normal_model_number<Contact>;
-  using Style =
-      drumlin::NamedStyle<GranStyle<normal, Tangential, COHESION_OFF, Rolling, SURFACE_DEFAULT>,
-                          GranStyle<normal, Tangential, COHESION_OFF, Word, SURFACE_DEFAULT>::HASHCODE>;
+  using Style = drumlin::NamedStyle<
+      GranStyle<normal, Tangential, COHESION_OFF, Rolling, SURFACE_DEFAULT>,
+      GranStyle<normal, TangentialWord, COHESION_OFF, RollingWord, SURFACE_DEFAULT>::HASHCODE>;
   LIGGGHTS::PairStyles::Factory::instance().addStyle(
       "gran", Style::HASHCODE,
       [](LAMMPS *lmp, PairGran *parent, int64_t hash) -> LIGGGHTS::PairStyles::IGranularPairStyle * {
@@ -208,11 +214,11 @@ void add_combination() {
       });
 }
 
-template <class Contact, int Tangential>
+template <class Contact, int Tangential, int Word = Tangential>
 void add_rolling_combinations() {
-  add_combination<Contact, Tangential, ROLLING_OFF>();
-  add_combination<Contact, Tangential, ROLLING_CDT>();
-  add_combination<Contact, Tangential, ROLLING_SPRING, ROLLING_EPSD2>();
+  add_combination<Contact, Tangential, Word, ROLLING_OFF>();
+  add_combination<Contact, Tangential, Word, ROLLING_CDT>();
+  add_combination<Contact, Tangential, Word, ROLLING_SPRING, ROLLING_EPSD2>();
 }
 
 template <class Contact>
@@ -220,7 +226,7 @@ void add_law() {
   Factory::instance().addNormalModel(Contact::name, drumlin::normal_model_number<Contact>);
   add_rolling_combinations<Contact, TANGENTIAL_OFF>();
   add_rolling_combinations<Contact, TANGENTIAL_NO_HISTORY>();
-  add_rolling_combinations<Contact, TANGENTIAL_HISTORY>();
+  add_rolling_combinations<Contact, TANGENTIAL_SPRING, TANGENTIAL_HISTORY>();
   add_rolling_combinations<Contact, TANGENTIAL_COULOMB>();
 }
 

@@ -2,7 +2,7 @@
 // Where LIGGGHTS's contact models find a contact that is solved for together with others, or begins.
 
 #include "contact/fix_stepping.h"
-#include "liggghts/contact_table.h"
+#include "liggghts/pair_source.h"
 
 #include "contact_interface.h"
 
@@ -24,7 +24,7 @@ public:
   /// To be called when all models have announced their history. \tparam Model has get_history_offset()
   template <class Model>
   void find(LAMMPS_NS::LAMMPS *lmp, Model &model) {
-    offset_ = model.get_history_offset(final_force_name);
+    offset_ = model.get_history_offset(force_name);
     stepping_ = offset_ < 0 ? nullptr : LAMMPS_NS::FixStepping::find(lmp);
   }
 

@@ -28,7 +28,7 @@
 #include "update.h"
 #include "variable.h"
 
-#include "physics/contact_mixing.h"
+#include "physics/laws/contact_mixing.h"
 #include "support/deforming_box.h"
 
 #include <algorithm>

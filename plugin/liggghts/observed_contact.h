@@ -4,7 +4,7 @@
 #include "contact_models.h"
 
 #include "contact/contact_observer.h"
-#include "liggghts/contact_table.h"
+#include "liggghts/pair_source.h"
 #include "liggghts/coupled_contacts.h"
 
 #include <algorithm>
@@ -20,13 +20,13 @@ struct NamedStyle : Style {
 
 /// The tangential model has a spring.
 template <class Style>
-constexpr bool has_spring = Style::TANGENTIAL == LIGGGHTS::ContactModels::TANGENTIAL_HISTORY ||
+constexpr bool has_spring = Style::TANGENTIAL == LIGGGHTS::ContactModels::TANGENTIAL_SPRING ||
                             Style::TANGENTIAL == LIGGGHTS::ContactModels::TANGENTIAL_COULOMB;
 
 /// What the engine calls for each contact: its models, then the observers.
 /// \tparam Contact parameters of the law of the style's normal model
 template <class Style, class Contact>
-class ObservedContact : public LIGGGHTS::ContactModels::ContactModel<Style> {
+class ObservedContact : public LIGGGHTS::ContactModels::ContactModel<Style>, public WithNormalModel<Contact> {
   using Base = LIGGGHTS::ContactModels::ContactModel<Style>;
 
 public:
@@ -34,7 +34,7 @@ public:
 
   void connectToProperties(PropertyRegistry &registry) {
     Base::connectToProperties(registry);
-    final_force_offset_ = this->get_history_offset(final_force_name);
+    final_force_offset_ = this->get_history_offset(force_name);
     coupled_.find(registry.getLAMMPS(), *this);
     observers_.find(*registry.getLAMMPS()->modify);
     if (Style::TANGENTIAL != LIGGGHTS::ContactModels::TANGENTIAL_OFF) {
@@ -57,16 +57,14 @@ private:
                                         const LIGGGHTS::ContactModels::SurfacesIntersectData &contact,
                                         LIGGGHTS::ContactModels::ForceData &i_forces,
                                         LIGGGHTS::ContactModels::ForceData &j_forces) const {
-    constexpr bool of_the_engine = Style::TANGENTIAL == LIGGGHTS::ContactModels::TANGENTIAL_HISTORY ||
-                                   Style::TANGENTIAL == LIGGGHTS::ContactModels::TANGENTIAL_NO_HISTORY;
-    if (of_the_engine) { // whose models do not know that the contact begins
+    constexpr bool of_the_engine = Style::TANGENTIAL == LIGGGHTS::ContactModels::TANGENTIAL_NO_HISTORY;
+    if (of_the_engine) { // whose model does not know that the contact begins
       begun.friction = {contact.kt, contact.gammat, friction_[contact.itype][contact.jtype],
-                        has_spring<Style> ? physics::Cap::spring : physics::Cap::total};
+                        physics::Cap::total};
       begun.rub = physics::scaled(1.0 / begun.share, tangential_part(i_forces, contact.en));
       begun.slip = {contact.vtr1, contact.vtr2, contact.vtr3};
       begun.arm_i = contact.cri;
       begun.arm_j = contact.is_wall ? 0.0 : contact.crj;
-      if (has_spring<Style>) begun.spring = contact.contact_history;
     }
     const auto closing = coupled_.stepping().close_friction(begun);
     const physics::Vec3 moment = physics::cross(begun.normal, closing.friction);
@@ -108,9 +106,8 @@ private:
   [[gnu::noinline]] void tell(const LIGGGHTS::ContactModels::SurfacesIntersectData &contact,
                               const LIGGGHTS::ContactModels::ForceData &i_forces,
                               const LIGGGHTS::ContactModels::ForceData &j_forces) const {
-    const typename Contact::Law law = Contact::of_secant(contact.kn, contact.gamman, contact.deltan);
     const bool second_order = final_force_offset_ >= 0;
-    ContactRecord record = record_of_law(law, contact.deltan, second_order);
+    ContactRecord record = record_of_law(this->normal_model->law_of(contact), contact.deltan, second_order);
     record.i = contact.i;
     record.j = contact.is_wall ? -1 : contact.j;
     record.radius = contact.is_wall ? contact.radi : std::min(contact.radi, contact.radj);

@@ -15,7 +15,7 @@ ROLLING_MODEL(ROLLING_SPRING, rolling_spring, 22)
 #include <algorithm>
 
 #include "liggghts/coupled_contacts.h"
-#include "physics/rolling_law.h"
+#include "physics/laws/rolling_law.h"
 
 namespace LIGGGHTS {
 namespace ContactModels {
@@ -27,10 +27,7 @@ class RollingModel<ROLLING_SPRING> : public RollingModelBase {
 public:
   RollingModel(LAMMPS *lmp, IContactHistorySetup *hsetup, ContactModelBase *model)
       : RollingModelBase(lmp, hsetup, model), model_(model),
-        spring_offset_(hsetup->add_history_value("r_torquex_old", "1")) {
-    hsetup->add_history_value("r_torquey_old", "1");
-    hsetup->add_history_value("r_torquez_old", "1");
-  }
+        spring_offset_(drumlin::announce(*hsetup, drumlin::Remembered::rolling_spring)) {}
 
   void registerSettings(Settings &settings) override {
     settings.registerOnOff("torsionTorque", torsion_, false);

@@ -19,16 +19,25 @@
 #include "contact/contact_source.h"
 #include "fixes/fix_clump.h"
 #include "contact/fix_stepping.h"
-#include "contact/stepped_contact.h"
-#include "liggghts/contact_table.h"
-#include "physics/contact_step.h"
-#include "physics/rolling_law.h"
+#include "contact/exert_contact.h"
+#include "liggghts/pair_source.h"
+#include "physics/scheme/advance.h"
+#include "physics/laws/rolling_law.h"
 
 namespace drumlin {
 
 /// The engine's number of the normal model with a law. Each law has its own specialization.
 template <class Contact>
 constexpr int normal_model_number = 0;
+
+template <class Contact>
+class TransitionModel;
+
+/// Base of the combination of models that a normal model is part of, which takes the law of each contact from it.
+template <class Contact>
+struct WithNormalModel {
+  const TransitionModel<Contact> *normal_model = nullptr;
+};
 
 /// Base of the normal model with the law of the parameters `Contact`, with transition condition A or B. The
 /// engine's own tangential and rolling models take the normal force, stiffnesses and dampings from here.
@@ -61,19 +70,21 @@ public:
   // While the deck is parsed: a fix added later, in the initialization of a run, would miss that run. A wall
   // is a fix under construction and cannot add another.
   void postSettings(IContactHistorySetup *history, ContactModelBase *all) {
+    if (auto *combination = dynamic_cast<WithNormalModel<Contact> *>(all)) combination->normal_model = this;
+    ContactSettings settings;
+    settings.tangential = tangential_spring_ ? FrictionModel::history : FrictionModel::none;
+    settings.rolling = rolling_spring_;
+    settings.stock = stepping_stock_;
+    settings.take_law<Contact>();
+    places_ = settings.places(history_order);
     if (is_wall_)
       take_stepping_of_pair();
     else if (!stepping_stock_)
       stepping_ = LAMMPS_NS::FixStepping::provide(lmp);
-    if constexpr (Contact::tangential_varies)
-      if (stores_stiffness()) {
-        stiffness_offset_ = history->add_history_value(tangential_stiffness_name, "0");
-        all->add_history_offset(tangential_stiffness_name, stiffness_offset_);
-      }
-    if (stepping_stock_) return;
-    state_offset_ = history->add_history_value(final_force_name, "0");
-    history->add_history_value("normal_in_contact", "0");
-    all->add_history_offset(final_force_name, state_offset_);
+    for (const Remembered what : history_order) // but the springs, which their models announce
+      if (settings.stores(what) && what != Remembered::spring && what != Remembered::rolling_spring)
+        announce(*history, what);
+    if (!stepping_stock_) all->add_history_offset(force_name, places_[Remembered::force]);
   }
 
   void connectToProperties(PropertyRegistry &registry) {
@@ -99,9 +110,8 @@ public:
     if (sidata.contact_flags) *sidata.contact_flags |= LIGGGHTS::ContactModels::CONTACT_NORMAL_MODEL;
     const ContactCoefficients<Contact> &p = table_.at(sidata.itype, sidata.jtype);
     if (!clumps_.empty()) take_body_masses(sidata);
-    const double r_eff =
-        sidata.is_wall ? radius_for<Contact>(sidata.radi) : radius_for<Contact>(sidata.radi, sidata.radj);
-    const Law law = p.contact.law(sidata.meff, r_eff);
+    const double r_eff = effective_radius_of(sidata);
+    Law law = law_of(sidata);
     sidata.kn = law.secant(sidata.deltan); // times the overlap it is the force of the spring
     sidata.gamman = law.dashpot(sidata.deltan);
     if constexpr (Contact::tangential_varies)
@@ -118,26 +128,37 @@ public:
       add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);
     } else
       second_order(sidata, law, share, i_forces, j_forces);
+    if constexpr (Contact::remembers) {
+      law.remember(sidata.deltan);
+      *stored(sidata, Remembered::memory) = law.memory();
+    }
+  }
+
+  /// The law of a contact with what it remembers at present.
+  Law law_of(const SurfacesIntersectData &data) const {
+    const double memory = Contact::remembers ? *stored(data, Remembered::memory) : 0.0;
+    return table_.at(data.itype, data.jtype).contact.law(data.meff, effective_radius_of(data), memory);
   }
 
   void surfacesClose(SurfacesCloseData &scdata, ForceData &i_forces, ForceData &j_forces) {
     if (scdata.contact_flags) *scdata.contact_flags &= ~LIGGGHTS::ContactModels::CONTACT_NORMAL_MODEL;
-    if constexpr (Contact::tangential_varies)
-      if (stores_stiffness() && scdata.contact_history != nullptr)
-        scdata.contact_history[stiffness_offset_] = 0.0;
-    if (stepping_ == nullptr || !scdata.computeflag || scdata.contact_history == nullptr) return;
-    if (scdata.contact_history[state_offset_ + 1] == 0.0) return; // they did not touch one step ago
-    end_contact(scdata, i_forces, j_forces);
-    std::fill_n(scdata.contact_history + state_offset_, 2, 0.0);
+    if (scdata.contact_history == nullptr || !scdata.computeflag) return;
+    if (stepping_ != nullptr && *stored(scdata, Remembered::touches) != 0.0) // one step ago
+      end_contact(scdata, i_forces, j_forces);
+    std::fill_n(scdata.contact_history, places_.count(), 0.0);
   }
 
   void beginPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
   void endPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
 
 private:
-  /// Whether a spring in the contact history depends on a tangential stiffness that varies.
-  bool stores_stiffness() const {
-    return Contact::tangential_varies && (tangential_spring_ || rolling_spring_);
+  /// What a contact remembers, which must be stored.
+  double *stored(const SurfacesCloseData &data, Remembered what) const {
+    return data.contact_history + places_[what];
+  }
+  /// 0 for a law that does not depend on it.
+  static double effective_radius_of(const SurfacesIntersectData &data) {
+    return data.is_wall ? radius_for<Contact>(data.radi) : radius_for<Contact>(data.radi, data.radj);
   }
 
   bool is_frozen(int i) const { return pair_ != nullptr && (atom->mask[i] & pair_->freeze_group_bit()); }
@@ -147,7 +168,7 @@ private:
     stepping_ = LAMMPS_NS::FixStepping::find(lmp);
     if (stepping_stock_ == (stepping_ == nullptr)) return;
     const std::string own = stepping_stock_ ? "'stock'" : "'second' (its default)";
-    const bool law = pair_contacts(lmp) != nullptr;
+    const bool law = pair_source(lmp) != nullptr;
     const std::string pair =
         stepping_stock_ || law
             ? "and that of the pair style is " + std::string(stepping_stock_ ? "'second'" : "'stock'")
@@ -168,41 +189,30 @@ private:
                                         : engine_effective_mass(sidata.mi, sidata.mj);
   }
 
-  /// Sets the tangential stiffness of a law in which it varies, and lets the springs of the tangential and the
-  /// rolling model follow its change. These come first in the contact history, in this order, since the engine
-  /// builds their models before it asks the normal model for its values.
+  /// Sets the tangential stiffness of a law in which it varies, and lets the springs of the tangential and the rolling
+  /// model follow its change.
   inline void take_tangential_stiffness(SurfacesIntersectData &sidata, const Contact &contact, double r_eff) {
     const double dt = update->dt;
     sidata.kt = contact.tangential(physics::overlap_of_spring(sidata.deltan, -sidata.vn, dt), r_eff);
-    if (!stores_stiffness()) return;
-    double &stored = sidata.contact_history[stiffness_offset_];
-    if (!sidata.computeflag ||
-        !sidata.shearupdate) { // in a set-up, or for computes: the spring does not move
-      if (stored > 0.0) sidata.kt = stored;
-      return;
-    }
-    double *spring = sidata.contact_history;
-    const auto keep = [&spring](double share) {
-      for (int a = 0; a < 3; ++a)
-        *spring++ *= share;
-    };
-    if (tangential_spring_) keep(physics::kept_spring(stored, sidata.kt));
-    if (rolling_spring_) keep(physics::kept_torque(stored, sidata.kt));
-    stored = sidata.kt;
+    const bool moves = sidata.computeflag && sidata.shearupdate; // not in a set-up, nor for computes
+    sidata.kt = follow_stiffness(places_, sidata.contact_history, sidata.kt, moves);
   }
 
   /// Sets sidata.Fn and adds the force.
   inline void second_order(SurfacesIntersectData &sidata, const Law &law, double share, ForceData &i_forces,
                            ForceData &j_forces) {
-    double *const stored = sidata.contact_history + state_offset_; // force, N; 1 if in contact, else 0
-    physics::ContactState state{stored[0], stored[1] != 0.0};
+    physics::ContactState state = state_of(sidata);
     const std::array<double, 3> normal{sidata.en[0], sidata.en[1], sidata.en[2]};
     if (sidata.computeflag && hold_contact(law, *stepping_, sidata.i, sidata.is_wall ? -1 : sidata.j, normal,
                                            motion_of(sidata), sidata.meff, share, state)) {
-      stored[0] = sidata.Fn = state.force;
+      *stored(sidata, Remembered::force) = sidata.Fn = state.force;
       add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);
     } else
       second_order_rare(sidata, law, share, i_forces, j_forces);
+  }
+
+  physics::ContactState state_of(const SurfacesIntersectData &data) const {
+    return {*stored(data, Remembered::force), *stored(data, Remembered::touches) != 0.0};
   }
 
   inline physics::StepMotion motion_of(const SurfacesIntersectData &sidata) const {
@@ -218,8 +228,8 @@ private:
       add_stored_force(sidata, share, i_forces, j_forces);
       return;
     }
-    double *const stored = sidata.contact_history + state_offset_;
-    physics::ContactState state{stored[0], stored[1] != 0.0};
+    physics::ContactState state = state_of(sidata);
+    double &force = *stored(sidata, Remembered::force);
     const double push = exert_contact(law, *stepping_,
                                       {sidata.i,
                                        sidata.is_wall ? -1 : sidata.j,
@@ -229,10 +239,10 @@ private:
                                        -sidata.vn,
                                        sidata.meff,
                                        share},
-                                      state, stored[0]);
+                                      state, force);
     add(push, sidata.en, sidata, i_forces, j_forces);
-    stored[0] = sidata.Fn = state.force;
-    stored[1] = 1.0;
+    force = sidata.Fn = state.force;
+    *stored(sidata, Remembered::touches) = 1.0;
   }
 
   /// For compute pair/gran/local, which is called after the step: adds the stored contact force, since the
@@ -242,7 +252,7 @@ private:
   /// contact for a sticking one and add a dashpot force.
   void add_stored_force(SurfacesIntersectData &sidata, double share, ForceData &i_forces,
                         ForceData &j_forces) const {
-    sidata.Fn = sidata.contact_history[state_offset_];
+    sidata.Fn = *stored(sidata, Remembered::force);
     add(share * sidata.Fn, sidata.en, sidata, i_forces, j_forces);
     if (!tangential_spring_) return;
     constexpr double below = 1.0 - 1e-12;
@@ -274,13 +284,14 @@ private:
       rate_half -= (scdata.v_i[a] - scdata.v_j[a]) * normal[a];
     const double mi = clumps_.mass_of(*atom, scdata.i, atom->rmass[scdata.i]);
     const double m_eff = scdata.is_wall ? mi : effective_mass(scdata.i, scdata.j);
-    double *const stored = scdata.contact_history + state_offset_;
-    physics::ContactState state{stored[0], true};
+    double &force = *stored(scdata, Remembered::force);
+    physics::ContactState state{force, true};
+    const double memory = Contact::remembers ? *stored(scdata, Remembered::memory) : 0.0;
     const double ri = atom->radius[scdata.i];
     const double r_eff =
         scdata.is_wall ? radius_for<Contact>(ri) : radius_for<Contact>(ri, atom->radius[scdata.j]);
     const double push =
-        exert_contact(table_.at(scdata.itype, scdata.jtype).contact.law(m_eff, r_eff), *stepping_,
+        exert_contact(table_.at(scdata.itype, scdata.jtype).contact.law(m_eff, r_eff, memory), *stepping_,
                       {scdata.i,
                        scdata.is_wall ? -1 : scdata.j,
                        {normal[0], normal[1], normal[2]},
@@ -289,7 +300,7 @@ private:
                        rate_half,
                        m_eff,
                        1.0},
-                      state, stored[0]);
+                      state, force);
     if (push == 0.0) return;
     add(push, normal, scdata, i_forces, j_forces);
     scdata.has_force_update = true;
@@ -313,8 +324,7 @@ private:
   bool rolling_spring_ = false;                // and the rolling model
   LAMMPS_NS::PairGran *pair_ = nullptr;        // gives the group of frozen balls
   LAMMPS_NS::FixStepping *stepping_ = nullptr; // none under stock stepping
-  int state_offset_ = 0;     // of force and 'in contact' in the contact history, with the second-order scheme
-  int stiffness_offset_ = 0; // of the tangential stiffness, where it varies
+  HistoryPlaces places_;
   double **friction_ = nullptr; // coefficients by types, as the engine's `tangential history` has them
   CoefficientTable<Contact> table_;
 };

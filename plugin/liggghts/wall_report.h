@@ -12,7 +12,7 @@
 #include "update.h"
 
 #include "contact/fix_stepping.h"
-#include "liggghts/contact_table.h"
+#include "liggghts/pair_source.h"
 #include "liggghts/coupled_contacts.h"
 #include "physics/vec3.h"
 
@@ -45,8 +45,7 @@ public:
   void begin(LAMMPS_NS::LAMMPS &engine, Wall &wall) {
     engine_ = &engine;
     coupled_.find(&engine, wall);
-    stepping_ =
-        wall.get_history_offset(final_force_name) < 0 ? nullptr : LAMMPS_NS::FixStepping::find(&engine);
+    stepping_ = wall.get_history_offset(force_name) < 0 ? nullptr : LAMMPS_NS::FixStepping::find(&engine);
   }
 
   /// \param compute computes the contact's force and adds it to the ball; called with the mesh that it is to report

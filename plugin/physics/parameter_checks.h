@@ -4,9 +4,28 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <string>
 
-namespace drumlin::physics::detail {
+namespace drumlin::physics {
+
+/// Which finite numbers a deck may give.
+struct Range {
+  double least;
+  bool least_excluded = false;
+  double most = std::numeric_limits<double>::infinity();
+
+  static const Range any, positive, non_negative;
+
+  [[nodiscard]] bool contains(double value) const {
+    return std::isfinite(value) && value >= least && (value > least || !least_excluded) && value <= most;
+  }
+};
+inline constexpr Range Range::any{-std::numeric_limits<double>::infinity()};
+inline constexpr Range Range::positive{0.0, true};
+inline constexpr Range Range::non_negative{0.0};
+
+namespace detail {
 
 /// What a parameter may be. Every kind refuses NaN; only `positive_or_infinite` accepts infinity.
 enum class Allowed { finite, not_negative, positive, positive_or_infinite };
@@ -48,4 +67,13 @@ inline std::string violation(const std::string &name, double value, const std::s
   return name + " is '" + number_text(value) + (unit.empty() ? "" : " ") + unit + "'; allowed: " + range;
 }
 
-} // namespace drumlin::physics::detail
+/// A range in words, for an error: "a finite number > 0 and <= 1".
+inline std::string text_of(const Range &range) {
+  std::string text = "a finite number";
+  if (std::isfinite(range.least)) text += (range.least_excluded ? " > " : " >= ") + number_text(range.least);
+  if (std::isfinite(range.most)) text += " and <= " + number_text(range.most);
+  return text;
+}
+
+} // namespace detail
+} // namespace drumlin::physics

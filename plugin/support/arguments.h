@@ -3,6 +3,7 @@
 // that names command, keyword and value, and says what is allowed.
 
 #include "engine.h"
+#include "physics/parameter_checks.h"
 
 #include <array>
 #include <cmath>
@@ -13,8 +14,7 @@
 
 namespace drumlin {
 
-/// Which finite numbers an argument may be.
-enum class Range { any, positive, non_negative };
+using physics::Range;
 
 /// The value of a word that is, as a whole, a finite decimal number. NaN for every other word, also for
 /// hexadecimal numbers, nan and inf, which are not allowed as arguments.
@@ -27,16 +27,10 @@ inline double parse_number(const std::string &word) {
 }
 
 /// Whether a number is finite and in the range.
-inline bool in_range(double value, Range range) {
-  return std::isfinite(value) && (range != Range::positive || value > 0.0) &&
-         (range != Range::non_negative || value >= 0.0);
-}
+inline bool in_range(double value, const Range &range) { return range.contains(value); }
 
 /// The range in words, for an error.
-inline const char *allowed_text(Range range) {
-  if (range == Range::positive) return "a finite number > 0";
-  return range == Range::non_negative ? "a finite number >= 0" : "a finite number";
-}
+inline std::string allowed_text(const Range &range) { return physics::detail::text_of(range); }
 
 /// The words as one text, separated by `separator`. (fmt::join() is in a header that the fmt of some LAMMPS
 /// releases does not have.)
@@ -87,7 +81,7 @@ public:
   }
 
   /// The next argument as a number.
-  double number(const std::string &what, Range range = Range::any) {
+  double number(const std::string &what, const Range &range = Range::any) {
     const std::string text = word(what, allowed_text(range));
     const double value = parse_number(text);
     if (!in_range(value, range)) fail(what, text, allowed_text(range));

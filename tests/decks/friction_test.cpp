@@ -4,7 +4,7 @@
 #include "tests/support/balls_run.h"
 #include "tests/support/engine_and_scheme.h"
 
-#include "physics/friction_law.h"
+#include "physics/laws/friction_law.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,13 @@
 // Wrong input to the contact laws and to the walls that use them, in LIGGGHTS and in LAMMPS: the lines of a deck, and what the error must say.
 #include "tests/plugin/bad_input/bad_input.h"
 #include "tests/support/host_deck.h"
+#include "tests/plugin/law_samples.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <type_traits>
+#include <utility>
 
 namespace drumlin::test {
 namespace {
@@ -119,26 +126,22 @@ BadInput hertz(const std::string &name, const std::string &settings, const std::
 
 BadGroup hertz_law() {
   const std::string command = "pair_style gran model hertz/transition: ";
-  return {
-      "Hertz",
-      "",
-      {
-          hertz("transition", "transition C", "1e7", "0.3",
-                {command + "keyword transition is 'C'", "A or B"}),
-          hertz("torsion", "rolling_friction epsd2 torsionTorque yes", "1e7", "0.3",
-                {command + "keyword torsionTorque is 'yes'", "on or off"}),
-          on_two_ranks(
-              hertz("no modulus", "", "", "0.3",
-                    {"model hertz/transition: property youngsModulus (Young's modulus, Pa) is missing",
-                     "peratomtype' and 3 values"})),
-          hertz("no ratio", "", "1e7", "", {"property poissonsRatio (Poisson's ratio) is missing"}),
-          hertz("negative modulus", "", "-1", "0.3",
-                {"model hertz/transition: property youngsModulus of type 1 is -1", "a finite number > 0"}),
-          hertz("ratio beyond", "", "1e7", "0.6",
-                {"property poissonsRatio of type 1 is 0.6", "a finite number > -1 and <= 0.5"}),
-          hertz("damping restitution", "damping restitution", "1e7", "0.3",
-                {"model hertz/transition: property coefficientRestitution", "is missing"}),
-      }};
+  return {"Hertz",
+          "",
+          {
+              hertz("transition", "transition C", "1e7", "0.3",
+                    {command + "keyword transition is 'C'", "A or B"}),
+              hertz("torsion", "rolling_friction epsd2 torsionTorque yes", "1e7", "0.3",
+                    {command + "keyword torsionTorque is 'yes'", "on or off"}),
+              on_two_ranks(
+                  hertz("no modulus", "", "", "0.3",
+                        {"model hertz/transition: property youngsModulus (Young's modulus, Pa) is missing",
+                         "peratomtype' and 3 values"})),
+              hertz("ratio beyond", "", "1e7", "0.6",
+                    {"property poissonsRatio of type 1 is 0.6", "a finite number > -1 and <= 0.5"}),
+              hertz("damping restitution", "damping restitution", "1e7", "0.3",
+                    {"model hertz/transition: property coefficientRestitution", "is missing"}),
+          }};
 }
 
 // Longer than other functions: it has a line for each mistake and nothing else.
@@ -206,7 +209,7 @@ BadGroup hertz_law_in_lammps() {
       {line("pair_style gran/hertz/transition\npair_coeff * * -1 0.3 0.2",
             {coeff, "Young's modulus E is '-1'", "a finite number > 0"}),
        line("pair_style gran/hertz/transition\npair_coeff * * 1e7 0.6 0.2",
-            {coeff, "Poisson's ratio nu is '0.6'", "a number > -1 and <= 0.5"}),
+            {coeff, "Poisson's ratio nu is '0.6'", "a finite number > -1 and <= 0.5"}),
        line("pair_style gran/hertz/transition\npair_coeff * * 1e7 0.3",
             {coeff, "damping ratio D is missing"}),
        line("pair_style gran/hertz/transition\npair_coeff * * effective 1e7 0 0.2",
@@ -347,11 +350,65 @@ BadGroup wall_in_lammps() {
             {wall, "pair_style is 'gran/hooke/history'", "pair_style gran/hooke/transition or"})});
 }
 
+/// Numbers that a range does not have.
+std::vector<double> outside(const physics::Range &range) {
+  std::vector<double> values = {range.least_excluded ? range.least : range.least - 1.0};
+  if (std::isfinite(range.most)) values.push_back(range.most + 0.1);
+  return values;
+}
+
+/// The parameters of a law, each with values that it may not have, and left out: LIGGGHTS's properties, then the words of
+/// LAMMPS.
+template <class Law>
+std::vector<BadGroup> parameters_of() {
+  const std::string law = Law::name, name = law.substr(0, law.find('/'));
+  BadGroup properties{name + "_properties", "", {}}, words = in_lammps(name + "_words", {});
+  const auto number = [](double value) { return fmt::format("{}", value); };
+  const auto mistake = [&](const auto &wrong, const std::string &value, const std::string &says) {
+    using Wrong = std::decay_t<decltype(wrong)>;
+    constexpr bool of_types = std::is_same_v<Wrong, physics::MaterialParameter>;
+    std::string lines, coefficients;
+    test::for_each_given<Law>(1e7, [&](const auto &p, double good) {
+      const bool is_wrong = std::string(p.word) == wrong.word;
+      if (may_be_left_out(p) && !is_wrong) return;
+      const std::string given = is_wrong ? value : number(good);
+      coefficients += (may_be_left_out(p) ? " 0.2 0.5 " : " ") + given;
+      if (given.empty()) return;
+      std::string line = property(p.property, given);
+      if (of_types)
+        line = line.substr(0, line.find("pair 3")) + " " + given + " " + given + " " + given + "\n";
+      lines += line;
+    });
+    BadInput input = line(std::string(wrong.property) + " " + value, "",
+                          {"model " + law + ": property " + wrong.property, says});
+    input.pair = "pair_style gran model " + law + "\npair_coeff * *\n" +
+                 host_properties(lines + "property/global " + wrong.property) + lines;
+    properties.inputs.push_back(input);
+    if (!value.empty())
+      words.inputs.push_back(
+          line("pair_style gran/" + law + " tangential coulomb\npair_coeff * *" + coefficients,
+               {"pair_coeff of gran/" + law,
+                std::string(wrong.name) + " " + wrong.word + " is '" + value + "'", says}));
+  };
+  test::for_each_given<Law>(1e7, [&](const auto &p, double) {
+    if (!may_be_left_out(p)) mistake(p, "", std::string("(") + physics::meaning_of(p) + ") is missing");
+    for (const double value : outside(p.range))
+      mistake(p, number(value), physics::detail::text_of(p.range));
+  });
+  return {properties, words};
+}
+
 } // namespace
 
 std::vector<BadGroup> bad_laws() {
-  return {pair_style(), pair_style_in_lammps(), properties(), hertz_law(), hertz_law_in_lammps(),
-          wall(),       wall_in_lammps()};
+  std::vector<BadGroup> all = {pair_style(),    pair_style_in_lammps(), properties(),
+                               hertz_law(),     hertz_law_in_lammps(),  wall(),
+                               wall_in_lammps()};
+  for_each_law([&all](auto law) {
+    for (BadGroup &group : parameters_of<typename decltype(law)::type>())
+      all.push_back(std::move(group));
+  });
+  return all;
 }
 
 } // namespace drumlin::test

@@ -8,7 +8,7 @@
 // page that begins with "Not run by a test:" says why. Of these, the decks and variables of `./drumlin run`
 // are still checked with the engine.
 
-#include "contact/laws.h"
+#include "physics/laws/laws.h"
 #include "tests/support/host_deck.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 /// The absorbing boundary against closed forms and CVODE.
 
-#include "physics/absorbing_boundary.h"
+#include "physics/bodies/absorbing_boundary.h"
 #include "tests/support/ode.h"
 #include "tests/support/oscillator.h"
 

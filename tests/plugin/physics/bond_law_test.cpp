@@ -1,6 +1,6 @@
 /// The bond against the damped oscillator, in closed form and by CVODE.
 
-#include "physics/bond_law.h"
+#include "physics/bodies/bond_law.h"
 #include "tests/support/ode.h"
 #include "tests/support/oscillator.h"
 

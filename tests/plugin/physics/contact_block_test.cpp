@@ -1,8 +1,9 @@
 /// The forces of a block of contacts have the same bits as those of its contacts one by one.
 
-#include "physics/contact_block.h"
+#include "physics/scheme/contact_block.h"
 
-#include "physics/hertz_contact.h"
+#include "tests/plugin/physics/yielding_contact.h"
+#include "tests/plugin/law_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -14,6 +15,7 @@
 namespace {
 
 using namespace drumlin::physics;
+using yielding::YieldingContact;
 
 /// Coefficients as the adapters have them.
 template <class Contact>
@@ -24,16 +26,22 @@ struct Coefficients {
   Rolling rolling_resistance(double kt, double radius) const { return rolling_of(kt, mu_r, radius); }
 };
 
-void set_stiffness(LinearContact &contact) {
-  contact.stiffness = 1e5;
-  contact.tangential_stiffness = 3e4;
+template <class Contact>
+Contact contact_of_stiffness() { // forces of some 10 N at the overlaps of these blocks
+  return drumlin::test::sample_contact<Contact>(Contact::depends_on_radius ? 1e7 : 1e5);
 }
-void set_stiffness(HertzContact &contact) { contact.set_moduli(1e7, 0.3, 1e7, 0.3); }
+template <>
+YieldingContact contact_of_stiffness() {
+  YieldingContact contact;
+  contact.stiffness = 1e5;
+  contact.unloading_stiffness = 3e5;
+  contact.tangential_stiffness = 3e4;
+  return contact;
+}
 
 template <class Contact>
 Coefficients<Contact> coefficients(Transition transition, Damping kind) {
-  Coefficients<Contact> all{{}, 0.3, 0.4, 0.1};
-  set_stiffness(all.contact);
+  Coefficients<Contact> all{contact_of_stiffness<Contact>(), 0.3, 0.4, 0.1};
   all.contact.damping = 0.4;
   all.contact.damping_kind = kind;
   all.contact.transition = transition;
@@ -62,6 +70,7 @@ std::unique_ptr<ContactBlock> random_block(std::mt19937 &random) {
     b->wj.set(n, vector(3.0));
     b->damping_over_mass[n] = 3e3 * (1.0 + any(random));
     b->force_before[n] = 10.0 * any(random);
+    b->memory_before[n] = (reach - distance) * (n % 4 == 0 ? 0.0 : 1.0 + any(random));
     b->spring.set(n, vector(1e-4));
     b->stored_stiffness[n] = n % 3 == 0 ? 0.0 : 3e4 * (1.0 + 0.9 * any(random));
     b->rolling_spring.set(n, vector(1e-3));
@@ -89,7 +98,7 @@ void expect_normal_force(const ContactBlock &b, int n, const Contact &parameters
   const Vec3 normal = scaled(1.0 / std::sqrt(b.squared[n]), b.separation[n]);
   const double overlap = b.ri[n] + b.rj[n] - std::sqrt(b.squared[n]);
   const double rate_half = -dot(b.velocity[n], normal);
-  const auto law = parameters.law(b.m_eff[n], effective_radius(b.ri[n], b.rj[n]));
+  auto law = parameters.law(b.m_eff[n], effective_radius(b.ri[n], b.rj[n]), b.memory_before[n]);
   expect_same(b.normal[n], normal, "normal", n);
   const Vec3 turning = sum(scaled(b.arm_i[n], b.wi[n]), b.arm_j[n], b.wj[n]);
   expect_same(b.slip[n],
@@ -111,6 +120,10 @@ void expect_normal_force(const ContactBlock &b, int n, const Contact &parameters
     expect_same(b.push[n], result.kick, "kick", n);
     expect_same(b.force[n], state.force, "force", n);
   }
+  if constexpr (Contact::remembers) {
+    law.remember(overlap);
+    expect_same(b.memory[n], law.memory(), "memory", n);
+  }
 }
 
 /// The tangential stiffness of contact n in the step.
@@ -127,7 +140,8 @@ void expect_friction(const ContactBlock &b, int n, const Coefficients<Contact> &
                      const ContactBlock &before) {
   const double r_eff = effective_radius(b.ri[n], b.rj[n]);
   const double kt = stiffness_of(b, n, all.contact);
-  const Friction friction = all.tangential(kt, all.contact.law(b.m_eff[n], r_eff).dashpot(b.overlap[n]), cap);
+  const Friction friction =
+      all.tangential(kt, all.contact.law(b.m_eff[n], r_eff, 0.0).dashpot(b.overlap[n]), cap);
   const double kept = Contact::tangential_varies ? kept_spring(before.stored_stiffness[n], kt) : 1.0;
   const FrictionStep step = springs ? friction_step(friction, b.force[n], b.normal[n], b.slip[n],
                                                     scaled(kept, before.spring[n]), dt)
@@ -177,16 +191,18 @@ void expect_block_as_contacts() {
       }
 }
 
+template <class Contact>
+void expect_all_blocks() {
+  expect_block_as_contacts<Contact, false, Slip::at_end, true, Cap::total>();
+  expect_block_as_contacts<Contact, false, Slip::in_middle, true, Cap::coulomb>();
+  expect_block_as_contacts<Contact, true, Slip::in_middle, true, Cap::coulomb>();
+  expect_block_as_contacts<Contact, true, Slip::at_end, true, Cap::spring>();
+  expect_block_as_contacts<Contact, true, Slip::at_end, false, Cap::total>();
+}
+
 TEST(ContactBlock, HasTheBitsOfItsContactsOneByOne) {
-  expect_block_as_contacts<LinearContact, false, Slip::at_end, true, Cap::total>();
-  expect_block_as_contacts<LinearContact, false, Slip::in_middle, true, Cap::coulomb>();
-  expect_block_as_contacts<LinearContact, true, Slip::in_middle, true, Cap::coulomb>();
-  expect_block_as_contacts<LinearContact, true, Slip::at_end, true, Cap::spring>();
-  expect_block_as_contacts<LinearContact, true, Slip::at_end, false, Cap::total>();
-  expect_block_as_contacts<HertzContact, false, Slip::in_middle, true, Cap::coulomb>();
-  expect_block_as_contacts<HertzContact, true, Slip::in_middle, true, Cap::coulomb>();
-  expect_block_as_contacts<HertzContact, true, Slip::at_end, true, Cap::total>();
-  expect_block_as_contacts<HertzContact, true, Slip::at_end, false, Cap::total>();
+  drumlin::for_each_law([](auto law) { expect_all_blocks<typename decltype(law)::type>(); });
+  expect_all_blocks<YieldingContact>();
 }
 
 } // namespace

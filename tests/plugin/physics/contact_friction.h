@@ -2,8 +2,8 @@
 /// Friction of one contact, step by step, for tests of whole impacts: as compute_tangential_stiffness() and
 /// compute_friction() do it for a block of contacts.
 
-#include "physics/contact_step.h"
-#include "physics/friction_law.h"
+#include "physics/scheme/advance.h"
+#include "physics/laws/friction_law.h"
 
 namespace verlet {
 

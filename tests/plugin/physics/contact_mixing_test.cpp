@@ -1,6 +1,6 @@
 // Contacts of two materials: the series of two springs as the state of least energy, found by a library, and the
 // limits of the rule.
-#include "physics/contact_mixing.h"
+#include "physics/laws/contact_mixing.h"
 
 #include <boost/math/tools/minima.hpp>
 #include <gtest/gtest.h>

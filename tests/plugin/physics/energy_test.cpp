@@ -2,9 +2,9 @@
 /// of the elastic, kinetic and potential energy. The dissipated energy is the sum of the core's powers,
 /// contact by contact and bond by bond, never the difference of the others.
 
-#include "physics/bond_law.h"
-#include "physics/contact_law.h"
-#include "physics/excitation.h"
+#include "physics/bodies/bond_law.h"
+#include "physics/laws/linear_contact.h"
+#include "physics/bodies/excitation.h"
 #include "tests/plugin/physics/velocity_verlet.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,8 @@
 // Makes and breaks located within a step, against exact free flight and the closed form of the damped
 // oscillator.
 
-#include "physics/event_location.h"
+#include "physics/scheme/event_location.h"
+#include "physics/laws/linear_contact.h"
 
 #include "tests/support/oscillator.h"
 

@@ -1,6 +1,6 @@
 /// The exciter against the turning of its rotor, by CVODE, and closed forms.
 
-#include "physics/excitation.h"
+#include "physics/bodies/excitation.h"
 #include "tests/support/ode.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 /// Friction: closed forms, CVODE with a mode for sticking and one for sliding, the readings of the limit,
 /// energy; of Cap::coulomb limit and energy in every step. Whole impacts: oblique_impact_test.cpp.
 
-#include "physics/contact_law.h"
-#include "physics/friction_law.h"
+#include "physics/laws/linear_contact.h"
+#include "physics/laws/friction_law.h"
 #include "tests/support/ode.h"
 #include "tests/support/oscillator.h"
 

@@ -1,9 +1,8 @@
 /// Error messages for values that are not allowed: they have the name, the value and what is allowed.
 
-#include "physics/bond_law.h"
-#include "physics/contact_law.h"
-#include "physics/excitation.h"
-#include "physics/friction_law.h"
+#include "physics/bodies/bond_law.h"
+#include "physics/bodies/excitation.h"
+#include "physics/laws/friction_law.h"
 
 #include <gtest/gtest.h>
 
@@ -19,12 +18,12 @@ using namespace drumlin::physics;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 const double nan_value = std::nan("");
 
-enum Range { finite, not_negative, positive, positive_or_infinite };
+enum Allowed { finite, not_negative, positive, positive_or_infinite };
 
 /// Sets one member of a good parameter set to every kind of bad and good value and reads the message.
 template <typename Parameters>
 void expect_judged(const Parameters &good, double Parameters::*member, const std::string &name,
-                   const std::string &unit, Range range) {
+                   const std::string &unit, Allowed range) {
   ASSERT_EQ(good.invalid(), "");
   const std::string allowed = range == finite         ? "finite"
                               : range == not_negative ? "finite and >= 0"
@@ -52,14 +51,20 @@ void expect_judged(const Parameters &good, double Parameters::*member, const std
   judge(12.5, "12.5", true);
 }
 
-TEST(Messages, OfAContact) {
-  const LinearContact by_coefficient{1e8, 4e5, Damping::coefficient, Transition::A};
-  const LinearContact by_ratio{1e8, 0.5, Damping::ratio, Transition::B};
-  expect_judged(by_coefficient, &LinearContact::stiffness, "stiffness", "N/m", positive);
-  expect_judged(by_coefficient, &LinearContact::damping, "damping coefficient", "N s/m", not_negative);
-  expect_judged(by_ratio, &LinearContact::damping, "damping ratio", "", not_negative);
-  EXPECT_EQ((LinearContact{-5.0, 0.5, Damping::ratio, Transition::B}).invalid(),
-            "stiffness is '-5 N/m'; allowed: finite and > 0");
+TEST(Messages, OfRanges) {
+  EXPECT_EQ(detail::text_of(Range::any), "a finite number");
+  EXPECT_EQ(detail::text_of(Range::positive), "a finite number > 0");
+  EXPECT_EQ(detail::text_of(Range::non_negative), "a finite number >= 0");
+  EXPECT_EQ(detail::text_of({-1.0, true, 0.5}), "a finite number > -1 and <= 0.5");
+  for (const double value : {nan_value, infinity, -infinity})
+    EXPECT_FALSE(Range::any.contains(value));
+  EXPECT_TRUE(Range::any.contains(-1e300));
+  EXPECT_FALSE(Range::positive.contains(0.0));
+  EXPECT_TRUE(Range::positive.contains(1e-300));
+  EXPECT_TRUE(Range::non_negative.contains(0.0));
+  EXPECT_FALSE(Range::non_negative.contains(-1e-300));
+  EXPECT_TRUE((Range{-1.0, true, 0.5}).contains(0.5));
+  EXPECT_FALSE((Range{-1.0, true, 0.5}).contains(-1.0));
 }
 
 TEST(Messages, OfABond) {
@@ -113,7 +118,6 @@ TEST(Messages, OfFriction) {
 }
 
 TEST(Messages, RefuseParametersThatAreNotSet) {
-  EXPECT_NE(LinearContact{}.invalid(), "");
   EXPECT_NE(Bond{}.invalid(), "");
   EXPECT_NE(Friction{}.invalid(), "");
 }

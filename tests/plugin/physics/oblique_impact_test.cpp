@@ -1,9 +1,10 @@
 /// Oblique impacts of a ball on a plane with `tangential coulomb`, of both contact laws and under both schemes: the
 /// impulses against CVODE, which finds each change between sticking and sliding.
 
-#include "physics/contact_step.h"
-#include "physics/friction_law.h"
-#include "physics/hertz_contact.h"
+#include "physics/scheme/advance.h"
+#include "physics/laws/friction_law.h"
+#include "physics/laws/hertz_contact.h"
+#include "physics/laws/linear_contact.h"
 #include "tests/plugin/physics/contact_friction.h"
 #include "tests/support/ode.h"
 

@@ -1,8 +1,8 @@
 /// One impact on a fixed ball without gravity, under both transition conditions: closed form, CVODE with root
 /// finding, and the core's law stepped as the engines step it.
 
-#include "physics/contact_law.h"
-#include "physics/restitution.h"
+#include "physics/laws/linear_contact.h"
+#include "physics/laws/restitution.h"
 #include "tests/plugin/physics/velocity_verlet.h"
 #include "tests/support/ode.h"
 

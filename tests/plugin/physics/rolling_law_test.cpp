@@ -1,9 +1,9 @@
 // Rolling resistance: closed forms of the spring and of a ball that rolls to rest, CVODE with a mode for the
 // spring and one for its limit, the plane of the torque, limit and energy in every step.
 
-#include "physics/rolling_law.h"
+#include "physics/laws/rolling_law.h"
 
-#include "physics/contact_law.h"
+#include "physics/laws/linear_contact.h"
 #include "tests/support/ode.h"
 #include "tests/support/oscillator.h"
 

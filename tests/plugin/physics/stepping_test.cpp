@@ -3,7 +3,8 @@
 
 #include "tests/plugin/physics/velocity_verlet.h"
 
-#include "physics/hertz_contact.h"
+#include "physics/laws/hertz_contact.h"
+#include "physics/laws/linear_contact.h"
 
 #include "tests/support/oscillator.h"
 

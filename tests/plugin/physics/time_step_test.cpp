@@ -1,7 +1,8 @@
 /// Stability limits against the eigenvalues of the matrix of one step with `stepping stock`.
 
-#include "physics/contact_step.h"
-#include "physics/time_step.h"
+#include "physics/scheme/advance.h"
+#include "physics/laws/linear_contact.h"
+#include "physics/scheme/stability_limit.h"
 #include "tests/plugin/physics/velocity_verlet.h"
 
 #include <Eigen/Eigenvalues>

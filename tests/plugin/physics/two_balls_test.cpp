@@ -1,6 +1,6 @@
 /// Two balls: momentum, the effective mass, and the same motion seen from frames that move.
 
-#include "physics/contact_law.h"
+#include "physics/laws/linear_contact.h"
 #include "tests/plugin/physics/velocity_verlet.h"
 
 #include <gtest/gtest.h>

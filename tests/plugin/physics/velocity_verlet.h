@@ -2,7 +2,7 @@
 /// The engines' part of a step, for tests of laws and of advance(): velocity Verlet as in fix nve/sphere, of
 /// balls on a line.
 
-#include "physics/contact_step.h"
+#include "physics/scheme/advance.h"
 
 #include <algorithm>
 #include <array>
@@ -89,8 +89,10 @@ public:
     damping_ = damping;
     v = half + 0.5 * dt_ * kick / mass_;
     double largest = 0.0;
-    for (const Partner &p : partners_)
+    for (Partner &p : partners_) {
       largest = std::max(largest, p.state.force);
+      p.law.remember(overlap(p));
+    }
     return largest;
   }
 

@@ -10,7 +10,7 @@
 #include "update.h"
 
 #include "contact/contact_loop.h"
-#include "liggghts/contact_table.h"
+#include "liggghts/pair_source.h"
 
 namespace drumlin {
 
@@ -19,28 +19,24 @@ namespace drumlin {
 /// computes them instead: see needs_engine_loop().
 /// \tparam flag bits of the engine's contact flags that say that there is a contact
 template <class Parameters, bool stepped, FrictionModel tangential, bool rolling, int flag>
-class EnginePairContacts {
+class LoopAdapter {
 public:
-  EnginePairContacts(LAMMPS_NS::PairGran &pair, const LAMMPS_NS::Atom &atom,
-                     const LAMMPS_NS::Neighbor &neighbor, const LAMMPS_NS::Clumps &clumps)
+  LoopAdapter(LAMMPS_NS::PairGran &pair, const LAMMPS_NS::Atom &atom, const LAMMPS_NS::Neighbor &neighbor,
+              const LAMMPS_NS::Clumps &clumps)
       : pair_(pair), atom_(atom), neighbor_(neighbor), clumps_(clumps), has_clumps_(!clumps.empty()) {}
 
-  /// \param force_place of the normal force in the contact history, with the second-order scheme
-  void compute(LoopMemory &memory, const CoefficientTable<Parameters> &table, int force_place,
-               LAMMPS_NS::FixStepping *stepping, const ContactObservers &observers, double dt) {
-    in_contact_place_ = force_place + 1;
-    // The engine asks the tangential model for its history first, then the rolling and the normal model.
-    const int rolling_place = tangential == FrictionModel::history ? 3 : 0;
-    const int stiffness_place = rolling_place + (rolling ? 3 : 0);
-    const HistoryPlaces places{0,           stiffness_place, force_place, rolling_place, pair_.dnum_pair(),
-                               pair_.dnum()};
-    ContactLoop<EnginePairContacts, Parameters, stepped, tangential, rolling>(
-        *this, atom_, memory, table, places, physics::Cap::coulomb, stepping, observers, dt, true)
+  void compute(LoopMemory &memory, const CoefficientTable<Parameters> &table, const HistoryPlaces &places,
+               physics::Cap cap, LAMMPS_NS::FixStepping *stepping, const ContactObservers &observers,
+               double dt) {
+    in_contact_place_ = places[Remembered::touches];
+    ContactLoop<LoopAdapter, Parameters, stepped, tangential, rolling>(*this, atom_, memory, table, places,
+                                                                       cap, stepping, observers, dt, true)
         .run(*pair_.list, neighbor_);
   }
 
   int *flags(int i) const { return pair_.listgranhistory->firstneigh[i]; }
   double *histories(int i) const { return pair_.listgranhistory->firstdouble[i]; }
+  int stride() const { return pair_.dnum(); }
   bool touched(int flags, const double *history) const {
     return stepped ? history[in_contact_place_] != 0.0 : flags != 0;
   }

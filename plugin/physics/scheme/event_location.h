@@ -7,7 +7,7 @@
 // (condition B) are located by linear interpolation of the sum of their forces if the law is linear, else by
 // bisection on the parabola.
 
-#include "physics/contact_law.h"
+#include "physics/laws/contact_law.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 /// linear law, and of every law that a change of variable makes linear (hertz_contact.h). The usual formula
 /// holds under A. Under B the relation is another: since the contact never pulls, the restitution is higher.
 
-#include "physics/contact_law.h"
+#include "physics/laws/contact_law.h"
 
 #include <cmath>
 

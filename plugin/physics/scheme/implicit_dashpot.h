@@ -3,10 +3,10 @@
 //
 // The engines' step is  v+ = v + dt/2 a(t),  x(t+dt) = x(t) + dt v+,  forces,  v(t+dt) = v+ + dt/2 a(t+dt).
 // Their own force laws compute the dashpot force with the half-step velocity v+, which is an error of first
-// order. Here it is computed with v(t+dt), for which an implicit equation is solved. contact_step.h adds the
+// order. Here it is computed with v(t+dt), for which an implicit equation is solved. advance.h adds the
 // steps in which a contact begins or ends.
 
-#include "physics/contact_law.h"
+#include "physics/laws/contact_law.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,11 +1,12 @@
-// Adapter of the core's Coulomb friction, whose force never exceeds its limit, to LIGGGHTS's contact models:
-// `tangential coulomb`. (LIGGGHTS includes this file several times; the first branch only announces the
-// model.)
+// Adapter of the core's friction with a spring to LIGGGHTS's contact models: `tangential coulomb`, whose force never exceeds
+// its limit, and `tangential history`, which limits the spring alone, as the engine's model of that name does. (LIGGGHTS
+// includes this file several times; the first branch only announces the models.)
 #ifdef TANGENTIAL_MODEL
 TANGENTIAL_MODEL(TANGENTIAL_COULOMB, coulomb, 21)
+TANGENTIAL_MODEL(TANGENTIAL_SPRING, tangential_spring, 22)
 #else
-#ifndef DRUMLIN_TANGENTIAL_MODEL_COULOMB_H
-#define DRUMLIN_TANGENTIAL_MODEL_COULOMB_H
+#ifndef DRUMLIN_TANGENTIAL_MODELS_H
+#define DRUMLIN_TANGENTIAL_MODELS_H
 
 #include "contact_models.h"
 #include "global_properties.h"
@@ -15,30 +16,28 @@ TANGENTIAL_MODEL(TANGENTIAL_COULOMB, coulomb, 21)
 #include <algorithm>
 
 #include "liggghts/coupled_contacts.h"
-#include "physics/friction_law.h"
+#include "physics/laws/friction_law.h"
 
 namespace LIGGGHTS {
 namespace ContactModels {
 
-/// Spring and dashpot in parallel, in series with a slider: physics::Cap::coulomb. kt, ct and the normal
-/// force come from the normal model; the spring is three values of the contact history, as in the engine's
-/// `history`.
-template <>
-class TangentialModel<TANGENTIAL_COULOMB> : public TangentialModelBase {
+/// kt, ct and the normal force come from the normal model; the spring is three values of the contact history.
+template <drumlin::physics::Cap cap>
+class SpringModel : public TangentialModelBase {
+  static constexpr bool coulomb = cap == drumlin::physics::Cap::coulomb;
+
 public:
-  TangentialModel(LAMMPS *lmp, IContactHistorySetup *hsetup, ContactModelBase *model)
+  SpringModel(LAMMPS *lmp, IContactHistorySetup *hsetup, ContactModelBase *model)
       : TangentialModelBase(lmp, hsetup, model), model_(model),
-        spring_offset_(hsetup->add_history_value("shearx", "1")) {
-    hsetup->add_history_value("sheary", "1");
-    hsetup->add_history_value("shearz", "1");
-  }
+        spring_offset_(drumlin::announce(*hsetup, drumlin::Remembered::spring)) {}
 
   void registerSettings(Settings &) {}
   void postSettings(IContactHistorySetup *, ContactModelBase *) {}
 
   void connectToProperties(PropertyRegistry &registry) {
     registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
-    registry.connect("coeffFrict", friction_, "tangential_model coulomb");
+    registry.connect("coeffFrict", friction_,
+                     coulomb ? "tangential_model coulomb" : "tangential_model history");
     coupled_.find(lmp, *model_);
   }
 
@@ -52,13 +51,15 @@ public:
     const physics::Vec3 slip = moves && !sidata.is_wall
                                    ? slip_of_step(sidata, normal)
                                    : physics::Vec3{sidata.vtr1, sidata.vtr2, sidata.vtr3};
-    const physics::Friction friction{sidata.kt, sidata.gammat, friction_[sidata.itype][sidata.jtype],
-                                     physics::Cap::coulomb};
+    const physics::Friction friction{sidata.kt, sidata.gammat, friction_[sidata.itype][sidata.jtype], cap};
+    const double dt = !moves    ? 0.0
+                      : coulomb ? drumlin::time_of_spring(sidata, spring, moves, update->dt)
+                                : update->dt;
     const physics::FrictionStep step =
-        physics::friction_step(friction, sidata.Fn, normal, slip, {spring[0], spring[1], spring[2]},
-                               drumlin::time_of_spring(sidata, spring, moves, update->dt));
+        physics::friction_step(friction, sidata.Fn, normal, slip, {spring[0], spring[1], spring[2]}, dt);
     if (moves) std::copy(step.spring.begin(), step.spring.end(), spring);
-    if (auto *rubbing = coupled_.rubbing(sidata)) {
+    LAMMPS_NS::FixStepping::Rubbing *rubbing = coulomb ? coupled_.rubbing(sidata) : coupled_.begun(sidata);
+    if (rubbing != nullptr) {
       rubbing->friction = friction;
       rubbing->rub = step.force;
       rubbing->slip = slip;
@@ -87,6 +88,7 @@ public:
   void endPass(SurfacesIntersectData &, ForceData &, ForceData &) {}
 
 private:
+  /// As the loop over contacts has it, of balls.
   drumlin::physics::Vec3 slip_of_step(const SurfacesIntersectData &sidata,
                                       const drumlin::physics::Vec3 &normal) const {
     drumlin::physics::Vec3 relative{}, separation{}, turning{};
@@ -95,13 +97,27 @@ private:
       separation[a] = sidata.delta[a];
       turning[a] = sidata.cri * sidata.omega_i[a] + sidata.crj * sidata.omega_j[a];
     }
-    return drumlin::physics::slip_velocity_of_step(relative, separation, normal, turning, update->dt);
+    return coulomb
+               ? drumlin::physics::slip_velocity_of_step(relative, separation, normal, turning, update->dt)
+               : drumlin::physics::slip_velocity(relative, normal, turning);
   }
 
   ContactModelBase *model_;
   drumlin::CoupledContacts coupled_;
   double **friction_ = nullptr; // coefficients by types
   int spring_offset_;           // in the contact history
+};
+
+template <>
+class TangentialModel<TANGENTIAL_COULOMB> : public SpringModel<drumlin::physics::Cap::coulomb> {
+public:
+  using SpringModel::SpringModel;
+};
+
+template <>
+class TangentialModel<TANGENTIAL_SPRING> : public SpringModel<drumlin::physics::Cap::spring> {
+public:
+  using SpringModel::SpringModel;
 };
 
 } // namespace ContactModels

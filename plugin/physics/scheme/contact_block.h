@@ -3,9 +3,9 @@
 // compiler computes two or four contacts with one instruction. The formulas are those of plugin/physics, and
 // the results have the same bits as those of one contact after the other.
 
-#include "physics/contact_step.h"
-#include "physics/friction_law.h"
-#include "physics/rolling_law.h"
+#include "physics/scheme/advance.h"
+#include "physics/laws/friction_law.h"
+#include "physics/laws/rolling_law.h"
 
 #include <cmath>
 #include <cstdint>
@@ -84,6 +84,7 @@ struct ContactBlock {
   Vectors spring;            ///< m, of friction, before and then after the step
   Vectors rolling_spring;    ///< N m, the same of the torque of rolling resistance
   Numbers stored_stiffness;  ///< N/m, the same of the tangential stiffness, where that varies
+  Numbers memory_before;     ///< what the contact remembers for its law at the beginning of the step
   // Computed:
   Numbers overlap;            ///< m
   Numbers rate_half;          ///< m/s, rate of change of the overlap from the velocities half a step earlier
@@ -94,6 +95,7 @@ struct ContactBlock {
   Numbers force;              ///< N, normal force at the end of the step, used for friction
   Numbers push;               ///< N, normal force of the closing half kick
   Numbers dashpot;            ///< N s/m, of the normal dashpot
+  Numbers memory;             ///< what the contact remembers for its law at the end of the step
   Numbers kt;                 ///< N/m, tangential stiffness
   Vectors tangential_force;   ///< N, on ball i
   Vectors total_force;        ///< N, on ball i
@@ -129,12 +131,12 @@ DRUMLIN_FOR_THIS_PROCESSOR ContactSet compute_normal_forces(ContactBlock &b, int
       b.slip.set(n, slip == Slip::in_middle ? slip_velocity_of_step(velocity, separation, normal, turning, dt)
                                             : slip_velocity(velocity, normal, turning));
     }
-    const auto law = parameters.law(m_eff, r_eff);
+    auto law = parameters.law(m_eff, r_eff, Parameters::remembers ? b.memory_before[n] : 0.0);
     const double dashpot = law.dashpot(overlap);
     if constexpr (stepped) {
       const double rate_before = -dot(b.velocity_before[n], normal);
       const StepMotion motion{overlap, rate_half, rate_before, dt};
-      const bool needs = needs_coupling(dt, law.stiffness(overlap), dashpot, b.damping_over_mass[n]);
+      const bool needs = needs_coupling(dt, law.stiffest(overlap), dashpot, b.damping_over_mass[n]);
       rare |= needs ? detail::bits.of[n] : 0;
       b.push[n] = b.force[n] = going_on(law, motion, b.force_before[n], m_eff);
     } else {
@@ -142,6 +144,10 @@ DRUMLIN_FOR_THIS_PROCESSOR ContactSet compute_normal_forces(ContactBlock &b, int
       const StepMotion motion{overlap, rate_half, rate_half, dt};
       b.push[n] = advance_stock(law, motion, state).kick;
       b.force[n] = state.force;
+    }
+    if constexpr (Parameters::remembers) {
+      law.remember(overlap);
+      b.memory[n] = law.memory();
     }
     b.normal.set(n, normal);
     b.overlap[n] = overlap;

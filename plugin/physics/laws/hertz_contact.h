@@ -6,12 +6,14 @@
 /// sqrt(5/4 k m)) the restitution is therefore that of the linear law with the same D, under A and B and at
 /// any impact speed.
 
-#include "physics/contact_law.h"
+#include "physics/laws/contact_law.h"
+#include "physics/laws/law_parameters.h"
+#include "physics/laws/restitution.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <string>
 
 namespace drumlin::physics {
 
@@ -41,7 +43,7 @@ public:
 
   [[nodiscard]] double spring(double overlap) const { return k_ * overlap * std::sqrt(overlap); }
   [[nodiscard]] double dashpot(double overlap) const { return c_ * std::sqrt(std::sqrt(overlap)); }
-  [[nodiscard]] double stiffness(double overlap) const { return 1.5 * k_ * std::sqrt(overlap); }
+  [[nodiscard]] double slope(double overlap) const { return 1.5 * k_ * std::sqrt(overlap); }
   [[nodiscard]] double secant(double overlap) const { return k_ * std::sqrt(overlap); }
   [[nodiscard]] double stored(double overlap) const {
     return 0.4 * k_ * overlap * overlap * std::sqrt(overlap);
@@ -74,9 +76,10 @@ struct HertzContact {
   static constexpr const char *name = "hertz/transition";
   static constexpr bool depends_on_radius = true;
   static constexpr bool tangential_varies = true;
+  static constexpr bool remembers = false;
 
-  double youngs_modulus = 0.0;                 ///< effective, E*, Pa, finite and > 0
-  double shear_modulus = 0.0;                  ///< effective, G*, Pa, finite and > 0
+  double youngs_modulus = 0.0;                 ///< effective, E*, Pa
+  double shear_modulus = 0.0;                  ///< effective, G*, Pa
   double damping = 0.0;                        ///< c in N s/m^(5/4) or D without dimension, finite and >= 0
   Damping damping_kind = Damping::coefficient; ///< which of the two `damping` is
   Transition transition = Transition::B;
@@ -89,17 +92,24 @@ struct HertzContact {
     shear_modulus = 1.0 / (2.0 * (2.0 - nu1) * (1.0 + nu1) / E1 + 2.0 * (2.0 - nu2) * (1.0 + nu2) / E2);
   }
 
-  /// Empty if every value is allowed, else what is wrong: name, value, what is allowed.
-  [[nodiscard]] std::string invalid() const {
-    using detail::Allowed;
-    std::string text =
-        detail::violation("effective Young's modulus", youngs_modulus, "Pa", Allowed::positive);
-    if (text.empty())
-      text = detail::violation("effective shear modulus", shear_modulus, "Pa", Allowed::positive);
-    if (!text.empty()) return text;
-    return damping_kind == Damping::ratio
-               ? detail::violation("damping ratio", damping, "", Allowed::not_negative)
-               : detail::violation("damping coefficient", damping, "N s/m^1.25", Allowed::not_negative);
+  static constexpr std::array<LawParameter<HertzContact>, 2> parameters() {
+    return {
+        {{&HertzContact::youngs_modulus, "effective Young's modulus", "Pa", Range::positive, nullptr, "E*"},
+         {&HertzContact::shear_modulus, "effective shear modulus", "Pa", Range::positive, nullptr, "G*"}}};
+  }
+  static constexpr std::array<MaterialParameter, 2> material() {
+    return {{{"Young's modulus", "Pa", Range::positive, "youngsModulus", "E"},
+             {"Poisson's ratio", "", {-1.0, true, 0.5}, "poissonsRatio", "nu"}}};
+  }
+  /// Takes the parameters from those of the materials of the two bodies.
+  void set_material(const std::array<double, 2> &one, const std::array<double, 2> &other) {
+    set_moduli(one[0], one[1], other[0], other[1]);
+  }
+  void set_defaults() {}
+  /// The relation of D and e is that of the linear law: see above.
+  void set_restitution(double e) {
+    damping = damping_ratio_of_restitution(transition, e);
+    damping_kind = Damping::ratio;
   }
 
   /// k, N/m^(3/2), 4/3 E* sqrt(R). \param r_eff effective radius R, m, > 0
@@ -107,7 +117,7 @@ struct HertzContact {
 
   /// The law of a contact of effective mass m_eff, kg, > 0, and effective radius, m, > 0. The dashpot
   /// coefficient c, N s/m^(5/4), is 2 D sqrt(5/4 k m_eff), or the coefficient itself if that was given.
-  [[nodiscard]] HertzLaw law(double m_eff, double r_eff) const {
+  [[nodiscard]] HertzLaw law(double m_eff, double r_eff, double = 0.0) const {
     const double k = stiffness(r_eff);
     const double c =
         damping_kind == Damping::coefficient ? damping : 2.0 * damping * std::sqrt(1.25 * k * m_eff);
@@ -118,14 +128,6 @@ struct HertzContact {
   /// slip. Not 0 at d = 0, so that a force over it stays finite.
   [[nodiscard]] double tangential(double overlap, double r_eff) const {
     return 8.0 * shear_modulus * std::sqrt(r_eff * std::max(overlap, std::numeric_limits<double>::min()));
-  }
-
-  /// The law, without transition condition, of which secant(), N/m, and dashpot(), N s/m, are known at an
-  /// overlap, m, >= 0.
-  [[nodiscard]] static HertzLaw of_secant(double secant, double dashpot, double overlap) {
-    const double root = std::sqrt(overlap);
-    return overlap > 0.0 ? HertzLaw(secant / root, dashpot / std::sqrt(root), Transition::A)
-                         : HertzLaw(0.0, 0.0, Transition::A);
   }
 };
 

@@ -239,7 +239,7 @@ struct PulledSpring {
     sliding = squared > limit * limit;
     if (sliding) {
       pull = scaled(limit / std::sqrt(squared), trial_pull);
-      spring = scaled(1.0 / kt, sum(pull, -ct, vt));
+      spring = scaled(kt > 0.0 ? 1.0 / kt : 0.0, sum(pull, -ct, vt));
     } else {
       pull = trial_pull;
     }

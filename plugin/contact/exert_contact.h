@@ -2,8 +2,9 @@
 // The second-order scheme in an engine's loop over contacts: collects the arguments of physics::advance()
 // from FixStepping, and applies its result to the balls. Shared by the adapters of both engines.
 
+#include "contact/contact_history.h"
 #include "contact/fix_stepping.h"
-#include "physics/contact_step.h"
+#include "physics/scheme/advance.h"
 
 #include <algorithm>
 #include <array>
@@ -41,6 +42,23 @@ inline physics::StepMotion step_motion(const LAMMPS_NS::FixStepping &stepping, c
 inline physics::StepContext step_context(const LAMMPS_NS::FixStepping &stepping, int i, int j, double m_eff) {
   return {m_eff, stepping.damping_over_mass(i) + (j < 0 ? 0.0 : stepping.damping_over_mass(j)),
           stepping.in_setup()};
+}
+
+/// The tangential stiffness of a contact in a step, N/m, of a law in which it varies: the springs that the contact remembers
+/// follow its change. \param kt at the overlap of this step \param moves false in the set-up of a run and for computes: it is
+/// that of the step before, if there was one
+inline double follow_stiffness(const HistoryPlaces &places, double *history, double kt, bool moves) {
+  if (places[Remembered::stiffness] < 0) return kt;
+  double &before = history[places[Remembered::stiffness]];
+  if (!moves) return before > 0.0 ? before : kt;
+  const auto keep = [&](Remembered spring, double share) {
+    for (int a = 0; places[spring] >= 0 && a < 3; ++a)
+      history[places[spring] + a] *= share;
+  };
+  keep(Remembered::spring, physics::kept_spring(before, kt));
+  keep(Remembered::rolling_spring, physics::kept_torque(before, kt));
+  before = kt;
+  return kt;
 }
 
 /// Adds the damping coefficient c, N s/m, of a contact to the sums of its balls, which the next step uses;

@@ -8,29 +8,23 @@
 namespace LAMMPS_NS {
 
 template <class Parameters, bool stepped, drumlin::FrictionModel tangential, bool rolling>
-class PairGranTransition::Contacts {
+class PairGranTransition::LoopAdapter {
 public:
-  Contacts(PairGranTransition &pair, const drumlin::CoefficientTable<Parameters> &table)
+  LoopAdapter(PairGranTransition &pair, const drumlin::CoefficientTable<Parameters> &table)
       : pair_(pair), table_(table), atom_(*pair.atom), bodies_(!pair.clumps_.empty() || !pair.rigid_.empty()),
         tallies_(pair.evflag != 0), f_(atom_.f[0]), t_(atom_.torque[0]),
         taken_(pair.force->newton_pair ? atom_.nlocal + atom_.nghost : atom_.nlocal) {}
 
   void compute() {
-    const drumlin::ContactSettings &settings = pair_.settings_;
-    const drumlin::HistoryPlaces places{0,
-                                        settings.stiffness_place(),
-                                        settings.force_place(),
-                                        settings.rolling_place(),
-                                        settings.history(),
-                                        settings.history()};
-    drumlin::ContactLoop<Contacts, Parameters, stepped, tangential, rolling>(
-        *this, atom_, pair_.loop_memory_, table_, places, settings.cap, pair_.stepping_, pair_.observers_,
-        pair_.update->dt, pair_.update->setupflag == 0)
+    drumlin::ContactLoop<LoopAdapter, Parameters, stepped, tangential, rolling>(
+        *this, atom_, pair_.loop_memory_, table_, pair_.places_, pair_.settings_.cap, pair_.stepping_,
+        pair_.observers_, pair_.update->dt, pair_.update->setupflag == 0)
         .run(*pair_.list, *pair_.neighbor);
   }
 
   int *flags(int i) const { return pair_.history_->firstflag[i]; }
   double *histories(int i) const { return pair_.history_->firstvalue[i]; }
+  int stride() const { return pair_.places_.count(); }
   static bool touched(int flag, const double *) { return flag != 0; }
   static void mark(int &flag, double *, bool touches) { flag = touches; }
 

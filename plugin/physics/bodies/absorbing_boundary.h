@@ -10,9 +10,9 @@
 /// share 1 / (1 + (2 w H/c_p)^2) of the energy of a wave of angular frequency w is reflected.
 
 #include "physics/parameter_checks.h"
-#include "physics/contact_law.h"
-#include "physics/stepping.h"
-#include "physics/time_step.h"
+#include "physics/laws/linear_contact.h"
+#include "physics/scheme/implicit_dashpot.h"
+#include "physics/scheme/stability_limit.h"
 #include "physics/vec3.h"
 
 #include <array>

@@ -8,8 +8,8 @@
 /// "opening" half kick is the velocity update before the drift of velocity Verlet, a "closing" one that after
 /// the forces.
 
-#include "physics/contact_law.h"
-#include "physics/stepping.h"
+#include "physics/laws/contact_law.h"
+#include "physics/scheme/implicit_dashpot.h"
 
 #include <algorithm>
 
@@ -179,7 +179,7 @@ template <class Law>
 [[nodiscard]] inline bool goes_on(const Law &law, const StepMotion &motion, const ContactState &state,
                                   const StepContext &context) {
   return state.in_contact && !context.in_setup &&
-         !needs_coupling(motion.dt, law.stiffness(motion.overlap), law.dashpot(motion.overlap),
+         !needs_coupling(motion.dt, law.stiffest(motion.overlap), law.dashpot(motion.overlap),
                          context.damping_over_mass);
 }
 
@@ -221,7 +221,7 @@ template <class Law>
   // An overlap from before this step but no history: a ball on a mesh has moved to another triangle.
   const double before = was_in_contact ? state.force : law.force(motion.overlap_before(), motion.rate_before);
   state.force = going_on(law, motion, before, context.m_eff);
-  if (!needs_coupling(motion.dt, law.stiffness(motion.overlap), law.dashpot(motion.overlap),
+  if (!needs_coupling(motion.dt, law.stiffest(motion.overlap), law.dashpot(motion.overlap),
                       context.damping_over_mass))
     return {state.force, lost_its_force(before, state.force) ? detail::released(law, motion) : state.force,
             0.0, 1.0};
@@ -239,7 +239,7 @@ template <class Law>
   if constexpr (Law::is_linear) return 0.0;
   const double now = motion.overlap, before = motion.overlap_before();
   if (before <= 0.0 || law.dashpot(now) == 0.0) return 0.0;
-  return 0.5 * (law.spring(now) + law.spring(before)) * (now - before) -
+  return 0.5 * (law.elastic(now) + law.elastic(before)) * (now - before) -
          (law.energy(now) - law.energy(before));
 }
 
@@ -259,11 +259,11 @@ template <class Law>
   if (step.begins) {
     const double d = motion.overlap;
     if (law.dashpot(d) == 0.0) return 0.0;
-    const double spring = law.spring(d), dashpot = step.force - spring;
+    const double spring = law.elastic(d), dashpot = step.force - spring;
     const double rate = motion.rate_predicted() - 0.5 * per_mass * step.kick;
     const double corrected = 0.5 * dt * per_mass * step.shift; // m, of the overlap in the next drift
     const double next = d + dt * (rate - 0.5 * per_mass * step.force) - corrected;
-    const double drift = 0.5 * (spring + (next > 0.0 ? law.spring(next) : 0.0)) * corrected;
+    const double drift = 0.5 * (spring + (next > 0.0 ? law.elastic(next) : 0.0)) * corrected;
     return closing_work(slowing) - law.energy(d) + drift - 0.5 * dt * dashpot * rate -
            0.125 * dt * per_mass * (dashpot - spring) * step.force;
   }
@@ -273,7 +273,7 @@ template <class Law>
            (step.coupled || step.kick == step.force ? 0.0 : closing_work(others));
   const double d = motion.overlap_before();
   if (!before.in_contact || d <= 0.0 || law.dashpot(d) == 0.0) return 0.0;
-  return law.energy(d) + 0.5 * dt * law.spring(d) * motion.rate_half + closing_work(others);
+  return law.energy(d) + 0.5 * dt * law.elastic(d) * motion.rate_half + closing_work(others);
 }
 
 /// The same with the engines' own scheme, `stock`: the dashpot force is computed with the half-step velocity,

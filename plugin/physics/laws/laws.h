@@ -2,8 +2,8 @@
 // The contact laws that a deck can choose. Pair styles, walls and fixes are compiled for each law of this
 // list.
 
-#include "physics/contact_law.h"
-#include "physics/hertz_contact.h"
+#include "physics/laws/hertz_contact.h"
+#include "physics/laws/linear_contact.h"
 
 #include <string>
 #include <tuple>

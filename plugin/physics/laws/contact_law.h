@@ -1,16 +1,13 @@
 #pragma once
-/// The linear contact of the paper, Eq. (2), with its two transition conditions, A of Eqs. (3)-(5) and
-/// B of Eqs. (6)-(9), and the base class of all contact laws.
+/// The base class of all contact laws, and their two transition conditions: A of Eqs. (3)-(5) and B of Eqs. (6)-(9) of
+/// the paper.
 ///
 /// Sign convention: the overlap d = x1 - x2 is positive while the surfaces overlap, its rate d' is positive
 /// while they approach, and the force Fc is positive in compression (it pushes the balls apart). SI units.
 ///
 /// A NaN in an argument gives a NaN, never a number, so that an error in the state of a run stays visible.
 
-#include "physics/parameter_checks.h"
-
 #include <cmath>
-#include <string>
 
 namespace drumlin::physics {
 
@@ -33,16 +30,22 @@ struct ContactPower {
 /// `Law` derives from ContactLaw<Law> and has these functions of the overlap d > 0, in m:
 ///   spring(d)     E, N, 0 at d = 0
 ///   dashpot(d)    C, N s/m, >= 0
-///   stiffness(d)  dE/dd, N/m
+///   slope(d)      dE/dd, N/m
 ///   secant(d)     E/d, N/m
-///   stored(d)     energy in the spring, J, the integral of E
-/// and these further members, which LinearLaw below and HertzLaw (hertz_contact.h) explain:
-///   spring_change(), begins_with_jump, first_weight()   for the second-order scheme, contact_step.h
+///   stored(d)     energy in the spring, J, that the contact can give back
+/// and these further members, which LinearLaw (linear_contact.h) and HertzLaw (hertz_contact.h) explain:
+///   spring_change(), begins_with_jump, first_weight()   for the second-order scheme, advance.h
 ///   is_linear    whether E is proportional to d and C constant: the times of events then have a closed form,
 ///                event_location.h
 ///   exponent     of d in E: LIGGGHTS asks each of its contact models for it
 ///   dashpot_exponent   of d in C
 /// The force of LinearLaw jumps when a contact begins, that of HertzLaw begins at 0.
+///
+/// A law may remember a number of each contact, such as its largest overlap. It is made for a contact and a time step
+/// with the number at the beginning of the step, so that all functions of d are pure: they hold for the overlaps within
+/// the step. remember() takes up the overlap at the end of the step; memory() is then the number of the next step, with
+/// which the law must have the same bits at this overlap, and taking the overlap up again must change nothing. Such a
+/// law also has the functions below whose defaults do not fit it; its parameters have `remembers`.
 template <class Law>
 class ContactLaw {
 public:
@@ -74,19 +77,30 @@ public:
   /// Whether the contact force is a tension just before the contact ends, so that the force jumps there.
   [[nodiscard]] bool ends_in_tension() const { return transition_ == Transition::A; }
 
+  /// What the contact remembers; 0 at its beginning.
+  [[nodiscard]] double memory() const { return 0.0; }
+  /// Takes up the overlap d, m, at the end of a step.
+  void remember(double) {}
+  /// d stored / dd, N: the part of E that stores energy. The work of the rest turns into heat.
+  [[nodiscard]] double elastic(double overlap) const { return self().spring(overlap); }
+  /// The greatest dE/dd, N/m, that the contact can have at this overlap, whether it is loaded or unloaded: for the limits
+  /// of the time step.
+  [[nodiscard]] double stiffest(double overlap) const { return self().slope(overlap); }
+
   /// Energy in the contact's spring, J; 0 for d <= 0.
   [[nodiscard]] double energy(double overlap) const { return overlap <= 0.0 ? 0.0 : self().stored(overlap); }
 
-  /// Splits Fc d' into spring and dashpot: stored = E d', dissipated = (Fc - E) d', both 0 for d <= 0.
-  /// dissipated is C d'^2 where the no-tension limit does not act. Where it acts (B, Fc = 0 and E < -C d'),
+  /// Splits Fc d' into what the contact stores and heat: stored = E d', dissipated = (Fc - E) d', both 0 for d <= 0, for
+  /// a law with elastic() = E. dissipated is C d'^2 where the no-tension limit does not act. Where it acts (B, Fc = 0 and E < -C d'),
   /// the spring relaxes against the dashpot, and its energy turns into heat at the rate -E d' > 0, which is
   /// less than C d'^2. The integral of stored over time is the change of energy(), through makes, breaks and
   /// the limit, since d and with it the energy are continuous: the energy balance holds for each contact.
   [[nodiscard]] ContactPower power(double overlap, double rate) const {
     if (overlap <= 0.0) return {0.0, 0.0};
-    const double stored = self().spring(overlap) * rate;
+    const double elastic = self().elastic(overlap), stored = elastic * rate;
     const bool clamped = transition_ == Transition::B && spring_and_dashpot(overlap, rate) < 0.0;
-    return {clamped ? -stored : self().dashpot(overlap) * rate * rate, stored};
+    const double plastic = (self().spring(overlap) - elastic) * rate;
+    return {clamped ? -stored : plastic + self().dashpot(overlap) * rate * rate, stored};
   }
 
   [[nodiscard]] Transition transition() const { return transition_; }
@@ -103,38 +117,6 @@ private:
   Transition transition_;
 };
 
-/// The linear law of one contact: Fc = k d + c d', Eq. (2).
-class LinearLaw : public ContactLaw<LinearLaw> {
-public:
-  /// \param k stiffness, N/m \param c damping coefficient, N s/m
-  LinearLaw(double k, double c, Transition transition) : ContactLaw(transition), k_(k), c_(c) {}
-
-  [[nodiscard]] double spring(double overlap) const { return k_ * overlap; }
-  [[nodiscard]] double dashpot(double) const { return c_; }
-  [[nodiscard]] double stiffness(double) const { return k_; }
-  [[nodiscard]] double secant(double) const { return k_; }
-  [[nodiscard]] double stored(double overlap) const { return 0.5 * k_ * overlap * overlap; }
-  /// Change, N, of spring() during a time dt, s, in which the overlap grew at a constant rate, m/s, and which
-  /// ends at the overlap d, m (the first argument; not needed by this law).
-  [[nodiscard]] double spring_change(double, double rate, double dt) const { return k_ * dt * rate; }
-
-  /// Whether spring and dashpot are linear in overlap and rate.
-  static constexpr bool is_linear = true;
-  /// The spring force is proportional to the overlap to this power.
-  static constexpr double exponent = 1.0;
-  /// The dashpot coefficient is proportional to the overlap to this power.
-  static constexpr double dashpot_exponent = 0.0;
-  /// Whether the force jumps at the beginning of a contact: here from 0 to c d'.
-  static constexpr bool begins_with_jump = true;
-  /// Weight of the dashpot's first force in the closing half kick of the step in which the contact begins. In
-  /// the step in which the overlap ends, its last force has the weight first_weight(share) - 1.
-  /// \param share part of the step, 0 to 1, in which the force acted
-  [[nodiscard]] static double first_weight(double share) { return 2.0 * share; }
-
-private:
-  double k_, c_;
-};
-
 /// Effective mass, kg, of the relative motion of two balls: m_eff = mi mj / (mi + mj).
 /// A fixed partner has an infinite mass, and m_eff is then the other ball's mass (m2 in Eq. (10)).
 /// Valid for masses > 0 of which at most one is infinite.
@@ -148,47 +130,5 @@ private:
 /// Effective radius R, m, of the contact of balls with the radii a and b, m, both > 0: a b / (a + b). Against a plane it is
 /// the radius of the ball.
 [[nodiscard]] inline double effective_radius(double a, double b) { return a * b / (a + b); }
-
-/// Parameters of the linear law for a pair of types; law() gives the law for balls of given masses.
-struct LinearContact {
-  using Law = LinearLaw;
-  /// What decks call the law, behind `model` (LIGGGHTS) or `pair_style gran/` (LAMMPS).
-  static constexpr const char *name = "hooke/transition";
-  /// Whether law() and tangential() need the effective radius.
-  static constexpr bool depends_on_radius = false;
-  /// Whether tangential() depends on the overlap. A contact then also stores it: see kept_spring().
-  static constexpr bool tangential_varies = false;
-
-  double stiffness = 0.0;                      ///< k, N/m, finite and > 0
-  double damping = 0.0;                        ///< c in N s/m or D without dimension, finite and >= 0
-  Damping damping_kind = Damping::coefficient; ///< which of the two `damping` is
-  Transition transition = Transition::B;       ///< B, the condition that the paper recommends
-  double tangential_stiffness = 0.0;           ///< kt, N/m, of the spring of friction, finite and >= 0
-
-  /// Empty if every value is allowed, else what is wrong: name, value, what is allowed.
-  [[nodiscard]] std::string invalid() const {
-    std::string text = detail::violation("stiffness", stiffness, "N/m", detail::Allowed::positive);
-    if (!text.empty()) return text;
-    return damping_kind == Damping::ratio
-               ? detail::violation("damping ratio", damping, "", detail::Allowed::not_negative)
-               : detail::violation("damping coefficient", damping, "N s/m", detail::Allowed::not_negative);
-  }
-
-  /// Dashpot coefficient c, N s/m: c = 2 D sqrt(m_eff k), Eq. (10), or the coefficient itself if that was
-  /// given. m_eff in kg, > 0; see effective_mass().
-  [[nodiscard]] double damping_coefficient(double m_eff) const {
-    if (damping_kind == Damping::coefficient) return damping;
-    return 2.0 * damping * std::sqrt(m_eff * stiffness);
-  }
-
-  /// The law of a contact of effective mass m_eff, kg, > 0. The effective radius is not needed.
-  [[nodiscard]] LinearLaw law(double m_eff, double = 0.0) const {
-    return {stiffness, damping_coefficient(m_eff), transition};
-  }
-  /// Stiffness kt, N/m, of the spring of friction. Overlap and effective radius are not needed.
-  [[nodiscard]] double tangential(double, double) const { return tangential_stiffness; }
-  /// The law, without transition condition, of which secant() and dashpot() are known at an overlap.
-  [[nodiscard]] static LinearLaw of_secant(double k, double c, double) { return {k, c, Transition::A}; }
-};
 
 } // namespace drumlin::physics

@@ -1,4 +1,4 @@
-#include "liggghts/contact_table.h"
+#include "liggghts/pair_source.h"
 
 #include "engine.h"
 #include "fix_rigid.h"
@@ -53,30 +53,30 @@ LAMMPS_NS::PairGran *gran_pair(LAMMPS *lmp) {
   return dynamic_cast<LAMMPS_NS::PairGran *>(lmp->force->pair_match("gran", 1));
 }
 
-PairContacts *pair_contacts(LAMMPS *lmp) {
+PairSource *pair_source(LAMMPS *lmp) {
   auto *proxy = dynamic_cast<LAMMPS_NS::PairGranProxy *>(gran_pair(lmp));
-  return proxy == nullptr ? nullptr : dynamic_cast<PairContacts *>(style_of(*proxy));
+  return proxy == nullptr ? nullptr : dynamic_cast<PairSource *>(style_of(*proxy));
 }
 
 const ContactSource *contact_source(LAMMPS *lmp) {
-  const PairContacts *contacts = pair_contacts(lmp);
+  const PairSource *contacts = pair_source(lmp);
   return contacts != nullptr && contacts->has_table() ? contacts : nullptr;
 }
 
-void PairContacts::begin(LAMMPS_NS::PairGran *pair, FrictionModel friction_model, physics::Cap cap) {
+void PairSource::begin(LAMMPS_NS::PairGran *pair, const ContactSettings &settings) {
   pair_ = pair;
   table_.reset();
   wall_tables_.clear();
   clumps_.find(*lmp_->modify);
-  friction_model_ = friction_model;
-  cap_ = cap;
+  settings_ = settings;
+  places_ = settings.places(history_order);
   meshes_ = false;
   for (const LAMMPS_NS::Fix *fix : engine::fixes(lmp_->modify))
     if (const auto *wall = dynamic_cast<const LAMMPS_NS::FixWallGran *>(fix))
       meshes_ = meshes_ || wall->is_mesh_wall();
 }
 
-double PairContacts::mass(int i) const {
+double PairSource::mass(int i) const {
   const LAMMPS_NS::Atom &atom = *lmp_->atom;
   if (atom.mask[i] & pair_->freeze_group_bit()) return std::numeric_limits<double>::infinity();
   const double own =
@@ -84,7 +84,7 @@ double PairContacts::mass(int i) const {
   return clumps_.mass_of(atom, i, own);
 }
 
-physics::Dashpots PairContacts::wall_dashpots(int i) const {
+physics::Dashpots PairSource::wall_dashpots(int i) const {
   const LAMMPS_NS::Atom &atom = *lmp_->atom;
   physics::Dashpots all;
   if (meshes_) all.sum = std::numeric_limits<double>::infinity();
@@ -106,16 +106,14 @@ physics::Dashpots PairContacts::wall_dashpots(int i) const {
   return all;
 }
 
-const LAMMPS_NS::NeighList *PairContacts::contact_list() const { return pair_->list; }
+const LAMMPS_NS::NeighList *PairSource::contact_list() const { return pair_->list; }
 
-// The engine builds the tangential model before any other that asks for history: its spring comes first.
-TangentialSpring PairContacts::tangential_spring(int i, int jj) const {
-  const double *history =
-      pair_->listgranhistory->firstdouble[i] + static_cast<std::ptrdiff_t>(pair_->dnum()) * jj;
-  return {history, stiffness_offset_ < 0 ? nullptr : history + stiffness_offset_};
+const double *PairSource::history(int i, int jj) const {
+  if (pair_->listgranhistory == nullptr) return nullptr;
+  return pair_->listgranhistory->firstdouble[i] + static_cast<std::ptrdiff_t>(pair_->dnum()) * jj;
 }
 
-const LAMMPS_NS::Atom &PairContacts::balls() const { return *lmp_->atom; }
+const LAMMPS_NS::Atom &PairSource::balls() const { return *lmp_->atom; }
 
 DampingProperties::DampingProperties(LAMMPS *lmp, const std::string &command, int ntypes,
                                      const ContactSettings &settings)
@@ -126,10 +124,10 @@ DampingProperties::DampingProperties(LAMMPS *lmp, const std::string &command, in
 }
 
 void provide_friction_default(LAMMPS *lmp, const std::string &command, int ntypes) {
-  if (TypePairProperty given(lmp, command, friction_property, ntypes); given.given()) {
+  if (TypeProperty given(lmp, command, friction_property, ntypes); given.given()) {
     for (int i = 1; i <= ntypes; ++i)
       for (int j = 1; j <= ntypes; ++j)
-        given(i, j, true);
+        given(i, j, Range::non_negative);
     return;
   }
   std::vector<std::string> words = {"drumlin_friction", "all",

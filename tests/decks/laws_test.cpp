@@ -1,0 +1,144 @@
+// Balls that fall on one another between walls, with each contact law of the list: the engines against each other on 1, 2 and
+// 4 ranks, and from restart files.
+#include "tests/support/balls_run.h"
+#include "tests/support/frame_distance.h"
+#include "tests/plugin/law_samples.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+struct Scene {
+  std::string name;
+  Variables variables;
+  bool all_runs = false;       ///< on each number of ranks with newton off and on, and restarts on four ranks
+  std::string properties = {}; ///< of a law that the decks do not know: commands of LIGGGHTS,
+  std::string words = {};      ///< words of LAMMPS's pair_coeff
+};
+
+void PrintTo(const Scene &scene, std::ostream *out) { *out << scene.name; }
+
+class LawBounce : public ::testing::TestWithParam<Scene> {
+protected:
+  void SetUp() override {
+    if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  }
+  /// \param folder of the run
+  static Variables variables(const Scratch &folder, bool lammps) {
+    Variables all = GetParam().variables;
+    if (GetParam().words.empty()) return all;
+    std::ofstream(folder / "properties") << GetParam().properties;
+    all.emplace_back("parameters", lammps ? GetParam().words : "include " + (folder / "properties").string());
+    return all;
+  }
+};
+
+TEST_P(LawBounce, IsOneInBothEnginesOnRanksOneTwoAndFourWithNewtonOffAndOn) {
+  const Scratch liggghts;
+  const Outcome here = run_deck(test_deck("bounce.in"), variables(liggghts, false), liggghts.path());
+  ASSERT_TRUE(here.ok()) << here.output;
+  const std::vector<Frame> expected = read_dump(liggghts / "balls.txt");
+  ASSERT_EQ(expected.size(), 13u);
+  std::vector<std::pair<int, const char *>> runs = {{1, "off"}, {2, "on"}, {4, "off"}};
+  if (GetParam().all_runs) runs.insert(runs.end(), {{1, "on"}, {2, "off"}, {4, "on"}});
+  for (const auto &[ranks, newton] : runs) {
+    const Scratch lammps;
+    Variables more = variables(lammps, true);
+    more.emplace_back("newton", newton);
+    const Outcome there = run_deck(test_deck("bounce.lammps"), more, lammps.path(), ranks);
+    ASSERT_TRUE(there.ok()) << there.output;
+    EXPECT_LT(distance(read_dump(lammps / "balls.txt"), expected), 1e-9)
+        << "ranks " << ranks << ", newton " << newton;
+  }
+  for (const int ranks : {2, 4}) {
+    if (ranks > 2 && !GetParam().all_runs) continue;
+    const Scratch more;
+    ASSERT_TRUE(run_deck(test_deck("bounce.in"), variables(more, false), more.path(), ranks).ok());
+    EXPECT_LT(distance(read_dump(more / "balls.txt"), expected), 1e-9) << ranks;
+  }
+}
+
+TEST_P(LawBounce, ContinuesFromARestartFileBitwiseOnRanks) {
+  struct Run {
+    const char *deck, *resume;
+    int ranks;
+    const char *newton; ///< in LAMMPS alone
+  };
+  std::vector<Run> runs = {{"bounce.in", "bounce.resume.in", 1, ""},
+                           {"bounce.lammps", "bounce.resume.lammps", 1, "off"},
+                           {"bounce.in", "bounce.resume.in", 2, ""},
+                           {"bounce.lammps", "bounce.resume.lammps", 2, "on"}};
+  if (GetParam().all_runs)
+    runs.insert(runs.end(), {{"bounce.in", "bounce.resume.in", 4, ""},
+                             {"bounce.lammps", "bounce.resume.lammps", 4, "off"},
+                             {"bounce.lammps", "bounce.resume.lammps", 4, "on"}});
+  for (const auto &[deck, resume, ranks, newton] : runs) {
+    const Scratch stayed, left;
+    Variables law = variables(stayed, std::string(deck) == "bounce.lammps");
+    if (*newton != '\0') law.emplace_back("newton", newton);
+    const Outcome whole = run_deck(test_deck(deck), law, stayed.path(), ranks);
+    ASSERT_TRUE(whole.ok()) << whole.output;
+    law.emplace_back("start", (stayed / "first.restart").string());
+    if (std::string(resume) == "bounce.resume.lammps") law.emplace_back("law", "restart");
+    const Outcome resumed = run_deck(test_deck(resume), law, left.path(), ranks);
+    ASSERT_TRUE(resumed.ok()) << resumed.output;
+    const std::string all = read_text(stayed / "balls.txt"), second = read_text(left / "balls.txt");
+    const std::string from = "ITEM: TIMESTEP\n7000\n";
+    ASSERT_NE(all.find(from), std::string::npos);
+    EXPECT_EQ(all.substr(all.find(from)), second.substr(second.find(from)))
+        << deck << ", ranks " << ranks << ", newton " << newton;
+  }
+}
+
+/// A law that the decks do not know, with its parameters in the words of both engines.
+template <class Law>
+Scene scene_of() {
+  const std::string law = Law::name;
+  std::string commands = "#", words;
+  for_each_given<Law>(1e5, [&](const auto &p, double value) {
+    if (may_be_left_out(p)) return;
+    const std::string number = test::number(value);
+    const bool of_types = std::is_same_v<std::decay_t<decltype(p)>, physics::MaterialParameter>;
+    commands += std::string("\nfix ") + p.property + " all property/global " + p.property +
+                (of_types ? " peratomtype " + number + " " + number
+                          : " peratomtypepair 2 " + number + " " + number + " " + number + " " + number);
+    words += (words.empty() ? "" : " ") + number;
+  });
+  return {law.substr(0, law.find('/')),
+          {{"normal", law.substr(0, law.find('/'))}, {"tangential", "coulomb"}, {"rolling", "epsd2"}},
+          false,
+          commands + "\n",
+          words};
+}
+
+/// Scenes that show what the loop over contacts has, with the Hertz law, and one for each law that is not among them.
+std::vector<Scene> scenes() {
+  const Variables hertz = {{"normal", "hertz"}};
+  std::vector<Scene> all = {
+      {"coulomb_and_rolling", {{"normal", "hertz"}, {"tangential", "coulomb"}, {"rolling", "epsd2"}}, true},
+      {"coulomb_A_stock",
+       {{"normal", "hertz"}, {"tangential", "coulomb"}, {"transition", "A"}, {"stepping", "stock"}}},
+      {"history", {{"normal", "hertz"}}},
+      {"no_history_and_rolling", {{"normal", "hertz"}, {"tangential", "no_history"}, {"rolling", "epsd2"}}},
+      {"heavy_dashpots", {{"normal", "hertz"}, {"D", "40"}, {"tangential", "off"}, {"mu", "-1"}}},
+      {"hooke", {{"normal", "hooke"}, {"tangential", "coulomb"}, {"rolling", "epsd2"}}}};
+  for_each_law([&all](auto law) {
+    using Law = typename decltype(law)::type;
+    if constexpr (!std::is_same_v<Law, physics::LinearContact> && !std::is_same_v<Law, physics::HertzContact>)
+      all.push_back(scene_of<Law>());
+  });
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Balls, LawBounce, ::testing::ValuesIn(scenes()),
+                         [](const auto &scene) { return scene.param.name; });
+
+} // namespace
+} // namespace drumlin::test
