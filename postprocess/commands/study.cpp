@@ -30,7 +30,7 @@ constexpr int least_balls = 100;
 constexpr int most_balls = 1000000;
 
 /// The studies of the laboratory, which a build may not have.
-constexpr std::array lab_names = {"accuracy", "benchmarks", "cost", "speed", "stability"};
+constexpr std::array lab_names = {"accuracy", "benchmarks", "stability", "timing"};
 
 /// All studies of this build, in the order of the help.
 std::vector<Study> all_studies() {
@@ -50,6 +50,8 @@ std::vector<Study> all_studies() {
 
 /// Says why there is no study of a name. Throws UsageError.
 [[noreturn]] void refuse(const std::string &name, const std::vector<Study> &studies) {
+  if (name == "cost" || name == "speed")
+    throw UsageError(refusal("NAME", name, "timing, which measures both"));
   if (std::find(lab_names.begin(), lab_names.end(), name) != lab_names.end())
     throw UsageError(
         refusal("NAME", name, "a study of the laboratory only in a build with -DDRUMLIN_LAB=ON"));
