@@ -123,7 +123,7 @@ PageFigure piece_figure(const std::vector<PieceCost> &costs) {
 void write_cost_page(const std::filesystem::path &out) {
   const std::vector<CostRun> runs = read_cost_runs(out / "runs.csv");
   const std::vector<PieceCost> pieces = piece_costs(runs, comparisons);
-  Page page(out, "Cost of a time step", Scene::bed);
+  Page page(out, "Cost of a time step", Drawing::bed);
   page.answer(
       "Runs of the chain and of settled beds by the engine's own law hooke/stiffness and by the plugin's "
       "law, whose "

@@ -1,6 +1,6 @@
 #include "lab/cost/results.h"
 
-#include "studies/study.h"
+#include "experiment/study.h"
 
 #include <algorithm>
 #include <map>

@@ -3,8 +3,8 @@
 #include "engine/deck_run.h"
 #include "lab/cost/page.h"
 #include "lab/cost/results.h"
-#include "studies/settled_bed.h"
-#include "studies/study.h"
+#include "lab/settled_bed.h"
+#include "experiment/study.h"
 #include "support/progress.h"
 
 #include <cmath>

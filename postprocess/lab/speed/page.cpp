@@ -185,7 +185,7 @@ void write_speed_page(const std::filesystem::path &out, const SpeedScenes &scene
     const std::vector<Acceptance> of_laws = judge(of_engine, scenes, laws);
     criteria.insert(criteria.end(), of_laws.begin(), of_laws.end());
   }
-  Page page(out, "Speed", Scene::bed);
+  Page page(out, "Speed", Drawing::bed);
   page.answer(
       "Time of a step of settled beds, from 2500 balls in two dimensions to a quarter of a million in three, "
       "by the "

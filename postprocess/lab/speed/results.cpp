@@ -1,6 +1,6 @@
 #include "lab/speed/results.h"
 
-#include "studies/study.h"
+#include "experiment/study.h"
 
 #include <fmt/format.h>
 

@@ -2,10 +2,10 @@
 
 #include "engine/deck_run.h"
 #include "engine/engine_command.h"
-#include "studies/settled_bed.h"
+#include "lab/settled_bed.h"
 #include "lab/speed/page.h"
 #include "lab/speed/results.h"
-#include "studies/study.h"
+#include "experiment/study.h"
 #include "support/progress.h"
 
 #include <fmt/format.h>
