@@ -8,7 +8,7 @@
 #include "engine/engine_run.h"
 #include "engine/places.h"
 #include "map/meter_study/study.h"
-#include "studies/study.h"
+#include "experiment/study.h"
 #include "support/files.h"
 #include "support/options.h"
 #include "support/process.h"

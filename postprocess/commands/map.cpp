@@ -3,7 +3,7 @@
 #include "runs/chain_files.h"
 #include "commands/commands.h"
 #include "pages/html.h"
-#include "pages/scene.h"
+#include "pages/drawing.h"
 #include "map/figures.h"
 #include "map/regime_map.h"
 #include "support/csv.h"
@@ -245,7 +245,7 @@ void write_page(const Task &task, const std::vector<Figure> &figures,
   std::string body = answer_html(
       {{fmt::format("The motion that the roller reaches from rest, over {} and {}: {} of {} points.",
                     task.grid.x.name, task.grid.y.name, motions, task.grid.size())}},
-      Verdict::none, scene_html(Scene::chain));
+      Verdict::none, drawing_html(Drawing::chain));
   std::vector<PageLink> contents = {{"#answer", "Answer"}};
   for (const Figure &figure : figures) {
     contents.push_back({"#" + figure.name, figure.title});

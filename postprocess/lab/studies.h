@@ -1,7 +1,7 @@
 // The studies of the laboratory, which measure the project itself.
 #pragma once
 
-#include "studies/study.h"
+#include "experiment/study.h"
 
 #include <array>
 

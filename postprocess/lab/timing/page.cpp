@@ -283,7 +283,7 @@ void write_timing_page(const std::filesystem::path &out, const TimedBeds &beds) 
       engines.push_back(laws);
       judge_sizes(runs, beds, laws, criteria);
     }
-  Page page(out, "Time of a step", Scene::bed);
+  Page page(out, "Time of a step", Drawing::bed);
   page.answer("Runs of the chain and of settled beds, from 2500 balls in two dimensions to a quarter of a "
               "million in three, by the "
               "engine's own law and by the plugin's, whose optional parts are switched on one by one; with "

@@ -5,7 +5,7 @@
 #include "lab/timing/bed.h"
 #include "lab/timing/page.h"
 #include "lab/timing/results.h"
-#include "studies/study.h"
+#include "experiment/study.h"
 #include "support/progress.h"
 
 #include <algorithm>

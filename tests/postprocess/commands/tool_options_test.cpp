@@ -82,7 +82,7 @@ TEST_F(ToolOptions, AbsurdValuesAreRefusedAtOnce) {
        "advise: --within is '0mm'; allowed: a share above 0, as 10% or 0.1, up to 1000%, or a settlement per "
        "cycle, as 2mm"},
       {{"advise", "--bed", "--question", "force", "--from", "nowhere"},
-       "advise: --from is 'nowhere'; allowed: folders of a fidelity study"},
+       "advise: --from is 'nowhere'; allowed: folders of a study of beds, with plan and runs.csv"},
       {{"advise", "--bed", "--question", "force", "--k", "1e8"},
        "advise: --k is '1e8'; allowed: without --bed"},
       {{"advise", "--within", "5%"}, "advise: --within is '5%'; allowed: with --bed"},
