@@ -223,7 +223,7 @@ void write_calibration_page(const std::filesystem::path &out, const std::string 
   const auto failed =
       static_cast<std::size_t>(std::count_if(found.evaluations.begin(), found.evaluations.end(),
                                              [&task](const Evaluation &one) { return !one.good(task); }));
-  Page page(out, "Calibration of a bed", Scene::bed);
+  Page page(out, "Calibration of a bed", Drawing::bed);
   for (const std::string &line : calibration_answer(task, found))
     page.answer(line);
   page.answer(fmt::format("{} evaluations of {}{}.", found.evaluations.size(), beds,

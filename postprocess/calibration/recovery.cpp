@@ -188,7 +188,7 @@ std::vector<std::string> recovery_answer(const CalibrationTask &task, const std:
 void write_recovery_page(const std::filesystem::path &out, const std::string &beds,
                          const CalibrationTask &task, const std::vector<double> &known,
                          const std::vector<RecoveredBed> &found) {
-  Page page(out, "Does calibration find known parameters again?", Scene::bed);
+  Page page(out, "Does calibration find known parameters again?", Drawing::bed);
   for (const std::string &line : recovery_answer(task, known, found))
     page.answer(line);
   page.answer(fmt::format("Measured on {}; calibrated on {}.", beds,

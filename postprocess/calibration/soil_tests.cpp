@@ -2,9 +2,8 @@
 
 #include "bed/element_results.h"
 #include "engine/deck_run.h"
-#include "studies/fidelity/results.h"
-#include "studies/placed_bed.h"
-#include "studies/stiffness/results.h"
+#include "experiment/quantity.h"
+#include "experiment/scene_run.h"
 #include "support/csv.h"
 #include "support/files.h"
 
@@ -90,7 +89,7 @@ struct SoilTests::Point {
   int seed;
   Variables law; ///< variables of the contact law that differ from the deck's defaults
   double step;   ///< of time [s]
-  PlacedBed bed;
+  Scene scene;   ///< the roller on its bed
 };
 
 SoilTests::SoilTests(CalibrationTask task, fs::path out) : task_(std::move(task)), out_(std::move(out)) {}
@@ -100,17 +99,23 @@ SoilTests::Point SoilTests::point_of(const Evaluation &evaluation, int seed) con
               seed,
               values_of(task_, evaluation.point, law_names),
               time_step(task_, evaluation.point),
-              {}};
-
-  PlacedBed &bed = point.bed;
-  bed.name = fmt::format("evaluation_{}", evaluation.number);
-  bed.packing = packing_of(task_);
-  // Forces that are unbalanced at a ratio of 1, a ball's weight, are a ten-thousandth of the roller's weight.
-  bed.ratio = "1";
-  bed.scene = joined(point.law, {{"case", "gravel"}, {"dt", number_text(point.step, step_digits)}});
+              {fmt::format("evaluation {}", evaluation.number), "bed/in.bed", SoilBed{packing_of(task_)}}};
+  const auto set = [&point](Scope scope, const Variables &variables) {
+    for (const auto &[name, value] : variables)
+      point.scene.settings.push_back({scope, name, value});
+  };
   // The soil settles with the contacts that it keeps: a change of k afterwards would wedge it between its walls, or loosen it.
-  bed.settle = values_of(task_, evaluation.point, std::array{pour_friction});
-  bed.place = values_of(task_, evaluation.point, std::array{"m2", "m3", "r2", "r3", "k23", "c23"});
+  set(Scope::all, joined(point.law, {{"case", "gravel"}, {"dt", number_text(point.step, step_digits)}}));
+  set(Scope::settle, values_of(task_, evaluation.point, std::array{pour_friction}));
+  set(Scope::placed, values_of(task_, evaluation.point, std::array{"m2", "m3", "r2", "r3", "k23", "c23"}));
+  const double omega = number_of(task_, evaluation.point, "omega", 2.0 * pi * default_frequency);
+  // Forces that are unbalanced at a ratio of 1, a ball's weight, are a ten-thousandth of the roller's weight.
+  set(Scope::run,
+      joined(values_of(task_, evaluation.point, std::array{"omega", "Fw"}),
+             {{"balance", "10"},
+              {"cycles", std::to_string(task_.cycles)},
+              {"samples_per_cycle", "250"},
+              {"steps_per_cycle", std::to_string(steps_per_cycle(point.step, omega / (2.0 * pi)))}}));
   return point;
 }
 
@@ -131,7 +136,7 @@ std::vector<double> SoilTests::measure(const Evaluation &evaluation, int seed) c
 fs::path SoilTests::record(const Evaluation &evaluation, int seed) const {
   const Point point = point_of(evaluation, seed);
   const fs::path folder = fs::absolute(out_ / "records");
-  fs::path place = folder / placed_name(point.bed, seed);
+  fs::path place = folder / placed_name(point.scene, seed);
   if (!fs::exists(place)) {
     make_output_folder(folder);
     FolderInProgress draft(place);
@@ -144,42 +149,32 @@ fs::path SoilTests::record(const Evaluation &evaluation, int seed) const {
 }
 
 std::unique_ptr<DeckRun> SoilTests::run_roller(const Point &point) const {
-  const fs::path start = placed(point.bed, point.seed, out_);
-  Variables variables = values_of(task_, point.evaluation.point, std::array{"omega", "Fw"});
-  variables.insert(variables.end(), {{"start", start.string()},
-                                     {"balance", "10"},
-                                     {"cycles", std::to_string(task_.cycles)},
-                                     {"samples_per_cycle", "250"}});
-  const double omega = number_of(task_, point.evaluation.point, "omega", 2.0 * pi * default_frequency);
-  variables.emplace_back("steps_per_cycle", std::to_string(steps_per_cycle(point.step, omega / (2.0 * pi))));
-  auto run = std::make_unique<DeckRun>("bed/in.bed", variables);
-  run->must_succeed();
-  fs::remove(start); // it would be one file of megabytes for each point and seed
+  std::unique_ptr<DeckRun> run = run_scene(point.scene, point.seed, out_, Soil::used_up);
+  // It would be one file of megabytes for each point and seed.
+  fs::remove(placed_roller(point.scene, point.seed, out_, Soil::used_up));
   return run;
 }
 
 std::map<std::string, double> SoilTests::roller(const Point &point) const {
   const std::unique_ptr<DeckRun> run = run_roller(point);
-  const BedLaw law = identified_law(run->file(""));
-  if (!std::isfinite(law.k) || !std::isfinite(law.D))
-    throw SceneFault(
-        "identify finds no k and D in the record of the roller: contact is too short or missing");
-  const BedValues values = bed_values(read_table(run->file("cycles.csv")), 1.0);
-  const auto value = [&values](BedQuantity quantity) {
-    return values.at(static_cast<std::size_t>(quantity));
-  };
-  return {{"k", law.k},
-          {"D", law.D},
-          {"settlement", value(BedQuantity::settlement)},
-          {"force", value(BedQuantity::force)},
-          {"acceleration", value(BedQuantity::acceleration)},
-          {"contact", value(BedQuantity::contact)}};
+  std::vector<Quantity> quantities;
+  for (const SoilQuantity &quantity : soil_quantities)
+    if (quantity.test == SoilTest::roller) quantities.push_back(*bed_quantity(quantity.name));
+  const std::vector<double> values = measured(quantities, run->file(""), 1.0);
+  std::map<std::string, double> found;
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    if (!std::isfinite(values[i]))
+      throw SceneFault(
+          "identify finds no k and D in the record of the roller: contact is too short or missing");
+    found[quantities[i].name] = values[i];
+  }
+  return found;
 }
 
 std::map<std::string, double> SoilTests::plate(const Point &point) const {
   constexpr double width = 0.3; // m, the deck's default
   constexpr double mega = 1e6;
-  const fs::path soil = settled_soil(point.bed, point.seed, out_);
+  const fs::path soil = settled_soil(point.scene, point.seed, out_);
   Variables variables = point.law;
   variables.insert(variables.end(), {{"bed", soil.string()},
                                      {"plate_width", number_text(width)},

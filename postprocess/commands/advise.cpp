@@ -1,12 +1,12 @@
 #include "commands/commands.h"
 
-#include "runs/chain_files.h"
+#include "advice/bed.h"
+#include "advice/steps.h"
 #include "commands/chain_options.h"
 #include "engine/places.h"
-#include "studies/fidelity/advice.h"
-#include "studies/step_advice.h"
+#include "runs/chain_files.h"
 #include "engine/deck_run.h"
-#include "studies/study.h"
+#include "experiment/study.h"
 #include "support/csv.h"
 #include "support/options.h"
 #include "support/progress.h"
@@ -45,16 +45,6 @@ struct Arguments {
 /// The largest number that in.chain allows.
 constexpr int most_cycles = 10'000'000;
 
-/// The results of a bed that --question can name.
-struct BedQuestion {
-  const char *name;
-  BedQuantity quantity;
-};
-constexpr std::array<BedQuestion, 4> bed_questions = {{{"force", BedQuantity::force},
-                                                       {"acceleration", BedQuantity::acceleration},
-                                                       {"settlement", BedQuantity::settlement},
-                                                       {"stiffness", BedQuantity::stiffness}}};
-
 struct Measure {
   const char *name;
   ErrorMeasure measure;
@@ -73,8 +63,8 @@ const Measure &measure_of(const std::string &name) {
 }
 
 /// Sets the error of the request that --within allows: 0.1, 10% or, of settlement, 2mm.
-void judge_within(const std::string &text, BedAdviceRequest &request) {
-  const bool settlement = request.question == BedQuantity::settlement;
+void judge_within(const std::string &text, BedQuestion &request) {
+  const bool settlement = request.name == "settlement";
   const auto ends_with = [&](const std::string &unit) {
     return text.size() > unit.size() && text.compare(text.size() - unit.size(), unit.size(), unit) == 0;
   };
@@ -90,35 +80,27 @@ void judge_within(const std::string &text, BedAdviceRequest &request) {
 }
 
 void run_bed(const Arguments &arguments) {
-  BedAdviceRequest request;
-  const std::string question = choice_option("--question", arguments.question.value_or(""),
-                                             {"force", "acceleration", "settlement", "stiffness"});
-  for (const BedQuestion &one : bed_questions)
-    if (question == one.name) request.question = one.quantity;
-  request.name = question;
+  BedQuestion request;
+  request.name = choice_option("--question", arguments.question.value_or(""),
+                               {"force", "acceleration", "settlement", "stiffness"});
+  request.quantity = request.name == "stiffness" ? "k" : request.name;
   judge_within(arguments.within.value_or("10%"), request);
-  const fs::path folder =
-      arguments.from ? path_option("--from", *arguments.from) : input_file("study/fidelity");
-  if (!fs::is_regular_file(folder / "runs.csv"))
-    throw UsageError(refusal("--from", folder.string(), "folders of a fidelity study, with runs.csv"));
-  const std::vector<FidelityRun> runs = read_fidelity_runs(folder / "runs.csv");
-  const FidelityPlan plan = plan_of(runs);
-  const BedAdvice advice = advise_bed(plan, runs, request);
-  const MeanInterval &change = (request.absolute ? advice.effect.difference : advice.effect.change)
-                                   .at(static_cast<std::size_t>(request.question));
+  const BedExperiment experiment = read_bed_experiment(arguments.from ? path_option("--from", *arguments.from)
+                                                                      : input_file("study/fidelity"));
+  const BedAdvice advice = advise_bed(experiment, request);
   const double scale = request.absolute ? 1e3 : 100.0;
   const int decimals = request.absolute ? 1 : 0;
   const double last_digit = std::pow(10.0, -decimals);
   const std::string unit = request.absolute ? "mm" : "%";
-  const bool complete = advice.scene == &plan.reference();
+  const bool complete = advice.scene == &experiment.plan.scenes.front();
   fmt::print("{}: {}\n", advice.scene->name,
-             complete ? "no cheaper scene keeps to the error that is allowed" : advice.scene->change);
-  fmt::print("  for        {} within {:g} {}\n", bed_quantity_name(request.question), scale * request.within,
-             unit);
+             complete ? "no cheaper scene keeps to the error that is allowed" : advice.differs);
+  fmt::print("  for        {} within {:g} {}\n", bed_quantity(request.quantity)->label,
+             scale * request.within, unit);
   if (!complete)
     fmt::print("  error      {:+.1f} +- {:.1f} {} against the complete scene, 95 % confidence interval over "
                "{} seeds\n",
-               scale * change.mean, scale * change.half_width, unit, advice.effect.seeds);
+               scale * advice.error.mean, scale * advice.error.half_width, unit, advice.seeds);
   else if (!advice.closest.empty())
     fmt::print("  closest    of the cheaper scenes, '{}' keeps to {:.{}f} {}\n", advice.closest,
                std::ceil(scale * advice.least_error / last_digit) * last_digit, decimals, unit);
@@ -128,9 +110,9 @@ void run_bed(const Arguments &arguments) {
   fmt::print("  time       {:.2g} s of processor time for {} cycles where it was measured, {:.2g} times that "
              "of the complete scene; "
              "settling and placing come in addition\n",
-             advice.cpu_s, plan.cycles, advice.effect.cost);
+             advice.cpu_s, value_of(*advice.scene, "cycles"), advice.cost);
   fmt::print("  scene      {}\n", scene_words(*advice.scene));
-  for (const std::string &words : scene_commands(*advice.scene, plan.cycles))
+  for (const std::string &words : scene_commands(*advice.scene))
     fmt::print("  run        {} {}\n", front_command(), words);
 }
 

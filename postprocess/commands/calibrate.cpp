@@ -6,7 +6,7 @@
 #include "calibration/soil_tests.h"
 #include "calibration/task.h"
 #include "engine/places.h"
-#include "studies/study.h"
+#include "experiment/study.h"
 #include "support/csv.h"
 #include "support/files.h"
 #include "support/options.h"

@@ -1,11 +1,15 @@
 #include "commands/commands.h"
 
+#include "engine/deck_run.h"
+#include "engine/engine_run.h"
+#include "experiment/results.h"
+#include "experiment/runner.h"
+#include "experiment/study.h"
 #ifdef DRUMLIN_LAB
 #include "lab/studies.h"
 #endif
 #include "map/meter_study/study.h"
-#include "studies/studies.h"
-#include "studies/study.h"
+#include "support/files.h"
 #include "support/options.h"
 #include "support/usage_error.h"
 
@@ -15,11 +19,16 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace drumlin::post {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -29,76 +38,140 @@ constexpr int most_jobs = 1000;
 constexpr int least_balls = 100;
 constexpr int most_balls = 1000000;
 
-/// The studies of the laboratory, which a build may not have.
-constexpr std::array lab_names = {"accuracy", "benchmarks", "cost", "speed", "stability"};
+struct Arguments {
+  std::string name;
+  std::optional<std::string> out, jobs, balls;
+  bool fresh = false, quick = false;
+};
 
-/// All studies of this build, in the order of the help.
-std::vector<Study> all_studies() {
-  std::vector<Study> studies(bed_studies.begin(), bed_studies.end());
-  studies.push_back(
+/// The studies of the laboratory, which a build may not have.
+constexpr std::array lab_names = {"accuracy", "benchmarks", "stability", "timing"};
+
+/// The studies of this build that are no plans, in the order of the help.
+std::vector<Study> other_studies() {
+  std::vector<Study> studies = {
       {"meter",
        "What the meters of rollers show on soil of 1 to 200 MN/m, where a value may mean several "
        "stiffnesses, and what identification finds in the same records. Half a minute, without an engine.",
-       [](const StudyOptions &options) { run_meter_study(options.out, options.quick); }});
+       [](const StudyOptions &options) { run_meter_study(options.out, options.quick); }}};
 #ifdef DRUMLIN_LAB
   studies.insert(studies.end(), lab_studies.begin(), lab_studies.end());
 #endif
-  std::sort(studies.begin(), studies.end(),
-            [](const Study &a, const Study &b) { return std::string(a.name) < b.name; });
   return studies;
 }
 
-/// Says why there is no study of a name. Throws UsageError.
-[[noreturn]] void refuse(const std::string &name, const std::vector<Study> &studies) {
+/// Names of the plans of the project.
+std::set<std::string> plan_names() {
+  std::set<std::string> names;
+  for (const fs::directory_entry &entry : fs::directory_iterator(input_file("study")))
+    if (fs::is_regular_file(entry.path() / plan_name)) names.insert(entry.path().filename().string());
+  return names;
+}
+
+/// The file of a plan of the project by its name, or of a user's own.
+fs::path plan_file(const std::string &name) {
+  std::set<std::string> names = plan_names();
+  if (names.count(name) > 0) return input_file("study") / name / plan_name;
+  std::error_code ignored; // of a name that is too long
+  if (fs::is_regular_file(name, ignored)) return name;
+  if (name == "cost" || name == "speed")
+    throw UsageError(refusal("NAME", name, "timing, which measures both"));
   if (std::find(lab_names.begin(), lab_names.end(), name) != lab_names.end())
     throw UsageError(
         refusal("NAME", name, "a study of the laboratory only in a build with -DDRUMLIN_LAB=ON"));
-  std::vector<std::string> names;
-  names.reserve(studies.size());
-  for (const Study &study : studies)
-    names.emplace_back(study.name);
-  throw UsageError(refusal("NAME", name, fmt::format("{}", fmt::join(names, ", "))));
+  for (const Study &study : other_studies())
+    names.insert(study.name);
+  throw UsageError(refusal("NAME", name, fmt::format("{}, or the file of a plan", fmt::join(names, ", "))));
+}
+
+/// The name of a study: that of its plan's file or, of inputs/study/NAME/plan, of its folder.
+std::string study_name(const fs::path &file) {
+  const fs::path whole = fs::absolute(file);
+  return whole.filename() == plan_name ? whole.parent_path().filename().string() : whole.stem().string();
+}
+
+/// What the results of a plan depend on besides the decks of the project.
+std::string settings_of(const Plan &plan) {
+  std::string made_of = plan.text;
+  for (const Scene &scene : plan.scenes)
+    made_of += read_text(input_file(scene.deck));
+  return fmt::format("plan {}\n", fingerprint(made_of));
+}
+
+StudyOptions judged(const Arguments &arguments, const std::string &name) {
+  StudyOptions options;
+  options.fresh = arguments.fresh;
+  options.quick = arguments.quick;
+  options.out = output_folder_option("--out", arguments.out.value_or("results/study/" + name));
+  return options;
+}
+
+void run_plan(const Arguments &arguments) {
+  const fs::path file = plan_file(arguments.name);
+  const int jobs = count_option("--jobs", arguments.jobs.value_or("1"), 1, most_jobs);
+  const int balls = arguments.balls ? count_option("--balls", *arguments.balls, least_balls, most_balls) : 0;
+  const StudyOptions options = judged(arguments, study_name(file));
+  keep_apart({{"NAME", file}}, {{"--out", options.out, true}});
+  check_engine_path(options.out);
+  Plan plan = read_plan(file);
+  if (balls > 0 && !plan.can_be_scaled()) throw UsageError(refusal("--balls", balls, what_can_be_scaled));
+  if (balls > 0) plan = plan.with_balls(balls);
+  if (options.quick) plan = plan.quick();
+  const ResumedFolder folder = open_study(options, settings_of(plan));
+  run_experiment(plan, options.out, jobs);
+}
+
+void run_study(const Study &study, const Arguments &arguments) {
+  const auto refuse_given = [](const char *option, const std::optional<std::string> &value) {
+    if (value) throw UsageError(refusal(option, *value, "with a study that is a plan of beds"));
+  };
+  refuse_given("--jobs", arguments.jobs);
+  refuse_given("--balls", arguments.balls);
+  const StudyOptions options = judged(arguments, study.name);
+  keep_apart({}, {{"--out", options.out, true}});
+  const ResumedFolder folder = open_study(options);
+  study.run(options);
 }
 
 } // namespace
 
 void add_study_command(CLI::App &app, Session &) {
-  CLI::App *command =
-      app.add_subcommand("study", "Measures what steps, laws and options cost and what they "
-                                  "bring. An interrupted study continues where it was interrupted.");
-  const std::vector<Study> studies = all_studies();
-  for (const Study &study : studies) {
-    const auto options = std::make_shared<StudyOptions>();
-    const auto out = std::make_shared<std::string>(std::string("results/study/") + study.name);
-    CLI::App *one = command->add_subcommand(study.name, study.summary);
-    one->add_option("--out", *out, "folder of the results")->type_name("DIR")->capture_default_str();
-    one->add_flag("--fresh", options->fresh, "forget the points of an earlier call");
-    one->add_flag("--quick", options->quick, "few points: to see that it works");
-    const auto jobs = std::make_shared<std::string>("1");
-    if (study.parallel)
-      one->add_option("--jobs", *jobs, "runs at the same time, one processor each")
-          ->type_name("COUNT")
-          ->capture_default_str();
-    const auto balls = std::make_shared<std::string>(std::to_string(StudyOptions().balls));
-    if (study.scaled)
-      one->add_option("--balls", *balls,
-                      "of the complete bed; box and roller are scaled with their root, the balls are not")
-          ->type_name("COUNT")
-          ->capture_default_str();
-    one->callback([options, out, jobs, balls, run = study.run] {
-      options->balls = count_option("--balls", *balls, least_balls, most_balls);
-      options->jobs = count_option("--jobs", *jobs, 1, most_jobs);
-      options->out = output_folder_option("--out", *out);
-      keep_apart({}, {{"--out", options->out, true}});
-      const ResumedFolder folder = open_study(*options);
-      run(*options);
-    });
-  }
-  command->allow_extras(); // to name a study that does not exist
-  command->callback([command, studies] {
-    if (!command->get_subcommands().empty()) return;
-    const std::vector<std::string> given = command->remaining();
-    refuse(given.empty() ? "" : given.front(), studies);
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App *command = app.add_subcommand(
+      "study",
+      "Measures what steps, laws and options cost and what they bring, and what differs between scenes of "
+      "a plan. An interrupted study continues where it was interrupted.");
+  command->add_option("NAME", arguments->name,
+                      "one of the studies below, or the file of a plan of your own (inputs/study/plans.md)");
+  const auto text = [&](const char *name, std::optional<std::string> Arguments::*value, const char *type,
+                        const char *help) {
+    command
+        ->add_option_function<std::string>(
+            name, [arguments, value](const std::string &given) { (*arguments).*value = given; }, help)
+        ->type_name(type);
+  };
+  text("--out", &Arguments::out, "DIR", "folder of the results; if not given, results/study/NAME");
+  text("--jobs", &Arguments::jobs, "COUNT", "of a plan: runs at the same time, one processor each");
+  text("--balls", &Arguments::balls, "COUNT",
+       "of a plan of beds: balls of its first scene; box and roller are scaled with their root, the balls "
+       "are not");
+  command->add_flag("--fresh", arguments->fresh, "forget the points of an earlier call");
+  command->add_flag("--quick", arguments->quick, "few points: to see that it works");
+  std::string footer =
+      "Plans of beds, in inputs/study/NAME/plan, with 95 % confidence intervals over seeds:\n"
+      "  box        what width, depth, walls and absorbing sides of the box change\n"
+      "  fidelity   effect and time of each part of a bed's model; `drumlin advise --bed` answers "
+      "from it\n"
+      "  friction   the friction models coulomb and history\n"
+      "  stiffness  k and D that `drumlin identify` finds, over load, force and frequency\n"
+      "Others:\n";
+  for (const Study &study : other_studies())
+    footer += fmt::format("  {:<10} {}\n", study.name, study.summary);
+  command->footer(footer);
+  command->callback([arguments] {
+    for (const Study &study : other_studies())
+      if (arguments->name == study.name) return run_study(study, *arguments);
+    run_plan(*arguments);
   });
 }
 

@@ -290,7 +290,7 @@ std::string identification_csv(const IdentifiedRecord &record) {
 void write_identification_page(const std::filesystem::path &out, const IdentifiedRecord &record,
                                const LumpedComparison *compared) {
   const bool bed = record.file.filename() == "bed.csv";
-  Page page(out, "What the record says of the soil", bed ? Scene::bed : Scene::chain);
+  Page page(out, "What the record says of the soil", bed ? Drawing::bed : Drawing::chain);
   page.answer(
       fmt::format("{}, {:.4g} cycles at {:.4g} Hz.", record.file.string(), record.cycles, record.frequency));
   for (const std::string &line : identification_answer(record))

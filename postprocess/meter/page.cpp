@@ -295,7 +295,7 @@ std::string all_passes_csv(const MeterResult &result, const PassOptions &options
 
 void write_meter_page(const std::filesystem::path &folder, const MeterResult &result) {
   const bool bed = result.record.file.filename() == "bed.csv";
-  Page page(folder, "What the roller's meter shows", bed ? Scene::bed : Scene::chain);
+  Page page(folder, "What the roller's meter shows", bed ? Drawing::bed : Drawing::chain);
   const MeterWindow &last = result.windows.back();
   page.answer(fmt::format("In the last {} cycles, at {:.4g} Hz: {}.", result.options.window,
                           result.cycles.omega / (2.0 * pi), answer_line(result)));

@@ -39,7 +39,7 @@ struct Sentence {
 };
 
 /// The opening of a page: sentences as one paragraph, to the left of the drawing of the scene.
-/// \param scene scene_html()
+/// \param scene drawing_html()
 std::string answer_html(const std::vector<Sentence> &sentences, Verdict verdict, const std::string &scene);
 
 /// Figures side by side, each linked to the whole figure.

@@ -13,8 +13,8 @@ namespace drumlin::post {
 
 namespace fs = std::filesystem;
 
-Page::Page(fs::path out, std::string title, Scene scene)
-    : out_(std::move(out)), title_(std::move(title)), scene_(scene) {}
+Page::Page(fs::path out, std::string title, std::optional<Drawing> drawing)
+    : out_(std::move(out)), title_(std::move(title)), drawing_(drawing) {}
 
 void Page::answer(const std::vector<Acceptance> &criteria) {
   if (criteria.empty()) return;
@@ -68,7 +68,7 @@ std::string Page::html() const {
   const std::string made = fmt::format("Made on {:%Y-%m-%d %H:%M} UTC by drumlin {}.",
                                        fmt::gmtime(std::time(nullptr)), DRUMLIN_VERSION);
   return html_page(title_, made, contents,
-                   answer_html(answer_, verdict, scene_html(scene_)) +
+                   answer_html(answer_, verdict, drawing_ ? drawing_html(*drawing_) : "") +
                        key_figures_html(key_figures(figures_)) + body_ +
                        (sections_.empty() ? "" : "</section>\n"));
 }

@@ -4,10 +4,11 @@
 #include "pages/acceptance.h"
 #include "pages/figure.h"
 #include "pages/html.h"
-#include "pages/scene.h"
+#include "pages/drawing.h"
 #include "pages/table.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,8 @@ namespace drumlin::post {
 class Page {
 public:
   /// \param out folder of the study
-  /// \param scene the model that the study is about
-  Page(std::filesystem::path out, std::string title, Scene scene);
+  /// \param drawing of the model that the page is about, if there is one
+  Page(std::filesystem::path out, std::string title, std::optional<Drawing> drawing);
 
   /// A sentence of the opening paragraph, plain text.
   void answer(const std::string &sentence) { answer_.push_back({sentence}); }
@@ -50,7 +51,7 @@ private:
 
   std::filesystem::path out_;
   std::string title_;
-  Scene scene_;
+  std::optional<Drawing> drawing_;
   std::vector<Sentence> answer_;
   bool judged_ = false;
   bool good_ = true;

@@ -131,11 +131,11 @@ using Heights = std::map<std::string, int>;
 const Heights plugin_rooms{{"physics", 0},        {"support", 1},       {"contact", 2}, {"fixes", 3},
                            {"commands", 3},       {"liggghts", 4},      {"lammps", 4},  {"physics/laws", 0},
                            {"physics/scheme", 1}, {"physics/bodies", 2}};
-const Heights postprocess_rooms{{"support", 0},      {"engine", 1},       {"pages", 1},  {"runs", 2},
-                                {"chain", 3},        {"bed", 3},          {"record", 4}, {"meter", 5},
-                                {"identify", 6},     {"map", 7},          {"advice", 8}, {"studies", 9},
-                                {"calibration", 10}, {"report", 11},      {"lab", 12},   {"commands", 13},
-                                {"report/bed", 1},   {"lab/stability", 1}};
+const Heights postprocess_rooms{{"support", 0},     {"engine", 1},       {"pages", 1},      {"runs", 2},
+                                {"chain", 3},       {"bed", 3},          {"record", 4},     {"meter", 5},
+                                {"identify", 6},    {"map", 7},          {"experiment", 8}, {"advice", 9},
+                                {"calibration", 9}, {"report", 10},      {"lab", 11},       {"commands", 12},
+                                {"report/bed", 1},  {"lab/stability", 1}};
 
 /// "ROOM" and "FOLDER" of a path "ROOM/FOLDER/...", without the name of the file; empty where there is none.
 std::pair<std::string, std::string> room_and_folder(const std::string &path) {
@@ -154,7 +154,6 @@ bool fits_room(const std::string &file, const std::string &header, const Heights
   const auto [other, its_folder] = room_and_folder(header);
   if (rooms.count(other) == 0) return false;
   if (other != room) return rooms.at(other) < rooms.at(room);
-  if (room == "studies") return true; // whose folders share their results
   if (folder.empty() || its_folder.empty() || folder == its_folder) return true;
   const auto level = [&rooms](const std::string &name) {
     const auto found = rooms.find(name);

@@ -51,14 +51,15 @@ std::string file_of(const std::string &link) {
   return file;
 }
 
-Parsed expect_sound_page(const std::filesystem::path &out, std::size_t images, const std::string &file) {
+Parsed expect_sound_page(const std::filesystem::path &out, std::size_t images, const std::string &file,
+                         std::size_t drawings) {
   Parsed page = parse(post::read_text(out / file));
   EXPECT_TRUE(page.well_formed) << page.error;
   EXPECT_EQ(page.doubled_ids, 0u);
   EXPECT_EQ(page.scripts, 0u);
   EXPECT_TRUE(page.resources.empty());
   EXPECT_GE(page.images.size(), images);
-  EXPECT_EQ(page.drawings, 1u) << "the scene";
+  EXPECT_EQ(page.drawings, drawings);
   EXPECT_GT(page.contents.size(), 1u);
   for (const std::vector<std::string> *links : {&page.images, &page.links, &page.contents})
     for (const std::string &link : *links)

@@ -7,8 +7,8 @@
 #include "pages/figure_data.h"
 #include "pages/page.h"
 #include "lab/accuracy/results.h"
-#include "studies/study.h"
-#include "studies/step_advice.h"
+#include "experiment/study.h"
+#include "advice/steps.h"
 #include "support/convergence.h"
 
 #include "runs/chain_files.h"
@@ -470,7 +470,7 @@ void write_accuracy_page(const fs::path &out, bool complete) {
   const PageTable orders = order_table(data);
   write_files({{out / "orders.csv", table_csv(orders)}});
 
-  Page page(out, "Accuracy of the time integration", Scene::chain);
+  Page page(out, "Accuracy of the time integration", Drawing::chain);
   page.answer(fmt::format(
       "Runs of the chain and of single impacts in the engine at many step sizes, compared with the reference "
       "solution (direct solver) of the same chain and with the closed form of the restitution. Second is "

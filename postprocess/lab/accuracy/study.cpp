@@ -2,8 +2,8 @@
 
 #include "lab/accuracy/page.h"
 #include "lab/accuracy/results.h"
-#include "studies/step_advice.h"
-#include "studies/study.h"
+#include "advice/steps.h"
+#include "experiment/study.h"
 #include "support/progress.h"
 
 #include <algorithm>

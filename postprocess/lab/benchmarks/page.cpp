@@ -5,7 +5,7 @@
 #include "pages/page.h"
 #include "lab/benchmarks/checks.h"
 #include "lab/benchmarks/runs.h"
-#include "studies/study.h"
+#include "experiment/study.h"
 
 #include <fmt/format.h>
 
@@ -377,7 +377,7 @@ void write_benchmarks_page(const std::filesystem::path &out) {
   std::stable_sort(runs.begin(), runs.end(),
                    [](const BenchmarkRun &a, const BenchmarkRun &b) { return a.at < b.at; });
   const std::vector<Row> rows = rows_of(runs);
-  Page page(out, "Benchmarks", Scene::sphere);
+  Page page(out, "Benchmarks", Drawing::sphere);
   page.answer(
       "Tests that others have published for programs of this kind: impacts of one or two spheres, sliding "
       "and rolling. Each is run by "

@@ -2,7 +2,7 @@
 
 #include "lab/benchmarks/page.h"
 #include "lab/benchmarks/runs.h"
-#include "studies/study.h"
+#include "experiment/study.h"
 #include "support/progress.h"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/deck_run.h"
-#include "studies/study.h"
+#include "experiment/study.h"
 
 #include <functional>
 #include <string>

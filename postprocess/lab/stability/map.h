@@ -2,7 +2,7 @@
 #pragma once
 
 #include "pages/acceptance.h"
-#include "studies/study.h"
+#include "experiment/study.h"
 
 #include <string>
 #include <vector>

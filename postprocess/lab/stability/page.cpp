@@ -117,7 +117,7 @@ PageTable extremes_table(const std::string &group, const std::vector<ExtremeVerd
 
 void write_stability_page(const std::filesystem::path &out, const std::vector<MapPoint> &map,
                           const std::vector<ExtremeVerdict> &extremes) {
-  Page page(out, "Stability and extremes", Scene::confined);
+  Page page(out, "Stability and extremes", Drawing::confined);
   page.answer(
       "The longest time step at which the motion stays bounded, found by runs of balls of graded mass that "
       "are confined between walls; and runs at the limits of the permitted parameters, each compared with an "

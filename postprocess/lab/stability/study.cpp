@@ -3,7 +3,7 @@
 #include "lab/stability/extremes.h"
 #include "lab/stability/map.h"
 #include "lab/stability/page.h"
-#include "studies/study.h"
+#include "experiment/study.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

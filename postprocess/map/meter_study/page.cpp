@@ -388,7 +388,7 @@ void answer(Page &page, const Points &points) {
 } // namespace
 
 void write_soil_page(const std::filesystem::path &out, const std::vector<SoilPoint> &points) {
-  Page page(out, "What the meter says of the soil", Scene::chain);
+  Page page(out, "What the meter says of the soil", Drawing::chain);
   answer(page, points);
   page.section("Where a value may mean several stiffnesses");
   page.paragraph(

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "pages/scene.h"
+#include "pages/drawing.h"
 #include "report/answer.h"
 #include "report/bed/figures.h"
 #include "report/chain/page.h"
@@ -166,7 +166,7 @@ std::vector<PageTable> bed_tables(const std::vector<BedResult> &beds) {
 std::string bed_page(const ReportContent &content) {
   const Answer answer = bed_answer(content.groups);
   std::vector<PageLink> links = {{"index.html", "Report of the runs"}, {"#answer", "Answer"}};
-  std::string s = answer_html(answer.sentences, answer.verdict, scene_html(Scene::bed)) +
+  std::string s = answer_html(answer.sentences, answer.verdict, drawing_html(Drawing::bed)) +
                   key_figures_html(content.bed_keys);
   int number = 0;
   const auto begin = [&](const std::string &id, const std::string &title) {

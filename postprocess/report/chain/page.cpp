@@ -1,6 +1,6 @@
 #include "report/chain/page.h"
 
-#include "pages/scene.h"
+#include "pages/drawing.h"
 #include "report/answer.h"
 #include "report/chain/engine_comparison.h"
 
@@ -62,8 +62,8 @@ bool belongs(const std::string &section, const ReportContent &content) {
   return !content.results.runs.empty() || section == "runs";
 }
 
-Scene scene_of(const ReportContent &content) {
-  return content.results.runs.empty() && !content.beds.empty() ? Scene::bed : Scene::chain;
+Drawing scene_of(const ReportContent &content) {
+  return content.results.runs.empty() && !content.beds.empty() ? Drawing::bed : Drawing::chain;
 }
 
 std::string opening_html(const ReportContent &content) {
@@ -79,7 +79,7 @@ std::string opening_html(const ReportContent &content) {
         {fmt::format("{} left out, and not judged: the last section says why.",
                      others == 1 ? "One folder is" : fmt::format("{} folders are", others)),
          "Left out."});
-  return answer_html(answer.sentences, answer.verdict, scene_html(scene_of(content))) +
+  return answer_html(answer.sentences, answer.verdict, drawing_html(scene_of(content))) +
          key_figures_html(content.keys);
 }
 

@@ -186,7 +186,7 @@ PageFigure line_figure(const CompressionTest &test, const std::vector<Soil> &soi
 }
 
 /// Reads the runs of a test for their page; `answer` tells what the test is.
-PageWriter read_page(const CompressionTest &test, const std::string &title, Scene scene,
+PageWriter read_page(const CompressionTest &test, const std::string &title, Drawing drawing,
                      const std::string &answer, const std::vector<fs::path> &folders) {
   return [=, runs = read_element_runs(folders, test.name + ".csv", read_compression)](const fs::path &out) {
     std::vector<Strength> strengths;
@@ -194,7 +194,7 @@ PageWriter read_page(const CompressionTest &test, const std::string &title, Scen
     for (const CompressionRun &run : runs)
       strengths.push_back(strength_of(run.rows));
     const std::vector<Soil> soils = soils_of(runs, {test.confining});
-    Page page(out, title, scene);
+    Page page(out, title, drawing);
     page.answer(answer);
     answer_strength_quality(page, runs);
     page.section("Friction and volume");
@@ -216,7 +216,7 @@ PageWriter read_page(const CompressionTest &test, const std::string &title, Scen
 
 PageWriter read_biaxial_page(const std::vector<fs::path> &folders) {
   return read_page(
-      compression_test("biaxial"), biaxial_title, Scene::biaxial,
+      compression_test("biaxial"), biaxial_title, Drawing::biaxial,
       "Samples of soil between four smooth plates, sheared by the upper one under a constant stress of "
       "the side platen. The ratio of the stresses at failure is the friction angle of the soil.",
       folders);
@@ -224,7 +224,7 @@ PageWriter read_biaxial_page(const std::vector<fs::path> &folders) {
 
 PageWriter read_triaxial_page(const std::vector<fs::path> &folders) {
   return read_page(
-      compression_test("triaxial"), triaxial_title, Scene::triaxial,
+      compression_test("triaxial"), triaxial_title, Drawing::triaxial,
       "Samples of soil between six smooth plates, sheared by the upper one under the same constant "
       "stress of both side platens. The ratio of the stresses at failure is the friction angle of the "
       "soil.",

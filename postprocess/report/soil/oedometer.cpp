@@ -95,7 +95,7 @@ PageFigure stress_figure(const std::vector<OedometerRun> &runs) {
 
 PageWriter read_oedometer_page(const std::vector<fs::path> &folders) {
   return [runs = read_element_runs(folders, "oedometer.csv", read_oedometer)](const fs::path &out) {
-    Page page(out, oedometer_title, Scene::oedometer);
+    Page page(out, oedometer_title, Drawing::oedometer);
     page.answer("Samples of soil between two rough plates, confined sideways, under one stress after the "
                 "other. The slope of stress over strain is the constrained modulus of the soil.");
     answer_quality(page, runs);

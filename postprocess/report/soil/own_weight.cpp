@@ -117,7 +117,7 @@ void write_wall_page(const std::vector<OwnWeightRun> &runs, const fs::path &out)
       "Mean and half of its 95 % confidence interval over the seeds. K: force on a wall over the "
       "hydrostatic force, weight/width times half the height; the height is twice that of the centre of "
       "mass. K_a: the smallest mean over a thirtieth of the rows. Rankine: K_a = (1 - sin φ)/(1 + sin φ)."};
-  Page page(out, wall_title, Scene::wall);
+  Page page(out, wall_title, Drawing::wall);
   page.answer("Soil between two smooth walls on a smooth floor, of which the right wall moves outward "
               "slowly. When the "
               "soil fails, the force on the wall is that of the active state.");
@@ -210,7 +210,7 @@ void write_silo_page(const std::vector<OwnWeightRun> &runs, const fs::path &out)
       "(1 - exp(-x))/x with x = 2 μ K height/width, the mean K of all runs of the soil, and the friction μ "
       "between balls and walls. It holds if the friction of the walls is fully mobilised: friction over "
       "normal force is μ then."};
-  Page page(out, silo_title, Scene::silo);
+  Page page(out, silo_title, Drawing::silo);
   page.answer("Soil between two rough walls. The floor has moved down by a small part of a ball, so that the "
               "walls carry "
               "a part of the weight by friction.");
@@ -293,7 +293,7 @@ void write_repose_page(const std::vector<OwnWeightRun> &runs, const std::vector<
       "line through the surface, from a diameter of a ball above the floor to 85 % of the highest point; "
       "through all of it if the soil still touches the wall, as soil without friction does on a smooth "
       "floor."};
-  Page page(out, repose_title, Scene::repose);
+  Page page(out, repose_title, Drawing::repose);
   page.answer("Soil on a rough floor between two smooth walls, of which the right one has moved outward "
               "slowly until the "
               "soil stood without it. The slope that is left is half a heap.");

@@ -153,7 +153,7 @@ PageFigure settlement_figure(const std::vector<PlateRun> &runs) {
 PageWriter read_plate_page(const std::vector<fs::path> &folders) {
   const std::vector<PlateRun> runs = read_element_runs(folders, "plate.csv", read_plate);
   return [runs, results = results_of(runs)](const fs::path &out) {
-    Page page(out, plate_title, Scene::plate);
+    Page page(out, plate_title, Drawing::plate);
     page.answer(
         "A rigid plate on a bed of soil balls carries a stress that increases stage by stage, decreases, "
         "and increases again. The slope of stress over settlement is the modulus of subgrade reaction.");

@@ -102,7 +102,7 @@ PageWriter read_shear_page(const std::vector<fs::path> &folders) {
     for (const ShearRun &run : runs)
       strengths.push_back(shear_strength_of(run.rows));
     const std::vector<Soil> soils = soils_of(runs, {shear_test.confining});
-    Page page(out, shear_title, Scene::shear);
+    Page page(out, shear_title, Drawing::shear);
     page.answer(
         "Samples of soil between two rough plates, periodic sideways, sheared by the upper one under a "
         "constant normal stress. The ratio of the stresses is the friction on the plane of shear.");

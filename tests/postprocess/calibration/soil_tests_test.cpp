@@ -2,8 +2,8 @@
 #include "calibration/evaluations.h"
 #include "calibration/soil_tests.h"
 #include "engine/deck_run.h"
-#include "studies/placed_bed.h"
-#include "studies/stiffness/results.h"
+#include "experiment/quantity.h"
+#include "experiment/scene.h"
 #include "support/csv.h"
 #include "tests/support/engine_runs.h"
 #include "tests/support/page.h"
@@ -134,9 +134,10 @@ TEST(CalibratedBed, IsMadeByTheCaseFile) {
       {{"case", "small"}, {"ratio", "1"}, {"balls", (scratch / "balls.data").string()}, {"bed", soil}});
   run("in.place", {{"ratio", "1"}, {"bed", soil}, {"start", start}});
   run("in.bed", {{"start", start}, {"balance", "10"}, {"cycles", "4"}, {"Fw", "2940"}});
-  const post::BedLaw law = post::identified_law(scratch / "run");
-  EXPECT_EQ(law.k, measured[0]);
-  EXPECT_EQ(law.D, measured[1]);
+  const std::vector<double> law =
+      post::measured({*post::bed_quantity("k"), *post::bed_quantity("D")}, scratch / "run", 1.0);
+  EXPECT_EQ(law[0], measured[0]);
+  EXPECT_EQ(law[1], measured[1]);
 }
 
 } // namespace

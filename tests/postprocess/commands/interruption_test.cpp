@@ -48,7 +48,7 @@ std::map<std::string, std::string> content(const fs::path &folder) {
 std::string without_times(const std::string &table) {
   const std::size_t column = [&] {
     const std::string header = table.substr(0, table.find('\n'));
-    const std::size_t place = header.find("cpu");
+    const std::size_t place = header.find("cost");
     return static_cast<std::size_t>(
         std::count(header.begin(), header.begin() + static_cast<std::ptrdiff_t>(place), ','));
   }();

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 TEST(Page, IsStrictXmlAndItsLinksLeadToFiles) {
   const fs::path out = fs::temp_directory_path() / fmt::format("drumlin-page-{}", ::getpid());
-  post::Page page(out, "Steps & <errors>", post::Scene::chain);
+  post::Page page(out, "Steps & <errors>", post::Drawing::chain);
   page.answer("Steps < errors.");
   page.paragraph("a < b & c");
   page.section("First");
@@ -93,7 +93,7 @@ TEST(Acceptance, IsPartOfTheAnswerAndMarksIt) {
   for (const bool holds : {true, false}) {
     const std::vector<post::Acceptance> criteria = {{"error at most 1", "0.5", true},
                                                     {"order at least 2", "1.5", holds}};
-    post::Page page(out, "Steps", post::Scene::bed);
+    post::Page page(out, "Steps", post::Drawing::bed);
     page.answer("Many runs.");
     page.answer(criteria);
     page.section("Acceptance criteria");

@@ -4,7 +4,7 @@
 #include "tests/support/scratch_study.h"
 
 #include "lab/benchmarks/runs.h"
-#include "studies/study.h"
+#include "experiment/study.h"
 
 #include <gtest/gtest.h>
 

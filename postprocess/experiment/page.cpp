@@ -1,0 +1,344 @@
+#include "experiment/page.h"
+
+#include "pages/figure_data.h"
+#include "pages/page.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace drumlin::post {
+
+namespace {
+
+std::string with_unit(const std::string &label, const std::string &unit) {
+  return unit == "-" ? label : fmt::format("{} [{}]", label, unit);
+}
+
+/// The unit of a quantity's changes, and the factor to it.
+std::string change_unit(const Quantity &quantity) { return quantity.absolute ? quantity.shown_unit : "%"; }
+double change_scale(const Quantity &quantity) { return quantity.absolute ? quantity.scale : 100.0; }
+
+std::string interval_text(const MeanInterval &interval, double scale, const char *sign = "") {
+  const std::string mean = fmt::format(fmt::runtime(fmt::format("{{:{}.3g}}", sign)), scale * interval.mean);
+  return std::isfinite(interval.half_width) ? fmt::format("{} ± {:.2g}", mean, scale * interval.half_width)
+                                            : mean + " (one)";
+}
+
+std::string change_text(const std::optional<Change> &change, const Quantity &quantity) {
+  if (!change) return no_value;
+  const MeanInterval &shown = change->shown(quantity);
+  return interval_text(shown, change_scale(quantity), "+") + (shown.significant() ? " *" : "");
+}
+
+std::string cost_text(double ratio) { return std::isfinite(ratio) ? fmt::format("{:.2g}", ratio) : no_value; }
+
+enum class Verdict { changes, negligible, undecided };
+
+Verdict verdict_of(const Change &change, const Quantity &quantity) {
+  const MeanInterval &shown = change.shown(quantity);
+  if (shown.within(quantity.tolerance)) return Verdict::negligible;
+  return shown.significant() ? Verdict::changes : Verdict::undecided;
+}
+
+std::string joined_cells(const std::vector<std::string> &cells) {
+  return cells.empty() ? "-" : fmt::format("{}", fmt::join(cells, "; "));
+}
+
+PageTable conclusion_table(const Plan &plan, const std::vector<Effect> &effects) {
+  PageTable table;
+  table.name = "needs";
+  table.title = "What each quantity depends on";
+  table.text_columns = 4;
+  table.header = {"quantity", "it changes with", "it hardly changes with", "not decided by these seeds"};
+  for (std::size_t q = 0; q < plan.quantities.size(); ++q) {
+    const Quantity &quantity = plan.quantities[q];
+    std::array<std::vector<std::string>, 3> cells;
+    for (const Effect &effect : effects) {
+      if (!effect.changes[q]) continue;
+      const std::string cost =
+          std::isfinite(effect.cost) ? fmt::format(", time x {:.2g}", effect.cost) : std::string();
+      cells[static_cast<std::size_t>(verdict_of(*effect.changes[q], quantity))].push_back(fmt::format(
+          "{} ({:+.2g} {}{})", effect.compared->words,
+          change_scale(quantity) * effect.changes[q]->shown(quantity).mean, change_unit(quantity), cost));
+    }
+    table.add({quantity.label, joined_cells(cells[0]), joined_cells(cells[1]), joined_cells(cells[2])});
+  }
+  table.notes = {
+      "In brackets: the mean change, and the processor time over that of what it is compared with.",
+      "A quantity hardly changes if the whole 95 % confidence interval of its change is within 10 % "
+      "(settlement: 1 mm). It changes if the interval is not, and does not contain zero."};
+  return table;
+}
+
+PageTable effect_table(const Plan &plan, const std::vector<Effect> &effects) {
+  PageTable table;
+  table.name = "effects";
+  table.title = "Changes";
+  table.text_columns = 4;
+  table.header = {"row", "what differs", "scene", "compared with", "runs"};
+  for (const Quantity &quantity : plan.quantities)
+    table.header.push_back(fmt::format("{} ({})", quantity.label, change_unit(quantity)));
+  table.header.emplace_back("processor time (ratio)");
+  for (const Effect &effect : effects) {
+    const auto &pairs = effect.compared->pairs;
+    std::vector<std::string> row = {
+        std::to_string(table.rows.size() + 1), effect.compared->words,
+        pairs.size() == 1 ? pairs[0].first : fmt::format("{} scenes", pairs.size()),
+        pairs.size() == 1 ? pairs[0].second : fmt::format("{} scenes", pairs.size()),
+        std::to_string(effect.seeds)};
+    for (std::size_t q = 0; q < plan.quantities.size(); ++q)
+      row.push_back(change_text(effect.changes[q], plan.quantities[q]));
+    row.push_back(cost_text(effect.cost));
+    table.add(std::move(row));
+  }
+  table.notes = {
+      "Mean change and half of its 95 % confidence interval (Student's t), in percent of the mean of what it "
+      "is "
+      "compared with, or in the unit of a quantity whose mean may be about zero. * marks changes whose "
+      "interval does not contain zero; by chance alone one of twenty has it.",
+      "Changes are taken seed by seed, so that what two scenes on beds of one seed share cancels."};
+  if (std::any_of(effects.begin(), effects.end(), [](const Effect &one) { return !one.compared->paired; }))
+    table.notes.emplace_back(
+        "Where the beds of two scenes have nothing in common, the change is the difference "
+        "of the means, with the scatter of both (Welch).");
+  return table;
+}
+
+PageTable mean_table(const Plan &plan, const Results &results) {
+  PageTable table;
+  table.name = "means";
+  table.title = "Means over the seeds";
+  table.header = {"scene", "seeds"};
+  for (const Quantity &quantity : plan.quantities)
+    table.header.push_back(with_unit(quantity.label, quantity.shown_unit));
+  table.header.emplace_back("processor time [s]");
+  for (const std::string &scene : results.scenes()) {
+    std::size_t seeds = 0;
+    std::vector<std::string> cells;
+    for (const Quantity &quantity : plan.quantities) {
+      const std::vector<double> values = numbers(results.values(scene, quantity.name));
+      seeds = std::max(seeds, values.size());
+      cells.push_back(values.empty() ? no_value : interval_text(mean_interval(values), quantity.scale));
+    }
+    const std::vector<double> costs = numbers(results.costs(scene));
+    cells.push_back(costs.empty() ? no_value : fmt::format("{:.3g}", mean_interval(costs).mean));
+    cells.insert(cells.begin(), {scene, std::to_string(seeds)});
+    table.add(std::move(cells));
+  }
+  table.notes = {"After the ±: half of the 95 % confidence interval of the mean; (one): of a single seed."};
+  return table;
+}
+
+/// The lowest and the highest of what a panel shows.
+class Reach {
+public:
+  void add(double value) {
+    if (!std::isfinite(value)) return;
+    low_ = std::min(low_, value);
+    high_ = std::max(high_, value);
+  }
+  void add(const MeanInterval &interval, double scale) {
+    add(scale * (interval.mean - interval.half_width));
+    add(scale * (interval.mean + interval.half_width));
+  }
+  std::string range(double margin) const {
+    return axis_range(low_ - margin * (high_ - low_), high_ + margin * (high_ - low_));
+  }
+  double length() const { return high_ - low_; }
+
+private:
+  double low_ = std::numeric_limits<double>::infinity(), high_ = -low_;
+};
+
+void add_interval(CurveTable &table, const std::string &curve, double x, const MeanInterval &interval,
+                  double scale) {
+  table.row(curve, {x, scale * interval.mean, scale * (interval.mean - interval.half_width),
+                    scale * (interval.mean + interval.half_width)});
+}
+
+PageFigure effect_figure(const Plan &plan, const std::vector<Effect> &effects) {
+  const std::string name = "changes";
+  PageFigure figure;
+  figure.label = "Fig. 1";
+  figure.weight = 1.0;
+  figure.caption = "Change in each row of the table of changes: mean over the seeds and its 95 % confidence "
+                   "interval. A bar that crosses zero is not significant.";
+  figure.figure = {name, "Changes", {}, 2};
+  CurveTable table("row,change,low,high");
+  for (std::size_t q = 0; q < plan.quantities.size(); ++q) {
+    const Quantity &quantity = plan.quantities[q];
+    Panel panel;
+    panel.title = quantity.label;
+    panel.x_label = "row of the table of changes";
+    panel.y_label = fmt::format("change [{}]", change_unit(quantity));
+    Reach reach;
+    reach.add(0.0);
+    for (std::size_t n = 0; n < effects.size(); ++n) {
+      panel.x_ticks.push_back(std::to_string(n + 1));
+      if (!effects[n].changes[q]) continue;
+      const MeanInterval &change = effects[n].changes[q]->shown(quantity);
+      reach.add(change, change_scale(quantity));
+      add_interval(table, quantity.name, static_cast<double>(n + 1), change, change_scale(quantity));
+    }
+    // A range for each panel: by default gnuplot takes that of all rows of the file.
+    panel.y_range = reach.range(0.1);
+    panel.curves = {curve(name, quantity.name, "$2", "3:4:5", CurveStyle::spread)};
+    panel.curves.back().title.clear();
+    figure.figure.panels.push_back(panel);
+  }
+  figure.csv = table.text();
+  return figure;
+}
+
+/// The scenes that a figure over an axis shows: those with a place on it and, on all other axes, the place of the first of them.
+std::vector<const Scene *> scenes_over(const Plan &plan, const std::string &axis) {
+  std::vector<const Scene *> scenes;
+  for (const Scene &scene : plan.scenes) {
+    if (scene.at.count(axis) == 0) continue;
+    auto others = scene.at, first = scenes.empty() ? scene.at : scenes.front()->at;
+    others.erase(axis);
+    first.erase(axis);
+    if (others == first) scenes.push_back(&scene);
+  }
+  return scenes;
+}
+
+constexpr std::array series_styles = {CurveStyle::direct_a, CurveStyle::direct_b, CurveStyle::measured_a,
+                                      CurveStyle::measured_b};
+
+/// The names of the series of some scenes, the first ones.
+std::vector<std::string> series_of(const std::vector<const Scene *> &scenes) {
+  std::vector<std::string> names;
+  for (const Scene *scene : scenes)
+    if (std::find(names.begin(), names.end(), scene->series) == names.end() &&
+        names.size() < series_styles.size())
+      names.push_back(scene->series);
+  return names;
+}
+
+/// A quantity over an axis: single seeds of all series, and means of the first one.
+Panel axis_panel(const Quantity &quantity, const Axis &axis, const std::vector<const Scene *> &scenes,
+                 const Results &results, CurveTable &table) {
+  const std::vector<std::string> series = series_of(scenes);
+  Panel panel;
+  panel.x_label = axis.label;
+  panel.y_label = with_unit(quantity.label, quantity.shown_unit);
+  Reach across, up;
+  for (const Scene *scene : scenes)
+    across.add(scene->at.at(axis.name));
+  panel.x_range = across.range(0.1);
+  for (std::size_t s = 0; s < series.size(); ++s) {
+    const std::string name = fmt::format("{} {}", quantity.name, s + 1);
+    // Beside each other, so that none hides another.
+    const double aside = 0.02 * across.length() * static_cast<double>(s);
+    for (const Scene *scene : scenes) {
+      const std::vector<double> values = numbers(results.values(scene->name, quantity.name));
+      if (scene->series != series[s] || values.empty()) continue;
+      const double x = scene->at.at(axis.name) + aside;
+      for (const double value : values) {
+        table.row(name, {x, quantity.scale * value});
+        up.add(quantity.scale * value);
+      }
+      const MeanInterval mean = mean_interval(values);
+      if (s > 0 || !std::isfinite(mean.half_width)) continue;
+      up.add(mean, quantity.scale);
+      add_interval(table, name + " mean", x, mean, quantity.scale);
+    }
+    const std::string words = series[s].empty() ? "seeds" : series[s];
+    if (s == 0) {
+      panel.curves.push_back(curve(axis.name, name + " mean", "$2", "3:4:5", CurveStyle::spread));
+      panel.curves.back().title = series[s].empty() ? "mean" : "mean, " + words;
+    }
+    panel.curves.push_back(curve(axis.name, name, "$2", "3", series_styles[s]));
+    panel.curves.back().title = words;
+  }
+  panel.y_range = up.range(0.05);
+  return panel;
+}
+
+PageFigure axis_figure(const Plan &plan, const Axis &axis, const Results &results, std::size_t number) {
+  const std::vector<const Scene *> scenes = scenes_over(plan, axis.name);
+  PageFigure figure;
+  figure.label = fmt::format("Fig. {}", number);
+  figure.weight = 2.0 + 1.0 / static_cast<double>(number);
+  figure.caption = fmt::format("All quantities over {}. Squares: mean over the seeds and its 95 % confidence "
+                               "interval; other marks: single seeds.",
+                               axis.label);
+  figure.figure = {axis.name, "Over " + axis.label, {}, 3};
+  CurveTable table("place,value,low,high");
+  for (const Quantity &quantity : plan.quantities)
+    figure.figure.panels.push_back(axis_panel(quantity, axis, scenes, results, table));
+  figure.csv = table.text();
+  return figure;
+}
+
+std::string effects_words(const std::vector<Effect> &effects, const std::vector<Quantity> &quantities) {
+  std::vector<std::string> names;
+  for (const Effect &effect : effects)
+    for (std::size_t q = 0; q < quantities.size(); ++q)
+      if (effect.changes[q] && verdict_of(*effect.changes[q], quantities[q]) == Verdict::changes) {
+        names.push_back(effect.compared->words);
+        break;
+      }
+  if (effects.empty()) return "There is no comparison yet.";
+  return fmt::format(
+      "{} of {} changes of the scene change at least one quantity by more than the scatter of the "
+      "seeds (95 % confidence interval without zero){}{}.",
+      names.size(), effects.size(), names.empty() ? "" : ": ", fmt::join(names, "; "));
+}
+
+std::string cost_words(const Plan &plan, const Results &results) {
+  double sum = 0.0;
+  std::size_t runs = 0;
+  for (const Scene &scene : plan.scenes)
+    for (const double cost : numbers(results.costs(scene.name))) {
+      sum += cost;
+      ++runs;
+    }
+  constexpr double minute = 60.0;
+  return fmt::format("{} runs of {} scenes took {:.2g} {} of processor time{}.", runs,
+                     results.scenes().size(), sum < minute ? sum : sum / minute, sum < minute ? "s" : "min",
+                     plan.scenes.front().bed ? "; to make their beds took more" : "");
+}
+
+} // namespace
+
+void write_experiment_page(const std::filesystem::path &out, const Plan &plan, const Results &results,
+                           const std::vector<std::string> &failures) {
+  const std::vector<Effect> effects = effects_of(plan, results);
+  Page page(out, plan.title, plan.scenes.front().bed ? std::optional(Drawing::bed) : std::nullopt);
+  for (const std::string &sentence : plan.about)
+    page.answer(sentence);
+  page.answer(effects_words(effects, plan.quantities));
+  page.answer(cost_words(plan, results));
+  for (const std::string &failure : failures)
+    page.answer("Missing: " + failure);
+  std::size_t figures = 0;
+  if (!effects.empty()) {
+    page.section("Conclusions");
+    page.table(conclusion_table(plan, effects));
+    page.section("Changes");
+    page.table(effect_table(plan, effects));
+    ++figures;
+    page.figure(effect_figure(plan, effects));
+  }
+  for (const Axis &axis : plan.axes) {
+    if (scenes_over(plan, axis.name).empty()) continue;
+    page.section("Over " + axis.label);
+    page.figure(axis_figure(plan, axis, results, ++figures));
+  }
+  page.section("Means");
+  page.table(mean_table(plan, results));
+  if (!plan.notes.empty()) page.section("How to read it");
+  for (const std::string &note : plan.notes)
+    page.paragraph(note);
+  page.write();
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,472 @@
+#include "experiment/plan.h"
+
+#include "engine/deck_run.h"
+#include "support/csv.h"
+#include "support/files.h"
+#include "support/options.h"
+#include "support/range.h"
+#include "support/usage_error.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <set>
+#include <sstream>
+#include <utility>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int most_seeds = 1000;
+constexpr int quick_balls = 150, quick_seeds = 2;
+constexpr std::size_t quick_scenes = 3;
+constexpr const char *quick_cycles = "4";
+constexpr const char *blanks = " \t\r";
+/// What the scale of lengths changes: a plan that leaves one to the deck cannot be scaled.
+constexpr std::array roller_variables = {"r2", "r3", "m2", "m3", "k23", "c23", "Fw"};
+
+std::string trimmed(const std::string &text) {
+  const std::size_t begin = text.find_first_not_of(blanks);
+  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+}
+
+/// A line without its comment, which begins with # at the start of the line or after a blank.
+std::string without_comment(const std::string &line) {
+  for (std::size_t i = 0; i < line.size(); ++i)
+    if (line[i] == '#' && (i == 0 || line[i - 1] == ' ' || line[i - 1] == '\t'))
+      return trimmed(line.substr(0, i));
+  return trimmed(line);
+}
+
+std::vector<std::string> words_of(const std::string &text) {
+  std::vector<std::string> words;
+  std::istringstream in(text);
+  for (std::string word; in >> word;)
+    words.push_back(word);
+  return words;
+}
+
+/// The parts of a text between its separators `|`.
+std::vector<std::string> parts_of(const std::string &text) {
+  std::vector<std::string> parts;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, '|');)
+    parts.push_back(trimmed(part));
+  return parts;
+}
+
+bool is_name(const std::string &text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char letter) {
+    return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_';
+  });
+}
+
+class PlanReader {
+public:
+  explicit PlanReader(fs::path file) : file_(std::move(file)) {}
+
+  Plan read() {
+    plan_.text = read_text(file_);
+    std::istringstream lines(plan_.text);
+    for (std::string line; std::getline(lines, line);) {
+      ++line_;
+      const std::string text = without_comment(line);
+      if (text.empty()) continue;
+      const std::size_t end = std::min(text.find_first_of(blanks), text.size());
+      keyword_ = text.substr(0, end);
+      value_ = trimmed(text.substr(end));
+      take();
+    }
+    end_scene();
+    keyword_.clear();
+    require(!plan_.title.empty(), "title", "a line of it");
+    require(!plan_.quantities.empty(), "quantity", "a line for each");
+    require(!plan_.scenes.empty(), "scene", "a line for each, with its settings below");
+    for (const Explicit &one : compared_)
+      add_comparison(one);
+    if (scaled_to_ == 0) return std::move(plan_);
+    if (!plan_.can_be_scaled())
+      refuse("scaled_to", std::to_string(scaled_to_), what_can_be_scaled, scaled_line_);
+    std::string text = plan_.text;
+    Plan scaled = plan_.with_balls(scaled_to_);
+    scaled.text = std::move(text);
+    return scaled;
+  }
+
+private:
+  /// A comparison that a line of its own asks for, and the line.
+  struct Explicit {
+    int line;
+    std::string scene, base, words;
+  };
+  struct Keyword {
+    void (PlanReader::*take)();
+    bool once;  ///< in a scene, or before the first one
+    bool first; ///< of the whole plan: before the first scene
+  };
+
+  static const std::map<std::string, Keyword> &keywords() {
+    using R = PlanReader;
+    static const std::map<std::string, Keyword> all = {
+        {"title", {&R::take_title, true, true}},
+        {"about", {&R::take_about, false, true}},
+        {"note", {&R::take_note, false, true}},
+        {"quantity", {&R::take_quantity, false, true}},
+        {"axis", {&R::take_axis, false, true}},
+        {"scene", {&R::take_scene, false, false}},
+        {"from", {&R::take_from, true, false}},
+        {"differs", {&R::take_differs, true, false}},
+        {"paired", {&R::take_paired, true, false}},
+        {"compare", {&R::take_compare, false, false}},
+        {"deck", {&R::take_deck, true, false}},
+        {"seeds", {&R::take_seeds, true, false}},
+        {"seed_variable", {&R::take_seed_variable, true, false}},
+        {"set", {&R::take_set, false, false}},
+        {"set_settle", {&R::take_set, false, false}},
+        {"set_placed", {&R::take_set, false, false}},
+        {"set_run", {&R::take_set, false, false}},
+        {"stiffness", {&R::take_stiffness, true, false}},
+        {"frequency", {&R::take_frequency, true, false}},
+        {"more_steps", {&R::take_more_steps, true, false}},
+        {"balls", {&R::take_balls, true, false}},
+        {"width", {&R::take_width, true, false}},
+        {"depth", {&R::take_depth, true, false}},
+        {"height", {&R::take_height, true, false}},
+        {"radius_min", {&R::take_radius_min, true, false}},
+        {"radius_max", {&R::take_radius_max, true, false}},
+        {"grading", {&R::take_grading, true, false}},
+        {"layer", {&R::take_layer, false, false}},
+        {"ratio", {&R::take_ratio, true, false}},
+        {"at", {&R::take_at, false, false}},
+        {"series", {&R::take_series, true, false}},
+        {"scaled_to", {&R::take_scaled_to, false, true}}};
+    return all;
+  }
+
+  [[noreturn]] void refuse(const std::string &keyword, const std::string &value, const std::string &allowed,
+                           int line) const {
+    throw UsageError(fmt::format("{}{}: {}", file_.string(), line > 0 ? fmt::format(", line {}", line) : "",
+                                 refusal(keyword, value, allowed)));
+  }
+  [[noreturn]] void refuse(const std::string &allowed) const { refuse(keyword_, value_, allowed, line_); }
+  void require(bool there, const char *keyword, const char *allowed) const {
+    if (!there) refuse(keyword, "", allowed, 0);
+  }
+
+  void take() {
+    const auto found = keywords().find(keyword_);
+    if (found == keywords().end()) {
+      std::vector<std::string> names;
+      for (const auto &[name, keyword] : keywords())
+        names.push_back(name);
+      refuse("the keyword", keyword_, fmt::format("{}", fmt::join(names, ", ")), line_);
+    }
+    if (value_.empty()) refuse("a value after it");
+    if (found->second.first && in_scene_) refuse("before the first scene");
+    if (found->second.once && !seen_.insert(keyword_).second)
+      refuse(in_scene_ ? "once in a scene" : "once before the first scene");
+    (this->*found->second.take)();
+  }
+
+  double number(const Range &range) const {
+    try {
+      return number_option(keyword_.c_str(), value_, range);
+    } catch (const UsageError &) {
+      refuse(range.words());
+    }
+  }
+  int count(int least, int most) const {
+    try {
+      return count_option(keyword_.c_str(), value_, least, most);
+    } catch (const UsageError &) {
+      refuse(fmt::format("a whole number from {} to {}", least, most));
+    }
+  }
+  void only_in_scene() const {
+    if (!in_scene_) refuse("below the line of a scene");
+  }
+
+  // Of the whole plan.
+  void take_title() { plan_.title = value_; }
+  void take_about() { plan_.about.push_back(value_); }
+  void take_note() { plan_.notes.push_back(value_); }
+
+  void take_quantity() {
+    const std::vector<std::string> words = words_of(value_);
+    constexpr std::size_t own = 5;
+    Quantity quantity;
+    if (words.size() == 1) {
+      const Quantity *known = bed_quantity(words[0]);
+      if (known == nullptr) {
+        std::vector<std::string> names;
+        for (const Quantity &one : bed_quantities())
+          names.push_back(one.name);
+        refuse(fmt::format("{}, or NAME UNIT WAY FILE COLUMN", fmt::join(names, ", ")));
+      }
+      quantity = *known;
+    } else if (words.size() == own) {
+      if (!is_name(words[0])) refuse("NAME UNIT WAY FILE COLUMN, NAME of letters, digits and _");
+      const std::vector<const char *> ways = column_ways();
+      if (std::find(ways.begin(), ways.end(), words[2]) == ways.end())
+        refuse(fmt::format("NAME UNIT WAY FILE COLUMN, WAY one of {}", fmt::join(ways, ", ")));
+      quantity = column_quantity(words[0], words[1], words[2], words[3], words[4]);
+    } else {
+      refuse("the name of a bed's quantity, or NAME UNIT WAY FILE COLUMN");
+    }
+    for (const Quantity &one : plan_.quantities)
+      if (one.name == quantity.name) refuse("each quantity once");
+    plan_.quantities.push_back(quantity);
+  }
+
+  void take_axis() {
+    const std::size_t end = value_.find_first_of(blanks);
+    if (end == std::string::npos || !is_name(value_.substr(0, end)))
+      refuse("NAME LABEL, NAME of letters, digits and _, LABEL with unit");
+    const std::string name = value_.substr(0, end);
+    for (const Axis &axis : plan_.axes)
+      if (axis.name == name) refuse("each axis once");
+    plan_.axes.push_back({name, trimmed(value_.substr(end))});
+  }
+
+  /// The first one counts, which is that of Plan::with_balls().
+  void take_scaled_to() {
+    const int balls = count(1, PackingOptions::most_balls);
+    if (scaled_to_ == 0) scaled_to_ = balls;
+    scaled_line_ = line_;
+  }
+
+  // Scenes.
+  Scene &scene() { return in_scene_ ? plan_.scenes.back() : common_; }
+
+  void take_scene() {
+    end_scene();
+    if (value_.find_first_of(",|") != std::string::npos) refuse("a name without commas and |");
+    for (const Scene &one : plan_.scenes)
+      if (one.name == value_) refuse("each name once");
+    plan_.scenes.push_back(common_);
+    plan_.scenes.back().name = value_;
+    in_scene_ = true;
+    scene_line_ = line_;
+    paired_of_scene_ = paired_;
+  }
+
+  void take_from() {
+    only_in_scene();
+    if (seen_.size() > 1 || settings_ > 0) refuse("the first line of a scene");
+    const auto base = std::find_if(plan_.scenes.begin(), plan_.scenes.end() - 1,
+                                   [this](const Scene &one) { return one.name == value_; });
+    if (base == plan_.scenes.end() - 1) refuse("the name of a scene above");
+    const std::string name = plan_.scenes.back().name;
+    plan_.scenes.back() = *base;
+    plan_.scenes.back().name = name;
+    base_ = value_;
+  }
+
+  void take_differs() {
+    only_in_scene();
+    if (base_.empty()) refuse("below a line from");
+    differs_ = value_;
+  }
+
+  void take_paired() {
+    if (value_ != "yes" && value_ != "no") refuse("yes, no");
+    (in_scene_ ? paired_of_scene_ : paired_) = value_ == "yes";
+  }
+
+  void take_compare() {
+    const std::vector<std::string> parts = parts_of(value_);
+    if (parts.size() != 3 || parts[0].empty() || parts[1].empty() || parts[2].empty())
+      refuse("SCENE | SCENE | what differs, in words");
+    compared_.push_back({line_, parts[0], parts[1], parts[2]});
+  }
+
+  void take_deck() {
+    const fs::path beside = file_.parent_path() / value_;
+    if (fs::is_regular_file(beside))
+      scene().deck = fs::absolute(beside).lexically_normal().string();
+    else if (fs::is_regular_file(input_file(value_)))
+      scene().deck = value_;
+    else
+      refuse("a deck in the folder of the plan, or in " + input_file("").string());
+  }
+
+  void take_seeds() { scene().seeds = count(1, most_seeds); }
+
+  void take_seed_variable() {
+    if (!is_name(value_)) refuse("the name of a variable of the deck");
+    scene().seed_variable = value_;
+  }
+
+  void take_set() {
+    static const std::map<std::string, Scope> scopes = {{"set", Scope::all},
+                                                        {"set_settle", Scope::settle},
+                                                        {"set_placed", Scope::placed},
+                                                        {"set_run", Scope::run}};
+    const std::vector<std::string> words = words_of(value_);
+    if (words.size() != 2 || !is_name(words[0])) refuse("NAME VALUE, a variable of the deck");
+    ++settings_;
+    if (!seen_.insert(keyword_ + " " + words[0]).second) refuse("each variable once");
+    const Scope scope = scopes.at(keyword_);
+    for (Setting &setting : scene().settings)
+      if (setting.scope == scope && setting.name == words[0]) {
+        setting.value = words[1];
+        return;
+      }
+    scene().settings.push_back({scope, words[0], words[1]});
+  }
+
+  static constexpr Range above_zero = {1e-12, 1e18, ""};
+  void take_stiffness() { scene().stiffness = number({1e-6, 1e15, "N/m"}); }
+  void take_frequency() { scene().frequency = number({1e-6, 1e6, "Hz"}); }
+  void take_more_steps() { scene().more_steps = number({1e-3, 1e3}); }
+
+  // Beds.
+  SoilBed &bed() {
+    if (!scene().bed) scene().bed.emplace();
+    return *scene().bed;
+  }
+  void take_balls() { bed().packing.balls = count(1, PackingOptions::most_balls); }
+  void take_width() { bed().packing.width = number(PackingOptions::length_range); }
+  void take_depth() { bed().packing.depth = number(PackingOptions::length_range); }
+  void take_height() { bed().packing.height = number(PackingOptions::length_range); }
+  void take_radius_min() { bed().packing.radius_min = number(PackingOptions::radius_range); }
+  void take_radius_max() { bed().packing.radius_max = number(PackingOptions::radius_range); }
+  void take_grading() {
+    if (value_ != "uniform" && value_ != "mass") refuse("uniform, mass");
+    bed().packing.grading = grading_from_name(value_);
+  }
+  void take_layer() {
+    if (seen_.insert(keyword_).second) bed().layers.clear(); // those of the scene above
+    bed().layers.push_back({{}, number(PackingOptions::length_range)});
+  }
+  void take_ratio() { bed().ratio = number_text(number(above_zero)); }
+
+  // What the page draws.
+  void take_at() {
+    const std::vector<std::string> words = words_of(value_);
+    const auto axis = std::find_if(plan_.axes.begin(), plan_.axes.end(),
+                                   [&](const Axis &one) { return !words.empty() && one.name == words[0]; });
+    const std::optional<double> place = words.size() == 2 ? any_number_from_text(words[1]) : std::nullopt;
+    if (axis == plan_.axes.end() || !place || !(std::abs(*place) <= above_zero.most))
+      refuse("AXIS NUMBER, an axis that a line `axis` names");
+    if (!seen_.insert(keyword_ + " " + words[0]).second) refuse("each axis once");
+    scene().at[words[0]] = *place;
+  }
+  void take_series() { scene().series = value_; }
+
+  /// Checks what the lines of a scene, or those before the first one, say together.
+  void end_scene() {
+    const std::string differs = std::exchange(differs_, {}), base = std::exchange(base_, {});
+    seen_.clear();
+    settings_ = 0;
+    if (!in_scene_) return;
+    Scene &done = plan_.scenes.back();
+    const auto refuse_scene = [&](const std::string &allowed) {
+      refuse("scene", done.name, allowed, scene_line_);
+    };
+    if (done.deck.empty()) refuse_scene("with a line deck, here or before the first scene");
+    if (done.bed) {
+      if (!done.seed_variable.empty())
+        refuse_scene("without seed_variable: the seed of a bed is that of its balls");
+      if (const std::string wrong = done.bed->packing.invalid(); !wrong.empty())
+        refuse_scene("a bed of which " + wrong);
+      if (done.bed->packing.depth > 0.0 && (done.stiffness > 0.0 || !done.bed->layers.empty()))
+        refuse_scene("stiffness and layer on a bed in the plane: without depth");
+      for (BedLayer &layer : done.bed->layers) {
+        layer.packing = done.bed->packing;
+        if (const std::string wrong = layer.invalid(); !wrong.empty())
+          refuse_scene("a bed of which " + wrong);
+        layer.packing.balls = balls_of(layer);
+      }
+    } else {
+      if (done.stiffness > 0.0 || done.frequency > 0.0 || done.more_steps != 1.0)
+        refuse_scene("stiffness, frequency and more_steps on a bed: with balls or layer");
+      if (done.seed_variable.empty() && done.seeds > 1)
+        refuse_scene("one seed, or seed_variable, the name of the deck's variable that gets it");
+    }
+    if (!differs.empty()) plan_.comparisons.push_back({differs, {{done.name, base}}, paired_of_scene_});
+  }
+
+  void add_comparison(const Explicit &one) {
+    for (const std::string &name : {one.scene, one.base})
+      if (std::none_of(plan_.scenes.begin(), plan_.scenes.end(),
+                       [&name](const Scene &scene) { return scene.name == name; }))
+        refuse("compare", name, "the name of a scene", one.line);
+    for (Comparison &known : plan_.comparisons)
+      if (known.words == one.words && known.paired == paired_) {
+        known.pairs.emplace_back(one.scene, one.base);
+        return;
+      }
+    plan_.comparisons.push_back({one.words, {{one.scene, one.base}}, paired_});
+  }
+
+  fs::path file_;
+  Plan plan_;
+  int line_ = 0;
+  std::string keyword_, value_;
+  Scene common_; ///< what is before the first scene
+  bool in_scene_ = false;
+  bool paired_ = true, paired_of_scene_ = true;
+  int scene_line_ = 0;
+  std::string base_, differs_; ///< of the scene that is read
+  std::set<std::string> seen_; ///< keywords of that scene
+  int settings_ = 0;           ///< of that scene
+  std::vector<Explicit> compared_;
+  int scaled_to_ = 0, scaled_line_ = 0;
+};
+
+} // namespace
+
+const Scene &Plan::scene(const std::string &name) const {
+  return *std::find_if(scenes.begin(), scenes.end(), [&name](const Scene &one) { return one.name == name; });
+}
+
+bool Plan::can_be_scaled() const {
+  return std::all_of(scenes.begin(), scenes.end(), [](const Scene &scene) {
+    return scene.bed && scene.bed->packing.dimensions() == 2 && scene.stiffness > 0.0 &&
+           std::none_of(roller_variables.begin(), roller_variables.end(),
+                        [&scene](const char *name) { return value_of(scene, name).empty(); });
+  });
+}
+
+Plan Plan::with_balls(int balls) const {
+  Plan plan = *this;
+  const int of = scenes.front().bed->packing.balls;
+  for (Scene &scene : plan.scenes)
+    scene = scaled(scene, balls, of);
+  plan.text = fmt::format("scaled_to {}\n", balls) + text;
+  return plan;
+}
+
+Plan Plan::quick() const {
+  Plan plan = can_be_scaled() ? with_balls(std::min(quick_balls, scenes.front().bed->packing.balls)) : *this;
+  if (plan.scenes.size() > quick_scenes) plan.scenes.resize(quick_scenes);
+  for (Scene &scene : plan.scenes) {
+    scene.seeds = std::min(scene.seeds, quick_seeds);
+    for (Setting &setting : scene.settings)
+      if (setting.name == "cycles") setting.value = quick_cycles;
+  }
+  const auto is_left_out = [&plan](const std::pair<std::string, std::string> &pair) {
+    const auto has = [&plan](const std::string &name) {
+      return std::any_of(plan.scenes.begin(), plan.scenes.end(),
+                         [&name](const Scene &scene) { return scene.name == name; });
+    };
+    return !has(pair.first) || !has(pair.second);
+  };
+  for (Comparison &one : plan.comparisons)
+    one.pairs.erase(std::remove_if(one.pairs.begin(), one.pairs.end(), is_left_out), one.pairs.end());
+  plan.comparisons.erase(std::remove_if(plan.comparisons.begin(), plan.comparisons.end(),
+                                        [](const Comparison &one) { return one.pairs.empty(); }),
+                         plan.comparisons.end());
+  return plan;
+}
+
+Plan read_plan(const fs::path &file) { return PlanReader(file).read(); }
+
+} // namespace drumlin::post

@@ -1,0 +1,54 @@
+// The plan of an experiment: scenes, seeds and quantities, and what is compared with what; read from a file that a user edits.
+#pragma once
+
+#include "experiment/quantity.h"
+#include "experiment/scene.h"
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace drumlin::post {
+
+/// An axis over which the page draws the results of scenes that have a place on it.
+struct Axis {
+  std::string name, label; ///< the label with unit
+};
+
+/// What differs, in words, and the scenes in which it does: each pair is a scene and the one that it is compared with.
+struct Comparison {
+  std::string words;
+  std::vector<std::pair<std::string, std::string>> pairs;
+  /// Whether the seeds of the two are compared one by one, so that what they share cancels. Else they are two independent samples.
+  bool paired = true;
+};
+
+/// What Plan::can_be_scaled() asks for, in words.
+constexpr const char *what_can_be_scaled =
+    "with a plan of beds in the plane that has stiffness and all of r2, r3, m2, m3, k23, c23, Fw";
+
+struct Plan {
+  std::string title;
+  std::vector<std::string> about, notes; ///< sentences that open the page, and paragraphs below its tables
+  std::vector<Quantity> quantities;
+  std::vector<Axis> axes;
+  std::vector<Scene> scenes; ///< the first is that to which bed sizes refer
+  std::vector<Comparison> comparisons;
+  std::string text; ///< of a file with this plan
+
+  /// \pre there is one of that name
+  const Scene &scene(const std::string &name) const;
+  /// Whether it can have another number of balls: all scenes on beds in the plane, with the roller's variables given.
+  bool can_be_scaled() const;
+  /// The plan with so many balls in its first scene. \pre can_be_scaled()
+  Plan with_balls(int balls) const;
+  /// Few runs: two seeds of the first three scenes, with beds of 150 balls and four cycles where it can have them.
+  Plan quick() const;
+};
+
+/// Reads a plan: lines `keyword value`, # begins a comment; postprocess/README.md has the keywords. Decks are looked for in the folder of
+/// the plan, then in inputs/. Throws UsageError "FILE, line LINE: KEYWORD is 'VALUE'; allowed: WHAT".
+Plan read_plan(const std::filesystem::path &file);
+
+} // namespace drumlin::post

@@ -1,0 +1,210 @@
+#include "experiment/quantity.h"
+
+#include "record/record.h"
+#include "identify/identified_record.h"
+#include "meter/values.h"
+#include "support/csv.h"
+#include "support/csv_schema.h"
+#include "runs/parameter_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace drumlin::post {
+
+namespace {
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+}
+
+/// The files of a run, each read and identified when a quantity first needs it.
+class RunFiles {
+public:
+  RunFiles(std::filesystem::path folder, double width) : folder_(std::move(folder)), width_(width) {}
+
+  double width() const { return width_; }
+
+  const Table &table(const std::string &name) {
+    const auto found = tables_.find(name);
+    return found != tables_.end() ? found->second
+                                  : tables_.emplace(name, read_table(folder_ / name)).first->second;
+  }
+
+  double parameter(const std::string &name) {
+    if (parameters_.empty()) parameters_ = read_parameters(folder_ / "parameters.csv");
+    const auto found = parameters_.find(name);
+    if (found == parameters_.end()) csv_fault(folder_ / "parameters.csv", 0, name, "is missing");
+    return csv_value<double>(found->second);
+  }
+
+  const Record &record() {
+    if (!record_) record_ = read_record(folder_);
+    return *record_;
+  }
+
+  /// What `drumlin identify` finds in the whole record; nothing if the record does not determine a law, which is a result.
+  const std::optional<IdentifiedRecord> &identified() {
+    if (!tried_) {
+      tried_ = true;
+      const Record &all = record();
+      try {
+        identified_ = identify_record(all, {});
+      } catch (const std::runtime_error &) { // there is no law
+      }
+    }
+    return identified_;
+  }
+
+private:
+  std::filesystem::path folder_;
+  double width_;
+  std::map<std::string, Table> tables_;
+  std::map<std::string, std::string> parameters_;
+  std::optional<Record> record_;
+  std::optional<IdentifiedRecord> identified_;
+  bool tried_ = false;
+};
+
+namespace {
+
+/// The first row that counts in means. The first row of cycles.csv is the start, no cycle.
+std::ptrdiff_t second_half(const std::vector<double> &values) {
+  return static_cast<std::ptrdiff_t>((values.size() + 1) / 2);
+}
+
+double mean_of(const std::vector<double> &values) {
+  const auto begin = values.begin() + second_half(values);
+  return std::accumulate(begin, values.end(), 0.0) / static_cast<double>(values.end() - begin);
+}
+
+double per_row_of(const std::vector<double> &values) {
+  const auto begin = values.begin() + second_half(values);
+  return (values.back() - *(begin - 1)) / static_cast<double>(values.end() - begin);
+}
+
+/// How a column becomes one number.
+struct ColumnWay {
+  const char *name;
+  std::size_t rows; ///< that it needs
+  double (*value)(const std::vector<double> &);
+};
+const std::array<ColumnWay, 5> ways = {
+    {{"last", 1, [](const std::vector<double> &values) { return values.back(); }},
+     {"mean", 2, &mean_of},
+     {"largest", 1,
+      [](const std::vector<double> &values) { return *std::max_element(values.begin(), values.end()); }},
+     {"smallest", 1,
+      [](const std::vector<double> &values) { return *std::min_element(values.begin(), values.end()); }},
+     {"per_row", 2, &per_row_of}}};
+
+/// \pre one of `ways` has the name
+std::function<double(RunFiles &)> of_column(const std::string &file, const std::string &column,
+                                            const std::string &name) {
+  const ColumnWay way =
+      *std::find_if(ways.begin(), ways.end(), [&](const ColumnWay &one) { return name == one.name; });
+  return [file, column, way](RunFiles &run) {
+    const Table &table = run.table(file);
+    const std::vector<double> values = table.numbers(column);
+    if (values.size() < way.rows)
+      csv_fault(table.file(), 0, column,
+                fmt::format("has {} rows; allowed: {} or more", values.size(), way.rows));
+    return way.value(values);
+  };
+}
+
+std::function<double(RunFiles &)> of_cycles(const std::string &column, const std::string &way) {
+  return of_column("cycles.csv", column, way);
+}
+
+/// A part of the law that identification finds.
+template <class Part>
+std::function<double(RunFiles &)> of_law(Part part) {
+  return [part](RunFiles &run) {
+    const std::optional<IdentifiedRecord> &found = run.identified();
+    return found ? part(found->whole) : none;
+  };
+}
+
+/// A value for each metre of the drum's width.
+std::function<double(RunFiles &)> per_metre(std::function<double(RunFiles &)> value) {
+  return [value = std::move(value)](RunFiles &run) { return value(run) / run.width(); };
+}
+
+double cmv_of(RunFiles &run) {
+  MeterOptions options;
+  options.window = 4; // the shortest
+  return meter_windows(meter_cycles(run.record()), options).back().cmv.value_or(none);
+}
+
+constexpr double relative_tolerance = 0.1;
+constexpr double settlement_tolerance = 1e-3; // m
+
+} // namespace
+
+std::vector<const char *> column_ways() {
+  std::vector<const char *> names;
+  for (const ColumnWay &way : ways)
+    names.push_back(way.name);
+  return names;
+}
+
+const std::vector<Quantity> &bed_quantities() {
+  const auto k = [](const Identification &whole) { return whole.law.k.mean; };
+  const auto k_half_width = [](const Identification &whole) { return whole.law.k.half_width; };
+  const auto D = [](const Identification &whole) { return whole.law.D.mean; };
+  const auto D_half_width = [](const Identification &whole) { return whole.law.D.half_width; };
+  const auto r2 = [](const Identification &whole) { return whole.law.r2; };
+  static const std::vector<Quantity> all = {
+      {"acceleration", "peak drum acceleration", "m/s2", "m/s2", 1.0, relative_tolerance, false,
+       of_cycles("a_drum_max", "mean")},
+      {"force", "peak contact force", "N/m", "kN/m", 1e-3, relative_tolerance, false,
+       per_metre(of_cycles("F_contact_max", "mean"))},
+      {"settlement", "settlement per cycle", "m", "mm", 1e3, settlement_tolerance, true,
+       of_cycles("settlement", "per_row")},
+      {"total_settlement", "settlement after the last cycle", "m", "mm", 1e3, settlement_tolerance, true,
+       of_cycles("settlement", "last")},
+      {"contact", "share of time in contact", "-", "-", 1.0, relative_tolerance, false,
+       of_cycles("contact_share", "mean")},
+      {"depth", "depth of the drum at rest over its diameter", "-", "%", 100.0, 0.01, true,
+       [](RunFiles &run) { return 0.5 * run.parameter("drum_depth") / run.parameter("r2"); }},
+      {"CMV", "CMV", "-", "-", 1.0, relative_tolerance, false, &cmv_of},
+      {"k", "stiffness k", "N/m per m", "MN/m per m", 1e-6, relative_tolerance, false, per_metre(of_law(k))},
+      {"k_half_width", "half width of the interval of k in one record", "N/m per m", "MN/m per m", 1e-6,
+       relative_tolerance, false, per_metre(of_law(k_half_width))},
+      {"D", "damping ratio D", "-", "-", 1.0, relative_tolerance, false, of_law(D)},
+      {"D_half_width", "half width of the interval of D in one record", "-", "-", 1.0, relative_tolerance,
+       false, of_law(D_half_width)},
+      {"R2", "R2 of the linear law", "-", "-", 1.0, relative_tolerance, false, of_law(r2)}};
+  return all;
+}
+
+const Quantity *bed_quantity(const std::string &name) {
+  const std::vector<Quantity> &all = bed_quantities();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&name](const Quantity &one) { return one.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+Quantity column_quantity(const std::string &name, const std::string &unit, const std::string &way,
+                         const std::string &file, const std::string &column) {
+  return {name, name, unit, unit, 1.0, relative_tolerance, false, of_column(file, column, way)};
+}
+
+std::vector<double> measured(const std::vector<Quantity> &quantities, const std::filesystem::path &folder,
+                             double width) {
+  RunFiles run(folder, width);
+  std::vector<double> values;
+  values.reserve(quantities.size());
+  for (const Quantity &quantity : quantities)
+    values.push_back(quantity.value(run));
+  return values;
+}
+
+} // namespace drumlin::post

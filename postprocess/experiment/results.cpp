@@ -1,0 +1,129 @@
+#include "experiment/results.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace drumlin::post {
+
+namespace {
+
+/// Values of a comparison's scenes and of those that they are compared with; of pairs those with the same index have the same seed.
+struct Samples {
+  std::vector<double> values, bases;
+};
+
+template <class Values>
+Samples samples_of(const Comparison &compared, const Values &values_of) {
+  Samples samples;
+  for (const auto &[scene, base] : compared.pairs) {
+    const std::map<int, double> &values = values_of(scene), &bases = values_of(base);
+    for (const auto &[seed, value] : values)
+      if (!compared.paired || bases.count(seed) > 0) samples.values.push_back(value);
+    for (const auto &[seed, value] : bases)
+      if (!compared.paired || values.count(seed) > 0) samples.bases.push_back(value);
+  }
+  return samples;
+}
+
+std::vector<double> differences(const Samples &samples) {
+  std::vector<double> found;
+  for (std::size_t i = 0; i < samples.values.size(); ++i)
+    found.push_back(samples.values[i] - samples.bases[i]);
+  return found;
+}
+
+double cost_ratio(const Comparison &compared, const Samples &costs) {
+  if (costs.values.empty() || costs.bases.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (!compared.paired) return median(costs.values) / median(costs.bases);
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < costs.values.size(); ++i)
+    ratios.push_back(costs.values[i] / costs.bases[i]);
+  return median(ratios);
+}
+
+/// The value of a key, empty if there is none.
+template <class Map, class Key>
+const typename Map::mapped_type &found_in(const Map &map, const Key &key) {
+  static const typename Map::mapped_type none;
+  const auto found = map.find(key);
+  return found == map.end() ? none : found->second;
+}
+
+} // namespace
+
+const CsvSchema<Result> &result_rows() {
+  constexpr int digits_of_cost = 9;
+  static const CsvSchema<Result> schema(
+      {csv_column("scene", &Result::scene),
+       csv_column("seed", &Result::seed),
+       csv_column("quantity", &Result::quantity),
+       csv_column("unit", &Result::unit),
+       {"value",
+        [](const Result &row) { return std::isfinite(row.value) ? number_text(row.value) : std::string(); },
+        [](Result &row, const std::string &cell) { row.value = csv_value<double>(cell); }},
+       csv_column("cost [s]", &Result::cost, digits_of_cost)},
+      3);
+  return schema;
+}
+
+Results::Results(const std::vector<Result> &rows) {
+  for (const Result &row : rows) {
+    if (std::find(scenes_.begin(), scenes_.end(), row.scene) == scenes_.end()) scenes_.push_back(row.scene);
+    if (std::isfinite(row.value)) values_[row.scene][row.quantity][row.seed] = row.value;
+    if (std::isfinite(row.cost)) costs_[row.scene].emplace(row.seed, row.cost);
+  }
+}
+
+const std::map<int, double> &Results::values(const std::string &scene, const std::string &quantity) const {
+  return found_in(found_in(values_, scene), quantity);
+}
+
+const std::map<int, double> &Results::costs(const std::string &scene) const {
+  return found_in(costs_, scene);
+}
+
+std::vector<double> numbers(const std::map<int, double> &by_seed) {
+  std::vector<double> all;
+  for (const auto &[seed, value] : by_seed)
+    all.push_back(value);
+  return all;
+}
+
+std::optional<Change> change_of(const Results &results, const Comparison &compared,
+                                const std::string &quantity) {
+  const Samples samples = samples_of(
+      compared, [&](const std::string &scene) -> const auto & { return results.values(scene, quantity); });
+  if (samples.values.empty() || samples.bases.empty()) return std::nullopt;
+  Change change{};
+  change.difference =
+      compared.paired ? mean_interval(differences(samples)) : mean_difference(samples.values, samples.bases);
+  const double scale = std::fabs(mean_interval(samples.bases).mean);
+  change.relative = {change.difference.mean / scale, change.difference.half_width / scale};
+  return change;
+}
+
+std::vector<Effect> effects_of(const Plan &plan, const Results &results) {
+  std::vector<Effect> effects;
+  for (const Comparison &compared : plan.comparisons) {
+    Effect effect;
+    effect.compared = &compared;
+    effect.cost = cost_ratio(compared, samples_of(
+                                           compared, [&](const std::string &scene) -> const auto & {
+                                             return results.costs(scene);
+                                           }));
+    bool any = false;
+    for (const Quantity &quantity : plan.quantities) {
+      const auto values_of = [&](const std::string &scene) -> const auto & {
+        return results.values(scene, quantity.name);
+      };
+      effect.seeds = std::max(effect.seeds, samples_of(compared, values_of).values.size());
+      effect.changes.push_back(change_of(results, compared, quantity.name));
+      any = any || effect.changes.back();
+    }
+    if (any) effects.push_back(effect);
+  }
+  return effects;
+}
+
+} // namespace drumlin::post

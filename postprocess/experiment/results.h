@@ -1,0 +1,79 @@
+// Results of an experiment, and the effects computed from them.
+#pragma once
+
+#include "experiment/plan.h"
+#include "support/csv_schema.h"
+#include "support/statistics.h"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+/// The file of the results in the folder of an experiment, and the copy of its plan.
+constexpr const char *results_name = "runs.csv";
+constexpr const char *plan_name = "plan";
+
+/// A row of the file: one quantity of one run. The first three name it.
+struct Result {
+  std::string scene;
+  int seed = 0;
+  std::string quantity;
+  std::string unit;
+  double value = 0.0; ///< NaN: the run does not give it
+  double cost = 0.0;  ///< processor time of the run, without what made its bed [s]; NaN: not known
+};
+
+/// The columns of the file.
+const CsvSchema<Result> &result_rows();
+
+/// The results of all runs, looked up by scene and quantity.
+class Results {
+public:
+  explicit Results(const std::vector<Result> &rows);
+
+  /// Finite values by seed.
+  const std::map<int, double> &values(const std::string &scene, const std::string &quantity) const;
+  /// Processor times by seed [s].
+  const std::map<int, double> &costs(const std::string &scene) const;
+  /// Names of the scenes that have runs, in the order of the rows.
+  const std::vector<std::string> &scenes() const { return scenes_; }
+
+private:
+  std::map<std::string, std::map<std::string, std::map<int, double>>> values_;
+  std::map<std::string, std::map<int, double>> costs_;
+  std::vector<std::string> scenes_;
+};
+
+/// The numbers of a map by seed, in its order.
+std::vector<double> numbers(const std::map<int, double> &by_seed);
+
+/// Change of a quantity, with its 95 % confidence interval; infinitely wide without two seeds.
+struct Change {
+  MeanInterval difference; ///< in the unit of the quantity
+  MeanInterval relative;   ///< over the mean of what it is compared with
+
+  /// What pages show: the difference if the quantity is absolute, else the relative change.
+  const MeanInterval &shown(const Quantity &quantity) const {
+    return quantity.absolute ? difference : relative;
+  }
+};
+
+/// Nothing if no pair has values of both scenes; of pairs, of the same seed.
+std::optional<Change> change_of(const Results &results, const Comparison &compared,
+                                const std::string &quantity);
+
+/// What a comparison finds.
+struct Effect {
+  const Comparison *compared = nullptr; ///< of the plan
+  std::size_t seeds = 0;                ///< pairs of runs; of scenes that are not paired, runs of the first
+  double cost = 0.0; ///< processor time over that of what it is compared with, median; NaN: not known
+  std::vector<std::optional<Change>> changes; ///< in the order of the plan's quantities
+};
+/// Those of a plan's comparisons that have runs of both scenes.
+std::vector<Effect> effects_of(const Plan &plan, const Results &results);
+
+} // namespace drumlin::post

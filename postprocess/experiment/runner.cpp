@@ -1,0 +1,161 @@
+#include "experiment/runner.h"
+
+#include "experiment/page.h"
+#include "experiment/results.h"
+#include "experiment/scene_run.h"
+#include "support/files.h"
+#include "support/parallel.h"
+#include "support/progress.h"
+#include "support/resumed.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Scenes on one soil and a seed: they run one after the other, and the first of them makes the soil.
+struct Group {
+  std::vector<const Scene *> scenes;
+  int seed;
+};
+
+/// All seeds of the scenes on one soil come before the others, so that a study that is interrupted has whole results of its first scenes.
+std::vector<Group> groups_of(const Plan &plan) {
+  std::vector<std::vector<const Scene *>> soils;
+  for (const Scene &scene : plan.scenes) {
+    const auto same = std::find_if(soils.begin(), soils.end(), [&scene](const auto &soil) {
+      return scene.bed && soil.front()->bed && soil_text(*soil.front()) == soil_text(scene);
+    });
+    if (same == soils.end())
+      soils.push_back({&scene});
+    else
+      same->push_back(&scene);
+  }
+  std::vector<Group> groups;
+  for (const std::vector<const Scene *> &soil : soils)
+    for (int seed = 1;; ++seed) {
+      Group group{{}, seed};
+      for (const Scene *scene : soil)
+        if (seed <= scene->seeds) group.scenes.push_back(scene);
+      if (group.scenes.empty()) break;
+      groups.push_back(group);
+    }
+  return groups;
+}
+
+class Runs {
+public:
+  Runs(const Plan &plan, const fs::path &out)
+      : plan_(plan), out_(out), groups_(groups_of(plan)), table_(out / results_name, result_rows()),
+        progress_(runs()) {}
+
+  std::vector<std::string> make(int jobs) {
+    for (const Group &group : groups_)
+      for (const Scene *scene : group.scenes)
+        is_finished(*scene, group.seed); // asked for in order, which is that of the table
+    in_parallel(groups_.size(), jobs, [this](std::size_t i) {
+      for (const Scene *scene : groups_[i].scenes)
+        make_one(*scene, groups_[i].seed, groups_[i].scenes.size() > 1 ? Soil::kept : Soil::used_up);
+    });
+    table_.finish();
+    return failures_;
+  }
+
+private:
+  std::size_t runs() const {
+    std::size_t sum = 0;
+    for (const Group &group : groups_)
+      sum += group.scenes.size();
+    return sum;
+  }
+
+  bool has(const Scene &scene, int seed, const Quantity &quantity) {
+    return table_.has({scene.name, std::to_string(seed), quantity.name});
+  }
+
+  bool is_finished(const Scene &scene, int seed) {
+    bool all = true;
+    for (const Quantity &quantity : plan_.quantities)
+      all = has(scene, seed, quantity) && all;
+    return all;
+  }
+
+  void make_one(const Scene &scene, int seed, Soil soil) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (is_finished(scene, seed)) {
+        progress_.found();
+        return;
+      }
+    }
+    const std::string what = fmt::format("seed {}, {}: ", seed, scene.name);
+    try {
+      const std::unique_ptr<DeckRun> run = run_scene(scene, seed, out_, soil);
+      const double width = scene.bed && scene.bed->packing.depth > 0.0 ? scene.bed->packing.depth : 1.0; // m
+      const std::vector<double> values = measured(plan_.quantities, run->file(""), width);
+      const std::lock_guard lock(mutex_);
+      add(scene, seed, values, run->outcome().cpu_seconds);
+      progress_.measured(what + words(values));
+    } catch (const std::exception &fault) { // a run that fails does not stop the others
+      const std::lock_guard lock(mutex_);
+      failures_.push_back(what + fault.what());
+      progress_.measured(failures_.back());
+    }
+  }
+
+  void add(const Scene &scene, int seed, const std::vector<double> &values, double cost) {
+    std::vector<ResumedTable::Row> rows;
+    for (std::size_t q = 0; q < values.size(); ++q) {
+      const Quantity &quantity = plan_.quantities[q];
+      if (!has(scene, seed, quantity)) // a kill can have left some of a run's rows
+        rows.push_back(
+            result_rows().cells({scene.name, seed, quantity.name, quantity.unit, values[q], cost}));
+    }
+    table_.add(rows);
+  }
+
+  /// The first values, for the progress.
+  std::string words(const std::vector<double> &values) const {
+    constexpr std::size_t most = 3;
+    std::vector<std::string> texts;
+    for (std::size_t q = 0; q < std::min(most, values.size()); ++q) {
+      const Quantity &quantity = plan_.quantities[q];
+      texts.push_back(
+          fmt::format("{} {:.3g} {}", quantity.name, quantity.scale * values[q], quantity.shown_unit));
+    }
+    return fmt::format("{}", fmt::join(texts, ", "));
+  }
+
+  const Plan &plan_;
+  fs::path out_;
+  std::vector<Group> groups_;
+  std::mutex mutex_; // of table_, progress_ and failures_
+  ResumedTable table_;
+  CountedProgress progress_;
+  std::vector<std::string> failures_;
+};
+
+} // namespace
+
+void run_experiment(const Plan &plan, const fs::path &out, int jobs) {
+  write_files({{out / plan_name, plan.text}});
+  const std::vector<std::string> failures = Runs(plan, out).make(jobs);
+  write_experiment_page(out, plan, Results(read_points(out / results_name, result_rows())), failures);
+  fmt::print("{}\n", (out / "index.html").string());
+  if (!failures.empty())
+    throw std::runtime_error(fmt::format("{} of the runs failed; the page tells which", failures.size()));
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,163 @@
+#include "experiment/scene.h"
+
+#include "support/csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+#include <utility>
+
+namespace drumlin::post {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr int digits = 6; // of values that rules compute
+
+// The time steps of case gravel: those of discs of 16 mm radius with k = 1e9 N/m, as many per cycle of 20 Hz as in.bed makes.
+constexpr double gravel_radius = 0.016, gravel_k = 1e9, gravel_dt = 6.25e-6, gravel_frequency = 20.0;
+constexpr int gravel_steps = 32; // in multiples of samples_per_cycle, 250
+constexpr int samples_per_cycle = 250;
+
+/// How much longer the time step of a scene is than that of case gravel.
+double longer_step(const Scene &scene) {
+  return scene.bed->packing.radius_min / gravel_radius * std::sqrt(gravel_k / scene.stiffness);
+}
+
+/// The variables that rules give, in the scope of each.
+std::vector<Setting> settings_of_rules(const Scene &scene) {
+  std::vector<Setting> settings;
+  if (scene.frequency > 0.0)
+    settings.push_back({Scope::run, "omega", number_text(2.0 * pi * scene.frequency)});
+  if (scene.stiffness > 0.0) {
+    const double longer = longer_step(scene);
+    const double per_cycle = scene.frequency > 0.0 ? gravel_frequency / scene.frequency : 1.0;
+    const int steps =
+        samples_per_cycle *
+        static_cast<int>(std::ceil(scene.more_steps * std::ceil(gravel_steps / longer * per_cycle)));
+    settings.push_back({Scope::all, "k", number_text(scene.stiffness, digits)});
+    settings.push_back({Scope::all, "dt", number_text(gravel_dt * longer, digits)});
+    settings.push_back({Scope::run, "steps_per_cycle", std::to_string(steps)});
+  }
+  return settings;
+}
+
+bool reaches(Scope scope, SceneDeck deck) {
+  switch (scope) {
+  case Scope::all:
+    return true;
+  case Scope::settle:
+    return deck == SceneDeck::settle;
+  case Scope::placed:
+    return deck != SceneDeck::settle;
+  case Scope::run:
+    return deck == SceneDeck::run;
+  }
+  return false;
+}
+
+std::string text_of(const PackingOptions &packing) {
+  return fmt::format("{} {} {} {} {} {} {} ", packing.balls, packing.width, packing.depth, packing.height,
+                     packing.radius_min, packing.radius_max,
+                     grading_name(packing.grading) + packing.sieve_name);
+}
+
+/// The power of the scale of lengths with which a variable of the decks goes in the plane; 0 if it does not depend on it.
+int power_of(const std::string &name) {
+  static const std::map<std::string, int> powers = {{"r2", 1},  {"r3", 1}, {"ground_depth", 1},
+                                                    {"m2", 2},  {"m3", 2}, {"k23", 2},
+                                                    {"c23", 2}, {"Fw", 2}, {"k", 2}};
+  const auto found = powers.find(name);
+  return found == powers.end() ? 0 : found->second;
+}
+
+/// A number, or several separated by commas, times a factor.
+std::string scaled_text(const std::string &text, double factor) {
+  std::string scaled, cell;
+  for (std::istringstream cells(text); std::getline(cells, cell, ',');)
+    scaled += (scaled.empty() ? "" : ",") + number_text(number_from_text(cell) * factor, digits);
+  return scaled;
+}
+
+} // namespace
+
+int SoilBed::balls() const {
+  if (layers.empty()) return packing.balls;
+  int sum = 0;
+  for (const BedLayer &layer : layers)
+    sum += layer.packing.balls;
+  return sum;
+}
+
+std::string deck_of(const Scene &scene, SceneDeck deck) {
+  if (deck == SceneDeck::run) return scene.deck;
+  const std::filesystem::path own = scene.deck;
+  const std::string name = deck == SceneDeck::settle ? "in.settle" : "in.place";
+  return (own.parent_path() / (own.extension() == ".lammps" ? name + ".lammps" : name)).string();
+}
+
+Variables variables_of(const Scene &scene, SceneDeck deck) {
+  Variables found;
+  const auto add = [&](const Setting &setting) {
+    if (reaches(setting.scope, deck) &&
+        std::none_of(found.begin(), found.end(), [&](const auto &one) { return one.first == setting.name; }))
+      found.emplace_back(setting.name, setting.value);
+  };
+  // Of two values of a name the one that fewer decks get counts.
+  for (const Scope scope : {Scope::run, Scope::placed, Scope::settle, Scope::all})
+    for (const Setting &setting : scene.settings)
+      if (setting.scope == scope) add(setting);
+  for (const Setting &setting : settings_of_rules(scene))
+    add(setting);
+  if (scene.bed && deck != SceneDeck::run) add({Scope::all, "ratio", scene.bed->ratio});
+  return found;
+}
+
+std::string value_of(const Scene &scene, const std::string &name) {
+  for (const auto &[variable, value] : variables_of(scene, SceneDeck::run))
+    if (variable == name) return value;
+  return {};
+}
+
+Scene scaled(Scene scene, int balls, int of) {
+  if (balls == of) return scene;
+  const double scale = std::sqrt(static_cast<double>(balls) / of), area = scale * scale;
+  SoilBed &bed = *scene.bed;
+  bed.packing.balls = static_cast<int>(static_cast<long>(bed.packing.balls) * balls / of);
+  bed.packing.width *= scale;
+  bed.packing.height *= scale;
+  for (BedLayer &layer : bed.layers) {
+    layer.packing.width *= scale;
+    layer.thickness = number_from_text(number_text(layer.thickness * scale, digits));
+    layer.packing.balls = balls_of(layer);
+  }
+  scene.stiffness *= area;
+  for (Setting &setting : scene.settings)
+    if (const int power = power_of(setting.name); power > 0)
+      setting.value = scaled_text(setting.value, power == 1 ? scale : area);
+  return scene;
+}
+
+std::string soil_text(const Scene &scene) {
+  std::string text = text_of(scene.bed->packing);
+  for (const BedLayer &layer : scene.bed->layers)
+    text += fmt::format("{} {}", layer.thickness, text_of(layer.packing));
+  return text + words_of(variables_of(scene, SceneDeck::settle));
+}
+
+std::string words_of(const Variables &variables) {
+  std::string words;
+  for (const auto &[name, value] : variables)
+    words += fmt::format("{}={} ", name, value);
+  return words;
+}
+
+Variables joined(Variables first, const Variables &second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,84 @@
+// A scene of an experiment: a deck with its variables and, if it is on a bed, the soil that it stands on.
+#pragma once
+
+#include "bed/packing.h"
+#include "engine/engine_run.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+/// The decks that make a bed with a roller on it and shake it, in their order: in.settle, in.place, and the scene's own deck. A
+/// scene without a bed has the last one alone.
+enum class SceneDeck { settle, place, run };
+
+/// Which of these decks get a variable.
+enum class Scope {
+  all,
+  settle, ///< in.settle alone
+  placed, ///< in.place and the scene's own deck: what is done once the soil has settled
+  run     ///< the scene's own deck alone
+};
+
+/// A variable of the decks.
+struct Setting {
+  Scope scope = Scope::all;
+  std::string name, value;
+};
+
+/// The soil of a bed. Its seed is that of the run.
+struct SoilBed {
+  PackingOptions packing;
+  std::vector<BedLayer> layers = {}; ///< the lowest first, instead of the packing's balls; empty: one layer
+  std::string ratio = "1";           ///< unbalanced force at which it counts as at rest: see in.settle
+
+  int balls() const; ///< of all layers
+};
+
+constexpr double soil_density = 2650.0; ///< of the balls [kg/m3]
+
+struct Scene {
+  std::string name; ///< without commas
+  std::string deck; ///< relative to inputs/, or absolute
+  std::optional<SoilBed> bed = {};
+  std::vector<Setting> settings = {}; ///< each name once for each scope
+  std::string seed_variable = {};     ///< the deck's variable that gets the seed; of a bed none
+  int seeds = 1;
+
+  // Rules that give variables which `settings` do not have.
+  double stiffness =
+      0.0; ///< k of all contacts, with time step and steps per cycle [N/m]; 0: as the deck has them
+  double frequency = 0.0;  ///< of the excitation: omega and steps per cycle [Hz]; 0: as the deck has it
+  double more_steps = 1.0; ///< factor of the steps per cycle
+
+  std::map<std::string, double> at = {}; ///< place on each axis over which the page draws the results
+  std::string series = {};               ///< name in the legend of these figures
+};
+
+/// One of its decks: the scene's own, or the one beside it that makes its bed, for the same engine.
+std::string deck_of(const Scene &scene, SceneDeck deck);
+
+/// The variables of one of a scene's decks, each name once, without those that name files.
+Variables variables_of(const Scene &scene, SceneDeck deck);
+
+/// The value of a variable of the scene's own deck; empty if the deck's default counts.
+std::string value_of(const Scene &scene, const std::string &name);
+
+/// The scene with a bed in the plane of `scale` times the lengths, of balls as large as before. Masses and forces per metre of width go
+/// with the square of lengths; so does the stiffness of the contacts, so that the drum on the soil keeps its natural frequency.
+/// \param balls numbers of balls are multiplied by balls/of and rounded down; scale is the root of it
+Scene scaled(Scene scene, int balls, int of);
+
+/// All that a scene's soil is made of but the seed: scenes with the same text share their settled soil.
+std::string soil_text(const Scene &scene);
+
+/// Names and values one after the other.
+std::string words_of(const Variables &variables);
+
+/// The lists one after the other.
+Variables joined(Variables first, const Variables &second);
+
+} // namespace drumlin::post

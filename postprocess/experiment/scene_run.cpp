@@ -1,0 +1,81 @@
+#include "experiment/scene_run.h"
+
+#include "support/files.h"
+#include "support/progress.h"
+#include "support/resumed.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+
+namespace drumlin::post {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path bed_folder(const fs::path &out) {
+  fs::path folder = fs::absolute(out / "beds");
+  fs::create_directories(folder);
+  return folder;
+}
+
+fs::path soil_file(const Scene &scene, int seed, const fs::path &folder) {
+  return folder / fmt::format("soil_{}_{}.soil", seed, fingerprint(soil_text(scene)));
+}
+
+} // namespace
+
+fs::path settled_soil(const Scene &scene, int seed, const fs::path &out) {
+  const fs::path folder = bed_folder(out);
+  fs::path done = soil_file(scene, seed, folder);
+  if (fs::exists(done)) return done;
+  PackingOptions packing = scene.bed->packing;
+  std::vector<BedLayer> layers = scene.bed->layers;
+  packing.seed = static_cast<std::uint64_t>(seed);
+  for (BedLayer &layer : layers)
+    layer.packing.seed = packing.seed;
+  const TemporaryFolder unfinished(folder, "unfinished.");
+  const fs::path balls = unfinished.path() / "balls", soil = unfinished.path() / "soil";
+  write_files({{balls, layers.empty() ? bed_data(packing, soil_density, pack_balls(packing))
+                                      : bed_data(layers, soil_density, pack_layers(layers))}});
+  print_progress(fmt::format("settling the soil of {}, seed {}", scene.name, seed));
+  DeckRun(deck_of(scene, SceneDeck::settle),
+          joined(variables_of(scene, SceneDeck::settle), {{"balls", balls.string()}, {"bed", soil.string()}}))
+      .must_succeed();
+  fs::rename(soil, done);
+  return done;
+}
+
+std::string placed_name(const Scene &scene, int seed) {
+  return fmt::format("roller_{}_{}", seed,
+                     fingerprint(soil_text(scene) + words_of(variables_of(scene, SceneDeck::place))));
+}
+
+fs::path placed_roller(const Scene &scene, int seed, const fs::path &out, Soil kept) {
+  const fs::path folder = bed_folder(out);
+  fs::path done = folder / (placed_name(scene, seed) + ".restart");
+  if (!fs::exists(done)) {
+    const fs::path soil = settled_soil(scene, seed, out);
+    const TemporaryFolder unfinished(folder, "unfinished.");
+    const fs::path roller = unfinished.path() / "roller";
+    print_progress(fmt::format("placing the roller of {}, seed {}", scene.name, seed));
+    DeckRun(deck_of(scene, SceneDeck::place), joined(variables_of(scene, SceneDeck::place),
+                                                     {{"bed", soil.string()}, {"start", roller.string()}}))
+        .must_succeed();
+    fs::rename(roller, done);
+  }
+  if (kept == Soil::used_up) fs::remove(soil_file(scene, seed, folder));
+  return done;
+}
+
+std::unique_ptr<DeckRun> run_scene(const Scene &scene, int seed, const fs::path &out, Soil soil) {
+  Variables variables = variables_of(scene, SceneDeck::run);
+  if (scene.bed) variables.emplace_back("start", placed_roller(scene, seed, out, soil).string());
+  if (!scene.seed_variable.empty()) variables.emplace_back(scene.seed_variable, std::to_string(seed));
+  auto run = std::make_unique<DeckRun>(scene.deck, variables);
+  run->must_succeed();
+  return run;
+}
+
+} // namespace drumlin::post

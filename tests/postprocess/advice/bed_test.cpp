@@ -1,0 +1,150 @@
+// Which scene of a bed is advised, on invented results, against numbers worked out by hand.
+#include "advice/bed.h"
+
+#include "engine/deck_run.h"
+#include "support/files.h"
+#include "support/usage_error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+using post::BedAdvice;
+using post::BedExperiment;
+using post::Result;
+
+// Invented runs of five seeds. add() gives each run of a scene the force of the complete bed of the same seed, times a factor of the
+// scene, times a deviation of the seed that the complete bed does not have.
+class BedAdviceTest : public ::testing::Test {
+protected:
+  BedAdviceTest() : temporary_(testing::TempDir(), "bed_advice") {
+    post::write_files({{temporary_.path() / "plan",
+                        "scaled_to 400\n" + post::read_text(post::input_file("study/fidelity/plan"))}});
+  }
+  void add(const std::string &scene, double factor, double scatter, double cpu, int seeds = 5) {
+    for (int seed = 1; seed <= seeds; ++seed) {
+      const double own = factor * (1.0 + scatter * (seed % 2 == 0 ? 1.0 : -2.0 / 3.0));
+      rows_.push_back({scene, seed, "force", "N/m", own * 1e5 * (1.0 + 0.1 * (seed - 3)), cpu});
+    }
+  }
+  BedExperiment experiment() const {
+    post::write_files({{temporary_.path() / "runs.csv", post::result_rows().text(rows_)}});
+    return post::read_bed_experiment(temporary_.path());
+  }
+  /// Name of the scene that is advised.
+  std::string advice(double within) const {
+    const BedExperiment all = experiment();
+    return post::advise_bed(all, {"force", "force", within}).scene->name;
+  }
+  void expect_refused(const std::string &message) const {
+    try {
+      ADD_FAILURE() << advice(0.1);
+    } catch (const std::runtime_error &error) {
+      EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    }
+  }
+  post::TemporaryFolder temporary_;
+  std::vector<Result> rows_;
+};
+
+TEST_F(BedAdviceTest, NamesTheCheapestSceneWithinTheError) {
+  add("complete", 1.0, 0.0, 10.0);
+  add("k / 10", 1.04, 0.0, 3.0);
+  add("k / 100", 0.7, 0.0, 1.0);     // cheaper, but off
+  add("large balls", 1.0, 0.2, 0.5); // right in the mean, but the interval is wide
+  add("A", 1.0, 0.0, 9.5);           // hardly cheaper than the complete scene
+  add("one size", 1.0, 0.0, 0.1, 1); // one seed has no interval
+  const BedExperiment all = experiment();
+  EXPECT_EQ(all.plan.scenes.front().bed->packing.balls, 400);
+  const BedAdvice found = post::advise_bed(all, {"force", "force", 0.1});
+  ASSERT_NE(found.scene, nullptr);
+  EXPECT_EQ(found.scene->name, "k / 10");
+  EXPECT_EQ(found.differs, "k / 10 with 0.32 times the steps");
+  EXPECT_NEAR(found.error.mean, 0.04, 1e-12);
+  EXPECT_NEAR(found.cost, 0.3, 1e-12);
+  EXPECT_EQ(found.seeds, 5U);
+  EXPECT_EQ(found.cpu_s, 3.0);
+  EXPECT_NEAR(found.scatter, 0.1 * std::sqrt(2.5), 1e-12); // of -2 to 2 tenths
+  // 2.179 * 0.1581 / sqrt(12) is 0.0994 (12 degrees of freedom: 13 beds 0.0955; 11 degrees of freedom: 12 beds 0.1005)
+  EXPECT_EQ(found.beds, 13);
+  EXPECT_EQ(advice(0.5), "large balls");
+  EXPECT_EQ(advice(0.03), "complete");
+
+  const std::vector<std::string> commands = post::scene_commands(*found.scene);
+  ASSERT_EQ(commands.size(), 4U);
+  EXPECT_EQ(commands[0], "bed --balls 400 --width 0.8");
+  EXPECT_EQ(commands[1].rfind("run inputs/bed/in.settle -var case gravel ", 0), 0U) << commands[1];
+  EXPECT_NE(commands[1].find(" -var k 1.6e+07 "), std::string::npos) << commands[1];
+  EXPECT_NE(commands[3].find(" -var steps_per_cycle 1250"), std::string::npos) << commands[3];
+  EXPECT_EQ(commands[3].find(" -var ratio"), std::string::npos) << commands[3];
+  EXPECT_EQ(post::scene_words(*found.scene),
+            "2 dimensions, 400 discs of 16 to 24 mm radius, box 0.8 m wide, under a drum of 0.14 m radius");
+  const std::vector<std::string> layers =
+      post::scene_commands(post::read_plan(post::input_file("study/fidelity/plan")).scene("layers"));
+  EXPECT_EQ(layers[0], "bed --layer 1.24 --layer 0.7 --width 2");
+}
+
+// The complete beds settle by -2 to 2 mm per cycle: no error relative to their mean exists, but one in mm does.
+TEST_F(BedAdviceTest, CountsErrorsOfTheSettlementInMillimetresIfAsked) {
+  for (const char *scene : {"complete", "k / 10", "k / 100"})
+    for (int seed = 1; seed <= 5; ++seed) {
+      const double more = std::string(scene) == "k / 10"    ? 0.5e-3
+                          : std::string(scene) == "k / 100" ? 3e-3
+                                                            : 0.0;
+      rows_.push_back(
+          {scene, seed, "settlement", "m", 1e-3 * (seed - 3) + more, more > 0.0 ? 1e-3 / more : 10.0});
+    }
+  const BedExperiment all = experiment();
+  const BedAdvice found = post::advise_bed(all, {"settlement", "settlement", 1e-3, true});
+  EXPECT_EQ(found.scene->name, "k / 10");
+  EXPECT_NEAR(found.error.mean, 0.5e-3, 1e-12);
+  EXPECT_NEAR(found.scatter, 1e-3 * std::sqrt(2.5), 1e-12);
+  try {
+    post::advise_bed(all, {"settlement", "settlement", 0.1});
+    ADD_FAILURE() << "a relative error of a mean of zero";
+  } catch (const std::runtime_error &error) {
+    EXPECT_NE(std::string(error.what()).find("or --within in mm per cycle, as 2mm"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST_F(BedAdviceTest, RefusesWhatTheTableDoesNotAnswer) {
+  expect_refused(
+      "the table of results is '0 scenes'; allowed: one with two seeds or more of a scene and of the");
+  add("A", 1.0, 0.0, 9.0);
+  expect_refused(
+      "the table of results is '1 scenes'; allowed: one with two seeds or more of a scene and of the");
+  add("complete", 1.0, 0.0, 10.0, 1);
+  expect_refused("allowed: one with two seeds or more of a scene and of the complete one");
+  rows_.clear();
+  add("complete", 1.0, 0.0, 10.0);
+  add("k / 10", 1.3, 0.0, 3.0); // 30 % in the mean, with a half width of 2.776 * 0.3 * 0.158 / sqrt(5)
+  const BedExperiment all = experiment();
+  const BedAdvice found = post::advise_bed(all, {"force", "force", 0.1});
+  EXPECT_EQ(found.scene, &all.plan.scenes.front());
+  EXPECT_EQ(found.closest, "k / 10");
+  EXPECT_NEAR(found.least_error, 0.3589, 1e-4);
+  for (Result &row : rows_) // forces of complete beds from -2e4 to 2e4: their mean is zero
+    if (row.quantity == "force") row.value -= 1e5;
+  expect_refused("--question is 'force'; allowed: a result whose mean over the complete "
+                 "beds differs from zero");
+}
+
+TEST_F(BedAdviceTest, NeedsAPlanOfBedsAndItsResults) {
+  EXPECT_THROW(post::read_bed_experiment(temporary_.path()), post::UsageError); // without results
+  post::write_files(
+      {{temporary_.path() / "in.own", ""},
+       {temporary_.path() / "plan", "title T\nquantity gap m last out.csv gap\ndeck in.own\nscene a\n"}});
+  add("a", 1.0, 0.0, 1.0);
+  EXPECT_THROW(experiment(), post::UsageError);
+}
+
+} // namespace
+} // namespace drumlin::test

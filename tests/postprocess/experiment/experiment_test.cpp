@@ -1,0 +1,186 @@
+// Experiments as a user runs them: on a deck of one's own, which costs one file, and on beds; interrupted, resumed, and with a run that fails.
+#include "experiment/results.h"
+#include "support/files.h"
+#include "support/resumed.h"
+#include "tests/support/engine_runs.h"
+#include "tests/support/page.h"
+#include "tests/support/scratch_study.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A deck of the stock engine that writes a CSV file: the height of the seed, times a factor.
+constexpr const char *own_deck = "variable factor index 1\n"
+                                 "variable seed index 0\n"
+                                 "variable high equal v_factor*(10*v_seed)\n"
+                                 "if \"${factor} > 8\" then \"unknown_command\"\n"
+                                 "print \"time,height\" file out.csv\n"
+                                 "print \"0,0\" append out.csv\n"
+                                 "print \"1,${high}\" append out.csv\n";
+
+constexpr const char *own_plan = "title    Heights\n"
+                                 "about    Three factors.\n"
+                                 "quantity height m last out.csv height\n"
+                                 "quantity mean_height m largest out.csv height\n"
+                                 "axis     factor factor [-]\n"
+                                 "deck     in.own\n"
+                                 "seeds    3\n"
+                                 "seed_variable seed\n"
+                                 "scene    one\n"
+                                 "at       factor 1\n"
+                                 "scene    two\n"
+                                 "from     one\n"
+                                 "differs  twice the factor\n"
+                                 "set      factor 2\n"
+                                 "at       factor 2\n"
+                                 "scene    four\n"
+                                 "from     two\n"
+                                 "differs  twice the factor again\n"
+                                 "set      factor 4\n"
+                                 "at       factor 4\n";
+
+using Values = std::map<std::tuple<std::string, int, std::string>, double>;
+
+Values values_in(const fs::path &out) {
+  Values values;
+  for (const post::Result &row : post::read_points(out / "runs.csv", post::result_rows()))
+    values[{row.scene, row.seed, row.quantity}] = row.value;
+  return values;
+}
+
+TEST(OwnStudy, RunsAnyDeckThatWritesATableAndContinues) {
+  const Scratch scratch;
+  post::write_files({{scratch / "in.own", own_deck}, {scratch / "heights.plan", own_plan}});
+  const auto run = [&](const std::vector<std::string> &options = {}) {
+    std::vector<std::string> words = {DRUMLIN_TOOLS, "study", "heights.plan"};
+    words.insert(words.end(), options.begin(), options.end());
+    return run_program(words, {}, scratch.path(), 100.0);
+  };
+  const Outcome whole = run();
+  ASSERT_TRUE(whole.ok()) << whole.output;
+  const fs::path out = scratch / "results/study/heights";
+  const Values values = values_in(out);
+  ASSERT_EQ(values.size(), 3U * 3U * 2U);
+  EXPECT_EQ(values.at({"one", 3, "height"}), 30.0);
+  EXPECT_EQ(values.at({"four", 2, "height"}), 80.0);
+  // Twice the factor adds 10, 20 and 30 to a mean of 20: +100 +- 124 %.
+  const std::string page = post::read_text(out / "index.html");
+  EXPECT_NE(page.find("+100 ± 1.2e+02"), std::string::npos);
+  expect_sound_page(out, 2, "index.html", 0);
+
+  interrupt(out / "runs.csv"); // leaves some of a run's rows
+  fs::remove(out / "index.html");
+  const Outcome rest = run({"--jobs", "2"});
+  ASSERT_TRUE(rest.ok()) << rest.output;
+  EXPECT_EQ(values_in(out), values);
+  expect_sound_page(out, 2, "index.html", 0);
+
+  // Another plan is another study.
+  post::write_files(
+      {{scratch / "heights.plan", std::string(own_plan) + "scene too high\nfrom one\nset factor 9\n"}});
+  const Outcome other = run();
+  EXPECT_EQ(other.status, 2);
+  EXPECT_TRUE(
+      other.says("ERROR: drumlin study: --out is 'results/study/heights'; allowed: the folder of a study "
+                 "with the same settings"))
+      << other.output;
+  const Outcome failing = run({"--fresh"});
+  EXPECT_EQ(failing.status, 1);
+  EXPECT_TRUE(failing.says("seed 2, too high: ")) << failing.output;
+  EXPECT_TRUE(failing.says("ERROR: drumlin study: 3 of the runs failed; the page tells which\n"))
+      << failing.output;
+  EXPECT_EQ(values_in(out), values);
+  EXPECT_NE(post::read_text(out / "index.html").find("Missing: seed 2, too high"), std::string::npos);
+}
+
+TEST(OwnStudy, OfABadPlanWritesNothing) {
+  const Scratch scratch;
+  post::write_files(
+      {{scratch / "in.own", own_deck}, {scratch / "bad.plan", std::string(own_plan) + "seeds 0\n"}});
+  const auto expect_refused = [&](const std::vector<std::string> &words, const std::string &message) {
+    std::vector<std::string> all = {DRUMLIN_TOOLS, "study"};
+    all.insert(all.end(), words.begin(), words.end());
+    const Outcome outcome = run_program(all, {}, scratch.path(), 100.0);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(outcome.output, "ERROR: drumlin study: " + message + "\n");
+    EXPECT_FALSE(fs::exists(scratch / "results"));
+  };
+  expect_refused({"bad.plan"}, "bad.plan, line 21: seeds is '0'; allowed: a whole number from 1 to 1000");
+  post::write_files({{scratch / "own.plan", own_plan}});
+  expect_refused({"own.plan", "--balls", "150"},
+                 "--balls is '150'; allowed: with a plan of beds in the plane that has stiffness and all of "
+                 "r2, r3, m2, m3, k23, c23, Fw");
+}
+
+TEST(BedStudy, ContinuesWhereItWasInterruptedAndABedThatFailsStopsNoOther) {
+  const ScratchStudy study("fidelity");
+  const Outcome whole = study.run();
+  ASSERT_TRUE(whole.ok()) << whole.output;
+  const Values values = values_in(study.out());
+  ASSERT_EQ(values.size(), 3U * 2U * 5U);
+  // The peak force exceeds the weight of the scaled roller: 3000 kg times 150/2500.
+  EXPECT_GT(values.at({"complete", 1, "force"}), 180.0 * 9.81);
+  EXPECT_NE(values.at({"complete", 1, "force"}), values.at({"complete", 2, "force"}));
+  for (const post::Result &row : post::read_points(study.out() / "runs.csv", post::result_rows())) {
+    EXPECT_GT(row.cost, 0.01) << row.scene; // four cycles of 150 balls, whatever the machine does besides
+    EXPECT_LT(row.cost, 10.0) << row.scene;
+  }
+  const fs::path beds = study.out() / "beds";
+  std::map<fs::path, fs::file_time_type> made;
+  for (const fs::directory_entry &entry : fs::directory_iterator(beds))
+    made[entry.path()] = entry.last_write_time();
+  EXPECT_EQ(made.size(), 6U); // a roller for each run: no scene of these shares its soil
+
+  interrupt(study.out() / "runs.csv");
+  fs::remove(study.out() / "index.html");
+  const Outcome rest = study.run();
+  ASSERT_TRUE(rest.ok()) << rest.output;
+  EXPECT_EQ(values_in(study.out()), values);
+  for (const auto &[file, time] : made)
+    EXPECT_EQ(fs::last_write_time(file), time) << file;
+  expect_sound_page(study.out(), 1);
+
+  fs::remove(study.out() / "runs.csv");
+  const fs::path bed = made.begin()->first;
+  fs::remove(bed);
+  fs::create_directory(bed); // no deck takes that for a bed
+  const Outcome outcome = study.run();
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(outcome.says(": bed/in.bed: ERROR: drumlin/check: variable start is ")) << outcome.output;
+  EXPECT_EQ(values_in(study.out()).size(), 5U * 5U) << outcome.output;
+  EXPECT_NE(post::read_text(study.out() / "index.html").find("Missing: seed "), std::string::npos);
+}
+
+// Scenes that differ in the walls alone share soil and roller, and the study of stiffness shares the soil under other rollers.
+TEST(BedStudy, MakesOneBedForScenesThatShareIt) {
+  const ScratchStudy box("box"), stiffness("stiffness");
+  const Outcome walls = box.run();
+  ASSERT_TRUE(walls.ok()) << walls.output;
+  const auto beds = [](const ScratchStudy &study) {
+    std::size_t count = 0;
+    for (const fs::directory_entry &entry : fs::directory_iterator(study.out() / "beds"))
+      count += entry.is_regular_file() ? 1 : 0;
+    return count;
+  };
+  EXPECT_EQ(beds(box), 2U * 2U); // of each seed the soil and one roller
+  const Values values = values_in(box.out());
+  EXPECT_NE(values.at({"default rigid", 1, "force"}), values.at({"default absorb", 1, "force"}));
+  expect_sound_page(box.out(), 3);
+  const Outcome amplitudes = stiffness.run();
+  ASSERT_TRUE(amplitudes.ok()) << amplitudes.output;
+  EXPECT_EQ(values_in(stiffness.out()).size(), 3U * 2U * 7U);
+  expect_sound_page(stiffness.out(), 4);
+}
+
+} // namespace
+} // namespace drumlin::test

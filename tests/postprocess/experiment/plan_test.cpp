@@ -1,0 +1,299 @@
+// Plans: what a file says, each bad line, and the four plans of the project.
+#include "experiment/plan.h"
+
+#include "engine/deck_run.h"
+#include "experiment/results.h"
+#include "support/files.h"
+#include "support/resumed.h"
+#include "support/usage_error.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+using post::Plan;
+using post::Scene;
+using post::SceneDeck;
+using post::Variables;
+
+class PlanTest : public ::testing::Test {
+protected:
+  PlanTest() : temporary_(testing::TempDir(), "plan") {
+    post::write_files({{temporary_.path() / "in.own", "print \"x\"\n"}});
+  }
+  fs::path file() const { return temporary_.path() / "my.plan"; }
+  Plan read(const std::string &text) const {
+    post::write_files({{file(), text}});
+    return post::read_plan(file());
+  }
+  /// Expects the message after the name of the file.
+  void expect_refused(const std::string &text, const std::string &message) const {
+    try {
+      read(text);
+      ADD_FAILURE() << "read: " << text;
+    } catch (const post::UsageError &error) {
+      const std::string what = error.what();
+      EXPECT_EQ(what.rfind(file().string() + message, 0), 0U) << what << "\n" << text;
+      EXPECT_EQ(what.find('\n'), std::string::npos);
+    }
+  }
+  post::TemporaryFolder temporary_;
+};
+
+TEST_F(PlanTest, GivesEachSceneWhatItsLinesAndTheSceneAboveSay) {
+  const Plan plan = read("# a plan\n"
+                         "title    What the gap does   # a comment\n"
+                         "about    One sentence.\n"
+                         "quantity gap mm mean out.csv gap\r\n"
+                         "axis     gap gap between two plates [mm]\n"
+                         "deck     in.own\n"
+                         "seeds    3\n"
+                         "seed_variable seed\n"
+                         "set      gap 1\n"
+                         "set      name a#b\n"
+                         "\n"
+                         "scene    narrow\n"
+                         "  at     gap 1\n"
+                         "scene    wide / 10\n"
+                         "  from    narrow\n"
+                         "  differs twice the gap\n"
+                         "  set     gap 2\n"
+                         "  at      gap 2\n"
+                         "  seeds   2\n"
+                         "scene    wider\n"
+                         "  from    wide / 10\n"
+                         "  differs three times the gap\n"
+                         "  paired  no\n"
+                         "  set     gap 3\n"
+                         "compare  wide / 10 | narrow | wider than narrow\n"
+                         "compare  wider | narrow | wider than narrow\n");
+  EXPECT_EQ(plan.title, "What the gap does");
+  EXPECT_EQ(plan.about, std::vector<std::string>{"One sentence."});
+  ASSERT_EQ(plan.quantities.size(), 1U);
+  EXPECT_EQ(plan.quantities[0].unit, "mm");
+  EXPECT_EQ(plan.axes.at(0).label, "gap between two plates [mm]");
+  ASSERT_EQ(plan.scenes.size(), 3U);
+  const Scene &wider = plan.scene("wider");
+  EXPECT_EQ(wider.deck, (temporary_.path() / "in.own").string());
+  EXPECT_EQ(post::variables_of(wider, SceneDeck::run), (Variables{{"gap", "3"}, {"name", "a#b"}}));
+  EXPECT_EQ(wider.at.at("gap"), 2.0);
+  EXPECT_EQ(wider.seeds, 2);
+  EXPECT_EQ(plan.scene("narrow").seeds, 3);
+  ASSERT_EQ(plan.comparisons.size(), 3U);
+  using Pair = std::pair<std::string, std::string>;
+  EXPECT_EQ(plan.comparisons[0].pairs, (std::vector<Pair>{{"wide / 10", "narrow"}}));
+  EXPECT_TRUE(plan.comparisons[0].paired);
+  EXPECT_EQ(plan.comparisons[1].pairs, (std::vector<Pair>{{"wider", "wide / 10"}}));
+  EXPECT_FALSE(plan.comparisons[1].paired);
+  EXPECT_EQ(plan.comparisons[2].words, "wider than narrow");
+  EXPECT_EQ(plan.comparisons[2].pairs, (std::vector<Pair>{{"wide / 10", "narrow"}, {"wider", "narrow"}}));
+}
+
+TEST_F(PlanTest, GivesEachDeckOfABedItsVariables) {
+  const Plan plan =
+      read("title T\nquantity force\ndeck bed/in.bed\nballs 100\nwidth 0.4\nratio 0.5\n"
+           "set_settle pour_friction 0.8\nset_placed drum clump\nset_run cycles 4\nset rolling 0.1\n"
+           "scene one\nscene hard\nfrom one\nset_run rolling 0.2\nstiffness 1e9\nfrequency 40\n"
+           "scene dense\nfrom hard\nset k 1e8,1e9\nmore_steps 2\nlayer 0.2\nlayer 0.3\n");
+  const Scene &one = plan.scene("one"), &hard = plan.scene("hard"), &dense = plan.scene("dense");
+  EXPECT_EQ(post::variables_of(one, SceneDeck::settle),
+            (Variables{{"pour_friction", "0.8"}, {"rolling", "0.1"}, {"ratio", "0.5"}}));
+  EXPECT_EQ(post::variables_of(one, SceneDeck::place),
+            (Variables{{"drum", "clump"}, {"rolling", "0.1"}, {"ratio", "0.5"}}));
+  EXPECT_EQ(post::variables_of(one, SceneDeck::run),
+            (Variables{{"cycles", "4"}, {"drum", "clump"}, {"rolling", "0.1"}}));
+  // Case gravel has 8000 steps per cycle of 20 Hz for these balls and this stiffness.
+  EXPECT_EQ(post::value_of(hard, "rolling"), "0.2");
+  EXPECT_EQ(post::value_of(hard, "k"), "1e+09");
+  EXPECT_EQ(post::value_of(hard, "dt"), "6.25e-06");
+  EXPECT_EQ(post::value_of(hard, "omega"), "251.32741228718345"); // 80 pi
+  EXPECT_EQ(post::value_of(hard, "steps_per_cycle"), "4000");
+  EXPECT_EQ(post::value_of(dense, "k"), "1e8,1e9");
+  EXPECT_EQ(post::value_of(dense, "steps_per_cycle"), "8000");
+  ASSERT_EQ(dense.bed->layers.size(), 2U);
+  EXPECT_EQ(dense.bed->balls(),
+            post::balls_of({dense.bed->packing, 0.2}) + post::balls_of({dense.bed->packing, 0.3}));
+  // What differs after the soil has settled does not change the soil.
+  EXPECT_NE(post::soil_text(one), post::soil_text(hard));
+  const Plan shared =
+      read("title T\nquantity force\ndeck bed/in.bed\nballs 100\nwidth 0.4\n"
+           "scene one\nscene other\nfrom one\nset_placed m3 50\nset_run Fw 10\nmore_steps 2\n");
+  EXPECT_EQ(post::soil_text(shared.scenes[0]), post::soil_text(shared.scenes[1]));
+  EXPECT_FALSE(shared.can_be_scaled()); // the roller's other variables are those of the deck
+}
+
+TEST_F(PlanTest, RefusesEachBadLine) {
+  const std::string own = "title T\nquantity gap m last out.csv gap\ndeck in.own\n";
+  const std::string bed = "title T\nquantity force\ndeck bed/in.bed\nballs 100\nwidth 0.4\n";
+  expect_refused("", ": title is ''; allowed: a line of it");
+  expect_refused("title T\n", ": quantity is ''; allowed: a line for each");
+  expect_refused(own, ": scene is ''; allowed: a line for each");
+  expect_refused(own + "ball 5\n",
+                 ", line 4: the keyword is 'ball'; allowed: about, at, axis, balls, compare, ");
+  expect_refused(own + "seeds\n", ", line 4: seeds is ''; allowed: a value after it");
+  expect_refused(own + "seeds 0\n", ", line 4: seeds is '0'; allowed: a whole number from 1 to 1000");
+  expect_refused(own + "seeds 2.5\n", ", line 4: seeds is '2.5'; allowed: a whole number from 1 to 1000");
+  expect_refused(own + "title U\n", ", line 4: title is 'U'; allowed: once before the first scene");
+  expect_refused(own + "scene a\nabout it\n", ", line 5: about is 'it'; allowed: before the first scene");
+  expect_refused(own + "scene a\nseeds 1\nseeds 1\n", ", line 6: seeds is '1'; allowed: once in a scene");
+  expect_refused(own + "scene a, b\n", ", line 4: scene is 'a, b'; allowed: a name without commas and |");
+  expect_refused(own + "scene a\nscene a\n", ", line 5: scene is 'a'; allowed: each name once");
+  expect_refused(own + "scene a\nfrom b\n", ", line 5: from is 'b'; allowed: the name of a scene above");
+  expect_refused(own + "scene a\nfrom a\n", ", line 5: from is 'a'; allowed: the name of a scene above");
+  expect_refused(own + "from a\n", ", line 4: from is 'a'; allowed: below the line of a scene");
+  expect_refused(own + "scene a\nscene b\nset x 1\nfrom a\n",
+                 ", line 7: from is 'a'; allowed: the first line of a scene");
+  expect_refused(own + "scene a\ndiffers by name\n",
+                 ", line 5: differs is 'by name'; allowed: below a line from");
+  expect_refused(own + "paired maybe\n", ", line 4: paired is 'maybe'; allowed: yes, no");
+  expect_refused(own + "scene a\ncompare a | a\n",
+                 ", line 5: compare is 'a | a'; allowed: SCENE | SCENE | what differs, in words");
+  expect_refused(own + "scene a\ncompare a | b | it\n",
+                 ", line 5: compare is 'b'; allowed: the name of a scene");
+  expect_refused("title T\nquantity noise\n",
+                 ", line 2: quantity is 'noise'; allowed: acceleration, force, ");
+  expect_refused("title T\nquantity gap m\n",
+                 ", line 2: quantity is 'gap m'; allowed: the name of a bed's quantity");
+  expect_refused(
+      "title T\nquantity gap m middle f.csv x\n",
+      ", line 2: quantity is 'gap m middle f.csv x'; allowed: NAME UNIT WAY FILE COLUMN, WAY one of last");
+  expect_refused("title T\nquantity a/b m last f.csv x\n",
+                 ", line 2: quantity is 'a/b m last f.csv x'; allowed: NAME");
+  expect_refused("title T\nquantity k\nquantity k\n",
+                 ", line 3: quantity is 'k'; allowed: each quantity once");
+  expect_refused("title T\naxis load\n", ", line 2: axis is 'load'; allowed: NAME LABEL");
+  expect_refused("title T\naxis a x [m]\naxis a y [m]\n",
+                 ", line 3: axis is 'a y [m]'; allowed: each axis once");
+  expect_refused(own + "scene a\nat load 3\n", ", line 5: at is 'load 3'; allowed: AXIS NUMBER");
+  expect_refused(own + "axis load load [N]\nscene a\nat load much\n",
+                 ", line 6: at is 'load much'; allowed: AXIS NUMBER");
+  expect_refused("deck in.other\n",
+                 ", line 1: deck is 'in.other'; allowed: a deck in the folder of the plan, or in ");
+  expect_refused("title T\nquantity gap m last out.csv gap\nscene a\n",
+                 ", line 3: scene is 'a'; allowed: with a line deck");
+  expect_refused(own + "set gap\n", ", line 4: set is 'gap'; allowed: NAME VALUE");
+  expect_refused(own + "set gap 1 2\n", ", line 4: set is 'gap 1 2'; allowed: NAME VALUE");
+  expect_refused(own + "set g-p 1\n", ", line 4: set is 'g-p 1'; allowed: NAME VALUE");
+  expect_refused(own + "set gap 1\nset gap 2\n", ", line 5: set is 'gap 2'; allowed: each variable once");
+  expect_refused(own + "seed_variable a b\n",
+                 ", line 4: seed_variable is 'a b'; allowed: the name of a variable");
+  expect_refused(own + "seeds 2\nscene a\n", ", line 5: scene is 'a'; allowed: one seed, or seed_variable");
+  expect_refused(own + "stiffness 1e9\nscene a\n",
+                 ", line 5: scene is 'a'; allowed: stiffness, frequency and ");
+  expect_refused(own + "stiffness -1\n",
+                 ", line 4: stiffness is '-1'; allowed: a number from 1e-06 to 1e+15 [N/m]");
+  expect_refused(own + "balls many\n",
+                 ", line 4: balls is 'many'; allowed: a whole number from 1 to 10000000");
+  expect_refused(bed + "radius_min x\n",
+                 ", line 6: radius_min is 'x'; allowed: a number from 1e-06 to 1000 [m]");
+  expect_refused(bed + "radius_min 0.03\nscene a\n",
+                 ", line 7: scene is 'a'; allowed: a bed of which radius-max is '0.024'; allowed: ");
+  expect_refused(bed + "grading fine\n", ", line 6: grading is 'fine'; allowed: uniform, mass");
+  expect_refused(bed + "layer 0.01\nscene a\n",
+                 ", line 7: scene is 'a'; allowed: a bed of which layer is '0.01'");
+  expect_refused(bed + "depth 0.2\nstiffness 1e8\nscene a\n",
+                 ", line 8: scene is 'a'; allowed: stiffness and layer on a bed in the plane");
+  expect_refused(
+      "scaled_to 150\n" + bed + "scene a\n",
+      ", line 1: scaled_to is '150'; allowed: with a plan of beds in the plane that has stiffness");
+  expect_refused(bed + "seed_variable seed\nscene a\n",
+                 ", line 7: scene is 'a'; allowed: without seed_variable");
+}
+
+/// The plan of a study of the project.
+Plan plan_of(const std::string &study) {
+  return post::read_plan(post::input_file("study/" + study + "/plan"));
+}
+
+double number_of(const Scene &scene, const std::string &name) {
+  return std::stod(post::value_of(scene, name));
+}
+
+TEST(PlansOfTheProject, AreCompleteAndHaveTheResultsBesideThem) {
+  const auto runs = [](const std::string &study) {
+    std::size_t count = 0;
+    for (const Scene &scene : plan_of(study).scenes)
+      count += static_cast<std::size_t>(scene.seeds);
+    return count;
+  };
+  EXPECT_EQ(runs("fidelity"), 19U * 5U);
+  EXPECT_EQ(runs("friction"), 2U * 5U);
+  EXPECT_EQ(runs("stiffness"), 8U * 5U);
+  EXPECT_EQ(runs("box"), 3U * 6U + 10U * 3U);
+  for (const char *study : {"fidelity", "box", "friction", "stiffness"}) {
+    const Plan plan = plan_of(study);
+    EXPECT_TRUE(plan.can_be_scaled()) << study;
+    EXPECT_FALSE(plan.comparisons.empty()) << study;
+    for (const Scene &scene :
+         plan.scenes) { // a bed that hardens after it has settled is wedged between its walls
+      EXPECT_TRUE(scene.bed.has_value()) << scene.name;
+      const auto k_of = [&scene](SceneDeck stage) {
+        for (const auto &[name, value] : post::variables_of(scene, stage))
+          if (name == "k") return value;
+        return std::string();
+      };
+      EXPECT_EQ(k_of(SceneDeck::settle), k_of(SceneDeck::run)) << scene.name;
+      EXPECT_EQ(k_of(SceneDeck::settle), k_of(SceneDeck::place)) << scene.name;
+    }
+    const std::vector<post::Result> results =
+        post::read_points(post::input_file(fmt::format("study/{}/runs.csv", study)), post::result_rows());
+    EXPECT_FALSE(results.empty()) << study;
+    std::set<std::string> scenes, quantities;
+    for (const Scene &scene : plan.scenes)
+      scenes.insert(scene.name);
+    for (const post::Quantity &quantity : plan.quantities)
+      quantities.insert(quantity.name + quantity.unit);
+    for (const post::Result &result : results) {
+      EXPECT_EQ(scenes.count(result.scene), 1U) << result.scene;
+      EXPECT_EQ(quantities.count(result.quantity + result.unit), 1U) << result.quantity;
+    }
+  }
+}
+
+TEST(PlansOfTheProject, KeepTheProportionsOfABedOfAnotherSize) {
+  // A quarter of the balls: lengths halve, masses and forces per metre are a quarter, so that the pressure under the drum over
+  // its radius stays the same.
+  const Plan small = plan_of("fidelity").with_balls(625);
+  const Scene &complete = small.scene("complete");
+  EXPECT_EQ(complete.bed->packing.balls, 625);
+  EXPECT_DOUBLE_EQ(complete.bed->packing.width, 1.0);
+  EXPECT_DOUBLE_EQ(number_of(complete, "r2"), 0.175);
+  EXPECT_DOUBLE_EQ(number_of(complete, "m2"), 500.0);
+  EXPECT_DOUBLE_EQ(number_of(complete, "Fw"), 14.7e3);
+  EXPECT_DOUBLE_EQ(number_of(complete, "k"), 2.5e8); // k / m2 stays the same
+  EXPECT_DOUBLE_EQ(number_of(complete, "dt"), 1.25e-5);
+  EXPECT_EQ(number_of(complete, "steps_per_cycle"), 4000.0);
+  EXPECT_EQ(number_of(complete, "cycles"), 8.0);
+  EXPECT_EQ(number_of(small.scene("large balls"), "steps_per_cycle"), 2000.0);
+  EXPECT_EQ(number_of(small.scene("twice the steps"), "steps_per_cycle"), 8000.0);
+  EXPECT_EQ(number_of(small.scene("absorb"), "ground_depth"), 1.0);
+  EXPECT_EQ(post::value_of(small.scene("layers"), "k"), "2.5e+07,2.5e+08");
+  EXPECT_EQ(small.scene("large balls").bed->packing.balls, 156);
+  EXPECT_NEAR(small.scene("layers").bed->balls(), 625, 25); // as deep as the complete bed
+  EXPECT_EQ(plan_of("fidelity").with_balls(2500).scene("absorb").bed->packing.width, 2.0);
+  // Four scenes differ once the soil of the complete one has settled, and share it.
+  int sharing = 0;
+  for (const Scene &scene : small.scenes)
+    sharing += post::soil_text(scene) == post::soil_text(complete) ? 1 : 0;
+  EXPECT_EQ(sharing, 1 + 4);
+
+  const Plan quick = plan_of("box").quick();
+  EXPECT_EQ(quick.scenes.size(), 3U);
+  EXPECT_EQ(quick.scenes[0].bed->packing.balls, 150);
+  EXPECT_EQ(quick.scenes[0].seeds, 2);
+  EXPECT_EQ(post::value_of(quick.scenes[0], "cycles"), "4");
+  ASSERT_EQ(quick.comparisons.size(), 3U); // two, and that over all boxes, of which one is left
+  EXPECT_EQ(quick.comparisons[2].pairs.size(), 1U);
+}
+
+} // namespace
+} // namespace drumlin::test

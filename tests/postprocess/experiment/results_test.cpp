@@ -1,0 +1,220 @@
+// Quantities of records that are known, and effects against numbers worked out by hand.
+#include "experiment/results.h"
+
+#include "chain/direct_solver.h"
+#include "runs/chain_files.h"
+#include "experiment/page.h"
+#include "support/files.h"
+#include "support/resumed.h"
+#include "runs/parameter_file.h"
+#include "tests/support/page.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+using post::Comparison;
+using post::Result;
+using post::Results;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+// Student's t of 97.5 % for one and for two degrees of freedom
+constexpr double t_1 = 12.706204736174698, t_2 = 4.302652729911275;
+
+std::vector<double> values_of(const std::vector<const char *> &names, const fs::path &folder, double width) {
+  std::vector<post::Quantity> quantities;
+  for (const char *name : names)
+    quantities.push_back(*post::bed_quantity(name));
+  return post::measured(quantities, folder, width);
+}
+
+// Four cycles after the start; what counts are the last two, and settlement from the end of the second on.
+TEST(Quantities, OfABedAreOfTheSecondHalfAndPerMetreOfWidth) {
+  const post::TemporaryFolder temporary(testing::TempDir(), "quantities");
+  post::write_files(
+      {{temporary.path() / "cycles.csv", "cycle,a_drum_max,F_contact_max,contact_share,settlement\n"
+                                         "0,900,9000,1,0\n"
+                                         "1,90,900,0.25,0.5\n"
+                                         "2,70,700,0.25,0.6\n"
+                                         "3,20,200,0.5,0.65\n"
+                                         "4,30,600,1,0.8\n"},
+       {temporary.path() / "parameters.csv", "name,value\ndrum_depth,-0.07\nr2,0.35\n"}});
+  const std::vector<const char *> names = {"acceleration",     "force", "settlement", "contact",
+                                           "total_settlement", "depth"};
+  const std::vector<double> plane = values_of(names, temporary.path(), 1.0);
+  EXPECT_DOUBLE_EQ(plane[0], 25.0);
+  EXPECT_DOUBLE_EQ(plane[1], 400.0);
+  EXPECT_NEAR(plane[2], 0.1, 1e-15);
+  EXPECT_DOUBLE_EQ(plane[3], 0.75);
+  EXPECT_DOUBLE_EQ(plane[4], 0.8);
+  EXPECT_DOUBLE_EQ(plane[5], -0.1);
+  const std::vector<double> space = values_of(names, temporary.path(), 0.2);
+  EXPECT_DOUBLE_EQ(space[1], 2000.0); // N/m
+  EXPECT_EQ(space[0], plane[0]);
+}
+
+TEST(Quantities, OfAnyTableAreAColumnInFiveWays) {
+  const post::TemporaryFolder temporary(testing::TempDir(), "quantities");
+  post::write_files({{temporary.path() / "out.csv", "t,gap\n0,7\n1,-2\n2,4\n3,1\n"},
+                     {temporary.path() / "one.csv", "t,gap\n0,7\n"}});
+  const auto value = [&](const char *way, const char *file) {
+    return post::measured({post::column_quantity("gap", "m", way, file, "gap")}, temporary.path(), 1.0).at(0);
+  };
+  EXPECT_EQ(value("last", "out.csv"), 1.0);
+  EXPECT_EQ(value("mean", "out.csv"), 2.5);
+  EXPECT_EQ(value("largest", "out.csv"), 7.0);
+  EXPECT_EQ(value("smallest", "out.csv"), -2.0);
+  EXPECT_EQ(value("per_row", "out.csv"), 1.5); // from -2 to 1 in two rows
+  EXPECT_EQ(value("last", "one.csv"), 7.0);
+  EXPECT_THROW(value("mean", "one.csv"), std::runtime_error);
+  EXPECT_THROW(value("last", "other.csv"), std::runtime_error);
+}
+
+// The record of CVODE under the name that a bed's has: the origin of each contact then counts as unknown.
+TEST(Quantities, OfTheLawAreThoseOfARecordWithKnownLaw) {
+  post::DirectOptions options;
+  options.cycles = 10.0;
+  options.samples_per_cycle = 250;
+  for (const char *name : {"II", "III"}) {
+    post::ChainParameters p = post::table1_case(name, post::Transition::B);
+    p.k *= 1.7;
+    p.D = 0.3;
+    const post::ChainHistory history = post::solve_direct(p, options).history;
+    const post::TemporaryFolder temporary(testing::TempDir(), "identified_law");
+    const fs::path &folder = temporary.path();
+    post::write_files(
+        {{folder / "bed.csv", post::chain_text(history)},
+         {folder / "parameters.csv", post::parameters_text({{"omega", post::number_text(p.omega)},
+                                                            {"Fw", post::number_text(p.Fw)},
+                                                            {"m2", post::number_text(p.m2)},
+                                                            {"m3", post::number_text(p.m3)},
+                                                            {"g", post::number_text(p.g)}})}});
+    const std::vector<double> found = values_of({"k", "D", "R2"}, folder, 2.0);
+    EXPECT_NEAR(found[0], p.k / 2.0, 1e-3 * p.k) << name; // per metre
+    EXPECT_NEAR(found[1], p.D, 1e-3 * p.D) << name;
+    EXPECT_GT(found[2], 0.999) << name;
+  }
+}
+
+Result row(const char *scene, int seed, double value, double cost = 1.0) {
+  return {scene, seed, "force", "N/m", value, cost};
+}
+
+// The seeds differ by far more than the scene changes them: only differences seed by seed show it.
+TEST(Effect, OfPairsIsTakenSeedBySeed) {
+  const Results results({row("base", 1, 100.0), row("A", 3, 912.0), row("A", 1, 110.0), row("base", 2, 500.0),
+                         row("A", 2, 511.0), row("base", 3, 900.0), row("A", 4, 5000.0), row("B", 1, 7.0)});
+  const std::optional<post::Change> change = change_of(results, {"", {{"A", "base"}}, true}, "force");
+  ASSERT_TRUE(change.has_value());
+  EXPECT_DOUBLE_EQ(change->difference.mean, 11.0); // of 10, 11, 12
+  EXPECT_NEAR(change->difference.half_width, t_2 / std::sqrt(3.0), 1e-9);
+  EXPECT_TRUE(change->difference.significant());
+  EXPECT_DOUBLE_EQ(change->relative.mean, 11.0 / 500.0);
+  EXPECT_NEAR(change->relative.half_width, t_2 / std::sqrt(3.0) / 500.0, 1e-12);
+  const std::optional<post::Change> single = change_of(results, {"", {{"B", "base"}}, true}, "force");
+  ASSERT_TRUE(single.has_value());
+  EXPECT_EQ(single->difference.mean, -93.0);
+  EXPECT_FALSE(single->difference.significant()); // one seed has no interval
+  EXPECT_FALSE(change_of(results, {"", {{"A", "C"}}, true}, "force").has_value());
+  EXPECT_FALSE(change_of(results, {"", {{"A", "base"}}, true}, "k").has_value());
+}
+
+TEST(Effect, OfIndependentSamplesHasTheScatterOfBoth) {
+  const Results results(
+      {row("base", 1, 100.0), row("base", 2, 300.0), row("wide", 1, 220.0), row("wide", 2, 420.0)});
+  const std::optional<post::Change> change = change_of(results, {"", {{"wide", "base"}}, false}, "force");
+  ASSERT_TRUE(change.has_value());
+  EXPECT_NEAR(change->relative.mean, 120.0 / 200.0, 1e-12);
+  EXPECT_NEAR(change->relative.half_width, t_2 * std::sqrt(2.0e4) / 200.0,
+              1e-8); // Welch: two degrees of freedom
+  const Results fewer({row("base", 1, 100.0), row("base", 2, 300.0), row("wide", 1, 220.0)});
+  EXPECT_FALSE(change_of(fewer, {"", {{"wide", "base"}}, false}, "force")->relative.significant());
+}
+
+TEST(Effect, OfSeveralPairsOfScenesCountsAllOfThem) {
+  const Results results({row("1 rigid", 1, 100.0), row("1 absorb", 1, 101.0), row("2 rigid", 1, 200.0),
+                         row("2 absorb", 1, 202.0), row("3 absorb", 1, 1e9)});
+  const Comparison compared{
+      "", {{"1 absorb", "1 rigid"}, {"2 absorb", "2 rigid"}, {"3 absorb", "3 rigid"}}, true};
+  const std::optional<post::Change> change = change_of(results, compared, "force"); // 1 and 2 of 100 and 200
+  ASSERT_TRUE(change.has_value());
+  EXPECT_NEAR(change->relative.mean, 1.5 / 150.0, 1e-15);
+  EXPECT_NEAR(change->relative.half_width, t_1 * 0.5 / 150.0, 1e-8);
+}
+
+post::Plan made_up_plan() {
+  post::Plan plan;
+  plan.title = "Made up";
+  plan.quantities = {*post::bed_quantity("force"), *post::bed_quantity("settlement"),
+                     *post::bed_quantity("k")};
+  plan.axes = {{"load", "static load [kN/m]"}};
+  plan.scenes = {{"base", "in.own"}, {"A", "in.own"}};
+  plan.scenes[0].at["load"] = 10.0;
+  plan.scenes[1].at["load"] = 20.0;
+  plan.comparisons = {{"A instead of B", {{"A", "base"}}, true}};
+  return plan;
+}
+
+TEST(Effect, LeavesOutWhatIsMissingAndComparesCosts) {
+  std::vector<Result> rows;
+  for (int seed = 1; seed <= 3; ++seed) {
+    rows.push_back({"base", seed, "force", "N/m", 100.0 * seed, 2.0 * seed});
+    rows.push_back({"A", seed, "force", "N/m", 110.0 * seed, 5.0 * seed});
+    rows.push_back({"base", seed, "k", "N/m per m", seed == 2 ? none : 5e6, 2.0 * seed});
+    rows.push_back({"A", seed, "k", "N/m per m", 6e6, 5.0 * seed});
+  }
+  const post::Plan plan = made_up_plan();
+  const std::vector<post::Effect> effects = effects_of(plan, Results(rows));
+  ASSERT_EQ(effects.size(), 1U);
+  EXPECT_EQ(effects[0].seeds, 3U);
+  EXPECT_DOUBLE_EQ(effects[0].cost, 2.5);
+  EXPECT_FALSE(effects[0].changes[1].has_value());
+  EXPECT_DOUBLE_EQ(effects[0].changes[2]->relative.mean, 0.2); // of seeds 1 and 3
+  EXPECT_TRUE(effects_of(plan, Results({rows[0]})).empty());
+}
+
+TEST(ResultRows, ComeBackBitForBit) {
+  const post::TemporaryFolder temporary(testing::TempDir(), "results");
+  const fs::path file = temporary.path() / "runs.csv";
+  const std::vector<Result> rows = {{"k / 10", 2, "force", "N/m", 0.1 + 0.2, 1.5},
+                                    {"k / 10", 2, "k", "N/m per m", none, none}};
+  post::write_files({{file, post::result_rows().text(rows)}});
+  EXPECT_EQ(post::read_text(file), "scene,seed,quantity,unit,value,cost [s]\n"
+                                   "k / 10,2,force,N/m,0.30000000000000004,1.5\n"
+                                   "k / 10,2,k,N/m per m,,\n");
+  const std::vector<Result> again = post::read_points(file, post::result_rows());
+  ASSERT_EQ(again.size(), 2U);
+  EXPECT_EQ(again[0].value, 0.1 + 0.2);
+  EXPECT_TRUE(std::isnan(again[1].value) && std::isnan(again[1].cost));
+}
+
+TEST(ExperimentPage, SaysWhatDiffersByHowMuchAndWhatIsMissing) {
+  std::vector<Result> rows;
+  for (int seed = 1; seed <= 3; ++seed) {
+    rows.push_back({"base", seed, "force", "N/m", 1000.0 * seed, 2.0});
+    rows.push_back({"A", seed, "force", "N/m", 1000.0 * seed + 400.0 + seed, 4.0});
+    rows.push_back({"base", seed, "settlement", "m", 0.0, 2.0});
+    rows.push_back({"A", seed, "settlement", "m", 1e-4 * seed, 4.0});
+  }
+  const post::TemporaryFolder temporary(testing::TempDir(), "experiment_page");
+  const fs::path &folder = temporary.path();
+  post::write_experiment_page(folder, made_up_plan(), Results(rows), {"seed 4, A: failed"});
+  const std::string page = post::read_text(folder / "index.html");
+  for (const char *words : {"Missing: seed 4, A: failed", "+20.1 ± 0.12 *",
+                            "A instead of B (+20 %, time x 2)", "+0.2 ± 0.25", "static load [kN/m]"})
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+  expect_sound_page(folder, 2, "index.html", 0);
+}
+
+} // namespace
+} // namespace drumlin::test
