@@ -87,18 +87,19 @@ std::map<long, Ball> last_frame(const Scene &scene, int ranks = 1) {
   const Scratch folder;
   write_floor(folder / "floor.stl", 0.1, false);
   const Outcome outcome = run(scene, folder, ranks);
+  if (outcome.says("multi/old has been removed")) return {}; // LAMMPS of 2025 and later
   EXPECT_TRUE(outcome.ok()) << outcome.output;
   EXPECT_FALSE(outcome.says("WARNING: pair_style")) << outcome.output;
   return outcome.ok() ? read_dump(folder / "state.dump").back().balls : std::map<long, Ball>();
 }
 
-/// Largest difference of positions, m, and velocities, m/s, of a ball.
+/// Largest difference of positions, m, and velocities, m/s, of a ball; infinite where one is not a number.
 double difference(const std::map<long, Ball> &one, const std::map<long, Ball> &other, long id = 1) {
   if (one.count(id) == 0 || other.count(id) == 0) return HUGE_VAL;
   double most = 0.0;
   for (std::size_t a = 0; a < 3; ++a)
-    most = std::max({most, std::fabs(one.at(id).x[a] - other.at(id).x[a]),
-                     std::fabs(one.at(id).v[a] - other.at(id).v[a])});
+    for (const double change : {one.at(id).x[a] - other.at(id).x[a], one.at(id).v[a] - other.at(id).v[a]})
+      most = std::isfinite(change) ? std::max(most, std::fabs(change)) : HUGE_VAL;
   return most;
 }
 
@@ -136,9 +137,9 @@ const Beside besides[] = {
     {"M", "fix f a wall/lj1043 zlo -0.1 1 0.1 0.25 units box"},
     {"M", "fix f a wall/morse zlo -0.1 1 10 0.1 0.25 units box"},
     {"M", "fix f a indent 500 sphere 0 0 0.15 0.05 units box"},
-    {"M", "fix f a wall/gran hooke/history 1e5 NULL 0 NULL 0 0 xplane NULL 0.053"},
+    {"M", "fix f a wall/gran hooke/history 1e5 NULL 10 NULL 0 0 xplane NULL 0.053"},
     {"M", "region w block -1 0.053 -1 1 -1 1 units box\n"
-          "fix f a wall/gran/region hooke/history 1e5 NULL 0 NULL 0 0 region w"},
+          "fix f a wall/gran/region hooke/history 1e5 NULL 10 NULL 0 0 region w"},
     {"M", "comm_style tiled\nfix f all balance 100 1.0 shift x 5 1.0"},
     {"L", "communicate multi vel yes"},
 };
@@ -193,6 +194,7 @@ TEST_P(NeighborStyles, FindContactsOfUnequalBallsInLammps) {
   scene.second_start = "0 0 0.4505";
   scene.velocity = "0 0 0";
   const auto balls = last_frame(scene);
+  if (balls.empty()) GTEST_SKIP() << "this LAMMPS has no neighbor style " << GetParam();
   EXPECT_GT(balls.at(2).f[2], 10.0);
 }
 
