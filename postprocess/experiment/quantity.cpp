@@ -49,7 +49,8 @@ public:
     return *record_;
   }
 
-  /// What `drumlin identify` finds in the whole record; nothing if the record does not determine a law, which is a result.
+  /// What `drumlin identify` finds in the whole record; nothing if the record does not determine a law, which
+  /// is a result.
   const std::optional<IdentifiedRecord> &identified() {
     if (!tried_) {
       tried_ = true;

@@ -8,7 +8,8 @@ namespace drumlin::post {
 
 namespace {
 
-/// Values of a comparison's scenes and of those that they are compared with; of pairs those with the same index have the same seed.
+/// Values of a comparison's scenes and of those that they are compared with; of pairs those with the same
+/// index have the same seed.
 struct Samples {
   std::vector<double> values, bases;
 };
