@@ -151,6 +151,7 @@ constexpr double settlement_tolerance = 1e-3; // m
 
 std::vector<const char *> column_ways() {
   std::vector<const char *> names;
+  names.reserve(ways.size());
   for (const ColumnWay &way : ways)
     names.push_back(way.name);
   return names;

@@ -86,6 +86,7 @@ const std::map<int, double> &Results::costs(const std::string &scene) const {
 
 std::vector<double> numbers(const std::map<int, double> &by_seed) {
   std::vector<double> all;
+  all.reserve(by_seed.size());
   for (const auto &[seed, value] : by_seed)
     all.push_back(value);
   return all;
