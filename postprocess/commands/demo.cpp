@@ -26,6 +26,7 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -94,12 +95,11 @@ struct DemoRun {
   bool shows_progress = false; ///< the engine's own lines of progress are printed
 };
 
-/// The runs of the demo, counted as they are made.
+/// The demo: steps that are planned first, so that each can tell how many there are.
 class Demo {
 public:
   Demo(Plan plan, fs::path decks, bool with_lammps)
-      : plan_(std::move(plan)), decks_(std::move(decks)), with_lammps_(with_lammps),
-        all_(with_lammps ? 26 : 18) {}
+      : plan_(std::move(plan)), decks_(std::move(decks)), with_lammps_(with_lammps) {}
 
   void run() {
     fs::create_directories(results_);
@@ -107,37 +107,52 @@ public:
     for (const fs::directory_entry &entry : fs::directory_iterator(results_))
       fs::remove_all(entry.path());
     for (const char *transition : {"A", "B"}) {
-      run_impact(transition);
+      plan_impact(transition);
       for (const char *chain_case : {"I", "II", "III", "IV"})
-        run_chain(chain_case, transition);
+        plan_chain(chain_case, transition);
     }
-    make_bed();
+    plan_settling();
     for (const char *transition : {"A", "B"})
-      run_bed(transition);
-    map_regimes();
-    study_meter();
-    print(fmt::format("{}report\n", next()));
-    print_report({{results_.string()}, page_folder});
+      plan_bed_run(transition);
+    step("regimes of the roller\n", [this] { map_regimes(); });
+    step("what the meter says of the soil\n", [this] { study_meter(); });
+    step("report\n", [] { print_report({{results_folder}, page_folder}); });
+    for (std::size_t i = 0; i < steps_.size(); ++i) {
+      print(fmt::format("[{:2}/{:2}] {}", i + 1, steps_.size(), steps_[i].words));
+      steps_[i].make();
+    }
     print(fmt::format("The report: {}\n", (fs::current_path() / page_folder / "index.html").string()));
     print(fmt::format("The bed, for ParaView: {} and {}, the .pvd files\n", (bed_ / "A/vtk").string(),
                       (bed_ / "B/vtk").string()));
   }
 
 private:
-  std::string next() {
-    ++done_;
-    return fmt::format("[{:2}/{:2}] ", done_, all_);
+  struct Step {
+    std::string words; ///< that are printed before it
+    std::function<void()> make;
+  };
+
+  void step(std::string words, std::function<void()> make) {
+    steps_.push_back({std::move(words), std::move(make)});
   }
 
-  void run_impact(const std::string &transition) {
+  void engine_step(
+      const DemoRun &run, const std::function<void()> &then = [] {}) {
+    step(fmt::format("{:<22}{}", run.name, run.shows_progress ? "\n" : ""), [run, then] {
+      engine_run(run);
+      then();
+    });
+  }
+
+  void plan_impact(const std::string &transition) {
     const fs::path out = results_ / "impact" / transition;
-    engine_run({"impact, " + transition,
-                out,
-                decks_ / "chain/in.impact",
-                {{"out", out.string()}, {"transition", transition}}});
+    engine_step({"impact, " + transition,
+                 out,
+                 decks_ / "chain/in.impact",
+                 {{"out", out.string()}, {"transition", transition}}});
   }
 
-  void run_chain(const std::string &chain_case, const std::string &transition) {
+  void plan_chain(const std::string &chain_case, const std::string &transition) {
     const std::string folder = chain_case + "-" + transition;
     const auto variables = [&](const fs::path &out) {
       return Variables{{"out", out.string()},
@@ -146,45 +161,45 @@ private:
                        {"cycles", std::to_string(plan_.chain_cycles)}};
     };
     fs::path out = results_ / "chain" / folder;
-    engine_run({fmt::format("chain, case {}, {}", chain_case, transition), out, decks_ / "chain/in.chain",
-                variables(out)});
+    engine_step({fmt::format("chain, case {}, {}", chain_case, transition), out, decks_ / "chain/in.chain",
+                 variables(out)});
     if (!with_lammps_) return;
     out = results_ / "lammps" / folder;
-    engine_run({"in LAMMPS", out, decks_ / "chain/in.chain.lammps", variables(out)});
+    engine_step({"in LAMMPS", out, decks_ / "chain/in.chain.lammps", variables(out)});
   }
 
   /// Makes a bed of balls placed at random, lets it settle, and lets the roller settle on it.
-  void make_bed() {
-    print(next());
+  void plan_settling() {
     plan_.bed.out = bed_ / "balls.data";
-    write_bed(plan_.bed);
+    step("", [this] { write_bed(plan_.bed); });
     const std::string soil = (bed_ / "soil.restart").string();
-    engine_run({"bed comes to rest",
-                bed_ / "made/soil",
-                decks_ / "bed/in.settle",
-                {{"balls", plan_.bed.out.string()}, {"bed", soil}},
-                true});
-    engine_run({"roller comes to rest",
-                bed_ / "made/roller",
-                decks_ / "bed/in.place",
-                {{"bed", soil}, {"start", start_.string()}},
-                true});
+    engine_step({"bed comes to rest",
+                 bed_ / "made/soil",
+                 decks_ / "bed/in.settle",
+                 {{"balls", plan_.bed.out.string()}, {"bed", soil}},
+                 true});
+    engine_step({"roller comes to rest",
+                 bed_ / "made/roller",
+                 decks_ / "bed/in.place",
+                 {{"bed", soil}, {"start", start_.string()}},
+                 true});
   }
 
-  void run_bed(const std::string &transition) {
+  void plan_bed_run(const std::string &transition) {
     const fs::path out = bed_ / transition;
     Variables variables = {{"start", start_.string()}, {"out", out.string()}, {"transition", transition}};
     if (plan_.bed_cycles != bed_cycles) variables.emplace_back("cycles", std::to_string(plan_.bed_cycles));
     variables.emplace_back("dumps_per_cycle", "10");
     const std::string cycles = plan_.bed_cycles == bed_cycles ? "ten" : std::to_string(plan_.bed_cycles);
-    engine_run(
-        {fmt::format("bed, {} cycles, {}", cycles, transition), out, decks_ / "bed/in.bed", variables, true});
-    write_vtk_series({out.string(), {}, {}});
+    engine_step(
+        {fmt::format("bed, {} cycles, {}", cycles, transition), out, decks_ / "bed/in.bed", variables, true},
+        [out] {
+          write_vtk_series({out.string(), {}, {}});
+        });
   }
 
   /// The regimes of the paper's roller over stiffness and damping of the soil.
   void map_regimes() {
-    print(next() + "regimes of the roller\n");
     MapArguments map;
     map.x = plan_.quick ? "k:2e6:150e6:8" : "k:2e6:150e6:40";
     map.y = plan_.quick ? "D:0.02:0.6:5" : "D:0.02:0.6:25";
@@ -193,7 +208,6 @@ private:
   }
 
   void study_meter() {
-    print(next() + "what the meter says of the soil\n");
     StudyOptions study;
     study.out = results_ / "meter";
     study.quick = plan_.quick;
@@ -201,9 +215,8 @@ private:
     run_meter_study(study.out, study.quick);
   }
 
-  void engine_run(const DemoRun &run) {
+  static void engine_run(const DemoRun &run) {
     fs::create_directories(run.out);
-    print(fmt::format("{}{:<22}{}", next(), run.name, run.shows_progress ? "\n" : ""));
     std::vector<std::string> words = {"-log", (run.out / "log.liggghts").string()};
     for (const auto &[name, value] : run.variables)
       words.insert(words.end(), {"-var", name, value});
@@ -235,7 +248,7 @@ private:
   Plan plan_;
   fs::path decks_;
   bool with_lammps_;
-  int done_ = 0, all_;
+  std::vector<Step> steps_;
 };
 
 /// The folder of the decks, named from the working folder where it is below it: a name without blanks,

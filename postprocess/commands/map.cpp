@@ -2,10 +2,8 @@
 
 #include "runs/chain_files.h"
 #include "commands/commands.h"
-#include "engine/engine_command.h"
 #include "pages/html.h"
 #include "pages/drawing.h"
-#include "map/engine_points.h"
 #include "map/figures.h"
 #include "map/regime_map.h"
 #include "support/csv.h"
@@ -39,7 +37,6 @@ constexpr int most_values = 2000; ///< per axis
 constexpr int most_cycles = 100000;
 constexpr int least_cycles = 100; ///< fewer do not let a motion settle
 constexpr int most_threads = 256;
-constexpr int most_engine_points = 10000;
 constexpr const char *points_name = "regimes.csv";
 constexpr const char *boundaries_name = "boundaries.csv";
 constexpr const char *record_name = "parameters.csv";
@@ -49,8 +46,6 @@ struct Task {
   MapGrid grid;
   std::optional<MapAxis> sweep;
   int threads = 1;
-  std::optional<Engine> engine; ///< runs the chain at some points
-  std::size_t engine_points = 12;
   fs::path out;
 };
 
@@ -78,32 +73,6 @@ void judge_corner(const ChainParameters &parameters) {
                       "{:g} kg, c23 = {:g} N s/m would take more than {:g} pieces",
                       parameters.k, parameters.m2, parameters.c23, most_pieces)));
   }
-}
-
-// Judges --engine and --engine-points, with the axes of the map.
-void judge_engine(const MapArguments &arguments, Task &task) {
-  if (arguments.engine_points) {
-    if (!arguments.engine)
-      throw UsageError(refusal("--engine-points", *arguments.engine_points, "only with --engine"));
-    task.engine_points = static_cast<std::size_t>(
-        count_option("--engine-points", *arguments.engine_points, 1, most_engine_points));
-  }
-  if (!arguments.engine) return;
-  const std::string &name = choice_option("--engine", *arguments.engine, {"liggghts", "lammps"});
-  if (task.sweep) throw UsageError(refusal("--engine", name, "only with a map, not with --sweep"));
-  task.engine = name == "lammps" ? Engine::lammps : Engine::liggghts;
-  if (const std::string fault = engine_fault(*task.engine); !fault.empty())
-    throw UsageError(fmt::format("--engine is '{}': {}", name, fault));
-  const MapGrid &grid = task.grid;
-  for (const double x : {grid.x.from, grid.x.to})
-    for (const double y : {grid.y.from, grid.y.to})
-      if (const ChainParameters p = grid.at(x, y); 1.0 * grid.cycles * engine_steps(p) > most_engine_steps)
-        throw UsageError(
-            refusal("--engine", name,
-                    fmt::format("a map whose runs have at most {:g} time steps: {} cycles of k = {:g} "
-                                "N/m, m2 = {:g} kg, omega = {:g} rad/s have {:.3g}",
-                                most_engine_steps, grid.cycles, p.k, p.m2, p.omega,
-                                1.0 * grid.cycles * engine_steps(p))));
 }
 
 Task judge(const MapArguments &arguments) {
@@ -154,7 +123,6 @@ Task judge(const MapArguments &arguments) {
     for (const double x : {grid.x.from, grid.x.to})
       for (const double y : {grid.y.from, grid.y.to})
         judge_corner(grid.at(x, y));
-  judge_engine(arguments, task);
   task.out = output_folder_option("--out", arguments.out);
   keep_apart({}, {{"--out", task.out, true}});
   return task;
@@ -294,49 +262,6 @@ void write_page(const Task &task, const std::vector<Figure> &figures,
                           contents, body)}});
 }
 
-// Runs the chain in the engine at some points of the map, those that an earlier call has not finished; all of
-// them in the order of spread_points().
-std::vector<EnginePoint> engine_runs(const Task &task, const std::vector<RegimePoint> &points) {
-  if (!task.engine) return {};
-  const MapGrid &grid = task.grid;
-  const char *name = *task.engine == Engine::lammps ? "lammps" : "liggghts";
-  const fs::path file = task.out / fmt::format("engine_points_{}.csv", name);
-  const CsvSchema<EnginePoint> columns = engine_point_columns(grid);
-  ResumedTable results(file, columns);
-  const auto key = [&](std::size_t point) {
-    EnginePoint like;
-    like.x = grid.x_of(point);
-    like.y = grid.y_of(point);
-    return columns.key(like);
-  };
-  const std::vector<std::size_t> chosen = spread_points(grid, task.engine_points);
-  TimedProgress progress;
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    if (!results.has(key(chosen[i])))
-      results.add(columns.cells(run_engine_point(grid, chosen[i], points[chosen[i]], *task.engine)));
-    progress.tell("{} of {} runs of {}", i + 1, chosen.size(), name);
-  }
-  for (const std::size_t point :
-       spread_points(grid, most_engine_points)) // an earlier call may have made more
-    results.has(key(point));
-  results.finish();
-  return read_points(file, columns);
-}
-
-void print_engine_runs(const MapGrid &grid, const std::vector<EnginePoint> &runs) {
-  if (runs.empty()) return;
-  fmt::print("{:>13} {:>13}  {:<20}{:<20}{:>12} {:>12} {:>11}\n", grid.x.label(), grid.y.label(),
-             "regime, exact", "in the engine", "peak [kN]", "engine [kN]", "difference");
-  for (const EnginePoint &run : runs)
-    fmt::print("{:>13.5g} {:>13.5g}  {:<20}{:<20}{:>12.3f} {:>12.3f} {:>11.1e}{}\n", run.x, run.y, run.exact,
-               run.engine, run.exact_peak / 1e3, run.engine_peak / 1e3, run.difference,
-               run.same_regime() ? "" : "  another regime");
-  fmt::print(
-      "{} of {} runs of the engine have the regime of the map\n",
-      std::count_if(runs.begin(), runs.end(), [](const EnginePoint &run) { return run.same_regime(); }),
-      runs.size());
-}
-
 void run_map(const Task &task) {
   const MapGrid &grid = task.grid;
   const std::vector<RegimePoint> points = map_points(task);
@@ -348,8 +273,7 @@ void run_map(const Task &task) {
   for (const BoundaryPoint &point : boundaries)
     text += fmt::format("{},{},{}\n", point.kind, number_text(point.x), number_text(point.y));
   write_files({{task.out / boundaries_name, text}});
-  const std::vector<EnginePoint> runs = engine_runs(task, points);
-  const MapFigures figures = map_figures(grid, points, boundaries, runs);
+  const MapFigures figures = map_figures(grid, points, boundaries);
   draw(task.out, figures);
   fmt::print("{}: {} points, {} points of boundaries\n", task.out.string(), points.size(), boundaries.size());
   std::array<std::size_t, regime_count> counts{};
@@ -358,7 +282,6 @@ void run_map(const Task &task) {
   for (std::size_t i = 0; i < regime_count; ++i)
     if (counts[i] > 0) fmt::print("  {:<20}{:>7}\n", regime_names[i], counts[i]);
   write_page(task, figures.figures, counts);
-  print_engine_runs(grid, runs);
 }
 
 void run_sweep(const Task &task) {
@@ -419,15 +342,6 @@ void add_map_command(CLI::App &app, Session & /*session*/) {
          "--me-re", [arguments](const std::string &text) { arguments->me_re = text; },
          "eccentric moment m_e r_e [kg m]: Fw = m_e r_e omega^2 instead of a fixed Fw")
       ->type_name("NUMBER");
-  map->add_option_function<std::string>(
-         "--engine", [arguments](const std::string &text) { arguments->engine = text; },
-         "liggghts or lammps: run in.chain at some points of the map, and compare regime and peak force")
-      ->type_name("NAME");
-  map->add_option_function<std::string>(
-         "--engine-points", [arguments](const std::string &text) { arguments->engine_points = text; },
-         "number of these points, spread evenly over the map [12]; a larger number keeps the runs of a "
-         "smaller one")
-      ->type_name("COUNT");
   map->add_option("--cycles", arguments->cycles, "cycles of the excitation at each point, 100 or more")
       ->type_name("COUNT")
       ->capture_default_str();

@@ -18,8 +18,6 @@ struct MapArguments {
   std::string cycles = "300";
   std::string threads = "2";
   std::string out = "results/map";
-  std::optional<std::string> engine;
-  std::optional<std::string> engine_points;
   bool fresh = false;
   bool axes_given = false;
 };

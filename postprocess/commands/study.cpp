@@ -45,7 +45,7 @@ struct Arguments {
 };
 
 /// The studies of the laboratory, which a build may not have.
-constexpr std::array lab_names = {"accuracy", "benchmarks", "cost", "speed", "stability"};
+constexpr std::array lab_names = {"accuracy", "benchmarks", "stability", "timing"};
 
 /// The studies of this build that are no plans, in the order of the help.
 std::vector<Study> other_studies() {
@@ -74,6 +74,8 @@ fs::path plan_file(const std::string &name) {
   if (names.count(name) > 0) return input_file("study") / name / plan_name;
   std::error_code ignored; // of a name that is too long
   if (fs::is_regular_file(name, ignored)) return name;
+  if (name == "cost" || name == "speed")
+    throw UsageError(refusal("NAME", name, "timing, which measures both"));
   if (std::find(lab_names.begin(), lab_names.end(), name) != lab_names.end())
     throw UsageError(
         refusal("NAME", name, "a study of the laboratory only in a build with -DDRUMLIN_LAB=ON"));

@@ -21,27 +21,20 @@ void run_accuracy_study(const StudyOptions &options);
 ///   index.html  tables and figures
 void run_benchmarks_study(const StudyOptions &options);
 
-/// `drumlin study cost`: wall time of a time step, and the time that each optional part adds to it. Also
-/// throws std::runtime_error if variants with the same contact law do not end with the balls at the same
-/// positions.
-///   bed_2500_X.data, ...  settled beds that all variants start from; X depends on what they are made of
-///   runs.csv              wall time of each run
-///   index.html            tables and a figure
-void run_cost_study(const StudyOptions &options);
-
-/// `drumlin study speed`: throughput (number of balls times time steps per second) and memory from small beds
-/// to large ones, on one rank and on two. Also throws std::runtime_error if runs of one scene do not end with
-/// the balls at the same positions.
-///   runs.csv    wall time and peak memory of each run
-///   index.html  tables and a figure
-void run_speed_study(const StudyOptions &options);
-
 /// `drumlin study stability`: the longest stable time step, and runs at the limits of the allowed parameters.
 /// Throws std::runtime_error with the runs that fail, after everything is written.
 ///   map.csv       longest stable time step at each damping ratio, for both integration schemes
 ///   extremes.csv  runs at the limits, each compared with an independent solution
 ///   index.html    tables and a figure
 void run_stability_study(const StudyOptions &options);
+
+/// `drumlin study timing`: wall time of a time step on the chain and on beds, what each optional part adds to it, and throughput
+/// and memory from small beds to large ones, on one rank and on two. Also throws std::runtime_error if runs that compute
+/// the same do not end with the balls at the same positions.
+///   bed_2500_X.data, ...  settled beds that all variants start from; X depends on what they are made of
+///   runs.csv              wall time and peak memory of each run
+///   index.html            tables and figures
+void run_timing_study(const StudyOptions &options);
 
 /// In the order of the help.
 inline constexpr std::array lab_studies = {
@@ -56,20 +49,17 @@ inline constexpr std::array lab_studies = {
           "rolling, rest, in both engines against closed forms. About three minutes.",
           &run_benchmarks_study},
     Study{
-        "cost",
-        "Time of a step on the chain and on settled beds, and what each optional part adds, as ratios within "
-        "interleaved rounds. About twenty minutes, on a quiet machine.",
-        &run_cost_study},
-    Study{"speed",
-          "Balls times steps per second from 2500 balls to a quarter of a million, on one rank and on two, "
-          "compared with the engine's own law; memory; a projection to 1e8 balls. Ten to twenty minutes, on "
-          "a quiet machine.",
-          &run_speed_study},
-    Study{
         "stability",
         "The longest stable time step over damping, for both integration schemes; runs at the limits of the "
         "allowed parameters. About ten minutes.",
         &run_stability_study},
+    Study{"timing",
+          "Time of a step on the chain and on settled beds: what each optional part adds, as ratios within "
+          "interleaved rounds; "
+          "balls times steps per second and memory from 2500 balls to a quarter of a million, on one rank "
+          "and on two, compared "
+          "with the engine's own law. About forty minutes, on a quiet machine.",
+          &run_timing_study},
 };
 
 } // namespace drumlin::post

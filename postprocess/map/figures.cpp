@@ -100,29 +100,6 @@ Panel empty_panel(const MapGrid &grid, const std::string &title) {
   return panel;
 }
 
-} // namespace
-
-namespace {
-
-// Adds the runs of an engine to the panel of regimes, and their data.
-void add_runs(const MapGrid &grid, const std::vector<EnginePoint> &runs, Panel &panel, MapFigures &result) {
-  if (runs.empty()) return;
-  std::string data = "same_regime,x,y\n";
-  std::array<bool, 2> has{};
-  for (const EnginePoint &run : runs) {
-    has[run.same_regime() ? 1 : 0] = true;
-    data += fmt::format("{:d},{:.8g},{:.8g}\n", run.same_regime(), shown_axis(grid.x).scale * run.x,
-                        shown_axis(grid.y).scale * run.y);
-  }
-  result.data.emplace_back("plot_engine.csv", data);
-  if (has[1])
-    panel.curves.push_back(
-        {"plot_engine.csv", "($1==1?$2:NaN)", "3", "run of the engine, same regime", CurveStyle::run_agrees});
-  if (has[0])
-    panel.curves.push_back({"plot_engine.csv", "($1==0?$2:NaN)", "3", "run of the engine, another regime",
-                            CurveStyle::run_differs});
-}
-
 /// The tables of a map: plot_areas.csv, where neighbours of one regime in a row are one rectangle,
 /// plot_cells.csv with the layers of each point, plot_boundaries.csv; and which regimes and kinds of boundary
 /// they contain.
@@ -171,7 +148,7 @@ MapTables tables_of(const MapGrid &grid, const std::vector<RegimePoint> &points,
 } // namespace
 
 MapFigures map_figures(const MapGrid &grid, const std::vector<RegimePoint> &points,
-                       const std::vector<BoundaryPoint> &boundaries, const std::vector<EnginePoint> &runs) {
+                       const std::vector<BoundaryPoint> &boundaries) {
   const MapTables tables = tables_of(grid, points, boundaries);
   MapFigures result;
   result.data = {{"plot_areas.csv", tables.areas},
@@ -198,7 +175,6 @@ MapFigures map_figures(const MapGrid &grid, const std::vector<RegimePoint> &poin
       panel.curves.push_back(
           {"plot_areas.csv", fmt::format("($1=={}?$2:NaN)", i), "3:4:5:6:7", regime_names[i], styles[i]});
   add_marks(panel);
-  add_runs(grid, runs, panel, result);
   regimes.panels.push_back(panel);
   result.figures.push_back(regimes);
 

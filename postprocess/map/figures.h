@@ -2,7 +2,6 @@
 #pragma once
 
 #include "pages/gnuplot.h"
-#include "map/engine_points.h"
 #include "map/regime_map.h"
 
 #include <string>
@@ -17,11 +16,9 @@ struct MapFigures {
   std::vector<std::pair<std::string, std::string>> data;
 };
 
-/// regimes, cmv, rmv, peak_force and contact_share over the axes, boundaries drawn in, and on `regimes`
-/// the runs of an engine, marked by whether they came to the same regime.
+/// regimes, cmv, rmv, peak_force and contact_share over the axes, boundaries drawn in.
 MapFigures map_figures(const MapGrid &grid, const std::vector<RegimePoint> &points,
-                       const std::vector<BoundaryPoint> &boundaries,
-                       const std::vector<EnginePoint> &runs = {});
+                       const std::vector<BoundaryPoint> &boundaries);
 
 /// Once-per-cycle positions of the drum, up and down, with the boundaries as vertical lines.
 MapFigures sweep_figures(const MapChain &chain, const MapAxis &axis, const Sweep &sweep);

@@ -99,8 +99,6 @@ std::string style_words(const Curve &curve) {
     return "with points pt 7 ps 0.4 lc rgb '#000000'";
   case CurveStyle::mark_2:
     return "with points pt 4 ps 0.5 lw 0.9 lc rgb '#000000'";
-  case CurveStyle::run_agrees:
-    return "with points pt 13 ps 1.3 lc rgb '#CC79A7'";
   case CurveStyle::run_differs:
     return "with points pt 2 ps 1.3 lw 3 lc rgb '#CC79A7'";
   case CurveStyle::segments:

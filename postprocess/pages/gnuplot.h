@@ -48,7 +48,6 @@ enum class CurveStyle {
   dots_down,   ///< small open circles, vermilion
   mark_1,      ///< small filled circles, black: points of a boundary
   mark_2,      ///< small open squares, black
-  run_agrees,  ///< filled diamonds, purple: on top of areas
   run_differs, ///< thick crosses, purple
   segments,    ///< black line segments of Curve::width; y names ordinate and the extents along both axes
 };

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace drumlin::post {
@@ -32,6 +34,32 @@ struct PageTable {
   /// Number of rows in a state.
   std::size_t count(RowState state) const;
 };
+
+/// A column of a table: its header, and its cell in the row of a subject.
+template <class Subject>
+struct TableColumn {
+  const char *header;
+  std::function<std::string(const Subject &)> cell;
+};
+template <class Subject>
+using TableColumns = std::vector<TableColumn<Subject>>;
+
+/// Gives a table the header of its columns.
+template <class Subject>
+void set_header(PageTable &table, const TableColumns<Subject> &columns) {
+  for (const TableColumn<Subject> &column : columns)
+    table.header.emplace_back(column.header);
+}
+
+/// Adds the row of a subject.
+template <class Subject>
+void add_row(PageTable &table, const TableColumns<Subject> &columns, const Subject &subject,
+             RowState state = RowState::plain) {
+  std::vector<std::string> cells;
+  for (const TableColumn<Subject> &column : columns)
+    cells.push_back(column.cell(subject));
+  table.add(std::move(cells), state);
+}
 
 /// A table as CSV.
 std::string table_csv(const PageTable &table);

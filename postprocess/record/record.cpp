@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <numeric>
@@ -18,28 +19,26 @@ namespace drumlin::post {
 
 namespace fs = std::filesystem;
 
-const std::array<RecordSignal, 8> record_signals = {{{"x_drum", &Record::x_drum, 0},
-                                                     {"v_drum", &Record::v_drum, 1},
-                                                     {"a_drum", &Record::a_drum, 2},
-                                                     {"x_frame", &Record::x_frame, 0},
-                                                     {"v_frame", &Record::v_frame, 1},
-                                                     {"a_frame", &Record::a_frame, 2},
-                                                     {"F_contact", &Record::F_contact, force_signal},
-                                                     {"F_excitation", &Record::F_excitation, force_signal}}};
-
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
+
+/// The signals that are read: all columns but `time` and F_bond, the first and the last.
+constexpr auto record_signals = [] {
+  std::array<HistoryColumn, history_columns.size() - 2> signals{};
+  for (std::size_t i = 0; i < signals.size(); ++i)
+    signals[i] = history_columns[i + 1];
+  return signals;
+}();
 
 struct Unit {
   const char *name;
   double factor;
   int derivative;
 };
-constexpr int time_unit = -2;
-constexpr std::array<Unit, 19> units = {{{"s", 1.0, time_unit},
-                                         {"ms", 1e-3, time_unit},
-                                         {"us", 1e-6, time_unit},
+constexpr std::array<Unit, 19> units = {{{"s", 1.0, time_column},
+                                         {"ms", 1e-3, time_column},
+                                         {"us", 1e-6, time_column},
                                          {"m", 1.0, 0},
                                          {"cm", 1e-2, 0},
                                          {"mm", 1e-3, 0},
@@ -53,27 +52,27 @@ constexpr std::array<Unit, 19> units = {{{"s", 1.0, time_unit},
                                          {"mm/s2", 1e-3, 2},
                                          {"um/s2", 1e-6, 2},
                                          {"g", 9.80665, 2},
-                                         {"N", 1.0, force_signal},
-                                         {"kN", 1e3, force_signal},
-                                         {"MN", 1e6, force_signal}}};
+                                         {"N", 1.0, force_column},
+                                         {"kN", 1e3, force_column},
+                                         {"MN", 1e6, force_column}}};
 
 /// What its unit measures; nothing for a name that is neither `time` nor a signal.
 std::optional<int> dimension_of(const std::string &name) {
-  if (name == "time") return time_unit;
-  for (const RecordSignal &signal : record_signals)
+  if (name == "time") return time_column;
+  for (const HistoryColumn &signal : record_signals)
     if (name == signal.name) return signal.derivative;
   return std::nullopt;
 }
 
 std::string signal_names() {
   std::string names = "time";
-  for (const RecordSignal &signal : record_signals)
+  for (const HistoryColumn &signal : record_signals)
     names += fmt::format(", {}", signal.name);
   return names;
 }
 
 double factor_of(const std::string &unit, int dimension) {
-  const bool negative = !unit.empty() && unit.front() == '-' && dimension != time_unit;
+  const bool negative = !unit.empty() && unit.front() == '-' && dimension != time_column;
   const std::string name = negative ? unit.substr(1) : unit;
   std::vector<const char *> allowed;
   for (const Unit &known : units) {
@@ -84,7 +83,7 @@ double factor_of(const std::string &unit, int dimension) {
   throw std::invalid_argument(
       refusal("the unit", unit,
               fmt::format("{}{}", fmt::join(allowed, ", "),
-                          dimension == time_unit ? "" : ", with '-' before it to turn the sign")));
+                          dimension == time_column ? "" : ", with '-' before it to turn the sign")));
 }
 
 double rms(const std::vector<double> &values) {
@@ -102,12 +101,12 @@ struct Reading {
   std::vector<std::size_t> lines;   ///< of the samples in the file
   std::vector<std::string> headers; ///< by the place of the signal in record_signals
 
-  std::string header_of(std::vector<double> Record::*values) const {
+  std::string header_of(std::vector<double> ChainHistory::*values) const {
     for (std::size_t i = 0; i < record_signals.size(); ++i)
       if (record_signals[i].values == values) return headers[i];
     return {};
   }
-  [[noreturn]] void refuse(std::vector<double> Record::*values, std::string_view found,
+  [[noreturn]] void refuse(std::vector<double> ChainHistory::*values, std::string_view found,
                            std::string_view allowed) const {
     csv_refusal(record.file, 0, header_of(values), found, allowed);
   }
@@ -195,7 +194,7 @@ std::vector<Taken> columns_to_take(const CsvRows &rows, const RecordOptions &opt
   const bool any_signal_named = options.columns.size() > options.columns.count("time");
   find("time", reading.record.time, true);
   const std::size_t of_time = taken.size();
-  for (const RecordSignal &signal : record_signals)
+  for (const HistoryColumn &signal : record_signals)
     reading.headers.push_back(find(signal.name, reading.record.*signal.values, !any_signal_named));
   if (taken.size() == of_time)
     csv_fault(reading.record.file, 0, {},
@@ -268,8 +267,8 @@ void take_times(Reading &reading, const RecordOptions &options) {
 }
 
 /// Refuses a column that differs from the derivative of another by a factor of 2 or more, or by its sign.
-void check_derivative(const Reading &reading, std::vector<double> Record::*of,
-                      std::vector<double> Record::*rate) {
+void check_derivative(const Reading &reading, std::vector<double> ChainHistory::*of,
+                      std::vector<double> ChainHistory::*rate) {
   const std::vector<double> &values = reading.record.*of;
   const std::vector<double> &rates = reading.record.*rate;
   if (values.empty() || rates.empty()) return;
@@ -349,7 +348,7 @@ void filter(Record &record, const RecordOptions &options) {
     throw std::runtime_error(
         refusal("the cut-off frequency", *options.low_pass,
                 fmt::format("numbers above 0 and below half the sampling rate, {:g} [Hz]", most)));
-  for (const RecordSignal &signal : record_signals)
+  for (const HistoryColumn &signal : record_signals)
     record.*signal.values = low_passed(record.*signal.values, record.interval, *options.low_pass);
 }
 

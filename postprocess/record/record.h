@@ -4,8 +4,8 @@
 // file, the line or column, the value and what is allowed.
 #pragma once
 
-#include <array>
-#include <cstddef>
+#include "runs/chain_files.h"
+
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -15,24 +15,15 @@
 
 namespace drumlin::post {
 
-/// A record. Signals that the file does not have are empty; all others have as many values as `time`.
-struct Record {
+/// A record. Signals that the file does not have are empty; F_bond is not read.
+struct Record : ChainHistory {
   std::filesystem::path file; ///< that was read
   /// The table of sums over every time step of each cycle; empty without one. See read_record().
   std::filesystem::path cycles_file;
   std::map<std::string, std::string>
       parameters; ///< parameters.csv of the run as it stands; empty without one
 
-  double interval = 0.0;         ///< between samples [s]
-  std::vector<double> time;      ///< [s]
-  std::vector<double> x_drum;    ///< up [m]; of a run, 0 where drum and soil just touch
-  std::vector<double> v_drum;    ///< up [m/s]
-  std::vector<double> a_drum;    ///< up [m/s2]
-  std::vector<double> x_frame;   ///< as of the drum; of a run, equal to x_drum where the bond is unstretched
-  std::vector<double> v_frame;   ///< [m/s]
-  std::vector<double> a_frame;   ///< [m/s2]
-  std::vector<double> F_contact; ///< of the soil on the drum, positive in compression [N]
-  std::vector<double> F_excitation; ///< F_e, positive where it pushes the drum down [N]
+  double interval = 0.0; ///< between samples [s]
 
   std::optional<double> omega; ///< angular frequency of the excitation [rad/s]
   /// F_e = Fw sin(omega time + phase) [rad]: 0 in a run; of a measured record only if it is given.
@@ -42,22 +33,11 @@ struct Record {
   std::optional<double> m3; ///< mass of the frame [kg]
   std::optional<double> g;  ///< gravity [m/s2]
 
-  std::size_t size() const { return time.size(); }
   /// Time of one cycle of the excitation [s]; std::runtime_error if `omega` is not known.
   double period() const;
   /// Number of cycles of the excitation in the samples (they last `size() - 1` intervals).
   double cycles() const;
 };
-
-/// A signal of a record by the name of its column.
-struct RecordSignal {
-  const char *name;
-  std::vector<double> Record::*values;
-  int derivative; ///< of the position: 0, 1, 2 in m, m/s, m/s2; force_signal in N
-};
-constexpr int force_signal = -1;
-/// x_drum, v_drum, a_drum, x_frame, v_frame, a_frame, F_contact, F_excitation.
-extern const std::array<RecordSignal, 8> record_signals;
 
 /// Where a signal stands in a measured file, and in which unit.
 struct ColumnSource {

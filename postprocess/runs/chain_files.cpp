@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -28,23 +27,6 @@ CsvColumn<Row> finite(const char *name, double Row::*value) {
   };
   return column;
 }
-
-/// One column of chain.csv. The columns of the frame are there all together or not at all.
-struct HistoryColumn {
-  const char *name;
-  std::vector<double> ChainHistory::*values;
-  bool frame = false;
-};
-constexpr std::array<HistoryColumn, 10> chain_columns = {{{"time", &ChainHistory::time},
-                                                          {"x_drum", &ChainHistory::x_drum},
-                                                          {"v_drum", &ChainHistory::v_drum},
-                                                          {"a_drum", &ChainHistory::a_drum},
-                                                          {"x_frame", &ChainHistory::x_frame, true},
-                                                          {"v_frame", &ChainHistory::v_frame, true},
-                                                          {"a_frame", &ChainHistory::a_frame, true},
-                                                          {"F_contact", &ChainHistory::F_contact},
-                                                          {"F_excitation", &ChainHistory::F_excitation},
-                                                          {"F_bond", &ChainHistory::F_bond, true}}};
 
 const CsvSchema<ContactEvent> &event_columns() {
   const CsvColumn<ContactEvent> kind = {
@@ -86,10 +68,10 @@ ChainHistory read_chain(const fs::path &file) {
   // A long record has millions of cells: they go straight into numbers, not through a Table of text.
   CsvRows rows(file);
   const bool any_of_frame =
-      std::any_of(chain_columns.begin(), chain_columns.end(),
+      std::any_of(history_columns.begin(), history_columns.end(),
                   [&](const HistoryColumn &column) { return column.frame && rows.find(column.name); });
   std::vector<std::pair<const HistoryColumn *, std::size_t>> found; // with the place in a row
-  for (const HistoryColumn &column : chain_columns) {
+  for (const HistoryColumn &column : history_columns) {
     const std::optional<std::size_t> place = rows.find(column.name);
     const bool optional = column.frame ? !any_of_frame : column.values == &ChainHistory::F_excitation;
     if (place)
@@ -126,7 +108,7 @@ CycleColumns read_cycle_columns(const fs::path &file) {
 std::string chain_text(const ChainHistory &history) {
   std::vector<std::string> names;
   std::vector<const std::vector<double> *> columns;
-  for (const HistoryColumn &column : chain_columns) {
+  for (const HistoryColumn &column : history_columns) {
     if (column.frame && !history.has_frame()) continue;
     names.emplace_back(column.name);
     columns.push_back(&(history.*column.values));

@@ -6,6 +6,7 @@
 #include "support/csv.h"
 #include "runs/parameter_file.h"
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <map>
@@ -14,24 +15,45 @@
 
 namespace drumlin::post {
 
-/// Time series of a chain, one vector per column of chain.csv, all of one length (the frame's may be empty).
+/// Time series of a roller, one vector for each column of chain.csv, all of one length; those that a file does not have are
+/// empty.
 struct ChainHistory {
   std::vector<double> time;         ///< from the start of the excitation [s]
-  std::vector<double> x_drum;       ///< 0 where drum and soil just touch, up positive [m]
+  std::vector<double> x_drum;       ///< up positive; of a run, 0 where drum and soil just touch [m]
   std::vector<double> v_drum;       ///< [m/s]
   std::vector<double> a_drum;       ///< [m/s2]
-  std::vector<double> x_frame;      ///< equals x_drum where the bond is unstretched [m]; empty if no frame
-  std::vector<double> v_frame;      ///< [m/s]; empty if no frame
-  std::vector<double> a_frame;      ///< [m/s2]; empty if no frame
-  std::vector<double> F_contact;    ///< positive in compression [N]
-  std::vector<double> F_excitation; ///< F_e, positive pushes the drum down [N]; zeros if the file has none
-  std::vector<double> F_bond; ///< c23 (v_frame - v_drum) + k23 (x_frame - x_drum) [N]; empty if no frame
+  std::vector<double> x_frame;      ///< of a run, equal to x_drum where the bond is unstretched [m]
+  std::vector<double> v_frame;      ///< [m/s]
+  std::vector<double> a_frame;      ///< [m/s2]
+  std::vector<double> F_contact;    ///< of the soil on the drum, positive in compression [N]
+  std::vector<double> F_excitation; ///< F_e, positive where it pushes the drum down [N]
+  std::vector<double> F_bond;       ///< c23 (v_frame - v_drum) + k23 (x_frame - x_drum) [N]
 
   /// Number of rows.
   std::size_t size() const { return time.size(); }
   /// Whether the frame's columns are there.
   bool has_frame() const { return !x_frame.empty(); }
 };
+
+/// A column of chain.csv.
+struct HistoryColumn {
+  const char *name;
+  std::vector<double> ChainHistory::*values;
+  int derivative;     ///< of the position: 0, 1, 2 in m, m/s, m/s2; or one of the two below
+  bool frame = false; ///< the columns of the frame are there all together or not at all
+};
+constexpr int force_column = -1, time_column = -2; ///< N, s
+constexpr std::array<HistoryColumn, 10> history_columns = {
+    {{"time", &ChainHistory::time, time_column},
+     {"x_drum", &ChainHistory::x_drum, 0},
+     {"v_drum", &ChainHistory::v_drum, 1},
+     {"a_drum", &ChainHistory::a_drum, 2},
+     {"x_frame", &ChainHistory::x_frame, 0, true},
+     {"v_frame", &ChainHistory::v_frame, 1, true},
+     {"a_frame", &ChainHistory::a_frame, 2, true},
+     {"F_contact", &ChainHistory::F_contact, force_column},
+     {"F_excitation", &ChainHistory::F_excitation, force_column},
+     {"F_bond", &ChainHistory::F_bond, force_column, true}}};
 
 /// A contact made or broken: one row of events.csv.
 struct ContactEvent {

@@ -10,25 +10,9 @@
 
 #include "chain/analysis.h"
 #include "report/run_folder.h"
+#include "runs/bed_files.h"
 
 namespace drumlin::post {
-
-/// The columns of bed.csv that a chain does not have: the state of the bed, one row per row of Run::history.
-struct BedHistory {
-  std::vector<double> coordination;    ///< -
-  std::vector<double> void_ratio;      ///< -
-  std::vector<double> kinetic;         ///< J
-  std::vector<double> potential;       ///< J
-  std::vector<double> elastic;         ///< J
-  std::vector<double> dissipated;      ///< J, since the start
-  std::vector<double> work_excitation; ///< J, since the start
-  std::vector<double> F_floor;         ///< N, upwards, on all balls
-  std::vector<double> F_sides;         ///< N, friction of the side walls, upwards
-  std::vector<double> F_thrust;        ///< N, sum of the normal forces of the side walls
-};
-
-/// Reads these columns of a bed.csv. Throws std::runtime_error with file, line and column.
-BedHistory read_bed_history(const std::filesystem::path &file);
 
 /// Energy error in each row (J): kinetic + potential + elastic + dissipated - work_excitation, less the same
 /// in the first row.

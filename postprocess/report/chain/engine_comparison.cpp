@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -72,19 +71,10 @@ std::vector<std::pair<std::size_t, std::size_t>> engine_pairs(const ReportResult
 }
 
 PageTable engine_table(const ReportResults &results) {
-  using Column = std::vector<double> ChainHistory::*;
-  struct Named {
-    const char *name;
-    Column column;
-  };
-  constexpr std::array<Named, 8> columns = {{{"x_drum", &ChainHistory::x_drum},
-                                             {"v_drum", &ChainHistory::v_drum},
-                                             {"a_drum", &ChainHistory::a_drum},
-                                             {"x_frame", &ChainHistory::x_frame},
-                                             {"v_frame", &ChainHistory::v_frame},
-                                             {"a_frame", &ChainHistory::a_frame},
-                                             {"F_contact", &ChainHistory::F_contact},
-                                             {"F_bond", &ChainHistory::F_bond}}};
+  std::vector<HistoryColumn> columns; // that the engines compute
+  for (const HistoryColumn &column : history_columns)
+    if (column.derivative != time_column && column.values != &ChainHistory::F_excitation)
+      columns.push_back(column);
   PageTable table;
   table.section = "engines";
   table.name = "engines";
@@ -92,7 +82,7 @@ PageTable engine_table(const ReportResults &results) {
   table.verdict = "agree";
   table.criterion = fmt::format("pairs of runs agree within {:g}", engines_agree_to);
   table.header = {"run", "against", "engines", "case", "transition", "stepping"};
-  for (const Named &column : columns)
+  for (const HistoryColumn &column : columns)
     table.header.push_back(std::string(column.name) + " (-)");
   table.header.insert(table.header.end(), {"events", "event times (s)", "agree"});
   table.text_columns = 6;
@@ -108,8 +98,8 @@ PageTable engine_table(const ReportResults &results) {
                                     one.text("stepping")};
     const double events = event_distance(one, other);
     double worst = events / one.history.time.back();
-    for (const Named &column : columns) {
-      const double apart = difference(one.history.*column.column, other.history.*column.column);
+    for (const HistoryColumn &column : columns) {
+      const double apart = difference(one.history.*column.values, other.history.*column.values);
       worst = std::max(worst, apart);
       row.push_back(std::isfinite(apart) ? fmt::format("{:.1e}", apart) : "–");
     }

@@ -7,6 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -27,7 +31,8 @@ std::string measured_words(const ReportResults &results) {
 }
 
 /// A ratio as text; a dash where it is not finite, since its denominator is zero.
-std::string finite(const char *format, double value) {
+template <class Number>
+std::string finite(const char *format, Number value) {
   return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : dash;
 }
 
@@ -98,67 +103,144 @@ int decimals_of(const std::string &text) {
   return point == std::string::npos ? 0 : static_cast<int>(text.size() - point - 1);
 }
 
-void add_check(PageTable &table, const ReportResults &results, const Check &check) {
-  const Run &run = results.runs[check.run].run;
-  const bool valued = check.agreement != Agreement::not_measured;
-  const bool number = valued && std::isfinite(check.difference) && check.measured != "no rebound";
-  std::string direct = dash;
-  std::string from_direct = dash;
-  if (check.direct && number) {
-    direct = check.measured == "none" && *check.direct == 0.0
-                 ? "none"
-                 : fmt::format("{:.{}f}", *check.direct, decimals_of(check.measured));
-    from_direct = fmt::format("{:.1e}", check.value - *check.direct);
-  }
-  table.add({run.name, case_text(run), transition_text(run), check.quantity, check.unit, check.reference,
-             valued ? check.measured : dash, number ? fmt::format("{:.2g}", check.difference) : dash,
-             number && std::isfinite(check.relative_difference)
-                 ? fmt::format("{:.1e}", check.relative_difference)
-                 : dash,
-             check.tolerance, agreement_text(check, run), direct, from_direct, check.note, check.source},
-            check.agrees()                             ? RowState::agrees
-            : check.agreement == Agreement::not_judged ? RowState::plain
-                                                       : RowState::differs);
+using RunColumns = TableColumns<RunResult>;
+
+/// Columns that name a run, and further ones.
+RunColumns naming(RunColumns further) {
+  RunColumns columns = {{"run", [](const RunResult &r) { return r.run.name; }},
+                        {"case", [](const RunResult &r) { return case_text(r.run); }},
+                        {"transition", [](const RunResult &r) { return transition_text(r.run); }}};
+  std::move(further.begin(), further.end(), std::back_inserter(columns));
+  return columns;
 }
 
-PageTable check_table(const std::string &section, const std::string &name, const std::string &title) {
+std::string stepping_text(const RunResult &r) {
+  return r.run.direct ? "exact" : r.run.text("stepping", dash);
+}
+
+/// The text of a parameter that the direct solver has none of.
+std::function<std::string(const RunResult &)> text_of(const char *name) {
+  return [name](const RunResult &r) { return r.run.direct ? dash : r.run.text(name, dash); };
+}
+
+/// What a path of members leads to; those that may be missing are there.
+template <class Value>
+const Value &held(const Value &value) {
+  return value;
+}
+template <class Value>
+const Value &held(const std::optional<Value> &value) {
+  return *value;
+}
+template <class From, class Member>
+auto follow(const From &from, Member member) {
+  return std::invoke(member, held(from));
+}
+template <class From, class Member, class... Members>
+auto follow(const From &from, Member member, Members... members) {
+  return follow(std::invoke(member, held(from)), members...);
+}
+
+/// A number of a chain's measures, found by a path of members, as text.
+template <class... Members>
+std::function<std::string(const RunResult &)> number(const char *format, Members... members) {
+  return [=](const RunResult &r) { return finite(format, follow(*r.chain, members...)); };
+}
+
+PageTable empty_table(const char *section, const char *name, const char *title, std::size_t text_columns) {
   PageTable table;
   table.section = section;
   table.name = name;
   table.title = title;
-  table.header = {"run",
-                  "case",
-                  "transition",
-                  "quantity",
-                  "unit",
-                  "reference",
-                  "measured",
-                  "difference",
-                  "relative (-)",
-                  "tolerance",
-                  "agrees",
-                  "direct solution",
-                  "run minus direct",
-                  "remark",
-                  "reference from"};
-  table.shown_columns = 14;
-  table.text_columns = 5;
-  table.verdict = "agrees";
-  table.criterion = "values agree with the reference within the tolerance";
+  table.text_columns = text_columns;
   return table;
 }
 
+/// A check with what its row needs.
+struct CheckRow {
+  const Check &check;
+  const Run &run;
+  bool valued() const { return check.agreement != Agreement::not_measured; }
+  bool number() const {
+    return valued() && std::isfinite(check.difference) && check.measured != "no rebound";
+  }
+  bool compared() const { return check.direct && number(); }
+};
+
+std::string direct_text(const CheckRow &row) {
+  if (!row.compared()) return dash;
+  return row.check.measured == "none" && *row.check.direct == 0.0
+             ? "none"
+             : fmt::format("{:.{}f}", *row.check.direct, decimals_of(row.check.measured));
+}
+
+const TableColumns<CheckRow> check_columns = {
+    {"run", [](const CheckRow &r) { return r.run.name; }},
+    {"case", [](const CheckRow &r) { return case_text(r.run); }},
+    {"transition", [](const CheckRow &r) { return transition_text(r.run); }},
+    {"quantity", [](const CheckRow &r) { return r.check.quantity; }},
+    {"unit", [](const CheckRow &r) { return r.check.unit; }},
+    {"reference", [](const CheckRow &r) { return r.check.reference; }},
+    {"measured", [](const CheckRow &r) { return r.valued() ? r.check.measured : dash; }},
+    {"difference",
+     [](const CheckRow &r) { return r.number() ? fmt::format("{:.2g}", r.check.difference) : dash; }},
+    {"relative (-)",
+     [](const CheckRow &r) { return r.number() ? finite("{:.1e}", r.check.relative_difference) : dash; }},
+    {"tolerance", [](const CheckRow &r) { return r.check.tolerance; }},
+    {"agrees", [](const CheckRow &r) { return agreement_text(r.check, r.run); }},
+    {"direct solution", direct_text},
+    {"run minus direct",
+     [](const CheckRow &r) {
+       return r.compared() ? fmt::format("{:.1e}", r.check.value - *r.check.direct) : dash;
+     }},
+    {"remark", [](const CheckRow &r) { return r.check.note; }},
+    {"reference from", [](const CheckRow &r) { return r.check.source; }}};
+
+PageTable check_table(const char *section, const char *name, const char *title, const ReportResults &results,
+                      const std::vector<Check> &checks) {
+  PageTable table = empty_table(section, name, title, 5);
+  set_header(table, check_columns);
+  table.shown_columns = 14;
+  table.verdict = "agrees";
+  table.criterion = "values agree with the reference within the tolerance";
+  for (const Check &check : checks)
+    add_row(table, check_columns, {check, results.runs[check.run].run},
+            check.agrees()                             ? RowState::agrees
+            : check.agreement == Agreement::not_judged ? RowState::plain
+                                                       : RowState::differs);
+  return table;
+}
+
+/// "17", "17 (cut)" or "17 (short run)"; a dash for what is no chain.
+std::string cycles_text(const RunResult &r) {
+  if (r.run.kind != RunKind::chain) return dash;
+  return fmt::format("{}{}", r.run.complete,
+                     !r.run.cut.empty()                 ? " (cut)"
+                     : r.run.complete < long_run_cycles ? " (short run)"
+                                                        : "");
+}
+
 PageTable runs_table(const ReportResults &results) {
-  PageTable table;
-  table.section = "runs";
-  table.name = "runs";
+  PageTable table = empty_table("runs", "runs", "Runs", 4);
   table.verdict = "checks that agree";
   table.criterion = "judged runs agree with all their reference values";
-  table.title = "Runs";
-  table.header = {"run",    "case",  "transition", "stepping",          "steps per cycle", "cycles (-)",
-                  "engine", "ranks", "plugin",     "checks that agree", "command"};
+  CheckCount count; // of the run whose row is added
+  const RunColumns columns =
+      naming({{"stepping", stepping_text},
+              {"steps per cycle", [](const RunResult &r) { return steps_text(r.run); }},
+              {"cycles (-)", cycles_text},
+              {"engine", [](const RunResult &r) { return engine_text(r.run); }},
+              {"ranks", text_of("ranks")},
+              {"plugin", text_of("plugin")},
+              {"checks that agree",
+               [&count](const RunResult &) {
+                 return count.all > 0          ? fmt::format("{} of {}", count.agree, count.all)
+                        : count.not_judged > 0 ? "not judged"
+                                               : dash;
+               }},
+              {"command", [](const RunResult &r) { return r.run.text("command", dash); }}});
+  set_header(table, columns);
   table.shown_columns = 10;
-  table.text_columns = 4;
   table.notes.emplace_back(
       "stepping is the scheme by which the engine integrates a time step: second is the second-order scheme, "
       "which knows the part of a step during which balls are in contact; stock is the engine's velocity "
@@ -166,23 +248,11 @@ PageTable runs_table(const ReportResults &results) {
       "scheme; exact is the direct solver.");
   for (std::size_t i = 0; i < results.runs.size(); ++i) {
     const Run &run = results.runs[i].run;
-    const CheckCount count = count_checks(results, i);
-    const std::string cycles = run.kind == RunKind::chain
-                                   ? fmt::format("{}{}", run.complete,
-                                                 !run.cut.empty()                 ? " (cut)"
-                                                 : run.complete < long_run_cycles ? " (short run)"
-                                                                                  : "")
-                                   : dash;
-    table.add({run.name, case_text(run), transition_text(run),
-               run.direct ? "exact" : run.text("stepping", dash), steps_text(run), cycles, engine_text(run),
-               run.direct ? dash : run.text("ranks", dash), run.direct ? dash : run.text("plugin", dash),
-               count.all > 0          ? fmt::format("{} of {}", count.agree, count.all)
-               : count.not_judged > 0 ? "not judged"
-                                      : dash,
-               run.text("command", dash)},
-              count.all == 0             ? RowState::plain
-              : count.agree == count.all ? RowState::agrees
-                                         : RowState::differs);
+    count = count_checks(results, i);
+    add_row(table, columns, results.runs[i],
+            count.all == 0             ? RowState::plain
+            : count.agree == count.all ? RowState::agrees
+                                       : RowState::differs);
     if (run.kind == RunKind::chain && !run.at_case)
       table.notes.push_back(fmt::format("{} has no reference values: {}.", run.name, run.not_at_case));
     if (count.not_judged > 0 && run.kind == RunKind::chain)
@@ -197,81 +267,83 @@ PageTable runs_table(const ReportResults &results) {
   return table;
 }
 
+/// The text of a number of the paired events; a dash if there are none.
+std::string paired(const RunResult &r, const char *format, double value) {
+  return r.chain->match.matched > 0 ? fmt::format(fmt::runtime(format), value) : dash;
+}
+
+/// The range of an event's force or overlap.
+std::function<std::string(const RunResult &)> range(std::optional<Extremes> ChainMeasures::*of, double scale,
+                                                    int decimals) {
+  return [=](const RunResult &r) { return range_text(follow(*r.chain, of), scale, decimals); };
+}
+
+std::string steps_apart(const RunResult &r) {
+  const EventMatch &match = r.chain->match;
+  return match.matched > 0 && r.run.timestep > 0.0 && !r.run.direct
+             ? fmt::format("{:.3g}", match.largest_difference / r.run.timestep)
+             : dash;
+}
+
+using Measures = ChainMeasures;
+const RunColumns event_columns =
+    naming({{"makes", number("{}", &Measures::makes)},
+            {"breaks", number("{}", &Measures::breaks)},
+            {"makes per cycle (-)", number("{:g}", &Measures::makes_per_cycle)},
+            {"breaks per cycle (-)", number("{:g}", &Measures::breaks_per_cycle)},
+            {"force at make (kN)", range(&Measures::force_at_make, 1e-3, 3)},
+            {"force at break (kN)", range(&Measures::force_at_break, 1e-3, 3)},
+            {"overlap at break (mm)", range(&Measures::overlap_at_break, 1e3, 4)},
+            {"events of direct solution", number("{}", &Measures::match, &EventMatch::reference_count)},
+            {"paired", number("{}", &Measures::match, &EventMatch::matched)},
+            {"largest time difference (µs)",
+             [](const RunResult &r) { return paired(r, "{:.3g}", r.chain->match.largest_difference * 1e6); }},
+            {"the same (steps)", steps_apart},
+            {"at time (s)", [](const RunResult &r) { return paired(r, "{:.4f}", r.chain->match.at_time); }}});
+
 PageTable events_table(const ReportResults &results) {
-  PageTable table;
-  table.section = "events";
-  table.name = "event_table";
-  table.title = "Makes and breaks of contact";
+  PageTable table = empty_table("events", "event_table", "Makes and breaks of contact", 3);
   table.criterion = "runs have the same events as the reference solution, one by one";
-  table.header = {"run",
-                  "case",
-                  "transition",
-                  "makes",
-                  "breaks",
-                  "makes per cycle (-)",
-                  "breaks per cycle (-)",
-                  "force at make (kN)",
-                  "force at break (kN)",
-                  "overlap at break (mm)",
-                  "events of direct solution",
-                  "paired",
-                  "largest time difference (µs)",
-                  "the same (steps)",
-                  "at time (s)"};
-  table.shown_columns = table.header.size();
-  table.text_columns = 3;
+  set_header(table, event_columns);
   for (const RunResult &result : results.runs) {
     if (!result.chain || !result.run.has_events) continue;
-    const Run &run = result.run;
-    const ChainMeasures &m = *result.chain;
-    const EventMatch &match = m.match;
-    const bool paired = match.matched > 0;
-    table.add({run.name, case_text(run), transition_text(run), fmt::format("{}", m.makes),
-               fmt::format("{}", m.breaks), fmt::format("{:g}", m.makes_per_cycle),
-               fmt::format("{:g}", m.breaks_per_cycle), range_text(m.force_at_make, 1e-3, 3),
-               range_text(m.force_at_break, 1e-3, 3), range_text(m.overlap_at_break, 1e3, 4),
-               fmt::format("{}", match.reference_count), fmt::format("{}", match.matched),
-               paired ? fmt::format("{:.3g}", match.largest_difference * 1e6) : dash,
-               paired && run.timestep > 0.0 && !run.direct
-                   ? fmt::format("{:.3g}", match.largest_difference / run.timestep)
-                   : dash,
-               paired ? fmt::format("{:.4f}", match.at_time) : dash},
-              !result.reference || !run.cut.empty() ? RowState::plain
-              : match.run_count == match.reference_count && match.matched == match.run_count
-                  ? RowState::agrees
-                  : RowState::differs);
-    if (match.run_count != match.reference_count || match.matched != match.run_count)
+    const EventMatch &match = result.chain->match;
+    const bool all = match.run_count == match.reference_count && match.matched == match.run_count;
+    add_row(table, event_columns, result,
+            !result.reference || !result.run.cut.empty() ? RowState::plain
+            : all                                        ? RowState::agrees
+                                                         : RowState::differs);
+    if (!all)
       table.notes.push_back(
-          fmt::format("{}: {} events, {} in the reference solution; the first {} were paired.", run.name,
-                      match.run_count, match.reference_count, match.matched));
+          fmt::format("{}: {} events, {} in the reference solution; the first {} were paired.",
+                      result.run.name, match.run_count, match.reference_count, match.matched));
   }
-  table.notes.insert(table.notes.begin(), fmt::format("Forces, overlap and counts per cycle: over {} of each "
-                                                      "run. Time differences: of all "
-                                                      "events of the run to those of the reference solution "
-                                                      "(direct solution), paired in their order; also "
-                                                      "in time steps of the run.",
-                                                      measured_words(results)));
+  table.notes.insert(
+      table.notes.begin(),
+      fmt::format("Forces, overlap and counts per cycle: over {} of each run. Time differences: of "
+                  "all events of the run to those of the reference solution (direct solution), paired "
+                  "in their order; also in time steps of the run.",
+                  measured_words(results)));
   return table;
 }
 
+double rmv(const HarmonicAmplitudes &amplitudes) { return resonance_meter_value(amplitudes); }
+
+const RunColumns meter_columns =
+    naming({{"A1 (m/s²)", number("{:.4f}", &Measures::amplitudes, &HarmonicAmplitudes::fundamental)},
+            {"A2 (m/s²)", number("{:.4f}", &Measures::amplitudes, &HarmonicAmplitudes::second)},
+            {"A0.5 (m/s²)", number("{:.2e}", &Measures::amplitudes, &HarmonicAmplitudes::half)},
+            {"CMV (-)", number("{:.2f}", &Measures::amplitudes, &compaction_meter_value)},
+            {"RMV (-)", number("{:.2g}", &Measures::amplitudes, rmv)},
+            {"integrated over", [](const RunResult &r) {
+               return r.chain->amplitudes_every_step ? "every step" : "samples and events";
+             }}});
+
 PageTable meters_table(const ReportResults &results) {
-  PageTable table;
-  table.section = "reference";
-  table.name = "meter_values";
-  table.title = "Compaction meter values";
-  table.header = {"run",         "case",    "transition", "A1 (m/s²)",      "A2 (m/s²)",
-                  "A0.5 (m/s²)", "CMV (-)", "RMV (-)",    "integrated over"};
-  table.shown_columns = table.header.size();
-  table.text_columns = 3;
-  for (const RunResult &result : results.runs) {
-    if (!result.chain) continue;
-    const HarmonicAmplitudes &a = result.chain->amplitudes;
-    table.add({result.run.name, case_text(result.run), transition_text(result.run),
-               fmt::format("{:.4f}", a.fundamental), fmt::format("{:.4f}", a.second),
-               fmt::format("{:.2e}", a.half), finite("{:.2f}", compaction_meter_value(a)),
-               finite("{:.2g}", resonance_meter_value(a)),
-               result.chain->amplitudes_every_step ? "every step" : "samples and events"});
-  }
+  PageTable table = empty_table("reference", "meter_values", "Compaction meter values", 3);
+  set_header(table, meter_columns);
+  for (const RunResult &result : results.runs)
+    if (result.chain) add_row(table, meter_columns, result);
   table.notes.push_back(fmt::format("Compaction meter value CMV = 300 A2 / A1 and resonance meter value RMV "
                                     "= 100 A0.5 / A1. A1, A2 and A0.5 "
                                     "are the amplitudes of drum acceleration at 1, 2 and 1/2 times the "
@@ -280,42 +352,39 @@ PageTable meters_table(const ReportResults &results) {
   return table;
 }
 
+/// Known errors of a case at so many steps per cycle, with either scheme.
+std::string known_error(const RunResult &r, bool second) {
+  const Run &run = r.run;
+  const bool comparable = run.at_case && run.chain.transition == Transition::B;
+  if (!comparable && !(second && run.case_name == "I")) return dash;
+  const std::optional<double> known =
+      second ? reference_velocity_error(run.case_name, run.steps_per_cycle)
+             : reference_stock_velocity_error(run.case_name, run.steps_per_cycle);
+  return known ? scientific(*known) : dash;
+}
+
+const RunColumns error_columns = naming(
+    {{"stepping", stepping_text},
+     {"steps per cycle", [](const RunResult &r) { return steps_text(r.run); }},
+     {"cycles (-)", [](const RunResult &r) { return fmt::format("{}", r.run.complete); }},
+     {"last 5 cycles (-)", [](const RunResult &r) { return scientific(r.chain->velocity_error_last); }},
+     {"cycles 25 to 30 (-)",
+      [](const RunResult &r) {
+        return r.chain->velocity_error_25_to_30 ? scientific(*r.chain->velocity_error_25_to_30) : dash;
+      }},
+     {"known: second-order stepping (-)", [](const RunResult &r) { return known_error(r, true); }},
+     {"known: stock stepping (-)", [](const RunResult &r) { return known_error(r, false); }}});
+
 PageTable errors_table(const ReportResults &results) {
-  PageTable table;
-  table.section = "direct";
-  table.name = "error_table";
-  table.title = "Relative RMS error of drum velocity against the reference solution";
+  PageTable table = empty_table("direct", "error_table",
+                                "Relative RMS error of drum velocity against the reference solution", 4);
   table.criterion = "runs have an error of at most 1 % over their last five cycles, or all of a shorter run";
-  table.header = {"run",
-                  "case",
-                  "transition",
-                  "stepping",
-                  "steps per cycle",
-                  "cycles (-)",
-                  "last 5 cycles (-)",
-                  "cycles 25 to 30 (-)",
-                  "known: second-order stepping (-)",
-                  "known: stock stepping (-)"};
-  table.shown_columns = table.header.size();
-  table.text_columns = 4;
+  set_header(table, error_columns);
   bool interpolated = false;
   for (const RunResult &result : results.runs) {
     if (!result.chain) continue;
-    const Run &run = result.run;
-    const ChainMeasures &m = *result.chain;
-    const bool comparable = run.at_case && run.chain.transition == Transition::B;
-    const std::optional<double> known = comparable || run.case_name == "I"
-                                            ? reference_velocity_error(run.case_name, run.steps_per_cycle)
-                                            : std::nullopt;
-    const std::optional<double> stock =
-        comparable ? reference_stock_velocity_error(run.case_name, run.steps_per_cycle) : std::nullopt;
-    table.add({run.name, case_text(run), transition_text(run),
-               run.direct ? "exact" : run.text("stepping", dash), steps_text(run),
-               fmt::format("{}", run.complete), scientific(m.velocity_error_last),
-               m.velocity_error_25_to_30 ? scientific(*m.velocity_error_25_to_30) : dash,
-               known ? scientific(*known) : dash, stock ? scientific(*stock) : dash},
-              state_of_error(run, m.velocity_error_last));
-    interpolated = interpolated || m.reference_interpolated;
+    add_row(table, error_columns, result, state_of_error(result.run, result.chain->velocity_error_last));
+    interpolated = interpolated || result.chain->reference_interpolated;
   }
   table.notes.emplace_back(
       "Known: errors that the reference values give for cycles 25 to 30 under condition B, at 200, 400, 800, "
@@ -326,40 +395,36 @@ PageTable errors_table(const ReportResults &results) {
   return table;
 }
 
+using Energy = EnergyBalance;
+constexpr const char *joule = "{:.4f}", *small = "{:.2e}";
+const RunColumns energy_columns = {
+    {"run", [](const RunResult &r) { return r.run.name; }},
+    {"cycles",
+     [](const RunResult &r) {
+       return fmt::format("{:g} to {:g}", r.chain->energy->first_cycle, r.chain->energy->last_cycle);
+     }},
+    {"work of the exciter (J)", number(joule, &Measures::energy, &Energy::work_excitation)},
+    {"dissipated by contact (J)", number(joule, &Measures::energy, &Energy::dissipated_contact)},
+    {"dissipated by bond (J)", number(joule, &Measures::energy, &Energy::dissipated_bond)},
+    {"change of kinetic (J)", number(joule, &Measures::energy, &Energy::change_kinetic)},
+    {"of potential (J)", number(joule, &Measures::energy, &Energy::change_potential)},
+    {"of stored in contact (J)", number(joule, &Measures::energy, &Energy::change_stored_contact)},
+    {"of stored in bond (J)", number(joule, &Measures::energy, &Energy::change_stored_bond)},
+    {"energy error (J)", number(small, &Measures::energy, &Energy::energy_error)},
+    {"energy error (% of work)", number(small, &Measures::energy, &Energy::energy_error_percent)}};
+
 PageTable energy_table(const ReportResults &results) {
-  PageTable table;
-  table.section = "energy";
-  table.name = "energy_table";
-  table.title = "Energy balance (J)";
+  PageTable table = empty_table("energy", "energy_table", "Energy balance (J)", 2);
   table.criterion = "runs close their energy balance within 1 % of the exciter's work";
-  table.header = {"run",
-                  "cycles",
-                  "work of the exciter (J)",
-                  "dissipated by contact (J)",
-                  "dissipated by bond (J)",
-                  "change of kinetic (J)",
-                  "of potential (J)",
-                  "of stored in contact (J)",
-                  "of stored in bond (J)",
-                  "energy error (J)",
-                  "energy error (% of work)"};
-  table.shown_columns = table.header.size();
-  table.text_columns = 2;
+  set_header(table, energy_columns);
   for (const RunResult &result : results.runs) {
     if (!result.chain) continue;
-    if (!result.chain->energy) {
+    if (result.chain->energy)
+      add_row(table, energy_columns, result,
+              state_of_error(result.run, 0.01 * result.chain->energy->energy_error_percent()));
+    else
       table.notes.push_back(fmt::format("{}: no energy balance, since the run lacks {}.", result.run.name,
                                         result.chain->energy_missing));
-      continue;
-    }
-    const EnergyBalance &e = *result.chain->energy;
-    const auto joule = [](double value) { return fmt::format("{:.4f}", value); };
-    table.add({result.run.name, fmt::format("{:g} to {:g}", e.first_cycle, e.last_cycle),
-               joule(e.work_excitation), joule(e.dissipated_contact), joule(e.dissipated_bond),
-               joule(e.change_kinetic), joule(e.change_potential), joule(e.change_stored_contact),
-               joule(e.change_stored_bond), scientific(e.energy_error()),
-               scientific(e.energy_error_percent())},
-              state_of_error(result.run, 0.01 * e.energy_error_percent()));
   }
   if (!table.rows.empty())
     table.notes.insert(
@@ -370,37 +435,32 @@ PageTable energy_table(const ReportResults &results) {
   return table;
 }
 
+double relative_difference(const RollerForce &force) {
+  return force.largest_difference / force.largest_force;
+}
+
+const RunColumns roller_columns =
+    naming({{"largest difference (N)", number("{:.3g}", &Measures::roller, &RollerForce::largest_difference)},
+            {"largest contact force (N)", number("{:.6g}", &Measures::roller, &RollerForce::largest_force)},
+            {"difference over force (-)", number("{:.2e}", &Measures::roller, relative_difference)},
+            {"at time (s)", number("{:.5f}", &Measures::roller, &RollerForce::at_time)},
+            {"rows compared", number("{}", &Measures::roller, &RollerForce::rows)}});
+
 PageTable roller_table(const ReportResults &results) {
-  PageTable table;
-  table.section = "roller";
-  table.name = "roller_table";
-  table.title = "Contact force from measured motion against that of the law";
+  PageTable table =
+      empty_table("roller", "roller_table", "Contact force from measured motion against that of the law", 3);
   table.criterion = "runs have a largest difference of at most 1 % of the largest force";
-  table.header = {"run",
-                  "case",
-                  "transition",
-                  "largest difference (N)",
-                  "largest contact force (N)",
-                  "difference over force (-)",
-                  "at time (s)",
-                  "rows compared"};
-  table.shown_columns = table.header.size();
-  table.text_columns = 3;
+  set_header(table, roller_columns);
   for (const RunResult &result : results.runs) {
     if (!result.chain) continue;
-    if (!result.chain->roller) {
+    if (result.chain->roller)
+      add_row(table, roller_columns, result,
+              state_of_error(result.run, relative_difference(*result.chain->roller)));
+    else
       table.notes.push_back(
           fmt::format("{}: nothing to compare, since chain.csv has no frame, or its rows are "
                       "not equally spaced in time.",
                       result.run.name));
-      continue;
-    }
-    const RollerForce &force = *result.chain->roller;
-    table.add({result.run.name, case_text(result.run), transition_text(result.run),
-               fmt::format("{:.3g}", force.largest_difference), fmt::format("{:.6g}", force.largest_force),
-               scientific(force.largest_difference / force.largest_force),
-               fmt::format("{:.5f}", force.at_time), fmt::format("{}", force.rows)},
-              state_of_error(result.run, force.largest_difference / force.largest_force));
   }
   if (!table.rows.empty())
     table.notes.insert(
@@ -466,15 +526,11 @@ std::vector<PageTable> make_tables(const ReportResults &results) {
   std::vector<PageTable> tables;
   tables.push_back(runs_table(results));
 
-  PageTable restitution = check_table("impact", "restitution", "Restitution of single impacts");
-  for (const Check &check : results.restitution)
-    add_check(restitution, results, check);
-  tables.push_back(std::move(restitution));
+  tables.push_back(
+      check_table("impact", "restitution", "Restitution of single impacts", results, results.restitution));
 
-  PageTable steady =
-      check_table("reference", "checks", "Steady states and meter values against the reference");
-  for (const Check &check : results.checks)
-    add_check(steady, results, check);
+  PageTable steady = check_table(
+      "reference", "checks", "Steady states and meter values against the reference", results, results.checks);
   steady.notes.push_back(fmt::format(
       "Measured over {}. Forces and accelerations at a make of contact are those of "
       "the located events; the share of time in contact follows from the times of the events. To all "
@@ -490,10 +546,8 @@ std::vector<PageTable> make_tables(const ReportResults &results) {
                     long_run_cycles));
   tables.push_back(std::move(steady));
 
-  PageTable words = check_table("reference", "paper_words", "What the paper says in words");
-  for (const Check &check : results.words)
-    add_check(words, results, check);
-  tables.push_back(std::move(words));
+  tables.push_back(
+      check_table("reference", "paper_words", "What the paper says in words", results, results.words));
 
   tables.push_back(engine_table(results));
   tables.push_back(meters_table(results));

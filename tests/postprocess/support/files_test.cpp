@@ -111,7 +111,7 @@ TEST_F(OutputFiles, FoldersOfResultsAreChecked) {
     SCOPED_TRACE(name);
     for (std::vector<std::string> words : {std::vector<std::string>{"exact", "--cycles", "1"},
                                            {"vtk", "run"},
-                                           {"study", "speed", "--quick"}}) {
+                                           {"study", "meter", "--quick"}}) {
       const std::string command = words.front();
       words.insert(words.end(), {"--out", name});
       const Outcome outcome = run(words);

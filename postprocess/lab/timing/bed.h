@@ -1,4 +1,4 @@
-// The settled beds that the studies of cost and speed run on, and the laws that they compare there:
+// The settled beds that the study of time runs on, and the laws that it compares there:
 // inputs/study/in.cost_bed.
 #pragma once
 
@@ -10,7 +10,7 @@
 namespace drumlin::post {
 
 /// A bed on a lattice, settled; or copies of it, side by side.
-struct CostBed {
+struct TimedBed {
   int columns, layers, rows; ///< one layer: a bed in the plane
   int settling;              ///< steps that settle it
   int copies_x = 1;
@@ -22,7 +22,7 @@ struct CostBed {
 };
 
 /// The bed's data file in a folder; it is made if no earlier call has finished it.
-std::filesystem::path settled(const CostBed &bed, const std::filesystem::path &folder);
+std::filesystem::path settled(const TimedBed &bed, const std::filesystem::path &folder);
 
 /// Words of the pair style: of the engine's own law, and of the plugin's with the same dashpot coefficient
 /// for every pair of balls.

@@ -1,4 +1,4 @@
-#include "lab/settled_bed.h"
+#include "lab/timing/bed.h"
 
 #include "engine/deck_run.h"
 #include "support/files.h"
@@ -11,11 +11,11 @@ namespace drumlin::post {
 
 namespace fs = std::filesystem;
 
-std::string CostBed::name() const { return fmt::format("bed {}", balls()); }
+std::string TimedBed::name() const { return fmt::format("bed {}", balls()); }
 
-Variables CostBed::sides() const { return {{"sides", layers > 1 ? "p" : "f"}}; }
+Variables TimedBed::sides() const { return {{"sides", layers > 1 ? "p" : "f"}}; }
 
-fs::path settled(const CostBed &bed, const fs::path &folder) {
+fs::path settled(const TimedBed &bed, const fs::path &folder) {
   const std::string made_of = fmt::format("{} {} {} {} {} {}", bed.columns, bed.layers, bed.rows,
                                           bed.settling, bed.copies_x, bed.copies_y);
   fs::path file = folder / fmt::format("bed_{}_{}.data", bed.balls(), fingerprint(made_of));
@@ -25,7 +25,7 @@ fs::path settled(const CostBed &bed, const fs::path &folder) {
   Variables variables = bed.sides();
   variables.emplace_back("data", unfinished.string());
   if (bed.copies_x * bed.copies_y > 1) {
-    CostBed cell = bed;
+    TimedBed cell = bed;
     cell.copies_x = cell.copies_y = 1;
     variables.insert(variables.end(), {{"from", "copies"},
                                        {"cell", fs::absolute(settled(cell, folder)).string()},
