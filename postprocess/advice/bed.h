@@ -15,7 +15,8 @@ struct BedQuestion {
   std::string name;     ///< as the option --question gives it
   std::string quantity; ///< of the plan
   double within = 0.1;  ///< error that is allowed, > 0
-  /// Whether errors are given in the unit of the quantity. Otherwise they are relative to the mean of the complete scene.
+  /// Whether errors are given in the unit of the quantity. Otherwise they are relative to the mean of the
+  /// complete scene.
   bool absolute = false;
 };
 
@@ -31,31 +32,34 @@ struct BedAdvice {
   double least_error = 0.0;
   /// Standard deviation of the result from one bed of the complete scene to another.
   double scatter = 0.0;
-  /// How many beds of the complete scene must be averaged so that the 95 % confidence interval of their mean has a
-  /// half width of at most BedQuestion::within.
+  /// How many beds of the complete scene must be averaged so that the 95 % confidence interval of their mean
+  /// has a half width of at most BedQuestion::within.
   int beds = 0;
   double cpu_s = 0.0; ///< processor time of the scene's excitation, median over the seeds [s]
 };
 
-/// An experiment on beds: its plan, whose first scene is the complete one, at the size at which it was run, and its results.
+/// An experiment on beds: its plan, whose first scene is the complete one, at the size at which it was run,
+/// and its results.
 struct BedExperiment {
   Plan plan;
   Results results;
 };
-/// From the files `plan` and runs.csv of a folder. Throws UsageError for the option --from if it has none, or without beds.
+/// From the files `plan` and runs.csv of a folder. Throws UsageError for the option --from if it has none, or
+/// without beds.
 BedExperiment read_bed_experiment(const std::filesystem::path &folder);
 
-/// A scene keeps to the request if the whole 95 % confidence interval of its change does; two seeds or more. One that takes more than
-/// 0.9 times the processor time of the complete scene does not count as cheaper, since measured times depend on what else the machine
-/// does. The complete scene is the advice if no cheaper one is within. Throws std::runtime_error if there is no scene to compare and, for a
-/// relative error, if the mean of the complete beds does not differ from zero.
+/// A scene keeps to the request if the whole 95 % confidence interval of its change does; two seeds or more.
+/// One that takes more than 0.9 times the processor time of the complete scene does not count as cheaper,
+/// since measured times depend on what else the machine does. The complete scene is the advice if no cheaper
+/// one is within. Throws std::runtime_error if there is no scene to compare and, for a relative error, if the
+/// mean of the complete beds does not differ from zero.
 BedAdvice advise_bed(const BedExperiment &experiment, const BedQuestion &question);
 
 /// The scene in words: dimensions, number and size of balls, box, drum.
 std::string scene_words(const Scene &scene);
 
-/// The words after the front script with which the scene is made and run, a line for each command: bit for bit the run of the
-/// experiment's seed 1.
+/// The words after the front script with which the scene is made and run, a line for each command: bit for
+/// bit the run of the experiment's seed 1.
 std::vector<std::string> scene_commands(const Scene &scene);
 
 } // namespace drumlin::post

@@ -1,6 +1,6 @@
-// The errors of runs of the chain over their time steps: the rows of chain.csv and scaling.csv of the study of accuracy, on
-// which `drumlin advise` stands. Errors are relative, without unit. A number that was not measured is an empty
-// cell, NaN here.
+// The errors of runs of the chain over their time steps: the rows of chain.csv and scaling.csv of the study
+// of accuracy, on which `drumlin advise` stands. Errors are relative, without unit. A number that was not
+// measured is an empty cell, NaN here.
 #pragma once
 
 #include "chain/direct_solver.h"

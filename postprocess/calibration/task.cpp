@@ -111,39 +111,6 @@ CalibrationTarget target_from_text(const std::string &text) {
   return target;
 }
 
-CalibrationTarget measured_target_from_text(const std::string &text) {
-  const auto tolerance = parts(text, ':');
-  CalibrationTarget target{tolerance ? tolerance->first : text, 0.0, default_tolerance};
-  if (find_named(soil_quantities, target.name) == nullptr)
-    throw UsageError(
-        refusal(target_option, text,
-                fmt::format("with --recover NAME or NAME:TOLERANCE, NAME one of {}; the values are measured",
-                            names_of(soil_quantities))));
-  if (tolerance) target.tolerance = number_in(target_option, text, tolerance->second, tolerance_range);
-  return target;
-}
-
-std::vector<double> known_from_texts(const CalibrationTask &task, const std::vector<std::string> &texts) {
-  constexpr const char *option = "--recover";
-  std::vector<double> known(task.vary.size(), 0.0);
-  for (const std::string &text : texts) {
-    const auto named = parts(text, '=');
-    const VariedParameter *parameter = named ? find_named(task.vary, named->first) : nullptr;
-    if (parameter == nullptr)
-      throw UsageError(refusal(
-          option, text, fmt::format("NAME=VALUE, NAME one of those of --vary, {}", names_of(task.vary))));
-    double &value = known[static_cast<std::size_t>(parameter - task.vary.data())];
-    if (value != 0.0) throw UsageError(refusal(option, parameter->name, "each name once"));
-    value = number_in(option, text, named->second, {parameter->low, parameter->high});
-  }
-  for (std::size_t i = 0; i < known.size(); ++i)
-    if (known[i] == 0.0)
-      throw UsageError(
-          refusal(option, fmt::format("{}", fmt::join(texts, ", ")),
-                  fmt::format("a value of each parameter of --vary, also of {}", task.vary[i].name)));
-  return known;
-}
-
 VariedParameter varied_from_text(const std::string &text) {
   constexpr const char *option = "--vary";
   constexpr double least_ratio = 1.05;

@@ -72,15 +72,10 @@ struct CalibrationTask {
 
 /// From "NAME=VALUE" or "NAME=VALUE:TOLERANCE"; the tolerance is 0.05 if it is not given. Throws UsageError for the option --target.
 CalibrationTarget target_from_text(const std::string &text);
-/// From "NAME" or "NAME:TOLERANCE", for a target whose value will be measured: it is 0 until then. Throws UsageError for --target.
-CalibrationTarget measured_target_from_text(const std::string &text);
 /// From "NAME=LOW:HIGH". Throws UsageError for the option --vary.
 VariedParameter varied_from_text(const std::string &text);
 /// From "NAME=VALUE", NAME a parameter of the soil or a variable of the roller, VALUE a number. Throws UsageError for the option --set.
 std::pair<std::string, std::string> fixed_from_text(const std::string &text);
-
-/// From one "NAME=VALUE" for each parameter that varies: the values in the task's order. Throws UsageError for --recover.
-std::vector<double> known_from_texts(const CalibrationTask &task, const std::vector<std::string> &texts);
 
 /// The quantity of that name. \pre there is one
 const SoilQuantity &soil_quantity(const std::string &name);

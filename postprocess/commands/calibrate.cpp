@@ -2,7 +2,6 @@
 
 #include "calibration/calibration.h"
 #include "calibration/page.h"
-#include "calibration/recovery.h"
 #include "calibration/soil_tests.h"
 #include "calibration/task.h"
 #include "engine/places.h"
@@ -36,14 +35,13 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Arguments {
-  std::vector<std::string> targets, vary, fixed, known;
+  std::vector<std::string> targets, vary, fixed;
   std::string seeds = "5";
   std::string balls = "1000";
   std::string cycles = "6";
   std::string evaluations = "40";
   std::string jobs = "1";
   std::string target_beds = "0";
-  std::string records = "10";
   std::string name = "calibrated";
   std::string out = "results/calibration";
   bool fresh = false;
@@ -52,8 +50,7 @@ struct Arguments {
 CalibrationTask judged_task(const Arguments &arguments) {
   CalibrationTask task;
   for (const std::string &text : arguments.targets)
-    task.targets.push_back(arguments.known.empty() ? target_from_text(text)
-                                                   : measured_target_from_text(text));
+    task.targets.push_back(target_from_text(text));
   for (const std::string &text : arguments.vary)
     task.vary.push_back(varied_from_text(text));
   for (const std::string &text : arguments.fixed)
@@ -99,13 +96,10 @@ int points_at_once(const fs::path &settings, int jobs, int seeds) {
 }
 
 /// All that the results depend on.
-/// \param known parameters to be found again, in the task's order; empty for a calibration to given targets
-std::string settings_text(const CalibrationTask &task, const std::vector<double> &known, int at_once) {
+std::string settings_text(const CalibrationTask &task, int at_once) {
   std::string text = build_line();
   for (const auto &[name, value] : settings_of(task))
     text += csv_line({name, value});
-  for (std::size_t i = 0; i < known.size(); ++i)
-    text += csv_line({"recover " + task.vary[i].name, number_text(known[i])});
   return text + csv_line({at_once_name, std::to_string(at_once)});
 }
 
@@ -142,29 +136,17 @@ void run(const Arguments &arguments, const std::string &command) {
   effort.evaluations = count_option("--evaluations", arguments.evaluations, 1, most);
   effort.jobs = count_option("--jobs", arguments.jobs, 1, most);
   const std::string name = judged_name(arguments.name);
-  const std::vector<double> known =
-      arguments.known.empty() ? std::vector<double>{} : known_from_texts(task, arguments.known);
-  const int records = count_option("--records", arguments.records, 1, most);
   const fs::path out = output_folder_option("--out", arguments.out);
   keep_apart({}, {{"--out", out, true}});
   check_engine_path(out);
   effort.at_once = arguments.fresh ? std::max(1, effort.jobs / task.seeds)
                                    : points_at_once(out / settings_name, effort.jobs, task.seeds);
-  const ResumedFolder folder(out, "calibration", settings_text(task, known, effort.at_once), arguments.fresh);
+  const ResumedFolder folder(out, "calibration", settings_text(task, effort.at_once), arguments.fresh);
 
   const SoilTests tests(task, out);
   const MeasureSeed measure = [&tests](const Evaluation &evaluation, int seed) {
     return tests.measure(evaluation, seed);
   };
-  if (!known.empty()) {
-    const std::vector<RecoveredBed> beds = recover(task, known, records, effort, out, measure);
-    write_recovery_page(out, fmt::format("{} beds of {} discs of case gravel", records, task.balls), task,
-                        known, beds);
-    for (const std::string &line : recovery_answer(task, known, beds))
-      fmt::print("  {}\n", line);
-    fmt::print("{}\n", (out / "index.html").string());
-    return;
-  }
   const Calibration found = calibrate(task, effort, out, measure);
   const std::vector<LumpedComparison> compared = compared_records(task, found, tests);
   write_calibration_page(out,
@@ -242,27 +224,14 @@ void add_calibrate_command(CLI::App &app, Session &session) {
   option("--target-beds", &Arguments::target_beds,
          "beds of which the targets are means, whose scatter then widens the intervals; 0: they are exact",
          "COUNT");
-  list("--recover", &Arguments::known,
-       "NAME=VALUE, once for each parameter of --vary: measures beds with these values and tells whether "
-       "calibrations to them find "
-       "the values again; targets are then names without values",
-       "KNOWN");
-  option("--records", &Arguments::records, "beds that --recover measures", "COUNT");
   option("--jobs", &Arguments::jobs, "runs at the same time, one processor each", "COUNT");
   option("--name", &Arguments::name, "NAME of the file case.NAME", "NAME");
   option("--out", &Arguments::out, "folder of the results", "DIR");
   calibrate->add_flag("--fresh", arguments->fresh, "forget the evaluations of an earlier call");
   calibrate->footer(
       "Example:\n"
-      "  drumlin calibrate --target k=20e6 --target D=0.2 --vary k=1e8:2e9 --vary D=0.05:0.8 --jobs 2\n"
-      "  drumlin calibrate --target k --vary k=2e7:3e8 --recover k=8e7 --out results/recovery\n");
-  calibrate->callback([arguments, calibrate, &session] {
-    if (arguments->known.empty() && calibrate->count("--records") > 0)
-      throw UsageError(refusal("--records", arguments->records, "only with --recover"));
-    if (!arguments->known.empty() && calibrate->count("--name") > 0)
-      throw UsageError(refusal("--name", arguments->name, "not with --recover, which writes no case file"));
-    run(*arguments, session.command);
-  });
+      "  drumlin calibrate --target k=20e6 --target D=0.2 --vary k=1e8:2e9 --vary D=0.05:0.8 --jobs 2\n");
+  calibrate->callback([arguments, &session] { run(*arguments, session.command); });
 }
 
 } // namespace drumlin::post

@@ -196,7 +196,8 @@ PageFigure effect_figure(const Plan &plan, const std::vector<Effect> &effects) {
   return figure;
 }
 
-/// The scenes that a figure over an axis shows: those with a place on it and, on all other axes, the place of the first of them.
+/// The scenes that a figure over an axis shows: those with a place on it and, on all other axes, the place of
+/// the first of them.
 std::vector<const Scene *> scenes_over(const Plan &plan, const std::string &axis) {
   std::vector<const Scene *> scenes;
   for (const Scene &scene : plan.scenes) {

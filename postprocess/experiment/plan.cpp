@@ -44,6 +44,12 @@ std::string without_comment(const std::string &line) {
   return trimmed(line);
 }
 
+/// Whether a line goes on in the next one, as in decks.
+bool is_continued(const std::string &text) {
+  return text.size() > 1 && text.back() == '&' &&
+         std::string(blanks).find(text[text.size() - 2]) != std::string::npos;
+}
+
 std::vector<std::string> words_of(const std::string &text) {
   std::vector<std::string> words;
   std::istringstream in(text);
@@ -74,9 +80,12 @@ public:
   Plan read() {
     plan_.text = read_text(file_);
     std::istringstream lines(plan_.text);
+    int read = 0; // lines
     for (std::string line; std::getline(lines, line);) {
-      ++line_;
-      const std::string text = without_comment(line);
+      line_ = ++read;
+      std::string text = without_comment(line);
+      for (; is_continued(text) && std::getline(lines, line); ++read)
+        text = trimmed(text.substr(0, text.size() - 1)) + " " + without_comment(line);
       if (text.empty()) continue;
       const std::size_t end = std::min(text.find_first_of(blanks), text.size());
       keyword_ = text.substr(0, end);

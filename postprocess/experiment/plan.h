@@ -1,4 +1,5 @@
-// The plan of an experiment: scenes, seeds and quantities, and what is compared with what; read from a file that a user edits.
+// The plan of an experiment: scenes, seeds and quantities, and what is compared with what; read from a file
+// that a user edits.
 #pragma once
 
 #include "experiment/quantity.h"
@@ -16,11 +17,13 @@ struct Axis {
   std::string name, label; ///< the label with unit
 };
 
-/// What differs, in words, and the scenes in which it does: each pair is a scene and the one that it is compared with.
+/// What differs, in words, and the scenes in which it does: each pair is a scene and the one that it is
+/// compared with.
 struct Comparison {
   std::string words;
   std::vector<std::pair<std::string, std::string>> pairs;
-  /// Whether the seeds of the two are compared one by one, so that what they share cancels. Else they are two independent samples.
+  /// Whether the seeds of the two are compared one by one, so that what they share cancels. Else they are two
+  /// independent samples.
   bool paired = true;
 };
 
@@ -39,16 +42,19 @@ struct Plan {
 
   /// \pre there is one of that name
   const Scene &scene(const std::string &name) const;
-  /// Whether it can have another number of balls: all scenes on beds in the plane, with the roller's variables given.
+  /// Whether it can have another number of balls: all scenes on beds in the plane, with the roller's
+  /// variables given.
   bool can_be_scaled() const;
   /// The plan with so many balls in its first scene. \pre can_be_scaled()
   Plan with_balls(int balls) const;
-  /// Few runs: two seeds of the first three scenes, with beds of 150 balls and four cycles where it can have them.
+  /// Few runs: two seeds of the first three scenes, with beds of 150 balls and four cycles where it can have
+  /// them.
   Plan quick() const;
 };
 
-/// Reads a plan: lines `keyword value`, # begins a comment; postprocess/README.md has the keywords. Decks are looked for in the folder of
-/// the plan, then in inputs/. Throws UsageError "FILE, line LINE: KEYWORD is 'VALUE'; allowed: WHAT".
+/// Reads a plan: lines `keyword value`, # begins a comment; postprocess/README.md has the keywords. Decks are
+/// looked for in the folder of the plan, then in inputs/. Throws UsageError "FILE, line LINE: KEYWORD is
+/// 'VALUE'; allowed: WHAT".
 Plan read_plan(const std::filesystem::path &file);
 
 } // namespace drumlin::post

@@ -49,7 +49,8 @@ public:
     return *record_;
   }
 
-  /// What `drumlin identify` finds in the whole record; nothing if the record does not determine a law, which is a result.
+  /// What `drumlin identify` finds in the whole record; nothing if the record does not determine a law, which
+  /// is a result.
   const std::optional<IdentifiedRecord> &identified() {
     if (!tried_) {
       tried_ = true;
@@ -150,6 +151,7 @@ constexpr double settlement_tolerance = 1e-3; // m
 
 std::vector<const char *> column_ways() {
   std::vector<const char *> names;
+  names.reserve(ways.size());
   for (const ColumnWay &way : ways)
     names.push_back(way.name);
   return names;

@@ -18,27 +18,28 @@ struct Quantity {
   std::string unit;  ///< of its values
   std::string shown_unit;
   double scale = 1.0; ///< from `unit` to the unit that pages show
-  /// A change whose whole interval is within it counts as negligible: relative to the mean of what is compared with, or in `unit` if
-  /// the quantity is absolute.
+  /// A change whose whole interval is within it counts as negligible: relative to the mean of what is
+  /// compared with, or in `unit` if the quantity is absolute.
   double tolerance = 0.1;
   bool absolute = false; ///< its mean may be about zero, so that changes are given in its unit
   std::function<double(RunFiles &)> value; ///< NaN if the run does not give it
 };
 
-/// The quantities of a roller on a bed that plans name. Forces and stiffnesses are per metre of the drum's width.
+/// The quantities of a roller on a bed that plans name. Forces and stiffnesses are per metre of the drum's
+/// width.
 const std::vector<Quantity> &bed_quantities();
 /// The one of that name; nullptr if there is none.
 const Quantity *bed_quantity(const std::string &name);
 
 /// How a column of a table becomes one number: last, mean, largest, smallest, per_row.
 std::vector<const char *> column_ways();
-/// A quantity of any deck: a column of a CSV file that it writes. `mean` and `per_row`, the mean change from row to row, are those of the
-/// second half of the rows. \param way one of column_ways()
+/// A quantity of any deck: a column of a CSV file that it writes. `mean` and `per_row`, the mean change from
+/// row to row, are those of the second half of the rows. \param way one of column_ways()
 Quantity column_quantity(const std::string &name, const std::string &unit, const std::string &way,
                          const std::string &file, const std::string &column);
 
-/// The values of the quantities, in their order, of the run whose files are in a folder. std::runtime_error for files that cannot be read.
-/// \param width of a bed of spheres along the drum's axis [m]; 1 of discs
+/// The values of the quantities, in their order, of the run whose files are in a folder. std::runtime_error
+/// for files that cannot be read. \param width of a bed of spheres along the drum's axis [m]; 1 of discs
 std::vector<double> measured(const std::vector<Quantity> &quantities, const std::filesystem::path &folder,
                              double width);
 

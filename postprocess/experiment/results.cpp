@@ -8,7 +8,8 @@ namespace drumlin::post {
 
 namespace {
 
-/// Values of a comparison's scenes and of those that they are compared with; of pairs those with the same index have the same seed.
+/// Values of a comparison's scenes and of those that they are compared with; of pairs those with the same
+/// index have the same seed.
 struct Samples {
   std::vector<double> values, bases;
 };
@@ -85,6 +86,7 @@ const std::map<int, double> &Results::costs(const std::string &scene) const {
 
 std::vector<double> numbers(const std::map<int, double> &by_seed) {
   std::vector<double> all;
+  all.reserve(by_seed.size());
   for (const auto &[seed, value] : by_seed)
     all.push_back(value);
   return all;

@@ -31,7 +31,8 @@ struct Group {
   int seed;
 };
 
-/// All seeds of the scenes on one soil come before the others, so that a study that is interrupted has whole results of its first scenes.
+/// All seeds of the scenes on one soil come before the others, so that a study that is interrupted has whole
+/// results of its first scenes.
 std::vector<Group> groups_of(const Plan &plan) {
   std::vector<std::vector<const Scene *>> soils;
   for (const Scene &scene : plan.scenes) {

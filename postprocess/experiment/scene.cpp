@@ -17,7 +17,8 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr int digits = 6; // of values that rules compute
 
-// The time steps of case gravel: those of discs of 16 mm radius with k = 1e9 N/m, as many per cycle of 20 Hz as in.bed makes.
+// The time steps of case gravel: those of discs of 16 mm radius with k = 1e9 N/m, as many per cycle of 20 Hz
+// as in.bed makes.
 constexpr double gravel_radius = 0.016, gravel_k = 1e9, gravel_dt = 6.25e-6, gravel_frequency = 20.0;
 constexpr int gravel_steps = 32; // in multiples of samples_per_cycle, 250
 constexpr int samples_per_cycle = 250;
@@ -65,7 +66,8 @@ std::string text_of(const PackingOptions &packing) {
                      grading_name(packing.grading) + packing.sieve_name);
 }
 
-/// The power of the scale of lengths with which a variable of the decks goes in the plane; 0 if it does not depend on it.
+/// The power of the scale of lengths with which a variable of the decks goes in the plane; 0 if it does not
+/// depend on it.
 int power_of(const std::string &name) {
   static const std::map<std::string, int> powers = {{"r2", 1},  {"r3", 1}, {"ground_depth", 1},
                                                     {"m2", 2},  {"m3", 2}, {"k23", 2},

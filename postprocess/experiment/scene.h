@@ -11,8 +11,8 @@
 
 namespace drumlin::post {
 
-/// The decks that make a bed with a roller on it and shake it, in their order: in.settle, in.place, and the scene's own deck. A
-/// scene without a bed has the last one alone.
+/// The decks that make a bed with a roller on it and shake it, in their order: in.settle, in.place, and the
+/// scene's own deck. A scene without a bed has the last one alone.
 enum class SceneDeck { settle, place, run };
 
 /// Which of these decks get a variable.
@@ -67,9 +67,10 @@ Variables variables_of(const Scene &scene, SceneDeck deck);
 /// The value of a variable of the scene's own deck; empty if the deck's default counts.
 std::string value_of(const Scene &scene, const std::string &name);
 
-/// The scene with a bed in the plane of `scale` times the lengths, of balls as large as before. Masses and forces per metre of width go
-/// with the square of lengths; so does the stiffness of the contacts, so that the drum on the soil keeps its natural frequency.
-/// \param balls numbers of balls are multiplied by balls/of and rounded down; scale is the root of it
+/// The scene with a bed in the plane of `scale` times the lengths, of balls as large as before. Masses and
+/// forces per metre of width go with the square of lengths; so does the stiffness of the contacts, so that
+/// the drum on the soil keeps its natural frequency. \param balls numbers of balls are multiplied by balls/of
+/// and rounded down; scale is the root of it
 Scene scaled(Scene scene, int balls, int of);
 
 /// All that a scene's soil is made of but the seed: scenes with the same text share their settled soil.

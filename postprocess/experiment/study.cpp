@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Whether a file of inputs can change the results of a study: a deck or what decks include, but not a case of a bed that a user
-/// has added.
+/// Whether a file of inputs can change the results of a study: a deck or what decks include, but not a case
+/// of a bed that a user has added.
 bool is_deck(const fs::path &file) {
   static const std::set<std::string> others = {".csv", ".md", ".png", ".svg"},
                                      cases = {"case.base_course", "case.gravel", "case.loose"};

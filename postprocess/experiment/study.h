@@ -25,12 +25,13 @@ struct Study {
 /// Throws UsageError for a folder that the engine would split at a space.
 void check_engine_path(const std::filesystem::path &out);
 
-/// The build of the plugin and the decks, on which results of runs depend: a line for the settings of a ResumedFolder.
+/// The build of the plugin and the decks, on which results of runs depend: a line for the settings of a
+/// ResumedFolder.
 std::string build_line();
 
-/// Makes the folder of a study, or opens that of an earlier call, to continue it. Throws UsageError if its points are from another
-/// build of the plugin, other decks, or other settings, unless the options say `fresh`, which removes them.
-/// \param settings further lines with what the results depend on
+/// Makes the folder of a study, or opens that of an earlier call, to continue it. Throws UsageError if its
+/// points are from another build of the plugin, other decks, or other settings, unless the options say
+/// `fresh`, which removes them. \param settings further lines with what the results depend on
 ResumedFolder open_study(const StudyOptions &options, const std::string &settings = "");
 
 } // namespace drumlin::post

@@ -19,8 +19,8 @@ using post::BedAdvice;
 using post::BedExperiment;
 using post::Result;
 
-// Invented runs of five seeds. add() gives each run of a scene the force of the complete bed of the same seed, times a factor of the
-// scene, times a deviation of the seed that the complete bed does not have.
+// Invented runs of five seeds. add() gives each run of a scene the force of the complete bed of the same
+// seed, times a factor of the scene, times a deviation of the seed that the complete bed does not have.
 class BedAdviceTest : public ::testing::Test {
 protected:
   BedAdviceTest() : temporary_(testing::TempDir(), "bed_advice") {
@@ -72,7 +72,8 @@ TEST_F(BedAdviceTest, NamesTheCheapestSceneWithinTheError) {
   EXPECT_EQ(found.seeds, 5U);
   EXPECT_EQ(found.cpu_s, 3.0);
   EXPECT_NEAR(found.scatter, 0.1 * std::sqrt(2.5), 1e-12); // of -2 to 2 tenths
-  // 2.179 * 0.1581 / sqrt(12) is 0.0994 (12 degrees of freedom: 13 beds 0.0955; 11 degrees of freedom: 12 beds 0.1005)
+  // 2.179 * 0.1581 / sqrt(12) is 0.0994 (12 degrees of freedom: 13 beds 0.0955; 11 degrees of freedom: 12
+  // beds 0.1005)
   EXPECT_EQ(found.beds, 13);
   EXPECT_EQ(advice(0.5), "large balls");
   EXPECT_EQ(advice(0.03), "complete");
@@ -91,7 +92,8 @@ TEST_F(BedAdviceTest, NamesTheCheapestSceneWithinTheError) {
   EXPECT_EQ(layers[0], "bed --layer 1.24 --layer 0.7 --width 2");
 }
 
-// The complete beds settle by -2 to 2 mm per cycle: no error relative to their mean exists, but one in mm does.
+// The complete beds settle by -2 to 2 mm per cycle: no error relative to their mean exists, but one in mm
+// does.
 TEST_F(BedAdviceTest, CountsErrorsOfTheSettlementInMillimetresIfAsked) {
   for (const char *scene : {"complete", "k / 10", "k / 100"})
     for (int seed = 1; seed <= 5; ++seed) {

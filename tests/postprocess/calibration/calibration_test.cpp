@@ -1,15 +1,12 @@
 // Calibration with closed forms in the place of beds: the parameters that were put in must be found again.
 #include "calibration/calibration.h"
-#include "calibration/recovery.h"
 #include "calibration/search.h"
 #include "engine/deck_run.h"
 #include "chain/closed_form.h"
 #include "identify/identified_record.h"
-#include "support/csv.h"
 #include "support/files.h"
 #include "tests/support/chain_record.h"
 #include "tests/support/engine_runs.h"
-#include "tests/support/page.h"
 
 #include <gtest/gtest.h>
 
@@ -375,8 +372,9 @@ TEST(Calibration, WidensIntervalsForTargetsThatScatterToo) {
   }
 }
 
-// Counts the confidence intervals of k and of D that contain the known values, in 20 sets of calibrating beds with 4 records
-// each. The intervals of one set are not independent.
+// Counts the confidence intervals of k and of D that contain the known values, in 20 sets of calibrating beds, each
+// of which is calibrated to 4 other beds that have the known values, one after the other. The intervals of one set are
+// not independent.
 std::array<long, 2> held_intervals(double of_seeds, double of_points) {
   constexpr int beds = 4;
   constexpr unsigned sets = 20;
@@ -384,10 +382,19 @@ std::array<long, 2> held_intervals(double of_seeds, double of_points) {
   std::array<long, 2> held{};
   for (unsigned set = 1; set <= sets; ++set) {
     const Scratch scratch;
-    for (const post::RecoveredBed &bed : post::recover(two_of_two(5), known, beds, {12, 1}, scratch.path(),
-                                                       scattered(set, of_seeds, of_points)))
-      for (std::size_t j = 0; j < held.size(); ++j)
-        held.at(j) += bed.holds(j, known[j]) ? 1 : 0;
+    const post::MeasureSeed measure = scattered(set, of_seeds, of_points);
+    post::CalibrationTask task = two_of_two(5);
+    task.target_beds = 1;
+    for (int bed = 1; bed <= beds; ++bed) {
+      const std::vector<double> values = measure({0, post::Stage::search, known, {}}, task.seeds + bed);
+      for (std::size_t i = 0; i < values.size(); ++i)
+        task.targets[i].value = values[i];
+      const post::Calibration found = post::calibrate(task, {12, 1}, scratch.path(), measure);
+      for (std::size_t j = 0; j < held.size(); ++j) {
+        const post::ParameterEstimate &one = found.sensitivity.parameters[j];
+        held.at(j) += one.low <= known[j] && known[j] <= one.high ? 1 : 0;
+      }
+    }
   }
   return held;
 }
@@ -408,34 +415,6 @@ TEST(Recovery, FindsTheKnownParametersOfBedsWhosePackingIsAnotherAtEachPoint) {
   const std::array<long, 2> held = held_intervals(0.0, 0.1);
   EXPECT_GE(held[0], enough);
   EXPECT_GE(held[1], enough);
-}
-
-TEST(Recovery, SharesEvaluationsAndContinues) {
-  constexpr int beds = 10;
-  const post::CalibrationTask task = two_of_two(5);
-  const std::vector<double> known = {true_k, true_D};
-  const Scratch scratch;
-  std::atomic<int> calls = 0;
-  const post::MeasureSeed counted = [&calls, inner = scattered(5)](const post::Evaluation &evaluation,
-                                                                   int seed) {
-    ++calls;
-    return inner(evaluation, seed);
-  };
-  const std::vector<post::RecoveredBed> found =
-      post::recover(task, known, beds, {12, 2}, scratch.path(), counted);
-  ASSERT_EQ(found.size(), static_cast<std::size_t>(beds));
-  EXPECT_EQ(found.front().seed, 6);
-  EXPECT_EQ(found.front().values, scattered(5)({0, post::Stage::search, known, {}}, 6));
-  EXPECT_LT(calls, beds * 17 * 5 * 2 / 3); // apart, each bed takes 17 points on five beds
-  calls = 0;
-  const std::vector<post::RecoveredBed> fewer =
-      post::recover(task, known, 3, {12, 2}, scratch.path(), counted);
-  EXPECT_LT(calls, 3 * 5 * 5); // the beds are measured; evaluations beside another best point may be new
-  EXPECT_EQ(fewer.back().values, found[2].values);
-  post::write_recovery_page(scratch / "page", "numbers", task, known, found);
-  expect_sound_page(scratch / "page", 1);
-  const post::Table rows = post::read_table(scratch / "page/data/beds.csv");
-  EXPECT_EQ(rows.numbers("seed of the bed").back(), 15.0);
 }
 
 } // namespace

@@ -30,10 +30,6 @@ TEST(CalibrateCommand, RefusesBadInputInOneLine) {
     words.insert(words.begin(), targets.begin(), targets.end());
     return words;
   };
-  const auto recovered = [&](std::vector<std::string> words) {
-    words.insert(words.begin(), {"--target", "k:0.1", "--vary", "k=1e8:1e10"});
-    return words;
-  };
   const std::vector<Bad> rows = {
       {vary, "--target is ''; allowed: one or more targets"},
       {targets, "--vary is ''; allowed: one or more parameters"},
@@ -70,16 +66,6 @@ TEST(CalibrateCommand, RefusesBadInputInOneLine) {
       {with({"--evaluations", "0"}), "--evaluations is '0'; allowed: a whole number from 1"},
       {with({"--jobs", "0"}), "--jobs is '0'; allowed: a whole number from 1"},
       {with({"--target-beds", "-1"}), "--target-beds is '-1'; allowed: a whole number from 0"},
-      {with({"--recover", "k=1e9"}), "--target is 'k=20e6'; allowed: with --recover NAME or NAME:TOLERANCE"},
-      {recovered({"--recover", "D=0.2"}),
-       "--recover is 'D=0.2'; allowed: NAME=VALUE, NAME one of those of --vary, k"},
-      {recovered({"--recover", "k=1e7"}), "--recover is 'k=1e7'; allowed: for '1e7': a number from"},
-      {recovered({"--recover", "k=1e9", "--recover", "k=2e9"}), "--recover is 'k'; allowed: each name once"},
-      {recovered({"--recover", "k=1e9", "--records", "0"}),
-       "--records is '0'; allowed: a whole number from 1"},
-      {{"--target", "k", "--target", "D:0.1", "--vary", "k=1e8:1e10", "--vary", "D=0.1:0.4", "--recover",
-        "k=1e9"},
-       "--recover is 'k=1e9'; allowed: a value of each parameter of --vary, also of D"},
       {with({"--name", "a/b"}), "--name is 'a/b'; allowed: letters"},
       {with({"--name", "gravel"}), "--name is 'gravel'; allowed: letters"},
       {with({"--out", "a b"}), "--out is 'a b'; allowed: a path without spaces"}};

@@ -1,4 +1,5 @@
-// Experiments as a user runs them: on a deck of one's own, which costs one file, and on beds; interrupted, resumed, and with a run that fails.
+// Experiments as a user runs them: on a deck of one's own, which costs one file, and on beds; interrupted,
+// resumed, and with a run that fails.
 #include "experiment/results.h"
 #include "support/files.h"
 #include "support/resumed.h"
@@ -161,7 +162,8 @@ TEST(BedStudy, ContinuesWhereItWasInterruptedAndABedThatFailsStopsNoOther) {
   EXPECT_NE(post::read_text(study.out() / "index.html").find("Missing: seed "), std::string::npos);
 }
 
-// Scenes that differ in the walls alone share soil and roller, and the study of stiffness shares the soil under other rollers.
+// Scenes that differ in the walls alone share soil and roller, and the study of stiffness shares the soil
+// under other rollers.
 TEST(BedStudy, MakesOneBedForScenesThatShareIt) {
   const ScratchStudy box("box"), stiffness("stiffness");
   const Outcome walls = box.run();

@@ -52,7 +52,8 @@ protected:
 TEST_F(PlanTest, GivesEachSceneWhatItsLinesAndTheSceneAboveSay) {
   const Plan plan = read("# a plan\n"
                          "title    What the gap does   # a comment\n"
-                         "about    One sentence.\n"
+                         "about    One &   # and more\n"
+                         "         sentence.\n"
                          "quantity gap mm mean out.csv gap\r\n"
                          "axis     gap gap between two plates [mm]\n"
                          "deck     in.own\n"
@@ -260,8 +261,8 @@ TEST(PlansOfTheProject, AreCompleteAndHaveTheResultsBesideThem) {
 }
 
 TEST(PlansOfTheProject, KeepTheProportionsOfABedOfAnotherSize) {
-  // A quarter of the balls: lengths halve, masses and forces per metre are a quarter, so that the pressure under the drum over
-  // its radius stays the same.
+  // A quarter of the balls: lengths halve, masses and forces per metre are a quarter, so that the pressure
+  // under the drum over its radius stays the same.
   const Plan small = plan_of("fidelity").with_balls(625);
   const Scene &complete = small.scene("complete");
   EXPECT_EQ(complete.bed->packing.balls, 625);
