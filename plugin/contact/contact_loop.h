@@ -97,12 +97,12 @@ private:
 
   /// Copies velocities, masses and contact history of the first `count` contacts into the block.
   void take(int count) {
-    for (int n = 0; n < count; ++n) {
-      block_.in_contact[n] = 1.0;
-      if constexpr (has_history) take_history(n, contacts_[n].history);
+    if constexpr (has_history) {
+      for (int n = 0; n < count; ++n)
+        take_history(n, contacts_[n].history);
+      new_ = 0;
+      for_each(changed_, 0, count, [this](int n) { take_change(n); });
     }
-    new_ = 0;
-    if constexpr (has_history) for_each(changed_, 0, count, [this](int n) { take_change(n); });
     one_law_ =
         read_balls<stepped, Engine>(block_, rows_, contacts_, count, stepped ? stepping_->rows() : nullptr,
                                     stepped && stepping_->counted());
@@ -122,7 +122,6 @@ private:
     BlockContact &contact = contacts_[n];
     contact.touches = pairs_.touches(contact.pair);
     int &flag = engine_.flags(contact.i)[pairs_.pairs()[static_cast<std::size_t>(contact.pair)].place];
-    block_.in_contact[n] = engine_.touched(flag, contact.history) ? 1.0 : 0.0;
     engine_.mark(flag, contact.history, contact.touches);
     if (contact.touches) new_ |= ContactSet{1} << n;
   }
@@ -291,12 +290,10 @@ private:
     const StepContact now{contact.i,         contact.j,           block_.normal[n], nullptr,
                           block_.overlap[n], block_.rate_half[n], block_.m_eff[n],  1.0};
     if (!contact.touches) {
-      block_.push[n] = block_.in_contact[n] == 0.0
-                           ? 0.0
-                           : drumlin::end_contact(law, *stepping_, now, block_.force_before[n]);
+      block_.push[n] = drumlin::end_contact(law, *stepping_, now, block_.force_before[n]);
       return;
     }
-    physics::ContactState state{block_.force_before[n], block_.in_contact[n] != 0.0};
+    physics::ContactState state{block_.force_before[n], (new_ >> n & 1) == 0};
     double &stored_force = contact.history[places_[Remembered::force]];
     block_.push[n] = exert_contact(law, *stepping_, now, state, stored_force);
     block_.force[n] = state.force;
@@ -458,8 +455,9 @@ private:
   const bool in_setup_;
 
   static constexpr int at_once = 32; // pairs that one call of find_touching() tests for contact
-  int count_ = 0;                    // contacts found whose forces are not computed yet
-  ContactSet changed_ = 0;           // those of them that begin or end
+  static_assert(physics::block_size + at_once <= 64, "changed_ has a bit for each");
+  int count_ = 0;          // contacts found whose forces are not computed yet
+  ContactSet changed_ = 0; // those of them that begin or end
   physics::ContactBlock block_;
   std::int32_t found_[at_once + 4];
   BlockContact contacts_[physics::block_size + at_once];

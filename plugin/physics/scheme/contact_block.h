@@ -80,7 +80,6 @@ struct ContactBlock {
   Vectors velocity_before;   ///< the same at the beginning of the step; second-order scheme only
   Vectors wi, wj;            ///< angular velocities, rad/s
   Numbers damping_over_mass; ///< see StepContext
-  Numbers in_contact;        ///< 1: the balls touched in the step before; else 0
   Numbers force_before;      ///< N, normal force of the step before; second-order scheme only
   Vectors spring;            ///< m, of friction, before and then after the step
   Vectors rolling_spring;    ///< N m, the same of the torque of rolling resistance

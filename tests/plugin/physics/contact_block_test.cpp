@@ -69,7 +69,6 @@ std::unique_ptr<ContactBlock> random_block(std::mt19937 &random) {
     b->wi.set(n, vector(3.0));
     b->wj.set(n, vector(3.0));
     b->damping_over_mass[n] = 3e3 * (1.0 + any(random));
-    b->in_contact[n] = 1.0;
     b->force_before[n] = 10.0 * any(random);
     b->memory_before[n] = (reach - distance) * (n % 4 == 0 ? 0.0 : 1.0 + any(random));
     b->spring.set(n, vector(1e-4));
