@@ -607,21 +607,24 @@ TEST_F(Report, LeavesOutWhatCannotBeRead) {
   fs::copy(root / "report", mixed / ".half.new-1", fs::copy_options::recursive);
   fs::remove(mixed / ".half.new-1/report.json");
   write(mixed / ".half.new-1/data/oedometer.csv", "stress_kPa\n");
+  fs::create_directories(mixed / "no table");
+  fs::copy_file(mixed / "killed/parameters.csv", mixed / "no table/parameters.csv");
   ReportOptions options;
   options.folders = {mixed};
   options.out = root / "mixed-report";
   const ReportOutcome made = write_report(options);
   EXPECT_GT(made.checks.all, 0u); // those of the run that is whole
-  ASSERT_EQ(made.left_out.size(), 3u);
+  ASSERT_EQ(made.left_out.size(), 4u);
   std::map<std::string, std::string> why;
   for (const LeftOut &folder : made.left_out)
     why[folder.folder.filename().string()] = folder.why;
   EXPECT_EQ(why["last week"], "it is an earlier report");
   EXPECT_NE(why["half"].find("chain.csv"), std::string::npos) << why["half"];
+  EXPECT_EQ(why["no table"], "it was killed, or is still running");
   EXPECT_EQ(why["killed"].rfind("it was killed, or is still running; ", 0), 0u) << why["killed"];
   const std::string text = read(made.page);
   EXPECT_TRUE(parse(text).well_formed);
-  EXPECT_NE(text.find("3 folders are left out, and not judged"), std::string::npos);
+  EXPECT_NE(text.find("4 folders are left out, and not judged"), std::string::npos);
   EXPECT_NE(text.find("last week</code>: it is an earlier report"), std::string::npos);
 }
 
