@@ -83,7 +83,7 @@ inline double radius_for(double r) {
 /// overlap, m, that can be largest.
 template <class Contact>
 void add_dashpot(physics::Dashpots &all, const Contact &contact, double m_eff, double r_eff, double overlap) {
-  const auto law = contact.law(m_eff, r_eff);
+  const auto law = contact.law(m_eff, r_eff, 0.0);
   all.add(law.stiffest(overlap), law.dashpot(overlap));
 }
 

@@ -1,7 +1,6 @@
 // The Hertz law in both engines: whole impacts against the closed form of the restitution at several speeds,
 // their event log and heat, an oblique impact against an integration of its equations in far smaller steps,
-// walls against balls, the engines against each other on 1, 2 and 4 ranks and from restart files, and
-// transitions without damping.
+// walls against balls, and transitions without damping. (laws_test has what holds for all laws.)
 #include "tests/support/balls_run.h"
 #include "tests/support/engine_and_scheme.h"
 #include "tests/support/frame_distance.h"

@@ -168,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bounce{"coulomb_A_stock", {{"tangential", "coulomb"}, {"transition", "A"}, {"stepping", "stock"}}},
         Bounce{"region", {{"walls", "block"}}},
         Bounce{"region_A", {{"walls", "block"}, {"transition", "A"}, {"first", "5000"}, {"rest", "7000"}}},
-        Bounce{"rolling", {{"rolling", "epsd2"}}},
+        Bounce{"rolling", {{"rolling", "epsd2"}, {"first", "5000"}, {"rest", "7000"}}},
         Bounce{"rolling_coulomb_A_stock",
                {{"rolling", "epsd2"}, {"tangential", "coulomb"}, {"transition", "A"}, {"stepping", "stock"}}},
         Bounce{"rolling_region", {{"rolling", "epsd2"}, {"walls", "block"}, {"mu_r", "0.05"}}},

@@ -7,12 +7,10 @@
 /// tangential part; the spring xi is the tangential displacement that vt has built up; the force is the one
 /// on ball i (ball j takes the opposite). It opposes xi and vt. SI units.
 
-#include "physics/parameter_checks.h"
 #include "physics/vec3.h"
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 namespace drumlin::physics {
 
@@ -29,20 +27,10 @@ enum class Cap { spring, total, coulomb };
 
 /// Parameters of friction.
 struct Friction {
-  double stiffness = 0.0;   ///< kt, N/m, finite and > 0
+  double stiffness = 0.0;   ///< kt, N/m, finite and >= 0
   double damping = 0.0;     ///< ct, N s/m, finite and >= 0
   double coefficient = 0.0; ///< mu, finite and >= 0
   Cap cap = Cap::spring;    ///< which reading of the limit
-
-  /// Empty if every value is allowed, else what is wrong: name, value, what is allowed.
-  [[nodiscard]] std::string invalid() const {
-    using detail::Allowed;
-    using detail::violation;
-    std::string text = violation("tangential stiffness", stiffness, "N/m", Allowed::positive);
-    if (text.empty()) text = violation("tangential damping", damping, "N s/m", Allowed::not_negative);
-    if (text.empty()) text = violation("friction coefficient", coefficient, "", Allowed::not_negative);
-    return text;
-  }
 };
 
 /// Limit of friction, N, with a normal force, N: see Cap.

@@ -11,7 +11,7 @@
 
 namespace drumlin {
 
-/// Adding a law is adding its parameters here, and its reading from decks in each engine's adapter.
+/// Adding a law is adding its parameters here, and its number among the models of LIGGGHTS.
 using Laws = std::tuple<physics::LinearContact, physics::HertzContact>;
 
 namespace detail {

@@ -6,11 +6,9 @@
 /// Sign convention: the relative angular velocity is w = w_i - w_j, the spring torque T what its part across
 /// the contact's normal has built up; the torque on ball i is -T, the one on ball j is T. SI units.
 
-#include "physics/parameter_checks.h"
 #include "physics/vec3.h"
 
 #include <cmath>
-#include <string>
 
 namespace drumlin::physics {
 
@@ -23,14 +21,6 @@ struct Rolling {
   double stiffness = 0.0; ///< kr, N m per radian, finite and > 0
   double arm = 0.0;       ///< limit of the torque over the normal force: mu_r R, m, finite and >= 0
   Resisted resisted = Resisted::rolling; ///< which part of the rotation
-
-  /// Empty if every value is allowed, else what is wrong: name, value, what is allowed.
-  [[nodiscard]] std::string invalid() const {
-    using detail::Allowed;
-    using detail::violation;
-    const std::string text = violation("rolling stiffness", stiffness, "N m", Allowed::positive);
-    return text.empty() ? violation("arm of the rolling torque", arm, "m", Allowed::not_negative) : text;
-  }
 };
 
 /// The rolling resistance of a contact: kr = kt R^2, as LIGGGHTS has it, and the limit mu_r R |Fn|.

@@ -466,4 +466,16 @@ TEST(FrictionWithoutHistory, StopsABlockAsTheClosedFormDoes) {
   EXPECT_NEAR(v, 1.25 * std::exp(-40.0 * (end - slide)), 1e-5);
 }
 
+// A deck may give kt = 0: what slides then has no spring to reset.
+TEST(Friction, OfADashpotAloneStoresNothing) {
+  for (const Cap cap : {Cap::spring, Cap::total, Cap::coulomb}) {
+    const FrictionStep step =
+        friction_step({0.0, 10.0, 0.5, cap}, 4.0, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}, {}, 1e-3);
+    EXPECT_DOUBLE_EQ(step.force[0], cap == Cap::spring ? -10.0 : -2.0);
+    EXPECT_EQ(step.stored, 0.0);
+    for (const double length : step.spring)
+      EXPECT_TRUE(std::isfinite(length));
+  }
+}
+
 } // namespace

@@ -2,7 +2,7 @@
 
 #include "physics/bodies/bond_law.h"
 #include "physics/bodies/excitation.h"
-#include "physics/laws/friction_law.h"
+#include "physics/parameter_checks.h"
 
 #include <gtest/gtest.h>
 
@@ -108,18 +108,8 @@ TEST(Messages, OfAnExcitationLeaveOutWhatIsNotUsed) {
   EXPECT_EQ(e.invalid(), "");
 }
 
-TEST(Messages, OfFriction) {
-  for (const Cap cap : {Cap::spring, Cap::total, Cap::coulomb}) {
-    const Friction friction{1e7, 1e4, 0.5, cap};
-    expect_judged(friction, &Friction::stiffness, "tangential stiffness", "N/m", positive);
-    expect_judged(friction, &Friction::damping, "tangential damping", "N s/m", not_negative);
-    expect_judged(friction, &Friction::coefficient, "friction coefficient", "", not_negative);
-  }
-}
-
 TEST(Messages, RefuseParametersThatAreNotSet) {
   EXPECT_NE(Bond{}.invalid(), "");
-  EXPECT_NE(Friction{}.invalid(), "");
 }
 
 } // namespace

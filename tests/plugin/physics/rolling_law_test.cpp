@@ -36,13 +36,6 @@ TEST(Rolling, TakesStiffnessAndLimitFromTheEffectiveRadius) {
   EXPECT_DOUBLE_EQ(rolling_step(resistance(), -weight, up, {1e3, 0.0, 0.0}, none, 1.0).torque[0], -2.0);
 }
 
-TEST(Rolling, SaysWhichParameterIsWrong) {
-  EXPECT_EQ(resistance().invalid(), "");
-  EXPECT_EQ(rolling_of(0.0, mu_r, radius).invalid(), "rolling stiffness is '0 N m'; allowed: finite and > 0");
-  EXPECT_EQ(rolling_of(kt, -mu_r, radius).invalid(),
-            "arm of the rolling torque is '-0.020000000000000004 m'; allowed: finite and >= 0");
-}
-
 TEST(Rolling, SwingsAsTheClosedFormOfTheSpring) { // the spring follows the angle, the torque is its I w'
   const double inertia = 0.4;
   const oracle::Oscillator closed{inertia, kr, 0.0};

@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -22,29 +21,6 @@ namespace drumlin::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Else a bed of one point of a search would be taken for that of another.
-TEST(FilesOfABed, AreNamedForAllThatMadeThem) {
-  const post::PlacedBed bed = post::small_bed();
-  std::set<std::string> names = {post::placed_name(bed, 1), post::placed_name(bed, 2)};
-  for (auto change : std::vector<void (*)(post::PlacedBed &)>{
-           [](post::PlacedBed &other) { other.packing.balls = 151; },
-           [](post::PlacedBed &other) { other.packing.radius_max += 1e-3; },
-           [](post::PlacedBed &other) { other.scene.emplace_back("k", "1e8"); },
-           [](post::PlacedBed &other) { other.scene.emplace_back("k", "2e8"); },
-           [](post::PlacedBed &other) {
-             other.settle = {{"drag", "40"}};
-           },
-           [](post::PlacedBed &other) {
-             other.place = {{"sink", "0.1"}};
-           },
-           [](post::PlacedBed &other) { other.ratio = "2e-2"; }}) {
-    post::PlacedBed other = bed;
-    change(other);
-    names.insert(post::placed_name(other, 1));
-  }
-  EXPECT_EQ(names.size(), 9u);
-}
 
 // A bed 0.4 m wide under a small roller.
 post::CalibrationTask small_task() {

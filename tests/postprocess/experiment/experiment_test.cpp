@@ -1,6 +1,7 @@
 // Experiments as a user runs them: on a deck of one's own, which costs one file, and on beds; interrupted,
 // resumed, and with a run that fails.
 #include "experiment/results.h"
+#include "experiment/scene_run.h"
 #include "support/files.h"
 #include "support/resumed.h"
 #include "tests/support/engine_runs.h"
@@ -11,6 +12,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -57,6 +59,33 @@ Values values_in(const fs::path &out) {
   for (const post::Result &row : post::read_points(out / "runs.csv", post::result_rows()))
     values[{row.scene, row.seed, row.quantity}] = row.value;
   return values;
+}
+
+// Else a bed of one scene would be taken for that of another.
+TEST(FilesOfABed, AreNamedForAllThatMadeThem) {
+  post::Scene scene;
+  scene.deck = "bed/in.bed";
+  scene.bed = post::SoilBed{};
+  std::set<std::string> names{post::placed_name(scene, 1), post::placed_name(scene, 2)};
+  for (auto change :
+       std::vector<void (*)(post::Scene &)>{[](post::Scene &other) { ++other.bed->packing.balls; },
+                                            [](post::Scene &other) { other.bed->packing.radius_max += 1e-3; },
+                                            [](post::Scene &other) { other.bed->ratio = "2e-2"; },
+                                            [](post::Scene &other) { other.stiffness = 1e8; },
+                                            [](post::Scene &other) {
+                                              other.settings = {{post::Scope::all, "k", "1e8"}};
+                                            },
+                                            [](post::Scene &other) {
+                                              other.settings = {{post::Scope::settle, "drag", "40"}};
+                                            },
+                                            [](post::Scene &other) {
+                                              other.settings = {{post::Scope::placed, "sink", "0.1"}};
+                                            }}) {
+    post::Scene other = scene;
+    change(other);
+    names.insert(post::placed_name(other, 1));
+  }
+  EXPECT_EQ(names.size(), 9U);
 }
 
 TEST(OwnStudy, RunsAnyDeckThatWritesATableAndContinues) {
