@@ -253,15 +253,14 @@ std::string reason(CycleQuantity quantity, bool larger) {
 
 PageFigure motion_figure(const LumpedComparison &one, int number) {
   constexpr const char *name = "chain_and_bed";
-  PageFigure figure;
-  figure.label = fmt::format("Fig. {}", number);
-  figure.weight = 3.0;
-  figure.caption = "The record's last four cycles and, over them, the chain with the k and D that were "
-                   "identified in it, in its "
-                   "steady motion. Left: acceleration of the drum. Right: contact force over the position of "
-                   "the drum, from "
-                   "the origin of the law, which was found for each contact of the record.";
-  figure.figure = {name, "Chain and record over each other", {}, 2};
+  PageFigure figure =
+      page_figure(fmt::format("Fig. {}", number),
+                  "The record's last four cycles and, over them, the chain with the k and D that were "
+                  "identified in it, in its "
+                  "steady motion. Left: acceleration of the drum. Right: contact force over the position of "
+                  "the drum, from "
+                  "the origin of the law, which was found for each contact of the record.",
+                  {name, "Chain and record over each other", {}, 2}, 3.0);
   CurveTable data("cycles,drum position (mm),drum acceleration (m/s2),contact force (kN)");
   const double per_cycle = one.record.period() / one.record.interval;
   const std::size_t length = one.lumped.size();
@@ -295,12 +294,12 @@ PageFigure motion_figure(const LumpedComparison &one, int number) {
 
 PageFigure cycle_figure(const LumpedComparison &one, int number) {
   constexpr const char *name = "cycle_by_cycle";
-  PageFigure figure;
-  figure.label = fmt::format("Fig. {}", number);
-  figure.caption = fmt::format(
-      "The same for each cycle of the record; line: mean of {} cycles of the chain. Cycles from {} on count.",
-      one.lumped_cycles.size(), one.first + 1);
-  figure.figure = {name, "Cycle by cycle", {}, 2};
+  PageFigure figure =
+      page_figure(fmt::format("Fig. {}", number),
+                  fmt::format("The same for each cycle of the record; line: mean of {} cycles of the "
+                              "chain. Cycles from {} on count.",
+                              one.lumped_cycles.size(), one.first + 1),
+                  {name, "Cycle by cycle", {}, 2});
   CurveTable data("cycle,acceleration,force,contact,CMV,work");
   const auto rows = [&](const char *curve_name, double cycle, const CycleValues &values) {
     std::array<double, cycle_quantities.size()> shown{};
@@ -331,10 +330,8 @@ PageFigure cycle_figure(const LumpedComparison &one, int number) {
 }
 
 PageTable comparison_table(const std::vector<LumpedComparison> &records) {
-  PageTable table;
-  table.name = "chain_and_record";
-  table.title = "Chain and record";
-  table.header = {"quantity", "record", "chain", "difference", "beyond scatter"};
+  PageTable table("chain_and_record", "Chain and record",
+                  "quantity | record | chain | difference | beyond scatter");
   for (const CycleQuantity quantity : cycle_quantities) {
     const auto q = static_cast<std::size_t>(quantity);
     const ComparedQuantity value = together(records, q);

@@ -76,18 +76,9 @@ std::vector<Row> rows_of(const IdentifiedRecord &record) {
 }
 
 PageTable window_table(const IdentifiedRecord &record) {
-  PageTable table;
-  table.name = "windows";
-  table.title = "Law of the contact, 95 % confidence intervals";
-  table.header = {"from cycle",
-                  "time (s)",
-                  "k (MN/m)",
-                  "c (kN s/m)",
-                  "D (-)",
-                  "R2 (-)",
-                  "share in contact (-)",
-                  "contacts or cycles of them",
-                  "phase error (degrees)"};
+  PageTable table("windows", "Law of the contact, 95 % confidence intervals",
+                  "from cycle | time (s) | k (MN/m) | c (kN s/m) | D (-) | R2 (-) | share in contact (-) | "
+                  "contacts or cycles of them | phase error (degrees)");
   for (const Row &row : rows_of(record)) {
     const std::string time = fmt::format("{:.4g} to {:.4g}", row.begin, row.end);
     if (row.law == nullptr) {
@@ -155,11 +146,11 @@ PageFigure loop_figure(const IdentifiedRecord &record) {
 
 PageFigure residual_figure(const IdentifiedRecord &record) {
   const std::string name = "residuals";
-  PageFigure figure;
-  figure.label = "Fig. 2";
-  figure.caption = "Force from the equations of motion minus that of the law, in contact, over the phase of "
-                   "the excitation. A pattern means that the law does not describe the contact.";
-  figure.figure = {name, "Residuals", {}, 1};
+  PageFigure figure =
+      page_figure("Fig. 2",
+                  "Force from the equations of motion minus that of the law, in contact, over the phase of "
+                  "the excitation. A pattern means that the law does not describe the contact.",
+                  {name, "Residuals", {}, 1});
   CurveTable table("cycles,residual (kN)");
   const Identification &found = record.whole;
   constexpr std::size_t most_points = 20000;
@@ -181,12 +172,10 @@ PageFigure residual_figure(const IdentifiedRecord &record) {
 
 PageFigure window_figure(const IdentifiedRecord &record) {
   const std::string name = "along";
-  PageFigure figure;
-  figure.label = "Fig. 3";
-  figure.weight = 1.0;
-  figure.caption =
-      "Stiffness and damping ratio of the windows, with 95 % confidence intervals, along the record.";
-  figure.figure = {name, "Along the record", {}, 2};
+  PageFigure figure = page_figure(
+      "Fig. 3",
+      "Stiffness and damping ratio of the windows, with 95 % confidence intervals, along the record.",
+      {name, "Along the record", {}, 2}, 1.0);
   CurveTable table("time (s),value,low,high");
   const auto add = [&](const char *curve_name, double time, const MeanInterval &value, double unit) {
     table.row(curve_name, {time, value.mean / unit, (value.mean - value.half_width) / unit,

@@ -67,22 +67,10 @@ std::string text_of(std::optional<double> value, const char *format, double scal
 }
 
 PageTable value_table(const MeterResult &result) {
-  PageTable table;
-  table.name = "windows";
-  table.title = "Values over each window";
-  table.text_columns = 1;
-  table.header = {"mode",
-                  "begin (s)",
-                  "CMV (-)",
-                  "off by at most (-)",
-                  "RMV (-)",
-                  "share of contact (-)",
-                  "peak force (kN)",
-                  "energy in two cycles (J)",
-                  "k_B (MN/m)",
-                  "k_1 (MN/m)",
-                  "c_1 (kN s/m)",
-                  "E_vib (MPa)"};
+  PageTable table(
+      "windows", "Values over each window",
+      "mode | begin (s) | CMV (-) | off by at most (-) | RMV (-) | share of contact (-) | peak force (kN) | "
+      "energy in two cycles (J) | k_B (MN/m) | k_1 (MN/m) | c_1 (kN s/m) | E_vib (MPa)");
   for (const MeterWindow &w : result.windows)
     table.add({mode_name(w), fmt::format("{:.4g}", w.begin), text_of(w.cmv, "{:.2f}"),
                result.cycles.source == HarmonicSource::every_step ? no_value : text_of(w.cmv_bound, "{:.2g}"),
@@ -98,11 +86,7 @@ PageTable value_table(const MeterResult &result) {
 }
 
 PageTable formula_table(const MeterResult &result) {
-  PageTable table;
-  table.name = "formulas";
-  table.title = "What the values are";
-  table.header = {"value", "formula", "valid for", "source"};
-  table.text_columns = 4;
+  PageTable table("formulas", "What the values are", "value | formula | valid for | source", 4);
   table.add({"A_n", "amplitude of the drum's acceleration at n times the excitation frequency",
              "whole cycles; an even number of them for half orders", "definition"});
   table.add({"CMV", "300 A_2 / A_1", "one roller at one setting; falls again when the drum double jumps",
@@ -138,11 +122,9 @@ Panel value_panel(const std::string &name, const std::string &title, const std::
 
 PageFigure values_figure(const MeterResult &result) {
   const std::string name = "values";
-  PageFigure figure;
-  figure.label = "Fig. 1";
-  figure.weight = 1.0;
-  figure.caption = "Values along the record, each point a window, drawn at its middle.";
-  figure.figure = {name, "Values along the record", {}, 2};
+  PageFigure figure =
+      page_figure("Fig. 1", "Values along the record, each point a window, drawn at its middle.",
+                  {name, "Values along the record", {}, 2}, 1.0);
   CurveTable table("time [s],CMV [-],RMV [-],peak force [kN],energy in two cycles [J]");
   const double none = std::nan("");
   for (const MeterWindow &w : result.windows)

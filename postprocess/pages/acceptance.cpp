@@ -7,11 +7,7 @@
 namespace drumlin::post {
 
 PageTable acceptance_table(const std::vector<Acceptance> &criteria) {
-  PageTable table;
-  table.name = "acceptance";
-  table.title = "Acceptance criteria";
-  table.text_columns = 2;
-  table.header = {"acceptance criterion", "measured", "holds"};
+  PageTable table("acceptance", "Acceptance criteria", "acceptance criterion | measured | holds", 2);
   table.verdict = "holds";
   table.criterion = "criteria hold";
   for (const Acceptance &one : criteria)

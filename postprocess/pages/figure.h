@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace drumlin::post {
@@ -19,6 +20,11 @@ struct PageFigure {
   double weight = 0.0;       ///< pages open with their figures of largest weight; 0: not a candidate
   std::size_t key_panel = 0; ///< the panel that the page then opens with
 };
+
+/// A figure of a page that is no report's, without its data.
+inline PageFigure page_figure(std::string label, std::string caption, Figure figure, double weight = 0.0) {
+  return {"", std::move(label), std::move(caption), std::move(figure), "", weight, 0};
+}
 
 /// A figure that a page opens with: a panel of one of its figures, drawn at half the width.
 struct KeyFigure {

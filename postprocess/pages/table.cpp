@@ -7,6 +7,17 @@
 
 namespace drumlin::post {
 
+PageTable::PageTable(std::string table_name, std::string table_title, const std::string &columns,
+                     std::size_t columns_of_words)
+    : name(std::move(table_name)), title(std::move(table_title)), text_columns(columns_of_words) {
+  const std::string between = " | ";
+  std::size_t begin = 0;
+  for (std::size_t end = 0; end != std::string::npos; begin = end + between.size()) {
+    end = columns.find(between, begin);
+    header.push_back(columns.substr(begin, end - begin));
+  }
+}
+
 void PageTable::add(std::vector<std::string> row, RowState state) {
   rows.push_back(std::move(row));
   states.push_back(state);

@@ -30,6 +30,11 @@ struct PageTable {
   std::size_t text_columns = 1;   ///< first columns that are words (left-aligned)
   std::vector<std::string> notes; ///< sentences below the table
 
+  PageTable() = default;
+  /// \param columns the header, " | " between its cells
+  PageTable(std::string table_name, std::string table_title, const std::string &columns,
+            std::size_t columns_of_words = 1);
+
   void add(std::vector<std::string> row, RowState state = RowState::plain);
   /// Number of rows in a state.
   std::size_t count(RowState state) const;

@@ -109,17 +109,10 @@ void add_order_row(PageTable &table, const std::string &what, const Series &seri
 }
 
 PageTable order_table(const Data &data) {
-  PageTable table;
-  table.name = "orders";
-  table.title = "Orders of convergence, and steps needed";
-  table.text_columns = 3;
-  table.header = {"what",
-                  "transition",
-                  "stepping",
-                  "order (-)",
-                  "scatter (decades)",
-                  "fitted over steps",
-                  "order of the finer half (-)"};
+  PageTable table("orders", "Orders of convergence, and steps needed",
+                  "what | transition | stepping | order (-) | scatter (decades) | fitted over steps | order "
+                  "of the finer half (-)",
+                  3);
   for (const double error : targets)
     table.header.push_back(fmt::format("steps for {:g}", error));
   for (const double error : targets)
@@ -240,24 +233,10 @@ std::vector<Acceptance> judge(const Data &data, bool complete) {
 }
 
 PageTable scaling_table(const Data &data) {
-  PageTable table;
-  table.name = "scaling";
-  table.title = "Advice for chains that were not measured";
-  table.text_columns = 3;
-  table.header = {"set",
-                  "transition",
-                  "stepping",
-                  "k (MN/m)",
-                  "D (-)",
-                  "f (Hz)",
-                  "Fw (kN)",
-                  "m2 (kg)",
-                  "m3 (kg)",
-                  "k23 (MN/m)",
-                  "c23 (kN s/m)",
-                  "error asked for",
-                  "steps per cycle advised",
-                  "error found"};
+  PageTable table("scaling", "Advice for chains that were not measured",
+                  "set | transition | stepping | k (MN/m) | D (-) | f (Hz) | Fw (kN) | m2 (kg) | m3 (kg) | "
+                  "k23 (MN/m) | c23 (kN s/m) | error asked for | steps per cycle advised | error found",
+                  3);
   for (const ScalingPoint &point : data.scaling) {
     const ChainParameters &p = point.parameters;
     table.add({std::to_string(point.set), transition_name(p.transition), point.stepping,

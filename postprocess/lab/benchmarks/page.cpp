@@ -82,19 +82,11 @@ std::vector<Row> rows_of(const std::vector<BenchmarkRun> &runs) {
 }
 
 PageTable summary_table(const std::vector<Row> &rows) {
-  PageTable table;
-  table.name = "summary";
-  table.title = "Largest error of each quantity";
+  PageTable table("summary", "Largest error of each quantity",
+                  "test | quantity | compared with | points | largest relative error, LIGGGHTS | largest "
+                  "relative error, LAMMPS | tolerance | LAMMPS - LIGGGHTS",
+                  3);
   table.criterion = "quantities are within the tolerance, and equal in both engines to 1e-9";
-  table.text_columns = 3;
-  table.header = {"test",
-                  "quantity",
-                  "compared with",
-                  "points",
-                  "largest relative error, LIGGGHTS",
-                  "largest relative error, LAMMPS",
-                  "tolerance",
-                  "LAMMPS - LIGGGHTS"};
   for (const auto &[name, title] : titles) {
     std::vector<std::pair<std::string, std::string>> seen;
     for (const Row &first : rows) {
@@ -127,13 +119,10 @@ PageTable summary_table(const std::vector<Row> &rows) {
 }
 
 PageTable value_table(const std::vector<Row> &rows) {
-  PageTable table;
-  table.name = "values";
-  table.title = "All points";
+  PageTable table(
+      "values", "All points",
+      "test | material | at | quantity | compared with | expected | LIGGGHTS | LAMMPS | relative error", 5);
   table.criterion = "values are within the tolerance";
-  table.text_columns = 5;
-  table.header = {"test",     "material", "at",     "quantity",      "compared with",
-                  "expected", "LIGGGHTS", "LAMMPS", "relative error"};
   for (const Row &row : rows)
     table.add({row.test, row.material, fmt::format("{:g}", row.at), row.liggghts.quantity,
                row.liggghts.oracle, fmt::format("{:.7g}", row.liggghts.expected),
@@ -208,12 +197,10 @@ SphereSetup at_abscissa(SphereSetup s, const std::string &test, double at) {
 
 /// How far the reference solution is from the published points.
 PageTable published_table(const std::vector<BenchmarkRun> &runs) {
-  PageTable table;
-  table.name = "published";
-  table.title = "Difference of the reference solution from published points";
-  table.text_columns = 4;
-  table.header = {"test",   "material",        "published by",    "quantity",
-                  "points", "largest of them", "mean difference", "largest difference while sliding"};
+  PageTable table("published", "Difference of the reference solution from published points",
+                  "test | material | published by | quantity | points | largest of them | mean difference | "
+                  "largest difference while sliding",
+                  4);
   const std::vector<Published> points = published_points();
   for (std::size_t first = 0; first < points.size();) {
     const Published &group = points[first];

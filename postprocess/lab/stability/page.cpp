@@ -20,15 +20,13 @@ constexpr double no_damping = 1e-3; // D = 0 is drawn here on the logarithmic ax
 
 PageFigure map_figure(const std::vector<MapPoint> &map) {
   const std::string name = "stability_map";
-  PageFigure figure;
-  figure.label = "Fig. 1";
-  figure.weight = 1.0;
-  figure.caption =
+  PageFigure figure = page_figure(
+      "Fig. 1",
       fmt::format("The longest stable step over the damping ratio of one contact: a step is stable below "
                   "the points. Solid line: theory for stock stepping; dash-dotted line: limit of the "
                   "undamped springs. D = 0 is drawn at {:g}.",
-                  no_damping);
-  figure.figure = {name, "Longest stable step over damping", {}, 2};
+                  no_damping),
+      {name, "Longest stable step over damping", {}, 2}, 1.0);
   CurveTable table("D drawn at (-),measured w0 dt (-),theory w0 dt (-)");
   for (const HeldScene &scene : held_scenes()) {
     Panel panel;
@@ -62,13 +60,9 @@ PageFigure map_figure(const std::vector<MapPoint> &map) {
 }
 
 PageTable boundary_table(const std::vector<MapPoint> &map) {
-  PageTable table;
-  table.name = "boundaries";
-  table.title = "Limits of stability";
-  table.text_columns = 2;
-  table.header = {
-      "scene",         "stepping", "lowest stable w0 dt (-)", "at D (-)", "farthest from theory (%)",
-      "there at D (-)"};
+  PageTable table(
+      "boundaries", "Limits of stability",
+      "scene | stepping | lowest stable w0 dt (-) | at D (-) | farthest from theory (%) | there at D (-)", 2);
   for (const HeldScene &scene : held_scenes())
     for (const std::string stepping : steppings) {
       const MapPoint *lowest = nullptr;
@@ -94,12 +88,9 @@ PageTable boundary_table(const std::vector<MapPoint> &map) {
 
 PageTable extremes_table(const std::string &group, const std::vector<ExtremeVerdict> &verdicts,
                          std::size_t number) {
-  PageTable table;
-  table.name = fmt::format("extremes_{}", number);
-  table.title = group;
-  table.text_columns = 1;
+  PageTable table(fmt::format("extremes_{}", number), group,
+                  "run | error (-) | allowed | agrees | remark | command");
   table.verdict = "agrees";
-  table.header = {"run", "error (-)", "allowed", "agrees", "remark", "command"};
   for (const ExtremeVerdict &verdict : verdicts) {
     if (verdict.row.group != group) continue;
     table.add({verdict.row.name, fmt::format("{:.2g}", verdict.error),

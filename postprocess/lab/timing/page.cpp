@@ -26,11 +26,7 @@ std::string quartiles(const Spread &spread) {
 /// What each ball takes of the memory of one rank.
 PageTable memory_table(const std::vector<VariantTime> &all, const TimedBeds &beds,
                        const std::vector<EngineLaws> &engines) {
-  PageTable table;
-  table.name = "memory";
-  table.title = "Memory per ball";
-  table.text_columns = 1;
-  table.header = {"law", "bytes per ball"};
+  PageTable table("memory", "Memory per ball", "law | bytes per ball");
   for (const EngineLaws &laws : engines)
     for (const char *law : laws.all())
       table.add({law, fmt::format("{:.0f}", bytes_per_ball(all, law, beds.cell, beds.copies))});
@@ -55,21 +51,11 @@ const char *own_law(const std::string &variant) {
 }
 
 PageTable time_table(const std::vector<TimedRun> &runs, const std::vector<VariantTime> &all) {
-  PageTable table;
-  table.name = "times";
-  table.title = "Time of a step";
-  table.text_columns = 2;
-  table.header = {"scene",
-                  "variant",
-                  "ranks",
-                  "rounds",
-                  "step (us) [quartiles]",
-                  "pair (us)",
-                  "ball and step (ns)",
-                  "million balls x steps per s [quartiles]",
-                  "time over the engine's law (-) [quartiles]",
-                  "efficiency (-) [quartiles]",
-                  "memory of the largest rank (MB)"};
+  PageTable table("times", "Time of a step",
+                  "scene | variant | ranks | rounds | step (us) [quartiles] | pair (us) | ball and step (ns) "
+                  "| million balls x steps per s [quartiles] | time over the engine's law (-) [quartiles] | "
+                  "efficiency (-) [quartiles] | memory of the largest rank (MB)",
+                  2);
   for (const VariantTime &one : all) {
     const Measured what = {one.variant, one.ranks};
     const char *own = own_law(one.variant);
@@ -119,11 +105,9 @@ PageTable projection_table(const std::vector<TimedRun> &runs, const std::vector<
   constexpr double balls = 1e8, rows = 20.0, cycles = 10.0, steps_per_cycle = 4000.0;
   constexpr double ghost_rows =
       2.4; // of balls beyond each border: largest diameter and skin, over the mean diameter
-  PageTable table;
-  table.name = "projection";
-  table.title = "Estimate for 1e8 balls in a bed of 20 layers";
-  table.header = {"balls per rank", "ranks",          "memory per rank (GB)",    "ghosts per ball (-)",
-                  "step (ms)",      "ten cycles (h)", "efficiency of a rank (-)"};
+  PageTable table("projection", "Estimate for 1e8 balls in a bed of 20 layers",
+                  "balls per rank | ranks | memory per rank (GB) | ghosts per ball (-) | step (ms) | ten "
+                  "cycles (h) | efficiency of a rank (-)");
   const char *law = engine_laws.front().stock;
   const double bytes = bytes_per_ball(all, law, beds.cell, beds.copies);
   // Ranks of a node share its memory bandwidth, and each rank computes the contacts of its ghosts in
@@ -152,13 +136,12 @@ PageTable projection_table(const std::vector<TimedRun> &runs, const std::vector<
 PageFigure size_figure(const std::vector<VariantTime> &all, const TimedBeds &beds,
                        const std::vector<EngineLaws> &engines) {
   const std::string name = "throughput";
-  PageFigure figure;
-  figure.label = "Fig. 2";
-  figure.weight = 1.0;
-  figure.caption = "Steps of balls per second: median over the rounds and quartiles. From left to right: the "
-                   "engine's law, stock "
-                   "and second on one rank, then the same on two; then those of LAMMPS.";
-  figure.figure = {name, "Steps of balls per second", {}, 3};
+  PageFigure figure =
+      page_figure("Fig. 2",
+                  "Steps of balls per second: median over the rounds and quartiles. From left to right: the "
+                  "engine's law, stock "
+                  "and second on one rank, then the same on two; then those of LAMMPS.",
+                  {name, "Steps of balls per second", {}, 3}, 1.0);
   CurveTable table("place,million per s,lower quartile,upper quartile");
   for (const std::string &scene : {beds.plane, beds.cell, beds.copies}) {
     Panel panel;
@@ -200,20 +183,11 @@ const std::vector<Comparison> comparisons = {
     {"second, D = 0.1", "second + friction + D = 0.1", "stock + friction + D = 0.1", 1.10, "bed 2500"}};
 
 PageTable piece_table(const std::vector<PieceCost> &costs) {
-  PageTable table;
-  table.name = "pieces";
-  table.title = "Cost of each part";
+  PageTable table("pieces", "Cost of each part",
+                  "scene | piece | variant | over | ratio (-) | lower quartile (-) | upper quartile (-) | "
+                  "allowed at most (-) | extra per step (us)",
+                  4);
   table.criterion = "parts that have an acceptance criterion cost no more than it allows";
-  table.text_columns = 4;
-  table.header = {"scene",
-                  "piece",
-                  "variant",
-                  "over",
-                  "ratio (-)",
-                  "lower quartile (-)",
-                  "upper quartile (-)",
-                  "allowed at most (-)",
-                  "extra per step (us)"};
   for (const PieceCost &cost : costs)
     table.add({cost.scene, cost.comparison.piece, cost.comparison.variant, cost.comparison.base,
                fmt::format("{:.3f}", cost.ratio.median), fmt::format("{:.3f}", cost.ratio.lower),
@@ -244,12 +218,11 @@ void judge_pieces(const std::vector<PieceCost> &costs, std::vector<Acceptance> &
 
 PageFigure piece_figure(const std::vector<PieceCost> &costs) {
   const std::string name = "ratios";
-  PageFigure figure;
-  figure.label = "Fig. 1";
-  figure.weight = 1.0;
-  figure.caption = "Time per step of a run over that of the run without the part: median over the rounds and "
-                   "quartiles.";
-  figure.figure = {name, "Time per step over that without the part", {}, 1};
+  PageFigure figure =
+      page_figure("Fig. 1",
+                  "Time per step of a run over that of the run without the part: median over the rounds and "
+                  "quartiles.",
+                  {name, "Time per step over that without the part", {}, 1}, 1.0);
   CurveTable table("piece,ratio (-),lower quartile (-),upper quartile (-)");
   for (const PieceCost &cost : costs) {
     std::vector<Panel> &panels = figure.figure.panels;

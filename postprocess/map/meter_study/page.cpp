@@ -114,11 +114,8 @@ std::string modes_of(const Points &points) {
 }
 
 PageTable course_table(const Points &points) {
-  PageTable table;
-  table.name = "courses";
-  table.title = "Where the values rise and fall with growing k (MN/m)";
-  table.text_columns = shown_values.size() + 2;
-  table.header = {"roller", "modes"};
+  PageTable table("courses", "Where the values rise and fall with growing k (MN/m)", "roller | modes",
+                  shown_values.size() + 2);
   for (const ShownValue &shown : shown_values)
     table.header.emplace_back(shown.title);
   for (const SoilRoller &roller : rollers_of(points)) {
@@ -191,13 +188,13 @@ Panel value_panel(const ShownValue &shown, const SoilRoller &roller, const Cours
 }
 
 PageFigure value_figure(const Points &points, const ShownValue &shown, int number) {
-  PageFigure figure;
-  figure.label = fmt::format("Fig. {}", number);
-  figure.caption = fmt::format(
-      "{} over the stiffness k of the soil, condition B, D = 0.5. Marks are operating modes; a solid line "
-      "is where a value that also rises falls with growing k.{}",
-      shown.title, shown.stiffness ? " The dash-dotted line is k itself." : "");
-  figure.figure = {shown.name, fmt::format("{} over the stiffness of the soil", shown.title), {}, 3};
+  PageFigure figure =
+      page_figure(fmt::format("Fig. {}", number),
+                  fmt::format("{} over the stiffness k of the soil, condition B, D = 0.5. Marks are "
+                              "operating modes; a solid line "
+                              "is where a value that also rises falls with growing k.{}",
+                              shown.title, shown.stiffness ? " The dash-dotted line is k itself." : ""),
+                  {shown.name, fmt::format("{} over the stiffness of the soil", shown.title), {}, 3});
   std::string header = shown.label;
   header.erase(std::remove_if(header.begin(), header.end(), [](char c) { return c == '{' || c == '}'; }),
                header.end());
@@ -236,16 +233,9 @@ Found found_in(const Points &points, const std::string &roller = {}) {
 }
 
 PageTable found_table(const Points &points) {
-  PageTable table;
-  table.name = "identified_k";
-  table.title = "What identify finds from the same records";
-  table.header = {"roller",
-                  "records",
-                  "exact: no identification",
-                  "largest error of k (-)",
-                  "noisy accelerations: no identification",
-                  "largest error of k (-)",
-                  "k in its 95 % interval"};
+  PageTable table("identified_k", "What identify finds from the same records",
+                  "roller | records | exact: no identification | largest error of k (-) | noisy "
+                  "accelerations: no identification | largest error of k (-) | k in its 95 % interval");
   for (const SoilRoller &roller : rollers_of(points)) {
     const Found found = found_in(points, roller.name);
     table.add({roller.title, std::to_string(found.records), std::to_string(found.records - found.exact),
@@ -263,14 +253,12 @@ PageTable found_table(const Points &points) {
 
 PageFigure found_figure(const Points &points, int number) {
   const std::string name = "identified";
-  PageFigure figure;
-  figure.label = fmt::format("Fig. {}", number);
-  figure.weight = 0.9;
-  figure.key_panel = 4;
-  figure.caption =
+  PageFigure figure = page_figure(
+      fmt::format("Fig. {}", number),
       "k that identify finds over the true k, from the records of the figures above, with 95 % confidence "
-      "intervals. Crosses: no identification.";
-  figure.figure = {name, "k identified over true k", {}, 3};
+      "intervals. Crosses: no identification.",
+      {name, "k identified over true k", {}, 3}, 0.9);
+  figure.key_panel = 4;
   CurveTable table("k [MN/m],found over true [-],lower end [-],upper end [-]");
   for (const SoilRoller &roller : rollers_of(points)) {
     Panel panel;

@@ -55,27 +55,13 @@ std::string words_of(const BedGroup &group) {
 }
 
 PageTable motion_table(const std::vector<BedResult> &beds) {
-  PageTable motion;
+  PageTable motion(
+      "bed_runs", "Motion of the roller",
+      "run | transition | friction (-) | balls | frequency (Hz) | cycles (-) | steady cycles | largest drum "
+      "acceleration (m/s²) | largest contact force (kN) | smallest contact force (kN) | share of time in "
+      "contact (-) | CMV (-) | stepping | steps per cycle | ranks | command",
+      2);
   motion.section = "bed";
-  motion.name = "bed_runs";
-  motion.title = "Motion of the roller";
-  motion.text_columns = 2;
-  motion.header = {"run",
-                   "transition",
-                   "friction (-)",
-                   "balls",
-                   "frequency (Hz)",
-                   "cycles (-)",
-                   "steady cycles",
-                   "largest drum acceleration (m/s²)",
-                   "largest contact force (kN)",
-                   "smallest contact force (kN)",
-                   "share of time in contact (-)",
-                   "CMV (-)",
-                   "stepping",
-                   "steps per cycle",
-                   "ranks",
-                   "command"};
   motion.shown_columns = motion.header.size() - 4;
   for (const BedResult &result : beds) {
     const Run &run = result.run;
@@ -106,26 +92,15 @@ PageTable motion_table(const std::vector<BedResult> &beds) {
 }
 
 PageTable state_table(const std::vector<BedResult> &beds) {
-  PageTable state;
+  PageTable state(
+      "bed_states", "State of the bed",
+      "run | transition | settlement at the end (mm) | settlement per cycle (mm) | coordination at the start "
+      "(-) | coordination at the end (-) | void ratio at the start (-) | void ratio at the end (-) | "
+      "imbalance of energy (% of work) | drum at rest, depth below the surface (% of its diameter) | grading "
+      "| smallest and largest ball (mm) | d50 (mm) | coefficient of uniformity Cu (-)",
+      2);
   state.section = "bed";
-  state.name = "bed_states";
-  state.title = "State of the bed";
-  state.text_columns = 2;
   state.criterion = "runs have an energy error of at most 1 % of the exciter's work";
-  state.header = {"run",
-                  "transition",
-                  "settlement at the end (mm)",
-                  "settlement per cycle (mm)",
-                  "coordination at the start (-)",
-                  "coordination at the end (-)",
-                  "void ratio at the start (-)",
-                  "void ratio at the end (-)",
-                  "imbalance of energy (% of work)",
-                  "drum at rest, depth below the surface (% of its diameter)",
-                  "grading",
-                  "smallest and largest ball (mm)",
-                  "d50 (mm)",
-                  "coefficient of uniformity Cu (-)"};
   for (const BedResult &result : beds) {
     const BedMeasures &m = result.measures;
     const bool any = m.cycles > 0;

@@ -75,13 +75,11 @@ PageTable engine_table(const ReportResults &results) {
   for (const HistoryColumn &column : history_columns)
     if (column.derivative != time_column && column.values != &ChainHistory::F_excitation)
       columns.push_back(column);
-  PageTable table;
+  PageTable table("engines", "Largest difference over the largest value",
+                  "run | against | engines | case | transition | stepping");
   table.section = "engines";
-  table.name = "engines";
-  table.title = "Largest difference over the largest value";
   table.verdict = "agree";
   table.criterion = fmt::format("pairs of runs agree within {:g}", engines_agree_to);
-  table.header = {"run", "against", "engines", "case", "transition", "stepping"};
   for (const HistoryColumn &column : columns)
     table.header.push_back(std::string(column.name) + " (-)");
   table.header.insert(table.header.end(), {"events", "event times (s)", "agree"});

@@ -45,17 +45,9 @@ CompressionTest compression_test(const std::string &name) {
 /// Angles over the seeds of a soil, for each side stress and for all.
 PageTable seed_table(const CompressionTest &test, const std::vector<Soil> &soils,
                      const std::vector<CompressionRun> &runs, const std::vector<Strength> &strengths) {
-  PageTable table;
-  table.name = test.name + "_angles";
-  table.title = "Angles over the seeds";
-  table.header = {"soil",
-                  "side stress (kPa)",
-                  "runs",
-                  "peak friction angle (°)",
-                  "smallest to largest (°)",
-                  "dilatancy angle at the peak (°)",
-                  "critical friction angle (°)",
-                  "smallest to largest (°)"};
+  PageTable table(test.name + "_angles", "Angles over the seeds",
+                  "soil | side stress (kPa) | runs | peak friction angle (°) | smallest to largest (°) | "
+                  "dilatancy angle at the peak (°) | critical friction angle (°) | smallest to largest (°)");
   add_soils(table, test, soils, runs, [&](const std::vector<std::size_t> &members) {
     SeedValues peak, dilatancy, critical;
     for (const std::size_t n : members) {
@@ -94,13 +86,9 @@ bool have_line(const std::vector<Failure> &failures,
 /// The line through all failures of a soil, at the peak and at large strains.
 PageTable line_table(const CompressionTest &test, const std::vector<Soil> &soils,
                      const std::vector<CompressionRun> &runs, const std::vector<Strength> &strengths) {
-  PageTable table;
-  table.name = test.name + "_lines";
-  table.title = "Mohr-Coulomb lines";
-  table.text_columns = 2;
-  table.header = {
-      "soil",          "failure", "runs", "side stresses", "friction angle (°)", "95 % interval (°)",
-      "cohesion (kPa)"};
+  PageTable table(
+      test.name + "_lines", "Mohr-Coulomb lines",
+      "soil | failure | runs | side stresses | friction angle (°) | 95 % interval (°) | cohesion (kPa)", 2);
   for (const Soil &soil : soils)
     for (const bool critical : {false, true}) {
       const std::vector<Failure> failures = failures_of(soil, strengths, critical);
@@ -124,9 +112,9 @@ PageTable line_table(const CompressionTest &test, const std::vector<Soil> &soils
 PageTable run_table(const CompressionTest &test, const std::vector<CompressionRun> &runs,
                     const std::vector<Strength> &strengths) {
   PageTable table = element_run_table(
-      test.name + "_runs", {"side stress (kPa)", "void ratio at the start (-)", "E50 (MPa)",
-                            "peak friction angle (°)", "strain at the peak (%)", "dilatancy angle (°)",
-                            "critical friction angle (°)", "void ratio at the end (-)"});
+      test.name + "_runs",
+      "side stress (kPa) | void ratio at the start (-) | E50 (MPa) | peak friction angle (°) | strain at the "
+      "peak (%) | dilatancy angle (°) | critical friction angle (°) | void ratio at the end (-)");
   for (std::size_t n = 0; n < runs.size(); ++n) {
     const CompressionRun &run = runs[n];
     const Strength &strength = strengths[n];
@@ -175,12 +163,11 @@ PageFigure line_figure(const CompressionTest &test, const std::vector<Soil> &soi
     panel.curves.push_back(
         curve(name, points, "$2", "3", critical ? CurveStyle::measured_a : CurveStyle::measured_b));
   }
-  PageFigure figure;
-  figure.label = "Fig. 2";
-  figure.caption =
+  PageFigure figure = page_figure(
+      "Fig. 2",
       "Half the difference over half the sum of axial and side stress of each run at failure, and "
-      "the Mohr-Coulomb lines through them, whose slopes are the sines of the friction angles.";
-  figure.figure = {name, "", {panel}, 1};
+      "the Mohr-Coulomb lines through them, whose slopes are the sines of the friction angles.",
+      {name, "", {panel}, 1});
   figure.csv = table.text();
   return figure;
 }

@@ -25,10 +25,10 @@ double largest_modulus(const std::vector<OedometerRow> &rows, bool increasing) {
 }
 
 PageTable run_table(const std::vector<OedometerRun> &runs) {
-  PageTable table = element_run_table("oedometer_runs",
-                                      {"friction (-)", "k (N/m)", "void ratio at the start (-)",
-                                       "settlement at the largest stress (mm)", "settlement at the end (mm)",
-                                       "largest modulus, loading (MPa)", "largest modulus, unloading (MPa)"});
+  PageTable table = element_run_table(
+      "oedometer_runs",
+      "friction (-) | k (N/m) | void ratio at the start (-) | settlement at the largest stress (mm) | "
+      "settlement at the end (mm) | largest modulus, loading (MPa) | largest modulus, unloading (MPa)");
   for (const OedometerRun &run : runs)
     add_element_run(table, run.run,
                     {run.run.text("friction"), run.run.text("k"), number_cell(run.rows.front().void_ratio),
@@ -48,10 +48,8 @@ PageTable run_table(const std::vector<OedometerRun> &runs) {
 
 /// Every row of every run.
 PageTable row_table(const std::vector<OedometerRun> &runs) {
-  PageTable table;
-  table.name = "oedometer_rows";
-  table.title = "The sample at rest under each stress";
-  table.header = {"run", "stress (kPa)", "settlement (mm)", "strain (%)", "void ratio (-)", "modulus (MPa)"};
+  PageTable table("oedometer_rows", "The sample at rest under each stress",
+                  "run | stress (kPa) | settlement (mm) | strain (%) | void ratio (-) | modulus (MPa)");
   for (const OedometerRun &run : runs)
     for (const OedometerRow &row : run.rows)
       table.add({run.run.name, number_cell(row.stress), number_cell(row.settlement),
@@ -78,13 +76,12 @@ PageFigure stress_figure(const std::vector<OedometerRun> &runs) {
     voids.curves.push_back(curve(name, key, "$2", "4", style));
     modulus.curves.push_back(curve(name, key, "$2", "5", style));
   }
-  PageFigure figure;
-  figure.label = "Fig. 1";
-  figure.caption = "Constrained modulus, settlement and void ratio over the stress of the platen, loads "
-                   "connected in their order. A "
-                   "modulus is drawn at the stress at which its change of stress ends.";
-  figure.weight = 1.0;
-  figure.figure = {name, "Samples under the stresses of the oedometer", {modulus, settlement, voids}, 1};
+  PageFigure figure = page_figure(
+      "Fig. 1",
+      "Constrained modulus, settlement and void ratio over the stress of the platen, loads "
+      "connected in their order. A "
+      "modulus is drawn at the stress at which its change of stress ends.",
+      {name, "Samples under the stresses of the oedometer", {modulus, settlement, voids}, 1}, 1.0);
   for (Panel &panel : figure.figure.panels)
     panel.log_x = true;
   figure.csv = table.text();

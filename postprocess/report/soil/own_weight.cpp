@@ -50,11 +50,7 @@ std::string key_of(const Soil &soil, const std::vector<OwnWeightRun> &runs) {
 
 PageFigure one_panel(const std::string &name, const std::string &caption, const Panel &panel,
                      const CurveTable &table) {
-  PageFigure figure;
-  figure.label = "Fig. 1";
-  figure.caption = caption;
-  figure.weight = 1.0;
-  figure.figure = {name, "", {panel}, 1};
+  PageFigure figure = page_figure("Fig. 1", caption, {name, "", {panel}, 1}, 1.0);
   figure.csv = table.text();
   return figure;
 }
@@ -85,12 +81,10 @@ PageFigure wall_figure(const std::vector<OwnWeightRun> &runs) {
 
 void write_wall_page(const std::vector<OwnWeightRun> &runs, const fs::path &out) {
   PageTable single =
-      element_run_table("wall_runs", {"height (m)", "force at rest (N)", "K at rest (-)", "active force (N)",
-                                      "K_a (-)", "friction angle by Rankine (°)", "displacement (mm)"});
-  PageTable means;
-  means.name = "wall_soils";
-  means.title = "Means over the seeds";
-  means.header = {"soil", "runs", "100 K at rest", "100 K_a", "friction angle by Rankine (°)"};
+      element_run_table("wall_runs", "height (m) | force at rest (N) | K at rest (-) | active force (N) | "
+                                     "K_a (-) | friction angle by Rankine (°) | displacement (mm)");
+  PageTable means("wall_soils", "Means over the seeds",
+                  "soil | runs | 100 K at rest | 100 K_a | friction angle by Rankine (°)");
   for (const Soil &group : soils_of(runs, of_each_sample)) {
     SeedValues at_rest, active, angle;
     for (const std::size_t n : group.runs) {
@@ -181,8 +175,8 @@ void write_silo_page(const std::vector<OwnWeightRun> &runs, const fs::path &out)
   varied.emplace_back("layers");
   PageTable table = element_run_table(
       "silo_runs",
-      {"height (m)", "height over width (-)", "floor force over weight (-)", "the same after Janssen (-)",
-       "friction over normal force at the walls (-)", "K of the run (-)", "mean K (-)"});
+      "height (m) | height over width (-) | floor force over weight (-) | the same after Janssen (-) | "
+      "friction over normal force at the walls (-) | K of the run (-) | mean K (-)");
   for (const Soil &group : soils_of(runs, varied)) {
     double sum = 0.0, count = 0.0;
     for (const std::size_t n : group.runs)
@@ -264,13 +258,11 @@ PageFigure repose_figure(const std::vector<OwnWeightRun> &runs, const std::vecto
 void write_repose_page(const std::vector<OwnWeightRun> &runs, const std::vector<Heap> &heaps,
                        const fs::path &out) {
   PageTable single = element_run_table(
-      "repose_runs", {"friction (-)", "rolling friction (-)", "angle of repose (°)", "95 % interval (°)",
-                      "force on the wall at the end (N)", "displacement of the wall (mm)"});
-  PageTable means;
-  means.name = "repose_soils";
-  means.title = "Means over the seeds";
-  means.header = {"soil", "friction (-)",        "rolling friction (-)",
-                  "runs", "angle of repose (°)", "smallest to largest (°)"};
+      "repose_runs", "friction (-) | rolling friction (-) | angle of repose (°) | 95 % interval (°) | force "
+                     "on the wall at the end (N) | displacement of the wall (mm)");
+  PageTable means(
+      "repose_soils", "Means over the seeds",
+      "soil | friction (-) | rolling friction (-) | runs | angle of repose (°) | smallest to largest (°)");
   for (const Soil &group : soils_of(runs, of_each_sample)) {
     SeedValues angle;
     for (const std::size_t n : group.runs) {

@@ -67,15 +67,11 @@ std::vector<Acceptance> quality_criteria(const TestQuality &quality) {
   return criteria;
 }
 
-PageTable element_run_table(const std::string &name, const std::vector<std::string> &header) {
-  PageTable table;
-  table.name = name;
-  table.title = "Runs";
-  table.text_columns = 2;
-  table.header = {"run", "sample", "balls"};
-  table.header.insert(table.header.end(), header.begin(), header.end());
-  table.header.insert(table.header.end(),
-                      {"largest inertial number (-)", "largest energy error (-)", "engine", "command"});
+PageTable element_run_table(const std::string &name, const std::string &columns) {
+  PageTable table(name, "Runs",
+                  "run | sample | balls | " + columns +
+                      " | largest inertial number (-) | largest energy error (-) | engine | command",
+                  2);
   table.shown_columns = table.header.size() - 1;
   table.criterion =
       fmt::format("runs have an inertial number of at most {:g} and an energy error of at most {:g}",

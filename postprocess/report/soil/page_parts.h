@@ -88,9 +88,10 @@ void answer_quality(Page &page, const std::vector<ElementRun<Row>> &runs) {
   page.answer(quality_criteria(worst_of(qualities)));
 }
 
-/// A table of runs: name and sample of each, the measured quantities in `header`, and whether it was good.
-PageTable element_run_table(const std::string &name, const std::vector<std::string> &header);
-/// Adds a run; `measured` has as many cells as the header.
+/// A table of runs: name and sample of each, the measured quantities in `columns` (with " | " between them), and whether it was
+/// good.
+PageTable element_run_table(const std::string &name, const std::string &columns);
+/// Adds a run; `measured` has a cell for each of the columns.
 void add_element_run(PageTable &table, const Run &run, const std::vector<std::string> &measured,
                      const TestQuality &quality);
 

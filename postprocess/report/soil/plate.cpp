@@ -58,10 +58,7 @@ constexpr std::array quantities = {
 
 /// Means over the beds of one soil.
 PageTable soil_table(const std::vector<PlateRun> &runs, const std::vector<PlateResult> &results) {
-  PageTable table;
-  table.name = "plate_soils";
-  table.title = "Means over the beds";
-  table.header = {"soil", "tests"};
+  PageTable table("plate_soils", "Means over the beds", "soil | tests");
   for (const Quantity &quantity : quantities)
     table.header.emplace_back(quantity.header);
   for (const Soil &soil : soils_of(runs, {"bed"})) {
@@ -86,11 +83,11 @@ PageTable soil_table(const std::vector<PlateRun> &runs, const std::vector<PlateR
 }
 
 PageTable run_table(const std::vector<PlateRun> &runs, const std::vector<PlateResult> &results) {
-  std::vector<std::string> header = {"plate width (m)", "largest stress (kPa)",
-                                     "settlement at the end of the first loading (mm)"};
+  std::string columns =
+      "plate width (m) | largest stress (kPa) | settlement at the end of the first loading (mm)";
   for (const Quantity &quantity : quantities)
-    header.emplace_back(quantity.header);
-  PageTable table = element_run_table("plate_runs", header);
+    columns += std::string(" | ") + quantity.header;
+  PageTable table = element_run_table("plate_runs", columns);
   for (std::size_t n = 0; n < runs.size(); ++n) {
     const PlateRun &run = runs[n];
     double most = 0.0, settlement = 0.0;
@@ -116,11 +113,8 @@ PageTable run_table(const std::vector<PlateRun> &runs, const std::vector<PlateRe
 /// Every row of every run.
 PageTable row_table(const std::vector<PlateRun> &runs) {
   constexpr std::array phases = {"seating", "first loading", "unloading", "second loading"};
-  PageTable table;
-  table.name = "plate_rows";
-  table.title = "The bed at rest under each stress";
-  table.text_columns = 2;
-  table.header = {"run", "part", "stress (kPa)", "settlement (mm)"};
+  PageTable table("plate_rows", "The bed at rest under each stress",
+                  "run | part | stress (kPa) | settlement (mm)", 2);
   for (const PlateRun &run : runs)
     for (const PlateRow &row : run.rows)
       table.add({run.run.name, phases.at(static_cast<std::size_t>(row.phase)), number_cell(row.stress),
@@ -139,11 +133,9 @@ PageFigure settlement_figure(const std::vector<PlateRun> &runs) {
       table.row(key, {row.stress, row.settlement});
     panel.curves.push_back(curve(name, key, "$2", "3", series_style(n)));
   }
-  PageFigure figure;
-  figure.label = "Fig. 1";
-  figure.caption = "Settlement of the plate over its stress, the stages connected in their order.";
-  figure.weight = 1.0;
-  figure.figure = {name, "A plate on the bed: first loading, unloading, second loading", {panel}, 1};
+  PageFigure figure =
+      page_figure("Fig. 1", "Settlement of the plate over its stress, the stages connected in their order.",
+                  {name, "A plate on the bed: first loading, unloading, second loading", {panel}, 1}, 1.0);
   figure.csv = table.text();
   return figure;
 }

@@ -32,17 +32,10 @@ const StrengthTest<ShearRow> shear_test = {
 /// Angles over the seeds of a soil, for each normal stress and for all.
 PageTable seed_table(const std::vector<Soil> &soils, const std::vector<ShearRun> &runs,
                      const std::vector<ShearStrength> &strengths) {
-  PageTable table;
-  table.name = "shear_angles";
-  table.title = "Angles over the seeds";
-  table.header = {"soil",
-                  "normal stress (kPa)",
-                  "runs",
-                  "peak friction on the plane of shear (°)",
-                  "dilatancy angle at the peak (°)",
-                  "peak friction angle after Davis (°)",
-                  "critical friction on the plane of shear (°)",
-                  "critical friction angle after Davis (°)"};
+  PageTable table("shear_angles", "Angles over the seeds",
+                  "soil | normal stress (kPa) | runs | peak friction on the plane of shear (°) | dilatancy "
+                  "angle at the peak (°) | peak friction angle after Davis (°) | critical friction on the "
+                  "plane of shear (°) | critical friction angle after Davis (°)");
   add_soils(table, shear_test, soils, runs, [&](const std::vector<std::size_t> &members) {
     SeedValues peak, dilatancy, peak_davis, critical, critical_davis;
     for (const std::size_t n : members) {
@@ -70,10 +63,9 @@ PageTable seed_table(const std::vector<Soil> &soils, const std::vector<ShearRun>
 }
 
 PageTable run_table(const std::vector<ShearRun> &runs, const std::vector<ShearStrength> &strengths) {
-  PageTable table =
-      element_run_table("shear_runs", {"normal stress (kPa)", "void ratio at the start (-)",
-                                       "peak friction (°)", "strain at the peak (%)", "dilatancy angle (°)",
-                                       "critical friction (°)", "void ratio at the end (-)"});
+  PageTable table = element_run_table(
+      "shear_runs", "normal stress (kPa) | void ratio at the start (-) | peak friction (°) | strain at the "
+                    "peak (%) | dilatancy angle (°) | critical friction (°) | void ratio at the end (-)");
   for (std::size_t n = 0; n < runs.size(); ++n) {
     const ShearRun &run = runs[n];
     const ShearStrength &strength = strengths[n];

@@ -120,14 +120,12 @@ PageFigure strength_figure(const StrengthTest<Row> &test, const std::vector<Soil
       friction.curves.push_back(curve(test.name, key, "$2", "3", style));
       volume.curves.push_back(curve(test.name, key, "$2", "4", style));
     }
-  PageFigure figure;
-  figure.label = "Fig. 1";
-  figure.caption =
+  PageFigure figure = page_figure(
+      "Fig. 1",
       fmt::format("Mobilised friction, {}, and increase of the volume over {}. Runs that differ only in "
                   "the seed are averaged.",
-                  test.angle_formula, test.strain_axis);
-  figure.weight = 1.0;
-  figure.figure = {test.name, test.title, {friction, volume}, 1};
+                  test.angle_formula, test.strain_axis),
+      {test.name, test.title, {friction, volume}, 1}, 1.0);
   figure.csv = table.text();
   return figure;
 }
