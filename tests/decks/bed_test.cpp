@@ -897,7 +897,7 @@ TEST_F(Bed, LeavesNoOldFileWhenASignalStopsTheRunThatReplacesIt) {
   stopped("in.place", placing);
 }
 
-// A drum that is shot through the floor, and soil that a far too strong dashpot throws out of the box: without any
+// A drum that is shot through the floor, and soil whose contacts are too soft for the floor to carry it: without any
 // other check that would stop the run.
 TEST_F(Bed, ALostBallIsAnErrorOnRanksOneAndTwo) {
   for (const int ranks : {1, 2}) {
@@ -908,7 +908,7 @@ TEST_F(Bed, ALostBallIsAnErrorOnRanksOneAndTwo) {
         << roller.output;
     const Outcome soil = run(bed_folder() / "in.settle", folder,
                              {{"guard", "off"},
-                              {"D", "1e9"},
+                              {"pour_k", "10"},
                               {"stepping", "stock"},
                               {"balls", (scratch / "balls.data").string()},
                               {"bed", (folder / "x.restart").string()}},

@@ -176,7 +176,8 @@ TEST(KilledEngine, EndsACalibrationThatContinues) {
     bool sent = false;
     const Outcome killed = call(folder, [&](pid_t tool) {
       const std::string text = rows(folder);
-      if (!sent && std::count(text.begin(), text.end(), '\n') == 3) // two beds of the first point
+      // Two beds of the first point. More than once: an engine that has just ended takes a signal, too.
+      if (std::count(text.begin(), text.end(), '\n') == 3)
         for (const pid_t engine : children_of(tool))
           sent = ::kill(engine, signal) == 0 || sent;
       return false;
