@@ -1,10 +1,10 @@
 #include "lab/timing/page.h"
 
 #include "engine/places.h"
+#include "lab/timing/results.h"
 #include "pages/acceptance.h"
 #include "pages/figure_data.h"
 #include "pages/page.h"
-#include "lab/timing/results.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // Options with values that are not allowed: each is refused at once, in one line that names it, and nothing
 // is written.
-#include "support/files.h"
 #include "runs/parameter_file.h"
+#include "support/files.h"
 #include "support/process.h"
 #include "tests/support/lines.h"
 
