@@ -2,7 +2,7 @@
 
 #include "commands/text_options.h"
 #include "engine/deck_run.h"
-#include "engine/engine_run.h"
+#include "engine/engine_command.h"
 #include "experiment/results.h"
 #include "experiment/runner.h"
 #include "experiment/study.h"
@@ -118,6 +118,9 @@ void run_plan(const Arguments &arguments) {
   if (balls > 0 && !plan.can_be_scaled()) throw UsageError(refusal("--balls", balls, what_can_be_scaled));
   if (balls > 0) plan = plan.with_balls(balls);
   if (options.quick) plan = plan.quick();
+  for (const Scene &scene : plan.scenes)
+    if (const std::string fault = engine_fault(engine_of(scene.deck)); !fault.empty())
+      throw UsageError(fault);
   const ResumedFolder folder = open_study(options, settings_of(plan));
   run_experiment(plan, options.out, jobs);
 }

@@ -24,16 +24,25 @@ std::string with_unit(const std::string &label, const std::string &unit) {
 std::string change_unit(const Quantity &quantity) { return quantity.absolute ? quantity.shown_unit : "%"; }
 double change_scale(const Quantity &quantity) { return quantity.absolute ? quantity.scale : 100.0; }
 
-std::string interval_text(const MeanInterval &interval, double scale, const char *sign = "") {
-  const std::string mean = fmt::format(fmt::runtime(fmt::format("{{:{}.3g}}", sign)), scale * interval.mean);
-  return std::isfinite(interval.half_width) ? fmt::format("{} ± {:.2g}", mean, scale * interval.half_width)
-                                            : mean + " (one)";
+/// A number with so many significant digits, or all of those before the point, and no exponent where it is not needed.
+std::string rounded(double value, int digits, bool with_sign = false) {
+  constexpr double most = 1e7;
+  const bool whole = std::fabs(value) >= std::pow(10.0, digits) && std::fabs(value) < most;
+  const std::string text = whole ? fmt::format("{:.0f}", value) : fmt::format("{:.{}g}", value, digits);
+  return (with_sign && !(value < 0.0) ? "+" : "") + text;
+}
+
+std::string interval_text(const MeanInterval &interval, double scale, bool with_sign = false) {
+  const std::string mean = rounded(scale * interval.mean, 3, with_sign);
+  return std::isfinite(interval.half_width)
+             ? fmt::format("{} ± {}", mean, rounded(scale * interval.half_width, 2))
+             : mean + " (one)";
 }
 
 std::string change_text(const std::optional<Change> &change, const Quantity &quantity) {
   if (!change) return no_value;
   const MeanInterval &shown = change->shown(quantity);
-  return interval_text(shown, change_scale(quantity), "+") + (shown.significant() ? " *" : "");
+  return interval_text(shown, change_scale(quantity), true) + (shown.significant() ? " *" : "");
 }
 
 std::string cost_text(double ratio) { return std::isfinite(ratio) ? fmt::format("{:.2g}", ratio) : no_value; }
@@ -63,9 +72,10 @@ PageTable conclusion_table(const Plan &plan, const std::vector<Effect> &effects)
       if (!effect.changes[q]) continue;
       const std::string cost =
           std::isfinite(effect.cost) ? fmt::format(", time x {:.2g}", effect.cost) : std::string();
-      cells[static_cast<std::size_t>(verdict_of(*effect.changes[q], quantity))].push_back(fmt::format(
-          "{} ({:+.2g} {}{})", effect.compared->words,
-          change_scale(quantity) * effect.changes[q]->shown(quantity).mean, change_unit(quantity), cost));
+      cells[static_cast<std::size_t>(verdict_of(*effect.changes[q], quantity))].push_back(
+          fmt::format("{} ({} {}{})", effect.compared->words,
+                      rounded(change_scale(quantity) * effect.changes[q]->shown(quantity).mean, 2, true),
+                      change_unit(quantity), cost));
     }
     table.add({quantity.label, joined_cells(cells[0]), joined_cells(cells[1]), joined_cells(cells[2])});
   }
@@ -223,6 +233,9 @@ std::vector<std::string> series_of(const std::vector<const Scene *> &scenes) {
   return names;
 }
 
+/// Stem of the files of the figure over an axis.
+std::string figure_name(const Axis &axis) { return "over_" + axis.name; }
+
 /// A quantity over an axis: single seeds of all series, and means of the first one.
 Panel axis_panel(const Quantity &quantity, const Axis &axis, const std::vector<const Scene *> &scenes,
                  const Results &results, CurveTable &table) {
@@ -253,10 +266,10 @@ Panel axis_panel(const Quantity &quantity, const Axis &axis, const std::vector<c
     }
     const std::string words = series[s].empty() ? "seeds" : series[s];
     if (s == 0) {
-      panel.curves.push_back(curve(axis.name, name + " mean", "$2", "3:4:5", CurveStyle::spread));
+      panel.curves.push_back(curve(figure_name(axis), name + " mean", "$2", "3:4:5", CurveStyle::spread));
       panel.curves.back().title = series[s].empty() ? "mean" : "mean, " + words;
     }
-    panel.curves.push_back(curve(axis.name, name, "$2", "3", series_styles[s]));
+    panel.curves.push_back(curve(figure_name(axis), name, "$2", "3", series_styles[s]));
     panel.curves.back().title = words;
   }
   panel.y_range = up.range(0.05);
@@ -271,7 +284,7 @@ PageFigure axis_figure(const Plan &plan, const Axis &axis, const Results &result
   figure.caption = fmt::format("All quantities over {}. Squares: mean over the seeds and its 95 % confidence "
                                "interval; other marks: single seeds.",
                                axis.label);
-  figure.figure = {axis.name, "Over " + axis.label, {}, 3};
+  figure.figure = {figure_name(axis), "Over " + axis.label, {}, 3};
   CurveTable table("place,value,low,high");
   for (const Quantity &quantity : plan.quantities)
     figure.figure.panels.push_back(axis_panel(quantity, axis, scenes, results, table));
@@ -303,9 +316,14 @@ std::string cost_words(const Plan &plan, const Results &results) {
       ++runs;
     }
   constexpr double minute = 60.0;
-  return fmt::format("{} runs of {} scenes took {:.2g} {} of processor time{}.", runs,
-                     results.scenes().size(), sum < minute ? sum : sum / minute, sum < minute ? "s" : "min",
-                     plan.scenes.front().bed ? "; to make their beds took more" : "");
+  std::string words =
+      fmt::format("{} runs of {} scenes took {} {} of processor time", runs, results.scenes().size(),
+                  rounded(sum < minute ? sum : sum / minute, 2), sum < minute ? "s" : "min");
+  if (const std::optional<SoilBed> &bed = plan.scenes.front().bed)
+    words +=
+        fmt::format("; to make their beds took more. The first scene has {} balls in a box {:.3g} m wide",
+                    bed->balls(), bed->packing.width);
+  return words + ".";
 }
 
 } // namespace

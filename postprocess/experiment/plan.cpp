@@ -67,6 +67,11 @@ std::vector<std::string> parts_of(const std::string &text) {
   return parts;
 }
 
+bool is_file(const fs::path &path) {
+  std::error_code ignored; // of a name that is too long
+  return fs::is_regular_file(path, ignored);
+}
+
 bool is_name(const std::string &text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char letter) {
     return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_';
@@ -297,9 +302,9 @@ private:
 
   void take_deck() {
     const fs::path beside = file_.parent_path() / value_;
-    if (fs::is_regular_file(beside))
+    if (is_file(beside))
       scene().deck = fs::absolute(beside).lexically_normal().string();
-    else if (fs::is_regular_file(input_file(value_)))
+    else if (is_file(input_file(value_)))
       scene().deck = value_;
     else
       refuse("a deck in the folder of the plan, or in " + input_file("").string());
@@ -380,26 +385,40 @@ private:
       refuse("scene", done.name, allowed, scene_line_);
     };
     if (done.deck.empty()) refuse_scene("with a line deck, here or before the first scene");
-    if (done.bed) {
-      if (!done.seed_variable.empty())
-        refuse_scene("without seed_variable: the seed of a bed is that of its balls");
-      if (const std::string wrong = done.bed->packing.invalid(); !wrong.empty())
-        refuse_scene("a bed of which " + wrong);
-      if (done.bed->packing.depth > 0.0 && (done.stiffness > 0.0 || !done.bed->layers.empty()))
-        refuse_scene("stiffness and layer on a bed in the plane: without depth");
-      for (BedLayer &layer : done.bed->layers) {
-        layer.packing = done.bed->packing;
-        if (const std::string wrong = layer.invalid(); !wrong.empty())
-          refuse_scene("a bed of which " + wrong);
-        layer.packing.balls = balls_of(layer);
-      }
-    } else {
-      if (done.stiffness > 0.0 || done.frequency > 0.0 || done.more_steps != 1.0)
-        refuse_scene("stiffness, frequency and more_steps on a bed: with balls or layer");
-      if (done.seed_variable.empty() && done.seeds > 1)
-        refuse_scene("one seed, or seed_variable, the name of the deck's variable that gets it");
+    for (const Setting &setting : done.settings) {
+      const bool of_bed = done.bed && reserved_.count(setting.name) > 0;
+      if (setting.name == "out" || of_bed || setting.name == done.seed_variable)
+        refuse_scene(fmt::format("without set {}, which the study gives", setting.name));
+      if (!done.bed && (setting.scope == Scope::settle || setting.scope == Scope::placed))
+        refuse_scene("set_settle and set_placed on a bed: with balls or layer");
     }
+    if (done.stiffness == 0.0 && (done.frequency > 0.0 || done.more_steps != 1.0))
+      refuse_scene("frequency and more_steps with stiffness, from which the steps per cycle follow");
+    if (done.bed)
+      check_bed(done, refuse_scene);
+    else if (done.stiffness > 0.0)
+      refuse_scene("stiffness on a bed: with balls or layer");
+    else if (done.seed_variable.empty() && done.seeds > 1)
+      refuse_scene("one seed, or seed_variable, the name of the deck's variable that gets it");
     if (!differs.empty()) plan_.comparisons.push_back({differs, {{done.name, base}}, paired_of_scene_});
+  }
+
+  /// Checks a bed, and makes its layers.
+  template <class Refuse>
+  static void check_bed(Scene &scene, const Refuse &refuse) {
+    for (const SceneDeck deck : {SceneDeck::settle, SceneDeck::place})
+      if (!is_file(input_file(deck_of(scene, deck))))
+        refuse("beds of decks beside which there are in.settle and in.place");
+    if (!scene.seed_variable.empty()) refuse("without seed_variable: the seed of a bed is that of its balls");
+    if (const std::string wrong = scene.bed->packing.invalid(); !wrong.empty())
+      refuse("a bed of which " + wrong);
+    if (scene.bed->packing.depth > 0.0 && (scene.stiffness > 0.0 || !scene.bed->layers.empty()))
+      refuse("stiffness and layer on a bed in the plane: without depth");
+    for (BedLayer &layer : scene.bed->layers) {
+      layer.packing = scene.bed->packing;
+      if (const std::string wrong = layer.invalid(); !wrong.empty()) refuse("a bed of which " + wrong);
+      layer.packing.balls = balls_of(layer);
+    }
   }
 
   void add_comparison(const Explicit &one) {
@@ -415,6 +434,8 @@ private:
     plan_.comparisons.push_back({one.words, {{one.scene, one.base}}, paired_});
   }
 
+  /// Variables of a bed's decks that name its files, or that a line of its own gives.
+  const std::set<std::string> reserved_ = {"balls", "bed", "start", "ratio"};
   fs::path file_;
   Plan plan_;
   int line_ = 0;

@@ -1,5 +1,6 @@
 #include "experiment/scene.h"
 
+#include "engine/engine_command.h"
 #include "support/csv.h"
 
 #include <fmt/format.h>
@@ -98,7 +99,7 @@ std::string deck_of(const Scene &scene, SceneDeck deck) {
   if (deck == SceneDeck::run) return scene.deck;
   const std::filesystem::path own = scene.deck;
   const std::string name = deck == SceneDeck::settle ? "in.settle" : "in.place";
-  return (own.parent_path() / (own.extension() == ".lammps" ? name + ".lammps" : name)).string();
+  return (own.parent_path() / (engine_of(own) == Engine::lammps ? name + ".lammps" : name)).string();
 }
 
 Variables variables_of(const Scene &scene, SceneDeck deck) {
@@ -144,7 +145,7 @@ Scene scaled(Scene scene, int balls, int of) {
 }
 
 std::string soil_text(const Scene &scene) {
-  std::string text = text_of(scene.bed->packing);
+  std::string text = deck_of(scene, SceneDeck::settle) + " " + text_of(scene.bed->packing);
   for (const BedLayer &layer : scene.bed->layers)
     text += fmt::format("{} {}", layer.thickness, text_of(layer.packing));
   return text + words_of(variables_of(scene, SceneDeck::settle));

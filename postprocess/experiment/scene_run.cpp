@@ -1,5 +1,6 @@
 #include "experiment/scene_run.h"
 
+#include "engine/engine_command.h"
 #include "support/files.h"
 #include "support/progress.h"
 #include "support/resumed.h"
@@ -24,6 +25,20 @@ fs::path soil_file(const Scene &scene, int seed, const fs::path &folder) {
   return folder / fmt::format("soil_{}_{}.soil", seed, fingerprint(soil_text(scene)));
 }
 
+/// The data file that the decks write beside a restart file; those for LAMMPS start from it.
+fs::path data_of(const fs::path &restart) { return restart.string() + ".data"; }
+
+/// Gives a finished restart file its name, the last of its files.
+void publish(const Scene &scene, const fs::path &finished, const fs::path &file) {
+  if (engine_of(scene.deck) == Engine::lammps) fs::rename(data_of(finished), data_of(file));
+  fs::rename(finished, file);
+}
+
+void remove_bed(const fs::path &file) {
+  fs::remove(file);
+  fs::remove(data_of(file));
+}
+
 } // namespace
 
 fs::path settled_soil(const Scene &scene, int seed, const fs::path &out) {
@@ -43,7 +58,7 @@ fs::path settled_soil(const Scene &scene, int seed, const fs::path &out) {
   DeckRun(deck_of(scene, SceneDeck::settle),
           joined(variables_of(scene, SceneDeck::settle), {{"balls", balls.string()}, {"bed", soil.string()}}))
       .must_succeed();
-  fs::rename(soil, done);
+  publish(scene, soil, done);
   return done;
 }
 
@@ -63,9 +78,9 @@ fs::path placed_roller(const Scene &scene, int seed, const fs::path &out, Soil k
     DeckRun(deck_of(scene, SceneDeck::place), joined(variables_of(scene, SceneDeck::place),
                                                      {{"bed", soil.string()}, {"start", roller.string()}}))
         .must_succeed();
-    fs::rename(roller, done);
+    publish(scene, roller, done);
   }
-  if (kept == Soil::used_up) fs::remove(soil_file(scene, seed, folder));
+  if (kept == Soil::used_up) remove_bed(soil_file(scene, seed, folder));
   return done;
 }
 

@@ -125,9 +125,9 @@ TEST_F(PlanTest, GivesEachDeckOfABedItsVariables) {
             post::balls_of({dense.bed->packing, 0.2}) + post::balls_of({dense.bed->packing, 0.3}));
   // What differs after the soil has settled does not change the soil.
   EXPECT_NE(post::soil_text(one), post::soil_text(hard));
-  const Plan shared =
-      read("title T\nquantity force\ndeck bed/in.bed\nballs 100\nwidth 0.4\n"
-           "scene one\nscene other\nfrom one\nset_placed m3 50\nset_run Fw 10\nmore_steps 2\n");
+  const Plan shared = read(
+      "title T\nquantity force\ndeck bed/in.bed\nballs 100\nwidth 0.4\n"
+      "stiffness 1e8\nscene one\nscene other\nfrom one\nset_placed m3 50\nset_run Fw 10\nmore_steps 2\n");
   EXPECT_EQ(post::soil_text(shared.scenes[0]), post::soil_text(shared.scenes[1]));
   EXPECT_FALSE(shared.can_be_scaled()); // the roller's other variables are those of the deck
 }
@@ -189,7 +189,21 @@ TEST_F(PlanTest, RefusesEachBadLine) {
                  ", line 4: seed_variable is 'a b'; allowed: the name of a variable");
   expect_refused(own + "seeds 2\nscene a\n", ", line 5: scene is 'a'; allowed: one seed, or seed_variable");
   expect_refused(own + "stiffness 1e9\nscene a\n",
-                 ", line 5: scene is 'a'; allowed: stiffness, frequency and ");
+                 ", line 5: scene is 'a'; allowed: stiffness on a bed: with balls or layer");
+  expect_refused(own + "scene a\nset_placed x 1\n",
+                 ", line 4: scene is 'a'; allowed: set_settle and set_placed on");
+  expect_refused(own + "set out x\nscene a\n",
+                 ", line 5: scene is 'a'; allowed: without set out, which the study");
+  expect_refused(own + "seed_variable seed\nset seed 3\nscene a\n",
+                 ", line 6: scene is 'a'; allowed: without set seed, which the study gives");
+  expect_refused(
+      own + "balls 100\nscene a\n",
+      ", line 5: scene is 'a'; allowed: beds of decks beside which there are in.settle and in.place");
+  expect_refused(bed + "set start x\nscene a\n",
+                 ", line 7: scene is 'a'; allowed: without set start, which the");
+  expect_refused(bed + "frequency 30\nscene a\n",
+                 ", line 7: scene is 'a'; allowed: frequency and more_steps with stiffness");
+  expect_refused("deck " + std::string(5000, 'x') + "\n", ", line 1: deck is 'xxx");
   expect_refused(own + "stiffness -1\n",
                  ", line 4: stiffness is '-1'; allowed: a number from 1e-06 to 1e+15 [N/m]");
   expect_refused(own + "balls many\n",

@@ -33,6 +33,7 @@ constexpr double t_1 = 12.706204736174698, t_2 = 4.302652729911275;
 
 std::vector<double> values_of(const std::vector<const char *> &names, const fs::path &folder, double width) {
   std::vector<post::Quantity> quantities;
+  quantities.reserve(names.size());
   for (const char *name : names)
     quantities.push_back(*post::bed_quantity(name));
   return post::measured(quantities, folder, width);
