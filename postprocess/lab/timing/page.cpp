@@ -167,7 +167,7 @@ PageFigure size_figure(const std::vector<VariantTime> &all, const TimedBeds &bed
 /// Allowed ratio for parts that should not add cost: the scatter of the ratios is about 2 %.
 constexpr double nothing = 1.02;
 
-const std::vector<Comparison> comparisons = {
+const std::vector<PieceComparison> comparisons = {
     {"law alone", "stock alone", "engine law alone", nothing},
     {"law", "stock", "engine law", nothing},
     {"law + friction", "stock + friction", "engine law + friction", nothing},
