@@ -302,7 +302,7 @@ std::string effects_words(const std::vector<Effect> &effects, const std::vector<
       }
   if (effects.empty()) return "There is no comparison yet.";
   return fmt::format(
-      "{} of {} changes of the scene change at least one quantity by more than the scatter of the "
+      "{} of {} differences between scenes change at least one quantity by more than the scatter of the "
       "seeds (95 % confidence interval without zero){}{}.",
       names.size(), effects.size(), names.empty() ? "" : ": ", fmt::join(names, "; "));
 }

@@ -1,6 +1,7 @@
 // Experiments as a user runs them: on a deck of one's own, which costs one file, and on beds; interrupted,
 // resumed, and with a run that fails.
 #include "experiment/results.h"
+#include "engine/deck_run.h"
 #include "engine/engine_run.h"
 #include "engine/places.h"
 #include "support/files.h"
@@ -13,6 +14,7 @@
 
 #include <filesystem>
 #include <map>
+#include <regex>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -205,6 +207,21 @@ TEST(BedStudy, RunsInBothEngines) {
   ASSERT_EQ(values.size(), 2U);
   for (const auto &[key, force] : values) // the peak force exceeds the weight
     EXPECT_GT(force, 150.0 * 9.81) << std::get<0>(key);
+}
+
+// One seed of each scene: no deck refuses a variable that a plan gives it.
+TEST(BedStudy, RunsEverySceneOfTheProjectsPlans) {
+  const Scratch scratch;
+  for (const char *study : {"fidelity", "friction", "stiffness"}) {
+    std::string plan = post::read_text(post::input_file("study") / study / "plan");
+    plan = std::regex_replace(plan, std::regex("\nseeds +[0-9]+"), "\nseeds 1");
+    plan = std::regex_replace(plan, std::regex("\nset_run +cycles +[0-9]+"), "\nset_run cycles 4");
+    post::write_files({{scratch / (std::string(study) + ".plan"), plan}});
+    const Outcome outcome =
+        run_program({DRUMLIN_TOOLS, "study", std::string(study) + ".plan", "--balls", "100", "--jobs", "2"},
+                    {}, scratch.path(), 250.0);
+    EXPECT_TRUE(outcome.ok()) << outcome.output;
+  }
 }
 
 // Scenes that differ in the walls alone share soil and roller, and the study of stiffness shares the soil
