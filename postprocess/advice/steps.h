@@ -10,9 +10,9 @@
 // contact share and chance: the margin covers that.
 #pragma once
 
+#include "advice/step_errors.h"
 #include "chain/direct_solver.h"
 #include "chain/parameters.h"
-#include "advice/step_errors.h"
 
 #include <functional>
 #include <string>

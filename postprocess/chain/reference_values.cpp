@@ -23,13 +23,13 @@ double settling(double value, int decimals) {
   return std::max(last_digit(decimals), settling_share * std::abs(value));
 }
 
-ReferenceValue acceleration(const char *name, const char *transition, Quantity quantity, double value,
-                            int decimals) {
+ReferenceValue acceleration(const char *name, const char *transition, ReferenceQuantity quantity,
+                            double value, int decimals) {
   return {name, transition, quantity,     value, value, decimals, settling(value, decimals),
           1.0,  "m/s²",     steady_source};
 }
 
-ReferenceValue force(const char *name, const char *transition, Quantity quantity, double kilonewton,
+ReferenceValue force(const char *name, const char *transition, ReferenceQuantity quantity, double kilonewton,
                      int decimals) {
   return {name,   transition, quantity,     kilonewton, kilonewton, decimals, settling(kilonewton, decimals),
           1.0e-3, "kN",       steady_source};
@@ -37,32 +37,35 @@ ReferenceValue force(const char *name, const char *transition, Quantity quantity
 
 /// Under condition B there is no tension: the value must be exactly zero.
 ReferenceValue no_tension(const char *name) {
-  return {name, "B", Quantity::contact_force_min, 0.0, 0.0, 2, 0.0, 1.0e-3, "kN", steady_source};
+  return {name, "B", ReferenceQuantity::contact_force_min, 0.0, 0.0, 2, 0.0, 1.0e-3, "kN", steady_source};
 }
 
 ReferenceValue overlap(const char *name, const char *transition, double millimetre) {
-  return {name, transition,   Quantity::overlap_at_break, millimetre, millimetre, 3, last_digit(3), 1.0e3,
-          "mm", steady_source};
+  return {name,          transition, ReferenceQuantity::overlap_at_break,
+          millimetre,    millimetre, 3,
+          last_digit(3), 1.0e3,      "mm",
+          steady_source};
 }
 
 ReferenceValue share(const char *name, const char *transition, double value, int decimals) {
   // "1" stands for contact all the time: exact.
   const double tolerance = decimals == 0 ? 0.0 : last_digit(decimals);
-  return {name, transition,   Quantity::contact_share, value, value, decimals, tolerance, 1.0,
+  return {name, transition,   ReferenceQuantity::contact_share, value, value, decimals, tolerance, 1.0,
           "",   steady_source};
 }
 
-ReferenceValue none(const char *name, const char *transition, Quantity quantity) {
+ReferenceValue none(const char *name, const char *transition, ReferenceQuantity quantity) {
   return {name, transition, quantity, 0.0, 0.0, 0, 0.0, 1.0, "", steady_source};
 }
 
 ReferenceValue meter(const char *name, double low, double high) {
-  return {name, "B", Quantity::compaction_meter_value, low, high, 1, last_digit(1), 1.0, "", meter_source};
+  return {name, "B",         ReferenceQuantity::compaction_meter_value, low, high, 1, last_digit(1), 1.0,
+          "",   meter_source};
 }
 
 /// The table itself: longer than other functions, since it has a line for each value and nothing else.
 std::vector<ReferenceValue> make_values() {
-  using Q = Quantity;
+  using Q = ReferenceQuantity;
   std::vector<ReferenceValue> values;
   const auto add = [&values](ReferenceValue value) { values.push_back(std::move(value)); };
   for (const char *transition : {"A", "B"}) {
@@ -147,29 +150,29 @@ std::optional<double> error_in_row(const ErrorRow &row, int steps_per_cycle) {
 
 } // namespace
 
-std::string quantity_name(Quantity quantity) {
+std::string quantity_name(ReferenceQuantity quantity) {
   switch (quantity) {
-  case Quantity::drum_acceleration_min:
+  case ReferenceQuantity::drum_acceleration_min:
     return "drum acceleration, min";
-  case Quantity::drum_acceleration_max:
+  case ReferenceQuantity::drum_acceleration_max:
     return "drum acceleration, max";
-  case Quantity::contact_force_min:
+  case ReferenceQuantity::contact_force_min:
     return "contact force, min";
-  case Quantity::contact_force_max:
+  case ReferenceQuantity::contact_force_max:
     return "contact force, max";
-  case Quantity::contact_share:
+  case ReferenceQuantity::contact_share:
     return "share of time in contact";
-  case Quantity::force_at_break:
+  case ReferenceQuantity::force_at_break:
     return "contact force at break";
-  case Quantity::overlap_at_break:
+  case ReferenceQuantity::overlap_at_break:
     return "overlap at break";
-  case Quantity::force_at_make:
+  case ReferenceQuantity::force_at_make:
     return "contact force at make";
-  case Quantity::breaks_per_cycle:
+  case ReferenceQuantity::breaks_per_cycle:
     return "breaks per cycle";
-  case Quantity::makes_per_cycle:
+  case ReferenceQuantity::makes_per_cycle:
     return "makes per cycle";
-  case Quantity::compaction_meter_value:
+  case ReferenceQuantity::compaction_meter_value:
     return "meter value CMV";
   }
   return "unknown";

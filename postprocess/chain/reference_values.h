@@ -10,7 +10,7 @@
 namespace drumlin::post {
 
 /// What a reference value measures. The unit is that of ReferenceValue::unit.
-enum class Quantity {
+enum class ReferenceQuantity {
   drum_acceleration_min, ///< smallest drum acceleration of the steady state
   drum_acceleration_max, ///< largest drum acceleration of the steady state
   contact_force_min,     ///< smallest contact force; negative is tension
@@ -25,13 +25,13 @@ enum class Quantity {
 };
 
 /// Name of a quantity as the report's tables and CSV files print it.
-std::string quantity_name(Quantity quantity);
+std::string quantity_name(ReferenceQuantity quantity);
 
 /// One reference value of a case and a transition. `low` equals `high` unless the reference gives a range.
 struct ReferenceValue {
   std::string case_name;  ///< "I" to "IV"
   std::string transition; ///< "A" or "B"
-  Quantity quantity;
+  ReferenceQuantity quantity;
   double low;         ///< in `unit`
   double high;        ///< in `unit`
   int decimals;       ///< digits given after the point

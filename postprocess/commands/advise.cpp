@@ -3,10 +3,11 @@
 #include "advice/bed.h"
 #include "advice/steps.h"
 #include "commands/chain_options.h"
-#include "engine/places.h"
-#include "runs/chain_files.h"
+#include "commands/text_options.h"
 #include "engine/deck_run.h"
+#include "engine/places.h"
 #include "experiment/study.h"
+#include "runs/chain_files.h"
 #include "support/csv.h"
 #include "support/options.h"
 #include "support/progress.h"
@@ -187,31 +188,21 @@ void add_advise_command(CLI::App &app, Session &) {
                   "  drumlin advise --bed --question force --within 20%\n"
                   "  drumlin advise --bed --question settlement --within 2mm\n");
   add_chain_options(*command, arguments->chain);
-  command->add_option("--error", arguments->error, "relative error that is allowed")
-      ->type_name("NUMBER")
-      ->capture_default_str();
-  command->add_option("--measure", arguments->measure, "error of: velocity, force or acceleration")
-      ->capture_default_str();
-  command->add_option("--stepping", arguments->stepping, "second or stock")->capture_default_str();
-  command->add_option("--cycles", arguments->cycles, "length of the run, for its time")
-      ->type_name("COUNT")
-      ->capture_default_str();
-  command
-      ->add_option_function<std::string>(
-          "--from", [arguments](const std::string &text) { arguments->from = text; },
-          "folder of an accuracy study of your own (with --bed: of a fidelity study), instead of the "
-          "project's")
-      ->type_name("DIR");
+  text_option(command, "--error", "NUMBER", arguments->error, "relative error that is allowed");
+  text_option(command, "--measure", "TEXT", arguments->measure, "error of: velocity, force or acceleration");
+  text_option(command, "--stepping", "TEXT", arguments->stepping, "second or stock");
+  text_option(command, "--cycles", "COUNT", arguments->cycles, "length of the run, for its time");
+  text_option(command, "--from", "DIR", arguments->from,
+              "folder of an accuracy study of your own (with --bed: of a fidelity study), instead of the "
+              "project's");
   command->add_flag("--bed", arguments->bed,
                     "advise on a bed instead: the cheapest scene that the fidelity study has measured (see "
                     "`drumlin study fidelity`)");
-  const auto text = [&](const char *name, std::optional<std::string> Arguments::*value, const char *help) {
-    command->add_option_function<std::string>(
-        name, [arguments, value](const std::string &given) { (*arguments).*value = given; }, help);
-  };
-  text("--question", &Arguments::question, "with --bed: force, acceleration, settlement or stiffness");
-  text("--within", &Arguments::within,
-       "with --bed: error that is allowed, 10% if not given; of settlement also in mm per cycle, as 2mm");
+  text_option(command, "--question", "TEXT", arguments->question,
+              "with --bed: force, acceleration, settlement or stiffness");
+  text_option(
+      command, "--within", "TEXT", arguments->within,
+      "with --bed: error that is allowed, 10% if not given; of settlement also in mm per cycle, as 2mm");
   command->callback([arguments, command] {
     const std::set<std::string> of_bed = {"--question", "--within"}, of_both = {"--bed", "--from", "--help"};
     for (const CLI::Option *option : command->get_options()) {

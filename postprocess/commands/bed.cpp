@@ -2,6 +2,7 @@
 
 #include "bed/known_gradings.h"
 #include "commands/commands.h"
+#include "commands/text_options.h"
 #include "pages/figure_data.h"
 #include "pages/gnuplot.h"
 #include "support/files.h"
@@ -385,19 +386,14 @@ void add_bed_command(CLI::App &app, Session &) {
   CLI::App *bed = app.add_subcommand(
       "bed", "Soil balls at random in a box, none touching another, as the data file that "
              "inputs/bed/in.settle reads. The same options give the same file on any machine.");
-  bed->add_option("--balls", arguments->balls, "number of balls")->type_name("COUNT")->capture_default_str();
+  text_option(bed, "--balls", "COUNT", arguments->balls, "number of balls");
   for (std::size_t i = 0; i < number_options.size(); ++i)
-    bed->add_option(number_options[i].option, arguments->numbers[i], number_options[i].help)
-        ->type_name("NUMBER")
-        ->capture_default_str();
-  bed->add_option("--density", arguments->density, "density of a ball [kg/m3]; of a disc, 1 m thick")
-      ->type_name("NUMBER")
-      ->capture_default_str();
-  bed->add_option(
-         "--grading", arguments->grading,
-         "uniform: every radius as often as any other; mass: the same mass in equal intervals of radius")
-      ->type_name("NAME")
-      ->capture_default_str();
+    text_option(bed, number_options[i].option, "NUMBER", arguments->numbers[i], number_options[i].help);
+  text_option(bed, "--density", "NUMBER", arguments->density,
+              "density of a ball [kg/m3]; of a disc, 1 m thick");
+  text_option(
+      bed, "--grading", "NAME", arguments->grading,
+      "uniform: every radius as often as any other; mass: the same mass in equal intervals of radius");
   bed->add_option("--sieve", arguments->sieve,
                   fmt::format("grading instead of radii: a CSV file with the columns size (mm) and passing "
                               "(%) by mass, or one "
@@ -416,12 +412,8 @@ void add_bed_command(CLI::App &app, Session &) {
          "--radius-max, --grading), and the smallest size of its balls [mm] (else so that the layer has its "
          "share of --balls, the same for each); --balls then counts for curves without CUT only")
       ->type_name("THICKNESS[:SIEVE[:CUT]]");
-  bed->add_option("--seed", arguments->seed, "of the random numbers")
-      ->type_name("COUNT")
-      ->capture_default_str();
-  bed->add_option("--out", arguments->out, "the data file; its folder is made if missing")
-      ->type_name("FILE")
-      ->capture_default_str();
+  text_option(bed, "--seed", "COUNT", arguments->seed, "of the random numbers");
+  text_option(bed, "--out", "FILE", arguments->out, "the data file; its folder is made if missing");
   bed->callback([arguments, bed] {
     arguments->has_balls = bed->count("--balls") > 0;
     for (const char *option : {"--radius-min", "--radius-max", "--grading"})

@@ -3,12 +3,13 @@
 #include "commands/bed.h"
 #include "commands/map.h"
 #include "commands/report.h"
+#include "commands/text_options.h"
 #include "commands/vtk.h"
 #include "engine/engine_command.h"
 #include "engine/engine_run.h"
 #include "engine/places.h"
-#include "map/meter_study/study.h"
 #include "experiment/study.h"
+#include "map/meter_study/study.h"
 #include "support/files.h"
 #include "support/options.h"
 #include "support/process.h"
@@ -288,19 +289,16 @@ void add_demo_command(CLI::App &app, Session &) {
       "B; the cases in LAMMPS, too, if it is set up. Maps the roller's regimes and what its meter says of "
       "the soil. Writes results/demo and report in the working folder. "
       "Takes some five minutes.");
-  const auto optional = [demo](const char *name, std::optional<std::string> &value, const std::string &help) {
-    demo->add_option_function<std::string>(
-            name, [&value](const std::string &text) { value = text; }, help)
-        ->type_name("COUNT");
-  };
-  optional("--cycles", arguments->cycles,
-           fmt::format(
-               "cycles of each run of chain and bed; {} and {} if not given. Below 100 the report does not "
-               "judge the chain by reference values",
-               chain_cycles, bed_cycles));
-  optional("--balls", arguments->balls,
-           fmt::format("soil balls of the bed, {} or more; {} if not given. The box gets narrower with fewer",
-                       least_balls, PackingOptions().balls));
+  text_option(
+      demo, "--cycles", "COUNT", arguments->cycles,
+      fmt::format(
+          "cycles of each run of chain and bed; {} and {} if not given. Below 100 the report does not "
+          "judge the chain by reference values",
+          chain_cycles, bed_cycles));
+  text_option(
+      demo, "--balls", "COUNT", arguments->balls,
+      fmt::format("soil balls of the bed, {} or more; {} if not given. The box gets narrower with fewer",
+                  least_balls, PackingOptions().balls));
   demo->callback([arguments] { run(*arguments); });
 }
 

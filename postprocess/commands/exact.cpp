@@ -2,8 +2,9 @@
 
 #include "chain/direct_solver.h"
 #include "chain/parameters.h"
-#include "runs/chain_files.h"
 #include "commands/chain_options.h"
+#include "commands/text_options.h"
+#include "runs/chain_files.h"
 #include "support/files.h"
 #include "support/options.h"
 #include "support/progress.h"
@@ -120,21 +121,13 @@ void add_exact_command(CLI::App &app, Session &session) {
                                                 "engine: the reference solution for engine runs. Writes "
                                                 "chain.csv, events.csv, cycles.csv and parameters.csv.");
   add_chain_options(*exact, arguments->chain);
-  exact->add_option("--cycles", arguments->cycles, "cycles of the excitation")
-      ->type_name("NUMBER")
-      ->capture_default_str();
-  exact->add_option("--samples-per-cycle", arguments->samples_per_cycle, "rows of chain.csv per cycle")
-      ->type_name("COUNT")
-      ->capture_default_str();
-  exact->add_option("--rtol", arguments->rtol, "relative tolerance of the integrator, 1e-14 to 1e-3")
-      ->type_name("NUMBER")
-      ->capture_default_str();
-  exact
-      ->add_option(
-          "--impact-speed", arguments->impact_speed,
-          "if positive: start touching and moving down at this speed [m/s] instead of at equilibrium")
-      ->type_name("NUMBER")
-      ->capture_default_str();
+  text_option(exact, "--cycles", "NUMBER", arguments->cycles, "cycles of the excitation");
+  text_option(exact, "--samples-per-cycle", "COUNT", arguments->samples_per_cycle,
+              "rows of chain.csv per cycle");
+  text_option(exact, "--rtol", "NUMBER", arguments->rtol,
+              "relative tolerance of the integrator, 1e-14 to 1e-3");
+  text_option(exact, "--impact-speed", "NUMBER", arguments->impact_speed,
+              "if positive: start touching and moving down at this speed [m/s] instead of at equilibrium");
   exact->add_option("--out", arguments->out, "folder for the files, made if missing")
       ->type_name("DIR")
       ->required();

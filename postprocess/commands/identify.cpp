@@ -1,6 +1,7 @@
 #include "commands/commands.h"
 
 #include "commands/record_options.h"
+#include "commands/text_options.h"
 #include "identify/page.h"
 #include "support/files.h"
 #include "support/options.h"
@@ -112,34 +113,22 @@ void add_identify_command(CLI::App &app, Session & /*session*/) {
                      "loop, share of contact, "
                      "CMV, with what a spring and a dashpot cannot do; for folders of a run, whose "
                      "parameters.csv has the bond");
-  const auto text = [&](const char *name, std::optional<std::string> Arguments::*value, const char *help,
-                        const char *type) {
-    identify
-        ->add_option_function<std::string>(
-            name, [arguments, value](const std::string &given) { (*arguments).*value = given; }, help)
-        ->type_name(type);
-  };
-  text(
-      "--origin", &Arguments::origin,
+  text_option(
+      identify, "--origin", "WORD", arguments->origin,
       "known: x_drum = 0 is where drum and soil just touch (chain.csv); free: unknown, for each contact (all "
-      "others)",
-      "WORD");
-  text("--phase-within", &Arguments::phase_within,
-       "largest error of the exciter's phase [degrees], 0 to 20: the phase is then fitted as far as the "
-       "record "
-       "tells it; 0 if not given",
-       "NUMBER");
-  text("--least-force", &Arguments::least_force,
-       "forces up to this share of the largest one [%] are not fitted, unless the law follows them, 0 to 90; "
-       "if not "
-       "given 0 for chain.csv, 20 for all others, since soil that a drum just touches is softer",
-       "NUMBER");
-  identify->add_option("--window", arguments->window, "cycles of a window, 4 or more")
-      ->type_name("COUNT")
-      ->capture_default_str();
-  identify->add_option("--out", arguments->out, "folder of the results")
-      ->type_name("DIR")
-      ->capture_default_str();
+      "others)");
+  text_option(
+      identify, "--phase-within", "NUMBER", arguments->phase_within,
+      "largest error of the exciter's phase [degrees], 0 to 20: the phase is then fitted as far as the "
+      "record "
+      "tells it; 0 if not given");
+  text_option(
+      identify, "--least-force", "NUMBER", arguments->least_force,
+      "forces up to this share of the largest one [%] are not fitted, unless the law follows them, 0 to 90; "
+      "if not "
+      "given 0 for chain.csv, 20 for all others, since soil that a drum just touches is softer");
+  text_option(identify, "--window", "COUNT", arguments->window, "cycles of a window, 4 or more");
+  text_option(identify, "--out", "DIR", arguments->out, "folder of the results");
   identify->footer(
       "Examples:\n"
       "  drumlin identify results/chain\n"

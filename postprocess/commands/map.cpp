@@ -1,11 +1,12 @@
 #include "commands/map.h"
 
-#include "runs/chain_files.h"
 #include "commands/commands.h"
-#include "pages/html.h"
-#include "pages/drawing.h"
+#include "commands/text_options.h"
 #include "map/figures.h"
 #include "map/regime_map.h"
+#include "pages/drawing.h"
+#include "pages/html.h"
+#include "runs/chain_files.h"
 #include "support/csv.h"
 #include "support/files.h"
 #include "support/options.h"
@@ -327,28 +328,20 @@ void add_map_command(CLI::App &app, Session & /*session*/) {
                                 "files and plots. An interrupted map continues where it was interrupted.");
   add_chain_options(*map, arguments->chain);
   CLI::Option *x =
-      map->add_option("--x", arguments->x,
-                      "axis NAME:FROM:TO:COUNT or NAME:FROM:TO:COUNT:log, NAME one of k, D, omega, Fw, "
-                      "me_re, m2, m3, k23, c23")
-          ->type_name("AXIS")
-          ->capture_default_str();
-  CLI::Option *y =
-      map->add_option("--y", arguments->y, "the other axis")->type_name("AXIS")->capture_default_str();
-  map->add_option_function<std::string>(
-         "--sweep", [arguments](const std::string &text) { arguments->sweep = text; },
-         "instead of a map: follow the motion along one axis up and down, once-per-cycle samples")
-      ->type_name("AXIS");
-  map->add_option_function<std::string>(
-         "--me-re", [arguments](const std::string &text) { arguments->me_re = text; },
-         "eccentric moment m_e r_e [kg m]: Fw = m_e r_e omega^2 instead of a fixed Fw")
-      ->type_name("NUMBER");
-  map->add_option("--cycles", arguments->cycles, "cycles of the excitation at each point, 100 or more")
-      ->type_name("COUNT")
-      ->capture_default_str();
+      text_option(map, "--x", "AXIS", arguments->x,
+                  "axis NAME:FROM:TO:COUNT or NAME:FROM:TO:COUNT:log, NAME one of k, D, omega, Fw, "
+                  "me_re, m2, m3, k23, c23");
+  CLI::Option *y = text_option(map, "--y", "AXIS", arguments->y, "the other axis");
+  text_option(map, "--sweep", "AXIS", arguments->sweep,
+              "instead of a map: follow the motion along one axis up and down, once-per-cycle samples");
+  text_option(map, "--me-re", "NUMBER", arguments->me_re,
+              "eccentric moment m_e r_e [kg m]: Fw = m_e r_e omega^2 instead of a fixed Fw");
+  text_option(map, "--cycles", "COUNT", arguments->cycles,
+              "cycles of the excitation at each point, 100 or more");
   CLI::Option *threads = map->add_option("--threads", arguments->threads, "points at the same time")
                              ->type_name("COUNT")
                              ->capture_default_str();
-  map->add_option("--out", arguments->out, "folder of the results")->type_name("DIR")->capture_default_str();
+  text_option(map, "--out", "DIR", arguments->out, "folder of the results");
   map->add_flag("--fresh", arguments->fresh, "forget the points of an earlier call");
   map->callback([arguments, x, y, threads] {
     arguments->axes_given = x->count() > 0 || y->count() > 0;

@@ -1,6 +1,7 @@
 #include "commands/commands.h"
 
 #include "commands/record_options.h"
+#include "commands/text_options.h"
 #include "meter/page.h"
 #include "support/files.h"
 #include "support/options.h"
@@ -158,43 +159,26 @@ void add_meter_command(CLI::App &app, Session & /*session*/) {
                                                 "over windows of whole cycles. Writes meter.csv and a "
                                                 "page with plots.");
   add_record_options(*meter, arguments->record);
-  meter->add_option("--rmv-constant", arguments->rmv_constant, "constant of RMV, 100 or 300 in sources")
-      ->type_name("NUMBER")
-      ->capture_default_str();
-  meter
-      ->add_option("--same", arguments->same,
-                   "relative difference of the harmonics of two cycles up to which they count as the same "
-                   "motion; more for "
-                   "noisy records")
-      ->type_name("NUMBER")
-      ->capture_default_str();
-  const auto optional_text = [meter](const char *name, std::optional<std::string> &text, const char *help,
-                                     const char *type) {
-    meter
-        ->add_option_function<std::string>(
-            name, [&text](const std::string &given) { text = given; }, help)
-        ->type_name(type);
-  };
-  optional_text("--window", arguments->window,
-                "cycles in a window, an even number of 4 or more, or seconds such as 0.5s; without it 10 "
-                "cycles, or all of a "
-                "shorter record",
-                "COUNT");
-  optional_text("--drum-radius", arguments->drum_radius, "radius of the drum [m], for E_vib", "NUMBER");
-  optional_text("--drum-width", arguments->drum_width, "width of the drum [m], for E_vib", "NUMBER");
-  meter->add_option("--poisson", arguments->poisson, "Poisson's ratio of the soil [-], for E_vib")
-      ->type_name("NUMBER")
-      ->capture_default_str();
-  meter->add_option("--out", arguments->out, "folder of meter.csv and the page; an earlier one is replaced")
-      ->type_name("DIR")
-      ->capture_default_str();
-  optional_text("--export", arguments->exported,
-                "also write the all-passes CSV that compaction software reads", "FILE");
-  optional_text("--speed", arguments->speed, "speed of travel [km/h], for the places of cells in --export",
-                "NUMBER");
-  meter->add_option("--pass", arguments->pass, "number of the pass in --export")
-      ->type_name("COUNT")
-      ->capture_default_str();
+  text_option(meter, "--rmv-constant", "NUMBER", arguments->rmv_constant,
+              "constant of RMV, 100 or 300 in sources");
+  text_option(meter, "--same", "NUMBER", arguments->same,
+              "relative difference of the harmonics of two cycles up to which they count as the same "
+              "motion; more for "
+              "noisy records");
+  text_option(meter, "--window", "COUNT", arguments->window,
+              "cycles in a window, an even number of 4 or more, or seconds such as 0.5s; without it 10 "
+              "cycles, or all of a "
+              "shorter record");
+  text_option(meter, "--drum-radius", "NUMBER", arguments->drum_radius, "radius of the drum [m], for E_vib");
+  text_option(meter, "--drum-width", "NUMBER", arguments->drum_width, "width of the drum [m], for E_vib");
+  text_option(meter, "--poisson", "NUMBER", arguments->poisson, "Poisson's ratio of the soil [-], for E_vib");
+  text_option(meter, "--out", "DIR", arguments->out,
+              "folder of meter.csv and the page; an earlier one is replaced");
+  text_option(meter, "--export", "FILE", arguments->exported,
+              "also write the all-passes CSV that compaction software reads");
+  text_option(meter, "--speed", "NUMBER", arguments->speed,
+              "speed of travel [km/h], for the places of cells in --export");
+  text_option(meter, "--pass", "COUNT", arguments->pass, "number of the pass in --export");
   meter->footer("Examples:\n"
                 "  drumlin meter results/my-run\n"
                 "  drumlin meter results/my-run/chain.csv --window 0.5s --out results/meter-samples\n"

@@ -1,6 +1,7 @@
 #include "commands/report.h"
 
 #include "commands/commands.h"
+#include "commands/text_options.h"
 #include "report/report.h"
 #include "report/run_folder.h"
 #include "support/options.h"
@@ -48,9 +49,8 @@ void add_report_command(CLI::App &app, Session &) {
               files_of_runs()))
       ->type_name("DIR")
       ->required();
-  report->add_option("--out", arguments->out, "folder for the report; an earlier report there is replaced")
-      ->type_name("DIR")
-      ->capture_default_str();
+  text_option(report, "--out", "DIR", arguments->out,
+              "folder for the report; an earlier report there is replaced");
   report->callback([arguments] { print_report(*arguments); });
 }
 

@@ -1,5 +1,6 @@
 #include "commands/commands.h"
 
+#include "commands/text_options.h"
 #include "engine/deck_run.h"
 #include "engine/engine_command.h"
 #include "experiment/results.h"
@@ -146,18 +147,14 @@ void add_study_command(CLI::App &app, Session &) {
       "a plan. An interrupted study continues where it was interrupted.");
   command->add_option("NAME", arguments->name,
                       "one of the studies below, or the file of a plan of your own (inputs/study/plans.md)");
-  const auto text = [&](const char *name, std::optional<std::string> Arguments::*value, const char *type,
-                        const char *help) {
-    command
-        ->add_option_function<std::string>(
-            name, [arguments, value](const std::string &given) { (*arguments).*value = given; }, help)
-        ->type_name(type);
-  };
-  text("--out", &Arguments::out, "DIR", "folder of the results; if not given, results/study/NAME");
-  text("--jobs", &Arguments::jobs, "COUNT", "of a plan: runs at the same time, one processor each");
-  text("--balls", &Arguments::balls, "COUNT",
-       "of a plan of beds: balls of its first scene; box and roller are scaled with their root, the balls "
-       "are not");
+  text_option(command, "--out", "DIR", arguments->out,
+              "folder of the results; if not given, results/study/NAME");
+  text_option(command, "--jobs", "COUNT", arguments->jobs,
+              "of a plan: runs at the same time, one processor each");
+  text_option(
+      command, "--balls", "COUNT", arguments->balls,
+      "of a plan of beds: balls of its first scene; box and roller are scaled with their root, the balls "
+      "are not");
   command->add_flag("--fresh", arguments->fresh, "forget the points of an earlier call");
   command->add_flag("--quick", arguments->quick, "few points: to see that it works");
   std::string footer =

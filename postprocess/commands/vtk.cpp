@@ -1,9 +1,10 @@
+#include "commands/text_options.h"
 #include "commands/vtk.h"
 
-#include "commands/commands.h"
 #include "bed/coarse_graining.h"
 #include "bed/dump_readers.h"
 #include "bed/vtk_writers.h"
+#include "commands/commands.h"
 #include "runs/chain_files.h"
 #include "support/files.h"
 #include "support/options.h"
@@ -378,17 +379,12 @@ void add_vtk_command(CLI::App &app, Session &) {
   vtk->add_option("dir", arguments->folder, "folder of the run, with dump/ and parameters.csv")
       ->type_name("DIR")
       ->required();
-  const auto optional = [vtk](const char *name, std::optional<std::string> &value, const std::string &help) {
-    return vtk->add_option_function<std::string>(
-        name, [&value](const std::string &text) { value = text; }, help);
-  };
-  optional("--out", arguments->out, "folder for the results, made if missing; DIR/vtk if not given")
-      ->type_name("DIR");
-  optional("--cell", arguments->cell,
-           fmt::format("side of the cells of the fields [m], fitted to the bed; {:g} mean diameters "
-                       "of the soil balls if not given",
-                       default_cell))
-      ->type_name("NUMBER");
+  text_option(vtk, "--out", "DIR", arguments->out,
+              "folder for the results, made if missing; DIR/vtk if not given");
+  text_option(vtk, "--cell", "NUMBER", arguments->cell,
+              fmt::format("side of the cells of the fields [m], fitted to the bed; {:g} mean diameters "
+                          "of the soil balls if not given",
+                          default_cell));
   vtk->callback([arguments] { write_vtk_series(*arguments); });
 }
 

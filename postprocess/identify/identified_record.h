@@ -1,8 +1,8 @@
 // Identification of a roller's record: the law of the whole record and of windows of cycles.
 #pragma once
 
-#include "record/record.h"
 #include "identify/identification.h"
+#include "record/record.h"
 
 #include <filesystem>
 #include <functional>

@@ -1,9 +1,9 @@
 #include "identify/lumped_comparison.h"
 
-#include "pages/figure_data.h"
-#include "record/chain_record.h"
 #include "chain/closed_form.h"
 #include "meter/cycles.h"
+#include "pages/figure_data.h"
+#include "record/chain_record.h"
 #include "support/csv.h"
 #include "support/harmonics.h"
 #include "support/range.h"

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "chain/parameters.h"
+#include "identify/identified_record.h"
 #include "pages/page.h"
 #include "record/record.h"
-#include "identify/identified_record.h"
 #include "support/statistics.h"
 
 #include <array>

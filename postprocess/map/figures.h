@@ -1,8 +1,8 @@
 // Pictures of a map and of a sweep, with the data that they are drawn from.
 #pragma once
 
-#include "pages/gnuplot.h"
 #include "map/regime_map.h"
+#include "pages/gnuplot.h"
 
 #include <string>
 #include <utility>

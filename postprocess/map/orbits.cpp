@@ -239,17 +239,17 @@ double bisected(double from, double to, const Same &same) {
 
 } // namespace
 
-std::optional<Change> locate_contact_loss(const ChainFamily &family, double from, double to) {
+std::optional<OrbitChange> locate_contact_loss(const ChainFamily &family, double from, double to) {
   const auto lasts = [&family](double value) {
     const ChainSolver solver(family(value));
     return pass(solver, steady_contact_state(solver.parameters()), 1).always_contact();
   };
   const bool at_from = lasts(from);
   if (at_from == lasts(to)) return std::nullopt;
-  return Change{bisected(from, to, [&](double value) { return lasts(value) == at_from; }), true};
+  return OrbitChange{bisected(from, to, [&](double value) { return lasts(value) == at_from; }), true};
 }
 
-std::optional<Change> locate_doubling(const ChainFamily &family, double from, double to,
+std::optional<OrbitChange> locate_doubling(const ChainFamily &family, double from, double to,
                                       const PeriodicOrbit &start) {
   const auto determinant = [](const PeriodicOrbit &orbit) {
     return (orbit.passage.jacobian + Eigen::Matrix4d::Identity()).determinant();
@@ -280,7 +280,7 @@ std::optional<Change> locate_doubling(const ChainFamily &family, double from, do
   });
   if (lost) return std::nullopt;
   constexpr double jump = 1e-6;
-  return Change{value, std::fabs(before - after) < jump};
+  return OrbitChange{value, std::fabs(before - after) < jump};
 }
 
 } // namespace drumlin::post

@@ -90,7 +90,7 @@ std::vector<BranchPoint> continue_orbit(const ChainFamily &family, double from, 
                                         const PeriodicOrbit &start);
 
 /// Value of the varied parameter at which an orbit changes its kind.
-struct Change {
+struct OrbitChange {
   double value = 0.0; ///< value of the varied parameter, relative error 1e-11
   bool smooth = true; ///< doubling: a multiplier passes -1; false: it jumps over -1, since the orbit meets a
                       ///< boundary of the contact
@@ -98,11 +98,11 @@ struct Change {
 
 /// The value between `from` and `to` at which the steady state with unbroken contact begins or ends, decided
 /// by whether the computed motion has a break. No value if the contact is unbroken at both or at neither.
-std::optional<Change> locate_contact_loss(const ChainFamily &family, double from, double to);
+std::optional<OrbitChange> locate_contact_loss(const ChainFamily &family, double from, double to);
 
 /// Where a multiplier of the orbit that begins as `start` at `from` passes -1. No value if the sign of det(J
 /// + I) is the same at both ends or the orbit cannot be followed.
-std::optional<Change> locate_doubling(const ChainFamily &family, double from, double to,
+std::optional<OrbitChange> locate_doubling(const ChainFamily &family, double from, double to,
                                       const PeriodicOrbit &start);
 
 } // namespace drumlin::post

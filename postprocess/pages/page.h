@@ -2,9 +2,9 @@
 #pragma once
 
 #include "pages/acceptance.h"
+#include "pages/drawing.h"
 #include "pages/figure.h"
 #include "pages/html.h"
-#include "pages/drawing.h"
 #include "pages/table.h"
 
 #include <filesystem>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "chain/parameters.h"
-#include "runs/chain_files.h"
 #include "record/record.h"
+#include "runs/chain_files.h"
 
 namespace drumlin::post {
 

@@ -1,7 +1,7 @@
 #include "record/record.h"
 
-#include "support/csv.h"
 #include "runs/parameter_file.h"
+#include "support/csv.h"
 #include "support/range.h"
 #include "support/statistics.h"
 

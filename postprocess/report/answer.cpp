@@ -1,7 +1,7 @@
 #include "report/answer.h"
 
-#include "report/chain/tables.h"
 #include "report/chain/engine_comparison.h"
+#include "report/chain/tables.h"
 
 #include <algorithm>
 #include <cmath>

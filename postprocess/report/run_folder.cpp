@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "chain/reference_values.h"
-#include "report/soil/element_tests.h"
 #include "report/place.h"
+#include "report/soil/element_tests.h"
 #include "support/text.h"
 #include "support/usage_error.h"
 

@@ -3,8 +3,8 @@
 // numbers are as in support/csv.h.
 #pragma once
 
-#include "support/csv.h"
 #include "runs/parameter_file.h"
+#include "support/csv.h"
 
 #include <array>
 #include <cstddef>

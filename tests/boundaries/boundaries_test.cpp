@@ -308,6 +308,21 @@ TEST(Boundaries, RoomsOfThePostprocessorIncludeWhatIsBelowThem) {
   }
 }
 
+// All types of the tools are in one namespace: two of one name would be one type for the linker.
+TEST(Boundaries, NoTwoHeadersOfThePostprocessorDefineATypeOfOneName) {
+  static const std::regex definition(R"re(\n(?:struct|class|enum class|enum) (\w+)[^;\n]*\{)re");
+  std::map<std::string, std::string> defined;
+  for (const fs::path &file : files("postprocess", is_source)) {
+    if (file.extension() != ".h") continue;
+    const std::string text = text_of(file), name = file.lexically_relative(root).string();
+    for (std::sregex_iterator i(text.begin(), text.end(), definition), end; i != end; ++i) {
+      const auto [other, first] = defined.emplace((*i)[1].str(), name);
+      EXPECT_TRUE(first) << (*i)[1] << " in " << name << " and " << other->second;
+    }
+  }
+  EXPECT_GT(defined.size(), 100U);
+}
+
 TEST(Boundaries, TheDirectSolverAndThePostprocessorKnowNothingOfThePlugin) {
   for (const char *folder : {"tests/postprocess", "postprocess", "tests/support"})
     expect_includes(folder, [](const std::string &, const Include &include) { return fits_judge(include); });

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "chain/parameters.h"
-#include "runs/chain_files.h"
 #include "engine/engine_run.h"
+#include "runs/chain_files.h"
 #include "support/files.h"
 
 #include <array>

@@ -1,5 +1,5 @@
-#include "tests/support/scratch_study.h"
 #include "support/files.h"
+#include "tests/support/scratch_study.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

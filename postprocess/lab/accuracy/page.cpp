@@ -3,12 +3,12 @@
 #include "engine/deck_run.h"
 #include "support/files.h"
 
+#include "advice/steps.h"
+#include "experiment/study.h"
+#include "lab/accuracy/results.h"
 #include "pages/acceptance.h"
 #include "pages/figure_data.h"
 #include "pages/page.h"
-#include "lab/accuracy/results.h"
-#include "experiment/study.h"
-#include "advice/steps.h"
 #include "support/convergence.h"
 
 #include "runs/chain_files.h"

@@ -3,8 +3,8 @@
 #include "bed/dump_readers.h"
 #include "chain/analysis.h"
 #include "chain/reference_values.h"
-#include "runs/chain_files.h"
 #include "engine/deck_run.h"
+#include "runs/chain_files.h"
 
 #include <algorithm>
 #include <cmath>

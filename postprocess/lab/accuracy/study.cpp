@@ -1,9 +1,9 @@
 #include "lab/studies.h"
 
-#include "lab/accuracy/page.h"
-#include "lab/accuracy/results.h"
 #include "advice/steps.h"
 #include "experiment/study.h"
+#include "lab/accuracy/page.h"
+#include "lab/accuracy/results.h"
 #include "support/progress.h"
 
 #include <algorithm>

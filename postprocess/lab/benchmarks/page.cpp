@@ -1,11 +1,11 @@
 #include "lab/benchmarks/page.h"
 
 #include "engine/deck_run.h"
-#include "pages/figure_data.h"
-#include "pages/page.h"
+#include "experiment/study.h"
 #include "lab/benchmarks/checks.h"
 #include "lab/benchmarks/runs.h"
-#include "experiment/study.h"
+#include "pages/figure_data.h"
+#include "pages/page.h"
 
 #include <fmt/format.h>
 

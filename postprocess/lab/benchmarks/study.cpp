@@ -1,8 +1,8 @@
 #include "lab/studies.h"
 
+#include "experiment/study.h"
 #include "lab/benchmarks/page.h"
 #include "lab/benchmarks/runs.h"
-#include "experiment/study.h"
 #include "support/progress.h"
 
 #include <fmt/format.h>

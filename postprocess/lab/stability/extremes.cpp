@@ -1,13 +1,13 @@
 #include "lab/stability/extremes.h"
 
-#include "engine/places.h"
 #include "chain/analysis.h"
 #include "chain/direct_solver.h"
 #include "chain/parameters.h"
-#include "runs/chain_files.h"
+#include "engine/places.h"
 #include "lab/accuracy/runs.h"
 #include "lab/benchmarks/checks.h"
 #include "lab/stability/bed.h"
+#include "runs/chain_files.h"
 #include "support/progress.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // The stable region in the plane of damping ratio and w0 dt, measured with the stock engine.
 #pragma once
 
-#include "pages/acceptance.h"
 #include "experiment/study.h"
+#include "pages/acceptance.h"
 
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 #include "lab/stability/page.h"
 
+#include "lab/stability/boundary.h"
 #include "pages/figure_data.h"
 #include "pages/page.h"
-#include "lab/stability/boundary.h"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 #include "lab/studies.h"
 
+#include "experiment/study.h"
 #include "lab/stability/extremes.h"
 #include "lab/stability/map.h"
 #include "lab/stability/page.h"
-#include "experiment/study.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,10 +1,10 @@
 #include "lab/timing/page.h"
 
 #include "engine/places.h"
+#include "lab/timing/results.h"
 #include "pages/acceptance.h"
 #include "pages/figure_data.h"
 #include "pages/page.h"
-#include "lab/timing/results.h"
 
 #include <fmt/format.h>
 
@@ -167,7 +167,7 @@ PageFigure size_figure(const std::vector<VariantTime> &all, const TimedBeds &bed
 /// Allowed ratio for parts that should not add cost: the scatter of the ratios is about 2 %.
 constexpr double nothing = 1.02;
 
-const std::vector<Comparison> comparisons = {
+const std::vector<PieceComparison> comparisons = {
     {"law alone", "stock alone", "engine law alone", nothing},
     {"law", "stock", "engine law", nothing},
     {"law + friction", "stock + friction", "engine law + friction", nothing},

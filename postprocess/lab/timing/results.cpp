@@ -99,13 +99,13 @@ std::vector<double> efficiencies(const std::vector<TimedRun> &runs, const std::s
 }
 
 std::vector<PieceCost> piece_costs(const std::vector<TimedRun> &runs,
-                                   const std::vector<Comparison> &comparisons) {
+                                   const std::vector<PieceComparison> &comparisons) {
   std::vector<std::string> scenes;
   for (const TimedRun &run : runs)
     if (std::find(scenes.begin(), scenes.end(), run.scene) == scenes.end()) scenes.push_back(run.scene);
   std::vector<PieceCost> costs;
   for (const std::string &scene : scenes)
-    for (const Comparison &comparison : comparisons) {
+    for (const PieceComparison &comparison : comparisons) {
       const Measured of = {comparison.variant}, over = {comparison.base};
       const std::vector<double> ratios = time_ratios(runs, scene, of, over);
       if (ratios.empty()) continue;

@@ -68,7 +68,7 @@ std::vector<double> efficiencies(const std::vector<TimedRun> &runs, const std::s
                                  const Measured &of);
 
 /// The cost of an optional part: the time of a variant with it over that of the variant without it.
-struct Comparison {
+struct PieceComparison {
   const char *piece;
   const char *variant;
   const char *base;
@@ -77,7 +77,7 @@ struct Comparison {
 };
 struct PieceCost {
   std::string scene;
-  Comparison comparison;
+  PieceComparison comparison;
   Spread ratio;
   double extra_us_per_step; ///< median of the difference within a round
   /// The acceptance criterion of this scene: the largest ratio allowed; 0: there is none.
@@ -88,6 +88,6 @@ struct PieceCost {
 };
 /// The comparisons that the scenes allow on one rank, scene by scene.
 std::vector<PieceCost> piece_costs(const std::vector<TimedRun> &runs,
-                                   const std::vector<Comparison> &comparisons);
+                                   const std::vector<PieceComparison> &comparisons);
 
 } // namespace drumlin::post

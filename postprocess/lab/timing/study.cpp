@@ -2,10 +2,10 @@
 
 #include "engine/deck_run.h"
 #include "engine/engine_command.h"
+#include "experiment/study.h"
 #include "lab/timing/bed.h"
 #include "lab/timing/page.h"
 #include "lab/timing/results.h"
-#include "experiment/study.h"
 #include "support/progress.h"
 
 #include <algorithm>

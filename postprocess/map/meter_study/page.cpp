@@ -1,8 +1,8 @@
 #include "map/meter_study/results.h"
 
+#include "meter/values.h"
 #include "pages/figure_data.h"
 #include "pages/page.h"
-#include "meter/values.h"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
 #include "map/meter_study/study.h"
 
-#include "record/chain_record.h"
 #include "chain/closed_form.h"
 #include "identify/identified_record.h"
-#include "meter/values.h"
 #include "map/meter_study/results.h"
+#include "meter/values.h"
+#include "record/chain_record.h"
 #include "support/progress.h"
 #include "support/resumed.h"
 

@@ -163,34 +163,34 @@ Run as_run(const Run &run, const DirectResult &reference) {
 }
 
 /// The measured value of a quantity in SI units; nothing if the run does not have it.
-std::optional<double> measured(const ChainMeasures &m, bool has_events, Quantity quantity) {
+std::optional<double> measured(const ChainMeasures &m, bool has_events, ReferenceQuantity quantity) {
   switch (quantity) {
-  case Quantity::drum_acceleration_min:
+  case ReferenceQuantity::drum_acceleration_min:
     return m.extremes.acceleration.min;
-  case Quantity::drum_acceleration_max:
+  case ReferenceQuantity::drum_acceleration_max:
     return m.extremes.acceleration.max;
-  case Quantity::contact_force_min:
+  case ReferenceQuantity::contact_force_min:
     return m.extremes.force.min;
-  case Quantity::contact_force_max:
+  case ReferenceQuantity::contact_force_max:
     return m.extremes.force.max;
-  case Quantity::contact_share:
+  case ReferenceQuantity::contact_share:
     return m.contact_share;
-  case Quantity::force_at_break:
+  case ReferenceQuantity::force_at_break:
     if (m.force_at_break) return m.force_at_break->min;
     return std::nullopt;
-  case Quantity::overlap_at_break:
+  case ReferenceQuantity::overlap_at_break:
     if (m.overlap_at_break) return m.overlap_at_break->max;
     return std::nullopt;
-  case Quantity::force_at_make:
+  case ReferenceQuantity::force_at_make:
     if (m.force_at_make) return m.force_at_make->max;
     return std::nullopt;
-  case Quantity::breaks_per_cycle:
+  case ReferenceQuantity::breaks_per_cycle:
     if (has_events) return m.breaks_per_cycle;
     return std::nullopt;
-  case Quantity::makes_per_cycle:
+  case ReferenceQuantity::makes_per_cycle:
     if (has_events) return m.makes_per_cycle;
     return std::nullopt;
-  case Quantity::compaction_meter_value:
+  case ReferenceQuantity::compaction_meter_value:
     return compaction_meter_value(m.amplitudes);
   }
   return std::nullopt;
@@ -225,8 +225,8 @@ Check steady_check(std::size_t index, const RunResult &result, const ReferenceVa
   check.reference = reference.low == reference.high ? fmt::format("{:.{}f}", reference.low, decimals)
                                                     : fmt::format("{:.{}f} to {:.{}f}", reference.low,
                                                                   decimals, reference.high, decimals);
-  const bool count =
-      reference.quantity == Quantity::breaks_per_cycle || reference.quantity == Quantity::makes_per_cycle;
+  const bool count = reference.quantity == ReferenceQuantity::breaks_per_cycle ||
+                     reference.quantity == ReferenceQuantity::makes_per_cycle;
   if (count) check.reference = "none";
   check.tolerance =
       reference.tolerance == 0.0 ? "exact" : fmt::format("{:.{}f}", reference.tolerance, decimals);
@@ -246,15 +246,15 @@ Check steady_check(std::size_t index, const RunResult &result, const ReferenceVa
   check.measured = count && *value == 0.0
                        ? "none"
                        : fmt::format("{:.{}f}", check.value + 0.0, std::max(decimals + 2, count ? 1 : 0));
-  if (reference.quantity == Quantity::contact_share && !result.chain->share_exact)
+  if (reference.quantity == ReferenceQuantity::contact_share && !result.chain->share_exact)
     check.note = "from samples, not from located events";
-  const bool extreme = reference.quantity == Quantity::drum_acceleration_min ||
-                       reference.quantity == Quantity::drum_acceleration_max ||
-                       reference.quantity == Quantity::contact_force_min ||
-                       reference.quantity == Quantity::contact_force_max;
+  const bool extreme = reference.quantity == ReferenceQuantity::drum_acceleration_min ||
+                       reference.quantity == ReferenceQuantity::drum_acceleration_max ||
+                       reference.quantity == ReferenceQuantity::contact_force_min ||
+                       reference.quantity == ReferenceQuantity::contact_force_max;
   if (extreme && !result.chain->extremes.every_step)
     check.note = "from samples and events, not from every step";
-  if (reference.quantity == Quantity::compaction_meter_value && !result.chain->amplitudes_every_step)
+  if (reference.quantity == ReferenceQuantity::compaction_meter_value && !result.chain->amplitudes_every_step)
     check.note = "from samples and events, not from every step";
   return check;
 }

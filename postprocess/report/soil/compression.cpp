@@ -43,7 +43,7 @@ CompressionTest compression_test(const std::string &name) {
 }
 
 /// Angles over the seeds of a soil, for each side stress and for all.
-PageTable seed_table(const CompressionTest &test, const std::vector<Soil> &soils,
+PageTable seed_table(const CompressionTest &test, const std::vector<SoilGroup> &soils,
                      const std::vector<CompressionRun> &runs, const std::vector<Strength> &strengths) {
   PageTable table(test.name + "_angles", "Angles over the seeds",
                   "soil | side stress (kPa) | runs | peak friction angle (°) | smallest to largest (°) | "
@@ -70,7 +70,8 @@ PageTable seed_table(const CompressionTest &test, const std::vector<Soil> &soils
 }
 
 /// Failures of the runs of a soil; `critical`: at large strains instead of the peak.
-std::vector<Failure> failures_of(const Soil &soil, const std::vector<Strength> &strengths, bool critical) {
+std::vector<Failure> failures_of(const SoilGroup &soil, const std::vector<Strength> &strengths,
+                                 bool critical) {
   std::vector<Failure> failures;
   for (const std::size_t n : soil.runs)
     if (!critical || strengths[n].is_critical)
@@ -84,12 +85,12 @@ bool have_line(const std::vector<Failure> &failures,
 }
 
 /// The line through all failures of a soil, at the peak and at large strains.
-PageTable line_table(const CompressionTest &test, const std::vector<Soil> &soils,
+PageTable line_table(const CompressionTest &test, const std::vector<SoilGroup> &soils,
                      const std::vector<CompressionRun> &runs, const std::vector<Strength> &strengths) {
   PageTable table(
       test.name + "_lines", "Mohr-Coulomb lines",
       "soil | failure | runs | side stresses | friction angle (°) | 95 % interval (°) | cohesion (kPa)", 2);
-  for (const Soil &soil : soils)
+  for (const SoilGroup &soil : soils)
     for (const bool critical : {false, true}) {
       const std::vector<Failure> failures = failures_of(soil, strengths, critical);
       const auto sides = grouped_by(confining_stresses(test, runs), soil);
@@ -136,7 +137,7 @@ PageTable run_table(const CompressionTest &test, const std::vector<CompressionRu
 }
 
 /// Failures of all runs and the lines through them.
-PageFigure line_figure(const CompressionTest &test, const std::vector<Soil> &soils,
+PageFigure line_figure(const CompressionTest &test, const std::vector<SoilGroup> &soils,
                        const std::vector<CompressionRun> &runs, const std::vector<Strength> &strengths) {
   const std::string name = "mohr_coulomb";
   Panel panel{"", "half the sum of the stresses (kPa)", "half their difference (kPa)", {}};
@@ -145,7 +146,7 @@ PageFigure line_figure(const CompressionTest &test, const std::vector<Soil> &soi
   std::size_t lines = 0;
   for (const bool critical : {false, true}) {
     const std::string points = critical ? "critical" : "peak";
-    for (const Soil &soil : soils) {
+    for (const SoilGroup &soil : soils) {
       const std::vector<Failure> failures = failures_of(soil, strengths, critical);
       double end = 0.0;
       for (const Failure &failure : failures) {
@@ -180,7 +181,7 @@ PageWriter read_page(const CompressionTest &test, const std::string &title, Draw
     strengths.reserve(runs.size());
     for (const CompressionRun &run : runs)
       strengths.push_back(strength_of(run.rows));
-    const std::vector<Soil> soils = soils_of(runs, {test.confining});
+    const std::vector<SoilGroup> soils = soils_of(runs, {test.confining});
     Page page(out, title, drawing);
     page.answer(answer);
     answer_strength_quality(page, runs);

@@ -43,7 +43,7 @@ RestingSoil soil_of(const Run &run) {
 }
 
 /// Key of a curve that stands for some runs.
-std::string key_of(const Soil &soil, const std::vector<OwnWeightRun> &runs) {
+std::string key_of(const SoilGroup &soil, const std::vector<OwnWeightRun> &runs) {
   return soil.runs.size() > 1 ? fmt::format("{}; {} runs", soil.short_name(), soil.runs.size())
                               : curve_text(runs[soil.runs.front()].run.name);
 }
@@ -85,7 +85,7 @@ void write_wall_page(const std::vector<OwnWeightRun> &runs, const fs::path &out)
                                      "K_a (-) | friction angle by Rankine (°) | displacement (mm)");
   PageTable means("wall_soils", "Means over the seeds",
                   "soil | runs | 100 K at rest | 100 K_a | friction angle by Rankine (°)");
-  for (const Soil &group : soils_of(runs, of_each_sample)) {
+  for (const SoilGroup &group : soils_of(runs, of_each_sample)) {
     SeedValues at_rest, active, angle;
     for (const std::size_t n : group.runs) {
       const OwnWeightRun &run = runs[n];
@@ -128,7 +128,7 @@ void write_wall_page(const std::vector<OwnWeightRun> &runs, const fs::path &out)
 
 /// Janssen's theory with one coefficient for all runs of a soil.
 struct SiloSoil {
-  Soil soil;
+  SoilGroup soil;
   double coefficient = 0.0;
 };
 
@@ -140,7 +140,7 @@ PageFigure silo_figure(const std::vector<OwnWeightRun> &runs, const std::vector<
   panel.y_range = "[0:*]";
   CurveTable table("height over width,stress over weight density times width");
   for (std::size_t s = 0; s < soils.size(); ++s) {
-    const Soil &group = soils[s].soil;
+    const SoilGroup &group = soils[s].soil;
     const std::string key = key_of(group, runs), theory = group.short_name() + "; Janssen";
     double highest = 0.0;
     for (const std::size_t n : group.runs) {
@@ -177,7 +177,7 @@ void write_silo_page(const std::vector<OwnWeightRun> &runs, const fs::path &out)
       "silo_runs",
       "height (m) | height over width (-) | floor force over weight (-) | the same after Janssen (-) | "
       "friction over normal force at the walls (-) | K of the run (-) | mean K (-)");
-  for (const Soil &group : soils_of(runs, varied)) {
+  for (const SoilGroup &group : soils_of(runs, varied)) {
     double sum = 0.0, count = 0.0;
     for (const std::size_t n : group.runs)
       if (std::isfinite(states[n].coefficient)) {
@@ -263,7 +263,7 @@ void write_repose_page(const std::vector<OwnWeightRun> &runs, const std::vector<
   PageTable means(
       "repose_soils", "Means over the seeds",
       "soil | friction (-) | rolling friction (-) | runs | angle of repose (°) | smallest to largest (°)");
-  for (const Soil &group : soils_of(runs, of_each_sample)) {
+  for (const SoilGroup &group : soils_of(runs, of_each_sample)) {
     SeedValues angle;
     for (const std::size_t n : group.runs) {
       const Run &run = runs[n].run;

@@ -88,8 +88,9 @@ void add_element_run(PageTable &table, const Run &run, const std::vector<std::st
   table.add(std::move(cells), quality.good() ? RowState::agrees : RowState::differs);
 }
 
-std::vector<Soil> soils_of(const std::vector<const Run *> &runs, const std::vector<std::string> &varied) {
-  std::vector<Soil> soils;
+std::vector<SoilGroup> soils_of(const std::vector<const Run *> &runs,
+                                const std::vector<std::string> &varied) {
+  std::vector<SoilGroup> soils;
   std::vector<std::string> texts;
   for (std::size_t n = 0; n < runs.size(); ++n) {
     const std::string text = soil_text(*runs[n], varied);
@@ -105,7 +106,8 @@ std::vector<Soil> soils_of(const std::vector<const Run *> &runs, const std::vect
   return soils;
 }
 
-std::map<double, std::vector<std::size_t>> grouped_by(const std::vector<double> &numbers, const Soil &soil) {
+std::map<double, std::vector<std::size_t>> grouped_by(const std::vector<double> &numbers,
+                                                      const SoilGroup &soil) {
   std::map<double, std::vector<std::size_t>> groups;
   for (const std::size_t n : soil.runs)
     groups[numbers[n]].push_back(n);

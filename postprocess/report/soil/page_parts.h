@@ -96,7 +96,7 @@ void add_element_run(PageTable &table, const Run &run, const std::vector<std::st
                      const TestQuality &quality);
 
 /// Tests of one soil, as places in a list of runs.
-struct Soil {
+struct SoilGroup {
   std::string name; ///< number, and the engine
   std::vector<std::size_t> runs;
 
@@ -105,9 +105,10 @@ struct Soil {
 };
 
 /// Groups runs whose parameters agree, but for the seed and those named in `varied`.
-std::vector<Soil> soils_of(const std::vector<const Run *> &runs, const std::vector<std::string> &varied);
+std::vector<SoilGroup> soils_of(const std::vector<const Run *> &runs, const std::vector<std::string> &varied);
 template <class Row>
-std::vector<Soil> soils_of(const std::vector<ElementRun<Row>> &runs, const std::vector<std::string> &varied) {
+std::vector<SoilGroup> soils_of(const std::vector<ElementRun<Row>> &runs,
+                                const std::vector<std::string> &varied) {
   std::vector<const Run *> all;
   all.reserve(runs.size());
   for (const ElementRun<Row> &run : runs)
@@ -116,7 +117,8 @@ std::vector<Soil> soils_of(const std::vector<ElementRun<Row>> &runs, const std::
 }
 
 /// The runs of a soil by a number of theirs, `numbers[n]` being that of run n.
-std::map<double, std::vector<std::size_t>> grouped_by(const std::vector<double> &numbers, const Soil &soil);
+std::map<double, std::vector<std::size_t>> grouped_by(const std::vector<double> &numbers,
+                                                      const SoilGroup &soil);
 
 /// Values of one quantity in tests of one soil, by seed. Runs of one seed under several stresses have nearly the
 /// same sample: their mean counts once.

@@ -61,7 +61,7 @@ PageTable soil_table(const std::vector<PlateRun> &runs, const std::vector<PlateR
   PageTable table("plate_soils", "Means over the beds", "soil | tests");
   for (const Quantity &quantity : quantities)
     table.header.emplace_back(quantity.header);
-  for (const Soil &soil : soils_of(runs, {"bed"})) {
+  for (const SoilGroup &soil : soils_of(runs, {"bed"})) {
     std::vector<std::string> cells = {soil.name, std::to_string(soil.runs.size())};
     for (const Quantity &quantity : quantities) {
       SeedValues values;

@@ -30,7 +30,7 @@ const StrengthTest<ShearRow> shear_test = {
     "atan(shear stress/normal stress)"};
 
 /// Angles over the seeds of a soil, for each normal stress and for all.
-PageTable seed_table(const std::vector<Soil> &soils, const std::vector<ShearRun> &runs,
+PageTable seed_table(const std::vector<SoilGroup> &soils, const std::vector<ShearRun> &runs,
                      const std::vector<ShearStrength> &strengths) {
   PageTable table("shear_angles", "Angles over the seeds",
                   "soil | normal stress (kPa) | runs | peak friction on the plane of shear (°) | dilatancy "
@@ -93,7 +93,7 @@ PageWriter read_shear_page(const std::vector<fs::path> &folders) {
     strengths.reserve(runs.size());
     for (const ShearRun &run : runs)
       strengths.push_back(shear_strength_of(run.rows));
-    const std::vector<Soil> soils = soils_of(runs, {shear_test.confining});
+    const std::vector<SoilGroup> soils = soils_of(runs, {shear_test.confining});
     Page page(out, shear_title, Drawing::shear);
     page.answer(
         "Samples of soil between two rough plates, periodic sideways, sheared by the upper one under a "

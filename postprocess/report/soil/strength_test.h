@@ -60,15 +60,16 @@ std::vector<double> confining_stresses(const StrengthTest<Row> &test,
 /// Adds the rows of a table over the seeds, for each soil: one for each confining stress, and one for all if there
 /// are several. `cells` gives the quantities of some runs of a soil, given as places in the list of runs.
 template <class Row, class Cells>
-void add_soils(PageTable &table, const StrengthTest<Row> &test, const std::vector<Soil> &soils,
+void add_soils(PageTable &table, const StrengthTest<Row> &test, const std::vector<SoilGroup> &soils,
                const std::vector<ElementRun<Row>> &runs, const Cells &cells) {
-  const auto add = [&](const Soil &soil, const std::string &stress, const std::vector<std::size_t> &members) {
+  const auto add = [&](const SoilGroup &soil, const std::string &stress,
+                       const std::vector<std::size_t> &members) {
     std::vector<std::string> row = {soil.name, stress, std::to_string(members.size())};
     for (std::string &cell : cells(members))
       row.push_back(std::move(cell));
     table.add(row);
   };
-  for (const Soil &soil : soils) {
+  for (const SoilGroup &soil : soils) {
     const auto groups = grouped_by(confining_stresses(test, runs), soil);
     for (const auto &[stress, members] : groups)
       add(soil, number_cell(stress), members);
@@ -100,7 +101,7 @@ void add_means(CurveTable &table, const std::string &key, const StrengthTest<Row
 
 /// Mobilised friction angle and volumetric strain over the strain, means over the seeds.
 template <class Row>
-PageFigure strength_figure(const StrengthTest<Row> &test, const std::vector<Soil> &soils,
+PageFigure strength_figure(const StrengthTest<Row> &test, const std::vector<SoilGroup> &soils,
                            const std::vector<ElementRun<Row>> &runs) {
   const std::string angle_axis = test.angle_axis + " (°)", strain_axis = test.strain_axis + " (%)";
   Panel friction{test.angle_title, strain_axis, angle_axis, {}};
@@ -110,7 +111,7 @@ PageFigure strength_figure(const StrengthTest<Row> &test, const std::vector<Soil
   volume.y_range = "[*:*]";
   CurveTable table(strain_axis + "," + angle_axis + ",increase of the volume (%)");
   std::size_t curves = 0;
-  for (const Soil &soil : soils)
+  for (const SoilGroup &soil : soils)
     for (const auto &[stress, members] : grouped_by(confining_stresses(test, runs), soil)) {
       const std::string key =
           members.size() > 1 ? fmt::format("{}; {:g} kPa; {} runs", soil.short_name(), stress, members.size())

@@ -1,6 +1,7 @@
 // Advice from invented curves for which the answer is known, and the command as a user calls it.
 #include "advice/steps.h"
 
+#include "engine/deck_run.h"
 #include "runs/chain_files.h"
 #include "support/files.h"
 #include "support/process.h"
@@ -173,14 +174,13 @@ TEST_F(AdviseCommand, AnswersFromTheStudyThatComesWithTheProject) {
 
 // The soil settles by -2 to 2 mm per cycle in the complete scene, and by 0.5 mm more with k / 10.
 TEST_F(AdviseCommand, TakesTheErrorOfASettlementInMillimetres) {
-  std::string rows =
-      "variant,seed,a_drum_max_m_s2,F_contact_max_N,settlement_m_per_cycle,contact_share,cpu_s,"
-      "balls,k_N_m_per_m\n";
+  std::string rows = "scene,seed,quantity,unit,value,cost [s]\n";
   for (int seed = 1; seed <= 5; ++seed) {
-    rows += fmt::format("complete,{},10,1e5,{},0.5,10,400,5e6\n", seed, 1e-3 * (seed - 3));
-    rows += fmt::format("k / 10,{},10,1e5,{},0.5,3,400,5e6\n", seed, 1e-3 * (seed - 2.5));
+    rows += fmt::format("complete,{},settlement,m,{},10\n", seed, 1e-3 * (seed - 3));
+    rows += fmt::format("k / 10,{},settlement,m,{},3\n", seed, 1e-3 * (seed - 2.5));
   }
-  write_files({{folder_ / "runs.csv", rows}});
+  write_files({{folder_ / "plan", "scaled_to 400\n" + read_text(input_file("study/fidelity/plan"))},
+               {folder_ / "runs.csv", rows}});
   const auto ask = [this](const std::string &within) {
     return run({"--bed", "--from", ".", "--question", "settlement", "--within", within});
   };

@@ -1,8 +1,8 @@
 // Calibration with closed forms in the place of beds: the parameters that were put in must be found again.
 #include "calibration/calibration.h"
 #include "calibration/search.h"
-#include "engine/deck_run.h"
 #include "chain/closed_form.h"
+#include "engine/deck_run.h"
 #include "identify/identified_record.h"
 #include "support/files.h"
 #include "tests/support/chain_record.h"

@@ -1,8 +1,8 @@
 // The closed-form solver against the numerical direct solver, against exact pieces in extended precision, and
 // against closed forms where the matrix has repeated roots. The search for events against polynomials whose
 // roots are known.
-#include "chain/direct_solver.h"
 #include "chain/closed_form.h"
+#include "chain/direct_solver.h"
 #include "tests/support/piecewise_oracle.h"
 
 #include <gtest/gtest.h>

@@ -17,7 +17,7 @@ TEST(ReferenceValues, HaveSevenForEveryCaseAndTransitionAndThreeMeterValues) {
       const auto count = std::count_if(reference_values().begin(), reference_values().end(),
                                        [&](const ReferenceValue &value) {
                                          return value.case_name == name && value.transition == transition &&
-                                                value.quantity != Quantity::compaction_meter_value;
+                                                value.quantity != ReferenceQuantity::compaction_meter_value;
                                        });
       EXPECT_EQ(count, 7) << name << transition;
     }

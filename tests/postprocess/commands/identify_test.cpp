@@ -1,6 +1,6 @@
 // `drumlin identify` as a user meets it: the program itself, its files, its messages, its exit status.
-#include "runs/chain_files.h"
 #include "chain/closed_form.h"
+#include "runs/chain_files.h"
 #include "support/csv.h"
 #include "tests/support/engine_runs.h"
 #include "tests/support/lines.h"

@@ -1,9 +1,9 @@
 // Stiffness and damping from records whose true values are known: of the closed-form solver and of CVODE,
 // exact and with noise. The contact's law is in these solvers, not in the identification's own functions.
-#include "chain/direct_solver.h"
 #include "chain/closed_form.h"
-#include "identify/page.h"
+#include "chain/direct_solver.h"
 #include "identify/identified_record.h"
+#include "identify/page.h"
 #include "support/statistics.h"
 #include "tests/support/chain_record.h"
 

@@ -1,7 +1,7 @@
 // A record beside its lumped chain: nothing differs if the record is a chain's, solved by CVODE; a soil that stiffens shows.
 #include "chain/direct_solver.h"
-#include "record/chain_record.h"
 #include "identify/lumped_comparison.h"
+#include "record/chain_record.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // `drumlin study meter --quick`: the rows against closed forms and orbits, which do not use records, and an
 // interrupted call that continues to the same result.
-#include "map/regime.h"
 #include "map/meter_study/results.h"
-#include "support/resumed.h"
+#include "map/regime.h"
 #include "support/files.h"
+#include "support/resumed.h"
 #include "tests/support/page.h"
 #include "tests/support/scratch_study.h"
 

@@ -1,8 +1,8 @@
 // Meter values: each formula against its closed form and against an independent computation, records of the direct solver
 // against reference values, and the files that other programs read.
+#include "map/regime.h"
 #include "meter/page.h"
 #include "meter/values.h"
-#include "map/regime.h"
 
 #include "chain/direct_solver.h"
 #include "chain/parameters.h"

@@ -3,9 +3,9 @@
 #include "report/report.h"
 
 #include "chain/direct_solver.h"
-#include "runs/chain_files.h"
 #include "report/chain/page.h"
 #include "report/run_folder.h"
+#include "runs/chain_files.h"
 #include "support/files.h"
 #include "support/text.h"
 #include "support/usage_error.h"

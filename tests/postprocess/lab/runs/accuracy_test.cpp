@@ -1,7 +1,7 @@
 // `drumlin study accuracy --quick`: its results meet the acceptance criteria, and an interrupted call
 // continues to the same result.
-#include "lab/accuracy/results.h"
 #include "experiment/study.h"
+#include "lab/accuracy/results.h"
 #include "tests/support/page.h"
 #include "tests/support/scratch_study.h"
 

@@ -3,8 +3,8 @@
 #include "tests/support/page.h"
 #include "tests/support/scratch_study.h"
 
-#include "lab/benchmarks/runs.h"
 #include "experiment/study.h"
+#include "lab/benchmarks/runs.h"
 
 #include <gtest/gtest.h>
 

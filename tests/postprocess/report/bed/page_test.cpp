@@ -3,10 +3,10 @@
 #include "report/bed/page.h"
 
 #include "chain/direct_solver.h"
-#include "runs/chain_files.h"
 #include "report/bed/figures.h"
 #include "report/bed/measures.h"
 #include "report/report.h"
+#include "runs/chain_files.h"
 #include "support/files.h"
 #include "support/usage_error.h"
 #include "tests/support/dump_texts.h"
