@@ -40,8 +40,8 @@ public:
   /// FrictionModel::none.
   physics::Friction friction(int i, int j, const AnyLaw &law, double overlap,
                              const TangentialSpring &spring) const;
-  /// Mass (kg) of ball i (local or ghost index) as its contacts feel it: infinite if it is frozen, the body's if it belongs to a
-  /// rigid body.
+  /// Mass (kg) of ball i (local or ghost index) as its contacts feel it: infinite if it is frozen, the body's
+  /// if it belongs to a rigid body.
   virtual double mass(int i) const = 0;
   /// Effective mass (kg) of the contact of balls i and j, of which one at most is frozen.
   double effective_mass(int i, int j) const {
@@ -53,10 +53,11 @@ public:
   /// meshes, of which it may touch any number of triangles.
   virtual physics::Dashpots wall_dashpots(int i) const = 0;
   virtual FrictionModel friction_model() const = 0;
-  /// Neighbour list of the pairs of balls that have this law, each pair once (twice across ranks with newton off).
+  /// Neighbour list of the pairs of balls that have this law, each pair once (twice across ranks with newton
+  /// off).
   virtual const LAMMPS_NS::NeighList *contact_list() const = 0;
-  /// What the contact of ball i and its jj-th neighbour in that list remembers; valid until the list is built anew.
-  /// nullptr if contacts remember nothing.
+  /// What the contact of ball i and its jj-th neighbour in that list remembers; valid until the list is built
+  /// anew. nullptr if contacts remember nothing.
   virtual const double *history(int i, int jj) const = 0;
   /// Where in that its numbers are.
   virtual const HistoryPlaces &places() const = 0;
@@ -102,8 +103,8 @@ private:
   AnyLaw law_;
 };
 
-/// Ends the run if the engine gives ghosts wrong velocities across the sides of a box that deforms. \param command for the
-/// error
+/// Ends the run if the engine gives ghosts wrong velocities across the sides of a box that deforms. \param
+/// command for the error
 void check_deforming_box(const engine::LAMMPS *lmp, const std::string &command);
 
 /// The error text of a fix that needs one of the plugin's contact laws, where the deck has another pair

@@ -44,9 +44,9 @@ inline physics::StepContext step_context(const LAMMPS_NS::FixStepping &stepping,
           stepping.in_setup()};
 }
 
-/// The tangential stiffness of a contact in a step, N/m, of a law in which it varies: the springs that the contact remembers
-/// follow its change. \param kt at the overlap of this step \param moves false in the set-up of a run and for computes: it is
-/// that of the step before, if there was one
+/// The tangential stiffness of a contact in a step, N/m, of a law in which it varies: the springs that the
+/// contact remembers follow its change. \param kt at the overlap of this step \param moves false in the
+/// set-up of a run and for computes: it is that of the step before, if there was one
 inline double follow_stiffness(const HistoryPlaces &places, double *history, double kt, bool moves) {
   if (places[Remembered::stiffness] < 0) return kt;
   double &before = history[places[Remembered::stiffness]];
@@ -70,8 +70,8 @@ inline void count(LAMMPS_NS::FixStepping &stepping, int i, int j, double c) {
 }
 
 /// physics::advance() for a contact that continues (physics::goes_on()), for inner loops.
-/// \param j below 0: a wall \param share see StepContact \returns false, and changes nothing, in all other situations: the caller then
-/// calls exert_contact()
+/// \param j below 0: a wall \param share see StepContact \returns false, and changes nothing, in all other
+/// situations: the caller then calls exert_contact()
 template <class Law>
 inline bool hold_contact(const Law &law, LAMMPS_NS::FixStepping &stepping, int i, int j,
                          const std::array<double, 3> &normal, const physics::StepMotion &motion, double m_eff,

@@ -42,7 +42,8 @@ struct ContactForces {
   LAMMPS_NS::FixStepping::Coupled *coupled; ///< nullptr: the contact is not coupled
   LAMMPS_NS::FixStepping::Begun *begun;     ///< nullptr: the contact does not begin in this step
 
-  /// Where friction and rolling resistance are described, of a contact that is coupled or begins; nullptr for others.
+  /// Where friction and rolling resistance are described, of a contact that is coupled or begins; nullptr for
+  /// others.
   LAMMPS_NS::FixStepping::Rubbing *rubbing() const {
     return coupled != nullptr ? static_cast<LAMMPS_NS::FixStepping::Rubbing *>(coupled) : begun;
   }
@@ -62,7 +63,8 @@ inline double tangential_stiffness(const Parameters &contact, const WallContact 
   return follow_stiffness(*p.places, p.history, kt, moves);
 }
 
-/// Time, s, of a step for which a spring of a contact is stretched: see physics::time_in_contact(). \param moves see exert()
+/// Time, s, of a step for which a spring of a contact is stretched: see physics::time_in_contact(). \param
+/// moves see exert()
 inline double time_of_spring(const WallContact &p, double dt, bool moves) {
   if (!moves) return 0.0;
   return p.in_contact ? dt : physics::time_in_contact(p.normal.overlap, p.normal.rate_half, dt);
@@ -156,7 +158,8 @@ void with_models(const ContactSettings &settings, Run &&run) {
   }
 }
 
-/// The record of a contact for observers. \param radius of the smaller ball, m \param rolling_radius effective, m
+/// The record of a contact for observers. \param radius of the smaller ball, m \param rolling_radius
+/// effective, m
 template <class Parameters>
 ContactRecord record_of(const ContactSettings &settings, const ContactCoefficients<Parameters> &coefficients,
                         const WallContact &p, const ContactForces &forces, double radius,

@@ -92,7 +92,8 @@ private:
   void check_engine();
   void share_rigid_masses();
   void take_settings(const drumlin::ContactSettings &settings);
-  /// The history of the contact of balls i and j; nullptr if j is not in i's neighbour list, or if there is none.
+  /// The history of the contact of balls i and j; nullptr if j is not in i's neighbour list, or if there is
+  /// none.
   const double *history_of_pair(int i, int j) const;
 
   drumlin::ContactSettings settings_;

@@ -107,8 +107,8 @@ double read_parameter(Arguments &in, const Parameter &p) {
   return in.number(std::string(p.name) + " " + p.word, p.range);
 }
 
-/// What stands before the damping: numbers of the materials, the same for both bodies, or after the word `effective` those
-/// of the pair; of a law without materials those of the pair.
+/// What stands before the damping: numbers of the materials, the same for both bodies, or after the word
+/// `effective` those of the pair; of a law without materials those of the pair.
 template <class Contact>
 void read_before_damping(Arguments &in, Contact &contact) {
   if constexpr (constexpr std::size_t numbers = Contact::material().size(); numbers > 0) {

@@ -42,8 +42,8 @@ using LAMMPS_NS::TriMesh;
 static_assert(sizeof(SurfacesIntersectData) == 368,
               "contact data of this LIGGGHTS differ from the stock binary's");
 
-/// Whether a combination keeps a tangential spring or a rolling torque as contact history, which has to be reset when the
-/// contact ends, as what a law remembers has.
+/// Whether a combination keeps a tangential spring or a rolling torque as contact history, which has to be
+/// reset when the contact ends, as what a law remembers has.
 template <class Style>
 constexpr bool has_springs = drumlin::has_spring<Style> || Style::ROLLING == ROLLING_SPRING;
 

@@ -24,8 +24,8 @@ namespace drumlin {
 /// With a distance factor above 1 the engine calls surfacesClose() for a contact that has just ended.
 constexpr double contact_distance_factor = 1.01;
 
-/// The order in which a contact's numbers are stored, which restart files have: the engine builds the tangential and the
-/// rolling model first, which announce their springs.
+/// The order in which a contact's numbers are stored, which restart files have: the engine builds the
+/// tangential and the rolling model first, which announce their springs.
 constexpr std::array<Remembered, 6> history_order{Remembered::spring,    Remembered::rolling_spring,
                                                   Remembered::stiffness, Remembered::force,
                                                   Remembered::touches,   Remembered::memory};
@@ -43,7 +43,8 @@ inline int announce(LIGGGHTS::IContactHistorySetup &history, Remembered what) {
   return first;
 }
 
-/// Effective mass, kg, with the engine's formula: its rounding differs from that of physics::effective_mass().
+/// Effective mass, kg, with the engine's formula: its rounding differs from that of
+/// physics::effective_mass().
 inline double engine_effective_mass(double mi, double mj) { return mi * mj / (mi + mj); }
 
 /// The pair style gran, or the one part of a hybrid pair style that is gran; nullptr if there is none, or

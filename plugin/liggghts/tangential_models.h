@@ -1,6 +1,7 @@
-// Adapter of the core's friction with a spring to LIGGGHTS's contact models: `tangential coulomb`, whose force never exceeds
-// its limit, and `tangential history`, which limits the spring alone, as the engine's model of that name does. (LIGGGHTS
-// includes this file several times; the first branch only announces the models.)
+// Adapter of the core's friction with a spring to LIGGGHTS's contact models: `tangential coulomb`, whose
+// force never exceeds its limit, and `tangential history`, which limits the spring alone, as the engine's
+// model of that name does. (LIGGGHTS includes this file several times; the first branch only announces the
+// models.)
 #ifdef TANGENTIAL_MODEL
 TANGENTIAL_MODEL(TANGENTIAL_COULOMB, coulomb, 21)
 TANGENTIAL_MODEL(TANGENTIAL_SPRING, tangential_spring, 22)

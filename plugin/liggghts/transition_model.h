@@ -33,7 +33,8 @@ constexpr int normal_model_number = 0;
 template <class Contact>
 class TransitionModel;
 
-/// Base of the combination of models that a normal model is part of, which takes the law of each contact from it.
+/// Base of the combination of models that a normal model is part of, which takes the law of each contact from
+/// it.
 template <class Contact>
 struct WithNormalModel {
   const TransitionModel<Contact> *normal_model = nullptr;
@@ -189,8 +190,8 @@ private:
                                         : engine_effective_mass(sidata.mi, sidata.mj);
   }
 
-  /// Sets the tangential stiffness of a law in which it varies, and lets the springs of the tangential and the rolling
-  /// model follow its change.
+  /// Sets the tangential stiffness of a law in which it varies, and lets the springs of the tangential and
+  /// the rolling model follow its change.
   inline void take_tangential_stiffness(SurfacesIntersectData &sidata, const Contact &contact, double r_eff) {
     const double dt = update->dt;
     sidata.kt = contact.tangential(physics::overlap_of_spring(sidata.deltan, -sidata.vn, dt), r_eff);

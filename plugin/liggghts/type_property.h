@@ -12,8 +12,8 @@ class FixPropertyGlobal;
 
 namespace drumlin {
 
-/// A property over types or pairs of types. The errors that end the run name command, property, types, value and what is
-/// allowed.
+/// A property over types or pairs of types. The errors that end the run name command, property, types, value
+/// and what is allowed.
 class TypeProperty : LAMMPS_NS::Pointers {
 public:
   enum class Of { type, pair };

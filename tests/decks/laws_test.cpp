@@ -1,5 +1,5 @@
-// Balls that fall on one another between walls, with each contact law of the list: the engines against each other on 1, 2 and
-// 4 ranks, and from restart files.
+// Balls that fall on one another between walls, with each contact law of the list: the engines against each
+// other on 1, 2 and 4 ranks, and from restart files.
 #include "tests/support/balls_run.h"
 #include "tests/support/frame_distance.h"
 #include "tests/plugin/law_samples.h"
@@ -118,7 +118,8 @@ Scene scene_of() {
           words};
 }
 
-/// Scenes that show what the loop over contacts has, with the Hertz law, and one for each law that is not among them.
+/// Scenes that show what the loop over contacts has, with the Hertz law, and one for each law that is not
+/// among them.
 std::vector<Scene> scenes() {
   const Variables hertz = {{"normal", "hertz"}};
   std::vector<Scene> all = {

@@ -9,8 +9,8 @@
 
 namespace drumlin::test {
 
-/// A number that a parameter may be: its size is `size` for the first of a law, `share` of it for further ones with the same
-/// unit, and a small number for one without a unit.
+/// A number that a parameter may be: its size is `size` for the first of a law, `share` of it for further
+/// ones with the same unit, and a small number for one without a unit.
 template <class Parameter, class First>
 double sample_number(const Parameter &p, const First &first, std::size_t place, double size, double share) {
   if (std::isfinite(p.range.most)) return 0.6 * p.range.most;
@@ -18,7 +18,8 @@ double sample_number(const Parameter &p, const First &first, std::size_t place, 
   return std::string(p.unit) == first.unit && place > 0 ? share * size : size;
 }
 
-/// A contact whose stored energy at an overlap is in proportion to `size`. Damping and transition are not set.
+/// A contact whose stored energy at an overlap is in proportion to `size`. Damping and transition are not
+/// set.
 template <class Contact>
 Contact sample_contact(double size, double share = 0.4) {
   constexpr auto table = Contact::parameters();
@@ -29,8 +30,8 @@ Contact sample_contact(double size, double share = 0.4) {
   return contact;
 }
 
-/// What calls of a function for each parameter that a deck has to give say of a law: those of its materials, or else those of
-/// its pairs. \param call called with the parameter and its number
+/// What calls of a function for each parameter that a deck has to give say of a law: those of its materials,
+/// or else those of its pairs. \param call called with the parameter and its number
 template <class Contact, class Call>
 void for_each_given(double size, const Call &call) {
   const auto table = [&](const auto &parameters) {

@@ -1,6 +1,6 @@
 #pragma once
-/// The base class of all contact laws, and their two transition conditions: A of Eqs. (3)-(5) and B of Eqs. (6)-(9) of
-/// the paper.
+/// The base class of all contact laws, and their two transition conditions: A of Eqs. (3)-(5) and B of Eqs.
+/// (6)-(9) of the paper.
 ///
 /// Sign convention: the overlap d = x1 - x2 is positive while the surfaces overlap, its rate d' is positive
 /// while they approach, and the force Fc is positive in compression (it pushes the balls apart). SI units.
@@ -41,11 +41,12 @@ struct ContactPower {
 ///   dashpot_exponent   of d in C
 /// The force of LinearLaw jumps when a contact begins, that of HertzLaw begins at 0.
 ///
-/// A law may remember a number of each contact, such as its largest overlap. It is made for a contact and a time step
-/// with the number at the beginning of the step, so that all functions of d are pure: they hold for the overlaps within
-/// the step. remember() takes up the overlap at the end of the step; memory() is then the number of the next step, with
-/// which the law must have the same bits at this overlap, and taking the overlap up again must change nothing. Such a
-/// law also has the functions below whose defaults do not fit it; its parameters have `remembers`.
+/// A law may remember a number of each contact, such as its largest overlap. It is made for a contact and a
+/// time step with the number at the beginning of the step, so that all functions of d are pure: they hold for
+/// the overlaps within the step. remember() takes up the overlap at the end of the step; memory() is then the
+/// number of the next step, with which the law must have the same bits at this overlap, and taking the
+/// overlap up again must change nothing. Such a law also has the functions below whose defaults do not fit
+/// it; its parameters have `remembers`.
 template <class Law>
 class ContactLaw {
 public:
@@ -83,18 +84,19 @@ public:
   void remember(double) {}
   /// d stored / dd, N: the part of E that stores energy. The work of the rest turns into heat.
   [[nodiscard]] double elastic(double overlap) const { return self().spring(overlap); }
-  /// The greatest dE/dd, N/m, that the contact can have at this overlap, whether it is loaded or unloaded: for the limits
-  /// of the time step.
+  /// The greatest dE/dd, N/m, that the contact can have at this overlap, whether it is loaded or unloaded:
+  /// for the limits of the time step.
   [[nodiscard]] double stiffest(double overlap) const { return self().slope(overlap); }
 
   /// Energy in the contact's spring, J; 0 for d <= 0.
   [[nodiscard]] double energy(double overlap) const { return overlap <= 0.0 ? 0.0 : self().stored(overlap); }
 
-  /// Splits Fc d' into what the contact stores and heat: stored = E d', dissipated = (Fc - E) d', both 0 for d <= 0, for
-  /// a law with elastic() = E. dissipated is C d'^2 where the no-tension limit does not act. Where it acts (B, Fc = 0 and E < -C d'),
-  /// the spring relaxes against the dashpot, and its energy turns into heat at the rate -E d' > 0, which is
-  /// less than C d'^2. The integral of stored over time is the change of energy(), through makes, breaks and
-  /// the limit, since d and with it the energy are continuous: the energy balance holds for each contact.
+  /// Splits Fc d' into what the contact stores and heat: stored = E d', dissipated = (Fc - E) d', both 0 for
+  /// d <= 0, for a law with elastic() = E. dissipated is C d'^2 where the no-tension limit does not act.
+  /// Where it acts (B, Fc = 0 and E < -C d'), the spring relaxes against the dashpot, and its energy turns
+  /// into heat at the rate -E d' > 0, which is less than C d'^2. The integral of stored over time is the
+  /// change of energy(), through makes, breaks and the limit, since d and with it the energy are continuous:
+  /// the energy balance holds for each contact.
   [[nodiscard]] ContactPower power(double overlap, double rate) const {
     if (overlap <= 0.0) return {0.0, 0.0};
     const double elastic = self().elastic(overlap), stored = elastic * rate;
@@ -127,8 +129,8 @@ private:
   return std::isinf(sum) ? lighter : lighter * (heavier / sum);
 }
 
-/// Effective radius R, m, of the contact of balls with the radii a and b, m, both > 0: a b / (a + b). Against a plane it is
-/// the radius of the ball.
+/// Effective radius R, m, of the contact of balls with the radii a and b, m, both > 0: a b / (a + b). Against
+/// a plane it is the radius of the ball.
 [[nodiscard]] inline double effective_radius(double a, double b) { return a * b / (a + b); }
 
 } // namespace drumlin::physics

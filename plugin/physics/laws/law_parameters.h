@@ -1,6 +1,6 @@
 #pragma once
-/// The table of a contact law's parameters, from which both engines' adapters read decks, check values, write restart
-/// files and name what is missing.
+/// The table of a contact law's parameters, from which both engines' adapters read decks, check values, write
+/// restart files and name what is missing.
 
 #include "physics/parameter_checks.h"
 

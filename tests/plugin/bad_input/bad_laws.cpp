@@ -1,4 +1,5 @@
-// Wrong input to the contact laws and to the walls that use them, in LIGGGHTS and in LAMMPS: the lines of a deck, and what the error must say.
+// Wrong input to the contact laws and to the walls that use them, in LIGGGHTS and in LAMMPS: the lines of a
+// deck, and what the error must say.
 #include "tests/plugin/bad_input/bad_input.h"
 #include "tests/support/host_deck.h"
 #include "tests/plugin/law_samples.h"
@@ -357,8 +358,8 @@ std::vector<double> outside(const physics::Range &range) {
   return values;
 }
 
-/// The parameters of a law, each with values that it may not have, and left out: LIGGGHTS's properties, then the words of
-/// LAMMPS.
+/// The parameters of a law, each with values that it may not have, and left out: LIGGGHTS's properties, then
+/// the words of LAMMPS.
 template <class Law>
 std::vector<BadGroup> parameters_of() {
   const std::string law = Law::name, name = law.substr(0, law.find('/'));

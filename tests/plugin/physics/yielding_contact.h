@@ -1,7 +1,7 @@
 #pragma once
-/// A law that remembers, for tests of what the core does with its memory: it is loaded along k1 d, and from the largest
-/// overlap that it has had, D, unloaded and loaded again along k2 (d - (1 - k1/k2) D) >= 0 (Walton and Braun 1986, J. Rheol. 30,
-/// 949-980), with a linear dashpot.
+/// A law that remembers, for tests of what the core does with its memory: it is loaded along k1 d, and from
+/// the largest overlap that it has had, D, unloaded and loaded again along k2 (d - (1 - k1/k2) D) >= 0
+/// (Walton and Braun 1986, J. Rheol. 30, 949-980), with a linear dashpot.
 
 #include "physics/laws/linear_contact.h"
 
