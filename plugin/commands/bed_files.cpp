@@ -337,8 +337,7 @@ private:
     }
     if (rows == count_) return "";
     return fmt::format("a complete data file of balls in their box, each ID once; this one has {:.0f} of "
-                       "{:.0f} good rows under {}, then "
-                       "'{}'",
+                       "{:.0f} good rows under {}, then '{}'",
                        rows, count_, name, shown());
   }
 

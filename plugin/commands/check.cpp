@@ -134,7 +134,8 @@ private:
       reject(fmt::format("a multiple of {}, which is {}", other, other_value));
   }
 
-  // The limit of a value is often a formula of other variables or of the scene: the words behind it name these.
+  // The limit of a value is often a formula of other variables or of the scene: the words behind it name
+  // these.
   void above() {
     against("above", [](double value, double limit) { return value > limit; });
   }

@@ -42,8 +42,8 @@ void settle_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 /// group of balls.
 void surface_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
-/// drumlin/layers k LIST D LIST friction LIST rolling off|epsd2 LIST [variables NAME NAME NAME NAME]: gives the contacts of a bed
-/// the laws of its layers.
+/// drumlin/layers k LIST D LIST friction LIST rolling off|epsd2 LIST [variables NAME NAME NAME NAME]: gives
+/// the contacts of a bed the laws of its layers.
 void layers_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
 /// drumlin/pick NAME WHICH LIST: sets a variable to the largest number of a list, or to that in a place.

@@ -14,14 +14,16 @@ namespace {
 using LAMMPS_NS::LAMMPS;
 using physics::ContactValues;
 
-/// Types of a bed: 1 is the lowest layer, 2 the drum, 3 the frame and the walls, 4 the second layer, and so on.
+/// Types of a bed: 1 is the lowest layer, 2 the drum, 3 the frame and the walls, 4 the second layer, and so
+/// on.
 constexpr int types_without_layer = 2;
 
 /// Number of the layer, from 0, of a type; -1 for a type that is no layer.
 int layer_of(int type) { return type == 1 ? 0 : type > 3 ? type - 3 : -1; }
 int type_of(int layer) { return layer == 0 ? 1 : layer + 3; }
 
-/// The values of one keyword, one for each layer. \param name of the keyword, or of the variable that gives its values
+/// The values of one keyword, one for each layer. \param name of the keyword, or of the variable that gives
+/// its values
 std::vector<double> values(Arguments &in, const std::string &name, Range range, int layers) {
   const std::string text = in.word(name, "a number for each layer, separated by commas");
   std::vector<double> numbers;
@@ -39,8 +41,8 @@ std::vector<double> values(Arguments &in, const std::string &name, Range range, 
   return numbers;
 }
 
-/// The contact of balls of two types. That of a layer with the drum or a wall is the layer's own; drum and frame
-/// have no contacts with each other.
+/// The contact of balls of two types. That of a layer with the drum or a wall is the layer's own; drum and
+/// frame have no contacts with each other.
 ContactValues contact(const std::vector<ContactValues> &layers, int type_a, int type_b) {
   const int a = layer_of(type_a), b = layer_of(type_b);
   if (a == b || b < 0) return layers[static_cast<std::size_t>(std::max(a, 0))];
@@ -84,8 +86,9 @@ std::string variable_of(LAMMPS *lmp, const std::string &name, const std::string 
   return "variable " + (followed != nullptr && value == followed ? other : name.substr(0, slash));
 }
 
-/// Refuses a stiffness, or a damping ratio, with which two balls of a layer have a critical step below the time step: the
-/// first of their contacts would throw them out of the box before fix guard sees it. Collective.
+/// Refuses a stiffness, or a damping ratio, with which two balls of a layer have a critical step below the
+/// time step: the first of their contacts would throw them out of the box before fix guard sees it.
+/// Collective.
 void check_stability(LAMMPS *lmp, const Arguments &in, const Given &k, const Given &D,
                      const std::vector<ContactValues> &laws) {
   const std::vector<double> masses = least_masses(lmp, static_cast<int>(laws.size()));
@@ -93,9 +96,8 @@ void check_stability(LAMMPS *lmp, const Arguments &in, const Given &k, const Giv
   for (std::size_t layer = 0; layer < laws.size(); ++layer) {
     const double m_eff = 0.5 * masses[layer], stiffness = laws[layer].stiffness;
     const auto refuse = [&](const Given &given, double critical, double largest, const char *unit) {
-      in.fail(fmt::format("{} is '{}', with which two of the lightest balls of layer {} have the "
-                          "critical step {:.3g} s; "
-                          "allowed: at most {:.3g}{} with the time step {:.3g} s",
+      in.fail(fmt::format("{} is '{}', with which two of the lightest balls of layer {} have the critical "
+                          "step {:.3g} s; allowed: at most {:.3g}{} with the time step {:.3g} s",
                           given.name, given.text, layer + 1, critical, largest, unit, dt));
     };
     if (const double critical = physics::critical_step_stock(stiffness, 0.0, m_eff); dt > critical)

@@ -62,8 +62,8 @@ public:
       before = now;
       const auto done = static_cast<double>(update->ntimestep - first);
       engine::log_message(
-          lmp, fmt::format("drumlin/run: {:.0f} %, step {} of {}, {:.6g} s simulated, {:.0f} s so far, "
-                           "about {:.0f} s left\n",
+          lmp, fmt::format("drumlin/run: {:.0f} %, step {} of {}, {:.6g} s simulated, {:.0f} s so far, about "
+                           "{:.0f} s left\n",
                            100.0 * static_cast<double>(update->ntimestep) / static_cast<double>(last_),
                            update->ntimestep, last_, static_cast<double>(update->ntimestep) * update->dt, now,
                            now / done * static_cast<double>(last_ - update->ntimestep)));

@@ -58,10 +58,9 @@ public:
       unrest = measure();
       settled = is_rest(unrest);
       if (StopSignal::received(lmp))
-        engine::stop(
-            lmp, fmt::format("drumlin/settle: stopped by a signal after {} steps, unbalanced ratio {:.3g}; "
-                             "allowed: to run until it has settled",
-                             update->ntimestep - first, unrest.ratio));
+        engine::stop(lmp, fmt::format("drumlin/settle: stopped by a signal after {} steps, unbalanced ratio "
+                                      "{:.3g}; allowed: to run until it has settled",
+                                      update->ntimestep - first, unrest.ratio));
       const engine::bigint done = update->ntimestep - first;
       if (done / every_ % pieces_per_line == 0)
         engine::log_message(
@@ -77,15 +76,16 @@ public:
     update->beginstep = update->endstep = 0;
     const engine::bigint steps = update->ntimestep - first;
     if (!settled)
-      engine::stop(lmp, limit_ == 0
-                            ? fmt::format("drumlin/settle: unbalanced ratio is '{:.3g}', the scene is "
-                                          "not in equilibrium; allowed: at most "
-                                          "{:.3g}",
-                                          unrest.ratio, ratio_)
-                            : fmt::format("drumlin/settle: unbalanced ratio is '{:.3g}' after {} steps, "
-                                          "no equilibrium; allowed: at most {:.3g} "
-                                          "within {} steps (a scene without damping never comes to rest)",
-                                          unrest.ratio, steps, ratio_, limit_));
+      engine::stop(
+          lmp,
+          limit_ == 0
+              ? fmt::format("drumlin/settle: unbalanced ratio is '{:.3g}', the scene is not in equilibrium; "
+                            "allowed: at most {:.3g}",
+                            unrest.ratio, ratio_)
+              : fmt::format(
+                    "drumlin/settle: unbalanced ratio is '{:.3g}' after {} steps, no equilibrium; allowed: "
+                    "at most {:.3g} within {} steps (a scene without damping never comes to rest)",
+                    unrest.ratio, steps, ratio_, limit_));
     engine::log_message(
         lmp, fmt::format("drumlin/settle: unbalanced ratio {:.3g} after {} steps{}\n", unrest.ratio, steps,
                          unrest.ratio <= ratio_
@@ -113,8 +113,8 @@ private:
            update->ntimestep - disturbed_ >= loose_steps_;
   }
 
-  /// The force that a ball at rest would not have: its net force, or the force that would stop it within one piece. A ball
-  /// that moves through its equilibrium has no net force but is not at rest.
+  /// The force that a ball at rest would not have: its net force, or the force that would stop it within one
+  /// piece. A ball that moves through its equilibrium has no net force but is not at rest.
   double unbalanced_force(int i) const {
     const double *f = atom->f[i];
     const double *v = atom->v[i];
@@ -124,8 +124,8 @@ private:
     return std::isfinite(net + stopping) ? std::max(net, stopping) : std::numeric_limits<double>::infinity();
   }
 
-  /// The ratio is that of the largest unbalanced force to the given force, or to the mean weight of a ball. With neither force
-  /// nor gravity it is 1, or 0 if there are neither forces nor motion. Collective.
+  /// The ratio is that of the largest unbalanced force to the given force, or to the mean weight of a ball.
+  /// With neither force nor gravity it is 1, or 0 if there are neither forces nor motion. Collective.
   Unrest measure() const {
     const std::array<double, 3> g = engine::gravity(modify);
     const double gravity = std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
@@ -161,7 +161,8 @@ private:
     return unrest;
   }
 
-  /// Whether a ball moves downwards, within six degrees: it falls towards the others, and does not roll on them.
+  /// Whether a ball moves downwards, within six degrees: it falls towards the others, and does not roll on
+  /// them.
   bool is_falling(int i, const std::array<double, 3> &g) const {
     constexpr double cosine = 0.995;
     double down = 0.0, v2 = 0.0, g2 = 0.0;

@@ -12,7 +12,8 @@ namespace {
 
 using LAMMPS_NS::LAMMPS;
 
-/// The notes of a file, which rank 0 reads and sends to all ranks. Ends the run if there is no such file. Collective.
+/// The notes of a file, which rank 0 reads and sends to all ranks. Ends the run if there is no such file.
+/// Collective.
 RestartNotes shared_notes(LAMMPS *lmp, const std::string &file) {
   std::string text, fault;
   if (lmp->comm->me == 0) {
@@ -34,8 +35,8 @@ RestartNotes shared_notes(LAMMPS *lmp, const std::string &file) {
   return notes;
 }
 
-/// Whether two values are the same: words exactly, numbers, also those of lists, to rounding, since a value may come
-/// from a formula of the deck.
+/// Whether two values are the same: words exactly, numbers, also those of lists, to rounding, since a value
+/// may come from a formula of the deck.
 bool same_value(const std::string &a, const std::string &b) {
   const std::vector<std::string> of_a = list_entries(a);
   const std::vector<std::string> of_b = list_entries(b);

@@ -85,8 +85,7 @@ std::string value_fault(const std::vector<std::string> &values, bool of_words) {
   if (unprintable || value.find_first_of("\"'$#\\") != std::string::npos ||
       (!of_words && value.find(' ') != std::string::npos) || value.back() == '&')
     return "a value without blanks, quotes, backslashes, control characters, $, # and a & at its end, which "
-           "the engine's "
-           "parser takes for something else";
+           "the engine's parser takes for something else";
   return "";
 }
 

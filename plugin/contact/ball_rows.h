@@ -1,6 +1,6 @@
 #pragma once
-// What the loop over contacts reads of each ball, in rows of four numbers. A row is loaded with one instruction, and
-// four rows are turned into four columns by instructions that need no memory.
+// What the loop over contacts reads of each ball, in rows of four numbers. A row is loaded with one
+// instruction, and four rows are turned into four columns by instructions that need no memory.
 
 #include "engine.h"
 #include "physics/scheme/contact_block.h"
@@ -35,8 +35,9 @@ struct Columns {
   to.column[3] = __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7);
 }
 
-/// Reads four rows of four numbers, at the addresses `row(0)` to `row(3)`, and stores them by columns: the first numbers of all rows, then the
-/// second ones, and so on. The addresses need not be multiples of 32 bytes.
+/// Reads four rows of four numbers, at the addresses `row(0)` to `row(3)`, and stores them by columns: the
+/// first numbers of all rows, then the second ones, and so on. The addresses need not be multiples of 32
+/// bytes.
 template <class Row>
 [[gnu::always_inline]] inline void load_columns(Columns &to, const Row &row) {
   Four a, b, c, d;
@@ -57,7 +58,8 @@ public:
     double v[3], mass, omega[3], type;
   };
 
-  /// Copies them from the engine. \param mass function of a ball's index: its mass, kg, below 0 if it is frozen
+  /// Copies them from the engine. \param mass function of a ball's index: its mass, kg, below 0 if it is
+  /// frozen
   template <class Mass>
   void fill(const LAMMPS_NS::Atom &atom, const Mass &mass) {
     const int balls = atom.nlocal + atom.nghost;
@@ -87,10 +89,10 @@ private:
 /// A contact of a block.
 struct BlockContact {
   int i, j;
-  int pair;     ///< its number in the list of pairs
-  bool touches; ///< false in the step in which the contact ends
-  double *
-      history; ///< numbers that the engine stores for the contact, such as the tangential spring; nullptr without any
+  int pair;        ///< its number in the list of pairs
+  bool touches;    ///< false in the step in which the contact ends
+  double *history; ///< numbers that the engine stores for the contact, such as the tangential spring; nullptr
+                   ///< without any
 };
 
 namespace detail {
@@ -116,9 +118,11 @@ inline void store(physics::Numbers &numbers, int n, const Four &four) {
 
 } // namespace detail
 
-/// Writes the motion of the balls of `count` contacts to a block. Writes to the three contacts behind them, too.
-/// \param before rows of four numbers, for the second-order scheme: velocity at the begin of the step, m/s, and the
-/// sum of c/m, 1/s, which is zero unless `counted` \returns whether all contacts have the same two types of balls
+/// Writes the motion of the balls of `count` contacts to a block. Writes to the three contacts behind them,
+/// too.
+/// \param before rows of four numbers, for the second-order scheme: velocity at the begin of the step, m/s,
+/// and the sum of c/m, 1/s, which is zero unless `counted` \returns whether all contacts have the same two
+/// types of balls
 template <bool stepped, class Engine>
 DRUMLIN_FOR_THIS_PROCESSOR bool read_balls(physics::ContactBlock &b, const BallRows &rows,
                                            BlockContact *contacts, int count, const double *before,

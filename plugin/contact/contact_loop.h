@@ -80,8 +80,8 @@ private:
     return engine_.histories(i) + static_cast<std::ptrdiff_t>(engine_.stride()) * place;
   }
 
-  /// Describes a pair that is in contact, and prefetches the data that its force will need. These data are scattered
-  /// in memory: to wait for each in turn would take longer than to compute the force.
+  /// Describes a pair that is in contact, and prefetches the data that its force will need. These data are
+  /// scattered in memory: to wait for each in turn would take longer than to compute the force.
   BlockContact expect(int found) const {
     const Pair &pair = pairs_.pairs()[static_cast<std::size_t>(found)];
     const std::ptrdiff_t j = pair.j;
@@ -108,7 +108,8 @@ private:
                                     stepped && stepping_->counted());
   }
 
-  /// Calls `treat` with the numbers of those of `contacts` that are at least `first` and below `end`, in their order.
+  /// Calls `treat` with the numbers of those of `contacts` that are at least `first` and below `end`, in
+  /// their order.
   template <class Treat>
   static void for_each(ContactSet contacts, int first, int end, const Treat &treat) {
     for (ContactSet left = contacts & between(first, end); left != 0; left &= left - 1)
@@ -153,7 +154,8 @@ private:
     return table_.at(atom_.type[contacts_[n].i], atom_.type[contacts_[n].j]);
   }
 
-  /// Number of the next contact, after `first`, whose coefficients differ from those of `first`; `count` if there is none.
+  /// Number of the next contact, after `first`, whose coefficients differ from those of `first`; `count` if
+  /// there is none.
   int end_of_law(int first, int count) const {
     int end = first;
     while (end < count && &law_of(end) == &law_of(first))
@@ -187,8 +189,8 @@ private:
       if (moves_) for_each(new_, first, end, [&](int n) { begin_springs(n, law); });
   }
 
-  /// Friction and rolling resistance of a contact that begins, whose springs have been stretched for a part of the step
-  /// only. (The engines' friction laws take the whole step.)
+  /// Friction and rolling resistance of a contact that begins, whose springs have been stretched for a part
+  /// of the step only. (The engines' friction laws take the whole step.)
   [[gnu::noinline]] void begin_springs(int n, const ContactCoefficients<Parameters> &law) {
     const double time = physics::time_in_contact(block_.overlap[n], block_.rate_half[n], dt_);
     const Vec3 normal = block_.normal[n];
@@ -282,8 +284,8 @@ private:
     }
   }
 
-  /// The normal force of a contact that begins, ends or loses its force in this step, has a ball whose motion does not
-  /// depend on it, or is solved for together with others.
+  /// The normal force of a contact that begins, ends or loses its force in this step, has a ball whose motion
+  /// does not depend on it, or is solved for together with others.
   [[gnu::noinline]] void exert_one(int n, const Parameters &parameters) {
     const BlockContact &contact = contacts_[n];
     const auto law = law_before(n, parameters);
@@ -304,8 +306,8 @@ private:
         begun_.emplace_back(n, begun);
   }
 
-  /// Passes friction and rolling resistance of the coupled contacts to FixStepping, which limits them when the normal
-  /// force is known.
+  /// Passes friction and rolling resistance of the coupled contacts to FixStepping, which limits them when
+  /// the normal force is known.
   [[gnu::noinline]] void couple_friction(int count) {
     for (int n = 0; n < count; ++n) {
       LAMMPS_NS::FixStepping::Coupled *const coupled = coupled_[n];
@@ -405,8 +407,8 @@ private:
 
   /// The forces and the history of a contact that has ended.
   [[gnu::noinline]] void end_contact(int n) {
-    // The force is not added, not even as zero times the normal: if a position is not a number (NaN), the normal
-    // is not either, and the product would make the other ball's force NaN, too.
+    // The force is not added, not even as zero times the normal: if a position is not a number (NaN), the
+    // normal is not either, and the product would make the other ball's force NaN, too.
     const bool pushes = stepped && block_.push[n] != 0.0;
     block_.total_force.set(n, pushes ? physics::scaled(block_.push[n], block_.normal[n]) : Vec3{});
     if constexpr (rubs) {

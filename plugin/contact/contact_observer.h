@@ -57,8 +57,9 @@ struct ContactRecord {
   }
 };
 
-/// A record whose overlap, and force, energy, stiffness and dashpot of the normal spring, are those of a contact law at
-/// this overlap, m. All other values are zero. \param second_order whether the scheme is `stepping second`
+/// A record whose overlap, and force, energy, stiffness and dashpot of the normal spring, are those of a
+/// contact law at this overlap, m. All other values are zero. \param second_order whether the scheme is
+/// `stepping second`
 template <class Law>
 ContactRecord record_of_law(const Law &law, double overlap, bool second_order) {
   ContactRecord record{};
@@ -95,9 +96,9 @@ public:
   virtual void see_bond(int /*ball*/, int /*partner*/, const physics::LinkModes &) {}
   /// Whether see_heat() is called.
   virtual bool takes_heat() const { return false; }
-  /// Receives heat, J, that the trapezoidal rule over the powers of the contacts misses in a step, under `stepping
-  /// second`: of the normal dashpot, and of friction. Called in every step while forces are computed, on the ranks that
-  /// see_contact() is called on, whether observe(true) has been called or not.
+  /// Receives heat, J, that the trapezoidal rule over the powers of the contacts misses in a step, under
+  /// `stepping second`: of the normal dashpot, and of friction. Called in every step while forces are
+  /// computed, on the ranks that see_contact() is called on, whether observe(true) has been called or not.
   virtual void see_heat(int /*i*/, int /*j*/, double /*normal*/, double /*tangential*/) {}
   /// Receives a pair of balls at the end of a time step. Only FixPairObserver calls it, in every step,
   /// whether observe(true) has been called or not.

@@ -40,11 +40,11 @@ void check_deforming_box(const engine::LAMMPS *lmp, const std::string &command) 
                           ? static_cast<const LAMMPS_NS::FixDeform *>(one)
                           : nullptr;
     if (fix != nullptr && fix->remapflag == velocities && fix->igroup != 0)
-      lmp->error->all(FLERR,
-                      engine::error_text(command + ": group of fix " + fix->id + " (deform) is '" +
-                                         lmp->group->names[fix->igroup] +
-                                         "', with remap v; allowed: all, for which the engine gives ghosts "
-                                         "the velocity of the side"));
+      lmp->error->all(
+          FLERR,
+          engine::error_text(
+              command + ": group of fix " + fix->id + " (deform) is '" + lmp->group->names[fix->igroup] +
+              "', with remap v; allowed: all, for which the engine gives ghosts the velocity of the side"));
   }
 }
 

@@ -112,8 +112,7 @@ void check_deforming_box(const engine::LAMMPS *lmp, const std::string &command);
 std::string other_pair_style(const engine::LAMMPS *lmp, const std::string &command);
 
 /// Source of the pair style of this engine instance, or of the part of a hybrid pair style that has one of
-/// the laws; nullptr if there is none, or more than one.
-/// Valid from the initialization of a run on.
+/// the laws; nullptr if there is none, or more than one. Valid from the initialization of a run on.
 const ContactSource *contact_source(engine::LAMMPS *lmp);
 
 } // namespace drumlin

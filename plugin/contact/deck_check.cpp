@@ -9,8 +9,8 @@ using LAMMPS_NS::Fix;
 
 namespace {
 
-// A private member: the word of the command that the engine carries out. C++ allows an explicit instantiation to
-// name it as a template argument; the friend function of the instance gives access to it.
+// A private member: the word of the command that the engine carries out. C++ allows an explicit instantiation
+// to name it as a template argument; the friend function of the instance gives access to it.
 template <auto Member>
 struct InputAccess {
   friend auto &command_of(LAMMPS_NS::Input &input) { return input.*Member; }
@@ -27,7 +27,8 @@ void refuse(const engine::LAMMPS *lmp, const std::string &command, const std::st
   lmp->error->all(FLERR, engine::error_text(command + ": " + fault));
 }
 
-/// Commands and run styles in which forces are computed, and balls are moved, otherwise than by velocity Verlet.
+/// Commands and run styles in which forces are computed, and balls are moved, otherwise than by velocity
+/// Verlet.
 void check_run(const engine::LAMMPS *lmp, const std::string &command) {
   const char *word = command_of(*lmp->input);
   const std::string present = word == nullptr ? "" : word;
@@ -52,7 +53,8 @@ const char *allowed_text(const OtherFixes &fixes) {
 
 bool is_own(const Fix &fix) { return has_name(other_fixes[0].names, fix.style); }
 
-/// Whether a style is of no interest to a deck: the engine's and the plugin's helpers, which decks do not name.
+/// Whether a style is of no interest to a deck: the engine's and the plugin's helpers, which decks do not
+/// name.
 bool is_internal(std::string_view style) {
   constexpr std::string_view own = "drumlin/";
   return style.substr(0, own.size()) == own ||
@@ -70,8 +72,7 @@ void DeckCheck::of_pair(engine::LAMMPS *lmp, const std::string &command, bool se
   if (std::string(lmp->force->pair_style) == "hybrid/scaled")
     refuse(lmp, command,
            "pair_style is 'hybrid/scaled', which changes forces of contacts after they were computed; "
-           "allowed: hybrid "
-           "or hybrid/overlay");
+           "allowed: hybrid or hybrid/overlay");
   look(lmp, command, second);
 }
 
@@ -110,17 +111,14 @@ void DeckCheck::look(engine::LAMMPS *lmp, const std::string &command, bool secon
     guarded = guarded || std::string(fix->style) == "guard";
   }
   if (!untried.empty())
-    untried = fmt::format(
-        "{}: it has not been tried beside {}; taken for granted: these add forces of their own at most, "
-        "after those of contacts and before the end of the step, and change no position, velocity, mass, "
-        "radius, type, group, box or time step",
-        command, untried);
+    untried = fmt::format("{}: it has not been tried beside {}; taken for granted: these add forces of their "
+                          "own at most, after those of contacts and before the end of the step, and change "
+                          "no position, velocity, mass, radius, type, group, box or time step",
+                          command, untried);
   if (!growing.empty() && !guarded)
-    add(untried,
-        fmt::format(
-            "{}: {} may let balls grow, and there is no fix guard, which finds contacts that the neighbour "
-            "list then misses",
-            command, growing));
+    add(untried, fmt::format("{}: {} may let balls grow, and there is no fix guard, which finds contacts "
+                             "that the neighbour list then misses",
+                             command, growing));
   if (untried.empty() || untried == warned_) return;
   warned_ = untried;
   if (lmp->comm->me == 0) lmp->error->warning(FLERR, engine::error_text(untried));

@@ -121,8 +121,8 @@ inline void exert_later(LAMMPS_NS::FixStepping &stepping, const StepContact &p,
   if (stepping.takes(p.j)) later(p.j, -1.0);
 }
 
-/// Applies the second-order scheme to one contact, in any situation. Not inlined: most contacts are treated by
-/// hold_contact() in most steps.
+/// Applies the second-order scheme to one contact, in any situation. Not inlined: most contacts are treated
+/// by hold_contact() in most steps.
 /// \param state of the step before on entry, of this step on return
 /// \param stored_force where the contact's history keeps ContactState::force; for a coupled contact the force
 /// is written there when all forces of the step are known

@@ -27,8 +27,8 @@ class FixPairObserver : public drumlin::engine::GhostFix, public drumlin::Contac
 public:
   FixPairObserver(LAMMPS *lammps, int narg, char **arg) : GhostFix(lammps, narg, arg) { comm_forward = 3; }
 
-  /// Tells the engine at which points of a time step it must call this fix. A derived class that needs further
-  /// calls overrides this function and adds them to the value that is returned here.
+  /// Tells the engine at which points of a time step it must call this fix. A derived class that needs
+  /// further calls overrides this function and adds them to the value that is returned here.
   int setmask() override;
   /// Stops the engine with an error message if the pair style is not one of this plugin.
   void init() override;

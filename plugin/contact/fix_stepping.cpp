@@ -19,7 +19,8 @@ constexpr int most_gathered = 9; // most numbers that a ghost sends to its owner
 /// Fixes that give balls another velocity than the forces on them would.
 bool moves(const std::string &style) { return style == "move" || style == "nve/noforce"; }
 
-/// Sum of the bits of masses, which changes when a mass does. It takes less time than a comparison with copies.
+/// Sum of the bits of masses, which changes when a mass does. It takes less time than a comparison with
+/// copies.
 std::uint64_t sum_of_bits(const double *masses, int count) {
   std::uint64_t sum = 0;
   for (int i = 0; i < count; ++i) {
@@ -155,17 +156,17 @@ void FixStepping::open_step() {
   if (masses_change_) take_masses();
 }
 
-/// The masses of this rank's balls, as their contacts feel them. They stay until the next search for neighbours, after
-/// which other balls may be on the rank, unless a ball's mass changes.
+/// The masses of this rank's balls, as their contacts feel them. They stay until the next search for
+/// neighbours, after which other balls may be on the rank, unless a ball's mass changes.
 void FixStepping::take_masses() {
   masses_ = sum_of_bits(atom->rmass, atom->nlocal);
   for (int i = 0; i < atom->nlocal; ++i)
     inverse_mass_[static_cast<std::size_t>(i)] = 1.0 / source_->mass(i);
 }
 
-/// A fix that moves balls may leave them free in some directions, in which they are integrated as other balls. In all
-/// others the velocity that it has given is that of the end of the step already: for them v(t) is replaced by this
-/// velocity, so that 2 v+ - v(t), too, is the velocity at the end of the step.
+/// A fix that moves balls may leave them free in some directions, in which they are integrated as other
+/// balls. In all others the velocity that it has given is that of the end of the step already: for them v(t)
+/// is replaced by this velocity, so that 2 v+ - v(t), too, is the velocity at the end of the step.
 void FixStepping::follow_moved() {
   constexpr double rounding = 1e-12;
   for (int i = 0; i < atom->nlocal; ++i) {
@@ -193,12 +194,11 @@ double FixStepping::moving_mass_of_moved(int i, int j, const std::array<double, 
 void FixStepping::post_integrate() {
   if (!in_use_) return;
   if (update->dt != told_dt_)
-    error->all(FLERR,
-               drumlin::engine::error_text(fmt::format(
-                   "stepping second: time step is '{:.9g}' at step {}, changed from {:.9g} s within a run "
-                   "without a word to the fixes that integrate; allowed: another time step by fix dt/reset, "
-                   "or for a run with its set-up (no keyword pre no)",
-                   update->dt, update->ntimestep, told_dt_)));
+    error->all(FLERR, drumlin::engine::error_text(fmt::format(
+                          "stepping second: time step is '{:.9g}' at step {}, changed from {:.9g} s within a "
+                          "run without a word to the fixes that integrate; allowed: another time step by fix "
+                          "dt/reset, or for a run with its set-up (no keyword pre no)",
+                          update->dt, update->ntimestep, told_dt_)));
   if (any_moved_) follow_moved();
   for (const Later &item : shifts_) {
     double *v = atom->v[item.i];
@@ -405,8 +405,8 @@ void FixStepping::solve_coupled() {
   constrain(true);
 }
 
-/// Limits friction and rolling resistance of a coupled contact to its final normal force, N, and stores what that
-/// changes.
+/// Limits friction and rolling resistance of a coupled contact to its final normal force, N, and stores what
+/// that changes.
 void FixStepping::limit_friction(Coupled &p, double normal_force) {
   using drumlin::physics::sum, drumlin::physics::scaled, drumlin::physics::cross;
   using Vec3 = drumlin::physics::Vec3;

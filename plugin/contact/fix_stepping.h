@@ -75,22 +75,24 @@ public:
   const double *velocity_before(int i) const { return row(i); } ///< v(t), m/s, owned balls and ghosts
   /// Rows of four numbers, one for each ball, of which the first three are velocity_before().
   const double *rows() const { return velocity_[0]; }
-  /// Announces that the force on owned ball i changes in this step by a known amount, N (an excitation):
-  /// 2 v+ - velocity_before(i) is then the velocity with the changed force. To be called after the
-  /// integration (post_integrate) and before the values of ghosts are updated (pre_force).
+  /// Announces that the force on owned ball i changes in this step by a known amount, N (an excitation): 2 v+
+  /// - velocity_before(i) is then the velocity with the changed force. To be called after the integration
+  /// (post_integrate) and before the values of ghosts are updated (pre_force).
   void foresee(int i, const std::array<double, 3> &change) {
     for (std::size_t a = 0; a < 3; ++a)
       if (!is_driven(i, a)) velocity_[i][a] -= 0.5 * update->dt * change[a] / atom->rmass[i];
   }
-  /// Whether there are balls whose motion, in one direction at least, does not depend on the forces on them: those of fix
-  /// move, and those that no fix integrates. For this scheme they have infinite mass in these directions.
+  /// Whether there are balls whose motion, in one direction at least, does not depend on the forces on them:
+  /// those of fix move, and those that no fix integrates. For this scheme they have infinite mass in these
+  /// directions.
   bool any_moved() const { return any_moved_; }
-  /// Effective mass, kg, with which a contact changes the velocities of its balls: `m_eff` of the contact law unless one of
-  /// them is moved. Infinite if both are. \param j below 0: a wall \param normal unit vector
+  /// Effective mass, kg, with which a contact changes the velocities of its balls: `m_eff` of the contact law
+  /// unless one of them is moved. Infinite if both are. \param j below 0: a wall \param normal unit vector
   double moving_mass(int i, int j, const std::array<double, 3> &normal, double m_eff) const {
     return any_moved_ ? moving_mass_of_moved(i, j, normal, m_eff) : m_eff;
   }
-  /// Whether a component of the velocity of ball i does not depend on the forces on it. Known when forces are computed.
+  /// Whether a component of the velocity of ball i does not depend on the forces on it. Known when forces are
+  /// computed.
   bool is_driven(int i, std::size_t component) const { return is_moved(i) && is_unchanged(i, component); }
   /// Sum of c/m over the contacts of ball i (owned or ghost) in the last step, 1/s; 0 if it was not computed,
   /// since no contact could need coupling: see expect_contacts().
@@ -107,14 +109,15 @@ public:
   /// Announces a link on owned ball i that is not a contact (a bond), with its k, N/m, and c, N s/m. To be
   /// called before each build of the neighbour list (pre_neighbor), which discards earlier announcements.
   void expect(int i, double k, double c) { expected_.push_back({i, k, c}); }
-  /// Forces, N, that are added after the closing half kick of this step to a ball i with takes(i): `rest`, and
-  /// `torque`, N m, act in the next opening half kick; `shift` acts in the next drift only (StepResult::shift).
+  /// Forces, N, that are added after the closing half kick of this step to a ball i with takes(i): `rest`,
+  /// and `torque`, N m, act in the next opening half kick; `shift` acts in the next drift only
+  /// (StepResult::shift).
   void add_after_kick(int i, const std::array<double, 3> &rest, const std::array<double, 3> &shift,
                       const std::array<double, 3> &torque = {}) {
     later_.push_back({i, rest, shift, torque});
   }
-  /// Number of calls of add_after_kick() in this step, and the sum of `rest`, N, of those from the number `first`
-  /// on, which are those of one contact with a wall.
+  /// Number of calls of add_after_kick() in this step, and the sum of `rest`, N, of those from the number
+  /// `first` on, which are those of one contact with a wall.
   std::size_t announced() const { return later_.size(); }
   std::array<double, 3> rest_since(std::size_t first) const {
     std::array<double, 3> total{};
@@ -123,8 +126,9 @@ public:
     return total;
   }
 
-  /// Friction and rolling resistance of a contact, computed with its normal force at the end of the step (of a coupled
-  /// contact: with that of the contact solved for alone). Forces and torques are those of the whole contact.
+  /// Friction and rolling resistance of a contact, computed with its normal force at the end of the step (of
+  /// a coupled contact: with that of the contact solved for alone). Forces and torques are those of the whole
+  /// contact.
   struct Rubbing {
     drumlin::physics::Friction
         friction;                    ///< of `tangential coulomb`; of any friction for a contact that begins
@@ -138,8 +142,8 @@ public:
   };
 
   /// A contact that is solved for together with others when all forces of the step are known: see
-  /// CoupledDashpot and coupled_force(). Its friction and rolling resistance are then limited to what their laws allow
-  /// with its normal force.
+  /// CoupledDashpot and coupled_force(). Its friction and rolling resistance are then limited to what their
+  /// laws allow with its normal force.
   struct Coupled : Rubbing {
     int i, j; ///< j < 0: a wall
     std::array<double, 3> normal;
@@ -147,8 +151,8 @@ public:
     double share;                             ///< part of the force that acts: see StepContact::share
     double *force;                            ///< where the force, N, is stored
     drumlin::FrictionChange change;           ///< once the force is known
-    /// For a wall that reports its force; empty for others. Called when the force is known, with what that has
-    /// changed in the force of the contact on ball i, N.
+    /// For a wall that reports its force; empty for others. Called when the force is known, with what that
+    /// has changed in the force of the contact on ball i, N.
     std::function<void(const std::array<double, 3> &)> report;
   };
   /// Adds a coupled contact and returns it, for the caller to fill in. (Filling it in place is faster than
@@ -159,8 +163,8 @@ public:
     return !coupled_.empty() && coupled_.back().force == stored_force ? &coupled_.back() : nullptr;
   }
 
-  /// A contact that begins in this step: its friction acts in the closing half kick with another value than in the next
-  /// opening one, as its normal force does.
+  /// A contact that begins in this step: its friction acts in the closing half kick with another value than
+  /// in the next opening one, as its normal force does.
   struct Begun : Rubbing {
     int i, j; ///< j < 0: a wall
     std::array<double, 3> normal;
@@ -179,7 +183,8 @@ public:
   struct RubbingForces {
     drumlin::physics::Vec3 friction{}, rolling{};
   };
-  /// Those of a contact that begins, in the closing half kick. Adds what they lack in the next opening half kick.
+  /// Those of a contact that begins, in the closing half kick. Adds what they lack in the next opening half
+  /// kick.
   RubbingForces close_friction(const Begun &contact);
 
   /// Whether an observer takes heat.
@@ -210,8 +215,9 @@ private:
     Fix *fix;
     double *reaction;
     bool joins; ///< whether it distributes forces among the balls of its group (aveforce, clump)
-    /// Force on a clump that this rank's balls contribute, N, its output; nullptr for other fixes. A later fix may
-    /// have taken it away from the balls (a platen that is moved by setforce), so that it is not their sum.
+    /// Force on a clump that this rank's balls contribute, N, its output; nullptr for other fixes. A later
+    /// fix may have taken it away from the balls (a platen that is moved by setforce), so that it is not
+    /// their sum.
     double *body_force;
     std::array<double, 3> held; ///< N, the sum over this rank's balls of a clump before forces are added
   };
@@ -228,7 +234,8 @@ private:
   void expect_contacts();
   void look_for_moved();
   void follow_moved();
-  /// Whether the motion of ball i (owned or ghost) does not depend on the forces on it, in one direction at least.
+  /// Whether the motion of ball i (owned or ghost) does not depend on the forces on it, in one direction at
+  /// least.
   bool is_moved(int i) const {
     return any_moved_ && ((atom->mask[i] & moved_bits_) != 0 || (atom->mask[i] & free_bits_) == 0);
   }

@@ -26,8 +26,9 @@ struct Found {
 
 namespace detail {
 
-/// For each set of four pairs, as a sum of 1, 2, 4 and 8: its members, one after the other, and for each set of pairs
-/// among them, where they stand in that order, as a sum of 1 for the first place, 2 for the second, and so on.
+/// For each set of four pairs, as a sum of 1, 2, 4 and 8: its members, one after the other, and for each set
+/// of pairs among them, where they stand in that order, as a sum of 1 for the first place, 2 for the second,
+/// and so on.
 struct Members {
   std::int32_t at[16][4];
   std::int8_t count[16];
@@ -52,9 +53,9 @@ using TwoFlags = std::int64_t __attribute__((vector_size(16)));
 
 } // namespace detail
 
-/// Finds the pairs from number `first` to before `end` that touch, and if `remembers` also those that touched a step ago.
-/// It tests four pairs at a time. No branch depends on whether balls touch: the processor would often predict it wrongly, which takes
-/// more time than the test itself.
+/// Finds the pairs from number `first` to before `end` that touch, and if `remembers` also those that touched
+/// a step ago. It tests four pairs at a time. No branch depends on whether balls touch: the processor would
+/// often predict it wrongly, which takes more time than the test itself.
 /// \param first, end multiples of 4
 /// \param touched for every four pairs, which of them touched a step ago; afterwards, which of them touch now
 /// \param found gets the numbers of the pairs that were found, 64 at most; must have room for four more
@@ -95,8 +96,8 @@ DRUMLIN_FOR_THIS_PROCESSOR Found find_touching(const BallRows::Place *places, co
 /// The pairs of a neighbour list one after the other, and which of them touch.
 class PairList {
 public:
-  /// Takes the pairs of the engine's list over if that has been built anew. \param touched function of i and the
-  /// place of j in its list: whether the balls touched a step ago
+  /// Takes the pairs of the engine's list over if that has been built anew. \param touched function of i and
+  /// the place of j in its list: whether the balls touched a step ago
   template <class Touched>
   void follow(const LAMMPS_NS::NeighList &list, const LAMMPS_NS::Neighbor &neighbor, int balls,
               const Touched &touched) {

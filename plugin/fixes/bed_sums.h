@@ -26,8 +26,8 @@ struct ContactSums {
   double side_force = 0.0;  ///< N, force along the axis on the balls by the other walls: their friction
   double side_thrust = 0.0; ///< N, sum of the normal forces of these other walls
 
-  /// Adds the force of a boundary on balls, N: to that of the floor if its normal is along the axis, else to those
-  /// of the sides. \param outward unit vector that points out of the bed
+  /// Adds the force of a boundary on balls, N: to that of the floor if its normal is along the axis, else to
+  /// those of the sides. \param outward unit vector that points out of the bed
   void add_wall(const std::array<double, 3> &axis, const std::array<double, 3> &outward,
                 const std::array<double, 3> &force);
 };

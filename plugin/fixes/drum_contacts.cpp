@@ -25,7 +25,8 @@ void DrumContacts::list_pairs(const ContactSource &source, int drum, int frame) 
   }
 }
 
-/// With newton off a pair of balls on two ranks is in the lists of both: it counts where the drum's ball is owned.
+/// With newton off a pair of balls on two ranks is in the lists of both: it counts where the drum's ball is
+/// owned.
 double DrumContacts::sign(int i, int j) const {
   const LAMMPS_NS::Atom &atom = *lmp_->atom;
   const bool i_drum = atom.mask[i] & drum_;

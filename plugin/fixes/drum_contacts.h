@@ -49,7 +49,8 @@ private:
   void add(std::array<double, 5> &sums, const Pair &pair, const Law &law,
            const std::array<double, 3> &axis) const;
 
-  /// 1: ball i alone belongs to the drum, -1: ball j alone does, and the other one is not of the roller; 0: neither.
+  /// 1: ball i alone belongs to the drum, -1: ball j alone does, and the other one is not of the roller; 0:
+  /// neither.
   double sign(int i, int j) const;
 
   engine::LAMMPS *lmp_;

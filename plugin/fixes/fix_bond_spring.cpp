@@ -168,10 +168,10 @@ void FixBondSpring::setup(int vflag) {
   if (const std::string wrong = bond_.invalid(); !wrong.empty())
     error->all(FLERR, drumlin::engine::error_text("fix bond/spring: " + wrong));
   if (!echoed_ && comm->me == 0) {
-    const std::string text = fmt::format(
-        "fix bond/spring {}: balls {} and {}, k = {:.6g} N/m, c = {:.6g} N s/m, length = {:.9g} m, "
-        "strength = {:.6g} N\n",
-        id, tags_[0], tags_[1], bond_.stiffness, bond_.damping, bond_.length, bond_.strength);
+    const std::string text =
+        fmt::format("fix bond/spring {}: balls {} and {}, k = {:.6g} N/m, c = {:.6g} N s/m, length = {:.9g} "
+                    "m, strength = {:.6g} N\n",
+                    id, tags_[0], tags_[1], bond_.stiffness, bond_.damping, bond_.length, bond_.strength);
     drumlin::engine::log_message(lmp, text);
   }
   echoed_ = true;
@@ -192,7 +192,8 @@ void FixBondSpring::post_force(int vflag) {
   apply(acted_.force);
 }
 
-/// The force under second-order stepping. The formulas are those of a contact, see physics/scheme/implicit_dashpot.h.
+/// The force under second-order stepping. The formulas are those of a contact, see
+/// physics/scheme/implicit_dashpot.h.
 void FixBondSpring::post_force_second_order() {
   const physics::StepMotion motion{state_.distance - bond_.length, state_.rate, state_.rate_before,
                                    update->dt};

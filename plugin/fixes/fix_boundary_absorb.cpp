@@ -89,10 +89,9 @@ void FixBoundaryAbsorb::init() {
   observers_.find(*modify);
   if (keep_static_) refuse_earlier_integration();
   if (domain->deform_flag)
-    error->all(FLERR,
-               engine::error_text(std::string(command) +
-                                  ": the box is deformed by fix deform; allowed: a box that stays as it "
-                                  "is, since the ground outside of it does"));
+    error->all(FLERR, engine::error_text(std::string(command) +
+                                         ": the box is deformed by fix deform; allowed: a box that stays as "
+                                         "it is, since the ground outside of it does"));
 }
 
 /// The constant forces are taken at the start of the first step, before the balls move.
@@ -106,11 +105,10 @@ void FixBoundaryAbsorb::refuse_earlier_integration() const {
       if ((atom->mask[i] & groupbit) && (atom->mask[i] & earlier.groupbit)) moves = 1;
     MPI_Allreduce(MPI_IN_PLACE, &moves, 1, MPI_INT, MPI_MAX, world);
     if (moves != 0)
-      error->all(FLERR,
-                 engine::error_text(fmt::format(
-                     "{}: keyword static is 'yes' behind fix {} ({}), which integrates; allowed: static "
-                     "yes before all fixes that integrate balls of the boundary",
-                     command, earlier.id, earlier.style)));
+      error->all(FLERR, engine::error_text(fmt::format(
+                            "{}: keyword static is 'yes' behind fix {} ({}), which integrates; allowed: "
+                            "static yes before all fixes that integrate balls of the boundary",
+                            command, earlier.id, earlier.style)));
   }
 }
 
@@ -213,8 +211,8 @@ void FixBoundaryAbsorb::end_of_step() {
   heat_ += 0.5 * dt_ * (before + power_); // trapezoidal rule
 }
 
-/// Power, W, that the dashpots dissipate. Summed over the ranks in each step and not at the end, so that a restarted run adds the same
-/// numbers in the same order. Collective.
+/// Power, W, that the dashpots dissipate. Summed over the ranks in each step and not at the end, so that a
+/// restarted run adds the same numbers in the same order. Collective.
 double FixBoundaryAbsorb::heat_rate() const {
   double heat = 0.0;
   for (int i = 0; i < atom->nlocal; ++i)
@@ -254,12 +252,11 @@ double FixBoundaryAbsorb::compute_vector(int n) {
 
 void FixBoundaryAbsorb::echo() {
   if (!echoed_)
-    engine::log_message(
-        lmp, fmt::format(
-                 "fix boundary/absorb {}: {:.0f} balls, each with normal k = {:.6g} N/m, c = {:.6g} N s/m; "
-                 "tangential k = {:.6g} N/m, c = {:.6g} N s/m\n",
-                 id, count_, ball_.along.stiffness, ball_.along.damping, ball_.across.stiffness,
-                 ball_.across.damping));
+    engine::log_message(lmp,
+                        fmt::format("fix boundary/absorb {}: {:.0f} balls, each with normal k = {:.6g} N/m, "
+                                    "c = {:.6g} N s/m; tangential k = {:.6g} N/m, c = {:.6g} N s/m\n",
+                                    id, count_, ball_.along.stiffness, ball_.along.damping,
+                                    ball_.across.stiffness, ball_.across.damping));
   echoed_ = true;
 }
 

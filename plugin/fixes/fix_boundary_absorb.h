@@ -13,8 +13,9 @@
 namespace LAMMPS_NS {
 
 /// Connects each ball of the group to its position at the definition of the fix by the springs and dashpots
-/// that replace the ground beyond the boundary, and can keep the force that held the ball before as a constant
-/// force. Positions and constant forces belong to the balls, move with them between ranks and are restarted.
+/// that replace the ground beyond the boundary, and can keep the force that held the ball before as a
+/// constant force. Positions and constant forces belong to the balls, move with them between ranks and are
+/// restarted.
 class FixBoundaryAbsorb : public Fix {
 public:
   FixBoundaryAbsorb(LAMMPS *, int, char **);

@@ -52,11 +52,10 @@ void FixClump::init() {
     later = later || fix == this;
     if (forces && std::find(harmless.begin(), harmless.end(), std::string(other.style)) == harmless.end() &&
         common_balls(other) > 0)
-      error->all(FLERR, drumlin::engine::error_text(
-                            fmt::format("fix clump: group is '{}', on which the later fix {} ({}) exerts "
-                                        "forces; allowed: fix clump after all "
-                                        "fixes that exert forces on its balls",
-                                        group->names[igroup], other.id, other.style)));
+      error->all(FLERR, drumlin::engine::error_text(fmt::format(
+                            "fix clump: group is '{}', on which the later fix {} ({}) exerts forces; "
+                            "allowed: fix clump after all fixes that exert forces on its balls",
+                            group->names[igroup], other.id, other.style)));
   }
   if (!echoed_)
     drumlin::engine::log_message(lmp,
@@ -74,8 +73,8 @@ int FixClump::common_balls(const Fix &other) const {
   return all;
 }
 
-/// Balls that do not move together from the start would never do so: their forces give them one acceleration. The
-/// body's mass in their contacts would then make energy. Differences by rounding are allowed.
+/// Balls that do not move together from the start would never do so: their forces give them one acceleration.
+/// The body's mass in their contacts would then make energy. Differences by rounding are allowed.
 void FixClump::refuse_unequal_velocities() const {
   constexpr double relative = 1e-6, absolute = 1e-9; // of the speed; m/s
   std::array<double, 6> most{};                      // of the velocity along x to z, and of its negative

@@ -38,8 +38,8 @@ private:
   bool echoed_ = false;
 };
 
-/// All fixes clump of one engine instance. A contact law or fix asks here for the mass with which a ball moves:
-/// that of its clump.
+/// All fixes clump of one engine instance. A contact law or fix asks here for the mass with which a ball
+/// moves: that of its clump.
 class Clumps {
 public:
   /// In the initialization of each run.

@@ -52,7 +52,8 @@ void FixContactEnergy::evaluate() {
   balls_ = sums_.balls(any_axis, 0.0);
 }
 
-/// Integrates the powers over the step by the trapezoidal rule, with what it misses of contacts that begin or end.
+/// Integrates the powers over the step by the trapezoidal rule, with what it misses of contacts that begin or
+/// end.
 void FixContactEnergy::end_of_step() {
   const drumlin::ContactSums before = now_;
   evaluate();

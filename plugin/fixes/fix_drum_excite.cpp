@@ -110,10 +110,8 @@ void FixDrumExcite::init() {
     const Vector g = engine::gravity(modify);
     const double size = std::hypot(g[0], g[1], g[2]);
     if (size == 0.0)
-      error->all(
-          FLERR,
-          "fix drum/excite: keyword direction is missing and there is no gravity to take it from; allowed: "
-          "direction x y z");
+      error->all(FLERR, "fix drum/excite: keyword direction is missing and there is no gravity to take it "
+                        "from; allowed: direction x y z");
     direction_ = {g[0] / size, g[1] / size, g[2] / size};
   }
   if (axis_) {
@@ -121,10 +119,10 @@ void FixDrumExcite::init() {
         (*axis_)[0] * direction_[0] + (*axis_)[1] * direction_[1] + (*axis_)[2] * direction_[2];
     if (std::fabs(along) > 1e-12)
       error->all(FLERR,
-                 engine::error_text(fmt::format("fix drum/excite: keyword axis is '{:.6g} {:.6g} {:.6g}', "
-                                                "not at right angles to the direction (cosine {:.6g}); "
-                                                "allowed: an axis at right angles to the direction",
-                                                (*axis_)[0], (*axis_)[1], (*axis_)[2], along)));
+                 engine::error_text(fmt::format(
+                     "fix drum/excite: keyword axis is '{:.6g} {:.6g} {:.6g}', not at right angles to the "
+                     "direction (cosine {:.6g}); allowed: an axis at right angles to the direction",
+                     (*axis_)[0], (*axis_)[1], (*axis_)[2], along)));
     normal_ = cross(*axis_, direction_);
   }
 }
@@ -135,8 +133,7 @@ void FixDrumExcite::setup(int vflag) {
     const double w = excitation_.angular_frequency;
     const std::string text = fmt::format(
         "fix drum/excite {}: {} Fw = {:.6g} N on {:.6g} kg, omega = {:.6g} rad/s ({:.6g} Hz), {:.6g} steps "
-        "per cycle, "
-        "direction {:.6g} {:.6g} {:.6g}\n",
+        "per cycle, direction {:.6g} {:.6g} {:.6g}\n",
         id, excitation_.rotating ? "rotating" : "directed",
         excitation_.eccentric ? excitation_.eccentric_mass * excitation_.eccentric_radius * w * w
                               : excitation_.amplitude,

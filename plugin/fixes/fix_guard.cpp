@@ -94,9 +94,10 @@ void FixGuard::pre_neighbor() {
 /// Before the list is built again, when the balls have moved the farthest from where it was built.
 void FixGuard::pre_exchange() { check_lists(); }
 
-/// Ends the run if balls may touch that the neighbour list does not have. A pair is in the list if its distance was at
-/// most radii + skin when the list was built, and at most the cutoff, which the engine takes from the radii at the
-/// set-up of a run. The engine builds the list again when balls have moved, but not when they have grown.
+/// Ends the run if balls may touch that the neighbour list does not have. A pair is in the list if its
+/// distance was at most radii + skin when the list was built, and at most the cutoff, which the engine takes
+/// from the radii at the set-up of a run. The engine builds the list again when balls have moved, but not
+/// when they have grown.
 void FixGuard::check_lists() const {
   struct Reach { // the two largest values of different balls of a rank, m; numbers only, for MPI
     double grown = 0.0, held = 0.0, way[2] = {}, used[2] = {}, radius[2] = {};
@@ -138,23 +139,18 @@ void FixGuard::check_lists() const {
   const double skin = neighbor->skin, cutoff = neighbor->cutneighmax;
   const double used = all.used[0] + all.used[1], radii = all.radius[0] + std::max(all.radius[1], all.held);
   if ((all.grown > 0.0 || neighbor->build_once != 0) && used > skin)
-    error->all(
-        FLERR,
-        drumlin::engine::error_text(fmt::format(
-            "fix guard: growth and motion of two balls since the neighbour list was built is '{:.4g} m' at "
-            "step "
-            "{}, so that contacts may be missing; allowed: at most the skin, {:.4g} m (a larger one, or "
-            "neigh_modify delay 0 every 1 check no)",
-            used, update->ntimestep, skin)));
+    error->all(FLERR, drumlin::engine::error_text(fmt::format(
+                          "fix guard: growth and motion of two balls since the neighbour list was built is "
+                          "'{:.4g} m' at step {}, so that contacts may be missing; allowed: at most the "
+                          "skin, {:.4g} m (a larger one, or neigh_modify delay 0 every 1 check no)",
+                          used, update->ntimestep, skin)));
   constexpr double rounding = 1e-9;
   if (radii > (1.0 + rounding) * (cutoff - skin) && radii + all.way[0] + all.way[1] > cutoff)
-    error->all(
-        FLERR,
-        drumlin::engine::error_text(fmt::format(
-            "fix guard: radii of two balls are '{:.4g} m' in sum at step {}, so that contacts may be "
-            "missing, since the neighbour list reaches {:.4g} m; allowed: at most this (a larger skin, or "
-            "several runs, at whose set-up it follows the radii)",
-            radii, update->ntimestep, cutoff)));
+    error->all(FLERR, drumlin::engine::error_text(fmt::format(
+                          "fix guard: radii of two balls are '{:.4g} m' in sum at step {}, so that contacts "
+                          "may be missing, since the neighbour list reaches {:.4g} m; allowed: at most this "
+                          "(a larger skin, or several runs, at whose set-up it follows the radii)",
+                          radii, update->ntimestep, cutoff)));
 }
 
 void FixGuard::pre_force(int) {
@@ -280,15 +276,14 @@ void FixGuard::end_links() {
 void FixGuard::check_limits(bigint step) const {
   if (deepest_.value > overlap_)
     drumlin::engine::stop(
-        lmp, fmt::format("fix guard: overlap of {} is '{:.3g}' of the smaller radius at step {}; allowed: "
-                         "at most {:.3g} of it "
-                         "(usual causes: contacts too soft for their load, balls created with overlap)",
-                         pair_name(deepest_.ball, deepest_.partner), deepest_.value, step, overlap_));
+        lmp, fmt::format(
+                 "fix guard: overlap of {} is '{:.3g}' of the smaller radius at step {}; allowed: at most "
+                 "{:.3g} of it (usual causes: contacts too soft for their load, balls created with overlap)",
+                 pair_name(deepest_.ball, deepest_.partner), deepest_.value, step, overlap_));
   if (update->dt > step_ * critical_.value)
     drumlin::engine::stop(
         lmp, fmt::format("fix guard: time step is '{:.4g} s' at step {}, where ball {:.0f} has the critical "
-                         "step {:.4g} s (mostly "
-                         "because of the link of {}); allowed: at most {:.4g} s",
+                         "step {:.4g} s (mostly because of the link of {}); allowed: at most {:.4g} s",
                          update->dt, step, critical_.ball, critical_.value,
                          pair_name(critical_.ball, critical_.partner), step_ * critical_.value));
 }
@@ -296,12 +291,12 @@ void FixGuard::check_limits(bigint step) const {
 void FixGuard::log_at_setup() {
   std::string text = fmt::format("fix guard {}: no contact and no bond yet\n", id);
   if (fastest_.value > 0.0)
-    text = fmt::format("fix guard {}: critical step {:.4g} s, of ball {:.0f} (mostly because of the link of "
-                       "{}), time step {:.3g} of it; "
-                       "pi/(w0 dt) = {:.4g} for {}; largest overlap {:.3g} of a radius\n",
-                       id, critical_.value, critical_.ball, pair_name(critical_.ball, critical_.partner),
-                       update->dt / critical_.value, steps_per_contact(),
-                       pair_name(fastest_.ball, fastest_.partner), deepest_.value);
+    text = fmt::format(
+        "fix guard {}: critical step {:.4g} s, of ball {:.0f} (mostly because of the link of {}), time step "
+        "{:.3g} of it; pi/(w0 dt) = {:.4g} for {}; largest overlap {:.3g} of a radius\n",
+        id, critical_.value, critical_.ball, pair_name(critical_.ball, critical_.partner),
+        update->dt / critical_.value, steps_per_contact(), pair_name(fastest_.ball, fastest_.partner),
+        deepest_.value);
   if (text != logged_) drumlin::engine::log_message(lmp, text);
   logged_ = text;
 }
@@ -332,9 +327,9 @@ void FixGuard::check_numbers() {
       }
   std::array<double, 9> all{};
   MPI_Allreduce(mine.data(), all.data(), 9, MPI_DOUBLE, MPI_SUM, world);
-  drumlin::engine::stop(lmp, fmt::format("fix guard: ball {} is '{} {} {} m, {} {} {} m/s, {} {} "
-                                         "{} N' (position, velocity, force) at step {}; allowed: "
-                                         "finite numbers (usual cause: too large a time step)",
-                                         worst, all[0], all[1], all[2], all[3], all[4], all[5], all[6],
-                                         all[7], all[8], update->ntimestep));
+  drumlin::engine::stop(
+      lmp, fmt::format("fix guard: ball {} is '{} {} {} m, {} {} {} m/s, {} {} {} N' (position, velocity, "
+                       "force) at step {}; allowed: finite numbers (usual cause: too large a time step)",
+                       worst, all[0], all[1], all[2], all[3], all[4], all[5], all[6], all[7], all[8],
+                       update->ntimestep));
 }

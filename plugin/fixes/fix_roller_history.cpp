@@ -95,11 +95,11 @@ void FixRollerHistory::post_integrate() {
 /// A cycle of the table is a number of steps: it would have another period, and its harmonics another phase.
 void FixRollerHistory::refuse_other_step() const {
   if (steps_per_cycle_ == 0 || update->dt == clock_.dt()) return;
-  error->all(FLERR, engine::error_text(fmt::format(
-                        "{}: keyword cycles is '{}' steps per cycle, and the time step has changed "
-                        "from {:.9g} to {:.9g} s; allowed: one time step as long as the fix is "
-                        "defined, or no keyword cycles",
-                        command, steps_per_cycle_, clock_.dt(), update->dt)));
+  error->all(FLERR,
+             engine::error_text(fmt::format(
+                 "{}: keyword cycles is '{}' steps per cycle, and the time step has changed from {:.9g} to "
+                 "{:.9g} s; allowed: one time step as long as the fix is defined, or no keyword cycles",
+                 command, steps_per_cycle_, clock_.dt(), update->dt)));
 }
 
 void FixRollerHistory::setup_pre_force(int step) { pre_force(step); }
@@ -122,10 +122,9 @@ void FixRollerHistory::init() {
   if (!frame_group_.empty()) {
     const int index = group->find(frame_group_.c_str());
     if (index < 0 || group->count(index) == 0)
-      error->all(FLERR,
-                 engine::error_text(fmt::format("fix roller/history: keyword frame is '{}', which is empty; "
-                                                "allowed: the group of the frame's balls",
-                                                frame_group_)));
+      error->all(FLERR, engine::error_text(fmt::format("fix roller/history: keyword frame is '{}', which is "
+                                                       "empty; allowed: the group of the frame's balls",
+                                                       frame_group_)));
     frame_.mass = group->mass(index);
   }
   find_partners();
@@ -141,10 +140,8 @@ void FixRollerHistory::init() {
   if (!has_axis_) {
     const double size = std::hypot(g[0], g[1], g[2]);
     if (size == 0.0)
-      error->all(
-          FLERR,
-          "fix roller/history: keyword axis is missing and there is no gravity to take it from; allowed: "
-          "axis x y z");
+      error->all(FLERR, "fix roller/history: keyword axis is missing and there is no gravity to take it "
+                        "from; allowed: axis x y z");
     axis_ = {-g[0] / size, -g[1] / size, -g[2] / size};
   }
   gravity_ = -along(g.data());

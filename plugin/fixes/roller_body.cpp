@@ -16,8 +16,8 @@ void RollerBody::locate(engine::LAMMPS *lmp, const std::array<double, 3> &axis, 
       lmp->domain->unmap(atom.x[i], atom.image[i], x.data());
       mine[0] += atom.rmass[i] * along(x.data());
       mine[1] += atom.rmass[i] * along(atom.v[i]);
-      if (lmp->domain
-              ->deform_vremap) { // the image of the ball outside of the box, whose place x is, has another velocity
+      if (lmp->domain->deform_vremap) { // the image of the ball outside of the box, whose place x is, has
+                                        // another velocity
         const std::array<double, 3> offset{x[0] - atom.x[i][0], x[1] - atom.x[i][1], x[2] - atom.x[i][2]};
         mine[1] += atom.rmass[i] * along(engine::velocity_of_image(*lmp->domain, offset).data());
       }
@@ -34,9 +34,10 @@ void RollerBody::locate(engine::LAMMPS *lmp, const std::array<double, 3> &axis, 
   motion.x = position - origin;
   motion.v = all[1] / mass;
   if (!std::isfinite(motion.x) || !std::isfinite(motion.v))
-    engine::stop(lmp, fmt::format("fix roller/history: {} is '{} m, {} m/s' at step {}; "
-                                  "allowed: finite position and velocity",
-                                  name, motion.x, motion.v, lmp->update->ntimestep));
+    engine::stop(
+        lmp, fmt::format(
+                 "fix roller/history: {} is '{} m, {} m/s' at step {}; allowed: finite position and velocity",
+                 name, motion.x, motion.v, lmp->update->ntimestep));
 }
 
 } // namespace drumlin

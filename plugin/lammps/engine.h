@@ -66,8 +66,8 @@ public:
   /// of the step; if setmask() has `closes_forces`. LAMMPS calls fixes in the order of the deck: this fix
   /// must be defined before those that integrate.
   virtual void close_forces() {}
-  /// Called at the beginning of a step, before velocities and positions change; if setmask() has `opens_step`. The fix must
-  /// be defined before those that integrate.
+  /// Called at the beginning of a step, before velocities and positions change; if setmask() has
+  /// `opens_step`. The fix must be defined before those that integrate.
   virtual void open_step() {}
 
   int pack_forward_comm(int n, int *balls, double *numbers, int periodic, int *shift) final {
@@ -86,8 +86,8 @@ public:
   void initial_integrate(int) override { open_step(); }
 
 protected:
-  /// While pack_ghosts() is called for ghosts: their velocity, m/s, relative to their owners. Zero except across a
-  /// periodic side of a box that deforms.
+  /// While pack_ghosts() is called for ghosts: their velocity, m/s, relative to their owners. Zero except
+  /// across a periodic side of a box that deforms.
   const std::array<double, 3> &velocity_of_ghosts() const { return velocity_of_ghosts_; }
   /// Lets `fix_modify` add the fix's scalar to the potential energy, and what it adds by v_tally() to the
   /// pressure.

@@ -40,8 +40,8 @@ struct IntersectAccess {
 auto &parts_of(RegIntersect &region);
 template struct IntersectAccess<&RegIntersect::idsub>;
 
-/// The cone along y in a region, or in its parts, whose flat ends act on balls inside of it; nullptr if there is none.
-/// The engine gives these ends a direction along z: a wall from them makes energy.
+/// The cone along y in a region, or in its parts, whose flat ends act on balls inside of it; nullptr if there
+/// is none. The engine gives these ends a direction along z: a wall from them makes energy.
 /// \param outside whether the wall is the outer side of the region
 const Region *broken_cone(Domain *domain, Region *region, bool outside) {
   if (region == nullptr) return nullptr;
@@ -76,8 +76,7 @@ FixWallGranTransition::FixWallGranTransition(LAMMPS *lammps, int narg, char **ar
   if (!in.empty())
     in.fail("'" + in.peek() +
             "' is left over; allowed: TYPE xplane|yplane|zplane LOW HIGH or TYPE region ID (the law and its "
-            "settings are those "
-            "of the pair style)");
+            "settings are those of the pair style)");
   FixWallGranTransition::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::RESTART);
@@ -281,8 +280,8 @@ void FixWallGranTransition::touch(const Table &table, int i, int place, const ph
     atom->torque[i][a] += forces.rolling[a] - p.arm_i * forces.moment[a];
   }
   force_ = physics::sum(force_, 1.0, forces.force);
-  if constexpr (
-      stepped) { // half of what acts in the closing half kick, half of what acts in the next opening one
+  if constexpr (stepped) { // half of what acts in the closing half kick, half of what acts in the next
+                           // opening one
     force_ = physics::sum(force_, 0.5, stepping_->rest_since(announced));
     if (forces.coupled != nullptr)
       forces.coupled->report = [this](const physics::Vec3 &change) {

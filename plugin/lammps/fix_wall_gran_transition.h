@@ -21,8 +21,8 @@ public:
   void init() override;
   void setup(int) override;
   void post_force(int) override;
-  /// 0-2: force of the walls on the balls, N: the mean of what acts in the half kicks that end and begin at this
-  /// time, so that its sum over the steps is the momentum that the walls have given.
+  /// 0-2: force of the walls on the balls, N: the mean of what acts in the half kicks that end and begin at
+  /// this time, so that its sum over the steps is the momentum that the walls have given.
   double compute_vector(int) override;
 
   void grow_arrays(int) override;

@@ -112,8 +112,9 @@ inline void request_list(LAMMPS_NS::Neighbor *neighbor, LAMMPS_NS::Pair *pair, i
 #endif
 }
 
-/// Enters a style of a plugin that another instance in the process has loaded into the list of this one. Later releases
-/// have one list for all instances. \param category pair, fix or command \param make the style's creator, in any type
+/// Enters a style of a plugin that another instance in the process has loaded into the list of this one.
+/// Later releases have one list for all instances. \param category pair, fix or command \param make the
+/// style's creator, in any type
 inline void enter_style([[maybe_unused]] LAMMPS_NS::LAMMPS *lmp, [[maybe_unused]] const std::string &category,
                         [[maybe_unused]] const char *name, [[maybe_unused]] void (*make)()) {
 #if DRUMLIN_LAMMPS_STYLES_OF_INSTANCE

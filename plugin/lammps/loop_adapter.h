@@ -1,5 +1,6 @@
 #pragma once
-// The adapter of ContactLoop to LAMMPS: see contact/contact_loop.h. Included by pair_gran_transition.cpp alone.
+// The adapter of ContactLoop to LAMMPS: see contact/contact_loop.h. Included by pair_gran_transition.cpp
+// alone.
 
 #include "fix_neigh_history.h"
 #include "contact/contact_loop.h"

@@ -321,7 +321,7 @@ void PairGranTransition::compute(int eflag, int vflag) {
         drumlin::with_models(settings_, [&](auto stepped, auto tangential, auto rolling) {
           using Parameters = std::decay_t<decltype(table.at(0, 0).contact)>;
           LoopAdapter<Parameters, decltype(stepped)::value, decltype(tangential)::value,
-                   decltype(rolling)::value>(*this, table)
+                      decltype(rolling)::value>(*this, table)
               .compute();
         });
       },
@@ -389,8 +389,8 @@ void PairGranTransition::transfer_history(double *source, double *target DRUMLIN
     target[n] = places_.turns_round(n) ? -source[n] : source[n];
 }
 
-/// Pair style hybrid keeps the settings of its parts, and no coefficients. Rolling resistance is the second bit of a word, so that
-/// files that were written without it can be read.
+/// Pair style hybrid keeps the settings of its parts, and no coefficients. Rolling resistance is the second
+/// bit of a word, so that files that were written without it can be read.
 void PairGranTransition::write_restart_settings(FILE *file) {
   const int words[5] = {static_cast<int>(settings_.transition), static_cast<int>(settings_.damping),
                         (settings_.stock ? 1 : 0) + (settings_.rolling ? 2 : 0),

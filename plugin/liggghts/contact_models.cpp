@@ -85,9 +85,9 @@ public:
 
   void init_granular() override {
     if (drumlin::gran_pair(engine_) != pair_)
-      engine_->error->all(FLERR, drumlin::engine::error_text(command() +
-                                                             ": pair_style hybrid has gran more than once; "
-                                                             "allowed: once"));
+      engine_->error->all(FLERR,
+                          drumlin::engine::error_text(
+                              command() + ": pair_style hybrid has gran more than once; allowed: once"));
     if (engine_->domain->triclinic != 0)
       engine_->error->all(FLERR, drumlin::engine::error_text(
                                      command() + ": the box is triclinic, through whose sides this engine "
@@ -109,18 +109,16 @@ public:
     Base::init_granular();
     if (stepping_ != nullptr && pair_->storeContactForcesStress())
       engine_->error->all(
-          FLERR,
-          drumlin::engine::error_text(
-              command() + ": stepping is 'second' and there is a fix continuum/weighted, which takes forces "
-                          "that are not final; allowed: stepping stock with this fix"));
+          FLERR, drumlin::engine::error_text(
+                     command() + ": stepping is 'second' and there is a fix continuum/weighted, which takes "
+                                 "forces that are not final; allowed: stepping stock with this fix"));
     observers_.find(*engine_->modify);
     clumps_.find(*engine_->modify);
     constexpr int multi = 2; // Neighbor::style
     if (engine_->neighbor->style == multi)
-      engine_->error->all(
-          FLERR, drumlin::engine::error_text(command() +
-                                             ": neighbor style is 'multi', with which this engine finds no "
-                                             "contact of balls; allowed: bin or nsq"));
+      engine_->error->all(FLERR, drumlin::engine::error_text(
+                                     command() + ": neighbor style is 'multi', with which this engine finds "
+                                                 "no contact of balls; allowed: bin or nsq"));
     deck_check_.of_pair(engine_, command(), stepping_ != nullptr);
   }
 

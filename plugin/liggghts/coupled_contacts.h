@@ -8,8 +8,8 @@
 
 namespace drumlin {
 
-/// Time, s, for which a spring in the contact history is stretched in a step. It has no length before the first step of a
-/// contact. \param spring three numbers \param moves false in the set-up of a run
+/// Time, s, for which a spring in the contact history is stretched in a step. It has no length before the
+/// first step of a contact. \param spring three numbers \param moves false in the set-up of a run
 inline double time_of_spring(const LIGGGHTS::ContactModels::SurfacesIntersectData &data, const double *spring,
                              bool moves, double dt) {
   if (!moves) return 0.0;
@@ -17,8 +17,8 @@ inline double time_of_spring(const LIGGGHTS::ContactModels::SurfacesIntersectDat
   return begins ? physics::time_in_contact(data.deltan, -data.vn, dt) : dt;
 }
 
-/// The coupled contacts of a contact model under `stepping second`. None under `stock` and with normal models of the
-/// engine.
+/// The coupled contacts of a contact model under `stepping second`. None under `stock` and with normal models
+/// of the engine.
 class CoupledContacts {
 public:
   /// To be called when all models have announced their history. \tparam Model has get_history_offset()
@@ -39,7 +39,8 @@ public:
     if (stepping_ == nullptr || !data.computeflag) return nullptr;
     return stepping_->begun_at(data.contact_history + offset_);
   }
-  /// Where the friction and the rolling resistance of such a contact are described, of either kind; nullptr for others.
+  /// Where the friction and the rolling resistance of such a contact are described, of either kind; nullptr
+  /// for others.
   LAMMPS_NS::FixStepping::Rubbing *rubbing(const LIGGGHTS::ContactModels::SurfacesIntersectData &data) const {
     if (auto *coupled = contact(data)) return coupled;
     return begun(data);

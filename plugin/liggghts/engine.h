@@ -65,7 +65,8 @@ public:
   /// Called when all forces of the step are known, before velocity Verlet computes the velocities at the end
   /// of the step; if setmask() has `closes_forces`.
   virtual void close_forces() {}
-  /// Called at the beginning of a step, before velocities and positions change; if setmask() has `opens_step`.
+  /// Called at the beginning of a step, before velocities and positions change; if setmask() has
+  /// `opens_step`.
   virtual void open_step() {}
 
   int pack_comm(int n, int *balls, double *numbers, int periodic, int *shift) final {
@@ -79,8 +80,8 @@ public:
   void pre_initial_integrate() final { open_step(); }
 
 protected:
-  /// While pack_ghosts() is called for ghosts: their velocity, m/s, relative to their owners. Zero except across a
-  /// periodic side of a box that deforms.
+  /// While pack_ghosts() is called for ghosts: their velocity, m/s, relative to their owners. Zero except
+  /// across a periodic side of a box that deforms.
   const std::array<double, 3> &velocity_of_ghosts() const { return velocity_of_ghosts_; }
   /// Lets the fix contribute to the pressure by v_tally(). (LIGGGHTS has no potential energy, to which LAMMPS
   /// can add the fix's scalar.)

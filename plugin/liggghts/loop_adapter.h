@@ -15,8 +15,8 @@
 namespace drumlin {
 
 /// Computes the forces of all contacts between balls in a time step, instead of the engine's loop over pairs.
-/// In time steps in which the engine asks for the forces of single contacts, for output or a fix of its own, its own loop
-/// computes them instead: see needs_engine_loop().
+/// In time steps in which the engine asks for the forces of single contacts, for output or a fix of its own,
+/// its own loop computes them instead: see needs_engine_loop().
 /// \tparam flag bits of the engine's contact flags that say that there is a contact
 template <class Parameters, bool stepped, FrictionModel tangential, bool rolling, int flag>
 class LoopAdapter {

@@ -30,11 +30,10 @@ ModelSettings::ModelSettings(LAMMPS_NS::Error *error, const std::string &command
       add("torsionTorque", in.choice("keyword " + keyword, {"on", "off"}) == 0);
     } else if (keyword == "tangential" || keyword == "rolling_friction" || keyword == "cohesion" ||
                keyword == "surface" || keyword == "primitive" || keyword == "mesh") {
-      in.fail(
-          "'" + keyword +
-          "' comes too late or lacks its value; allowed: models first, for a wall then primitive or mesh, "
-          "then " +
-          join_choices(keywords));
+      in.fail("'" + keyword +
+              "' comes too late or lacks its value; allowed: models first, for a wall then primitive or "
+              "mesh, then " +
+              join_choices(keywords));
     } else {
       in.fail(unknown_keyword(keyword, drop_in_forms, join_choices(keywords)));
     }

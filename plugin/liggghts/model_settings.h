@@ -21,8 +21,8 @@ struct OtherModels {
 class ModelSettings {
 public:
   /// \param command for error texts, e.g. "pair_style gran model hooke/transition"
-  /// \param others with a rolling model the keyword `torsionTorque on|off` is allowed; which springs there are
-  /// is passed on to the normal model
+  /// \param others with a rolling model the keyword `torsionTorque on|off` is allowed; which springs there
+  /// are is passed on to the normal model
   ModelSettings(LAMMPS_NS::Error *error, const std::string &command, const OtherModels &others, int narg,
                 char **arg);
 

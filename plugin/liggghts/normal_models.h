@@ -1,5 +1,5 @@
-// The contact laws as normal models of LIGGGHTS, `model hooke/transition` and so on.
-// (LIGGGHTS includes this file several times; the first branch only announces the models, each with a number of its own.)
+// The contact laws as normal models of LIGGGHTS, `model hooke/transition` and so on. (LIGGGHTS includes this
+// file several times; the first branch only announces the models, each with a number of its own.)
 #ifdef NORMAL_MODEL
 NORMAL_MODEL(HOOKE_TRANSITION, hooke / transition, 21)
 NORMAL_MODEL(HERTZ_TRANSITION, hertz / transition, 22)

@@ -1,6 +1,7 @@
 #pragma once
-// What a wall of LIGGGHTS reports of its contacts under `stepping second`: to its mesh (force, torque, stress and wear
-// of fix mesh/surface/stress, from which a servo takes its force), and by store_force and store_force_contact.
+// What a wall of LIGGGHTS reports of its contacts under `stepping second`: to its mesh (force, torque, stress
+// and wear of fix mesh/surface/stress, from which a servo takes its force), and by store_force and
+// store_force_contact.
 
 #include "atom.h"
 #include "fix_contact_property_atom_wall.h"
@@ -21,11 +22,11 @@
 
 namespace drumlin {
 
-/// The engine's wall reports the force with which it computes the closing half kick, as soon as it has computed it. A
-/// report is right if its sum over the steps is the momentum that the wall has given. So in the step in which a contact
-/// begins or ends it is the mean of that force and of the one in the next opening half kick, and the report of a
-/// coupled contact is made when all forces of the step are known. Wear is not linear in the force: a mesh is told of
-/// each contact once.
+/// The engine's wall reports the force with which it computes the closing half kick, as soon as it has
+/// computed it. A report is right if its sum over the steps is the momentum that the wall has given. So in
+/// the step in which a contact begins or ends it is the mean of that force and of the one in the next opening
+/// half kick, and the report of a coupled contact is made when all forces of the step are known. Wear is not
+/// linear in the force: a mesh is told of each contact once.
 class WallReport {
   using FixWallGran = LAMMPS_NS::FixWallGran;
   using FixMeshSurface = LAMMPS_NS::FixMeshSurface;
@@ -48,8 +49,8 @@ public:
     stepping_ = wall.get_history_offset(force_name) < 0 ? nullptr : LAMMPS_NS::FixStepping::find(&engine);
   }
 
-  /// \param compute computes the contact's force and adds it to the ball; called with the mesh that it is to report
-  /// to, nullptr for none
+  /// \param compute computes the contact's force and adds it to the ball; called with the mesh that it is to
+  /// report to, nullptr for none
   template <class Compute>
   void of_contact(FixWallGran &wall, Data &contact, const Place &place, Compute &&compute) {
     const bool reports = place.fix_mesh != nullptr || wall.store_force() || wall.store_force_contact();

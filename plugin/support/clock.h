@@ -24,8 +24,9 @@ public:
   }
 
   /// Follows a change of the time step within a run. Call in each step when the balls have moved
-  /// (post_integrate): the step that has begun then is the first with the time step dt. In an engine's end_of_step a
-  /// fix cannot know whether dt is still that of the step that ends, or already that of the next.
+  /// (post_integrate): the step that has begun then is the first with the time step dt. In an engine's
+  /// end_of_step a fix cannot know whether dt is still that of the step that ends, or already that of the
+  /// next.
   /// \param step the number of this step
   void follow(engine::bigint step, double dt) { change_step(step - 1, dt); }
 

@@ -1,15 +1,17 @@
 #pragma once
-// Velocities across the periodic sides of a box that fix deform deforms with `remap v`. The images of a ball then move
-// relative to it. Each engine's engine.h includes this header behind the engine's domain.h, before it defines GhostFix.
+// Velocities across the periodic sides of a box that fix deform deforms with `remap v`. The images of a ball
+// then move relative to it. Each engine's engine.h includes this header behind the engine's domain.h, before
+// it defines GhostFix.
 
 #include <array>
 #include <cmath>
 
 namespace drumlin::engine {
 
-/// Velocity, m/s, of a periodic image of a ball relative to the ball; zero unless the box deforms with `remap v`.
-/// \param shift the engine's six numbers of the image: box lengths along x, y and z, then those by which the tilts yz, xz
-/// and xy displace it; nullptr: it is no image
+/// Velocity, m/s, of a periodic image of a ball relative to the ball; zero unless the box deforms with `remap
+/// v`.
+/// \param shift the engine's six numbers of the image: box lengths along x, y and z, then those by which the
+/// tilts yz, xz and xy displace it; nullptr: it is no image
 inline std::array<double, 3> velocity_of_image(const LAMMPS_NS::Domain &box, const int *shift) {
   if (shift == nullptr || !box.deform_vremap) return {};
   const double *const rate = box.h_rate;

@@ -36,8 +36,8 @@ inline void stop_on_fault(const LAMMPS *lmp, const std::string &command, std::st
   stop(lmp, command + ": " + fault);
 }
 
-/// The bit of a group, by its number, in the masks of balls: both engines number bits as groups. (LAMMPS means to hide
-/// its list of bits.)
+/// The bit of a group, by its number, in the masks of balls: both engines number bits as groups. (LAMMPS
+/// means to hide its list of bits.)
 inline int group_bit(int group) { return 1 << group; }
 
 /// Whether a pair of balls of the contact law's neighbour list is counted on this rank, so that sums and
@@ -49,8 +49,8 @@ inline bool owns_pair(const LAMMPS *lmp, int i, int j) {
   return lmp->force->newton_pair || (atom.tag[i] < atom.tag[j] ? i : j) < atom.nlocal;
 }
 
-/// Replaces a stored mass by the present sum over a group, unless these differ by rounding only: the sum depends on the
-/// order of the balls in memory. A group whose balls are lost keeps its mass.
+/// Replaces a stored mass by the present sum over a group, unless these differ by rounding only: the sum
+/// depends on the order of the balls in memory. A group whose balls are lost keeps its mass.
 inline void follow_mass(double &stored, double now) {
   constexpr double rounding = 1e-12;
   if (now > 0.0 && std::fabs(now - stored) > rounding * stored) stored = now;

@@ -213,10 +213,9 @@ void OutputSet::replace_numbered(const std::vector<NumberedFiles> &patterns, lon
     for (const fs::path &file : files_in(folder)) {
       const std::optional<long> number = number_in(folder, file);
       if (!number || !fs::is_regular_file(fs::symlink_status(file)))
-        throw std::runtime_error(fmt::format(
-            "folder is '{}' with the file '{}', which is no dump of a run; allowed: a folder with nothing "
-            "but dumps",
-            folder, file.filename().string()));
+        throw std::runtime_error(fmt::format("folder is '{}' with the file '{}', which is no dump of a run; "
+                                             "allowed: a folder with nothing but dumps",
+                                             folder, file.filename().string()));
       if (*number >= from)
         earlier.push_back(file);
       else

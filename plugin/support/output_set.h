@@ -64,8 +64,9 @@ public:
   /// disk.
   void check_numbered();
 
-  /// The run's parameters, a file with a last row `ended,no`, of a run that is not done or was killed. When the
-  /// object is destroyed or the process ends, the row says `yes` or why the run has ended before its time.
+  /// The run's parameters, a file with a last row `ended,no`, of a run that is not done or was killed. When
+  /// the object is destroyed or the process ends, the row says `yes` or why the run has ended before its
+  /// time.
   void record(const std::string &file) { record_ = file; }
   /// Why the run ends before its time: written at once, since mpirun may kill the process before it ends.
   void note_end(const std::string &why);

@@ -85,18 +85,17 @@ BedAdvice advise_bed(const BedExperiment &experiment, const BedQuestion &questio
     }
   }
   if (!compared)
-    throw std::runtime_error(refusal("the table of results",
-                                     fmt::format("{} scenes", results.scenes().size()),
-                                     "one with two seeds or more of a scene and of the complete one, the "
-                                     "first of the plan"));
+    throw std::runtime_error(
+        refusal("the table of results", fmt::format("{} scenes", results.scenes().size()),
+                "one with two seeds or more of a scene and of the complete one, the first of the plan"));
   const MeanInterval mean = mean_interval(values);
   if (!question.absolute && !mean.significant())
-    throw std::runtime_error(refusal(
-        "--question", question.name,
-        fmt::format(
-            "a result whose mean over the complete beds differs from zero: theirs is {:.2g} +- {:.2g}, and "
-            "no error relative to it can be given{}",
-            mean.mean, mean.half_width, quantity->absolute ? "; or --within in mm per cycle, as 2mm" : "")));
+    throw std::runtime_error(
+        refusal("--question", question.name,
+                fmt::format("a result whose mean over the complete beds differs from zero: theirs is {:.2g} "
+                            "+- {:.2g}, and no error relative to it can be given{}",
+                            mean.mean, mean.half_width,
+                            quantity->absolute ? "; or --within in mm per cycle, as 2mm" : "")));
   if (best.scene == nullptr) {
     best.scene = &complete;
     best.seeds = values.size();

@@ -126,11 +126,11 @@ StepAdvice advise(const AdviceRequest &request, const std::vector<ChainPoint> &p
   if (!advice.measured) {
     advice.sensitivity = sensitivity_of(p);
     if (!(advice.sensitivity <= most_sensitive))
-      throw UsageError(refusal(
-          "the sensitivity of the chain", fmt::format("{:.2g}", advice.sensitivity),
-          fmt::format("at most {:g}; no step can be advised where a relative change of k, D and m2 grows "
-                      "so much in the drum's velocity within {} cycles",
-                      most_sensitive, accuracy_cycles)));
+      throw UsageError(
+          refusal("the sensitivity of the chain", fmt::format("{:.2g}", advice.sensitivity),
+                  fmt::format("at most {:g}; no step can be advised where a relative change of k, D and m2 "
+                              "grows so much in the drum's velocity within {} cycles",
+                              most_sensitive, accuracy_cycles)));
     for (const char *name : table1_cases) {
       const ChainParameters known = table1_case(name, p.transition);
       const std::vector<ErrorPoint> curve = curve_of(name);
@@ -195,10 +195,9 @@ std::string scaling_summary(const std::vector<ScalingPoint> &points) {
     worst = std::max(worst, point.error / point.target);
   }
   if (points.empty()) return "not tested on other parameter sets";
-  return fmt::format(
-      "tested on {} other parameter sets: {} of {} runs kept the error asked for; the worst had "
-      "{:.2g} times as much",
-      sets.size(), kept, points.size(), worst);
+  return fmt::format("tested on {} other parameter sets: {} of {} runs kept the error asked for; the worst "
+                     "had {:.2g} times as much",
+                     sets.size(), kept, points.size(), worst);
 }
 
 } // namespace drumlin::post

@@ -3,10 +3,10 @@
 // A ball counts at its centre, a contact at the middle of its overlap. Each is distributed over the cells
 // whose centres surround this point p, with the weights
 //   w_c(p) = prod_a max(0, 1 - |p_a - x_c,a| / h_a),    h the sides of a cell, x_c the centre of cell c,
-// and the weight of a cell beyond the edge is given to the last cell inside. The weights of a point
-// in the grid add up to 1, so that a sum over the cells is the sum over the balls or contacts. With V =
-// prod_a h_a, over soil balls b (volume V_b, mass m_b) and contacts k of two soil balls (force f and branch l
-// from centre to centre, normal n = l/|l|):
+// and the weight of a cell beyond the edge is given to the last cell inside. The weights of a point in the
+// grid add up to 1, so that a sum over the cells is the sum over the balls or contacts. With V = prod_a h_a,
+// over soil balls b (volume V_b, mass m_b) and contacts k of two soil balls (force f and branch l from centre
+// to centre, normal n = l/|l|):
 //   solid fraction       phi   = 1/V sum_b w V_b
 //   bulk density         rho   = 1/V sum_b w m_b
 //   velocity             v     = sum_b w m_b v_b / sum_b w m_b
@@ -33,8 +33,8 @@ using Tensor = std::array<double, 9>;
 /// Types of balls in the decks of inputs/bed.
 enum BallType : int { soil_type = 1, drum_type = 2, frame_type = 3 };
 
-/// The layer of soil that balls of a type belong to, counted from 1, the lowest; 0 for drum and frame. The types of the layers are 1, 4,
-/// 5, ...
+/// The layer of soil that balls of a type belong to, counted from 1, the lowest; 0 for drum and frame. The
+/// types of the layers are 1, 4, 5, ...
 constexpr int layer_of(int type) { return type == soil_type ? 1 : type > frame_type ? type - 2 : 0; }
 constexpr bool is_soil(int type) { return layer_of(type) > 0; }
 

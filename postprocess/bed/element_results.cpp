@@ -24,8 +24,8 @@ Failure mean_stresses(const std::vector<CompressionRow> &rows, double from, doub
           mean_between(rows, &CompressionRow::strain, from, to, &CompressionRow::side_stress)};
 }
 
-/// sin psi = -(change of volumetric strain)/(twice the change of axial strain - that of volumetric strain), in degrees:
-/// in the plane and, after Schanz and Vermeer (1996), in a triaxial test.
+/// sin psi = -(change of volumetric strain)/(twice the change of axial strain - that of volumetric strain),
+/// in degrees: in the plane and, after Schanz and Vermeer (1996), in a triaxial test.
 double dilatancy_angle(const std::vector<CompressionRow> &rows, double from, double to) {
   const CompressionRow *first = nullptr, *last = nullptr;
   for (const CompressionRow &row : rows) {
@@ -39,7 +39,8 @@ double dilatancy_angle(const std::vector<CompressionRow> &rows, double from, dou
   return degree * std::asin(-volume / (2.0 * axial - volume));
 }
 
-/// E50, MPa, of a peak. The stresses of a row are means since the row before and belong to the strain halfway.
+/// E50, MPa, of a peak. The stresses of a row are means since the row before and belong to the strain
+/// halfway.
 double secant_modulus(const std::vector<CompressionRow> &rows, const Failure &peak) {
   const double half = peak.half_difference();
   double strain = 0.0, difference = 0.0;
@@ -65,8 +66,9 @@ ShearFailure failure_between(const std::vector<ShearRow> &rows, double from, dou
   return failure;
 }
 
-/// Slope of stress over settlement, kPa/mm = MN/m3, of the chord of the parabola s = a0 + a1 p + a2 p^2 through the rows
-/// between 0.3 and 0.7 of `most`: s changes by (0.7 - 0.3) most (a1 + a2 (0.7 + 0.3) most). NaN for less than three rows.
+/// Slope of stress over settlement, kPa/mm = MN/m3, of the chord of the parabola s = a0 + a1 p + a2 p^2
+/// through the rows between 0.3 and 0.7 of `most`: s changes by (0.7 - 0.3) most (a1 + a2 (0.7 + 0.3) most).
+/// NaN for less than three rows.
 double subgrade_reaction(const std::vector<PlateRow> &rows, double most) {
   if (rows.size() < 3) return none;
   const auto count = static_cast<Eigen::Index>(rows.size());
@@ -129,7 +131,8 @@ Strength strength_of(const std::vector<CompressionRow> &rows) {
 }
 
 MohrCoulomb fit_mohr_coulomb(const std::vector<Failure> &failures) {
-  // The scatter of the angles is the same at all stresses: the relative difference is a line over 1/(half sum).
+  // The scatter of the angles is the same at all stresses: the relative difference is a line over 1/(half
+  // sum).
   std::vector<double> inverse_sums, ratios;
   for (const Failure &failure : failures) {
     inverse_sums.push_back(1.0 / failure.half_sum());

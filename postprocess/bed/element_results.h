@@ -1,5 +1,5 @@
-// What element tests of soil measure, from their rows: strength in compression and shear, moduli of a plate load test,
-// soil under its own weight.
+// What element tests of soil measure, from their rows: strength in compression and shear, moduli of a plate
+// load test, soil under its own weight.
 #pragma once
 
 #include "runs/element_rows.h"
@@ -61,7 +61,8 @@ struct MohrCoulomb {
   double cohesion, half_width;               ///< kPa; half of the 95 % confidence interval
 };
 
-/// Least squares of the ratio of half difference and half sum. Throws std::invalid_argument unless there are two side stresses and three failures or more.
+/// Least squares of the ratio of half difference and half sum. Throws std::invalid_argument unless there are
+/// two side stresses and three failures or more.
 MohrCoulomb fit_mohr_coulomb(const std::vector<Failure> &failures);
 
 /// Ratio of shear and normal stress, with the dilatancy at the same strain.
@@ -71,9 +72,9 @@ struct ShearFailure {
       0.0; ///< angle psi, degrees: tan psi = -(change of volumetric strain)/(change of shear strain)
   /// Angle whose tangent is the ratio, degrees: friction on the plane along which the platen moves.
   double angle() const;
-  /// Friction angle of the soil, degrees, if the directions of stress and strain increment agree, so that this plane is
-  /// not the one of largest obliquity (Davis 1968): sin phi = ratio/(cos psi + ratio sin psi). For psi = 0 it is
-  /// sin phi = ratio. NaN if no angle has this sine.
+  /// Friction angle of the soil, degrees, if the directions of stress and strain increment agree, so that
+  /// this plane is not the one of largest obliquity (Davis 1968): sin phi = ratio/(cos psi + ratio sin psi).
+  /// For psi = 0 it is sin phi = ratio. NaN if no angle has this sine.
   double davis_angle() const;
 };
 
@@ -82,8 +83,8 @@ struct ShearStrength {
   ShearFailure peak;   ///< the largest ratio within the first third of the strain, of means over a thirtieth
   double strain = 0.0; ///< at the peak
   ShearFailure critical; ///< means over the last third of the strain
-  /// Whether the test went to a shear strain of 20 %, where a dense soil no longer dilates; the critical values of
-  /// shorter tests mean nothing.
+  /// Whether the test went to a shear strain of 20 %, where a dense soil no longer dilates; the critical
+  /// values of shorter tests mean nothing.
   bool is_critical = false;
 };
 
@@ -102,10 +103,11 @@ struct PlateResult {
   double ratio() const { return second_modulus / first_modulus; } ///< E_v2/E_v1
 };
 
-/// Evaluates a test. A parabola is fitted to the settlement over the stress of each loading, its first row (at the
-/// seating stress) included; the modulus of subgrade reaction is the slope of the chord of the parabola between 0.3 and
-/// 0.7 of the largest stress of the first loading, and the strain modulus 0.75 times the width of the plate times this
-/// modulus: DIN 18134, with the width of a strip for the diameter of the plate.
+/// Evaluates a test. A parabola is fitted to the settlement over the stress of each loading, its first row
+/// (at the seating stress) included; the modulus of subgrade reaction is the slope of the chord of the
+/// parabola between 0.3 and 0.7 of the largest stress of the first loading, and the strain modulus 0.75 times
+/// the width of the plate times this modulus: DIN 18134, with the width of a strip for the diameter of the
+/// plate.
 /// \param width of the plate, m, > 0
 PlateResult plate_result(const std::vector<PlateRow> &rows, double width);
 
@@ -115,7 +117,8 @@ struct RestingSoil {
   double width = 0.0;  ///< m, between the walls
   double height = 0.0; ///< m, twice that of the centre of mass
 
-  /// Force on a wall if the horizontal stress is that of a liquid with the soil's weight, gamma height^2/2, N/m.
+  /// Force on a wall if the horizontal stress is that of a liquid with the soil's weight, gamma height^2/2,
+  /// N/m.
   double hydrostatic_force() const { return 0.5 * weight / width * height; }
 };
 
@@ -129,7 +132,8 @@ struct ActiveState {
 /// The smallest force on the walls, mean over a thirtieth of the rows. rows: at least two.
 ActiveState active_state(const std::vector<OwnWeightRow> &rows, const RestingSoil &soil);
 
-/// Janssen's stress on the floor over weight/width: (1 - exp(-x))/x with x = 2 mu K height/width, 1 for x = 0.
+/// Janssen's stress on the floor over weight/width: (1 - exp(-x))/x with x = 2 mu K height/width, 1 for x =
+/// 0.
 double janssen(double x);
 
 /// Soil in a silo after its floor moved down: means over the second half of the rows.
@@ -137,8 +141,8 @@ struct SiloState {
   double floor_share = 0.0;    ///< force on the floor over the weight
   double wall_share = 0.0;     ///< normal force on both walls over the weight
   double friction_ratio = 0.0; ///< friction over normal force on both walls
-  /// Horizontal over vertical stress at the walls by Janssen's theory: that of the normal force on the walls, from which
-  /// the force on the floor is not used. NaN if no coefficient gives this force.
+  /// Horizontal over vertical stress at the walls by Janssen's theory: that of the normal force on the walls,
+  /// from which the force on the floor is not used. NaN if no coefficient gives this force.
   double coefficient = 0.0;
 };
 /// \param wall_friction coefficient of friction of the walls, >= 0
@@ -156,8 +160,8 @@ struct Slope {
   double intercept = 0.0; ///< m, height of the line at x = 0
   bool free = false;      ///< whether the slope ends on the floor before the wall
 };
-/// Least squares through the points from `diameter` to 85 % of the highest point, or, if the soil still touches the wall, through
-/// all that are above the floor. NaN for less than three points.
+/// Least squares through the points from `diameter` to 85 % of the highest point, or, if the soil still
+/// touches the wall, through all that are above the floor. NaN for less than three points.
 Slope slope_of(const std::vector<SurfacePoint> &surface, double diameter, bool touches_wall);
 
 } // namespace drumlin::post

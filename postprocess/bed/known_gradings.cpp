@@ -16,8 +16,7 @@ const std::vector<KnownGrading> &known_gradings() {
       {"M147-B",
        "soil-aggregate for base courses, 0 to 50 mm",
        "AASHTO M 147, Table 1, grading B, as a laboratory's form for sieve analyses has it (weight sieve "
-       "bands, "
-       "AASHTO_M147_B)",
+       "bands, AASHTO_M147_B)",
        {{0.075, 5, 20},
         {0.425, 15, 30},
         {2, 20, 45},
@@ -28,8 +27,7 @@ const std::vector<KnownGrading> &known_gradings() {
       {"PM1-20",
        "crushed rock for base courses, 0 to 26.5 mm",
        "South Australia, Part 215, PM1/20, as sustainableaggregates.com.au/spec_compliance.php has it (its "
-       "sieves "
-       "0.43 and 0.08 mm are those of 0.425 and 0.075 mm)",
+       "sieves 0.43 and 0.08 mm are those of 0.425 and 0.075 mm)",
        {{0.075, 5, 11},
         {0.425, 13, 23},
         {2.36, 29, 49},
@@ -41,8 +39,7 @@ const std::vector<KnownGrading> &known_gradings() {
       {"WMM",
        "wet mix macadam, crushed stone for base courses, 0 to 53 mm",
        "India, MoRTH specifications, fifth revision, Table 400-13, as "
-       "constructionblogs.in/wet-mix-macadam-wmm has "
-       "it; an earlier edition has 0 to 8 % at 0.075 mm",
+       "constructionblogs.in/wet-mix-macadam-wmm has it; an earlier edition has 0 to 8 % at 0.075 mm",
        {{0.075, 0, 5},
         {0.6, 8, 22},
         {2.36, 15, 30},

@@ -16,7 +16,8 @@ namespace {
 constexpr double pi = 3.141592653589793;
 /// Cells that the search for neighbours may have, 8 bytes each.
 constexpr double most_cells = 5e7;
-/// Cells and balls that may be looked at while the balls are placed: about an hour. Ten million balls at the default share need a tenth.
+/// Cells and balls that may be looked at while the balls are placed: about an hour. Ten million balls at the
+/// default share need a tenth.
 constexpr double most_work = 1e11;
 /// Height of the box above the soil balls, m: space for drum and frame.
 constexpr double room_above = 2.0;
@@ -68,8 +69,9 @@ std::vector<double> radii_of(const PackingOptions &options, Random &random) {
   return radii;
 }
 
-/// Balls by their size and the cell that holds their centre. Balls of one level are at most twice as large as each other, and a
-/// cell of the level is as wide as the largest of them, so that a search looks at few balls, whatever the grading.
+/// Balls by their size and the cell that holds their centre. Balls of one level are at most twice as large as
+/// each other, and a cell of the level is as wide as the largest of them, so that a search looks at few
+/// balls, whatever the grading.
 class Cells {
 public:
   /// \param most about the number of cells of a level, which smaller balls share
@@ -196,8 +198,8 @@ std::string PackingOptions::invalid() const {
 
 namespace {
 
-/// Length, or area in three dimensions, that balls can fill at the bottom of the box: less than all of it, since
-/// a strip along the walls is filled less. m or m2
+/// Length, or area in three dimensions, that balls can fill at the bottom of the box: less than all of it,
+/// since a strip along the walls is filled less. m or m2
 double free_base(const PackingOptions &options) {
   const double strip = options.largest_radius();
   return (options.width - strip) * (options.dimensions() == 2 ? 1.0 : options.depth - strip);
@@ -214,11 +216,11 @@ double filled_height(const PackingOptions &options, double content_of_all) {
   const double base = options.width * (dimensions == 2 ? 1.0 : options.depth);
   const double least = content_of_all / (base * largest_share(dimensions));
   if (options.height < least)
-    throw std::invalid_argument(refusal(
-        "height", options.height,
-        fmt::format("0 (as needed) or at least {:.3f} [m], in which {} balls of radius {} to {} m fit "
-                    "without touching",
-                    least, options.balls, options.smallest_radius(), options.largest_radius())));
+    throw std::invalid_argument(
+        refusal("height", options.height,
+                fmt::format("0 (as needed) or at least {:.3f} [m], in which {} balls of radius {} to {} m "
+                            "fit without touching",
+                            least, options.balls, options.smallest_radius(), options.largest_radius())));
   return options.height;
 }
 
@@ -257,7 +259,8 @@ double settled_content(const BedLayer &layer) {
   return base * layer.thickness * settled_share(options.dimensions());
 }
 
-/// The size at which the curve must be cut so that options.balls balls have a content. \param height m, for the error
+/// The size at which the curve must be cut so that options.balls balls have a content. \param height m, for
+/// the error
 double cut_for(const SieveCurve &curve, const PackingOptions &options, double wanted, double height) {
   const int dimensions = options.dimensions();
   const auto number_for = [&](double size) {
@@ -269,12 +272,11 @@ double cut_for(const SieveCurve &curve, const PackingOptions &options, double wa
   double high = 0.5 * curve.largest();
   if (low >= high || number_for(low) <= options.balls) return low;
   if (const double least = std::ceil(number_for(high)); least > options.balls)
-    throw std::invalid_argument(refusal(
-        "balls", options.balls,
-        fmt::format(
-            "at least {:.0f}, so that grains from {:g} to {:g} mm fill the box to a height of {:g} m; "
-            "or a larger smallest size",
-            least, high * 1e3, curve.largest() * 1e3, height)));
+    throw std::invalid_argument(
+        refusal("balls", options.balls,
+                fmt::format("at least {:.0f}, so that grains from {:g} to {:g} mm fill the box to a height "
+                            "of {:g} m; or a larger smallest size",
+                            least, high * 1e3, curve.largest() * 1e3, height)));
   while (high / low > 1.0 + 1e-6) {
     const double middle = std::sqrt(low * high);
     (number_for(middle) > options.balls ? low : high) = middle;
@@ -342,18 +344,17 @@ Packing pack_balls(const PackingOptions &options, const std::function<void(std::
       constexpr std::size_t now_and_then = 4096;
       if (progress && ++all_tries % now_and_then == 0) progress(balls.size());
       if (++failed > attempts)
-        throw std::invalid_argument(refusal(
-            "balls", options.balls,
-            fmt::format(
-                "fewer balls, or a wider or higher box (width {}, height {:.3f} m): {} found a place and "
-                "the next none in {} tries",
-                options.width, height, balls.size(), attempts)));
+        throw std::invalid_argument(
+            refusal("balls", options.balls,
+                    fmt::format("fewer balls, or a wider or higher box (width {}, height {:.3f} m): {} found "
+                                "a place and the next none in {} tries",
+                                options.width, height, balls.size(), attempts)));
       if (cells.work() > most_work)
-        throw std::invalid_argument(refusal(
-            "balls", options.balls,
-            fmt::format("fewer balls, or a wider or higher box (width {}, height {:.3f} m): {} found a "
-                        "place before the search took too long",
-                        options.width, height, balls.size())));
+        throw std::invalid_argument(
+            refusal("balls", options.balls,
+                    fmt::format("fewer balls, or a wider or higher box (width {}, height {:.3f} m): {} found "
+                                "a place before the search took too long",
+                                options.width, height, balls.size())));
       ball.centre[0] = random.between(r, options.width - r);
       if (dimensions == 3) ball.centre[1] = random.between(r, options.depth - r);
       ball.centre[2] = random.between(r, height - r);
@@ -420,11 +421,10 @@ std::string data_text(const std::vector<PackingOptions> &parts, const std::strin
   }
   const double depth = flat ? 2.0 * largest : options.depth;
   const double top = packing.height + room_above;
-  std::string text = fmt::format(
-      "# {} balls at random: radius {} to {} m, grading {}, {} m wide, {} m deep, filled to {} m, "
-      "seed {} (drumlin bed)\n",
-      packing.balls.size(), smallest, largest, grading, options.width, options.depth, packing.height,
-      options.seed);
+  std::string text = fmt::format("# {} balls at random: radius {} to {} m, grading {}, {} m wide, {} m deep, "
+                                 "filled to {} m, seed {} (drumlin bed)\n",
+                                 packing.balls.size(), smallest, largest, grading, options.width,
+                                 options.depth, packing.height, options.seed);
   auto out = std::back_inserter(text);
   std::string medians, uniformities; // of each layer
   for (std::size_t n = 0; n < parts.size(); ++n) {

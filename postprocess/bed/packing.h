@@ -59,10 +59,10 @@ double largest_share(int dimensions);
 /// The share from which the filled height is computed by default; each ball then needs a few attempts.
 double default_share(int dimensions);
 
-/// The size, m, rounded up to three digits, at which `curve` must be cut so that options.balls balls of what is
-/// coarser fill the box to options.height, or to half its width if that is 0; the smallest sieve if they do so
-/// without a cut. Throws std::invalid_argument as pack_balls() does if the balls are so few that the cut would
-/// be above half of the largest size: hardly a distribution is left of the curve then.
+/// The size, m, rounded up to three digits, at which `curve` must be cut so that options.balls balls of what
+/// is coarser fill the box to options.height, or to half its width if that is 0; the smallest sieve if they
+/// do so without a cut. Throws std::invalid_argument as pack_balls() does if the balls are so few that the
+/// cut would be above half of the largest size: hardly a distribution is left of the curve then.
 double default_cut(const SieveCurve &curve, const PackingOptions &options);
 
 /// A layer of a bed of several, whose balls fall on the layers below when these have come to rest.
@@ -78,8 +78,8 @@ struct BedLayer {
 /// (inputs/study/grading). Other friction and other gradings change it by 4 % at most.
 double settled_share(int dimensions);
 
-/// The number of balls that make a layer of its thickness. At least 1; more than PackingOptions::most_balls are
-/// that number plus one.
+/// The number of balls that make a layer of its thickness. At least 1; more than PackingOptions::most_balls
+/// are that number plus one.
 int balls_of(const BedLayer &layer);
 
 /// The size, m, at which `curve` must be cut so that `balls` balls of what is coarser make the layer; see
@@ -98,30 +98,32 @@ struct Packing {
 };
 
 /// Places the balls. With a sieve curve ball i of N, in the order of size, has a size at random between those
-/// that the shares i/N and (i+1)/N of all balls do not exceed, so that the mass of all balls that are finer than
-/// any size differs from the curve's by less than two balls of this size; the largest ball is placed first, since it would find no
-/// space between the others. The same options give the same balls, bit for bit, on any machine: the random numbers
-/// are computed without rounding errors, and sizes from a sieve curve are rounded to single precision, so that
-/// the last digits of log() and cbrt(), which differ between machines, do not reach them.
-/// \param progress is called every few thousand tries with the number of balls placed
-/// Throws std::invalid_argument with what() naming the option, its value and what is allowed: before any ball
-/// is placed if their area or volume is more than largest_share() of the box, else when no free position was
+/// that the shares i/N and (i+1)/N of all balls do not exceed, so that the mass of all balls that are finer
+/// than any size differs from the curve's by less than two balls of this size; the largest ball is placed
+/// first, since it would find no space between the others. The same options give the same balls, bit for bit,
+/// on any machine: the random numbers are computed without rounding errors, and sizes from a sieve curve are
+/// rounded to single precision, so that the last digits of log() and cbrt(), which differ between machines,
+/// do not reach them.
+/// \param progress is called every few thousand tries with the number of balls placed Throws
+/// std::invalid_argument with what() naming the option, its value and what is allowed: before any ball is
+/// placed if their area or volume is more than largest_share() of the box, else when no free position was
 /// found for a ball in `attempts` tries.
 Packing pack_balls(const PackingOptions &options, const std::function<void(std::size_t)> &progress = {},
                    int attempts = 100'000);
 
-/// Layers one above the other as they are before they settle, the first the lowest; each of its own options, which
-/// have the same box.
+/// Layers one above the other as they are before they settle, the first the lowest; each of its own options,
+/// which have the same box.
 Packing pack_layers(const std::vector<BedLayer> &layers,
                     const std::function<void(std::size_t)> &progress = {});
 
-/// The text of the data file for the engine's read_data: balls of type 1 (types 2 and 3 are drum and frame), and of
-/// type 4, 5, ... for the second and further layers, in a box with space for the roller above them. y is up; x = 0 and z = 0 are the middle. Density of
-/// a ball in kg/m3, of a disc 1 m thick. The header notes for later decks: the grading as one word, the radii of the
-/// smallest and largest ball, m, d50, m, and C_u.
+/// The text of the data file for the engine's read_data: balls of type 1 (types 2 and 3 are drum and frame),
+/// and of type 4, 5, ... for the second and further layers, in a box with space for the roller above them. y
+/// is up; x = 0 and z = 0 are the middle. Density of a ball in kg/m3, of a disc 1 m thick. The header notes
+/// for later decks: the grading as one word, the radii of the smallest and largest ball, m, d50, m, and C_u.
 std::string bed_data(const PackingOptions &options, double density, const Packing &packing);
-/// The same for a bed of layers. Of the notes the grading is that of each layer, the lowest first, joined by +, d50 and C_u
-/// are those of each layer, separated by commas, and the radii are of all balls; the number of layers and their thicknesses are noted, too.
+/// The same for a bed of layers. Of the notes the grading is that of each layer, the lowest first, joined by
+/// +, d50 and C_u are those of each layer, separated by commas, and the radii are of all balls; the number of
+/// layers and their thicknesses are noted, too.
 std::string bed_data(const std::vector<BedLayer> &layers, double density, const Packing &packing);
 
 /// The balls of a packing sorted by size.

@@ -23,13 +23,15 @@ namespace drumlin::post {
 
 namespace {
 
-/// Scatter of the objective between points, relative to its range: dlib then does not follow differences below it.
+/// Scatter of the objective between points, relative to its range: dlib then does not follow differences
+/// below it.
 constexpr double search_noise = 0.01;
 /// Evaluations that fail from the first on, after which a calibration is given up.
 constexpr std::size_t hopeless = 4;
 
-/// The function that the search minimises: ln(1 + objective). It equals the objective near the targets. Far from them the
-/// objective is so steep that its Lipschitz constant would give the search no useful bound; the logarithm is flatter.
+/// The function that the search minimises: ln(1 + objective). It equals the objective near the targets. Far
+/// from them the objective is so steep that its Lipschitz constant would give the search no useful bound; the
+/// logarithm is flatter.
 double compressed(double objective) { return std::log1p(objective); }
 
 bool same_point(const std::vector<double> &a, const std::vector<double> &b) {
@@ -53,8 +55,8 @@ public:
 
   Calibration finish() {
     search();
-    // Slopes are measured around the best of the search alone, and the estimate comes from these two stages, so that a continued
-    // calibration finds the points of both among its evaluations.
+    // Slopes are measured around the best of the search alone, and the estimate comes from these two stages,
+    // so that a continued calibration finds the points of both among its evaluations.
     const std::vector<Evaluation> searched = until(Stage::search);
     evaluate(slope_points(task_, best_of(task_, searched)->point), Stage::slopes);
     const std::vector<Evaluation> before = until(Stage::slopes);
@@ -70,7 +72,8 @@ public:
   }
 
 private:
-  /// Evaluations times seeds, at most: a continued calibration may have made some of those beside its best point.
+  /// Evaluations times seeds, at most: a continued calibration may have made some of those beside its best
+  /// point.
   std::size_t planned() const {
     const auto left = static_cast<std::size_t>(std::max(0, effort_.evaluations - searched()));
     return (evaluations_.size() + left + 2 * task_.vary.size() + 1) * static_cast<std::size_t>(task_.seeds);
@@ -131,7 +134,8 @@ private:
       if (std::any_of(evaluations_.begin(), evaluations_.end(),
                       [&point](const Evaluation &one) { return same_point(one.point, point); }))
         continue;
-      // The smallest free number: of points that were measured at the same time, an interruption can have left the later ones.
+      // The smallest free number: of points that were measured at the same time, an interruption can have
+      // left the later ones.
       Evaluation fresh;
       auto place = evaluations_.begin();
       for (fresh.number = 1; place != evaluations_.end() && place->number == fresh.number; ++place)
@@ -159,8 +163,8 @@ private:
     return found == evaluations_.end() ? nullptr : &*found;
   }
 
-  /// Searches from points that are known already, or from the beginning: that is repeated with the values of the evaluations that
-  /// an earlier call has made. Returns false if these are of another search.
+  /// Searches from points that are known already, or from the beginning: that is repeated with the values of
+  /// the evaluations that an earlier call has made. Returns false if these are of another search.
   bool search_from(const std::vector<SearchPoint> &known, int done) {
     PointSearch search(task_.vary.size(), search_noise, known);
     const int earlier = known.empty() ? searched() : 0;
@@ -179,9 +183,9 @@ private:
       if (!all && static_cast<int>(repeated.size()) < earlier) return false;
       if (!all && !said_ && evaluations_.size() > static_cast<std::size_t>(searched())) {
         said_ = true;
-        print_progress("the search goes on after its end: evaluations have other numbers than those of a "
-                       "calibration with as many "
-                       "evaluations from the start, and slopes that were measured before count, too");
+        print_progress(
+            "the search goes on after its end: evaluations have other numbers than those of a calibration "
+            "with as many evaluations from the start, and slopes that were measured before count, too");
       }
       evaluate(points, Stage::search);
       for (const std::vector<double> &point : points)
@@ -198,9 +202,8 @@ private:
 
   void search() {
     if (searched() < effort_.evaluations && !search_from({}, 0)) {
-      print_progress(
-          "the evaluations that are there are of another search: further points are others than those of a "
-          "calibration without an interruption");
+      print_progress("the evaluations that are there are of another search: further points are others than "
+                     "those of a calibration without an interruption");
       std::vector<SearchPoint> known;
       known.reserve(evaluations_.size());
       for (const Evaluation &one : evaluations_)
@@ -225,8 +228,9 @@ private:
     return earlier;
   }
 
-  /// The point at which the fitted linear model meets the targets, moved back into the ranges of the parameters. It also stays so
-  /// close to the best evaluated point that a fit around it can use the evaluations that exist already.
+  /// The point at which the fitted linear model meets the targets, moved back into the ranges of the
+  /// parameters. It also stays so close to the best evaluated point that a fit around it can use the
+  /// evaluations that exist already.
   std::vector<double> estimate(const Sensitivity &sensitivity, const std::vector<double> &centre) const {
     const double reach = std::exp(fit_reach - slope_step);
     std::vector<double> point;

@@ -11,9 +11,9 @@
 
 namespace drumlin::post {
 
-/// Measures the targets at a point on the bed of a seed: as many values as the task has targets. Throws SceneFault with the reason
-/// if the point and the bed do not allow it, any other exception if something fails that need not fail again. Called from several
-/// threads.
+/// Measures the targets at a point on the bed of a seed: as many values as the task has targets. Throws
+/// SceneFault with the reason if the point and the bed do not allow it, any other exception if something
+/// fails that need not fail again. Called from several threads.
 using MeasureSeed = std::function<std::vector<double>(const Evaluation &evaluation, int seed)>;
 
 /// How many evaluations and runs at a time the search may use.
@@ -34,22 +34,23 @@ struct Calibration {
 /// Whether each parameter of the best evaluation is within its confidence interval.
 bool best_is_within(const Calibration &found);
 
-/// The parameters that a calibration gives: those of the best evaluation, which have been measured, if they are within their
-/// confidence intervals, else those at which the targets are met by the slopes. Throws UsageError for --vary if these are outside of
-/// the ranges.
+/// The parameters that a calibration gives: those of the best evaluation, which have been measured, if they
+/// are within their confidence intervals, else those at which the targets are met by the slopes. Throws
+/// UsageError for --vary if these are outside of the ranges.
 std::vector<double> found_point(const CalibrationTask &task, const Calibration &found);
 
 /// The file of the evaluations in the folder of a calibration.
 constexpr const char *evaluations_name = "evaluations.csv";
 
 /// Calibrates, in three stages: the search over all ranges; the points of slope_points() around its best; and
-/// the point at which the linear model of sensitivity_at() meets the targets, if all parameters are identified. Every
-/// evaluation uses the same seeds. An evaluation of which a seed
-/// fails by its scene counts in the search as the worst of those that did not; any other failure ends the calibration. Results are
-/// written to evaluations.csv in `out`, which exists, one row for each seed when it is known. Rows that are there are not measured
-/// again: the search is repeated with their values, so that a continued calibration finds what one without an interruption finds. If
-/// the rows are of another search, with more or other points at once, it says so and searches on from them. Prints progress. Throws
-/// std::runtime_error if the first evaluations all fail, or if too few around the best succeed.
+/// the point at which the linear model of sensitivity_at() meets the targets, if all parameters are
+/// identified. Every evaluation uses the same seeds. An evaluation of which a seed fails by its scene counts
+/// in the search as the worst of those that did not; any other failure ends the calibration. Results are
+/// written to evaluations.csv in `out`, which exists, one row for each seed when it is known. Rows that are
+/// there are not measured again: the search is repeated with their values, so that a continued calibration
+/// finds what one without an interruption finds. If the rows are of another search, with more or other points
+/// at once, it says so and searches on from them. Prints progress. Throws std::runtime_error if the first
+/// evaluations all fail, or if too few around the best succeed.
 Calibration calibrate(const CalibrationTask &task, const CalibrationEffort &effort,
                       const std::filesystem::path &out, const MeasureSeed &measure);
 

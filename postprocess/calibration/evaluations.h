@@ -52,7 +52,8 @@ constexpr std::size_t evaluation_keys = 2;
 std::vector<std::string> evaluation_header(const CalibrationTask &task);
 std::vector<std::string> evaluation_row(const Evaluation &evaluation, const SeedResult &result,
                                         std::size_t targets);
-/// Reads evaluations.csv, rows that were cut short left out. std::runtime_error for a cell that cannot be understood.
+/// Reads evaluations.csv, rows that were cut short left out. std::runtime_error for a cell that cannot be
+/// understood.
 std::vector<Evaluation> read_evaluations(const CalibrationTask &task, const std::filesystem::path &file);
 
 } // namespace drumlin::post

@@ -48,8 +48,8 @@ PageTable parameter_table(const CalibrationTask &task, const Calibration &found)
               one.unidentified.empty() ? RowState::agrees : RowState::differs);
   }
   table.notes = {
-      "The estimate meets the targets by the linear model around the best evaluation. Its interval is "
-      "that of the scatter over the seeds (Student's t); errors of the linear model are not part of it."};
+      "The estimate meets the targets by the linear model around the best evaluation. Its interval is that "
+      "of the scatter over the seeds (Student's t); errors of the linear model are not part of it."};
   return table;
 }
 
@@ -105,10 +105,9 @@ PageTable correlation_table(const CalibrationTask &task, const Calibration &foun
       row.push_back(fmt::format("{:+.3f}", value));
     table.add(row);
   }
-  table.notes = {fmt::format(
-      "For errors of the targets in proportion to their tolerances. Above {} the targets cannot tell "
-      "two parameters apart.",
-      most_correlation)};
+  table.notes = {fmt::format("For errors of the targets in proportion to their tolerances. Above {} the "
+                             "targets cannot tell two parameters apart.",
+                             most_correlation)};
   return table;
 }
 
@@ -117,8 +116,7 @@ PageFigure progress_figure(const CalibrationTask &task, const Calibration &found
   PageFigure figure;
   figure.label = "Fig. 1";
   figure.caption = "Left: objective of the evaluations, in the order in which they were made, and the "
-                   "smallest so far. Right: "
-                   "measured over wanted values, means over the seeds.";
+                   "smallest so far. Right: measured over wanted values, means over the seeds.";
   figure.weight = 2.0;
   figure.figure = {name, "The search", {}, 2};
   CurveTable data("evaluation,value");
@@ -162,9 +160,9 @@ PageFigure slope_figure(const CalibrationTask &task, const Calibration &found) {
   constexpr const char *name = "sensitivity";
   PageFigure figure;
   figure.label = "Fig. 2";
-  figure.caption = "How the targets depend on the parameters around the best evaluation: by how many per "
-                   "cent a target grows "
-                   "if a parameter grows by one per cent, with 95 % confidence intervals over the seeds.";
+  figure.caption =
+      "How the targets depend on the parameters around the best evaluation: by how many per cent a target "
+      "grows if a parameter grows by one per cent, with 95 % confidence intervals over the seeds.";
   figure.weight = 1.0;
   figure.figure = {name, "Sensitivity", {}, static_cast<int>(std::min<std::size_t>(3, task.targets.size()))};
   CurveTable data("parameter,slope,low,high");
@@ -229,14 +227,12 @@ void write_calibration_page(const std::filesystem::path &out, const std::string 
   page.answer(fmt::format("{} evaluations of {}{}.", found.evaluations.size(), beds,
                           failed == 0 ? "" : fmt::format("; {} of them failed", failed)));
   page.section("How to read it");
-  page.paragraph("Each evaluation measures all targets with the same values of the parameters on a bed of "
-                 "each seed. The objective "
-                 "is the sum over the targets of (ln(measured / wanted) / tolerance)^2, with the geometric "
-                 "mean over the "
-                 "seeds; 1 is a target that is off by its tolerance. A search over the whole ranges is "
-                 "followed by evaluations "
-                 "beside its best point, which give the slopes, and by one at the point that meets the "
-                 "targets by these slopes.");
+  page.paragraph(
+      "Each evaluation measures all targets with the same values of the parameters on a bed of each seed. "
+      "The objective is the sum over the targets of (ln(measured / wanted) / tolerance)^2, with the "
+      "geometric mean over the seeds; 1 is a target that is off by its tolerance. A search over the whole "
+      "ranges is followed by evaluations beside its best point, which give the slopes, and by one at the "
+      "point that meets the targets by these slopes.");
   page.section("Search");
   page.figure(progress_figure(task, found));
   page.table(target_table(task, found));
@@ -249,8 +245,7 @@ void write_calibration_page(const std::filesystem::path &out, const std::string 
   if (!compared.empty()) {
     page.section("Chain and bed");
     page.paragraph("The beds of the best evaluation, and beside each the chain with the k and D that its "
-                   "record gives. The "
-                   "figures show seed 1.");
+                   "record gives. The figures show seed 1.");
     add_lumped_comparison(page, compared, 3);
   }
   if (failed > 0) {

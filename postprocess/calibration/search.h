@@ -1,4 +1,5 @@
-// Search for the smallest value of a noisy function that takes minutes to compute, in as few evaluations as possible.
+// Search for the smallest value of a noisy function that takes minutes to compute, in as few evaluations as
+// possible.
 #pragma once
 
 #include <cstddef>

@@ -27,10 +27,11 @@ VectorXd offset(const std::vector<double> &point, const std::vector<double> &cen
   return d;
 }
 
-/// For the beds of each seed, a linear model of the logarithms of the targets over those of the parameters, fitted to the
-/// points, which are the evaluated sets of parameters near the best one.
+/// For the beds of each seed, a linear model of the logarithms of the targets over those of the parameters,
+/// fitted to the points, which are the evaluated sets of parameters near the best one.
 struct Fits {
-  /// Coefficients of each seed: the value at the best point and a slope for each parameter in rows, targets in columns.
+  /// Coefficients of each seed: the value at the best point and a slope for each parameter in rows, targets
+  /// in columns.
   std::vector<MatrixXd> seeds;
   /// Measured minus fitted values of each seed: points in rows, targets in columns.
   std::vector<MatrixXd> residuals;
@@ -71,13 +72,14 @@ MeanInterval interval_over(const std::vector<MatrixXd> &seeds, Index row, Index 
   return mean_interval(values);
 }
 
-/// Half the width of the 95 % confidence interval of the logarithm of a parameter if the targets are themselves means over
-/// `target_beds` measured beds. The error is then that of the calibrating beds and that of the target beds. The variance of a single
-/// bed is the variance between the fits of the seeds plus a part that a fit averages out: settling is chaotic, so that the bed
-/// of one seed is packed differently at each point.
-/// \param step     change of the logarithm from the best point to where the targets are met, mean over the seeds
-/// \param squares  sum of the squared residuals of all seeds and points, as changes of the logarithm of the parameter
-/// \param leverage see Fits \param points number of points of a fit
+/// Half the width of the 95 % confidence interval of the logarithm of a parameter if the targets are
+/// themselves means over `target_beds` measured beds. The error is then that of the calibrating beds and that
+/// of the target beds. The variance of a single bed is the variance between the fits of the seeds plus a part
+/// that a fit averages out: settling is chaotic, so that the bed of one seed is packed differently at each
+/// point.
+/// \param step     change of the logarithm from the best point to where the targets are met, mean over the
+/// seeds \param squares  sum of the squared residuals of all seeds and points, as changes of the logarithm of
+/// the parameter \param leverage see Fits \param points number of points of a fit
 double half_width_with_beds(const CalibrationTask &task, const MeanError &step, double squares,
                             double leverage, std::size_t points) {
   const double seeds = task.seeds, beds = task.target_beds;
@@ -165,9 +167,8 @@ Sensitivity sensitivity_at(const CalibrationTask &task, const std::vector<Evalua
       if (both > 0.0) found.correlation[i][j] = covariance(index(i), index(j)) / both;
     }
 
-  // The parameters that meet the targets differ from seed to seed. The confidence interval of an estimate follows from
-  // their scatter.
-  // The change of ln parameter is this times that of ln target.
+  // The parameters that meet the targets differ from seed to seed. The confidence interval of an estimate
+  // follows from their scatter. The change of ln parameter is this times that of ln target.
   const MatrixXd steps = inverse * weight.asDiagonal();
   for (std::size_t j = 0; j < parameters; ++j) {
     std::vector<double> of_seeds;

@@ -1,5 +1,5 @@
-// Local sensitivity of the targets to the parameters, which parameters the targets identify, and the confidence intervals of the
-// parameters, all from the evaluations near the best one.
+// Local sensitivity of the targets to the parameters, which parameters the targets identify, and the
+// confidence intervals of the parameters, all from the evaluations near the best one.
 #pragma once
 
 #include "calibration/evaluations.h"
@@ -30,8 +30,8 @@ struct Sensitivity {
   bool identified() const;
 };
 
-/// Distance, in ln parameter, of the points at which slopes are measured from the best point, and the largest of those that
-/// enter the fit.
+/// Distance, in ln parameter, of the points at which slopes are measured from the best point, and the largest
+/// of those that enter the fit.
 constexpr double slope_step = 0.4;
 constexpr double fit_reach = 2.5 * slope_step;
 /// A correlation above this, or below its negative, is one that cannot be resolved.
@@ -40,10 +40,11 @@ constexpr double most_correlation = 0.95;
 /// Points around one, along each parameter, for the fit: one step to both sides, within the ranges.
 std::vector<std::vector<double>> slope_points(const CalibrationTask &task, const std::vector<double> &centre);
 
-/// Fits the linear model to the evaluations near the best one in which no run failed, by least squares, for each seed separately. A
-/// parameter is not identified if the confidence intervals of all its slopes contain zero, or if its estimate is correlated with that
-/// of another parameter by more than most_correlation. One seed gives no confidence intervals: then no parameter is identified.
-/// Throws std::runtime_error if such evaluations do not determine all coefficients of the model.
+/// Fits the linear model to the evaluations near the best one in which no run failed, by least squares, for
+/// each seed separately. A parameter is not identified if the confidence intervals of all its slopes contain
+/// zero, or if its estimate is correlated with that of another parameter by more than most_correlation. One
+/// seed gives no confidence intervals: then no parameter is identified. Throws std::runtime_error if such
+/// evaluations do not determine all coefficients of the model.
 Sensitivity sensitivity_at(const CalibrationTask &task, const std::vector<Evaluation> &evaluations,
                            const Evaluation &best);
 

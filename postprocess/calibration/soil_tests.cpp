@@ -53,9 +53,9 @@ double number_of(const CalibrationTask &task, const std::vector<double> &point, 
   return value.empty() ? gravel : number_from_text(value);
 }
 
-/// Time step [s] for discs of a smallest radius of 16 mm: a sixteenth of an undamped contact of two of them, which takes
-/// pi sqrt(m/(2 k)). The longest stable step of the stepping `stock` is in proportion to sqrt(1 + D^2) - D: with more damping than
-/// gravel has the step is shorter in this proportion.
+/// Time step [s] for discs of a smallest radius of 16 mm: a sixteenth of an undamped contact of two of them,
+/// which takes pi sqrt(m/(2 k)). The longest stable step of the stepping `stock` is in proportion to sqrt(1 +
+/// D^2) - D: with more damping than gravel has the step is shorter in this proportion.
 double time_step(const CalibrationTask &task, const std::vector<double> &point) {
   constexpr double gravel_k = 1e9, gravel_D = 0.3, steps = 16.0;
   const double mass = pi * 0.016 * 0.016 * soil_density;
@@ -104,7 +104,8 @@ SoilTests::Point SoilTests::point_of(const Evaluation &evaluation, int seed) con
     for (const auto &[name, value] : variables)
       point.scene.settings.push_back({scope, name, value});
   };
-  // The soil settles with the contacts that it keeps: a change of k afterwards would wedge it between its walls, or loosen it.
+  // The soil settles with the contacts that it keeps: a change of k afterwards would wedge it between its
+  // walls, or loosen it.
   set(Scope::all, joined(point.law, {{"case", "gravel"}, {"dt", number_text(point.step, step_digits)}}));
   set(Scope::settle, values_of(task_, evaluation.point, std::array{pour_friction}));
   set(Scope::placed, values_of(task_, evaluation.point, std::array{"m2", "m3", "r2", "r3", "k23", "c23"}));

@@ -14,19 +14,19 @@ namespace drumlin::post {
 
 class DeckRun;
 
-/// Beds and samples of `case gravel` in the plane, under a roller, under a plate, in a biaxial test: those tests that a task's targets need.
-/// A bed settles for each point and seed, with the contacts of the point.
+/// Beds and samples of `case gravel` in the plane, under a roller, under a plate, in a biaxial test: those
+/// tests that a task's targets need. A bed settles for each point and seed, with the contacts of the point.
 class SoilTests {
 public:
   /// \param out folder of the calibration; the beds are in its folder beds
   SoilTests(CalibrationTask task, std::filesystem::path out);
 
-  /// The values of the targets at a point; SceneFault with the engine's reason, std::runtime_error for faults that may pass.
-  /// Thread-safe.
+  /// The values of the targets at a point; SceneFault with the engine's reason, std::runtime_error for faults
+  /// that may pass. Thread-safe.
   std::vector<double> measure(const Evaluation &evaluation, int seed) const;
 
-  /// The folder of the roller's run at a point, with bed.csv and parameters.csv; made if an earlier call has not kept it. Its parent
-  /// is the folder `records` of the calibration.
+  /// The folder of the roller's run at a point, with bed.csv and parameters.csv; made if an earlier call has
+  /// not kept it. Its parent is the folder `records` of the calibration.
   std::filesystem::path record(const Evaluation &evaluation, int seed) const;
 
 private:

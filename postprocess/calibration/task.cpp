@@ -169,8 +169,9 @@ void CalibrationTask::check() const {
     throw UsageError(
         refusal("--target E_v2", second->value,
                 fmt::format("no less than E_v1 = {:g} Pa, since a second loading is stiffer", first->value)));
-  // Averaged over a cycle, the contact force on the drum equals the weight of the roller. It acts for the share `contact` of the time and never exceeds
-  // the peak `force`. So peak times share cannot be less than the weight.
+  // Averaged over a cycle, the contact force on the drum equals the weight of the roller. It acts for the
+  // share `contact` of the time and never exceeds the peak `force`. So peak times share cannot be less than
+  // the weight.
   const CalibrationTarget *force = find_named(targets, "force"), *contact = find_named(targets, "contact");
   const double least = weight(*this) / (contact != nullptr ? contact->value : 1.0);
   if (force != nullptr && force->value > 0.0 && force->value < least) // 0: its value will be measured

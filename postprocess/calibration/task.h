@@ -1,4 +1,5 @@
-// What a calibration looks for: the parameters of a bed's contacts that vary, and the targets that they are to meet.
+// What a calibration looks for: the parameters of a bed's contacts that vary, and the targets that they are
+// to meet.
 #pragma once
 
 #include "support/range.h"
@@ -50,7 +51,8 @@ struct CalibrationTarget {
   double tolerance;
 };
 
-/// The masses m2 of the drum and m3 of the frame that inputs/bed/case.gravel has, per metre of drum width [kg/m].
+/// The masses m2 of the drum and m3 of the frame that inputs/bed/case.gravel has, per metre of drum width
+/// [kg/m].
 constexpr double gravel_drum = 2000.0, gravel_frame = 1000.0;
 
 /// A calibration: what varies, what is wanted, and on which beds it is measured.
@@ -65,16 +67,18 @@ struct CalibrationTask {
   int target_beds = 0;
 
   bool varies(const std::string &name) const;
-  /// Throws UsageError unless there are parameters and targets, each once, no more parameters than targets, no
-  /// parameter that is also fixed, and no targets that contradict each other.
+  /// Throws UsageError unless there are parameters and targets, each once, no more parameters than targets,
+  /// no parameter that is also fixed, and no targets that contradict each other.
   void check() const;
 };
 
-/// From "NAME=VALUE" or "NAME=VALUE:TOLERANCE"; the tolerance is 0.05 if it is not given. Throws UsageError for the option --target.
+/// From "NAME=VALUE" or "NAME=VALUE:TOLERANCE"; the tolerance is 0.05 if it is not given. Throws UsageError
+/// for the option --target.
 CalibrationTarget target_from_text(const std::string &text);
 /// From "NAME=LOW:HIGH". Throws UsageError for the option --vary.
 VariedParameter varied_from_text(const std::string &text);
-/// From "NAME=VALUE", NAME a parameter of the soil or a variable of the roller, VALUE a number. Throws UsageError for the option --set.
+/// From "NAME=VALUE", NAME a parameter of the soil or a variable of the roller, VALUE a number. Throws
+/// UsageError for the option --set.
 std::pair<std::string, std::string> fixed_from_text(const std::string &text);
 
 /// The quantity of that name. \pre there is one

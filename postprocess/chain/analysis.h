@@ -28,8 +28,8 @@ struct Extremes {
   double max = 0.0;
 };
 
-/// Number of complete excitation cycles in a history that starts at time 0.
-/// last_time and period in s; a last row within 1e-6 of a period counts as the full cycle.
+/// Number of complete excitation cycles in a history that starts at time 0. last_time and period in s; a last
+/// row within 1e-6 of a period counts as the full cycle.
 int complete_cycles(double last_time, double period);
 
 /// The last `count` of `complete` cycles as a window of time (all of them if there are fewer).
@@ -58,7 +58,8 @@ HarmonicAmplitudes harmonic_amplitudes(const std::vector<double> &time, const st
 /// reduced to an even number of rows that exist. No value if columns or rows are missing.
 std::optional<HarmonicAmplitudes> harmonic_amplitudes(const CycleColumns &cycles, std::size_t count);
 
-/// Harmonics over each cycle (m/s2) from the same columns, of orders 1, 2 and 1/2. Empty without these columns.
+/// Harmonics over each cycle (m/s2) from the same columns, of orders 1, 2 and 1/2. Empty without these
+/// columns.
 struct CycleHarmonics {
   std::vector<std::complex<double>> fundamental;
   std::vector<std::complex<double>> second;
@@ -69,8 +70,8 @@ CycleHarmonics cycle_harmonics(const CycleColumns &cycles);
 /// Drum acceleration (m/s2) just before and just after an event. The contact force jumps there, while the sum
 /// of the other forces on the drum, m2 a - F_contact, is continuous. If the history has the frame, this sum
 /// is evaluated by the equation of motion at the event: position and velocity of the drum are those of the
-/// event, those of the frame are interpolated between rows by cubic polynomials. Without the frame the sum
-/// is interpolated linearly between two rows.
+/// event, those of the frame are interpolated between rows by cubic polynomials. Without the frame the sum is
+/// interpolated linearly between two rows.
 struct EventAcceleration {
   double before = 0.0;
   double after = 0.0;

@@ -76,8 +76,8 @@ struct Polynomial {
 };
 
 // The one root between lo, where the polynomial is negative, and hi, where it is positive: Newton, kept
-// inside the bracket. A step that rounding makes zero leads to an end of the bracket; it ends the search
-// and is not replaced by a bisection.
+// inside the bracket. A step that rounding makes zero leads to an end of the bracket; it ends the search and
+// is not replaced by a bisection.
 double bracketed_root(const Polynomial &p, double lo, double hi) {
   constexpr double smallest = 4e-16; // s counts from 0 to 1
   double s = 0.5 * (lo + hi);
@@ -145,8 +145,8 @@ Control control_points(const double *coefficients, std::size_t terms) {
   return b;
 }
 
-// Whether the first `few` terms, with a bound of the others, show that the polynomial is negative. Their number
-// is known to the compiler, which makes this several times faster than control_points().
+// Whether the first `few` terms, with a bound of the others, show that the polynomial is negative. Their
+// number is known to the compiler, which makes this several times faster than control_points().
 template <std::size_t few>
 bool stays_below(const double *coefficients, std::size_t terms) {
   if (terms <= few) return false;
@@ -166,8 +166,8 @@ bool stays_below(const double *coefficients, std::size_t terms) {
 
 double first_upcrossing(const double *coefficients, std::size_t terms) {
   if (coefficients[0] > 0.0) return 0.0;
-  // Most pieces stay well below zero, which the first terms show, with a bound of the others. Eight
-  // suffice for a slow motion; while a heavily damped part of it decays, as many as sixteen are needed.
+  // Most pieces stay well below zero, which the first terms show, with a bound of the others. Eight suffice
+  // for a slow motion; while a heavily damped part of it decays, as many as sixteen are needed.
   if (stays_below<8>(coefficients, terms) || stays_below<16>(coefficients, terms)) return 2.0;
   return first_in({coefficients, terms}, control_points(coefficients, terms), 0.0, 1.0);
 }
@@ -324,8 +324,8 @@ void next_term(const Rows &a, const std::array<double, 4> &y, double factor, std
 
 } // namespace
 
-// Longer than other functions: it is the inner loop of maps, and both cases, with and without a fast mode, are
-// written out for speed.
+// Longer than other functions: it is the inner loop of maps, and both cases, with and without a fast mode,
+// are written out for speed.
 void PhaseDynamics::expand(MotionPiece &piece, const ChainState &from, double length, double sine,
                            double cosine) const {
   ChainState state = from;

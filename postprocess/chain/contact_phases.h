@@ -37,12 +37,12 @@ struct SampleRun {
 enum class SampleState { contact, flight, unclear };
 
 /// Standard deviation of the part of a signal that changes from sample to sample at random [unit of the
-/// signal]: the median of absolute third differences, which are small for a smooth signal and few at jumps.
-/// 0 for fewer than 8 samples.
+/// signal]: the median of absolute third differences, which are small for a smooth signal and few at jumps. 0
+/// for fewer than 8 samples.
 double noise_level(const std::vector<double> &signal);
 
-/// Limit below which each sample's force may be noise [N]: four times its standard deviation, a thousandth
-/// of the largest force, and the change of the excitation force by a phase error of `within` [rad].
+/// Limit below which each sample's force may be noise [N]: four times its standard deviation, a thousandth of
+/// the largest force, and the change of the excitation force by a phase error of `within` [rad].
 std::vector<double> force_limits(const DrumSignals &signals, double delta, double within);
 
 /// The least number of samples of a contact that is used: two of them determine where the drum was and how

@@ -778,9 +778,9 @@ std::string too_much_work(const ChainParameters &parameters, const DirectOptions
   if (options.cycles <= most) return {};
   return refusal(
       "cycles", options.cycles,
-      fmt::format("at most {:.3g} of this chain, which moves at up to {:.3g} rad/s against {:g} of "
-                  "the excitation",
-                  most, Chain(parameters).fastest(), parameters.omega));
+      fmt::format(
+          "at most {:.3g} of this chain, which moves at up to {:.3g} rad/s against {:g} of the excitation",
+          most, Chain(parameters).fastest(), parameters.omega));
 }
 
 DirectResult solve_direct(const ChainParameters &parameters, const DirectOptions &options,

@@ -16,8 +16,8 @@ namespace {
 
 constexpr double PI = 3.14159265358979323846; // its name in the decks
 
-// A line of a case as CMake takes it from the decks inputs/chain/case.*; a mass of 0 stands for the
-// defaults of the chain.
+// A line of a case as CMake takes it from the decks inputs/chain/case.*; a mass of 0 stands for the defaults
+// of the chain.
 struct CaseRow {
   const char *name;
   double k, D, omega;
@@ -58,10 +58,10 @@ std::string ChainParameters::invalid() const {
     if (const double value = this->*number.value; !number.range.holds(value))
       return refusal(number.name, value, number.range.words());
   if (k23 == 0.0 && g > 0.0)
-    return refusal("k23", k23,
-                   fmt::format("numbers above 0 [N/m], or 0 with g = 0: with g = {} the frame has nothing to "
-                               "rest on",
-                               g));
+    return refusal(
+        "k23", k23,
+        fmt::format("numbers above 0 [N/m], or 0 with g = 0: with g = {} the frame has nothing to rest on",
+                    g));
   return {};
 }
 

@@ -1,6 +1,6 @@
-// The lumped chain soil - drum - frame: its parameters, the cases of Table 1 of the paper (Wang, Sha and
-// Hu 2018) and of rollers, and the allowed ranges of the parameters. Everything is in SI units; x points
-// up and x_drum = 0 where drum and soil just touch.
+// The lumped chain soil - drum - frame: its parameters, the cases of Table 1 of the paper (Wang, Sha and Hu
+// 2018) and of rollers, and the allowed ranges of the parameters. Everything is in SI units; x points up and
+// x_drum = 0 where drum and soil just touch.
 #pragma once
 
 #include "support/range.h"
@@ -72,8 +72,8 @@ std::vector<std::pair<std::string, std::string>> parameter_values(const ChainPar
 /// A chain that has a name, as the deck inputs/chain/case.NAME sets it.
 struct NamedChain {
   ChainParameters parameters;
-  /// Eccentric moment m_e r_e of a roller's exciter [kg m], with which Fw = m_e r_e omega^2; none: Fw is
-  /// the same at any frequency.
+  /// Eccentric moment m_e r_e of a roller's exciter [kg m], with which Fw = m_e r_e omega^2; none: Fw is the
+  /// same at any frequency.
   std::optional<double> me_re;
 };
 
@@ -82,8 +82,8 @@ constexpr std::array<const char *, 11> chain_cases = {
     "I",           "II",         "III",         "IV",         "BW120-63Hz",   "BW120-67Hz",
     "CA3500-high", "CA3500-low", "CA6500-high", "CA6500-low", "Axas2020-29Hz"};
 
-/// The case of that name. Throws std::invalid_argument, which names the value and what is allowed, for
-/// any other name.
+/// The case of that name. Throws std::invalid_argument, which names the value and what is allowed, for any
+/// other name.
 NamedChain named_chain(const std::string &name, Transition transition);
 
 /// The names of the cases of the paper's Table 1.

@@ -71,8 +71,8 @@ std::optional<double> reference_velocity_error(const std::string &case_name, int
 /// The same for the integration scheme of the stock engine; the table has case II only.
 std::optional<double> reference_stock_velocity_error(const std::string &case_name, int steps_per_cycle);
 
-/// Share of the impact velocity that a single impact without gravity returns, closed form.
-/// transition "A" or "B"; damping_ratio D >= 0. A with D >= 1 gives 0: no rebound.
+/// Share of the impact velocity that a single impact without gravity returns, closed form. transition "A" or
+/// "B"; damping_ratio D >= 0. A with D >= 1 gives 0: no rebound.
 double closed_form_restitution(const std::string &transition, double damping_ratio);
 
 } // namespace drumlin::post

@@ -109,8 +109,8 @@ void judge_sieve(const Arguments &arguments, BedRequest &request) {
                             : default_cut(curve, request.packing));
 }
 
-/// A layer from THICKNESS[:SIEVE[:CUT]]. \param box what the layer shares with the others; its number of balls is the
-/// layer's share of --balls
+/// A layer from THICKNESS[:SIEVE[:CUT]]. \param box what the layer shares with the others; its number of
+/// balls is the layer's share of --balls
 BedRequest::Layer asked_layer(const std::string &text, const PackingOptions &box) {
   std::vector<std::string> parts;
   boost::split(parts, text, [](char letter) { return letter == ':'; });
@@ -131,8 +131,8 @@ BedRequest::Layer asked_layer(const std::string &text, const PackingOptions &box
   return layer;
 }
 
-/// Refuses options that have no effect with these layers: the number of balls decides where a sieve curve is cut that has no
-/// cut of its own, and radii are those of layers without a curve.
+/// Refuses options that have no effect with these layers: the number of balls decides where a sieve curve is
+/// cut that has no cut of its own, and radii are those of layers without a curve.
 void judge_effects(const Arguments &arguments) {
   const auto any_has = [&arguments](std::ptrdiff_t parts) {
     return std::any_of(arguments.layers.begin(), arguments.layers.end(), [parts](const std::string &layer) {

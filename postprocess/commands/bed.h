@@ -23,11 +23,11 @@ struct BedRequest {
   std::filesystem::path out = "results/bed/balls.data"; ///< its folder is made if missing
 };
 
-/// Packs the balls, writes the data file that inputs/bed/in.settle reads, and prints one line about it. With a
-/// grading that was asked for it also prints a table of d10 to d60, C_u and C_c, and draws the grading of the
-/// balls beside the one asked for, each layer in a panel of its own: OUT_grading.csv, .gp, .svg and .png, where OUT is
-/// the file without extension.
-/// Throws UsageError for options that no packing fulfils and for a file that cannot be written.
+/// Packs the balls, writes the data file that inputs/bed/in.settle reads, and prints one line about it. With
+/// a grading that was asked for it also prints a table of d10 to d60, C_u and C_c, and draws the grading of
+/// the balls beside the one asked for, each layer in a panel of its own: OUT_grading.csv, .gp, .svg and .png,
+/// where OUT is the file without extension. Throws UsageError for options that no packing fulfils and for a
+/// file that cannot be written.
 void write_bed(const BedRequest &request);
 
 } // namespace drumlin::post

@@ -78,8 +78,8 @@ std::string judged_name(const std::string &name) {
 
 constexpr const char *at_once_name = "points at a time";
 
-/// How many points the search asks for at a time: as many as give work to all jobs, or as many as an earlier call asked for, so that
-/// this one finds the same.
+/// How many points the search asks for at a time: as many as give work to all jobs, or as many as an earlier
+/// call asked for, so that this one finds the same.
 int points_at_once(const fs::path &settings, int jobs, int seeds) {
   const int now = std::max(1, jobs / seeds);
   if (!fs::is_regular_file(settings)) return now;
@@ -103,7 +103,8 @@ std::string settings_text(const CalibrationTask &task, int at_once) {
   return text + csv_line({at_once_name, std::to_string(at_once)});
 }
 
-/// What a user does with a case file: the decks take it from their own folder, which in an installation cannot be written.
+/// What a user does with a case file: the decks take it from their own folder, which in an installation
+/// cannot be written.
 std::string use_of(const fs::path &case_file, const std::string &name) {
   const fs::path decks = places().inputs / "bed";
   if (!places().installed && ::access(decks.c_str(), W_OK) == 0)
@@ -116,7 +117,8 @@ std::string use_of(const fs::path &case_file, const std::string &name) {
                      front_command());
 }
 
-/// The chain beside the roller's record of each seed at the best point; nothing if no target is measured by the roller.
+/// The chain beside the roller's record of each seed at the best point; nothing if no target is measured by
+/// the roller.
 std::vector<LumpedComparison> compared_records(const CalibrationTask &task, const Calibration &found,
                                                const SoilTests &tests) {
   std::vector<LumpedComparison> compared;

@@ -14,8 +14,8 @@ void add_bed_command(CLI::App &app, Session &session);
 /// `calibrate`: finds contact parameters for which measured properties of a bed equal given targets.
 void add_calibrate_command(CLI::App &app, Session &session);
 
-/// `demo [--cycles N] [--balls N]`: the paper's cases and a bed under both transitions, with a report on them.
-/// Writes results/demo and report in the working folder.
+/// `demo [--cycles N] [--balls N]`: the paper's cases and a bed under both transitions, with a report on
+/// them. Writes results/demo and report in the working folder.
 void add_demo_command(CLI::App &app, Session &session);
 
 /// `exact`: solves a case of the chain by the direct solver. Writes chain.csv, events.csv, cycles.csv and

@@ -263,10 +263,9 @@ void run(const Arguments &arguments) {
   const Plan plan = plan_of(arguments);
   if (const std::string fault = engine_fault(Engine::liggghts); !fault.empty()) throw UsageError(fault);
   if (::access(".", W_OK) != 0)
-    throw UsageError(
-        fmt::format("results and report are written to the working folder '{}'; allowed: one that "
-                    "can be written",
-                    fs::current_path().string()));
+    throw UsageError(fmt::format(
+        "results and report are written to the working folder '{}'; allowed: one that can be written",
+        fs::current_path().string()));
   keep_apart({}, {{"the folder", results_folder, true},
                   {"the report", output_folder_option("report", page_folder), true}});
   std::signal(SIGPIPE, SIG_IGN); // print() reports a closed pipe
@@ -285,16 +284,13 @@ void add_demo_command(CLI::App &app, Session &) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App *demo = app.add_subcommand(
       "demo",
-      "Runs the single impact, the four cases of the paper and a roller on a bed, under transition A and "
-      "B; the cases in LAMMPS, too, if it is set up. Maps the roller's regimes and what its meter says of "
-      "the soil. Writes results/demo and report in the working folder. "
-      "Takes some five minutes.");
-  text_option(
-      demo, "--cycles", "COUNT", arguments->cycles,
-      fmt::format(
-          "cycles of each run of chain and bed; {} and {} if not given. Below 100 the report does not "
-          "judge the chain by reference values",
-          chain_cycles, bed_cycles));
+      "Runs the single impact, the four cases of the paper and a roller on a bed, under transition A and B; "
+      "the cases in LAMMPS, too, if it is set up. Maps the roller's regimes and what its meter says of the "
+      "soil. Writes results/demo and report in the working folder. Takes some five minutes.");
+  text_option(demo, "--cycles", "COUNT", arguments->cycles,
+              fmt::format("cycles of each run of chain and bed; {} and {} if not given. Below 100 the report "
+                          "does not judge the chain by reference values",
+                          chain_cycles, bed_cycles));
   text_option(
       demo, "--balls", "COUNT", arguments->balls,
       fmt::format("soil balls of the bed, {} or more; {} if not given. The box gets narrower with fewer",

@@ -1,5 +1,5 @@
-// A record on a command line: the file, and how a measured one is read. One rule and one kind of message for all subcommands
-// that take a record.
+// A record on a command line: the file, and how a measured one is read. One rule and one kind of message for
+// all subcommands that take a record.
 #pragma once
 
 #include "record/record.h"
@@ -31,7 +31,8 @@ void add_record_options(CLI::App &command, RecordArguments &arguments);
 /// The files that make up the record: of a run all from which it may be read.
 std::vector<GivenPath> files_of(const RecordArguments &arguments);
 
-/// Reads the record that was asked for; UsageError for options that cannot be used, std::runtime_error for a file that cannot.
+/// Reads the record that was asked for; UsageError for options that cannot be used, std::runtime_error for a
+/// file that cannot.
 Record judged(const RecordArguments &arguments);
 
 } // namespace drumlin::post

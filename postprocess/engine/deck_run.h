@@ -10,8 +10,8 @@
 
 namespace drumlin::post {
 
-/// What the scene of a run causes: the same run fails in the same way whenever it is made again. All other faults, such as those
-/// of a full disk or of an engine that was killed, may pass.
+/// What the scene of a run causes: the same run fails in the same way whenever it is made again. All other
+/// faults, such as those of a full disk or of an engine that was killed, may pass.
 class SceneFault : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;
@@ -25,8 +25,8 @@ public:
   DeckRun(const std::string &deck, const Variables &variables, int ranks = 1, double limit = 3600.0);
 
   const Outcome &outcome() const { return outcome_; }
-  /// Throws std::runtime_error with the engine's ERROR line, or its exit status, if the run failed: SceneFault if the engine ended
-  /// by itself, with a line that names neither files nor signals.
+  /// Throws std::runtime_error with the engine's ERROR line, or its exit status, if the run failed:
+  /// SceneFault if the engine ended by itself, with a line that names neither files nor signals.
   const DeckRun &must_succeed() const;
   /// A file that the run wrote.
   std::filesystem::path file(const std::string &name) const { return folder_ / name; }

@@ -76,8 +76,8 @@ constexpr std::array<const char *, 4> single_rank_environment = {"OMPI_MCA_ess_s
                                                                  "OMPI_MCA_orte_create_session_dirs=0",
                                                                  "OMPI_MCA_pml=ob1", "OMPI_MCA_btl=self"};
 
-/// mpirun with its options. Ranks that share the cores of this machine need no network: without the search for
-/// one a start takes half as long.
+/// mpirun with its options. Ranks that share the cores of this machine need no network: without the search
+/// for one a start takes half as long.
 std::vector<std::string> mpirun_words(int ranks, Cores cores) {
   std::vector<std::string> words = {"mpirun"};
   if (cores == Cores::shared)

@@ -32,8 +32,8 @@ std::vector<std::string> plain_words(std::vector<std::string> words);
 /// Whether a run on several ranks has the processor cores for itself.
 enum class Cores {
   own,   ///< this run's alone: ranks as mpirun places them
-  shared ///< other runs use them at the same time: ranks are not bound to cores, give way while they wait, and
-         ///< start without what only runs on several machines need
+  shared ///< other runs use them at the same time: ranks are not bound to cores, give way while they wait,
+         ///< and start without what only runs on several machines need
 };
 
 /// A command, complete but not started.
@@ -47,8 +47,8 @@ struct EngineCommand {
 /// \param deck a file; the working folder of the run must be the one from which it is named
 /// \param words further arguments for the engine, behind those that are always there; of a variable given
 /// twice the first counts
-/// \param ranks number of MPI processes, >= 1
-/// Throws UsageError if the engine cannot be started: see engine_fault().
+/// \param ranks number of MPI processes, >= 1 Throws UsageError if the engine cannot be started: see
+/// engine_fault().
 EngineCommand engine_command(const std::filesystem::path &deck, const std::vector<std::string> &words,
                              int ranks, Cores cores = Cores::own);
 

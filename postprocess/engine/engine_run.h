@@ -13,10 +13,9 @@ namespace drumlin::post {
 /// Values for a deck's variables, given by -var.
 using Variables = std::vector<std::pair<std::string, std::string>>;
 
-/// Runs a deck with the plugin on a number of ranks, for at most `limit` seconds or until `stop_when`; `out` is
-/// set to the folder. A deck whose name ends in
-/// .lammps is run by LAMMPS, any other by LIGGGHTS. Throws UsageError, a std::runtime_error, if that engine
-/// cannot be started: see engine_fault().
+/// Runs a deck with the plugin on a number of ranks, for at most `limit` seconds or until `stop_when`; `out`
+/// is set to the folder. A deck whose name ends in .lammps is run by LAMMPS, any other by LIGGGHTS. Throws
+/// UsageError, a std::runtime_error, if that engine cannot be started: see engine_fault().
 Outcome run_deck(const std::filesystem::path &deck, const Variables &variables,
                  const std::filesystem::path &folder, int ranks = 1, double limit = 600.0,
                  const StopCondition &stop_when = {});

@@ -24,7 +24,8 @@ std::string with_unit(const std::string &label, const std::string &unit) {
 std::string change_unit(const Quantity &quantity) { return quantity.absolute ? quantity.shown_unit : "%"; }
 double change_scale(const Quantity &quantity) { return quantity.absolute ? quantity.scale : 100.0; }
 
-/// A number with so many significant digits, or all of those before the point, and no exponent where it is not needed.
+/// A number with so many significant digits, or all of those before the point, and no exponent where it is
+/// not needed.
 std::string rounded(double value, int digits, bool with_sign = false) {
   constexpr double most = 1e7;
   const bool whole = std::fabs(value) >= std::pow(10.0, digits) && std::fabs(value) < most;
@@ -109,14 +110,12 @@ PageTable effect_table(const Plan &plan, const std::vector<Effect> &effects) {
   }
   table.notes = {
       "Mean change and half of its 95 % confidence interval (Student's t), in percent of the mean of what it "
-      "is "
-      "compared with, or in the unit of a quantity whose mean may be about zero. * marks changes whose "
+      "is compared with, or in the unit of a quantity whose mean may be about zero. * marks changes whose "
       "interval does not contain zero; by chance alone one of twenty has it.",
       "Changes are taken seed by seed, so that what two scenes on beds of one seed share cancels."};
   if (std::any_of(effects.begin(), effects.end(), [](const Effect &one) { return !one.compared->paired; }))
-    table.notes.emplace_back(
-        "Where the beds of two scenes have nothing in common, the change is the difference "
-        "of the means, with the scatter of both (Welch).");
+    table.notes.emplace_back("Where the beds of two scenes have nothing in common, the change is the "
+                             "difference of the means, with the scatter of both (Welch).");
   return table;
 }
 
@@ -301,10 +300,9 @@ std::string effects_words(const std::vector<Effect> &effects, const std::vector<
         break;
       }
   if (effects.empty()) return "There is no comparison yet.";
-  return fmt::format(
-      "{} of {} differences between scenes change at least one quantity by more than the scatter of the "
-      "seeds (95 % confidence interval without zero){}{}.",
-      names.size(), effects.size(), names.empty() ? "" : ": ", fmt::join(names, "; "));
+  return fmt::format("{} of {} differences between scenes change at least one quantity by more than the "
+                     "scatter of the seeds (95 % confidence interval without zero){}{}.",
+                     names.size(), effects.size(), names.empty() ? "" : ": ", fmt::join(names, "; "));
 }
 
 std::string cost_words(const Plan &plan, const Results &results) {

@@ -204,9 +204,9 @@ void Fitter::collect() {
 // Whether the last unknown follows from its own equation alone.
 bool last_is_alone(const Matrix3d &m) { return m(2, 0) == 0.0 && m(2, 1) == 0.0; }
 
-// Solves m y = right. If the phase is that of the flights, its equation is solved first: in a record with hardly
-// any noise the force depends on the phase so much more than the phase's own equation does that a general method
-// takes the latter for zero.
+// Solves m y = right. If the phase is that of the flights, its equation is solved first: in a record with
+// hardly any noise the force depends on the phase so much more than the phase's own equation does that a
+// general method takes the latter for zero.
 Vector3d solved(const Matrix3d &m, const Vector3d &right) {
   if (!last_is_alone(m)) return m.fullPivLu().solve(right);
   Vector3d y;
@@ -215,8 +215,8 @@ Vector3d solved(const Matrix3d &m, const Vector3d &right) {
   return y;
 }
 
-// The inverse of the matrix of the normal equations, with unknowns of unit size. Not symmetric if the phase is
-// that of the flights.
+// The inverse of the matrix of the normal equations, with unknowns of unit size. Not symmetric if the phase
+// is that of the flights.
 Matrix3d inverse_of(const Matrix3d &normal) {
   const Vector3d sizes = normal.diagonal().cwiseSqrt();
   if (!(sizes.minCoeff() > 0.0) || !sizes.allFinite())

@@ -9,8 +9,8 @@
 // squares of three kinds of residuals: of the force, of the measured position, of the measured velocity
 // (maximum likelihood for normal noise, weights from the residuals themselves). This is the total least
 // squares problem with the kinematics as constraint. Without measured position and velocity the residuals of
-// the force alone determine k and c; a drift of the integrated acceleration is part of x0 and v0.
-// x0 and v0 are eliminated contact by contact (variable projection, Golub and Pereyra 1973).
+// the force alone determine k and c; a drift of the integrated acceleration is part of x0 and v0. x0 and v0
+// are eliminated contact by contact (variable projection, Golub and Pereyra 1973).
 #pragma once
 
 #include "chain/contact_phases.h"
@@ -27,8 +27,8 @@ namespace drumlin::post {
 /// What is known besides the signals.
 struct IdentificationSetting {
   double m2 = 0.0; ///< mass of the drum [kg]
-  /// Whether x_drum = 0 is where drum and soil just touch. If not, each contact has an unknown origin, as on a
-  /// bed that settles.
+  /// Whether x_drum = 0 is where drum and soil just touch. If not, each contact has an unknown origin, as on
+  /// a bed that settles.
   bool known_origin = true;
   /// Largest error of the exciter's phase [rad], 0 to 0.35: equally probable within it. 0: the phase is
   /// exact.

@@ -53,9 +53,9 @@ struct IdentifiedRecord {
   std::vector<LawWindow> windows;
 };
 
-/// The signals of a record, from its accelerations, masses and excitation; the record's column
-/// F_contact is not used. If the record has no acceleration of the frame, it is taken as zero. Gravity is 9.81 m/s2 if the record does not
-/// give it. std::runtime_error with one line for what is missing.
+/// The signals of a record, from its accelerations, masses and excitation; the record's column F_contact is
+/// not used. If the record has no acceleration of the frame, it is taken as zero. Gravity is 9.81 m/s2 if the
+/// record does not give it. std::runtime_error with one line for what is missing.
 DrumSignals signals_of(const Record &record, bool accelerations_only);
 
 /// Identifies a record; std::runtime_error with one line if it cannot be done. `progress` is called with what

@@ -74,8 +74,9 @@ ChainParameters chain_of(const Record &record, const IdentifiedRecord &found) {
   return chain;
 }
 
-/// The drum's position from the origin of the law, at which spring and dashpot would have no force at rest. Each contact has its own
-/// origin; samples whose force is too small to be fitted have that of the nearest sample that is fitted. NaN out of contact [m].
+/// The drum's position from the origin of the law, at which spring and dashpot would have no force at rest.
+/// Each contact has its own origin; samples whose force is too small to be fitted have that of the nearest
+/// sample that is fitted. NaN out of contact [m].
 std::vector<double> position_from_origin(const Record &record, const Identification &whole) {
   const std::vector<double> force = soil_force(record);
   const std::vector<double> &x = record.x_drum.empty() ? whole.x : record.x_drum;
@@ -147,8 +148,8 @@ CycleValues reach_of(const ChainParameters &chain, const LawEstimate &law, int s
   return squares;
 }
 
-/// The part of the chain's steady motion, a whole number of cycles from its beginning, that lies closest to the record's last
-/// cycles: a motion of period 2 would else be drawn in the other cycle.
+/// The part of the chain's steady motion, a whole number of cycles from its beginning, that lies closest to
+/// the record's last cycles: a motion of period 2 would else be drawn in the other cycle.
 ChainHistory closest_part(const Record &record, const ChainHistory &steady, std::size_t samples) {
   const std::size_t length = std::min(record.size(), steady.size());
   std::size_t best = 0;
@@ -203,17 +204,19 @@ ComparedQuantity together(const std::vector<LumpedComparison> &records, std::siz
   return {mean_interval(measured), mean_interval(lumped).mean, mean_interval(differences)};
 }
 
-/// Whether the interval of a difference does not contain zero, and the difference is large enough to count: the decay of the motion
-/// from rest, and rounding, make differences, too.
+/// Whether the interval of a difference does not contain zero, and the difference is large enough to count:
+/// the decay of the motion from rest, and rounding, make differences, too.
 bool beyond_scatter(const ComparedQuantity &value, std::size_t q) {
-  // Of the chain's value. Work is summed over samples, of which none is at the instant at which the drum lands.
+  // Of the chain's value. Work is summed over samples, of which none is at the instant at which the drum
+  // lands.
   const double share = q == static_cast<std::size_t>(CycleQuantity::work) ? 0.05 : 0.01;
   return value.difference.significant() &&
          std::fabs(value.difference.mean) > std::max(share * std::fabs(value.lumped), texts.at(q).negligible);
 }
 
-/// A difference and its interval in per cent of the chain's value, or in the unit of the label where the chain's value is almost zero. The
-/// CMV of the chain, for example, is zero if contact is never lost. \param sign whether the text has the sign of the difference
+/// A difference and its interval in per cent of the chain's value, or in the unit of the label where the
+/// chain's value is almost zero. The CMV of the chain, for example, is zero if contact is never lost. \param
+/// sign whether the text has the sign of the difference
 std::string difference_text(const ComparedQuantity &value, std::size_t q, bool sign) {
   const bool relative = std::fabs(value.lumped) > texts.at(q).negligible;
   const double scale = relative ? 100.0 / std::fabs(value.lumped) : texts.at(q).scale;
@@ -253,14 +256,12 @@ std::string reason(CycleQuantity quantity, bool larger) {
 
 PageFigure motion_figure(const LumpedComparison &one, int number) {
   constexpr const char *name = "chain_and_bed";
-  PageFigure figure =
-      page_figure(fmt::format("Fig. {}", number),
-                  "The record's last four cycles and, over them, the chain with the k and D that were "
-                  "identified in it, in its "
-                  "steady motion. Left: acceleration of the drum. Right: contact force over the position of "
-                  "the drum, from "
-                  "the origin of the law, which was found for each contact of the record.",
-                  {name, "Chain and record over each other", {}, 2}, 3.0);
+  PageFigure figure = page_figure(
+      fmt::format("Fig. {}", number),
+      "The record's last four cycles and, over them, the chain with the k and D that were identified in it, "
+      "in its steady motion. Left: acceleration of the drum. Right: contact force over the position of the "
+      "drum, from the origin of the law, which was found for each contact of the record.",
+      {name, "Chain and record over each other", {}, 2}, 3.0);
   CurveTable data("cycles,drum position (mm),drum acceleration (m/s2),contact force (kN)");
   const double per_cycle = one.record.period() / one.record.interval;
   const std::size_t length = one.lumped.size();
@@ -294,12 +295,11 @@ PageFigure motion_figure(const LumpedComparison &one, int number) {
 
 PageFigure cycle_figure(const LumpedComparison &one, int number) {
   constexpr const char *name = "cycle_by_cycle";
-  PageFigure figure =
-      page_figure(fmt::format("Fig. {}", number),
-                  fmt::format("The same for each cycle of the record; line: mean of {} cycles of the "
-                              "chain. Cycles from {} on count.",
-                              one.lumped_cycles.size(), one.first + 1),
-                  {name, "Cycle by cycle", {}, 2});
+  PageFigure figure = page_figure(fmt::format("Fig. {}", number),
+                                  fmt::format("The same for each cycle of the record; line: mean of {} "
+                                              "cycles of the chain. Cycles from {} on count.",
+                                              one.lumped_cycles.size(), one.first + 1),
+                                  {name, "Cycle by cycle", {}, 2});
   CurveTable data("cycle,acceleration,force,contact,CMV,work");
   const auto rows = [&](const char *curve_name, double cycle, const CycleValues &values) {
     std::array<double, cycle_quantities.size()> shown{};
@@ -341,13 +341,12 @@ PageTable comparison_table(const std::vector<LumpedComparison> &records) {
                fmt::format("{:.4g}", scale * value.lumped), difference_text(value, q, true),
                beyond_scatter(value, q) ? "yes" : "no"});
   }
-  table.notes = {records.size() == 1 ? "After the ±: half of a 95 % confidence interval, over the cycles "
-                                       "that count; that of the difference contains "
-                                       "the intervals of k and D, too."
-                                     : fmt::format("Means over {} records, each beside a chain with its own "
-                                                   "k and D; after the ±: half of the 95 % "
-                                                   "confidence interval over the records.",
-                                                   records.size()),
+  table.notes = {records.size() == 1
+                     ? "After the ±: half of a 95 % confidence interval, over the cycles that count; that of "
+                       "the difference contains the intervals of k and D, too."
+                     : fmt::format("Means over {} records, each beside a chain with its own k and D; after "
+                                   "the ±: half of the 95 % confidence interval over the records.",
+                                   records.size()),
                  "Work on the soil in a cycle is the area of the force loop."};
   return table;
 }
@@ -376,8 +375,9 @@ LumpedComparison compare_lumped(const Record &record, const IdentifiedRecord &fo
   result.lumped = chain_record(result.chain, closest_part(record, steady, static_cast<std::size_t>(samples)));
   result.record_cycles = values_of(record);
   result.lumped_cycles = values_of(chain_record(result.chain, steady));
-  // The second half of the cycles is compared, and one cycle more if that is an odd number: the motion may repeat only after two cycles, and
-  // on soft soil high and low peaks alternate while the motion from rest decays. An odd number would count one kind more often.
+  // The second half of the cycles is compared, and one cycle more if that is an odd number: the motion may
+  // repeat only after two cycles, and on soft soil high and low peaks alternate while the motion from rest
+  // decays. An odd number would count one kind more often.
   const std::size_t all = result.record_cycles.size();
   result.first = all / 2;
   if ((all - result.first) % 2 == 1 && result.first > 0) --result.first;
@@ -418,12 +418,10 @@ std::vector<std::string> lumped_answer(const std::vector<LumpedComparison> &reco
     settlement += one.settlement / static_cast<double>(records.size());
   }
   lines.push_back(fmt::format("Spring and dashpot explain {:.0f} % of the variance of the contact force; the "
-                              "rest is what a lumped soil "
-                              "cannot follow.",
+                              "rest is what a lumped soil cannot follow.",
                               100.0 * r2));
   lines.push_back(fmt::format("The drum {} by {:.2g} mm per cycle, and the cycles of the record differ from "
-                              "each other; the chain's soil "
-                              "neither settles nor changes.",
+                              "each other; the chain's soil neither settles nor changes.",
                               settlement >= 0.0 ? "sinks" : "rises", 1e3 * std::fabs(settlement)));
   return lines;
 }

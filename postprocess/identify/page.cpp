@@ -38,10 +38,9 @@ std::string pull_sentence(const Identification &found) {
   if (found.pull == Pull::does_not_pull)
     return fmt::format(
         "The contact does not pull (transition B): under A it would, with {} before each break.", tension);
-  return has_flights(found)
-             ? "Whether the contact can pull cannot be told: the tension under A would be too small or too "
-               "short to be seen."
-             : "Whether the contact can pull cannot be told: contact is not lost.";
+  return has_flights(found) ? "Whether the contact can pull cannot be told: the tension under A would be too "
+                              "small or too short to be seen."
+                            : "Whether the contact can pull cannot be told: contact is not lost.";
 }
 
 // Whether nothing in the record tells the phase, so that its uncertainty decides over that of k and c.
@@ -109,9 +108,9 @@ PageFigure loop_figure(const IdentifiedRecord &record) {
   PageFigure figure;
   figure.label = "Fig. 1";
   figure.weight = 2.0;
-  figure.caption = "Contact force over the position of the drum and over time in the last four cycles: force "
-                   "from the equations of motion, and law that was fitted to it. The position is the fitted "
-                   "motion.";
+  figure.caption =
+      "Contact force over the position of the drum and over time in the last four cycles: force from the "
+      "equations of motion, and law that was fitted to it. The position is the fitted motion.";
   if (!record.positions || !record.known_origin)
     figure.caption += " Its origin was found for each contact: the law has no force at rest there.";
   figure.figure = {name, "Contact force and fitted law", {}, 2};
@@ -230,14 +229,13 @@ std::vector<std::string> identification_answer(const IdentifiedRecord &record) {
       source_sentence(record)};
   if (phase_decides(record))
     lines.emplace_back(
-        "Contact is not lost and no position from the point of first contact is known: an error "
-        "of the phase acts on the force as k and c do, and makes most of their intervals. A "
-        "phase known better, or stiffer soil, on which the drum lifts off, narrows them.");
+        "Contact is not lost and no position from the point of first contact is known: an error of the phase "
+        "acts on the force as k and c do, and makes most of their intervals. A phase known better, or "
+        "stiffer soil, on which the drum lifts off, narrows them.");
   if (record.k_B && record.k_1)
-    lines.push_back(
-        fmt::format("A meter would show k_B = {:.4g} MN/m, with the forces of the frame {:.4g} MN/m: the "
-                    "soil's stiffness in unbroken contact only.",
-                    *record.k_B / 1e6, *record.k_1 / 1e6));
+    lines.push_back(fmt::format("A meter would show k_B = {:.4g} MN/m, with the forces of the frame {:.4g} "
+                                "MN/m: the soil's stiffness in unbroken contact only.",
+                                *record.k_B / 1e6, *record.k_1 / 1e6));
   if (record.force_difference >= 0.0)
     lines.push_back(fmt::format("The force differs from F_contact of the record by {:.1e} of its RMS.",
                                 record.force_difference));
@@ -298,16 +296,12 @@ void write_identification_page(const std::filesystem::path &out, const Identifie
   page.section("Method");
   page.paragraph(
       "The contact force follows from the equations of motion, F = m2 a2 + m3 a3 + (m2 + m3) g + Fe. While "
-      "drum "
-      "and soil touch, the law is F = -k x - c v, with x and v the integrals of the measured acceleration "
-      "from "
-      "the start of each contact and their two integration constants as unknowns. k, c, the phase of the "
-      "exciter and these constants minimize the squared residuals of force, position and velocity together, "
-      "each weighted by its own scatter. Confidence intervals allow any correlation of the residuals within "
-      "a "
-      "contact (or a cycle of one that lasts longer). They cover scatter and the phase, not what the law "
-      "leaves "
-      "out: a pattern in the residuals shows that.");
+      "drum and soil touch, the law is F = -k x - c v, with x and v the integrals of the measured "
+      "acceleration from the start of each contact and their two integration constants as unknowns. k, c, "
+      "the phase of the exciter and these constants minimize the squared residuals of force, position and "
+      "velocity together, each weighted by its own scatter. Confidence intervals allow any correlation of "
+      "the residuals within a contact (or a cycle of one that lasts longer). They cover scatter and the "
+      "phase, not what the law leaves out: a pattern in the residuals shows that.");
   page.write();
 }
 

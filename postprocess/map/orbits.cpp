@@ -250,7 +250,7 @@ std::optional<OrbitChange> locate_contact_loss(const ChainFamily &family, double
 }
 
 std::optional<OrbitChange> locate_doubling(const ChainFamily &family, double from, double to,
-                                      const PeriodicOrbit &start) {
+                                           const PeriodicOrbit &start) {
   const auto determinant = [](const PeriodicOrbit &orbit) {
     return (orbit.passage.jacobian + Eigen::Matrix4d::Identity()).determinant();
   };

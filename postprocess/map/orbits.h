@@ -103,6 +103,6 @@ std::optional<OrbitChange> locate_contact_loss(const ChainFamily &family, double
 /// Where a multiplier of the orbit that begins as `start` at `from` passes -1. No value if the sign of det(J
 /// + I) is the same at both ends or the orbit cannot be followed.
 std::optional<OrbitChange> locate_doubling(const ChainFamily &family, double from, double to,
-                                      const PeriodicOrbit &start);
+                                           const PeriodicOrbit &start);
 
 } // namespace drumlin::post

@@ -134,8 +134,8 @@ std::optional<PeriodicOrbit> settled_orbit(const ChainParameters &parameters, in
   return orbit && orbit->stable() ? orbit : std::nullopt;
 }
 
-// The value between two at which contact begins to be lost, by bisection to rounding: the margin of contact has
-// one sign at `from`, the other at `to`.
+// The value between two at which contact begins to be lost, by bisection to rounding: the margin of contact
+// has one sign at `from`, the other at `to`.
 double loss_of_contact(const ChainFamily &family, double from, double to) {
   const bool held = contact_margin(family(from)) > 0.0;
   for (int i = 0; i < 60; ++i) {

@@ -49,8 +49,8 @@ struct MapGrid {
   ChainParameters at(double x_value, double y_value) const;
 };
 
-/// Judges points of a map, given by their numbers, by several threads; `done` gets some of them after others, in order: the place
-/// of the first in `numbers`, and the points.
+/// Judges points of a map, given by their numbers, by several threads; `done` gets some of them after others,
+/// in order: the place of the first in `numbers`, and the points.
 void judge_points(const MapGrid &grid, const std::vector<std::size_t> &numbers, int threads,
                   const std::function<void(std::size_t, const std::vector<RegimePoint> &)> &done);
 

@@ -48,8 +48,8 @@ double at(const std::vector<double> &values, std::size_t row, double share) {
 
 std::complex<double> turn(double angle) { return {std::cos(angle), -std::sin(angle)}; }
 
-/// Adds the harmonics of acceleration computed from differences of velocity. The mean acceleration between two
-/// samples is assigned to the instant half-way between them. Taking this mean reduces the amplitude of a
+/// Adds the harmonics of acceleration computed from differences of velocity. The mean acceleration between
+/// two samples is assigned to the instant half-way between them. Taking this mean reduces the amplitude of a
 /// steady oscillation; division by the ratio sin(x)/x corrects this.
 void add_from_velocity(const Record &record, std::vector<MeterCycle> &cycles) {
   const std::vector<double> &v = record.v_drum;
@@ -85,7 +85,8 @@ void add_from_acceleration(const Record &record, std::vector<MeterCycle> &cycles
         return at(a, part.row, share) * turn(frequency * (record.time[part.row] + share * h));
       };
       cycles[part.cycle].acceleration[j] += scale * 0.5 * length * (between(part.from) + between(part.to));
-      // A jump of height J between two samples makes two second differences of J, and an error of J h / 2 at most.
+      // A jump of height J between two samples makes two second differences of J, and an error of J h / 2 at
+      // most.
       if (part.row > 0)
         cycles[part.cycle].bound[j] +=
             scale * 0.25 * length *

@@ -29,7 +29,8 @@ struct MeterCycle {
   double begin = 0.0; ///< [s]
   /// Harmonics of the drum's acceleration over this cycle, by meter_orders, phases counted from time 0 [m/s2]
   std::array<std::complex<double>, meter_orders.size()> acceleration{};
-  /// How far each may be off by jumps between samples and by curvature [m/s2]; 0 for HarmonicSource::every_step.
+  /// How far each may be off by jumps between samples and by curvature [m/s2]; 0 for
+  /// HarmonicSource::every_step.
   std::array<double, meter_orders.size()> bound{};
   std::optional<std::complex<double>> frame;      ///< order 1 of the frame's acceleration [m/s2]
   std::optional<std::complex<double>> excitation; ///< order 1 of F_e, positive down [N]
@@ -50,18 +51,22 @@ struct MeterRecord {
   std::vector<MeterCycle> cycles;
 };
 
-/// The force of the soil on the drum [N]: the record's F_contact; else, if accelerations of drum and frame, masses and
-/// excitation are known, m2 (a2 + g) + m3 (a3 + g) + F_e, which follows from the equations of motion; else empty.
+/// The force of the soil on the drum [N]: the record's F_contact; else, if accelerations of drum and frame,
+/// masses and excitation are known, m2 (a2 + g) + m3 (a3 + g) + F_e, which follows from the equations of
+/// motion; else empty.
 std::vector<double> soil_force(const Record &record);
 
 /// The whole cycles of a record, counted from its first sample.
-/// - Harmonics: from the sums of `record.cycles_file` if it has them; else from v_drum, else from a_drum. Errors
+/// - Harmonics: from the sums of `record.cycles_file` if it has them; else from v_drum, else from a_drum.
+/// Errors
 ///   (std::runtime_error) if the record has none of these, or fewer than four cycles.
 /// - Contact: force above zero; of a computed force, above 2 % of its largest value.
-/// - Energy: of a chain from the energies of `record.cycles_file`, else by the trapezoidal rule from force and v_drum.
-/// - Deflection: the drum's lowest position below that at which the contact of that cycle began. In chain.csv contact
-///   begins at x_drum = 0; else it is the mean of the samples before and after the begin, and a cycle in which
-///   contact does not begin has no value.
+/// - Energy: of a chain from the energies of `record.cycles_file`, else by the trapezoidal rule from force
+/// and v_drum.
+/// - Deflection: the drum's lowest position below that at which the contact of that cycle began. In chain.csv
+/// contact
+///   begins at x_drum = 0; else it is the mean of the samples before and after the begin, and a cycle in
+///   which contact does not begin has no value.
 MeterRecord meter_cycles(const Record &record);
 
 /// A line of a spectrum.
@@ -70,8 +75,8 @@ struct SpectrumLine {
   double amplitude = 0.0; ///< [m/s2]
 };
 
-/// Amplitudes of the drum's acceleration between two times, which are whole cycles apart [s], up to six times the excitation
-/// frequency, from v_drum or else a_drum; empty for a record without samples of these.
+/// Amplitudes of the drum's acceleration between two times, which are whole cycles apart [s], up to six times
+/// the excitation frequency, from v_drum or else a_drum; empty for a record without samples of these.
 std::vector<SpectrumLine> spectrum(const Record &record, double begin, double end);
 
 } // namespace drumlin::post

@@ -245,10 +245,9 @@ std::string answer_line(const MeterResult &result) {
 
 std::string all_passes_csv(const MeterResult &result, const PassOptions &options) {
   constexpr double cell = 0.34; // m
-  std::string text =
-      "Time,CellN_m,CellE_m,Elevation_m,PassNumber,LastRadioLtncy,DesignName,Machine,Speed_km/h,"
-      "LastGPSMode,GPSAccTol_m,TargPassCount,ValidPos,Lift,LastCMV,TargCMV,LastMDP,TargMDP,LastRMV,"
-      "LastFreq_Hz,LastAmp_mm,TargThickness_m,MachineGear,VibeState,LastTemp,_c\r\n";
+  std::string text = "Time,CellN_m,CellE_m,Elevation_m,PassNumber,LastRadioLtncy,DesignName,Machine,Speed_km/"
+                     "h,LastGPSMode,GPSAccTol_m,TargPassCount,ValidPos,Lift,LastCMV,TargCMV,LastMDP,TargMDP,"
+                     "LastRMV,LastFreq_Hz,LastAmp_mm,TargThickness_m,MachineGear,VibeState,LastTemp,_c\r\n";
   const auto place = [&](std::size_t i) {
     if (!options.speed) return static_cast<long>(i);
     return std::lround(*options.speed / 3.6 * result.windows[i].begin / cell);

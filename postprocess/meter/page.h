@@ -32,12 +32,13 @@ struct PassOptions {
   int pass = 1;                ///< number of the pass
 };
 
-/// The "all passes" table of compaction software: a row for each cell of 0.34 m along the roller's path, with CMV, RMV, frequency
-/// and amplitude of the last window in it; CRLF line ends, '?' for what is not known. The path runs north from 0; times
-/// count from 2000/Jan/01 00:00:00.
+/// The "all passes" table of compaction software: a row for each cell of 0.34 m along the roller's path, with
+/// CMV, RMV, frequency and amplitude of the last window in it; CRLF line ends, '?' for what is not known. The
+/// path runs north from 0; times count from 2000/Jan/01 00:00:00.
 std::string all_passes_csv(const MeterResult &result, const PassOptions &options);
 
-/// Writes a page index.html with plots (values along the record, spectrum, loop) and their data into a folder that exists.
+/// Writes a page index.html with plots (values along the record, spectrum, loop) and their data into a folder
+/// that exists.
 void write_meter_page(const std::filesystem::path &folder, const MeterResult &result);
 
 } // namespace drumlin::post

@@ -182,7 +182,8 @@ std::optional<double> lundberg_modulus(double force, double deflection, const Li
   // The deflection grows with u as long as the contact is longer than wide.
   const double most = pi * contact.length * contact.length / (16.0 * contact.radius);
   if (deflection > deflection_of(most, contact)) return std::nullopt;
-  // The root is sought in the logarithm of u, from one where the deflection is too small to one where it is not.
+  // The root is sought in the logarithm of u, from one where the deflection is too small to one where it is
+  // not.
   const auto excess = [&](double log_u) {
     return std::log(deflection_of(std::exp(log_u), contact) / deflection);
   };

@@ -1,9 +1,10 @@
-// What a roller's meter shows: compaction meter values, stiffness, modulus, energy and operating mode over windows of
-// whole cycles of a record.
+// What a roller's meter shows: compaction meter values, stiffness, modulus, energy and operating mode over
+// windows of whole cycles of a record.
 //
-// Sources. CMV: Advances in Civil Engineering 2011, 783836. Operating modes: Adam 1996, as in Acta Geotechnica 2024,
-// 10.1007/s11440-024-02342-8. k_B and the ratio of soil force and displacement: the equations of motion of the paper.
-// Lundberg's deflection of an elastic half-space below a cylinder: see lundberg_deflection().
+// Sources. CMV: Advances in Civil Engineering 2011, 783836. Operating modes: Adam 1996, as in Acta
+// Geotechnica 2024, 10.1007/s11440-024-02342-8. k_B and the ratio of soil force and displacement: the
+// equations of motion of the paper. Lundberg's deflection of an elastic half-space below a cylinder: see
+// lundberg_deflection().
 #pragma once
 
 #include "meter/cycles.h"
@@ -16,8 +17,8 @@
 
 namespace drumlin::post {
 
-/// Operating modes after Adam, as far as one vertical signal shows them: rocking, in which the two ends of the drum
-/// differ, is not seen.
+/// Operating modes after Adam, as far as one vertical signal shows them: rocking, in which the two ends of
+/// the drum differ, is not seen.
 enum class OperatingMode {
   continuous_contact, ///< contact in every sample
   partial_uplift,     ///< the same motion in every cycle, with loss of contact
@@ -53,21 +54,22 @@ struct MeterWindow {
   std::optional<double> contact_share; ///< [-]
   std::optional<double> peak_force;    ///< [N]
   std::optional<double> energy; ///< given to the soil in two cycles, the quantity behind the Omega value [J]
-  /// k_B = omega^2 (m_d + m_e r_e cos(phi) / A_z) [N/m], phi the angle by which the displacement lags the eccentric
-  /// force, A_z its amplitude: the soil's stiffness in continuous contact, if the force of the frame is small. Apparent
-  /// in other modes.
+  /// k_B = omega^2 (m_d + m_e r_e cos(phi) / A_z) [N/m], phi the angle by which the displacement lags the
+  /// eccentric force, A_z its amplitude: the soil's stiffness in continuous contact, if the force of the
+  /// frame is small. Apparent in other modes.
   std::optional<double> k_B;
-  /// Soil force over displacement at the excitation frequency: real part of -F/x [N/m] and imaginary part over omega
-  /// [N s/m], the forces of drum, frame and excitation all counted. In continuous contact these are exactly the
-  /// stiffness and damping of a linear soil; apparent in other modes.
+  /// Soil force over displacement at the excitation frequency: real part of -F/x [N/m] and imaginary part
+  /// over omega [N s/m], the forces of drum, frame and excitation all counted. In continuous contact these
+  /// are exactly the stiffness and damping of a linear soil; apparent in other modes.
   std::optional<double> k_1;
   std::optional<double> c_1;
   std::optional<double> E_vib; ///< Lundberg's modulus, mean over the cycles that give it [Pa]
   OperatingMode mode = OperatingMode::irregular;
 };
 
-/// Windows of whole cycles one after the other; the last one ends with the record's last whole cycle, and cycles before
-/// the first window are left out. std::runtime_error "the window is '...'; allowed: ..." if the record has fewer cycles.
+/// Windows of whole cycles one after the other; the last one ends with the record's last whole cycle, and
+/// cycles before the first window are left out. std::runtime_error "the window is '...'; allowed: ..." if the
+/// record has fewer cycles.
 std::vector<MeterWindow> meter_windows(const MeterRecord &record, const MeterOptions &options);
 
 /// A drum on an elastic half-space.
@@ -78,12 +80,13 @@ struct LineContact {
 };
 
 /// Deflection [m] below a force [N] for a modulus E [Pa], after Lundberg:
-///     z = (1 - nu^2)/E F/L 2/pi (1.8864 + ln(L/B)),  B = sqrt(16/pi R (1 - nu^2)/E F/L) the full contact width,
+///     z = (1 - nu^2)/E F/L 2/pi (1.8864 + ln(L/B)),  B = sqrt(16/pi R (1 - nu^2)/E F/L) the full contact
+///     width,
 /// valid for a contact longer than wide. Checked in the tests by integration over the half-space.
 double lundberg_deflection(double force, double modulus, const LineContact &contact);
 
-/// The modulus [Pa] for which lundberg_deflection() is `deflection`; no value if force or deflection is not above zero,
-/// or if the contact would be wider than long.
+/// The modulus [Pa] for which lundberg_deflection() is `deflection`; no value if force or deflection is not
+/// above zero, or if the contact would be wider than long.
 std::optional<double> lundberg_modulus(double force, double deflection, const LineContact &contact);
 
 } // namespace drumlin::post

@@ -51,9 +51,9 @@ std::string arrow(double x, double from, double tip) {
 }
 
 std::string strokes(const std::string &path, double width = 1.8, const char *color = "#1a1a1a") {
-  return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{:g}\" "
-                     "stroke-linejoin=\"round\"/>\n",
-                     path, color, width);
+  return fmt::format(
+      "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{:g}\" stroke-linejoin=\"round\"/>\n", path,
+      color, width);
 }
 
 std::string text(double x, double y, const std::string &words, const char *anchor = "start",
@@ -63,9 +63,9 @@ std::string text(double x, double y, const std::string &words, const char *ancho
 }
 
 std::string disc(double x, double y, double radius, const char *fill) {
-  return fmt::format("<circle cx=\"{:g}\" cy=\"{:g}\" r=\"{:g}\" fill=\"{}\" stroke=\"#1a1a1a\" "
-                     "stroke-width=\"1.2\"/>\n",
-                     x, y, radius, fill);
+  return fmt::format(
+      "<circle cx=\"{:g}\" cy=\"{:g}\" r=\"{:g}\" fill=\"{}\" stroke=\"#1a1a1a\" stroke-width=\"1.2\"/>\n", x,
+      y, radius, fill);
 }
 
 std::string box(double x, double y, double width, double height, const char *fill) {
@@ -231,8 +231,7 @@ std::string drawing_html(Drawing model) {
   case Drawing::shear:
     title = "A sample of soil that is sheared between two plates";
     caption = "The model: a sample of soil balls, periodic sideways, between rough plates. The platen "
-              "carries a given "
-              "stress and is moved sideways.";
+              "carries a given stress and is moved sideways.";
     drawing = shear_drawing();
     height = 180;
     break;
@@ -259,16 +258,14 @@ std::string drawing_html(Drawing model) {
   case Drawing::triaxial:
     title = "A sample of soil between six plates";
     caption = "The model: a sample of soil balls between smooth plates, of which the drawing shows four. The "
-              "right one "
-              "and the one in front carry the same given stress, the upper one is moved.";
+              "right one and the one in front carry the same given stress, the upper one is moved.";
     drawing = biaxial_drawing();
     height = 180;
     break;
   case Drawing::biaxial:
     title = "A sample of soil between four plates";
-    caption =
-        "The model: a sample of soil balls between smooth plates. The right one carries a given stress, "
-        "the upper one is moved.";
+    caption = "The model: a sample of soil balls between smooth plates. The right one carries a given "
+              "stress, the upper one is moved.";
     drawing = biaxial_drawing();
     height = 180;
     break;
@@ -280,8 +277,8 @@ std::string drawing_html(Drawing model) {
     height = 180;
     break;
   }
-  return fmt::format("<figure class=\"scene\">\n<svg xmlns=\"http://www.w3.org/2000/svg\" "
-                     "viewBox=\"0 0 340 {:g}\" role=\"img\" aria-label=\"{}\" font-size=\"14\">\n"
+  return fmt::format("<figure class=\"scene\">\n<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 340 "
+                     "{:g}\" role=\"img\" aria-label=\"{}\" font-size=\"14\">\n"
                      "{}</svg>\n<figcaption>{}</figcaption>\n</figure>\n",
                      height, title, drawing, html_escaped(caption));
 }

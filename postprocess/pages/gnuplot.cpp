@@ -177,11 +177,10 @@ std::string color_script(const Panel &panel) {
   return fmt::format("  set colorbox\n  set rmargin 8.5\n  set cblabel {}\n  set cbrange {}\n",
                      gnuplot_string(panel.color_label),
                      panel.color_range.empty() ? "[*:*]" : panel.color_range) +
-         (panel.color_whole
-              ? "  set palette defined (0 '#ffffff', 1 '#faeed5', 2 '#f3d9a0', 3 '#d3e8f5', 4 '#9dcdea', "
-                "5 '#5ba9d6', 6 '#0072B2') maxcolors 7\n  set cbtics 1\n"
-              : "  set palette defined (0 '#fffdf5', 1 '#f6d78b', 2 '#E69F00', 3 '#D55E00')\n"
-                "  set cbtics autofreq\n");
+         (panel.color_whole ? "  set palette defined (0 '#ffffff', 1 '#faeed5', 2 '#f3d9a0', 3 '#d3e8f5', 4 "
+                              "'#9dcdea', 5 '#5ba9d6', 6 '#0072B2') maxcolors 7\n  set cbtics 1\n"
+                            : "  set palette defined (0 '#fffdf5', 1 '#f6d78b', 2 '#E69F00', 3 '#D55E00')\n"
+                              "  set cbtics autofreq\n");
 }
 
 std::string curve_script(const Curve &curve) {
@@ -196,8 +195,8 @@ std::string curve_script(const Curve &curve) {
 /// The legend of a panel, below its axes.
 struct Legend {
   int rows = 1;
-  /// Letters by which gnuplot is to make each column wider than its names. It thinks that letters are wider in SVG files
-  /// than they are, and would need more rows there, which would lie on the axis label.
+  /// Letters by which gnuplot is to make each column wider than its names. It thinks that letters are wider
+  /// in SVG files than they are, and would need more rows there, which would lie on the axis label.
   int wider_png = 0, wider_svg = 0;
 };
 
@@ -225,7 +224,8 @@ Legend legend_of(const Panel &panel, int width) {
 }
 
 /// \param width of the panel in px
-/// \param is_empty whether it has no point to draw, which gnuplot takes for an error: the axes get a note instead
+/// \param is_empty whether it has no point to draw, which gnuplot takes for an error: the axes get a note
+/// instead
 std::string panel_script(const Panel &panel, int width, bool is_empty) {
   std::string s;
   s += panel.title.empty() ? "  unset title\n"
@@ -290,8 +290,7 @@ std::string figure_script(const Figure &figure, const std::vector<bool> &is_empt
       fmt::format("# {}\n# Run in this folder: gnuplot {}.gp\n{}", figure.title, figure.name, settings);
   s += fmt::format("do for [kind in \"{4}\"] {{\n"
                    "  if (kind eq \"svg\") {{ set terminal svg size {0},{1} enhanced rounded font 'DejaVu "
-                   "Sans,Helvetica,Arial,15' "
-                   "background '#ffffff' }}\n"
+                   "Sans,Helvetica,Arial,15' background '#ffffff' }}\n"
                    "  else {{ set terminal pngcairo size {2},{3} enhanced rounded fontscale 1.5 linewidth "
                    "1.5 pointscale 1.5 font "
                    "'DejaVu Sans,11.5' background '#ffffff' }}\n",
@@ -316,7 +315,8 @@ Outcome run_gnuplot(const fs::path &gnuplot, const fs::path &folder, const std::
   return outcome;
 }
 
-/// Whether gnuplot has ended because a panel has no point: all its values are missing, or not positive on a logarithmic axis.
+/// Whether gnuplot has ended because a panel has no point: all its values are missing, or not positive on a
+/// logarithmic axis.
 bool found_no_point(const Outcome &outcome) {
   return !outcome.ok() && !outcome.timed_out && !outcome.says("Cannot find or open file") &&
          (outcome.says("y value undefined!") || outcome.says("range is invalid"));

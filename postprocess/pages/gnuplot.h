@@ -112,8 +112,8 @@ std::string gnuplot_script(const Figure &figure);
 /// the disk is full and the picture is cut short.
 bool is_whole_picture(const std::filesystem::path &file);
 
-/// Writes folder/NAME.gp and runs it in that folder. Axes without any value to draw get a note. Throws std::runtime_error with gnuplot's message if
-/// gnuplot fails, or if a picture is cut short.
+/// Writes folder/NAME.gp and runs it in that folder. Axes without any value to draw get a note. Throws
+/// std::runtime_error with gnuplot's message if gnuplot fails, or if a picture is cut short.
 void render(const std::filesystem::path &gnuplot, const std::filesystem::path &folder, const Figure &figure);
 
 } // namespace drumlin::post

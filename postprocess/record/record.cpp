@@ -129,8 +129,8 @@ fs::path sample_file(const fs::path &path, fs::path &cycles) {
     if (fs::is_regular_file(path / name)) return path / name;
   if (!cycles.empty()) return cycles;
   throw std::runtime_error(refusal("the record", path.string(),
-                                   "a folder with chain.csv, bed.csv or cycles.csv, one of these files, or "
-                                   "a CSV file with a header line"));
+                                   "a folder with chain.csv, bed.csv or cycles.csv, one of these files, or a "
+                                   "CSV file with a header line"));
 }
 
 void take_number(const Record &record, const fs::path &file, const char *name, std::optional<double> &value) {
@@ -217,8 +217,8 @@ void read_samples(Reading &reading, const RecordOptions &options) {
   }
 }
 
-/// Refuses times that do not grow, gaps, and steps that are not equal to 1 %; with a sampling rate given, steps
-/// of less than half or more than one and a half of its interval, and a length that differs by 0.1 %.
+/// Refuses times that do not grow, gaps, and steps that are not equal to 1 %; with a sampling rate given,
+/// steps of less than half or more than one and a half of its interval, and a length that differs by 0.1 %.
 void check_steps(const Reading &reading, double interval, bool rate_given) {
   const std::vector<double> &time = reading.record.time;
   const auto refuse = [&](std::size_t row, const std::string &allowed) {
@@ -301,15 +301,15 @@ void check_contact_force(const Reading &reading) {
   if (record.omega && record.m2 && record.m3 && record.g && *record.g > 0.0) {
     const double weight = (*record.m2 + *record.m3) * *record.g;
     if (std::fabs(mean(force) - weight) > 0.5 * weight + 0.2 * rms(force))
-      refuse(
-          fmt::format("{:.4g} N in the mean", mean(force)),
-          fmt::format("forces in N, positive in compression, which in the mean carry the weight of drum and "
-                      "frame, {:.4g} N",
-                      weight));
+      refuse(fmt::format("{:.4g} N in the mean", mean(force)),
+             fmt::format("forces in N, positive in compression, which in the mean carry the weight of drum "
+                         "and frame, {:.4g} N",
+                         weight));
   }
 }
 
-/// Refuses accelerations that go against the contact force: a spring below the drum pushes it up while it is low.
+/// Refuses accelerations that go against the contact force: a spring below the drum pushes it up while it is
+/// low.
 void check_direction(const Reading &reading) {
   const std::vector<double> &force = reading.record.F_contact;
   const std::vector<double> &a = reading.record.a_drum;
@@ -411,7 +411,8 @@ Record read_record(const fs::path &path, const RecordOptions &options) {
 
 std::vector<double> low_passed(const std::vector<double> &values, double interval, double cutoff) {
   if (values.empty()) return {};
-  // The signal is continued beyond both ends by its point reflection there, so that the filter has settled at them.
+  // The signal is continued beyond both ends by its point reflection there, so that the filter has settled at
+  // them.
   const double samples_of_cutoff = 1.0 / (cutoff * interval);
   const std::size_t margin =
       std::min(values.size() - 1, static_cast<std::size_t>(std::min(1e9, 3.0 * samples_of_cutoff)));

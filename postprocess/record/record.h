@@ -1,7 +1,7 @@
 // Records of a roller's motion: one reader for those of runs (chain.csv, bed.csv) and for measured ones.
 //
-// A record is uniformly sampled, in SI units, x up. Errors are std::runtime_error with one line that names the
-// file, the line or column, the value and what is allowed.
+// A record is uniformly sampled, in SI units, x up. Errors are std::runtime_error with one line that names
+// the file, the line or column, the value and what is allowed.
 #pragma once
 
 #include "runs/chain_files.h"
@@ -45,9 +45,9 @@ struct ColumnSource {
   double factor = 1.0; ///< from the file's unit to SI; negative if the file counts it the other way
 };
 
-/// "NAME=HEADER" or "NAME=HEADER:UNIT", where a '-' before the unit turns the sign: "a_drum=Acc Z:-g". NAME is
-/// `time` or a signal. std::invalid_argument says what is allowed. Units: s, ms, us; m, cm, mm, um; the same
-/// per s (m/s ...) and per s2 (m/s2 ...), g (9.80665 m/s2); N, kN, MN.
+/// "NAME=HEADER" or "NAME=HEADER:UNIT", where a '-' before the unit turns the sign: "a_drum=Acc Z:-g". NAME
+/// is `time` or a signal. std::invalid_argument says what is allowed. Units: s, ms, us; m, cm, mm, um; the
+/// same per s (m/s ...) and per s2 (m/s2 ...), g (9.80665 m/s2); N, kN, MN.
 std::pair<std::string, ColumnSource> column_from_text(const std::string &text);
 
 /// How a record is read. What is not given comes from the run's parameters.csv, if there is one.
@@ -65,25 +65,27 @@ struct RecordOptions {
   std::optional<double> low_pass;      ///< cut-off frequency of low_passed(), for all signals [Hz]
 };
 
-/// The least number of excitation cycles, and of samples per cycle, of a record that is read with `omega` known.
+/// The least number of excitation cycles, and of samples per cycle, of a record that is read with `omega`
+/// known.
 constexpr int least_cycles = 4;
 constexpr int least_samples = 8;
 
 /// Reads a record from the folder of a run, one of its files chain.csv, bed.csv and cycles.csv, or a measured
 /// CSV file with a header line.
-/// - Of a folder chain.csv is read, or bed.csv if there is no chain.csv; `cycles_file` is set if it has a cycles.csv.
+/// - Of a folder chain.csv is read, or bed.csv if there is no chain.csv; `cycles_file` is set if it has a
+/// cycles.csv.
 /// - Given a cycles.csv, `cycles_file` is set and the record has no samples: `time` is empty.
 /// - parameters.csv in the same folder gives omega, Fw, m2, m3, g for files with those names.
 /// - If the file has no F_excitation but omega, phase and Fw are known, F_excitation is computed.
-/// Refused are: values that are no finite numbers; a column of time that does not grow, has gaps or unequal steps;
-/// a signal that is not the derivative of another by a factor of 2 or more or by its sign; a contact force that is
-/// always zero, never positive, against the drum's acceleration, or whose mean is not the weight of drum and
-/// frame; fewer cycles or samples per cycle
-/// than above.
+/// Refused are: values that are no finite numbers; a column of time that does not grow, has gaps or unequal
+/// steps; a signal that is not the derivative of another by a factor of 2 or more or by its sign; a contact
+/// force that is always zero, never positive, against the drum's acceleration, or whose mean is not the
+/// weight of drum and frame; fewer cycles or samples per cycle than above.
 Record read_record(const std::filesystem::path &path, const RecordOptions &options = {});
 
 /// Values without what is faster than `cutoff` [Hz]: a Butterworth filter of second order, forward and then
-/// backward, so that phases stay; it halves amplitudes at the cut-off. `interval` [s]; 0 < cutoff < 0.5/interval.
+/// backward, so that phases stay; it halves amplitudes at the cut-off. `interval` [s]; 0 < cutoff <
+/// 0.5/interval.
 std::vector<double> low_passed(const std::vector<double> &values, double interval, double cutoff);
 
 } // namespace drumlin::post

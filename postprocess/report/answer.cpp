@@ -96,8 +96,7 @@ Answer reference_values_answer(const ReportResults &results) {
   if (count.all > 0) {
     answer.verdict = count.agree == count.all ? Verdict::good : Verdict::bad;
     answer.sentences.push_back(
-        {fmt::format("{} of {} values agree with the reference values, {} of them in every "
-                     "digit given.",
+        {fmt::format("{} of {} values agree with the reference values, {} of them in every digit given.",
                      count.agree, count.all, count.same_digits),
          "Agreement."});
     if (const std::string schemes = by_scheme(results); !schemes.empty())
@@ -105,10 +104,10 @@ Answer reference_values_answer(const ReportResults &results) {
   }
   if (count.not_judged > 0)
     answer.sentences.push_back(
-        {fmt::format("{} values are not judged: the reference values are of steady states, "
-                     "which need runs of {} cycles or more that have ended; the table of runs has the "
-                     "commands for such runs.",
-                     count.not_judged, long_run_cycles),
+        {fmt::format(
+             "{} values are not judged: the reference values are of steady states, which need runs of {} "
+             "cycles or more that have ended; the table of runs has the commands for such runs.",
+             count.not_judged, long_run_cycles),
          count.all > 0 ? "" : "Agreement."});
   if (count.all + count.not_judged == 0)
     answer.sentences.push_back({"No run has the parameters of a case with reference values.", "Agreement."});
@@ -178,11 +177,10 @@ std::string error_words(const ReportResults &results) {
       worst = &result;
   }
   if (worst == nullptr) return {};
-  return fmt::format(
-      "The drum velocity differs from the reference solution (direct solver) by at most {:.2e} "
-      "(relative RMS over {}; run {}).",
-      worst->chain->velocity_error_last, last_cycles_words({std::min(error_cycles, worst->run.complete)}),
-      worst->run.name);
+  return fmt::format("The drum velocity differs from the reference solution (direct solver) by at most "
+                     "{:.2e} (relative RMS over {}; run {}).",
+                     worst->chain->velocity_error_last,
+                     last_cycles_words({std::min(error_cycles, worst->run.complete)}), worst->run.name);
 }
 
 Answer engines_answer(const ReportResults &results) {

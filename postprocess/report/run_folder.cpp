@@ -119,8 +119,8 @@ void compare_with_case(Run &run) {
   run.at_case = true;
 }
 
-/// The run of a bed with the contacts of its uppermost layer, which the drum is on: in a bed of layers k and D are
-/// lists, the lowest layer first.
+/// The run of a bed with the contacts of its uppermost layer, which the drum is on: in a bed of layers k and
+/// D are lists, the lowest layer first.
 Run of_top_layer(Run run) {
   for (const char *name : {"k", "D"})
     if (const auto found = run.parameters.find(name); found != run.parameters.end())
@@ -241,9 +241,8 @@ void read_event_file(Run &run) {
   if (run.has_events)
     run.events = read_events(file);
   else
-    run.missing.emplace_back(
-        "events.csv is missing: there is no table of events, and jumps, force at make and "
-        "share of time in contact are taken from samples.");
+    run.missing.emplace_back("events.csv is missing: there is no table of events, and jumps, force at make "
+                             "and share of time in contact are taken from samples.");
 }
 
 void read_cycle_file(Run &run) {
@@ -308,8 +307,7 @@ std::string why_cut(const std::map<std::string, std::string> &parameters) {
   const auto found = parameters.find("ended");
   if (found == parameters.end())
     return "its parameters.csv does not say whether it has ended, as of a run by drumlin 0.2 or earlier, or "
-           "by a "
-           "deck without drumlin/outputs";
+           "by a deck without drumlin/outputs";
   if (found->second == "yes") return {};
   if (found->second == "no") return "it was killed, or is still running";
   return "it was cut: " + found->second;
@@ -365,10 +363,9 @@ ReportFolders find_report_folders(const std::vector<fs::path> &arguments) {
     if (found.all().empty() && found.left_out.empty())
       if (std::optional<LeftOut> cut = cut_at_start(argument)) found.left_out.push_back(std::move(*cut));
     if (found.all().empty() && found.left_out.empty())
-      throw UsageError(
-          fmt::format("'{}' has neither {} nor a study in it or below it; allowed are run folders, "
-                      "studies and parents of them",
-                      argument.string(), files_of_runs()));
+      throw UsageError(fmt::format("'{}' has neither {} nor a study in it or below it; allowed are run "
+                                   "folders, studies and parents of them",
+                                   argument.string(), files_of_runs()));
     take(found.runs, folders.runs);
     take(found.studies, folders.studies);
     for (auto &[name, of_test] : found.element_tests)

@@ -72,16 +72,16 @@ struct ReportFolders {
   std::vector<std::filesystem::path> all() const;
 };
 
-/// Why a run is not judged, by the row `ended` of its parameters: it was cut, or does not say that it has ended.
-/// Empty if it has ended.
+/// Why a run is not judged, by the row `ended` of its parameters: it was cut, or does not say that it has
+/// ended. Empty if it has ended.
 std::string why_cut(const std::map<std::string, std::string> &parameters);
 
 /// The files by which folders of runs are recognised, in words: "chain.csv, bed.csv, ... or ...".
 std::string files_of_runs();
 
 /// Run and study folders: each argument is such a folder, or has some below it at any depth. Runs within a
-/// study folder belong to the study and are left out, as are earlier reports and unfinished folders. Sorted below each argument, each folder once. Throws
-/// UsageError naming an argument without any.
+/// study folder belong to the study and are left out, as are earlier reports and unfinished folders. Sorted
+/// below each argument, each folder once. Throws UsageError naming an argument without any.
 ReportFolders find_report_folders(const std::vector<std::filesystem::path> &arguments);
 
 /// Reads a run folder. Throws std::runtime_error with file and line for a file that cannot be read.

@@ -1,6 +1,6 @@
-// The CSV files of a chain run: chain.csv, events.csv, cycles.csv, and parameters.csv (runs/parameter_file.h).
-// One reader and one writer per file, for the engine's output and for the direct solver's alike. Errors and
-// numbers are as in support/csv.h.
+// The CSV files of a chain run: chain.csv, events.csv, cycles.csv, and parameters.csv
+// (runs/parameter_file.h). One reader and one writer per file, for the engine's output and for the direct
+// solver's alike. Errors and numbers are as in support/csv.h.
 #pragma once
 
 #include "runs/parameter_file.h"
@@ -15,8 +15,8 @@
 
 namespace drumlin::post {
 
-/// Time series of a roller, one vector for each column of chain.csv, all of one length; those that a file does not have are
-/// empty.
+/// Time series of a roller, one vector for each column of chain.csv, all of one length; those that a file
+/// does not have are empty.
 struct ChainHistory {
   std::vector<double> time;         ///< from the start of the excitation [s]
   std::vector<double> x_drum;       ///< up positive; of a run, 0 where drum and soil just touch [m]

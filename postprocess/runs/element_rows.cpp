@@ -18,7 +18,8 @@ namespace {
 template <class Row>
 using RowColumns = std::vector<std::pair<const char *, double Row::*>>;
 
-/// The rows of a table. Throws std::runtime_error with file, line and column for a column that is missing or a number that is not finite.
+/// The rows of a table. Throws std::runtime_error with file, line and column for a column that is missing or
+/// a number that is not finite.
 template <class Row>
 std::vector<Row> rows_of(const Table &table, const RowColumns<Row> &columns) {
   std::vector<Row> rows(table.rows());
@@ -91,10 +92,10 @@ std::vector<ShearRow> read_shear(const fs::path &file) {
                                                          {"energy_error", &ShearRow::energy_error}});
   for (std::size_t n = 0; n < rows.size(); ++n)
     if (rows[n].normal_stress <= 0.0 || (n > 0 && rows[n].strain <= rows[n - 1].strain))
-      throw std::runtime_error(
-          fmt::format("{}, line {}: strain {:g} at a normal stress of {:g} kPa; allowed are "
-                      "strains that grow, at normal stresses above 0",
-                      file.string(), table.line(n), rows[n].strain, rows[n].normal_stress));
+      throw std::runtime_error(fmt::format("{}, line {}: strain {:g} at a normal stress of {:g} kPa; allowed "
+                                           "are strains that grow, at normal stresses above 0",
+                                           file.string(), table.line(n), rows[n].strain,
+                                           rows[n].normal_stress));
   return rows;
 }
 

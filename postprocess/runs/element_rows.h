@@ -1,5 +1,5 @@
-// The CSV files of element tests of soil, one type of rows for each. Readers throw std::runtime_error with file, line and
-// column, and for less than two rows.
+// The CSV files of element tests of soil, one type of rows for each. Readers throw std::runtime_error with
+// file, line and column, and for less than two rows.
 #pragma once
 
 #include "support/csv.h"
@@ -26,7 +26,8 @@ struct OedometerRow {
 /// Reads oedometer.csv. Throws std::runtime_error with file, line and column, or for less than two rows.
 std::vector<OedometerRow> read_oedometer(const std::filesystem::path &file);
 
-/// A row of biaxial.csv or triaxial.csv. Strains are positive in compression; stresses are means since the row before, kPa.
+/// A row of biaxial.csv or triaxial.csv. Strains are positive in compression; stresses are means since the
+/// row before, kPa.
 struct CompressionRow {
   double strain = 0.0; ///< axial
   double axial_stress = 0.0;
@@ -38,7 +39,8 @@ struct CompressionRow {
   double energy_error = 0.0;
 };
 
-/// Reads biaxial.csv or triaxial.csv. Throws std::runtime_error with file, line and column, or for less than two rows.
+/// Reads biaxial.csv or triaxial.csv. Throws std::runtime_error with file, line and column, or for less than
+/// two rows.
 std::vector<CompressionRow> read_compression(const std::filesystem::path &file);
 
 /// A row of shear.csv. Stresses are means since the row before, kPa.
@@ -69,12 +71,12 @@ struct PlateRow {
   bool is(PlatePhase which) const { return phase == static_cast<int>(which); }
 };
 
-/// Reads plate.csv. Throws std::runtime_error with file, line and column, for less than two rows, and for a phase
-/// that is none.
+/// Reads plate.csv. Throws std::runtime_error with file, line and column, for less than two rows, and for a
+/// phase that is none.
 std::vector<PlateRow> read_plate(const std::filesystem::path &file);
 
-/// A row of repose.csv, silo.csv or wall.csv. Forces of the soil on the plates, N per metre of thickness, means since the
-/// row before: outward on the walls, friction and force on the floor downward.
+/// A row of repose.csv, silo.csv or wall.csv. Forces of the soil on the plates, N per metre of thickness,
+/// means since the row before: outward on the walls, friction and force on the floor downward.
 struct OwnWeightRow {
   double displacement = 0.0; ///< of the plate that moves, mm
   double left_force = 0.0, left_friction = 0.0;
@@ -84,8 +86,8 @@ struct OwnWeightRow {
   double energy_error = 0.0;
 };
 
-/// Reads the CSV file of a test. Throws std::runtime_error with file, line and column, for less than two rows, or for
-/// displacements that do not grow.
+/// Reads the CSV file of a test. Throws std::runtime_error with file, line and column, for less than two
+/// rows, or for displacements that do not grow.
 std::vector<OwnWeightRow> read_own_weight(const std::filesystem::path &file);
 
 } // namespace drumlin::post

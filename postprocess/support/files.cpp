@@ -166,10 +166,9 @@ std::vector<fs::path> numbered(const fs::path &parent, const std::string &prefix
 }
 
 [[noreturn]] void refuse_second_call(const fs::path &out, const char *option = "--out") {
-  throw UsageError(
-      fmt::format("{} is '{}', into which another call writes; allowed: another folder, or to wait for "
-                  "the end of that call",
-                  option, out.string()));
+  throw UsageError(fmt::format("{} is '{}', into which another call writes; allowed: another folder, or to "
+                               "wait for the end of that call",
+                               option, out.string()));
 }
 
 void must_be_writable(const fs::path &file) {
@@ -313,7 +312,8 @@ std::string prefix_beside(const fs::path &place, const char *which) {
 FolderInProgress::FolderInProgress(const fs::path &place)
     : place_(place), folder_(place.parent_path(), prefix_beside(place, "new")) {
   if (folder_.has_others()) refuse_second_call(place);
-  // A process that was killed between the two renames of publish() has left the earlier folder without its name.
+  // A process that was killed between the two renames of publish() has left the earlier folder without its
+  // name.
   for (const fs::path &earlier : numbered(place.parent_path(), prefix_beside(place, "old"))) {
     std::error_code ignored;
     if (fs::exists(place))

@@ -48,8 +48,8 @@ void replace_file(const std::filesystem::path &finished, const std::filesystem::
 /// why not; the part that was added is then removed again where that is possible.
 void append_text(const std::filesystem::path &file, const std::string &text);
 
-/// Holds a folder for this process, as decks hold theirs (flock), until the object ends or the process does, however it
-/// ends. Some network file systems cannot lock a folder: there nobody is refused.
+/// Holds a folder for this process, as decks hold theirs (flock), until the object ends or the process does,
+/// however it ends. Some network file systems cannot lock a folder: there nobody is refused.
 class FolderLock {
 public:
   FolderLock() = default; ///< holds nothing
@@ -70,9 +70,9 @@ private:
 /// \param option by which the folder is given
 FolderLock lock_output_folder(const std::filesystem::path &folder, const char *option = "--out");
 
-/// A temporary folder, PARENT/PREFIX followed by a number, which is held as long as this object lives. The destructor
-/// removes it with all that is still in it. The constructor first removes such folders that nobody holds: those of
-/// processes that were killed.
+/// A temporary folder, PARENT/PREFIX followed by a number, which is held as long as this object lives. The
+/// destructor removes it with all that is still in it. The constructor first removes such folders that nobody
+/// holds: those of processes that were killed.
 class TemporaryFolder {
 public:
   TemporaryFolder(const std::filesystem::path &parent, const std::string &prefix);
@@ -94,8 +94,8 @@ private:
 class FolderInProgress {
 public:
   /// \param place absolute, without a trailing slash; its parent exists. If a process was killed while it
-  /// published, the earlier folder is put back first. Throws UsageError for the option --out if another process makes
-  /// results for the same place.
+  /// published, the earlier folder is put back first. Throws UsageError for the option --out if another
+  /// process makes results for the same place.
   explicit FolderInProgress(const std::filesystem::path &place);
   /// Where the results are made.
   const std::filesystem::path &path() const { return folder_.path(); }

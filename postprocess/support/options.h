@@ -44,9 +44,9 @@ struct GivenPath {
   bool folder = false;        ///< a folder, all of whose content is read, or may be replaced
 };
 
-/// Refuses a result that would replace what the command reads, or another of its results: the same file under two
-/// names, through links, too, a file in a folder that is replaced, or two files of such a folder that are one.
-/// For paths, too, that are not made yet. To be called before anything is written.
+/// Refuses a result that would replace what the command reads, or another of its results: the same file under
+/// two names, through links, too, a file in a folder that is replaced, or two files of such a folder that are
+/// one. For paths, too, that are not made yet. To be called before anything is written.
 void keep_apart(const std::vector<GivenPath> &inputs, const std::vector<GivenPath> &outputs);
 
 /// The files of these names in a folder.

@@ -85,8 +85,8 @@ bool wait_until(pid_t child, End &how, steady_clock::time_point end, bool ends_i
   }
 }
 
-/// Sends stop_signal to the program, so that mpirun can stop its ranks, and SIGKILL if it still runs after 5 s. If the program was started
-/// with a process group of its own, all processes of the group get the signals.
+/// Sends stop_signal to the program, so that mpirun can stop its ranks, and SIGKILL if it still runs after 5
+/// s. If the program was started with a process group of its own, all processes of the group get the signals.
 void stop(pid_t child, const Program &program, End &how) {
   const pid_t whom = program.own_group ? -child : child;
   kill(whom, program.stop_signal);
@@ -99,12 +99,12 @@ double seconds(const timeval &time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-/// What a child process does to become the program. Between fork() and exec() only functions that are safe there may be called.
-/// Returns the number of the error.
+/// What a child process does to become the program. Between fork() and exec() only functions that are safe
+/// there may be called. Returns the number of the error.
 int become(const Program &program, char **argv, char **envp, pid_t parent) {
   if (program.own_group) ::setpgid(0, 0);
-  // It ends with this process, even if that is killed: nobody would read its results, and a later call might write the
-  // same files.
+  // It ends with this process, even if that is killed: nobody would read its results, and a later call might
+  // write the same files.
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) ::_exit(EXIT_FAILURE);
   ::signal(SIGPIPE, SIG_DFL); // which this process may ignore

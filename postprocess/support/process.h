@@ -1,5 +1,5 @@
-// Runs a program as a child process in a folder of its own. No shell is involved. The program ends with this process, however
-// that ends.
+// Runs a program as a child process in a folder of its own. No shell is involved. The program ends with this
+// process, however that ends.
 #pragma once
 
 #include <csignal>

@@ -63,7 +63,8 @@ ResumedFolder::ResumedFolder(const fs::path &out, const std::string &kind, const
                             "the earlier call), --fresh, which forgets its results, or another folder",
                             kind, settings_name)));
   std::vector<fs::path> removed;
-  if (fresh) { // the content, not the folder itself, which may be a symbolic link; the settings last, in case of a kill
+  if (fresh) { // the content, not the folder itself, which may be a symbolic link; the settings last, in case
+               // of a kill
     for (const fs::directory_entry &entry : fs::directory_iterator(out))
       if (entry.path() != file) removed.push_back(entry.path());
   } else {

@@ -33,8 +33,9 @@ double t_factor(double freedom);
 struct Variance {
   double value, freedom;
 };
-/// Half the width of the 95 % confidence interval of a value whose error is the sum of two independent errors with these variances. The
-/// degrees of freedom are those of Welch (1947) and Satterthwaite (1946). Infinite if a variance is not known.
+/// Half the width of the 95 % confidence interval of a value whose error is the sum of two independent errors
+/// with these variances. The degrees of freedom are those of Welch (1947) and Satterthwaite (1946). Infinite
+/// if a variance is not known.
 double half_width_of_sum(const Variance &one, const Variance &other);
 /// A mean, and the square of its standard error: the variance of the values over their number.
 struct MeanError {
@@ -46,8 +47,8 @@ MeanError mean_error(const std::vector<double> &values);
 /// The interval by Student's t distribution; its half width is infinite for a single value.
 /// std::invalid_argument without values.
 MeanInterval mean_interval(const std::vector<double> &values);
-/// The mean of some values minus that of others, independent of them and of another scatter (Welch 1947); its half
-/// width is infinite if either are fewer than two. std::invalid_argument without values.
+/// The mean of some values minus that of others, independent of them and of another scatter (Welch 1947); its
+/// half width is infinite if either are fewer than two. std::invalid_argument without values.
 MeanInterval mean_difference(const std::vector<double> &values, const std::vector<double> &others);
 
 /// A straight line y = intercept + slope x.

@@ -124,9 +124,9 @@ bool is_standard(const Include &include) {
   return !include.quoted && headers.count(include.name) == 1;
 }
 
-/// The level of a room: it may include rooms of lower levels, and itself. A folder within a room has a level among the folders
-/// of that room, 0 if it is not named here: it may include its room's own headers and folders of lower levels. What lies directly
-/// in a room may include all its folders.
+/// The level of a room: it may include rooms of lower levels, and itself. A folder within a room has a level
+/// among the folders of that room, 0 if it is not named here: it may include its room's own headers and
+/// folders of lower levels. What lies directly in a room may include all its folders.
 using Heights = std::map<std::string, int>;
 const Heights plugin_rooms{{"physics", 0},        {"support", 1},       {"contact", 2}, {"fixes", 3},
                            {"commands", 3},       {"liggghts", 4},      {"lammps", 4},  {"physics/laws", 0},
@@ -147,7 +147,8 @@ std::pair<std::string, std::string> room_and_folder(const std::string &path) {
   return {names[0], names[1]};
 }
 
-/// Whether a file may include a header, both by their paths from the top of the rooms, "ROOM/..." or "ROOM/FOLDER/...".
+/// Whether a file may include a header, both by their paths from the top of the rooms, "ROOM/..." or
+/// "ROOM/FOLDER/...".
 bool fits_room(const std::string &file, const std::string &header, const Heights &rooms) {
   if (header.find("..") != std::string::npos) return false;
   const auto [room, folder] = room_and_folder(file);

@@ -1,5 +1,5 @@
-// fix boundary/absorb in both engines: waves on a chain and on a hexagonal lattice, of which the boundary reflects
-// the share of closed forms; settlement; energy balance; ranks and restart.
+// fix boundary/absorb in both engines: waves on a chain and on a hexagonal lattice, of which the boundary
+// reflects the share of closed forms; settlement; energy balance; ranks and restart.
 #include "tests/support/engine_and_scheme.h"
 #include "tests/support/oscillator.h"
 
@@ -65,8 +65,8 @@ Outcome run_scene(const std::string &engine, const Scratch &folder, const Variab
                   ranks);
 }
 
-/// A harmonic wave on rows of mass m a period, which stiffnesses k connect: w = 2 sqrt(k/m) sin(theta/2), with the
-/// phase theta from row to row. The row at the end also has a dashpot c and a spring K.
+/// A harmonic wave on rows of mass m a period, which stiffnesses k connect: w = 2 sqrt(k/m) sin(theta/2),
+/// with the phase theta from row to row. The row at the end also has a dashpot c and a spring K.
 struct Wave {
   double w, theta, row_k;
 
@@ -83,8 +83,8 @@ Wave wave_of(double w, double row_k, double dt) {
   return {w, 2 * std::asin(std::sin(w * dt / 2) / dt * std::sqrt(m / row_k)), row_k};
 }
 
-/// Amplitude of the reflected over that of the arriving wave, in rows of complex amplitudes from the boundary on,
-/// by least squares.
+/// Amplitude of the reflected over that of the arriving wave, in rows of complex amplitudes from the boundary
+/// on, by least squares.
 Complex measured_reflection(const Wave &wave, const std::vector<Complex> &rows) {
   Complex across = 0, in = 0, out = 0; // of the normal equations
   const auto count = static_cast<double>(rows.size());
@@ -227,8 +227,9 @@ TEST(AbsorbOnChains, ReflectsNearlyThisShareUnderStockStepping) {
   expect_closed_form(run_chains("liggghts", "stock"), false);
 }
 
-// Plane waves along the normal of the rows of a hexagonal lattice, compression and shear at once. A contact with
-// the force F at an angle of 60 degrees to the rows has the stiffness k along its normal and -F/L across it.
+// Plane waves along the normal of the rows of a hexagonal lattice, compression and shear at once. A contact
+// with the force F at an angle of 60 degrees to the rows has the stiffness k along its normal and -F/L across
+// it.
 TEST_P(Absorb, ReflectsPlaneWavesOfCompressionAndShearOnAHexagonalLattice) {
   const int columns = 4, length = 30, cycles = 20;
   const double pressed = 1e-3, a = (1 - pressed) * d, h = a * std::sqrt(0.75), F_over_L = k * pressed * d / a;
@@ -325,8 +326,8 @@ TEST_P(Absorb, SettlesUnderALoadAsTheLayerDoes) {
   EXPECT_LT(error, 1e-3 * most);
 }
 
-// A pulse on a compressed chain whose ends keep their reaction: it neither expands nor creeps, and the energy of
-// the pulse turns into heat of the dashpots.
+// A pulse on a compressed chain whose ends keep their reaction: it neither expands nor creeps, and the energy
+// of the pulse turns into heat of the dashpots.
 TEST_P(Absorb, KeepsTheStaticReactionAndBalancesTheEnergyOfAPulse) {
   const int length = 60;
   const double pressed = 0.01, a = (1 - pressed) * d, cp = a / tau, density = m / a;
@@ -364,8 +365,8 @@ TEST_P(Absorb, KeepsTheStaticReactionAndBalancesTheEnergyOfAPulse) {
 
 INSTANTIATE_TEST_SUITE_P(Decks, Absorb, engines_and_steppings(), engine_and_stepping);
 
-// Balls on soft springs that cross the borders between ranks and that of the periodic box, and two that touch and
-// keep their reaction.
+// Balls on soft springs that cross the borders between ranks and that of the periodic box, and two that touch
+// and keep their reaction.
 class AbsorbOfBallsThatMove : public ::testing::TestWithParam<std::tuple<std::string, int>> {
 protected:
   void SetUp() override {

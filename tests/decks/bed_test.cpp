@@ -44,7 +44,8 @@ protected:
   static constexpr std::array<const char *, 2> steppings = {"stock", "second"}; // the decks' default first
 
   static void SetUpTestSuite() { scratch = settled("stock"); }
-  /// Folder of a bed settled with a scheme and a coefficient of rolling friction, made by the first test that needs it.
+  /// Folder of a bed settled with a scheme and a coefficient of rolling friction, made by the first test that
+  /// needs it.
   static fs::path settled(const std::string &stepping, const std::string &rolling = "0") {
     const auto [bed, is_new] = beds.try_emplace(stepping + ", rolling " + rolling);
     if (is_new)
@@ -224,7 +225,8 @@ protected:
           << stopped.output;
       EXPECT_EQ(post::read_table(left / "bed.csv").rows(), 101u);
       const std::string start = (left / "stopped.restart").string();
-      // A changed value of any of the three is refused, on any number of ranks. To save time omega is tried on one rank, the others on two.
+      // A changed value of any of the three is refused, on any number of ranks. To save time omega is tried
+      // on one rank, the others on two.
       const Variables of_another_scene =
           ranks == 1 ? Variables{{"omega", "100"}} : Variables{{"Fw", "10"}, {"steps_per_cycle", "5000"}};
       for (const auto &[name, value] : of_another_scene) {
@@ -310,8 +312,9 @@ protected:
       radii.push_back(ball.radius);
     return radii;
   }
-  /// How deep the lowest point of a drum that is one ball lies below the mean surface that the soil had before, m. The surface is taken
-  /// farther than 1.5 radii of the drum from the middle, on lines that are 0.1 mm apart.
+  /// How deep the lowest point of a drum that is one ball lies below the mean surface that the soil had
+  /// before, m. The surface is taken farther than 1.5 radii of the drum from the middle, on lines that are
+  /// 0.1 mm apart.
   static double depth_of_drum(const fs::path &soil, const fs::path &placed) {
     constexpr double half_width = 0.3, spacing = 1e-4; // m
     const std::vector<DataBall> balls = balls_of(soil), after = balls_of(placed);
@@ -431,8 +434,9 @@ TEST_F(Bed, GoesTheSameWayOnRanksOneTwoAndFour) {
   }
 }
 
-// The motion of a bed is chaotic: after six cycles one rank and two agree only in means over several beds. The means of five seeds
-// may differ by two standard errors. It takes 19 s, so .ci/nightly runs it; other tests compare the rows of shorter runs on both.
+// The motion of a bed is chaotic: after six cycles one rank and two agree only in means over several beds.
+// The means of five seeds may differ by two standard errors. It takes 19 s, so .ci/nightly runs it; other
+// tests compare the rows of shorter runs on both.
 TEST_F(Bed, DISABLED_MeansOverSeedsAgreeOnRanksOneAndTwo) {
   constexpr std::size_t seeds = 5;
   const std::array<const char *, 3> columns = {"settlement", "a_drum_max", "F_contact_max"};
@@ -625,7 +629,8 @@ TEST_F(Bed, EnergyErrorIsBelowAPercentWithRollingFriction) {
   EXPECT_GT(std::fabs(heat[0] - heat[1]), 0.05 * heat[0]); // the torques of rolling friction dissipate energy
 }
 
-/// Springs and dashpots of all balls of the floor are together those of the ground below it: the area times rho c_p^2/H and rho c_p.
+/// Springs and dashpots of all balls of the floor are together those of the ground below it: the area times
+/// rho c_p^2/H and rho c_p.
 void expect_ground_below_floor(const std::string &output, const fs::path &folder) {
   constexpr double area = 0.6; // m2, width of the bed times a thickness of 1 m
   const std::string name = "fix boundary/absorb ground_floor: ";
@@ -665,9 +670,10 @@ TEST_F(Bed, EnergyErrorIsBelowAThousandthOnGroundThatAbsorbs) {
   }
 }
 
-// On the default gravel a vibrating drum stays within 2 % of its diameter of 0.2 m. Without rolling friction it settles
-// more: of four seeds by 2 to 18 mm in four cycles. At rest the sides carry a part of the weight by friction, as in a
-// silo. A bed that was poured with k / 10 is wedged between them: they press it down, and the floor carries 1.15 weights.
+// On the default gravel a vibrating drum stays within 2 % of its diameter of 0.2 m. Without rolling friction
+// it settles more: of four seeds by 2 to 18 mm in four cycles. At rest the sides carry a part of the weight
+// by friction, as in a silo. A bed that was poured with k / 10 is wedged between them: they press it down,
+// and the floor carries 1.15 weights.
 TEST_F(Bed, OfGravelCarriesTheVibratingDrum) {
   const Scratch gravel;
   make(gravel, "1", {"ball"}, {{"case", "gravel"}, {"ratio", "1"}});
@@ -897,8 +903,8 @@ TEST_F(Bed, LeavesNoOldFileWhenASignalStopsTheRunThatReplacesIt) {
   stopped("in.place", placing);
 }
 
-// A drum that is shot through the floor, and soil whose contacts are too soft for the floor to carry it: without any
-// other check that would stop the run.
+// A drum that is shot through the floor, and soil whose contacts are too soft for the floor to carry it:
+// without any other check that would stop the run.
 TEST_F(Bed, ALostBallIsAnErrorOnRanksOneAndTwo) {
   for (const int ranks : {1, 2}) {
     const Scratch folder;
@@ -936,7 +942,8 @@ TEST_F(Bed, EndsAtASignalWhileItSettles) {
 
 TEST_F(Bed, EndsAtASignalAndContinues) { expect_ends_at_a_signal("in.bed", {}); }
 
-// A restart file of any step has the whole state: what differs from an uninterrupted run is that the engine sets up the run again at this step.
+// A restart file of any step has the whole state: what differs from an uninterrupted run is that the engine
+// sets up the run again at this step.
 TEST_F(Bed, ContinuesAfterASignalLikeARunDividedThere) {
   const Scratch folder;
   const std::string deck = read_text(bed_folder() / "in.bed");
@@ -969,8 +976,8 @@ TEST_F(Bed, ContinuesAfterASignalLikeARunDividedThere) {
     EXPECT_EQ(read_text(folder / "left" / file), read_text(folder / "stayed" / file)) << file;
 }
 
-// Three balls side by side, and one that rolls off the top of the middle one so slowly under a strong drag that it needs 2 million steps; then one that falls
-// from high above for as long.
+// Three balls side by side, and one that rolls off the top of the middle one so slowly under a strong drag
+// that it needs 2 million steps; then one that falls from high above for as long.
 TEST(BedAtRest, LeavesOutAFewRollingBallsIfAsked) {
   const Scratch folder;
   const auto write_balls = [&folder](double falls_from) {

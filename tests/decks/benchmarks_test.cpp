@@ -1,5 +1,5 @@
-// Published tests of one or two spheres (inputs/benchmarks): a point of each case in both engines against closed forms
-// and the reference solution of `drumlin study benchmarks`, and LAMMPS against LIGGGHTS.
+// Published tests of one or two spheres (inputs/benchmarks): a point of each case in both engines against
+// closed forms and the reference solution of `drumlin study benchmarks`, and LAMMPS against LIGGGHTS.
 #include "tests/support/engine_runs.h"
 
 #include "lab/benchmarks/checks.h"

@@ -67,8 +67,8 @@ TEST(BoundariesOfDecks, ContactIsLostWhereItIsInClosedForm) {
   }
 }
 
-// The ratio of successive changes of v_drum at the start of a cycle is the multiplier of the orbit that they die
-// away to; beyond the boundary they persist.
+// The ratio of successive changes of v_drum at the start of a cycle is the multiplier of the orbit that they
+// die away to; beyond the boundary they persist.
 TEST(BoundariesOfDecks, ThePeriodDoublesWhereAMultiplierPassesMinusOne) {
   const ChainFamily family = [](double k) { return chain(k, 0.1); };
   constexpr double from = 15e6;

@@ -103,10 +103,9 @@ TEST_P(Chain, StartsFromStaticEquilibrium) {
   EXPECT_NEAR(h.v_frame.front(), 0, 1e-8 * p.g / p.omega);
 }
 
-// Every row has the right-hand sides of Eq. (1) at its own time, position and velocity, and the
-// acceleration that the engine's velocities show. The engine steps with the dashpots at the half-step
-// velocity, v - a dt/2: its velocities follow an acceleration that is off by about C/m dt/2 a, C the sum of
-// the dashpots.
+// Every row has the right-hand sides of Eq. (1) at its own time, position and velocity, and the acceleration
+// that the engine's velocities show. The engine steps with the dashpots at the half-step velocity, v - a
+// dt/2: its velocities follow an acceleration that is off by about C/m dt/2 a, C the sum of the dashpots.
 TEST_P(Chain, RecordsEquationOneInEveryRow) {
   const ChainParameters p = GetParam().parameters();
   constexpr int steps = 2000;
@@ -423,8 +422,8 @@ TEST(HeavyDamping, BetweenWallsIsStableUpToTheLimitOfTheSprings) {
     std::ofstream walls(meshes / "study/confined.two");
     walls << "fix below all mesh/surface file ${out}/strip.stl type 1 move 0 0 -0.4\n"
              "fix above all mesh/surface file ${out}/strip.stl type 1 move 0 0 0.4\n"
-             "fix walls all wall/gran model hooke/transition mesh n_meshes 2 meshes below above "
-             "transition A damping ratio stepping ${stepping}\n";
+             "fix walls all wall/gran model hooke/transition mesh n_meshes 2 meshes below above transition A "
+             "damping ratio stepping ${stepping}\n";
     walls.close();
     expect_rest_between_walls(meshes / "study/in.stability", meshes, D);
   }

@@ -1,5 +1,5 @@
-// The biaxial and the triaxial test: regular lattices against their strength and stiffness in closed form, the forces on the plates against sums
-// over the contacts of a cut, disordered samples in both engines.
+// The biaxial and the triaxial test: regular lattices against their strength and stiffness in closed form,
+// the forces on the plates against sums over the contacts of a cut, disordered samples in both engines.
 #include "bed/dump_readers.h"
 #include "tests/support/element_runs.h"
 
@@ -73,13 +73,15 @@ double modulus(const post::Table &table, std::size_t from, std::size_t to) {
 class Biaxial : public InEngine {};
 class Triaxial : public InEngine {};
 
-/// When a hexagonal lattice, rows across the load, has yielded, the balls of a row are apart, and all forces are in contacts at 60 degrees,
-/// inclined by the angle of friction to their normals: the ratio of the stresses is tan 60 tan(60 + phi).
+/// When a hexagonal lattice, rows across the load, has yielded, the balls of a row are apart, and all forces
+/// are in contacts at 60 degrees, inclined by the angle of friction to their normals: the ratio of the
+/// stresses is tan 60 tan(60 + phi).
 double strength(double friction) { return root3 * std::tan(pi / 3 + std::atan(friction)); }
 
-/// Modulus of the hexagonal lattice between the opening of the contacts within rows and yielding. Rows approach by a, and neighbours in a row
-/// separate by 2 b, so that a contact at 60 degrees is compressed by (root3 a - b)/2 and sheared by (a + root3 b)/2. The side force is constant:
-/// b = root3 a (kn - kt)/(kn + 3 kt). A ball at a plate has two such contacts above or below it and one with the plate.
+/// Modulus of the hexagonal lattice between the opening of the contacts within rows and yielding. Rows
+/// approach by a, and neighbours in a row separate by 2 b, so that a contact at 60 degrees is compressed by
+/// (root3 a - b)/2 and sheared by (a + root3 b)/2. The side force is constant: b = root3 a (kn - kt)/(kn + 3
+/// kt). A ball at a plate has two such contacts above or below it and one with the plate.
 double hexagonal_modulus() {
   const double a = 1.0, b = root3 * a * (kn - kt) / (kn + 3 * kt);
   const double axial_force = (kn * (3 * a - root3 * b) + kt * (a + root3 * b)) / 4; // of a contact
@@ -88,7 +90,8 @@ double hexagonal_modulus() {
   return 2 * axial_force / diameter * height / settlement;
 }
 
-/// Columns of a square lattice, each with a contact less than layers, and those with the plates; heights and widths are between centres.
+/// Columns of a square lattice, each with a contact less than layers, and those with the plates; heights and
+/// widths are between centres.
 double square_modulus() {
   const double force_per_width = columns / ((columns - 1) * diameter);
   return force_per_width * kn / (layers + 1) * (layers - 1) * diameter;
@@ -106,9 +109,10 @@ TEST_P(Biaxial, FindsStrengthAndStiffnessOfAHexagonalLattice) {
   }
 }
 
-// The upper platen moves by 4 nm in a time step, and its position is a multiple of 15 pm, the spacing of floating-point numbers there. The limit of the
-// energy error is exceeded if the distance of a step is not a multiple of this spacing, if the platen is not at rest before it is accelerated, or if the work
-// of the side platen is computed from its velocity.
+// The upper platen moves by 4 nm in a time step, and its position is a multiple of 15 pm, the spacing of
+// floating-point numbers there. The limit of the energy error is exceeded if the distance of a step is not a
+// multiple of this spacing, if the platen is not at rest before it is accelerated, or if the work of the side
+// platen is computed from its velocity.
 TEST_P(Biaxial, BalancesTheEnergyOfASlowTest) {
   Variables slow = lattice("hexagonal", "0", "2e-4");
   slow.insert(slow.begin(), {"inertial_number", "2e-5"});
@@ -131,7 +135,8 @@ TEST(BiaxialLattice, HasTheStiffnessOfItsColumnsIfSquare) {
 const Variables small = {{"columns", "8"},           {"layers", "9"},  {"seating", "50"},
                          {"samples_of_strain", "8"}, {"ramp", "1000"}, {"strain", "0.005"}};
 
-// A dense sample fails at a multiple of the side stress and dilates at the end; the side stress stays what it should be.
+// A dense sample fails at a multiple of the side stress and dilates at the end; the side stress stays what it
+// should be.
 void expect_shear_of_a_dense_sample(const post::Table &rows) {
   const std::vector<double> ratio = ratios(rows);
   EXPECT_NEAR(ratio.front(), 1, 2e-3);
@@ -169,11 +174,10 @@ TEST_P(Biaxial, EndsWhenAPlatenIsOffTheSample) {
     run_biaxial(GetParam(), fast);
     ADD_FAILURE() << "it goes on";
   } catch (const std::runtime_error &error) {
-    EXPECT_NE(
-        std::string(error.what())
-            .find("ERROR: drumlin/check: variable inertial_number is '1'; allowed: a finite number below 1, "
-                  "with which a platen left the sample"),
-        std::string::npos)
+    EXPECT_NE(std::string(error.what())
+                  .find("ERROR: drumlin/check: variable inertial_number is '1'; allowed: a finite number "
+                        "below 1, with which a platen left the sample"),
+              std::string::npos)
         << error.what();
   }
 }
@@ -268,8 +272,9 @@ Variables lattice_in_space(const std::string &sample, const std::string &frictio
   return variables;
 }
 
-/// The springs of a face-centred lattice between smooth plates, solved for small displacements: each ball has contacts with its neighbours, of
-/// stiffness kn3 along and kt3 across the line of centres, and those at the surface one of kn3 with the plate.
+/// The springs of a face-centred lattice between smooth plates, solved for small displacements: each ball has
+/// contacts with its neighbours, of stiffness kn3 along and kt3 across the line of centres, and those at the
+/// surface one of kn3 with the plate.
 class FaceCentredSprings {
 public:
   /// \param across layers of balls, half a cube apart, along x and z
@@ -294,8 +299,8 @@ public:
     }
   }
 
-  /// Axial force, N, and outward displacement of a side platen, m, when the upper platen has settled by 1 m and the
-  /// forces on the side platens have not changed.
+  /// Axial force, N, and outward displacement of a side platen, m, when the upper platen has settled by 1 m
+  /// and the forces on the side platens have not changed.
   struct Response {
     double force, expansion;
   };
@@ -349,7 +354,8 @@ private:
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
   }
 
-  /// The forces that the springs need: of each ball three components and three torques, then one for each platen.
+  /// The forces that the springs need: of each ball three components and three torques, then one for each
+  /// platen.
   std::vector<double> forces(const std::vector<double> &u) const {
     std::vector<double> f(u.size(), 0.0);
     constexpr double radius = diameter / 2;
@@ -388,9 +394,10 @@ private:
   std::vector<Wall> walls_;
 };
 
-/// Axial force per metre by which neighbouring layers of a face-centred lattice approach, far from its ends. Neighbours in layers across the load
-/// separate by 2 b and the force across the load is constant: a contact at 45 degrees to the load has the normal force kn (a - b)/root2 and the
-/// shear force kt (a + b)/root2, one across the load the normal force -kn root2 b, and there are `across` layers with the first for each
+/// Axial force per metre by which neighbouring layers of a face-centred lattice approach, far from its ends.
+/// Neighbours in layers across the load separate by 2 b and the force across the load is constant: a contact
+/// at 45 degrees to the load has the normal force kn (a - b)/root2 and the shear force kt (a + b)/root2, one
+/// across the load the normal force -kn root2 b, and there are `across` layers with the first for each
 /// `across` - 1 with the second.
 double force_of_approach(int across) {
   const double b = across * (kn3 - kt3) / (2 * (across - 1) * kn3 + across * (kn3 + kt3)); // for a = 1
@@ -418,10 +425,11 @@ TEST_P(Triaxial, FindsTheStiffnessOfAFaceCentredLattice) {
   EXPECT_NEAR((side[10] - side[25]) / (strain[25] - strain[10]), expansion, 2e-2 * expansion);
 }
 
-/// A face-centred lattice whose cube has its edges along the axes yields when the contacts at 45 degrees to the load slide; those across it have
-/// opened. With a normal force N and friction T a contact carries (N + T)/root2 along the load and (N - T)/root2 across it. Both directions across
-/// the load share the axial force: the ratio of the stresses is 2 (1 + friction)/(1 - friction) (Thornton 1979). Balls at the edges of the sample
-/// would roll instead; rolling friction keeps them from it.
+/// A face-centred lattice whose cube has its edges along the axes yields when the contacts at 45 degrees to
+/// the load slide; those across it have opened. With a normal force N and friction T a contact carries (N +
+/// T)/root2 along the load and (N - T)/root2 across it. Both directions across the load share the axial
+/// force: the ratio of the stresses is 2 (1 + friction)/(1 - friction) (Thornton 1979). Balls at the edges of
+/// the sample would roll instead; rolling friction keeps them from it.
 TEST_P(Triaxial, FindsTheStrengthOfAFaceCentredLattice) {
   const post::Table rows = run_triaxial(GetParam(), lattice_in_space("face_centred", "0.3", "8e-4"));
   expect_energy_balance(rows, 5e-5);
@@ -431,7 +439,8 @@ TEST_P(Triaxial, FindsTheStrengthOfAFaceCentredLattice) {
   EXPECT_NEAR(ratio.back(), strength, 1e-2 * strength);
 }
 
-// Columns under the load, each with a contact less than layers, and those with the plates; heights and widths are between centres.
+// Columns under the load, each with a contact less than layers, and those with the plates; heights and widths
+// are between centres.
 TEST(TriaxialLattice, HasTheStiffnessOfItsColumnsIfCubic) {
   const post::Table rows = run_triaxial("liggghts", lattice_in_space("cubic", "0.5", "1e-4"));
   const double expected = 16.0 / 9.0 * kn3 / (layers3 + 1) * (layers3 - 1) / diameter;

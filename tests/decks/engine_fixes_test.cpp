@@ -1,6 +1,7 @@
-// Fixes of the engine that change the box, masses or velocities beside the forces: fix deform, fix adapt, fix move. The
-// oracle is mostly the same scene as another observer sees it: inside a deforming box instead of across its side, with
-// a ball that had its size from the start, or on a moved ball of another mass, which must not matter.
+// Fixes of the engine that change the box, masses or velocities beside the forces: fix deform, fix adapt, fix
+// move. The oracle is mostly the same scene as another observer sees it: inside a deforming box instead of
+// across its side, with a ball that had its size from the start, or on a moved ball of another mass, which
+// must not matter.
 #include "tests/support/engine_and_scheme.h"
 
 #include <gtest/gtest.h>
@@ -70,7 +71,8 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Both, EngineFixes, engines_and_steppings(), engine_and_stepping);
 
-/// Two balls that approach each other along with the box, in which the velocity is `rate` (3 x 3) times the place.
+/// Two balls that approach each other along with the box, in which the velocity is `rate` (3 x 3) times the
+/// place.
 struct Deforming {
   const char *name;
   Vector one, two;            ///< places of the pair inside the box, m
@@ -278,8 +280,8 @@ TEST_P(EngineFixes, DrumKeepsItsVelocityThroughADeformingSide) {
   EXPECT_NEAR(free.ball(1).v[1], 4.5, 1e-12);
 }
 
-// With `remap x` the box moves the balls, and with `none` the ghosts, without a velocity. The second-order scheme is of
-// first order in this motion then, as the engine's own is.
+// With `remap x` the box moves the balls, and with `none` the ghosts, without a velocity. The second-order
+// scheme is of first order in this motion then, as the engine's own is.
 TEST_P(EngineFixes, OtherRemappingsConvergeToTheEnginesScheme) {
   for (const char *remap : {"x", "none"})
     for (const bool across : {false, true}) {
@@ -325,7 +327,8 @@ TEST(EngineFixesInLiggghts, TriclinicBoxIsRefused) {
   EXPECT_NE(outcome.output.find("the box is triclinic"), std::string::npos) << outcome.output;
 }
 
-/// A ball that flies along -y onto a ball at rest, and has its size and mass from the start or grows before the impact.
+/// A ball that flies along -y onto a ball at rest, and has its size and mass from the start or grows before
+/// the impact.
 Variables flying(bool grows, const Variables &more) {
   Variables all = {{"one", "0.5 0.8 0.5"},
                    {"two", "0.5 0.59 0.5"},
@@ -480,8 +483,7 @@ TEST_P(EngineFixes, ForceOfAWallOnAMovedBallIsThatOfTheLaw) {
   const std::string wall = engine == "lammps"
                                ? "fix floor all wall/gran/transition 1 yplane 0.4505 NULL"
                                : "fix floor all wall/gran model hooke/transition tangential coulomb "
-                                 "primitive type 1 yplane 0.4505 transition B damping coefficient "
-                                 "stepping " +
+                                 "primitive type 1 yplane 0.4505 transition B damping coefficient stepping " +
                                      stepping;
   for (const double c : {100.0, 3e4}) {
     const Moved scene{"on a wall",
@@ -494,8 +496,8 @@ TEST_P(EngineFixes, ForceOfAWallOnAMovedBallIsThatOfTheLaw) {
   }
 }
 
-/// Overlap, m, of a ball of 1 kg on one that wiggles by 2 mm at 5 Hz, both with one velocity at the start:
-/// m d'' = m (a + g) - k d - c d', solved with a fine step. \param c N s/m
+/// Overlap, m, of a ball of 1 kg on one that wiggles by 2 mm at 5 Hz, both with one velocity at the start: m
+/// d'' = m (a + g) - k d - c d', solved with a fine step. \param c N s/m
 double overlap_on_wiggle(double c, double end) {
   constexpr double m = 1, k = 1e6, g = 9.81, amplitude = 0.002, w = 10 * pi;
   const auto slope = [&](double t, const std::array<double, 2> &y) {

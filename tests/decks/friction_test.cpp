@@ -430,8 +430,8 @@ protected:
   }
 };
 
-// On planes, a mesh (LIGGGHTS), the faces of a region (LAMMPS) and balls. Without damping the Hertz law sticks at 72
-// degrees: its impulse there is tested by oblique_impact_test.cpp.
+// On planes, a mesh (LIGGGHTS), the faces of a region (LAMMPS) and balls. Without damping the Hertz law
+// sticks at 72 degrees: its impulse there is tested by oblique_impact_test.cpp.
 TEST_P(ObliqueImpacts, OfSlidingBallsHaveMuTimesTheNormalImpulse) {
   const bool lammps = std::get<0>(GetParam()) == "lammps";
   const Variables faces = lammps ? Variables{{"walls", "block"}} : Variables{{"mesh", "1"}};

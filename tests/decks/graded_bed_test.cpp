@@ -1,4 +1,5 @@
-// The decks of the bed on balls of a given grading: the files note it, and the time steps follow the smallest ball.
+// The decks of the bed on balls of a given grading: the files note it, and the time steps follow the smallest
+// ball.
 #include "tests/support/engine_runs.h"
 
 #include "runs/parameter_file.h"
@@ -56,7 +57,8 @@ std::map<std::string, std::string> parameters_of(const Scratch &folder, const st
   return post::read_parameters(folder / "B/parameters.csv");
 }
 
-/// Time steps at 20 Hz in half of an undamped oscillation of two of the smallest balls on each other: closed form.
+/// Time steps at 20 Hz in half of an undamped oscillation of two of the smallest balls on each other: closed
+/// form.
 double steps_in_contact(double mass, double k, double steps_per_cycle) {
   constexpr double pi = 3.141592653589793;
   return pi * std::sqrt(0.5 * mass / k) * 20.0 * steps_per_cycle;

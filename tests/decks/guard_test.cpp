@@ -128,8 +128,8 @@ TEST(GuardStops, WhenTheContactIsMade) {
   } catch (const std::runtime_error &error) {
     EXPECT_NE(std::string(error.what()).find("no contact and no bond yet"), std::string::npos);
     EXPECT_NE(std::string(error.what())
-                  .find("at step 21, where ball 1 has the critical step 0.008944 s (mostly "
-                        "because of the link of ball 1 and a wall)"),
+                  .find("at step 21, where ball 1 has the critical step 0.008944 s (mostly because of the "
+                        "link of ball 1 and a wall)"),
               std::string::npos)
         << error.what();
   }

@@ -111,8 +111,8 @@ TEST_P(HertzImpacts, ReboundAsTheClosedFormAtAnySpeed) {
 }
 
 /// A make is at d = 0 with the speed v of the impact. The contact breaks with e v: under A, and without a
-/// dashpot, at d = 0; under B where k d^(3/2) = c d^(1/4) e v. Without a dashpot it lasts (4/5) G(2/5) G(1/2) /
-/// G(9/10) d/v, with the gamma function G and d = (5/4 m v^2 / k)^(2/5). The heat is m v^2 (1 - e^2) / 2.
+/// dashpot, at d = 0; under B where k d^(3/2) = c d^(1/4) e v. Without a dashpot it lasts (4/5) G(2/5) G(1/2)
+/// / G(9/10) d/v, with the gamma function G and d = (5/4 m v^2 / k)^(2/5). The heat is m v^2 (1 - e^2) / 2.
 TEST_P(HertzImpacts, LogMakeAndBreakAndBecomeHeatAsTheClosedForms) {
   constexpr double gap = 1e-6, m_eff = 0.5 * mass;
   const double k = 4.0 / 3.0 * 0.5 * E / (1 - nu * nu) * std::sqrt(0.5 * radius); // of two balls

@@ -158,8 +158,8 @@ TEST_P(InLammpsBounce, GoesAsInLiggghtsOnRanksOneTwoAndFourWithNewtonOffAndOn) {
 INSTANTIATE_TEST_SUITE_P(
     Balls, InLammpsBounce,
     ::testing::Values(
-        // Divided where no contact slides: in the set-up of a run, rounding decides whether the engines' friction takes a
-        // contact at its limit for a sliding one.
+        // Divided where no contact slides: in the set-up of a run, rounding decides whether the engines'
+        // friction takes a contact at its limit for a sliding one.
         Bounce{"B", {}}, Bounce{"A", {{"transition", "A"}, {"first", "5000"}, {"rest", "7000"}}},
         Bounce{"stock", {{"stepping", "stock"}}},
         Bounce{"without_friction", {{"tangential", "off"}, {"mu", "-1"}}},
@@ -253,8 +253,8 @@ TEST_F(InLammps, PartitionsAreRunsOfTheirOwnOnRanksOneAndTwo) {
   }
 }
 
-/// With a suffix LAMMPS takes its own accelerated variants where it has them, and refuses a suffix whose package
-/// is not in the lmp.
+/// With a suffix LAMMPS takes its own accelerated variants where it has them, and refuses a suffix whose
+/// package is not in the lmp.
 TEST_F(InLammps, SuffixesChangeNoResult) {
   const Scratch plain;
   ASSERT_TRUE(run_deck(chain_deck("in.chain.lammps"), {{"cycles", "1"}}, plain.path()).ok());
@@ -282,8 +282,8 @@ TEST_F(InLammps, RefusesTheHistoryOfAnotherWallOnRanksOneAndTwo) {
                                      {{"start", (block / "first.restart").string()}, {"walls", "cylinder"}},
                                      folder.path(), ranks);
     EXPECT_EQ(outcome.status, 1) << outcome.output;
-    EXPECT_TRUE(outcome.says("fix wall/gran/transition: the restart file holds another wall under the ID "
-                             "'walls'; allowed: "))
+    EXPECT_TRUE(outcome.says(
+        "fix wall/gran/transition: the restart file holds another wall under the ID 'walls'; allowed: "))
         << outcome.output;
   }
 }

@@ -1,5 +1,5 @@
-// Beds of layers: the contacts of each layer, of layers with each other and with walls, in closed form; and small beds that are made and
-// settled layer by layer.
+// Beds of layers: the contacts of each layer, of layers with each other and with walls, in closed form; and
+// small beds that are made and settled layer by layer.
 #include "tests/support/engine_runs.h"
 #include "tests/support/host_deck.h"
 
@@ -116,7 +116,8 @@ std::vector<Placed> lattice() {
   return balls;
 }
 
-// Each contact of a column is a spring that carries the weight of the balls above it, and the springs of a column are in series.
+// Each contact of a column is a spring that carries the weight of the balls above it, and the springs of a
+// column are in series.
 TEST_P(Layers, OfALatticeSettleAsSpringsInSeries) {
   const std::vector<Placed> balls = lattice();
   const std::map<long, Ball> rest = last_state(balls, {{"drag", "300"}});
@@ -161,7 +162,8 @@ TEST_P(Layers, WithoutBallsOrWithTooManyNumbersAreRefused) {
   refusal(lattice(), {{"D", "0.5,-1,0"}}, "keyword D is '0.5,-1,0'; allowed: a finite number >= 0");
 }
 
-// Pairs of balls of all layers and of the drum (type 2): one approaches and slides, the other rolls. Force and torque in closed form.
+// Pairs of balls of all layers and of the drum (type 2): one approaches and slides, the other rolls. Force
+// and torque in closed form.
 TEST_P(Layers, HaveTheLawsOfThePageWithEachOtherAndWithTheDrum) {
   constexpr double overlap = 1e-4, approach = 0.1, slip = 100.0, spin = 1e9, lever = radius - 0.5 * overlap;
   struct Pair {
@@ -231,7 +233,8 @@ std::vector<double> noted_tops(const std::filesystem::path &file) {
   return tops;
 }
 
-/// A soft subgrade of 110 balls in the plane, 70 in three dimensions, and a base course of 60 or 50, as ./drumlin bed and in.settle make them.
+/// A soft subgrade of 110 balls in the plane, 70 in three dimensions, and a base course of 60 or 50, as
+/// ./drumlin bed and in.settle make them.
 class LayeredBed : public Layers {
 protected:
   static constexpr double largest = 0.048; // m, diameter
@@ -272,8 +275,8 @@ INSTANTIATE_TEST_SUITE_P(Decks, LayeredBed,
                            return std::get<0>(test.param) + "_" + std::get<1>(test.param) + "D";
                          });
 
-// When the bed has settled the surface of each layer is where it was asked for within half of the largest ball, and no ball lies farther
-// than one diameter of the largest one on the other side of the boundary.
+// When the bed has settled the surface of each layer is where it was asked for within half of the largest
+// ball, and no ball lies farther than one diameter of the largest one on the other side of the boundary.
 TEST_P(LayeredBed, SettlesLayerByLayer) {
   const Scratch folder;
   const Outcome outcome = settle(folder, {});
@@ -295,7 +298,8 @@ TEST_P(LayeredBed, SettlesLayerByLayer) {
   EXPECT_GT(counts[4], 20u);
 }
 
-/// Number of balls of an absorbing boundary times the dashpot of each, kg/s, as the log of the fix has it; 0 if there is no such fix.
+/// Number of balls of an absorbing boundary times the dashpot of each, kg/s, as the log of the fix has it; 0
+/// if there is no such fix.
 double dashpots(const std::string &log, const std::string &id) {
   const std::string name = "fix boundary/absorb " + id + ": ";
   const std::size_t line = log.find(name);
@@ -307,8 +311,8 @@ double dashpots(const std::string &log, const std::string &id) {
   return balls * dashpot;
 }
 
-// A roller on a bed of layers, hardly settled: the decks hand on the lists, floor and sides have the impedance of their layers, and a run that is
-// stopped continues bit for bit.
+// A roller on a bed of layers, hardly settled: the decks hand on the lists, floor and sides have the
+// impedance of their layers, and a run that is stopped continues bit for bit.
 TEST_P(LayeredBed, CarriesARollerAndContinuesWhereItStopped) {
   const auto &[engine, dimension] = GetParam();
   if (dimension == "3") return;
@@ -345,7 +349,8 @@ TEST_P(LayeredBed, CarriesARollerAndContinuesWhereItStopped) {
   EXPECT_EQ(made["layers"], "2");
   const std::vector<double> tops = noted_tops(folder / "soil.data");
   ASSERT_EQ(tops.size(), 2u);
-  // The impedance of gravel with k = 1e9 N/m is 2150 kg/m3 times 450 m/s; that of the subgrade has the root of a tenth of this k.
+  // The impedance of gravel with k = 1e9 N/m is 2150 kg/m3 times 450 m/s; that of the subgrade has the root
+  // of a tenth of this k.
   const double gravel = 2150.0 * 450.0, subgrade = gravel * std::sqrt(0.1);
   EXPECT_NEAR(dashpots(whole.output, "ground_floor"), subgrade * 0.8, 1e-5 * subgrade);
   const std::array<double, 2> sides = {subgrade * tops[0],

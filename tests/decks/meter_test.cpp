@@ -1,4 +1,5 @@
-// Meter values of the chain in the engine: from the sums over every step, against those of the exact solution.
+// Meter values of the chain in the engine: from the sums over every step, against those of the exact
+// solution.
 #include "tests/support/engine_runs.h"
 
 #include "meter/values.h"

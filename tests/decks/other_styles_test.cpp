@@ -1,5 +1,5 @@
-// The engines' own fixes, run styles and walls beside the plugin: plugin/doc/with_other_styles.md. Two balls over a
-// floor, one of which falls on it, in both engines, and lines of the test's own.
+// The engines' own fixes, run styles and walls beside the plugin: plugin/doc/with_other_styles.md. Two balls
+// over a floor, one of which falls on it, in both engines, and lines of the test's own.
 #include "tests/support/balls_run.h"
 #include "tests/support/host_deck.h"
 #include "tests/support/lines.h"
@@ -107,7 +107,8 @@ bool skips(bool lammps) { return lammps && !post::has_lammps(); }
 #define SKIP_WITHOUT_LAMMPS(lammps)                                                                          \
   if (skips(lammps)) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)"
 
-// --- fixes that add forces ----------------------------------------------------------------------------------------
+// --- fixes that add forces
+// ----------------------------------------------------------------------------------------
 
 struct Beside {
   const char *engines; // L: LIGGGHTS, M: LAMMPS
@@ -201,7 +202,8 @@ TEST_P(NeighborStyles, FindContactsOfUnequalBallsInLammps) {
 INSTANTIATE_TEST_SUITE_P(Lammps, NeighborStyles, ::testing::Values("nsq", "bin", "multi", "multi/old"),
                          [](const auto &test) { return name_of(std::string(test.param)); });
 
-// --- another time step within a run -------------------------------------------------------------------------------
+// --- another time step within a run
+// -------------------------------------------------------------------------------
 
 /// The numbers of a row of a table that the plugin wrote, from its start or, below 0, from its end.
 std::vector<double> row_of(const std::filesystem::path &file, int number) {
@@ -216,7 +218,8 @@ std::vector<double> row_of(const std::filesystem::path &file, int number) {
 
 class TimeStepWithinARun : public ::testing::TestWithParam<std::tuple<bool, std::string>> {};
 
-// Ball 2 falls freely from rest under 1 m/s2: its speed is the time. The excitation of ball 1 lets fix dt/reset shorten the step.
+// Ball 2 falls freely from rest under 1 m/s2: its speed is the time. The excitation of ball 1 lets fix
+// dt/reset shorten the step.
 TEST_P(TimeStepWithinARun, LeavesClocksRight) {
   const auto &[lammps, stepping] = GetParam();
   SKIP_WITHOUT_LAMMPS(lammps);
@@ -257,7 +260,8 @@ INSTANTIATE_TEST_SUITE_P(Engines, TimeStepWithinARun,
                                   (std::get<0>(test.param) ? "_lammps" : "_liggghts");
                          });
 
-// --- moving walls ---------------------------------------------------------------------------------------------------
+// --- moving walls
+// ---------------------------------------------------------------------------------------------------
 
 /// Energies and heats of contact/energy at the end: f_E[4], f_E[5].
 std::array<double, 2> heats(Scene scene) {
@@ -333,7 +337,8 @@ INSTANTIATE_TEST_SUITE_P(Walls, HeatAtAMovingWall,
                            return std::string(std::get<1>(test.param).name) + "_" + std::get<0>(test.param);
                          });
 
-// --- fixes that change velocities beside the integration --------------------------------------------------------------
+// --- fixes that change velocities beside the integration
+// --------------------------------------------------------------
 
 struct Changing {
   bool lammps;
@@ -372,7 +377,8 @@ const Changing changing[] = {
     {true, "wall/piston zlo vel 5"},
 };
 
-/// Balls 1 and 2 fly at each other, with the law of the plugin under `stock` or with the engine's own; ball 3 flies alone.
+/// Balls 1 and 2 fly at each other, with the law of the plugin under `stock` or with the engine's own; ball 3
+/// flies alone.
 std::string collision(const Changing &test, bool own_law, bool with_fix) {
   constexpr double c = 60.0, m_eff = 0.5 * mass;
   std::string text = test.lammps ? "plugin load ${plugin}\natom_style sphere\ncomm_modify vel yes\n"
@@ -393,11 +399,10 @@ std::string collision(const Changing &test, bool own_law, bool with_fix) {
                                   "coefficient stepping stock\npair_coeff * * {} {}\n",
                                   k, c);
   else {
-    text += own_law
-                ? "pair_style gran model hooke/stiffness tangential off tangential_damping off "
-                  "absolute_damping on limitForce off\n"
-                : "pair_style gran model hooke/transition tangential off transition A damping coefficient "
-                  "stepping stock\n";
+    text += own_law ? "pair_style gran model hooke/stiffness tangential off tangential_damping off "
+                      "absolute_damping on limitForce off\n"
+                    : "pair_style gran model hooke/transition tangential off transition A damping "
+                      "coefficient stepping stock\n";
     text += "pair_coeff * *\n";
     for (const auto &[name, value] :
          {std::pair("kn", k), {"kt", 0.0}, {"gamman_abs", c}, {"gammat_abs", 0.0}})
@@ -450,7 +455,8 @@ INSTANTIATE_TEST_SUITE_P(Fixes, ChangedVelocities, ::testing::ValuesIn(changing)
   return name_of("fix f a " + line) + (test.param.lammps ? "_lammps" : "_liggghts");
 });
 
-// --- contacts beyond the neighbour list ---------------------------------------------------------------------------
+// --- contacts beyond the neighbour list
+// ---------------------------------------------------------------------------
 
 class GrowingBalls : public ::testing::TestWithParam<std::tuple<bool, int>> {};
 
@@ -483,7 +489,8 @@ INSTANTIATE_TEST_SUITE_P(Engines, GrowingBalls,
                                   (std::get<1>(test.param) == 2 ? "OnRanks" : "");
                          });
 
-// --- inserted balls ------------------------------------------------------------------------------------------------
+// --- inserted balls
+// ------------------------------------------------------------------------------------------------
 
 struct Insertion {
   const char *name;
@@ -494,14 +501,13 @@ struct Insertion {
 void PrintTo(const Insertion &insertion, std::ostream *out) { *out << insertion.name; }
 
 const std::string templates =
-    "fix t all particletemplate/sphere 15485863 atom_type 1 density constant 1909.86 radius "
-    "constant 0.05\nfix d all particledistribution/discrete 15485867 1 t 1.0\n"
+    "fix t all particletemplate/sphere 15485863 atom_type 1 density constant 1909.86 radius constant "
+    "0.05\nfix d all particledistribution/discrete 15485867 1 t 1.0\n"
     "region in block 0.5 0.7 -0.1 0.1 0.055 0.2 units box\n";
 const Insertion insertions[] = {
     {"insert_pack", false, 0.3,
-     templates +
-         "fix f all insert/pack seed 32452843 distributiontemplate d insert_every once overlapcheck yes "
-         "vel constant 0 0 -1 all_in yes particles_in_region 1 region in"},
+     templates + "fix f all insert/pack seed 32452843 distributiontemplate d insert_every once overlapcheck "
+                 "yes vel constant 0 0 -1 all_in yes particles_in_region 1 region in"},
     {"insert_rate_region", false, 0.3,
      templates +
          "fix f all insert/rate/region seed 32452843 distributiontemplate d nparticles 1 particlerate 1e6 "
@@ -536,7 +542,8 @@ TEST_P(Inserted, BallsGoWithTheSecondOrderScheme) {
 INSTANTIATE_TEST_SUITE_P(Fixes, Inserted, ::testing::ValuesIn(insertions),
                          [](const auto &test) { return std::string(test.param.name); });
 
-// --- styles on no list ---------------------------------------------------------------------------------------------
+// --- styles on no list
+// ---------------------------------------------------------------------------------------------
 
 // One warning, which names the fix, for two runs.
 TEST(OtherStylesOnNoList, GetOneWarning) {

@@ -1,5 +1,6 @@
-// Tests of soil under its own weight: a hexagonal lattice without friction between its balls against the equilibrium of its balls, behind a smooth
-// wall and in a silo; Janssen's and Rankine's theory; the angle of repose with and without friction; disordered samples in both engines.
+// Tests of soil under its own weight: a hexagonal lattice without friction between its balls against the
+// equilibrium of its balls, behind a smooth wall and in a silo; Janssen's and Rankine's theory; the angle of
+// repose with and without friction; disordered samples in both engines.
 #include "support/statistics.h"
 #include "tests/support/element_runs.h"
 
@@ -21,13 +22,15 @@ struct Statics {
   double floor = 0.0;
 };
 
-/// Equilibrium of the balls of a lattice, row by row from above, if the balls of a row are apart and have no friction between each other, so that all
-/// forces are normal ones in contacts at 60 degrees, and the outer balls of every second row, the longer ones, slide down the walls. The lowest row is
-/// a shorter one. A contact of a ball inside passes on the force from above in its direction and half of the ball's weight.
+/// Equilibrium of the balls of a lattice, row by row from above, if the balls of a row are apart and have no
+/// friction between each other, so that all forces are normal ones in contacts at 60 degrees, and the outer
+/// balls of every second row, the longer ones, slide down the walls. The lowest row is a shorter one. A
+/// contact of a ball inside passes on the force from above in its direction and half of the ball's weight.
 /// \param columns balls in a longer row
 Statics statics(int columns, int layers, double wall_friction) {
   const double sine = std::sqrt(0.75), cosine = 0.5;
-  // To the right and to the left down, of each ball of a row; weights are 1. Outside of the outer balls there is none.
+  // To the right and to the left down, of each ball of a row; weights are 1. Outside of the outer balls there
+  // is none.
   std::vector<double> right, left;
   double walls = 0.0, weight = 0.0;
   for (int row = layers; row > 0; --row) {
@@ -51,7 +54,8 @@ Statics statics(int columns, int layers, double wall_friction) {
     }
     weight += balls;
     if (!longer) continue;
-    // The outer balls: from one side f, to the same side g; N = (f + g) cos 60, (g - f) sin 60 = weight - friction N.
+    // The outer balls: from one side f, to the same side g; N = (f + g) cos 60, (g - f) sin 60 = weight -
+    // friction N.
     const auto reflected = [&](double f) {
       const double g = (f * (sine - wall_friction * cosine) + 1.0) / (sine + wall_friction * cosine);
       walls += (f + g) * cosine;
@@ -97,8 +101,9 @@ Variables lattice(int layers, Variables more) {
   return more;
 }
 
-// The statics themselves: without friction of the walls the floor carries all, and a wall as much as the sum over the longer rows, j rows below the
-// top, of j weights over tan 60, a third of the hydrostatic force for many rows.
+// The statics themselves: without friction of the walls the floor carries all, and a wall as much as the sum
+// over the longer rows, j rows below the top, of j weights over tan 60, a third of the hydrostatic force for
+// many rows.
 TEST(LatticeStatics, AreThoseOfSmoothWalls) {
   const Statics smooth = statics(8, 9, 0.0);
   EXPECT_NEAR(smooth.floor, 1.0, 1e-12);
@@ -107,7 +112,8 @@ TEST(LatticeStatics, AreThoseOfSmoothWalls) {
   EXPECT_NEAR(rough.floor + 0.3 * rough.walls, 1.0, 1e-12);
 }
 
-// Rankine: smooth walls carry a third of the hydrostatic force, since the friction angle of the lattice is 30 degrees, and more by the outer balls.
+// Rankine: smooth walls carry a third of the hydrostatic force, since the friction angle of the lattice is 30
+// degrees, and more by the outer balls.
 TEST_P(OwnWeight, FindsTheActiveForceOfALattice) {
   for (const std::string stepping : {"stock", "second"}) {
     SCOPED_TRACE(stepping);
@@ -125,8 +131,9 @@ TEST_P(OwnWeight, FindsTheActiveForceOfALattice) {
   }
 }
 
-// Janssen, without a parameter: the lattice's ratio of the stresses is 1/3; its equilibrium has the effects of its few columns besides. Rolling
-// resistance keeps the outer balls from rolling down the walls, and friction of 1e-6 between balls is none.
+// Janssen, without a parameter: the lattice's ratio of the stresses is 1/3; its equilibrium has the effects
+// of its few columns besides. Rolling resistance keeps the outer balls from rolling down the walls, and
+// friction of 1e-6 between balls is none.
 TEST_P(OwnWeight, FindsTheFloorForceOfALatticeInASilo) {
   const WeightRun run(GetParam(), "silo",
                       lattice(25, {{"friction", "1e-6"},
@@ -179,7 +186,8 @@ TEST(DefaultContacts, AreThoseOfTheGravel) {
 
 const Variables disordered = {{"columns", "7"}, {"layers", "9"}, {"k", "1e7"}, {"ramp", "1000"}};
 
-// A disordered sample fails, carried by both walls alike; the force is between those of friction angles of 25 and 50 degrees.
+// A disordered sample fails, carried by both walls alike; the force is between those of friction angles of 25
+// and 50 degrees.
 TEST_P(OwnWeight, FindsTheActiveForceOfADisorderedSample) {
   Variables variables = disordered;
   variables.insert(variables.end(), {{"strain", "5e-3"}, {"samples_of_strain", "5"}});
@@ -252,7 +260,8 @@ Heap heap(const std::string &engine, const Variables &variables) {
   return result;
 }
 
-// Balls without friction on a smooth floor lie level, within a ball over the length of the surface, and press on the wall.
+// Balls without friction on a smooth floor lie level, within a ball over the length of the surface, and press
+// on the wall.
 TEST(Repose, IsLevelWithoutFriction) {
   const Heap level =
       heap("liggghts",
@@ -262,7 +271,8 @@ TEST(Repose, IsLevelWithoutFriction) {
   EXPECT_GT(level.wall_force, 0);
 }
 
-// The slope stands without the wall, and is not steeper than friction allows: atan 0.8 = 39 degrees, and a few degrees for so few balls.
+// The slope stands without the wall, and is not steeper than friction allows: atan 0.8 = 39 degrees, and a
+// few degrees for so few balls.
 TEST(Repose, GrowsWithFriction) {
   const Heap smooth = heap("liggghts", {{"friction", "0.2"}, {"rolling", "0.05"}}),
              rough = heap("liggghts", {});

@@ -1,4 +1,5 @@
-// The plate load test: the forces below one loaded ball against Flamant's solution, the balance of forces and of energy, a disordered bed in both engines.
+// The plate load test: the forces below one loaded ball against Flamant's solution, the balance of forces and
+// of energy, a disordered bed in both engines.
 #include "bed/dump_readers.h"
 #include "tests/support/element_runs.h"
 
@@ -27,8 +28,8 @@ const Variables without_pouring = {
     {"k", "1e9"},        {"pour_k", "1e9"}, {"pour_friction", "0.8"}, {"pour_rolling", "0.3"},
     {"pour_dt", "1e-5"}, {"fall", "0"},     {"drag", "2000"},         {"ratio", "1e-6"}};
 
-/// A lattice of balls between walls, square or hexagonal. In a hexagonal one the balls of a row overlap, so that their contacts carry a force, and
-/// just touch those of other rows; in a square one all just touch.
+/// A lattice of balls between walls, square or hexagonal. In a hexagonal one the balls of a row overlap, so
+/// that their contacts carry a force, and just touch those of other rows; in a square one all just touch.
 struct Lattice {
   int columns; ///< balls in the first row
   int rows;
@@ -61,16 +62,16 @@ struct Lattice {
   }
 };
 
-/// A hexagonal lattice, prestressed also by a gravity a hundred times the earth's, below a plate that is one ball on the middle ball of its
-/// upper row.
+/// A hexagonal lattice, prestressed also by a gravity a hundred times the earth's, below a plate that is one
+/// ball on the middle ball of its upper row.
 class LineLoad {
 public:
   LineLoad(int columns, int rows) : lattice_{columns, rows, true} { lattice_.make(scratch_.path(), "981"); }
 
   static constexpr double load = 1000.0; // N per metre: 25 kPa on the width of a ball
 
-  /// Force through the gap above each ball, downwards, by its row below the upper one and its distance from the load, m; and the force of the
-  /// floor and the walls.
+  /// Force through the gap above each ball, downwards, by its row below the upper one and its distance from
+  /// the load, m; and the force of the floor and the walls.
   struct Forces {
     std::map<int, std::map<double, double>> into_row;
     double reaction = 0.0;
@@ -141,8 +142,8 @@ private:
   Scratch scratch_;
 };
 
-/// Force between x - radius and x + radius at a depth below a line load on a half-space: integral of Flamant's vertical stress
-/// 2 P y^3/(pi (x^2 + y^2)^2).
+/// Force between x - radius and x + radius at a depth below a line load on a half-space: integral of
+/// Flamant's vertical stress 2 P y^3/(pi (x^2 + y^2)^2).
 double flamant(double load, double x, double depth) {
   const auto from_middle = [&](double u) {
     return load / pi * (std::atan(u / depth) + u * depth / (u * u + depth * depth));
@@ -150,8 +151,8 @@ double flamant(double load, double x, double depth) {
   return from_middle(x + radius) - from_middle(x - radius);
 }
 
-/// Root mean square of the difference from Flamant's forces in a row, over that of these forces. The depth is that of the contacts above the row
-/// below the point where the plate touches its ball.
+/// Root mean square of the difference from Flamant's forces in a row, over that of these forces. The depth is
+/// that of the contacts above the row below the point where the plate touches its ball.
 double difference(const LineLoad::Forces &change, int row) {
   double squares = 0.0, all = 0.0;
   for (const auto &[x, force] : change.into_row.at(row)) {
@@ -162,8 +163,8 @@ double difference(const LineLoad::Forces &change, int row) {
   return std::sqrt(squares / all);
 }
 
-// The walls disturb the forces in proportion to the square of depth over size, the balls to that of diameter over depth. Both become small if the
-// depth grows as the square root of the size.
+// The walls disturb the forces in proportion to the square of depth over size, the balls to that of diameter
+// over depth. Both become small if the depth grows as the square root of the size.
 TEST(PlateOnALattice, SpreadsALineLoadLikeFlamant) {
   const LineLoad small(15, 9), large(31, 17);
   const LineLoad::Forces in_small = small.change(), in_large = large.change();
@@ -180,8 +181,8 @@ TEST(PlateOnALattice, SpreadsALineLoadLikeFlamant) {
 
 class PlateOnColumns : public InEngine {};
 
-// A square lattice carries a load straight down: below the plate are columns, each a series of the springs of its balls, of the floor and of the
-// plate, which neighbours do not touch with any force.
+// A square lattice carries a load straight down: below the plate are columns, each a series of the springs of
+// its balls, of the floor and of the plate, which neighbours do not touch with any force.
 struct Columns {
   static constexpr int rows = 9, columns = 15, below = 5;
   static constexpr double k = 1e9, width = below * 2 * radius;

@@ -63,8 +63,8 @@ TEST_P(Ranks, AgreeWithOne) {
   expect_agreement("IV", "second", "1e7", GetParam()); // solved for together with the contact
 }
 
-// 2 ranks: cut at 0.25, soil | drum, frame. 3: cuts at 1/3 and 2.17, the same in the deck's own box.
-// 4: cuts at -0.125, 1.25, 2.625: each ball on a rank of its own, and a rank without any.
+// 2 ranks: cut at 0.25, soil | drum, frame. 3: cuts at 1/3 and 2.17, the same in the deck's own box. 4: cuts
+// at -0.125, 1.25, 2.625: each ball on a rank of its own, and a rank without any.
 const Layout layouts[] = {{2, -3.5}, {3, -1.5}, {4, -1.5}};
 INSTANTIATE_TEST_SUITE_P(Layers, Ranks, ::testing::ValuesIn(layouts),
                          [](const auto &test) { return std::to_string(test.param.ranks); });

@@ -117,11 +117,12 @@ TEST_P(RollingHeap, IsTheSameInBothEngines) {
   EXPECT_GT(distance(heap("heap.lammps", "0"), liggghts), 1e-3);
 }
 
-/// In time steps in which a deck asks for the pressure, LIGGGHTS computes the contacts in its own loop; in all others the plugin
-/// computes them in another one. Both give the same motion and the same forces on balls, bit for bit, the same forces of contacts in
-/// fix contact/local to 1e-9 N, and the same energies in fix contact/energy. With D = 20, `stepping second` solves for the damping
-/// forces of contacts that share a ball together, after the loop: the force that fix contact/local prints must be the solved one, not
-/// the one that the loop has computed before.
+/// In time steps in which a deck asks for the pressure, LIGGGHTS computes the contacts in its own loop; in
+/// all others the plugin computes them in another one. Both give the same motion and the same forces on
+/// balls, bit for bit, the same forces of contacts in fix contact/local to 1e-9 N, and the same energies in
+/// fix contact/energy. With D = 20, `stepping second` solves for the damping forces of contacts that share a
+/// ball together, after the loop: the force that fix contact/local prints must be the solved one, not the one
+/// that the loop has computed before.
 TEST_P(RollingHeap, IsTheSameInTheLoopsOfEngineAndPlugin) {
   const auto &[dimension, stepping] = GetParam();
   for (const char *damping : {"0.2", "20"}) {
@@ -188,9 +189,10 @@ std::map<long, std::vector<ContactRow>> rows_of_contacts(const std::filesystem::
   return rows;
 }
 
-/// With heavy damping, `stepping second` computes friction first and the final normal forces of contacts that share a ball afterwards.
-/// Friction must not exceed mu times these final forces Fn, and the torque of a ball not the sum over its contacts of friction times its radius and
-/// of mu_r R Fn, the limit of rolling resistance with the effective radius R.
+/// With heavy damping, `stepping second` computes friction first and the final normal forces of contacts that
+/// share a ball afterwards. Friction must not exceed mu times these final forces Fn, and the torque of a ball
+/// not the sum over its contacts of friction times its radius and of mu_r R Fn, the limit of rolling
+/// resistance with the effective radius R.
 TEST_P(RollingHeap, FrictionAndRollingKeepTheirLimitsAtAnyDamping) {
   constexpr double mu = 0.4, mu_r = 0.2; // of heap.scene, as the radius, m
   const auto radius = [](long id) { return 0.5 * (0.07 + 0.02 * std::sin(7.0 * static_cast<double>(id))); };
@@ -266,9 +268,9 @@ std::vector<Frame> heap_by_number(const char *deck, const std::string &dimension
   return frames;
 }
 
-/// The normal forces of heavily damped contacts that share a ball are computed together. The friction force and
-/// the torque of rolling resistance of each contact are then limited in proportion to its normal force. On
-/// several ranks, contacts that share a ball may belong to different ranks. The motion must be the same.
+/// The normal forces of heavily damped contacts that share a ball are computed together. The friction force
+/// and the torque of rolling resistance of each contact are then limited in proportion to its normal force.
+/// On several ranks, contacts that share a ball may belong to different ranks. The motion must be the same.
 TEST(HeapOnSeveralRanks, IsThatOnOne) {
   for (const char *dimension : {"2", "3"})
     for (const auto &[deck, newton] :
@@ -284,8 +286,8 @@ TEST(HeapOnSeveralRanks, IsThatOnOne) {
 }
 
 /// The friction force Ft of a heavily damped contact is limited twice: to the friction coefficient times a
-/// preliminary normal force, and, when all normal forces are known, to the coefficient times the final one. The
-/// second limitation must also shorten the tangential spring, so that its force is again Ft. Without a
+/// preliminary normal force, and, when all normal forces are known, to the coefficient times the final one.
+/// The second limitation must also shorten the tangential spring, so that its force is again Ft. Without a
 /// tangential dashpot the energy of this spring is Ft^2/(2 kt). The test compares the elastic energy of all
 /// tangential springs with the sum of Ft^2/(2 kt) over the contacts.
 TEST_P(RollingHeap, TheSpringOfFrictionFollowsTheLimit) {

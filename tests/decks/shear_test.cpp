@@ -1,4 +1,5 @@
-// The simple shear test: a hexagonal lattice against its strength and stiffness in closed form, a disordered sample in both engines.
+// The simple shear test: a hexagonal lattice against its strength and stiffness in closed form, a disordered
+// sample in both engines.
 #include "tests/support/element_runs.h"
 
 #include <gtest/gtest.h>
@@ -22,11 +23,13 @@ std::vector<double> ratios(const post::Table &table) {
   return values;
 }
 
-// A hexagonal lattice with rows along the platen has contacts at 60 degrees to the rows. Since all balls but those of the plates turn freely, these
-// contacts carry no friction: with equal angular velocities neighbours roll on each other. Under shear one contact of each ball with the row below
-// is compressed and the other unloaded, by half the displacement u of the row: the shear force of a ball is kn u/2, and the modulus, force over
-// width times row height over displacement, is root3/4 kn. With an even number of rows between the plates their balls, which do not turn, change
-// nothing. When the second contact opens, the rows climb over each other at 30 degrees: that is the angle of friction.
+// A hexagonal lattice with rows along the platen has contacts at 60 degrees to the rows. Since all balls but
+// those of the plates turn freely, these contacts carry no friction: with equal angular velocities neighbours
+// roll on each other. Under shear one contact of each ball with the row below is compressed and the other
+// unloaded, by half the displacement u of the row: the shear force of a ball is kn u/2, and the modulus,
+// force over width times row height over displacement, is root3/4 kn. With an even number of rows between the
+// plates their balls, which do not turn, change nothing. When the second contact opens, the rows climb over
+// each other at 30 degrees: that is the angle of friction.
 TEST_P(Shear, FindsStrengthAndStiffnessOfAHexagonalLattice) {
   for (const std::string stepping : {"stock", "second"}) {
     SCOPED_TRACE(stepping);
@@ -100,7 +103,8 @@ TEST_P(Shear, ShearsADisorderedSample) {
     EXPECT_LT(std::fabs(error), 1e-3);
 }
 
-// Ranks add forces in other orders. Until the rows climb over each other this makes no difference, then it grows: the motion is unstable.
+// Ranks add forces in other orders. Until the rows climb over each other this makes no difference, then it
+// grows: the motion is unstable.
 TEST_P(Shear, HasTheSameStrengthOnTwoRanks) {
   const Variables variables = {{"sample", "hexagonal"}, {"columns", "4"},
                                {"layers", "7"},         {"friction", "0.3"},

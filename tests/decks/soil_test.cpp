@@ -1,4 +1,5 @@
-// The oedometer: regular lattices against their moduli in closed form, energy balances, both engines against each other.
+// The oedometer: regular lattices against their moduli in closed form, energy balances, both engines against
+// each other.
 #include "tests/support/element_runs.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +28,8 @@ std::vector<double> after_loads(const post::Table &table, const std::string &col
 
 constexpr double diameter = 0.04; // m, the deck's
 
-/// A regular lattice. A uniform compression along y, with n the unit vector of a contact and d the diameter, gives
+/// A regular lattice. A uniform compression along y, with n the unit vector of a contact and d the diameter,
+/// gives
 ///   modulus = sum over the contacts of a ball of d^2 n_y^2 (kn n_y^2 + kt (1 - n_y^2)) / (2 V),
 /// V being the volume (area) per ball. No ball rotates, as each is at a centre of symmetry.
 struct Lattice {
@@ -35,8 +37,8 @@ struct Lattice {
   double kn, kt;             // N/m
   double normal, tangential; // 1/m (1 in two dimensions): modulus = normal kn + tangential kt
   double void_ratio;
-  double
-      volume; // m3 (m2), from centre to centre of the plates, of the deck's numbers of columns, rows and layers
+  double volume; // m3 (m2), from centre to centre of the plates, of the deck's numbers of columns, rows and
+                 // layers
 };
 
 const double root2 = std::sqrt(2.0), root3 = std::sqrt(3.0);
@@ -156,7 +158,8 @@ TEST(OedometerLattice, IsTheSameInBothEngines) {
   expect_equal(run_oedometer("lammps", variables), run_oedometer("liggghts", variables));
 }
 
-// Other numbers of ranks add forces in another order. The motion of a disordered sample is chaotic, so that only lattices can be compared.
+// Other numbers of ranks add forces in another order. The motion of a disordered sample is chaotic, so that
+// only lattices can be compared.
 class ElementTestRanks : public ::testing::TestWithParam<std::tuple<std::string, ElementTest>> {
 protected:
   void SetUp() override {

@@ -1,5 +1,5 @@
-// The reports of the walls: force, torque, stress and wear of a mesh, force on each ball, force of a wall, against the momentum that the
-// balls gain.
+// The reports of the walls: force, torque, stress and wear of a mesh, force on each ball, force of a wall,
+// against the momentum that the balls gain.
 #include "tests/support/balls_run.h"
 #include "tests/support/engine_and_scheme.h"
 #include "tests/support/lines.h"
@@ -17,8 +17,8 @@ namespace drumlin::test {
 namespace {
 
 constexpr double dt = 2e-5, g = 9.81;
-// Columns of the table that wall_force.scene prints: step, mass, momentum, force of the walls on the balls; then, of a mesh, its force,
-// torque and the place of the balls' centre of mass.
+// Columns of the table that wall_force.scene prints: step, mass, momentum, force of the walls on the balls;
+// then, of a mesh, its force, torque and the place of the balls' centre of mass.
 constexpr std::size_t mass_column = 1, momentum = 2, force = 5, mesh_force = 8, torque = 11, place = 14;
 using Table = std::vector<std::vector<double>>;
 
@@ -35,8 +35,9 @@ Table table_of(const std::string &output, std::size_t columns) {
   return rows;
 }
 
-/// The momentum that the reports of the walls add up to, less the one that the balls have gained, over the sum of the absolute values of
-/// the reports' impulses: the largest of the three components. \param column of the force's x, \param sign 1 if it is the force on the balls
+/// The momentum that the reports of the walls add up to, less the one that the balls have gained, over the
+/// sum of the absolute values of the reports' impulses: the largest of the three components. \param column of
+/// the force's x, \param sign 1 if it is the force on the balls
 double missing_momentum(const Table &rows, std::size_t column, double sign) {
   double worst = 0;
   const std::vector<double> &first = rows.front(), &last = rows.back();
@@ -64,8 +65,8 @@ Variables together(Variables some, const Variables &more) {
   return some;
 }
 
-/// Heavily damped heaps, whose contacts are solved for together, and balls that come and go: with planes, a moving mesh (LIGGGHTS) and the
-/// faces of a region (LAMMPS).
+/// Heavily damped heaps, whose contacts are solved for together, and balls that come and go: with planes, a
+/// moving mesh (LIGGGHTS) and the faces of a region (LAMMPS).
 TEST_P(WallForce, IsTheMomentumThatTheWallsGive) {
   const bool lammps = std::get<0>(GetParam()) == "lammps";
   const Variables faces = lammps ? Variables{{"walls", "block"}} : mesh_with_stress;
@@ -121,7 +122,8 @@ TEST(WallForceOnRanks, IsThatOnOne) {
   }
 }
 
-/// A ball on a mesh that throws it up in each period: the force on the mesh is its weight, on average over whole periods.
+/// A ball on a mesh that throws it up in each period: the force on the mesh is its weight, on average over
+/// whole periods.
 TEST(ForceOnAMesh, IsTheWeightOfAShakenBallOnAverage) {
   constexpr std::size_t period = 2500;
   for (const char *normal : {"hooke", "hertz"})
@@ -158,8 +160,9 @@ std::vector<double> of_triangles(const std::string &text, const std::string &nam
   return values;
 }
 
-/// One ball that slides on a mesh at rest: the torque about the origin is that of the force at the contact, stress times area is the force,
-/// and the wear is Finnie's law with this force and the velocity with which the engine computes forces.
+/// One ball that slides on a mesh at rest: the torque about the origin is that of the force at the contact,
+/// stress times area is the force, and the wear is Finnie's law with this force and the velocity with which
+/// the engine computes forces.
 TEST(ForceOnAMesh, GivesItsTorqueStressAndWear) {
   constexpr double area = 0.5 * 0.8 * 0.8, k_finnie = 1e-3;
   constexpr int steps = 600;
@@ -190,8 +193,8 @@ TEST(ForceOnAMesh, GivesItsTorqueStressAndWear) {
       const double expected[3] = {x[1] * f[2], -x[0] * f[2], x[0] * f[1] - x[1] * f[0]};
       for (std::size_t a = 0; a < 3; ++a)
         ASSERT_NEAR(row[torque + a], expected[a], 1e-12 * size) << stepping << ", step " << n;
-      // The velocity at the middle of the step: that of the step's path, but for the first two steps of the contact, whose path has a
-      // position correction.
+      // The velocity at the middle of the step: that of the step's path, but for the first two steps of the
+      // contact, whose path has a position correction.
       std::array<double, 3> v{};
       for (std::size_t a = 0; a < 3; ++a) {
         const double weight = a == 2 ? g * row[mass_column] : 0;

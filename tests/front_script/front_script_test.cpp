@@ -250,7 +250,8 @@ TEST_F(FrontScript, RunsInPlacesOfAllKinds) {
   }
 }
 
-/// A built checkout in which nothing can be written still runs decks; commands that would write into it say so.
+/// A built checkout in which nothing can be written still runs decks; commands that would write into it say
+/// so.
 TEST_F(FrontScript, RunsInAReadOnlyCheckout) {
   if (!can_mount_small_disk()) GTEST_SKIP() << "SKIPPED: a file system of its own needs root";
   const fs::path place = checkout("checkout");
@@ -303,7 +304,8 @@ TEST_F(FrontScript, JobScriptsContinueUntilTheCyclesAreDone) {
   }
 }
 
-/// An lmp without the packages that the plugin needs: `run` and CMake name them, `run` before the engine starts.
+/// An lmp without the packages that the plugin needs: `run` and CMake name them, `run` before the engine
+/// starts.
 TEST_F(FrontScript, NamesThePackagesThatAnLmpLacks) {
   const fs::path place = checkout("checkout");
   std::ofstream(place / "build/release/bin/places", std::ios::app)

@@ -14,12 +14,12 @@ std::string array_text(const Array &array) {
 } // namespace
 
 std::string point_data(int points, const std::string &places, const std::vector<Array> &arrays) {
-  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" "
-                     "byte_order=\"LittleEndian\">\n<PolyData>\n"
-                     "<Piece NumberOfPoints=\"" +
-                     std::to_string(points) +
-                     "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
-                     "NumberOfPolys=\"0\">\n<PointData>\n";
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"0.1\" "
+      "byte_order=\"LittleEndian\">\n<PolyData>\n"
+      "<Piece NumberOfPoints=\"" +
+      std::to_string(points) +
+      "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<PointData>\n";
   for (const Array &array : arrays)
     text += array_text(array);
   return text + "</PointData>\n<Points>\n" + array_text({"Points", 3, places}) +

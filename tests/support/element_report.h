@@ -45,7 +45,8 @@ protected:
     return post::read_text(root / "report" / kind / "data" / (table + ".csv"));
   }
 
-  /// Expects that a run whose file has this text is refused, with `says` and the name of the file in the message.
+  /// Expects that a run whose file has this text is refused, with `says` and the name of the file in the
+  /// message.
   void expect_refused(const std::string &csv, const std::string &text, const std::string &says) const {
     write_run("refused", csv, text, "");
     try {

@@ -18,9 +18,9 @@ inline std::vector<std::string> lines_of(const std::string &text) {
   return lines;
 }
 
-/// Expects that the last line that a program has printed is an error, "ERROR: " followed by `start` and more, and that no line before
-/// it is an error. Lines of progress may stand before it: a program prints them when it has run for two seconds, which it does on a
-/// slow machine.
+/// Expects that the last line that a program has printed is an error, "ERROR: " followed by `start` and more,
+/// and that no line before it is an error. Lines of progress may stand before it: a program prints them when
+/// it has run for two seconds, which it does on a slow machine.
 inline void expect_one_error(const std::string &output, const std::string &start) {
   const std::vector<std::string> lines = lines_of(output);
   for (std::size_t n = 0; n < lines.size(); ++n)

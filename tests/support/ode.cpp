@@ -92,8 +92,8 @@ int Ode::advance(double t_end, const std::vector<Event> &events) {
   };
   check(CVodeRootInit(s.cvode, static_cast<int>(events.size()), events.empty() ? nullptr : roots),
         "CVodeRootInit");
-  // CVODE looks where its last search for roots ended, which a changed set of events has never had:
-  // start again.
+  // CVODE looks where its last search for roots ended, which a changed set of events has never had: start
+  // again.
   check(CVodeReInit(s.cvode, s.time, s.vector), "CVodeReInit");
   check(CVodeSetStopTime(s.cvode, t_end), "CVodeSetStopTime");
   sunrealtype reached = s.time;

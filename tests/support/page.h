@@ -30,8 +30,8 @@ Parsed parse(const std::string &text);
 /// The file that a link of a page leads to: %XX decoded, a place within the file left out.
 std::string file_of(const std::string &link);
 
-/// Expects a page in `out` to be strict XML with at least so many images, so many drawings of models, and a file or
-/// an anchor for every link and image.
+/// Expects a page in `out` to be strict XML with at least so many images, so many drawings of models, and a
+/// file or an anchor for every link and image.
 Parsed expect_sound_page(const std::filesystem::path &out, std::size_t images,
                          const std::string &file = "index.html", std::size_t drawings = 1);
 

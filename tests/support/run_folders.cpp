@@ -89,8 +89,8 @@ void write_bed_run(const fs::path &folder, Transition transition, int cycles, co
                        i == last ? 120 : 60 * (i > 0), i == last ? 100 : 50 * (i > 0));
   }
   write(folder / "bed.csv", bed);
-  std::string table = "cycle,time,a_drum_min,a_drum_max,F_contact_min,F_contact_max,contact_share,a1_cos,"
-                      "a1_sin,a2_cos,a2_sin,ah_cos,ah_sin,settlement\n0,0,0,0,0,0,1,0,0,0,0,0,0,0\n";
+  std::string table = "cycle,time,a_drum_min,a_drum_max,F_contact_min,F_contact_max,contact_share,a1_cos,a1_"
+                      "sin,a2_cos,a2_sin,ah_cos,ah_sin,settlement\n0,0,0,0,0,0,1,0,0,0,0,0,0,0\n";
   for (int n = 1; n <= cycles; ++n)
     table +=
         fmt::format("{},{:.17g},{},{},{},{},{},3,4,0.5,0,0,0,{}\n", n, n * period, -n, n == 1 ? 99 : 10 + n,

@@ -2,12 +2,12 @@
 /// A boundary that absorbs waves: the viscous boundary of Lysmer and Kuhlemeyer (1969), a dashpot of the
 /// impedance rho c per area, and beside it the spring of an elastic layer of depth H on rigid ground.
 ///
-/// Elastic ground of density rho and wave speeds c_p, c_s continues beyond the boundary. Per area the boundary
-/// exerts
+/// Elastic ground of density rho and wave speeds c_p, c_s continues beyond the boundary. Per area the
+/// boundary exerts
 ///   -(rho c_p v_n + M/H u_n)  along its normal and  -(rho c_s v_t + G/H u_t)  in its plane,
-/// M = rho c_p^2, G = rho c_s^2, on a displacement u with the velocity v. The dashpots alone absorb a plane wave
-/// that arrives along the normal. With the springs, which carry a static load q with the displacement q H/M, the
-/// share 1 / (1 + (2 w H/c_p)^2) of the energy of a wave of angular frequency w is reflected.
+/// M = rho c_p^2, G = rho c_s^2, on a displacement u with the velocity v. The dashpots alone absorb a plane
+/// wave that arrives along the normal. With the springs, which carry a static load q with the displacement q
+/// H/M, the share 1 / (1 + (2 w H/c_p)^2) of the energy of a wave of angular frequency w is reflected.
 
 #include "physics/parameter_checks.h"
 #include "physics/laws/linear_contact.h"
@@ -129,8 +129,8 @@ struct GroundedStep {
 
 namespace detail {
 
-/// Calls formula(law, motion, force at t) for each part of the vectors: the formulas of a contact, whose overlap
-/// grows with a displacement against the direction of the force.
+/// Calls formula(law, motion, force at t) for each part of the vectors: the formulas of a contact, whose
+/// overlap grows with a displacement against the direction of the force.
 template <class Formula>
 void for_each_part(const GroundedBall &ball, const GroundedStep &step, Formula &&formula) {
   const Resolved at = resolve(ball.normal, step.displacement);

@@ -11,9 +11,8 @@
 
 namespace drumlin::physics {
 
-/// When a contact ends.
-/// A: at d = 0, where it began; just before, the dashpot pulls, Eq. (5).
-/// B: when the force has fallen to zero, at d = -c d'/k > 0, Eqs. (6)-(7); the contact never pulls.
+/// When a contact ends. A: at d = 0, where it began; just before, the dashpot pulls, Eq. (5). B: when the
+/// force has fallen to zero, at d = -c d'/k > 0, Eqs. (6)-(7); the contact never pulls.
 enum class Transition { A, B };
 
 /// The meaning of a damping value: the dashpot coefficient c in N s/m, or the damping ratio D of Eq. (10).
@@ -119,9 +118,9 @@ private:
   Transition transition_;
 };
 
-/// Effective mass, kg, of the relative motion of two balls: m_eff = mi mj / (mi + mj).
-/// A fixed partner has an infinite mass, and m_eff is then the other ball's mass (m2 in Eq. (10)).
-/// Valid for masses > 0 of which at most one is infinite.
+/// Effective mass, kg, of the relative motion of two balls: m_eff = mi mj / (mi + mj). A fixed partner has an
+/// infinite mass, and m_eff is then the other ball's mass (m2 in Eq. (10)). Valid for masses > 0 of which at
+/// most one is infinite.
 [[nodiscard]] inline double effective_mass(double mi, double mj) {
   const double lighter = mi < mj ? mi : mj;
   const double heavier = mi < mj ? mj : mi;

@@ -56,13 +56,15 @@ struct FrictionStep {
   return sum(sum(relative, -dot(relative, normal), normal), -1.0, cross(turning, normal));
 }
 
-/// vt, m/s, of a step of velocity Verlet, at the end of which the forces are computed: velocities and normal are
-/// those of the middle of the step, and the result is projected on the tangent plane of its end. slip_velocity()
-/// with the normal of the end counts the rotation of the normal in half a step as slip: the spring of a ball that
-/// rolls around another without slipping is then stretched by dt/2 times the angle between the normals in each
-/// step. Where the spring is stiff and the ball is light, as between balls of very different sizes, this keeps the
-/// ball from rolling (Vyas, Ottino, Lueptow and Umbanhowar 2025, Comput. Phys. Commun. 310, 109524).
-/// \param relative v_i - v_j of the middle of the step, m/s \param separation x_i - x_j at its end, m; not for walls
+/// vt, m/s, of a step of velocity Verlet, at the end of which the forces are computed: velocities and normal
+/// are those of the middle of the step, and the result is projected on the tangent plane of its end.
+/// slip_velocity() with the normal of the end counts the rotation of the normal in half a step as slip: the
+/// spring of a ball that rolls around another without slipping is then stretched by dt/2 times the angle
+/// between the normals in each step. Where the spring is stiff and the ball is light, as between balls of
+/// very different sizes, this keeps the ball from rolling (Vyas, Ottino, Lueptow and Umbanhowar 2025, Comput.
+/// Phys. Commun. 310, 109524).
+/// \param relative v_i - v_j of the middle of the step, m/s \param separation x_i - x_j at its end, m; not
+/// for walls
 /// \param normal of its end \param turning as for slip_velocity(), m/s \param dt s
 [[nodiscard]] inline Vec3 slip_velocity_of_step(const Vec3 &relative, const Vec3 &separation,
                                                 const Vec3 &normal, const Vec3 &turning, double dt) {
@@ -135,10 +137,10 @@ struct PulledSpring {
   Vec3 spring; ///< m
 };
 
-/// coulomb_step() with a smaller normal force than it was computed with, from its result: the pull is shortened to
-/// the new limit, and the spring gives way by what the pull loses over kt + ct/dt. A pull within the limit stays
-/// as it is. Both are then what coulomb_step() gives with that normal force, so that no energy is made. For a
-/// normal force that is known only when all forces of a step are.
+/// coulomb_step() with a smaller normal force than it was computed with, from its result: the pull is
+/// shortened to the new limit, and the spring gives way by what the pull loses over kt + ct/dt. A pull within
+/// the limit stays as it is. Both are then what coulomb_step() gives with that normal force, so that no
+/// energy is made. For a normal force that is known only when all forces of a step are.
 /// \param before force and spring that coulomb_step() has given \param dt s; 0: the spring stays as it is
 [[nodiscard]] inline PulledSpring limited_to(const Friction &friction, double normal_force,
                                              const PulledSpring &before, double dt) {
@@ -152,12 +154,13 @@ struct PulledSpring {
           moves ? sum(before.spring, lost * dt / resistance, before.force) : before.spring};
 }
 
-/// Friction in the closing half kick of the step in which a contact begins, N, on ball i: the limit is that of the
-/// normal force of this half kick, and the dashpot's force has the weight of the normal dashpot's. So the impulse of a
-/// ball that slides is mu times the normal impulse. The spring's force has no weight, as that of the normal spring.
-/// \param normal_force at the end of the step, N, with which `after` was computed \param kick N, of the closing half
-/// kick; \param weight of the dashpot: see StepResult \param after force and spring of the step, which act in the next
-/// opening half kick
+/// Friction in the closing half kick of the step in which a contact begins, N, on ball i: the limit is that
+/// of the normal force of this half kick, and the dashpot's force has the weight of the normal dashpot's. So
+/// the impulse of a ball that slides is mu times the normal impulse. The spring's force has no weight, as
+/// that of the normal spring.
+/// \param normal_force at the end of the step, N, with which `after` was computed \param kick N, of the
+/// closing half kick; \param weight of the dashpot: see StepResult \param after force and spring of the step,
+/// which act in the next opening half kick
 [[nodiscard]] inline Vec3 closing_friction(const Friction &friction, double normal_force, double kick,
                                            double weight, const PulledSpring &after) {
   const double limit = friction_limit(friction, kick), of_step = friction_limit(friction, normal_force);

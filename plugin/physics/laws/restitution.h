@@ -9,10 +9,10 @@
 
 namespace drumlin::physics {
 
-/// e, from 0 to 1, of the damping ratio D >= 0.
-/// With b = D w0 and w^2 = w0^2 - b^2 the impact is d = v/w exp(-bt) sin wt (sinh for D > 1). A ends at wt =
-/// pi, B at the first root of w0^2 d + 2 b d' = 0, which is tan wt = 2 b w / (2 b^2 - w0^2): there d' = -v
-/// exp(-bt). Under A the contact does not end for D >= 1, and e is 0.
+/// e, from 0 to 1, of the damping ratio D >= 0. With b = D w0 and w^2 = w0^2 - b^2 the impact is d = v/w
+/// exp(-bt) sin wt (sinh for D > 1). A ends at wt = pi, B at the first root of w0^2 d + 2 b d' = 0, which is
+/// tan wt = 2 b w / (2 b^2 - w0^2): there d' = -v exp(-bt). Under A the contact does not end for D >= 1, and
+/// e is 0.
 [[nodiscard]] inline double restitution(Transition transition, double damping_ratio) {
   constexpr double pi = 3.14159265358979323846;
   const double b = damping_ratio; // in units of w0

@@ -12,8 +12,8 @@
 
 namespace drumlin::physics {
 
-/// Which part of the relative rotation the spring resists.
-/// rolling: the part across the normal. all: the whole, torsion about the normal included.
+/// Which part of the relative rotation the spring resists. rolling: the part across the normal. all: the
+/// whole, torsion about the normal included.
 enum class Resisted { rolling, all };
 
 /// Parameters of the rolling resistance of one contact.
@@ -31,9 +31,10 @@ struct Rolling {
 }
 
 /// The share of a rolling spring's torque that is kept when its stiffness kr changes between two steps, as it
-/// does with a tangential stiffness that depends on the overlap. While the stiffness grows the torque is kept;
-/// while it shrinks the angle of the spring is kept, and the torque becomes smaller. Either way the energy in
-/// the spring, T^2 / (2 kr), does not grow. The spring of friction does the same, see kept_spring().
+/// does with a tangential stiffness that depends on the overlap. While the stiffness grows the torque is
+/// kept; while it shrinks the angle of the spring is kept, and the torque becomes smaller. Either way the
+/// energy in the spring, T^2 / (2 kr), does not grow. The spring of friction does the same, see
+/// kept_spring().
 /// \param before stiffness of the step before, or one in proportion to it; 0: there was none
 [[nodiscard]] inline double kept_torque(double before, double now) {
   return before > now ? now / before : 1.0;
@@ -83,16 +84,17 @@ struct RollingStep {
   return {scaled(-1.0, spring), spring, heat + lost, 0.5 * dot(spring, spring) / kr, limited};
 }
 
-/// The torque on ball i of rolling_step() with a smaller normal force than it was computed with, N m; its opposite
-/// is the spring. For a normal force that is known only when all forces of a step are.
+/// The torque on ball i of rolling_step() with a smaller normal force than it was computed with, N m; its
+/// opposite is the spring. For a normal force that is known only when all forces of a step are.
 [[nodiscard]] inline Vec3 limited_to(const Rolling &rolling, double normal_force, const Vec3 &torque) {
   const double limit = rolling.arm * std::fabs(normal_force);
   const double squared = dot(torque, torque);
   return squared > limit * limit ? scaled(limit / std::sqrt(squared), torque) : torque;
 }
 
-/// The torque on ball i in the closing half kick of the step in which a contact begins, N m, from that of the end of the
-/// step: its limit is that of the normal force of this half kick. \param normal_force at the end of the step, N
+/// The torque on ball i in the closing half kick of the step in which a contact begins, N m, from that of the
+/// end of the step: its limit is that of the normal force of this half kick. \param normal_force at the end
+/// of the step, N
 /// \param kick N, of the closing half kick
 [[nodiscard]] inline Vec3 closing_torque(const Rolling &rolling, double normal_force, double kick,
                                          const Vec3 &torque) {

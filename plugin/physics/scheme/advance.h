@@ -49,16 +49,16 @@ struct StepResult {
 
 namespace detail {
 
-/// The step of a make, of a law whose force begins with a jump, the linear law: the contact acts for theta dt, theta = d /
-/// (dt d'+), between F0 = c d' at d = 0 (Eq. 4) and F. The impulse theta dt (F0 + F) / 2 is given to the closing half
-/// kick, which makes v(t+dt) physical:
+/// The step of a make, of a law whose force begins with a jump, the linear law: the contact acts for theta
+/// dt, theta = d / (dt d'+), between F0 = c d' at d = 0 (Eq. 4) and F. The impulse theta dt (F0 + F) / 2 is
+/// given to the closing half kick, which makes v(t+dt) physical:
 ///   F = k d + c (d'_pred - dt/2 kick / m),   kick = theta (F0 + F).
-/// The drift of the step did not contain the contact force, so that the overlap is too large by about
-/// theta s d (s = c dt / (2 m)); the correction is d theta s / (1 + theta s), which is less than d at any
-/// damping. After a jump of the force, the drift, which uses the acceleration at the beginning of each step,
-/// differs from the trapezoidal sum of the velocities by dt^2/4 times the jump of the acceleration (the
-/// boundary term of that sum). Both are position corrections. They matter for heavy damping, where d soon
-/// stops growing and the rebound is proportional to d.
+/// The drift of the step did not contain the contact force, so that the overlap is too large by about theta s
+/// d (s = c dt / (2 m)); the correction is d theta s / (1 + theta s), which is less than d at any damping.
+/// After a jump of the force, the drift, which uses the acceleration at the beginning of each step, differs
+/// from the trapezoidal sum of the velocities by dt^2/4 times the jump of the acceleration (the boundary term
+/// of that sum). Both are position corrections. They matter for heavy damping, where d soon stops growing and
+/// the rebound is proportional to d.
 template <class Law>
 [[nodiscard]] inline StepResult made_with_jump(const Law &law, const StepMotion &motion, double theta,
                                                double c_over_m) {
@@ -67,8 +67,8 @@ template <class Law>
   const double rate_at_make = motion.rate_before + (1.0 - theta) * (rate_predicted - motion.rate_before);
   const double s_step = 0.5 * motion.dt * c_over_m;
   const double s = theta * s_step;
-  // Where the dashpot alone would stop the ball within this half kick (s > 1) or the next opening one
-  // (s_step > 1), its force is limited to the momentum of the ball; otherwise it would reverse the motion.
+  // Where the dashpot alone would stop the ball within this half kick (s > 1) or the next opening one (s_step
+  // > 1), its force is limited to the momentum of the ball; otherwise it would reverse the motion.
   const double first = c * std::max(0.0, rate_at_make) / std::max(1.0, s);
   const double slowed = 1.0 / (1.0 + s);
   const double spring = law.spring(slowed * motion.overlap);
@@ -79,8 +79,8 @@ template <class Law>
 }
 
 /// The step of a make, of a law whose force begins with 0. The force G = C d' of the dashpot gets the weight
-/// Law::first_weight() in the closing half kick. The force E of the spring grows so slowly that it needs none. There is
-/// no position correction: it would be of higher order than the scheme.
+/// Law::first_weight() in the closing half kick. The force E of the spring grows so slowly that it needs
+/// none. There is no position correction: it would be of higher order than the scheme.
 ///   F = E + G,   G = C (d'_pred - dt/2 kick / m),   kick = E + weight G.
 template <class Law>
 [[nodiscard]] inline StepResult made_from_zero(const Law &law, const StepMotion &motion, double theta,
@@ -94,9 +94,9 @@ template <class Law>
   return {force, spring + weight * (force - spring), 0.0, weight, true};
 }
 
-/// The step of a make, of any law: the contact has acted for the share theta of the step. Without a dashpot the forces
-/// of all steps are those of the engines' scheme, which loses no energy in an impact: a weight in this step alone would
-/// make it gain some.
+/// The step of a make, of any law: the contact has acted for the share theta of the step. Without a dashpot
+/// the forces of all steps are those of the engines' scheme, which loses no energy in an impact: a weight in
+/// this step alone would make it gain some.
 template <class Law>
 [[nodiscard]] inline StepResult made(const Law &law, const StepMotion &motion, double c_over_m) {
   // A ball at rest that just touches has neither overlap nor rate.
@@ -123,16 +123,19 @@ template <class Law>
   return {before, law.spring(before), law.dashpot(before) * motion.rate_before};
 }
 
-/// Closing half kick, N, of the step in which the force of a contact becomes 0 under B, whether the overlap ends in this
-/// step or not. The two half kicks together have the impulse of the force until it is 0, and never pull.
+/// Closing half kick, N, of the step in which the force of a contact becomes 0 under B, whether the overlap
+/// ends in this step or not. The two half kicks together have the impulse of the force until it is 0, and
+/// never pull.
 ///
-/// The force of a linear law falls to 0 in the share of the step that follows from the forces at its two ends.
+/// The force of a linear law falls to 0 in the share of the step that follows from the forces at its two
+/// ends.
 ///
-/// Of another law the forces of the spring act as in the engines' scheme; what is added is the impulse of the dashpot,
-/// as in broken(), which acts until spring and dashpot balance: with |G| and E at an earlier time, its impulse from then
-/// on is smaller than that until the end of the overlap by the factor 1 - |G|/(2 E). Where the overlap ends in the next
-/// step, the spring's force of this step, which would act in two half kicks, is given to this one. 0 if spring and
-/// dashpot balance for a step or longer before the overlap ends: the steps then resolve the kink of the force.
+/// Of another law the forces of the spring act as in the engines' scheme; what is added is the impulse of the
+/// dashpot, as in broken(), which acts until spring and dashpot balance: with |G| and E at an earlier time,
+/// its impulse from then on is smaller than that until the end of the overlap by the factor 1 - |G|/(2 E).
+/// Where the overlap ends in the next step, the spring's force of this step, which would act in two half
+/// kicks, is given to this one. 0 if spring and dashpot balance for a step or longer before the overlap ends:
+/// the steps then resolve the kink of the force.
 template <class Law>
 [[nodiscard]] inline double released(const Law &law, const StepMotion &motion) {
   const LastForces last = last_forces(law, motion);
@@ -154,10 +157,10 @@ template <class Law>
   return std::max(kick, -force);
 }
 
-/// The step in which the overlap ends. Under A the dashpot pulls just before, and its force jumps to 0 at d = 0. The
-/// contact acts only for the share of the step before, but the opening half kick and the drift contained its force as if
-/// it acted through the whole step: kick and shift remove the excess. All are 0 without a dashpot, and if there was no
-/// overlap at the beginning of the step.
+/// The step in which the overlap ends. Under A the dashpot pulls just before, and its force jumps to 0 at d =
+/// 0. The contact acts only for the share of the step before, but the opening half kick and the drift
+/// contained its force as if it acted through the whole step: kick and shift remove the excess. All are 0
+/// without a dashpot, and if there was no overlap at the beginning of the step.
 template <class Law>
 [[nodiscard]] inline StepResult broken(const Law &law, const StepMotion &motion) {
   if (!law.ends_in_tension()) return {0.0, released(law, motion), 0.0, 1.0};
@@ -183,8 +186,8 @@ template <class Law>
                          context.damping_over_mass);
 }
 
-/// Whether the force, N, of a contact that continues became 0 in this step, as under B at the end of a contact: advance()
-/// then has more to do than going_on().
+/// Whether the force, N, of a contact that continues became 0 in this step, as under B at the end of a
+/// contact: advance() then has more to do than going_on().
 [[nodiscard]] inline bool lost_its_force(double before, double now) { return (now == 0.0) & (before > 0.0); }
 
 /// Force, N, of a contact that continues (see goes_on()), under its transition condition.
@@ -229,11 +232,12 @@ template <class Law>
   return {state.force, dashpot.first, 0.0, 1.0, false, true, dashpot};
 }
 
-/// Heat of a contact's dashpot that the trapezoidal rule misses in a step through which the contact goes on, J. (The
-/// rule sums the power (F - E) d' of the dashpot at the end of each step, times dt.) Half kicks and drift make the spring
-/// do the work of the mean of its two forces, while its energy changes by the integral of E. With a dashpot, what is
-/// between them counts as heat: it changes sign where the overlap is largest, and is nearly 0 in an undamped impact, but
-/// the dashpot makes the loading faster than the unloading. 0 for a linear spring.
+/// Heat of a contact's dashpot that the trapezoidal rule misses in a step through which the contact goes on,
+/// J. (The rule sums the power (F - E) d' of the dashpot at the end of each step, times dt.) Half kicks and
+/// drift make the spring do the work of the mean of its two forces, while its energy changes by the integral
+/// of E. With a dashpot, what is between them counts as heat: it changes sign where the overlap is largest,
+/// and is nearly 0 in an undamped impact, but the dashpot makes the loading faster than the unloading. 0 for
+/// a linear spring.
 template <class Law>
 [[nodiscard]] inline double heat_of_spring(const Law &law, const StepMotion &motion) {
   if constexpr (Law::is_linear) return 0.0;
@@ -243,9 +247,9 @@ template <class Law>
          (law.energy(now) - law.energy(before));
 }
 
-/// The same in any step. In that in which the contact begins or ends, the heat is the energy that the contact takes from
-/// the balls and does not store, here with the accelerations that the contact causes in the half kicks and those of the
-/// other forces, taken as constant. 0 without a dashpot.
+/// The same in any step. In that in which the contact begins or ends, the heat is the energy that the contact
+/// takes from the balls and does not store, here with the accelerations that the contact causes in the half
+/// kicks and those of the other forces, taken as constant. 0 without a dashpot.
 /// \param before, step the state that advance() was called with, and what it returned
 template <class Law>
 [[nodiscard]] inline double heat_of_change(const Law &law, const StepMotion &motion,

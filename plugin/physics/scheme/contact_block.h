@@ -35,7 +35,8 @@ using ContactSet = std::uint64_t;
 
 namespace detail {
 
-/// The bit of each contact, from memory: not every processor can shift several numbers by different amounts at once.
+/// The bit of each contact, from memory: not every processor can shift several numbers by different amounts
+/// at once.
 struct Bits {
   ContactSet of[block_size];
 };
@@ -68,8 +69,8 @@ struct Vectors {
 };
 
 /// Contacts of balls of the same two types. The caller sets what describes them; compute_normal_forces(),
-/// compute_tangential_stiffness(), then compute_friction() and compute_rolling(), add the rest. Values that neither the settings nor the law need
-/// stay unset.
+/// compute_tangential_stiffness(), then compute_friction() and compute_rolling(), add the rest. Values that
+/// neither the settings nor the law need stay unset.
 struct ContactBlock {
   // Set by the caller:
   Vectors separation;        ///< x_i - x_j, m
@@ -106,9 +107,9 @@ struct ContactBlock {
 /// When the slip of a contact is computed: see slip_velocity_of_step().
 enum class Slip { none, at_end, in_middle };
 
-/// Motion and normal force of all contacts of a block. Where the second-order scheme is used, `push` and `force`
-/// are those of contacts that go on and are not coupled (goes_on()). \returns those that are coupled or have lost their
-/// force
+/// Motion and normal force of all contacts of a block. Where the second-order scheme is used, `push` and
+/// `force` are those of contacts that go on and are not coupled (goes_on()). \returns those that are coupled
+/// or have lost their force
 template <bool stepped, Slip slip, class Parameters>
 DRUMLIN_FOR_THIS_PROCESSOR ContactSet compute_normal_forces(ContactBlock &b, int first, int end,
                                                             const Parameters &of_types, double dt) {
@@ -164,8 +165,8 @@ DRUMLIN_FOR_THIS_PROCESSOR ContactSet compute_normal_forces(ContactBlock &b, int
 }
 
 /// Tangential stiffness of all contacts of a block. Where it varies, the springs of friction and of rolling
-/// resistance follow its change. \tparam springs whether friction has a spring \tparam rolling whether there is
-/// rolling resistance \tparam moves whether springs are advanced by a step: false in the set-up of a run
+/// resistance follow its change. \tparam springs whether friction has a spring \tparam rolling whether there
+/// is rolling resistance \tparam moves whether springs are advanced by a step: false in the set-up of a run
 template <bool springs, bool rolling, bool moves, class Parameters>
 DRUMLIN_FOR_THIS_PROCESSOR void compute_tangential_stiffness(ContactBlock &b, int first, int end,
                                                              const Parameters &of_types, double dt) {

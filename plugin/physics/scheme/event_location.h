@@ -59,8 +59,8 @@ double balance(const Law &law, double dt, double d0, double r, double q, bool wa
 } // namespace detail
 
 /// The event between two consecutive steps, if the contact changed.
-/// \param before, after states at the two steps; whether there is contact in each follows from the law
-/// A second event within the same step is not found: steps are far shorter than a contact.
+/// \param before, after states at the two steps; whether there is contact in each follows from the law A
+/// second event within the same step is not found: steps are far shorter than a contact.
 template <class Law>
 [[nodiscard]] inline std::optional<ContactTransition>
 locate_transition(const Law &law, double dt, const OverlapState &before, const OverlapState &after) {

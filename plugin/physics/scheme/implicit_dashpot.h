@@ -26,8 +26,9 @@ struct StepMotion {
   [[nodiscard]] double rate_predicted() const { return 2.0 * rate_half - rate_before; }
 };
 
-/// Time, s, for which balls that touch now, and did not one step ago, have touched. The springs of friction and of rolling
-/// resistance take up the motion of this time; with that of the whole step they would have an error of first order.
+/// Time, s, for which balls that touch now, and did not one step ago, have touched. The springs of friction
+/// and of rolling resistance take up the motion of this time; with that of the whole step they would have an
+/// error of first order.
 /// \param overlap m \param rate of the overlap, m/s \param dt s
 [[nodiscard]] inline double time_in_contact(double overlap, double rate, double dt) {
   return overlap < dt * rate ? overlap / rate : dt;

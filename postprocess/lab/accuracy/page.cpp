@@ -131,18 +131,13 @@ PageTable order_table(const Data &data) {
                     data.curve(ratio, second));
     }
   table.notes = {"Order: error ~ steps^-order, fitted where the error is 1 % and smaller; scatter: root mean "
-                 "square distance from "
-                 "that line. Finer half: fitted over the finer half of the steps on a logarithmic scale. "
-                 "Chain: relative RMS error "
-                 "of drum velocity, steps per cycle. Impact: worst absolute error of the restitution, steps "
-                 "per undamped contact.",
+                 "square distance from that line. Finer half: fitted over the finer half of the steps on a "
+                 "logarithmic scale. Chain: relative RMS error of drum velocity, steps per cycle. Impact: "
+                 "worst absolute error of the restitution, steps per undamped contact.",
                  "Steps for an error: the smallest measured number from which on all larger numbers have at "
-                 "most that error; > N: "
-                 "not with N steps. A ratio with > is a lower bound for the same reason. Stepping second is "
-                 "the second-order "
-                 "scheme, stock velocity Verlet with the plugin's law, reference the engine's own law, "
-                 "hooke/stiffness with "
-                 "limitForce."};
+                 "most that error; > N: not with N steps. A ratio with > is a lower bound for the same "
+                 "reason. Stepping second is the second-order scheme, stock velocity Verlet with the "
+                 "plugin's law, reference the engine's own law, hooke/stiffness with limitForce."};
   return table;
 }
 
@@ -161,7 +156,8 @@ std::optional<double> error_at(const std::vector<ErrorPoint> &points, double ste
   return std::nullopt;
 }
 
-/// The criterion that no error of the chain has grown since the table was made from which `drumlin advise` answers.
+/// The criterion that no error of the chain has grown since the table was made from which `drumlin advise`
+/// answers.
 Acceptance not_larger(const std::vector<ChainPoint> &chain, bool complete) {
   const std::vector<std::string> larger =
       larger_errors(chain, read_points(input_file("study/accuracy") / "chain.csv", chain_points()), complete);
@@ -253,10 +249,10 @@ PageTable scaling_table(const Data &data) {
     sets.push_back(point.set);
   sets.erase(std::unique(sets.begin(), sets.end()), sets.end());
   table.criterion = "chains have at most the error asked for";
-  table.notes = {fmt::format(
-      "Advice was {}. Of {} chains drawn at random {} were refused: within a run they keep the memory of "
-      "their initial state, so their motion does not converge with the time step.",
-      scaling_summary(data.scaling), drawn, drawn - static_cast<int>(sets.size()))};
+  table.notes = {
+      fmt::format("Advice was {}. Of {} chains drawn at random {} were refused: within a run they keep the "
+                  "memory of their initial state, so their motion does not converge with the time step.",
+                  scaling_summary(data.scaling), drawn, drawn - static_cast<int>(sets.size()))};
   return table;
 }
 
@@ -310,8 +306,7 @@ PageFigure impact_figure(const Data &data) {
   const std::string name = "impacts";
   PageFigure figure;
   figure.caption = "Worst error of the restitution over the phases of the make of contact within a time "
-                   "step, against the closed form. "
-                   "Under A there is no rebound at D = 2.";
+                   "step, against the closed form. Under A there is no rebound at D = 2.";
   CurveTable table("steps per contact,worst restitution error (-)");
   figure.figure = {name, "Restitution of single impacts: worst error", {}, 2};
   for (const double ratio : ratios) {
@@ -347,16 +342,16 @@ PageFigure impact_figure(const Data &data) {
   return figure;
 }
 
-constexpr ChainFigure velocity_error = {"velocity_error",
-                                        "Error of drum velocity against steps per cycle",
-                                        "relative RMS error (-)",
-                                        &ChainErrors::velocity,
-                                        false,
-                                        "[1e-9:1]",
-                                        "Relative RMS error of drum velocity. Where contact is lost, the "
-                                        "error of stock stepping depends on where within a step "
-                                        "the make of contact happens to be, and scatters; the second-order "
-                                        "scheme locates the make within the step."};
+constexpr ChainFigure velocity_error = {
+    "velocity_error",
+    "Error of drum velocity against steps per cycle",
+    "relative RMS error (-)",
+    &ChainErrors::velocity,
+    false,
+    "[1e-9:1]",
+    "Relative RMS error of drum velocity. Where contact is lost, the error of stock stepping depends on "
+    "where within a step the make of contact happens to be, and scatters; the second-order scheme locates "
+    "the make within the step."};
 constexpr ChainFigure velocity_error_time = {
     "velocity_error_time",
     "Error of drum velocity against wall time",
@@ -365,17 +360,16 @@ constexpr ChainFigure velocity_error_time = {
     true,
     "[1e-9:1]",
     "The same over the wall time of a cycle, by the engine's clock, without starting and settling. Runs of "
-    "the engine's own "
-    "law write drum velocity only; the others also write events, cycles and every column of chain.csv."};
-constexpr ChainFigure force_error = {
-    "force_error",
-    "Error of the peak contact force",
-    "relative error (-)",
-    &ChainErrors::force,
-    false,
-    "[1e-10:1]",
-    "Peak contact force over the last five cycles, of all steps and of both sides of the "
-    "located makes of contact."};
+    "the engine's own law write drum velocity only; the others also write events, cycles and every column of "
+    "chain.csv."};
+constexpr ChainFigure force_error = {"force_error",
+                                     "Error of the peak contact force",
+                                     "relative error (-)",
+                                     &ChainErrors::force,
+                                     false,
+                                     "[1e-10:1]",
+                                     "Peak contact force over the last five cycles, of all steps and of both "
+                                     "sides of the located makes of contact."};
 constexpr ChainFigure acceleration_error = {
     "acceleration_error",
     "Error of the peak drum acceleration",
@@ -384,15 +378,15 @@ constexpr ChainFigure acceleration_error = {
     false,
     "[1e-10:1]",
     "Largest magnitude of drum acceleration over the last five cycles, evaluated as the peak force."};
-constexpr ChainFigure event_time_error = {"event_time_error",
-                                          "Largest error of the time of a make or break of contact",
-                                          "error (s)",
-                                          &ChainErrors::event_time_s,
-                                          false,
-                                          "[1e-11:1e-2]",
-                                          "Largest error of the time of any event, in runs whose events "
-                                          "correspond one by one to those of the reference solution. "
-                                          "Cases without loss of contact have no events."};
+constexpr ChainFigure event_time_error = {
+    "event_time_error",
+    "Largest error of the time of a make or break of contact",
+    "error (s)",
+    &ChainErrors::event_time_s,
+    false,
+    "[1e-11:1e-2]",
+    "Largest error of the time of any event, in runs whose events correspond one by one to those of the "
+    "reference solution. Cases without loss of contact have no events."};
 constexpr ChainFigure energy_residual = {
     "energy_residual",
     "Energy error",
@@ -401,10 +395,9 @@ constexpr ChainFigure energy_residual = {
     false,
     "[1e-10:1]",
     "Work of the exciter minus dissipated energy minus changes of kinetic, potential and stored energy, over "
-    "that work. The "
-    "power is integrated by the trapezoidal rule over whole steps, also over a step in which it jumps at a "
-    "make: where "
-    "contact is lost, the energy error therefore is of first order for every scheme."};
+    "that work. The power is integrated by the trapezoidal rule over whole steps, also over a step in which "
+    "it jumps at a make: where contact is lost, the energy error therefore is of first order for every "
+    "scheme."};
 
 /// Steps needed for an error of 0.1 % of drum velocity in case II under B, by the second-order scheme and by
 /// the engine's own law; empty if it was not measured.
@@ -417,10 +410,9 @@ std::string steps_words(const Data &data) {
   const std::string second = steps(all_series[0]);
   const std::string reference = steps(all_series[4]);
   if (second.empty() || reference.empty()) return {};
-  return fmt::format(
-      "An error of 0.1 % of drum velocity in case II (condition B) takes {} steps per cycle with the "
-      "second-order scheme and {} with the engine's own law.",
-      second, reference);
+  return fmt::format("An error of 0.1 % of drum velocity in case II (condition B) takes {} steps per cycle "
+                     "with the second-order scheme and {} with the engine's own law.",
+                     second, reference);
 }
 
 /// Adds figures to a page and numbers them; those without any curve are left out.
@@ -452,10 +444,10 @@ void write_accuracy_page(const fs::path &out, bool complete) {
   Page page(out, "Accuracy of the time integration", Drawing::chain);
   page.answer(fmt::format(
       "Runs of the chain and of single impacts in the engine at many step sizes, compared with the reference "
-      "solution (direct solver) of the same chain and with the closed form of the restitution. Second is "
-      "the plugin's second-order scheme, stock the engine's velocity Verlet scheme with the plugin's "
-      "contact law; the engine's own law is hooke/stiffness with its force limited to compression. "
-      "Chains run for {} cycles; errors are those of the last {}.",
+      "solution (direct solver) of the same chain and with the closed form of the restitution. Second is the "
+      "plugin's second-order scheme, stock the engine's velocity Verlet scheme with the plugin's contact "
+      "law; the engine's own law is hooke/stiffness with its force limited to compression. Chains run for {} "
+      "cycles; errors are those of the last {}.",
       accuracy_cycles, accuracy_window));
   const std::vector<Acceptance> criteria = judge(data, complete);
   if (const std::string words = steps_words(data); !words.empty()) page.answer(words);
@@ -476,9 +468,8 @@ void write_accuracy_page(const fs::path &out, bool complete) {
     page.section("Advice");
     page.paragraph(fmt::format(
         "The command advise transfers these curves to other chains by the resolution max(sqrt(k/m2), omega) "
-        "dt and "
-        "by the sensitivity of the chain to its parameters, which the direct solver computes; it takes the "
-        "worst of the four cases and multiplies its steps by {:g}.",
+        "dt and by the sensitivity of the chain to its parameters, which the direct solver computes; it "
+        "takes the worst of the four cases and multiplies its steps by {:g}.",
         scaling_margin));
     page.table(scaling_table(data));
   }

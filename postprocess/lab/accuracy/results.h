@@ -1,4 +1,5 @@
-// Results of the accuracy study that it alone has: the rows of impacts.csv, errors absolute, and the comparison with known errors.
+// Results of the accuracy study that it alone has: the rows of impacts.csv, errors absolute, and the
+// comparison with known errors.
 #pragma once
 
 #include "lab/accuracy/runs.h"
@@ -23,9 +24,9 @@ const CsvSchema<ImpactPoint> &impact_points();
 /// A measured error of the chain may be at most this many times the known error, that of the committed table.
 constexpr double allowed_growth = 1.05;
 
-/// Compares measured errors of the chain with known ones, row by row. Returns a sentence for each error that is larger than
-/// allowed_growth times the known one or is not a number, for each measured row without a known one and, if
-/// `complete`, for each known row that was not measured.
+/// Compares measured errors of the chain with known ones, row by row. Returns a sentence for each error that
+/// is larger than allowed_growth times the known one or is not a number, for each measured row without a
+/// known one and, if `complete`, for each known row that was not measured.
 std::vector<std::string> larger_errors(const std::vector<ChainPoint> &points,
                                        const std::vector<ChainPoint> &known, bool complete);
 

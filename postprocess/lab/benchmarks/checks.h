@@ -14,9 +14,9 @@ struct AfterImpact {
   double vx2 = 0.0, vz2 = 0.0, spin2 = 0.0; ///< of sphere 2
 };
 
-/// Closed form of an impact in which the surfaces slide on each other all the time, so that friction is mu times
-/// the normal force. The impulses are exact; of the lever arm of friction, r - d/2, the mean over an elastic
-/// impact counts.
+/// Closed form of an impact in which the surfaces slide on each other all the time, so that friction is mu
+/// times the normal force. The impulses are exact; of the lever arm of friction, r - d/2, the mean over an
+/// elastic impact counts.
 AfterImpact sliding_impact(const SphereSetup &setup);
 
 /// Whether the surfaces slide during the whole impact, with a margin.

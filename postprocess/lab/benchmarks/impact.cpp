@@ -58,7 +58,8 @@ struct Motion {
   double stiffness = 0.0; ///< and its stiffness, N/m
 };
 
-/// Friction of a step on sphere 1, along -x: the spring of stiffness `kt` and the dashpot `ct`, limited to `most`.
+/// Friction of a step on sphere 1, along -x: the spring of stiffness `kt` and the dashpot `ct`, limited to
+/// `most`.
 double friction(Motion &m, double slip, double kt, double ct, double most, double dt) {
   const double before = m.spring;
   double pull = before + kt * dt * slip + ct * slip;

@@ -288,9 +288,9 @@ PageFigure figure_of(const std::string &name, const std::string &title, const st
   return figure;
 }
 
-const std::string published_note = " Published points are digitised from the paper's figures. Those of "
-                                   "discrete elements belong to other tangential "
-                                   "laws, on which the result depends while the surfaces stick.";
+const std::string published_note =
+    " Published points are digitised from the paper's figures. Those of discrete elements belong to other "
+    "tangential laws, on which the result depends while the surfaces stick.";
 
 PageFigure angle_figure(const std::vector<Row> &rows) {
   const std::vector<std::string> oxides = {"aluminium_oxide", "aluminium_alloy"};
@@ -316,21 +316,20 @@ PageFigure angle_figure(const std::vector<Row> &rows) {
 PageFigure spin_figure(const std::vector<Row> &rows) {
   const std::vector<std::string> plastics = {"steel", "polyethylene"}, nylon = {"aluminium_alloy", "nylon"};
   constexpr double mu_vn = 0.3 * 5.0, r_over_vn = 0.1 / 0.2; // of tests 5; 6 and 8
-  PageFigure figure =
-      figure_of("spins", "Tests 5, 6 and 8",
-                "Chung and Ooi, test 5: oblique impact at a normal velocity of 5 m/s. Tests 6 and 8: a "
-                "spinning sphere strikes a plane, or a "
-                "larger sphere. Slip: velocity of the surfaces across the normal, before and after." +
-                    published_note,
-                {{"Test 5", "vt/(mu vn) (-)", "slip'/(mu vn') (-)", "chung_ooi_5", plastics,
-                  "recoil slip'/(mu vn') (-)", "recoil", 1.0 / mu_vn, "[0:14]", ""},
-                 {"Test 5", "vt/(mu vn) (-)", "r w'/(mu vn) (-)", "chung_ooi_5", plastics,
-                  "spin r w'/(mu vn) (-)", "spin", 1.0 / mu_vn, "[0:14]", ""},
-                 {"Test 6", "r w/vn (-)", "slip'/vn' (-)", "chung_ooi_6", nylon, "recoil slip'/vn' (-)",
-                  "recoil", r_over_vn, "[0:6.5]", "[-2:10]"},
-                 {"Test 8", "r w/vn (-)", "slip'/vn' (-)", "chung_ooi_8", nylon, "recoil slip'/vn' (-)",
-                  "recoil", r_over_vn, "[0:6.5]", "[-2:10]"}},
-                rows);
+  PageFigure figure = figure_of("spins", "Tests 5, 6 and 8",
+                                "Chung and Ooi, test 5: oblique impact at a normal velocity of 5 m/s. Tests "
+                                "6 and 8: a spinning sphere strikes a plane, or a larger sphere. Slip: "
+                                "velocity of the surfaces across the normal, before and after." +
+                                    published_note,
+                                {{"Test 5", "vt/(mu vn) (-)", "slip'/(mu vn') (-)", "chung_ooi_5", plastics,
+                                  "recoil slip'/(mu vn') (-)", "recoil", 1.0 / mu_vn, "[0:14]", ""},
+                                 {"Test 5", "vt/(mu vn) (-)", "r w'/(mu vn) (-)", "chung_ooi_5", plastics,
+                                  "spin r w'/(mu vn) (-)", "spin", 1.0 / mu_vn, "[0:14]", ""},
+                                 {"Test 6", "r w/vn (-)", "slip'/vn' (-)", "chung_ooi_6", nylon,
+                                  "recoil slip'/vn' (-)", "recoil", r_over_vn, "[0:6.5]", "[-2:10]"},
+                                 {"Test 8", "r w/vn (-)", "slip'/vn' (-)", "chung_ooi_8", nylon,
+                                  "recoil slip'/vn' (-)", "recoil", r_over_vn, "[0:6.5]", "[-2:10]"}},
+                                rows);
   figure.label = "Fig. 2";
   figure.weight = 0.5;
   return figure;
@@ -338,24 +337,19 @@ PageFigure spin_figure(const std::vector<Row> &rows) {
 
 const char *const sources =
     "Chung and Ooi (2011), Granular Matter 13, 643-656, doi 10.1007/s10035-011-0277-0. The paper itself was "
-    "not at hand: parameters are those of the "
-    "validation scripts of Yade (tests 1 to 4), PySPH (5, 7, which it numbers 6, and 8) and Kratos (4 to 8), "
-    "which agree but for Young's modulus of aluminium "
-    "alloy in test 7 (PySPH has ten times that of Kratos; the result does not depend on it). The published "
-    "points are those in "
-    "the tests of Kratos. Not confirmed: what its case B of test 8 is (here, as in case A, the large sphere "
-    "has 1000 times Young's modulus of the "
-    "small one), nylon and copper, which only PySPH has, and the tangential dashpot (here half of the normal "
-    "one, the "
-    "default of the law).";
+    "not at hand: parameters are those of the validation scripts of Yade (tests 1 to 4), PySPH (5, 7, which "
+    "it numbers 6, and 8) and Kratos (4 to 8), which agree but for Young's modulus of aluminium alloy in "
+    "test 7 (PySPH has ten times that of Kratos; the result does not depend on it). The published points are "
+    "those in the tests of Kratos. Not confirmed: what its case B of test 8 is (here, as in case A, the "
+    "large sphere has 1000 times Young's modulus of the small one), nylon and copper, which only PySPH has, "
+    "and the tangential dashpot (here half of the normal one, the default of the law).";
 
-const char *const lammps_sources = "The analytic cases of LAMMPS, unittest/granular, after Mohajeri et al. "
-                                   "(2024), Powder Technology 447, 120136. Parameters of slip "
-                                   "and stack are those of LAMMPS; the others are this project's. Left out: "
-                                   "twisting resistance and cohesion, "
-                                   "which the plugin's laws do not have, and heat and drag. Rolling "
-                                   "resistance (epsd2) needs the linear law, which the cases "
-                                   "without impact use throughout; its spring has no dashpot.";
+const char *const lammps_sources =
+    "The analytic cases of LAMMPS, unittest/granular, after Mohajeri et al. (2024), Powder Technology 447, "
+    "120136. Parameters of slip and stack are those of LAMMPS; the others are this project's. Left out: "
+    "twisting resistance and cohesion, which the plugin's laws do not have, and heat and drag. Rolling "
+    "resistance (epsd2) needs the linear law, which the cases without impact use throughout; its spring has "
+    "no dashpot.";
 
 } // namespace
 
@@ -365,10 +359,9 @@ void write_benchmarks_page(const std::filesystem::path &out) {
                    [](const BenchmarkRun &a, const BenchmarkRun &b) { return a.at < b.at; });
   const std::vector<Row> rows = rows_of(runs);
   Page page(out, "Benchmarks", Drawing::sphere);
-  page.answer(
-      "Tests that others have published for programs of this kind: impacts of one or two spheres, sliding "
-      "and rolling. Each is run by "
-      "LIGGGHTS and, if it is set up, LAMMPS, with tangential coulomb, transition B and second stepping.");
+  page.answer("Tests that others have published for programs of this kind: impacts of one or two spheres, "
+              "sliding and rolling. Each is run by LIGGGHTS and, if it is set up, LAMMPS, with tangential "
+              "coulomb, transition B and second stepping.");
   page.answer(criteria_of(rows));
   double energy = 0.0;
   for (const Row &row : rows)
@@ -386,11 +379,9 @@ void write_benchmarks_page(const std::filesystem::path &out) {
   page.table(summary_table(rows));
   page.paragraph(
       "The reference solution integrates the equations of motion of one impact with the same law, "
-      "independently of the plugin, in "
-      "steps of 5e-6 of its duration. It leaves out that the normal rotates during an impact of two spheres. "
-      "Closed forms of sliding hold for impulses; the lever arm of friction is the radius less half of the "
-      "overlap, "
-      "for which the mean of an elastic impact is used.");
+      "independently of the plugin, in steps of 5e-6 of its duration. It leaves out that the normal rotates "
+      "during an impact of two spheres. Closed forms of sliding hold for impulses; the lever arm of friction "
+      "is the radius less half of the overlap, for which the mean of an elastic impact is used.");
   page.section("Where the tests come from");
   page.paragraph(sources);
   page.paragraph(lammps_sources);

@@ -26,8 +26,7 @@ Extreme bed_row(const std::string &name, const Variables &variables, int ranks =
   row.ranks = ranks;
   row.limit = 300.0;
   row.expected = "all balls there; the floor carries the weight; momentum changes by the impulse; no energy "
-                 "left (the largest "
-                 "relative miss)";
+                 "left (the largest relative miss)";
   row.allowed = 1e-3;
   row.error = [](const DeckRun &run) {
     return balance_error(read_balance(run.must_succeed().file("balance.csv")), radius);

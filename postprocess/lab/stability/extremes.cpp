@@ -353,10 +353,9 @@ Extreme coarse_row(Transition transition, double D, bool hertz, int steps) {
                    {"steps_per_contact", std::to_string(steps)},
                    {"contacts", "8"},
                    {"phases", std::to_string(places)}};
-  row.expected =
-      fmt::format("largest error of the rebound over {} places of the make at most 1.2 times that of "
-                  "stepping stock (ratio of the two)",
-                  places);
+  row.expected = fmt::format("largest error of the rebound over {} places of the make at most 1.2 times that "
+                             "of stepping stock (ratio of the two)",
+                             places);
   row.allowed = 1.2;
   row.error = [transition, D, variables = row.variables, deck = row.deck](const DeckRun &run) {
     constexpr double speed = 0.5; // m/s, the deck's
@@ -378,7 +377,8 @@ void add_coarse_rows(std::vector<Extreme> &rows, bool quick) {
         }
 }
 
-/// An impact with the Hertz law: a sphere on a rigid plane, test 3 of Chung and Ooi with one variable changed.
+/// An impact with the Hertz law: a sphere on a rigid plane, test 3 of Chung and Ooi with one variable
+/// changed.
 Extreme hertz_row(const std::string &name, const std::string &variable, double value,
                   const Variables &more = {}) {
   const BenchmarkPoint point{"chung_ooi_3", "aluminium_oxide", variable, value, more};

@@ -20,13 +20,13 @@ constexpr double no_damping = 1e-3; // D = 0 is drawn here on the logarithmic ax
 
 PageFigure map_figure(const std::vector<MapPoint> &map) {
   const std::string name = "stability_map";
-  PageFigure figure = page_figure(
-      "Fig. 1",
-      fmt::format("The longest stable step over the damping ratio of one contact: a step is stable below "
-                  "the points. Solid line: theory for stock stepping; dash-dotted line: limit of the "
-                  "undamped springs. D = 0 is drawn at {:g}.",
-                  no_damping),
-      {name, "Longest stable step over damping", {}, 2}, 1.0);
+  PageFigure figure =
+      page_figure("Fig. 1",
+                  fmt::format("The longest stable step over the damping ratio of one contact: a step is "
+                              "stable below the points. Solid line: theory for stock stepping; dash-dotted "
+                              "line: limit of the undamped springs. D = 0 is drawn at {:g}.",
+                              no_damping),
+                  {name, "Longest stable step over damping", {}, 2}, 1.0);
   CurveTable table("D drawn at (-),measured w0 dt (-),theory w0 dt (-)");
   for (const HeldScene &scene : held_scenes()) {
     Panel panel;
@@ -77,12 +77,9 @@ PageTable boundary_table(const std::vector<MapPoint> &map) {
                    fmt::format("{:.3g}", lowest->D), fmt::format("{:+.2g}", 100.0 * farthest->miss()),
                    fmt::format("{:.3g}", farthest->D)});
     }
-  table.notes = {
-      "w0 = sqrt(k/m) and D are those of one contact of the ball, with the Hertz law those of its small "
-      "motion. Theory: for stock stepping the limit of "
-      "the "
-      "scene with its dampers, for second the limit of its springs, 2/sqrt(contacts on a line). All points "
-      "are in map.csv."};
+  table.notes = {"w0 = sqrt(k/m) and D are those of one contact of the ball, with the Hertz law those of its "
+                 "small motion. Theory: for stock stepping the limit of the scene with its dampers, for "
+                 "second the limit of its springs, 2/sqrt(contacts on a line). All points are in map.csv."};
   return table;
 }
 
@@ -109,11 +106,10 @@ PageTable extremes_table(const std::string &group, const std::vector<ExtremeVerd
 void write_stability_page(const std::filesystem::path &out, const std::vector<MapPoint> &map,
                           const std::vector<ExtremeVerdict> &extremes) {
   Page page(out, "Stability and extremes", Drawing::confined);
-  page.answer(
-      "The longest time step at which the motion stays bounded, found by runs of balls of graded mass that "
-      "are confined between walls; and runs at the limits of the permitted parameters, each compared with an "
-      "independent solution. Second is the plugin's second-order scheme, stock the engine's velocity Verlet "
-      "scheme with the plugin's contact law.");
+  page.answer("The longest time step at which the motion stays bounded, found by runs of balls of graded "
+              "mass that are confined between walls; and runs at the limits of the permitted parameters, "
+              "each compared with an independent solution. Second is the plugin's second-order scheme, stock "
+              "the engine's velocity Verlet scheme with the plugin's contact law.");
   const std::vector<Acceptance> criteria = judge_stability_map(map);
   page.answer(criteria);
   const auto held =

@@ -30,10 +30,9 @@ PageTable memory_table(const std::vector<VariantTime> &all, const TimedBeds &bed
   for (const EngineLaws &laws : engines)
     for (const char *law : laws.all())
       table.add({law, fmt::format("{:.0f}", bytes_per_ball(all, law, beds.cell, beds.copies))});
-  table.notes = {
-      "Largest memory of the run with the largest bed less that with the second one, on one rank, over the "
-      "difference of their balls; with neighbour lists, contact history and what the engine reads from the "
-      "file."};
+  table.notes = {"Largest memory of the run with the largest bed less that with the second one, on one rank, "
+                 "over the difference of their balls; with neighbour lists, contact history and what the "
+                 "engine reads from the file."};
   return table;
 }
 
@@ -70,10 +69,8 @@ PageTable time_table(const std::vector<TimedRun> &runs, const std::vector<Varian
   }
   table.notes = {
       "Medians over the rounds; ratios are within a round and an engine. Pair: the part of a step that the "
-      "pair "
-      "style takes. Per ball: of the balls that move. The law of the engine is hooke/stiffness with "
-      "limitForce "
-      "on, in LAMMPS gran/hooke/history with limit_damping; with friction the plugin's laws have "
+      "pair style takes. Per ball: of the balls that move. The law of the engine is hooke/stiffness with "
+      "limitForce on, in LAMMPS gran/hooke/history with limit_damping; with friction the plugin's laws have "
       "tangential history or, where it is named so, coulomb. Stock (velocity Verlet) is the default of the "
       "decks of beds, second the second-order scheme. The last bed is made of copies of the one before."};
   return table;
@@ -124,12 +121,11 @@ PageTable projection_table(const std::vector<TimedRun> &runs, const std::vector<
                fmt::format("{:.2g}", cycles * steps_per_cycle * step / 3600.0),
                fmt::format("{:.2f}", 1.0 / (1.0 + 0.5 * ghosts))});
   }
-  table.notes = {fmt::format("{:.0f} bytes per ball and {:.3g} million steps of balls per second and rank, "
-                             "as measured above with stock stepping; ten "
-                             "cycles of 4000 steps. A contact across a border is computed on both sides, so "
-                             "half of the ghosts' work is added. "
-                             "Messages are not included.",
-                             bytes, 1e-6 * speed)};
+  table.notes = {
+      fmt::format("{:.0f} bytes per ball and {:.3g} million steps of balls per second and rank, as measured "
+                  "above with stock stepping; ten cycles of 4000 steps. A contact across a border is "
+                  "computed on both sides, so half of the ghosts' work is added. Messages are not included.",
+                  bytes, 1e-6 * speed)};
   return table;
 }
 
@@ -139,8 +135,7 @@ PageFigure size_figure(const std::vector<VariantTime> &all, const TimedBeds &bed
   PageFigure figure =
       page_figure("Fig. 2",
                   "Steps of balls per second: median over the rounds and quartiles. From left to right: the "
-                  "engine's law, stock "
-                  "and second on one rank, then the same on two; then those of LAMMPS.",
+                  "engine's law, stock and second on one rank, then the same on two; then those of LAMMPS.",
                   {name, "Steps of balls per second", {}, 3}, 1.0);
   CurveTable table("place,million per s,lower quartile,upper quartile");
   for (const std::string &scene : {beds.plane, beds.cell, beds.copies}) {
@@ -197,14 +192,11 @@ PageTable piece_table(const std::vector<PieceCost> &costs) {
               cost.allowed() == 0.0 ? RowState::plain
               : cost.holds()        ? RowState::agrees
                                     : RowState::differs);
-  table.notes = {
-      "Law: the plugin's law with stock stepping (velocity Verlet) over the engine's law. Second: the "
-      "second-order "
-      "scheme over stock stepping. History includes the energy balance.",
-      fmt::format(
-          "Median over the rounds of the ratio within a round. Where no cost is allowed, {:.2f} is the "
-          "criterion, since smaller ratios cannot be told from the scatter.",
-          nothing)};
+  table.notes = {"Law: the plugin's law with stock stepping (velocity Verlet) over the engine's law. Second: "
+                 "the second-order scheme over stock stepping. History includes the energy balance.",
+                 fmt::format("Median over the rounds of the ratio within a round. Where no cost is allowed, "
+                             "{:.2f} is the criterion, since smaller ratios cannot be told from the scatter.",
+                             nothing)};
   return table;
 }
 
@@ -218,11 +210,10 @@ void judge_pieces(const std::vector<PieceCost> &costs, std::vector<Acceptance> &
 
 PageFigure piece_figure(const std::vector<PieceCost> &costs) {
   const std::string name = "ratios";
-  PageFigure figure =
-      page_figure("Fig. 1",
-                  "Time per step of a run over that of the run without the part: median over the rounds and "
-                  "quartiles.",
-                  {name, "Time per step over that without the part", {}, 1}, 1.0);
+  PageFigure figure = page_figure(
+      "Fig. 1",
+      "Time per step of a run over that of the run without the part: median over the rounds and quartiles.",
+      {name, "Time per step over that without the part", {}, 1}, 1.0);
   CurveTable table("piece,ratio (-),lower quartile (-),upper quartile (-)");
   for (const PieceCost &cost : costs) {
     std::vector<Panel> &panels = figure.figure.panels;
@@ -258,12 +249,10 @@ void write_timing_page(const std::filesystem::path &out, const TimedBeds &beds) 
     }
   Page page(out, "Time of a step", Drawing::bed);
   page.answer("Runs of the chain and of settled beds, from 2500 balls in two dimensions to a quarter of a "
-              "million in three, by the "
-              "engine's own law and by the plugin's, whose optional parts are switched on one by one; with "
-              "friction on one rank and "
-              "on two, in LIGGGHTS and, if it is set up, in LAMMPS. The runs of a round alternate, so that "
-              "other load on the "
-              "machine affects all of them. Times by the engine's own clock, without starting and reading.");
+              "million in three, by the engine's own law and by the plugin's, whose optional parts are "
+              "switched on one by one; with friction on one rank and on two, in LIGGGHTS and, if it is set "
+              "up, in LAMMPS. The runs of a round alternate, so that other load on the machine affects all "
+              "of them. Times by the engine's own clock, without starting and reading.");
   page.answer(criteria);
   page.section("Acceptance criteria");
   page.table(acceptance_table(criteria));
@@ -278,25 +267,18 @@ void write_timing_page(const std::filesystem::path &out, const TimedBeds &beds) 
   page.section("Estimate for 1e8 balls");
   page.table(projection_table(runs, all, beds));
   page.paragraph("Decomposition: a bed is wide and flat, so ranks share it along x and z, never along y "
-                 "(processors * 1 * in "
-                 "the decks). Each rank then has columns of soil of the same height, from floor to surface, "
-                 "and needs no "
-                 "balancing. The roller is on few ranks. As a clump its balls are as small as soil balls and "
-                 "add a few per "
-                 "cent of work there; as one ball much larger than the soil it would widen the ghost layer "
-                 "of every rank "
-                 "to its own size.");
+                 "(processors * 1 * in the decks). Each rank then has columns of soil of the same height, "
+                 "from floor to surface, and needs no balancing. The roller is on few ranks. As a clump its "
+                 "balls are as small as soil balls and add a few per cent of work there; as one ball much "
+                 "larger than the soil it would widen the ghost layer of every rank to its own size.");
   page.paragraph(
       "Limits: (1) ghosts, from about ten thousand balls per rank on: the column of the table that "
-      "decreases. (2) "
-      "Messages: each step sends positions and velocities of the ghosts, the second-order scheme those of "
-      "coupled balls once more, and every record sums about forty numbers over all ranks: choose "
-      "samples_per_cycle and dumps no larger than needed. (3) The memory bandwidth of a node, of which the "
-      "efficiency on two ranks shows the beginning. (4) Files: the engine gathers a restart file on one "
-      "rank. "
-      "(5) Copies: in.tile runs on one rank and must hold the whole bed there, since on more ranks the "
-      "engine "
-      "gives IDs twice; a bed larger than the memory of one node has to be made by " +
+      "decreases. (2) Messages: each step sends positions and velocities of the ghosts, the second-order "
+      "scheme those of coupled balls once more, and every record sums about forty numbers over all ranks: "
+      "choose samples_per_cycle and dumps no larger than needed. (3) The memory bandwidth of a node, of "
+      "which the efficiency on two ranks shows the beginning. (4) Files: the engine gathers a restart file "
+      "on one rank. (5) Copies: in.tile runs on one rank and must hold the whole bed there, since on more "
+      "ranks the engine gives IDs twice; a bed larger than the memory of one node has to be made by " +
       front_command() + " bed and settled, or read in parts. (6) Integers: an ID has 31 bits, 2.1e9 balls.");
   page.write();
 }

@@ -7,8 +7,8 @@
 
 namespace drumlin::post {
 
-/// Laws with friction that are compared in one engine, as runs.csv names them: the engine's own, and the plugin's with stock
-/// and with second stepping.
+/// Laws with friction that are compared in one engine, as runs.csv names them: the engine's own, and the
+/// plugin's with stock and with second stepping.
 struct EngineLaws {
   const char *own, *stock, *second;
   double allowed_stock, allowed_second; ///< time over that of the engine's law, in three dimensions

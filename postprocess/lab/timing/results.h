@@ -1,4 +1,5 @@
-// Results of the timing study: the rows of its file runs.csv, and times, ratios and memory computed from them.
+// Results of the timing study: the rows of its file runs.csv, and times, ratios and memory computed from
+// them.
 #pragma once
 
 #include "support/csv_schema.h"
@@ -28,8 +29,8 @@ struct TimedRun {
 
 /// The columns of runs.csv.
 const CsvSchema<TimedRun> &timed_runs();
-/// The rows of a file in order. std::runtime_error for one that cannot be understood, or lacks ranks, balls, steps
-/// or time.
+/// The rows of a file in order. std::runtime_error for one that cannot be understood, or lacks ranks, balls,
+/// steps or time.
 std::vector<TimedRun> read_timed_runs(const std::filesystem::path &file);
 
 /// A variant of a scene on a number of ranks, over the rounds.
@@ -49,8 +50,8 @@ std::vector<VariantTime> variant_times(const std::vector<TimedRun> &runs);
 const VariantTime &find_time(const std::vector<VariantTime> &all, const std::string &scene,
                              const std::string &variant, int ranks);
 
-/// Bytes that one more ball takes, from two scenes on one rank. std::invalid_argument if one of them is missing or they are
-/// equally large.
+/// Bytes that one more ball takes, from two scenes on one rank. std::invalid_argument if one of them is
+/// missing or they are equally large.
 double bytes_per_ball(const std::vector<VariantTime> &all, const std::string &variant,
                       const std::string &small, const std::string &large);
 
@@ -59,8 +60,8 @@ struct Measured {
   std::string variant;
   int ranks = 1;
 };
-/// The time of a step of one over that of another, a value for each round that has both: the load of the machine is about
-/// the same in runs that follow one another.
+/// The time of a step of one over that of another, a value for each round that has both: the load of the
+/// machine is about the same in runs that follow one another.
 std::vector<double> time_ratios(const std::vector<TimedRun> &runs, const std::string &scene,
                                 const Measured &of, const Measured &over);
 /// The throughput on some ranks over so many times that on one rank, in the same way.

@@ -80,11 +80,12 @@ std::vector<Variant> part_variants() {
           {"stock + friction + rolling", plugin_law(rolling, "stock")}};
 }
 
-/// The laws that are run on beds of each size, on one rank and on two, all with friction: the engine's own, and the
-/// plugin's as beds have it; those of LAMMPS if it is set up.
+/// The laws that are run on beds of each size, on one rank and on two, all with friction: the engine's own,
+/// and the plugin's as beds have it; those of LAMMPS if it is set up.
 /// \param alone rounds of the engine's own law on one rank, over which parts are compared
 std::vector<Variant> size_variants(int alone, bool lammps) {
-  // The laws limit friction in different ways, and LAMMPS's own scales the dashpot with the mass of each pair.
+  // The laws limit friction in different ways, and LAMMPS's own scales the dashpot with the mass of each
+  // pair.
   constexpr double same = 1e-5;
   const auto &[own, other] = engine_laws;
   const auto bed = [](const char *name, const std::string &law, bool in_lammps) {
@@ -153,7 +154,8 @@ TimedRun measure(const Scene &scene, const Variant &variant, int ranks, int roun
           run.printed("ends at ")};
 }
 
-/// Checks that the runs of a variant, and those of variants that are compared, end with the balls at the same positions.
+/// Checks that the runs of a variant, and those of variants that are compared, end with the balls at the same
+/// positions.
 void check_same_work(const Scene &scene, const std::vector<TimedRun> &runs) {
   const auto same_of = [&scene](const TimedRun &run) {
     for (const Variant &variant : scene.variants)

@@ -124,11 +124,10 @@ PageTable course_table(const Points &points) {
       row.push_back(words_of(course_of(points, roller.name, shown)));
     table.add(std::move(row));
   }
-  table.notes = {
-      "Changes of less than 2 % of the value's range do not count, of the energy 5 %, since its sum "
-      "over samples may be off by that where the drum lands, nor those of CMV and RMV of less than "
-      "0.5. Modes end at the last k that was computed with them.",
-      "E_vib needs radius and width of the drum, which are published for one roller only."};
+  table.notes = {"Changes of less than 2 % of the value's range do not count, of the energy 5 %, since its "
+                 "sum over samples may be off by that where the drum lands, nor those of CMV and RMV of less "
+                 "than 0.5. Modes end at the last k that was computed with them.",
+                 "E_vib needs radius and width of the drum, which are published for one roller only."};
   return table;
 }
 
@@ -188,13 +187,12 @@ Panel value_panel(const ShownValue &shown, const SoilRoller &roller, const Cours
 }
 
 PageFigure value_figure(const Points &points, const ShownValue &shown, int number) {
-  PageFigure figure =
-      page_figure(fmt::format("Fig. {}", number),
-                  fmt::format("{} over the stiffness k of the soil, condition B, D = 0.5. Marks are "
-                              "operating modes; a solid line "
-                              "is where a value that also rises falls with growing k.{}",
-                              shown.title, shown.stiffness ? " The dash-dotted line is k itself." : ""),
-                  {shown.name, fmt::format("{} over the stiffness of the soil", shown.title), {}, 3});
+  PageFigure figure = page_figure(
+      fmt::format("Fig. {}", number),
+      fmt::format("{} over the stiffness k of the soil, condition B, D = 0.5. Marks are operating modes; a "
+                  "solid line is where a value that also rises falls with growing k.{}",
+                  shown.title, shown.stiffness ? " The dash-dotted line is k itself." : ""),
+      {shown.name, fmt::format("{} over the stiffness of the soil", shown.title), {}, 3});
   std::string header = shown.label;
   header.erase(std::remove_if(header.begin(), header.end(), [](char c) { return c == '{' || c == '}'; }),
                header.end());
@@ -243,21 +241,19 @@ PageTable found_table(const Points &points) {
                fmt::format("{:.1e}", found.measured_error),
                fmt::format("{} of {}", found.inside, found.measured)});
   }
-  table.notes = {
-      "Every fourth sample of the records, 250 per cycle. Exact: positions, velocities and accelerations "
-      "without noise. Noisy accelerations, as a real roller "
-      "has them: those of drum and frame alone, with white noise of 1 % of their standard deviation; the "
-      "phase of the exciter is off by 0.5 degrees and known within 1 degree."};
+  table.notes = {"Every fourth sample of the records, 250 per cycle. Exact: positions, velocities and "
+                 "accelerations without noise. Noisy accelerations, as a real roller has them: those of drum "
+                 "and frame alone, with white noise of 1 % of their standard deviation; the phase of the "
+                 "exciter is off by 0.5 degrees and known within 1 degree."};
   return table;
 }
 
 PageFigure found_figure(const Points &points, int number) {
   const std::string name = "identified";
-  PageFigure figure = page_figure(
-      fmt::format("Fig. {}", number),
-      "k that identify finds over the true k, from the records of the figures above, with 95 % confidence "
-      "intervals. Crosses: no identification.",
-      {name, "k identified over true k", {}, 3}, 0.9);
+  PageFigure figure = page_figure(fmt::format("Fig. {}", number),
+                                  "k that identify finds over the true k, from the records of the figures "
+                                  "above, with 95 % confidence intervals. Crosses: no identification.",
+                                  {name, "k identified over true k", {}, 3}, 0.9);
   figure.key_panel = 4;
   CurveTable table("k [MN/m],found over true [-],lower end [-],upper end [-]");
   for (const SoilRoller &roller : rollers_of(points)) {
@@ -337,14 +333,14 @@ void answer(Page &page, const Points &points) {
   for (const SoilRoller &roller : rollers)
     falling += course_of(points, roller.name, shown_values[0]).turns.empty() ? 0 : 1;
   page.answer(fmt::format("With growing k the motion goes from continuous contact to partial uplift, where "
-                          "CMV begins to grow, and for {} of {} rollers to double jump or beyond, where "
-                          "CMV falls and rises again, so that one CMV belongs to several k.",
+                          "CMV begins to grow, and for {} of {} rollers to double jump or beyond, where CMV "
+                          "falls and rises again, so that one CMV belongs to several k.",
                           falling, rollers.size()));
   if (const std::optional<Fall> fall = deepest_fall(points))
-    page.answer(fmt::format(
-        "The deepest fall is that of {}, from {:.0f} at {:.3g} MN/m to {:.0f} at {:.3g} MN/m, a "
-        "value that it also has near {:.2g} MN/m.",
-        fall->roller, fall->high, 1e-6 * fall->from, fall->low, 1e-6 * fall->to, 1e-6 * fall->same));
+    page.answer(fmt::format("The deepest fall is that of {}, from {:.0f} at {:.3g} MN/m to {:.0f} at {:.3g} "
+                            "MN/m, a value that it also has near {:.2g} MN/m.",
+                            fall->roller, fall->high, 1e-6 * fall->from, fall->low, 1e-6 * fall->to,
+                            1e-6 * fall->same));
   const Found all = found_in(points);
   constexpr double long_contact = 0.8; // share of time: shorter flights hardly tell the phase
   Points held;
@@ -360,17 +356,17 @@ void answer(Page &page, const Points &points) {
     const double error = 100.0 * found_in(some).measured_error;
     limits += fmt::format("{}within {:.2g} % {}", limits.empty() ? "" : ", ", error, where);
   };
-  add(lost, fmt::format("where the contact lasts for less than {:g} % of the time, since the flights tell "
-                        "the phase",
-                        100.0 * long_contact));
+  add(lost, fmt::format(
+                "where the contact lasts for less than {:g} % of the time, since the flights tell the phase",
+                100.0 * long_contact));
   add(nearly, "where it lasts longer");
   add(held, "in continuous contact");
-  page.answer(fmt::format(
-      "Identification finds k in {} of {} exact records, with errors of at most {:.1e}. Noisy accelerations "
-      "alone, with the phase of the exciter within 1 degree, give k {}. In continuous contact an error of "
-      "the phase acts on the force as the stiffness does; this limit is worst on soft soil, where the force "
-      "on the drum is mostly its inertia.",
-      all.exact, all.records, all.exact_error, limits));
+  page.answer(
+      fmt::format("Identification finds k in {} of {} exact records, with errors of at most {:.1e}. Noisy "
+                  "accelerations alone, with the phase of the exciter within 1 degree, give k {}. In "
+                  "continuous contact an error of the phase acts on the force as the stiffness does; this "
+                  "limit is worst on soft soil, where the force on the drum is mostly its inertia.",
+                  all.exact, all.records, all.exact_error, limits));
 }
 
 } // namespace
@@ -382,8 +378,7 @@ void write_soil_page(const std::filesystem::path &out, const std::vector<SoilPoi
   page.paragraph(
       "k_B, k_1 and c_1 are stiffness and damping at the excitation frequency, and are the soil's in "
       "continuous contact only; k_B also contains the force of the frame on the drum. In other modes they "
-      "are "
-      "apparent values. The tools' README has the formula and the source of each value.");
+      "are apparent values. The tools' README has the formula and the source of each value.");
   page.table(course_table(points));
   page.section("Meter values over the stiffness of the soil");
   int number = 0;

@@ -1,5 +1,5 @@
-// `drumlin study meter`: what a roller's meter shows over the stiffness of the soil, and what identification finds in the
-// same records, for all rollers of the chain. Needs no engine.
+// `drumlin study meter`: what a roller's meter shows over the stiffness of the soil, and what identification
+// finds in the same records, for all rollers of the chain. Needs no engine.
 #pragma once
 
 #include <filesystem>

@@ -92,7 +92,8 @@ private:
     return true;
   }
 
-  /// The words for captions and axes that say how many cycles at the end of the runs a figure shows, which are at most `most`.
+  /// The words for captions and axes that say how many cycles at the end of the runs a figure shows, which
+  /// are at most `most`.
   std::string last(int most) const {
     std::vector<int> counts;
     for (const BedResult *run : runs())
@@ -117,9 +118,9 @@ private:
     curves(acceleration, "motion", "$3*1e3", "4");
     curves(force, "motion", "$3*1e3", "($5*1e-3)");
     add("motion", "Drum acceleration and contact force", {acceleration, force}, table,
-        fmt::format("Acceleration of the drum, and force of the soil on the drum, over {}. The "
-                    "force is the vertical sum over all balls in contact with the drum. It includes their "
-                    "friction, so it can be tensile under condition B, too.",
+        fmt::format("Acceleration of the drum, and force of the soil on the drum, over {}. The force is the "
+                    "vertical sum over all balls in contact with the drum. It includes their friction, so it "
+                    "can be tensile under condition B, too.",
                     last(shown_cycles)),
         2, motion_weight);
   }
@@ -139,8 +140,8 @@ private:
     }
     curves(panel, "loop", "$3*1e3", "($4*1e-3)");
     add("loop", panel.title, {panel}, table,
-        fmt::format("Contact force against the height of the drum over {}. The area within a "
-                    "loop is the energy that the drum gives to the bed in one cycle.",
+        fmt::format("Contact force against the height of the drum over {}. The area within a loop is the "
+                    "energy that the drum gives to the bed in one cycle.",
                     last(loop_cycles)),
         1);
   }
@@ -178,14 +179,13 @@ private:
     curves(voids, "state", "$2", "4");
     add("state", "Coordination and void ratio", {coordination, voids}, table,
         "Coordination: mean number of contacts of a soil ball. Void ratio: volume of the voids over volume "
-        "of "
-        "the balls, in the part of the bed below the height of the soil's centre of mass at the start.",
+        "of the balls, in the part of the bed below the height of the soil's centre of mass at the start.",
         2);
   }
 
   void energies() {
-    CurveTable table("time (s),work of the exciter (J),dissipated (J),potential (J),kinetic (J),elastic (J),"
-                     "imbalance (J)");
+    CurveTable table("time (s),work of the exciter (J),dissipated (J),potential (J),kinetic (J),elastic "
+                     "(J),imbalance (J)");
     const std::string name = stem_ + "energy";
     std::vector<Panel> sums;
     std::vector<Panel> stores;
@@ -245,8 +245,7 @@ private:
     add("walls", "Forces of the walls", panels, table,
         "Forces of floor and side walls on the balls: the part of the roller's load that reaches the "
         "boundaries of the bed. Side thrust is the sum of the normal forces of both side walls; side "
-        "friction "
-        "is positive where it acts upwards on the balls.",
+        "friction is positive where it acts upwards on the balls.",
         2);
   }
 

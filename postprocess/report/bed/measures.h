@@ -1,5 +1,5 @@
-// Measured values of runs of the roller on a bed of balls, and the pairs of runs that are shown together.
-// SI units; in two dimensions masses, forces and energies are per metre perpendicular to the picture.
+// Measured values of runs of the roller on a bed of balls, and the pairs of runs that are shown together. SI
+// units; in two dimensions masses, forces and energies are per metre perpendicular to the picture.
 #pragma once
 
 #include <cstddef>

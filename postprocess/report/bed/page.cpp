@@ -19,8 +19,8 @@ std::string fixed(double value, int decimals) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : dash;
 }
 
-/// A size that the files of the bed note, as a multiple of a unit, or a list of those of the layers; a dash in runs
-/// of beds of earlier versions.
+/// A size that the files of the bed note, as a multiple of a unit, or a list of those of the layers; a dash
+/// in runs of beds of earlier versions.
 std::string noted(const Run &run, const std::string &name, double per_unit) {
   const std::string text = run.text(name, "unknown");
   if (text == "unknown") return dash;
@@ -47,11 +47,10 @@ std::string title_of(const BedGroup &group) {
 std::string words_of(const BedGroup &group) {
   const Run &run = group.runs.front()->run;
   const double frequency = 1.0 / run.chain.period();
-  return fmt::format(
-      "{} soil balls, friction {}, damping ratio {:g}. The exciter's force is {:g} kN at {:g} Hz, "
-      "the mass of the drum {:g} kg and of the frame {:g} kg.",
-      run.text("balls", "?"), run.text("friction", "?"), run.chain.D, run.chain.Fw * 1e-3, frequency,
-      run.chain.m2, run.chain.m3);
+  return fmt::format("{} soil balls, friction {}, damping ratio {:g}. The exciter's force is {:g} kN at {:g} "
+                     "Hz, the mass of the drum {:g} kg and of the frame {:g} kg.",
+                     run.text("balls", "?"), run.text("friction", "?"), run.chain.D, run.chain.Fw * 1e-3,
+                     frequency, run.chain.m2, run.chain.m3);
 }
 
 PageTable motion_table(const std::vector<BedResult> &beds) {
@@ -83,11 +82,9 @@ PageTable motion_table(const std::vector<BedResult> &beds) {
   }
   motion.notes.emplace_back(
       "Steady cycles: about the second half of the run, an even number of cycles; both of a run of two. "
-      "Acceleration, forces, "
-      "share "
-      "of time in contact and CMV are of every time step in these cycles. Compaction meter value CMV = 300 "
-      "A2 "
-      "/ A1, of the amplitudes of drum acceleration at twice and once the excitation frequency.");
+      "Acceleration, forces, share of time in contact and CMV are of every time step in these cycles. "
+      "Compaction meter value CMV = 300 A2 / A1, of the amplitudes of drum acceleration at twice and once "
+      "the excitation frequency.");
   return motion;
 }
 
@@ -117,18 +114,14 @@ PageTable state_table(const std::vector<BedResult> &beds) {
                                                                              : RowState::differs);
   }
   state.notes.emplace_back(
-      "Settlement: mean position of the drum over a cycle, below its position at rest, "
-      "negative above it, as where the drum jumps; per cycle: mean over the "
-      "steady cycles. Coordination: mean number of contacts of a soil ball. Coordination and void ratio at "
-      "the "
-      "end are means over the last cycle. Imbalance of energy is the energy error: kinetic + potential + "
-      "elastic "
-      "+ dissipated energy - work of the exciter at the end, less the same at the start. Depth of the drum: "
-      "of its "
-      "lowest point before the excitation, below the mean surface that the soil had before the drum was "
-      "placed, "
-      "away from the drum; negative above. Grading, sizes (diameters), d50 and Cu = d60 / d10, by mass, are "
-      "those of the balls that drumlin bed made; of layers of each, the lowest first.");
+      "Settlement: mean position of the drum over a cycle, below its position at rest, negative above it, as "
+      "where the drum jumps; per cycle: mean over the steady cycles. Coordination: mean number of contacts "
+      "of a soil ball. Coordination and void ratio at the end are means over the last cycle. Imbalance of "
+      "energy is the energy error: kinetic + potential + elastic + dissipated energy - work of the exciter "
+      "at the end, less the same at the start. Depth of the drum: of its lowest point before the excitation, "
+      "below the mean surface that the soil had before the drum was placed, away from the drum; negative "
+      "above. Grading, sizes (diameters), d50 and Cu = d60 / d10, by mass, are those of the balls that "
+      "drumlin bed made; of layers of each, the lowest first.");
   return state;
 }
 
@@ -150,10 +143,9 @@ std::string bed_page(const ReportContent &content) {
     s += fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", id, html_escaped(numbered));
   };
   begin("numbers", "Numbers");
-  s +=
-      "<p>Drum and frame stand on a bed of balls and move up and down only; the exciter acts on the drum. In "
-      "two dimensions masses, forces and energies are per metre perpendicular to the picture. Condition A "
-      "dashed, condition B (no-tension limit) solid.</p>\n";
+  s += "<p>Drum and frame stand on a bed of balls and move up and down only; the exciter acts on the drum. "
+       "In two dimensions masses, forces and energies are per metre perpendicular to the picture. Condition "
+       "A dashed, condition B (no-tension limit) solid.</p>\n";
   for (const PageTable &table : content.bed_tables)
     s += table_html(table);
   s += "</section>\n";
@@ -168,9 +160,9 @@ std::string bed_page(const ReportContent &content) {
   for (const BedResult &result : content.beds)
     commands.emplace_back(result.run.name, result.run.text("command"));
   s += commands_html(commands) +
-       fmt::format("<h3 id=\"versions\">Versions</h3>\n<p>Report by drumlin {}; figures by "
-                   "{}.</p>\n</section>\n",
-                   html_escaped(content.versions.drumlin), html_escaped(content.versions.gnuplot));
+       fmt::format(
+           "<h3 id=\"versions\">Versions</h3>\n<p>Report by drumlin {}; figures by {}.</p>\n</section>\n",
+           html_escaped(content.versions.drumlin), html_escaped(content.versions.gnuplot));
   return html_page("Roller on a bed of balls", made_line(content.versions), links, s);
 }
 

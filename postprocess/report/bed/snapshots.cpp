@@ -239,11 +239,9 @@ std::string picture_caption(Which which, const Scales &scales, bool by_contacts)
   words += by_contacts ? "; colours: contacts of each soil ball with other balls"
                        : "; colours: speed of the soil balls (the fastest 2 % exceed the scale)";
   if (scales.strongest > 0.0)
-    words +=
-        ". Black lines are the force chains: they join the centres of two balls in contact, or a ball and a "
-        "wall, and their width grows with the normal force. Forces below the smallest class of the legend "
-        "are "
-        "not drawn";
+    words += ". Black lines are the force chains: they join the centres of two balls in contact, or a ball "
+             "and a wall, and their width grows with the normal force. Forces below the smallest class of "
+             "the legend are not drawn";
   if (scales.layers > 1)
     words += ". The edges of the balls have the colours of their layers, of which the lowest is layer 1";
   if (!scales.flat)
@@ -317,12 +315,12 @@ void plan_profile(const std::vector<Views> &all, const std::string &stem, const 
     panel->x_range = axis_range(0.8 * densest, 1.03 * densest); // the changes are small
     figure.figure.panels.push_back(*panel);
   }
-  figure.caption = fmt::format(
-      "Solid fraction: area (in three dimensions volume) of the soil balls over that of the layer, at the "
-      "first dump (before) and at the last (after), in layers of about {:g} mean diameters. Left: across the "
-      "whole box; right: below the drum. Layers that hold air or a part of the drum lie outside of the "
-      "scale; the CSV file has them.",
-      layer);
+  figure.caption =
+      fmt::format("Solid fraction: area (in three dimensions volume) of the soil balls over that of the "
+                  "layer, at the first dump (before) and at the last (after), in layers of about {:g} mean "
+                  "diameters. Left: across the whole box; right: below the drum. Layers that hold air or a "
+                  "part of the drum lie outside of the scale; the CSV file has them.",
+                  layer);
   plan.figures.push_back(std::move(figure));
 }
 

@@ -108,11 +108,10 @@ PageTable engine_table(const ReportResults &results) {
     table.add(std::move(row), agree ? RowState::agrees : RowState::differs);
   }
   if (!table.rows.empty())
-    table.notes.push_back(fmt::format(
-        "Both engines use the same fixes and contact laws; pair styles and neighbour lists are their own. "
-        "Only "
-        "rounding errors, and their growth in the motion of the chain, can make a difference. Allowed: {:g}.",
-        engines_agree_to));
+    table.notes.push_back(fmt::format("Both engines use the same fixes and contact laws; pair styles and "
+                                      "neighbour lists are their own. Only rounding errors, and their growth "
+                                      "in the motion of the chain, can make a difference. Allowed: {:g}.",
+                                      engines_agree_to));
   return table;
 }
 

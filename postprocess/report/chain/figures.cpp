@@ -152,8 +152,7 @@ std::string case_words(const std::string &name, const std::vector<const RunResul
     return "At twice the frequency of case II the curves have the same shape, and the peak is less than half "
            "as high. (The paper's caption of Fig. 6 names case II; the figure shows case III.)";
   return "Under A the tensile force of the strong damper keeps the drum in contact, and the acceleration is "
-         "a "
-         "sine. Under B the drum loses contact, and the acceleration jumps at every make of contact. (The "
+         "a sine. Under B the drum loses contact, and the acceleration jumps at every make of contact. (The "
          "paper's caption of Fig. 7 names case II; the figure shows case IV.)";
 }
 
@@ -247,12 +246,12 @@ void plan_impact(const ReportResults &results, FigurePlan &plan) {
   const ImpactParameters &p = runs.front()->run.impact;
   PageFigure figure{"impact", "Fig. 3", "", {}, table.text(), impact_weight};
   figure.figure = {name, "Fig. 3  Single impact without gravity", {over_overlap, over_time}, 2};
-  figure.caption = fmt::format(
-      "Contact force of a single impact (D = {:g}, {:g} m/s) against overlap and against time. "
-      "At the make of contact the force jumps to the same value under both. Under A contact ends "
-      "at zero overlap, after a tensile phase; under B it ends when the force reaches zero, while "
-      "drum and soil still overlap. Markers: closed-form solution. {}. Runs: {}.",
-      p.damping_ratio, p.speed, words, names_of(runs));
+  figure.caption =
+      fmt::format("Contact force of a single impact (D = {:g}, {:g} m/s) against overlap and against time. "
+                  "At the make of contact the force jumps to the same value under both. Under A contact ends "
+                  "at zero overlap, after a tensile phase; under B it ends when the force reaches zero, "
+                  "while drum and soil still overlap. Markers: closed-form solution. {}. Runs: {}.",
+                  p.damping_ratio, p.speed, words, names_of(runs));
   plan.figures.push_back(std::move(figure));
 }
 
@@ -411,16 +410,15 @@ void plan_loops(const ReportResults &results, std::size_t index, FigurePlan &pla
                    2};
   figure.caption = fmt::format(
       "The last cycle of each run, or the last two if they differ, {}. Left: drum velocity against drum "
-      "position. Right: contact force against overlap; the area of the loop is the energy that the "
-      "contact dissipates per cycle, and a vertical line is the jump of the force at a make{}. Most of the "
-      "time without contact is outside of the right panel. Runs: {}.",
+      "position. Right: contact force against overlap; the area of the loop is the energy that the contact "
+      "dissipates per cycle, and a vertical line is the jump of the force at a make{}. Most of the time "
+      "without contact is outside of the right panel. Runs: {}.",
       case_title(case_name, runs), " or, under A, at break", names_of(runs));
   if (case_name == "I" && all_at_case(runs) && all_steady(runs))
-    figure.caption = fmt::format(
-        "Case I, last cycle. Left: drum velocity against drum position. Right: contact force against "
-        "overlap; the area of the loop is the energy that the contact dissipates per cycle. A and B "
-        "coincide. Runs: {}.",
-        names_of(runs));
+    figure.caption = fmt::format("Case I, last cycle. Left: drum velocity against drum position. Right: "
+                                 "contact force against overlap; the area of the loop is the energy that the "
+                                 "contact dissipates per cycle. A and B coincide. Runs: {}.",
+                                 names_of(runs));
   plan.figures.push_back(std::move(figure));
 }
 
@@ -457,10 +455,9 @@ void plan_restitution(const ReportResults &results, FigurePlan &plan) {
   if (any_a) panel.curves.push_back(curve(name, "A DEM", "$2", "3", CurveStyle::measured_a));
   PageFigure figure{"impact", "Fig. R5", "", {}, table.text()};
   figure.figure = {name, panel.title, {panel}, 1};
-  figure.caption =
-      "Restitution (rebound speed over impact speed) against the damping ratio: closed forms (lines) and the "
-      "given runs (markers). It is larger under B, since no tensile force holds the drum back; under A there "
-      "is no rebound for D of 1 and more.";
+  figure.caption = "Restitution (rebound speed over impact speed) against the damping ratio: closed forms "
+                   "(lines) and the given runs (markers). It is larger under B, since no tensile force holds "
+                   "the drum back; under A there is no rebound for D of 1 and more.";
   plan.figures.push_back(std::move(figure));
 }
 

@@ -101,8 +101,8 @@ struct ReportResults {
 class DirectSolutions {
 public:
   /// \param samples_per_cycle rows per cycle, as in the run
-  /// \param impact_speed m/s; 0: start from equilibrium
-  /// Throws std::runtime_error if the solver fails, or if the parameters ask for more work than it allows.
+  /// \param impact_speed m/s; 0: start from equilibrium Throws std::runtime_error if the solver fails, or if
+  /// the parameters ask for more work than it allows.
   std::shared_ptr<const DirectResult> solve(const ChainParameters &parameters, int cycles,
                                             int samples_per_cycle, double impact_speed);
 
@@ -116,9 +116,9 @@ RunResult analyse(Run run, DirectSolutions &direct);
 /// Compares all runs with the reference values: fills checks, restitution and words.
 void compare(ReportResults &results);
 
-/// The run that the figures show for a case and a transition. Preferred are, in this order: runs that were not cut, those with the
-/// parameters of the case, long runs, runs in an engine, and the smallest velocity error. nullptr if there is
-/// no such run.
+/// The run that the figures show for a case and a transition. Preferred are, in this order: runs that were
+/// not cut, those with the parameters of the case, long runs, runs in an engine, and the smallest velocity
+/// error. nullptr if there is no such run.
 const RunResult *best_run(const ReportResults &results, const std::string &case_name, Transition transition);
 
 } // namespace drumlin::post

@@ -23,12 +23,10 @@ struct Section {
 constexpr Section sections[] = {
     {"steady", "Drum acceleration, cases I to IV",
      "Figs. 4 to 7 of the paper, where the parameters are those of the paper. Condition A dashed, condition "
-     "B "
-     "(no-tension limit) solid, reference solution as markers."},
+     "B (no-tension limit) solid, reference solution as markers."},
     {"reference", "Reference values",
      "Every measured value that has a reference value, the compaction meter values, and what the paper "
-     "states "
-     "in words."},
+     "states in words."},
     {"direct", "Error against the reference solution",
      "The reference solution is that of the direct solver: it integrates the equations of motion of the same "
      "chain between located events, without an engine. Tables call it the direct solution. Fig. 8 is that of "
@@ -43,10 +41,8 @@ constexpr Section sections[] = {
     {"energy", "Energy balance", "Where the work of the exciter goes."},
     {"roller", "Contact force from measured motion",
      "A roller cannot measure the contact force itself, but motion: the equation of motion gives Fc = m2 a2 "
-     "+ "
-     "m3 a3 + (m2 + m3) g + Fe. Here the accelerations are differences of the positions in chain.csv, and "
-     "the "
-     "result must equal the force of the contact law."},
+     "+ m3 a3 + (m2 + m3) g + Fe. Here the accelerations are differences of the positions in chain.csv, and "
+     "the result must equal the force of the contact law."},
     {"bed", "Roller on a bed of balls", ""},
     {"studies", "Studies",
      "What time steps, laws and options cost and what they bring, each on its own page."},

@@ -244,8 +244,7 @@ PageTable runs_table(const ReportResults &results) {
   table.notes.emplace_back(
       "stepping is the scheme by which the engine integrates a time step: second is the second-order scheme, "
       "which knows the part of a step during which balls are in contact; stock is the engine's velocity "
-      "Verlet "
-      "scheme; exact is the direct solver.");
+      "Verlet scheme; exact is the direct solver.");
   for (std::size_t i = 0; i < results.runs.size(); ++i) {
     const Run &run = results.runs[i].run;
     count = count_checks(results, i);
@@ -318,12 +317,11 @@ PageTable events_table(const ReportResults &results) {
           fmt::format("{}: {} events, {} in the reference solution; the first {} were paired.",
                       result.run.name, match.run_count, match.reference_count, match.matched));
   }
-  table.notes.insert(
-      table.notes.begin(),
-      fmt::format("Forces, overlap and counts per cycle: over {} of each run. Time differences: of "
-                  "all events of the run to those of the reference solution (direct solution), paired "
-                  "in their order; also in time steps of the run.",
-                  measured_words(results)));
+  table.notes.insert(table.notes.begin(),
+                     fmt::format("Forces, overlap and counts per cycle: over {} of each run. Time "
+                                 "differences: of all events of the run to those of the reference solution "
+                                 "(direct solution), paired in their order; also in time steps of the run.",
+                                 measured_words(results)));
   return table;
 }
 
@@ -344,11 +342,10 @@ PageTable meters_table(const ReportResults &results) {
   set_header(table, meter_columns);
   for (const RunResult &result : results.runs)
     if (result.chain) add_row(table, meter_columns, result);
-  table.notes.push_back(fmt::format("Compaction meter value CMV = 300 A2 / A1 and resonance meter value RMV "
-                                    "= 100 A0.5 / A1. A1, A2 and A0.5 "
-                                    "are the amplitudes of drum acceleration at 1, 2 and 1/2 times the "
-                                    "excitation frequency, over {}.",
-                                    measured_words(results)));
+  table.notes.push_back(fmt::format(
+      "Compaction meter value CMV = 300 A2 / A1 and resonance meter value RMV = 100 A0.5 / A1. A1, A2 and "
+      "A0.5 are the amplitudes of drum acceleration at 1, 2 and 1/2 times the excitation frequency, over {}.",
+      measured_words(results)));
   return table;
 }
 
@@ -386,9 +383,8 @@ PageTable errors_table(const ReportResults &results) {
     add_row(table, error_columns, result, state_of_error(result.run, result.chain->velocity_error_last));
     interpolated = interpolated || result.chain->reference_interpolated;
   }
-  table.notes.emplace_back(
-      "Known: errors that the reference values give for cycles 25 to 30 under condition B, at 200, 400, 800, "
-      "1600, 3200 and 6400 steps per cycle.");
+  table.notes.emplace_back("Known: errors that the reference values give for cycles 25 to 30 under condition "
+                           "B, at 200, 400, 800, 1600, 3200 and 6400 steps per cycle.");
   if (interpolated)
     table.notes.emplace_back("Some runs have rows at times between those of the reference solution, which "
                              "was interpolated there.");
@@ -427,11 +423,10 @@ PageTable energy_table(const ReportResults &results) {
                                         result.chain->energy_missing));
   }
   if (!table.rows.empty())
-    table.notes.insert(
-        table.notes.begin(),
-        "From the end of the first to the end of the last cycle named; cycle 0 is the start of the "
-        "excitation. Closure is the energy error: work of the exciter minus dissipated energy "
-        "minus changes of kinetic, potential and stored energy.");
+    table.notes.insert(table.notes.begin(),
+                       "From the end of the first to the end of the last cycle named; cycle 0 is the start "
+                       "of the excitation. Closure is the energy error: work of the exciter minus dissipated "
+                       "energy minus changes of kinetic, potential and stored energy.");
   return table;
 }
 
@@ -457,17 +452,16 @@ PageTable roller_table(const ReportResults &results) {
       add_row(table, roller_columns, result,
               state_of_error(result.run, relative_difference(*result.chain->roller)));
     else
-      table.notes.push_back(
-          fmt::format("{}: nothing to compare, since chain.csv has no frame, or its rows are "
-                      "not equally spaced in time.",
-                      result.run.name));
+      table.notes.push_back(fmt::format(
+          "{}: nothing to compare, since chain.csv has no frame, or its rows are not equally spaced in time.",
+          result.run.name));
   }
   if (!table.rows.empty())
     table.notes.insert(
         table.notes.begin(),
-        "Accelerations of drum and frame are differences of the positions in five successive rows "
-        "of chain.csv; their error is of fourth order in the time between rows. Five rows with a "
-        "make or break of contact among them are left out, since the force jumps there.");
+        "Accelerations of drum and frame are differences of the positions in five successive rows of "
+        "chain.csv; their error is of fourth order in the time between rows. Five rows with a make or break "
+        "of contact among them are left out, since the force jumps there.");
   return table;
 }
 
@@ -531,19 +525,18 @@ std::vector<PageTable> make_tables(const ReportResults &results) {
 
   PageTable steady = check_table(
       "reference", "checks", "Steady states and meter values against the reference", results, results.checks);
-  steady.notes.push_back(fmt::format(
-      "Measured over {}. Forces and accelerations at a make of contact are those of "
-      "the located events; the share of time in contact follows from the times of the events. To all "
-      "digits: the measured value rounds to the reference value. The tolerance is one unit of the last "
-      "digit given or, for accelerations and forces, 2e-4 of the value, since the states of the "
-      "reference were not closer to steady than that. Direct solution: the reference solution (direct "
-      "solver) over the same cycles, evaluated in the same way.",
-      measured_words(results)));
+  steady.notes.push_back(
+      fmt::format("Measured over {}. Forces and accelerations at a make of contact are those of the located "
+                  "events; the share of time in contact follows from the times of the events. To all digits: "
+                  "the measured value rounds to the reference value. The tolerance is one unit of the last "
+                  "digit given or, for accelerations and forces, 2e-4 of the value, since the states of the "
+                  "reference were not closer to steady than that. Direct solution: the reference solution "
+                  "(direct solver) over the same cycles, evaluated in the same way.",
+                  measured_words(results)));
   if (count_checks(results).not_judged > 0)
-    steady.notes.push_back(
-        fmt::format("Short run: fewer than {} cycles, or cut. Its state may not yet be steady to "
-                    "the digits given.",
-                    long_run_cycles));
+    steady.notes.push_back(fmt::format(
+        "Short run: fewer than {} cycles, or cut. Its state may not yet be steady to the digits given.",
+        long_run_cycles));
   tables.push_back(std::move(steady));
 
   tables.push_back(

@@ -59,13 +59,13 @@ PageTable seed_table(const CompressionTest &test, const std::vector<SoilGroup> &
     return std::vector<std::string>{peak.mean_text(), peak.range_text(), dilatancy.mean_text(),
                                     critical.mean_text(), critical.range_text()};
   });
-  table.notes = {"Mean and half of its 95 % confidence interval over the seeds; runs of one seed count once. "
-                 "sin φ = (axial - side stress)/(axial + side "
-                 "stress). Peak: the largest value of the stresses averaged over a thirtieth of the strain, "
-                 "within the first third of the strain: later a single force chain from platen to platen can "
-                 "carry more for a moment. Critical: stresses averaged over the last third, if the strain "
-                 "reaches 10 %. Dilatancy: sin ψ = -(volumetric strain)/(2 axial - volumetric strain) over a "
-                 "fifteenth of the strain around the peak."};
+  table.notes = {
+      "Mean and half of its 95 % confidence interval over the seeds; runs of one seed count once. sin φ = "
+      "(axial - side stress)/(axial + side stress). Peak: the largest value of the stresses averaged over a "
+      "thirtieth of the strain, within the first third of the strain: later a single force chain from platen "
+      "to platen can carry more for a moment. Critical: stresses averaged over the last third, if the strain "
+      "reaches 10 %. Dilatancy: sin ψ = -(volumetric strain)/(2 axial - volumetric strain) over a fifteenth "
+      "of the strain around the peak."};
   return table;
 }
 
@@ -102,11 +102,10 @@ PageTable line_table(const CompressionTest &test, const std::vector<SoilGroup> &
                  fmt::format("{:.1f} ± {:.1f}", line.cohesion, line.half_width)});
     }
   table.notes = {
-      "Half the difference of the stresses at failure is a line over half their sum: the slope is "
-      "sin φ, the intercept c cos φ. Least squares of their ratio, since its scatter is the same at "
-      "all stresses. A soil without cohesion has an interval of c that contains zero. The intervals take all "
-      "runs as independent: those of "
-      "one seed are not, so that they are somewhat too narrow."};
+      "Half the difference of the stresses at failure is a line over half their sum: the slope is sin φ, the "
+      "intercept c cos φ. Least squares of their ratio, since its scatter is the same at all stresses. A "
+      "soil without cohesion has an interval of c that contains zero. The intervals take all runs as "
+      "independent: those of one seed are not, so that they are somewhat too narrow."};
   return table;
 }
 
@@ -128,11 +127,10 @@ PageTable run_table(const CompressionTest &test, const std::vector<CompressionRu
                     strength_quality(run));
   }
   table.criterion += " and reached the strain asked for";
-  table.notes = {
-      "E50: half of the axial minus the side stress at the peak, over the strain at which it is reached. "
-      "Inertial number: strain rate times diameter sqrt(density/side stress); below 1e-3 a test is "
-      "quasi-static. Energy error: stored energy + heat - work of the platens, over the largest "
-      "work so far."};
+  table.notes = {"E50: half of the axial minus the side stress at the peak, over the strain at which it is "
+                 "reached. Inertial number: strain rate times diameter sqrt(density/side stress); below 1e-3 "
+                 "a test is quasi-static. Energy error: stored energy + heat - work of the platens, over the "
+                 "largest work so far."};
   return table;
 }
 
@@ -166,8 +164,8 @@ PageFigure line_figure(const CompressionTest &test, const std::vector<SoilGroup>
   }
   PageFigure figure = page_figure(
       "Fig. 2",
-      "Half the difference over half the sum of axial and side stress of each run at failure, and "
-      "the Mohr-Coulomb lines through them, whose slopes are the sines of the friction angles.",
+      "Half the difference over half the sum of axial and side stress of each run at failure, and the "
+      "Mohr-Coulomb lines through them, whose slopes are the sines of the friction angles.",
       {name, "", {panel}, 1});
   figure.csv = table.text();
   return figure;
@@ -205,17 +203,16 @@ PageWriter read_page(const CompressionTest &test, const std::string &title, Draw
 PageWriter read_biaxial_page(const std::vector<fs::path> &folders) {
   return read_page(
       compression_test("biaxial"), biaxial_title, Drawing::biaxial,
-      "Samples of soil between four smooth plates, sheared by the upper one under a constant stress of "
-      "the side platen. The ratio of the stresses at failure is the friction angle of the soil.",
+      "Samples of soil between four smooth plates, sheared by the upper one under a constant stress of the "
+      "side platen. The ratio of the stresses at failure is the friction angle of the soil.",
       folders);
 }
 
 PageWriter read_triaxial_page(const std::vector<fs::path> &folders) {
   return read_page(
       compression_test("triaxial"), triaxial_title, Drawing::triaxial,
-      "Samples of soil between six smooth plates, sheared by the upper one under the same constant "
-      "stress of both side platens. The ratio of the stresses at failure is the friction angle of the "
-      "soil.",
+      "Samples of soil between six smooth plates, sheared by the upper one under the same constant stress of "
+      "both side platens. The ratio of the stresses at failure is the friction angle of the soil.",
       folders);
 }
 

@@ -15,7 +15,8 @@ using PageWriter = std::function<void(const std::filesystem::path &out)>;
 struct ElementTest {
   std::string name;  ///< of the folder of its page
   std::string title; ///< of its page
-  /// Reads the runs in the given folders, at least one. Throws std::runtime_error for a file that cannot be read.
+  /// Reads the runs in the given folders, at least one. Throws std::runtime_error for a file that cannot be
+  /// read.
   PageWriter (*read)(const std::vector<std::filesystem::path> &folders);
 
   /// The file by which the folder of a run is recognised.

@@ -16,7 +16,8 @@ namespace {
 
 using OedometerRun = ElementRun<OedometerRow>;
 
-/// Largest modulus of the loads that increase the stress, or of those that decrease it; NaN if there are none.
+/// Largest modulus of the loads that increase the stress, or of those that decrease it; NaN if there are
+/// none.
 double largest_modulus(const std::vector<OedometerRow> &rows, bool increasing) {
   double most = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t n = 1; n < rows.size(); ++n)
@@ -36,13 +37,11 @@ PageTable run_table(const std::vector<OedometerRun> &runs) {
                      number_cell(run.rows.back().settlement), number_cell(largest_modulus(run.rows, true)),
                      number_cell(largest_modulus(run.rows, false))},
                     quality_of(run.rows));
-  table.notes = {
-      "Settlement: of the platen since the seating stress, at which the sample was made. Modulus: "
-      "constrained "
-      "modulus, the change of stress over the change of strain between two loads at rest. Inertial number: "
-      "strain rate while the stress changes, times diameter sqrt(density/stress); below 1e-3 a test is "
-      "quasi-static. Energy error: stored energy + heat - work of the platen's force, over the largest "
-      "work."};
+  table.notes = {"Settlement: of the platen since the seating stress, at which the sample was made. Modulus: "
+                 "constrained modulus, the change of stress over the change of strain between two loads at "
+                 "rest. Inertial number: strain rate while the stress changes, times diameter "
+                 "sqrt(density/stress); below 1e-3 a test is quasi-static. Energy error: stored energy + "
+                 "heat - work of the platen's force, over the largest work."};
   return table;
 }
 
@@ -78,9 +77,8 @@ PageFigure stress_figure(const std::vector<OedometerRun> &runs) {
   }
   PageFigure figure = page_figure(
       "Fig. 1",
-      "Constrained modulus, settlement and void ratio over the stress of the platen, loads "
-      "connected in their order. A "
-      "modulus is drawn at the stress at which its change of stress ends.",
+      "Constrained modulus, settlement and void ratio over the stress of the platen, loads connected in "
+      "their order. A modulus is drawn at the stress at which its change of stress ends.",
       {name, "Samples under the stresses of the oedometer", {modulus, settlement, voids}, 1}, 1.0);
   for (Panel &panel : figure.figure.panels)
     panel.log_x = true;

@@ -12,7 +12,8 @@ namespace drumlin::post {
 /// Title of the page.
 constexpr const char *oedometer_title = "Oedometer tests of soil";
 
-/// Reads the runs in folders, at least one, for their page. Throws std::runtime_error for a file that cannot be read.
+/// Reads the runs in folders, at least one, for their page. Throws std::runtime_error for a file that cannot
+/// be read.
 PageWriter read_oedometer_page(const std::vector<std::filesystem::path> &folders);
 
 } // namespace drumlin::post

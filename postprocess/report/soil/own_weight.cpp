@@ -72,11 +72,10 @@ PageFigure wall_figure(const std::vector<OwnWeightRun> &runs) {
                       0.5 * (row.left_force + row.side_force) / soil.hydrostatic_force()});
     panel.curves.push_back(curve(name, key, "$2", "3", line_style(n)));
   }
-  return one_panel(
-      name,
-      "Mean force on both smooth walls over that of a liquid with the soil's weight: its least value "
-      "is Rankine's coefficient K_a of active earth pressure.",
-      panel, table);
+  return one_panel(name,
+                   "Mean force on both smooth walls over that of a liquid with the soil's weight: its least "
+                   "value is Rankine's coefficient K_a of active earth pressure.",
+                   panel, table);
 }
 
 void write_wall_page(const std::vector<OwnWeightRun> &runs, const fs::path &out) {
@@ -108,13 +107,12 @@ void write_wall_page(const std::vector<OwnWeightRun> &runs, const fs::path &out)
                angle.mean_text()});
   }
   means.notes = {
-      "Mean and half of its 95 % confidence interval over the seeds. K: force on a wall over the "
-      "hydrostatic force, weight/width times half the height; the height is twice that of the centre of "
-      "mass. K_a: the smallest mean over a thirtieth of the rows. Rankine: K_a = (1 - sin φ)/(1 + sin φ)."};
+      "Mean and half of its 95 % confidence interval over the seeds. K: force on a wall over the hydrostatic "
+      "force, weight/width times half the height; the height is twice that of the centre of mass. K_a: the "
+      "smallest mean over a thirtieth of the rows. Rankine: K_a = (1 - sin φ)/(1 + sin φ)."};
   Page page(out, wall_title, Drawing::wall);
   page.answer("Soil between two smooth walls on a smooth floor, of which the right wall moves outward "
-              "slowly. When the "
-              "soil fails, the force on the wall is that of the active state.");
+              "slowly. When the soil fails, the force on the wall is that of the active state.");
   answer_quality(page, runs);
   page.section("Force on the wall");
   page.figure(wall_figure(runs));
@@ -160,8 +158,8 @@ PageFigure silo_figure(const std::vector<OwnWeightRun> &runs, const std::vector<
   }
   return one_panel(name,
                    "Vertical stress on the floor, over weight per volume γ times width B, over the height of "
-                   "the filling, and Janssen's stress with the mean "
-                   "of the coefficients that follow from the normal forces on the walls.",
+                   "the filling, and Janssen's stress with the mean of the coefficients that follow from the "
+                   "normal forces on the walls.",
                    panel, table);
 }
 
@@ -198,16 +196,14 @@ void write_silo_page(const std::vector<OwnWeightRun> &runs, const fs::path &out)
                       quality_of(runs[n].rows));
     }
   }
-  table.notes = {
-      "Means over the second half of the rows. K: horizontal over vertical stress, from the normal force on "
-      "both walls; the force on the floor is not used. Janssen: the force on the floor over the weight is "
-      "(1 - exp(-x))/x with x = 2 μ K height/width, the mean K of all runs of the soil, and the friction μ "
-      "between balls and walls. It holds if the friction of the walls is fully mobilised: friction over "
-      "normal force is μ then."};
+  table.notes = {"Means over the second half of the rows. K: horizontal over vertical stress, from the "
+                 "normal force on both walls; the force on the floor is not used. Janssen: the force on the "
+                 "floor over the weight is (1 - exp(-x))/x with x = 2 μ K height/width, the mean K of all "
+                 "runs of the soil, and the friction μ between balls and walls. It holds if the friction of "
+                 "the walls is fully mobilised: friction over normal force is μ then."};
   Page page(out, silo_title, Drawing::silo);
   page.answer("Soil between two rough walls. The floor has moved down by a small part of a ball, so that the "
-              "walls carry "
-              "a part of the weight by friction.");
+              "walls carry a part of the weight by friction.");
   answer_quality(page, runs);
   page.section("Stress on the floor");
   page.figure(silo_figure(runs, states, soils));
@@ -279,16 +275,13 @@ void write_repose_page(const std::vector<OwnWeightRun> &runs, const std::vector<
     means.add({group.name, run.text("friction"), run.text("rolling"), std::to_string(group.runs.size()),
                angle.mean_text(), angle.range_text()});
   }
-  means.notes = {
-      "Mean and half of its 95 % confidence interval over the seeds. The angle is the slope of a "
-      "least-squares "
-      "line through the surface, from a diameter of a ball above the floor to 85 % of the highest point; "
-      "through all of it if the soil still touches the wall, as soil without friction does on a smooth "
-      "floor."};
+  means.notes = {"Mean and half of its 95 % confidence interval over the seeds. The angle is the slope of a "
+                 "least-squares line through the surface, from a diameter of a ball above the floor to 85 % "
+                 "of the highest point; through all of it if the soil still touches the wall, as soil "
+                 "without friction does on a smooth floor."};
   Page page(out, repose_title, Drawing::repose);
   page.answer("Soil on a rough floor between two smooth walls, of which the right one has moved outward "
-              "slowly until the "
-              "soil stood without it. The slope that is left is half a heap.");
+              "slowly until the soil stood without it. The slope that is left is half a heap.");
   answer_quality(page, runs);
   page.section("Slope");
   page.figure(repose_figure(runs, heaps));

@@ -1,4 +1,5 @@
-// What the pages on element tests of soil have in common: reading the runs, judging them, grouping them by soil and seed.
+// What the pages on element tests of soil have in common: reading the runs, judging them, grouping them by
+// soil and seed.
 #pragma once
 
 #include "pages/page.h"
@@ -18,8 +19,9 @@
 
 namespace drumlin::post {
 
-/// Inertial number and energy error below which a test is slow enough and exact enough, and the share of the strain
-/// asked for at which it has not been interrupted: steps are whole, so that a test may end just before its strain.
+/// Inertial number and energy error below which a test is slow enough and exact enough, and the share of the
+/// strain asked for at which it has not been interrupted: steps are whole, so that a test may end just before
+/// its strain.
 constexpr double allowed_inertial_number = 1e-3;
 constexpr double allowed_energy_error = 1e-3;
 constexpr double complete_strain = 0.99;
@@ -31,12 +33,12 @@ struct ElementRun {
   std::vector<Row> rows;
 };
 
-/// The folders as runs of which only folder, name and parameters are read. Throws std::runtime_error for a file
-/// that cannot be read.
+/// The folders as runs of which only folder, name and parameters are read. Throws std::runtime_error for a
+/// file that cannot be read.
 std::vector<Run> read_named_runs(const std::vector<std::filesystem::path> &folders);
 
-/// Reads the folders, each with a file `csv`, by `read_rows`, and names the runs. Throws std::runtime_error for a
-/// file that cannot be read.
+/// Reads the folders, each with a file `csv`, by `read_rows`, and names the runs. Throws std::runtime_error
+/// for a file that cannot be read.
 template <class Row>
 std::vector<ElementRun<Row>> read_element_runs(const std::vector<std::filesystem::path> &folders,
                                                const std::string &csv,
@@ -88,8 +90,8 @@ void answer_quality(Page &page, const std::vector<ElementRun<Row>> &runs) {
   page.answer(quality_criteria(worst_of(qualities)));
 }
 
-/// A table of runs: name and sample of each, the measured quantities in `columns` (with " | " between them), and whether it was
-/// good.
+/// A table of runs: name and sample of each, the measured quantities in `columns` (with " | " between them),
+/// and whether it was good.
 PageTable element_run_table(const std::string &name, const std::string &columns);
 /// Adds a run; `measured` has a cell for each of the columns.
 void add_element_run(PageTable &table, const Run &run, const std::vector<std::string> &measured,
@@ -120,13 +122,14 @@ std::vector<SoilGroup> soils_of(const std::vector<ElementRun<Row>> &runs,
 std::map<double, std::vector<std::size_t>> grouped_by(const std::vector<double> &numbers,
                                                       const SoilGroup &soil);
 
-/// Values of one quantity in tests of one soil, by seed. Runs of one seed under several stresses have nearly the
-/// same sample: their mean counts once.
+/// Values of one quantity in tests of one soil, by seed. Runs of one seed under several stresses have nearly
+/// the same sample: their mean counts once.
 class SeedValues {
 public:
   /// A value that is not finite is left out.
   void add(const std::string &seed, double value);
-  /// "mean ± half of the 95 % confidence interval" over the seeds; of one seed the mean alone; no_value without values.
+  /// "mean ± half of the 95 % confidence interval" over the seeds; of one seed the mean alone; no_value
+  /// without values.
   std::string mean_text() const;
   /// "smallest to largest"; no_value without values.
   std::string range_text() const;

@@ -71,14 +71,13 @@ PageTable soil_table(const std::vector<PlateRun> &runs, const std::vector<PlateR
     }
     table.add(std::move(cells));
   }
-  table.notes = {
-      "Mean and half of its 95 % confidence interval over the beds. A parabola is fitted to the "
-      "settlement over the stress of each loading. Modulus of subgrade reaction k_s: slope of stress "
-      "over settlement between 0.3 and 0.7 of the largest stress of the first loading, on this "
-      "parabola. Strain modulus: 0.75 times width times k_s, which is the formula of DIN 18134 with "
-      "the width of the strip for the diameter of a round plate; the values of a strip and of a "
-      "round plate on one soil differ. Bearing capacity: the stress at which the settlement is a "
-      "tenth of the width in the first loading, linear between stages."};
+  table.notes = {"Mean and half of its 95 % confidence interval over the beds. A parabola is fitted to the "
+                 "settlement over the stress of each loading. Modulus of subgrade reaction k_s: slope of "
+                 "stress over settlement between 0.3 and 0.7 of the largest stress of the first loading, on "
+                 "this parabola. Strain modulus: 0.75 times width times k_s, which is the formula of DIN "
+                 "18134 with the width of the strip for the diameter of a round plate; the values of a strip "
+                 "and of a round plate on one soil differ. Bearing capacity: the stress at which the "
+                 "settlement is a tenth of the width in the first loading, linear between stages."};
   return table;
 }
 
@@ -102,11 +101,10 @@ PageTable run_table(const std::vector<PlateRun> &runs, const std::vector<PlateRe
       cells.push_back(number_cell(quantity.of(results[n])));
     add_element_run(table, run.run, cells, quality_of(run.rows));
   }
-  table.notes = {
-      "Inertial number: settlement over width during a change of the stress, over its time, times "
-      "diameter sqrt(density/stress), with the smaller of the two stresses; below 1e-3 a test is "
-      "quasi-static. While the soil fails it is larger. Energy error: stored energy + heat - work of "
-      "the plate's force and of gravity, over the largest work."};
+  table.notes = {"Inertial number: settlement over width during a change of the stress, over its time, times "
+                 "diameter sqrt(density/stress), with the smaller of the two stresses; below 1e-3 a test is "
+                 "quasi-static. While the soil fails it is larger. Energy error: stored energy + heat - work "
+                 "of the plate's force and of gravity, over the largest work."};
   return table;
 }
 
@@ -147,8 +145,8 @@ PageWriter read_plate_page(const std::vector<fs::path> &folders) {
   return [runs, results = results_of(runs)](const fs::path &out) {
     Page page(out, plate_title, Drawing::plate);
     page.answer(
-        "A rigid plate on a bed of soil balls carries a stress that increases stage by stage, decreases, "
-        "and increases again. The slope of stress over settlement is the modulus of subgrade reaction.");
+        "A rigid plate on a bed of soil balls carries a stress that increases stage by stage, decreases, and "
+        "increases again. The slope of stress over settlement is the modulus of subgrade reaction.");
     answer_quality(page, runs);
     page.section("Settlement");
     page.figure(settlement_figure(runs));

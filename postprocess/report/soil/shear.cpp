@@ -50,15 +50,14 @@ PageTable seed_table(const std::vector<SoilGroup> &soils, const std::vector<Shea
     return std::vector<std::string>{peak.mean_text(), dilatancy.mean_text(), peak_davis.mean_text(),
                                     critical.mean_text(), critical_davis.mean_text()};
   });
-  table.notes = {
-      "Mean and half of its 95 % confidence interval over the seeds; runs of one seed count once. Peak: the "
-      "largest ratio of the stresses averaged over a thirtieth of the strain, within the first third. "
-      "Critical: over the last third, if the strain reaches 20 %. Dilatancy: tan ψ = -(volumetric "
-      "strain)/(shear strain), over three "
-      "thirtieths. On the plane of shear: the angle whose tangent is shear over normal stress. After Davis: "
-      "sin φ = t/(cos ψ + t sin ψ) with t that ratio, the friction angle of a soil in which stress and "
-      "strain increment have the same directions, to be compared with that of a biaxial test. At the peak "
-      "the directions may differ: the angle is then too small (inputs/study/strength)."};
+  table.notes = {"Mean and half of its 95 % confidence interval over the seeds; runs of one seed count once. "
+                 "Peak: the largest ratio of the stresses averaged over a thirtieth of the strain, within "
+                 "the first third. Critical: over the last third, if the strain reaches 20 %. Dilatancy: tan "
+                 "ψ = -(volumetric strain)/(shear strain), over three thirtieths. On the plane of shear: the "
+                 "angle whose tangent is shear over normal stress. After Davis: sin φ = t/(cos ψ + t sin ψ) "
+                 "with t that ratio, the friction angle of a soil in which stress and strain increment have "
+                 "the same directions, to be compared with that of a biaxial test. At the peak the "
+                 "directions may differ: the angle is then too small (inputs/study/strength)."};
   return table;
 }
 
@@ -78,10 +77,9 @@ PageTable run_table(const std::vector<ShearRun> &runs, const std::vector<ShearSt
                     strength_quality(run));
   }
   table.criterion += " and reached the strain asked for";
-  table.notes = {
-      "Friction: on the plane of shear. Inertial number: shear rate times diameter sqrt(density/normal "
-      "stress); below 1e-3 a test is quasi-static. Energy error: stored energy + heat - work of the platen, "
-      "over the largest work so far."};
+  table.notes = {"Friction: on the plane of shear. Inertial number: shear rate times diameter "
+                 "sqrt(density/normal stress); below 1e-3 a test is quasi-static. Energy error: stored "
+                 "energy + heat - work of the platen, over the largest work so far."};
   return table;
 }
 
@@ -95,9 +93,8 @@ PageWriter read_shear_page(const std::vector<fs::path> &folders) {
       strengths.push_back(shear_strength_of(run.rows));
     const std::vector<SoilGroup> soils = soils_of(runs, {shear_test.confining});
     Page page(out, shear_title, Drawing::shear);
-    page.answer(
-        "Samples of soil between two rough plates, periodic sideways, sheared by the upper one under a "
-        "constant normal stress. The ratio of the stresses is the friction on the plane of shear.");
+    page.answer("Samples of soil between two rough plates, periodic sideways, sheared by the upper one under "
+                "a constant normal stress. The ratio of the stresses is the friction on the plane of shear.");
     answer_strength_quality(page, runs);
     page.section("Friction and volume");
     page.figure(strength_figure(shear_test, soils, runs));

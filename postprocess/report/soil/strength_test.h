@@ -1,4 +1,5 @@
-// What the pages on compression tests and on shear tests have in common: mobilised friction and volume over the strain.
+// What the pages on compression tests and on shear tests have in common: mobilised friction and volume over
+// the strain.
 #pragma once
 
 #include "bed/element_results.h"
@@ -16,7 +17,8 @@
 
 namespace drumlin::post {
 
-/// A kind of test of the strength of a soil. Row has the members strain and volumetric_strain, positive in compression.
+/// A kind of test of the strength of a soil. Row has the members strain and volumetric_strain, positive in
+/// compression.
 template <class Row>
 struct StrengthTest {
   std::string name;              ///< of the figure and of the files of its data
@@ -57,8 +59,9 @@ std::vector<double> confining_stresses(const StrengthTest<Row> &test,
   return stresses;
 }
 
-/// Adds the rows of a table over the seeds, for each soil: one for each confining stress, and one for all if there
-/// are several. `cells` gives the quantities of some runs of a soil, given as places in the list of runs.
+/// Adds the rows of a table over the seeds, for each soil: one for each confining stress, and one for all if
+/// there are several. `cells` gives the quantities of some runs of a soil, given as places in the list of
+/// runs.
 template <class Row, class Cells>
 void add_soils(PageTable &table, const StrengthTest<Row> &test, const std::vector<SoilGroup> &soils,
                const std::vector<ElementRun<Row>> &runs, const Cells &cells) {
@@ -121,12 +124,11 @@ PageFigure strength_figure(const StrengthTest<Row> &test, const std::vector<Soil
       friction.curves.push_back(curve(test.name, key, "$2", "3", style));
       volume.curves.push_back(curve(test.name, key, "$2", "4", style));
     }
-  PageFigure figure = page_figure(
-      "Fig. 1",
-      fmt::format("Mobilised friction, {}, and increase of the volume over {}. Runs that differ only in "
-                  "the seed are averaged.",
-                  test.angle_formula, test.strain_axis),
-      {test.name, test.title, {friction, volume}, 1}, 1.0);
+  PageFigure figure = page_figure("Fig. 1",
+                                  fmt::format("Mobilised friction, {}, and increase of the volume over {}. "
+                                              "Runs that differ only in the seed are averaged.",
+                                              test.angle_formula, test.strain_axis),
+                                  {test.name, test.title, {friction, volume}, 1}, 1.0);
   figure.csv = table.text();
   return figure;
 }

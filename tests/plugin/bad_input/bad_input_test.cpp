@@ -191,9 +191,9 @@ TEST(BadInputDecks, KnowTheirVariables) {
   EXPECT_GE(decks, 20u);
 }
 
-// A variable that a deck uses internally cannot be set on the command line either. Decks define such variables with the style index. If
-// they had the style string or equal, the engine would stop with "Cannot redefine variable as a different style", which does not
-// tell the name of the variable.
+// A variable that a deck uses internally cannot be set on the command line either. Decks define such
+// variables with the style index. If they had the style string or equal, the engine would stop with "Cannot
+// redefine variable as a different style", which does not tell the name of the variable.
 TEST(BadInputDecks, KeepTheirOwnVariables) {
   const std::vector<std::pair<const char *, std::vector<std::string>>> table = {
       {"bed/in.bed", {"of_bed", "of_boundary", "own_names"}},

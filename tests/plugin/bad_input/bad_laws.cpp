@@ -295,8 +295,7 @@ BadGroup wall() {
           on_two_ranks(with_pair_style(
               "second with a pair style with stock", "pair_style gran model hooke/transition stepping stock",
               fix + plane,
-              {command + "keyword stepping is 'second' (its default) and that of the pair style is "
-                         "'stock'",
+              {command + "keyword stepping is 'second' (its default) and that of the pair style is 'stock'",
                "the same stepping for both"})),
           with_pair_style("stock, and a later pair style that changes to second",
                           "pair_style gran model hooke/transition stepping stock",

@@ -394,28 +394,27 @@ BadGroup guard() {
                {command + "keyword step is '0'", "a finite number > 0"}),
           line("overlap is no number", "fix guard all guard overlap half",
                {command + "keyword overlap is 'half'", "a finite number > 0"}),
-          on_two_ranks(in_the_run(line(
-              "step beyond the critical one", "fix bond all bond/spring 2 3 1e15 0\nfix guard all guard",
-              {command +
-                   "time step is '1e-05 s' at step 0, where ball 3 has the critical step 1.531e-06 s (mostly "
-                   "because of the link of balls 2 and 3)",
-               "at most 1.531e-06 s"}))),
+          on_two_ranks(in_the_run(
+              line("step beyond the critical one", "fix bond all bond/spring 2 3 1e15 0\nfix guard all guard",
+                   {command + "time step is '1e-05 s' at step 0, where ball 3 has the critical step "
+                              "1.531e-06 s (mostly because of the link of balls 2 and 3)",
+                    "at most 1.531e-06 s"}))),
           on_two_ranks(in_the_run(line(
               "a ball in a ball", "displace_atoms drum move 0 0 -0.6 units box\nfix guard all guard",
               {command + "overlap of balls ", " is '1.2' of the smaller radius at step 0", "at most 0.5"}))),
           on_two_ranks(in_the_run(line("NaN at the start", addforce + "fix guard all guard",
                                        {command + "ball 2 is '", "at step 0; allowed: finite numbers"}))),
-          on_two_ranks(in_the_run(
-              line("NaN in the run",
-                   "fix guard all guard\n" + undefined +
-                       "fix wrong drum addforce 0 0 0\nrun 5\nunfix wrong\nfix wrong drum addforce 0 0 "
-                       "v_undefined",
-                   {command + "ball 2 is '", "m/s, 0 0 ", "at step 6; allowed: finite numbers"}))),
+          on_two_ranks(
+              in_the_run(line("NaN in the run",
+                              "fix guard all guard\n" + undefined +
+                                  "fix wrong drum addforce 0 0 0\nrun 5\nunfix wrong\nfix wrong drum "
+                                  "addforce 0 0 v_undefined",
+                              {command + "ball 2 is '", "m/s, 0 0 ", "at step 6; allowed: finite numbers"}))),
           in_the_run(line("NaN seen by the history", "fix guard all guard every 7\n" + addforce,
                           {"fix roller/history: drum is '", " at step 1", "finite position and velocity"})),
           in_the_run(line("infinite velocity",
-                          "fix guard all guard\nvelocity drum set 0 0 1e308 units box\nvelocity drum set "
-                          "0 0 1e308 sum yes units box",
+                          "fix guard all guard\nvelocity drum set 0 0 1e308 units box\nvelocity drum set 0 0 "
+                          "1e308 sum yes units box",
                           {command + "ball 2 is '", "m, 0 0 inf m/s, ", "at step 0; allowed: "})),
       }};
 }
@@ -762,8 +761,7 @@ BadGroup other_styles_in_lammps() {
        line(good + "min_style quickmin\nminimize 1e-6 1e-6 10 10",
             {pair + "command is 'minimize', which does not move balls in time", "allowed: run"}),
        line(moves + "dump d all custom 5 out/all.dump id type x y z vx vy vz\nrun 10\nundump d\nrerun "
-                    "out/all.dump dump x y "
-                    "z vx vy vz",
+                    "out/all.dump dump x y z vx vy vz",
             {pair + "command is 'rerun', which does not move balls in time", "allowed: run"}),
        on_two_ranks(line(good + "fix cool all temp/berendsen 1 1 0.1",
                          {pair + "stepping is 'second' and fix cool (temp/berendsen) changes velocities",
@@ -796,9 +794,8 @@ BadGroup fixes_in_lammps() {
        line(whole + " static maybe", {absorb, "keyword static is 'maybe'", "yes or no"}),
        line(whole + " stiffness 5",
             {absorb, "keyword is 'stiffness'", "normal, area, density, speeds, depth or static"}),
-       line(good +
-                "group nobody id 1000\nfix ground nobody boundary/absorb normal 0 0 -1 area 1 density 1800 "
-                "speeds 300 170",
+       line(good + "group nobody id 1000\nfix ground nobody boundary/absorb normal 0 0 -1 area 1 density "
+                   "1800 speeds 300 170",
             {absorb, "group is 'nobody', which is empty", "the boundary's balls"}),
        line(good + "fix early all nve/sphere\n" + whole.substr(good.size()) + " static yes",
             {absorb, "keyword static is 'yes' behind fix early (nve/sphere), which integrates",

@@ -176,7 +176,8 @@ std::vector<fs::path> all_pages() {
   return files;
 }
 
-/// The names by which links reach the headings of a page: small letters, without punctuation, blanks as hyphens.
+/// The names by which links reach the headings of a page: small letters, without punctuation, blanks as
+/// hyphens.
 std::set<std::string> anchors_of(const std::string &page) {
   std::set<std::string> anchors;
   bool fenced = false;
@@ -329,7 +330,8 @@ std::vector<std::string> listed_styles(const fs::path &header) {
   return names;
 }
 
-// A page for every contact law, fix and command that the plugin adds, and for those styles that one engine alone has.
+// A page for every contact law, fix and command that the plugin adds, and for those styles that one engine
+// alone has.
 TEST(DocPages, AreThereForEveryCommand) {
   std::vector<std::string> names = {"fix_wall_gran_transition", "pair_gran_model_hooke_transition", "preload",
                                     "lammps"};

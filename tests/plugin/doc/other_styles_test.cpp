@@ -1,4 +1,5 @@
-// The page on other styles of the engines against the plugin's lists, and both against the engines that are installed.
+// The page on other styles of the engines against the plugin's lists, and both against the engines that are
+// installed.
 #include "support/other_styles.h"
 
 #include "tests/support/host_deck.h"

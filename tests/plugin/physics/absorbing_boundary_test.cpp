@@ -57,9 +57,9 @@ TEST(AbsorbingBoundary, PowerIsStoredOrTurnsIntoHeat) {
   }
 }
 
-// A semi-infinite elastic rod of the ground's impedance ends at the boundary. A wave of velocity v_i arrives, the
-// end moves with v, and the rod exerts Z (2 v_i - v) on the boundary: d'Alembert's solution. The velocity of the
-// reflected wave is v - v_i. CVODE solves the same end with formulas of its own.
+// A semi-infinite elastic rod of the ground's impedance ends at the boundary. A wave of velocity v_i arrives,
+// the end moves with v, and the rod exerts Z (2 v_i - v) on the boundary: d'Alembert's solution. The velocity
+// of the reflected wave is v - v_i. CVODE solves the same end with formulas of its own.
 TEST(AbsorbingBoundary, ReflectsTheShareOfTheEnergyThatTheLayerDoes) {
   const GroundedBall ball = boundary({0.0, 0.0, 1.0});
   for (const double ratio : {0.05, 0.5, 2.0}) { // w H / c_p

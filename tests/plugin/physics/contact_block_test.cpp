@@ -91,8 +91,8 @@ void expect_same(const Vec3 &a, const Vec3 &b, const char *what, int n) {
 
 constexpr double dt = 1e-4;
 
-/// The normal force of contact n of a block that has been computed, from that contact alone. \param rare whether the
-/// block has said that the contact needs more than that
+/// The normal force of contact n of a block that has been computed, from that contact alone. \param rare
+/// whether the block has said that the contact needs more than that
 template <bool stepped, Slip slip, class Contact>
 void expect_normal_force(const ContactBlock &b, int n, const Contact &parameters, bool rare) {
   const Vec3 normal = scaled(1.0 / std::sqrt(b.squared[n]), b.separation[n]);

@@ -7,7 +7,8 @@
 
 namespace verlet {
 
-/// The tangential force of a contact: a spring and a dashpot in parallel, in series with a slider that slips at mu Fn.
+/// The tangential force of a contact: a spring and a dashpot in parallel, in series with a slider that slips
+/// at mu Fn.
 /// \tparam Contact parameters of the normal law
 template <class Contact>
 class ContactFriction {

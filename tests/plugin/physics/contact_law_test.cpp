@@ -242,7 +242,8 @@ TEST(EffectiveMass, OfAFixedPartnerIsTheOtherBallsMass) {
   EXPECT_EQ(effective_mass(infinity, 2000.0), 2000.0);
 }
 
-// A law that remembers is the same function of the overlap before and after it has taken up the end of its step.
+// A law that remembers is the same function of the overlap before and after it has taken up the end of its
+// step.
 TEST(LawThatRemembers, HasTheSameBitsWithWhatItRemembersAtTheEndOfItsStep) {
   using yielding::YieldingLaw;
   for (const double largest : {0.0, 3e-4, 1e-3, 2e-3})

@@ -1,5 +1,5 @@
-// Contacts of two materials: the series of two springs as the state of least energy, found by a library, and the
-// limits of the rule.
+// Contacts of two materials: the series of two springs as the state of least energy, found by a library, and
+// the limits of the rule.
 #include "physics/laws/contact_mixing.h"
 
 #include <boost/math/tools/minima.hpp>
@@ -13,8 +13,8 @@ namespace {
 using physics::ContactValues;
 using physics::mixed;
 
-/// Force, N, of two springs in series that are compressed by 1 m together: the compression of the first one is that of
-/// least energy.
+/// Force, N, of two springs in series that are compressed by 1 m together: the compression of the first one
+/// is that of least energy.
 double force_of_series(double first, double second) {
   const auto energy = [&](double x) { return 0.5 * first * x * x + 0.5 * second * (1.0 - x) * (1.0 - x); };
   const double x = boost::math::tools::brent_find_minima(energy, 0.0, 1.0, 60).first;

@@ -375,7 +375,8 @@ TEST(Coulomb, KeepsTheLimitAndIsPassiveInEveryStep) {
   EXPECT_GT(sticking, 100000);
 }
 
-// A step that is computed with one normal force and then limited to a smaller one is the step with the smaller one.
+// A step that is computed with one normal force and then limited to a smaller one is the step with the
+// smaller one.
 TEST(Coulomb, IsLimitedAfterwardsAsWithTheSmallerNormalForce) {
   std::mt19937 random(86028121);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);

@@ -281,9 +281,9 @@ private:
   Vec3 spring_{};
 };
 
-/// A slip that oscillates on the tangential spring of a contact whose overlap oscillates, too, by the steps of the
-/// scheme, or by CVODE if dt is 0; if `rolls`, a rotation on the rolling spring, times the radius. The inertia is
-/// the mass of the slip times the radius squared, so that the equations of both are the same.
+/// A slip that oscillates on the tangential spring of a contact whose overlap oscillates, too, by the steps
+/// of the scheme, or by CVODE if dt is 0; if `rolls`, a rotation on the rolling spring, times the radius. The
+/// inertia is the mass of the slip times the radius squared, so that the equations of both are the same.
 /// \param ct dashpot of the slip, N s/m
 double slip_of_lasting_contact(double ct, double dt, bool rolls = false) {
   const HertzContact contact{E_eff, 0.4 * E_eff, 0.0, Damping::ratio, Transition::B};

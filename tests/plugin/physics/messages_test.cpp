@@ -108,8 +108,6 @@ TEST(Messages, OfAnExcitationLeaveOutWhatIsNotUsed) {
   EXPECT_EQ(e.invalid(), "");
 }
 
-TEST(Messages, RefuseParametersThatAreNotSet) {
-  EXPECT_NE(Bond{}.invalid(), "");
-}
+TEST(Messages, RefuseParametersThatAreNotSet) { EXPECT_NE(Bond{}.invalid(), ""); }
 
 } // namespace

@@ -1,5 +1,5 @@
-/// Oblique impacts of a ball on a plane with `tangential coulomb`, of both contact laws and under both schemes: the
-/// impulses against CVODE, which finds each change between sticking and sliding.
+/// Oblique impacts of a ball on a plane with `tangential coulomb`, of both contact laws and under both
+/// schemes: the impulses against CVODE, which finds each change between sticking and sliding.
 
 #include "physics/scheme/advance.h"
 #include "physics/laws/friction_law.h"
@@ -46,7 +46,8 @@ std::ostream &operator<<(std::ostream &out, const Oblique &impact) {
              << (impact.transition == Transition::A ? ", A" : ", B");
 }
 
-/// Normal and tangential impulse, N s, and the tangential velocity of the contact point after the impact, m/s.
+/// Normal and tangential impulse, N s, and the tangential velocity of the contact point after the impact,
+/// m/s.
 struct Impulses {
   double normal, tangential, slip_after;
 };
@@ -129,8 +130,8 @@ Impulses in_steps(const Contact &contact, const Oblique &impact, bool stock, dou
   return {impact.normal_speed() - rate, slip_mass * (impact.slip_speed() - slip), slip};
 }
 
-/// The same from the differential equations: a slider in series with spring and dashpot. The force f of the spring
-/// grows by kt u while the contact is loaded, and shrinks with kt besides while it is unloaded.
+/// The same from the differential equations: a slider in series with spring and dashpot. The force f of the
+/// spring grows by kt u while the contact is loaded, and shrinks with kt besides while it is unloaded.
 class Reference {
 public:
   Reference(const Formula &formula, const Oblique &impact) : formula_(formula), impact_(impact) {}
@@ -202,8 +203,8 @@ private:
     f[normal] = force;
     f[tangential] = pull;
   }
-  /// The end of the contact, then the changes between sticking and sliding. An event that is zero where its mode
-  /// begins happens a little below zero.
+  /// The end of the contact, then the changes between sticking and sliding. An event that is zero where its
+  /// mode begins happens a little below zero.
   [[nodiscard]] std::vector<oracle::Event> events(double force) const {
     std::vector<oracle::Event> all{[this](double, const oracle::State &y) { return end(y); }};
     if (slides_ != 0.0)
@@ -333,8 +334,8 @@ TYPED_TEST(ObliqueImpact, GainsNoEnergyByFriction) {
   EXPECT_LT(most, 1.0 + 1e-3);
 }
 
-/// Largest errors of the tangential impulse over that of the reference solution, and of its ratio to mu times the normal
-/// impulse, over places of the make in its step.
+/// Largest errors of the tangential impulse over that of the reference solution, and of its ratio to mu times
+/// the normal impulse, over places of the make in its step.
 template <class Contact>
 std::pair<double, double> errors_of_sliding(const Oblique &impact, double steps) {
   const double exact = exact_impact<Contact>(impact).tangential;
@@ -390,7 +391,8 @@ double order_of_impact(const Oblique &impact) {
   return std::log2(error(200) / error(850)) / std::log2(917.0 / 267.0);
 }
 
-// Without a dashpot a ball that sticks at first errs in the first order if its spring takes up the whole step of the make.
+// Without a dashpot a ball that sticks at first errs in the first order if its spring takes up the whole step
+// of the make.
 TEST(ObliqueImpactOrder, IsOneWithADashpotAndTwoOrMoreWithout) {
   for (const double degrees : {20.0, 45.0, 60.0}) { // the last two slide and stick
     EXPECT_GT(order_of_impact({degrees, 0.0, 0.5}), 1.85) << degrees;

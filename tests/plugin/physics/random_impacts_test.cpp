@@ -1,7 +1,7 @@
-/// Random oblique impacts of two spinning balls with `tangential coulomb`, of both laws and under both schemes: limit
-/// and energy of friction in every step, and the energy of whole impacts. The environment variable
-/// DRUMLIN_IMPACTS sets the number of impacts of each law, DRUMLIN_SEED their seed; a hundred thousand take half a
-/// minute.
+/// Random oblique impacts of two spinning balls with `tangential coulomb`, of both laws and under both
+/// schemes: limit and energy of friction in every step, and the energy of whole impacts. The environment
+/// variable DRUMLIN_IMPACTS sets the number of impacts of each law, DRUMLIN_SEED their seed; a hundred
+/// thousand take half a minute.
 
 #include "physics/scheme/advance.h"
 #include "physics/laws/friction_law.h"
@@ -58,8 +58,8 @@ void judge(const FrictionStep &now, double limit, double stored_before, double w
   found.sliding += now.sliding ? 1 : 0;
 }
 
-/// An impact in steps of velocity Verlet, in the frame of the centre of mass, with the forces of advance() and
-/// friction_step().
+/// An impact in steps of velocity Verlet, in the frame of the centre of mass, with the forces of advance()
+/// and friction_step().
 template <class Contact>
 Found run(const Impact<Contact> &impact) {
   Found found;
@@ -154,9 +154,9 @@ double half_of_longest_step(double stiffness, double damping, double mass) {
   return 0.5 * (std::sqrt(damping * damping + 4.0 * stiffness * mass) - damping) / stiffness;
 }
 
-/// Angles from the normal from 0 to 89 degrees, spins up to ten times the speed, D and mu from 0 to 10, size ratios from
-/// 1 to 100, overlaps from 1e-4 to 1e-2 of the smaller radius, 20 to 200 steps in a contact or more where
-/// stability needs them.
+/// Angles from the normal from 0 to 89 degrees, spins up to ten times the speed, D and mu from 0 to 10, size
+/// ratios from 1 to 100, overlaps from 1e-4 to 1e-2 of the smaller radius, 20 to 200 steps in a contact or
+/// more where stability needs them.
 template <class Contact>
 Impact<Contact> random_impact(Draw &draw) {
   Impact<Contact> impact{};
@@ -197,10 +197,10 @@ Impact<Contact> random_impact(Draw &draw) {
   return impact;
 }
 
-/// Whether a share of the kinetic energy is more than the energy error that the impact without friction and dashpot
-/// has in such steps, over the kinetic energy of its approach: the largest over the phase of the make in its
-/// step, and over steps up to 10 % longer. (With a whole number of steps in a contact, make and break have one
-/// phase, and their errors cancel.)
+/// Whether a share of the kinetic energy is more than the energy error that the impact without friction and
+/// dashpot has in such steps, over the kinetic energy of its approach: the largest over the phase of the make
+/// in its step, and over steps up to 10 % longer. (With a whole number of steps in a contact, make and break
+/// have one phase, and their errors cancel.)
 template <class Contact>
 bool exceeds_elastic_error(Impact<Contact> impact, double share) {
   impact.friction = impact.contact.damping = 0.0;

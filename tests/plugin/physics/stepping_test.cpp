@@ -86,8 +86,9 @@ INSTANTIATE_TEST_SUITE_P(
                       Bound{Transition::A, 0.01, 2e-5, 1e-6}, Bound{Transition::A, 0.2, 3e-4, 2e-5},
                       Bound{Transition::A, 0.5, 3e-4, 2e-5}));
 
-/// Speed after the impact of a ball of 1 kg at 1 m/s, and the energy that it has then together with the heat of the
-/// contact, together and alone, over that of the impact. \param onset share of the first step before the touch
+/// Speed after the impact of a ball of 1 kg at 1 m/s, and the energy that it has then together with the heat
+/// of the contact, together and alone, over that of the impact. \param onset share of the first step before
+/// the touch
 struct Rebound {
   double speed, energy, heat;
 };
@@ -146,8 +147,8 @@ struct NameOfLaw {
 };
 TYPED_TEST_SUITE(Makes, Laws, NameOfLaw);
 
-// The weights of a make and of a break belong to the dashpot alone: given to the spring, too, they let weakly damped
-// impacts gain energy. Under A with D >= 1 the contact does not end.
+// The weights of a make and of a break belong to the dashpot alone: given to the spring, too, they let weakly
+// damped impacts gain energy. Under A with D >= 1 the contact does not end.
 TYPED_TEST(Makes, ErrLessThanTheSchemeOfTheEngineAtAnyDamping) {
   for (const Transition transition : {Transition::A, Transition::B})
     for (double D = 5e-4; D < (transition == Transition::A ? 0.85 : 4.0); D *= 1.5) {
@@ -179,7 +180,8 @@ TYPED_TEST(Makes, AreThoseOfTheEngineWithoutDashpot) {
       }
 }
 
-// Kinetic energy and heat after an impact, and the heat alone against the closed form: both laws have the same restitution.
+// Kinetic energy and heat after an impact, and the heat alone against the closed form: both laws have the
+// same restitution.
 TYPED_TEST(Makes, HaveTheHeatOfTheStepInWhichTheyBegin) {
   for (const Transition transition : {Transition::A, Transition::B})
     for (const double D : {0.003, 0.05, 0.3, 0.8, 2.0, 3.0}) {
@@ -396,8 +398,8 @@ TEST(SecondOrderStep, BreakOfAEndsTheTensileForceWithinTheStep) {
 }
 
 // Without a dashpot the force falls to zero at d = 0, continuously: where A ends a contact B does. The ball
-// bounces between two undamped walls; in the second scene a damped contact, heavy enough to be solved for
-// in the second pass, keeps it confined, too.
+// bounces between two undamped walls; in the second scene a damped contact, heavy enough to be solved for in
+// the second pass, keeps it confined, too.
 TEST(SecondOrderStep, WithoutDashpotAAndBAreOneLaw) {
   const double dt = M_PI / (w0 * 40.0);
   for (const bool damped : {false, true}) {

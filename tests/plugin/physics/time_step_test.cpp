@@ -34,8 +34,8 @@ struct Chain {
 };
 
 /// Largest magnitude of the eigenvalues of the step (x, v at half step) -> (x, v at half step), entry by
-/// entry as the stepping does it: a = -(K x + C v)/m, v += dt a, x += dt v. Rigid motion has the
-/// eigenvalue 1.
+/// entry as the stepping does it: a = -(K x + C v)/m, v += dt a, x += dt v. Rigid motion has the eigenvalue
+/// 1.
 double growth(const Chain &chain, double dt) {
   const auto n = static_cast<Eigen::Index>(chain.mass.size());
   Eigen::MatrixXd step = Eigen::MatrixXd::Zero(2 * n, 2 * n);
@@ -253,8 +253,8 @@ struct Packing {
     return least;
   }
 
-  /// Largest magnitude of the eigenvalues of a step. Longer than other functions: the parts of a step all change the
-  /// same vector of positions, velocities and forces.
+  /// Largest magnitude of the eigenvalues of a step. Longer than other functions: the parts of a step all
+  /// change the same vector of positions, velocities and forces.
   double growth(double dt, bool all_coupled = false) const {
     const auto n =
         static_cast<Eigen::Index>(6 * mass.size()); // of each ball x, y, turn, and dt times their rates

@@ -135,8 +135,8 @@ TEST_F(BedAdviceTest, RefusesWhatTheTableDoesNotAnswer) {
   EXPECT_NEAR(found.least_error, 0.3589, 1e-4);
   for (Result &row : rows_) // forces of complete beds from -2e4 to 2e4: their mean is zero
     if (row.quantity == "force") row.value -= 1e5;
-  expect_refused("--question is 'force'; allowed: a result whose mean over the complete "
-                 "beds differs from zero");
+  expect_refused(
+      "--question is 'force'; allowed: a result whose mean over the complete beds differs from zero");
 }
 
 TEST_F(BedAdviceTest, NeedsAPlanOfBedsAndItsResults) {

@@ -141,7 +141,8 @@ TEST(BedPacking, BoundsItsCellsBeforeItBegins) {
   EXPECT_EQ(refusal(wide).rfind("width is '100000'; allowed: a box of at most ", 0), 0u) << refusal(wide);
 }
 
-// The search for free positions looks at neighbours only, however many small balls lie beside large ones: the work goes with the number of balls.
+// The search for free positions looks at neighbours only, however many small balls lie beside large ones: the
+// work goes with the number of balls.
 TEST(BedPacking, PlacesAWideGradingInATimeThatGoesWithItsBalls) {
   PackingOptions options;
   options.width = 1.0;

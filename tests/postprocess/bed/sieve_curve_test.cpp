@@ -116,9 +116,9 @@ PackingOptions graded(int balls, double cut, bool spheres, std::uint64_t seed = 
 
 double power(double size, int n) { return n == 2 ? size * size : size * size * size; }
 
-// At each size the mass of all finer balls differs from the one asked for by less than two balls of that size, and
-// the mass of all by less than one of the largest: see pack_balls(). Independent sizes would scatter as the root
-// of the number of balls times their mass.
+// At each size the mass of all finer balls differs from the one asked for by less than two balls of that
+// size, and the mass of all by less than one of the largest: see pack_balls(). Independent sizes would
+// scatter as the root of the number of balls times their mass.
 TEST(GradedBed, HasTheMassesAskedForWithinTwoBalls) {
   for (const bool spheres : {false, true})
     for (const std::uint64_t seed : {1u, 2u, 3u}) {

@@ -48,7 +48,8 @@ post::CalibrationTask two_of_two(int seeds) {
   return task;
 }
 
-// The powers with a scatter of the seeds' beds of 10 %, and one of 2 % from point to point, as a chaotic bed has it.
+// The powers with a scatter of the seeds' beds of 10 %, and one of 2 % from point to point, as a chaotic bed
+// has it.
 post::MeasureSeed scattered(unsigned replicate, double of_seeds = 0.1, double of_points = 0.02) {
   return [=](const post::Evaluation &evaluation, int seed) {
     const double k = evaluation.point[0], D = evaluation.point[1];
@@ -106,7 +107,8 @@ TEST(SlopesOfTargets, IsThatOfPowersExactly) {
   // The correlation of the inverse of the normal matrix of these slopes.
   const double a = 0.9 * 0.9 + 0.05 * 0.05, b = 0.9 * 0.1 - 0.05 * 0.7, c = 0.1 * 0.1 + 0.7 * 0.7;
   EXPECT_NEAR(found.correlation[0][1], -b / std::sqrt(a * c), 1e-9);
-  // Seeds whose beds are stiffer by a factor need parameters that are smaller: the solution of the two powers.
+  // Seeds whose beds are stiffer by a factor need parameters that are smaller: the solution of the two
+  // powers.
   const double off = std::log(0.9 * 1.1) / 3.0, det = 0.9 * 0.7 + 0.1 * 0.05;
   EXPECT_NEAR(std::log(found.parameters[0].value / true_k), -off * (0.7 - 0.1) / det, 1e-9);
   EXPECT_NEAR(std::log(found.parameters[1].value / true_D), -off * (0.9 + 0.05) / det, 1e-9);
@@ -134,7 +136,8 @@ TEST(Calibration, FindsParametersAgainWithinTheirIntervals) {
 }
 
 TEST(Calibration, FindsTheLumpedSoilThatIdentifySeesInAChain) {
-  // The contact below the drum is 0.1 times as stiff as those of the balls, and as much damped; a seed's by 3 % more or less.
+  // The contact below the drum is 0.1 times as stiff as those of the balls, and as much damped; a seed's by 3
+  // % more or less.
   const auto measure = [](const post::Evaluation &evaluation, int seed) {
     post::ChainParameters chain;
     chain.k = 0.1 * evaluation.point[0] * std::exp(0.03 * scatter(1, seed, 0));
@@ -225,8 +228,8 @@ std::string continued(const post::CalibrationTask &task, const post::Calibration
   return post::read_text(file);
 }
 
-// Interrupted after any row, or within one, with points of which some fail, and with several points at a time, of which an interruption
-// leaves any.
+// Interrupted after any row, or within one, with points of which some fail, and with several points at a
+// time, of which an interruption leaves any.
 TEST(Calibration, ContinuedGivesWhatOneWithoutInterruptionGives) {
   const post::CalibrationTask task = two_of_two(2);
   const post::MeasureSeed measure = [inner = scattered(6)](const post::Evaluation &evaluation, int seed) {
@@ -372,9 +375,9 @@ TEST(Calibration, WidensIntervalsForTargetsThatScatterToo) {
   }
 }
 
-// Counts the confidence intervals of k and of D that contain the known values, in 20 sets of calibrating beds, each
-// of which is calibrated to 4 other beds that have the known values, one after the other. The intervals of one set are
-// not independent.
+// Counts the confidence intervals of k and of D that contain the known values, in 20 sets of calibrating
+// beds, each of which is calibrated to 4 other beds that have the known values, one after the other. The
+// intervals of one set are not independent.
 std::array<long, 2> held_intervals(double of_seeds, double of_points) {
   constexpr int beds = 4;
   constexpr unsigned sets = 20;
@@ -402,15 +405,16 @@ std::array<long, 2> held_intervals(double of_seeds, double of_points) {
 // Intervals of 95 % confidence contain the known value in 95 % of the cases: in 76 of 80 on average.
 constexpr long enough = 68;
 
-// The bed of a record scatters as much as each calibrating bed. Intervals that left this out would contain the known value
-// in three of four cases only.
+// The bed of a record scatters as much as each calibrating bed. Intervals that left this out would contain
+// the known value in three of four cases only.
 TEST(Recovery, FindsTheKnownParametersOfSingleBeds) {
   const std::array<long, 2> held = held_intervals(0.1, 0.02);
   EXPECT_GE(held[0], enough);
   EXPECT_GE(held[1], enough);
 }
 
-// If each point has a scatter of its own, a fit averages it, and scatters less than the single bed of the record.
+// If each point has a scatter of its own, a fit averages it, and scatters less than the single bed of the
+// record.
 TEST(Recovery, FindsTheKnownParametersOfBedsWhosePackingIsAnotherAtEachPoint) {
   const std::array<long, 2> held = held_intervals(0.0, 0.1);
   EXPECT_GE(held[0], enough);

@@ -1,4 +1,5 @@
-// Calibration on small beds in the engine: it continues where it was interrupted, and its case file makes the bed that it measured.
+// Calibration on small beds in the engine: it continues where it was interrupted, and its case file makes the
+// bed that it measured.
 #include "calibration/evaluations.h"
 #include "calibration/soil_tests.h"
 #include "engine/deck_run.h"

@@ -123,8 +123,8 @@ INSTANTIATE_TEST_SUITE_P(ChainSolver, EveryDamping,
 
 // The solver is fast enough for maps of many rollers and soils: 6500 pieces take 2 ms, 0.3 microseconds each.
 // This holds for the cases of the paper and for rollers of manufacturers. It also holds for case II with
-// other soils: with a stiffness of up to 500 MN/m (maps and reports go up to 200 MN/m) and any damping, whether
-// the drum loses contact with the soil or not.
+// other soils: with a stiffness of up to 500 MN/m (maps and reports go up to 200 MN/m) and any damping,
+// whether the drum loses contact with the soil or not.
 TEST(ChainSolver, TwoHundredCyclesTakeAtMost6500Pieces) {
   constexpr int most = 6500;
   for (const Transition transition : {Transition::A, Transition::B}) {

@@ -126,9 +126,8 @@ TEST_F(ExactCommand, RefusesFilesThatAreOne) {
 }
 
 TEST_F(ExactCommand, EveryOverrideArrives) {
-  const Outcome outcome =
-      run("exact --k 2e7 --D 0.3 --omega 100 --Fw 5e4 --m2 1500 --m3 700 --k23 2e6 --c23 2e4 --g 1.62 "
-          "--rtol 1e-9 --impact-speed 0.25 --cycles 1.5 --out o");
+  const Outcome outcome = run("exact --k 2e7 --D 0.3 --omega 100 --Fw 5e4 --m2 1500 --m3 700 --k23 2e6 --c23 "
+                              "2e4 --g 1.62 --rtol 1e-9 --impact-speed 0.25 --cycles 1.5 --out o");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const std::map<std::string, std::string> record = post::read_parameters(folder_ / "o" / "parameters.csv");
   const std::map<std::string, double> expected = {

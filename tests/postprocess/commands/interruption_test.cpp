@@ -1,5 +1,5 @@
-// Commands that are killed at random times and called again give what they give without an interruption. Three kills of each; the
-// environment variable DRUMLIN_KILLS asks for another number.
+// Commands that are killed at random times and called again give what they give without an interruption.
+// Three kills of each; the environment variable DRUMLIN_KILLS asks for another number.
 #include "engine/places.h"
 #include "support/files.h"
 #include "support/process.h"
@@ -31,7 +31,8 @@ int kills() {
   return wanted == nullptr ? 3 : std::atoi(wanted);
 }
 
-/// All files below a folder by their names, without what differs from call to call: dates, and names of temporary folders.
+/// All files below a folder by their names, without what differs from call to call: dates, and names of
+/// temporary folders.
 std::map<std::string, std::string> content(const fs::path &folder) {
   static const std::regex varies("[0-9]{4}-[0-9]{2}-[0-9]{2} [0-9]{2}:[0-9]{2} UTC|" +
                                  fs::temp_directory_path().string() + "/[^,\\s]*");
@@ -61,8 +62,9 @@ std::string without_times(const std::string &table) {
   return text;
 }
 
-/// Calls a command without interruption in the folder `whole` of a scratch folder, then in others, where it is killed at random times
-/// until it ends by itself; as often as kills() says. `compare` gets the folders of `--out` of the two.
+/// Calls a command without interruption in the folder `whole` of a scratch folder, then in others, where it
+/// is killed at random times until it ends by itself; as often as kills() says. `compare` gets the folders of
+/// `--out` of the two.
 template <class Compare>
 void kill_and_resume(const std::vector<std::string> &words, const Scratch &scratch, const Compare &compare) {
   post::Program program;
@@ -157,7 +159,8 @@ std::vector<pid_t> children_of(pid_t parent) {
   return children;
 }
 
-// What ends an engine from outside is no property of the scene: the calibration ends, too, in one line, and continues.
+// What ends an engine from outside is no property of the scene: the calibration ends, too, in one line, and
+// continues.
 TEST(KilledEngine, EndsACalibrationThatContinues) {
   const Scratch scratch;
   std::vector<std::string> words = small_calibration;
@@ -204,7 +207,8 @@ TEST(KilledAndCalledAgain, AReportIsTheSame) {
   kill_and_resume({"report", run, "--out", "out"}, Scratch(), expect_same);
 }
 
-// In an installation the decks are in a folder that a user cannot write: the case file goes into a copy of theirs.
+// In an installation the decks are in a folder that a user cannot write: the case file goes into a copy of
+// theirs.
 TEST(CaseFile, GoesIntoACopyOfInstalledDecks) {
   const Scratch scratch;
   post::write_files(

@@ -1,4 +1,5 @@
-// `drumlin meter` as a user meets it: records of runs and measured ones, and records that it refuses in one line.
+// `drumlin meter` as a user meets it: records of runs and measured ones, and records that it refuses in one
+// line.
 #include "support/csv.h"
 #include "support/files.h"
 #include "support/process.h"

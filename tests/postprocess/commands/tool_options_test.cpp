@@ -248,8 +248,8 @@ TEST_F(ToolOptions, SieveFilesThatAreNoCurveAreRefused) {
   EXPECT_TRUE(folder.says("it is a folder")) << folder.output;
 }
 
-// A curve of three sieves whose numbers are exact by hand: half of the mass between 10 and 20, half between 20 and
-// 40 mm, nothing is cut.
+// A curve of three sieves whose numbers are exact by hand: half of the mass between 10 and 20, half between
+// 20 and 40 mm, nothing is cut.
 TEST_F(ToolOptions, SieveFileMakesABedAndItsGrading) {
   std::ofstream(folder_ / "my gravel.csv") << "size (mm),passing (%)\n10,0\n20,50\n40,100\n";
   const post::Outcome outcome =
@@ -321,7 +321,8 @@ TEST_F(ToolOptions, FoldersWhoseFilesAreOneAreRefused) {
   }
 }
 
-// The force in the record of a map is the one of its points: it follows from the eccentric moment, or differs from point to point.
+// The force in the record of a map is the one of its points: it follows from the eccentric moment, or differs
+// from point to point.
 TEST_F(ToolOptions, AMapRecordsItsForce) {
   const auto force = [this](std::vector<std::string> words) {
     words.insert(words.begin(), {"map", "--cycles", "100", "--fresh", "--out", "m"});
@@ -335,8 +336,8 @@ TEST_F(ToolOptions, AMapRecordsItsForce) {
   EXPECT_EQ(force({"--x", "k:1e7:2e7:2", "--y", "Fw:1e4:2e4:2"}), "");
 }
 
-// The balls of a layer have its type, lie above those of the layer below, and fill the thickness that was asked for when they take 82.5 % of the
-// area. Half of the mass of this curve is finer than 20 mm.
+// The balls of a layer have its type, lie above those of the layer below, and fill the thickness that was
+// asked for when they take 82.5 % of the area. Half of the mass of this curve is finer than 20 mm.
 TEST_F(ToolOptions, LayersMakeABedWithATypeForEach) {
 
   std::ofstream(folder_ / "stone.csv") << "size (mm),passing (%)\n10,0\n20,50\n40,100\n";
@@ -355,8 +356,8 @@ TEST_F(ToolOptions, LayersMakeABedWithATypeForEach) {
        {"grading uniform+stone_from_20mm+stone_from_", "layers 3\n", "layer_thicknesses 0.3,0.2,0.1\n"})
     EXPECT_NE(text.find(std::string("# drumlin note ") + note), std::string::npos) << note;
   EXPECT_NE(text.find("\n5 atom types\n"), std::string::npos);
-  // d50 and C_u of each layer. Of discs whose radii are equally frequent from a to b half of the mass has a radius up to
-  // ((a^3 + b^3)/2)^(1/3); stone from 20 mm has a d50 of 20 2^0.5 mm, and d60/d10 = 2^0.5.
+  // d50 and C_u of each layer. Of discs whose radii are equally frequent from a to b half of the mass has a
+  // radius up to ((a^3 + b^3)/2)^(1/3); stone from 20 mm has a d50 of 20 2^0.5 mm, and d60/d10 = 2^0.5.
   const auto list = [&text](const std::string &note) {
     std::vector<double> numbers;
     std::istringstream words(text.substr(text.find("# drumlin note " + note + " ") + 16 + note.size()));

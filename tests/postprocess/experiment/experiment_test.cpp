@@ -124,9 +124,8 @@ TEST(OwnStudy, RunsAnyDeckThatWritesATableAndContinues) {
       {{scratch / "heights.plan", std::string(own_plan) + "scene too high\nfrom one\nset factor 9\n"}});
   const Outcome other = run();
   EXPECT_EQ(other.status, 2);
-  EXPECT_TRUE(
-      other.says("ERROR: drumlin study: --out is 'results/study/heights'; allowed: the folder of a study "
-                 "with the same settings"))
+  EXPECT_TRUE(other.says("ERROR: drumlin study: --out is 'results/study/heights'; allowed: the folder of a "
+                         "study with the same settings"))
       << other.output;
   const Outcome failing = run({"--fresh"});
   EXPECT_EQ(failing.status, 1);

@@ -198,8 +198,8 @@ TEST(Identification, AccelerationsAlone) {
 }
 
 // In unbroken contact without known positions an error delta of the phase changes the force at the excitation
-// frequency by i delta Fw, and k by delta Im(Fw / X), with the drum's complex amplitude X. The interval has that
-// width with noise, and must keep it if there is none.
+// frequency by i delta Fw, and k by delta Im(Fw / X), with the drum's complex amplitude X. The interval has
+// that width with noise, and must keep it if there is none.
 TEST(Identification, ThePhaseIsAsUncertainWithoutNoise) {
   ChainParameters p = table1_case("I", Transition::B);
   const std::complex<double> i(0.0, 1.0);

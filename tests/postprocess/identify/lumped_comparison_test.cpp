@@ -1,4 +1,5 @@
-// A record beside its lumped chain: nothing differs if the record is a chain's, solved by CVODE; a soil that stiffens shows.
+// A record beside its lumped chain: nothing differs if the record is a chain's, solved by CVODE; a soil that
+// stiffens shows.
 #include "chain/direct_solver.h"
 #include "identify/lumped_comparison.h"
 #include "record/chain_record.h"
@@ -129,7 +130,8 @@ TEST(LumpedComparison, ShowsThatASoilStiffens) {
   }
   EXPECT_NEAR(found.of(CycleQuantity::force).record.mean, peaks, 1e-6 * peaks);
 
-  // The same integration of a linear soil differs in nothing: the differences above are not those of the two solvers.
+  // The same integration of a linear soil differs in nothing: the differences above are not those of the two
+  // solvers.
   const ChainParameters linear = post::table1_case("III", post::Transition::B);
   const auto spring = [&linear](double depth, double rate) {
     return linear.k * depth + linear.damping() * rate;
@@ -147,14 +149,15 @@ TEST(LumpedComparison, OfSeveralRecordsHasTheScatterOverThem) {
       const double difference = q == force ? 10.0 + static_cast<double>(i) : static_cast<double>(i) - 1.0;
       records[i].quantities[q] = {{100.0 + difference, 90.0}, 100.0, {difference, 90.0}};
     }
-  // In contact that is never lost the chain's CMV is a rounding error, of which no difference is told in per cent.
+  // In contact that is never lost the chain's CMV is a rounding error, of which no difference is told in per
+  // cent.
   const auto cmv = static_cast<std::size_t>(CycleQuantity::cmv);
   for (std::size_t i = 0; i < records.size(); ++i)
     records[i].quantities[cmv] = {
         {20.0 + static_cast<double>(i), 90.0}, 1e-12, {20.0 + static_cast<double>(i), 90.0}};
   const std::vector<std::string> lines = post::lumped_answer(records);
-  // The three differences have the mean 11 and the standard deviation 1. Half of the 95 % confidence interval of their
-  // mean is t/sqrt(3), with Student's t = 4.303 for two degrees of freedom.
+  // The three differences have the mean 11 and the standard deviation 1. Half of the 95 % confidence interval
+  // of their mean is t/sqrt(3), with Student's t = 4.303 for two degrees of freedom.
   EXPECT_NE(lines.front().find("the peak contact force of the record is larger by 11 ± 2.5 %"),
             std::string::npos)
       << lines.front();

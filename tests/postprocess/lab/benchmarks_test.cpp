@@ -1,5 +1,5 @@
-// Closed forms and the reference solution of the benchmarks study against CVODE, which shares no code with them: the
-// state that CVODE ends with is given to the checks as if an engine had computed it.
+// Closed forms and the reference solution of the benchmarks study against CVODE, which shares no code with
+// them: the state that CVODE ends with is given to the checks as if an engine had computed it.
 #include "lab/benchmarks/checks.h"
 #include "tests/support/ode.h"
 
@@ -42,8 +42,8 @@ double stiffness(const SphereSetup &s) {
   return s.k > 0.0 ? s.k : 4.0 / 3.0 * s.E_eff * std::sqrt(s.spheres > 1 ? 0.5 * s.r1 : s.r1);
 }
 
-/// Sphere 1 after an elastic impact on a plane: overlap, rate, velocity, spin, force of the tangential spring; friction
-/// slides along +x all the time, or never.
+/// Sphere 1 after an elastic impact on a plane: overlap, rate, velocity, spin, force of the tangential
+/// spring; friction slides along +x all the time, or never.
 post::AfterImpact by_cvode(const SphereSetup &s, bool slides) {
   const double k = stiffness(s), inertia = 0.4 * s.m1 * s.r1 * s.r1;
   const auto spring = [&](double d) { return s.k > 0.0 ? k * d : k * std::pow(std::max(d, 0.0), 1.5); };
@@ -188,7 +188,8 @@ TEST(BenchmarkPeak, IsThatOfTheEquations) {
   EXPECT_GT(worst("chung_ooi_2", s, end), 1.0);
 }
 
-// Spheres that touch at the origin exchange forces there: the closed form of sliding keeps momentum and angular momentum.
+// Spheres that touch at the origin exchange forces there: the closed form of sliding keeps momentum and
+// angular momentum.
 TEST(BenchmarkMomentum, IsKeptAndChangesAreSeen) {
   SphereSetup s = linear(2);
   s.k = 1e30, s.e = 0.5, s.vt = 4.5, s.spin = 30.0, s.spin_ratio = 0.5; // hardly any overlap

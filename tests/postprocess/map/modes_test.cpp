@@ -1,6 +1,6 @@
 // The regimes of judge_regime(), which come from orbits, their Floquet multipliers and Lyapunov exponents,
-// against motions that are only followed in time and counted, at 500 random points: by the closed-form solver, and
-// by CVODE, which shares no code with it (16 of the points here, all of them in .ci/nightly).
+// against motions that are only followed in time and counted, at 500 random points: by the closed-form
+// solver, and by CVODE, which shares no code with it (16 of the points here, all of them in .ci/nightly).
 #include "chain/direct_solver.h"
 #include "map/regime.h"
 
@@ -24,8 +24,8 @@ using namespace drumlin::post;
 
 constexpr int judged_cycles = 300;
 
-// A roller between the light ones and the heavy ones of inputs/chain, on soil between soft and stiff. The ranges
-// are chosen so that contact is lost at four of five points: unbroken contact is easy to judge.
+// A roller between the light ones and the heavy ones of inputs/chain, on soil between soft and stiff. The
+// ranges are chosen so that contact is lost at four of five points: unbroken contact is easy to judge.
 ChainParameters random_chain(std::mt19937_64 &random) {
   std::uniform_real_distribution<double> unit;
   const auto between = [&](double low, double high) { return low * std::pow(high / low, unit(random)); };
@@ -112,8 +112,8 @@ public:
   int breaks = 0;
 };
 
-// The regime after a number of cycles, by counting. The motion starts with a velocity slightly above
-// zero: in aperiodic motion this difference grows, so that the motion is not that of judge_regime().
+// The regime after a number of cycles, by counting. The motion starts with a velocity slightly above zero: in
+// aperiodic motion this difference grows, so that the motion is not that of judge_regime().
 Regime followed(const ChainParameters &p, int cycles) {
   const ChainSolver solver(p);
   ChainMotion motion = solver.start();
@@ -146,8 +146,8 @@ Regime solved_by_cvode(const ChainParameters &p, int cycles, double impact_speed
   return regime_of(period_of(states, p), breaks);
 }
 
-// The direct solver limits the number of cycles of a solution. If more are asked for, further solutions start with
-// other velocities of the drum, until one of them becomes periodic.
+// The direct solver limits the number of cycles of a solution. If more are asked for, further solutions start
+// with other velocities of the drum, until one of them becomes periodic.
 Regime followed_by_cvode(const ChainParameters &p, int cycles) {
   const auto most = static_cast<int>(std::min(most_cycles(p), DirectOptions::cycles_range.most));
   Regime regime = solved_by_cvode(p, std::min(cycles, most), 0.0);
@@ -156,9 +156,10 @@ Regime followed_by_cvode(const ChainParameters &p, int cycles) {
   return regime;
 }
 
-// A motion that is aperiodic at first can fall into a stable orbit after thousands of cycles. Errors of rounding
-// decide when, so that the two motions do so at different times: at two of the points after 40,000 cycles on
-// average. Where judge_regime() found an orbit, the other motion is therefore followed until it settles, too.
+// A motion that is aperiodic at first can fall into a stable orbit after thousands of cycles. Errors of
+// rounding decide when, so that the two motions do so at different times: at two of the points after 40,000
+// cycles on average. Where judge_regime() found an orbit, the other motion is therefore followed until it
+// settles, too.
 template <class Follow>
 Regime settled(const JudgedPoint &point, const Follow &follow) {
   Regime regime = Regime::undecided;

@@ -1,6 +1,5 @@
-// The boundaries of regimes that are found from orbits, against CVODE: the loss of contact against the
-// direct solver, the period doubling against a Poincare map that is integrated here. Both to a relative
-// 1e-6.
+// The boundaries of regimes that are found from orbits, against CVODE: the loss of contact against the direct
+// solver, the period doubling against a Poincare map that is integrated here. Both to a relative 1e-6.
 #include "chain/direct_solver.h"
 #include "map/orbits.h"
 #include "tests/support/ode.h"

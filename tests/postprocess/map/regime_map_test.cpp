@@ -123,9 +123,8 @@ TEST(Regime, ASlowDepartureFromAnUnstableOrbitIsNotAperiodic) {
   EXPECT_LT(point.multiplier, 1.0);
 }
 
-// A multiplier of -0.997: the motion alternates about its orbit of period 1, so that states two cycles
-// apart are much nearer to each other than successive ones. The direct solver has period 1 after 5000
-// cycles.
+// A multiplier of -0.997: the motion alternates about its orbit of period 1, so that states two cycles apart
+// are much nearer to each other than successive ones. The direct solver has period 1 after 5000 cycles.
 TEST(Regime, ASlowlyShrinkingAlternationHasPeriodOne) {
   ChainParameters p = table1_case("II", Transition::B);
   p.k = 166221021.0;

@@ -1,5 +1,5 @@
-// Meter values: each formula against its closed form and against an independent computation, records of the direct solver
-// against reference values, and the files that other programs read.
+// Meter values: each formula against its closed form and against an independent computation, records of the
+// direct solver against reference values, and the files that other programs read.
 #include "map/regime.h"
 #include "meter/page.h"
 #include "meter/values.h"
@@ -158,8 +158,8 @@ TEST(Meter, ForceFromAccelerationsGivesTheSame) {
   EXPECT_NEAR(*window.contact_share, *recorded.contact_share, 0.03);
 }
 
-/// Deflection in the middle of the contact by integration of Boussinesq's solution over Hertz's pressure, constant along the
-/// width of the drum: 2 asinh(L/2x) is the integral of 1/r along it.
+/// Deflection in the middle of the contact by integration of Boussinesq's solution over Hertz's pressure,
+/// constant along the width of the drum: 2 asinh(L/2x) is the integral of 1/r along it.
 double integrated_deflection(double force, double modulus, const LineContact &contact) {
   const double plane = (1.0 - contact.poisson * contact.poisson) / modulus;
   const double half = 0.5 * std::sqrt(16.0 / pi * contact.radius * plane * force / contact.length);
@@ -185,7 +185,8 @@ TEST(Lundberg, DeflectionsAndModulus) {
       EXPECT_NEAR(*lundberg_modulus(force, z, drum) / moduli[i], 1.0, 1e-6);
       EXPECT_NEAR(z / integrated_deflection(force, moduli[i], drum), 1.0, 5e-3);
     }
-  // For a narrow contact the integral has the same logarithm and the constant 2 ln 2 + 1/2, of which 1.8864 is rounded.
+  // For a narrow contact the integral has the same logarithm and the constant 2 ln 2 + 1/2, of which 1.8864
+  // is rounded.
   EXPECT_NEAR(lundberg_deflection(1e3, 1e9, drum) / integrated_deflection(1e3, 1e9, drum), 1.0, 2e-5);
   EXPECT_FALSE(lundberg_modulus(0.0, 1e-3, drum));
   EXPECT_FALSE(lundberg_modulus(72e3, 0.0, drum));

@@ -100,12 +100,12 @@ TEST(Acceptance, IsPartOfTheAnswerAndMarksIt) {
     page.table(post::acceptance_table(criteria));
     page.write();
     const std::string text = post::read_text(out / "index.html");
-    EXPECT_NE(
-        text.find(holds ? "<p class=\"verdict good\">✓ Many runs.<br /> <strong>Acceptance.</strong> 2 of 2 "
-                          "acceptance criteria hold.</p>"
-                        : "<p class=\"verdict bad\">✗ Many runs.<br /> <strong>Acceptance.</strong> 1 of 2 "
-                          "acceptance criteria hold. Not met: order at least 2 (measured 1.5).</p>"),
-        std::string::npos)
+    EXPECT_NE(text.find(holds
+                            ? "<p class=\"verdict good\">✓ Many runs.<br /> <strong>Acceptance.</strong> 2 "
+                              "of 2 acceptance criteria hold.</p>"
+                            : "<p class=\"verdict bad\">✗ Many runs.<br /> <strong>Acceptance.</strong> 1 of "
+                              "2 acceptance criteria hold. Not met: order at least 2 (measured 1.5).</p>"),
+              std::string::npos)
         << text;
     EXPECT_EQ(
         post::read_text(out / "data/acceptance.csv"),

@@ -592,7 +592,8 @@ TEST_F(Report, RefusesFilesThatItCannotRead) {
   expect_refusal(quote(wrong) + " " + out(), "'C'");
 }
 
-// Beside a run that is whole: one whose table was cut within a row, an earlier report, and what an interrupted one left.
+// Beside a run that is whole: one whose table was cut within a row, an earlier report, and what an
+// interrupted one left.
 TEST_F(Report, LeavesOutWhatCannotBeRead) {
   const fs::path mixed = root / "mixed";
   fs::remove_all(mixed);

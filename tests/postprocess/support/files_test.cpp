@@ -167,10 +167,10 @@ TEST_F(OutputFiles, LinksAreFollowed) {
   EXPECT_TRUE(fs::exists(folder_ / "folder/new/chain.csv"));
 }
 
-/// Text of a shell script that works in the folder `place`, on a disk with little free space. It calls the tool with the arguments
-/// `small`, whose results fit on the disk, runs the command `limit`, and calls the tool with `large`, whose
-/// results do not fit. Exit status 0: the second call failed with an ERROR line, and the results of the first
-/// are unchanged.
+/// Text of a shell script that works in the folder `place`, on a disk with little free space. It calls the
+/// tool with the arguments `small`, whose results fit on the disk, runs the command `limit`, and calls the
+/// tool with `large`, whose results do not fit. Exit status 0: the second call failed with an ERROR line, and
+/// the results of the first are unchanged.
 std::string starved(const std::string &place, const std::string &limit, const std::string &small,
                     const std::string &large) {
   const std::string tool = "'" DRUMLIN_TOOLS "' ";
@@ -191,10 +191,9 @@ protected:
     put("run/parameters.csv", "name,value\ntimestep,0.1\n");
     put("run/dump/balls_0.vtp", ball_dump());
     constexpr int balls = 5000;
-    std::string dump =
-        fmt::format("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n{}\nITEM: ATOMS id type radius mass x y z "
-                    "vx vy vz omegax omegay omegaz fx fy fz\n",
-                    balls);
+    std::string dump = fmt::format("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n{}\nITEM: ATOMS id type radius "
+                                   "mass x y z vx vy vz omegax omegay omegaz fx fy fz\n",
+                                   balls);
     for (int id = 1; id <= balls; ++id) { // digits that do not compress
       dump += fmt::format("{} 1 0.1 1", id);
       for (int column = 1; column <= 12; ++column)
@@ -243,12 +242,12 @@ TEST_F(FullDisk, AReportIsAnErrorAndLeavesNothing) {
   ASSERT_EQ(run({"exact", "--cycles", "3", "--out", "chain"}).status, 0);
   fs::create_directory(folder_ / "disk");
   for (const char *size : {"60k", "300k", "400k"}) {
-    const Outcome outcome = post::run_program(
-        {"unshare", "-m", "sh", "-c",
-         fmt::format("mount -t tmpfs -o size={} tmpfs disk || exit 77; '{}' report chain --out disk/o; echo "
-                     "status $?; ls -A disk",
-                     size, DRUMLIN_TOOLS)},
-        {}, folder_);
+    const Outcome outcome =
+        post::run_program({"unshare", "-m", "sh", "-c",
+                           fmt::format("mount -t tmpfs -o size={} tmpfs disk || exit 77; '{}' report chain "
+                                       "--out disk/o; echo status $?; ls -A disk",
+                                       size, DRUMLIN_TOOLS)},
+                          {}, folder_);
     if (outcome.status == 77 || outcome.says("unshare: "))
       GTEST_SKIP() << "this machine lets no small disk be mounted";
     EXPECT_TRUE(outcome.says("ERROR: drumlin report: ")) << outcome.output;

@@ -1,5 +1,6 @@
-// What survives an interruption: complete rows of a table are kept, the others are measured again, and what is no table of the call
-// is refused and left as it is. A folder of results takes one call at a time, and the same settings.
+// What survives an interruption: complete rows of a table are kept, the others are measured again, and what
+// is no table of the call is refused and left as it is. A folder of results takes one call at a time, and the
+// same settings.
 #include "support/resumed.h"
 
 #include "support/usage_error.h"

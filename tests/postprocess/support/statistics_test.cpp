@@ -53,8 +53,9 @@ TEST(MeanInterval, OfOneValueIsInfinite) {
   EXPECT_THROW(mean_interval({}), std::invalid_argument);
 }
 
-// Samples with a whole number of degrees of freedom in Welch's formula, (a + b)^2 / (a^2/m + b^2/n), where a and b are the squared standard errors
-// of the means and m and n their degrees of freedom: 2 if a = b and m = n = 1; m if b = 0; and 9 / (1 + 4/2) = 3 if a = 1, m = 1, b = 2, n = 2.
+// Samples with a whole number of degrees of freedom in Welch's formula, (a + b)^2 / (a^2/m + b^2/n), where a
+// and b are the squared standard errors of the means and m and n their degrees of freedom: 2 if a = b and m =
+// n = 1; m if b = 0; and 9 / (1 + 4/2) = 3 if a = 1, m = 1, b = 2, n = 2.
 TEST(MeanDifference, HasTheFreedomOfWelchAndSatterthwaite) {
   const MeanInterval equal = mean_difference({11.0, 13.0}, {1.0, 3.0});
   EXPECT_NEAR(equal.mean, 10.0, 1e-12);
@@ -65,7 +66,8 @@ TEST(MeanDifference, HasTheFreedomOfWelchAndSatterthwaite) {
   EXPECT_FALSE(mean_difference({1.0}, {2.0, 2.1}).significant());
 }
 
-// Worked out by hand: the line is 0.785 + 0.425 x, the squares of the distances from it add up to 2.79075; t = 3.18245 with 3 degrees of freedom.
+// Worked out by hand: the line is 0.785 + 0.425 x, the squares of the distances from it add up to 2.79075; t
+// = 3.18245 with 3 degrees of freedom.
 TEST(LineFit, IsTheLineOfLeastSquares) {
   const std::vector<double> x = {1, 2, 3, 4, 5}, y = {1, 2, 1.3, 3.75, 2.25};
   const LineFit line = fit_line(x, y);

@@ -1,4 +1,5 @@
-// `drumlin study benchmarks --quick`: all criteria are met, and an interrupted call continues to the same result.
+// `drumlin study benchmarks --quick`: all criteria are met, and an interrupted call continues to the same
+// result.
 #include "support/files.h"
 #include "tests/support/page.h"
 #include "tests/support/scratch_study.h"

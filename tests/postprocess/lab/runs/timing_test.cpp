@@ -1,5 +1,6 @@
-// `drumlin study timing --quick`: every variant runs, each law on one rank and on two, those that compute the same end with the
-// balls at the same positions, and an interrupted call measures what is missing and nothing twice. Times are not judged.
+// `drumlin study timing --quick`: every variant runs, each law on one rank and on two, those that compute the
+// same end with the balls at the same positions, and an interrupted call measures what is missing and nothing
+// twice. Times are not judged.
 #include "engine/engine_run.h"
 #include "lab/timing/results.h"
 #include "tests/support/page.h"
@@ -22,7 +23,8 @@ TEST(TimingStudy, ContinuesWhereItWasInterrupted) {
   ASSERT_TRUE(whole.ok()) << whole.output;
   const fs::path rows = study.out() / "runs.csv";
   const std::vector<post::TimedRun> runs = post::read_timed_runs(rows);
-  // Nine variants of the chain, eleven of the parts of a bed, three laws of each engine on three beds and two numbers of ranks.
+  // Nine variants of the chain, eleven of the parts of a bed, three laws of each engine on three beds and two
+  // numbers of ranks.
   const std::size_t count = 9 + 11 + 18 + (post::has_lammps() ? 18 : 0);
   ASSERT_EQ(runs.size(), count);
   for (const post::TimedRun &run : runs)

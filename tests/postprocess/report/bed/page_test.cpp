@@ -149,12 +149,10 @@ TEST_F(BedReport, OpensWithTheNumbersOfItsTables) {
   // The energy error of the records is 9 % of the work, which is not good.
   const std::string words =
       "<p class=\"verdict bad\">✗ <strong>Bed.</strong> A roller on 2 balls (B and A): drum 2000 kg, frame "
-      "1000 "
-      "kg, exciter 58.8 kN at 20 Hz. After 6 cycles the drum has settled by 36.000 mm (mean over the last "
-      "cycle); the largest contact force on it in the last 4 cycles is 6.00 kN. The void ratio of the bed "
-      "goes from 0.2500 to 0.2000, the "
-      "number of "
-      "contacts per ball from 3.300 to 5.000. The energy error is 9.000 % of the exciter&#39;s work.";
+      "1000 kg, exciter 58.8 kN at 20 Hz. After 6 cycles the drum has settled by 36.000 mm (mean over the "
+      "last cycle); the largest contact force on it in the last 4 cycles is 6.00 kN. The void ratio of the "
+      "bed goes from 0.2500 to 0.2000, the number of contacts per ball from 3.300 to 5.000. The energy error "
+      "is 9.000 % of the exciter&#39;s work.";
   for (const char *page : {"index.html", "bed.html"})
     EXPECT_NE(read_text(out / page).find(words), std::string::npos)
         << page << read_text(out / page).substr(6000, 2500);

@@ -19,8 +19,8 @@ using namespace drumlin::post;
 namespace test = drumlin::test;
 
 const std::string header =
-    "strain,axial_stress_kPa,side_stress_kPa,volumetric_strain,side_strain,void_ratio,coordination,"
-    "inertial_number,base_stress_kPa,left_stress_kPa,work_J,stored_J,contact_heat_J,energy_error\n";
+    "strain,axial_stress_kPa,side_stress_kPa,volumetric_strain,side_strain,void_ratio,coordination,inertial_"
+    "number,base_stress_kPa,left_stress_kPa,work_J,stored_J,contact_heat_J,energy_error\n";
 
 constexpr double degree = 3.14159265358979323846 / 180.0;
 
@@ -29,7 +29,8 @@ double axial_at(double side, double angle) {
   return side * (1.0 + std::sin(angle * degree)) / (1.0 - std::sin(angle * degree));
 }
 
-/// A sample whose friction angle is `peak` from 2 to 4 % of strain and `critical` from 6 % on, and which dilates at an angle.
+/// A sample whose friction angle is `peak` from 2 to 4 % of strain and `critical` from 6 % on, and which
+/// dilates at an angle.
 std::vector<CompressionRow> made_rows(double side, double peak, double critical, double dilatancy) {
   std::vector<CompressionRow> rows;
   for (int n = 0; n <= 150; ++n) {
@@ -110,7 +111,8 @@ protected:
   }
 };
 
-// Three side stresses, one of them with two seeds: one soil, one line for the peak and one for the critical state.
+// Three side stresses, one of them with two seeds: one soil, one line for the peak and one for the critical
+// state.
 TEST_F(CompressionReport, ShowsTheRunsOnAPageOfTheirOwn) {
   write_test("tests/a", 50, 1, 42);
   write_test("tests/b", 100, 1, 41);

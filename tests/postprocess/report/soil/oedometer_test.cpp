@@ -15,8 +15,7 @@ using namespace drumlin::post;
 namespace test = drumlin::test;
 
 const std::string header = "stress_kPa,settlement_mm,strain,void_ratio,porosity,modulus_MPa,inertial_number,"
-                           "coordination,work_J,stored_J,"
-                           "contact_heat_J,drag_heat_J,energy_error\n";
+                           "coordination,work_J,stored_J,contact_heat_J,drag_heat_J,energy_error\n";
 
 class OedometerReport : public test::ElementReport {
 protected:

@@ -1,4 +1,5 @@
-// The report of tests of soil under its own weight: Rankine's, Janssen's and the slope's formulas, what it reads, refuses and shows.
+// The report of tests of soil under its own weight: Rankine's, Janssen's and the slope's formulas, what it
+// reads, refuses and shows.
 #include "report/soil/own_weight.h"
 
 #include "tests/support/element_report.h"
@@ -37,8 +38,8 @@ TEST(ActiveState, HasTheFrictionAngleOfRankine) {
   EXPECT_LE(state.displacement, 2.0);
 }
 
-/// Rows with the forces of a silo whose stresses follow from the differential equation of a slice of soil,
-/// d sigma/dz = gamma - 2 mu K sigma/B, integrated in small steps.
+/// Rows with the forces of a silo whose stresses follow from the differential equation of a slice of soil, d
+/// sigma/dz = gamma - 2 mu K sigma/B, integrated in small steps.
 std::vector<OwnWeightRow> silo(double coefficient, double friction) {
   double sigma = 0.0, normal = 0.0;
   constexpr int slices = 200000;
@@ -92,9 +93,8 @@ protected:
                        row.inertial_number, row.energy_error);
   }
   static std::string text(const std::vector<OwnWeightRow> &rows) {
-    std::string all =
-        "displacement_mm,left_force_N,left_friction_N,side_force_N,side_friction_N,floor_force_N,"
-        "coordination,inertial_number,work_J,stored_J,contact_heat_J,energy_error\n";
+    std::string all = "displacement_mm,left_force_N,left_friction_N,side_force_N,side_friction_N,floor_force_"
+                      "N,coordination,inertial_number,work_J,stored_J,contact_heat_J,energy_error\n";
     for (const OwnWeightRow &row : rows)
       all += line(row);
     return all;
@@ -135,7 +135,8 @@ TEST_F(OwnWeightReport, ShowsHeapsOnAPageOfTheirOwn) {
       << data("repose", "repose_soils");
 }
 
-// Three rows, as of a test that was killed. It is named, with the reason, and not judged; the others are as without it.
+// Three rows, as of a test that was killed. It is named, with the reason, and not judged; the others are as
+// without it.
 TEST_F(OwnWeightReport, NamesTestsThatWereCut) {
   const std::vector<OwnWeightRow> rows = failing(36);
   const std::string cut = text({rows[0], rows[1], rows[2]});

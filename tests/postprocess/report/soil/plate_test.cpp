@@ -1,4 +1,5 @@
-// The report of plate load tests: its moduli against a parabola that is known, what it reads, refuses and shows.
+// The report of plate load tests: its moduli against a parabola that is known, what it reads, refuses and
+// shows.
 #include "report/soil/plate.h"
 
 #include "tests/support/element_report.h"
@@ -14,7 +15,8 @@ namespace {
 using namespace drumlin::post;
 namespace test = drumlin::test;
 
-/// Rows of a test with the settlement s = a1 p + a2 p^2 (mm, kPa) in the first loading, and 1 mm + b1 p in the second.
+/// Rows of a test with the settlement s = a1 p + a2 p^2 (mm, kPa) in the first loading, and 1 mm + b1 p in
+/// the second.
 std::vector<PlateRow> parabola(double a1, double a2, double b1) {
   std::vector<PlateRow> rows;
   for (const double stress : {10.0, 50.0, 100.0, 150.0, 200.0})

@@ -20,7 +20,8 @@ const std::string header = "shear_strain,shear_stress_kPa,normal_stress_kPa,volu
 
 constexpr double degree = 3.14159265358979323846 / 180.0;
 
-/// A sample with a friction of `peak` degrees from 5 to 10 % of strain and `critical` from 20 % on, which dilates at an angle to 10 %.
+/// A sample with a friction of `peak` degrees from 5 to 10 % of strain and `critical` from 20 % on, which
+/// dilates at an angle to 10 %.
 std::vector<ShearRow> made_rows(double normal, double peak, double critical, double dilatancy) {
   std::vector<ShearRow> rows;
   for (int n = 0; n <= 200; ++n) {
@@ -52,8 +53,9 @@ TEST(ShearStrength, HasNoCriticalValueIfTheTestIsShort) {
   EXPECT_FALSE(shear_strength_of(rows).is_critical);
 }
 
-// A stress state at its limit with friction angle 40 degrees, mean 1: on the plane that a material with dilatancy angle 15 degrees shears along,
-// whose normal is inclined by 45 + 15/2 degrees to the larger stress, the stresses follow from Mohr's circle.
+// A stress state at its limit with friction angle 40 degrees, mean 1: on the plane that a material with
+// dilatancy angle 15 degrees shears along, whose normal is inclined by 45 + 15/2 degrees to the larger
+// stress, the stresses follow from Mohr's circle.
 TEST(ShearStrength, FollowsDavis) {
   const double radius = std::sin(40 * degree), psi = 15;
   const double normal = 1 - radius * std::sin(psi * degree), shear = radius * std::cos(psi * degree);
