@@ -52,7 +52,7 @@ struct Plan {
   Plan quick() const;
 };
 
-/// Reads a plan: lines `keyword value`, # begins a comment; postprocess/README.md has the keywords. Decks are
+/// Reads a plan: lines `keyword value`, # begins a comment; inputs/study/plans.md has the keywords. Decks are
 /// looked for in the folder of the plan, then in inputs/. Throws UsageError "FILE, line LINE: KEYWORD is
 /// 'VALUE'; allowed: WHAT".
 Plan read_plan(const std::filesystem::path &file);
