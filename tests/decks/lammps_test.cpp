@@ -479,7 +479,12 @@ TEST_F(InLammps, RigidBodyBouncesWithItsMassOnRanksOneAndTwo) {
     // Contacts end with a relative velocity of -restitution of that before; a floor has any momentum.
     const double body = target == "ball" ? (M - restitution * m) / (M + m) * v : -restitution * v;
     const double ball = target == "ball" ? M / (M + m) * (1.0 + restitution) * v : 0.0;
-    for (const auto &[rigid, ranks] : {std::pair{"rigid", 1}, {"rigid", 2}, {"small", 1}, {"small", 2}}) {
+    for (const auto &[rigid, ranks] : {std::pair{"rigid", 1},
+                                       {"rigid", 2},
+                                       {"rigid/nve", 1},
+                                       {"small", 1},
+                                       {"small", 2},
+                                       {"nve/small", 1}}) {
       const auto velocities = [&, rigid = rigid, ranks = ranks](const Variables &law) {
         const Scratch folder;
         Variables variables = law;
