@@ -82,35 +82,40 @@ const std::string &bed_file(const std::string &stage) {
   return text;
 }
 
+Outcome run_input(const BadGroup &group, const BadInput &input, const Scratch &scratch, int ranks) {
+  if (group.lammps) return run_lammps_host(input.lines + outputs, scratch.path(), ranks);
+  if (group.deck.empty()) {
+    const std::string pair = input.pair.empty() ? host_pair_style() + host_properties() : input.pair;
+    return run_host(pair, input.lines + outputs, scratch.path(), ranks);
+  }
+  std::vector<std::string> words;
+  for (const auto &[name, value] : input.variables)
+    words.insert(words.end(), {"-var", name, value});
+  // The first of two counts: a mistake in these variables stays.
+  if (group.deck == "bed/in.settle") {
+    write_text(scratch / "balls", "no notes\n"); // which in.settle reads first, before it checks the rest
+    words.insert(words.end(), {"-var", "balls", "balls"});
+  } else if (group.deck == "bed/in.place" || group.deck == "soil/in.plate") {
+    write_text(scratch / "soil", bed_file("soil"));
+    words.insert(words.end(), {"-var", "bed", "soil"});
+  } else if (group.deck == "bed/in.bed") {
+    write_text(scratch / "roller", bed_file("roller"));
+    words.insert(words.end(), {"-var", "start", "roller"});
+  }
+  if (group.deck != "bed/in.place" && group.deck != "bed/in.settle")
+    words.insert(words.end(), {"-var", "out", "out"});
+  return run_engine(chain_deck("../" + group.deck), words, scratch.path(), ranks);
+}
+
 void try_input(const BadGroup &group, const BadInput &input, int ranks) {
   SCOPED_TRACE(group.name + ", " + input.name + ", ranks: " + std::to_string(ranks));
   const Scratch scratch;
   const EarlierRun earlier(scratch.path());
-  Outcome outcome;
-  if (group.lammps) {
-    outcome = run_lammps_host(input.lines + outputs, scratch.path(), ranks);
-  } else if (group.deck.empty()) {
-    const std::string pair = input.pair.empty() ? host_pair_style() + host_properties() : input.pair;
-    outcome = run_host(pair, input.lines + outputs, scratch.path(), ranks);
-  } else {
-    std::vector<std::string> words;
-    for (const auto &[name, value] : input.variables)
-      words.insert(words.end(), {"-var", name, value});
-    // The first of two counts: a mistake in these variables stays.
-    if (group.deck == "bed/in.settle") {
-      write_text(scratch / "balls", "no notes\n"); // which in.settle reads first, before it checks the rest
-      words.insert(words.end(), {"-var", "balls", "balls"});
-    } else if (group.deck == "bed/in.place" || group.deck == "soil/in.plate") {
-      write_text(scratch / "soil", bed_file("soil"));
-      words.insert(words.end(), {"-var", "bed", "soil"});
-    } else if (group.deck == "bed/in.bed") {
-      write_text(scratch / "roller", bed_file("roller"));
-      words.insert(words.end(), {"-var", "start", "roller"});
-    }
-    if (group.deck != "bed/in.place" && group.deck != "bed/in.settle")
-      words.insert(words.end(), {"-var", "out", "out"});
-    outcome = run_engine(chain_deck("../" + group.deck), words, scratch.path(), ranks);
-  }
+  Outcome outcome = run_input(group, input, scratch, ranks);
+  // On a busy machine the launcher of Open MPI 5 may end before it has passed on the last lines of rank 0.
+  const auto lost = [&] { return outcome.says("prterun detected") && !outcome.says("ERROR"); };
+  for (int again = 0; again < 3 && lost(); ++again)
+    outcome = run_input(group, input, scratch, ranks);
   expect_one_error(input, outcome);
   if (!input.runs) earlier.expect_untouched();
 }
