@@ -128,7 +128,7 @@ void layers_command(LAMMPS *lmp, int narg, char **arg) {
   std::vector<ContactValues> laws(static_cast<std::size_t>(layers));
   const auto read = [&](int n, const std::string &keyword, double ContactValues::*value, Range range) {
     const std::string text = in.empty() ? "" : in.peek();
-    const Given given{named ? variable_of(lmp, arg[narg - variables + n], text) : "keyword " + keyword, text};
+    Given given{named ? variable_of(lmp, arg[narg - variables + n], text) : "keyword " + keyword, text};
     const std::vector<double> numbers = values(in, given.name, range, layers);
     for (std::size_t layer = 0; layer < laws.size(); ++layer)
       laws[layer].*value = numbers[layer];

@@ -31,7 +31,7 @@ namespace detail {
 /// and so on.
 struct Members {
   std::int32_t at[16][4];
-  std::int8_t count[16];
+  int count[16];
   std::uint8_t places[16][16];
 };
 constexpr Members members_of_sets() {

@@ -6,6 +6,7 @@
 #include "contact/contact_settings.h"
 
 #include <array>
+#include <fmt/format.h>
 #include <string>
 #include <vector>
 
@@ -85,7 +86,7 @@ struct LawWords {
     std::string friction = "[ct]", close;
     for (const auto &p : Contact::parameters())
       if (p.of_friction) {
-        friction = std::string("[") + p.word + " " + friction;
+        friction = fmt::format("[{} {}", p.word, friction);
         close += "]";
       }
     return forms(" [mu " + friction + close + "] [rolling mu_r]");
@@ -94,7 +95,7 @@ struct LawWords {
     std::string friction = "[ct|NULL", close = "]";
     for (const auto &p : Contact::parameters())
       if (p.of_friction) {
-        friction = std::string("[") + p.word + "|NULL " + friction;
+        friction = fmt::format("[{}|NULL {}", p.word, friction);
         close += "]";
       }
     return (has_material() ? ", then mu " : " mu ") + friction + close;

@@ -1,7 +1,7 @@
 #include "advice/bed.h"
 
 #include "support/range.h"
-#include "support/resumed.h"
+#include "support/text.h"
 #include "support/usage_error.h"
 
 #include <fmt/format.h>
@@ -31,7 +31,7 @@ int beds_for(double scatter, double within) {
 std::string variable_words(const Variables &variables) {
   std::string text;
   for (const auto &[name, value] : variables)
-    text += fmt::format(" -var {} {}", name, value);
+    text += fmt::format(" -var {} {}", name, shell_word(value));
   return text;
 }
 
@@ -43,8 +43,8 @@ BedExperiment read_bed_experiment(const std::filesystem::path &folder) {
       throw UsageError(
           refusal("--from", folder.string(),
                   fmt::format("folders of a study of beds, with {} and {}", plan_name, results_name)));
-  BedExperiment found{read_plan(folder / plan_name),
-                      Results(read_points(folder / results_name, result_rows()))};
+  const Plan plan = read_plan(folder / plan_name);
+  BedExperiment found{plan, read_results(folder, plan)};
   for (const Scene &scene : found.plan.scenes)
     if (!scene.bed) throw UsageError(refusal("--from", folder.string(), "folders of a study of beds"));
   return found;
@@ -137,9 +137,9 @@ std::vector<std::string> scene_commands(const Scene &scene) {
   if (packing.grading != usual.grading) bed += " --grading " + grading_name(packing.grading);
   std::vector<std::string> commands = {bed};
   for (const SceneDeck deck : {SceneDeck::settle, SceneDeck::place, SceneDeck::run})
-    commands.push_back(fmt::format("run {}{}",
-                                   ("inputs" / std::filesystem::path(deck_of(scene, deck))).string(),
-                                   variable_words(variables_of(scene, deck))));
+    commands.push_back(
+        fmt::format("run {}{}", shell_word(("inputs" / std::filesystem::path(deck_of(scene, deck))).string()),
+                    variable_words(variables_of(scene, deck))));
   return commands;
 }
 

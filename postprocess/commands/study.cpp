@@ -27,6 +27,8 @@
 #include <string>
 #include <vector>
 
+#include <unistd.h>
+
 namespace drumlin::post {
 
 namespace fs = std::filesystem;
@@ -74,7 +76,7 @@ fs::path plan_file(const std::string &name) {
   std::set<std::string> names = plan_names();
   if (names.count(name) > 0) return input_file("study") / name / plan_name;
   std::error_code ignored; // of a name that is too long
-  if (fs::is_regular_file(name, ignored)) return name;
+  if (fs::is_regular_file(name, ignored) && ::access(name.c_str(), R_OK) == 0) return name;
   if (name == "cost" || name == "speed")
     throw UsageError(refusal("NAME", name, "timing, which measures both"));
   if (std::find(lab_names.begin(), lab_names.end(), name) != lab_names.end())
@@ -82,7 +84,8 @@ fs::path plan_file(const std::string &name) {
         refusal("NAME", name, "a study of the laboratory only in a build with -DDRUMLIN_LAB=ON"));
   for (const Study &study : other_studies())
     names.insert(study.name);
-  throw UsageError(refusal("NAME", name, fmt::format("{}, or the file of a plan", fmt::join(names, ", "))));
+  throw UsageError(refusal(
+      "NAME", name, fmt::format("{}, or the file of a plan that can be read", fmt::join(names, ", "))));
 }
 
 /// The name of a study: that of its plan's file or, of inputs/study/NAME/plan, of its folder.
@@ -91,12 +94,28 @@ std::string study_name(const fs::path &file) {
   return whole.filename() == plan_name ? whole.parent_path().filename().string() : whole.stem().string();
 }
 
-/// What the results of a plan depend on besides the decks of the project.
+/// The decks of a plan's scenes, those that make their beds included.
+std::set<fs::path> decks_of(const Plan &plan) {
+  std::set<fs::path> decks;
+  for (const Scene &scene : plan.scenes) {
+    decks.insert(input_file(scene.deck));
+    for (const SceneDeck deck : {SceneDeck::settle, SceneDeck::place})
+      if (scene.bed) decks.insert(input_file(deck_of(scene, deck)));
+  }
+  return decks;
+}
+
+/// What the results of a plan depend on besides the build: a line for each, so that a refusal tells which of
+/// them differs.
 std::string settings_of(const Plan &plan) {
-  std::string made_of = plan.text;
-  for (const Scene &scene : plan.scenes)
-    made_of += read_text(input_file(scene.deck));
-  return fmt::format("plan {}\n", fingerprint(made_of));
+  std::string settings = fmt::format("plan {}\n", fingerprint(plan.text));
+  for (const fs::path &deck : decks_of(plan)) {
+    std::string made_of;
+    for (const fs::path &file : deck_files(deck))
+      made_of += file.filename().string() + fingerprint(read_text(file));
+    settings += fmt::format("deck {} {}\n", deck.filename().string(), fingerprint(made_of));
+  }
+  return settings;
 }
 
 StudyOptions judged(const Arguments &arguments, const std::string &name) {
@@ -112,9 +131,13 @@ void run_plan(const Arguments &arguments) {
   const int jobs = count_option("--jobs", arguments.jobs.value_or("1"), 1, most_jobs);
   const int balls = arguments.balls ? count_option("--balls", *arguments.balls, least_balls, most_balls) : 0;
   const StudyOptions options = judged(arguments, study_name(file));
-  keep_apart({{"NAME", file}}, {{"--out", options.out, true}});
   check_engine_path(options.out);
   Plan plan = read_plan(file);
+  std::vector<GivenPath> read = {{"NAME", file}};
+  for (const fs::path &deck : decks_of(plan))
+    for (const fs::path &part : deck_files(deck))
+      read.push_back({"deck", part});
+  keep_apart(read, {{"--out", options.out, true}});
   if (balls > 0 && !plan.can_be_scaled()) throw UsageError(refusal("--balls", balls, what_can_be_scaled));
   if (balls > 0) plan = plan.with_balls(balls);
   if (options.quick) plan = plan.quick();

@@ -2,10 +2,13 @@
 
 #include "engine/places.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <regex>
 #include <stdexcept>
+#include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -56,5 +59,38 @@ double DeckRun::printed(const std::string &text) const {
 }
 
 fs::path input_file(const std::string &name) { return places().inputs / name; }
+
+std::set<fs::path> deck_files(const fs::path &deck) {
+  const std::string here = "${here}/", ends = " \t\r\n\"'";
+  static const std::set<std::string> commands = {"include", "jump", "read_data", "read_restart"};
+  const fs::path folder = (fs::is_symlink(deck) ? fs::canonical(deck) : deck).parent_path();
+  std::set<fs::path> found;
+  std::vector<fs::path> open = {deck};
+  while (!open.empty()) {
+    const fs::path file = open.back();
+    open.pop_back();
+    if (!found.insert(file).second) continue;
+    const std::string text = read_text(file);
+    for (std::size_t at = text.find(here); at != std::string::npos; at = text.find(here, at)) {
+      // The word before it; a deck may write what other commands name.
+      const std::size_t last = text.find_last_not_of(ends, at - (at > 0 ? 1 : 0));
+      const std::size_t before = last == std::string::npos ? 0 : text.find_last_of(ends, last) + 1;
+      const bool is_read =
+          last != std::string::npos && commands.count(text.substr(before, last + 1 - before)) > 0;
+      at += here.size();
+      if (!is_read) continue;
+      const std::size_t end = std::min(text.find_first_of(ends + "$", at), text.size());
+      const fs::path named = folder / text.substr(at, end - at);
+      const bool whole = end == text.size() || text[end] != '$';
+      std::error_code ignored; // of a folder or a file that is not there
+      for (const fs::directory_entry &entry : fs::directory_iterator(named.parent_path(), ignored)) {
+        const std::string name = entry.path().filename().string(), begin = named.filename().string();
+        if (entry.is_regular_file(ignored) && (whole ? name == begin : name.rfind(begin, 0) == 0))
+          open.push_back(entry.path());
+      }
+    }
+  }
+  return found;
+}
 
 } // namespace drumlin::post

@@ -5,6 +5,7 @@
 #include "support/files.h"
 
 #include <filesystem>
+#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -48,5 +49,9 @@ private:
 
 /// inputs/NAME of the project.
 std::filesystem::path input_file(const std::string &name);
+
+/// A deck and the files that it, or one of them, includes or reads by names that begin with ${here}. Where
+/// the rest of a name is a variable, all files whose names begin so.
+std::set<std::filesystem::path> deck_files(const std::filesystem::path &deck);
 
 } // namespace drumlin::post

@@ -110,8 +110,8 @@ PageTable effect_table(const Plan &plan, const std::vector<Effect> &effects) {
   }
   table.notes = {
       "Mean change and half of its 95 % confidence interval (Student's t), in percent of the mean of what it "
-      "is compared with, or in the unit of a quantity whose mean may be about zero. * marks changes whose "
-      "interval does not contain zero; by chance alone one of twenty has it.",
+      "is compared with (none if that is zero), or in the unit of a quantity whose mean may be about zero. * "
+      "marks changes whose interval does not contain zero; by chance alone one of twenty has it.",
       "Changes are taken seed by seed, so that what two scenes on beds of one seed share cancels."};
   if (std::any_of(effects.begin(), effects.end(), [](const Effect &one) { return !one.compared->paired; }))
     table.notes.emplace_back("Where the beds of two scenes have nothing in common, the change is the "

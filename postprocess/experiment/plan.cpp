@@ -13,9 +13,14 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
+#include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <utility>
+
+#include <unistd.h>
 
 namespace drumlin::post {
 
@@ -69,13 +74,48 @@ std::vector<std::string> parts_of(const std::string &text) {
 
 bool is_file(const fs::path &path) {
   std::error_code ignored; // of a name that is too long
-  return fs::is_regular_file(path, ignored);
+  return fs::is_regular_file(path, ignored) && ::access(path.c_str(), R_OK) == 0;
+}
+
+/// Whether tables would take a name for a value that is not there.
+bool is_nan(const std::string &name) {
+  const std::optional<double> number = any_number_from_text(name);
+  return number && std::isnan(*number);
+}
+
+/// Whether a file stays in the folder in which it is looked for.
+bool stays_inside(const fs::path &file) {
+  return !file.is_absolute() && *file.lexically_normal().begin() != "..";
+}
+
+bool is_letter(char letter) { return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_'; }
+
+/// Whether a text has a word, alone or as the value v_WORD of a variable.
+bool has_word(const std::string &text, const std::string &word) {
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    const std::size_t begin = at >= 2 && text.compare(at - 2, 2, "v_") == 0 ? at - 2 : at;
+    const std::size_t end = at + word.size();
+    if ((begin == 0 || !is_letter(text[begin - 1])) && (end == text.size() || !is_letter(text[end])))
+      return true;
+  }
+  return false;
+}
+
+/// The text of a user's deck and of all that it includes; nothing if it includes files from elsewhere.
+std::optional<std::string> text_of_deck(const fs::path &deck) {
+  std::string text;
+  for (const fs::path &file : deck_files(deck))
+    text += read_text(file) + "\n";
+  std::istringstream words(text);
+  for (std::string word, name; words >> word;)
+    if ((word == "include" || word == "jump") && words >> name && name != "SELF" &&
+        name.find("${here}/") == std::string::npos)
+      return std::nullopt;
+  return text;
 }
 
 bool is_name(const std::string &text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](char letter) {
-    return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '_';
-  });
+  return !text.empty() && std::all_of(text.begin(), text.end(), is_letter);
 }
 
 class PlanReader {
@@ -84,6 +124,9 @@ public:
 
   Plan read() {
     plan_.text = read_text(file_);
+    if (const std::string mark = "\xEF\xBB\xBF"; plan_.text.compare(0, mark.size(), mark) == 0)
+      plan_.text.erase(0, mark.size()); // that editors of Windows put before UTF-8
+    plan_.deck_folder = fs::absolute(file_).parent_path();
     std::istringstream lines(plan_.text);
     int read = 0; // lines
     for (std::string line; std::getline(lines, line);) {
@@ -91,6 +134,7 @@ public:
       std::string text = without_comment(line);
       for (; is_continued(text) && std::getline(lines, line); ++read)
         text = trimmed(text.substr(0, text.size() - 1)) + " " + without_comment(line);
+      if (is_continued(text)) refuse("the last line", text, "a line below one that ends with &", read);
       if (text.empty()) continue;
       const std::size_t end = std::min(text.find_first_of(blanks), text.size());
       keyword_ = text.substr(0, end);
@@ -139,6 +183,7 @@ private:
         {"paired", {&R::take_paired, true, false}},
         {"compare", {&R::take_compare, false, false}},
         {"deck", {&R::take_deck, true, false}},
+        {"deck_folder", {&R::take_deck_folder, true, true}},
         {"seeds", {&R::take_seeds, true, false}},
         {"seed_variable", {&R::take_seed_variable, true, false}},
         {"set", {&R::take_set, false, false}},
@@ -226,6 +271,10 @@ private:
       quantity = *known;
     } else if (words.size() == own) {
       if (!is_name(words[0])) refuse("NAME UNIT WAY FILE COLUMN, NAME of letters, digits and _");
+      if (is_nan(words[0]) || is_nan(words[1]))
+        refuse("NAME UNIT WAY FILE COLUMN, NAME and UNIT not nan, which means no value");
+      if (!stays_inside(words[3]))
+        refuse("NAME UNIT WAY FILE COLUMN, FILE in the folder of the run, in which decks start");
       const std::vector<const char *> ways = column_ways();
       if (std::find(ways.begin(), ways.end(), words[2]) == ways.end())
         refuse(fmt::format("NAME UNIT WAY FILE COLUMN, WAY one of {}", fmt::join(ways, ", ")));
@@ -261,6 +310,7 @@ private:
   void take_scene() {
     end_scene();
     if (value_.find_first_of(",|") != std::string::npos) refuse("a name without commas and |");
+    if (is_nan(value_)) refuse("a name that does not mean no value");
     for (const Scene &one : plan_.scenes)
       if (one.name == value_) refuse("each name once");
     plan_.scenes.push_back(common_);
@@ -301,13 +351,21 @@ private:
   }
 
   void take_deck() {
-    const fs::path beside = file_.parent_path() / value_;
+    const fs::path beside = plan_.deck_folder / value_;
     if (is_file(beside))
-      scene().deck = fs::absolute(beside).lexically_normal().string();
+      scene().deck = beside.lexically_normal().string();
     else if (is_file(input_file(value_)))
       scene().deck = value_;
     else
-      refuse("a deck in the folder of the plan, or in " + input_file("").string());
+      refuse(fmt::format("a deck in {}, or in {}",
+                         plan_.names_deck_folder ? plan_.deck_folder.string() : "the folder of the plan",
+                         input_file("").string()));
+  }
+
+  void take_deck_folder() {
+    if (seen_.count("deck") > 0) refuse("above the line deck");
+    plan_.deck_folder = fs::absolute(file_.parent_path() / value_);
+    plan_.names_deck_folder = true;
   }
 
   void take_seeds() { scene().seeds = count(1, most_seeds); }
@@ -392,6 +450,7 @@ private:
       if (!done.bed && (setting.scope == Scope::settle || setting.scope == Scope::placed))
         refuse_scene("set_settle and set_placed on a bed: with balls or layer");
     }
+    check_names(done, refuse_scene);
     if (done.stiffness == 0.0 && (done.frequency > 0.0 || done.more_steps != 1.0))
       refuse_scene("frequency and more_steps with stiffness, from which the steps per cycle follow");
     if (done.bed)
@@ -401,6 +460,22 @@ private:
     else if (done.seed_variable.empty() && done.seeds > 1)
       refuse_scene("one seed, or seed_variable, the name of the deck's variable that gets it");
     if (!differs.empty()) plan_.comparisons.push_back({differs, {{done.name, base}}, paired_of_scene_});
+  }
+
+  /// Checks that a user's deck has the variables that it is given: engines ignore others, and two scenes
+  /// would be the same. Decks of the project, and those of beds, refuse them by themselves.
+  template <class Refuse>
+  void check_names(const Scene &scene, const Refuse &refuse) {
+    if (scene.bed || !fs::path(scene.deck).is_absolute()) return;
+    if (texts_.count(scene.deck) == 0) texts_[scene.deck] = text_of_deck(scene.deck);
+    const std::optional<std::string> &text = texts_.at(scene.deck);
+    if (!text) return;
+    const std::string deck = fs::path(scene.deck).filename().string();
+    for (const Setting &setting : scene.settings)
+      if (!has_word(*text, setting.name))
+        refuse(fmt::format("without set {}, a variable that deck {} does not have", setting.name, deck));
+    if (!scene.seed_variable.empty() && !has_word(*text, scene.seed_variable))
+      refuse(fmt::format("without seed_variable {}, which deck {} does not have", scene.seed_variable, deck));
   }
 
   /// Checks a bed, and makes its layers.
@@ -438,6 +513,7 @@ private:
   const std::set<std::string> reserved_ = {"balls", "bed", "start", "ratio"};
   fs::path file_;
   Plan plan_;
+  std::map<std::string, std::optional<std::string>> texts_; ///< of users' decks
   int line_ = 0;
   std::string keyword_, value_;
   Scene common_; ///< what is before the first scene
@@ -455,6 +531,13 @@ private:
 
 const Scene &Plan::scene(const std::string &name) const {
   return *std::find_if(scenes.begin(), scenes.end(), [&name](const Scene &one) { return one.name == name; });
+}
+
+std::string Plan::copy() const {
+  const bool has_own_decks = std::any_of(
+      scenes.begin(), scenes.end(), [](const Scene &scene) { return fs::path(scene.deck).is_absolute(); });
+  return !has_own_decks || names_deck_folder ? text
+                                             : fmt::format("deck_folder {}\n", deck_folder.string()) + text;
 }
 
 bool Plan::can_be_scaled() const {

@@ -38,8 +38,12 @@ struct Plan {
   std::vector<Axis> axes;
   std::vector<Scene> scenes; ///< the first is that to which bed sizes refer
   std::vector<Comparison> comparisons;
-  std::string text; ///< of a file with this plan
+  std::string text;                  ///< of a file with this plan
+  std::filesystem::path deck_folder; ///< of decks that are not in inputs/
+  bool names_deck_folder = false;    ///< whether the text does
 
+  /// The text of this plan for a file in another folder.
+  std::string copy() const;
   /// \pre there is one of that name
   const Scene &scene(const std::string &name) const;
   /// Whether it can have another number of balls: all scenes on beds in the plane, with the roller's
@@ -53,8 +57,8 @@ struct Plan {
 };
 
 /// Reads a plan: lines `keyword value`, # begins a comment; inputs/study/plans.md has the keywords. Decks are
-/// looked for in the folder of the plan, then in inputs/. Throws UsageError "FILE, line LINE: KEYWORD is
-/// 'VALUE'; allowed: WHAT".
+/// looked for in the folder of the plan, or that of its line deck_folder, then in inputs/. Throws UsageError
+/// "FILE, line LINE: KEYWORD is 'VALUE'; allowed: WHAT".
 Plan read_plan(const std::filesystem::path &file);
 
 } // namespace drumlin::post

@@ -1,5 +1,9 @@
 #include "experiment/results.h"
 
+#include "support/resumed.h"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -84,6 +88,16 @@ const std::map<int, double> &Results::costs(const std::string &scene) const {
   return found_in(costs_, scene);
 }
 
+Results read_results(const std::filesystem::path &folder, const Plan &plan) {
+  const std::filesystem::path file = folder / results_name;
+  const std::vector<Result> rows = read_points(file, result_rows());
+  for (const Result &row : rows)
+    for (const Quantity &quantity : plan.quantities)
+      if (row.quantity == quantity.name && row.unit != quantity.unit)
+        csv_refusal(file, 0, "unit", row.unit, fmt::format("{}, that of {}", quantity.unit, quantity.name));
+  return Results(rows);
+}
+
 std::vector<double> numbers(const std::map<int, double> &by_seed) {
   std::vector<double> all;
   all.reserve(by_seed.size());
@@ -120,8 +134,10 @@ std::vector<Effect> effects_of(const Plan &plan, const Results &results) {
         return results.values(scene, quantity.name);
       };
       effect.seeds = std::max(effect.seeds, samples_of(compared, values_of).values.size());
-      effect.changes.push_back(change_of(results, compared, quantity.name));
-      any = any || effect.changes.back();
+      std::optional<Change> change = change_of(results, compared, quantity.name);
+      any = any || change;
+      if (change && !std::isfinite(change->shown(quantity).mean)) change.reset(); // of a mean of zero
+      effect.changes.push_back(change);
     }
     if (any) effects.push_back(effect);
   }

@@ -48,6 +48,10 @@ private:
   std::vector<std::string> scenes_;
 };
 
+/// The results in the folder of an experiment. Throws std::runtime_error as read_points(), and for a value in
+/// another unit than that of the plan.
+Results read_results(const std::filesystem::path &folder, const Plan &plan);
+
 /// The numbers of a map by seed, in its order.
 std::vector<double> numbers(const std::map<int, double> &by_seed);
 
@@ -71,7 +75,9 @@ struct Effect {
   const Comparison *compared = nullptr; ///< of the plan
   std::size_t seeds = 0;                ///< pairs of runs; of scenes that are not paired, runs of the first
   double cost = 0.0; ///< processor time over that of what it is compared with, median; NaN: not known
-  std::vector<std::optional<Change>> changes; ///< in the order of the plan's quantities
+  /// In the order of the plan's quantities. Nothing, too, of a relative change where the mean of what is
+  /// compared with is zero.
+  std::vector<std::optional<Change>> changes;
 };
 /// Those of a plan's comparisons that have runs of both scenes.
 std::vector<Effect> effects_of(const Plan &plan, const Results &results);

@@ -151,9 +151,9 @@ private:
 } // namespace
 
 void run_experiment(const Plan &plan, const fs::path &out, int jobs) {
-  write_files({{out / plan_name, plan.text}});
+  write_files({{out / plan_name, plan.copy()}});
   const std::vector<std::string> failures = Runs(plan, out).make(jobs);
-  write_experiment_page(out, plan, Results(read_points(out / results_name, result_rows())), failures);
+  write_experiment_page(out, plan, read_results(out, plan), failures);
   fmt::print("{}\n", (out / "index.html").string());
   if (!failures.empty())
     throw std::runtime_error(fmt::format("{} of the runs failed; the page tells which", failures.size()));

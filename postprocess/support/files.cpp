@@ -365,7 +365,8 @@ void FilesInProgress::publish(const std::vector<std::string> &names,
 
 std::string read_text(const fs::path &file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw std::runtime_error("cannot read " + file.string());
+  std::error_code ignored; // of a file that is not there
+  if (!in || fs::is_directory(file, ignored)) throw std::runtime_error("cannot read " + file.string());
   return {std::istreambuf_iterator<char>(in), {}};
 }
 

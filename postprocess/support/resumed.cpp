@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <optional>
 #include <regex>
+#include <sstream>
 #include <stdexcept>
 
 namespace drumlin::post {
@@ -31,6 +32,17 @@ bool is_unfinished(const fs::path &file) {
 bool has_no_others(const fs::path &folder) {
   return std::all_of(fs::directory_iterator(folder), fs::directory_iterator(),
                      [](const fs::directory_entry &entry) { return is_unfinished(entry.path()); });
+}
+
+/// The first line of each of two texts in which they differ; empty where one has no further line.
+std::pair<std::string, std::string> first_difference(const std::string &one, const std::string &other) {
+  std::istringstream first(one), second(other);
+  std::string a, b;
+  do {
+    if (!std::getline(first, a)) a.clear();
+    if (!std::getline(second, b)) b.clear();
+  } while (a == b && (first || second));
+  return {a, b};
 }
 
 /// Whether a cell is the text that a program prints for NaN.
@@ -56,12 +68,14 @@ ResumedFolder::ResumedFolder(const fs::path &out, const std::string &kind, const
     throw UsageError(refusal(
         "--out", out.string(),
         fmt::format("a folder that is new, empty or of an earlier {}: this one has other files", kind)));
-  if (earlier && !fresh && read_text(file) != now)
+  if (const std::string before = earlier && !fresh ? read_text(file) : now; before != now) {
+    const auto [was, is] = first_difference(before, now);
     throw UsageError(
         refusal("--out", out.string(),
-                fmt::format("the folder of a {} with the same settings and the same build ({} has those of "
-                            "the earlier call), --fresh, which forgets its results, or another folder",
-                            kind, settings_name)));
+                fmt::format("the folder of a {} with the same settings and the same build (its {} has '{}', "
+                            "this call '{}'), --fresh, which forgets its results, or another folder",
+                            kind, settings_name, shown(was), shown(is))));
+  }
   std::vector<fs::path> removed;
   if (fresh) { // the content, not the folder itself, which may be a symbolic link; the settings last, in case
                // of a kill

@@ -8,12 +8,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace drumlin::test {
 namespace {
+
+namespace fs = std::filesystem;
 
 using post::BedAdvice;
 using post::BedExperiment;
@@ -125,6 +128,8 @@ TEST_F(BedAdviceTest, RefusesWhatTheTableDoesNotAnswer) {
       "the table of results is '1 scenes'; allowed: one with two seeds or more of a scene and of the");
   add("complete", 1.0, 0.0, 10.0, 1);
   expect_refused("allowed: one with two seeds or more of a scene and of the complete one");
+  rows_.back().unit = "kN/m";
+  expect_refused("runs.csv, column 'unit' is 'kN/m'; allowed: N/m, that of force");
   rows_.clear();
   add("complete", 1.0, 0.0, 10.0);
   add("k / 10", 1.3, 0.0, 3.0); // 30 % in the mean, with a half width of 2.776 * 0.3 * 0.158 / sqrt(5)
@@ -137,6 +142,24 @@ TEST_F(BedAdviceTest, RefusesWhatTheTableDoesNotAnswer) {
     if (row.quantity == "force") row.value -= 1e5;
   expect_refused(
       "--question is 'force'; allowed: a result whose mean over the complete beds differs from zero");
+}
+
+// The copy of the plan that its study writes.
+TEST_F(BedAdviceTest, IsGivenOnDecksOfOnesOwn) {
+  const fs::path own = temporary_.path() / "my decks";
+  fs::create_directory(own);
+  std::string plan = post::read_text(post::input_file("study/fidelity/plan"));
+  plan.replace(plan.find("bed/in.bed"), 10, "in.bed");
+  post::write_files(
+      {{own / "in.settle", ""}, {own / "in.place", ""}, {own / "in.bed", ""}, {own / "plan", plan}});
+  post::write_files({{temporary_.path() / "plan", post::read_plan(own / "plan").copy()}});
+  add("complete", 1.0, 0.0, 10.0);
+  add("k / 10", 1.04, 0.0, 3.0);
+  const BedExperiment all = experiment();
+  const BedAdvice found = post::advise_bed(all, {"force", "force", 0.1});
+  EXPECT_EQ(found.scene->name, "k / 10");
+  EXPECT_EQ(
+      post::scene_commands(*found.scene)[1].rfind("run '" + (own / "in.settle").string() + "' -var ", 0), 0U);
 }
 
 TEST_F(BedAdviceTest, NeedsAPlanOfBedsAndItsResults) {

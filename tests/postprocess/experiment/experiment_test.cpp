@@ -136,6 +136,56 @@ TEST(OwnStudy, RunsAnyDeckThatWritesATableAndContinues) {
   EXPECT_NE(post::read_text(out / "index.html").find("Missing: seed 2, too high"), std::string::npos);
 }
 
+// What a deck includes belongs to what the results depend on, and nothing that a call reads is removed by it.
+TEST(OwnStudy, ContinuesOnlyWithTheFilesOfTheEarlierCall) {
+  const Scratch scratch;
+  const fs::path out = scratch / "out";
+  std::string plan = own_plan;
+  plan.replace(plan.find("in.own"), 6, "out/in.own");
+  post::write_files(
+      {{scratch / "in.own", "variable seed index 0\nvariable factor index 1\ninclude ${here}/part\n"},
+       {scratch / "part", own_deck},
+       {scratch / "heights.plan", own_plan},
+       {scratch / "inner.plan", plan}});
+  const auto run = [&](const char *name, const char *option) {
+    return run_program({DRUMLIN_TOOLS, "study", name, "--out", "out", "--quick", option}, {}, scratch.path(),
+                       100.0);
+  };
+  ASSERT_TRUE(run("heights.plan", "--fresh").ok());
+  const std::string rows = post::read_text(out / "runs.csv");
+  post::write_files({{scratch / "part", std::string(own_deck) + "# more\n"}});
+  const Outcome other = run("heights.plan", "--jobs=1");
+  EXPECT_EQ(other.status, 2);
+  EXPECT_TRUE(other.says("(its study.txt has 'deck in.own ")) << other.output;
+  EXPECT_EQ(post::read_text(out / "runs.csv"), rows);
+  post::write_files({{out / "in.own", own_deck}});
+  const Outcome inner = run("inner.plan", "--fresh");
+  EXPECT_EQ(inner.status, 2);
+  EXPECT_TRUE(inner.says("ERROR: drumlin study: --out is 'out'; allowed: another folder than deck '"))
+      << inner.output;
+  EXPECT_TRUE(fs::exists(out / "in.own"));
+  EXPECT_EQ(post::read_text(out / "runs.csv"), rows);
+}
+
+// A result of an engine that is killed is not stored.
+TEST(OwnStudy, LeavesOutARunWhoseEngineIsKilled) {
+  const Scratch scratch;
+  post::write_files({{scratch / "in.own", std::string(own_deck) + "if \"${seed} == 2\" then \"shell sh " +
+                                              (scratch / "kill").string() + "\"\n"},
+                     // shell runs sh, which runs this: the engine is the parent of its parent
+                     {scratch / "kill", "kill -9 $(cut -d ' ' -f 4 /proc/$PPID/stat)\n"},
+                     {scratch / "heights.plan", own_plan}});
+  const Outcome outcome = run_program({DRUMLIN_TOOLS, "study", "heights.plan", "--quick", "--out", "out"}, {},
+                                      scratch.path(), 100.0);
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(outcome.says("ERROR: drumlin study: 3 of the runs failed; the page tells which\n"))
+      << outcome.output;
+  const Values values = values_in(scratch / "out");
+  EXPECT_EQ(values.size(), 3U * 2U);
+  EXPECT_EQ(values.count({"one", 2, "height"}), 0U);
+  EXPECT_NE(post::read_text(scratch / "out/index.html").find("10 (one)"), std::string::npos); // no interval
+}
+
 TEST(OwnStudy, OfABadPlanWritesNothing) {
   const Scratch scratch;
   post::write_files(

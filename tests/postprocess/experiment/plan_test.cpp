@@ -28,7 +28,7 @@ using post::Variables;
 class PlanTest : public ::testing::Test {
 protected:
   PlanTest() : temporary_(testing::TempDir(), "plan") {
-    post::write_files({{temporary_.path() / "in.own", "print \"x\"\n"}});
+    post::write_files({{temporary_.path() / "in.own", "print \"${gap} ${name} ${seed} ${x}\"\n"}});
   }
   fs::path file() const { return temporary_.path() / "my.plan"; }
   Plan read(const std::string &text) const {
@@ -99,6 +99,52 @@ TEST_F(PlanTest, GivesEachSceneWhatItsLinesAndTheSceneAboveSay) {
   EXPECT_EQ(plan.comparisons[2].pairs, (std::vector<Pair>{{"wide / 10", "narrow"}, {"wider", "narrow"}}));
 }
 
+TEST_F(PlanTest, ReadsWhatEditorsOfWindowsWrite) {
+  const Plan plan = read("\xEF\xBB\xBFtitle T\r\nquantity gap m last out.csv gap\r\ndeck in.own\r\nscene a");
+  EXPECT_EQ(plan.title, "T");
+  EXPECT_EQ(plan.scenes.at(0).name, "a");
+}
+
+// The copy of a plan beside its results is read where its decks are not.
+TEST_F(PlanTest, HasACopyThatFindsItsDecks) {
+  const std::string text = "title T\nquantity gap m last out.csv gap\ndeck ./in.own\nscene a\n";
+  const Plan plan = read(text);
+  EXPECT_EQ(plan.text, text); // results depend on it, not on the name of the folder
+  const fs::path other = temporary_.path() / "results";
+  fs::create_directory(other);
+  post::write_files({{other / "plan", plan.copy()}});
+  const Plan copied = post::read_plan(other / "plan");
+  EXPECT_EQ(copied.scenes.at(0).deck, (temporary_.path() / "in.own").string());
+  EXPECT_EQ(copied.copy(), plan.copy());
+  EXPECT_EQ(read("deck_folder results/..\n" + text).scenes.at(0).deck, plan.scenes[0].deck);
+  const Plan of_project = read("title T\nquantity force\ndeck bed/in.bed\nballs 100\nwidth 0.4\nscene a\n");
+  EXPECT_EQ(of_project.copy(), of_project.text);
+}
+
+// Engines ignore a variable that a deck does not have, so that two scenes would be the same.
+TEST_F(PlanTest, RefusesVariablesThatAUsersDeckDoesNotHave) {
+  const std::string own = "title T\nquantity gap m last out.csv gap\ndeck in.new\n";
+  const auto deck = [this](const std::string &text) {
+    post::write_files({{temporary_.path() / "in.new", text}});
+  };
+  post::write_files({{temporary_.path() / "part", "variable speed index 1\nvariable d equal 2*v_depth\n"},
+                     {temporary_.path() / "law.a", "print \"${grip}\"\n"}});
+  deck("include ${here}/part\nif \"${x} == 1\" then \"include ${here}/law.${law}\"\nprint \"a\" append "
+       "${here}/log\n");
+  for (const char *name : {"speed", "depth", "grip", "law", "x"})
+    EXPECT_EQ(read(own + "set " + name + " 1\nscene a\n").scenes.size(), 1U) << name;
+  expect_refused(
+      own + "scene a\nset spee 1\n",
+      ", line 4: scene is 'a'; allowed: without set spee, a variable that deck in.new does not have");
+  expect_refused(own + "scene a\nset dept 1\n", ", line 4: scene is 'a'; allowed: without set dept,");
+  expect_refused(
+      own + "seed_variable seed\nscene a\n",
+      ", line 5: scene is 'a'; allowed: without seed_variable seed, which deck in.new does not have");
+  EXPECT_EQ(post::deck_files(temporary_.path() / "in.new").size(), 3U); // without what it writes
+  deck("include ${folder}/part\n");                                     // which only the engine finds
+  EXPECT_EQ(read(own + "set other 1\nscene a\n").scenes.size(), 1U);
+}
+
 TEST_F(PlanTest, GivesEachDeckOfABedItsVariables) {
   const Plan plan =
       read("title T\nquantity force\ndeck bed/in.bed\nballs 100\nwidth 0.4\nratio 0.5\n"
@@ -140,6 +186,8 @@ TEST_F(PlanTest, RefusesEachBadLine) {
   expect_refused(own, ": scene is ''; allowed: a line for each");
   expect_refused(own + "ball 5\n",
                  ", line 4: the keyword is 'ball'; allowed: about, at, axis, balls, compare, ");
+  expect_refused(own + "note that &\n",
+                 ", line 4: the last line is 'note that &'; allowed: a line below one that ends with &");
   expect_refused(own + "seeds\n", ", line 4: seeds is ''; allowed: a value after it");
   expect_refused(own + "seeds 0\n", ", line 4: seeds is '0'; allowed: a whole number from 1 to 1000");
   expect_refused(own + "seeds 2.5\n", ", line 4: seeds is '2.5'; allowed: a whole number from 1 to 1000");
@@ -147,6 +195,8 @@ TEST_F(PlanTest, RefusesEachBadLine) {
   expect_refused(own + "scene a\nabout it\n", ", line 5: about is 'it'; allowed: before the first scene");
   expect_refused(own + "scene a\nseeds 1\nseeds 1\n", ", line 6: seeds is '1'; allowed: once in a scene");
   expect_refused(own + "scene a, b\n", ", line 4: scene is 'a, b'; allowed: a name without commas and |");
+  expect_refused(own + "scene -nan\n",
+                 ", line 4: scene is '-nan'; allowed: a name that does not mean no value");
   expect_refused(own + "scene a\nscene a\n", ", line 5: scene is 'a'; allowed: each name once");
   expect_refused(own + "scene a\nfrom b\n", ", line 5: from is 'b'; allowed: the name of a scene above");
   expect_refused(own + "scene a\nfrom a\n", ", line 5: from is 'a'; allowed: the name of a scene above");
@@ -169,6 +219,16 @@ TEST_F(PlanTest, RefusesEachBadLine) {
       ", line 2: quantity is 'gap m middle f.csv x'; allowed: NAME UNIT WAY FILE COLUMN, WAY one of last");
   expect_refused("title T\nquantity a/b m last f.csv x\n",
                  ", line 2: quantity is 'a/b m last f.csv x'; allowed: NAME");
+  for (const char *name_and_unit : {"nan m", "gap nan"})
+    expect_refused(fmt::format("title T\nquantity {} last f.csv x\n", name_and_unit),
+                   fmt::format(", line 2: quantity is '{} last f.csv x'; allowed: NAME UNIT WAY FILE COLUMN, "
+                               "NAME and UNIT not nan",
+                               name_and_unit));
+  for (const char *file : {"/f.csv", "a/../../f.csv"})
+    expect_refused(fmt::format("title T\nquantity gap m last {} x\n", file),
+                   fmt::format(", line 2: quantity is 'gap m last {} x'; allowed: NAME UNIT WAY FILE COLUMN, "
+                               "FILE in the folder of the run",
+                               file));
   expect_refused("title T\nquantity k\nquantity k\n",
                  ", line 3: quantity is 'k'; allowed: each quantity once");
   expect_refused("title T\naxis load\n", ", line 2: axis is 'load'; allowed: NAME LABEL");
@@ -179,6 +239,9 @@ TEST_F(PlanTest, RefusesEachBadLine) {
                  ", line 6: at is 'load much'; allowed: AXIS NUMBER");
   expect_refused("deck in.other\n",
                  ", line 1: deck is 'in.other'; allowed: a deck in the folder of the plan, or in ");
+  expect_refused("deck_folder inner\ndeck in.own\n", ", line 2: deck is 'in.own'; allowed: a deck in " +
+                                                         (temporary_.path() / "inner").string() + ", or");
+  expect_refused(own + "deck_folder .\n", ", line 4: deck_folder is '.'; allowed: above the line deck");
   expect_refused("title T\nquantity gap m last out.csv gap\nscene a\n",
                  ", line 3: scene is 'a'; allowed: with a line deck");
   expect_refused(own + "set gap\n", ", line 4: set is 'gap'; allowed: NAME VALUE");

@@ -182,6 +182,12 @@ TEST(Effect, LeavesOutWhatIsMissingAndComparesCosts) {
   EXPECT_FALSE(effects[0].changes[1].has_value());
   EXPECT_DOUBLE_EQ(effects[0].changes[2]->relative.mean, 0.2); // of seeds 1 and 3
   EXPECT_TRUE(effects_of(plan, Results({rows[0]})).empty());
+  for (Result &row : rows)
+    if (row.scene == "base" && row.quantity == "force") row.value = 0.0;
+  const std::vector<post::Effect> of_zero = effects_of(plan, Results(rows));
+  ASSERT_EQ(of_zero.size(), 1U);
+  EXPECT_FALSE(of_zero[0].changes[0].has_value()); // relative to zero
+  EXPECT_TRUE(of_zero[0].changes[2].has_value());
 }
 
 TEST(ResultRows, ComeBackBitForBit) {

@@ -170,6 +170,9 @@ TEST_F(Folder, IsContinuedWithTheSameSettings) {
       fault.find("--out is '" + out.string() + "'; allowed: the folder of a study with the same settings"),
       0U)
       << fault;
+  EXPECT_NE(fault.find("(its study.txt has 'steps 3', this call 'steps 4')"), std::string::npos) << fault;
+  EXPECT_NE(open("").find("has 'steps 3', this call '')"), std::string::npos);
+  EXPECT_NE(open("steps 3\nquick\n").find("has '', this call 'quick')"), std::string::npos);
   EXPECT_TRUE(fs::exists(out / "rows.csv"));
   EXPECT_EQ(open("steps 4\n", true), "accepted");
   EXPECT_FALSE(fs::exists(out / "rows.csv"));
