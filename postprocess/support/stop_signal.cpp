@@ -35,7 +35,8 @@ void stop_where_told() {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before {};
     ::sigaction(number, nullptr, &before);
-    if (before.sa_handler == SIG_DFL) ::sigaction(number, &noting, nullptr);
+    // Ignored: nohup. Another: UCX, of MPI, takes SIGHUP for itself when it is loaded.
+    if (before.sa_handler != SIG_IGN) ::sigaction(number, &noting, nullptr);
   }
   std::signal(SIGALRM, give_up);
 }
