@@ -202,6 +202,61 @@ TEST_P(NeighborStyles, FindContactsOfUnequalBallsInLammps) {
 INSTANTIATE_TEST_SUITE_P(Lammps, NeighborStyles, ::testing::Values("nsq", "bin", "multi", "multi/old"),
                          [](const auto &test) { return name_of(std::string(test.param)); });
 
+// --- a rigid body of LIGGGHTS
+// -------------------------------------------------------------------------------------
+
+// Two balls, one body, hit a third. The engine's own law, which steps as `stock` does, has the same contact
+// as the plugin's under A, and under B with its limitForce.
+TEST(RigidBodyOfLiggghts, BouncesUnderStockAsWithTheEnginesLaw) {
+  const double m_eff = 5.0 * 4.0 / 9.0, c = 200.0; // kg, N s/m
+  const auto velocities = [&](const std::string &pair_style) {
+    const Scratch folder;
+    std::string text =
+        "atom_style granular\natom_modify map array sort 0 0\ncommunicate single vel yes\nunits si\n"
+        "newton off\nboundary f f f\nregion box block -1 1 -1 1 -1 1 units box\ncreate_box 2 box\n"
+        "neighbor 0.02 bin\nneigh_modify delay 0\ncreate_atoms 1 single 0 0 0.4\n"
+        "create_atoms 1 single 0 0 0.2\ncreate_atoms 2 single 0 0 -0.05\n"
+        "set group all diameter 0.2\nset atom 1 mass 2\nset atom 2 mass 3\nset atom 3 mass 4\n"
+        "group body id 1 2\ngroup free id 3\n";
+    for (const auto &[name, value] : {std::pair("kn", 1e5),
+                                      {"kt", 2e4},
+                                      {"gamman_abs", c},
+                                      {"gammat_abs", 0.0},
+                                      {"gamman", c / m_eff},
+                                      {"gammat", 0.0}})
+      text += fmt::format("fix {0} all property/global {0} peratomtypepair 2 {1} {1} {1} {1}\n", name,
+                          number(value));
+    text +=
+        "pair_style gran model " + pair_style +
+        "\npair_coeff * *\nneigh_modify exclude group body body\nfix b body rigid single\n"
+        "fix i free nve/sphere\nvelocity body set 0 0 -0.5 units box\ntimestep 4e-6\nthermo 100000\n"
+        "dump state all custom 60000 state.dump id x y z vx vy vz fx fy fz omegax omegay omegaz tqx tqy tqz\n"
+        "dump_modify state sort id format \"%d %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g "
+        "%.17g %.17g %.17g %.17g %.17g\"\nrun 60000\n";
+    write_text(folder / "deck.in", text);
+    const Outcome outcome = run_deck(folder / "deck.in", {}, folder.path(), 1);
+    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    std::vector<double> found;
+    const auto frames = read_dump(folder / "state.dump");
+    if (!frames.empty())
+      for (const auto &numbered : frames.back().balls)
+        found.push_back(numbered.second.v[2]);
+    found.resize(3, HUGE_VAL);
+    return found;
+  };
+  for (const auto &[transition, limit] : {std::pair("A", "off"), {"B", "on"}}) {
+    const auto ours =
+        velocities(std::string("hooke/transition tangential off stepping stock damping coefficient "
+                               "transition ") +
+                   transition);
+    const auto own = velocities(std::string("hooke/stiffness tangential off limitForce ") + limit);
+    for (std::size_t n = 0; n < 3; ++n)
+      EXPECT_NEAR(ours[n], own[n], 1e-12) << transition << ", ball " << n + 1; // m/s
+    EXPECT_NEAR(5.0 * ours[0] + 4.0 * ours[2], -2.5, 1e-12) << transition;     // kg m/s
+    EXPECT_GT(ours[0], -0.4) << transition << ": no contact";
+  }
+}
+
 // --- another time step within a run
 // -------------------------------------------------------------------------------
 
