@@ -100,6 +100,19 @@ double bracketed_root(const Polynomial &p, double lo, double hi) {
 
 using Control = std::array<double, most_terms>;
 
+// De Casteljau's halving of the interval of a polynomial.
+struct Halves {
+  Control left{}, right{};
+  Halves(const Control &whole, std::size_t last) : right(whole) {
+    left[0] = right[0];
+    for (std::size_t level = 1; level <= last; ++level) {
+      for (std::size_t i = 0; i + level <= last; ++i)
+        right[i] = 0.5 * (right[i] + right[i + 1]);
+      left[level] = right[0];
+    }
+  }
+};
+
 double first_in(const Polynomial &p, const Control &b, double lo, double hi) {
   const std::size_t last = p.terms - 1;
   int changes = 0;
@@ -117,23 +130,20 @@ double first_in(const Polynomial &p, const Control &b, double lo, double hi) {
   if (b[0] > 0.0 || !first_negative) return lo; // positive from here on
   if (changes == 1 && b[last] > 0.0) return bracketed_root(p, lo, hi);
   if (hi - lo < 1e-13) return b[last] > 0.0 ? hi : 2.0;
-  // De Casteljau's halving.
-  Control left{};
-  Control right = b;
-  left[0] = right[0];
-  for (std::size_t level = 1; level <= last; ++level) {
-    for (std::size_t i = 0; i + level <= last; ++i)
-      right[i] = 0.5 * (right[i] + right[i + 1]);
-    left[level] = right[0];
-  }
+  const Halves halves(b, last);
   const double middle = 0.5 * (lo + hi);
-  const double found = first_in(p, left, lo, middle);
-  return found <= 1.0 ? found : first_in(p, right, middle, hi);
+  const double found = first_in(p, halves.left, lo, middle);
+  return found <= 1.0 ? found : first_in(p, halves.right, middle, hi);
 }
 
-} // namespace
-
-namespace {
+// The largest value of a polynomial, or `known`; differences below `rounding` do not count.
+double largest_in(const Control &b, std::size_t last, double known, double rounding) {
+  known = std::max({known, b[0], b[last]});
+  const auto *const end = b.begin() + static_cast<std::ptrdiff_t>(last) + 1;
+  if (*std::max_element(b.begin(), end) <= known + rounding) return known;
+  const Halves halves(b, last);
+  return largest_in(halves.right, last, largest_in(halves.left, last, known, rounding), rounding);
+}
 
 // Bernstein's coefficients of the first `terms` terms.
 Control control_points(const double *coefficients, std::size_t terms) {
@@ -170,6 +180,14 @@ double first_upcrossing(const double *coefficients, std::size_t terms) {
   // for a slow motion; while a heavily damped part of it decays, as many as sixteen are needed.
   if (stays_below<8>(coefficients, terms) || stays_below<16>(coefficients, terms)) return 2.0;
   return first_in({coefficients, terms}, control_points(coefficients, terms), 0.0, 1.0);
+}
+
+double largest_value(const double *coefficients, std::size_t terms, double known) {
+  double size = 0.0;
+  for (std::size_t n = 0; n < terms; ++n)
+    size += std::fabs(coefficients[n]);
+  if (coefficients[0] + (size - std::fabs(coefficients[0])) <= known) return known;
+  return largest_in(control_points(coefficients, terms), terms - 1, known, 1e-15 * size);
 }
 
 // ---- pieces ----
@@ -432,12 +450,17 @@ ChainSolver::ChainSolver(const ChainParameters &parameters)
   apart_ = PhaseDynamics(parameters, 0.0, 0.0);
 }
 
-ChainMotion ChainSolver::start() const {
+ChainMotion ChainSolver::start(double impact_speed) const {
   const ChainParameters &p = parameters_;
   ChainMotion motion;
   const double x2 = p.g > 0.0 ? -(p.m2 + p.m3) * p.g / p.k : 0.0;
-  motion.state << x2, 0.0, p.g > 0.0 ? x2 - p.m3 * p.g / p.k23 : x2, 0.0;
-  motion.phase = x2 < 0.0 || p.Fw > 0.0 ? ContactPhase::contact : ContactPhase::flight;
+  if (impact_speed > 0.0)
+    motion.state << 0.0, -impact_speed, 0.0, -impact_speed;
+  else
+    motion.state << x2, 0.0, p.g > 0.0 ? x2 - p.m3 * p.g / p.k23 : x2, 0.0;
+  if (motion.state[0] < 0.0) return motion;
+  motion.phase = ContactPhase::flight;
+  if (impact_speed > 0.0 || p.Fw > 0.0) leave(motion, 0); // touching, and moving or about to be pushed down
   return motion;
 }
 
@@ -556,18 +579,32 @@ void ChainSolver::finish_cycle(ChainMotion &motion, MotionObserver *observer) co
 
 namespace {
 
-class Sampler : public MotionObserver {
+// Samples and events of cycles, and what is asked of each cycle.
+class Recorder : public MotionObserver {
 public:
-  Sampler(const ChainSolver &solver, int samples) : solver_(solver), samples_(samples) {}
+  Recorder(const ChainSolver &solver, const DirectOptions &options)
+      : solver_(solver), options_(options), end_(time_of(options.last_point())),
+        last_row_(options.last_point() / options.points_per_sample()) {}
 
   void begin_cycle(long cycle) {
-    start_ = static_cast<double>(cycle) * solver_.parameters().period(), next_ = 0;
+    start_ = time_of(cycle * options_.points_per_cycle());
+    row_of_cycle_ = cycle * options_.samples_per_cycle;
+    next_ = 0;
+    summary_ = {static_cast<int>(cycle) + 1, start_, no_limit, -no_limit, no_limit, -no_limit, 0.0, 0, 0};
+  }
+  void end_cycle() {
+    if (solver_.parameters().transition == Transition::B)
+      summary_.F_contact_min = std::max(0.0, summary_.F_contact_min);
+    summary_.contact_share = std::min(1.0, summary_.contact_share / solver_.parameters().period());
+    result_.cycles.push_back(summary_);
   }
 
   void piece(const MotionPiece &piece, const PhaseDynamics & /*dynamics*/) override {
+    ++result_.cost.steps;
+    summarize(piece);
     const double period = solver_.parameters().period();
-    for (; next_ < samples_; ++next_) {
-      const double t = next_ * period / samples_;
+    for (; next_ < options_.samples_per_cycle && row_of_cycle_ + next_ <= last_row_; ++next_) {
+      const double t = next_ * period / options_.samples_per_cycle;
       const double s = (t - piece.begin) / piece.length;
       if (s >= piece.end) break;
       row(piece.phase, t, piece.state(std::max(0.0, s)));
@@ -575,6 +612,11 @@ public:
   }
   void change(const PhaseChange &change) override {
     if (!change.make() && !change.broken()) return;
+    if (start_ + change.time > end_) return;
+    ++(change.make() ? summary_.makes : summary_.breaks);
+    if (result_.events.size() >= DirectOptions::most_events)
+      throw std::runtime_error(fmt::format("more than {} contacts made and broken up to t = {} s",
+                                           DirectOptions::most_events, start_ + change.time));
     result_.events.push_back({start_ + change.time, change.make(), 0.0 - change.state[0],
                               0.0 - change.state[1], change.force + 0.0, 1, 2});
   }
@@ -584,7 +626,7 @@ public:
     const double bond = p.c23 * (y[3] - y[1]) + p.k23 * (y[2] - y[0]);
     const double push = p.Fw * std::sin(p.omega * t);
     const double force = solver_.force(phase, y);
-    h.time.push_back(start_ + t);
+    h.time.push_back(time_of((row_of_cycle_ + next_) * options_.points_per_sample()));
     h.x_drum.push_back(y[0]);
     h.v_drum.push_back(y[1]);
     h.a_drum.push_back((force + bond - push) / p.m2 - p.g);
@@ -595,34 +637,98 @@ public:
     h.F_excitation.push_back(push);
     h.F_bond.push_back(bond);
   }
-  ClosedFormResult take() { return std::move(result_); }
+  DirectResult take() { return std::move(result_); }
 
 private:
+  static constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+  double time_of(long point) const {
+    return static_cast<double>(point) * solver_.parameters().period() /
+           static_cast<double>(options_.points_per_cycle());
+  }
+
+  // Extremes and time in contact of a piece, up to its end.
+  void summarize(const MotionPiece &piece) {
+    std::array<double, most_terms> a{};
+    std::array<double, most_terms> F{};
+    const ChainParameters &p = solver_.parameters();
+    const double k = piece.phase == ContactPhase::contact ? p.k : 0.0;
+    const double c = piece.phase == ContactPhase::contact ? p.damping() : 0.0;
+    double power = 1.0; // of piece.end
+    for (std::size_t n = 0; n < piece.terms; ++n, power *= piece.end) {
+      const std::array<double, 4> &y = piece.coefficient[n];
+      F[n] = -(k * y[0] + c * y[1]) * power;
+      if (n + 1 < piece.terms)
+        a[n] = static_cast<double>(n + 1) * piece.coefficient[n + 1][1] / piece.length * power;
+    }
+    include(a, piece.terms - 1, summary_.a_drum_min, summary_.a_drum_max);
+    include(F, piece.terms, summary_.F_contact_min, summary_.F_contact_max);
+    if (piece.phase == ContactPhase::contact) summary_.contact_share += piece.length * piece.end;
+  }
+  static void include(std::array<double, most_terms> &values, std::size_t terms, double &min, double &max) {
+    max = largest_value(values.data(), terms, max);
+    for (double &value : values)
+      value = 0.0 - value;
+    min = -largest_value(values.data(), terms, -min);
+  }
+
   const ChainSolver &solver_;
-  int samples_;
+  const DirectOptions &options_;
+  double end_;
+  long last_row_;
   int next_ = 0;
+  long row_of_cycle_ = 0;
   double start_ = 0.0;
-  ClosedFormResult result_;
+  CycleSummary summary_;
+  DirectResult result_;
 };
+
+DirectResult solve(const ChainParameters &parameters, const DirectOptions &options, int lead,
+                   const SolverProgress &progress) {
+  const ChainSolver solver(parameters);
+  Recorder recorder(solver, options);
+  ChainMotion motion = solver.start(options.impact_speed);
+  for (int cycle = 0; cycle < lead; ++cycle)
+    solver.finish_cycle(motion);
+  const long whole = options.last_point() / options.points_per_cycle();
+  const bool part = options.last_point() % options.points_per_cycle() != 0;
+  for (long cycle = lead; cycle < whole + part; ++cycle) {
+    recorder.begin_cycle(cycle);
+    if (cycle == 0 && motion.phase == ContactPhase::contact && motion.state[0] == 0.0)
+      recorder.change(
+          {ContactPhase::flight, ContactPhase::contact, 0.0, motion.state, solver.law(motion.state), 0.0});
+    solver.finish_cycle(motion, &recorder);
+    if (cycle < whole) recorder.end_cycle();
+    if (progress) progress(static_cast<double>(cycle + 1) / options.cycles);
+  }
+  if (!part) {
+    recorder.begin_cycle(whole);
+    recorder.row(motion.phase, 0.0, motion.state);
+  }
+  return recorder.take();
+}
 
 } // namespace
 
-ClosedFormResult solve_closed_form(const ChainParameters &parameters, int cycles, int samples_per_cycle,
-                                   int lead) {
-  const ChainSolver solver(parameters);
-  Sampler sampler(solver, samples_per_cycle);
-  ChainMotion motion = solver.start();
-  for (int cycle = 0; cycle < lead; ++cycle)
-    solver.finish_cycle(motion);
-  if (lead == 0 && motion.phase == ContactPhase::contact && motion.state[0] == 0.0)
-    sampler.change({ContactPhase::flight, ContactPhase::contact, 0.0, motion.state, 0.0, 0.0});
-  for (int cycle = lead; cycle < lead + cycles; ++cycle) {
-    sampler.begin_cycle(cycle);
-    solver.finish_cycle(motion, &sampler);
-  }
-  sampler.begin_cycle(lead + cycles);
-  sampler.row(motion.phase, 0.0, motion.state);
-  return sampler.take();
+DirectResult solve_closed_form(const ChainParameters &parameters, const DirectOptions &options,
+                               const SolverProgress &progress) {
+  if (const std::string fault = options.invalid(); !fault.empty()) throw std::invalid_argument(fault);
+  return solve(parameters, options, 0, progress);
+}
+
+DirectResult solve_closed_form(const ChainParameters &parameters, int cycles, int samples_per_cycle,
+                               int lead) {
+  DirectOptions options;
+  options.cycles = lead + cycles;
+  options.samples_per_cycle = samples_per_cycle;
+  return solve(parameters, options, lead, {});
+}
+
+bool closed_form_suffices(const ChainParameters &parameters, double cycles) {
+  constexpr double most_pieces = 3e6; // some two seconds
+  const double end = std::ceil(cycles) * parameters.period(); // the last cycle is followed to its end
+  return end <= most_pieces * PhaseDynamics(parameters, parameters.k, parameters.damping()).longest_piece() &&
+         end <= most_pieces * PhaseDynamics(parameters, 0.0, 0.0).longest_piece();
 }
 
 } // namespace drumlin::post

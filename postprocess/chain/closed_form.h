@@ -4,9 +4,11 @@
 // remainder is below the rounding error. In each piece the motion is thus a polynomial in time. Its Bernstein
 // coefficients are bounds of a polynomial, so that no event is overlooked, however short a contact is. Since
 // eigenvectors are not needed, repeated eigenvalues (critical damping) are no special case. The direct solver
-// (chain/direct_solver) integrates the same equations numerically and is the independent reference.
+// (chain/direct_solver) integrates the same equations numerically and is the independent reference; options
+// and results have its form.
 #pragma once
 
+#include "chain/direct_solver.h"
 #include "chain/parameters.h"
 #include "runs/chain_files.h"
 
@@ -14,7 +16,7 @@
 
 #include <array>
 #include <cstddef>
-#include <vector>
+#include <limits>
 
 namespace drumlin::post {
 
@@ -53,7 +55,7 @@ public:
 
   /// The longest allowed piece [s], `since` seconds after the phase began: short until a fast, heavily damped
   /// part of the motion has decayed, then as long as the slower rest of the motion permits.
-  double longest_piece(double since) const;
+  double longest_piece(double since = std::numeric_limits<double>::infinity()) const;
   /// The motion from the state `from` over `length`, with the excitation from the phase omega t of `sine` and
   /// `cosine`.
   void expand(MotionPiece &piece, const ChainState &from, double length, double sine, double cosine) const;
@@ -122,9 +124,9 @@ public:
   explicit ChainSolver(const ChainParameters &parameters);
 
   const ChainParameters &parameters() const { return parameters_; }
-  /// Static equilibrium at t = 0, as the direct solver starts. A contact that then begins at d = 0 is in
-  /// phase `contact`.
-  ChainMotion start() const;
+  /// Static equilibrium at t = 0 or an impact, as the direct solver starts. A contact that then begins at
+  /// d = 0 is in phase `contact`.
+  ChainMotion start(double impact_speed = 0.0) const;
   /// A motion at the start of a cycle: the phase follows from the state.
   ChainMotion start_at(const ChainState &state) const;
   /// k d + c d', also where no such force acts [N].
@@ -149,19 +151,25 @@ private:
   PhaseDynamics apart_;
 };
 
-/// The history at equal times, from static equilibrium, and the events, in the form of the direct solver.
-struct ClosedFormResult {
-  ChainHistory history;
-  std::vector<ContactEvent> events;
-};
+/// Solves the chain as solve_direct() does; `rtol` has no effect.
+DirectResult solve_closed_form(const ChainParameters &parameters, const DirectOptions &options,
+                               const SolverProgress &progress = {});
+/// Whole cycles from static equilibrium.
 /// \param lead cycles before the first sample, in which the motion settles
-ClosedFormResult solve_closed_form(const ChainParameters &parameters, int cycles, int samples_per_cycle,
-                                   int lead = 0);
+DirectResult solve_closed_form(const ChainParameters &parameters, int cycles, int samples_per_cycle,
+                               int lead = 0);
+
+/// Whether the closed form has the solution within seconds. It splits off one fast decay: if contact and bond
+/// both decay very fast, its pieces become as short as the slower of the two.
+bool closed_form_suffices(const ChainParameters &parameters, double cycles);
 
 /// The first s in [0, 1] where a polynomial that is not positive at s = 0 becomes positive; 2 if it does not.
 /// Coefficients of s^0, s^1, ..., at most `most_terms`. No crossing is missed: an interval is discarded only
 /// if the Bernstein coefficients show that the polynomial is not positive in it, or if it is shorter than
 /// 1e-13.
 double first_upcrossing(const double *coefficients, std::size_t terms);
+
+/// The largest value of a polynomial for s in [0, 1], or `known` if that is larger.
+double largest_value(const double *coefficients, std::size_t terms, double known);
 
 } // namespace drumlin::post

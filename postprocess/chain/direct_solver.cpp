@@ -396,14 +396,12 @@ struct Moment {
   double force_rate = 0.0;
 };
 
-// Samples at equal times, extremes per cycle. Its grid refines the samples to at least 2000 points per cycle.
+// Samples at equal times, extremes per cycle. Its grid refines the samples (DirectOptions::last_point()).
 class Recorder {
 public:
   Recorder(const Chain &chain, const DirectOptions &options)
-      : chain_(chain), per_sample_((2000 + options.samples_per_cycle - 1) / options.samples_per_cycle),
-        per_cycle_(static_cast<long>(options.samples_per_cycle) * per_sample_),
-        last_(std::llround(options.cycles * static_cast<double>(per_cycle_))),
-        cycles_(static_cast<std::size_t>(last_ / per_cycle_) + 1) {}
+      : chain_(chain), per_sample_(options.points_per_sample()), per_cycle_(options.points_per_cycle()),
+        last_(options.last_point()), cycles_(static_cast<std::size_t>(last_ / per_cycle_) + 1) {}
 
   double end() const { return time_of(last_); }
   // The next point of the grid that awaits recording; infinity after the last.
@@ -714,7 +712,7 @@ private:
     result_.events.push_back(event);
     recorder_.event(event);
     constexpr std::size_t per_cycle = 100000;
-    constexpr std::size_t most = 5'000'000; // a quarter of a gigabyte
+    constexpr std::size_t most = DirectOptions::most_events;
     if (result_.events.size() > most)
       throw std::runtime_error(fmt::format(
           "the direct solver met more than {} contacts made and broken up to t = {} s", most, t_));

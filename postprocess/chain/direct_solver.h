@@ -1,12 +1,14 @@
 // The reference solution of the chain: its ordinary differential equations solved without an engine, to which
-// every run of an engine is compared. CVODE integrates from one make or break of contact (event) to the next;
-// its root finding locates the events; it is started again at each event, because the contact force changes
-// its law there.
+// runs of an engine and the closed form (chain/closed_form) are compared. CVODE integrates from one make or
+// break of contact (event) to the next; its root finding locates the events; it is started again at each
+// event, because the contact force changes its law there.
 #pragma once
 
 #include "chain/parameters.h"
 #include "runs/chain_files.h"
 
+#include <cmath>
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
@@ -25,6 +27,13 @@ struct DirectOptions {
   /// Empty if usable; else one line that names the option, its value and what is allowed.
   std::string invalid() const;
 
+  // The solution ends at a point of a grid that divides each sample into at least 2000 parts of a cycle, so
+  // that a number of cycles that rounding makes slightly too small has its last row.
+  long points_per_sample() const { return (2000 + samples_per_cycle - 1) / samples_per_cycle; }
+  long points_per_cycle() const { return samples_per_cycle * points_per_sample(); }
+  long last_point() const { return std::llround(cycles * static_cast<double>(points_per_cycle())); }
+
+  static constexpr std::size_t most_events = 5'000'000; ///< of a solution: a quarter of a gigabyte
   static const Range cycles_range, rtol_range, impact_speed_range;
   static constexpr int most_samples = 1'000'000; ///< per cycle
 };
@@ -42,7 +51,7 @@ using SolverProgress = std::function<void(double)>;
 
 /// Computing effort of the solver.
 struct DirectCost {
-  long steps = 0;    ///< steps of the integrator
+  long steps = 0;    ///< steps of the integrator, pieces of the closed form
   long restarts = 0; ///< starts of the integrator, the first included
   bool bdf = false;  ///< whether a part between two events was stiff, so that BDF was used instead of Adams
 };

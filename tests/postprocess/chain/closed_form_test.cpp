@@ -43,12 +43,37 @@ void expect_same_events(const std::vector<ContactEvent> &a, const std::vector<Co
   }
 }
 
-void expect_same_as_direct(const ChainParameters &p, int cycles, double tolerance) {
-  DirectOptions options;
-  options.cycles = cycles;
+// Both extremes of a column of cycles.csv, over the largest of the direct solver's.
+void expect_same_extremes(const std::vector<CycleSummary> &exact, const std::vector<CycleSummary> &direct,
+                          double CycleSummary::*min, double CycleSummary::*max, double tolerance) {
+  double scale = 0.0;
+  for (const CycleSummary &cycle : direct)
+    scale = std::max({scale, std::fabs(cycle.*min), std::fabs(cycle.*max)});
+  for (std::size_t i = 0; i < direct.size(); ++i) {
+    EXPECT_NEAR(exact[i].*min, direct[i].*min, tolerance * scale) << i;
+    EXPECT_NEAR(exact[i].*max, direct[i].*max, tolerance * scale) << i;
+  }
+}
+
+void expect_same_cycles(const std::vector<CycleSummary> &exact, const std::vector<CycleSummary> &direct,
+                        double tolerance) {
+  ASSERT_EQ(exact.size(), direct.size());
+  expect_same_extremes(exact, direct, &CycleSummary::a_drum_min, &CycleSummary::a_drum_max, tolerance);
+  expect_same_extremes(exact, direct, &CycleSummary::F_contact_min, &CycleSummary::F_contact_max, tolerance);
+  for (std::size_t i = 0; i < direct.size(); ++i) {
+    EXPECT_EQ(exact[i].cycle, direct[i].cycle);
+    EXPECT_EQ(exact[i].time, direct[i].time) << i;
+    EXPECT_NEAR(exact[i].contact_share, direct[i].contact_share, tolerance) << i;
+    EXPECT_EQ(exact[i].makes, direct[i].makes) << i;
+    EXPECT_EQ(exact[i].breaks, direct[i].breaks) << i;
+  }
+}
+
+void expect_same_as_direct(const ChainParameters &p, DirectOptions options, double tolerance) {
   options.rtol = 1e-14;
   const DirectResult direct = solve_direct(p, options);
-  const ClosedFormResult exact = solve_closed_form(p, cycles, options.samples_per_cycle);
+  const DirectResult exact = solve_closed_form(p, options);
+  EXPECT_EQ(exact.history.time, direct.history.time);
   EXPECT_LT(relative(exact.history.x_drum, direct.history.x_drum), tolerance);
   EXPECT_LT(relative(exact.history.v_drum, direct.history.v_drum), tolerance);
   EXPECT_LT(relative(exact.history.x_frame, direct.history.x_frame), tolerance);
@@ -58,6 +83,13 @@ void expect_same_as_direct(const ChainParameters &p, int cycles, double toleranc
   EXPECT_LT(relative(exact.history.v_frame, direct.history.v_frame),
             tolerance + rounding / largest(direct.history.v_frame));
   expect_same_events(exact.events, direct.events, p.period(), largest(direct.history.F_contact), tolerance);
+  expect_same_cycles(exact.cycles, direct.cycles, 30 * tolerance);
+}
+
+void expect_same_as_direct(const ChainParameters &p, int cycles, double tolerance) {
+  DirectOptions options;
+  options.cycles = cycles;
+  expect_same_as_direct(p, options, tolerance);
 }
 
 /// Counts the pieces of a motion. The solver divides time into pieces and describes the motion in each of
@@ -90,10 +122,22 @@ protected:
 
 TEST_P(EveryCase, AgreesWithTheDirectSolver) { expect_same_as_direct(chain(), 60, 1e-11); }
 
+// The last part of a cycle has rows and events up to its end, and no row of cycles.csv.
+TEST_P(EveryCase, AnImpactThatEndsWithinACycleAgreesWithTheDirectSolver) {
+  DirectOptions options;
+  options.impact_speed = 0.3;
+  options.samples_per_cycle = 7;
+  for (const double cycles : {0.31, 7.29, 8.0}) {
+    SCOPED_TRACE(cycles);
+    options.cycles = cycles;
+    expect_same_as_direct(chain(), options, 1e-11);
+  }
+}
+
 TEST_P(EveryCase, AgreesWithExactPiecesInExtendedPrecision) {
   const int cycles = 20;
   const drumlin::test::OracleResult oracle = drumlin::test::exact_pieces(chain(), cycles, 50);
-  const ClosedFormResult exact = solve_closed_form(chain(), cycles, 50);
+  const DirectResult exact = solve_closed_form(chain(), cycles, 50);
   EXPECT_LT(relative(exact.history.x_drum, oracle.x_drum), 1e-11);
   EXPECT_LT(relative(exact.history.v_drum, oracle.v_drum), 1e-11);
   EXPECT_LT(relative(exact.history.v_frame, oracle.v_frame), 1e-11);
@@ -221,6 +265,36 @@ TEST(ChainSolver, AFallReachesTheGroundWhenAndHowTheParabolaSays) {
   EXPECT_NEAR(observer.first.saltation, -p.damping() / p.m2, 1e-9);
 }
 
+// Without gravity and excitation the drum touches the soil and nothing moves; with excitation the contact is
+// made at t = 0.
+TEST(ChainSolver, AChainWithoutGravityStartsAsTheDirectSolverDoes) {
+  for (const Transition transition : {Transition::A, Transition::B})
+    for (const double D : {0.0, 0.5})
+      for (const double Fw : {0.0, 1e4}) {
+        SCOPED_TRACE(transition_name(transition));
+        ChainParameters p = table1_case("II", transition);
+        p.g = 0.0;
+        p.D = D;
+        p.Fw = Fw;
+        const DirectResult exact = solve_closed_form(p, 1, 20);
+        EXPECT_EQ(exact.events.empty(), Fw == 0.0);
+        if (Fw > 0.0)
+          expect_same_as_direct(p, 3, 1e-10);
+        else
+          EXPECT_EQ(largest(exact.history.x_drum), 0.0);
+      }
+}
+
+// Contact and bond both decay within a millionth of a cycle: only one of the two is split off.
+TEST(ChainSolver, KnowsWhichChainsItCannotSolveInTime) {
+  ChainParameters p = table1_case("II", Transition::B);
+  EXPECT_TRUE(closed_form_suffices(p, 25000));
+  p.D = 1e6;
+  EXPECT_TRUE(closed_form_suffices(p, 30));
+  p.c23 = 1e14;
+  EXPECT_FALSE(closed_form_suffices(p, 30));
+}
+
 // ---- the search for events ----
 
 std::vector<double> product_of(const std::vector<double> &roots, double factor) {
@@ -273,6 +347,30 @@ TEST(FirstUpcrossing, FindsTheFirstOfRandomRoots) {
     EXPECT_NEAR(first_upcrossing(p.data(), p.size()), first, 1e-7)
         << trial; // close roots are ill-conditioned
   }
+}
+
+// Largest values of random polynomials: against a fine grid, which they exceed by no more than its error.
+TEST(LargestValue, IsThatOfAFineGrid) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> anywhere(-1.0, 1.0);
+  constexpr int grid = 4000;
+  for (std::size_t trial = 0; trial < 300; ++trial) {
+    std::vector<double> p(1 + trial % 12);
+    for (double &a : p)
+      a = anywhere(random);
+    double most = p[0];
+    for (int i = 0; i <= grid; ++i) {
+      double value = 0.0;
+      for (std::size_t n = p.size(); n-- > 0;)
+        value = value * i / grid + p[n];
+      most = std::max(most, value);
+    }
+    const double found = largest_value(p.data(), p.size(), -1e9);
+    EXPECT_GE(found, most - 1e-14) << trial;
+    EXPECT_LE(found, most + 1e-4) << trial; // a curvature of at most 12^3, over half a grid distance
+    EXPECT_EQ(largest_value(p.data(), p.size(), 100.0), 100.0);
+  }
+  EXPECT_NEAR(largest_value(std::vector<double>{-0.16, 0.8, -1.0}.data(), 3, -1.0), 0.0, 1e-15);
 }
 
 // A drum that only just leaves the ground, and one that only just does not: condition A at the parameter

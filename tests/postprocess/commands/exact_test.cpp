@@ -1,4 +1,5 @@
 // `drumlin exact` as a user calls it: its files, messages and exit status.
+#include "chain/closed_form.h"
 #include "chain/direct_solver.h"
 #include "runs/chain_files.h"
 
@@ -77,7 +78,7 @@ TEST_F(ExactCommand, WritesWhatTheSolverFound) {
   post::DirectOptions options;
   options.cycles = 6;
   options.samples_per_cycle = 100;
-  const post::DirectResult expected = post::solve_direct(parameters, options);
+  const post::DirectResult expected = post::solve_closed_form(parameters, options);
   const fs::path out = folder_ / "a" / "b c";
   const post::ChainHistory history = post::read_chain(out / "chain.csv");
   EXPECT_EQ(history.size(), 601U);
@@ -97,7 +98,24 @@ TEST_F(ExactCommand, WritesWhatTheSolverFound) {
   EXPECT_NE(record.at("command").find("drumlin exact --case III"), std::string::npos);
   EXPECT_EQ(std::distance(fs::directory_iterator(out), fs::directory_iterator()), 4);
   EXPECT_NE(outcome.out.find(" steps), Fw 58800 N\n"), std::string::npos) << outcome.out;
+  EXPECT_EQ(record.at("solver"), "closed form");
   EXPECT_EQ(record.at("ended"), "yes");
+}
+
+// The integrator solves what is asked with a tolerance, and what the closed form cannot solve within seconds.
+TEST_F(ExactCommand, TakesTheIntegratorWhereAskedOrNeeded) {
+  const auto solver = [&](const std::string &options) {
+    const Outcome outcome = run("exact --cycles 2 --out o " + options);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return post::read_parameters(folder_ / "o" / "parameters.csv").at("solver");
+  };
+  EXPECT_EQ(solver("--rtol 1e-11"), post::direct_solver_name() + " Adams");
+  post::DirectOptions options;
+  options.cycles = 2;
+  options.rtol = 1e-11;
+  EXPECT_EQ(get(folder_ / "o/chain.csv"),
+            post::chain_text(post::solve_direct(post::ChainParameters(), options).history));
+  EXPECT_EQ(solver("--m2 1 --D 1e6 --c23 1e14"), post::direct_solver_name() + " Adams and BDF");
 }
 
 // Of a roller the eccentric moment stays when masses or frequency are others, and the command says so.
