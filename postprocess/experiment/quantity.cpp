@@ -33,8 +33,9 @@ public:
 
   const Table &table(const std::string &name) {
     const auto found = tables_.find(name);
-    return found != tables_.end() ? found->second
-                                  : tables_.emplace(name, read_table(folder_ / name)).first->second;
+    return found != tables_.end()
+               ? found->second
+               : tables_.emplace(name, read_table(folder_ / name, CutRows::last)).first->second;
   }
 
   double parameter(const std::string &name) {

@@ -3,6 +3,7 @@
 #include "experiment/page.h"
 #include "experiment/results.h"
 #include "experiment/scene_run.h"
+#include "support/csv.h"
 #include "support/files.h"
 #include "support/parallel.h"
 #include "support/progress.h"
@@ -66,6 +67,7 @@ public:
     for (const Group &group : groups_)
       for (const Scene *scene : group.scenes)
         is_finished(*scene, group.seed); // asked for in order, which is that of the table
+    table_.finish();                     // before the runs, for rows that belong to none of them
     in_parallel(groups_.size(), jobs, [this](std::size_t i) {
       for (const Scene *scene : groups_[i].scenes)
         make_one(*scene, groups_[i].seed, groups_[i].scenes.size() > 1 ? Soil::kept : Soil::used_up);
@@ -109,6 +111,8 @@ private:
       const std::lock_guard lock(mutex_);
       add(scene, seed, values, run->outcome().cpu_seconds);
       progress_.measured(what + words(values));
+    } catch (const MissingColumn &fault) { // no run of the plan has it
+      throw std::runtime_error(what + fault.what());
     } catch (const std::exception &fault) { // a run that fails does not stop the others
       const std::lock_guard lock(mutex_);
       failures_.push_back(what + fault.what());

@@ -53,7 +53,11 @@ std::string read_whole_file(const fs::path &file) {
   std::error_code code;
   if (fs::is_directory(file, code)) csv_fault(file, 0, {}, "cannot be read: it is a folder");
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) csv_fault(file, 0, {}, fmt::format("cannot be read: {}", std::strerror(errno)));
+  if (!stream) {
+    const std::string what = fmt::format("cannot be read: {}", std::strerror(errno));
+    if (errno == ENOENT) throw MissingColumn(fmt::format("{}: {}", place_in(file, 0, {}), what));
+    csv_fault(file, 0, {}, what);
+  }
   std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
   if (stream.bad()) csv_fault(file, 0, {}, "reading stopped before the end of the file");
   return text;
@@ -163,9 +167,9 @@ void check_width(const RowScanner &scanner, const std::vector<std::string> &head
 
 [[noreturn]] void missing_column(const fs::path &file, std::string_view column,
                                  const std::vector<std::string> &header) {
-  csv_fault(file, 1, {},
-            refusal("the header", fmt::format("{}", fmt::join(header, ",")),
-                    fmt::format("one that names '{}'", column)));
+  throw MissingColumn(fmt::format("{}: {}", place_in(file, 1, {}),
+                                  refusal("the header", fmt::format("{}", fmt::join(header, ",")),
+                                          fmt::format("one that names '{}'", column))));
 }
 
 } // namespace

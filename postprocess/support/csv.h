@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -74,6 +75,12 @@ public:
 private:
   struct State;
   std::unique_ptr<State> state_;
+};
+
+/// The fault that a file or a column of it is missing: that of another kind of file, not of a damaged one.
+class MissingColumn : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
 };
 
 /// The finite number in a cell; a fault that names file, line and column if it holds none.

@@ -115,7 +115,7 @@ TEST_F(ExactCommand, TakesTheIntegratorWhereAskedOrNeeded) {
   options.rtol = 1e-11;
   EXPECT_EQ(get(folder_ / "o/chain.csv"),
             post::chain_text(post::solve_direct(post::ChainParameters(), options).history));
-  EXPECT_EQ(solver("--m2 1 --D 1e6 --c23 1e14"), post::direct_solver_name() + " Adams and BDF");
+  EXPECT_EQ(solver("--m2 1 --m3 1 --D 1e6 --c23 1e14"), post::direct_solver_name() + " Adams and BDF");
 }
 
 // Of a roller the eccentric moment stays when masses or frequency are others, and the command says so.

@@ -186,6 +186,39 @@ TEST(OwnStudy, LeavesOutARunWhoseEngineIsKilled) {
   EXPECT_NE(post::read_text(scratch / "out/index.html").find("10 (one)"), std::string::npos); // no interval
 }
 
+// A column that the deck does not write, and a row of another plan, are told before the other runs are made.
+TEST(OwnStudy, StopsAtTheFirstRunWithoutAColumnOfThePlan) {
+  const Scratch scratch;
+  std::string plan = own_plan;
+  plan.replace(plan.find("out.csv height"), 14, "out.csv depth");
+  post::write_files({{scratch / "in.own",
+                      std::string(own_deck) + "shell echo run >> " + (scratch / "count").string() + "\n"},
+                     {scratch / "depths.plan", plan},
+                     {scratch / "heights.plan", own_plan}});
+  const auto run = [&](const char *name, const char *out) {
+    return run_program({DRUMLIN_TOOLS, "study", name, "--out", out, "--jobs", "1"}, {}, scratch.path(),
+                       100.0);
+  };
+  const Outcome outcome = run("depths.plan", "depths");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(std::regex_search(
+      outcome.output, std::regex("ERROR: drumlin study: seed 1, one: [^\n]*out.csv, line 1: the header is "
+                                 "'time,height'; allowed: one that names 'depth'\n")))
+      << outcome.output;
+  EXPECT_EQ(post::read_text(scratch / "count"), "run\n");
+
+  ASSERT_TRUE(run("heights.plan", "heights").ok());
+  const std::string rows = post::read_text(scratch / "heights/runs.csv");
+  const std::string foreign =
+      rows.substr(0, rows.find('\n', rows.find('\n') + 1) + 1) + "other,1,height,m,1,0.1\n";
+  post::write_files({{scratch / "heights/runs.csv", foreign}, {scratch / "count", ""}});
+  const Outcome other = run("heights.plan", "heights");
+  EXPECT_EQ(other.status, 1);
+  EXPECT_TRUE(other.says("'other,1,height'; allowed: a row of this call")) << other.output;
+  EXPECT_EQ(post::read_text(scratch / "count"), "");
+  EXPECT_EQ(post::read_text(scratch / "heights/runs.csv"), foreign);
+}
+
 TEST(OwnStudy, OfABadPlanWritesNothing) {
   const Scratch scratch;
   post::write_files(
