@@ -583,11 +583,13 @@ namespace {
 class Recorder : public MotionObserver {
 public:
   Recorder(const ChainSolver &solver, const DirectOptions &options)
-      : solver_(solver), options_(options), end_(time_of(options.last_point())),
+      : solver_(solver), options_(options),
+        end_(static_cast<double>(options.last_point()) / static_cast<double>(options.points_per_cycle()) *
+             solver.parameters().period()),
         last_row_(options.last_point() / options.points_per_sample()) {}
 
   void begin_cycle(long cycle) {
-    start_ = time_of(cycle * options_.points_per_cycle());
+    start_ = static_cast<double>(cycle) * solver_.parameters().period();
     row_of_cycle_ = cycle * options_.samples_per_cycle;
     next_ = 0;
     summary_ = {static_cast<int>(cycle) + 1, start_, no_limit, -no_limit, no_limit, -no_limit, 0.0, 0, 0};
@@ -626,7 +628,7 @@ public:
     const double bond = p.c23 * (y[3] - y[1]) + p.k23 * (y[2] - y[0]);
     const double push = p.Fw * std::sin(p.omega * t);
     const double force = solver_.force(phase, y);
-    h.time.push_back(time_of((row_of_cycle_ + next_) * options_.points_per_sample()));
+    h.time.push_back(start_ + t);
     h.x_drum.push_back(y[0]);
     h.v_drum.push_back(y[1]);
     h.a_drum.push_back((force + bond - push) / p.m2 - p.g);
@@ -641,11 +643,6 @@ public:
 
 private:
   static constexpr double no_limit = std::numeric_limits<double>::infinity();
-
-  double time_of(long point) const {
-    return static_cast<double>(point) * solver_.parameters().period() /
-           static_cast<double>(options_.points_per_cycle());
-  }
 
   // Extremes and time in contact of a piece, up to its end.
   void summarize(const MotionPiece &piece) {
@@ -725,7 +722,7 @@ DirectResult solve_closed_form(const ChainParameters &parameters, int cycles, in
 }
 
 bool closed_form_suffices(const ChainParameters &parameters, double cycles) {
-  constexpr double most_pieces = 3e6; // some two seconds
+  constexpr double most_pieces = 3e6;                         // some two seconds
   const double end = std::ceil(cycles) * parameters.period(); // the last cycle is followed to its end
   return end <= most_pieces * PhaseDynamics(parameters, parameters.k, parameters.damping()).longest_piece() &&
          end <= most_pieces * PhaseDynamics(parameters, 0.0, 0.0).longest_piece();

@@ -168,28 +168,25 @@ State absolute_tolerances(const ChainParameters &p, const DirectOptions &options
 }
 
 // ---- CVODE
-// ---------------------------------------------------------------------------------------------------
 
-struct FreeContext {
-  void operator()(SUNContext context) const { SUNContext_Free(&context); }
+// SUNDIALS frees some things by their value, some by a pointer to it.
+template <auto free>
+struct Free {
+  template <class Thing>
+  void operator()(Thing *thing) const {
+    if constexpr (std::is_invocable_v<decltype(free), Thing *>)
+      free(thing);
+    else
+      free(&thing);
+  }
 };
-struct FreeVector {
-  void operator()(N_Vector vector) const { N_VDestroy(vector); }
-};
-struct FreeMatrix {
-  void operator()(SUNMatrix matrix) const { SUNMatDestroy(matrix); }
-};
-struct FreeLinearSolver {
-  void operator()(SUNLinearSolver solver) const { SUNLinSolFree(solver); }
-};
-struct FreeIntegrator {
-  void operator()(void *memory) const { CVodeFree(&memory); }
-};
-using ContextPointer = std::unique_ptr<std::remove_pointer_t<SUNContext>, FreeContext>;
-using VectorPointer = std::unique_ptr<std::remove_pointer_t<N_Vector>, FreeVector>;
-using MatrixPointer = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, FreeMatrix>;
-using LinearSolverPointer = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, FreeLinearSolver>;
-using IntegratorPointer = std::unique_ptr<void, FreeIntegrator>;
+template <class Thing, auto free>
+using Pointer = std::unique_ptr<std::remove_pointer_t<Thing>, Free<free>>;
+using ContextPointer = Pointer<SUNContext, SUNContext_Free>;
+using VectorPointer = Pointer<N_Vector, N_VDestroy>;
+using MatrixPointer = Pointer<SUNMatrix, SUNMatDestroy>;
+using LinearSolverPointer = Pointer<SUNLinearSolver, SUNLinSolFree>;
+using IntegratorPointer = Pointer<void *, CVodeFree>;
 
 State state_of(N_Vector vector) {
   const double *data = N_VGetArrayPointer(vector);
@@ -354,7 +351,6 @@ private:
 };
 
 // ---- what is recorded
-// ----------------------------------------------------------------------------------------
 
 // Smallest and largest value of a smooth function that is known with its rate at successive points.
 class Extremes {
@@ -518,7 +514,6 @@ private:
 };
 
 // ---- the run
-// -------------------------------------------------------------------------------------------------
 
 class Run {
 public:

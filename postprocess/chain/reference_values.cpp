@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <string_view>
 
 namespace drumlin::post {
 
@@ -12,121 +14,134 @@ const char *const steady_source = "reference, steady states (two independent sol
 const char *const meter_source = "reference, roller practice (finely sampled exact solutions)";
 const char *const impact_source = "reference, single impact";
 
-/// One unit of the last digit given.
-double last_digit(int decimals) { return std::pow(10.0, -decimals); }
-
-/// For accelerations and forces: one unit of the last digit, or this share of the value. The table's states
-/// were still settling: the converged direct solution lies up to 1.0e-4 of the value from it (II B, force at
-/// make).
+/// For accelerations and forces the tolerance is one unit of the last digit, or this share of the value. The
+/// table's states were still settling: the converged direct solution lies up to 1.0e-4 of the value from it
+/// (II B, force at make).
 constexpr double settling_share = 2.0e-4;
-double settling(double value, int decimals) {
-  return std::max(last_digit(decimals), settling_share * std::abs(value));
+
+using Q = ReferenceQuantity;
+
+/// A line of the table: a value, or the ends of its range, in the unit of the table, and the digits given
+/// after the point.
+struct Row {
+  Q quantity;
+  double value;
+  int decimals;
+  double high = value;
+};
+
+/// What is exact: no tension under condition B, contact all the time, and no events.
+bool is_exact(const Row &row) {
+  return row.decimals == 0 || (row.quantity == Q::contact_force_min && row.value == 0.0);
 }
 
-ReferenceValue acceleration(const char *name, const char *transition, ReferenceQuantity quantity,
-                            double value, int decimals) {
-  return {name, transition, quantity,     value, value, decimals, settling(value, decimals),
-          1.0,  "m/s²",     steady_source};
-}
-
-ReferenceValue force(const char *name, const char *transition, ReferenceQuantity quantity, double kilonewton,
-                     int decimals) {
-  return {name,   transition, quantity,     kilonewton, kilonewton, decimals, settling(kilonewton, decimals),
-          1.0e-3, "kN",       steady_source};
-}
-
-/// Under condition B there is no tension: the value must be exactly zero.
-ReferenceValue no_tension(const char *name) {
-  return {name, "B", ReferenceQuantity::contact_force_min, 0.0, 0.0, 2, 0.0, 1.0e-3, "kN", steady_source};
-}
-
-ReferenceValue overlap(const char *name, const char *transition, double millimetre) {
-  return {name,          transition, ReferenceQuantity::overlap_at_break,
-          millimetre,    millimetre, 3,
-          last_digit(3), 1.0e3,      "mm",
-          steady_source};
-}
-
-ReferenceValue share(const char *name, const char *transition, double value, int decimals) {
-  // "1" stands for contact all the time: exact.
-  const double tolerance = decimals == 0 ? 0.0 : last_digit(decimals);
-  return {name, transition,   ReferenceQuantity::contact_share, value, value, decimals, tolerance, 1.0,
-          "",   steady_source};
-}
-
-ReferenceValue none(const char *name, const char *transition, ReferenceQuantity quantity) {
-  return {name, transition, quantity, 0.0, 0.0, 0, 0.0, 1.0, "", steady_source};
-}
-
-ReferenceValue meter(const char *name, double low, double high) {
-  return {name, "B",         ReferenceQuantity::compaction_meter_value, low, high, 1, last_digit(1), 1.0,
-          "",   meter_source};
-}
-
-/// The table itself: longer than other functions, since it has a line for each value and nothing else.
-std::vector<ReferenceValue> make_values() {
-  using Q = ReferenceQuantity;
-  std::vector<ReferenceValue> values;
-  const auto add = [&values](ReferenceValue value) { values.push_back(std::move(value)); };
-  for (const char *transition : {"A", "B"}) {
-    add(acceleration("I", transition, Q::drum_acceleration_min, -31.795, 3));
-    add(acceleration("I", transition, Q::drum_acceleration_max, 31.795, 3));
-    add(force("I", transition, Q::contact_force_min, 2.20, 2));
-    add(force("I", transition, Q::contact_force_max, 56.66, 2));
-    add(share("I", transition, 1.0, 0));
-    add(none("I", transition, Q::breaks_per_cycle));
-    add(none("I", transition, Q::makes_per_cycle));
+ReferenceValue reference_value(const char *name, const char *transition, const Row &row) {
+  const double digit = std::pow(10.0, -row.decimals);
+  const double settling = std::max(digit, settling_share * std::abs(row.value));
+  const auto value = [&](double tolerance, double scale, const char *unit,
+                         const char *source = steady_source) {
+    return ReferenceValue{
+        name,  transition, row.quantity, row.value, row.high, row.decimals, is_exact(row) ? 0.0 : tolerance,
+        scale, unit,       source};
+  };
+  switch (row.quantity) {
+  case Q::drum_acceleration_min:
+  case Q::drum_acceleration_max:
+    return value(settling, 1.0, "m/s²");
+  case Q::contact_force_min:
+  case Q::contact_force_max:
+  case Q::force_at_break:
+  case Q::force_at_make:
+    return value(settling, 1.0e-3, "kN");
+  case Q::overlap_at_break:
+    return value(digit, 1.0e3, "mm");
+  case Q::compaction_meter_value:
+    return value(digit, 1.0, "", meter_source);
+  default:
+    return value(digit, 1.0, "");
   }
-  add(acceleration("II", "A", Q::drum_acceleration_min, -43.759, 3));
-  add(acceleration("II", "A", Q::drum_acceleration_max, 96.698, 3));
-  add(force("II", "A", Q::contact_force_min, -66.25, 2));
-  add(force("II", "A", Q::contact_force_max, 241.39, 2));
-  add(share("II", "A", 0.322, 3));
-  add(force("II", "A", Q::force_at_break, -66.25, 2));
-  add(force("II", "A", Q::force_at_make, 235.08, 2));
+}
 
-  add(acceleration("II", "B", Q::drum_acceleration_min, -44.471, 3));
-  add(acceleration("II", "B", Q::drum_acceleration_max, 111.681, 3));
-  add(no_tension("II"));
-  add(force("II", "B", Q::contact_force_max, 247.29, 2));
-  add(share("II", "B", 0.202, 3));
-  add(overlap("II", "B", 0.860));
-  add(force("II", "B", Q::force_at_make, 245.67, 2));
-  add(meter("II", 155.9, 156.0));
+/// The steady states of a case.
+struct SteadyState {
+  const char *name, *transitions; ///< one letter for each transition that has this state
+  std::vector<Row> rows;
+};
 
-  add(acceleration("III", "A", Q::drum_acceleration_min, -43.634, 3));
-  add(acceleration("III", "A", Q::drum_acceleration_max, 37.732, 3));
-  add(force("III", "A", Q::contact_force_min, -43.22, 2));
-  add(force("III", "A", Q::contact_force_max, 110.72, 2));
-  add(share("III", "A", 0.616, 3));
-  add(force("III", "A", Q::force_at_break, -43.22, 2));
-  add(force("III", "A", Q::force_at_make, 77.62, 2));
-
-  add(acceleration("III", "B", Q::drum_acceleration_min, -43.947, 3));
-  add(acceleration("III", "B", Q::drum_acceleration_max, 44.427, 3));
-  add(no_tension("III"));
-  add(force("III", "B", Q::contact_force_max, 113.08, 2));
-  add(share("III", "B", 0.385, 3));
-  add(overlap("III", "B", 0.488));
-  add(force("III", "B", Q::force_at_make, 97.39, 2));
-  add(meter("III", 105.7, 105.7));
-
-  add(acceleration("IV", "A", Q::drum_acceleration_min, -8.201, 3));
-  add(acceleration("IV", "A", Q::drum_acceleration_max, 8.201, 3));
-  add(force("IV", "A", Q::contact_force_min, -30.37, 2));
-  add(force("IV", "A", Q::contact_force_max, 89.23, 2));
-  add(share("IV", "A", 1.0, 0));
-  add(none("IV", "A", Q::breaks_per_cycle));
-  add(none("IV", "A", Q::makes_per_cycle));
-
-  add(acceleration("IV", "B", Q::drum_acceleration_min, -43.551, 3));
-  add(acceleration("IV", "B", Q::drum_acceleration_max, 128.96, 2));
-  add(no_tension("IV"));
-  add(force("IV", "B", Q::contact_force_max, 341.1, 1));
-  add(share("IV", "B", 0.326, 3));
-  add(overlap("IV", "B", 0.296));
-  add(force("IV", "B", Q::force_at_make, 341.1, 1));
-  add(meter("IV", 247.0, 247.3));
+std::vector<ReferenceValue> make_values() {
+  const std::vector<SteadyState> states = {
+      {"I",
+       "AB",
+       {{Q::drum_acceleration_min, -31.795, 3},
+        {Q::drum_acceleration_max, 31.795, 3},
+        {Q::contact_force_min, 2.20, 2},
+        {Q::contact_force_max, 56.66, 2},
+        {Q::contact_share, 1.0, 0},
+        {Q::breaks_per_cycle, 0.0, 0},
+        {Q::makes_per_cycle, 0.0, 0}}},
+      {"II",
+       "A",
+       {{Q::drum_acceleration_min, -43.759, 3},
+        {Q::drum_acceleration_max, 96.698, 3},
+        {Q::contact_force_min, -66.25, 2},
+        {Q::contact_force_max, 241.39, 2},
+        {Q::contact_share, 0.322, 3},
+        {Q::force_at_break, -66.25, 2},
+        {Q::force_at_make, 235.08, 2}}},
+      {"II",
+       "B",
+       {{Q::drum_acceleration_min, -44.471, 3},
+        {Q::drum_acceleration_max, 111.681, 3},
+        {Q::contact_force_min, 0.0, 2},
+        {Q::contact_force_max, 247.29, 2},
+        {Q::contact_share, 0.202, 3},
+        {Q::overlap_at_break, 0.860, 3},
+        {Q::force_at_make, 245.67, 2},
+        {Q::compaction_meter_value, 155.9, 1, 156.0}}},
+      {"III",
+       "A",
+       {{Q::drum_acceleration_min, -43.634, 3},
+        {Q::drum_acceleration_max, 37.732, 3},
+        {Q::contact_force_min, -43.22, 2},
+        {Q::contact_force_max, 110.72, 2},
+        {Q::contact_share, 0.616, 3},
+        {Q::force_at_break, -43.22, 2},
+        {Q::force_at_make, 77.62, 2}}},
+      {"III",
+       "B",
+       {{Q::drum_acceleration_min, -43.947, 3},
+        {Q::drum_acceleration_max, 44.427, 3},
+        {Q::contact_force_min, 0.0, 2},
+        {Q::contact_force_max, 113.08, 2},
+        {Q::contact_share, 0.385, 3},
+        {Q::overlap_at_break, 0.488, 3},
+        {Q::force_at_make, 97.39, 2},
+        {Q::compaction_meter_value, 105.7, 1, 105.7}}},
+      {"IV",
+       "A",
+       {{Q::drum_acceleration_min, -8.201, 3},
+        {Q::drum_acceleration_max, 8.201, 3},
+        {Q::contact_force_min, -30.37, 2},
+        {Q::contact_force_max, 89.23, 2},
+        {Q::contact_share, 1.0, 0},
+        {Q::breaks_per_cycle, 0.0, 0},
+        {Q::makes_per_cycle, 0.0, 0}}},
+      {"IV",
+       "B",
+       {{Q::drum_acceleration_min, -43.551, 3},
+        {Q::drum_acceleration_max, 128.96, 2},
+        {Q::contact_force_min, 0.0, 2},
+        {Q::contact_force_max, 341.1, 1},
+        {Q::contact_share, 0.326, 3},
+        {Q::overlap_at_break, 0.296, 3},
+        {Q::force_at_make, 341.1, 1},
+        {Q::compaction_meter_value, 247.0, 1, 247.3}}},
+  };
+  std::vector<ReferenceValue> values;
+  for (const SteadyState &state : states)
+    for (const char transition : std::string_view(state.transitions))
+      for (const Row &row : state.rows)
+        values.push_back(reference_value(state.name, transition == 'A' ? "A" : "B", row));
   return values;
 }
 
@@ -151,31 +166,11 @@ std::optional<double> error_in_row(const ErrorRow &row, int steps_per_cycle) {
 } // namespace
 
 std::string quantity_name(ReferenceQuantity quantity) {
-  switch (quantity) {
-  case ReferenceQuantity::drum_acceleration_min:
-    return "drum acceleration, min";
-  case ReferenceQuantity::drum_acceleration_max:
-    return "drum acceleration, max";
-  case ReferenceQuantity::contact_force_min:
-    return "contact force, min";
-  case ReferenceQuantity::contact_force_max:
-    return "contact force, max";
-  case ReferenceQuantity::contact_share:
-    return "share of time in contact";
-  case ReferenceQuantity::force_at_break:
-    return "contact force at break";
-  case ReferenceQuantity::overlap_at_break:
-    return "overlap at break";
-  case ReferenceQuantity::force_at_make:
-    return "contact force at make";
-  case ReferenceQuantity::breaks_per_cycle:
-    return "breaks per cycle";
-  case ReferenceQuantity::makes_per_cycle:
-    return "makes per cycle";
-  case ReferenceQuantity::compaction_meter_value:
-    return "meter value CMV";
-  }
-  return "unknown";
+  constexpr std::array<const char *, 11> names = {
+      "drum acceleration, min",   "drum acceleration, max", "contact force, min", "contact force, max",
+      "share of time in contact", "contact force at break", "overlap at break",   "contact force at make",
+      "breaks per cycle",         "makes per cycle",        "meter value CMV"};
+  return names.at(static_cast<std::size_t>(quantity));
 }
 
 const std::vector<ReferenceValue> &reference_values() {

@@ -2,7 +2,9 @@
 
 #include "pages/html.h"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include <fmt/format.h>
 
@@ -188,99 +190,66 @@ std::string sphere_drawing() {
          text(216, 120, "μ, e, contact law");
 }
 
+/// A drawing with its words.
+struct Scene {
+  const char *title, *caption;
+  std::string (*drawing)();
+  double height = 180;
+};
+
+/// In the order of Drawing.
+const std::array<Scene, 12> scenes = {{
+    {"The chain of soil, drum and frame",
+     "The model: frame and drum move up and down only. The contact with the soil is a spring and a "
+     "dashpot that act while drum and soil overlap.",
+     chain_drawing, 310},
+    {"Drum and frame on a bed of balls",
+     "The model: frame and drum move up and down only, on soil of balls in a box. Every contact is "
+     "a spring and a dashpot.",
+     bed_drawing, 310},
+    {"A ball confined between two walls",
+     "The model of the stability map: one ball in contact with one, two or four walls.", held_drawing, 190},
+    {"A sample of soil between two plates",
+     "The model: a sample of soil balls that cannot expand sideways, under a platen with a given stress.",
+     oedometer_drawing},
+    {"A sphere that strikes a plane",
+     "The model: a sphere with a velocity and a spin strikes a plane or another sphere.", sphere_drawing,
+     160},
+    {"A sample of soil between four plates",
+     "The model: a sample of soil balls between smooth plates. The right one carries a given "
+     "stress, the upper one is moved.",
+     biaxial_drawing},
+    {"A sample of soil between six plates",
+     "The model: a sample of soil balls between smooth plates, of which the drawing shows four. The "
+     "right one and the one in front carry the same given stress, the upper one is moved.",
+     biaxial_drawing},
+    {"A plate on a bed of balls",
+     "The model: a rigid plate with a given stress moves vertically on soil balls between two walls.",
+     plate_drawing},
+    {"A sample of soil that is sheared between two plates",
+     "The model: a sample of soil balls, periodic sideways, between rough plates. The platen "
+     "carries a given stress and is moved sideways.",
+     shear_drawing},
+    {"Half a heap of soil",
+     "The model: soil balls on a floor of balls, between smooth walls. The right wall moves away slowly.",
+     repose_drawing},
+    {"Soil between two rough walls",
+     "The model: soil balls under gravity between two rough walls, whose floor moves down slowly.",
+     silo_drawing},
+    {"Soil behind a wall that moves outward",
+     "The model: soil balls under gravity between two smooth walls, of which the right one moves "
+     "outward slowly.",
+     wall_drawing},
+}};
+
 } // namespace
 
-// Longer than other functions: it has title, caption and drawing of each scene and nothing else.
 std::string drawing_html(Drawing model) {
-  const char *title = "";
-  const char *caption = "";
-  std::string drawing;
-  double height = 310;
-  switch (model) {
-  case Drawing::chain:
-    title = "The chain of soil, drum and frame";
-    caption = "The model: frame and drum move up and down only. The contact with the soil is a spring and a "
-              "dashpot that act while drum and soil overlap.";
-    drawing = chain_drawing();
-    break;
-  case Drawing::bed:
-    title = "Drum and frame on a bed of balls";
-    caption = "The model: frame and drum move up and down only, on soil of balls in a box. Every contact is "
-              "a spring and a dashpot.";
-    drawing = bed_drawing();
-    break;
-  case Drawing::confined:
-    title = "A ball confined between two walls";
-    caption = "The model of the stability map: one ball in contact with one, two or four walls.";
-    drawing = held_drawing();
-    height = 190;
-    break;
-  case Drawing::oedometer:
-    title = "A sample of soil between two plates";
-    caption =
-        "The model: a sample of soil balls that cannot expand sideways, under a platen with a given stress.";
-    drawing = oedometer_drawing();
-    height = 180;
-    break;
-  case Drawing::sphere:
-    title = "A sphere that strikes a plane";
-    caption = "The model: a sphere with a velocity and a spin strikes a plane or another sphere.";
-    drawing = sphere_drawing();
-    height = 160;
-    break;
-  case Drawing::shear:
-    title = "A sample of soil that is sheared between two plates";
-    caption = "The model: a sample of soil balls, periodic sideways, between rough plates. The platen "
-              "carries a given stress and is moved sideways.";
-    drawing = shear_drawing();
-    height = 180;
-    break;
-  case Drawing::repose:
-    title = "Half a heap of soil";
-    caption =
-        "The model: soil balls on a floor of balls, between smooth walls. The right wall moves away slowly.";
-    drawing = repose_drawing();
-    height = 180;
-    break;
-  case Drawing::silo:
-    title = "Soil between two rough walls";
-    caption = "The model: soil balls under gravity between two rough walls, whose floor moves down slowly.";
-    drawing = silo_drawing();
-    height = 180;
-    break;
-  case Drawing::wall:
-    title = "Soil behind a wall that moves outward";
-    caption = "The model: soil balls under gravity between two smooth walls, of which the right one moves "
-              "outward slowly.";
-    drawing = wall_drawing();
-    height = 180;
-    break;
-  case Drawing::triaxial:
-    title = "A sample of soil between six plates";
-    caption = "The model: a sample of soil balls between smooth plates, of which the drawing shows four. The "
-              "right one and the one in front carry the same given stress, the upper one is moved.";
-    drawing = biaxial_drawing();
-    height = 180;
-    break;
-  case Drawing::biaxial:
-    title = "A sample of soil between four plates";
-    caption = "The model: a sample of soil balls between smooth plates. The right one carries a given "
-              "stress, the upper one is moved.";
-    drawing = biaxial_drawing();
-    height = 180;
-    break;
-  case Drawing::plate:
-    title = "A plate on a bed of balls";
-    caption =
-        "The model: a rigid plate with a given stress moves vertically on soil balls between two walls.";
-    drawing = plate_drawing();
-    height = 180;
-    break;
-  }
+  const Scene &scene = scenes.at(static_cast<std::size_t>(model));
   return fmt::format("<figure class=\"scene\">\n<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 340 "
                      "{:g}\" role=\"img\" aria-label=\"{}\" font-size=\"14\">\n"
                      "{}</svg>\n<figcaption>{}</figcaption>\n</figure>\n",
-                     height, title, drawing, html_escaped(caption));
+                     scene.height, scene.title, scene.drawing(), html_escaped(scene.caption));
 }
 
 } // namespace drumlin::post

@@ -5,6 +5,8 @@
 #include "support/text.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -19,92 +21,54 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The part of gnuplot's plot command after `using x:y`. Longer than other functions, since it has a case for
-/// each style and nothing else.
+/// The part of gnuplot's plot command after `using x:y`, for each style in its order.
+constexpr std::array<const char *, 39> styles = {{
+    "with lines lw 2.4 dt (12,6) lc rgb '#D55E00'",                            // condition_a
+    "with lines lw 2.2 dt solid lc rgb '#0072B2'",                             // condition_b
+    "with points pt 6 ps 0.75 lw 1.1 lc rgb '#000000'",                        // direct_a
+    "with points pt 8 ps 0.75 lw 1.1 lc rgb '#000000'",                        // direct_b
+    "with lines lw 1.2 dt (3,7) lc rgb '#000000'",                             // direct_line
+    "with points pt 7 ps 1.1 lc rgb '#D55E00'",                                // measured_a
+    "with points pt 5 ps 1.1 lc rgb '#0072B2'",                                // measured_b
+    "with lines lw 1.6 dt solid lc rgb '#000000'",                             // plain
+    "with yerrorbars pt 5 ps 0.9 lw 1.6 lc rgb '#0072B2'",                     // spread
+    "with lines lw 1.2 dt (24,8,4,8) lc rgb '#666666'",                        // limit
+    "with linespoints lw 2.0 dt solid pt 7 ps 0.7 lc rgb '#0072B2'",           // series_1
+    "with linespoints lw 1.6 dt (20,10) pt 6 ps 1.4 lc rgb '#D55E00'",         // series_2
+    "with linespoints lw 2.0 dt (4,8) pt 5 ps 0.7 lc rgb '#009E73'",           // series_3
+    "with linespoints lw 1.6 dt (24,8,4,8) pt 4 ps 1.4 lc rgb '#CC79A7'",      // series_4
+    "with linespoints lw 1.0 dt solid pt 8 ps 1.9 lc rgb '#000000'",           // series_5
+    "with linespoints lw 1.6 dt (24,8,4,8,4,8) pt 12 ps 1.4 lc rgb '#E69F00'", // series_6
+    "with lines lw 2.2 dt solid lc rgb '#0072B2'",                             // line_1
+    "with lines lw 2.2 dt (12,6) lc rgb '#D55E00'",                            // line_2
+    "with lines lw 2.0 dt (4,5) lc rgb '#009E73'",                             // line_3
+    "with lines lw 2.0 dt (18,5,4,5) lc rgb '#CC79A7'",                        // line_4
+    "with lines lw 1.2 dt solid lc rgb '#000000'",                             // line_5
+    "with circles lc palette fill solid border lc rgb '#777777'",              // discs
+    "with circles lc palette lw 2 fill solid border lc rgb '#737373'",         // discs_1
+    "with circles lc palette lw 2 fill solid border lc rgb '#008C66'",         // discs_2
+    "with circles lc palette lw 2 fill solid border lc rgb '#B34D99'",         // discs_3
+    "with circles lc palette lw 2 fill solid border lc rgb '#40A6E6'",         // discs_4
+    "with circles lc rgb '#000000' lw 1.6 fill empty border",                  // circles
+    "with boxxyerror lc palette fill solid noborder",                          // cells
+    "with boxxyerror lc rgb '#eef6fb' fill solid noborder",                    // area_1
+    "with boxxyerror lc rgb '#56B4E9' fill pattern 4 noborder",                // area_2
+    "with boxxyerror lc rgb '#F0C75E' fill solid noborder",                    // area_3
+    "with boxxyerror lc rgb '#009E73' fill pattern 2 noborder",                // area_4
+    "with boxxyerror lc rgb '#8A3B00' fill solid noborder",                    // area_5
+    "with boxxyerror lc rgb '#000000' fill pattern 6 noborder",                // area_6
+    "with points pt 7 ps 0.22 lc rgb '#0072B2'",                               // dots_up
+    "with points pt 6 ps 0.5 lw 0.6 lc rgb '#D55E00'",                         // dots_down
+    "with points pt 7 ps 0.4 lc rgb '#000000'",                                // mark_1
+    "with points pt 4 ps 0.5 lw 0.9 lc rgb '#000000'",                         // mark_2
+    "with points pt 2 ps 1.3 lw 3 lc rgb '#CC79A7'",                           // run_differs
+}};
+
 std::string style_words(const Curve &curve) {
-  switch (curve.style) {
-  case CurveStyle::condition_a:
-    return "with lines lw 2.4 dt (12,6) lc rgb '#D55E00'";
-  case CurveStyle::condition_b:
-    return "with lines lw 2.2 dt solid lc rgb '#0072B2'";
-  case CurveStyle::direct_a:
-    return "with points pt 6 ps 0.75 lw 1.1 lc rgb '#000000'";
-  case CurveStyle::direct_b:
-    return "with points pt 8 ps 0.75 lw 1.1 lc rgb '#000000'";
-  case CurveStyle::direct_line:
-    return "with lines lw 1.2 dt (3,7) lc rgb '#000000'";
-  case CurveStyle::measured_a:
-    return "with points pt 7 ps 1.1 lc rgb '#D55E00'";
-  case CurveStyle::measured_b:
-    return "with points pt 5 ps 1.1 lc rgb '#0072B2'";
-  case CurveStyle::plain:
-    return "with lines lw 1.6 dt solid lc rgb '#000000'";
-  case CurveStyle::spread:
-    return "with yerrorbars pt 5 ps 0.9 lw 1.6 lc rgb '#0072B2'";
-  case CurveStyle::limit:
-    return "with lines lw 1.2 dt (24,8,4,8) lc rgb '#666666'";
-  case CurveStyle::series_1:
-    return "with linespoints lw 2.0 dt solid pt 7 ps 0.7 lc rgb '#0072B2'";
-  case CurveStyle::series_2:
-    return "with linespoints lw 1.6 dt (20,10) pt 6 ps 1.4 lc rgb '#D55E00'";
-  case CurveStyle::series_3:
-    return "with linespoints lw 2.0 dt (4,8) pt 5 ps 0.7 lc rgb '#009E73'";
-  case CurveStyle::series_4:
-    return "with linespoints lw 1.6 dt (24,8,4,8) pt 4 ps 1.4 lc rgb '#CC79A7'";
-  case CurveStyle::series_5:
-    return "with linespoints lw 1.0 dt solid pt 8 ps 1.9 lc rgb '#000000'";
-  case CurveStyle::series_6:
-    return "with linespoints lw 1.6 dt (24,8,4,8,4,8) pt 12 ps 1.4 lc rgb '#E69F00'";
-  case CurveStyle::line_1:
-    return "with lines lw 2.2 dt solid lc rgb '#0072B2'";
-  case CurveStyle::line_2:
-    return "with lines lw 2.2 dt (12,6) lc rgb '#D55E00'";
-  case CurveStyle::line_3:
-    return "with lines lw 2.0 dt (4,5) lc rgb '#009E73'";
-  case CurveStyle::line_4:
-    return "with lines lw 2.0 dt (18,5,4,5) lc rgb '#CC79A7'";
-  case CurveStyle::line_5:
-    return "with lines lw 1.2 dt solid lc rgb '#000000'";
-  case CurveStyle::discs:
-    return "with circles lc palette fill solid border lc rgb '#777777'";
-  case CurveStyle::discs_1:
-    return "with circles lc palette lw 2 fill solid border lc rgb '#737373'";
-  case CurveStyle::discs_2:
-    return "with circles lc palette lw 2 fill solid border lc rgb '#008C66'";
-  case CurveStyle::discs_3:
-    return "with circles lc palette lw 2 fill solid border lc rgb '#B34D99'";
-  case CurveStyle::discs_4:
-    return "with circles lc palette lw 2 fill solid border lc rgb '#40A6E6'";
-  case CurveStyle::circles:
-    return "with circles lc rgb '#000000' lw 1.6 fill empty border";
-  case CurveStyle::cells:
-    return "with boxxyerror lc palette fill solid noborder";
-  case CurveStyle::area_1:
-    return "with boxxyerror lc rgb '#eef6fb' fill solid noborder";
-  case CurveStyle::area_2:
-    return "with boxxyerror lc rgb '#56B4E9' fill pattern 4 noborder";
-  case CurveStyle::area_3:
-    return "with boxxyerror lc rgb '#F0C75E' fill solid noborder";
-  case CurveStyle::area_4:
-    return "with boxxyerror lc rgb '#009E73' fill pattern 2 noborder";
-  case CurveStyle::area_5:
-    return "with boxxyerror lc rgb '#8A3B00' fill solid noborder";
-  case CurveStyle::area_6:
-    return "with boxxyerror lc rgb '#000000' fill pattern 6 noborder";
-  case CurveStyle::dots_up:
-    return "with points pt 7 ps 0.22 lc rgb '#0072B2'";
-  case CurveStyle::dots_down:
-    return "with points pt 6 ps 0.5 lw 0.6 lc rgb '#D55E00'";
-  case CurveStyle::mark_1:
-    return "with points pt 7 ps 0.4 lc rgb '#000000'";
-  case CurveStyle::mark_2:
-    return "with points pt 4 ps 0.5 lw 0.9 lc rgb '#000000'";
-  case CurveStyle::run_differs:
-    return "with points pt 2 ps 1.3 lw 3 lc rgb '#CC79A7'";
-  case CurveStyle::segments:
-    return fmt::format("with vectors nohead lw {:.3g} lc rgb '#000000'", curve.width);
-  }
-  return "with lines";
+  static_assert(styles.size() == static_cast<std::size_t>(CurveStyle::segments));
+  return curve.style == CurveStyle::segments
+             ? fmt::format("with vectors nohead lw {:.3g} lc rgb '#000000'", curve.width)
+             : styles[static_cast<std::size_t>(curve.style)];
 }
 
 /// Text as a gnuplot string in double quotes. Names of run folders can hold any character; control characters

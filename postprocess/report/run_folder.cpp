@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "chain/reference_values.h"
 #include "report/place.h"
@@ -71,13 +72,6 @@ void take(const Run &run, const std::string &name, double &value, std::vector<st
     absent.push_back(name);
 }
 
-std::string joined(const std::vector<std::string> &words) {
-  std::string out;
-  for (const std::string &word : words)
-    out += (out.empty() ? "" : ", ") + word;
-  return out;
-}
-
 void check_parameters(const Run &run, const std::string &complaint) {
   if (!complaint.empty())
     throw std::runtime_error(fmt::format("{}: {}", (run.folder / "parameters.csv").string(), complaint));
@@ -89,7 +83,7 @@ bool take_transition(Run &run, Transition &transition, std::vector<std::string> 
   if (!absent.empty()) {
     run.missing.push_back(fmt::format(
         "parameters.csv lacks {}: the run is not compared with reference values or the reference solution.",
-        joined(absent)));
+        fmt::join(absent, ", ")));
     return false;
   }
   try {
@@ -133,15 +127,9 @@ Run of_top_layer(Run run) {
 bool take_chain(Run &run, const Run &contact) {
   std::vector<std::string> absent;
   ChainParameters &p = run.chain;
-  take(contact, "k", p.k, absent);
-  take(contact, "D", p.D, absent);
-  take(run, "omega", p.omega, absent);
-  take(run, "Fw", p.Fw, absent);
-  take(run, "m2", p.m2, absent);
-  take(run, "m3", p.m3, absent);
-  take(run, "k23", p.k23, absent);
-  take(run, "c23", p.c23, absent);
-  take(run, "g", p.g, absent);
+  for (const auto &[name, value, range, help] : chain_numbers)
+    take(value == &ChainParameters::k || value == &ChainParameters::D ? contact : run, name, p.*value,
+         absent);
   if (!take_transition(run, p.transition, absent)) return false;
   check_parameters(run, p.invalid());
   return true;
@@ -317,9 +305,7 @@ std::string files_of_runs() {
   std::vector<std::string> files = {"chain.csv", "bed.csv"};
   for (const ElementTest &test : element_tests())
     files.push_back(test.csv());
-  const std::string last = files.back();
-  files.pop_back();
-  return joined(files) + " or " + last;
+  return fmt::format("{} or {}", fmt::join(files.begin(), files.end() - 1, ", "), files.back());
 }
 
 ReportFolders find_report_folders(const std::vector<fs::path> &arguments) {

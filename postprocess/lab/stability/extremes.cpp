@@ -54,19 +54,9 @@ struct ChainPlan {
   Variables variables() const {
     const ChainParameters usual = table1_case("II", Transition::B);
     Variables given;
-    const auto add = [&](const char *name, double ChainParameters::*parameter) {
-      if (parameters.*parameter != usual.*parameter)
-        given.emplace_back(name, number_text(parameters.*parameter));
-    };
-    add("k", &ChainParameters::k);
-    add("D", &ChainParameters::D);
-    add("omega", &ChainParameters::omega);
-    add("Fw", &ChainParameters::Fw);
-    add("m2", &ChainParameters::m2);
-    add("m3", &ChainParameters::m3);
-    add("k23", &ChainParameters::k23);
-    add("c23", &ChainParameters::c23);
-    add("g", &ChainParameters::g);
+    for (const ChainNumber &number : chain_numbers)
+      if (parameters.*number.value != usual.*number.value)
+        given.emplace_back(number.name, number_text(parameters.*number.value));
     given.insert(given.end(), {{"cycles", std::to_string(cycles)},
                                {"steps_per_cycle", std::to_string(steps())},
                                {"samples_per_cycle", std::to_string(samples)}});
@@ -314,28 +304,22 @@ void add_impact_rows(std::vector<Extreme> &rows, bool quick) {
     ImpactParameters p;
     p.transition = transition;
     p.speed = 0.5;
-    const std::string name = transition_name(transition);
-    for (const double D : {0.0, 0.01, 0.1, 1.0, 10.0, 100.0, 1e3, 1e4}) {
-      ImpactParameters damped = p;
-      damped.damping_ratio = D;
-      if (!quick || D == 1e4) rows.push_back(impact_row(fmt::format("{}: D = {:g}", name, D), damped));
-    }
+    const auto add = [&](const char *words, double ImpactParameters::*parameter,
+                         const std::vector<double> &values) {
+      for (const double value : values) {
+        ImpactParameters other = p;
+        other.*parameter = value;
+        rows.push_back(impact_row(
+            fmt::format("{}: {}", transition_name(transition), fmt::format(fmt::runtime(words), value)),
+            other));
+      }
+    };
+    const std::vector<double> ratios = {0.0, 0.01, 0.1, 1.0, 10.0, 100.0, 1e3, 1e4};
+    add("D = {:g}", &ImpactParameters::damping_ratio, quick ? std::vector{ratios.back()} : ratios);
     if (quick) continue;
-    for (const double k : decades(1e5, 8)) {
-      ImpactParameters stiff = p;
-      stiff.stiffness = k;
-      rows.push_back(impact_row(fmt::format("{}: k = {:.0e} N/m", name, k), stiff));
-    }
-    for (const double speed : {1e-6, 1e-3, 10.0}) {
-      ImpactParameters fast = p;
-      fast.speed = speed;
-      rows.push_back(impact_row(fmt::format("{}: {:g} m/s", name, speed), fast));
-    }
-    for (const double mass : {1e-3, 1.0, 1e6}) {
-      ImpactParameters heavy = p;
-      heavy.mass = mass;
-      rows.push_back(impact_row(fmt::format("{}: {:g} kg", name, mass), heavy));
-    }
+    add("k = {:.0e} N/m", &ImpactParameters::stiffness, decades(1e5, 8));
+    add("{:g} m/s", &ImpactParameters::speed, {1e-6, 1e-3, 10.0});
+    add("{:g} kg", &ImpactParameters::mass, {1e-3, 1.0, 1e6});
   }
 }
 

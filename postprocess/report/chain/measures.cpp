@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <stdexcept>
 #include <tuple>
@@ -164,33 +165,33 @@ Run as_run(const Run &run, const DirectResult &reference) {
 
 /// The measured value of a quantity in SI units; nothing if the run does not have it.
 std::optional<double> measured(const ChainMeasures &m, bool has_events, ReferenceQuantity quantity) {
+  using Q = ReferenceQuantity;
+  const auto of = [](const std::optional<Extremes> &found, double Extremes::*end) {
+    return found ? std::optional((*found).*end) : std::nullopt;
+  };
+  const auto of_events = [&](double value) { return has_events ? std::optional(value) : std::nullopt; };
   switch (quantity) {
-  case ReferenceQuantity::drum_acceleration_min:
+  case Q::drum_acceleration_min:
     return m.extremes.acceleration.min;
-  case ReferenceQuantity::drum_acceleration_max:
+  case Q::drum_acceleration_max:
     return m.extremes.acceleration.max;
-  case ReferenceQuantity::contact_force_min:
+  case Q::contact_force_min:
     return m.extremes.force.min;
-  case ReferenceQuantity::contact_force_max:
+  case Q::contact_force_max:
     return m.extremes.force.max;
-  case ReferenceQuantity::contact_share:
+  case Q::contact_share:
     return m.contact_share;
-  case ReferenceQuantity::force_at_break:
-    if (m.force_at_break) return m.force_at_break->min;
-    return std::nullopt;
-  case ReferenceQuantity::overlap_at_break:
-    if (m.overlap_at_break) return m.overlap_at_break->max;
-    return std::nullopt;
-  case ReferenceQuantity::force_at_make:
-    if (m.force_at_make) return m.force_at_make->max;
-    return std::nullopt;
-  case ReferenceQuantity::breaks_per_cycle:
-    if (has_events) return m.breaks_per_cycle;
-    return std::nullopt;
-  case ReferenceQuantity::makes_per_cycle:
-    if (has_events) return m.makes_per_cycle;
-    return std::nullopt;
-  case ReferenceQuantity::compaction_meter_value:
+  case Q::force_at_break:
+    return of(m.force_at_break, &Extremes::min);
+  case Q::overlap_at_break:
+    return of(m.overlap_at_break, &Extremes::max);
+  case Q::force_at_make:
+    return of(m.force_at_make, &Extremes::max);
+  case Q::breaks_per_cycle:
+    return of_events(m.breaks_per_cycle);
+  case Q::makes_per_cycle:
+    return of_events(m.makes_per_cycle);
+  case Q::compaction_meter_value:
     return compaction_meter_value(m.amplitudes);
   }
   return std::nullopt;
@@ -225,8 +226,11 @@ Check steady_check(std::size_t index, const RunResult &result, const ReferenceVa
   check.reference = reference.low == reference.high ? fmt::format("{:.{}f}", reference.low, decimals)
                                                     : fmt::format("{:.{}f} to {:.{}f}", reference.low,
                                                                   decimals, reference.high, decimals);
-  const bool count = reference.quantity == ReferenceQuantity::breaks_per_cycle ||
-                     reference.quantity == ReferenceQuantity::makes_per_cycle;
+  using Q = ReferenceQuantity;
+  const auto is_one_of = [&reference](std::initializer_list<Q> quantities) {
+    return std::find(quantities.begin(), quantities.end(), reference.quantity) != quantities.end();
+  };
+  const bool count = is_one_of({Q::breaks_per_cycle, Q::makes_per_cycle});
   if (count) check.reference = "none";
   check.tolerance =
       reference.tolerance == 0.0 ? "exact" : fmt::format("{:.{}f}", reference.tolerance, decimals);
@@ -248,13 +252,10 @@ Check steady_check(std::size_t index, const RunResult &result, const ReferenceVa
                        : fmt::format("{:.{}f}", check.value + 0.0, std::max(decimals + 2, count ? 1 : 0));
   if (reference.quantity == ReferenceQuantity::contact_share && !result.chain->share_exact)
     check.note = "from samples, not from located events";
-  const bool extreme = reference.quantity == ReferenceQuantity::drum_acceleration_min ||
-                       reference.quantity == ReferenceQuantity::drum_acceleration_max ||
-                       reference.quantity == ReferenceQuantity::contact_force_min ||
-                       reference.quantity == ReferenceQuantity::contact_force_max;
-  if (extreme && !result.chain->extremes.every_step)
-    check.note = "from samples and events, not from every step";
-  if (reference.quantity == ReferenceQuantity::compaction_meter_value && !result.chain->amplitudes_every_step)
+  const bool extreme = is_one_of(
+      {Q::drum_acceleration_min, Q::drum_acceleration_max, Q::contact_force_min, Q::contact_force_max});
+  if ((extreme && !result.chain->extremes.every_step) ||
+      (reference.quantity == Q::compaction_meter_value && !result.chain->amplitudes_every_step))
     check.note = "from samples and events, not from every step";
   return check;
 }
@@ -299,22 +300,28 @@ void compare_impact(std::size_t index, const RunResult &result, std::vector<Chec
   checks.push_back(std::move(check));
 }
 
+/// A statement of the paper, not yet judged. \param result the run that it is about
+Check paper_check(const ReportResults &results, const RunResult *result, const char *quantity,
+                  const char *reference, const char *tolerance, const std::string &source) {
+  Check check;
+  check.run = static_cast<std::size_t>(result - results.runs.data());
+  check.quantity = quantity;
+  check.reference = reference;
+  check.tolerance = tolerance;
+  check.source = source;
+  return check;
+}
+
 void compare_words(ReportResults &results) {
-  const auto index_of = [&results](const RunResult *result) {
-    return static_cast<std::size_t>(result - results.runs.data());
-  };
+  const auto at_case = [](const RunResult *result) { return result != nullptr && result->run.at_case; };
   const RunResult *one_a = best_run(results, "I", Transition::A);
   const RunResult *one_b = best_run(results, "I", Transition::B);
-  if (one_a != nullptr && one_b != nullptr && one_a->run.at_case && one_b->run.at_case) {
-    Check check;
-    check.run = index_of(one_b);
-    check.quantity = "case I: largest difference of drum acceleration between A and B";
+  if (at_case(one_a) && at_case(one_b)) {
+    Check check =
+        paper_check(results, one_b, "case I: largest difference of drum acceleration between A and B", "0",
+                    "1e-06", "paper, section 4.1.1: \"identical\"");
     check.unit = "m/s²";
-    check.reference = "0";
-    check.tolerance = "1e-06";
-    check.source = "paper, section 4.1.1: \"identical\"";
-    const std::vector<double> &a = one_a->run.history.a_drum;
-    const std::vector<double> &b = one_b->run.history.a_drum;
+    const std::vector<double> &a = one_a->run.history.a_drum, &b = one_b->run.history.a_drum;
     if (one_a->run.samples_per_cycle != one_b->run.samples_per_cycle) {
       check.note = "A and B have different numbers of samples per cycle";
     } else {
@@ -329,14 +336,10 @@ void compare_words(ReportResults &results) {
   }
   const RunResult *two = best_run(results, "II", Transition::B);
   const RunResult *three = best_run(results, "III", Transition::B);
-  if (two != nullptr && three != nullptr && two->run.at_case && three->run.at_case) {
+  if (at_case(two) && at_case(three)) {
     const ReferencePeakRatio reference;
-    Check check;
-    check.run = index_of(three);
-    check.quantity = "largest drum acceleration, case III over case II (B)";
-    check.reference = "0.40";
-    check.tolerance = fmt::format("{:g}", reference.tolerance);
-    check.source = reference.source;
+    Check check = paper_check(results, three, "largest drum acceleration, case III over case II (B)", "0.40",
+                              "0.005", reference.source);
     judge(check, three->chain->extremes.acceleration.max / two->chain->extremes.acceleration.max,
           reference.ratio, reference.ratio, reference.tolerance, 0.005);
     check.measured = fmt::format("{:.4f}", check.value);
@@ -344,13 +347,9 @@ void compare_words(ReportResults &results) {
     results.words.push_back(check);
   }
   const RunResult *four = best_run(results, "IV", Transition::A);
-  if (four != nullptr && four->run.at_case) {
-    Check check;
-    check.run = index_of(four);
-    check.quantity = "case IV, A: second harmonic over fundamental";
-    check.reference = "0";
-    check.tolerance = "1e-04";
-    check.source = "paper, section 4.1.4: \"remains in the sinusoidal shape\"";
+  if (at_case(four)) {
+    Check check = paper_check(results, four, "case IV, A: second harmonic over fundamental", "0", "1e-04",
+                              "paper, section 4.1.4: \"remains in the sinusoidal shape\"");
     judge(check, four->chain->amplitudes.second / four->chain->amplitudes.fundamental, 0.0, 0.0, 1.0e-4, 0.0);
     check.measured = fmt::format("{:.2g}", check.value);
     if (!is_judged(four->run)) check.agreement = Agreement::not_judged;
@@ -362,10 +361,10 @@ void compare_words(ReportResults &results) {
 
 std::shared_ptr<const DirectResult> DirectSolutions::solve(const ChainParameters &parameters, int cycles,
                                                            int samples_per_cycle, double impact_speed) {
-  const ChainParameters &p = parameters;
-  const std::string key =
-      fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {}", p.m2, p.m3, p.k, p.D, p.omega, p.Fw, p.k23, p.c23,
-                  p.g, transition_name(p.transition), cycles, samples_per_cycle, impact_speed);
+  std::string key = fmt::format("{} {} {} {}", transition_name(parameters.transition), cycles,
+                                samples_per_cycle, impact_speed);
+  for (const ChainNumber &number : chain_numbers)
+    key += fmt::format(" {}", parameters.*number.value);
   std::shared_ptr<const DirectResult> &entry = known_[key];
   if (!entry) {
     DirectOptions options;

@@ -62,7 +62,7 @@ void expect_same_cycles(const std::vector<CycleSummary> &exact, const std::vecto
   expect_same_extremes(exact, direct, &CycleSummary::F_contact_min, &CycleSummary::F_contact_max, tolerance);
   for (std::size_t i = 0; i < direct.size(); ++i) {
     EXPECT_EQ(exact[i].cycle, direct[i].cycle);
-    EXPECT_EQ(exact[i].time, direct[i].time) << i;
+    EXPECT_NEAR(exact[i].time, direct[i].time, 1e-15 * direct.back().time) << i;
     EXPECT_NEAR(exact[i].contact_share, direct[i].contact_share, tolerance) << i;
     EXPECT_EQ(exact[i].makes, direct[i].makes) << i;
     EXPECT_EQ(exact[i].breaks, direct[i].breaks) << i;
@@ -73,7 +73,7 @@ void expect_same_as_direct(const ChainParameters &p, DirectOptions options, doub
   options.rtol = 1e-14;
   const DirectResult direct = solve_direct(p, options);
   const DirectResult exact = solve_closed_form(p, options);
-  EXPECT_EQ(exact.history.time, direct.history.time);
+  EXPECT_LT(relative(exact.history.time, direct.history.time), 1e-15);
   EXPECT_LT(relative(exact.history.x_drum, direct.history.x_drum), tolerance);
   EXPECT_LT(relative(exact.history.v_drum, direct.history.v_drum), tolerance);
   EXPECT_LT(relative(exact.history.x_frame, direct.history.x_frame), tolerance);
