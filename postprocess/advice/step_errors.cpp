@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <fmt/format.h>
-
 namespace drumlin::post {
 
 DirectResult accuracy_reference(const ChainParameters &parameters, const SolverProgress &progress) {

@@ -4,7 +4,6 @@
 #include "pages/page.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -137,16 +136,12 @@ PageFigure progress_figure(const CalibrationTask &task, const Calibration &found
       data.row(task.targets[i].name,
                {static_cast<double>(one->number), one->mean(i) / task.targets[i].value});
   figure.csv = data.text();
-  Panel left;
-  left.x_label = "evaluation";
-  left.y_label = "objective [-]";
+  Panel left{"", "evaluation", "objective [-]", {}};
   left.log_y = true;
   left.curves = {curve(name, "objective", "$2", "3", CurveStyle::direct_a),
                  curve(name, "smallest", "$2", "3", CurveStyle::condition_b)};
   left.curves.back().title = "smallest so far";
-  Panel right;
-  right.x_label = "evaluation";
-  right.y_label = "measured / wanted [-]";
+  Panel right{"", "evaluation", "measured / wanted [-]", {}};
   right.log_y = true;
   for (std::size_t i = 0; i < task.targets.size(); ++i)
     right.curves.push_back(
@@ -167,9 +162,7 @@ PageFigure slope_figure(const CalibrationTask &task, const Calibration &found) {
   figure.figure = {name, "Sensitivity", {}, static_cast<int>(std::min<std::size_t>(3, task.targets.size()))};
   CurveTable data("parameter,slope,low,high");
   for (std::size_t i = 0; i < task.targets.size(); ++i) {
-    Panel panel;
-    panel.title = "target " + task.targets[i].name;
-    panel.y_label = "slope [-]";
+    Panel panel{"target " + task.targets[i].name, "", "slope [-]", {}};
     panel.x_range = axis_range(0.5, 0.5 + static_cast<double>(task.vary.size()));
     for (std::size_t j = 0; j < task.vary.size(); ++j) {
       const MeanInterval &slope = found.sensitivity.slopes[i][j];

@@ -573,7 +573,6 @@ private:
     const bool stiff = chain_.stiff(phase_);
     Integrator &integrator = method(stiff);
     integrator.start(phase_, start, y_, end - start);
-    ++result_.cost.restarts;
     result_.cost.bdf = result_.cost.bdf || stiff;
     if (start > 0.0) recorder_.begin_piece(phase_, start, y_);
 

@@ -51,9 +51,8 @@ using SolverProgress = std::function<void(double)>;
 
 /// Computing effort of the solver.
 struct DirectCost {
-  long steps = 0;    ///< steps of the integrator, pieces of the closed form
-  long restarts = 0; ///< starts of the integrator, the first included
-  bool bdf = false;  ///< whether a part between two events was stiff, so that BDF was used instead of Adams
+  long steps = 0;   ///< steps of the integrator, pieces of the closed form
+  bool bdf = false; ///< whether a part between two events was stiff, so that BDF was used instead of Adams
 };
 
 struct DirectResult {

@@ -262,12 +262,12 @@ std::string grading_csv(const std::vector<GradingPair> &pairs) {
 
 Panel grading_panel(const std::string &name, const GradingPair &pair) {
   const GrainSizes sizes = grain_sizes(pair.balls);
-  Panel panel;
-  panel.title = fmt::format("{}Grading {}, {} balls: d50 = {:.3g} mm, Cu = {:.3g}, Cc = {:.3g}", pair.title,
-                            pair.packing.sieve_name, pair.packing.balls, sizes.d50 * 1e3, sizes.uniformity(),
-                            sizes.curvature());
-  panel.x_label = "size (mm)";
-  panel.y_label = "mass that passes (%)";
+  Panel panel{fmt::format("{}Grading {}, {} balls: d50 = {:.3g} mm, Cu = {:.3g}, Cc = {:.3g}", pair.title,
+                          pair.packing.sieve_name, pair.packing.balls, sizes.d50 * 1e3, sizes.uniformity(),
+                          sizes.curvature()),
+              "size (mm)",
+              "mass that passes (%)",
+              {}};
   panel.log_x = panel.plain_numbers = panel.tight_x = true;
   panel.y_range = "[0:100]";
   for (const auto &[curve, style] :
@@ -394,17 +394,15 @@ void add_bed_command(CLI::App &app, Session &) {
   text_option(
       bed, "--grading", "NAME", arguments->grading,
       "uniform: every radius as often as any other; mass: the same mass in equal intervals of radius");
-  bed->add_option("--sieve", arguments->sieve,
-                  fmt::format("grading instead of radii: a CSV file with the columns size (mm) and passing "
-                              "(%) by mass, or one "
-                              "of {}",
-                              grading_names()))
-      ->type_name("FILE");
-  bed->add_option("--cut", arguments->cut,
-                  "smallest size of a ball with --sieve [mm]; default: so that the balls fill the box to "
-                  "--height, or to "
-                  "half its width")
-      ->type_name("NUMBER");
+  text_option(bed, "--sieve", "FILE", arguments->sieve,
+              fmt::format("grading instead of radii: a CSV file with the columns size (mm) and passing "
+                          "(%) by mass, or one "
+                          "of {}",
+                          grading_names()));
+  text_option(bed, "--cut", "NUMBER", arguments->cut,
+              "smallest size of a ball with --sieve [mm]; default: so that the balls fill the box to "
+              "--height, or to "
+              "half its width");
   bed->add_option(
          "--layer", arguments->layers,
          "a layer of the bed, the lowest first; several form a bed of layers with contacts of their own: its "

@@ -4,6 +4,7 @@
 #include "calibration/page.h"
 #include "calibration/soil_tests.h"
 #include "calibration/task.h"
+#include "commands/text_options.h"
 #include "engine/places.h"
 #include "experiment/study.h"
 #include "support/csv.h"
@@ -212,23 +213,19 @@ void add_calibrate_command(CLI::App &app, Session &session) {
        "m2, m3, r2, r3, "
        "k23, c23, omega, Fw",
        "SETTING");
-  const auto option = [&](const char *name, std::string Arguments::*text, const char *help,
-                          const char *type) {
-    calibrate->add_option(name, (*arguments).*text, help)->type_name(type)->capture_default_str();
-  };
-  option("--seeds", &Arguments::seeds, "beds at each point, 2 or more", "COUNT");
-  option("--balls", &Arguments::balls,
-         "soil balls of a bed; its width grows with their square root, 2 m for 2500", "COUNT");
-  option("--cycles", &Arguments::cycles,
-         "cycles of the excitation, of which the second half counts for all but k and D", "COUNT");
-  option("--evaluations", &Arguments::evaluations,
-         "points of the search; two for each parameter and one more are made in addition", "COUNT");
-  option("--target-beds", &Arguments::target_beds,
-         "beds of which the targets are means, whose scatter then widens the intervals; 0: they are exact",
-         "COUNT");
-  option("--jobs", &Arguments::jobs, "runs at the same time, one processor each", "COUNT");
-  option("--name", &Arguments::name, "NAME of the file case.NAME", "NAME");
-  option("--out", &Arguments::out, "folder of the results", "DIR");
+  text_option(calibrate, "--seeds", "COUNT", arguments->seeds, "beds at each point, 2 or more");
+  text_option(calibrate, "--balls", "COUNT", arguments->balls,
+              "soil balls of a bed; its width grows with their square root, 2 m for 2500");
+  text_option(calibrate, "--cycles", "COUNT", arguments->cycles,
+              "cycles of the excitation, of which the second half counts for all but k and D");
+  text_option(calibrate, "--evaluations", "COUNT", arguments->evaluations,
+              "points of the search; two for each parameter and one more are made in addition");
+  text_option(
+      calibrate, "--target-beds", "COUNT", arguments->target_beds,
+      "beds of which the targets are means, whose scatter then widens the intervals; 0: they are exact");
+  text_option(calibrate, "--jobs", "COUNT", arguments->jobs, "runs at the same time, one processor each");
+  text_option(calibrate, "--name", "NAME", arguments->name, "NAME of the file case.NAME");
+  text_option(calibrate, "--out", "DIR", arguments->out, "folder of the results");
   calibrate->add_flag("--fresh", arguments->fresh, "forget the evaluations of an earlier call");
   calibrate->footer(
       "Example:\n"

@@ -1,5 +1,6 @@
 #include "commands/chain_options.h"
 
+#include "commands/text_options.h"
 #include "support/options.h"
 #include "support/usage_error.h"
 
@@ -20,12 +21,8 @@ void add_chain_options(CLI::App &command, ChainArguments &arguments) {
   command.add_option("--transition", arguments.transition, "transition condition of the contact: A or B")
       ->capture_default_str();
   for (std::size_t i = 0; i < chain_numbers.size(); ++i)
-    command
-        .add_option_function<std::string>(
-            fmt::format("--{}", chain_numbers[i].name),
-            [&number = arguments.numbers[i]](const std::string &text) { number = text; },
-            chain_numbers[i].help)
-        ->type_name("NUMBER")
+    text_option(&command, fmt::format("--{}", chain_numbers[i].name), "NUMBER", arguments.numbers[i],
+                chain_numbers[i].help)
         ->group("Instead of the case's values");
 }
 

@@ -338,9 +338,8 @@ void add_map_command(CLI::App &app, Session & /*session*/) {
               "eccentric moment m_e r_e [kg m]: Fw = m_e r_e omega^2 instead of a fixed Fw");
   text_option(map, "--cycles", "COUNT", arguments->cycles,
               "cycles of the excitation at each point, 100 or more");
-  CLI::Option *threads = map->add_option("--threads", arguments->threads, "points at the same time")
-                             ->type_name("COUNT")
-                             ->capture_default_str();
+  CLI::Option *threads =
+      text_option(map, "--threads", "COUNT", arguments->threads, "points at the same time");
   text_option(map, "--out", "DIR", arguments->out, "folder of the results");
   map->add_flag("--fresh", arguments->fresh, "forget the points of an earlier call");
   map->callback([arguments, x, y, threads] {

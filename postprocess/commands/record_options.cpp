@@ -1,6 +1,7 @@
 #include "commands/record_options.h"
 
 #include "chain/parameters.h"
+#include "commands/text_options.h"
 #include "support/options.h"
 #include "support/usage_error.h"
 
@@ -87,20 +88,13 @@ void add_record_options(CLI::App &command, RecordArguments &arguments) {
       ->expected(1)
       ->take_all()
       ->group("Measured records");
-  command
-      .add_option_function<std::string>(
-          "--case", [&text = arguments.chain_case](const std::string &given) { text = given; },
-          fmt::format(
-              "roller whose frequency, eccentric moment and masses count where no option gives them: {}",
-              fmt::join(chain_cases, ", ")))
-      ->type_name("NAME")
+  text_option(
+      &command, "--case", "NAME", arguments.chain_case,
+      fmt::format("roller whose frequency, eccentric moment and masses count where no option gives them: {}",
+                  fmt::join(chain_cases, ", ")))
       ->group("Measured records");
   for (const RecordNumber &number : record_numbers)
-    command
-        .add_option_function<std::string>(
-            number.name, [&text = arguments.*number.text](const std::string &given) { text = given; },
-            number.help)
-        ->type_name("NUMBER")
+    text_option(&command, number.name, "NUMBER", arguments.*number.text, number.help)
         ->group("Measured records");
 }
 

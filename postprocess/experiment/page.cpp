@@ -182,10 +182,8 @@ PageFigure effect_figure(const Plan &plan, const std::vector<Effect> &effects) {
   CurveTable table("row,change,low,high");
   for (std::size_t q = 0; q < plan.quantities.size(); ++q) {
     const Quantity &quantity = plan.quantities[q];
-    Panel panel;
-    panel.title = quantity.label;
-    panel.x_label = "row of the table of changes";
-    panel.y_label = fmt::format("change [{}]", change_unit(quantity));
+    Panel panel{
+        quantity.label, "row of the table of changes", fmt::format("change [{}]", change_unit(quantity)), {}};
     Reach reach;
     reach.add(0.0);
     for (std::size_t n = 0; n < effects.size(); ++n) {
@@ -197,8 +195,7 @@ PageFigure effect_figure(const Plan &plan, const std::vector<Effect> &effects) {
     }
     // A range for each panel: by default gnuplot takes that of all rows of the file.
     panel.y_range = reach.range(0.1);
-    panel.curves = {curve(name, quantity.name, "$2", "3:4:5", CurveStyle::spread)};
-    panel.curves.back().title.clear();
+    panel.add(curve(name, quantity.name, "$2", "3:4:5", CurveStyle::spread), "");
     figure.figure.panels.push_back(panel);
   }
   figure.csv = table.text();
@@ -239,9 +236,7 @@ std::string figure_name(const Axis &axis) { return "over_" + axis.name; }
 Panel axis_panel(const Quantity &quantity, const Axis &axis, const std::vector<const Scene *> &scenes,
                  const Results &results, CurveTable &table) {
   const std::vector<std::string> series = series_of(scenes);
-  Panel panel;
-  panel.x_label = axis.label;
-  panel.y_label = with_unit(quantity.label, quantity.shown_unit);
+  Panel panel{"", axis.label, with_unit(quantity.label, quantity.shown_unit), {}};
   Reach across, up;
   for (const Scene *scene : scenes)
     across.add(scene->at.at(axis.name));
@@ -265,11 +260,10 @@ Panel axis_panel(const Quantity &quantity, const Axis &axis, const std::vector<c
     }
     const std::string words = series[s].empty() ? "seeds" : series[s];
     if (s == 0) {
-      panel.curves.push_back(curve(figure_name(axis), name + " mean", "$2", "3:4:5", CurveStyle::spread));
-      panel.curves.back().title = series[s].empty() ? "mean" : "mean, " + words;
+      panel.add(curve(figure_name(axis), name + " mean", "$2", "3:4:5", CurveStyle::spread),
+                series[s].empty() ? "mean" : "mean, " + words);
     }
-    panel.curves.push_back(curve(figure_name(axis), name, "$2", "3", series_styles[s]));
-    panel.curves.back().title = words;
+    panel.add(curve(figure_name(axis), name, "$2", "3", series_styles[s]), words);
   }
   panel.y_range = up.range(0.05);
   return panel;

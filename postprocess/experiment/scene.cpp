@@ -9,7 +9,6 @@
 #include <cmath>
 #include <filesystem>
 #include <sstream>
-#include <utility>
 
 namespace drumlin::post {
 

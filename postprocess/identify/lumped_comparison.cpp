@@ -275,19 +275,15 @@ PageFigure motion_figure(const LumpedComparison &one, int number) {
     data.row("chain", {static_cast<double>(i) / per_cycle,
                        one.lumped.F_contact[i] > 0.0 ? 1e3 * one.lumped.x_drum[i] : none,
                        one.lumped.a_drum[i], 1e-3 * one.lumped.F_contact[i]});
-  Panel left;
-  left.title = "Acceleration";
-  left.x_label = "cycles";
-  left.y_label = "drum acceleration (m/s2)";
+  Panel left{"Acceleration", "cycles", "drum acceleration (m/s2)", {}};
   left.tight_x = true;
   left.curves = {curve(name, "record", "$2", "4", CurveStyle::condition_b),
                  curve(name, "chain", "$2", "4", CurveStyle::condition_a)};
-  Panel right;
-  right.title = "Loop";
-  right.x_label = "drum position (mm)";
-  right.y_label = "contact force (kN)";
-  right.curves = {curve(name, "record", "$3", "5", CurveStyle::dots_up),
-                  curve(name, "chain", "$3", "5", CurveStyle::condition_a)};
+  Panel right{"Loop",
+              "drum position (mm)",
+              "contact force (kN)",
+              {curve(name, "record", "$3", "5", CurveStyle::dots_up),
+               curve(name, "chain", "$3", "5", CurveStyle::condition_a)}};
   figure.figure.panels = {left, right};
   figure.csv = data.text();
   return figure;
@@ -317,9 +313,7 @@ PageFigure cycle_figure(const LumpedComparison &one, int number) {
   for (const CycleQuantity quantity :
        {CycleQuantity::acceleration, CycleQuantity::force, CycleQuantity::contact, CycleQuantity::cmv}) {
     const auto q = static_cast<std::size_t>(quantity);
-    Panel panel;
-    panel.x_label = "cycle";
-    panel.y_label = texts.at(q).label;
+    Panel panel{"", "cycle", texts.at(q).label, {}};
     const std::string column = std::to_string(q + 3);
     panel.curves = {curve(name, "record", "$2", column, CurveStyle::measured_b),
                     curve(name, "chain", "$2", column, CurveStyle::condition_a)};

@@ -125,16 +125,12 @@ PageFigure loop_figure(const IdentifiedRecord &record) {
     else
       table.row("fitted law", {record.time[i], 1e3 * found.x[i], found.fitted[i] / 1e3});
   }
-  Panel loop;
-  loop.title = "Loop";
-  loop.x_label = "drum position (mm)";
-  loop.y_label = "contact force (kN)";
-  loop.curves = {curve(name, "fitted law", "$3", "4", CurveStyle::condition_a),
-                 curve(name, "equations of motion", "$3", "4", CurveStyle::dots_up)};
-  Panel history;
-  history.title = "History";
-  history.x_label = "time (s)";
-  history.y_label = "contact force (kN)";
+  Panel loop{"Loop",
+             "drum position (mm)",
+             "contact force (kN)",
+             {curve(name, "fitted law", "$3", "4", CurveStyle::condition_a),
+              curve(name, "equations of motion", "$3", "4", CurveStyle::dots_up)}};
+  Panel history{"History", "time (s)", "contact force (kN)", {}};
   history.tight_x = true;
   history.curves = {curve(name, "fitted law", "$2", "4", CurveStyle::condition_a),
                     curve(name, "equations of motion", "$2", "4", CurveStyle::dots_up)};
@@ -159,10 +155,10 @@ PageFigure residual_figure(const IdentifiedRecord &record) {
     const double cycles = record.time[i] * record.frequency;
     table.row("residual", {cycles - std::floor(cycles), (found.force[i] - found.fitted[i]) / 1e3});
   }
-  Panel panel;
-  panel.x_label = "time in the cycle over its length (-)";
-  panel.y_label = "residual (kN)";
-  panel.curves = {curve(name, "residual", "$2", "3", CurveStyle::dots_up)};
+  Panel panel{"",
+              "time in the cycle over its length (-)",
+              "residual (kN)",
+              {curve(name, "residual", "$2", "3", CurveStyle::dots_up)}};
   panel.curves.back().title.clear();
   figure.figure.panels = {panel};
   figure.csv = table.text();
@@ -188,10 +184,7 @@ PageFigure window_figure(const IdentifiedRecord &record) {
     }
   const auto panel = [&](const char *curve_name, const char *label, MeanInterval LawEstimate::*value,
                          double unit) {
-    Panel one;
-    one.x_label = "time (s)";
-    one.y_label = label;
-    one.curves = {curve(name, curve_name, "$2", "3:4:5", CurveStyle::spread)};
+    Panel one{"", "time (s)", label, {curve(name, curve_name, "$2", "3:4:5", CurveStyle::spread)}};
     one.curves.back().title.clear();
     double low = 0.0;
     double high = 0.0;

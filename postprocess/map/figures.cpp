@@ -220,10 +220,7 @@ MapFigures sweep_figures(const MapChain &chain, const MapAxis &axis, const Sweep
   figure.name = "sweep";
   figure.title = "Once-per-cycle position of the drum";
   figure.only_png = true;
-  Panel panel;
-  panel.title = conditions(chain, {axis.name});
-  panel.x_label = shown.label;
-  panel.y_label = "drum at the start of a cycle [mm]";
+  Panel panel{conditions(chain, {axis.name}), shown.label, "drum at the start of a cycle [mm]", {}};
   panel.log_x = axis.log;
   panel.x_range = axis_range(shown.scale * axis.from, shown.scale * axis.to);
   panel.y_range = axis_range(low - rim, high + rim);

@@ -109,10 +109,7 @@ PageTable formula_table(const MeterResult &result) {
 
 /// A panel of values over time.
 Panel value_panel(const std::string &name, const std::string &title, const std::string &label, int column) {
-  Panel panel;
-  panel.title = title;
-  panel.x_label = "time [s]";
-  panel.y_label = label;
+  Panel panel{title, "time [s]", label, {}};
   panel.y_range = "[0:*]";
   panel.tight_x = true;
   panel.curves = {curve(name, "window", "$2", fmt::format("{}", column), CurveStyle::series_1)};
@@ -157,10 +154,8 @@ std::optional<PageFigure> spectrum_figure(const MeterResult &result) {
     table.row("spectrum", {line.frequency, 0.0});
   }
   figure.csv = table.text();
-  Panel panel;
-  panel.x_label = "frequency [Hz]";
-  panel.y_label = "amplitude [m/s^2]";
-  panel.curves = {curve(name, "spectrum", "$2", "3", CurveStyle::plain)};
+  Panel panel{
+      "", "frequency [Hz]", "amplitude [m/s^2]", {curve(name, "spectrum", "$2", "3", CurveStyle::plain)}};
   panel.curves.back().title.clear();
   panel.tight_x = true;
   figure.figure = {name, "Spectrum", {panel}, 1};
@@ -183,10 +178,10 @@ std::optional<PageFigure> loop_figure(const MeterResult &result) {
     if (result.record.time[i] >= last.end - 2.0 * result.record.period() && result.record.time[i] <= last.end)
       table.row("loop", {-1e3 * x[i], 1e-3 * force[i]});
   figure.csv = table.text();
-  Panel panel;
-  panel.x_label = "displacement down [mm]";
-  panel.y_label = "contact force [kN]";
-  panel.curves = {curve(name, "loop", "$2", "3", CurveStyle::condition_b)};
+  Panel panel{"",
+              "displacement down [mm]",
+              "contact force [kN]",
+              {curve(name, "loop", "$2", "3", CurveStyle::condition_b)}};
   panel.curves.back().title.clear();
   figure.figure = {name, "Loop", {panel}, 1};
   return figure;

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace drumlin::post {
@@ -81,6 +82,12 @@ struct Panel {
   std::string color_range = {}; ///< as x_range
   bool color_whole = false;     ///< one colour per whole number
   bool plain_numbers = false;   ///< a logarithmic axis x has 1, 2, 5, 10, ... instead of powers of ten
+
+  /// Adds a curve with another text in the legend than its own; empty: not in the legend.
+  void add(Curve curve, std::string legend) {
+    curve.title = std::move(legend);
+    curves.push_back(std::move(curve));
+  }
 };
 
 /// A figure: panels in rows of `columns`. All figures have one width, rows of panels one height, and the

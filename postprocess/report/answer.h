@@ -6,7 +6,6 @@
 #include "report/bed/measures.h"
 #include "report/chain/measures.h"
 
-#include <string>
 #include <vector>
 
 namespace drumlin::post {

@@ -1,7 +1,6 @@
 #include "report/place.h"
 
 #include <stdexcept>
-#include <vector>
 
 #include <fmt/format.h>
 

@@ -152,24 +152,26 @@ fs::path path_option(const char *option, const std::string &text) {
   return path;
 }
 
-fs::path output_folder_option(const char *option, const std::string &text) {
+namespace {
+
+fs::path output_option(const char *option, const std::string &text, void (*check)(const fs::path &)) {
   fs::path path = path_option(option, text);
   try {
-    check_output_folder(path);
+    check(path);
   } catch (const std::runtime_error &fault) {
     throw UsageError(fmt::format("{} is '{}': {}", option, shown(text), fault.what()));
   }
   return path;
 }
 
+} // namespace
+
+fs::path output_folder_option(const char *option, const std::string &text) {
+  return output_option(option, text, check_output_folder);
+}
+
 fs::path output_file_option(const char *option, const std::string &text) {
-  fs::path path = path_option(option, text);
-  try {
-    check_output_file(path);
-  } catch (const std::runtime_error &fault) {
-    throw UsageError(fmt::format("{} is '{}': {}", option, shown(text), fault.what()));
-  }
-  return path;
+  return output_option(option, text, check_output_file);
 }
 
 } // namespace drumlin::post

@@ -274,10 +274,7 @@ PageFigure chain_figure(const Data &data, const ChainFigure &wanted) {
   figure.figure = {wanted.name, wanted.title, {}, 2};
   CurveTable table(x_label + "," + wanted.y_label);
   for (const char *chain_case : cases) {
-    Panel panel;
-    panel.title = fmt::format("case {}", chain_case);
-    panel.x_label = x_label;
-    panel.y_label = wanted.y_label;
+    Panel panel{fmt::format("case {}", chain_case), x_label, wanted.y_label, {}};
     panel.log_x = panel.log_y = true;
     panel.x_range = wanted.over_time ? "" : "[40:3e5]";
     panel.y_range = wanted.y_range;
@@ -293,8 +290,7 @@ PageFigure chain_figure(const Data &data, const ChainFigure &wanted) {
         any = true;
       }
       if (!any) continue;
-      panel.curves.push_back(curve(wanted.name, curve_name, "$2", "3", series.style));
-      panel.curves.back().title = series.name;
+      panel.add(curve(wanted.name, curve_name, "$2", "3", series.style), series.name);
     }
     if (!panel.curves.empty()) figure.figure.panels.push_back(panel);
   }
@@ -310,10 +306,10 @@ PageFigure impact_figure(const Data &data) {
   CurveTable table("steps per contact,worst restitution error (-)");
   figure.figure = {name, "Restitution of single impacts: worst error", {}, 2};
   for (const double ratio : ratios) {
-    Panel panel;
-    panel.title = fmt::format("D = {:g}", ratio);
-    panel.x_label = "steps per undamped contact, π/(ω_0 dt)";
-    panel.y_label = "worst error of restitution (-)";
+    Panel panel{fmt::format("D = {:g}", ratio),
+                "steps per undamped contact, π/(ω_0 dt)",
+                "worst error of restitution (-)",
+                {}};
     panel.log_x = panel.log_y = true;
     panel.x_range = "[10:2000]";
     panel.y_range = "[1e-8:1]";
@@ -323,8 +319,7 @@ PageFigure impact_figure(const Data &data) {
       for (const ErrorPoint &point : points)
         table.row(curve_name, {point.steps, point.error});
       if (points.empty()) continue;
-      panel.curves.push_back(curve(name, curve_name, "$2", "3", series.style));
-      panel.curves.back().title = series.name;
+      panel.add(curve(name, curve_name, "$2", "3", series.style), series.name);
     }
     if (panel.curves.empty()) continue;
     // Lines of orders 1 and 2 from a common point above the curves.

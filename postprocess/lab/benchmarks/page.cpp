@@ -242,11 +242,9 @@ struct PanelPlan {
 
 Panel panel_of(const PanelPlan &plan, const std::vector<Row> &rows, const std::string &figure,
                CurveTable &table) {
-  Panel panel;
-  panel.title = plan.title, panel.x_label = plan.x_label, panel.y_label = plan.y_label;
+  Panel panel{plan.title, plan.x_label, plan.y_label, {}};
   const auto add = [&](const std::string &name, const std::string &legend, CurveStyle style) {
-    panel.curves.push_back(curve(figure, name, "$2", "3", style));
-    panel.curves.back().title = legend;
+    panel.add(curve(figure, name, "$2", "3", style), legend);
   };
   constexpr CurveStyle lines[] = {CurveStyle::condition_b, CurveStyle::condition_a};
   constexpr CurveStyle marks[] = {CurveStyle::measured_b, CurveStyle::measured_a};

@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
-#include <map>
 #include <string>
 
 namespace drumlin::post {
@@ -29,10 +28,7 @@ PageFigure map_figure(const std::vector<MapPoint> &map) {
                   {name, "Longest stable step over damping", {}, 2}, 1.0);
   CurveTable table("D drawn at (-),measured w0 dt (-),theory w0 dt (-)");
   for (const HeldScene &scene : held_scenes()) {
-    Panel panel;
-    panel.title = scene.what;
-    panel.x_label = "damping ratio D (-)";
-    panel.y_label = "ω_0 dt (-)";
+    Panel panel{scene.what, "damping ratio D (-)", "ω_0 dt (-)", {}};
     panel.log_x = panel.log_y = true;
     panel.x_range = "[5e-4:2e4]";
     panel.y_range = "[1e-5:4]";
@@ -46,9 +42,8 @@ PageFigure map_figure(const std::vector<MapPoint> &map) {
         }
       if (!any) continue;
       const bool second = stepping == "second";
-      panel.curves.push_back(
-          curve(name, curve_name, "$2", "4", second ? CurveStyle::limit : CurveStyle::plain));
-      panel.curves.back().title = second ? "limit of the springs" : "theory for stock";
+      panel.add(curve(name, curve_name, "$2", "4", second ? CurveStyle::limit : CurveStyle::plain),
+                second ? "limit of the springs" : "theory for stock");
       panel.curves.push_back(
           curve(name, curve_name, "$2", "3", second ? CurveStyle::measured_b : CurveStyle::measured_a));
       panel.curves.back().title = stepping + ", measured";

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -139,12 +138,9 @@ PageFigure size_figure(const std::vector<VariantTime> &all, const TimedBeds &bed
                   {name, "Steps of balls per second", {}, 3}, 1.0);
   CurveTable table("place,million per s,lower quartile,upper quartile");
   for (const std::string &scene : {beds.plane, beds.cell, beds.copies}) {
-    Panel panel;
-    panel.title = scene;
-    panel.y_label = "million balls x steps per s";
+    Panel panel{scene, "", "million balls x steps per s", {}};
     panel.y_range = "[0:*]";
-    panel.curves = {curve(name, scene, "$2", "3:4:5", CurveStyle::spread)};
-    panel.curves.back().title.clear();
+    panel.add(curve(name, scene, "$2", "3:4:5", CurveStyle::spread), "");
     for (const EngineLaws &laws : engines)
       for (const int ranks : {1, 2})
         for (const char *law : laws.all()) {
@@ -221,8 +217,7 @@ PageFigure piece_figure(const std::vector<PieceCost> &costs) {
       panels.emplace_back();
       panels.back().title = cost.scene;
       panels.back().y_label = "time per step over that without (-)";
-      panels.back().curves = {curve(name, cost.scene, "$2", "3:4:5", CurveStyle::spread)};
-      panels.back().curves.back().title.clear();
+      panels.back().add(curve(name, cost.scene, "$2", "3:4:5", CurveStyle::spread), "");
     }
     panels.back().x_ticks.emplace_back(cost.comparison.piece);
     table.row(cost.scene, {static_cast<double>(panels.back().x_ticks.size()), cost.ratio.median,

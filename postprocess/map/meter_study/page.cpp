@@ -134,17 +134,13 @@ PageTable course_table(const Points &points) {
 /// Curves of one roller: the course, its falls, and a mark for each point by its mode.
 Panel value_panel(const ShownValue &shown, const SoilRoller &roller, const Course &course,
                   CurveTable &table) {
-  Panel panel;
-  panel.title = roller.title;
-  panel.x_label = "k [MN/m]";
-  panel.y_label = shown.label;
+  Panel panel{roller.title, "k [MN/m]", shown.label, {}};
   panel.log_x = true;
   panel.x_range = k_range;
   if (*std::max_element(course.values.begin(), course.values.end()) < shown.least)
     panel.y_range = "[-0.1:1]"; // zero, but for rounding
   const auto add = [&](const std::string &name, const char *title, CurveStyle style) {
-    panel.curves.push_back(curve(shown.name, name, "$2", "3", style));
-    panel.curves.back().title = title;
+    panel.add(curve(shown.name, name, "$2", "3", style), title);
   };
   const std::size_t count = course.values.size();
   const auto row = [&](const std::string &name, std::size_t i) {
@@ -257,10 +253,7 @@ PageFigure found_figure(const Points &points, int number) {
   figure.key_panel = 4;
   CurveTable table("k [MN/m],found over true [-],lower end [-],upper end [-]");
   for (const SoilRoller &roller : rollers_of(points)) {
-    Panel panel;
-    panel.title = roller.title;
-    panel.x_label = "k [MN/m]";
-    panel.y_label = "k identified / k [-]";
+    Panel panel{roller.title, "k [MN/m]", "k identified / k [-]", {}};
     panel.log_x = true;
     panel.x_range = k_range;
     panel.y_range = "[0.7:1.3]";
@@ -284,8 +277,7 @@ PageFigure found_figure(const Points &points, int number) {
     rows(measured, &SoilPoint::measured);
     rows(exact, &SoilPoint::exact);
     const auto add = [&](const std::string &curve_name, const char *title, const char *y, CurveStyle style) {
-      panel.curves.push_back(curve(name, curve_name, "$2", y, style));
-      panel.curves.back().title = title;
+      panel.add(curve(name, curve_name, "$2", y, style), title);
     };
     add(measured, "noisy accelerations", "3:4:5", CurveStyle::spread);
     add(exact, "exact record", "3", CurveStyle::condition_a);

@@ -1,7 +1,6 @@
 #include "report/bed/figures.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -75,10 +74,8 @@ private:
 
   /// One curve for each run.
   void curves(Panel &panel, const std::string &name, const std::string &x, const std::string &y) const {
-    for (const BedResult *run : runs()) {
-      panel.curves.push_back(curve(stem_ + name, label(*run), x, y, line_style(*run)));
-      panel.curves.back().title = legend(*run);
-    }
+    for (const BedResult *run : runs())
+      panel.add(curve(stem_ + name, label(*run), x, y, line_style(*run)), legend(*run));
   }
 
   /// Whether every run has a complete cycle. If not, notes the figure as absent.
@@ -156,9 +153,9 @@ private:
       for (std::size_t i = 0; i < c.rows; ++i)
         table.row(label(*run), {static_cast<double>(i), c.at("settlement")[i], c.at("a_drum_max")[i],
                                 c.at("F_contact_max")[i]});
-      panel.curves.push_back(curve(stem_ + "settlement", label(*run), "$2", "($3*1e3)",
-                                   is_a(*run) ? CurveStyle::series_2 : CurveStyle::series_1));
-      panel.curves.back().title = legend(*run);
+      panel.add(curve(stem_ + "settlement", label(*run), "$2", "($3*1e3)",
+                      is_a(*run) ? CurveStyle::series_2 : CurveStyle::series_1),
+                legend(*run));
     }
     add("settlement", panel.title, {panel}, table,
         "Settlement of the drum: how far its mean position over a cycle lies below its position at rest "
@@ -198,8 +195,7 @@ private:
       Panel sum{fmt::format("{}: since the start", label(*run)), "time (s)", "energy (J)", {}};
       Panel store{fmt::format("{}: stored", label(*run)), "time (s)", "energy (J)", {}};
       const auto line = [&](Panel &panel, const std::string &y, const char *title, CurveStyle style) {
-        panel.curves.push_back(curve(name, label(*run), "$2", y, style));
-        panel.curves.back().title = title;
+        panel.add(curve(name, label(*run), "$2", y, style), title);
       };
       line(sum, "3", "work of the exciter", CurveStyle::line_1);
       line(sum, "4", "dissipated", CurveStyle::line_2);
@@ -237,8 +233,7 @@ private:
       for (const auto &[y, title, style] : {std::tuple{"($4*1e-3)", "floor", CurveStyle::line_1},
                                             {"($6*1e-3)", "side thrust", CurveStyle::line_3},
                                             {"($5*1e-3)", "side friction", CurveStyle::line_2}}) {
-        panel.curves.push_back(curve(name, label(*run), "$3*1e3", y, style));
-        panel.curves.back().title = title;
+        panel.add(curve(name, label(*run), "$3*1e3", y, style), title);
       }
       panels.push_back(panel);
     }

@@ -180,10 +180,10 @@ void put_instant(CurveTable &table, const std::string &label, const Instant &ins
 
 Panel instant_panel(const std::string &figure, const std::string &label, const Instant &instant,
                     const Scales &scales, bool by_contacts) {
-  Panel panel;
-  panel.title = fmt::format("{}: {:.4g} s, {:.1f} kN on the drum", label, instant.time, instant.force * 1e-3);
-  panel.x_label = "x (m)";
-  panel.y_label = "y (m)";
+  Panel panel{fmt::format("{}: {:.4g} s, {:.1f} kN on the drum", label, instant.time, instant.force * 1e-3),
+              "x (m)",
+              "y (m)",
+              {}};
   panel.equal_scales = true;
   const double margin = 0.02 * (scales.bounds.high[0] - scales.bounds.low[0]);
   const auto range = [&](std::size_t axis) {
@@ -200,10 +200,7 @@ Panel instant_panel(const std::string &figure, const std::string &label, const I
     panel.color_range = axis_range(0.0, std::max(scales.fastest, 1.0e-9));
   }
   const auto add = [&](const std::string &what, const std::string &x, const std::string &y,
-                       CurveStyle style) {
-    panel.curves.push_back(curve(figure, label + what, x, y, style));
-    panel.curves.back().title.clear();
-  };
+                       CurveStyle style) { panel.add(curve(figure, label + what, x, y, style), ""); };
   constexpr std::array<CurveStyle, 4> edges = {CurveStyle::discs_1, CurveStyle::discs_2, CurveStyle::discs_3,
                                                CurveStyle::discs_4};
   for (int n = 1; n <= scales.layers; ++n) {
@@ -294,8 +291,7 @@ void plan_profile(const std::vector<Views> &all, const std::string &stem, const 
       const auto put = [&](Panel &panel, const std::string &where, double low, double high) {
         const std::string row = fmt::format("{} {} {}", label, when, where);
         densest = std::max(densest, put_profile(table, row, state, soil, low, high, diameters / balls));
-        panel.curves.push_back(curve(name, row, "$3", "2", style));
-        panel.curves.back().title = fmt::format("{} {}", label, when);
+        panel.add(curve(name, row, "$3", "2", style), fmt::format("{} {}", label, when));
       };
       put(whole, "whole", soil.low[0], soil.high[0]);
       Bounds drum; // one ball or a clump of many

@@ -95,9 +95,9 @@ void add_curves(Panel &panel, const std::string &figure, const std::vector<const
   for (const RunResult *result : runs) {
     if (!shows_direct(*result)) continue;
     const int stride = stride_of(result->run);
-    panel.curves.push_back(curve(figure, direct_label(*result), x, y, marker_style(result->run.transition()),
-                                 stride, phase % stride));
-    panel.curves.back().title = direct_legend(*result);
+    panel.add(curve(figure, direct_label(*result), x, y, marker_style(result->run.transition()), stride,
+                    phase % stride),
+              direct_legend(*result));
     phase = stride / 2;
   }
 }
@@ -237,11 +237,9 @@ void plan_impact(const ReportResults &results, FigurePlan &plan) {
       panel->curves.push_back(
           curve(name, run_label(*result), x, "($4*1e-3)", line_style(result->run.transition())));
   for (const RunResult *result : runs)
-    for (auto &[panel, x] : {std::pair(&over_overlap, "$3*1e3"), std::pair(&over_time, "$2*1e3")}) {
-      panel->curves.push_back(
-          curve(name, direct_label(*result), x, "($4*1e-3)", marker_style(result->run.transition())));
-      panel->curves.back().title = transition_name(result->run.transition()) + " closed form";
-    }
+    for (auto &[panel, x] : {std::pair(&over_overlap, "$3*1e3"), std::pair(&over_time, "$2*1e3")})
+      panel->add(curve(name, direct_label(*result), x, "($4*1e-3)", marker_style(result->run.transition())),
+                 transition_name(result->run.transition()) + " closed form");
   over_time.x_range = axis_range(-0.05 * longest * 1e3, 1.15 * longest * 1e3);
   const ImpactParameters &p = runs.front()->run.impact;
   PageFigure figure{"impact", "Fig. 3", "", {}, table.text(), impact_weight};

@@ -10,10 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <stdexcept>
-#include <utility>
 
 namespace drumlin::post {
 

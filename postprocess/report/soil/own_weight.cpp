@@ -8,12 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace drumlin::post {
 

@@ -7,7 +7,6 @@
 
 #include <array>
 #include <limits>
-#include <stdexcept>
 
 namespace drumlin::post {
 

@@ -2,10 +2,7 @@
 
 #include "report/soil/strength_test.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
-#include <stdexcept>
 
 namespace drumlin::post {
 
