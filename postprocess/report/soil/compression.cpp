@@ -179,7 +179,7 @@ PageWriter read_page(const CompressionTest &test, const std::string &title, Draw
     const std::vector<SoilGroup> soils = soils_of(runs, {test.confining});
     Page page(out, title, drawing);
     page.answer(answer);
-    answer_strength_quality(page, runs);
+    answer_quality(page, runs, strength_quality<CompressionRow>);
     page.section("Friction and volume");
     page.figure(strength_figure(test, soils, runs));
     page.section("Friction angle");

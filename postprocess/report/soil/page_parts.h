@@ -80,13 +80,18 @@ TestQuality worst_of(const std::vector<TestQuality> &qualities);
 /// The acceptance criteria of a test.
 std::vector<Acceptance> quality_criteria(const TestQuality &quality);
 
-/// Says on a page whether the worst of all runs was good.
 template <class Row>
-void answer_quality(Page &page, const std::vector<ElementRun<Row>> &runs) {
+TestQuality run_quality(const ElementRun<Row> &run) {
+  return quality_of(run.rows);
+}
+
+/// Says on a page whether the worst of all runs was good. \param quality of a run
+template <class Row>
+void answer_quality(Page &page, const std::vector<ElementRun<Row>> &runs,
+                    TestQuality (*quality)(const ElementRun<Row> &) = run_quality<Row>) {
   std::vector<TestQuality> qualities;
-  qualities.reserve(runs.size());
   for (const ElementRun<Row> &run : runs)
-    qualities.push_back(quality_of(run.rows));
+    qualities.push_back(quality(run));
   page.answer(quality_criteria(worst_of(qualities)));
 }
 

@@ -92,7 +92,7 @@ PageWriter read_shear_page(const std::vector<fs::path> &folders) {
     Page page(out, shear_title, Drawing::shear);
     page.answer("Samples of soil between two rough plates, periodic sideways, sheared by the upper one under "
                 "a constant normal stress. The ratio of the stresses is the friction on the plane of shear.");
-    answer_strength_quality(page, runs);
+    answer_quality(page, runs, strength_quality<ShearRow>);
     page.section("Friction and volume");
     page.figure(strength_figure(shear_test, soils, runs));
     page.section("Friction angle");

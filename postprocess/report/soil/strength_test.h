@@ -37,16 +37,6 @@ TestQuality strength_quality(const ElementRun<Row> &run) {
   return quality;
 }
 
-/// Says on a page whether the worst of all runs was good.
-template <class Row>
-void answer_strength_quality(Page &page, const std::vector<ElementRun<Row>> &runs) {
-  std::vector<TestQuality> qualities;
-  qualities.reserve(runs.size());
-  for (const ElementRun<Row> &run : runs)
-    qualities.push_back(strength_quality(run));
-  page.answer(quality_criteria(worst_of(qualities)));
-}
-
 /// The confining stress of each run, kPa: that asked for, else that of its first row in whole kPa.
 template <class Row>
 std::vector<double> confining_stresses(const StrengthTest<Row> &test,
