@@ -688,7 +688,7 @@ DirectResult solve(const ChainParameters &parameters, const DirectOptions &optio
   for (int cycle = 0; cycle < lead; ++cycle)
     solver.finish_cycle(motion);
   const long whole = options.last_point() / options.points_per_cycle();
-  const bool part = options.last_point() % options.points_per_cycle() != 0;
+  const bool part = whole == 0 || options.last_point() % options.points_per_cycle() != 0;
   for (long cycle = lead; cycle < whole + part; ++cycle) {
     recorder.begin_cycle(cycle);
     if (cycle == 0 && motion.phase == ContactPhase::contact && motion.state[0] == 0.0)
@@ -696,7 +696,7 @@ DirectResult solve(const ChainParameters &parameters, const DirectOptions &optio
           {ContactPhase::flight, ContactPhase::contact, 0.0, motion.state, solver.law(motion.state), 0.0});
     solver.finish_cycle(motion, &recorder);
     if (cycle < whole) recorder.end_cycle();
-    if (progress) progress(static_cast<double>(cycle + 1) / options.cycles);
+    if (progress) progress(std::min(1.0, static_cast<double>(cycle + 1) / options.cycles));
   }
   if (!part) {
     recorder.begin_cycle(whole);

@@ -132,6 +132,11 @@ TEST_P(EveryCase, AnImpactThatEndsWithinACycleAgreesWithTheDirectSolver) {
     options.cycles = cycles;
     expect_same_as_direct(chain(), options, 1e-11);
   }
+  options.cycles = 1e-5; // its end is the start
+  const DirectResult exact = solve_closed_form(chain(), options);
+  EXPECT_EQ(exact.history.size(), 1U);
+  EXPECT_EQ(events_text(exact.events), events_text(solve_direct(chain(), options).events));
+  EXPECT_TRUE(exact.cycles.empty());
 }
 
 TEST_P(EveryCase, AgreesWithExactPiecesInExtendedPrecision) {
