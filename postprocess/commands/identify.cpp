@@ -84,6 +84,8 @@ void run(const Arguments &arguments) {
   write_identification_page(draft.path(), found, compared ? &*compared : nullptr);
   write_files({{draft.path() / table_name, identification_csv(found)}});
   draft.publish();
+  for (const std::string &line : record.notes)
+    fmt::print("{}\n", line);
   fmt::print("{}: {:.4g} cycles at {:.4g} Hz, 95 % confidence intervals\n", found.file.string(), found.cycles,
              found.frequency);
   for (const std::string &line : identification_answer(found))

@@ -1,16 +1,12 @@
 #include "support/csv.h"
 
+#include "support/files.h"
 #include "support/range.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -47,16 +43,6 @@ std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(blanks);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-std::string read_whole_file(const fs::path &file) {
-  std::error_code code;
-  if (fs::is_directory(file, code)) csv_fault(file, 0, {}, "cannot be read: it is a folder");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) csv_fault(file, 0, {}, fmt::format("cannot be read: {}", std::strerror(errno)));
-  std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  if (stream.bad()) csv_fault(file, 0, {}, "reading stopped before the end of the file");
-  return text;
 }
 
 // Walks through a CSV text row by row. Cells are plain or quoted (RFC 4180); empty lines are skipped.
@@ -260,7 +246,7 @@ struct CsvRows::State {
 };
 
 CsvRows::CsvRows(const fs::path &file)
-    : state_(std::make_unique<State>(State{RowScanner(file, read_whole_file(file)), {}})) {
+    : state_(std::make_unique<State>(State{RowScanner(file, read_text(file)), {}})) {
   state_->header = read_header(state_->scanner);
 }
 
@@ -283,7 +269,7 @@ bool CsvRows::next(std::vector<std::string> &cells) {
 std::size_t CsvRows::line() const { return state_->scanner.line(); }
 
 Table read_table(const fs::path &file, CutRows cut) {
-  std::string text = read_whole_file(file);
+  std::string text = read_text(file);
   if (cut != CutRows::refuse) text.erase(text.rfind('\n') + 1); // npos + 1 is 0
   RowScanner scanner(file, std::move(text));
   std::vector<std::string> header = read_header(scanner);

@@ -169,7 +169,7 @@ TEST_F(IdentifyCommand, RefusesBadInputInOneLine) {
   const std::string parameters = read_text(scratch_ / "run/parameters.csv");
   const auto with = [&](const std::string &text) { post::write_files({{scratch_ / "run/chain.csv", text}}); };
   with(chain.substr(0, end + 1));
-  expect_refused({"run"}, "the number of rows is '0'");
+  expect_refused({"run"}, "run/chain.csv: no line has numbers");
   std::string other = chain;
   with(other.replace(other.find("a_drum"), 6, "b_drum"));
   expect_refused({"run"}, "the column a_drum is ''; allowed: ");
