@@ -395,10 +395,11 @@ void add_bed_command(CLI::App &app, Session &) {
   text_option(
       bed, "--grading", "NAME", arguments->grading,
       "uniform: every radius as often as any other; mass: the same mass in equal intervals of radius");
-  bed->add_option("--sieve", arguments->sieve,
-                  fmt::format("grading instead of radii: a table of the laboratory with the columns size (mm) and "
-                              "passing (%) or retained (%) by mass, or one of {}",
-                              grading_names()))
+  bed->add_option(
+         "--sieve", arguments->sieve,
+         fmt::format("grading instead of radii: a table of the laboratory with the columns size (mm) and "
+                     "passing (%) or retained (%) by mass, or one of {}",
+                     grading_names()))
       ->type_name("FILE");
   bed->add_option("--cut", arguments->cut,
                   "smallest size of a ball with --sieve [mm]; default: so that the balls fill the box to "

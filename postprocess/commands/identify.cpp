@@ -29,6 +29,7 @@ struct Arguments {
   RecordArguments record;
   bool accelerations_only = false;
   bool compare = false;
+  bool anyway = false;
   std::optional<std::string> origin;
   std::optional<std::string> phase_within;
   std::optional<std::string> least_force;
@@ -73,6 +74,9 @@ void run(const Arguments &arguments) {
   TimedProgress progress;
   const IdentifiedRecord found =
       identify_record(record, setting, [&progress](const std::string &what) { progress.tell("{}", what); });
+  const std::optional<std::string> doubt = contradiction(found);
+  if (doubt && !arguments.anyway)
+    throw std::runtime_error(fmt::format("{}: {} (--anyway shows the result)", found.file.string(), *doubt));
   std::optional<LumpedComparison> compared;
   if (arguments.compare) compared = compare_lumped(record, found);
   try {
@@ -88,6 +92,7 @@ void run(const Arguments &arguments) {
     fmt::print("{}\n", line);
   fmt::print("{}: {:.4g} cycles at {:.4g} Hz, 95 % confidence intervals\n", found.file.string(), found.cycles,
              found.frequency);
+  if (doubt) fmt::print("  The result contradicts itself: {}.\n", *doubt);
   for (const std::string &line : identification_answer(found))
     fmt::print("  {}\n", line);
   if (compared)
@@ -110,6 +115,7 @@ void add_identify_command(CLI::App &app, Session & /*session*/) {
   identify->add_flag(
       "--accelerations-only", arguments->accelerations_only,
       "do not use positions and velocities of the record: what a roller with accelerometers has");
+  identify->add_flag("--anyway", arguments->anyway, "show a result that contradicts itself");
   identify->add_flag("--compare", arguments->compare,
                      "solve the chain with this k and D, and draw it over the record: acceleration, force "
                      "loop, share of contact, "

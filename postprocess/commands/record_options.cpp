@@ -1,6 +1,7 @@
 #include "commands/record_options.h"
 
 #include "chain/parameters.h"
+#include "record/excitation.h"
 #include "support/options.h"
 #include "support/usage_error.h"
 
@@ -191,7 +192,11 @@ Record judged(const RecordArguments &arguments) {
   if (options.Fw && options.me_re)
     throw UsageError(refusal("--me-re", *arguments.me_re, "not together with --Fw, which follows from it"));
   if (arguments.chain_case) add_case(*arguments.chain_case, options);
-  return read_record(paths, options);
+  const std::optional<double> low_pass = std::exchange(options.low_pass, std::nullopt);
+  Record record = read_record(paths, options);
+  settle_excitation(record, options);
+  if (low_pass) filter_signals(record, *low_pass);
+  return record;
 }
 
 } // namespace drumlin::post

@@ -499,24 +499,24 @@ void check_length(const Record &record) {
   if (samples < least_samples - rounding) refuse("the number of samples per cycle", samples, least_samples);
 }
 
-void filter(Record &record, const RecordOptions &options) {
-  if (!options.low_pass) return;
+} // namespace
+
+void filter_signals(Record &record, double cutoff) {
   const double most = 0.5 / record.interval;
-  if (!(*options.low_pass > 0.0 && *options.low_pass < most))
+  if (!(cutoff > 0.0 && cutoff < most))
     throw std::runtime_error(
-        refusal("the cut-off frequency", *options.low_pass,
+        refusal("the cut-off frequency", cutoff,
                 fmt::format("numbers above 0 and below half the sampling rate, {:g} [Hz]", most)));
   for (const HistoryColumn &signal : record_signals)
-    record.*signal.values = low_passed(record.*signal.values, record.interval, *options.low_pass);
+    record.*signal.values = low_passed(record.*signal.values, record.interval, cutoff);
 }
 
 void compute_excitation(Record &record) {
-  if (!record.F_excitation.empty() || !record.omega || !record.phase || !record.Fw) return;
+  if (record.excitation_read || !record.omega || !record.phase || !record.Fw) return;
+  record.F_excitation.clear();
   std::transform(record.time.begin(), record.time.end(), std::back_inserter(record.F_excitation),
                  [&record](double t) { return *record.Fw * std::sin(*record.omega * t + *record.phase); });
 }
-
-} // namespace
 
 double Record::period() const {
   if (!omega)
@@ -573,7 +573,8 @@ Record read_record(const std::vector<fs::path> &files, const RecordOptions &opti
   check_derivative(reading, &Record::v_frame, &Record::a_frame);
   check_contact_force(reading);
   check_direction(reading);
-  filter(record, options);
+  record.excitation_read = !record.F_excitation.empty();
+  if (options.low_pass) filter_signals(record, *options.low_pass);
   compute_excitation(record);
   return record;
 }

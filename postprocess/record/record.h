@@ -40,10 +40,12 @@ struct Record : ChainHistory {
   std::optional<double> omega; ///< angular frequency of the excitation [rad/s]
   /// F_e = Fw sin(omega time + phase) [rad]: 0 in a run; of a measured record only if it is given.
   std::optional<double> phase;
-  std::optional<double> Fw; ///< amplitude of the excitation force [N]
-  std::optional<double> m2; ///< mass of the drum [kg]
-  std::optional<double> m3; ///< mass of the frame [kg]
-  std::optional<double> g;  ///< gravity [m/s2]
+  double phase_half_width = 0.0; ///< of the phase, if flights have told it [rad]
+  bool excitation_read = false;  ///< F_excitation is from the file
+  std::optional<double> Fw;      ///< amplitude of the excitation force [N]
+  std::optional<double> m2;      ///< mass of the drum [kg]
+  std::optional<double> m3;      ///< mass of the frame [kg]
+  std::optional<double> g;       ///< gravity [m/s2]
 
   /// Time of one cycle of the excitation [s]; std::runtime_error if `omega` is not known.
   double period() const;
@@ -103,6 +105,13 @@ constexpr int least_samples = 8;
 Record read_record(const std::vector<std::filesystem::path> &files, const RecordOptions &options = {});
 /// The same of one file or folder.
 Record read_record(const std::filesystem::path &path, const RecordOptions &options = {});
+
+/// F_excitation of a record that has none in its file, if omega, phase and Fw are known.
+void compute_excitation(Record &record);
+
+/// All signals without what is faster than `cutoff` [Hz], by low_passed(); std::runtime_error if it is not
+/// below half the sampling rate.
+void filter_signals(Record &record, double cutoff);
 
 /// Values without what is faster than `cutoff` [Hz]: a Butterworth filter of second order, forward and then
 /// backward, so that phases stay; it halves amplitudes at the cut-off. `interval` [s]; 0 < cutoff <
