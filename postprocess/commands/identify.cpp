@@ -70,6 +70,10 @@ void run(const Arguments &arguments) {
   const fs::path place = judged_folder(arguments.out);
   keep_apart(files_of(arguments.record), {{"--out", place, true}});
   const Record record = judged(arguments.record);
+  if (record.low_pass > 0.0 && !arguments.anyway)
+    throw UsageError(refusal("--low-pass", fmt::format("{:g}", record.low_pass),
+                             "no filter: it smooths the jump of each landing, which changes k and c; the fit "
+                             "averages noise by itself"));
   if (arguments.compare) require_comparable(record);
   TimedProgress progress;
   const IdentifiedRecord found =
@@ -115,7 +119,8 @@ void add_identify_command(CLI::App &app, Session & /*session*/) {
   identify->add_flag(
       "--accelerations-only", arguments->accelerations_only,
       "do not use positions and velocities of the record: what a roller with accelerometers has");
-  identify->add_flag("--anyway", arguments->anyway, "show a result that contradicts itself");
+  identify->add_flag("--anyway", arguments->anyway,
+                     "show a result that contradicts itself, or of a filtered record");
   identify->add_flag("--compare", arguments->compare,
                      "solve the chain with this k and D, and draw it over the record: acceleration, force "
                      "loop, share of contact, "

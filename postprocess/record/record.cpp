@@ -509,6 +509,7 @@ void filter_signals(Record &record, double cutoff) {
                 fmt::format("numbers above 0 and below half the sampling rate, {:g} [Hz]", most)));
   for (const HistoryColumn &signal : record_signals)
     record.*signal.values = low_passed(record.*signal.values, record.interval, cutoff);
+  record.low_pass = cutoff;
 }
 
 void compute_excitation(Record &record) {
@@ -577,6 +578,13 @@ Record read_record(const std::vector<fs::path> &files, const RecordOptions &opti
   if (options.low_pass) filter_signals(record, *options.low_pass);
   compute_excitation(record);
   return record;
+}
+
+double low_pass_gain(double frequency, double interval, double cutoff) {
+  // The filter's gain at the frequency that the bilinear transform puts in the place of an analogue one,
+  // squared, since it passes the signal twice.
+  const double ratio = std::tan(pi * frequency * interval) / std::tan(pi * cutoff * interval);
+  return 1.0 / (1.0 + std::pow(ratio, 4));
 }
 
 std::vector<double> low_passed(const std::vector<double> &values, double interval, double cutoff) {

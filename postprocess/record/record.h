@@ -41,6 +41,7 @@ struct Record : ChainHistory {
   /// F_e = Fw sin(omega time + phase) [rad]: 0 in a run; of a measured record only if it is given.
   std::optional<double> phase;
   double phase_half_width = 0.0; ///< of the phase, if flights have told it [rad]
+  double low_pass = 0.0;         ///< cut-off of the filter that all signals passed [Hz]; 0: none
   bool excitation_read = false;  ///< F_excitation is from the file
   std::optional<double> Fw;      ///< amplitude of the excitation force [N]
   std::optional<double> m2;      ///< mass of the drum [kg]
@@ -112,6 +113,9 @@ void compute_excitation(Record &record);
 /// All signals without what is faster than `cutoff` [Hz], by low_passed(); std::runtime_error if it is not
 /// below half the sampling rate.
 void filter_signals(Record &record, double cutoff);
+
+/// Share of an amplitude that low_passed() leaves at a frequency [Hz].
+double low_pass_gain(double frequency, double interval, double cutoff);
 
 /// Values without what is faster than `cutoff` [Hz]: a Butterworth filter of second order, forward and then
 /// backward, so that phases stay; it halves amplitudes at the cut-off. `interval` [s]; 0 < cutoff <

@@ -159,6 +159,7 @@ TEST_F(IdentifyCommand, RefusesBadInputInOneLine) {
   expect_refused({"run", "--window", "ten"}, "--window is 'ten'; allowed: ");
   expect_refused({"run", "--phase-within", "-1"}, "--phase-within is '-1'; allowed: ");
   expect_refused({"run", "--phase-within", "90"}, "--phase-within is '90'; allowed: ");
+  expect_refused({"run", "--low-pass", "200"}, "--low-pass is '200'; allowed: no filter");
   expect_refused({"run", "--least-force", "95"}, "--least-force is '95'; allowed: ");
   expect_refused({"run", "--origin", "here"}, "--origin is 'here'; allowed: ");
   expect_refused({"run", "--out", "run"}, "--out is 'run'; allowed: ");

@@ -126,6 +126,14 @@ TEST_F(MeterCommand, MeasuredRecord) {
   for (const double cmv : table.numbers("CMV [-]"))
     EXPECT_NEAR(cmv, 60.0, 0.3); // a cycle is no whole number of samples
   EXPECT_TRUE(table.text("k_B [N/m]").front().empty());
+  // The harmonics have the size that they had before a filter, which leaves 0.27 of the second here.
+  words.insert(words.end(), {"--low-pass", "45"});
+  ASSERT_EQ(meter(words).status, 0);
+  for (const double cmv : read_table(folder_ / "results/meter/meter.csv").numbers("CMV [-]"))
+    EXPECT_NEAR(cmv, 60.0, 0.5);
+  words.back() = "20";
+  EXPECT_TRUE(
+      meter(words).says("the cut-off frequency is '20'; allowed: one that leaves a tenth of the second"));
 }
 
 TEST_F(MeterCommand, ShowsWhatItUnderstands) {

@@ -297,6 +297,7 @@ TEST(LowPass, HalvesAtTheCutOffAndKeepsPhase) {
     const std::vector<double> filtered = low_passed(values, interval, cutoff);
     const double ratio = std::tan(M_PI * frequency * interval) / std::tan(M_PI * cutoff * interval);
     const double gain = 1.0 / (1.0 + std::pow(ratio, 4));
+    EXPECT_DOUBLE_EQ(low_pass_gain(frequency, interval, cutoff), gain);
     for (int i = 1000; i < 3000; ++i)
       ASSERT_NEAR(filtered[static_cast<std::size_t>(i)], gain * values[static_cast<std::size_t>(i)], 1e-9);
   }
