@@ -1,20 +1,22 @@
 #include "bed/sieve_curve.h"
 
 #include "support/csv.h"
+#include "support/measured_table.h"
 #include "support/range.h"
+#include "support/units.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <string>
 #include <utility>
 
 namespace drumlin::post {
 
 namespace {
 
-constexpr const char *size_column = "size (mm)";
-constexpr const char *passing_column = "passing (%)";
 constexpr double mm = 1e-3;
 constexpr double percent = 1e-2;
 
@@ -89,18 +91,70 @@ SieveCurve SieveCurve::coarser_than(double size) const {
   return SieveCurve(std::move(rest));
 }
 
+namespace {
+
+/// The numbers of a column, none blank.
+std::vector<double> all_numbers(const MeasuredTable &table, std::size_t column) {
+  std::vector<double> values = table.numbers(column);
+  for (std::size_t row = 0; row < values.size(); ++row)
+    if (std::isnan(values[row])) table.refuse(row, column, "a finite number");
+  return values;
+}
+
+/// The unit of sizes in a column, millimetres if it names none.
+double unit_of_sizes(const MeasuredTable &table, std::size_t column) {
+  const MeasuredColumn &sizes = table.columns()[column];
+  if (sizes.unit.empty()) return mm;
+  const std::optional<Unit> unit = unit_from_text(sizes.unit);
+  if (!unit || unit->quantity != Quantity::length)
+    csv_fault(table.file(), 0, sizes.header, refusal("its unit", sizes.unit, unit_names(Quantity::length)));
+  return unit->factor;
+}
+
+} // namespace
+
 SieveCurve read_sieve_file(const std::filesystem::path &file) {
-  const Table table = read_table(file);
-  const std::vector<double> sizes = table.numbers(size_column), passing = table.numbers(passing_column);
-  if (sizes.empty()) csv_fault(file, 0, {}, refusal("the number of rows", "0", "a row for each sieve"));
+  const MeasuredTable table(file);
+  const std::optional<std::size_t> size_column = table.find("size");
+  if (!size_column) table.missing("size");
+  const std::optional<std::size_t> passing_column = table.find("passing");
+  const std::optional<std::size_t> share_column = passing_column ? passing_column : table.find("retained");
+  if (!share_column) table.missing("passing (%)");
+  const std::vector<double> sizes = all_numbers(table, *size_column);
+  const std::vector<double> shares = all_numbers(table, *share_column);
+  const double unit = unit_of_sizes(table, *size_column);
+  // Rows from the finest sieve on; a file may begin with the coarsest.
+  std::vector<std::size_t> rows(sizes.size());
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  if (sizes.size() > 1 && sizes.front() > sizes.back()) std::reverse(rows.begin(), rows.end());
   std::vector<Sieve> sieves;
-  for (std::size_t i = 0; i < sizes.size(); ++i)
-    sieves.push_back({sizes[i] * mm, passing[i] * percent});
+  if (passing_column) {
+    for (const std::size_t row : rows)
+      sieves.push_back({sizes[row] * unit, shares[row] * percent});
+  } else { // what stays on a sieve; what is in the pan has the size 0
+    for (const std::size_t row : rows)
+      if (shares[row] < 0.0) table.refuse(row, *share_column, "a mass or share of 0 or more");
+    const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
+    const bool pan = sizes[rows.front()] == 0.0;
+    const bool of_hundred = table.columns()[*share_column].unit == "%" && !pan;
+    const double all = of_hundred ? 1.0 / percent : sum;
+    if (!(all > 0.0) || sum > all * (1.0 + percent))
+      csv_fault(file, 0, table.columns()[*share_column].header,
+                refusal("the sum", sum, "more than 0, and of shares at most 100 %"));
+    double finer = of_hundred ? std::max(0.0, 1.0 - sum / all) : 0.0;
+    for (const std::size_t row : rows) {
+      if (sizes[row] != 0.0) sieves.push_back({sizes[row] * unit, std::min(1.0, finer)});
+      finer += shares[row] / all;
+    }
+    if (pan) rows.erase(rows.begin());
+    // Rounding must not leave a share of the largest grains.
+    if (!sieves.empty() && shares[rows.back()] == 0.0) sieves.back().passing = 1.0;
+  }
   try {
     return SieveCurve(std::move(sieves));
   } catch (const SieveFault &fault) {
-    const char *column = fault.value == SieveFault::Value::size ? size_column : passing_column;
-    csv_refusal(file, table.line(fault.row), column, table.text(column)[fault.row], fault.what());
+    table.refuse(rows.at(fault.row), fault.value == SieveFault::Value::size ? *size_column : *share_column,
+                 fault.what());
   }
 }
 

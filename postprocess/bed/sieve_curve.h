@@ -60,7 +60,9 @@ private:
   std::vector<Sieve> sieves_;
 };
 
-/// Reads a CSV file with the columns `size (mm)` and `passing (%)`, a row for each sieve, the finest first.
+/// Reads a table as a laboratory writes it (MeasuredTable), a row for each sieve, the finest or the coarsest
+/// first: a column `size`, in mm if it has no unit, and `passing` in % or `retained`, the mass or share in %
+/// that stays on each sieve; a row of size 0 is the pan. Without it the rest of 100 % is finer than all.
 /// Throws std::runtime_error that names file, line, column, value and what is allowed.
 SieveCurve read_sieve_file(const std::filesystem::path &file);
 

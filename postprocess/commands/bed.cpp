@@ -69,7 +69,8 @@ std::pair<SieveCurve, std::string> asked_grading(const char *option, const std::
   if (!fs::exists(file))
     throw UsageError(refusal(
         option, text,
-        fmt::format("a CSV file with the columns size (mm) and passing (%), or one of {}", grading_names())));
+        fmt::format("a CSV file with the columns size (mm) and passing (%) or retained (%), or one of {}",
+                    grading_names())));
   std::string name = file.stem().string();
   for (char &letter : name)
     if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '-' && letter != '.') letter = '_';
@@ -394,11 +395,11 @@ void add_bed_command(CLI::App &app, Session &) {
   text_option(
       bed, "--grading", "NAME", arguments->grading,
       "uniform: every radius as often as any other; mass: the same mass in equal intervals of radius");
-  text_option(bed, "--sieve", "FILE", arguments->sieve,
-              fmt::format("grading instead of radii: a CSV file with the columns size (mm) and passing "
-                          "(%) by mass, or one "
-                          "of {}",
-                          grading_names()));
+  text_option(
+      bed, "--sieve", "FILE", arguments->sieve,
+      fmt::format("grading instead of radii: a table of the laboratory with the columns size (mm) and "
+                  "passing (%) or retained (%) by mass, or one of {}",
+                  grading_names()));
   text_option(bed, "--cut", "NUMBER", arguments->cut,
               "smallest size of a ball with --sieve [mm]; default: so that the balls fill the box to "
               "--height, or to "

@@ -29,6 +29,7 @@ struct Arguments {
   RecordArguments record;
   bool accelerations_only = false;
   bool compare = false;
+  bool anyway = false;
   std::optional<std::string> origin;
   std::optional<std::string> phase_within;
   std::optional<std::string> least_force;
@@ -69,10 +70,17 @@ void run(const Arguments &arguments) {
   const fs::path place = judged_folder(arguments.out);
   keep_apart(files_of(arguments.record), {{"--out", place, true}});
   const Record record = judged(arguments.record);
+  if (record.low_pass > 0.0 && !arguments.anyway)
+    throw UsageError(refusal("--low-pass", fmt::format("{:g}", record.low_pass),
+                             "no filter: it smooths the jump of each landing, which changes k and c; the fit "
+                             "averages noise by itself"));
   if (arguments.compare) require_comparable(record);
   TimedProgress progress;
   const IdentifiedRecord found =
       identify_record(record, setting, [&progress](const std::string &what) { progress.tell("{}", what); });
+  const std::optional<std::string> doubt = contradiction(found);
+  if (doubt && !arguments.anyway)
+    throw std::runtime_error(fmt::format("{}: {} (--anyway shows the result)", found.file.string(), *doubt));
   std::optional<LumpedComparison> compared;
   if (arguments.compare) compared = compare_lumped(record, found);
   try {
@@ -84,8 +92,11 @@ void run(const Arguments &arguments) {
   write_identification_page(draft.path(), found, compared ? &*compared : nullptr);
   write_files({{draft.path() / table_name, identification_csv(found)}});
   draft.publish();
+  for (const std::string &line : record.notes)
+    fmt::print("{}\n", line);
   fmt::print("{}: {:.4g} cycles at {:.4g} Hz, 95 % confidence intervals\n", found.file.string(), found.cycles,
              found.frequency);
+  if (doubt) fmt::print("  The result contradicts itself: {}.\n", *doubt);
   for (const std::string &line : identification_answer(found))
     fmt::print("  {}\n", line);
   if (compared)
@@ -108,6 +119,8 @@ void add_identify_command(CLI::App &app, Session & /*session*/) {
   identify->add_flag(
       "--accelerations-only", arguments->accelerations_only,
       "do not use positions and velocities of the record: what a roller with accelerometers has");
+  identify->add_flag("--anyway", arguments->anyway,
+                     "show a result that contradicts itself, or of a filtered record");
   identify->add_flag("--compare", arguments->compare,
                      "solve the chain with this k and D, and draw it over the record: acceleration, force "
                      "loop, share of contact, "

@@ -20,10 +20,12 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char *values_name = "meter.csv";
+constexpr const char *shown_name = "first_second.csv"; // in the folder of --show
 
 /// The options as given. Numbers stay text until all are judged.
 struct Arguments {
   RecordArguments record;
+  bool show = false;
   std::string rmv_constant = "100";
   std::string same = "0.05";
   std::string poisson = "0.35";
@@ -62,7 +64,8 @@ void take_window(const std::string &text, Task &task) {
 /// A folder that is new, empty or of an earlier call.
 fs::path checked_out(const std::string &text) {
   fs::path out = output_folder_option("--out", text);
-  if (fs::is_directory(out) && !fs::is_empty(out) && !fs::exists(out / values_name))
+  if (fs::is_directory(out) && !fs::is_empty(out) && !fs::exists(out / values_name) &&
+      !fs::exists(out / "data" / shown_name))
     throw UsageError(refusal("--out", text, "a folder that is new, empty or of an earlier 'drumlin meter'"));
   return out;
 }
@@ -121,8 +124,25 @@ void print_windows(const MeterResult &result) {
   if (count > most) fmt::print("the last {} of {} windows; all are in {}\n", most, count, values_name);
 }
 
+/// Prints and draws how the record was understood.
+void show(const Record &record, const fs::path &out) {
+  if (record.time.empty()) throw UsageError(refusal("--show", record.file.string(), "a record with samples"));
+  for (const std::string &line : reading_words(record))
+    fmt::print("{}\n", line);
+  const fs::path place = fs::weakly_canonical(fs::absolute(out));
+  make_output_folder(place.parent_path());
+  FolderInProgress draft(place);
+  write_reading_page(draft.path(), record);
+  draft.publish();
+  fmt::print("{}\n", (out / "index.html").string());
+}
+
 void run(const Arguments &arguments) {
   Task task = judge(arguments);
+  if (arguments.show) {
+    show(judged(arguments.record), task.out);
+    return;
+  }
   MeterResult result;
   result.record = judged(arguments.record);
   result.cycles = meter_cycles(result.record);
@@ -133,6 +153,8 @@ void run(const Arguments &arguments) {
   result.options = task.options;
   result.windows = meter_windows(result.cycles, result.options);
 
+  for (const std::string &line : result.record.notes)
+    fmt::print("{}\n", line);
   fmt::print("{}: {}\n{}\n", result.record.file.string(), answer_line(result), source_words(result));
   print_windows(result);
   const fs::path place = fs::weakly_canonical(fs::absolute(task.out));
@@ -158,6 +180,8 @@ void add_meter_command(CLI::App &app, Session & /*session*/) {
                                                 "over windows of whole cycles. Writes meter.csv and a "
                                                 "page with plots.");
   add_record_options(*meter, arguments->record);
+  meter->add_flag("--show", arguments->show,
+                  "only print how the file was understood and draw its first second");
   text_option(meter, "--rmv-constant", "NUMBER", arguments->rmv_constant,
               "constant of RMV, 100 or 300 in sources");
   text_option(meter, "--same", "NUMBER", arguments->same,

@@ -2,6 +2,7 @@
 
 #include "chain/parameters.h"
 #include "commands/text_options.h"
+#include "record/excitation.h"
 #include "support/options.h"
 #include "support/usage_error.h"
 
@@ -11,7 +12,9 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <stdexcept>
+#include <utility>
 
 namespace drumlin::post {
 
@@ -74,13 +77,14 @@ void add_case(const std::string &name, RecordOptions &options) {
 void add_record_options(CLI::App &command, RecordArguments &arguments) {
   command
       .add_option(
-          "RECORD", arguments.record,
-          "folder of a run, its chain.csv, bed.csv or cycles.csv, or a measured CSV file with a header line")
+          "RECORD", arguments.records,
+          "folder of a run, its chain.csv, bed.csv or cycles.csv, or a measured file; several measured files "
+          "continue one another")
       ->required();
   command
       .add_option("--column", arguments.columns,
                   "where a signal stands in a measured file, and in which unit: NAME=HEADER or "
-                  "NAME=HEADER:UNIT; NAME is "
+                  "NAME=HEADER:UNIT, where HEADER may be the column's number; NAME is "
                   "time, x_drum, v_drum, a_drum (up positive), the same with frame, F_contact (compression "
                   "positive) or "
                   "F_excitation (down positive); a '-' before the unit turns the sign")
@@ -93,23 +97,68 @@ void add_record_options(CLI::App &command, RecordArguments &arguments) {
       fmt::format("roller whose frequency, eccentric moment and masses count where no option gives them: {}",
                   fmt::join(chain_cases, ", ")))
       ->group("Measured records");
+  const auto of_file = [&command](const char *name, std::optional<std::string> &into, const char *help) {
+    text_option(&command, name, "WORD", into, help)->group("Measured records");
+  };
+  of_file("--separator", arguments.separator,
+          "what stands between cells: comma, semicolon, tab, bar or blank; found if not given");
+  of_file("--decimal", arguments.decimal, "decimal sign: point or comma; found if not given");
+  of_file("--piece", arguments.piece,
+          "which piece of a file with gaps or blank cells, counted from 1; the longest if not given");
   for (const RecordNumber &number : record_numbers)
     text_option(&command, number.name, "NUMBER", arguments.*number.text, number.help)
         ->group("Measured records");
 }
 
+namespace {
+
+std::vector<std::filesystem::path> paths_of(const RecordArguments &arguments) {
+  std::vector<std::filesystem::path> paths;
+  for (const std::string &text : arguments.records)
+    paths.push_back(path_option("RECORD", text));
+  return paths;
+}
+
+/// The sign that a word names.
+char sign_of(const char *option, const std::string &text,
+             std::initializer_list<std::pair<const char *, char>> words) {
+  std::vector<const char *> names;
+  for (const auto &[name, sign] : words) {
+    if (text == name || text == std::string(1, sign)) return sign;
+    names.push_back(name);
+  }
+  throw UsageError(refusal(option, text, fmt::format("{}", fmt::join(names, ", "))));
+}
+
+} // namespace
+
 std::vector<GivenPath> files_of(const RecordArguments &arguments) {
   const std::vector<std::string> of_run = {"chain.csv", "bed.csv", "cycles.csv", "parameters.csv"};
-  const std::filesystem::path path = path_option("RECORD", arguments.record);
-  const bool folder = std::filesystem::is_directory(path);
-  if (!folder && std::find(of_run.begin(), of_run.end(), path.filename()) == of_run.end())
-    return {{"RECORD", path}};
-  return files_in("RECORD", folder ? path : path.parent_path(), of_run);
+  std::vector<GivenPath> files;
+  for (const std::filesystem::path &path : paths_of(arguments)) {
+    const bool folder = std::filesystem::is_directory(path);
+    if (folder || std::find(of_run.begin(), of_run.end(), path.filename()) != of_run.end())
+      for (const GivenPath &file : files_in("RECORD", folder ? path : path.parent_path(), of_run))
+        files.push_back(file);
+    else
+      files.push_back({"RECORD", path});
+  }
+  return files;
 }
 
 Record judged(const RecordArguments &arguments) {
   RecordOptions options;
-  const std::filesystem::path path = path_option("RECORD", arguments.record);
+  const std::vector<std::filesystem::path> paths = paths_of(arguments);
+  if (arguments.separator)
+    options.format.separator =
+        sign_of("--separator", *arguments.separator,
+                {{"comma", ','}, {"semicolon", ';'}, {"tab", '\t'}, {"bar", '|'}, {"blank", ' '}});
+  if (arguments.decimal)
+    options.format.decimal = sign_of("--decimal", *arguments.decimal, {{"point", '.'}, {"comma", ','}});
+  if (options.format.separator == ',' && options.format.decimal == ',')
+    throw UsageError(refusal("--decimal", *arguments.decimal, "not the sign between cells"));
+  constexpr int most_pieces = 1000000;
+  if (arguments.piece) options.piece = count_option("--piece", *arguments.piece, 1, most_pieces);
   for (const std::string &text : arguments.columns)
     try {
       if (!options.columns.insert(column_from_text(text)).second)
@@ -133,7 +182,11 @@ Record judged(const RecordArguments &arguments) {
   if (options.Fw && options.me_re)
     throw UsageError(refusal("--me-re", *arguments.me_re, "not together with --Fw, which follows from it"));
   if (arguments.chain_case) add_case(*arguments.chain_case, options);
-  return read_record(path, options);
+  const std::optional<double> low_pass = std::exchange(options.low_pass, std::nullopt);
+  Record record = read_record(paths, options);
+  settle_excitation(record, options);
+  if (low_pass) filter_signals(record, *low_pass);
+  return record;
 }
 
 } // namespace drumlin::post

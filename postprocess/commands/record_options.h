@@ -18,8 +18,9 @@ namespace drumlin::post {
 
 /// The options as given. Numbers stay text until all are judged.
 struct RecordArguments {
-  std::string record;
+  std::vector<std::string> records;
   std::vector<std::string> columns;
+  std::optional<std::string> separator, decimal, piece;
   std::optional<std::string>
       chain_case; ///< roller whose frequency, force and masses count where none is given
   std::optional<std::string> sampling_rate, frequency, phase, Fw, me_re, m2, m3, low_pass;

@@ -96,8 +96,10 @@ DrumSignals signals_of(const Record &record, bool accelerations_only) {
   need(record, !record.a_drum.empty(), "the column a_drum", "the acceleration of the drum");
   need(record, record.m2.has_value(), "m2", "the mass of the drum in parameters.csv, or --m2");
   need(record, record.m3.has_value(), "m3", "the mass of the frame in parameters.csv, or --m3");
-  need(record, !record.F_excitation.empty(), "the excitation force",
-       "a column F_excitation, or --frequency and --phase with --Fw or --me-re");
+  need(
+      record, !record.F_excitation.empty(), "the excitation force",
+      "a column F_excitation, or --frequency with --Fw or --me-re, and --phase, which no flights of the drum "
+      "tell here");
   constexpr double usual_gravity = 9.81;
   const double weight = (*record.m2 + *record.m3) * record.g.value_or(usual_gravity);
   DrumSignals signals;
@@ -118,6 +120,27 @@ DrumSignals signals_of(const Record &record, bool accelerations_only) {
   return signals;
 }
 
+std::optional<std::string> contradiction(const IdentifiedRecord &record) {
+  const LawEstimate &law = record.whole.law;
+  constexpr const char *causes =
+      "masses, eccentric moment, phase, a sign or a unit of an acceleration, a sensor at "
+      "its limit, a filter";
+  const auto negative = [](const MeanInterval &value) { return value.mean + value.half_width < 0.0; };
+  if (!(law.k.mean > 0.0))
+    return fmt::format("k is {:.4g} N/m, and no soil has a negative stiffness; to be checked: {}", law.k.mean,
+                       causes);
+  if (negative(law.c))
+    return fmt::format("c is {:.4g} +- {:.2g} N s/m, and no soil drives the drum; to be checked: {}",
+                       law.c.mean, law.c.half_width, causes);
+  constexpr double poor = 0.9; // R2 of a law that does not follow the tension that it is said to have
+  if (record.whole.pull == Pull::pulls && law.r2 < poor)
+    return fmt::format(
+        "a tension of {:.4g} N is seen, but the law explains only {:.0f} % of the force; to be "
+        "checked: {}",
+        record.whole.tension, 100.0 * law.r2, causes);
+  return std::nullopt;
+}
+
 IdentifiedRecord identify_record(const Record &record, const RecordSetting &setting,
                                  const std::function<void(const std::string &)> &progress) {
   const DrumSignals signals = signals_of(record, setting.accelerations_only);
@@ -128,13 +151,15 @@ IdentifiedRecord identify_record(const Record &record, const RecordSetting &sett
   const bool of_chain = record.file.filename() == "chain.csv";
   constexpr double usual_share = 0.2; // soil that a drum just touches is softer
   result.known_origin = setting.known_origin.value_or(of_chain);
-  result.phase_known = setting.phase_within == 0.0;
+  // An interval of 95 % is exceeded by errors of half its size more now and then.
+  const double phase_within = std::max(setting.phase_within, 1.5 * record.phase_half_width);
+  result.phase_known = phase_within == 0.0;
   result.positions = !signals.x_drum.empty() || !signals.v_drum.empty();
   result.frame = !record.a_frame.empty();
   result.force_difference = force_difference(signals.force, record.F_contact);
   result.time = record.time;
   result.per_cycle = signals.per_cycle;
-  const IdentificationSetting law = {*record.m2, result.known_origin, setting.phase_within,
+  const IdentificationSetting law = {*record.m2, result.known_origin, phase_within,
                                      setting.least_force.value_or(of_chain ? 0.0 : usual_share)};
   try {
     result.whole = identify(signals, law, [&progress](double share) {

@@ -58,6 +58,9 @@ struct IdentifiedRecord {
 /// record does not give it. std::runtime_error with one line for what is missing.
 DrumSignals signals_of(const Record &record, bool accelerations_only);
 
+/// What in an identification contradicts itself, and what may be the cause; nothing if nothing does.
+std::optional<std::string> contradiction(const IdentifiedRecord &record);
+
 /// Identifies a record; std::runtime_error with one line if it cannot be done. `progress` is called with what
 /// is being done.
 IdentifiedRecord identify_record(const Record &record, const RecordSetting &setting,

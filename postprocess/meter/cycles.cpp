@@ -219,6 +219,29 @@ void take_sums(const StepSums &sums, double period, std::vector<MeterCycle> &cyc
   }
 }
 
+/// Gives the harmonics the size that they had before the filter.
+void undo_filter(const Record &record, std::vector<MeterCycle> &cycles) {
+  if (record.low_pass == 0.0) return;
+  const double frequency = 1.0 / record.period();
+  std::array<double, meter_orders.size()> gain{};
+  for (std::size_t j = 0; j < gain.size(); ++j)
+    gain[j] = low_pass_gain(meter_orders[j] * frequency, record.interval, record.low_pass);
+  constexpr double least_gain = 0.1;
+  if (gain[double_order] < least_gain)
+    csv_fault(
+        record.file, 0, {},
+        refusal("the cut-off frequency", record.low_pass,
+                fmt::format("one that leaves a tenth of the second harmonic at {:.4g} Hz", 2.0 * frequency)));
+  for (MeterCycle &cycle : cycles) {
+    for (std::size_t j = 0; j < gain.size(); ++j) {
+      cycle.acceleration[j] /= gain[j];
+      cycle.bound[j] /= gain[j];
+    }
+    if (cycle.frame) *cycle.frame /= gain[basic_order];
+    if (cycle.excitation) *cycle.excitation /= gain[basic_order];
+  }
+}
+
 /// The excitation of a run without samples: F_e = Fw sin(omega t + phase).
 void take_excitation(const Record &record, std::vector<MeterCycle> &cycles) {
   if (!record.time.empty() || !record.Fw || !record.phase) return;
@@ -313,6 +336,7 @@ MeterRecord meter_cycles(const Record &record) {
     add_from_acceleration(record, result.cycles);
   add_first_order(record, record.a_frame, &MeterCycle::frame, result.cycles);
   add_first_order(record, record.F_excitation, &MeterCycle::excitation, result.cycles);
+  if (!summed) undo_filter(record, result.cycles);
   const std::vector<double> force = soil_force(record);
   result.computed_force = record.F_contact.empty() && !force.empty();
   if (!force.empty()) ContactSums(record, force, result.computed_force, result.cycles).add();

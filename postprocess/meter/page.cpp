@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace drumlin::post {
 
@@ -224,6 +225,51 @@ std::string source_words(const MeterResult &result) {
   }
   return fmt::format(
       "Harmonics are from samples of acceleration; a jump may lie anywhere between two of them: {}.", off);
+}
+
+std::vector<std::string> reading_words(const Record &record) {
+  std::vector<std::string> words = record.notes;
+  for (std::size_t i = 0; i < record.pieces.size() && record.pieces.size() > 1; ++i)
+    words.push_back(fmt::format("piece {}: {:.6g} to {:.6g} s, {} samples", i + 1, record.pieces[i].begin,
+                                record.pieces[i].end, record.pieces[i].samples));
+  if (!record.time.empty())
+    words.push_back(fmt::format("{} samples, {:.6g} per second, {:.6g} s", record.size(),
+                                1.0 / record.interval, record.time.back() - record.time.front()));
+  return words;
+}
+
+void write_reading_page(const std::filesystem::path &folder, const Record &record) {
+  Page page(folder, "What was read", std::nullopt);
+  for (const std::string &line : reading_words(record))
+    page.answer(line + ".");
+  const std::string name = "first_second";
+  PageFigure figure = page_figure("Fig. 1", "The first second of the signals that were read, in SI units.",
+                                  {name, "First second", {}, 1}, 1.0);
+  CurveTable table("time [s],value [SI]");
+  for (const HistoryColumn &column : history_columns) {
+    const std::vector<double> &values = record.*column.values;
+    if (column.derivative == time_column || values.empty()) continue;
+    constexpr std::array<std::pair<const char *, const char *>, 3> of_motion = {
+        {{"position", "m"}, {"velocity", "m/s"}, {"acceleration", "m/s^2"}}};
+    const std::string part = std::string(column.name).substr(2); // x_drum: drum
+    Panel panel;
+    panel.x_label = "time [s]";
+    if (column.derivative == force_column) {
+      panel.y_label = part + " force [N]";
+    } else {
+      const auto &[word, unit] = of_motion[static_cast<std::size_t>(column.derivative)];
+      panel.y_label = fmt::format("{} of the {} [{}]", word, part, unit);
+    }
+    panel.tight_x = true;
+    panel.curves = {curve(name, column.name, "$2", "3", CurveStyle::plain)};
+    panel.curves.back().title.clear();
+    figure.figure.panels.push_back(panel);
+    for (std::size_t i = 0; i < record.size() && record.time[i] <= record.time.front() + 1.0; ++i)
+      table.row(column.name, {record.time[i], values[i]});
+  }
+  figure.csv = table.text();
+  page.figure(figure);
+  page.write();
 }
 
 std::string answer_line(const MeterResult &result) {

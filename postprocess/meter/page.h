@@ -23,6 +23,9 @@ std::string meter_csv(const MeterResult &result);
 /// What the values come from and how exact that is, as a sentence.
 std::string source_words(const MeterResult &result);
 
+/// How a record was understood: how its files are written, what its columns are, its pieces, rate and length.
+std::vector<std::string> reading_words(const Record &record);
+
 /// The last window in one line: mode, CMV with its bound, RMV and the other values that there are.
 std::string answer_line(const MeterResult &result);
 
@@ -36,6 +39,9 @@ struct PassOptions {
 /// CMV, RMV, frequency and amplitude of the last window in it; CRLF line ends, '?' for what is not known. The
 /// path runs north from 0; times count from 2000/Jan/01 00:00:00.
 std::string all_passes_csv(const MeterResult &result, const PassOptions &options);
+
+/// Writes a page index.html that shows what was read: reading_words(), and the first second of each signal.
+void write_reading_page(const std::filesystem::path &folder, const Record &record);
 
 /// Writes a page index.html with plots (values along the record, spectrum, loop) and their data into a folder
 /// that exists.

@@ -4,6 +4,7 @@
 #include "support/csv.h"
 #include "support/range.h"
 #include "support/statistics.h"
+#include "support/units.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,7 +12,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <iterator>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -31,36 +34,16 @@ constexpr auto record_signals = [] {
   return signals;
 }();
 
-struct Unit {
-  const char *name;
-  double factor;
-  int derivative;
-};
-constexpr std::array<Unit, 19> units = {{{"s", 1.0, time_column},
-                                         {"ms", 1e-3, time_column},
-                                         {"us", 1e-6, time_column},
-                                         {"m", 1.0, 0},
-                                         {"cm", 1e-2, 0},
-                                         {"mm", 1e-3, 0},
-                                         {"um", 1e-6, 0},
-                                         {"m/s", 1.0, 1},
-                                         {"cm/s", 1e-2, 1},
-                                         {"mm/s", 1e-3, 1},
-                                         {"um/s", 1e-6, 1},
-                                         {"m/s2", 1.0, 2},
-                                         {"cm/s2", 1e-2, 2},
-                                         {"mm/s2", 1e-3, 2},
-                                         {"um/s2", 1e-6, 2},
-                                         {"g", 9.80665, 2},
-                                         {"N", 1.0, force_column},
-                                         {"kN", 1e3, force_column},
-                                         {"MN", 1e6, force_column}}};
-
-/// What its unit measures; nothing for a name that is neither `time` nor a signal.
-std::optional<int> dimension_of(const std::string &name) {
-  if (name == "time") return time_column;
-  for (const HistoryColumn &signal : record_signals)
-    if (name == signal.name) return signal.derivative;
+/// What the unit of `time` or of a signal measures; nothing for another name.
+std::optional<Quantity> quantity_of(const std::string &name) {
+  if (name == "time") return Quantity::time;
+  for (const HistoryColumn &signal : record_signals) {
+    constexpr std::array<Quantity, 3> of_derivative = {Quantity::length, Quantity::velocity,
+                                                       Quantity::acceleration};
+    if (name == signal.name)
+      return signal.derivative == force_column ? Quantity::force
+                                               : of_derivative[static_cast<std::size_t>(signal.derivative)];
+  }
   return std::nullopt;
 }
 
@@ -71,19 +54,17 @@ std::string signal_names() {
   return names;
 }
 
-double factor_of(const std::string &unit, int dimension) {
-  const bool negative = !unit.empty() && unit.front() == '-' && dimension != time_column;
-  const std::string name = negative ? unit.substr(1) : unit;
-  std::vector<const char *> allowed;
-  for (const Unit &known : units) {
-    if (known.derivative != dimension) continue;
-    if (name == known.name) return negative ? -known.factor : known.factor;
-    allowed.push_back(known.name);
-  }
-  throw std::invalid_argument(
-      refusal("the unit", unit,
-              fmt::format("{}{}", fmt::join(allowed, ", "),
-                          dimension == time_column ? "" : ", with '-' before it to turn the sign")));
+/// The words of the units in which a quantity may be given.
+std::string allowed_units(Quantity quantity) {
+  return unit_names(quantity) + (quantity == Quantity::time ? "" : ", with '-' before it to turn the sign");
+}
+
+double factor_of(const std::string &unit, Quantity quantity) {
+  const bool negative = !unit.empty() && unit.front() == '-' && quantity != Quantity::time;
+  const std::optional<Unit> known = unit_from_text(negative ? unit.substr(1) : unit);
+  if (!known || known->quantity != quantity)
+    throw std::invalid_argument(refusal("the unit", unit, allowed_units(quantity)));
+  return negative ? -known->factor : known->factor;
 }
 
 double rms(const std::vector<double> &values) {
@@ -95,10 +76,18 @@ double mean(const std::vector<double> &values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
+/// Rows from `first` to before `end`.
+struct SampleRange {
+  std::size_t first, end;
+};
+
 /// A record being read, with what its messages name.
 struct Reading {
   Record record;
-  std::vector<std::size_t> lines;   ///< of the samples in the file
+  std::deque<MeasuredTable> tables; ///< the files, in their order
+  std::vector<std::size_t> starts;  ///< the place of each file's first row among all rows
+  std::size_t first = 0;            ///< place of the piece's first row among all rows
+  std::string time_header;
   std::vector<std::string> headers; ///< by the place of the signal in record_signals
 
   std::string header_of(std::vector<double> ChainHistory::*values) const {
@@ -110,6 +99,14 @@ struct Reading {
                            std::string_view allowed) const {
     csv_refusal(record.file, 0, header_of(values), found, allowed);
   }
+  /// Refuses a time; `row` counts over all files.
+  [[noreturn]] void refuse_time(std::size_t row, const std::string &allowed) const {
+    const auto next = std::upper_bound(starts.begin(), starts.end(), row);
+    const auto i = static_cast<std::size_t>(next - starts.begin() - 1);
+    const std::size_t line = tables[i].line(row - starts[i]);
+    csv_refusal(tables[i].file(), line, time_header, fmt::format("{}", times[row]), allowed);
+  }
+  std::vector<double> times; ///< of all rows [s]; empty without a column of time
 };
 
 /// Whether a file is one of those of a run, by its name.
@@ -130,7 +127,7 @@ fs::path sample_file(const fs::path &path, fs::path &cycles) {
   if (!cycles.empty()) return cycles;
   throw std::runtime_error(refusal("the record", path.string(),
                                    "a folder with chain.csv, bed.csv or cycles.csv, one of these files, or a "
-                                   "CSV file with a header line"));
+                                   "measured file"));
 }
 
 void take_number(const Record &record, const fs::path &file, const char *name, std::optional<double> &value) {
@@ -170,97 +167,258 @@ void take_options(Record &record, const RecordOptions &options) {
   if (options.me_re && record.omega) record.Fw = *options.me_re * *record.omega * *record.omega;
 }
 
-/// A column that is read into a signal.
+/// A column of a file that is read into a signal.
 struct Taken {
   std::vector<double> *into;
   std::size_t place;
   double factor;
-  std::string header;
 };
 
-/// The columns of the file that are read, `time` among them if it has one.
-std::vector<Taken> columns_to_take(const CsvRows &rows, const RecordOptions &options, Reading &reading) {
+/// The factor to SI of a column: that of the command line, or of the unit in the file, or 1.
+double factor_of(const MeasuredTable &table, std::size_t place, const std::string &name,
+                 const ColumnSource &source) {
+  const MeasuredColumn &column = table.columns()[place];
+  if (source.factor) return *source.factor;
+  if (column.unit.empty()) return 1.0;
+  const Quantity quantity = *quantity_of(name);
+  try {
+    return factor_of(column.unit, quantity);
+  } catch (const std::invalid_argument &) {
+    csv_fault(table.file(), 0, column.header,
+              refusal("its unit", column.unit,
+                      fmt::format("{}; --column '{}={}:UNIT' gives another one", allowed_units(quantity),
+                                  name, source.header)));
+  }
+}
+
+/// The columns of a file that are read, `time` first if it has one.
+std::vector<Taken> columns_to_take(const MeasuredTable &table, const RecordOptions &options,
+                                   Reading &reading) {
   std::vector<Taken> taken;
+  const bool first_file = reading.headers.empty();
+  std::string understood;
   const auto find = [&](const std::string &name, std::vector<double> &into, bool own_name) {
     const auto given = options.columns.find(name);
     const bool named = given != options.columns.end();
     if (!named && !own_name) return std::string();
-    const ColumnSource source = named ? given->second : ColumnSource{name, 1.0};
-    const std::optional<std::size_t> place = rows.find(source.header);
-    if (!place && named) rows.missing(source.header);
-    if (place) taken.push_back({&into, *place, source.factor, source.header});
-    return source.header;
+    const ColumnSource source = named ? given->second : ColumnSource{name};
+    const std::optional<std::size_t> place = table.find(source.header);
+    if (!place && named) table.missing(source.header);
+    if (!place) return source.header;
+    const MeasuredColumn &column = table.columns()[*place];
+    taken.push_back({&into, *place, factor_of(table, *place, name, source)});
+    const std::string unit = source.factor         ? fmt::format("times {:g}", *source.factor)
+                             : column.unit.empty() ? "in SI units"
+                                                   : "in " + column.unit;
+    understood += fmt::format("{}{} is column {} '{}' {}", understood.empty() ? "" : ", ", name, *place + 1,
+                              column.header,
+                              name == "time" && table.has_clock_times(*place) ? "with clock times" : unit);
+    return column.header;
   };
   const bool any_signal_named = options.columns.size() > options.columns.count("time");
-  find("time", reading.record.time, true);
+  const std::string time_header = find("time", reading.times, true);
   const std::size_t of_time = taken.size();
+  std::vector<std::string> headers;
   for (const HistoryColumn &signal : record_signals)
-    reading.headers.push_back(find(signal.name, reading.record.*signal.values, !any_signal_named));
-  if (taken.size() == of_time)
-    csv_fault(reading.record.file, 0, {},
-              fmt::format("has no column of motion or force; allowed: columns named {}, or others by "
-                          "--column NAME=HEADER:UNIT",
-                          signal_names()));
-  if (of_time == 0 && !options.sampling_rate) rows.missing("time");
+    headers.push_back(find(signal.name, reading.record.*signal.values, !any_signal_named));
+  if (taken.size() == of_time) {
+    std::vector<std::string> names;
+    for (const MeasuredColumn &column : table.columns())
+      names.push_back(fmt::format("{} '{}'", names.size() + 1, shown(column.header)));
+    csv_fault(
+        table.file(), 0, {},
+        fmt::format("has no column of motion or force among {}; allowed: columns named {}, or others by "
+                    "--column NAME=HEADER:UNIT",
+                    fmt::join(names, ", "), signal_names()));
+  }
+  if (of_time == 0 && !options.sampling_rate) table.missing("time");
+  if (first_file) {
+    reading.time_header = time_header;
+    reading.headers = headers;
+  }
+  if (!is_of_run(table.file())) {
+    reading.record.notes.push_back(fmt::format("{}: {}", table.file().string(), table.words()));
+    reading.record.notes.push_back(understood);
+  }
   return taken;
 }
 
-void read_samples(Reading &reading, const RecordOptions &options) {
-  CsvRows rows(reading.record.file);
-  const std::vector<Taken> taken = columns_to_take(rows, options, reading);
-  std::vector<std::string> cells;
-  while (rows.next(cells)) {
-    for (const Taken &column : taken)
-      column.into->push_back(
-          column.factor * csv_number(reading.record.file, rows.line(), column.header, cells[column.place]));
-    reading.lines.push_back(rows.line());
+/// Reads all rows of all files; blank cells are NaN.
+void read_samples(const std::vector<fs::path> &files, Reading &reading, const RecordOptions &options) {
+  std::optional<long> first_day;
+  std::size_t rows = 0;
+  bool clocks = false;
+  for (const fs::path &file : files) {
+    const bool of_run = is_of_run(file);
+    const MeasuredTable &table =
+        reading.tables.emplace_back(file, of_run ? TableFormat{',', '.'} : options.format);
+    reading.starts.push_back(rows);
+    for (const Taken &column : columns_to_take(table, options, reading)) {
+      const bool clock = column.into == &reading.times && table.has_clock_times(column.place);
+      const std::vector<double> values =
+          clock ? table.clock_times(column.place, first_day) : table.numbers(column.place);
+      clocks = clocks || clock;
+      for (std::size_t row = 0; row < values.size(); ++row) {
+        if (of_run && std::isnan(values[row])) table.refuse(row, column.place, "a finite number");
+        column.into->push_back(clock ? values[row] : column.factor * values[row]);
+      }
+    }
+    rows += table.rows();
+    for (const HistoryColumn &signal : record_signals) {
+      const std::size_t size = (reading.record.*signal.values).size();
+      if (size > 0 && size != rows)
+        csv_fault(file, 0, {},
+                  fmt::format("has not the same columns as {}; allowed: files of one record",
+                              files.front().string()));
+    }
+  }
+  if (!reading.times.empty() && reading.times.size() != rows)
+    csv_fault(
+        files.back(), 0, {},
+        fmt::format("has not the same columns as {}; allowed: files of one record", files.front().string()));
+  const auto first =
+      std::find_if(reading.times.begin(), reading.times.end(), [](double t) { return !std::isnan(t); });
+  if (clocks && first != reading.times.end()) {
+    const double start = *first;
+    for (double &time : reading.times)
+      time -= start;
   }
 }
 
-/// Refuses times that do not grow, gaps, and steps that are not equal to 1 %; with a sampling rate given,
-/// steps of less than half or more than one and a half of its interval, and a length that differs by 0.1 %.
+/// The step between times that is usual [s], and from which step on there is a gap.
+std::pair<double, double> usual_and_gap(const std::vector<double> &times, const RecordOptions &options) {
+  std::vector<double> steps;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t row = 1; row < times.size(); ++row) {
+    const double step = times[row] - times[row - 1];
+    if (std::isnan(step)) continue;
+    steps.push_back(step);
+    if (step > 0.0) least = std::min(least, step);
+  }
+  const double usual = options.sampling_rate ? 1.0 / *options.sampling_rate
+                       : steps.empty()       ? 0.0
+                                             : median(steps);
+  // Times of few digits grow by their last digit, or not at all.
+  return {usual, options.sampling_rate && std::isfinite(least) ? std::max(1.5 * usual, least + 0.5 * usual)
+                                                               : 1.5 * usual};
+}
+
+/// Divides the rows where cells are blank or times have a gap; the rows of a run have neither.
+std::vector<SampleRange> pieces_of(const Reading &reading, const RecordOptions &options) {
+  std::vector<const std::vector<double> *> columns;
+  if (!reading.times.empty()) columns.push_back(&reading.times);
+  for (const HistoryColumn &signal : record_signals)
+    if (!(reading.record.*signal.values).empty()) columns.push_back(&(reading.record.*signal.values));
+  const std::size_t rows = columns.front()->size();
+  const auto [usual, gap] = usual_and_gap(reading.times, options);
+  std::vector<SampleRange> pieces;
+  bool within = false;
+  for (std::size_t row = 0; row < rows; ++row) {
+    if (std::any_of(columns.begin(), columns.end(),
+                    [row](const auto *column) { return std::isnan((*column)[row]); })) {
+      within = false;
+      continue;
+    }
+    if (within && !reading.times.empty()) {
+      const double before = reading.times[row - 1], step = reading.times[row] - before;
+      if (step < 0.0 || (step == 0.0 && !options.sampling_rate))
+        reading.refuse_time(
+            row, fmt::format("more than {} of the row before{}", before,
+                             step < 0.0 ? "" : ", or equal times together with the sampling rate"));
+      if (step > gap) {
+        if (is_of_run(reading.record.file))
+          reading.refuse_time(
+              row,
+              fmt::format("times without a gap: at most 1.5 steps of {:g} s after the row before", usual));
+        within = false;
+      }
+    }
+    if (!within) pieces.push_back({row, row});
+    within = true;
+    pieces.back().end = row + 1;
+  }
+  return pieces;
+}
+
+/// Keeps one of the pieces.
+void take_piece(Reading &reading, const RecordOptions &options) {
+  Record &record = reading.record;
+  const std::vector<SampleRange> pieces = pieces_of(reading, options);
+  const auto size = [](const SampleRange &piece) { return piece.end - piece.first; };
+  const auto longest =
+      std::max_element(pieces.begin(), pieces.end(),
+                       [&](const SampleRange &a, const SampleRange &b) { return size(a) < size(b); });
+  constexpr std::size_t least = 3;
+  if (pieces.empty() || size(*longest) < least)
+    csv_fault(
+        record.file, 0, {},
+        refusal("the number of rows", fmt::format("{}", pieces.empty() ? 0 : size(*longest)), "3 or more"));
+  record.piece = static_cast<std::size_t>(longest - pieces.begin());
+  if (options.piece) {
+    if (*options.piece > pieces.size() || size(pieces[*options.piece - 1]) < least)
+      csv_fault(
+          record.file, 0, {},
+          refusal("the piece", fmt::format("{}", *options.piece),
+                  fmt::format("the number of one of its {} pieces with 3 samples or more", pieces.size())));
+    record.piece = *options.piece - 1;
+  }
+  for (const SampleRange &piece : pieces) {
+    const auto time = [&](std::size_t row) {
+      return reading.times.empty() ? static_cast<double>(row) / *options.sampling_rate : reading.times[row];
+    };
+    record.pieces.push_back({time(piece.first), time(piece.end - 1), size(piece)});
+  }
+  const SampleRange kept = pieces[record.piece];
+  reading.first = kept.first;
+  const auto cut = [&kept](std::vector<double> &values) {
+    if (values.empty()) return;
+    values.erase(values.begin() + static_cast<std::ptrdiff_t>(kept.end), values.end());
+    values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(kept.first));
+  };
+  record.time = reading.times;
+  cut(record.time);
+  for (const HistoryColumn &signal : record_signals)
+    cut(record.*signal.values);
+  if (pieces.size() > 1)
+    record.notes.push_back(fmt::format("blank cells or gaps divide it into {} pieces; piece {} is read, from "
+                                       "{:.6g} to {:.6g} s (--piece takes another)",
+                                       pieces.size(), record.piece + 1, record.pieces[record.piece].begin,
+                                       record.pieces[record.piece].end));
+}
+
+/// Refuses steps that are not equal to 1 %; with a sampling rate given, a length that differs by 0.1 %, or
+/// by a few digits of the times if these are few.
 void check_steps(const Reading &reading, double interval, bool rate_given) {
   const std::vector<double> &time = reading.record.time;
-  const auto refuse = [&](std::size_t row, const std::string &allowed) {
-    csv_refusal(reading.record.file, reading.lines[row], "time", fmt::format("{}", time[row]), allowed);
-  };
-  std::vector<double> steps;
-  for (std::size_t row = 1; row < time.size(); ++row) {
-    if (!(time[row] > time[row - 1]))
-      refuse(row, fmt::format("more than {} of the row before", time[row - 1]));
-    steps.push_back(time[row] - time[row - 1]);
-  }
-  const double usual = rate_given ? interval : median(steps);
+  const double length = interval * static_cast<double>(time.size() - 1);
+  double digit = std::numeric_limits<double>::infinity();
   for (std::size_t row = 1; row < time.size(); ++row)
-    if (steps[row - 1] > 1.5 * usual)
-      refuse(row,
-             fmt::format("times without a gap: at most 1.5 steps of {:g} s after the row before", usual));
-  const double length = interval * static_cast<double>(steps.size());
+    if (time[row] > time[row - 1]) digit = std::min(digit, time[row] - time[row - 1]);
   for (std::size_t row = 1; row < time.size(); ++row) {
     const double place = time.front() + interval * static_cast<double>(row);
-    if (rate_given
-            ? steps[row - 1] < 0.5 * interval || std::fabs(time[row] - place) > 1e-3 * length + interval
-            : std::fabs(time[row] - place) > 0.01 * interval)
-      refuse(row, rate_given ? fmt::format("{:g} to one sample, as the sampling rate says", place)
-                             : fmt::format("equal steps: {} to 1 % of the step of {:g} s, or times with few "
-                                           "digits together with the sampling rate",
-                                           place, interval));
+    if (std::fabs(time[row] - place) >
+        (rate_given ? 1e-3 * length + std::max(interval, digit) : 0.01 * interval))
+      reading.refuse_time(reading.first + row,
+                          rate_given
+                              ? fmt::format("{:g} to one sample, as the sampling rate says", place)
+                              : fmt::format("equal steps: {} to 1 % of the step of {:g} s, or times with few "
+                                            "digits together with the sampling rate",
+                                            place, interval));
   }
 }
 
-/// Checks the times and sets the interval; without a column of time they count from 0.
+/// Checks the times and sets the interval; without a column of time they count from 0, and clock times from
+/// the first row.
 void take_times(Reading &reading, const RecordOptions &options) {
   Record &record = reading.record;
-  const std::size_t count = reading.lines.size();
-  if (count < 3)
-    csv_fault(record.file, 0, {}, refusal("the number of rows", fmt::format("{}", count), "3 or more"));
+  const std::size_t count = record.pieces[record.piece].samples;
   const auto steps = static_cast<double>(count - 1);
   const bool stamped = !record.time.empty();
   record.interval = options.sampling_rate ? 1.0 / *options.sampling_rate
                                           : (record.time.back() - record.time.front()) / steps;
   if (stamped) check_steps(reading, record.interval, options.sampling_rate.has_value());
   if (stamped && !options.sampling_rate) return;
-  const double start = stamped ? record.time.front() : 0.0;
+  const double start = record.pieces[record.piece].begin;
   record.time.resize(count);
   for (std::size_t row = 0; row < count; ++row)
     record.time[row] = start + record.interval * static_cast<double>(row);
@@ -341,24 +499,25 @@ void check_length(const Record &record) {
   if (samples < least_samples - rounding) refuse("the number of samples per cycle", samples, least_samples);
 }
 
-void filter(Record &record, const RecordOptions &options) {
-  if (!options.low_pass) return;
+} // namespace
+
+void filter_signals(Record &record, double cutoff) {
   const double most = 0.5 / record.interval;
-  if (!(*options.low_pass > 0.0 && *options.low_pass < most))
+  if (!(cutoff > 0.0 && cutoff < most))
     throw std::runtime_error(
-        refusal("the cut-off frequency", *options.low_pass,
+        refusal("the cut-off frequency", cutoff,
                 fmt::format("numbers above 0 and below half the sampling rate, {:g} [Hz]", most)));
   for (const HistoryColumn &signal : record_signals)
-    record.*signal.values = low_passed(record.*signal.values, record.interval, *options.low_pass);
+    record.*signal.values = low_passed(record.*signal.values, record.interval, cutoff);
+  record.low_pass = cutoff;
 }
 
 void compute_excitation(Record &record) {
-  if (!record.F_excitation.empty() || !record.omega || !record.phase || !record.Fw) return;
+  if (record.excitation_read || !record.omega || !record.phase || !record.Fw) return;
+  record.F_excitation.clear();
   std::transform(record.time.begin(), record.time.end(), std::back_inserter(record.F_excitation),
                  [&record](double t) { return *record.Fw * std::sin(*record.omega * t + *record.phase); });
 }
-
-} // namespace
 
 double Record::period() const {
   if (!omega)
@@ -377,11 +536,11 @@ std::pair<std::string, ColumnSource> column_from_text(const std::string &text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos) throw std::invalid_argument(form);
   const std::string name = text.substr(0, equals);
-  const std::optional<int> dimension = dimension_of(name);
-  if (!dimension) throw std::invalid_argument(fmt::format("{}, NAME one of {}", form, signal_names()));
-  ColumnSource source{text.substr(equals + 1), 1.0};
+  const std::optional<Quantity> quantity = quantity_of(name);
+  if (!quantity) throw std::invalid_argument(fmt::format("{}, NAME one of {}", form, signal_names()));
+  ColumnSource source{text.substr(equals + 1)};
   if (const std::size_t colon = source.header.rfind(':'); colon != std::string::npos) {
-    source.factor = factor_of(source.header.substr(colon + 1), *dimension);
+    source.factor = factor_of(source.header.substr(colon + 1), *quantity);
     source.header.erase(colon);
   }
   if (source.header.empty()) throw std::invalid_argument(form);
@@ -389,13 +548,24 @@ std::pair<std::string, ColumnSource> column_from_text(const std::string &text) {
 }
 
 Record read_record(const fs::path &path, const RecordOptions &options) {
+  return read_record(std::vector<fs::path>{path}, options);
+}
+
+Record read_record(const std::vector<fs::path> &files, const RecordOptions &options) {
   Reading reading;
   Record &record = reading.record;
-  record.file = sample_file(path, record.cycles_file);
+  record.file = sample_file(files.at(0), record.cycles_file);
+  for (const fs::path &file : files)
+    if (files.size() > 1 && (fs::is_directory(file) || is_of_run(file)))
+      throw std::runtime_error(
+          refusal("the record", file.string(), "a run alone, or several measured files"));
   take_parameters(record);
   take_options(record, options);
   if (record.file == record.cycles_file) return record;
-  read_samples(reading, options);
+  std::vector<fs::path> read = files;
+  read.front() = record.file;
+  read_samples(read, reading, options);
+  take_piece(reading, options);
   take_times(reading, options);
   check_length(record);
   check_derivative(reading, &Record::x_drum, &Record::v_drum);
@@ -404,9 +574,17 @@ Record read_record(const fs::path &path, const RecordOptions &options) {
   check_derivative(reading, &Record::v_frame, &Record::a_frame);
   check_contact_force(reading);
   check_direction(reading);
-  filter(record, options);
+  record.excitation_read = !record.F_excitation.empty();
+  if (options.low_pass) filter_signals(record, *options.low_pass);
   compute_excitation(record);
   return record;
+}
+
+double low_pass_gain(double frequency, double interval, double cutoff) {
+  // The filter's gain at the frequency that the bilinear transform puts in the place of an analogue one,
+  // squared, since it passes the signal twice.
+  const double ratio = std::tan(pi * frequency * interval) / std::tan(pi * cutoff * interval);
+  return 1.0 / (1.0 + std::pow(ratio, 4));
 }
 
 std::vector<double> low_passed(const std::vector<double> &values, double interval, double cutoff) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "runs/chain_files.h"
+#include "support/measured_table.h"
 
 #include <filesystem>
 #include <map>
@@ -14,6 +15,13 @@
 #include <vector>
 
 namespace drumlin::post {
+
+/// Rows of a measured file without a gap and without blank cells.
+struct RecordPiece {
+  double begin = 0.0; ///< time of the first row [s]
+  double end = 0.0;   ///< of the last one [s]
+  std::size_t samples = 0;
+};
 
 /// A record. Signals that the file does not have are empty; F_bond is not read.
 struct Record : ChainHistory {
@@ -25,13 +33,20 @@ struct Record : ChainHistory {
 
   double interval = 0.0; ///< between samples [s]
 
+  std::vector<RecordPiece> pieces; ///< of a measured file, which gaps and blank cells divide
+  std::size_t piece = 0;           ///< the one that was read, counted from 0
+  std::vector<std::string> notes;  ///< how a measured file was understood, line by line
+
   std::optional<double> omega; ///< angular frequency of the excitation [rad/s]
   /// F_e = Fw sin(omega time + phase) [rad]: 0 in a run; of a measured record only if it is given.
   std::optional<double> phase;
-  std::optional<double> Fw; ///< amplitude of the excitation force [N]
-  std::optional<double> m2; ///< mass of the drum [kg]
-  std::optional<double> m3; ///< mass of the frame [kg]
-  std::optional<double> g;  ///< gravity [m/s2]
+  double phase_half_width = 0.0; ///< of the phase, if flights have told it [rad]
+  double low_pass = 0.0;         ///< cut-off of the filter that all signals passed [Hz]; 0: none
+  bool excitation_read = false;  ///< F_excitation is from the file
+  std::optional<double> Fw;      ///< amplitude of the excitation force [N]
+  std::optional<double> m2;      ///< mass of the drum [kg]
+  std::optional<double> m3;      ///< mass of the frame [kg]
+  std::optional<double> g;       ///< gravity [m/s2]
 
   /// Time of one cycle of the excitation [s]; std::runtime_error if `omega` is not known.
   double period() const;
@@ -41,13 +56,15 @@ struct Record : ChainHistory {
 
 /// Where a signal stands in a measured file, and in which unit.
 struct ColumnSource {
-  std::string header;  ///< name of the column in the file
-  double factor = 1.0; ///< from the file's unit to SI; negative if the file counts it the other way
+  std::string header; ///< name of the column in the file, or its number
+  /// From the file's unit to SI, negative if the file counts it the other way; not given: the unit in the
+  /// file's header, or SI.
+  std::optional<double> factor{};
 };
 
 /// "NAME=HEADER" or "NAME=HEADER:UNIT", where a '-' before the unit turns the sign: "a_drum=Acc Z:-g". NAME
-/// is `time` or a signal. std::invalid_argument says what is allowed. Units: s, ms, us; m, cm, mm, um; the
-/// same per s (m/s ...) and per s2 (m/s2 ...), g (9.80665 m/s2); N, kN, MN.
+/// is `time` or a signal; HEADER as MeasuredTable::find() takes it. std::invalid_argument says what is
+/// allowed. Units: those of support/units.h.
 std::pair<std::string, ColumnSource> column_from_text(const std::string &text);
 
 /// How a record is read. What is not given comes from the run's parameters.csv, if there is one.
@@ -55,6 +72,8 @@ struct RecordOptions {
   /// By `time` or the name of the signal. Others are looked for by their own names in SI; if any signal is
   /// named here, only those named here are read, and `time`.
   std::map<std::string, ColumnSource> columns;
+  TableFormat format;                  ///< of a measured file; what is not given is found
+  std::optional<std::size_t> piece;    ///< counted from 1; not given: the one with the most samples
   std::optional<double> sampling_rate; ///< [Hz]; needed without a column `time`, or if its digits are few
   std::optional<double> omega;         ///< angular frequency of the excitation [rad/s]
   std::optional<double> phase;         ///< of the excitation at time 0 [rad]
@@ -71,17 +90,32 @@ constexpr int least_cycles = 4;
 constexpr int least_samples = 8;
 
 /// Reads a record from the folder of a run, one of its files chain.csv, bed.csv and cycles.csv, or a measured
-/// CSV file with a header line.
+/// file, which may be written in any way that MeasuredTable reads.
 /// - Of a folder chain.csv is read, or bed.csv if there is no chain.csv; `cycles_file` is set if it has a
 /// cycles.csv.
 /// - Given a cycles.csv, `cycles_file` is set and the record has no samples: `time` is empty.
 /// - parameters.csv in the same folder gives omega, Fw, m2, m3, g for files with those names.
+/// - Several measured files are one record: each continues the one before it.
+/// - A measured file is divided where cells are blank or times have a gap; one piece is read. Clock times
+/// count from the first row.
 /// - If the file has no F_excitation but omega, phase and Fw are known, F_excitation is computed.
-/// Refused are: values that are no finite numbers; a column of time that does not grow, has gaps or unequal
-/// steps; a signal that is not the derivative of another by a factor of 2 or more or by its sign; a contact
-/// force that is always zero, never positive, against the drum's acceleration, or whose mean is not the
-/// weight of drum and frame; fewer cycles or samples per cycle than above.
+/// Refused are: values that are no finite numbers; of a run, gaps; a column of time that does not grow or has
+/// unequal steps; a signal that is not the derivative of another by a factor of 2 or more or by its sign; a
+/// contact force that is always zero, never positive, against the drum's acceleration, or whose mean is not
+/// the weight of drum and frame; fewer cycles or samples per cycle than above.
+Record read_record(const std::vector<std::filesystem::path> &files, const RecordOptions &options = {});
+/// The same of one file or folder.
 Record read_record(const std::filesystem::path &path, const RecordOptions &options = {});
+
+/// F_excitation of a record that has none in its file, if omega, phase and Fw are known.
+void compute_excitation(Record &record);
+
+/// All signals without what is faster than `cutoff` [Hz], by low_passed(); std::runtime_error if it is not
+/// below half the sampling rate.
+void filter_signals(Record &record, double cutoff);
+
+/// Share of an amplitude that low_passed() leaves at a frequency [Hz].
+double low_pass_gain(double frequency, double interval, double cutoff);
 
 /// Values without what is faster than `cutoff` [Hz]: a Butterworth filter of second order, forward and then
 /// backward, so that phases stay; it halves amplitudes at the cut-off. `interval` [s]; 0 < cutoff <

@@ -1,5 +1,6 @@
 #include "support/csv.h"
 
+#include "support/files.h"
 #include "support/range.h"
 
 #include <algorithm>
@@ -7,10 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -50,17 +48,10 @@ std::string_view trimmed(std::string_view text) {
 }
 
 std::string read_whole_file(const fs::path &file) {
-  std::error_code code;
-  if (fs::is_directory(file, code)) csv_fault(file, 0, {}, "cannot be read: it is a folder");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) {
-    const std::string what = fmt::format("cannot be read: {}", std::strerror(errno));
-    if (errno == ENOENT) throw MissingColumn(fmt::format("{}: {}", place_in(file, 0, {}), what));
-    csv_fault(file, 0, {}, what);
-  }
-  std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  if (stream.bad()) csv_fault(file, 0, {}, "reading stopped before the end of the file");
-  return text;
+  std::error_code ignored; // then read_text() tells why
+  if (!fs::exists(file, ignored))
+    throw MissingColumn(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(ENOENT)));
+  return read_text(file);
 }
 
 // Walks through a CSV text row by row. Cells are plain or quoted (RFC 4180); empty lines are skipped.

@@ -364,10 +364,16 @@ void FilesInProgress::publish(const std::vector<std::string> &names,
 }
 
 std::string read_text(const fs::path &file) {
-  std::ifstream in(file, std::ios::binary);
+  const auto fault = [&file](std::string_view why) {
+    throw std::runtime_error(fmt::format("{}: {}", file.string(), why));
+  };
   std::error_code ignored; // of a file that is not there
-  if (!in || fs::is_directory(file, ignored)) throw std::runtime_error("cannot read " + file.string());
-  return {std::istreambuf_iterator<char>(in), {}};
+  if (fs::is_directory(file, ignored)) fault("cannot be read: it is a folder");
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) fault(fmt::format("cannot be read: {}", std::strerror(errno)));
+  std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  if (stream.bad()) fault("reading stopped before the end of the file");
+  return text;
 }
 
 } // namespace drumlin::post

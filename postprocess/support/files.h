@@ -28,7 +28,7 @@ void make_output_folder(const std::filesystem::path &folder);
 /// Makes the folder of a file that is to be written; the same errors.
 void make_parent_folder(const std::filesystem::path &file);
 
-/// A whole file as text.
+/// A whole file as text; std::runtime_error "FILE: WHY" if it cannot be read.
 std::string read_text(const std::filesystem::path &file);
 
 /// A name of a file and the text to go into it.

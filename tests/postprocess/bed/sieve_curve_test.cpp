@@ -2,14 +2,19 @@
 #include "bed/known_gradings.h"
 #include "bed/packing.h"
 #include "bed/sieve_curve.h"
+#include "support/files.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
+#include <filesystem>
 #include <numeric>
 #include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace drumlin::test {
@@ -27,6 +32,29 @@ using post::Sieving;
 /// A tenth of the mass finer than 1 mm, a gap between 4 and 8 mm, the largest grain 32 mm.
 SieveCurve gap_graded() {
   return SieveCurve({{0.5e-3, 0.0}, {1e-3, 0.1}, {4e-3, 0.4}, {8e-3, 0.4}, {32e-3, 1.0}, {63e-3, 1.0}});
+}
+
+/// One curve as laboratories write it: what passes or stays, finest or coarsest sieve first, per cent or
+/// mass.
+TEST(SieveCurve, IsReadAsLaboratoriesWriteIt) {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("drumlin-sieves-" + std::to_string(::getpid()) + ".csv");
+  for (const char *text :
+       {"size (mm),passing (%)\n4,12.5\n8,50\n16,100\n", "Probe 3\n\nsize;passing\n16;100\n8;50\n4;12,5\n",
+        "size [m]\tretained [%]\n0.016\t0\n0.008\t50\n0.004\t37.5\n",
+        "size (mm);retained (g)\n16;0\n8;1000\n4;750\n0;250\n",
+        "size (mm);retained (g)\n0;250,0\n4;750,0\n8;1000,0\n16;0,0\n"}) {
+    post::write_files({{file, text}});
+    const SieveCurve curve = post::read_sieve_file(file);
+    ASSERT_EQ(curve.sieves().size(), 3u) << text;
+    for (const auto &[size, passing] :
+         {std::pair{4e-3, 0.125}, std::pair{8e-3, 0.5}, std::pair{16e-3, 1.0}}) {
+      const Sieve &sieve = curve.sieves()[size < 5e-3 ? 0 : size < 10e-3 ? 1 : 2];
+      EXPECT_NEAR(sieve.size, size, 1e-15) << text;
+      EXPECT_NEAR(sieve.passing, passing, 1e-14) << text;
+    }
+  }
+  std::filesystem::remove(file);
 }
 
 TEST(SieveCurve, IsAStraightLineOverTheLogarithmOfTheSize) {

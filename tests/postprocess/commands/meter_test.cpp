@@ -2,6 +2,7 @@
 // line.
 #include "support/csv.h"
 #include "support/files.h"
+#include "support/measured_table.h"
 #include "support/process.h"
 #include "tests/support/lines.h"
 #include "tests/support/run_folders.h"
@@ -12,6 +13,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -124,6 +126,49 @@ TEST_F(MeterCommand, MeasuredRecord) {
   for (const double cmv : table.numbers("CMV [-]"))
     EXPECT_NEAR(cmv, 60.0, 0.3); // a cycle is no whole number of samples
   EXPECT_TRUE(table.text("k_B [N/m]").front().empty());
+  // The harmonics have the size that they had before a filter, which leaves 0.27 of the second here.
+  words.insert(words.end(), {"--low-pass", "45"});
+  ASSERT_EQ(meter(words).status, 0);
+  for (const double cmv : read_table(folder_ / "results/meter/meter.csv").numbers("CMV [-]"))
+    EXPECT_NEAR(cmv, 60.0, 0.5);
+  words.back() = "20";
+  EXPECT_TRUE(
+      meter(words).says("the cut-off frequency is '20'; allowed: one that leaves a tenth of the second"));
+}
+
+TEST_F(MeterCommand, ShowsWhatItUnderstands) {
+  write_measured("gap.csv", 1000, 500);
+  std::vector<std::string> words = {"gap.csv", "--show"};
+  words.insert(words.end(), as_measured.begin(), as_measured.end());
+  const Outcome outcome = meter(words);
+  ASSERT_EQ(outcome.status, 0) << outcome.output;
+  for (const char *line :
+       {"gap.csv: UTF-8, ',' between cells, decimal '.', header in line 1, 999 rows from line 2\n",
+        "time is column 1 'Time' times 0.001, a_drum is column 2 'Acc Z' times -9.80665\n",
+        "piece 1: 0 to 0.499 s, 500 samples\n", "piece 2: 0.501 to 0.999 s, 499 samples\n",
+        "500 samples, 1000 per second, 0.499 s\n"})
+    EXPECT_TRUE(outcome.says(line)) << line << outcome.output;
+  EXPECT_TRUE(fs::exists(folder_ / "results/meter/figures/first_second.png"));
+  EXPECT_FALSE(fs::exists(folder_ / "results/meter/meter.csv"));
+  // A column by its number; a frequency is not needed.
+  EXPECT_EQ(meter({"gap.csv", "--show", "--column", "time=1:ms", "--column", "a_drum=2:-g"}).status, 0);
+}
+
+// What meter --export writes, with a comma in the name of its last column, can be read as any other table.
+TEST_F(MeterCommand, TheExportedTableCanBeReadBack) {
+  write_chain_run(folder_ / "run", "II", Transition::B, 40);
+  ASSERT_EQ(meter({"run", "--export", "passes.csv"}).status, 0);
+  const Table values = read_table(folder_ / "results/meter/meter.csv");
+  const MeasuredTable passes(folder_ / "passes.csv");
+  ASSERT_EQ(passes.rows(), values.rows());
+  ASSERT_TRUE(passes.find("LastTemp,_c").has_value());
+  std::optional<long> day;
+  const std::vector<double> times = passes.clock_times(passes.find("Time").value(), day);
+  const std::vector<double> cmv = passes.numbers(passes.find("LastCMV").value());
+  for (std::size_t row = 0; row < cmv.size(); ++row) {
+    EXPECT_NEAR(times[row], values.numbers("begin [s]")[row], 5e-4);
+    EXPECT_NEAR(cmv[row], values.numbers("CMV [-]")[row], 0.05);
+  }
 }
 
 TEST_F(MeterCommand, RecordsThatAreRefused) {
@@ -135,7 +180,9 @@ TEST_F(MeterCommand, RecordsThatAreRefused) {
     std::string says;
   };
   const std::vector<Refused> table = {
-      {{"gap.csv"}, "gap.csv, line 502, column 'time' is "},
+      {{"gap.csv", "--piece", "3"}, "gap.csv: the piece is '3'; allowed: the number of one of its 2 pieces"},
+      {{"good.csv", "--decimal", "dot"}, "--decimal is 'dot'; allowed: point, comma"},
+      {{"good.csv", "--separator", "colon"}, "--separator is 'colon'; allowed: "},
       {{"short.csv"}, "the number of cycles is '3.451'; allowed: 4 or more at 29 Hz"},
       {{"good.csv", "--window", "40"}, "the window is '40 cycles'; allowed: at most the 28 whole cycles"},
       {{"good.csv", "--window", "0.1s"}, "--window is '0.1s'; allowed: "},

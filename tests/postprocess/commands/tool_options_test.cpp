@@ -106,7 +106,8 @@ TEST_F(ToolOptions, AbsurdValuesAreRefusedAtOnce) {
       {{"bed", "--grading", ""}, "bed: --grading is ''; allowed: uniform, mass"},
       {{"bed", "--sieve", ""}, "bed: --sieve is ''; allowed: "},
       {{"bed", "--sieve", "sand"},
-       "bed: --sieve is 'sand'; allowed: a CSV file with the columns size (mm) and passing (%), or one of "
+       "bed: --sieve is 'sand'; allowed: a CSV file with the columns size (mm) and passing (%) or retained "
+       "(%), or one of "
        "M147-B, "},
       {{"bed", "--sieve", "WMM", "--radius-max", "0.02"},
        "bed: --sieve is 'WMM'; allowed: without --radius-max"},
@@ -213,14 +214,17 @@ TEST_F(ToolOptions, SieveFilesThatAreNoCurveAreRefused) {
   const fs::path file = folder_ / "s.csv";
   const std::string header = "size (mm),passing (%)\n";
   const std::vector<std::pair<std::string, std::string>> table = {
-      {"", "s.csv, line 1: the file is empty"},
-      {header, "s.csv: the number of rows is '0'; allowed: a row for each sieve"},
+      {"", "s.csv: the file is empty; allowed: a table of numbers"},
+      {header, "s.csv: no line has numbers; allowed: a table of numbers"},
       {"size (mm),finer (%)\n1,100\n", "passing (%)"},
       {header + "4,10\n8,5\n16,100\n", "s.csv, line 3, column 'passing (%)' is '5'; allowed: at least 10, "
                                        "which passes the finer sieve before"},
       {header + "4,0\n4,50\n16,100\n",
        "s.csv, line 3, column 'size (mm)' is '4'; allowed: more than 4, the size before"},
-      {header + "16,100\n8,50\n", "s.csv, line 3, column 'size (mm)' is '8'; allowed: more than 16"},
+      {header + "4,0\n16,100\n8,50\n", "s.csv, line 4, column 'size (mm)' is '8'; allowed: more than 16"},
+      {"size (g),passing (%)\n4,0\n8,100\n", "column 'size (g)': its unit is 'g'; allowed: m, cm, mm, um"},
+      {"size (mm),retained (%)\n4,70\n8,40\n16,0\n", "column 'retained (%)': the sum is '110'; allowed: "},
+      {"size (mm),retained (g)\n4,70\n8,-4\n16,0\n", "line 3, column 'retained (g)' is '-4'; allowed: "},
       {header + "4,0\n8,100.5\n",
        "s.csv, line 3, column 'passing (%)' is '100.5'; allowed: a number from 0 to 100 [%]"},
       {header + "4,-1\n8,100\n", "s.csv, line 2, column 'passing (%)' is '-1'; allowed: "},
@@ -231,7 +235,8 @@ TEST_F(ToolOptions, SieveFilesThatAreNoCurveAreRefused) {
       {header + "4,0\n8,90\n", "s.csv, line 3, column 'passing (%)' is '90'; allowed: 100 in the last row"},
       {header + "8,100\n",
        "s.csv, line 2, column 'passing (%)' is '100'; allowed: less than 100 in the first row"},
-      {header + "4\n8,100\n", "s.csv, line 2"},
+      {header + "4\n8,100\n", "the column is 'size'; allowed: "},
+      {header + "4,0\n8\n16,100\n", "s.csv, line 3: the number of cells is '1'; allowed: 2 as in line 2"},
   };
   for (const auto &[text, says] : table) {
     SCOPED_TRACE(says);

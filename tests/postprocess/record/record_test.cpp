@@ -7,6 +7,7 @@
 #include "support/csv.h"
 #include "support/files.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <unistd.h>
@@ -132,6 +133,96 @@ TEST_F(RecordFiles, SamplingRateReplacesTimesOfFewDigits) {
   EXPECT_DOUBLE_EQ(read_record(bare, options).time[40], 0.02);
 }
 
+// The unit of the header counts where the command line gives none, and that of the command line before it.
+TEST_F(RecordFiles, UnitsOfTheHeaderCount) {
+  std::string text = "Messung;;;\nt;Acc;Rahmen;Text\nms;g;mm/s\xC2\xB2;\n";
+  for (std::size_t i = 0; i < history_.size(); ++i)
+    text += number_text(1e3 * history_.time[i]) + ";" + number_text(history_.a_drum[i] / 9.80665) + ";" +
+            number_text(1e3 * history_.a_frame[i]) + ";ok\n";
+  RecordOptions options;
+  options.columns = {{"time", {"t"}}, {"a_drum", {"2"}}, {"a_frame", {"Rahmen"}}};
+  const Record record = read_record(put("logger.csv", text), options);
+  ASSERT_EQ(record.size(), history_.size());
+  for (std::size_t i = 0; i < history_.size(); ++i) {
+    EXPECT_NEAR(record.time[i], history_.time[i], 1e-12);
+    EXPECT_NEAR(record.a_drum[i], history_.a_drum[i], 1e-12);
+    EXPECT_NEAR(record.a_frame[i], history_.a_frame[i], 1e-12);
+  }
+  options.columns["a_drum"] = column_from_text("a_drum=Acc:-m/s2").second;
+  EXPECT_NEAR(read_record(folder_ / "logger.csv", options).a_drum[7], -history_.a_drum[7] / 9.80665, 1e-12);
+  options.columns["a_drum"] = {"t"};
+  EXPECT_NE(message([&] {
+              read_record(folder_ / "logger.csv", options);
+            }).find("column 't': its unit is 'ms'; allowed: m/s2, "),
+            std::string::npos);
+}
+
+TEST_F(RecordFiles, SeveralFilesAreOneRecordAndGapsDivideIt) {
+  const auto rows = [this](std::size_t first, std::size_t end, std::size_t blank) {
+    std::string text = "time [s]\ta_drum [m/s2]\n";
+    for (std::size_t i = first; i < end; ++i)
+      text +=
+          number_text(history_.time[i]) + "\t" + (i == blank ? "" : number_text(history_.a_drum[i])) + "\n";
+    return text;
+  };
+  const std::size_t none = history_.size();
+  const std::vector<fs::path> halves = {put("1.txt", rows(0, 300, none)),
+                                        put("2.txt", rows(300, none, none))};
+  const Record whole = read_record(halves);
+  EXPECT_EQ(whole.time, history_.time);
+  EXPECT_EQ(whole.a_drum, history_.a_drum);
+  EXPECT_EQ(whole.pieces.size(), 1u);
+
+  const std::vector<fs::path> divided = {put("1.txt", rows(0, 300, 200)),
+                                         put("2.txt", rows(350, none, none))};
+  const auto part = [this](const Record &record, std::size_t first, std::size_t end) {
+    EXPECT_EQ(record.a_drum, std::vector<double>(history_.a_drum.begin() + static_cast<std::ptrdiff_t>(first),
+                                                 history_.a_drum.begin() + static_cast<std::ptrdiff_t>(end)));
+    EXPECT_EQ(record.time.front(), history_.time[first]);
+    EXPECT_EQ(record.pieces.size(), 3u);
+  };
+  RecordOptions options;
+  part(read_record(divided, options), 350, none); // the longest
+  options.piece = 1;
+  part(read_record(divided, options), 0, 200);
+  options.piece = 2;
+  part(read_record(divided, options), 201, 300);
+  options.piece = 4;
+  EXPECT_NE(message([&] { read_record(divided, options); }).find("the piece is '4'; allowed: "),
+            std::string::npos);
+  EXPECT_NE(message([&] {
+              read_record({halves[1], halves[0]});
+            }).find("1.txt, line 2, column 'time [s]' is '0'"),
+            std::string::npos);
+  put("2.txt", "time\tv_drum\n1\t2\n");
+  EXPECT_NE(message([&] { read_record(halves); }).find("2.txt: has not the same columns as "),
+            std::string::npos);
+}
+
+// A clock with the resolution of a second, and one with all digits that passes midnight.
+TEST_F(RecordFiles, ClockTimesCountFromTheFirstRow) {
+  const auto clock = [this](int digits) {
+    std::string text = "time,a_drum\n";
+    for (std::size_t i = 0; i < history_.size(); ++i) {
+      const double t = 59.9 + history_.time[i];
+      const double seconds =
+          std::floor(std::fmod(t, 60.0) * std::pow(10.0, digits) + 1e-6) / std::pow(10.0, digits);
+      text += fmt::format("{}:{:0{}.{}f},{}\n", t < 60.0 ? "23:59" : "00:00", seconds,
+                          digits > 0 ? digits + 3 : 2, digits, number_text(history_.a_drum[i]));
+    }
+    return text;
+  };
+  const Record exact = read_record(put("clock.csv", clock(7)));
+  EXPECT_NEAR(exact.interval, 0.0005, 1e-9);
+  EXPECT_EQ(exact.time.front(), 0.0);
+  EXPECT_EQ(exact.a_drum, history_.a_drum);
+  RecordOptions options;
+  EXPECT_NE(message([&] { read_record(put("clock.csv", clock(0))); }).find("sampling rate"),
+            std::string::npos);
+  options.sampling_rate = 2000.0;
+  EXPECT_EQ(read_record(put("clock.csv", clock(0)), options).a_drum, history_.a_drum);
+}
+
 TEST_F(RecordFiles, RefusesTimes) {
   EXPECT_NE(
       refused([](ChainHistory &h) { h.time[7] = h.time[6]; }).find("chain.csv, line 9, column 'time' is "),
@@ -206,6 +297,7 @@ TEST(LowPass, HalvesAtTheCutOffAndKeepsPhase) {
     const std::vector<double> filtered = low_passed(values, interval, cutoff);
     const double ratio = std::tan(M_PI * frequency * interval) / std::tan(M_PI * cutoff * interval);
     const double gain = 1.0 / (1.0 + std::pow(ratio, 4));
+    EXPECT_DOUBLE_EQ(low_pass_gain(frequency, interval, cutoff), gain);
     for (int i = 1000; i < 3000; ++i)
       ASSERT_NEAR(filtered[static_cast<std::size_t>(i)], gain * values[static_cast<std::size_t>(i)], 1e-9);
   }

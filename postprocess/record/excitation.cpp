@@ -1,0 +1,484 @@
+#include "record/excitation.h"
+
+#include "chain/contact_phases.h"
+#include "support/csv.h"
+#include "support/range.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <numeric>
+#include <string>
+
+namespace drumlin::post {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// Power of a signal at a frequency, up to a constant factor.
+double power_at(const std::vector<double> &signal, double interval, double omega) {
+  const std::complex<double> turn = std::polar(1.0, -omega * interval);
+  std::complex<double> wave = 1.0, sum = 0.0;
+  for (const double value : signal) {
+    sum += value * wave;
+    wave *= turn;
+  }
+  return std::norm(sum);
+}
+
+/// Means of neighbours, so that at least `per_cycle` samples remain in a cycle; the interval grows.
+std::vector<double> thinned(const std::vector<double> &signal, double &interval, double period,
+                            int per_cycle) {
+  const auto together = static_cast<std::size_t>(std::max(1.0, std::floor(period / interval / per_cycle)));
+  std::vector<double> means;
+  for (std::size_t i = 0; i + together <= signal.size(); i += together)
+    means.push_back(std::accumulate(signal.begin() + static_cast<std::ptrdiff_t>(i),
+                                    signal.begin() + static_cast<std::ptrdiff_t>(i + together), 0.0) /
+                    static_cast<double>(together));
+  interval *= static_cast<double>(together);
+  return means;
+}
+
+/// The frequency of the strongest line within the range; nothing if it lies at an end of it.
+std::optional<double> strongest_line(const std::vector<double> &signal, double interval, double nominal) {
+  constexpr int per_cycle = 16;
+  double step = interval;
+  std::vector<double> values = thinned(signal, step, 2.0 * pi / nominal, per_cycle);
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) { // without its mean, fading in and out (Hann)
+    const double angle = 2.0 * pi * (static_cast<double>(i) + 0.5) / static_cast<double>(values.size());
+    values[i] = (values[i] - mean) * (1.0 - std::cos(angle));
+  }
+  const double length = step * static_cast<double>(values.size());
+  const double spacing = 2.0 * pi / length / 4.0;
+  const auto half = static_cast<int>(std::ceil(frequency_range * nominal / spacing));
+  int best = -half;
+  double most = -1.0;
+  for (int i = -half; i <= half; ++i) {
+    const double power = power_at(values, step, nominal + i * spacing);
+    if (power <= most) continue;
+    most = power;
+    best = i;
+  }
+  if (std::abs(best) == half) return std::nullopt;
+  // The top of a parabola through the logarithms of three powers.
+  const double center = nominal + best * spacing;
+  const double before = std::log(power_at(values, step, center - spacing));
+  const double after = std::log(power_at(values, step, center + spacing));
+  const double curvature = before + after - 2.0 * std::log(most);
+  return curvature < 0.0 ? center + 0.5 * spacing * (before - after) / curvature : center;
+}
+
+/// Multiples of half the frequency that are fitted.
+int orders_below(double interval, double omega) {
+  constexpr int most = 12;
+  constexpr double share = 0.9; // of half the sampling rate
+  return std::min(most, static_cast<int>(share * pi / interval / (0.5 * omega)));
+}
+
+} // namespace
+
+std::optional<MeanInterval> frequency_of(const std::vector<double> &signal, double interval, double nominal) {
+  // In a short record lines are wider than the range.
+  constexpr double few_cycles = 12.0;
+  const bool is_short = interval * static_cast<double>(signal.size()) * nominal < few_cycles * 2.0 * pi;
+  const std::optional<double> line = is_short ? nominal : strongest_line(signal, interval, nominal);
+  if (!line) return std::nullopt;
+  double omega = *line;
+  const int orders = orders_below(interval, omega);
+  const Eigen::Index unknowns = 2 + 2 * orders; // constant, waves, and last the frequency
+  const double middle = 0.5 * interval * static_cast<double>(signal.size() - 1);
+  Eigen::VectorXd waves = Eigen::VectorXd::Zero(unknowns); // without the last
+  Eigen::MatrixXd normal;
+  std::vector<double> scores; // of the frequency, cycle by cycle, without what the waves take
+  double information = 0.0;
+  constexpr int most_rounds = 8;
+  for (int round = 0; round < most_rounds; ++round) {
+    normal = Eigen::MatrixXd::Zero(unknowns, unknowns);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
+    std::vector<Eigen::VectorXd> of_cycle; // gradients
+    Eigen::VectorXd row(unknowns);
+    for (std::size_t i = 0; i < signal.size(); ++i) {
+      const double t = interval * static_cast<double>(i) - middle;
+      const std::complex<double> half = std::polar(1.0, 0.5 * omega * t);
+      std::complex<double> wave = 1.0;
+      double value = waves[0], slope = 0.0;
+      row[0] = 1.0;
+      for (int n = 1; n <= orders; ++n) {
+        wave *= half;
+        const Eigen::Index at = 2 * n - 1;
+        row[at] = wave.real();
+        row[at + 1] = wave.imag();
+        value += waves[at] * wave.real() + waves[at + 1] * wave.imag();
+        slope += 0.5 * n * t * (waves[at + 1] * wave.real() - waves[at] * wave.imag());
+      }
+      row[unknowns - 1] = slope;
+      normal.selfadjointView<Eigen::Lower>().rankUpdate(row);
+      right += row * (signal[i] - value);
+      const auto cycle = static_cast<std::size_t>((t + middle) * omega / (2.0 * pi));
+      if (of_cycle.size() <= cycle) of_cycle.resize(cycle + 1, Eigen::VectorXd::Zero(unknowns));
+      of_cycle[cycle] += row * (signal[i] - value);
+    }
+    normal = normal.selfadjointView<Eigen::Lower>();
+    const bool first = round == 0; // the waves alone, by which the frequency has a slope
+    const Eigen::Index fitted = unknowns - (first ? 1 : 0);
+    const Eigen::LDLT<Eigen::MatrixXd> solver(normal.topLeftCorner(fitted, fitted));
+    const Eigen::VectorXd change = solver.solve(right.head(fitted));
+    waves.head(unknowns - 1) += change.head(unknowns - 1);
+    if (first) continue;
+    const double step = change[unknowns - 1];
+    omega += step;
+    if (!(std::fabs(omega - nominal) < frequency_range * nominal)) return std::nullopt;
+    const Eigen::VectorXd direction = solver.solve(Eigen::VectorXd::Unit(unknowns, unknowns - 1));
+    information = direction[unknowns - 1];
+    scores.clear();
+    for (const Eigen::VectorXd &gradient : of_cycle)
+      scores.push_back(direction.dot(gradient));
+    constexpr double converged = 1e-12;
+    if (std::fabs(step) < converged * omega) break;
+  }
+  if (!(information > 0.0)) return std::nullopt;
+  const double squares = std::inner_product(scores.begin(), scores.end(), scores.begin(), 0.0);
+  const auto cycles = static_cast<double>(scores.size());
+  return MeanInterval{omega, t_factor(std::max(1.0, cycles - 2.0)) *
+                                 std::sqrt(squares * cycles / std::max(1.0, cycles - 2.0))};
+}
+
+namespace {
+
+/// The contact force of a record but for the exciter's, and the times from the middle of the record.
+struct Forces {
+  std::vector<double> without; ///< [N]
+  std::vector<double> time;    ///< [s]
+  double Fw = 0.0;             ///< [N]
+};
+
+/// The exciter's force Fw (a sin(omega t) + b cos(omega t)) and an offset [N].
+struct Exciter {
+  double omega, a, b, offset = 0.0;
+};
+
+double force_at(const Forces &forces, const Exciter &exciter, std::size_t i) {
+  const double angle = exciter.omega * forces.time[i];
+  return forces.without[i] + forces.Fw * (exciter.a * std::sin(angle) + exciter.b * std::cos(angle)) -
+         exciter.offset;
+}
+
+/// Samples from `first` to before `end`.
+struct Flight {
+  std::size_t first, end;
+  std::size_t size() const { return end - first; }
+};
+
+std::size_t samples_of(const std::vector<Flight> &flights) {
+  return std::accumulate(flights.begin(), flights.end(), std::size_t{0},
+                         [](std::size_t sum, const Flight &flight) { return sum + flight.size(); });
+}
+
+/// The runs of at least `least` samples for whose forces `holds` is true.
+template <class Holds>
+std::vector<Flight> runs_of(const std::vector<double> &force, std::size_t least, const Holds &holds) {
+  std::vector<Flight> runs;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i <= force.size(); ++i) {
+    if (i < force.size() && holds(force[i])) continue;
+    if (i - begin >= least) runs.push_back({begin, i});
+    begin = i + 1;
+  }
+  return runs;
+}
+
+std::vector<double> all_forces(const Forces &forces, const Exciter &exciter) {
+  std::vector<double> force(forces.without.size());
+  for (std::size_t i = 0; i < force.size(); ++i)
+    force[i] = force_at(forces, exciter, i);
+  return force;
+}
+
+/// Of phases two degrees apart, that with which the most samples are in runs of a force within `band`.
+Exciter best_phase(const Forces &forces, double omega, double band, std::size_t least) {
+  std::vector<double> sine(forces.time.size()), cosine(sine), force(sine);
+  for (std::size_t i = 0; i < sine.size(); ++i) {
+    sine[i] = forces.Fw * std::sin(omega * forces.time[i]);
+    cosine[i] = forces.Fw * std::cos(omega * forces.time[i]);
+  }
+  constexpr int steps = 180;
+  Exciter best{omega, 1.0, 0.0};
+  std::size_t most = 0;
+  for (int step = 0; step < steps; ++step) {
+    const double phase = 2.0 * pi * step / steps;
+    const double a = std::cos(phase), b = std::sin(phase);
+    for (std::size_t i = 0; i < force.size(); ++i)
+      force[i] = forces.without[i] + a * sine[i] + b * cosine[i];
+    const std::size_t samples =
+        samples_of(runs_of(force, least, [band](double f) { return std::fabs(f) <= band; }));
+    if (samples <= most) continue;
+    most = samples;
+    best = {omega, a, b};
+  }
+  return best;
+}
+
+/// One step of least squares over flights: unknown are a, b, offset and omega. Fills the fit but for its
+/// share; the root mean square of the force that is left [N] comes back.
+double fit_flights(const Forces &forces, const std::vector<Flight> &flights, Exciter &exciter,
+                   FlightFit &fit) {
+  constexpr Eigen::Index unknowns = 4;
+  Eigen::Matrix4d square = Eigen::Matrix4d::Zero();
+  std::vector<Eigen::Vector4d> scores;
+  double left = 0.0;
+  const double unit = std::max(std::fabs(forces.time.back()), std::fabs(forces.time.front())); // of 1 / omega
+  for (const Flight &flight : flights) {
+    scores.emplace_back(Eigen::Vector4d::Zero());
+    for (std::size_t i = flight.first; i < flight.end; ++i) {
+      const double angle = exciter.omega * forces.time[i], sine = std::sin(angle), cosine = std::cos(angle);
+      const Eigen::Vector4d row(sine, cosine, -1.0,
+                                forces.time[i] / unit * (exciter.a * cosine - exciter.b * sine));
+      const double off = force_at(forces, exciter, i) / forces.Fw;
+      square += row * row.transpose();
+      scores.back() += row * off;
+      left += off * off;
+    }
+  }
+  const Eigen::Matrix4d inverse = square.ldlt().solve(Eigen::Matrix4d::Identity());
+  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+  for (const Eigen::Vector4d &score : scores)
+    sum += score;
+  const Eigen::Vector4d change = -inverse * sum;
+  exciter.a += change[0];
+  exciter.b += change[1];
+  exciter.offset += change[2] * forces.Fw;
+  exciter.omega += change[3] / unit;
+  const auto count = static_cast<double>(scores.size());
+  const double freedom = std::max(1.0, count - static_cast<double>(unknowns));
+  const auto half_width = [&](const Eigen::Vector4d &direction) {
+    const Eigen::Vector4d of_score = inverse * direction;
+    double squares = 0.0;
+    for (const Eigen::Vector4d &score : scores)
+      squares += std::pow(of_score.dot(score), 2);
+    return t_factor(freedom) * std::sqrt(squares * count / freedom);
+  };
+  const double size = std::hypot(exciter.a, exciter.b);
+  fit.flights = flights.size();
+  fit.ratio = {size, half_width({exciter.a / size, exciter.b / size, 0.0, 0.0})};
+  fit.phase = {std::atan2(exciter.b, exciter.a),
+               half_width({-exciter.b / (size * size), exciter.a / (size * size), 0.0, 0.0})};
+  fit.offset = {exciter.offset, forces.Fw * half_width(Eigen::Vector4d::Unit(2))};
+  fit.omega = {exciter.omega, half_width(Eigen::Vector4d::Unit(3)) / unit};
+  return forces.Fw * std::sqrt(left / static_cast<double>(samples_of(flights)));
+}
+
+} // namespace
+
+std::optional<FlightFit> flights_of(const Record &record) {
+  if (record.a_drum.empty() || !record.omega || !record.Fw || !record.m2 || !record.m3) return std::nullopt;
+  constexpr double usual_gravity = 9.81;
+  const double weight = (*record.m2 + *record.m3) * record.g.value_or(usual_gravity);
+  const double middle = 0.5 * (record.time.front() + record.time.back());
+  Forces forces;
+  forces.Fw = *record.Fw;
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    forces.without.push_back(weight + *record.m2 * record.a_drum[i] +
+                             (record.a_frame.empty() ? 0.0 : *record.m3 * record.a_frame[i]));
+    forces.time.push_back(record.time[i] - middle);
+  }
+  const double per_cycle = record.period() / record.interval;
+  constexpr double shortest = 0.05, longest = 3.0; // cycles
+  const auto least = std::max<std::size_t>(5, static_cast<std::size_t>(shortest * per_cycle));
+  const double noise = noise_level(forces.without);
+  constexpr double wide = 0.03, narrow = 0.001; // of Fw
+  double width = wide * forces.Fw + 3.0 * noise;
+  Exciter exciter = best_phase(forces, *record.omega, width, least);
+  FlightFit fit;
+  std::vector<double> force = all_forces(forces, exciter);
+  // The flights anew with a narrower band each time, as wide as the force that is left in them.
+  std::vector<Flight> flights;
+  constexpr int rounds = 12;
+  for (int round = 0; round < rounds; ++round) {
+    flights = runs_of(force, least, [width](double f) { return std::fabs(f) <= width; });
+    const auto too_long = [per_cycle](const Flight &flight) {
+      return static_cast<double>(flight.size()) > longest * per_cycle;
+    };
+    flights.erase(std::remove_if(flights.begin(), flights.end(), too_long), flights.end());
+    constexpr double rarest = 0.3; // flights in a cycle
+    if (static_cast<double>(flights.size()) < std::max(6.0, rarest * record.cycles())) return std::nullopt;
+    for (Flight &flight : flights) { // a contact may have begun or ended between two samples
+      ++flight.first;
+      --flight.end;
+    }
+    const double left = fit_flights(forces, flights, exciter, fit);
+    fit.share = static_cast<double>(samples_of(flights)) / static_cast<double>(record.size());
+    force = all_forces(forces, exciter);
+    width = std::max(narrow * forces.Fw, 4.0 * left);
+  }
+  // One flight in a cycle at most, after which the soil presses.
+  const std::vector<Flight> others = runs_of(force, 2, [width](double f) { return std::fabs(f) > width; });
+  std::size_t followed = 0, lands = 0;
+  for (const Flight &flight : flights) {
+    const auto next = std::find_if(others.begin(), others.end(),
+                                   [&flight](const Flight &other) { return other.first >= flight.end; });
+    if (next == others.end()) continue;
+    ++followed;
+    lands += force[next->first] > 0.0 ? 1 : 0;
+  }
+  constexpr double most_often = 1.1, most_of_them = 0.9, most_share = 0.85, most_off = 0.6;
+  if (fit.share > most_share || std::fabs(fit.ratio.mean - 1.0) > most_off ||
+      static_cast<double>(flights.size()) > most_often * record.cycles() + 1.0 ||
+      static_cast<double>(lands) < most_of_them * static_cast<double>(followed))
+    return std::nullopt;
+  fit.phase.mean = std::remainder(fit.phase.mean - fit.omega.mean * middle, 2.0 * pi);
+  return fit;
+}
+
+namespace {
+
+constexpr double degree = pi / 180.0;
+
+double mean_of(const std::vector<double> &values, std::size_t count) {
+  return std::accumulate(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count), 0.0) /
+         static_cast<double>(count);
+}
+
+void shift(std::vector<double> &values, double by) {
+  for (double &value : values)
+    value += by;
+}
+
+/// The first of the drum's signals that the record has: its frequency is the exciter's.
+const std::vector<double> &drum_signal(const Record &record) {
+  return !record.a_drum.empty()   ? record.a_drum
+         : !record.v_drum.empty() ? record.v_drum
+         : !record.x_drum.empty() ? record.x_drum
+                                  : record.F_contact;
+}
+
+/// Refuses an acceleration that stands still, or at the limit of its sensor.
+void check_range(const Record &record, const std::vector<double> &values, const char *name) {
+  if (values.empty()) return;
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  if (*least == *most)
+    csv_fault(record.file, 0, {}, refusal(name, *least, "values that change; this is the same in every row"));
+  // A signal rarely has its largest value three times in a row unless it is cut there.
+  std::size_t cut = 0;
+  for (std::size_t i = 2; i < values.size(); ++i)
+    for (const double limit : {*least, *most})
+      if (values[i] == limit && values[i - 1] == limit && values[i - 2] == limit) ++cut;
+  constexpr double rare = 0.002; // of the samples
+  if (static_cast<double>(cut) > std::max(3.0, rare * static_cast<double>(values.size())))
+    csv_fault(
+        record.file, 0, {},
+        refusal(name,
+                fmt::format("{:.6g} to {:.6g} m/s2, again and again for several samples", *least, *most),
+                "a signal within the range of its sensor, which this one reaches"));
+}
+
+void take_frequency(Record &record) {
+  const std::vector<double> &signal = drum_signal(record);
+  if (signal.empty()) return;
+  const double said = *record.omega / (2.0 * pi);
+  const std::optional<MeanInterval> found = frequency_of(signal, record.interval, *record.omega);
+  if (!found)
+    csv_fault(record.file, 0, {},
+              refusal("the frequency", fmt::format("{:.6g}", said),
+                      fmt::format("that of the record to {:g} % [Hz]; the drum's signal has no line there",
+                                  100.0 * frequency_range)));
+  record.omega = found->mean;
+  record.notes.push_back(fmt::format("the record has {:.8g} +- {:.2g} Hz, {:.6g} Hz was said",
+                                     found->mean / (2.0 * pi), found->half_width / (2.0 * pi), said));
+}
+
+/// Accelerations have no mean over many cycles; what there is belongs to the sensor.
+void remove_offset(Record &record, std::vector<double> Record::*values, const char *name) {
+  if ((record.*values).empty()) return;
+  const auto cycles = std::floor(record.cycles() + 1e-6);
+  const auto count =
+      std::min(record.size(), static_cast<std::size_t>(cycles * record.period() / record.interval));
+  const double mean = mean_of(record.*values, count);
+  shift(record.*values, -mean);
+  constexpr double told = 0.1; // m/s2
+  if (std::fabs(mean) < told) return;
+  constexpr double gravity = 9.80665;
+  const bool of_gravity = std::fabs(std::fabs(mean) - gravity) < 0.1 * gravity;
+  record.notes.push_back(fmt::format("{} has a mean of {:.4g} m/s2, which is removed{}", name, mean,
+                                     of_gravity ? ": the sensor shows gravity" : ""));
+}
+
+/// Whether the drum flies if the sign of its acceleration, or of both accelerations, is turned.
+const char *turned_sign(Record record) {
+  const auto turn = [](std::vector<double> &values) {
+    for (double &value : values)
+      value = -value;
+  };
+  turn(record.a_drum);
+  if (flights_of(record)) return "a_drum";
+  turn(record.a_frame);
+  return !record.a_frame.empty() && flights_of(record) ? "a_drum and a_frame" : nullptr;
+}
+
+void take_flights(Record &record, const RecordOptions &options) {
+  std::optional<FlightFit> fit = flights_of(record);
+  if (fit && options.me_re) { // the force that belongs to the frequency of the flights
+    record.omega = fit->omega.mean;
+    record.Fw = *options.me_re * *record.omega * *record.omega;
+    fit = flights_of(record);
+  }
+  if (!fit) {
+    if (const char *columns = turned_sign(record))
+      csv_fault(record.file, 0, {},
+                refusal("the sign of " + std::string(columns), "as given",
+                        "the other one, with which the drum flies: a '-' before the unit of --column"));
+    return;
+  }
+  const std::optional<double> said = record.phase;
+  record.notes.push_back(fmt::format(
+      "{} flights, {:.1f} % of the time, give {:.8g} +- {:.2g} Hz, a phase of {:.3f} +- {:.2g} degrees, an "
+      "exciter's force {:.4f} +- {:.2g} times that given and an offset of {:.0f} +- {:.2g} N, which is "
+      "removed",
+      fit->flights, 100.0 * fit->share, fit->omega.mean / (2.0 * pi), fit->omega.half_width / (2.0 * pi),
+      fit->phase.mean / degree, fit->phase.half_width / degree, fit->ratio.mean, fit->ratio.half_width,
+      fit->offset.mean, fit->offset.half_width));
+  constexpr double machine = 0.1; // by which data of the machine may be off
+  if (std::fabs(fit->ratio.mean - 1.0) > machine + fit->ratio.half_width)
+    csv_fault(
+        record.file, 0, {},
+        refusal("the exciter's force", fmt::format("{:.6g} N", *record.Fw),
+                fmt::format("{:.6g} N to {:g} %, which the flights of the drum need with these masses, signs "
+                            "and units",
+                            fit->ratio.mean * *record.Fw, 100.0 * machine)));
+  if (said) {
+    constexpr double most = 20.0; // degrees
+    const double off = std::remainder(fit->phase.mean - *said, 2.0 * pi) / degree;
+    if (std::fabs(off) > most + fit->phase.half_width / degree)
+      csv_fault(record.file, 0, {},
+                refusal("the phase", fmt::format("{:.4g} degrees", *said / degree),
+                        fmt::format("{:.4g} +- {:.2g} degrees, as the flights of the drum tell, or no phase",
+                                    fit->phase.mean / degree, fit->phase.half_width / degree)));
+  }
+  const double of_offset = -fit->offset.mean / *record.m2;
+  shift(record.a_drum, of_offset);
+  record.omega = fit->omega.mean;
+  record.phase = fit->phase.mean;
+  record.phase_half_width = fit->phase.half_width;
+}
+
+} // namespace
+
+void settle_excitation(Record &record, const RecordOptions &options) {
+  if (record.time.empty() || !options.omega || record.excitation_read || record.pieces.empty()) return;
+  check_range(record, record.a_drum, "a_drum");
+  check_range(record, record.a_frame, "a_frame");
+  take_frequency(record);
+  remove_offset(record, &Record::a_drum, "a_drum");
+  remove_offset(record, &Record::a_frame, "a_frame");
+  if (options.me_re) record.Fw = *options.me_re * *record.omega * *record.omega;
+  take_flights(record, options);
+  compute_excitation(record);
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,49 @@
+// What a record of the drum's acceleration tells of the exciter: its frequency, and, where the drum flies,
+// its phase and force.
+#pragma once
+
+#include "record/record.h"
+#include "support/statistics.h"
+
+#include <optional>
+#include <vector>
+
+namespace drumlin::post {
+
+/// Share of the nominal frequency within which frequency_of() looks for the true one, to either side.
+constexpr double frequency_range = 0.06;
+
+/// Frequency of a signal [rad/s] with its 95 % confidence interval: its multiples from one half to six (below
+/// half the sampling rate) are fitted to the whole signal by least squares, together with a constant.
+/// Residuals of one cycle may be correlated in any way, those of different cycles count as independent.
+/// Nothing if the signal has no line near the nominal frequency.
+/// \param interval between samples [s]
+/// \param nominal [rad/s]; at least four cycles and eight samples per cycle
+std::optional<MeanInterval> frequency_of(const std::vector<double> &signal, double interval, double nominal);
+
+/// What the flights of the drum tell. In flight no contact force acts, so that
+///     m2 (a2 + g) + m3 (a3 + g) + ratio Fw sin(omega t + phase) = offset,
+/// where an offset is that of a sensor. All four unknowns are fitted to all flights, with 95 % confidence
+/// intervals for errors that are independent from flight to flight.
+struct FlightFit {
+  MeanInterval omega{}; ///< [rad/s]
+  MeanInterval phase{}; ///< at time 0, from -pi to pi; its interval is that in the middle of the record [rad]
+  MeanInterval ratio{}; ///< amplitude of the exciter's force over Fw [-]
+  MeanInterval offset{};   ///< [N]
+  double share = 0.0;      ///< of the samples that are in flight [-]
+  std::size_t flights = 0; ///< number
+};
+
+/// Finds the flights of a record whose omega, Fw, m2 and m3 are known, omega to a tenth of a cycle over the
+/// record. Of all phases of the exciter that one counts with which the most samples are in parts without
+/// force. Nothing if flights are too few to tell, or if no contacts with a force above zero stand between
+/// them.
+std::optional<FlightFit> flights_of(const Record &record);
+
+/// Takes the exciter's frequency, and if the drum flies its phase, from a measured record whose nominal
+/// frequency is given; removes offsets of accelerations; notes what was found. A record of a run, or with a
+/// measured F_excitation, stays as it is. std::runtime_error of one line: no line near the nominal frequency;
+/// a phase that flights contradict; accelerations whose sign is turned.
+void settle_excitation(Record &record, const RecordOptions &options);
+
+} // namespace drumlin::post

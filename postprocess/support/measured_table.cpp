@@ -1,0 +1,496 @@
+#include "support/measured_table.h"
+
+#include "support/csv.h"
+#include "support/files.h"
+#include "support/range.h"
+#include "support/text.h"
+#include "support/units.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <ctime>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+namespace drumlin::post {
+
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+void append_utf8(std::string &text, std::uint32_t code) {
+  const auto put = [&text](std::uint32_t byte) { text += static_cast<char>(byte); };
+  if (code < 0x80) {
+    put(code);
+  } else if (code < 0x800) {
+    put(0xC0 | (code >> 6));
+    put(0x80 | (code & 0x3F));
+  } else if (code < 0x10000) {
+    put(0xE0 | (code >> 12));
+    put(0x80 | ((code >> 6) & 0x3F));
+    put(0x80 | (code & 0x3F));
+  } else {
+    put(0xF0 | (code >> 18));
+    put(0x80 | ((code >> 12) & 0x3F));
+    put(0x80 | ((code >> 6) & 0x3F));
+    put(0x80 | (code & 0x3F));
+  }
+}
+
+std::string from_utf16(std::string_view bytes, bool low_first) {
+  std::string text;
+  const auto unit = [&](std::size_t i) {
+    const auto a = static_cast<unsigned char>(bytes[i]), b = static_cast<unsigned char>(bytes[i + 1]);
+    return static_cast<std::uint32_t>(low_first ? a | (b << 8) : b | (a << 8));
+  };
+  for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
+    std::uint32_t code = unit(i);
+    if (code >= 0xD800 && code < 0xDC00 && i + 3 < bytes.size()) { // the first of a pair
+      code = 0x10000 + ((code - 0xD800) << 10) + (unit(i + 2) - 0xDC00);
+      i += 2;
+    }
+    append_utf8(text, code);
+  }
+  return text;
+}
+
+std::string from_latin1(std::string_view bytes) {
+  std::string text;
+  for (const char byte : bytes)
+    append_utf8(text, static_cast<unsigned char>(byte));
+  return text;
+}
+
+/// The text of a file as UTF-8; sets the name of its encoding.
+std::string decoded(std::string bytes, const char *&encoding) {
+  const auto begins = [&bytes](std::string_view mark) { return bytes.compare(0, mark.size(), mark) == 0; };
+  // Without a byte order mark, digits of UTF-16 have a zero in every second byte.
+  const auto zero = [&bytes](std::size_t i) { return bytes.size() > i && bytes[i] == '\0'; };
+  if (begins("\xFF\xFE") || (zero(1) && zero(3) && !zero(0))) {
+    encoding = "UTF-16";
+    return from_utf16(std::string_view(bytes).substr(begins("\xFF\xFE") ? 2 : 0), true);
+  }
+  if (begins("\xFE\xFF") || (zero(0) && zero(2) && !zero(1))) {
+    encoding = "UTF-16";
+    return from_utf16(std::string_view(bytes).substr(begins("\xFE\xFF") ? 2 : 0), false);
+  }
+  if (begins("\xEF\xBB\xBF")) bytes.erase(0, 3);
+  const bool ascii =
+      std::all_of(bytes.begin(), bytes.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+  if (ascii || valid_utf8(bytes) == bytes) return bytes;
+  encoding = "Latin-1";
+  return from_latin1(bytes);
+}
+
+/// The lines of a text, which end with LF, CR LF or CR, without these.
+std::vector<std::string_view> lines_of(std::string_view text) {
+  std::vector<std::string_view> lines;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
+    lines.push_back(text.substr(0, end));
+    const bool both = end + 1 < text.size() && text[end] == '\r' && text[end + 1] == '\n';
+    text.remove_prefix(std::min(text.size(), end + (both ? 2 : 1)));
+  }
+  return lines;
+}
+
+bool is_comment(std::string_view line) {
+  const std::string_view text = trimmed(line);
+  return !text.empty() && (text[0] == '#' || text[0] == '%' || text.substr(0, 2) == "//");
+}
+
+/// Calls `take` for each cell of a line, without its quotes and blanks.
+template <class Take>
+void for_each_cell(std::string_view line, char separator, const Take &take) {
+  if (separator == ' ') line = trimmed(line);
+  std::string unquoted;
+  while (true) {
+    std::string_view cell;
+    std::size_t end = 0;
+    const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
+    if (begin < line.size() && line[begin] == '"') {
+      unquoted.clear();
+      for (end = begin + 1; end < line.size(); ++end) {
+        if (line[end] == '"' && (end + 1 >= line.size() || line[++end] != '"')) break;
+        unquoted += line[end];
+      }
+      end = std::min(line.find(separator, std::min(end, line.size())), line.size());
+      cell = unquoted;
+    } else {
+      end = std::min(separator == ' ' ? line.find_first_of(" \t") : line.find(separator), line.size());
+      cell = trimmed(line.substr(0, end));
+    }
+    take(cell);
+    if (end >= line.size()) return;
+    line.remove_prefix(end + 1);
+    if (separator == ' ') line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+  }
+}
+
+bool is_blank(std::string_view cell) {
+  constexpr std::array<std::string_view, 8> words = {"", "-", "--", "NaN", "nan", "NA", "n/a", "?"};
+  return std::find(words.begin(), words.end(), cell) != words.end();
+}
+
+std::optional<double> number_in(std::string_view cell, char decimal) {
+  if (decimal == '.') return any_number_from_text(cell);
+  if (cell.find('.') != std::string_view::npos) return std::nullopt;
+  std::string text(cell);
+  std::replace(text.begin(), text.end(), decimal, '.');
+  return any_number_from_text(text);
+}
+
+/// A clock time: seconds from midnight, and the day, counted from any day, if there is a date.
+struct ClockTime {
+  double seconds;
+  std::optional<long> day;
+};
+
+/// A date such as 2026-11-26, 2026/Nov/26 or 26.11.2026 as a day.
+std::optional<long> day_in(std::string_view date) {
+  std::vector<long> parts;
+  while (true) {
+    const std::size_t end = std::min(date.find_first_of("-/."), date.size());
+    constexpr std::string_view months = "JanFebMarAprMayJunJulAugSepOctNovDec";
+    const std::string_view text = date.substr(0, end);
+    const std::size_t place = text.size() == 3 ? months.find(text) : months.size();
+    const bool named = place < months.size() && place % 3 == 0;
+    const std::optional<long> part = named ? static_cast<long>(place / 3 + 1) : whole_number_from_text(text);
+    if (!part) return std::nullopt;
+    parts.push_back(*part);
+    if (end == date.size()) break;
+    date.remove_prefix(end + 1);
+  }
+  if (parts.size() != 3) return std::nullopt;
+  if (parts[0] < 100) std::swap(parts[0], parts[2]); // the year stands last
+  if (parts[0] < 100 || parts[1] < 1 || parts[1] > 12 || parts[2] < 1 || parts[2] > 31) return std::nullopt;
+  std::tm day{};
+  day.tm_year = static_cast<int>(parts[0] - 1900);
+  day.tm_mon = static_cast<int>(parts[1] - 1);
+  day.tm_mday = static_cast<int>(parts[2]);
+  constexpr long seconds_of_day = 86400;
+  return timegm(&day) / seconds_of_day;
+}
+
+std::optional<ClockTime> clock_in(std::string_view cell) {
+  ClockTime clock{};
+  double afternoon = 0.0;
+  bool halves = false; // 12-hour clock
+  for (const auto &[mark, hours] : {std::pair{"AM", 0.0}, std::pair{"PM", 12.0}})
+    if (cell.size() > 2 && cell.substr(cell.size() - 2) == mark) {
+      cell = trimmed(cell.substr(0, cell.size() - 2));
+      afternoon = hours;
+      halves = true;
+    }
+  const std::size_t space = cell.find_first_of(" T");
+  if (space != std::string_view::npos) {
+    clock.day = day_in(cell.substr(0, space));
+    if (!clock.day) return std::nullopt;
+    cell = trimmed(cell.substr(space + 1));
+  }
+  const std::size_t first = cell.find(':');
+  if (first == std::string_view::npos) return std::nullopt;
+  const std::size_t second = cell.find(':', first + 1);
+  if (second == std::string_view::npos) return std::nullopt;
+  const std::optional<long> hours = whole_number_from_text(cell.substr(0, first));
+  const std::optional<long> minutes = whole_number_from_text(cell.substr(first + 1, second - first - 1));
+  const std::string_view rest = cell.substr(second + 1);
+  const std::optional<double> seconds = number_in(rest, rest.find(',') == std::string_view::npos ? '.' : ',');
+  if (!hours || !minutes || !seconds || *hours < 0 || *hours > 24 || *minutes < 0 || *minutes > 59 ||
+      !(*seconds >= 0.0 && *seconds < 61.0))
+    return std::nullopt;
+  const auto hour = static_cast<double>(halves ? *hours % 12 : *hours) + afternoon;
+  clock.seconds = 3600.0 * hour + 60.0 * static_cast<double>(*minutes) + *seconds;
+  return clock;
+}
+
+bool is_value(std::string_view cell, char decimal) {
+  return number_in(cell, decimal).has_value() || clock_in(cell).has_value();
+}
+
+/// Text and unit of a header such as "Acc Z (g)" or "time [ms]".
+MeasuredColumn column_of(std::string header) {
+  MeasuredColumn column{header, header, ""};
+  const std::size_t size = header.size();
+  if (size < 3 || (header.back() != ')' && header.back() != ']')) return column;
+  const std::size_t open = header.rfind(header.back() == ')' ? '(' : '[');
+  if (open == std::string::npos || open == 0) return column;
+  const std::string unit(trimmed(std::string_view(header).substr(open + 1, size - open - 2)));
+  if (!unit_from_text(unit)) return column;
+  column.name = trimmed(std::string_view(header).substr(0, open));
+  column.unit = unit;
+  return column;
+}
+
+/// The unit of a cell of a row of units, with or without brackets; nothing for another text.
+std::optional<std::string> unit_cell(std::string_view cell) {
+  if (cell.size() > 2 && (cell.front() == '[' || cell.front() == '('))
+    cell = trimmed(cell.substr(1, cell.size() - 2));
+  return unit_from_text(cell) ? std::optional<std::string>(cell) : std::nullopt;
+}
+
+std::string separator_words(char separator) {
+  if (separator == '\t') return "tabs between cells";
+  if (separator == ' ') return "blanks between cells";
+  return fmt::format("'{}' between cells", separator);
+}
+
+} // namespace
+
+MeasuredTable::MeasuredTable(std::filesystem::path file, const TableFormat &format) : file_(std::move(file)) {
+  text_ = decoded(read_text(file_), encoding_);
+  find_format(format);
+  find_rows();
+}
+
+std::vector<std::string> MeasuredTable::cells_of(std::string_view line) const {
+  std::vector<std::string> cells;
+  for_each_cell(line, separator_, [&cells](std::string_view cell) { cells.emplace_back(cell); });
+  return cells;
+}
+
+// The separator and decimal sign by which the most cells of a sample of the lines are numbers, each other
+// text counted against it. A tab or semicolon is preferred where both do equally well.
+void MeasuredTable::find_format(const TableFormat &given) {
+  const std::vector<std::string_view> lines = lines_of(text_);
+  constexpr std::size_t most = 400;
+  const std::size_t step = std::max<std::size_t>(1, lines.size() / most);
+  long best = std::numeric_limits<long>::min();
+  for (const char separator : {'\t', ';', '|', ',', ' '})
+    for (const char decimal : {'.', ','}) {
+      if (separator == decimal || (given.separator && separator != *given.separator) ||
+          (given.decimal && decimal != *given.decimal))
+        continue;
+      std::map<std::size_t, std::pair<long, std::vector<long>>> found; // by the number of cells
+      for (std::size_t i = 0; i < lines.size(); i += step) {
+        if (trimmed(lines[i]).empty() || is_comment(lines[i])) continue;
+        std::vector<long> kinds; // 1 a value, -1 another text, 0 blank
+        for_each_cell(lines[i], separator, [&](std::string_view cell) {
+          kinds.push_back(is_value(cell, decimal) ? 1 : is_blank(cell) ? 0 : -1);
+        });
+        if (std::find(kinds.begin(), kinds.end(), 1) == kinds.end()) continue;
+        auto &[lines_of_width, sums] = found[kinds.size()];
+        ++lines_of_width;
+        sums.resize(kinds.size());
+        for (std::size_t j = 0; j < kinds.size(); ++j)
+          sums[j] += kinds[j];
+      }
+      for (const auto &[width, of_width] : found) {
+        long score = 0;
+        for (const long sum : of_width.second)
+          score += sum;
+        if (score <= best) continue;
+        best = score;
+        separator_ = separator;
+        decimal_ = decimal;
+        numeric_.clear();
+        for (const long sum : of_width.second)
+          numeric_.push_back(sum > 0);
+      }
+    }
+  if (numeric_.empty())
+    csv_fault(file_, 0, {},
+              lines.empty() ? "the file is empty; allowed: a table of numbers"
+                            : fmt::format("no line has numbers; allowed: a table of numbers, with ',', ';', "
+                                          "tabs, '|' or blanks between cells; the first line is '{}'",
+                                          shown(lines.front())));
+}
+
+void MeasuredTable::find_rows() {
+  const std::vector<std::string_view> lines = lines_of(text_);
+  const bool complete = text_.empty() || text_.back() == '\n' || text_.back() == '\r';
+  const std::size_t width = numeric_.size();
+  bool begun = false;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (trimmed(lines[i]).empty() || is_comment(lines[i])) continue;
+    if (!begun) {
+      std::size_t count = 0;
+      bool values = true, any = false;
+      for_each_cell(lines[i], separator_, [&](std::string_view cell) {
+        if (count < width && numeric_[count]) {
+          const bool value = is_value(cell, decimal_);
+          any = any || value;
+          values = values && (value || is_blank(cell));
+        }
+        ++count;
+      });
+      begun = count == width && values && any;
+      if (!begun) continue;
+      find_header(lines, i);
+    }
+    std::size_t count = 0, filled = 0;
+    for_each_cell(lines[i], separator_, [&](std::string_view cell) {
+      ++count;
+      if (!cell.empty()) filled = count;
+    });
+    if (count < width && i + 1 == lines.size() && !complete) break; // cut
+    if (count < width || filled > width)
+      csv_fault(file_, i + 1, {},
+                refusal("the number of cells", fmt::format("{}", count),
+                        fmt::format("{} as in line {}; {}", width, lines_.empty() ? i + 1 : lines_.front(),
+                                    reading_of(lines[i]))));
+    rows_.push_back(lines[i]);
+    lines_.push_back(i + 1);
+  }
+}
+
+void MeasuredTable::find_header(const std::vector<std::string_view> &lines, std::size_t first) {
+  const std::size_t width = numeric_.size();
+  std::vector<std::string> units(width);
+  std::vector<std::string> names;
+  const auto fits = [&](const std::vector<std::string> &cells) {
+    return cells.size() >= width &&
+           std::all_of(cells.begin() + static_cast<std::ptrdiff_t>(width), cells.end(),
+                       [](const std::string &cell) { return cell.empty(); }) &&
+           std::any_of(cells.begin(), cells.end(), [](const std::string &cell) { return !cell.empty(); });
+  };
+  for (std::size_t i = first; i-- > 0 && names.empty();) {
+    if (trimmed(lines[i]).empty()) continue;
+    std::string_view line = lines[i];
+    const bool comment = is_comment(line);
+    if (comment) line = trimmed(trimmed(line).substr(trimmed(line).find_first_not_of("#%/ ")));
+    std::vector<std::string> cells = cells_of(line);
+    // Some programs leave a comma in the name of the last column unquoted.
+    if (cells.size() == width + 1 && !cells.back().empty() && cells.back().front() == '_') {
+      cells[width - 1] += separator_ + cells.back();
+      cells.pop_back();
+    }
+    if (!fits(cells)) {
+      if (comment) continue;
+      break;
+    }
+    cells.resize(width);
+    const bool all_units = std::all_of(cells.begin(), cells.end(), [](const std::string &cell) {
+      return cell.empty() || unit_cell(cell).has_value();
+    });
+    if (all_units && unit_line_ == 0 && i > 0) {
+      for (std::size_t j = 0; j < width; ++j)
+        units[j] = unit_cell(cells[j]).value_or("");
+      unit_line_ = i + 1;
+      continue;
+    }
+    names = std::move(cells);
+    header_line_ = i + 1;
+  }
+  if (names.empty()) unit_line_ = 0;
+  for (std::size_t j = 0; j < width; ++j) {
+    const bool named = !names.empty() && !names[j].empty();
+    columns_.push_back(column_of(named ? names[j] : fmt::format("{}", j + 1)));
+    if (unit_line_ > 0 && !units[j].empty()) columns_.back().unit = units[j];
+  }
+}
+
+std::optional<std::size_t> MeasuredTable::find(std::string_view header) const {
+  for (const auto part : {&MeasuredColumn::header, &MeasuredColumn::name}) {
+    std::optional<std::size_t> place;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (columns_[i].*part != header) continue;
+      if (place) return std::nullopt;
+      place = i;
+    }
+    if (place) return place;
+  }
+  const std::optional<long> number = whole_number_from_text(header);
+  if (number && *number >= 1 && static_cast<std::size_t>(*number) <= columns_.size())
+    return static_cast<std::size_t>(*number - 1);
+  return std::nullopt;
+}
+
+void MeasuredTable::missing(std::string_view header) const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < columns_.size(); ++i)
+    names.push_back(header_line_ > 0 ? fmt::format("{} '{}'", i + 1, columns_[i].header)
+                                     : fmt::format("{}", i + 1));
+  csv_fault(file_, header_line_, {},
+            refusal("the column", header,
+                    fmt::format("the name, if only one column has it, or the number of one of these: {}; {}",
+                                fmt::join(names, ", "), words())));
+}
+
+std::string MeasuredTable::cell(std::size_t row, std::size_t column) const {
+  return cells_of(rows_.at(row)).at(column);
+}
+
+std::vector<double> MeasuredTable::numbers(std::size_t column) const {
+  std::vector<double> values;
+  values.reserve(rows_.size());
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    std::size_t place = 0;
+    for_each_cell(rows_[row], separator_, [&](std::string_view cell) {
+      if (place++ != column) return;
+      const std::optional<double> value = number_in(cell, decimal_);
+      const bool blank = is_blank(cell);
+      if (!blank && !(value && std::isfinite(*value)))
+        refuse(row, column, fmt::format("a finite number with '{}' as decimal sign, or no text", decimal_));
+      values.push_back(blank ? std::nan("") : *value);
+    });
+  }
+  return values;
+}
+
+bool MeasuredTable::has_clock_times(std::size_t column) const {
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    const std::string text = cell(row, column);
+    if (!is_blank(text)) return !number_in(text, decimal_) && clock_in(text).has_value();
+  }
+  return false;
+}
+
+std::vector<double> MeasuredTable::clock_times(std::size_t column, std::optional<long> &first_day) const {
+  constexpr double day = 86400.0;
+  std::vector<double> values;
+  values.reserve(rows_.size());
+  double midnights = 0.0, before = 0.0;
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    const std::string text = cell(row, column);
+    if (is_blank(text)) {
+      values.push_back(std::nan(""));
+      continue;
+    }
+    const std::optional<ClockTime> clock = clock_in(text);
+    if (!clock) refuse(row, column, "a time such as 14:03:07.25 or 2026-11-26 14:03:07.25");
+    if (clock->day && !first_day) first_day = clock->day;
+    if (!clock->day && clock->seconds < before - 0.5 * day) midnights += day;
+    before = clock->seconds;
+    values.push_back(clock->seconds +
+                     (clock->day ? day * static_cast<double>(*clock->day - *first_day) : midnights));
+  }
+  return values;
+}
+
+void MeasuredTable::refuse(std::size_t row, std::size_t column, std::string_view allowed) const {
+  csv_refusal(file_, line(row), columns_.at(column).header, cell(row, column),
+              fmt::format("{}; {}", allowed, reading_of(rows_[row])));
+}
+
+std::string MeasuredTable::reading_of(std::string_view line) const {
+  std::vector<std::string> cells;
+  for (const std::string &cell : cells_of(line))
+    cells.push_back(fmt::format("'{}'", shown(cell)));
+  constexpr std::size_t most = 12;
+  const bool more = cells.size() > most;
+  if (more) cells.resize(most);
+  return fmt::format("with {} the line '{}' has the cells {}{}", separator_words(separator_), shown(line),
+                     fmt::join(cells, " "), more ? " ..." : "");
+}
+
+std::string MeasuredTable::words() const {
+  std::string text = fmt::format("{}, {}, decimal '{}'", encoding_, separator_words(separator_), decimal_);
+  text += header_line_ > 0 ? fmt::format(", header in line {}", header_line_) : ", no header";
+  if (unit_line_ > 0) text += fmt::format(", units in line {}", unit_line_);
+  return text + fmt::format(", {} rows from line {}", rows_.size(), lines_.empty() ? 0 : lines_.front());
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,99 @@
+#include "support/units.h"
+
+#include <boost/algorithm/string/case_conv.hpp>
+#include <boost/algorithm/string/replace.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace drumlin::post {
+
+namespace {
+
+constexpr double g = 9.80665; // m/s2, standard gravity
+
+constexpr std::array<Unit, 31> units = {{{"s", Quantity::time, 1.0},
+                                         {"ms", Quantity::time, 1e-3},
+                                         {"us", Quantity::time, 1e-6},
+                                         {"min", Quantity::time, 60.0},
+                                         {"m", Quantity::length, 1.0},
+                                         {"cm", Quantity::length, 1e-2},
+                                         {"mm", Quantity::length, 1e-3},
+                                         {"um", Quantity::length, 1e-6},
+                                         {"m/s", Quantity::velocity, 1.0},
+                                         {"cm/s", Quantity::velocity, 1e-2},
+                                         {"mm/s", Quantity::velocity, 1e-3},
+                                         {"um/s", Quantity::velocity, 1e-6},
+                                         {"m/s2", Quantity::acceleration, 1.0},
+                                         {"cm/s2", Quantity::acceleration, 1e-2},
+                                         {"mm/s2", Quantity::acceleration, 1e-3},
+                                         {"um/s2", Quantity::acceleration, 1e-6},
+                                         {"g", Quantity::acceleration, g},
+                                         {"mg", Quantity::acceleration, 1e-3 * g},
+                                         {"N", Quantity::force, 1.0},
+                                         {"kN", Quantity::force, 1e3},
+                                         {"MN", Quantity::force, 1e6},
+                                         {"%", Quantity::share, 1e-2},
+                                         {"V", Quantity::other, 1.0},
+                                         {"mV", Quantity::other, 1e-3},
+                                         {"Hz", Quantity::other, 1.0},
+                                         {"rpm", Quantity::other, 1.0},
+                                         {"deg", Quantity::other, 1.0},
+                                         {"km/h", Quantity::other, 1.0},
+                                         {"degC", Quantity::other, 1.0},
+                                         {"kPa", Quantity::other, 1e3},
+                                         {"-", Quantity::other, 1.0}}};
+
+/// A unit's text with one spelling for each unit.
+std::string spelling(std::string_view text) {
+  std::string word(text);
+  constexpr std::array<std::pair<const char *, const char *>, 9> same = {{{" ", ""},
+                                                                          {"^", ""},
+                                                                          {"**", ""},
+                                                                          {"\xC2\xB2", "2"}, // superscript 2
+                                                                          {"\xC2\xB5", "u"}, // micro sign
+                                                                          {"\xCE\xBC", "u"}, // Greek mu
+                                                                          {"\xC2\xB0", "deg"}, // degree sign
+                                                                          {"\xC2\xB7", ""},    // middle dot
+                                                                          {"*", ""}}};
+  for (const auto &[from, to] : same)
+    boost::replace_all(word, from, to);
+  boost::to_lower(word);
+  constexpr std::array<std::pair<const char *, const char *>, 12> long_words = {{{"sec", "s"},
+                                                                                 {"second", "s"},
+                                                                                 {"seconds", "s"},
+                                                                                 {"msec", "ms"},
+                                                                                 {"usec", "us"},
+                                                                                 {"ms-1", "m/s"},
+                                                                                 {"ms-2", "m/s2"},
+                                                                                 {"m/s/s", "m/s2"},
+                                                                                 {"m/sec", "m/s"},
+                                                                                 {"m/sec2", "m/s2"},
+                                                                                 {"gn", "g"},
+                                                                                 {"percent", "%"}}};
+  for (const auto &[from, to] : long_words)
+    if (word == from) return to;
+  return word;
+}
+
+} // namespace
+
+std::optional<Unit> unit_from_text(std::string_view text) {
+  const std::string word = spelling(text);
+  const auto found =
+      std::find_if(units.begin(), units.end(), [&](const Unit &unit) { return spelling(unit.name) == word; });
+  return found == units.end() ? std::nullopt : std::optional(*found);
+}
+
+std::string unit_names(Quantity quantity) {
+  std::vector<const char *> names;
+  for (const Unit &unit : units)
+    if (unit.quantity == quantity) names.push_back(unit.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+} // namespace drumlin::post
