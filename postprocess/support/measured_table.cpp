@@ -273,31 +273,40 @@ void MeasuredTable::find_format(const TableFormat &given) {
       if (separator == decimal || (given.separator && separator != *given.separator) ||
           (given.decimal && decimal != *given.decimal))
         continue;
-      std::map<std::size_t, std::pair<long, std::vector<long>>> found; // by the number of cells
+      struct Column {
+        long sum = 0;      // of kinds
+        bool used = false; // not empty in all lines
+      };
+      std::map<std::size_t, std::vector<Column>> found; // by the number of cells
       for (std::size_t i = 0; i < lines.size(); i += step) {
         if (trimmed(lines[i]).empty() || is_comment(lines[i])) continue;
         std::vector<long> kinds; // 1 a value, -1 another text, 0 blank
+        std::vector<bool> used;
         for_each_cell(lines[i], separator, [&](std::string_view cell) {
           kinds.push_back(is_value(cell, decimal) ? 1 : is_blank(cell) ? 0 : -1);
+          used.push_back(!cell.empty());
         });
         if (std::find(kinds.begin(), kinds.end(), 1) == kinds.end()) continue;
-        auto &[lines_of_width, sums] = found[kinds.size()];
-        ++lines_of_width;
-        sums.resize(kinds.size());
-        for (std::size_t j = 0; j < kinds.size(); ++j)
-          sums[j] += kinds[j];
+        std::vector<Column> &columns = found[kinds.size()];
+        columns.resize(kinds.size());
+        for (std::size_t j = 0; j < kinds.size(); ++j) {
+          columns[j].sum += kinds[j];
+          columns[j].used = columns[j].used || used[j];
+        }
       }
-      for (const auto &[width, of_width] : found) {
+      for (auto &[width, columns] : found) {
         long score = 0;
-        for (const long sum : of_width.second)
-          score += sum;
+        for (const Column &column : columns)
+          score += column.sum;
         if (score <= best) continue;
         best = score;
         separator_ = separator;
         decimal_ = decimal;
+        while (!columns.back().used) // blank cells behind the last separator
+          columns.pop_back();
         numeric_.clear();
-        for (const long sum : of_width.second)
-          numeric_.push_back(sum > 0);
+        for (const Column &column : columns)
+          numeric_.push_back(column.sum > 0);
       }
     }
   if (numeric_.empty())
@@ -316,7 +325,7 @@ void MeasuredTable::find_rows() {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (trimmed(lines[i]).empty() || is_comment(lines[i])) continue;
     if (!begun) {
-      std::size_t count = 0;
+      std::size_t count = 0, filled = 0;
       bool values = true, any = false;
       for_each_cell(lines[i], separator_, [&](std::string_view cell) {
         if (count < width && numeric_[count]) {
@@ -325,8 +334,9 @@ void MeasuredTable::find_rows() {
           values = values && (value || is_blank(cell));
         }
         ++count;
+        if (!cell.empty()) filled = count;
       });
-      begun = count == width && values && any;
+      begun = count >= width && filled <= width && values && any;
       if (!begun) continue;
       find_header(lines, i);
     }
