@@ -25,9 +25,13 @@
 #include "liggghts/loop_adapter.h"
 #include "liggghts/registration.h"
 #include "liggghts/wall_report.h"
+#include "support/arguments.h"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -60,12 +64,6 @@ void prepare(LAMMPS *engine) {
     drumlin::provide_friction_default(engine, std::string("model ") + Contact::name, engine->atom->ntypes);
 }
 
-/// Whether all models of a combination are the plugin's, so that ContactLoop can compute its contacts.
-template <class Style>
-constexpr bool has_loop = (Style::TANGENTIAL == TANGENTIAL_OFF ||
-                           drumlin::has_spring<Style>)&&(Style::ROLLING == ROLLING_OFF ||
-                                                         Style::ROLLING == ROLLING_SPRING);
-
 template <class Style, class Contact>
 class TransitionPair : public LIGGGHTS::PairStyles::Granular<drumlin::ObservedContact<Style, Contact>>,
                        public drumlin::PairSource {
@@ -97,9 +95,8 @@ public:
     stepping_ =
         this->get_history_offset(drumlin::force_name) < 0 ? nullptr : LAMMPS_NS::FixStepping::find(engine_);
     drumlin::ContactSettings settings;
-    settings.tangential = drumlin::has_spring<Style>                   ? drumlin::FrictionModel::history
-                          : Style::TANGENTIAL == TANGENTIAL_NO_HISTORY ? drumlin::FrictionModel::no_history
-                                                                       : drumlin::FrictionModel::none;
+    settings.tangential =
+        drumlin::has_spring<Style> ? drumlin::FrictionModel::history : drumlin::FrictionModel::none;
     settings.cap = Style::TANGENTIAL == TANGENTIAL_COULOMB ? drumlin::physics::Cap::coulomb
                                                            : drumlin::physics::Cap::spring;
     settings.rolling = Style::ROLLING == ROLLING_SPRING;
@@ -123,14 +120,13 @@ public:
   }
 
   void compute_force(PairGran *pair, int eflag, int vflag, int adds) override {
-    if constexpr (has_loop<Style>)
-      if ((has_springs<Style> || Contact::remembers || stepping_ != nullptr ||
-           pair->listgranhistory == nullptr) &&
-          !torsion_ &&
-          !drumlin::needs_engine_loop(*pair, *engine_->modify, eflag != 0 || vflag != 0, adds != 0)) {
-        pair->evflag = pair->vflag_fdotr = 0;
-        return stepping_ == nullptr ? compute_contacts<false>() : compute_contacts<true>();
-      }
+    if ((has_springs<Style> || Contact::remembers || stepping_ != nullptr ||
+         pair->listgranhistory == nullptr) &&
+        !torsion_ &&
+        !drumlin::needs_engine_loop(*pair, *engine_->modify, eflag != 0 || vflag != 0, adds != 0)) {
+      pair->evflag = pair->vflag_fdotr = 0;
+      return stepping_ == nullptr ? compute_contacts<false>() : compute_contacts<true>();
+    }
     loop_memory_.pairs.forget();
     Base::compute_force(pair, eflag, vflag, adds);
   }
@@ -215,17 +211,119 @@ void add_combination() {
 template <class Contact, int Tangential, int Word = Tangential>
 void add_rolling_combinations() {
   add_combination<Contact, Tangential, Word, ROLLING_OFF>();
-  add_combination<Contact, Tangential, Word, ROLLING_CDT>();
   add_combination<Contact, Tangential, Word, ROLLING_SPRING, ROLLING_EPSD2>();
+}
+
+/// A model as a deck names it, and its number among those of its kind.
+struct NamedModel {
+  int number;
+  const char *name;
+  bool combined;                ///< whether the plugin combines it with its laws
+  const char *replacement = ""; ///< behind the allowed names in the error text
+};
+
+/// The models of one kind.
+struct KindOfModel {
+  const char *keyword;
+  int place; ///< the bit of a combination's number at which the model's number begins
+  std::vector<NamedModel> models;
+
+  int number_in(int64_t combination) const { return static_cast<int>(combination >> place & 63); }
+  const NamedModel &model_in(int64_t combination) const {
+    return *std::find_if(models.begin(), models.end(),
+                         [&](const NamedModel &model) { return model.number == number_in(combination); });
+  }
+  std::string allowed() const {
+    std::vector<std::string> names;
+    for (const NamedModel &model : models)
+      if (model.combined) names.emplace_back(model.name);
+    return drumlin::join_choices(names);
+  }
+};
+
+/// All models that the engine's decks can name besides the normal model.
+const std::array<KindOfModel, 4> &kinds_of_models() {
+  static const std::array<KindOfModel, 4> kinds{
+      {{"tangential",
+        6,
+        {{TANGENTIAL_OFF, "off", true},
+         {TANGENTIAL_HISTORY, "history", true},
+         {TANGENTIAL_COULOMB, "coulomb", true},
+         {1, "no_history", false, ", of which coulomb replaces no_history"},
+         {4, "tan_luding", false}}},
+       {"cohesion",
+        12,
+        {{COHESION_OFF, "off", true},
+         {1, "sjkr", false},
+         {2, "sjkr2", false},
+         {7, "washino/capillary/viscous", false},
+         {8, "easo/capillary/viscous", false}}},
+       {"rolling_friction",
+        18,
+        {{ROLLING_OFF, "off", true},
+         {ROLLING_EPSD2, "epsd2", true},
+         {1, "cdt", false, ", of which epsd2 replaces cdt"},
+         {2, "epsd", false},
+         {4, "epsd3", false},
+         {6, "luding", false}}},
+       {"surface",
+        24,
+        {{SURFACE_DEFAULT, "default", true}, {2, "multicontact", false}, {5, "superquadric", false}}}}};
+  return kinds;
+}
+
+/// Ends the run with a line that names the first model of a combination that the plugin does not have.
+template <class Contact>
+void refuse(LAMMPS *engine, const char *command, int64_t combination) {
+  for (const KindOfModel &kind : kinds_of_models()) {
+    const NamedModel &model = kind.model_in(combination);
+    if (!model.combined)
+      engine->error->all(FLERR,
+                         drumlin::engine::error_text(std::string(command) + " model " + Contact::name +
+                                                     ": keyword " + kind.keyword + " is '" + model.name +
+                                                     "'; allowed: " + kind.allowed() + model.replacement));
+  }
+}
+
+/// Makes the engine call refuse() for the combinations of a law with models that the plugin does not have.
+template <class Contact>
+void refuse_other_combinations() {
+  std::vector<int> all{drumlin::normal_model_number<Contact>}, refused; // 30 bits each
+  for (const KindOfModel &kind : kinds_of_models()) {
+    std::vector<int> longer;
+    for (const int combination : all)
+      for (const NamedModel &model : kind.models)
+        longer.push_back(combination | model.number << kind.place);
+    all.swap(longer);
+  }
+  std::copy_if(all.begin(), all.end(), std::back_inserter(refused), [](int combination) {
+    const auto &kinds = kinds_of_models();
+    return std::any_of(kinds.begin(), kinds.end(),
+                       [&](const KindOfModel &kind) { return !kind.model_in(combination).combined; });
+  });
+  for (const int combination : refused) {
+    LIGGGHTS::PairStyles::Factory::instance().addStyle(
+        "gran", combination,
+        [](LAMMPS *lmp, PairGran *, int64_t number) -> LIGGGHTS::PairStyles::IGranularPairStyle * {
+          refuse<Contact>(lmp, "pair_style gran", number);
+          return nullptr;
+        });
+    LIGGGHTS::Walls::Factory::instance().addStyle(
+        "gran", combination,
+        [](LAMMPS *lmp, FixWallGran *, int64_t number) -> LIGGGHTS::Walls::IGranularWall * {
+          refuse<Contact>(lmp, "fix wall/gran", number);
+          return nullptr;
+        });
+  }
 }
 
 template <class Contact>
 void add_law() {
   Factory::instance().addNormalModel(Contact::name, drumlin::normal_model_number<Contact>);
   add_rolling_combinations<Contact, TANGENTIAL_OFF>();
-  add_rolling_combinations<Contact, TANGENTIAL_NO_HISTORY>();
   add_rolling_combinations<Contact, TANGENTIAL_SPRING, TANGENTIAL_HISTORY>();
   add_rolling_combinations<Contact, TANGENTIAL_COULOMB>();
+  refuse_other_combinations<Contact>();
 }
 
 } // namespace

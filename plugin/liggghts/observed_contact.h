@@ -8,7 +8,6 @@
 #include "liggghts/coupled_contacts.h"
 
 #include <algorithm>
-#include <string>
 
 namespace drumlin {
 
@@ -37,10 +36,6 @@ public:
     final_force_offset_ = this->get_history_offset(force_name);
     coupled_.find(registry.getLAMMPS(), *this);
     observers_.find(*registry.getLAMMPS()->modify);
-    if (Style::TANGENTIAL != LIGGGHTS::ContactModels::TANGENTIAL_OFF) {
-      registry.registerProperty("coeffFrict", &MODEL_PARAMS::createCoeffFrict);
-      registry.connect("coeffFrict", friction_, (std::string("model ") + Contact::name).c_str());
-    }
   }
 
   void surfacesIntersect(LIGGGHTS::ContactModels::SurfacesIntersectData &contact,
@@ -57,39 +52,16 @@ private:
                                         const LIGGGHTS::ContactModels::SurfacesIntersectData &contact,
                                         LIGGGHTS::ContactModels::ForceData &i_forces,
                                         LIGGGHTS::ContactModels::ForceData &j_forces) const {
-    constexpr bool of_the_engine = Style::TANGENTIAL == LIGGGHTS::ContactModels::TANGENTIAL_NO_HISTORY;
-    if (of_the_engine) { // whose model does not know that the contact begins
-      begun.friction = {contact.kt, contact.gammat, friction_[contact.itype][contact.jtype],
-                        physics::Cap::total};
-      begun.rub = physics::scaled(1.0 / begun.share, tangential_part(i_forces, contact.en));
-      begun.slip = {contact.vtr1, contact.vtr2, contact.vtr3};
-      begun.arm_i = contact.cri;
-      begun.arm_j = contact.is_wall ? 0.0 : contact.crj;
-    }
     const auto closing = coupled_.stepping().close_friction(begun);
     const physics::Vec3 moment = physics::cross(begun.normal, closing.friction);
     const double push = begun.share * begun.step.kick;
-    constexpr bool resists = Style::ROLLING != LIGGGHTS::ContactModels::ROLLING_OFF;
-    const physics::Vec3 of_rolling =
-        resists ? rolling_part(begun, i_forces) : physics::Vec3{}; // unchanged if it is the engine's
-    const physics::Vec3 rolling = begun.rolling_spring != nullptr ? closing.rolling : of_rolling;
     for (std::size_t a = 0; a < 3; ++a) {
       i_forces.delta_F[a] = push * contact.en[a] + closing.friction[a];
-      i_forces.delta_torque[a] = rolling[a] - begun.arm_i * moment[a];
+      i_forces.delta_torque[a] = closing.rolling[a] - begun.arm_i * moment[a];
       if (contact.is_wall) continue;
       j_forces.delta_F[a] = -i_forces.delta_F[a];
-      j_forces.delta_torque[a] = -rolling[a] - begun.arm_j * moment[a];
+      j_forces.delta_torque[a] = -closing.rolling[a] - begun.arm_j * moment[a];
     }
-  }
-
-  /// Torque of rolling resistance on ball i, N m.
-  static physics::Vec3 rolling_part(const LAMMPS_NS::FixStepping::Begun &begun,
-                                    const LIGGGHTS::ContactModels::ForceData &forces) {
-    const physics::Vec3 moment = physics::cross(begun.normal, physics::scaled(begun.share, begun.rub));
-    physics::Vec3 part{};
-    for (std::size_t a = 0; a < 3; ++a)
-      part[a] = forces.delta_torque[a] + begun.arm_i * moment[a];
-    return part;
   }
 
   static physics::Vec3 tangential_part(const LIGGGHTS::ContactModels::ForceData &forces,
@@ -139,7 +111,6 @@ private:
   ContactObservers observers_;
   CoupledContacts coupled_;
   int final_force_offset_ = -1;
-  double **friction_ = nullptr; // coefficients by types; nullptr without friction
 };
 
 } // namespace drumlin

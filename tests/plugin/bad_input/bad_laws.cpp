@@ -87,7 +87,7 @@ BadGroup pair_style() {
           pair("cap", "tangential coulomb cap spring", good, {command + "keyword is 'cap'"}),
           pair("a word left over", "transition A B", good, {command + "keyword is 'B'"}),
           pair("torsion without rolling", "torsionTorque on", good, {command + "keyword is 'torsionTorque'"}),
-          pair("torsion without value", "rolling_friction cdt torsionTorque", good,
+          pair("torsion without value", "rolling_friction epsd2 torsionTorque", good,
                {command + "keyword torsionTorque is missing", "on or off"}),
           pair("unknown torsion", "rolling_friction epsd2 torsionTorque yes", good,
                {command + "keyword torsionTorque is 'yes'", "on or off"}),
@@ -97,7 +97,17 @@ BadGroup pair_style() {
                {command + "'tangential' comes too late or lacks its value"}),
           in_engine_words(
               pair("unknown tangential model", "tangential sticky", good, {"Invalid model specified"})),
-          in_engine_words(pair("cohesion", "cohesion sjkr", good, {"Unknown normal model"})),
+          pair("cohesion", "cohesion sjkr", good, {command + "keyword cohesion is 'sjkr'; allowed: off"}),
+          pair("surface", "tangential history surface multicontact", good,
+               {command + "keyword surface is 'multicontact'; allowed: default"}),
+          on_two_ranks(pair("no_history", "tangential no_history", good,
+                            {command + "keyword tangential is 'no_history'; allowed: off, history or "
+                                       "coulomb, of which coulomb replaces no_history"})),
+          pair("cdt", "tangential coulomb rolling_friction cdt", good,
+               {command + "keyword rolling_friction is 'cdt'; allowed: off or epsd2, of which epsd2 replaces "
+                          "cdt"}),
+          pair("epsd", "rolling_friction epsd", good,
+               {command + "keyword rolling_friction is 'epsd'; allowed: off or epsd2"}),
           on_two_ranks(
               pair("no kn", "", ratio,
                    {"property kn (normal stiffness, N/m) is missing; allowed: 'fix ID all property/global kn",
@@ -248,7 +258,6 @@ BadGroup properties() {
           value("kt", "-1"),
           value("gammat_abs", "-1"),
           value("coefficientFriction", "-1", "tangential history"),
-          value("coefficientFriction", "-0.5", "tangential no_history"),
           value("coefficientFriction", "-0.5", "tangential coulomb"),
           pair("kn beyond a double", "", property("kn", "1e400") + damping,
                {"property kn of types 1 and 1 is inf", "> 0"}),
@@ -258,9 +267,9 @@ BadGroup properties() {
           in_engine_words(pair("kn for two types", "",
                                "fix kn all property/global kn peratomtypepair 2 1e7 1e7 1e7 1e7\n" + damping,
                                {"kn", "property/global"})),
-          in_engine_words(pair("rolling friction missing", "rolling_friction cdt",
+          in_engine_words(pair("rolling friction missing", "rolling_friction epsd2",
                                property("kn", "1e7") + damping,
-                               {"coefficientRollingFriction", "rolling_model cdt"})),
+                               {"coefficientRollingFriction", "rolling_model epsd2"})),
       }};
 }
 
@@ -306,6 +315,10 @@ BadGroup wall() {
                           fix + plane,
                           {command + "keyword stepping is 'second' (its default)",
                            "there is no pair_style gran model hooke/transition yet"}),
+          line("no_history", fix + "tangential no_history " + plane,
+               {command + "keyword tangential is 'no_history'; allowed: off, history or coulomb"}),
+          on_two_ranks(line("cdt", fix + "rolling_friction cdt " + plane,
+                            {command + "keyword rolling_friction is 'cdt'; allowed: off or epsd2"})),
           line("unknown stepping", fix + plane + "stepping 2",
                {command + "keyword stepping is '2'", "stock or second"}),
           line("settings before the wall", fix + "transition A " + plane,
