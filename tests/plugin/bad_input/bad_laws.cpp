@@ -267,9 +267,8 @@ BadGroup properties() {
           in_engine_words(pair("kn for two types", "",
                                "fix kn all property/global kn peratomtypepair 2 1e7 1e7 1e7 1e7\n" + damping,
                                {"kn", "property/global"})),
-          in_engine_words(pair("rolling friction missing", "rolling_friction epsd2",
-                               property("kn", "1e7") + damping,
-                               {"coefficientRollingFriction", "rolling_model epsd2"})),
+          pair("rolling friction missing", "rolling_friction epsd2", property("kn", "1e7") + damping,
+               {"property coefficientRollingFriction (rolling resistance mu_r", "is missing"}),
       }};
 }
 

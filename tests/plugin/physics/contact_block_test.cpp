@@ -23,7 +23,9 @@ struct Coefficients {
   Contact contact;
   double ct, mu, mu_r;
   Friction tangential(double kt, double c, Cap cap) const { return {kt, ct + 0.1 * c, mu, cap}; }
-  Rolling rolling_resistance(double kt, double radius) const { return rolling_of(kt, mu_r, radius); }
+  Rolling rolling_resistance(double kt, double radius, Resisted resisted) const {
+    return rolling_of(kt, mu_r, radius, resisted);
+  }
 };
 
 template <class Contact>
@@ -103,7 +105,8 @@ void expect_normal_force(const ContactBlock &b, int n, const Contact &parameters
   const Vec3 turning = sum(scaled(b.arm_i[n], b.wi[n]), b.arm_j[n], b.wj[n]);
   expect_same(b.slip[n],
               slip == Slip::in_middle
-                  ? slip_velocity_of_step(b.velocity[n], b.separation[n], normal, turning, dt)
+                  ? slip_velocity_of_step(b.velocity[n], normal_in_middle(b.separation[n], b.velocity[n], dt),
+                                          normal, turning)
                   : slip_velocity(b.velocity[n], normal, turning),
               "slip", n);
   ContactState state{b.force_before[n], true};
@@ -160,7 +163,8 @@ void expect_rolling(const ContactBlock &b, int n, const Coefficients<Contact> &a
                     const ContactBlock &before) {
   const double kt = stiffness_of(b, n, all.contact);
   const double kept = Contact::tangential_varies ? kept_torque(before.stored_stiffness[n], kt) : 1.0;
-  const Rolling resistance = all.rolling_resistance(kt, effective_radius(b.ri[n], b.rj[n]));
+  const Rolling resistance =
+      all.rolling_resistance(kt, effective_radius(b.ri[n], b.rj[n]), Resisted::rolling);
   const RollingStep step = rolling_step(resistance, b.force[n], b.normal[n], sum(b.wi[n], -1.0, b.wj[n]),
                                         scaled(kept, before.rolling_spring[n]), dt);
   expect_same(b.kt[n], kt, "tangential stiffness", n);
