@@ -416,8 +416,8 @@ private:
   }
 
   physics::Rolling rolling_of(int n, const ContactCoefficients<Parameters> &law) const {
-    return law.rolling_resistance(
-        block.kt[n], physics::detail::radius_of_contact<partner>(block.ri[n], block.rj[n]), resisted_);
+    return law.rolling_resistance(block.kt[n], physics::radius_of_contact<partner>(block.ri[n], block.rj[n]),
+                                  resisted_);
   }
 
   /// Friction and rolling resistance of contacts that begin: those of the closing half kick.

@@ -112,15 +112,11 @@ enum class Slip { none, at_end, in_middle };
 /// the block, does not turn, and its curvature does not count: the effective radius is that of the ball.
 enum class Partner { ball, wall };
 
-namespace detail {
-
 /// Effective radius, m, of contacts of balls with the radii ri and rj, or with walls.
 template <Partner partner>
 [[nodiscard]] inline double radius_of_contact(double ri, double rj) {
   return partner == Partner::wall ? ri : effective_radius(ri, rj);
 }
-
-} // namespace detail
 
 /// Motion and normal force of all contacts of a block. Where the second-order scheme is used, `push` and
 /// `force` are those of contacts that go on and are not coupled (goes_on()). \returns those that are coupled
@@ -141,7 +137,7 @@ DRUMLIN_FOR_THIS_PROCESSOR ContactSet compute_normal_forces(ContactBlock &b, int
     const double rate_half = -dot(velocity, normal);
     const double arm_i = ri - 0.5 * overlap, arm_j = of_balls ? rj - 0.5 * overlap : 0.0;
     const double m_eff = b.m_eff[n];
-    const double r_eff = Parameters::depends_on_radius ? detail::radius_of_contact<partner>(ri, rj) : 0.0;
+    const double r_eff = Parameters::depends_on_radius ? radius_of_contact<partner>(ri, rj) : 0.0;
     if constexpr (slip != Slip::none) {
       const Vec3 turning = of_balls ? sum(scaled(arm_i, b.wi[n]), arm_j, b.wj[n]) : scaled(arm_i, b.wi[n]);
       const Vec3 middle = slip != Slip::in_middle ? normal
@@ -248,7 +244,7 @@ DRUMLIN_FOR_THIS_PROCESSOR void compute_rolling(ContactBlock &b, int first, int 
   const Coefficients coefficients = of_types;
   DRUMLIN_INDEPENDENT_CONTACTS
   for (int n = first; n < end; ++n) {
-    const double radius = detail::radius_of_contact<partner>(b.ri[n], b.rj[n]);
+    const double radius = radius_of_contact<partner>(b.ri[n], b.rj[n]);
     const Vec3 spin = partner == Partner::ball ? sum(b.wi[n], -1.0, b.wj[n]) : b.wi[n];
     const RollingStep result = rolling_step(coefficients.rolling_resistance(b.kt[n], radius, resisted),
                                             b.force[n], b.normal[n], spin, b.rolling_spring[n], dt);

@@ -369,6 +369,12 @@ std::vector<double> outside(const physics::Range &range) {
   return values;
 }
 
+/// A number of friction or rolling resistance, which all laws have, in the words of both engines.
+struct FrictionNumber {
+  const char *property, *name;
+  std::string before, behind; ///< the other numbers of pair_coeff
+};
+
 /// The parameters of a law, each with values that it may not have, and left out: LIGGGHTS's properties, then
 /// the words of LAMMPS.
 template <class Law>
@@ -376,20 +382,19 @@ std::vector<BadGroup> parameters_of() {
   const std::string law = Law::name, name = law.substr(0, law.find('/'));
   BadGroup properties{name + "_properties", "", {}}, words = in_lammps(name + "_words", {});
   const auto number = [](double value) { return fmt::format("{}", value); };
+  const auto property_line = [](const auto &p, const std::string &given) {
+    const std::string text = property(p.property, given);
+    if (!std::is_same_v<std::decay_t<decltype(p)>, physics::MaterialParameter>) return text;
+    return text.substr(0, text.find("pair 3")) + " " + given + " " + given + " " + given + "\n";
+  };
   const auto mistake = [&](const auto &wrong, const std::string &value, const std::string &says) {
-    using Wrong = std::decay_t<decltype(wrong)>;
-    constexpr bool of_types = std::is_same_v<Wrong, physics::MaterialParameter>;
     std::string lines, coefficients;
     test::for_each_given<Law>(1e7, [&](const auto &p, double good) {
       const bool is_wrong = std::string(p.word) == wrong.word;
       if (may_be_left_out(p) && !is_wrong) return;
       const std::string given = is_wrong ? value : number(good);
       coefficients += (may_be_left_out(p) ? " 0.2 0.5 " : " ") + given;
-      if (given.empty()) return;
-      std::string line = property(p.property, given);
-      if (of_types)
-        line = line.substr(0, line.find("pair 3")) + " " + given + " " + given + " " + given + "\n";
-      lines += line;
+      if (!given.empty()) lines += property_line(p, given);
     });
     BadInput input = line(std::string(wrong.property) + " " + value, "",
                           {"model " + law + ": property " + wrong.property, says});
@@ -407,6 +412,37 @@ std::vector<BadGroup> parameters_of() {
     for (const double value : outside(p.range))
       mistake(p, number(value), physics::detail::text_of(p.range));
   });
+  std::string good_lines, good_words, left_out;
+  test::for_each_given<Law>(1e7, [&](const auto &p, double good) {
+    if (may_be_left_out(p)) {
+      left_out += " NULL";
+      return;
+    }
+    good_lines += property_line(p, number(good));
+    good_words += " " + number(good);
+  });
+  for (const auto &[property_name, what, before, behind] :
+       {FrictionNumber{"coefficientFriction", "friction coefficient mu", " 0.2 ", " rolling 0.1"},
+        FrictionNumber{"gammat_abs", "tangential damping coefficient ct", " 0.2 0.5" + left_out + " ",
+                       " rolling 0.1"},
+        FrictionNumber{"coefficientRollingFriction", "rolling friction coefficient mu_r", " 0.2 0.5 rolling ",
+                       ""}}) {
+    const std::string wrong = property(property_name, "-1e-9");
+    BadInput input = line(std::string(property_name) + " -1e-9", "",
+                          {"model " + law + ": property " + property_name, "a finite number >= 0"});
+    const std::string roll = what == std::string("rolling friction coefficient mu_r")
+                                 ? ""
+                                 : property("coefficientRollingFriction", "0.1");
+    input.pair = "pair_style gran model " + law +
+                 " tangential coulomb rolling_friction epsd2\npair_coeff * *\n" +
+                 host_properties(good_lines + wrong) + good_lines + wrong + roll;
+    properties.inputs.push_back(input);
+    for (const char *value : {"-1e-9", "nan", "inf"})
+      words.inputs.push_back(line(
+          "pair_style gran/" + law + " tangential coulomb rolling epsd2\npair_coeff * *" + good_words +
+              before + value + behind,
+          {"pair_coeff of gran/" + law, std::string(what) + " is '" + value + "'", "a finite number >= 0"}));
+  }
   return {properties, words};
 }
 
