@@ -213,6 +213,7 @@ TEST_F(InLammps, ContinuesFromARestartFileBitwiseOnRanksOneTwoAndFourWithNewtonO
                                                            {2, "off", "history", "epsd2"},
                                                            {1, "on", "history", "off"},
                                                            {2, "on", "coulomb", "epsd2"},
+                                                           {2, "on", "no_history", "epsd2"},
                                                            {4, "off", "coulomb", "epsd2"},
                                                            {4, "on", "coulomb", "epsd2"}}) {
     const Scratch stayed, left;

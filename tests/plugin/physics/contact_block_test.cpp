@@ -209,4 +209,43 @@ TEST(ContactBlock, HasTheBitsOfItsContactsOneByOne) {
   expect_all_blocks<YieldingContact>();
 }
 
+// A wall differs from a ball that does not turn by the effective radius alone, which the linear law needs for
+// rolling resistance only.
+TEST(ContactBlock, AtAWallHasTheBitsOfABallThatDoesNotTurn) {
+  std::mt19937 random(11);
+  const auto all = coefficients<LinearContact>(Transition::B, Damping::ratio);
+  const auto balls = random_block(random);
+  for (int n = 0; n < block_size; ++n)
+    balls->wj.set(n, {});
+  const auto wall = std::make_unique<ContactBlock>(*balls);
+  const ContactSet rare =
+      compute_normal_forces<true, Slip::in_middle>(*balls, 0, block_size, all.contact, dt);
+  wall->normal = balls->normal;
+  wall->overlap = balls->overlap;
+  for (int n = 0; n < block_size; ++n)
+    wall->normal_in_middle.set(n, normal_in_middle(wall->separation[n], wall->velocity[n], dt));
+  const auto compute = [&](ContactBlock &b) {
+    compute_tangential_stiffness<true, true, true>(b, 0, block_size, all.contact, dt);
+    compute_friction<true, Cap::coulomb>(b, 0, block_size, all, dt);
+  };
+  EXPECT_EQ(
+      (compute_normal_forces<true, Slip::in_middle, Partner::wall>(*wall, 0, block_size, all.contact, dt)),
+      rare);
+  compute(*balls);
+  compute(*wall);
+  const auto before = std::make_unique<ContactBlock>(*wall);
+  compute_rolling<Partner::wall>(*wall, 0, block_size, all, dt);
+  for (int n = 0; n < block_size; ++n) {
+    expect_same(wall->force[n], balls->force[n], "force", n);
+    expect_same(wall->push[n], balls->push[n], "kick", n);
+    expect_same(wall->total_force[n], balls->total_force[n], "total", n);
+    expect_same(wall->torque_i[n], balls->torque_i[n], "torque on the ball", n);
+    EXPECT_EQ(wall->torque_j[n], Vec3{}) << n;
+    const RollingStep step =
+        rolling_step(all.rolling_resistance(wall->kt[n], wall->ri[n], Resisted::rolling), wall->force[n],
+                     wall->normal[n], wall->wi[n], before->rolling_spring[n], dt);
+    expect_same(wall->rolling[n], step.torque, "rolling", n);
+  }
+}
+
 } // namespace
