@@ -88,7 +88,7 @@ private:
 
 /// A contact of a block.
 struct BlockContact {
-  int i, j;
+  int i, j;        ///< j < 0: a wall
   int pair;        ///< its number in the list of pairs
   bool touches;    ///< false in the step in which the contact ends
   double *history; ///< numbers that the engine stores for the contact, such as the tangential spring; nullptr

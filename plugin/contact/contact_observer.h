@@ -57,20 +57,6 @@ struct ContactRecord {
   }
 };
 
-/// A record whose overlap, and force, energy, stiffness and dashpot of the normal spring, are those of a
-/// contact law at this overlap, m. All other values are zero. \param second_order whether the scheme is
-/// `stepping second`
-template <class Law>
-ContactRecord record_of_law(const Law &law, double overlap, bool second_order) {
-  ContactRecord record{};
-  record.overlap = overlap;
-  record.elastic_force = law.elastic(overlap);
-  record.spring_energy = law.energy(overlap);
-  record.normal_stiffness = law.stiffest(overlap);
-  if (!second_order) record.normal_dashpot = law.dashpot(overlap);
-  return record;
-}
-
 /// The overlap of two balls, and its rate, at the beginning and at the end of a time step. The balls need not
 /// touch: a negative overlap is the gap between them.
 struct PairStep {

@@ -40,8 +40,8 @@ struct ContactCoefficients {
     return {kt, tangential_dashpot(c), friction, cap};
   }
   /// \param kt present tangential stiffness, N/m \param radius effective radius of the contact, m
-  physics::Rolling rolling_resistance(double kt, double radius) const {
-    return physics::rolling_of(kt, rolling, radius);
+  physics::Rolling rolling_resistance(double kt, double radius, physics::Resisted resisted) const {
+    return physics::rolling_of(kt, rolling, radius, resisted);
   }
 };
 

@@ -148,7 +148,7 @@ public:
     int i, j; ///< j < 0: a wall
     std::array<double, 3> normal;
     drumlin::physics::CoupledDashpot dashpot; ///< a wall's own velocity is included in at_rest
-    double share;                             ///< part of the force that acts: see StepContact::share
+    double share;                             ///< part of the force that acts: see WallSide::share
     double *force;                            ///< where the force, N, is stored
     drumlin::FrictionChange change;           ///< once the force is known
     /// For a wall that reports its force; empty for others. Called when the force is known, with what that

@@ -46,11 +46,7 @@ inline std::array<double, 3> tangential_velocity(const LAMMPS_NS::Atom &atom, in
 }
 
 /// Tangential contact force, N, on ball i of two balls in contact. The dashpot's part is computed with the
-/// velocities at the time of the call.
-///
-/// After a step in which the contact slid, its spring is at the friction limit within rounding errors, which
-/// must not decide whether it counts as sliding. This is therefore decided with the spring advanced by a
-/// further step dt, s.
+/// velocities at the time of the call: see physics::friction_after_step().
 /// \param spring m, three components, with the sign for ball i; nullptr: friction without history
 inline std::array<double, 3> friction_force(const LAMMPS_NS::Atom &atom, int i, int j, const PairMotion &m,
                                             const physics::Friction &friction, double normal_force,
@@ -58,12 +54,8 @@ inline std::array<double, 3> friction_force(const LAMMPS_NS::Atom &atom, int i, 
   const physics::Vec3 slip = tangential_velocity(atom, i, j, m);
   if (spring == nullptr)
     return physics::friction_step_without_history(friction, normal_force, slip, 0.0).force;
-  const auto after = [&](double time) {
-    return physics::friction_step(friction, normal_force, m.normal, slip, {spring[0], spring[1], spring[2]},
-                                  time);
-  };
-  const physics::FrictionStep next = after(dt);
-  return next.sliding ? next.force : after(0.0).force;
+  return physics::friction_after_step(friction, normal_force, m.normal, slip,
+                                      {spring[0], spring[1], spring[2]}, dt);
 }
 
 /// Packs the velocities of owned balls, and unpacks them into the ghosts, which have the half-step velocity

@@ -1,8 +1,7 @@
 #include "lammps/fix_wall_gran_transition.h"
 
-#include "support/arguments.h"
+#include "contact/contact_forces.h"
 #include "lammps/pair_gran_transition.h"
-#include "lammps/rolling_terms.h"
 
 #include <algorithm>
 #include <cmath>
@@ -120,7 +119,6 @@ void FixWallGranTransition::init() {
   if (pair_ == nullptr)
     error->all(FLERR, drumlin::engine::error_text(drumlin::other_pair_style(lmp, command)));
   check_coefficients();
-  observers_.find(*modify);
   const drumlin::ContactSettings &settings = pair_->contact_settings();
   stepping_ = settings.stock ? nullptr : FixStepping::find(lmp);
   places_of_side_ = {};
@@ -173,121 +171,92 @@ void FixWallGranTransition::post_force(int) {
       pair_->table());
 }
 
-template <bool stepped, FrictionModel tangential, bool rolling, class Table>
-void FixWallGranTransition::touch_balls(const Table &table) {
+template <bool stepped, FrictionModel tangential, bool rolling, class Parameters>
+void FixWallGranTransition::touch_balls(const drumlin::CoefficientTable<Parameters> &table) {
+  using Forces = drumlin::ContactForces<Parameters, stepped, tangential, rolling, physics::Partner::wall>;
+  const drumlin::ContactStep<Parameters> step = pair_->step_of(table, places_of_side_);
+  Forces forces(*atom, step);
+  const bool rolls = Forces::springs && step.cap == physics::Cap::coulomb && step.moves;
   for (int i = 0; i < atom->nlocal; ++i) {
     if (!(atom->mask[i] & groupbit)) continue;
-    if (region_ != nullptr) {
-      surfaces_of_region(i, [&](int place, const physics::Vec3 &normal, double distance) {
-        touch<stepped, tangential, rolling>(table, i, place, normal, distance);
-      });
-      continue;
-    }
-    for (int side = 0; side < 2; ++side) {
-      const auto n = static_cast<std::size_t>(side);
-      if (!has_[n]) continue;
-      physics::Vec3 normal{};
-      double &up = normal[static_cast<std::size_t>(axis_)];
-      up = side == 0 ? 1.0 : -1.0;
-      touch<stepped, tangential, rolling>(table, i, side, normal, up * (atom->x[i][axis_] - place_[n]));
-    }
+    region_ != nullptr ? find_faces(i, rolls) : find_planes(i);
+    for (const Face &face : faces_)
+      touch<Forces>(forces, i, face);
   }
 }
 
-/// Calls touch(place, normal, distance) for each face of the region that a ball touches, or is so near that
-/// it may have touched it one step ago.
-template <class Touch>
-void FixWallGranTransition::surfaces_of_region(int i, Touch &&touch) {
-  constexpr double near = 1.1; // in radii: in one step a ball moves by less than 0.1 radii
-  const double *x = atom->x[i];
-  std::fill(near_.begin(), near_.end(), false);
-  const int faces =
-      region_->match(x[0], x[1], x[2]) ? region_->surface(x[0], x[1], x[2], near * atom->radius[i]) : 0;
-  for (int n = 0; n < faces; ++n) {
-    const Region::Contact &face = region_->contact[n];
-    near_.at(static_cast<std::size_t>(face.iwall)) = true;
-    touch(face.iwall, physics::Vec3{face.delx / face.r, face.dely / face.r, face.delz / face.r}, face.r);
+void FixWallGranTransition::find_planes(int i) {
+  faces_.clear();
+  for (int side = 0; side < 2; ++side) {
+    const auto n = static_cast<std::size_t>(side);
+    if (!has_[n]) continue;
+    physics::Vec3 normal{};
+    double &up = normal[static_cast<std::size_t>(axis_)];
+    up = side == 0 ? 1.0 : -1.0;
+    faces_.push_back({side, normal, normal, up * (atom->x[i][axis_] - place_[n])});
   }
+}
+
+/// Finds the faces of the region that a ball touches, or is so near that it may have touched them one step
+/// ago. \param rolls whether the normals in the middle of the step are needed
+void FixWallGranTransition::find_faces(int i, bool rolls) {
+  constexpr double near = 1.1; // in radii: in one step a ball moves by less than 0.1 radii
+  const double *x = atom->x[i], *v = atom->v[i];
+  const auto for_each_face = [&](const physics::Vec3 &at, const auto &treat) {
+    const int count = region_->match(at[0], at[1], at[2])
+                          ? region_->surface(at[0], at[1], at[2], near * atom->radius[i])
+                          : 0;
+    for (int n = 0; n < count; ++n) {
+      const Region::Contact &face = region_->contact[n];
+      treat(face.iwall, physics::Vec3{face.delx / face.r, face.dely / face.r, face.delz / face.r}, face.r);
+    }
+  };
+  faces_.clear();
+  std::fill(near_.begin(), near_.end(), false);
+  bool touches = false;
+  for_each_face({x[0], x[1], x[2]}, [&](int place, const physics::Vec3 &normal, double distance) {
+    near_.at(static_cast<std::size_t>(place)) = true;
+    faces_.push_back({place, normal, normal, distance});
+    touches = touches || distance < atom->radius[i];
+  });
   for (int place = 0; place < places_; ++place)
     if (!near_[static_cast<std::size_t>(place)]) std::fill_n(row(i, place), of_a_side, 0.0);
+  if (!rolls || !touches) return;
+  const physics::Vec3 middle = physics::sum({x[0], x[1], x[2]}, -0.5 * update->dt, {v[0], v[1], v[2]});
+  for_each_face(middle, [&](int place, const physics::Vec3 &normal, double) {
+    for (Face &face : faces_)
+      if (face.place == place) face.normal_in_middle = normal;
+  });
 }
 
-/// \param normal from the wall to the ball \param distance of its centre from the wall, m
-template <bool stepped, FrictionModel tangential, bool rolling, class Table>
-void FixWallGranTransition::touch(const Table &table, int i, int place, const physics::Vec3 &normal,
-                                  double distance) {
-  double *remembered = row(i, place);
-  const bool touches = distance < atom->radius[i];
-  if (!touches && remembered[0] == 0.0) return;
-  const drumlin::ContactSettings &settings = pair_->contact_settings();
-  const bool moves = update->setupflag == 0;
-  const auto &law = table.at(atom->type[i], type_);
-  using Parameters = std::decay_t<decltype(law.contact)>;
-  const double mass = pair_->mass_unless_frozen(i);
-  const double *v = atom->v[i];
-
-  drumlin::WallContact p{};
-  p.normal.i = i;
-  p.normal.j = -1;
-  p.normal.normal = normal;
-  p.normal.overlap = atom->radius[i] - distance;
-  p.normal.rate_half = -(v[0] * normal[0] + v[1] * normal[1] + v[2] * normal[2]);
-  p.normal.m_eff = mass;
-  p.normal.share = 1.0;
-  p.r_eff = drumlin::radius_for<Parameters>(atom->radius[i]);
-  p.history = remembered + 1;
-  p.places = &places_of_side_;
-  if constexpr (Parameters::remembers) p.memory = *p.stored(drumlin::Remembered::memory);
-  p.in_contact = remembered[0] != 0.0;
-
-  drumlin::ContactForces forces{};
-  const std::size_t announced = stepped ? stepping_->announced() : 0;
-  if (!touches) { // it did, a step ago
-    if constexpr (stepped)
-      forces.force =
-          physics::scaled(drumlin::end_contact(law.contact.law(p.normal.m_eff, p.r_eff, p.memory), *stepping_,
-                                               p.normal, *p.stored(drumlin::Remembered::force)),
-                          normal);
-    std::fill_n(remembered, of_a_side, 0.0);
-  } else {
-    remembered[0] = 1.0;
-    p.arm_i = atom->radius[i] - 0.5 * p.normal.overlap; // as between balls
-    if constexpr (tangential != FrictionModel::none) {
-      const double *w = atom->omega[i];
-      p.slip = physics::slip_velocity({v[0], v[1], v[2]}, normal,
-                                      {p.arm_i * w[0], p.arm_i * w[1], p.arm_i * w[2]});
-    }
-    forces = drumlin::exert<stepped, tangential, rolling>(settings, law, stepping_, p, update->dt, moves);
-    if constexpr (rolling) {
-      const double *w = atom->omega[i];
-      forces.rolling = drumlin::rolling_torque(
-          law, {normal, {w[0], w[1], w[2]}, atom->radius[i]}, forces.tangential_stiffness,
-          forces.normal_force, p.stored(drumlin::Remembered::rolling_spring),
-          drumlin::time_of_spring(p, update->dt, moves), forces.rubbing());
-    }
-    if (observers_.any())
-      observers_.tell(drumlin::record_of(settings, law, p, forces, atom->radius[i], atom->radius[i]));
-    if constexpr (stepped && (tangential != FrictionModel::none || rolling))
-      if (forces.begun != nullptr) {
-        const FixStepping::RubbingForces closing = stepping_->close_friction(*forces.begun);
-        forces.force = physics::sum(closing.friction, forces.begun->step.kick, normal);
-        forces.moment = physics::cross(normal, closing.friction);
-        forces.rolling = closing.rolling;
-      }
-  }
+template <class Forces>
+void FixWallGranTransition::touch(Forces &forces, int i, const Face &face) {
+  double *const remembered = row(i, face.place); // whether the ball touched, then the history
+  drumlin::BlockContact contact{i, -1, 0, face.distance < atom->radius[i], remembered + 1};
+  const bool touched = remembered[0] != 0.0;
+  if (!contact.touches && !touched) return;
+  forces.take_wall(i, {face.normal,
+                       face.normal_in_middle,
+                       {},
+                       atom->radius[i] - face.distance,
+                       pair_->mass_unless_frozen(i),
+                       type_});
+  forces.take_histories(&contact, 1);
+  const std::size_t announced = stepping_ != nullptr ? stepping_->announced() : 0;
+  forces.compute(&contact, 1, contact.touches != touched ? 1 : 0, true);
+  remembered[0] = contact.touches ? 1.0 : 0.0;
+  const physics::Vec3 push = forces.block.total_force[0], torque = forces.torque_i(0);
   for (std::size_t a = 0; a < 3; ++a) {
-    atom->f[i][a] += forces.force[a];
-    atom->torque[i][a] += forces.rolling[a] - p.arm_i * forces.moment[a];
+    atom->f[i][a] += push[a];
+    atom->torque[i][a] += torque[a];
   }
-  force_ = physics::sum(force_, 1.0, forces.force);
-  if constexpr (stepped) { // half of what acts in the closing half kick, half of what acts in the next
-                           // opening one
-    force_ = physics::sum(force_, 0.5, stepping_->rest_since(announced));
-    if (forces.coupled != nullptr)
-      forces.coupled->report = [this](const physics::Vec3 &change) {
-        force_ = physics::sum(force_, 1.0, change);
-      };
-  }
+  force_ = physics::sum(force_, 1.0, push);
+  if (stepping_ == nullptr) return;
+  // Half of what acts in the closing half kick, half of what acts in the next opening one.
+  force_ = physics::sum(force_, 0.5, stepping_->rest_since(announced));
+  if (!contact.touches) return;
+  if (auto *coupled = stepping_->coupled_at(contact.history + places_of_side_[drumlin::Remembered::force]))
+    coupled->report = [this](const physics::Vec3 &change) { force_ = physics::sum(force_, 1.0, change); };
 }
 
 double FixWallGranTransition::compute_vector(int n) {

@@ -18,8 +18,7 @@ public:
 
   void compute() {
     drumlin::ContactLoop<LoopAdapter, Parameters, stepped, tangential, rolling>(
-        *this, atom_, pair_.loop_memory_, table_, pair_.places_, pair_.settings_.cap, pair_.stepping_,
-        pair_.observers_, pair_.update->dt, pair_.update->setupflag == 0)
+        *this, atom_, pair_.loop_memory_, pair_.step_of(table_, pair_.places_))
         .run(*pair_.list, *pair_.neighbor);
   }
 

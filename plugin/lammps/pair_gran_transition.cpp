@@ -5,6 +5,7 @@
 #include "contact/pair_motion.h"
 #include "lammps/loop_adapter.h"
 #include "lammps/pair_words.h"
+#include "lammps/fix_wall_gran_transition.h"
 #include "lammps/fix_neigh_history_transition.h"
 
 #include <algorithm>
@@ -224,7 +225,7 @@ void PairGranTransition::init_style() {
 
   walls_.clear();
   for (const Fix *fix : fixes)
-    if (const auto *wall = dynamic_cast<const drumlin::Walls *>(fix)) walls_.push_back(wall);
+    if (const auto *wall = dynamic_cast<const FixWallGranTransition *>(fix)) walls_.push_back(wall);
 }
 
 std::string PairGranTransition::missing_coefficients(int itype, int jtype) const {
@@ -291,7 +292,7 @@ void PairGranTransition::unpack_forward_comm(int n, int first, double *numbers) 
 
 physics::Dashpots PairGranTransition::wall_dashpots(int i) const {
   physics::Dashpots all;
-  for (const drumlin::Walls *wall : walls_) {
+  for (const FixWallGranTransition *wall : walls_) {
     physics::Dashpots one;
     std::visit(
         [&](const auto &table) {

@@ -6,19 +6,49 @@
 #include "contact/contact_source.h"
 #include "contact/deck_check.h"
 #include "fixes/fix_clump.h"
-#include "lammps/contact_terms.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace drumlin {
+
 struct PairMotion;
+
+/// The order in which a contact's numbers are stored, which restart files have.
+constexpr std::array<Remembered, 5> history_order{Remembered::spring, Remembered::stiffness,
+                                                  Remembered::force, Remembered::rolling_spring,
+                                                  Remembered::memory};
+
+/// Calls run(stepped, tangential, rolling) with the scheme, the friction model and the presence of rolling
+/// resistance of the settings as compile-time constants (std::integral_constant).
+template <class Run>
+void with_models(const ContactSettings &settings, Run &&run) {
+  const auto with_stepping = [&](auto tangential) {
+    const auto with_rolling = [&](auto stepped) {
+      settings.rolling ? run(stepped, tangential, std::true_type{})
+                       : run(stepped, tangential, std::false_type{});
+    };
+    settings.stock ? with_rolling(std::false_type{}) : with_rolling(std::true_type{});
+  };
+  switch (settings.tangential) {
+  case FrictionModel::none:
+    return with_stepping(std::integral_constant<FrictionModel, FrictionModel::none>{});
+  case FrictionModel::no_history:
+    return with_stepping(std::integral_constant<FrictionModel, FrictionModel::no_history>{});
+  case FrictionModel::history:
+    return with_stepping(std::integral_constant<FrictionModel, FrictionModel::history>{});
+  }
 }
+
+} // namespace drumlin
 
 namespace LAMMPS_NS {
 
 class FixNeighHistory;
+class FixWallGranTransition;
 
 /// A contact law of plugin/physics between balls, in LAMMPS. The history of contacts is stored by LAMMPS's
 /// fix NEIGH_HISTORY, as for gran/hooke/history.
@@ -70,6 +100,13 @@ public:
   /// The text of the error for a pair of types without coefficients.
   std::string missing_coefficients(int itype, int jtype) const;
   const drumlin::ContactSettings &contact_settings() const { return settings_; }
+  /// What contacts, of balls or with walls, have in common in this step. \param places of what they remember
+  template <class Parameters>
+  drumlin::ContactStep<Parameters> step_of(const drumlin::CoefficientTable<Parameters> &table,
+                                           const drumlin::HistoryPlaces &places) const {
+    return {table,     places,     settings_.cap, drumlin::physics::Resisted::rolling,
+            stepping_, observers_, update->dt,    update->setupflag == 0};
+  }
 
 protected:
   const Atom &balls() const override { return *atom; }
@@ -106,7 +143,7 @@ private:
   drumlin::DeckCheck deck_check_;
   drumlin::ContactObservers observers_;
   Clumps clumps_;
-  std::vector<const drumlin::Walls *> walls_;
+  std::vector<const FixWallGranTransition *> walls_;
   std::vector<Fix *> rigid_;
   std::vector<double>
       rigid_mass_; // body's mass of owned balls and ghosts, kg; 0: in no rigid body; empty without fix rigid

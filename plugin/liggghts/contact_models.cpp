@@ -1,5 +1,5 @@
-// The contact models that the plugin adds to LIGGGHTS: the contact laws as normal models, the tangential
-// model coulomb and a rolling model, in combination with the engine's own models, for pairs and walls.
+// The contact models that the plugin adds to LIGGGHTS: each law with each of its friction models, with and
+// without rolling resistance, for pairs and walls.
 
 // These headers must come first: the engine's headers below use them without including them.
 #include "fix_insert_stream.h"
@@ -21,55 +21,38 @@
 #include "liggghts/pair_source.h"
 #include "liggghts/fix_keep_history.h"
 #include "liggghts/model_settings.h"
-#include "liggghts/observed_contact.h"
 #include "liggghts/loop_adapter.h"
 #include "liggghts/registration.h"
+#include "liggghts/transition_model.h"
 #include "liggghts/wall_report.h"
+#include "support/arguments.h"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <string>
+#include <vector>
 
 namespace {
 
-using namespace LIGGGHTS::ContactModels; // NOLINT: the engine's model constants
+using drumlin::physics::Resisted;
 using LAMMPS_NS::FixMeshSurface;
 using LAMMPS_NS::FixWallGran;
 using LAMMPS_NS::LAMMPS;
 using LAMMPS_NS::PairGran;
 using LAMMPS_NS::TriMesh;
+using LIGGGHTS::ContactModels::Factory;
+using LIGGGHTS::ContactModels::SurfacesIntersectData;
 
 // The layout of the contact data in Debian's binary, which is built without superquadrics.
 static_assert(sizeof(SurfacesIntersectData) == 368,
               "contact data of this LIGGGHTS differ from the stock binary's");
 
-/// Whether a combination keeps a tangential spring or a rolling torque as contact history, which has to be
-/// reset when the contact ends, as what a law remembers has.
-template <class Style>
-constexpr bool has_springs = drumlin::has_spring<Style> || Style::ROLLING == ROLLING_SPRING;
-
-template <class Style>
-constexpr drumlin::OtherModels other_models{drumlin::has_spring<Style>, Style::ROLLING == ROLLING_SPRING,
-                                            Style::ROLLING != ROLLING_OFF};
-
-/// Prepares the engine for a combination, before that reads its properties.
-template <class Style, class Contact>
-void prepare(LAMMPS *engine) {
-  if (has_springs<Style> || Contact::remembers)
-    engine->neighbor->register_contact_dist_factor(drumlin::contact_distance_factor);
-  if (Style::TANGENTIAL != TANGENTIAL_OFF)
-    drumlin::provide_friction_default(engine, std::string("model ") + Contact::name, engine->atom->ntypes);
-}
-
-/// Whether all models of a combination are the plugin's, so that ContactLoop can compute its contacts.
-template <class Style>
-constexpr bool has_loop = (Style::TANGENTIAL == TANGENTIAL_OFF ||
-                           drumlin::has_spring<Style>)&&(Style::ROLLING == ROLLING_OFF ||
-                                                         Style::ROLLING == ROLLING_SPRING);
-
-template <class Style, class Contact>
-class TransitionPair : public LIGGGHTS::PairStyles::Granular<drumlin::ObservedContact<Style, Contact>>,
+template <class Models>
+class TransitionPair : public LIGGGHTS::PairStyles::Granular<drumlin::TransitionModel<Models>>,
                        public drumlin::PairSource {
-  using Base = LIGGGHTS::PairStyles::Granular<drumlin::ObservedContact<Style, Contact>>;
+  using Base = LIGGGHTS::PairStyles::Granular<drumlin::TransitionModel<Models>>;
+  using Contact = typename Models::Contact;
 
 public:
   TransitionPair(LAMMPS *engine, PairGran *pair, int64_t hash)
@@ -77,7 +60,7 @@ public:
   ~TransitionPair() override { LAMMPS_NS::FixStepping::dismiss(engine_); }
 
   void settings(int narg, char **arg, LIGGGHTS::IContactHistorySetup *history) override {
-    drumlin::ModelSettings words(engine_->error, command(), other_models<Style>, narg, arg);
+    drumlin::ModelSettings words(engine_->error, command(), Models::rolls, narg, arg);
     torsion_ = words.has("torsionTorque", "on");
     LAMMPS_NS::FixKeepHistory::provide(engine_);
     Base::settings(words.size(), words.words(), history);
@@ -93,19 +76,9 @@ public:
                                      command() + ": the box is triclinic, through whose sides this engine "
                                                  "loses balls and contacts; allowed: region block"));
     drumlin::check_deforming_box(engine_, command());
-    prepare<Style, Contact>(engine_);
     stepping_ =
         this->get_history_offset(drumlin::force_name) < 0 ? nullptr : LAMMPS_NS::FixStepping::find(engine_);
-    drumlin::ContactSettings settings;
-    settings.tangential = drumlin::has_spring<Style>                   ? drumlin::FrictionModel::history
-                          : Style::TANGENTIAL == TANGENTIAL_NO_HISTORY ? drumlin::FrictionModel::no_history
-                                                                       : drumlin::FrictionModel::none;
-    settings.cap = Style::TANGENTIAL == TANGENTIAL_COULOMB ? drumlin::physics::Cap::coulomb
-                                                           : drumlin::physics::Cap::spring;
-    settings.rolling = Style::ROLLING == ROLLING_SPRING;
-    settings.stock = stepping_ == nullptr;
-    settings.take_law<Contact>();
-    PairSource::begin(pair_, settings);
+    PairSource::begin(pair_, Models::settings(stepping_ == nullptr));
     Base::init_granular();
     if (stepping_ != nullptr && pair_->storeContactForcesStress())
       engine_->error->all(
@@ -123,14 +96,12 @@ public:
   }
 
   void compute_force(PairGran *pair, int eflag, int vflag, int adds) override {
-    if constexpr (has_loop<Style>)
-      if ((has_springs<Style> || Contact::remembers || stepping_ != nullptr ||
-           pair->listgranhistory == nullptr) &&
-          !torsion_ &&
-          !drumlin::needs_engine_loop(*pair, *engine_->modify, eflag != 0 || vflag != 0, adds != 0)) {
-        pair->evflag = pair->vflag_fdotr = 0;
-        return stepping_ == nullptr ? compute_contacts<false>() : compute_contacts<true>();
-      }
+    const bool history_is_there = places().count() > 0 || pair->listgranhistory == nullptr;
+    if (history_is_there &&
+        !drumlin::needs_engine_loop(*pair, *engine_->modify, eflag != 0 || vflag != 0, adds != 0)) {
+      pair->evflag = pair->vflag_fdotr = 0;
+      return stepping_ == nullptr ? compute_contacts<false>() : compute_contacts<true>();
+    }
     loop_memory_.pairs.forget();
     Base::compute_force(pair, eflag, vflag, adds);
   }
@@ -138,15 +109,11 @@ public:
 private:
   template <bool stepped>
   void compute_contacts() {
-    constexpr bool rubs = Style::TANGENTIAL != TANGENTIAL_OFF, rolls = Style::ROLLING != ROLLING_OFF;
-    constexpr int flag =
-        CONTACT_NORMAL_MODEL | (rubs ? CONTACT_TANGENTIAL_MODEL : 0) | (rolls ? CONTACT_ROLLING_MODEL : 0);
     if (pair_->list->inum == 0) return; // there may be no arrays
-    drumlin::LoopAdapter<Contact, stepped,
-                         rubs ? drumlin::FrictionModel::history : drumlin::FrictionModel::none, rolls, flag>(
-        *pair_, *engine_->atom, *engine_->neighbor, clumps_)
-        .compute(loop_memory_, *std::get<const drumlin::CoefficientTable<Contact> *>(table()), places(),
-                 cap(), stepping_, observers_, engine_->update->dt);
+    drumlin::LoopAdapter<Models, stepped>(*pair_, *engine_->atom, *engine_->neighbor, clumps_)
+        .compute(loop_memory_, {*std::get<const drumlin::CoefficientTable<Contact> *>(table()), places(),
+                                cap(), torsion_ ? Resisted::all : Resisted::rolling, stepping_, observers_,
+                                engine_->update->dt, true});
   }
 
   static std::string command() { return std::string("pair_style gran model ") + Contact::name; }
@@ -161,22 +128,21 @@ private:
   bool torsion_ = false; // whether rolling resistance also resists torsion
 };
 
-template <class Style, class Contact>
-class TransitionWall : public LIGGGHTS::Walls::Granular<drumlin::ObservedContact<Style, Contact>> {
-  using Base = LIGGGHTS::Walls::Granular<drumlin::ObservedContact<Style, Contact>>;
+template <class Models>
+class TransitionWall : public LIGGGHTS::Walls::Granular<drumlin::TransitionModel<Models>> {
+  using Base = LIGGGHTS::Walls::Granular<drumlin::TransitionModel<Models>>;
 
 public:
   TransitionWall(LAMMPS *engine, FixWallGran *wall, int64_t hash)
       : Base(engine, wall, hash), engine_(engine) {}
 
   void settings(int narg, char **arg, LIGGGHTS::IContactHistorySetup *history) override {
-    const std::string command = std::string("fix wall/gran model ") + Contact::name;
-    drumlin::ModelSettings words(engine_->error, command, other_models<Style>, narg, arg);
+    const std::string command = std::string("fix wall/gran model ") + Models::Contact::name;
+    drumlin::ModelSettings words(engine_->error, command, Models::rolls, narg, arg);
     Base::settings(words.size(), words.words(), history);
   }
 
   void init_granular() override {
-    prepare<Style, Contact>(engine_);
     Base::init_granular();
     report_.begin(*engine_, *this);
   }
@@ -193,46 +159,143 @@ private:
   drumlin::WallReport report_;
 };
 
-/// \tparam TangentialWord, RollingWord the models whose names in a deck mean this combination
-template <class Contact, int Tangential, int TangentialWord, int Rolling, int RollingWord = Rolling>
+template <class Models>
 void add_combination() {
-  constexpr int normal = drumlin::normal_model_number<Contact>;
-  using Style = drumlin::NamedStyle<
-      GranStyle<normal, Tangential, COHESION_OFF, Rolling, SURFACE_DEFAULT>,
-      GranStyle<normal, TangentialWord, COHESION_OFF, RollingWord, SURFACE_DEFAULT>::HASHCODE>;
   LIGGGHTS::PairStyles::Factory::instance().addStyle(
-      "gran", Style::HASHCODE,
+      "gran", Models::number,
       [](LAMMPS *lmp, PairGran *parent, int64_t hash) -> LIGGGHTS::PairStyles::IGranularPairStyle * {
-        return new TransitionPair<Style, Contact>(lmp, parent, hash);
+        return new TransitionPair<Models>(lmp, parent, hash);
       });
   LIGGGHTS::Walls::Factory::instance().addStyle(
-      "gran", Style::HASHCODE,
+      "gran", Models::number,
       [](LAMMPS *lmp, FixWallGran *parent, int64_t hash) -> LIGGGHTS::Walls::IGranularWall * {
-        return new TransitionWall<Style, Contact>(lmp, parent, hash);
+        return new TransitionWall<Models>(lmp, parent, hash);
       });
 }
 
-template <class Contact, int Tangential, int Word = Tangential>
+template <class Contact, drumlin::FrictionModel tangential, drumlin::physics::Cap cap>
 void add_rolling_combinations() {
-  add_combination<Contact, Tangential, Word, ROLLING_OFF>();
-  add_combination<Contact, Tangential, Word, ROLLING_CDT>();
-  add_combination<Contact, Tangential, Word, ROLLING_SPRING, ROLLING_EPSD2>();
+  add_combination<drumlin::Combination<Contact, tangential, cap, false>>();
+  add_combination<drumlin::Combination<Contact, tangential, cap, true>>();
+}
+
+/// A model that decks can name besides the normal model.
+struct NamedModel : drumlin::NumberedModel {
+  bool combined;                ///< whether the plugin combines it with its laws
+  const char *replacement = ""; ///< behind the allowed names in the error text
+};
+
+/// The models of one kind.
+struct KindOfModel {
+  const char *keyword;
+  int place; ///< the bit of a combination's number at which the model's number begins
+  std::vector<NamedModel> models;
+
+  int number_in(int64_t combination) const { return static_cast<int>(combination >> place & 63); }
+  const NamedModel &model_in(int64_t combination) const {
+    return *std::find_if(models.begin(), models.end(),
+                         [&](const NamedModel &model) { return model.number == number_in(combination); });
+  }
+  std::string allowed() const {
+    std::vector<std::string> names;
+    for (const NamedModel &model : models)
+      if (model.combined) names.emplace_back(model.name);
+    return drumlin::join_choices(names);
+  }
+};
+
+/// All models that the engine's decks can name besides the normal model.
+const std::array<KindOfModel, 4> &kinds_of_models() {
+  static const std::array<KindOfModel, 4> kinds{
+      {{"tangential",
+        6,
+        {{drumlin::no_model, true},
+         {drumlin::tangential_history, true},
+         {drumlin::tangential_coulomb, true},
+         {{1, "no_history"}, false, ", of which coulomb replaces no_history"},
+         {{4, "tan_luding"}, false}}},
+       {"cohesion",
+        12,
+        {{drumlin::no_model, true},
+         {{1, "sjkr"}, false},
+         {{2, "sjkr2"}, false},
+         {{7, "washino/capillary/viscous"}, false},
+         {{8, "easo/capillary/viscous"}, false}}},
+       {"rolling_friction",
+        18,
+        {{drumlin::no_model, true},
+         {drumlin::rolling_epsd2, true},
+         {{1, "cdt"}, false, ", of which epsd2 replaces cdt"},
+         {{2, "epsd"}, false},
+         {{4, "epsd3"}, false},
+         {{6, "luding"}, false}}},
+       {"surface",
+        24,
+        {{{0, "default"}, true}, {{2, "multicontact"}, false}, {{5, "superquadric"}, false}}}}};
+  return kinds;
+}
+
+/// Ends the run with a line that names the first model of a combination that the plugin does not have.
+template <class Contact>
+void refuse(LAMMPS *engine, const char *command, int64_t combination) {
+  for (const KindOfModel &kind : kinds_of_models()) {
+    const NamedModel &model = kind.model_in(combination);
+    if (!model.combined)
+      engine->error->all(FLERR,
+                         drumlin::engine::error_text(std::string(command) + " model " + Contact::name +
+                                                     ": keyword " + kind.keyword + " is '" + model.name +
+                                                     "'; allowed: " + kind.allowed() + model.replacement));
+  }
+}
+
+/// Makes the engine call refuse() for the combinations of a law with models that the plugin does not have.
+template <class Contact>
+void refuse_other_combinations() {
+  std::vector<int> all{drumlin::normal_model_number<Contact>}, refused; // 30 bits each
+  for (const KindOfModel &kind : kinds_of_models()) {
+    std::vector<int> longer;
+    for (const int combination : all)
+      for (const NamedModel &model : kind.models)
+        longer.push_back(combination | model.number << kind.place);
+    all.swap(longer);
+  }
+  std::copy_if(all.begin(), all.end(), std::back_inserter(refused), [](int combination) {
+    const auto &kinds = kinds_of_models();
+    return std::any_of(kinds.begin(), kinds.end(),
+                       [&](const KindOfModel &kind) { return !kind.model_in(combination).combined; });
+  });
+  for (const int combination : refused) {
+    LIGGGHTS::PairStyles::Factory::instance().addStyle(
+        "gran", combination,
+        [](LAMMPS *lmp, PairGran *, int64_t number) -> LIGGGHTS::PairStyles::IGranularPairStyle * {
+          refuse<Contact>(lmp, "pair_style gran", number);
+          return nullptr;
+        });
+    LIGGGHTS::Walls::Factory::instance().addStyle(
+        "gran", combination,
+        [](LAMMPS *lmp, FixWallGran *, int64_t number) -> LIGGGHTS::Walls::IGranularWall * {
+          refuse<Contact>(lmp, "fix wall/gran", number);
+          return nullptr;
+        });
+  }
 }
 
 template <class Contact>
 void add_law() {
   Factory::instance().addNormalModel(Contact::name, drumlin::normal_model_number<Contact>);
-  add_rolling_combinations<Contact, TANGENTIAL_OFF>();
-  add_rolling_combinations<Contact, TANGENTIAL_NO_HISTORY>();
-  add_rolling_combinations<Contact, TANGENTIAL_SPRING, TANGENTIAL_HISTORY>();
-  add_rolling_combinations<Contact, TANGENTIAL_COULOMB>();
+  using drumlin::FrictionModel, drumlin::physics::Cap;
+  add_rolling_combinations<Contact, FrictionModel::none, Cap::spring>();
+  add_rolling_combinations<Contact, FrictionModel::history, Cap::spring>();
+  add_rolling_combinations<Contact, FrictionModel::history, Cap::coulomb>();
+  refuse_other_combinations<Contact>();
 }
 
 } // namespace
 
 void drumlin::add_contact_models() {
   // The engine's list of models is one for all instances in the process.
-  if (Factory::instance().getTangentialModelId("coulomb") == TANGENTIAL_COULOMB) return;
-  Factory::instance().addTangentialModel("coulomb", TANGENTIAL_COULOMB);
+  const auto [number, name] = tangential_coulomb;
+  if (Factory::instance().getTangentialModelId(name) == number) return;
+  Factory::instance().addTangentialModel(name, number);
   for_each_law([](auto law) { add_law<typename decltype(law)::type>(); });
 }

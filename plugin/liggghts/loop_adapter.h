@@ -10,27 +10,25 @@
 #include "update.h"
 
 #include "contact/contact_loop.h"
-#include "liggghts/pair_source.h"
+#include "liggghts/transition_model.h"
 
 namespace drumlin {
 
 /// Computes the forces of all contacts between balls in a time step, instead of the engine's loop over pairs.
 /// In time steps in which the engine asks for the forces of single contacts, for output or a fix of its own,
 /// its own loop computes them instead: see needs_engine_loop().
-/// \tparam flag bits of the engine's contact flags that say that there is a contact
-template <class Parameters, bool stepped, FrictionModel tangential, bool rolling, int flag>
+/// \tparam Models see transition_model.h
+template <class Models, bool stepped>
 class LoopAdapter {
 public:
   LoopAdapter(LAMMPS_NS::PairGran &pair, const LAMMPS_NS::Atom &atom, const LAMMPS_NS::Neighbor &neighbor,
               const LAMMPS_NS::Clumps &clumps)
       : pair_(pair), atom_(atom), neighbor_(neighbor), clumps_(clumps), has_clumps_(!clumps.empty()) {}
 
-  void compute(LoopMemory &memory, const CoefficientTable<Parameters> &table, const HistoryPlaces &places,
-               physics::Cap cap, LAMMPS_NS::FixStepping *stepping, const ContactObservers &observers,
-               double dt) {
-    in_contact_place_ = places[Remembered::touches];
-    ContactLoop<LoopAdapter, Parameters, stepped, tangential, rolling>(*this, atom_, memory, table, places,
-                                                                       cap, stepping, observers, dt, true)
+  void compute(LoopMemory &memory, const ContactStep<typename Models::Contact> &step) {
+    in_contact_place_ = step.places[Remembered::touches];
+    ContactLoop<LoopAdapter, typename Models::Contact, stepped, Models::friction, Models::rolls>(*this, atom_,
+                                                                                                 memory, step)
         .run(*pair_.list, neighbor_);
   }
 
@@ -41,7 +39,7 @@ public:
     return stepped ? history[in_contact_place_] != 0.0 : flags != 0;
   }
   void mark(int &flags, double *history, bool touches) const {
-    flags = touches ? flags | flag : flags & ~flag;
+    flags = touches ? flags | Models::flags : flags & ~Models::flags;
     if (stepped && touches) history[in_contact_place_] = 1.0;
   }
 
@@ -68,9 +66,9 @@ private:
     const physics::Vec3 force = block.total_force[n];
     for (std::size_t a = 0; a < 3; ++a) {
       f[a] += relax * (sign * force[a]);
-      if constexpr (tangential != FrictionModel::none)
-        torque[a] += relax * (rolling ? sign * block.rolling[n][a] + friction[n][a] : friction[n][a]);
-      else if constexpr (rolling)
+      if constexpr (Models::rubs)
+        torque[a] += relax * (Models::rolls ? sign * block.rolling[n][a] + friction[n][a] : friction[n][a]);
+      else if constexpr (Models::rolls)
         torque[a] += relax * (sign * block.rolling[n][a]);
     }
   }

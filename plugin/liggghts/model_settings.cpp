@@ -13,20 +13,20 @@ constexpr DropInForms drop_in_forms = {"damping coefficient with property gamman
 
 } // namespace
 
-ModelSettings::ModelSettings(LAMMPS_NS::Error *error, const std::string &command, const OtherModels &others,
-                             int narg, char **arg) {
+ModelSettings::ModelSettings(LAMMPS_NS::Error *error, const std::string &command, bool rolls, int narg,
+                             char **arg) {
   std::vector<std::string> keywords = common_keywords();
   ContactSettings settings;
   const auto add = [this](const char *word, bool on) {
     words_.insert(words_.end(), {word, on ? "on" : "off"});
   };
-  if (others.rolling) keywords.emplace_back("torsionTorque");
+  if (rolls) keywords.emplace_back("torsionTorque");
 
   Arguments in(error, command, narg, arg);
   while (!in.empty()) {
     const std::string keyword = in.word("keyword");
     if (read_setting(in, keyword, settings)) continue;
-    if (keyword == "torsionTorque" && others.rolling) {
+    if (keyword == "torsionTorque" && rolls) {
       add("torsionTorque", in.choice("keyword " + keyword, {"on", "off"}) == 0);
     } else if (keyword == "tangential" || keyword == "rolling_friction" || keyword == "cohesion" ||
                keyword == "surface" || keyword == "primitive" || keyword == "mesh") {
@@ -42,8 +42,6 @@ ModelSettings::ModelSettings(LAMMPS_NS::Error *error, const std::string &command
   add("damping_coefficient", settings.damping == DampingInput::coefficient);
   add("damping_restitution", settings.damping == DampingInput::restitution);
   add("stepping_stock", settings.stock);
-  add("tangential_spring", others.tangential_spring);
-  add("rolling_spring", others.rolling_spring);
   for (std::string &word : words_)
     pointers_.push_back(word.data());
 }

@@ -10,21 +10,12 @@
 
 namespace drumlin {
 
-/// Which other models are combined with the normal model.
-struct OtherModels {
-  bool tangential_spring;
-  bool rolling_spring;
-  bool rolling; ///< with or without a spring
-};
-
 /// The settings as words in the form that the engine's settings parser reads.
 class ModelSettings {
 public:
   /// \param command for error texts, e.g. "pair_style gran model hooke/transition"
-  /// \param others with a rolling model the keyword `torsionTorque on|off` is allowed; which springs there
-  /// are is passed on to the normal model
-  ModelSettings(LAMMPS_NS::Error *error, const std::string &command, const OtherModels &others, int narg,
-                char **arg);
+  /// \param rolls with rolling resistance the keyword `torsionTorque on|off` is allowed
+  ModelSettings(LAMMPS_NS::Error *error, const std::string &command, bool rolls, int narg, char **arg);
 
   int size() const { return static_cast<int>(pointers_.size()); }
   char **words() { return pointers_.data(); }

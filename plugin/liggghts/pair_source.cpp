@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 #include <vector>
 
@@ -16,10 +15,6 @@ namespace drumlin {
 namespace {
 
 using LAMMPS_NS::LAMMPS;
-
-constexpr double default_friction = 0.5;
-constexpr const char *friction_property =
-    "coefficientFriction"; // as the engine's tangential models ask for it
 
 /// Name and meaning of the property that gives the normal damping.
 struct DampingProperty {
@@ -118,28 +113,10 @@ const LAMMPS_NS::Atom &PairSource::balls() const { return *lmp_->atom; }
 DampingProperties::DampingProperties(LAMMPS *lmp, const std::string &command, int ntypes,
                                      const ContactSettings &settings)
     : damping_(lmp, command, damping_property(settings.damping).name, ntypes),
-      tangential_(lmp, command, "gammat_abs", ntypes), friction_(lmp, command, friction_property, ntypes),
+      tangential_(lmp, command, "gammat_abs", ntypes), friction_(lmp, command, "coefficientFriction", ntypes),
       rolling_(lmp, command, "coefficientRollingFriction", ntypes) {
   damping_.require(damping_property(settings.damping).meaning);
-}
-
-void provide_friction_default(LAMMPS *lmp, const std::string &command, int ntypes) {
-  if (TypeProperty given(lmp, command, friction_property, ntypes); given.given()) {
-    for (int i = 1; i <= ntypes; ++i)
-      for (int j = 1; j <= ntypes; ++j)
-        given(i, j, Range::non_negative);
-    return;
-  }
-  std::vector<std::string> words = {"drumlin_friction", "all",
-                                    "property/global",  friction_property,
-                                    "peratomtypepair",  std::to_string(ntypes)};
-  words.insert(words.end(), static_cast<std::size_t>(ntypes) * static_cast<std::size_t>(ntypes),
-               fmt::format("{}", default_friction));
-  std::vector<char *> arg;
-  arg.reserve(words.size());
-  for (std::string &word : words)
-    arg.push_back(word.data());
-  lmp->modify->add_fix(static_cast<int>(arg.size()), arg.data());
+  if (settings.rolling) rolling_.require("rolling resistance mu_r");
 }
 
 } // namespace drumlin

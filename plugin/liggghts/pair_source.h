@@ -24,23 +24,18 @@ namespace drumlin {
 /// With a distance factor above 1 the engine calls surfacesClose() for a contact that has just ended.
 constexpr double contact_distance_factor = 1.01;
 
-/// The order in which a contact's numbers are stored, which restart files have: the engine builds the
-/// tangential and the rolling model first, which announce their springs.
+/// The order in which a contact's numbers are stored, which restart files have.
 constexpr std::array<Remembered, 6> history_order{Remembered::spring,    Remembered::rolling_spring,
                                                   Remembered::stiffness, Remembered::force,
                                                   Remembered::touches,   Remembered::memory};
 /// Name of the normal force in a contact's history.
 constexpr const char *force_name = numbers_of(Remembered::force).names[0];
 
-/// Announces to the engine that contacts remember something. \returns the place of its first number
-inline int announce(LIGGGHTS::IContactHistorySetup &history, Remembered what) {
+/// Announces to the engine that contacts remember something.
+inline void announce(LIGGGHTS::IContactHistorySetup &history, Remembered what) {
   const RememberedNumbers &numbers = numbers_of(what);
-  int first = 0;
-  for (std::size_t n = 0; n < numbers.count(); ++n) {
-    const int place = history.add_history_value(numbers.names[n], numbers.turns_round ? "1" : "0");
-    if (n == 0) first = place;
-  }
-  return first;
+  for (std::size_t n = 0; n < numbers.count(); ++n)
+    history.add_history_value(numbers.names[n], numbers.turns_round ? "1" : "0");
 }
 
 /// Effective mass, kg, with the engine's formula: its rounding differs from that of
@@ -107,11 +102,14 @@ public:
   void set(ContactCoefficients<Contact> &p, int i, int j, const ContactSettings &settings) {
     settings.set_damping(p.contact, damping_(i, j, settings.damping_range()));
     if (tangential_.given()) p.set_tangential_damping(tangential_(i, j, Range::non_negative));
+    if (settings.tangential != FrictionModel::none) p.friction = default_friction;
     if (friction_.given()) p.friction = friction_(i, j, Range::non_negative);
     if (rolling_.given()) p.rolling = rolling_(i, j, Range::non_negative);
   }
 
 private:
+  static constexpr double default_friction = 0.5;
+
   TypeProperty damping_, tangential_, friction_, rolling_;
 };
 
@@ -171,10 +169,5 @@ void read_table(CoefficientTable<Contact> &table, LAMMPS_NS::LAMMPS *lmp, int nt
     }
   if (PairSource *contacts = pair_source(lmp)) is_wall ? contacts->take_wall(&table) : contacts->take(&table);
 }
-
-/// Makes the property coefficientFriction, with 0.5 for all pairs of types, if the deck gives none: the
-/// tangential models insist on one. One that is given is checked, which the engine does not do.
-/// \param command for error texts
-void provide_friction_default(LAMMPS_NS::LAMMPS *lmp, const std::string &command, int ntypes);
 
 } // namespace drumlin

@@ -14,7 +14,6 @@
 
 #include "contact/fix_stepping.h"
 #include "liggghts/pair_source.h"
-#include "liggghts/coupled_contacts.h"
 #include "physics/vec3.h"
 
 #include <array>
@@ -45,8 +44,8 @@ public:
   template <class Wall>
   void begin(LAMMPS_NS::LAMMPS &engine, Wall &wall) {
     engine_ = &engine;
-    coupled_.find(&engine, wall);
-    stepping_ = wall.get_history_offset(force_name) < 0 ? nullptr : LAMMPS_NS::FixStepping::find(&engine);
+    force_place_ = wall.get_history_offset(force_name);
+    stepping_ = force_place_ < 0 ? nullptr : LAMMPS_NS::FixStepping::find(&engine);
   }
 
   /// \param compute computes the contact's force and adds it to the ball; called with the mesh that it is to
@@ -66,7 +65,7 @@ public:
       told.to_wall[a] = -contact.delta[a];
       told.velocity[a] = place.velocity[a];
     }
-    if (auto *coupled = coupled_.contact(contact)) {
+    if (auto *coupled = stepping_->coupled_at(contact.contact_history + force_place_)) {
       coupled->report = [this, &wall, coupled, told](const physics::Vec3 &change) {
         add(wall, told, change, coupled->change.torque_i);
       };
@@ -116,7 +115,7 @@ private:
 
   LAMMPS_NS::LAMMPS *engine_ = nullptr;
   LAMMPS_NS::FixStepping *stepping_ = nullptr; // none under `stepping stock`
-  CoupledContacts coupled_;
+  int force_place_ = -1;                       // of the normal force in the contact history
 };
 
 } // namespace drumlin

@@ -139,10 +139,8 @@ TEST_P(CombinationsOnRanks, AgreeWithOne) {
   }
 }
 
-const Combination combinations[] = {{"off", "off"},        {"off", "cdt"},        {"off", "epsd2"},
-                                    {"no_history", "off"}, {"no_history", "cdt"}, {"no_history", "epsd2"},
-                                    {"history", "off"},    {"history", "cdt"},    {"history", "epsd2"},
-                                    {"coulomb", "off"},    {"coulomb", "cdt"},    {"coulomb", "epsd2"}};
+const Combination combinations[] = {{"off", "off"},       {"off", "epsd2"},   {"history", "off"},
+                                    {"history", "epsd2"}, {"coulomb", "off"}, {"coulomb", "epsd2"}};
 std::string name_of(const ::testing::TestParamInfo<Combination> &test) {
   return test.param.tangential + "_" + test.param.rolling;
 }

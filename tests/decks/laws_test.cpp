@@ -127,7 +127,6 @@ std::vector<Scene> scenes() {
       {"coulomb_A_stock",
        {{"normal", "hertz"}, {"tangential", "coulomb"}, {"transition", "A"}, {"stepping", "stock"}}},
       {"history", {{"normal", "hertz"}}},
-      {"no_history_and_rolling", {{"normal", "hertz"}, {"tangential", "no_history"}, {"rolling", "epsd2"}}},
       {"heavy_dashpots", {{"normal", "hertz"}, {"D", "40"}, {"tangential", "off"}, {"mu", "-1"}}},
       {"hooke", {{"normal", "hooke"}, {"tangential", "coulomb"}, {"rolling", "epsd2"}}}};
   for_each_law([&all](auto law) {

@@ -1,2 +1,1 @@
-// The cohesion models that this plugin combines; the engine's own list is not part of its development
-// package.
+// The cohesion models of the engine that this plugin uses: none; see style_normal_model.h.

@@ -1,2 +1,2 @@
-// The normal models that this plugin combines; the engine's own list is not part of its development package.
-#include "liggghts/normal_models.h"
+// The normal models of the engine that this plugin uses: none, since its contact laws are no parts of the
+// engine's combinations. The engine's own list is not part of its development package.

@@ -1,4 +1,1 @@
-// The rolling models that this plugin combines; the engine's own list is not part of its development package.
-#include "rolling_model_cdt.h"
-#include "rolling_model_epsd2.h" // for its number alone
-#include "liggghts/rolling_model_spring.h"
+// The rolling models of the engine that this plugin uses: none; see style_normal_model.h.

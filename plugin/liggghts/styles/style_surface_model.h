@@ -1,2 +1,2 @@
-// The surface models that this plugin combines; the engine's own list is not part of its development package.
+// The surface models of the engine that this plugin uses, for its number alone; see style_normal_model.h.
 #include "surface_model_default.h"

@@ -1,5 +1,1 @@
-// The tangential models that this plugin combines; the engine's own list is not part of its development
-// package.
-#include "tangential_model_no_history.h"
-#include "tangential_model_history.h" // for its number alone
-#include "liggghts/tangential_models.h"
+// The tangential models of the engine that this plugin uses: none; see style_normal_model.h.

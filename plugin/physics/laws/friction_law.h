@@ -56,6 +56,13 @@ struct FrictionStep {
   return sum(sum(relative, -dot(relative, normal), normal), -1.0, cross(turning, normal));
 }
 
+/// Unit normal in the middle of a step of two balls. \param separation x_i - x_j at its end, m \param
+/// relative v_i - v_j of its middle, m/s \param dt s
+[[nodiscard]] inline Vec3 normal_in_middle(const Vec3 &separation, const Vec3 &relative, double dt) {
+  const Vec3 middle = sum(separation, -0.5 * dt, relative);
+  return scaled(1.0 / std::sqrt(dot(middle, middle)), middle);
+}
+
 /// vt, m/s, of a step of velocity Verlet, at the end of which the forces are computed: velocities and normal
 /// are those of the middle of the step, and the result is projected on the tangent plane of its end.
 /// slip_velocity() with the normal of the end counts the rotation of the normal in half a step as slip: the
@@ -63,13 +70,11 @@ struct FrictionStep {
 /// between the normals in each step. Where the spring is stiff and the ball is light, as between balls of
 /// very different sizes, this keeps the ball from rolling (Vyas, Ottino, Lueptow and Umbanhowar 2025, Comput.
 /// Phys. Commun. 310, 109524).
-/// \param relative v_i - v_j of the middle of the step, m/s \param separation x_i - x_j at its end, m; not
-/// for walls
-/// \param normal of its end \param turning as for slip_velocity(), m/s \param dt s
-[[nodiscard]] inline Vec3 slip_velocity_of_step(const Vec3 &relative, const Vec3 &separation,
-                                                const Vec3 &normal, const Vec3 &turning, double dt) {
-  const Vec3 middle = sum(separation, -0.5 * dt, relative);
-  const Vec3 slip = slip_velocity(relative, scaled(1.0 / std::sqrt(dot(middle, middle)), middle), turning);
+/// \param relative v_i - v_j of the middle of the step, m/s \param middle normal of its middle \param normal
+/// of its end \param turning as for slip_velocity(), m/s
+[[nodiscard]] inline Vec3 slip_velocity_of_step(const Vec3 &relative, const Vec3 &middle, const Vec3 &normal,
+                                                const Vec3 &turning) {
+  const Vec3 slip = slip_velocity(relative, middle, turning);
   return sum(slip, -dot(slip, normal), normal);
 }
 
@@ -239,6 +244,18 @@ struct PulledSpring {
   const Vec3 slip = sum(trial, -1.0, spring);
   const double dissipated = dashpot_heat + kt * dot(spring, slip) + 0.5 * kt * off_plane * off_plane;
   return {scaled(-1.0, pull), spring, dissipated, 0.5 * kt * dot(spring, spring), sliding};
+}
+
+/// Force on ball i, N, of friction with a spring at the end of a step, from the spring then and another slip
+/// velocity, for output. After a step in which the contact slid, its spring is at the limit within rounding
+/// errors, which must not decide whether it counts as sliding. This is therefore decided with the spring
+/// advanced by a further step dt, s.
+[[nodiscard]] inline Vec3 friction_after_step(const Friction &friction, double normal_force,
+                                              const Vec3 &normal, const Vec3 &tangential_velocity,
+                                              const Vec3 &spring, double dt) {
+  const FrictionStep next = friction_step(friction, normal_force, normal, tangential_velocity, spring, dt);
+  return next.sliding ? next.force
+                      : friction_step(friction, normal_force, normal, tangential_velocity, spring, 0.0).force;
 }
 
 /// One step of friction without history: F = -ct vt, at most mu |Fn| long. It cannot hold a ball at rest: on

@@ -68,15 +68,16 @@ struct Vectors {
   }
 };
 
-/// Contacts of balls of the same two types. The caller sets what describes them; compute_normal_forces(),
-/// compute_tangential_stiffness(), then compute_friction() and compute_rolling(), add the rest. Values that
-/// neither the settings nor the law need stay unset.
+/// Contacts of balls of the same two types, or of balls with a wall. The caller sets what describes them;
+/// compute_normal_forces(), compute_tangential_stiffness(), then compute_friction() and compute_rolling(),
+/// add the rest. Values that neither the settings nor the law need stay unset.
 struct ContactBlock {
   // Set by the caller:
-  Vectors separation;        ///< x_i - x_j, m
+  Vectors separation;        ///< x_i - x_j, m, of two balls
   Numbers squared;           ///< its square, m2
   Numbers ri, rj;            ///< radii, m
   Numbers m_eff;             ///< kg
+  Vectors normal_in_middle;  ///< of a wall, where the normal at the ball was in the middle of the step
   Vectors velocity;          ///< v_i - v_j with the half-step velocities, m/s
   Vectors velocity_before;   ///< the same at the beginning of the step; second-order scheme only
   Vectors wi, wj;            ///< angular velocities, rad/s
@@ -87,7 +88,7 @@ struct ContactBlock {
   Numbers stored_stiffness;  ///< N/m, the same of the tangential stiffness, where that varies
   Numbers memory_before;     ///< what the contact remembers for its law at the beginning of the step
   // Computed:
-  Numbers overlap;            ///< m
+  Numbers overlap;            ///< m; at a wall it and `normal` are set by the caller
   Numbers rate_half;          ///< m/s, rate of change of the overlap from the velocities half a step earlier
   Vectors normal;             ///< from j to i
   Vectors slip;               ///< m/s, of ball i's surface relative to j's
@@ -107,29 +108,42 @@ struct ContactBlock {
 /// When the slip of a contact is computed: see slip_velocity_of_step().
 enum class Slip { none, at_end, in_middle };
 
+/// What the balls i of a block touch. A wall has the velocity that is contained in the relative velocities of
+/// the block, does not turn, and its curvature does not count: the effective radius is that of the ball.
+enum class Partner { ball, wall };
+
+/// Effective radius, m, of contacts of balls with the radii ri and rj, or with walls.
+template <Partner partner>
+[[nodiscard]] inline double radius_of_contact(double ri, double rj) {
+  return partner == Partner::wall ? ri : effective_radius(ri, rj);
+}
+
 /// Motion and normal force of all contacts of a block. Where the second-order scheme is used, `push` and
 /// `force` are those of contacts that go on and are not coupled (goes_on()). \returns those that are coupled
 /// or have lost their force
-template <bool stepped, Slip slip, class Parameters>
+template <bool stepped, Slip slip, Partner partner = Partner::ball, class Parameters>
 DRUMLIN_FOR_THIS_PROCESSOR ContactSet compute_normal_forces(ContactBlock &b, int first, int end,
                                                             const Parameters &of_types, double dt) {
   const Parameters parameters = of_types; // a copy, which the arrays of the block cannot overlap
   ContactSet rare = 0;                    // as wide as the numbers beside it
   DRUMLIN_INDEPENDENT_CONTACTS
   for (int n = first; n < end; ++n) {
-    const double distance = std::sqrt(b.squared[n]);
-    const double ri = b.ri[n], rj = b.rj[n];
-    const Vec3 separation = b.separation[n], velocity = b.velocity[n];
-    const Vec3 normal = scaled(1.0 / distance, separation);
-    const double overlap = ri + rj - distance;
+    constexpr bool of_balls = partner == Partner::ball;
+    const double distance = of_balls ? std::sqrt(b.squared[n]) : 0.0;
+    const double ri = b.ri[n], rj = of_balls ? b.rj[n] : 0.0;
+    const Vec3 separation = of_balls ? b.separation[n] : Vec3{}, velocity = b.velocity[n];
+    const Vec3 normal = of_balls ? scaled(1.0 / distance, separation) : b.normal[n];
+    const double overlap = of_balls ? ri + rj - distance : b.overlap[n];
     const double rate_half = -dot(velocity, normal);
-    const double arm_i = ri - 0.5 * overlap, arm_j = rj - 0.5 * overlap;
+    const double arm_i = ri - 0.5 * overlap, arm_j = of_balls ? rj - 0.5 * overlap : 0.0;
     const double m_eff = b.m_eff[n];
-    const double r_eff = Parameters::depends_on_radius ? effective_radius(ri, rj) : 0.0;
+    const double r_eff = Parameters::depends_on_radius ? radius_of_contact<partner>(ri, rj) : 0.0;
     if constexpr (slip != Slip::none) {
-      const Vec3 wi = b.wi[n], wj = b.wj[n];
-      const Vec3 turning = sum(scaled(arm_i, wi), arm_j, wj);
-      b.slip.set(n, slip == Slip::in_middle ? slip_velocity_of_step(velocity, separation, normal, turning, dt)
+      const Vec3 turning = of_balls ? sum(scaled(arm_i, b.wi[n]), arm_j, b.wj[n]) : scaled(arm_i, b.wi[n]);
+      const Vec3 middle = slip != Slip::in_middle ? normal
+                          : of_balls              ? normal_in_middle(separation, velocity, dt)
+                                                  : b.normal_in_middle[n];
+      b.slip.set(n, slip == Slip::in_middle ? slip_velocity_of_step(velocity, middle, normal, turning)
                                             : slip_velocity(velocity, normal, turning));
     }
     auto law = parameters.law(m_eff, r_eff, Parameters::remembers ? b.memory_before[n] : 0.0);
@@ -224,16 +238,16 @@ DRUMLIN_FOR_THIS_PROCESSOR inline void compute_total_force(ContactBlock &b, int 
 
 /// Rolling resistance of all contacts of a block, from the normal force and the tangential stiffness.
 /// \param dt s; 0 in the set-up of a run
-template <class Coefficients>
+template <Partner partner = Partner::ball, Resisted resisted = Resisted::rolling, class Coefficients>
 DRUMLIN_FOR_THIS_PROCESSOR void compute_rolling(ContactBlock &b, int first, int end,
                                                 const Coefficients &of_types, double dt) {
   const Coefficients coefficients = of_types;
   DRUMLIN_INDEPENDENT_CONTACTS
   for (int n = first; n < end; ++n) {
-    const double radius = effective_radius(b.ri[n], b.rj[n]);
-    const Vec3 spin = sum(b.wi[n], -1.0, b.wj[n]);
-    const RollingStep result = rolling_step(coefficients.rolling_resistance(b.kt[n], radius), b.force[n],
-                                            b.normal[n], spin, b.rolling_spring[n], dt);
+    const double radius = radius_of_contact<partner>(b.ri[n], b.rj[n]);
+    const Vec3 spin = partner == Partner::ball ? sum(b.wi[n], -1.0, b.wj[n]) : b.wi[n];
+    const RollingStep result = rolling_step(coefficients.rolling_resistance(b.kt[n], radius, resisted),
+                                            b.force[n], b.normal[n], spin, b.rolling_spring[n], dt);
     b.rolling_spring.set(n, result.spring);
     b.rolling.set(n, result.torque);
   }

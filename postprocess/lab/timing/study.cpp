@@ -64,7 +64,7 @@ std::vector<Variant> part_variants() {
   constexpr double same = 1e-6; // the two laws are one to rounding
   const std::string none = "tangential off";
   const std::string friction = "tangential history";
-  const std::string rolling = "tangential history rolling_friction cdt";
+  const std::string rolling = "tangential history rolling_friction epsd2";
   const std::string stock = plugin_law(none, "stock");
   const Variables light = {{"D", "0.1"}};
   return {{"engine law", engine_law(none), {}, part_rounds, {1}, same},

@@ -87,7 +87,7 @@ BadGroup pair_style() {
           pair("cap", "tangential coulomb cap spring", good, {command + "keyword is 'cap'"}),
           pair("a word left over", "transition A B", good, {command + "keyword is 'B'"}),
           pair("torsion without rolling", "torsionTorque on", good, {command + "keyword is 'torsionTorque'"}),
-          pair("torsion without value", "rolling_friction cdt torsionTorque", good,
+          pair("torsion without value", "rolling_friction epsd2 torsionTorque", good,
                {command + "keyword torsionTorque is missing", "on or off"}),
           pair("unknown torsion", "rolling_friction epsd2 torsionTorque yes", good,
                {command + "keyword torsionTorque is 'yes'", "on or off"}),
@@ -97,7 +97,17 @@ BadGroup pair_style() {
                {command + "'tangential' comes too late or lacks its value"}),
           in_engine_words(
               pair("unknown tangential model", "tangential sticky", good, {"Invalid model specified"})),
-          in_engine_words(pair("cohesion", "cohesion sjkr", good, {"Unknown normal model"})),
+          pair("cohesion", "cohesion sjkr", good, {command + "keyword cohesion is 'sjkr'; allowed: off"}),
+          pair("surface", "tangential history surface multicontact", good,
+               {command + "keyword surface is 'multicontact'; allowed: default"}),
+          on_two_ranks(pair("no_history", "tangential no_history", good,
+                            {command + "keyword tangential is 'no_history'; allowed: off, history or "
+                                       "coulomb, of which coulomb replaces no_history"})),
+          pair("cdt", "tangential coulomb rolling_friction cdt", good,
+               {command + "keyword rolling_friction is 'cdt'; allowed: off or epsd2, of which epsd2 replaces "
+                          "cdt"}),
+          pair("epsd", "rolling_friction epsd", good,
+               {command + "keyword rolling_friction is 'epsd'; allowed: off or epsd2"}),
           on_two_ranks(
               pair("no kn", "", ratio,
                    {"property kn (normal stiffness, N/m) is missing; allowed: 'fix ID all property/global kn",
@@ -248,7 +258,6 @@ BadGroup properties() {
           value("kt", "-1"),
           value("gammat_abs", "-1"),
           value("coefficientFriction", "-1", "tangential history"),
-          value("coefficientFriction", "-0.5", "tangential no_history"),
           value("coefficientFriction", "-0.5", "tangential coulomb"),
           pair("kn beyond a double", "", property("kn", "1e400") + damping,
                {"property kn of types 1 and 1 is inf", "> 0"}),
@@ -258,9 +267,8 @@ BadGroup properties() {
           in_engine_words(pair("kn for two types", "",
                                "fix kn all property/global kn peratomtypepair 2 1e7 1e7 1e7 1e7\n" + damping,
                                {"kn", "property/global"})),
-          in_engine_words(pair("rolling friction missing", "rolling_friction cdt",
-                               property("kn", "1e7") + damping,
-                               {"coefficientRollingFriction", "rolling_model cdt"})),
+          pair("rolling friction missing", "rolling_friction epsd2", property("kn", "1e7") + damping,
+               {"property coefficientRollingFriction (rolling resistance mu_r", "is missing"}),
       }};
 }
 
@@ -306,6 +314,10 @@ BadGroup wall() {
                           fix + plane,
                           {command + "keyword stepping is 'second' (its default)",
                            "there is no pair_style gran model hooke/transition yet"}),
+          line("no_history", fix + "tangential no_history " + plane,
+               {command + "keyword tangential is 'no_history'; allowed: off, history or coulomb"}),
+          on_two_ranks(line("cdt", fix + "rolling_friction cdt " + plane,
+                            {command + "keyword rolling_friction is 'cdt'; allowed: off or epsd2"})),
           line("unknown stepping", fix + plane + "stepping 2",
                {command + "keyword stepping is '2'", "stock or second"}),
           line("settings before the wall", fix + "transition A " + plane,
@@ -357,6 +369,12 @@ std::vector<double> outside(const physics::Range &range) {
   return values;
 }
 
+/// A number of friction or rolling resistance, which all laws have, in the words of both engines.
+struct FrictionNumber {
+  const char *property, *name;
+  std::string before, behind; ///< the other numbers of pair_coeff
+};
+
 /// The parameters of a law, each with values that it may not have, and left out: LIGGGHTS's properties, then
 /// the words of LAMMPS.
 template <class Law>
@@ -364,20 +382,19 @@ std::vector<BadGroup> parameters_of() {
   const std::string law = Law::name, name = law.substr(0, law.find('/'));
   BadGroup properties{name + "_properties", "", {}}, words = in_lammps(name + "_words", {});
   const auto number = [](double value) { return fmt::format("{}", value); };
+  const auto property_line = [](const auto &p, const std::string &given) {
+    const std::string text = property(p.property, given);
+    if (!std::is_same_v<std::decay_t<decltype(p)>, physics::MaterialParameter>) return text;
+    return text.substr(0, text.find("pair 3")) + " " + given + " " + given + " " + given + "\n";
+  };
   const auto mistake = [&](const auto &wrong, const std::string &value, const std::string &says) {
-    using Wrong = std::decay_t<decltype(wrong)>;
-    constexpr bool of_types = std::is_same_v<Wrong, physics::MaterialParameter>;
     std::string lines, coefficients;
     test::for_each_given<Law>(1e7, [&](const auto &p, double good) {
       const bool is_wrong = std::string(p.word) == wrong.word;
       if (may_be_left_out(p) && !is_wrong) return;
       const std::string given = is_wrong ? value : number(good);
       coefficients += (may_be_left_out(p) ? " 0.2 0.5 " : " ") + given;
-      if (given.empty()) return;
-      std::string line = property(p.property, given);
-      if (of_types)
-        line = line.substr(0, line.find("pair 3")) + " " + given + " " + given + " " + given + "\n";
-      lines += line;
+      if (!given.empty()) lines += property_line(p, given);
     });
     BadInput input = line(std::string(wrong.property) + " " + value, "",
                           {"model " + law + ": property " + wrong.property, says});
@@ -395,6 +412,37 @@ std::vector<BadGroup> parameters_of() {
     for (const double value : outside(p.range))
       mistake(p, number(value), physics::detail::text_of(p.range));
   });
+  std::string good_lines, good_words, left_out;
+  test::for_each_given<Law>(1e7, [&](const auto &p, double good) {
+    if (may_be_left_out(p)) {
+      left_out += " NULL";
+      return;
+    }
+    good_lines += property_line(p, number(good));
+    good_words += " " + number(good);
+  });
+  for (const auto &[property_name, what, before, behind] :
+       {FrictionNumber{"coefficientFriction", "friction coefficient mu", " 0.2 ", " rolling 0.1"},
+        FrictionNumber{"gammat_abs", "tangential damping coefficient ct", " 0.2 0.5" + left_out + " ",
+                       " rolling 0.1"},
+        FrictionNumber{"coefficientRollingFriction", "rolling friction coefficient mu_r", " 0.2 0.5 rolling ",
+                       ""}}) {
+    const std::string wrong = property(property_name, "-1e-9");
+    BadInput input = line(std::string(property_name) + " -1e-9", "",
+                          {"model " + law + ": property " + property_name, "a finite number >= 0"});
+    const std::string roll = what == std::string("rolling friction coefficient mu_r")
+                                 ? ""
+                                 : property("coefficientRollingFriction", "0.1");
+    input.pair = "pair_style gran model " + law +
+                 " tangential coulomb rolling_friction epsd2\npair_coeff * *\n" +
+                 host_properties(good_lines + wrong) + good_lines + wrong + roll;
+    properties.inputs.push_back(input);
+    for (const char *value : {"-1e-9", "nan", "inf"})
+      words.inputs.push_back(line(
+          "pair_style gran/" + law + " tangential coulomb rolling epsd2\npair_coeff * *" + good_words +
+              before + value + behind,
+          {"pair_coeff of gran/" + law, std::string(what) + " is '" + value + "'", "a finite number >= 0"}));
+  }
   return {properties, words};
 }
 

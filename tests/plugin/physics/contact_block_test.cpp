@@ -23,7 +23,9 @@ struct Coefficients {
   Contact contact;
   double ct, mu, mu_r;
   Friction tangential(double kt, double c, Cap cap) const { return {kt, ct + 0.1 * c, mu, cap}; }
-  Rolling rolling_resistance(double kt, double radius) const { return rolling_of(kt, mu_r, radius); }
+  Rolling rolling_resistance(double kt, double radius, Resisted resisted) const {
+    return rolling_of(kt, mu_r, radius, resisted);
+  }
 };
 
 template <class Contact>
@@ -103,7 +105,8 @@ void expect_normal_force(const ContactBlock &b, int n, const Contact &parameters
   const Vec3 turning = sum(scaled(b.arm_i[n], b.wi[n]), b.arm_j[n], b.wj[n]);
   expect_same(b.slip[n],
               slip == Slip::in_middle
-                  ? slip_velocity_of_step(b.velocity[n], b.separation[n], normal, turning, dt)
+                  ? slip_velocity_of_step(b.velocity[n], normal_in_middle(b.separation[n], b.velocity[n], dt),
+                                          normal, turning)
                   : slip_velocity(b.velocity[n], normal, turning),
               "slip", n);
   ContactState state{b.force_before[n], true};
@@ -160,7 +163,8 @@ void expect_rolling(const ContactBlock &b, int n, const Coefficients<Contact> &a
                     const ContactBlock &before) {
   const double kt = stiffness_of(b, n, all.contact);
   const double kept = Contact::tangential_varies ? kept_torque(before.stored_stiffness[n], kt) : 1.0;
-  const Rolling resistance = all.rolling_resistance(kt, effective_radius(b.ri[n], b.rj[n]));
+  const Rolling resistance =
+      all.rolling_resistance(kt, effective_radius(b.ri[n], b.rj[n]), Resisted::rolling);
   const RollingStep step = rolling_step(resistance, b.force[n], b.normal[n], sum(b.wi[n], -1.0, b.wj[n]),
                                         scaled(kept, before.rolling_spring[n]), dt);
   expect_same(b.kt[n], kt, "tangential stiffness", n);
@@ -203,6 +207,45 @@ void expect_all_blocks() {
 TEST(ContactBlock, HasTheBitsOfItsContactsOneByOne) {
   drumlin::for_each_law([](auto law) { expect_all_blocks<typename decltype(law)::type>(); });
   expect_all_blocks<YieldingContact>();
+}
+
+// A wall differs from a ball that does not turn by the effective radius alone, which the linear law needs for
+// rolling resistance only.
+TEST(ContactBlock, AtAWallHasTheBitsOfABallThatDoesNotTurn) {
+  std::mt19937 random(11);
+  const auto all = coefficients<LinearContact>(Transition::B, Damping::ratio);
+  const auto balls = random_block(random);
+  for (int n = 0; n < block_size; ++n)
+    balls->wj.set(n, {});
+  const auto wall = std::make_unique<ContactBlock>(*balls);
+  const ContactSet rare =
+      compute_normal_forces<true, Slip::in_middle>(*balls, 0, block_size, all.contact, dt);
+  wall->normal = balls->normal;
+  wall->overlap = balls->overlap;
+  for (int n = 0; n < block_size; ++n)
+    wall->normal_in_middle.set(n, normal_in_middle(wall->separation[n], wall->velocity[n], dt));
+  const auto compute = [&](ContactBlock &b) {
+    compute_tangential_stiffness<true, true, true>(b, 0, block_size, all.contact, dt);
+    compute_friction<true, Cap::coulomb>(b, 0, block_size, all, dt);
+  };
+  EXPECT_EQ(
+      (compute_normal_forces<true, Slip::in_middle, Partner::wall>(*wall, 0, block_size, all.contact, dt)),
+      rare);
+  compute(*balls);
+  compute(*wall);
+  const auto before = std::make_unique<ContactBlock>(*wall);
+  compute_rolling<Partner::wall>(*wall, 0, block_size, all, dt);
+  for (int n = 0; n < block_size; ++n) {
+    expect_same(wall->force[n], balls->force[n], "force", n);
+    expect_same(wall->push[n], balls->push[n], "kick", n);
+    expect_same(wall->total_force[n], balls->total_force[n], "total", n);
+    expect_same(wall->torque_i[n], balls->torque_i[n], "torque on the ball", n);
+    EXPECT_EQ(wall->torque_j[n], Vec3{}) << n;
+    const RollingStep step =
+        rolling_step(all.rolling_resistance(wall->kt[n], wall->ri[n], Resisted::rolling), wall->force[n],
+                     wall->normal[n], wall->wi[n], before->rolling_spring[n], dt);
+    expect_same(wall->rolling[n], step.torque, "rolling", n);
+  }
 }
 
 } // namespace

@@ -317,7 +317,7 @@ TEST(SlipOfAStep, IsZeroWhereABallRollsWithoutSlip) {
     const Vec3 normal = times(1.0 / length(apart), apart);
     const double arm = small * height / (large + small); // of the contact point from the axis of the spin
     const Vec3 turning{-small * speed / arm, 0.0, 0.0};
-    const Vec3 slip = slip_velocity_of_step(v, apart, normal, turning, dt);
+    const Vec3 slip = slip_velocity_of_step(v, normal_in_middle(apart, v, dt), normal, turning);
     EXPECT_LT(length(slip), 1e-14 * length(turning)) << dt;
     // The normal of the end of the step gives a slip in the first order of dt.
     EXPECT_NEAR(length(slip_velocity(v, normal, turning)),
@@ -329,10 +329,11 @@ TEST(SlipOfAStep, IsZeroWhereABallRollsWithoutSlip) {
 
 TEST(SlipOfAStep, IsAcrossTheNormalAndWithoutATurnTheSlipVelocity) {
   const Vec3 v{0.3, -0.4, 0.2}, apart{0.0, 0.0, 2.0}, turning{0.1, 0.2, 0.3};
-  const Vec3 still = slip_velocity_of_step(v, apart, up, turning, 0.0), plain = slip_velocity(v, up, turning);
+  const Vec3 still = slip_velocity_of_step(v, normal_in_middle(apart, v, 0.0), up, turning),
+             plain = slip_velocity(v, up, turning);
   for (std::size_t a = 0; a < 3; ++a)
     EXPECT_NEAR(still[a], plain[a], 1e-16);
-  EXPECT_NEAR(dot(slip_velocity_of_step(v, apart, up, turning, 0.1), up), 0.0, 1e-16);
+  EXPECT_NEAR(dot(slip_velocity_of_step(v, normal_in_middle(apart, v, 0.1), up, turning), up), 0.0, 1e-16);
 }
 
 /// 10^x with x uniform between the decades.

@@ -97,7 +97,8 @@ Found run(const Impact<Contact> &impact) {
     Vec3 rub{}, closing{};
     if (motion.overlap > 0.0) {
       touched = true;
-      const Vec3 slip = slip_velocity_of_step(v, apart, normal, sum(scaled(arm_i, wi), arm_j, wj), dt);
+      const Vec3 slip =
+          slip_velocity_of_step(v, normal_in_middle(apart, v, dt), normal, sum(scaled(arm_i, wi), arm_j, wj));
       const FrictionStep now =
           friction.step(motion, push.force, 0.5 * law.dashpot(motion.overlap), normal, slip);
       judge(now, impact.friction * std::max(0.0, push.force), stored, -dt * dot(now.force, slip), found);
