@@ -2,6 +2,7 @@
 // move. The oracle is mostly the same scene as another observer sees it: inside a deforming box instead of
 // across its side, with a ball that had its size from the start, or on a moved ball of another mass, which
 // must not matter.
+#include "tests/support/checks.h"
 #include "tests/support/engine_and_scheme.h"
 
 #include <gtest/gtest.h>
@@ -306,8 +307,7 @@ TEST_P(EngineFixes, PartsOfABoxThatDeformAreRefused) {
   const Outcome outcome =
       run("pair", folder, {{"first", "fix deform one deform 1 y erate -0.5 remap v units box"}});
   EXPECT_FALSE(outcome.ok());
-  EXPECT_NE(outcome.output.find("group of fix deform (deform) is 'one'"), std::string::npos)
-      << outcome.output;
+  EXPECT_TRUE(contains(outcome.output, "group of fix deform (deform) is 'one'"));
 }
 
 TEST_P(EngineFixes, GroundOfABoxThatDeformsIsRefused) {
@@ -317,14 +317,14 @@ TEST_P(EngineFixes, GroundOfABoxThatDeformsIsRefused) {
           {{"first", "fix deform all deform 1 y erate -0.5 remap v units box"},
            {"second", "fix ground one boundary/absorb normal 0 1 0 area 1 density 2000 speeds 300 0"}});
   EXPECT_FALSE(outcome.ok());
-  EXPECT_NE(outcome.output.find("the box is deformed by fix deform"), std::string::npos) << outcome.output;
+  EXPECT_TRUE(contains(outcome.output, "the box is deformed by fix deform"));
 }
 
 TEST(EngineFixesInLiggghts, TriclinicBoxIsRefused) {
   const Scratch folder;
   const Outcome outcome = run_deck(test_deck("pair.in"), {{"box", "prism 0 1 0 1 0 1 0 0 0"}}, folder.path());
   EXPECT_FALSE(outcome.ok());
-  EXPECT_NE(outcome.output.find("the box is triclinic"), std::string::npos) << outcome.output;
+  EXPECT_TRUE(contains(outcome.output, "the box is triclinic"));
 }
 
 /// A ball that flies along -y onto a ball at rest, and has its size and mass from the start or grows before
@@ -408,21 +408,20 @@ struct Moved {
 };
 
 Variables on_moved(const Moved &scene, double mass, double dt = 1e-4, int steps = 500) {
-  Variables all = scene.more;
-  all.insert(all.end(), {{"one", "0.5 0.5 0.5"},
-                         {"two", "0.5 0.59999 0.5"},
-                         {"box", "block 0 1 0 1 0 1"},
-                         {"sides", "f f f"},
-                         {"m1", number(mass)},
-                         {"c", "1000"},
-                         {"mu", "0.5"},
-                         {"ct", "20"},
-                         {"integrated", "two"},
-                         {"first", "fix gravity two gravity 9.81 vector 0 -1 0"},
-                         {"second", scene.move},
-                         {"dt", number(dt)},
-                         {"steps", std::to_string(steps)},
-                         {"every", std::to_string(steps)}});
+  const Variables all = with(scene.more, {{"one", "0.5 0.5 0.5"},
+                                          {"two", "0.5 0.59999 0.5"},
+                                          {"box", "block 0 1 0 1 0 1"},
+                                          {"sides", "f f f"},
+                                          {"m1", number(mass)},
+                                          {"c", "1000"},
+                                          {"mu", "0.5"},
+                                          {"ct", "20"},
+                                          {"integrated", "two"},
+                                          {"first", "fix gravity two gravity 9.81 vector 0 -1 0"},
+                                          {"second", scene.move},
+                                          {"dt", number(dt)},
+                                          {"steps", std::to_string(steps)},
+                                          {"every", std::to_string(steps)}});
   return all;
 }
 
@@ -591,8 +590,7 @@ TEST_P(EngineFixes, RanksAgreeWithOne) {
     SCOPED_TRACE(scene.back().second + scene.front().second);
     const std::string &stepping = std::get<1>(GetParam());
     const Result one = run_pair_with(stepping, scene);
-    Variables along_y = scene;
-    along_y.emplace_back("ranks", "1 2 1");
+    Variables along_y = with(scene, {{"ranks", "1 2 1"}});
     if (std::get<0>(GetParam()) == "lammps") along_y.emplace_back("newton", "on");
     const Result two = run_pair_with(stepping, along_y, 2);
     for (const long id : {1L, 2L})

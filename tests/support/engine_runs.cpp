@@ -1,3 +1,4 @@
+#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 
 #include "bed/dump_readers.h"
@@ -74,13 +75,13 @@ ChainRun read_run(const fs::path &folder) {
 ChainRun run_chain(const std::string &name, post::Transition transition, int steps_per_cycle,
                    int samples_per_cycle, const Variables &more) {
   const Scratch scratch;
-  Variables variables = {{"case", name},
-                         {"transition", post::transition_name(transition)},
-                         {"steps_per_cycle", std::to_string(steps_per_cycle)},
-                         {"samples_per_cycle", std::to_string(samples_per_cycle)}};
-  variables.insert(variables.end(), more.begin(), more.end());
-  variables.emplace_back("stepping",
-                         "stock"); // the engine takes the first value of a variable: `more` goes before
+  const Variables variables =
+      with(with({{"case", name},
+                 {"transition", post::transition_name(transition)},
+                 {"steps_per_cycle", std::to_string(steps_per_cycle)},
+                 {"samples_per_cycle", std::to_string(samples_per_cycle)}},
+                more),
+           {{"stepping", "stock"}}); // the engine takes the first value of a variable: `more` goes before
   const Outcome outcome = run_deck(chain_deck("in.chain"), variables, scratch.path());
   if (!outcome.ok()) throw std::runtime_error("in.chain failed:\n" + outcome.output);
   return read_run(scratch.path());

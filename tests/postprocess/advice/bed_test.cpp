@@ -4,6 +4,7 @@
 #include "engine/deck_run.h"
 #include "support/files.h"
 #include "support/usage_error.h"
+#include "tests/support/checks.h"
 
 #include <gtest/gtest.h>
 
@@ -49,7 +50,7 @@ protected:
     try {
       ADD_FAILURE() << advice(0.1);
     } catch (const std::runtime_error &error) {
-      EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+      EXPECT_TRUE(contains(error.what(), message));
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
     }
   }
@@ -85,9 +86,9 @@ TEST_F(BedAdviceTest, NamesTheCheapestSceneWithinTheError) {
   ASSERT_EQ(commands.size(), 4U);
   EXPECT_EQ(commands[0], "bed --balls 400 --width 0.8");
   EXPECT_EQ(commands[1].rfind("run inputs/bed/in.settle -var case gravel ", 0), 0U) << commands[1];
-  EXPECT_NE(commands[1].find(" -var k 1.6e+07 "), std::string::npos) << commands[1];
-  EXPECT_NE(commands[3].find(" -var steps_per_cycle 1250"), std::string::npos) << commands[3];
-  EXPECT_EQ(commands[3].find(" -var ratio"), std::string::npos) << commands[3];
+  EXPECT_TRUE(contains(commands[1], " -var k 1.6e+07 "));
+  EXPECT_TRUE(contains(commands[3], " -var steps_per_cycle 1250"));
+  EXPECT_FALSE(contains(commands[3], " -var ratio"));
   EXPECT_EQ(post::scene_words(*found.scene),
             "2 dimensions, 400 discs of 16 to 24 mm radius, box 0.8 m wide, under a drum of 0.14 m radius");
   const std::vector<std::string> layers =
@@ -115,8 +116,7 @@ TEST_F(BedAdviceTest, CountsErrorsOfTheSettlementInMillimetresIfAsked) {
     post::advise_bed(all, {"settlement", "settlement", 0.1});
     ADD_FAILURE() << "a relative error of a mean of zero";
   } catch (const std::runtime_error &error) {
-    EXPECT_NE(std::string(error.what()).find("or --within in mm per cycle, as 2mm"), std::string::npos)
-        << error.what();
+    EXPECT_TRUE(contains(error.what(), "or --within in mm per cycle, as 2mm"));
   }
 }
 

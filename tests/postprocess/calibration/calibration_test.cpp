@@ -6,6 +6,7 @@
 #include "identify/identified_record.h"
 #include "support/files.h"
 #include "tests/support/chain_record.h"
+#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 
 #include <gtest/gtest.h>
@@ -171,7 +172,7 @@ TEST(Calibration, SaysWhichParameterHasNoEffect) {
   const Scratch scratch;
   const post::Sensitivity found = post::calibrate(task, {15, 1}, scratch.path(), measure).sensitivity;
   EXPECT_EQ(found.parameters[0].unidentified, "");
-  EXPECT_NE(found.parameters[1].unidentified.find("every slope contains zero"), std::string::npos);
+  EXPECT_TRUE(contains(found.parameters[1].unidentified, "every slope contains zero"));
 }
 
 TEST(Calibration, SaysWhichParametersCannotBeToldApart) {
@@ -184,7 +185,7 @@ TEST(Calibration, SaysWhichParametersCannotBeToldApart) {
   const Scratch scratch;
   const post::Sensitivity found = post::calibrate(task, {15, 1}, scratch.path(), measure).sensitivity;
   for (const post::ParameterEstimate &one : found.parameters)
-    EXPECT_NE(one.unidentified.find("is correlated with"), std::string::npos) << one.unidentified;
+    EXPECT_TRUE(contains(one.unidentified, "is correlated with"));
 }
 
 TEST(Calibration, ContinuesWithoutMeasuringAgain) {
@@ -239,7 +240,7 @@ TEST(Calibration, ContinuedGivesWhatOneWithoutInterruptionGives) {
   for (const post::CalibrationEffort &effort :
        {post::CalibrationEffort{9, 1, 1}, post::CalibrationEffort{9, 4, 2}}) {
     const std::string whole = continued(task, effort, measure, "");
-    EXPECT_NE(whole.find("no contact"), std::string::npos);
+    EXPECT_TRUE(contains(whole, "no contact"));
     std::vector<std::size_t> ends; // of the lines
     for (std::size_t end = whole.find('\n'); end != std::string::npos; end = whole.find('\n', end + 1))
       ends.push_back(end + 1);
@@ -263,7 +264,7 @@ TEST(Calibration, SaysThatEvaluationsAreOfAnotherSearch) {
   testing::internal::CaptureStdout();
   continued(task, {12, 1, 1}, scattered(6), two_at_once);
   const std::string said = testing::internal::GetCapturedStdout();
-  EXPECT_NE(said.find("the evaluations that are there are of another search"), std::string::npos) << said;
+  EXPECT_TRUE(contains(said, "the evaluations that are there are of another search"));
 }
 
 // A full disk, or an engine that was killed: the calibration ends, and continues as if it had not happened.
@@ -284,7 +285,7 @@ TEST(Calibration, EndsWithAFailureThatMayPass) {
     } catch (const std::runtime_error &fault) {
       EXPECT_EQ(std::string(fault.what()), "exit status 137");
     }
-    EXPECT_EQ(post::read_text(scratch / post::evaluations_name).find("137"), std::string::npos);
+    EXPECT_FALSE(contains(post::read_text(scratch / post::evaluations_name), "137"));
     post::calibrate(task, {9, jobs}, scratch.path(), passing);
     EXPECT_EQ(post::read_text(scratch / post::evaluations_name), whole);
   }
@@ -311,7 +312,7 @@ TEST(Calibration, RefusesRowsOfNoCalibration) {
       continued(task, {3, 1}, scattered(8), header + rows);
       ADD_FAILURE() << rows;
     } catch (const std::runtime_error &fault) {
-      EXPECT_NE(std::string(fault.what()).find(message), std::string::npos) << fault.what();
+      EXPECT_TRUE(contains(fault.what(), message));
     }
   }
 }

@@ -1,5 +1,6 @@
 // The analysis functions against closed forms.
 #include "chain/analysis.h"
+#include "tests/support/checks.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +11,7 @@
 namespace {
 
 using namespace drumlin::post;
+using namespace drumlin::test;
 
 const double pi = std::acos(-1.0);
 
@@ -268,7 +270,7 @@ TEST(EnergyBalance, HasTheErrorThatTheColumnsHave) {
   EXPECT_NEAR(energy_balance(cycles, missing)->energy_error(), 0.0, 1e-12);
   cycles.columns.erase("potential");
   EXPECT_FALSE(energy_balance(cycles, missing));
-  EXPECT_NE(missing.find("potential"), std::string::npos);
+  EXPECT_TRUE(contains(missing, "potential"));
 }
 
 /// Drum and frame on known paths, sampled every ms, with the force that follows from the equations of motion;

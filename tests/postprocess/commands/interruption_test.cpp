@@ -3,6 +3,7 @@
 #include "engine/places.h"
 #include "support/files.h"
 #include "support/process.h"
+#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 
 #include <fmt/format.h>
@@ -79,8 +80,7 @@ void kill_and_resume(const std::vector<std::string> &words, const Scratch &scrat
     return run_program(program);
   };
   const auto begin = std::chrono::steady_clock::now();
-  const Outcome whole = call("whole", 600.0, SIGKILL);
-  ASSERT_TRUE(whole.ok()) << whole.output;
+  const Outcome whole = well(call("whole", 600.0, SIGKILL));
   const double length = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   std::mt19937 random(std::random_device{}());
   int killed = 0, folders = 0;
@@ -173,7 +173,7 @@ TEST(KilledEngine, EndsACalibrationThatContinues) {
     const fs::path file = scratch / folder / "out/evaluations.csv";
     return fs::exists(file) ? read_text(file) : "";
   };
-  ASSERT_TRUE(call("whole", {}).ok());
+  well(call("whole", {}));
   for (const int signal : {SIGKILL, SIGTERM}) {
     const std::string folder = fmt::format("signal-{}", signal);
     bool sent = false;
@@ -192,17 +192,15 @@ TEST(KilledEngine, EndsACalibrationThatContinues) {
     EXPECT_EQ(killed.output.find('\n', error) + 1, killed.output.size());
     std::istringstream lines(rows(folder)); // no failure among them
     for (std::string line; std::getline(lines, line);)
-      EXPECT_NE(rows("whole").find(line + '\n'), std::string::npos) << line;
-    const Outcome again = call(folder, {});
-    EXPECT_TRUE(again.ok()) << again.output;
+      EXPECT_TRUE(contains(rows("whole"), line + '\n')) << line;
+    well(call(folder, {}));
     expect_same(scratch / "whole/out", scratch / folder / "out");
   }
 }
 
 TEST(KilledAndCalledAgain, AReportIsTheSame) {
   const Scratch scratch;
-  ASSERT_TRUE(
-      run_program({DRUMLIN_TOOLS, "exact", "--cycles", "30", "--out", "run"}, {}, scratch.path()).ok());
+  well(run_program({DRUMLIN_TOOLS, "exact", "--cycles", "30", "--out", "run"}, {}, scratch.path()));
   const std::string run = (scratch / "run").string();
   kill_and_resume({"report", run, "--out", "out"}, Scratch(), expect_same);
 }
@@ -218,13 +216,12 @@ TEST(CaseFile, GoesIntoACopyOfInstalledDecks) {
   std::vector<std::string> words = small_calibration;
   words.insert(words.begin(), DRUMLIN_TOOLS);
   const Outcome outcome =
-      run_program(words, {"DRUMLIN_PLACES=" + (scratch / "places").string()}, scratch.path(), 300.0);
-  ASSERT_TRUE(outcome.ok()) << outcome.output;
+      well(run_program(words, {"DRUMLIN_PLACES=" + (scratch / "places").string()}, scratch.path(), 300.0));
   const std::string command = fmt::format(
       "\n  cp -r {} . && cp out/case.calibrated inputs/bed && drumlin run ", post::places().inputs.string());
   ASSERT_TRUE(outcome.says(command)) << outcome.output;
   // The line is followed as far as the copies.
-  ASSERT_TRUE(run_program({"sh", "-c", command.substr(0, command.rfind(" && "))}, {}, scratch.path()).ok());
+  well(run_program({"sh", "-c", command.substr(0, command.rfind(" && "))}, {}, scratch.path()));
   EXPECT_TRUE(fs::is_regular_file(scratch / "inputs/bed/case.calibrated"));
   EXPECT_TRUE(fs::is_regular_file(scratch / "inputs/bed/in.settle"));
 }
@@ -232,8 +229,7 @@ TEST(CaseFile, GoesIntoACopyOfInstalledDecks) {
 // Ctrl-C, or what a scheduler sends: no temporary folder stays beside the results.
 TEST(StoppedBySignal, ACommandClearsAway) {
   const Scratch scratch;
-  ASSERT_TRUE(
-      run_program({DRUMLIN_TOOLS, "exact", "--cycles", "30", "--out", "run"}, {}, scratch.path()).ok());
+  well(run_program({DRUMLIN_TOOLS, "exact", "--cycles", "30", "--out", "run"}, {}, scratch.path()));
   for (const char *command : {"report", "identify", "meter"})
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
       SCOPED_TRACE(fmt::format("{}, signal {}", command, signal));

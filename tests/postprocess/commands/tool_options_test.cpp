@@ -3,6 +3,7 @@
 #include "runs/parameter_file.h"
 #include "support/files.h"
 #include "support/process.h"
+#include "tests/support/checks.h"
 #include "tests/support/lines.h"
 
 #include <gtest/gtest.h>
@@ -202,7 +203,7 @@ TEST_F(ToolOptions, AbsurdValuesAreRefusedAtOnce) {
     EXPECT_EQ(outcome.status, 2) << outcome.output;
     EXPECT_EQ(outcome.output.rfind("ERROR: drumlin ", 0), 0u) << outcome.output;
     EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
-    EXPECT_TRUE(outcome.says(bad.says)) << outcome.output;
+    EXPECT_TRUE(printed(outcome, bad.says));
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
     fs::remove(folder_ / "screen.txt");
     EXPECT_TRUE(fs::is_empty(folder_));
@@ -240,12 +241,12 @@ TEST_F(ToolOptions, SieveFilesThatAreNoCurveAreRefused) {
     EXPECT_EQ(outcome.status, 2) << outcome.output;
     EXPECT_EQ(outcome.output.rfind("ERROR: drumlin bed: ", 0), 0u) << outcome.output;
     EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
-    EXPECT_TRUE(outcome.says(says)) << outcome.output;
+    EXPECT_TRUE(printed(outcome, says));
     EXPECT_FALSE(fs::exists(folder_ / "out"));
   }
   const post::Outcome folder = run({"bed", "--sieve", "."});
   EXPECT_EQ(folder.status, 2);
-  EXPECT_TRUE(folder.says("it is a folder")) << folder.output;
+  EXPECT_TRUE(printed(folder, "it is a folder"));
 }
 
 // A curve of three sieves whose numbers are exact by hand: half of the mass between 10 and 20, half between
@@ -255,20 +256,18 @@ TEST_F(ToolOptions, SieveFileMakesABedAndItsGrading) {
   const post::Outcome outcome =
       run({"bed", "--sieve", "my gravel.csv", "--cut", "10", "--balls", "2000", "--out", "balls.data"});
   ASSERT_TRUE(outcome.ok()) << outcome.output;
-  EXPECT_TRUE(outcome.says("balls.data: 2000 balls, filled to ")) << outcome.output;
-  EXPECT_TRUE(outcome.says("Grading my_gravel: 0.0 % of the mass are grains finer than 10 mm"))
-      << outcome.output;
+  EXPECT_TRUE(printed(outcome, {"balls.data: 2000 balls, filled to ",
+                                "Grading my_gravel: 0.0 % of the mass are grains finer than 10 mm"}));
   // d10 = 10 mm 2^0.2 and so on
   EXPECT_TRUE(
-      outcome.says("\nasked for                          11.5   15.2     20     23         2  0.871\n"))
-      << outcome.output;
+      printed(outcome, "\nasked for                          11.5   15.2     20     23         2  0.871\n"));
   for (const char *name : {"balls_grading.csv", "balls_grading.gp", "balls_grading.svg", "balls_grading.png"})
     EXPECT_TRUE(fs::is_regular_file(folder_ / name)) << name;
   std::ifstream data(folder_ / "balls.data");
   const std::string text((std::istreambuf_iterator<char>(data)), {});
   for (const char *note :
        {"grading my_gravel_from_10mm\n", "r_min 0.005\n", "r_max 0.02\n", "d50 0.0", "C_u "})
-    EXPECT_NE(text.find(std::string("# drumlin note ") + note), std::string::npos) << note;
+    EXPECT_TRUE(contains(text, std::string("# drumlin note ") + note)) << note;
 }
 
 // A curve that is read, under the name that a result would have, or in its place.
@@ -294,7 +293,7 @@ TEST_F(ToolOptions, CurvesOfABedAreNotReplaced) {
   for (const Bad &bad : table) {
     const post::Outcome outcome = run(bad.words);
     EXPECT_EQ(outcome.status, 2) << outcome.output;
-    EXPECT_TRUE(outcome.says("ERROR: drumlin " + bad.words[0] + ": " + bad.says)) << outcome.output;
+    EXPECT_TRUE(printed(outcome, "ERROR: drumlin " + bad.words[0] + ": " + bad.says));
     for (const char *name : {"bed.csv", "bed_grading.csv", "hard.data"})
       EXPECT_EQ(post::read_text(folder_ / name), curve) << name;
     EXPECT_EQ(post::read_text(folder_ / "mine.in"), "units si\n");
@@ -315,8 +314,7 @@ TEST_F(ToolOptions, FoldersWhoseFilesAreOneAreRefused) {
     words.insert(words.end(), {"--out", command});
     const post::Outcome outcome = run(words);
     EXPECT_EQ(outcome.status, 2) << outcome.output;
-    EXPECT_TRUE(outcome.says("allowed: a folder in which 'a.csv' and 'b.csv' are not one file"))
-        << outcome.output;
+    EXPECT_TRUE(printed(outcome, "allowed: a folder in which 'a.csv' and 'b.csv' are not one file"));
     EXPECT_EQ(post::read_text(out / "a.csv"), "kept\n");
   }
 }
@@ -344,18 +342,17 @@ TEST_F(ToolOptions, LayersMakeABedWithATypeForEach) {
   const post::Outcome outcome = run({"bed", "--width", "1.5", "--layer", "0.3", "--layer", "0.2:stone.csv:20",
                                      "--layer", "0.1:stone.csv", "--balls", "3000", "--out", "balls.data"});
   ASSERT_TRUE(outcome.ok()) << outcome.output;
-  EXPECT_TRUE(outcome.says("Layer 2: Grading stone: 50.0 % of the mass are grains finer than 20 mm"))
-      << outcome.output;
-  EXPECT_TRUE(outcome.says("\nLayer 3: Grading stone: ")) << outcome.output;
+  EXPECT_TRUE(printed(outcome, {"Layer 2: Grading stone: 50.0 % of the mass are grains finer than 20 mm",
+                                "\nLayer 3: Grading stone: "}));
   const std::string curves = post::read_text(folder_ / "balls_grading.csv");
   for (const char *curve : {"\nbed 2,", "\nbed 3,", "\nasked for without the fines 2,", "\nasked for 3,"})
-    EXPECT_NE(curves.find(curve), std::string::npos) << curve;
-  EXPECT_EQ(curves.find("bed 1"), std::string::npos); // no grading was asked for
+    EXPECT_TRUE(contains(curves, curve));
+  EXPECT_FALSE(contains(curves, "bed 1")); // no grading was asked for
   const std::string text = post::read_text(folder_ / "balls.data");
   for (const char *note :
        {"grading uniform+stone_from_20mm+stone_from_", "layers 3\n", "layer_thicknesses 0.3,0.2,0.1\n"})
-    EXPECT_NE(text.find(std::string("# drumlin note ") + note), std::string::npos) << note;
-  EXPECT_NE(text.find("\n5 atom types\n"), std::string::npos);
+    EXPECT_TRUE(contains(text, std::string("# drumlin note ") + note)) << note;
+  EXPECT_TRUE(contains(text, "\n5 atom types\n"));
   // d50 and C_u of each layer. Of discs whose radii are equally frequent from a to b half of the mass has a
   // radius up to ((a^3 + b^3)/2)^(1/3); stone from 20 mm has a d50 of 20 2^0.5 mm, and d60/d10 = 2^0.5.
   const auto list = [&text](const std::string &note) {

@@ -4,6 +4,7 @@
 #include "runs/chain_files.h"
 #include "support/files.h"
 #include "support/process.h"
+#include "tests/support/checks.h"
 #include "tests/support/dump_texts.h"
 #include "tests/support/lines.h"
 
@@ -86,8 +87,7 @@ protected:
 };
 
 TEST_F(VtkCommand, WritesThreeCollections) {
-  const Outcome outcome = run({"run"});
-  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  const Outcome outcome = well(run({"run"}));
   EXPECT_EQ(
       names("run/vtk"),
       (std::vector<std::string>{"balls.pvd", "balls_0.vtp", "balls_1000.vtp", "balls_200.vtp", "contacts.pvd",
@@ -102,12 +102,12 @@ TEST_F(VtkCommand, WritesThreeCollections) {
             "    <DataSet timestep=\"125\" file=\"fields_1000.vti\"/>\n"
             "  </Collection>\n"
             "</VTKFile>\n");
-  EXPECT_TRUE(outcome.says("run/vtk/contacts.pvd: 3 steps, 0 to 125 s\n")) << outcome.output;
+  EXPECT_TRUE(printed(outcome, "run/vtk/contacts.pvd: 3 steps, 0 to 125 s\n"));
 }
 
 // Longer than other tests: it goes through every array of the three files of a step.
 TEST_F(VtkCommand, WritesWhatTheDumpsHold) {
-  ASSERT_TRUE(run({"run", "--cell", "4", "--out", "new/here"}).ok());
+  well(run({"run", "--cell", "4", "--out", "new/here"}));
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName((folder_ / "new/here/balls_200.vtp").c_str());
   reader->Update();
@@ -188,7 +188,7 @@ TEST_F(VtkCommand, WritesWhatTheDumpsHold) {
 // A quarter of a turn into the second cycle of 20 s. Contacts push the drum up by 400 N.
 TEST_F(VtkCommand, WritesThePhaseAndTheForcesOnTheDrum) {
   put("run/parameters.csv", "name,value\ntimestep,0.125\nomega,0.31415926535897931\nFw,1000\n");
-  ASSERT_TRUE(run({"run"}).ok());
+  well(run({"run"}));
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName((folder_ / "run/vtk/balls_200.vtp").c_str());
   reader->Update();
@@ -205,7 +205,7 @@ TEST_F(VtkCommand, WritesThePhaseAndTheForcesOnTheDrum) {
 // drum is not part of it at all.
 TEST_F(VtkCommand, WritesTheRangesOfTheValues) {
   put("run/parameters.csv", "name,value\ntimestep,0.125\nomega,0.31415926535897931\n");
-  ASSERT_TRUE(run({"run"}).ok());
+  well(run({"run"}));
   const nlohmann::json scene = nlohmann::json::parse(read_text(folder_ / "run/vtk/scene.json"));
   EXPECT_EQ(scene["dimension"], 2);
   EXPECT_NEAR(scene["period"].get<double>(), 20.0, 1e-12);
@@ -222,7 +222,7 @@ TEST_F(VtkCommand, WritesTheRangesOfTheValues) {
 // Ball 1 on the left presses on ball 2 on the right through a periodic side.
 TEST_F(VtkCommand, JoinsABallToTheImageOfAnother) {
   put("run/dump/contacts_200.dump", contact_dump("1 2 50 0 0 1 0 0 0.2\n"));
-  ASSERT_TRUE(run({"run", "--cell", "4"}).ok());
+  well(run({"run", "--cell", "4"}));
   vtkNew<vtkXMLPolyDataReader> lines;
   lines->SetFileName((folder_ / "run/vtk/contacts_200.vtp").c_str());
   lines->Update();
@@ -238,23 +238,20 @@ TEST_F(VtkCommand, JoinsABallToTheImageOfAnother) {
 }
 
 TEST_F(VtkCommand, MakesDoWithoutContacts) {
-  ASSERT_TRUE(run({"run"}).ok());
+  well(run({"run"}));
   for (const char *step : {"0", "1000", "200"})
     fs::remove(folder_ / "run/dump" / (std::string("contacts_") + step + ".dump"));
-  const Outcome outcome = run({"run"});
-  ASSERT_TRUE(outcome.ok()) << outcome.output;
-  EXPECT_TRUE(outcome.says("no contacts and no fields")) << outcome.output;
+  EXPECT_TRUE(printed(well(run({"run"})), "no contacts and no fields"));
   EXPECT_EQ(names("run/vtk"), (std::vector<std::string>{"balls.pvd", "balls_0.vtp", "balls_1000.vtp",
                                                         "balls_200.vtp", "scene.json"}));
-  EXPECT_EQ(read_text(folder_ / "run/vtk/balls_0.vtp").find("coordination"), std::string::npos);
+  EXPECT_FALSE(contains(read_text(folder_ / "run/vtk/balls_0.vtp"), "coordination"));
 }
 
 TEST_F(VtkCommand, ReplacesAnEarlierResultAndNothingElse) {
-  ASSERT_TRUE(run({"run"}).ok());
+  well(run({"run"}));
   put("run/vtk/view.pvsm", "the user's");
   fs::remove(folder_ / "run/dump/balls_1000.vtp");
-  const Outcome outcome = run({"run"});
-  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  well(run({"run"}));
   EXPECT_EQ(names("run/vtk"),
             (std::vector<std::string>{"balls.pvd", "balls_0.vtp", "balls_200.vtp", "contacts.pvd",
                                       "contacts_0.vtp", "contacts_200.vtp", "fields.pvd", "fields_0.vti",
@@ -274,7 +271,7 @@ TEST_F(VtkCommand, DoesNotReplaceTheDumps) {
                 "is read"}}) {
     const Outcome outcome = run({"run", "--out", out});
     EXPECT_EQ(outcome.status, 2) << outcome.output;
-    EXPECT_TRUE(outcome.says(std::string("ERROR: drumlin vtk: ") + says)) << outcome.output;
+    EXPECT_TRUE(printed(outcome, std::string("ERROR: drumlin vtk: ") + says));
     EXPECT_EQ(files("run"), before);
     EXPECT_EQ(names("new"), (std::vector<std::string>{"balls.pvd", "scene.json"}));
   }
@@ -290,7 +287,7 @@ struct Bad {
 
 // Longer than other tests: it has a line for each mistake.
 TEST_F(VtkCommand, BadInputIsOneLineAndTouchesNothing) {
-  ASSERT_TRUE(run({"run"}).ok());
+  well(run({"run"}));
   const std::string balls = "dump/balls_200.vtp", contacts = "dump/contacts_200.dump";
   const auto with = [](std::map<std::string, Array> arrays, const std::string &name, const Array &array) {
     arrays[name] = array;
@@ -425,7 +422,7 @@ TEST_F(VtkCommand, BadInputIsOneLineAndTouchesNothing) {
         1 + bad.skipped)
         << outcome.output;
     for (const std::string &said : bad.says)
-      EXPECT_TRUE(outcome.says(said)) << said << " is not in " << outcome.output;
+      EXPECT_TRUE(printed(outcome, said));
     EXPECT_EQ(files("run/vtk"), before);
     for (const auto &[file, text] : saved)
       if (text == "-")
@@ -433,7 +430,7 @@ TEST_F(VtkCommand, BadInputIsOneLineAndTouchesNothing) {
       else
         put("run/" + file, text);
   }
-  EXPECT_TRUE(run({"run"}).ok()); // all is as it was
+  well(run({"run"})); // all is as it was
 }
 
 // A run that was stopped leaves its last dumps cut short; the other steps are shown, and one line names each
@@ -464,9 +461,8 @@ TEST_F(VtkCommand, LeavesOutWhatWasCutShortAndSaysSo) {
     put(cut.file, cut.text);
     const Outcome outcome = run({"run"});
     EXPECT_EQ(outcome.status, 0) << outcome.output;
-    EXPECT_TRUE(outcome.says(cut.says)) << outcome.output;
-    EXPECT_TRUE(outcome.says(fmt::format("balls.pvd: {} steps", cut.balls))) << outcome.output;
-    EXPECT_TRUE(outcome.says(fmt::format("contacts.pvd: {} steps", cut.contacts))) << outcome.output;
+    EXPECT_TRUE(printed(outcome, {cut.says, fmt::format("balls.pvd: {} steps", cut.balls),
+                                  fmt::format("contacts.pvd: {} steps", cut.contacts)}));
     if (saved == "-")
       fs::remove(file);
     else
@@ -483,11 +479,11 @@ TEST_F(VtkCommand, NamesMissingSteps) {
 
 // Debian 12's ParaView cannot read VTK's appended data: the arrays are in the XML.
 TEST_F(VtkCommand, WritesNoAppendedData) {
-  ASSERT_TRUE(run({"run"}).ok());
+  well(run({"run"}));
   for (const char *name : {"run/vtk/balls_0.vtp", "run/vtk/contacts_0.vtp", "run/vtk/fields_0.vti"}) {
     const std::string text = read_text(folder_ / name);
-    EXPECT_EQ(text.find("<AppendedData"), std::string::npos) << name;
-    EXPECT_NE(text.find("format=\"binary\""), std::string::npos) << name;
+    EXPECT_FALSE(contains(text, "<AppendedData")) << name;
+    EXPECT_TRUE(contains(text, "format=\"binary\"")) << name;
   }
 }
 
@@ -503,7 +499,7 @@ TEST_F(VtkCommand, TakesHostileNames) {
     EXPECT_TRUE(fs::is_regular_file(run_folder / "vtk" / "balls.pvd")) << name;
   }
   fs::copy(folder_ / "run", folder_ / "-x", fs::copy_options::recursive);
-  EXPECT_TRUE(run({"--", "-x"}).ok());
+  well(run({"--", "-x"}));
   EXPECT_TRUE(fs::is_regular_file(folder_ / "-x" / "vtk" / "balls.pvd"));
   EXPECT_FALSE(fs::exists(folder_ / "pwned"));
 }
@@ -512,13 +508,13 @@ TEST_F(VtkCommand, ClearsAwayWhatAKilledCallLeft) {
   const std::string killed = "run/vtk/unfinished.123", other = "run/vtk/unfinished.work";
   put(killed + "/balls_0.vtp", "half a file");
   put(other + "/balls_0.vtp", "half a file");
-  ASSERT_TRUE(run({"run"}).ok());
+  well(run({"run"}));
   EXPECT_FALSE(fs::exists(folder_ / killed));
   EXPECT_TRUE(fs::exists(folder_ / other));
   const post::TemporaryFolder running(folder_ / "run/vtk", "unfinished.");
   const Outcome second = run({"run"});
   EXPECT_EQ(second.status, 2);
-  EXPECT_TRUE(second.says("vtk', into which another call writes; allowed: another folder")) << second.output;
+  EXPECT_TRUE(printed(second, "vtk', into which another call writes; allowed: another folder"));
 }
 
 TEST_F(VtkCommand, AFailureLeavesNothingBehind) {

@@ -2,6 +2,7 @@
 #include "lab/stability/boundary.h"
 #include "lab/stability/page.h"
 #include "support/files.h"
+#include "tests/support/checks.h"
 #include "tests/support/page.h"
 
 #include <fmt/format.h>
@@ -81,7 +82,7 @@ TEST(StabilityPage, ShowsVerdictsAndCommands) {
   for (const char *words :
        {"1 of 2 runs", "ERROR: &lt;no&gt;", "./drumlin run inputs/chain/in.chain -var k 1e4",
         "./drumlin run -np 2 inputs/chain/in.chain"})
-    EXPECT_NE(text.find(words), std::string::npos) << words;
+    EXPECT_TRUE(contains(text, words));
   fs::remove_all(out);
 }
 

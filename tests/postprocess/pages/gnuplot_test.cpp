@@ -4,6 +4,7 @@
 #include "pages/figure_data.h"
 #include "support/files.h"
 #include "support/process.h"
+#include "tests/support/checks.h"
 #include "tests/support/page.h"
 
 #include <fmt/format.h>
@@ -22,6 +23,7 @@
 namespace {
 
 using namespace drumlin::post;
+using namespace drumlin::test;
 namespace fs = std::filesystem;
 
 TEST(Script, KeepsHostileNamesAsText) {
@@ -34,8 +36,7 @@ TEST(Script, KeepsHostileNamesAsText) {
   panel.x_ticks = {"a\"; system(\"touch /tmp/x\") #", "b\\", "`date`"};
   figure.panels = {panel};
   const std::string script = gnuplot_script(figure);
-  EXPECT_NE(script.find("\\\"; system(\\\"touch"), std::string::npos);
-  EXPECT_NE(script.find("\"b\\\\\""), std::string::npos);
+  EXPECT_TRUE(contains(script, {"\\\"; system(\\\"touch", "\"b\\\\\""}));
   EXPECT_EQ(script.find('`'), std::string::npos); // gnuplot runs what is between backquotes
 }
 
@@ -59,7 +60,7 @@ TEST(Script, DrawsHostileNamesAsTheyAre) {
   const std::string svg = read_text(folder / "f.svg");
   for (const char *text : {"100%", "%s%n", "{}", "a_b^c", "a\"b", "it's", "a\\nb", "x y", ">c<",
                            "%s {a}_b^c @d", "%d_{}", "100% {t}"})
-    EXPECT_NE(svg.find(text), std::string::npos) << text;
+    EXPECT_TRUE(contains(svg, text));
   EXPECT_TRUE(drumlin::test::parse(svg).well_formed);
   EXPECT_FALSE(fs::exists(folder / program_output_file));
   fs::remove_all(folder);
@@ -147,15 +148,14 @@ TEST(Script, DrawsPicturesToScaleAndOnlyAsPixels) {
   picture.curves.back().width = 2.5;
   figure.panels = {picture, Panel()};
   const std::string script = gnuplot_script(figure);
-  EXPECT_NE(script.find("[kind in \"png\"]"), std::string::npos);
-  EXPECT_NE(script.find("with vectors nohead lw 2.5"), std::string::npos);
+  EXPECT_TRUE(contains(script, {"[kind in \"png\"]", "with vectors nohead lw 2.5"}));
   // What the picture sets does not reach the next panel.
   const std::size_t set = script.find("set size ratio -1");
   ASSERT_NE(set, std::string::npos);
   EXPECT_LT(set, script.find("set size noratio"));
   EXPECT_LT(script.find("set colorbox"), script.find("unset colorbox"));
   figure.only_png = false;
-  EXPECT_NE(gnuplot_script(figure).find("[kind in \"svg png\"]"), std::string::npos);
+  EXPECT_TRUE(contains(gnuplot_script(figure), "[kind in \"svg png\"]"));
 }
 
 TEST(Size, OfPanelsInRows) {
@@ -190,12 +190,12 @@ TEST(Legend, HasTheRowsThatItsNamesNeed) {
   for (const char *name : {"A DEM", "B DEM", "A reference", "B reference"})
     panel.curves.push_back({"f.csv", "1", "2", name, CurveStyle::plain});
   figure.panels = {panel};
-  EXPECT_NE(gnuplot_script(figure).find("set key maxrows 1 "), std::string::npos);
+  EXPECT_TRUE(contains(gnuplot_script(figure), "set key maxrows 1 "));
   figure.half = true;
-  EXPECT_NE(gnuplot_script(figure).find("set key maxrows 2 "), std::string::npos);
+  EXPECT_TRUE(contains(gnuplot_script(figure), "set key maxrows 2 "));
   for (Curve &curve : figure.panels[0].curves)
     curve.title.clear();
-  EXPECT_NE(gnuplot_script(figure).find("set key maxrows 1 "), std::string::npos);
+  EXPECT_TRUE(contains(gnuplot_script(figure), "set key maxrows 1 "));
 }
 
 /// Heights, px from the top, at which a text stands in an SVG file of gnuplot's.

@@ -4,6 +4,7 @@
 #include "pages/figure_data.h"
 #include "pages/html.h"
 #include "support/files.h"
+#include "tests/support/checks.h"
 #include "tests/support/page.h"
 
 #include <fmt/format.h>
@@ -65,27 +66,22 @@ TEST(Table, MarksGoodAndBadRowsInItsFirstColumn) {
   table.add({"b", "2"}, post::RowState::differs);
   table.add({"c", "3"});
   const std::string html = post::table_html(table);
-  EXPECT_NE(html.find("<b>✗ 1 of 2</b> are small"), std::string::npos) << html;
-  EXPECT_NE(html.find("<tr class=\"agrees\"><td class=\"word\">✓ yes</td><td class=\"word\">a</td>"),
-            std::string::npos)
-      << html;
-  EXPECT_NE(html.find("<tr class=\"differs\"><td class=\"word\">✗ no</td><td class=\"word\">b</td>"),
-            std::string::npos)
-      << html;
-  EXPECT_NE(html.find("<tr><td class=\"word\">–</td><td class=\"word\">c</td>"), std::string::npos) << html;
+  EXPECT_TRUE(contains(html, {"<b>✗ 1 of 2</b> are small",
+                              "<tr class=\"agrees\"><td class=\"word\">✓ yes</td><td class=\"word\">a</td>",
+                              "<tr class=\"differs\"><td class=\"word\">✗ no</td><td class=\"word\">b</td>",
+                              "<tr><td class=\"word\">–</td><td class=\"word\">c</td>"}));
   // A column with words of its own moves to the front; the CSV file keeps its order.
   table.header = {"run", "agrees"};
   table.verdict = "agrees";
   table.rows = {{"a", "to all digits"}, {"b", "no"}, {"c", "not judged"}};
   const std::string worded = post::table_html(table);
-  EXPECT_NE(worded.find("<td class=\"word\">✓ to all digits</td><td class=\"word\">a</td>"),
-            std::string::npos);
-  EXPECT_NE(worded.find("<td class=\"word\">✗ no</td><td class=\"word\">b</td>"), std::string::npos);
-  EXPECT_NE(worded.find("<td class=\"word\">not judged</td><td class=\"word\">c</td>"), std::string::npos);
+  EXPECT_TRUE(contains(worded, {"<td class=\"word\">✓ to all digits</td><td class=\"word\">a</td>",
+                                "<td class=\"word\">✗ no</td><td class=\"word\">b</td>",
+                                "<td class=\"word\">not judged</td><td class=\"word\">c</td>"}));
   EXPECT_EQ(count(worded, "to all digits"), 1u);
   EXPECT_EQ(post::table_csv(table), "run,agrees\na,to all digits\nb,no\nc,not judged\n");
   table.states.assign(3, post::RowState::agrees);
-  EXPECT_NE(post::table_html(table).find("<p class=\"tally\"><b>✓ 3 of 3</b>"), std::string::npos);
+  EXPECT_TRUE(contains(post::table_html(table), "<p class=\"tally\"><b>✓ 3 of 3</b>"));
 }
 
 TEST(Acceptance, IsPartOfTheAnswerAndMarksIt) {
@@ -100,13 +96,11 @@ TEST(Acceptance, IsPartOfTheAnswerAndMarksIt) {
     page.table(post::acceptance_table(criteria));
     page.write();
     const std::string text = post::read_text(out / "index.html");
-    EXPECT_NE(text.find(holds
-                            ? "<p class=\"verdict good\">✓ Many runs.<br /> <strong>Acceptance.</strong> 2 "
-                              "of 2 acceptance criteria hold.</p>"
-                            : "<p class=\"verdict bad\">✗ Many runs.<br /> <strong>Acceptance.</strong> 1 of "
-                              "2 acceptance criteria hold. Not met: order at least 2 (measured 1.5).</p>"),
-              std::string::npos)
-        << text;
+    EXPECT_TRUE(contains(
+        text, holds ? "<p class=\"verdict good\">✓ Many runs.<br /> <strong>Acceptance.</strong> 2 "
+                      "of 2 acceptance criteria hold.</p>"
+                    : "<p class=\"verdict bad\">✗ Many runs.<br /> <strong>Acceptance.</strong> 1 of "
+                      "2 acceptance criteria hold. Not met: order at least 2 (measured 1.5).</p>"));
     EXPECT_EQ(
         post::read_text(out / "data/acceptance.csv"),
         fmt::format("acceptance criterion,measured,holds\nerror at most 1,0.5,yes\norder at least 2,1.5,{}\n",

@@ -9,6 +9,7 @@
 #include "support/files.h"
 #include "support/text.h"
 #include "support/usage_error.h"
+#include "tests/support/checks.h"
 #include "tests/support/page.h"
 #include "tests/support/run_folders.h"
 
@@ -31,10 +32,7 @@
 namespace {
 
 using namespace drumlin::post;
-using drumlin::test::parse;
-using drumlin::test::Parsed;
-using drumlin::test::write_chain_run;
-using drumlin::test::write_impact_run;
+using namespace drumlin::test;
 namespace fs = std::filesystem;
 
 std::string read(const fs::path &file) {
@@ -97,7 +95,7 @@ protected:
     EXPECT_EQ(status, 2) << errors;
     EXPECT_EQ(errors.rfind("ERROR: drumlin report: ", 0), 0u) << errors;
     EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << errors;
-    EXPECT_NE(errors.find(words), std::string::npos) << errors;
+    EXPECT_TRUE(contains(errors, words));
     EXPECT_EQ(read(root / "report" / "index.html"), before);
     EXPECT_TRUE(fs::is_regular_file(root / "report" / "figures" / "fig5_case_II.png"));
     for (const fs::directory_entry &entry : fs::directory_iterator(root))
@@ -124,16 +122,16 @@ TEST_F(Report, IsWellFormed) {
 TEST_F(Report, LoadsNothingFromTheNetwork) {
   for (const std::vector<std::string> *all : {&page.images, &page.links, &page.resources, &page.contents})
     for (const std::string &address : *all) {
-      EXPECT_EQ(address.find("//"), std::string::npos) << address;
-      EXPECT_EQ(address.find("http"), std::string::npos) << address;
+      EXPECT_FALSE(contains(address, "//"));
+      EXPECT_FALSE(contains(address, "http"));
     }
   const std::string text = read(root / "report" / "index.html");
-  EXPECT_EQ(text.find("url("), std::string::npos);
-  EXPECT_EQ(text.find("@import"), std::string::npos);
+  EXPECT_FALSE(contains(text, "url("));
+  EXPECT_FALSE(contains(text, "@import"));
   for (const std::string &image : page.images) {
     const std::string picture = read(root / "report" / image);
-    EXPECT_EQ(picture.find("href=\"http"), std::string::npos) << image;
-    EXPECT_EQ(picture.find("<script"), std::string::npos) << image;
+    EXPECT_FALSE(contains(picture, "href=\"http")) << image;
+    EXPECT_FALSE(contains(picture, "<script")) << image;
   }
 }
 
@@ -201,9 +199,8 @@ TEST_F(Report, OpensWithTheAnswer) {
   EXPECT_EQ(text.find("<section"), text.find("<section id=\"answer\""));
   const std::string answer = opening(text);
   EXPECT_EQ(answer.rfind("<p class=\"verdict good\">✓", 0), 0u) << answer;
-  EXPECT_NE(answer.find("2 runs of the chain soil – drum – frame (cases I and II) and 2 single impacts"),
-            std::string::npos)
-      << answer;
+  EXPECT_TRUE(
+      contains(answer, "2 runs of the chain soil – drum – frame (cases I and II) and 2 single impacts"));
   EXPECT_EQ(number_in(answer, "(\\d+) of 17 values agree"), 17.0);
   const Table restitution = read_table(root / "report" / "data" / "restitution.csv");
   for (std::size_t i = 0; i < restitution.rows(); ++i)
@@ -234,7 +231,7 @@ TEST_F(Report, OpensWithTheNumbersOfItsTables) {
   const Table errors = read_table(options.out / "data" / "error_table.csv");
   const std::vector<double> last = errors.numbers("last 5 cycles (-)");
   EXPECT_EQ(number_in(answer, "by at most ([0-9.e-]+)"), *std::max_element(last.begin(), last.end()));
-  EXPECT_NE(answer.find("II-A"), std::string::npos);
+  EXPECT_TRUE(contains(answer, "II-A"));
 }
 
 TEST_F(Report, HasAContentsListThatStaysInView) {
@@ -245,7 +242,7 @@ TEST_F(Report, HasAContentsListThatStaysInView) {
   for (std::sregex_iterator found(text.begin(), text.end(), expression), end; found != end; ++found)
     sections.push_back("#" + (*found)[1].str());
   EXPECT_EQ(page.contents, sections);
-  EXPECT_NE(text.find("nav { position: sticky; top: 0;"), std::string::npos);
+  EXPECT_TRUE(contains(text, "nav { position: sticky; top: 0;"));
   EXPECT_EQ(page.drawings, 1u) << "the scene";
 }
 
@@ -259,7 +256,7 @@ TEST_F(Report, MarksTheRowsOfItsTables) {
     judged += read_table(root / "report" / "data" / table).rows();
   EXPECT_EQ(judged, 17u);
   EXPECT_EQ(static_cast<std::size_t>(rows), judged);
-  EXPECT_EQ(text.find("✗"), std::string::npos);
+  EXPECT_FALSE(contains(text, "✗"));
 }
 
 TEST_F(Report, HasItsCommandsAtTheEnd) {
@@ -276,8 +273,8 @@ TEST_F(Report, TakesStudiesAlong) {
   for (const auto &[place, title] :
        {std::pair{"studies/study", "runs/more/study"}, {"studies/study-2", "runs/study"}}) {
     EXPECT_TRUE(fs::is_regular_file(root / "report" / place / "figures" / "f.svg")) << place;
-    EXPECT_NE(text.find(fmt::format("<a href=\"{}/index.html\">Cost of {} &amp; more</a>", place, title)),
-              std::string::npos);
+    EXPECT_TRUE(
+        contains(text, fmt::format("<a href=\"{}/index.html\">Cost of {} &amp; more</a>", place, title)));
   }
 }
 
@@ -287,17 +284,15 @@ TEST_F(Report, IsMadeOfAStudyAlone) {
   options.out = root / "study-report";
   const std::string text = read(write_report(options).page);
   EXPECT_TRUE(parse(text).well_formed);
-  EXPECT_NE(text.find("studies/study/index.html"), std::string::npos);
+  EXPECT_TRUE(contains(text, "studies/study/index.html"));
 }
 
 TEST_F(Report, PrintsCommandsAsTextAndSaysWhatIsLeftOut) {
   const std::string text = read(root / "report" / "index.html");
-  EXPECT_NE(
-      text.find(
-          "<span>run</span> <span>&lt;in.chain&gt;</span> <span>&amp;</span> <span>&quot;more&quot;</span>"),
-      std::string::npos);
-  EXPECT_NE(text.find("Fig. 6 is left out"), std::string::npos);
-  EXPECT_NE(text.find("cycles.csv lacks the energies"), std::string::npos);
+  EXPECT_TRUE(contains(
+      text,
+      {"<span>run</span> <span>&lt;in.chain&gt;</span> <span>&amp;</span> <span>&quot;more&quot;</span>",
+       "Fig. 6 is left out", "cycles.csv lacks the energies"}));
 }
 
 TEST_F(Report, OfTheDirectSolutionAgreesWithEveryReferenceValue) {
@@ -320,20 +315,19 @@ TEST_F(Report, DoesNotJudgeAShortRunAndNamesTheCommandOfALongOne) {
   EXPECT_EQ(short_outcome.checks.not_judged, 7u);
   const std::string text = read(short_outcome.page);
   EXPECT_TRUE(parse(text).well_formed);
-  EXPECT_NE(text.find("not judged (short run)"), std::string::npos);
-  EXPECT_NE(text.find("7 values are not judged"), std::string::npos);
-  EXPECT_NE(text.find("Fig. 4  Drum acceleration, case I"), std::string::npos);
-  EXPECT_NE(text.find("With fewer than 100 cycles the motion may not be steady yet"), std::string::npos);
-  EXPECT_EQ(text.find("class=\"differs"), std::string::npos);
+  EXPECT_TRUE(contains(text, {"not judged (short run)", "7 values are not judged",
+                              "Fig. 4  Drum acceleration, case I",
+                              "With fewer than 100 cycles the motion may not be steady yet"}));
+  EXPECT_FALSE(contains(text, "class=\"differs"));
   const std::string command = fmt::format(
       "./drumlin run inputs/chain/in.chain -var case I -var transition B -var steps_per_cycle 2000 "
       "-var samples_per_cycle 200 -var cycles 120 -var out {}",
       (fs::canonical(root) / "I-B-120-cycles").string());
   EXPECT_EQ(short_outcome.judging_commands, (std::vector<std::string>{command}));
-  EXPECT_NE(text.find(command), std::string::npos);
+  EXPECT_TRUE(contains(text, command));
   const std::string json = read(root / "short-report" / "report.json");
-  EXPECT_NE(json.find("\"not_judged\": 7"), std::string::npos);
-  EXPECT_EQ(json.find("\"agrees\": false"), std::string::npos);
+  EXPECT_TRUE(contains(json, "\"not_judged\": 7"));
+  EXPECT_FALSE(contains(json, "\"agrees\": false"));
 }
 
 TEST_F(Report, NamesTheCyclesOfARunOfTwo) {
@@ -345,9 +339,9 @@ TEST_F(Report, NamesTheCyclesOfARunOfTwo) {
   for (const char *words :
        {"Drum acceleration over the last 2 cycles, case II", "Measured over the last 2 cycles",
         "Contact force over the last 2 cycles", "Drum acceleration over the last 2 cycles under"})
-    EXPECT_NE(text.find(words), std::string::npos) << words;
+    EXPECT_TRUE(contains(text, words));
   for (const char *words : {"the last 3 cycles", "the last 10 cycles", "at steady state"})
-    EXPECT_EQ(text.find(words), std::string::npos) << words;
+    EXPECT_FALSE(contains(text, words));
 }
 
 TEST_F(Report, CountsEachKindOfWorkToAnEndThatIsKnown) {
@@ -425,7 +419,7 @@ TEST_F(Report, KeepsHostileNamesAsText) {
   EXPECT_TRUE(shown.well_formed) << shown.error;
   for (const char *shown_name : {"<td class=\"word\">100%</td>", "<td class=\"word\">%s%n</td>", "&lt;b&gt;",
                                  "a&quot;b", "it&#39;s", "bad\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd"})
-    EXPECT_NE(text.find(shown_name), std::string::npos) << shown_name;
+    EXPECT_TRUE(contains(text, shown_name));
   for (const std::string &link : shown.links)
     EXPECT_TRUE(link.front() == '#' || fs::is_regular_file(options.out / drumlin::test::file_of(link)))
         << link;
@@ -435,7 +429,7 @@ TEST_F(Report, KeepsHostileNamesAsText) {
   }
   const std::string ticks = read(options.out / "figures" / "figR6_velocity_error.svg");
   for (const char *label : {">100%<", ">%s%n<", ">{}<", ">x y<"})
-    EXPECT_NE(ticks.find(label), std::string::npos) << label;
+    EXPECT_TRUE(contains(ticks, label));
   for (const fs::path &place : {hostile, options.out / "figures", before})
     EXPECT_FALSE(fs::exists(place / "pwned")) << place;
 }
@@ -472,16 +466,15 @@ TEST_F(Report, PrintsNoNumberThatIsNone) {
   const std::string text = read(write_report(options).page);
   EXPECT_TRUE(parse(text).well_formed);
   for (const char *word : {">nan", ">-nan", ">inf", ">-inf", " nan", " inf", "nan "})
-    EXPECT_EQ(text.find(word), std::string::npos) << word;
+    EXPECT_FALSE(contains(text, word));
   for (const fs::directory_entry &data : fs::directory_iterator(options.out / "data")) {
     const std::string cells = read(data.path());
-    EXPECT_EQ(cells.find(",nan"), std::string::npos) << data.path();
-    EXPECT_EQ(cells.find(",-nan"), std::string::npos) << data.path();
-    EXPECT_EQ(cells.find(",inf"), std::string::npos) << data.path();
-    EXPECT_EQ(cells.find(",-inf"), std::string::npos) << data.path();
+    EXPECT_FALSE(contains(cells, ",nan")) << data.path();
+    EXPECT_FALSE(contains(cells, ",-nan")) << data.path();
+    EXPECT_FALSE(contains(cells, ",inf")) << data.path();
+    EXPECT_FALSE(contains(cells, ",-inf")) << data.path();
   }
-  EXPECT_NE(text.find("the mass does not reach the ball within the record"), std::string::npos);
-  EXPECT_NE(text.find("Fig. 3 is left out"), std::string::npos);
+  EXPECT_TRUE(contains(text, {"the mass does not reach the ball within the record", "Fig. 3 is left out"}));
 }
 
 TEST_F(Report, GivesThePapersTitlesToThePapersParametersOnly) {
@@ -493,12 +486,11 @@ TEST_F(Report, GivesThePapersTitlesToThePapersParametersOnly) {
   options.folders = {root / "own"};
   options.out = root / "own-report";
   const std::string text = read(write_report(options).page);
-  EXPECT_NE(text.find("own parameters after case II"), std::string::npos);
-  EXPECT_NE(text.find("m2 = 2100, case II has 2000"), std::string::npos);
-  EXPECT_EQ(text.find("fig5_case_II"), std::string::npos);
-  EXPECT_NE(text.find("own_after_case_II.svg"), std::string::npos);
+  EXPECT_TRUE(contains(text, {"own parameters after case II", "m2 = 2100, case II has 2000"}));
+  EXPECT_FALSE(contains(text, "fig5_case_II"));
+  EXPECT_TRUE(contains(text, "own_after_case_II.svg"));
   const std::string page_of_paper = read(root / "report" / "index.html");
-  EXPECT_EQ(page_of_paper.find("own parameters"), std::string::npos);
+  EXPECT_FALSE(contains(page_of_paper, "own parameters"));
 }
 
 TEST_F(Report, ClearsAwayWhatAKilledReportLeft) {
@@ -537,8 +529,7 @@ TEST_F(Report, IsRefusedWhereAnotherCallMakesOne) {
   const TemporaryFolder running(place.parent_path(), ".report.new-");
   const auto [status, errors] = command(quote(root / "runs" / "I-A") + " --out " + quote(place));
   EXPECT_EQ(status, 2);
-  EXPECT_NE(errors.find("', into which another call writes; allowed: another folder"), std::string::npos)
-      << errors;
+  EXPECT_TRUE(contains(errors, "', into which another call writes; allowed: another folder"));
   EXPECT_FALSE(fs::exists(place));
   EXPECT_TRUE(fs::exists(running.path()));
 }
@@ -554,9 +545,8 @@ TEST_F(Report, DoesWithoutOptionalFiles) {
   options.out = root / "bare-report";
   const std::string text = read(write_report(options).page);
   EXPECT_TRUE(parse(text).well_formed);
-  EXPECT_NE(text.find("events.csv is missing"), std::string::npos);
-  EXPECT_NE(text.find("cycles.csv is missing"), std::string::npos);
-  EXPECT_NE(text.find("parameters.csv is missing"), std::string::npos);
+  EXPECT_TRUE(
+      contains(text, {"events.csv is missing", "cycles.csv is missing", "parameters.csv is missing"}));
 }
 
 TEST_F(Report, ReplacesAnEarlierReportAsAWhole) {
@@ -621,13 +611,13 @@ TEST_F(Report, LeavesOutWhatCannotBeRead) {
   for (const LeftOut &folder : made.left_out)
     why[folder.folder.filename().string()] = folder.why;
   EXPECT_EQ(why["last week"], "it is an earlier report");
-  EXPECT_NE(why["half"].find("chain.csv"), std::string::npos) << why["half"];
+  EXPECT_TRUE(contains(why["half"], "chain.csv"));
   EXPECT_EQ(why["no table"], "it was killed, or is still running");
   EXPECT_EQ(why["killed"].rfind("it was killed, or is still running; ", 0), 0u) << why["killed"];
   const std::string text = read(made.page);
   EXPECT_TRUE(parse(text).well_formed);
-  EXPECT_NE(text.find("4 folders are left out, and not judged"), std::string::npos);
-  EXPECT_NE(text.find("last week</code>: it is an earlier report"), std::string::npos);
+  EXPECT_TRUE(contains(
+      text, {"4 folders are left out, and not judged", "last week</code>: it is an earlier report"}));
 }
 
 TEST_F(Report, DoesNotJudgeARunThatWasCut) {
@@ -652,11 +642,10 @@ TEST_F(Report, DoesNotJudgeARunThatWasCut) {
     EXPECT_GT(made.checks.not_judged, 10u) << row;
     const std::string text = read(made.page);
     EXPECT_TRUE(parse(text).well_formed);
-    EXPECT_NE(text.find(says), std::string::npos) << says;
-    EXPECT_NE(text.find(" (cut)"), std::string::npos);
+    EXPECT_TRUE(contains(text, {says, " (cut)"}));
     for (const char *verdict :
          {"verdict good", "verdict bad", "<tr class=\"agrees\"", "<tr class=\"differs\""})
-      EXPECT_EQ(text.find(verdict), std::string::npos)
+      EXPECT_FALSE(contains(text, verdict))
           << row << text.substr(std::min(text.size(), text.find(verdict)), 300);
   }
 }

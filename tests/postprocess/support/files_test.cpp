@@ -2,6 +2,7 @@
 // full disk is a small file system that the test mounts.
 #include "support/files.h"
 #include "support/process.h"
+#include "tests/support/checks.h"
 #include "tests/support/dump_texts.h"
 
 #include <fmt/format.h>
@@ -94,7 +95,7 @@ TEST_F(OutputFiles, NothingButARegularFileIsReplaced) {
     const Outcome bed = run({"bed", "--balls", "3", "--out", name});
     EXPECT_EQ(bed.status, 2) << bed.output;
     EXPECT_EQ(bed.output.rfind("ERROR: drumlin bed: --out is '" + name + "': ", 0), 0u) << bed.output;
-    EXPECT_TRUE(bed.says("; allowed: a file that can be written\n")) << bed.output;
+    EXPECT_TRUE(printed(bed, "; allowed: a file that can be written\n"));
     EXPECT_NE(refused([&] { post::write_files({{folder_ / name, "new"}}); }), "accepted");
     EXPECT_NE(refused([&] { post::append_text(folder_ / name, "new"); }), "accepted");
     EXPECT_NE(refused([&] { post::replace_file(folder_ / "file", folder_ / name); }), "accepted");
@@ -143,7 +144,7 @@ TEST_F(OutputFiles, FilesInAFolderOfResultsAreChecked) {
     const std::string before = listing();
     const Outcome outcome = run({"exact", "--cycles", "2", "--out", "o"});
     EXPECT_EQ(outcome.status, 2) << outcome.output;
-    EXPECT_TRUE(outcome.says("--out is 'o': events.csv is ")) << outcome.output;
+    EXPECT_TRUE(printed(outcome, "--out is 'o': events.csv is "));
     EXPECT_EQ(listing(), before);
     fs::remove(folder_ / "o/events.csv");
   }
@@ -161,7 +162,7 @@ TEST_F(OutputFiles, LinksAreFollowed) {
   ::chmod((folder_ / "file").c_str(), 0640);
   EXPECT_EQ(run({"bed", "--balls", "3", "--out", "link"}).status, 0);
   EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
-  EXPECT_NE(read_text(folder_ / "file").find("3 atoms"), std::string::npos);
+  EXPECT_TRUE(contains(read_text(folder_ / "file"), "3 atoms"));
   EXPECT_EQ(fs::status(folder_ / "file").permissions(), fs::perms(0640)); // kept
   EXPECT_EQ(run({"exact", "--cycles", "1", "--out", "link-to-folder/new"}).status, 0);
   EXPECT_TRUE(fs::exists(folder_ / "folder/new/chain.csv"));
@@ -250,7 +251,7 @@ TEST_F(FullDisk, AReportIsAnErrorAndLeavesNothing) {
                           {}, folder_);
     if (outcome.status == 77 || outcome.says("unshare: "))
       GTEST_SKIP() << "this machine lets no small disk be mounted";
-    EXPECT_TRUE(outcome.says("ERROR: drumlin report: ")) << outcome.output;
+    EXPECT_TRUE(printed(outcome, "ERROR: drumlin report: "));
     const std::string end = "status 1\n";
     EXPECT_EQ(outcome.output.find(end) + end.size(), outcome.output.size()) << outcome.output;
   }

@@ -4,6 +4,7 @@
 #include "support/resumed.h"
 
 #include "support/usage_error.h"
+#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 
 #include <fmt/format.h>
@@ -21,6 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace drumlin::post;
+using namespace drumlin::test;
 
 struct Point {
   double D = 0.0, limit = 0.0;
@@ -92,17 +94,15 @@ TEST_F(Results, RefuseWhatNoCallHasWritten) {
             "line 4, column 'D' is '1'; allowed: each once, or --fresh"}}) {
     write(text);
     const std::string fault = refused([this] { ResumedTable(file, columns()); });
-    EXPECT_NE(fault.find(message), std::string::npos) << fault;
-    EXPECT_NE(fault.find("'; allowed: "), std::string::npos) << fault;
+    EXPECT_TRUE(contains(fault, {message, "'; allowed: "}));
     EXPECT_EQ(read_text(file), text);
   }
 }
 
 TEST_F(Results, RefuseDoubledPointsWhereTheyAreOnlyRead) {
   write("D,limit,command\n1,2,x\n2,2,x\n1,3,y\n");
-  EXPECT_NE(
-      refused([this] { read_points(file, columns()); }).find("line 4, column 'D' is '1'; allowed: each once"),
-      std::string::npos);
+  EXPECT_TRUE(contains(refused([this] { read_points(file, columns()); }),
+                       "line 4, column 'D' is '1'; allowed: each once"));
 }
 
 TEST_F(Results, BeginAnewWhereTheHeaderIsCut) {
@@ -130,9 +130,7 @@ TEST_F(Results, RefuseRowsOfAnotherCall) {
   ResumedTable results = open("1,1,a\n7,1,a\n");
   results.has({"1"});
   const std::string fault = refused([&] { results.finish(); });
-  EXPECT_NE(fault.find("line 3, column 'D' is '7'; allowed: a row of this call, or --fresh"),
-            std::string::npos)
-      << fault;
+  EXPECT_TRUE(contains(fault, "line 3, column 'D' is '7'; allowed: a row of this call, or --fresh"));
   EXPECT_EQ(read_text(file), "D,limit,command\n1,1,a\n7,1,a\n");
 }
 
@@ -143,9 +141,7 @@ TEST_F(Results, RefuseWordsForANumber) {
       read_points(file, columns());
       FAIL() << word;
     } catch (const std::runtime_error &error) {
-      EXPECT_NE(std::string(error.what()).find("line 2, column 'limit' is '" + word + "'; allowed: a number"),
-                std::string::npos)
-          << error.what();
+      EXPECT_TRUE(contains(error.what(), "line 2, column 'limit' is '" + word + "'; allowed: a number"));
     }
   }
 }
@@ -170,9 +166,9 @@ TEST_F(Folder, IsContinuedWithTheSameSettings) {
       fault.find("--out is '" + out.string() + "'; allowed: the folder of a study with the same settings"),
       0U)
       << fault;
-  EXPECT_NE(fault.find("(its study.txt has 'steps 3', this call 'steps 4')"), std::string::npos) << fault;
-  EXPECT_NE(open("").find("has 'steps 3', this call '')"), std::string::npos);
-  EXPECT_NE(open("steps 3\nquick\n").find("has '', this call 'quick')"), std::string::npos);
+  EXPECT_TRUE(contains(fault, "(its study.txt has 'steps 3', this call 'steps 4')"));
+  EXPECT_TRUE(contains(open(""), "has 'steps 3', this call '')"));
+  EXPECT_TRUE(contains(open("steps 3\nquick\n"), "has '', this call 'quick')"));
   EXPECT_TRUE(fs::exists(out / "rows.csv"));
   EXPECT_EQ(open("steps 4\n", true), "accepted");
   EXPECT_FALSE(fs::exists(out / "rows.csv"));
@@ -183,8 +179,7 @@ TEST_F(Folder, WithOtherFilesIsRefused) {
   fs::create_directory(out);
   put("thesis.txt");
   for (const bool fresh : {false, true})
-    EXPECT_NE(open("", fresh).find("allowed: a folder that is new, empty or of an earlier study"),
-              std::string::npos);
+    EXPECT_TRUE(contains(open("", fresh), "allowed: a folder that is new, empty or of an earlier study"));
   EXPECT_TRUE(fs::exists(out / "thesis.txt"));
 }
 
@@ -192,9 +187,8 @@ TEST_F(Folder, TakesOneCallAtATime) {
   const ResumedFolder first(out, "study", "", false);
   put("rows.csv");
   for (const bool fresh : {false, true})
-    EXPECT_NE(
-        open("", fresh).find("--out is '" + out.string() + "', into which another call writes; allowed: "),
-        std::string::npos);
+    EXPECT_TRUE(contains(open("", fresh),
+                         "--out is '" + out.string() + "', into which another call writes; allowed: "));
   EXPECT_TRUE(fs::exists(out / "rows.csv"));
 }
 
