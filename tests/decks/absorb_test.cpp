@@ -180,13 +180,12 @@ ChainsRun run_chains(const std::string &engine, const std::string &stepping) {
   }
   write_balls(folder, {d * 2 * count, 0.1, d * (length + 2)}, balls);
   write_fixes(folder, lines + rigid);
-  const Outcome outcome = run_scene(engine, folder,
-                                    {{"stepping", stepping},
-                                     {"dt", number(dt)},
-                                     {"steps", std::to_string(cycles * per_period)},
-                                     {"every", std::to_string(per_period / samples)},
-                                     {"rows", std::to_string(cycles * per_period)}});
-  if (!outcome.ok()) throw std::runtime_error(outcome.output);
+  well(run_scene(engine, folder,
+                 {{"stepping", stepping},
+                  {"dt", number(dt)},
+                  {"steps", std::to_string(cycles * per_period)},
+                  {"every", std::to_string(per_period / samples)},
+                  {"rows", std::to_string(cycles * per_period)}}));
   const std::vector<Frame> frames = read_dump(folder / "balls.txt");
   for (std::size_t c = 0; c < chains().size(); ++c) {
     std::vector<Complex> rows;
@@ -390,15 +389,14 @@ protected:
   }
   static std::vector<Frame> run(const Scratch &folder, const std::string &steps, const std::string &after,
                                 bool restarted, int ranks) {
-    const Outcome outcome = run_scene(engine(), folder,
-                                      {{"dt", "2e-5"},
-                                       {"steps", steps},
-                                       {"after", after},
-                                       {"every", "500"},
-                                       {"rows", "10000"},
-                                       {"restart", restarted ? "1" : "0"}},
-                                      ranks);
-    if (!outcome.ok()) throw std::runtime_error(outcome.output);
+    well(run_scene(engine(), folder,
+                   {{"dt", "2e-5"},
+                    {"steps", steps},
+                    {"after", after},
+                    {"every", "500"},
+                    {"rows", "10000"},
+                    {"restart", restarted ? "1" : "0"}},
+                   ranks));
     return read_dump(folder / "balls.txt");
   }
 };

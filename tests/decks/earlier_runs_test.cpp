@@ -13,7 +13,6 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <sys/stat.h>
@@ -107,16 +106,13 @@ TEST(EarlierRuns, OfARunAreItsOwnUntilASignalEndsItOnRanksOneAndTwo) {
       {"in.chain", {{"cycles", "1000000"}}, 2, {}, {}},
       {"in.impact", {{"contacts", "1000"}, {"steps_per_contact", "1000000"}}, 1, {}, {}}};
   if (post::has_lammps()) runs.push_back({"in.chain.lammps", {{"cycles", "1000000"}}, 1, {}, {}});
-  ::setenv(
-      "OMPI_MCA_odls_base_sigkill_timeout", "2",
-      1); // s from SIGTERM to SIGKILL for the ranks: one, the default, can be too short on a busy machine
+  const WaitForRanks wait(2); // on a busy machine the default can be too short
   std::vector<std::thread> side_by_side;
   side_by_side.reserve(runs.size());
   for (Ended &run : runs)
     side_by_side.emplace_back(run_until_a_signal, std::ref(run));
   for (std::thread &one : side_by_side)
     one.join();
-  ::unsetenv("OMPI_MCA_odls_base_sigkill_timeout");
   // When mpirun of Open MPI 5 has received a signal, it no longer prints what its ranks write.
   const bool mpirun_hands_on =
       run_program({"mpirun", "--version"}, {}, Scratch().path()).says("(Open MPI) 4.");

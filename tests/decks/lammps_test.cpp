@@ -14,9 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
-#include <limits>
 #include <map>
 #include <ostream>
 #include <string>
@@ -186,6 +184,7 @@ TEST_F(InLammps, HistoryIsKeptWhenTheOrderOfBallsChanges) {
 }
 
 TEST_F(InLammps, RefusesAnotherVersionOnRanksOneAndTwo) {
+  const WaitForRanks at_once(0);
   const Scratch folder;
   for (const int ranks : {1, 2}) {
     EXPECT_TRUE(fails_with(
@@ -259,6 +258,7 @@ TEST_F(InLammps, SuffixesChangeNoResult) {
 }
 
 TEST_F(InLammps, RefusesTheHistoryOfAnotherWallOnRanksOneAndTwo) {
+  const WaitForRanks at_once(0);
   const Scratch block;
   well(run_deck(test_deck("bounce.lammps"), {{"walls", "block"}}, block.path()));
   for (const int ranks : {1, 2}) {

@@ -517,6 +517,7 @@ class GrowingBalls : public ::testing::TestWithParam<std::tuple<bool, int>> {};
 TEST_P(GrowingBalls, AreStoppedByTheGuardBeforeTheyMissOneAnother) {
   const auto &[lammps, ranks] = GetParam();
   SKIP_WITHOUT_LAMMPS(lammps);
+  const WaitForRanks at_once(0);
   Scene scene{lammps, "second", 1e-5, 4000, ""};
   scene.start = "-0.1 0 0.5";
   scene.second_start = "0.1 0 0.5";

@@ -298,20 +298,5 @@ TEST(Reaction, OfAFixedBallIsTheForceOnTheOtherBall) {
     }
 }
 
-class WithoutDashpot : public BothEngines {};
-INSTANTIATE_TEST_SUITE_P(Bounce, WithoutDashpot, engines_and_steppings(), engine_and_stepping);
-
-/// Balls on balls and on walls, that make and break contact with friction.
-TEST_P(WithoutDashpot, AAndBAreOneLawBitForBit) {
-  std::array<std::string, 2> states;
-  for (const std::string transition : {"A", "B"}) {
-    const Scratch folder;
-    well(run("bounce", folder,
-             {{"transition", transition}, {"D", "0"}, {"first", "1500"}, {"rest", "500"}, {"every", "500"}}));
-    states.at(transition == "A" ? 0 : 1) = read_text(folder / "balls.txt");
-  }
-  EXPECT_EQ(states[0], states[1]);
-}
-
 } // namespace
 } // namespace drumlin::test

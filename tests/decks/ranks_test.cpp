@@ -4,10 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <ostream>
 #include <string>
-#include <vector>
 
 namespace drumlin::test {
 namespace {

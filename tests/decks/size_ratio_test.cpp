@@ -7,8 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <tuple>
 #include <vector>
 
 namespace drumlin::test {

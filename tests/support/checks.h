@@ -2,11 +2,11 @@
 #pragma once
 
 #include "engine/engine_run.h"
+#include "tests/support/checks.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <exception>
 #include <initializer_list>
 #include <stdexcept>
 #include <string>
@@ -50,12 +50,12 @@ inline ::testing::AssertionResult fails_with(const post::Outcome &outcome, const
   return ::testing::AssertionFailure() << "status " << outcome.status << "\n" << outcome.output;
 }
 
-/// What a call throws; "no error" if it throws nothing.
-template <class Call>
+/// The message of an exception that a call throws; "no error" if it throws none.
+template <class Error = std::runtime_error, class Call>
 std::string error_of(const Call &call) {
   try {
     call();
-  } catch (const std::exception &error) {
+  } catch (const Error &error) {
     return error.what();
   }
   return "no error";

@@ -50,12 +50,7 @@ protected:
   /// message.
   void expect_refused(const std::string &csv, const std::string &text, const std::string &says) const {
     write_run("refused", csv, text, "");
-    try {
-      report("refused");
-      ADD_FAILURE() << text;
-    } catch (const post::UsageError &error) {
-      EXPECT_TRUE(contains(error.what(), {says, csv}));
-    }
+    EXPECT_TRUE(contains(error_of<post::UsageError>([&] { report("refused"); }), {says, csv}));
     EXPECT_FALSE(std::filesystem::exists(root / "report"));
   }
 

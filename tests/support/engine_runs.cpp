@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
@@ -41,6 +40,19 @@ post::StopCondition after_processor_time(double seconds) {
     if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &used) != 0) return false;
     return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec) >= seconds;
   };
+}
+
+namespace {
+constexpr const char *wait_name = "OMPI_MCA_odls_base_sigkill_timeout"; // s from SIGTERM to SIGKILL
+}
+
+WaitForRanks::WaitForRanks(int seconds) {
+  if (const char *before = std::getenv(wait_name)) before_ = before;
+  ::setenv(wait_name, std::to_string(seconds).c_str(), 1);
+}
+
+WaitForRanks::~WaitForRanks() {
+  before_.empty() ? ::unsetenv(wait_name) : ::setenv(wait_name, before_.c_str(), 1);
 }
 
 std::string number(double value) { return post::number_text(value); }
@@ -82,8 +94,7 @@ ChainRun run_chain(const std::string &name, post::Transition transition, int ste
                  {"samples_per_cycle", std::to_string(samples_per_cycle)}},
                 more),
            {{"stepping", "stock"}}); // the engine takes the first value of a variable: `more` goes before
-  const Outcome outcome = run_deck(chain_deck("in.chain"), variables, scratch.path());
-  if (!outcome.ok()) throw std::runtime_error("in.chain failed:\n" + outcome.output);
+  well(run_deck(chain_deck("in.chain"), variables, scratch.path()));
   return read_run(scratch.path());
 }
 

@@ -4,12 +4,11 @@
 #include "support/files.h"
 #include "support/process.h"
 #include "tests/support/checks.h"
+#include "tests/support/engine_runs.h"
 #include "tests/support/lines.h"
 #include "tests/support/run_folders.h"
 
 #include <gtest/gtest.h>
-
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -24,13 +23,6 @@ using namespace drumlin::post;
 
 class MeterCommand : public ::testing::Test {
 protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("drumlin-meter-" + std::to_string(::getpid()) + "-" +
-                                           ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   Outcome meter(std::vector<std::string> words) const {
     words.insert(words.begin(), {DRUMLIN_TOOLS, "meter"});
     return run_program(words, {}, folder_);
@@ -48,7 +40,8 @@ protected:
     write_files({{folder_ / name, text}});
   }
 
-  fs::path folder_;
+  const Scratch scratch_;
+  const fs::path folder_ = scratch_.path();
 };
 
 const std::vector<std::string> as_measured = {"--column",        "time=Time:ms", "--column",

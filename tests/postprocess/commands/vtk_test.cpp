@@ -6,6 +6,7 @@
 #include "support/process.h"
 #include "tests/support/checks.h"
 #include "tests/support/dump_texts.h"
+#include "tests/support/engine_runs.h"
 #include "tests/support/lines.h"
 
 #include <fmt/format.h>
@@ -23,13 +24,10 @@
 #include <vtkXMLPolyDataReader.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <regex>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -44,19 +42,12 @@ using post::read_text;
 class VtkCommand : public ::testing::Test {
 protected:
   VtkCommand() {
-    std::string name = (fs::temp_directory_path() / "drumlin-vtk-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
-    folder_ = name;
     put("run/parameters.csv", "name,value\ndeck,bed\ntimestep,0.125\n");
     for (const char *step : {"0", "1000", "200"}) {
       put(std::string("run/dump/balls_") + step + ".vtp", ball_dump());
       put(std::string("run/dump/contacts_") + step + ".dump", contact_dump());
       put(std::string("run/dump/balls_boundingBox_") + step + ".vtr", "of no interest");
     }
-  }
-  ~VtkCommand() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
   }
 
   void put(const std::string &file, const std::string &text) const {
@@ -83,7 +74,8 @@ protected:
     return all;
   }
 
-  fs::path folder_;
+  const Scratch scratch_;
+  const fs::path folder_ = scratch_.path();
 };
 
 TEST_F(VtkCommand, WritesThreeCollections) {
@@ -280,9 +272,9 @@ TEST_F(VtkCommand, DoesNotReplaceTheDumps) {
 struct Bad {
   std::string name;
   std::map<std::string, std::string> files; ///< replaced in the folder of the run; removed if "-"
-  std::vector<std::string> words;           ///< of the call, after vtk
   std::vector<std::string> says;
-  int skipped = 0; ///< lines on steps that are left out, before the error
+  std::vector<std::string> words = {"run"}; ///< of the call, after vtk
+  int skipped = 0;                          ///< lines on steps that are left out, before the error
 };
 
 // Longer than other tests: it has a line for each mistake.
@@ -300,104 +292,84 @@ TEST_F(VtkCommand, BadInputIsOneLineAndTouchesNothing) {
   const std::string text_head = "ITEM: TIMESTEP\n300\nITEM: NUMBER OF ATOMS\n2\nITEM: ATOMS ";
   put("file", "not a folder");
   const std::vector<Bad> table = {
-      {"no folder", {}, {}, {"dir is required"}},
-      {"unknown folder", {}, {"nowhere"}, {"'nowhere'", "dump/balls_STEP.vtp", "allowed"}},
+      {"no folder", {}, {"dir is required"}, {}},
+      {"unknown folder", {}, {"'nowhere'", "dump/balls_STEP.vtp", "allowed"}, {"nowhere"}},
       {"no dumps",
        {{"dump/balls_0.vtp", "-"}, {"dump/balls_200.vtp", "-"}, {"dump/balls_1000.vtp", "-"}},
-       {"run"},
        {"'run'", "dump/balls_STEP.vtp"}},
-      {"no parameters", {{"parameters.csv", "-"}}, {"run"}, {"parameters.csv", "cannot be read"}},
-      {"no time step", {{"parameters.csv", "name,value\nk,1\n"}}, {"run"}, {"parameters.csv", "timestep"}},
-      {"time step of words", {{"parameters.csv", "name,value\ntimestep,soon\n"}}, {"run"}, {"'soon'", "> 0"}},
-      {"time step of zero", {{"parameters.csv", "name,value\ntimestep,0\n"}}, {"run"}, {"'0'", "> 0"}},
-      {"endless time step", {{"parameters.csv", "name,value\ntimestep,inf\n"}}, {"run"}, {"'inf'", "> 0"}},
+      {"no parameters", {{"parameters.csv", "-"}}, {"parameters.csv", "cannot be read"}},
+      {"no time step", {{"parameters.csv", "name,value\nk,1\n"}}, {"parameters.csv", "timestep"}},
+      {"time step of words", {{"parameters.csv", "name,value\ntimestep,soon\n"}}, {"'soon'", "> 0"}},
+      {"time step of zero", {{"parameters.csv", "name,value\ntimestep,0\n"}}, {"'0'", "> 0"}},
+      {"endless time step", {{"parameters.csv", "name,value\ntimestep,inf\n"}}, {"'inf'", "> 0"}},
       {"angular frequency of words",
        {{"parameters.csv", "name,value\ntimestep,1\nomega,fast\n"}},
-       {"run"},
        {"omega is 'fast'", "> 0"}},
       {"negative amplitude",
        {{"parameters.csv", "name,value\ntimestep,1\nomega,1\nFw,-1\n"}},
-       {"run"},
        {"Fw is '-1'", ">= 0"}},
-      {"cell of zero", {}, {"run", "--cell", "0"}, {"--cell", "'0'", "from 1e-09"}},
-      {"negative cell", {}, {"run", "--cell=-1"}, {"--cell", "'-1'", "from 1e-09"}},
-      {"cell of words", {}, {"run", "--cell", "big"}, {"--cell", "'big'", "a number"}},
-      {"empty cell", {}, {"run", "--cell", ""}, {"--cell", "''", "a number"}},
-      {"absurd cell", {}, {"run", "--cell", "1e300"}, {"--cell", "'1e300'", "a number"}},
-      {"empty out", {}, {"run", "--out", ""}, {"--out", "''", "allowed"}},
-      {"too many cells", {}, {"run", "--cell", "1e-5"}, {"--cell", "larger cells"}},
-      {"out is a file", {}, {"run", "--out", "file"}, {"--out", "'file'", "allowed"}},
-      {"out below a file", {}, {"run", "--out", "file/x"}, {"--out", "'file/x'", "allowed"}},
-      {"out is the dumps", {}, {"run", "--out", "run/dump"}, {"--out", "'run/dump'", "balls.pvd", "allowed"}},
-      {"text dump of words", {{"dump/balls_300.dump", "hello"}}, {"run"}, {"balls_300.dump", "no text dump"}},
+      {"cell of zero", {}, {"--cell", "'0'", "from 1e-09"}, {"run", "--cell", "0"}},
+      {"negative cell", {}, {"--cell", "'-1'", "from 1e-09"}, {"run", "--cell=-1"}},
+      {"cell of words", {}, {"--cell", "'big'", "a number"}, {"run", "--cell", "big"}},
+      {"empty cell", {}, {"--cell", "''", "a number"}, {"run", "--cell", ""}},
+      {"absurd cell", {}, {"--cell", "'1e300'", "a number"}, {"run", "--cell", "1e300"}},
+      {"empty out", {}, {"--out", "''", "allowed"}, {"run", "--out", ""}},
+      {"too many cells", {}, {"--cell", "larger cells"}, {"run", "--cell", "1e-5"}},
+      {"out is a file", {}, {"--out", "'file'", "allowed"}, {"run", "--out", "file"}},
+      {"out below a file", {}, {"--out", "'file/x'", "allowed"}, {"run", "--out", "file/x"}},
+      {"out is the dumps", {}, {"--out", "'run/dump'", "balls.pvd", "allowed"}, {"run", "--out", "run/dump"}},
+      {"text dump of words", {{"dump/balls_300.dump", "hello"}}, {"balls_300.dump", "no text dump"}},
       {"text dump with a short row",
        {{"dump/balls_300.dump", text_head + "id type\n1 1\n2\n"}},
-       {"run"},
        {"balls_300.dump", "row 2 has 1 numbers; allowed: 2"}},
       {"text dump with a word",
        {{"dump/balls_300.dump", text_head + "id type\n1 soil\n2 1\n"}},
-       {"run"},
        {"balls_300.dump", "a number is 'soil'; allowed: "}},
       {"text dump that is not finite",
        {{"dump/balls_300.dump", text_head + "id type\n1 1\n2 nan\n"}},
-       {"run"},
        {"balls_300.dump", "'type' holds nan"}},
       {"text dump without radius",
        {{"dump/balls_300.dump", text_head + "id type\n1 1\n2 1\n"}},
-       {"run"},
        {"balls_300.dump", "column 'radius' is missing"}},
       {"text dump of two steps",
        {{"dump/balls_300.dump", text_head + "id type\n1 1\n2 1\n" + text_head + "id type\n1 1\n2 1\n"}},
-       {"run"},
        {"balls_300.dump", "more than one step"}},
       {"all balls cut short",
        {{"dump/balls_0.vtp", ""}, {balls, ""}, {"dump/balls_1000.vtp", "<?xml"}},
-       {"run"},
        {"cut short"},
-       3},
-      {"balls of words", {{balls, "hello"}}, {"run"}, {"balls_200.vtp", "no whole VTK file"}},
-      {"no balls", {{balls, point_data(0, "", {})}}, {"run"}, {"balls_200.vtp", "no balls"}},
-      {"points without data", {{balls, point_data(1, "0 0 0", {})}}, {"run"}, {"balls_200.vtp", "'id'"}},
-      {"no radius",
-       {{balls, ball_dump(without(ball_arrays(), "radius"))}},
        {"run"},
-       {"balls_200.vtp", "'radius'"}},
+       3},
+      {"balls of words", {{balls, "hello"}}, {"balls_200.vtp", "no whole VTK file"}},
+      {"no balls", {{balls, point_data(0, "", {})}}, {"balls_200.vtp", "no balls"}},
+      {"points without data", {{balls, point_data(1, "0 0 0", {})}}, {"balls_200.vtp", "'id'"}},
+      {"no radius", {{balls, ball_dump(without(ball_arrays(), "radius"))}}, {"balls_200.vtp", "'radius'"}},
       {"flat velocity",
        {{balls, ball_dump(with(ball_arrays(), "v", {"v", 1, "1 2 3"}))}},
-       {"run"},
        {"balls_200.vtp", "'v'"}},
       {"radius of zero",
        {{balls, ball_dump(with(ball_arrays(), "radius", {"radius", 1, "2 0 1"}))}},
-       {"run"},
        {"ball 2", "> 0"}},
       {"mass of nan",
        {{balls, ball_dump(with(ball_arrays(), "mass", {"mass", 1, "2 nan 1"}))}},
-       {"run"},
        {"'mass'", "nan"}},
       {"an id twice",
        {{balls, ball_dump(with(ball_arrays(), "id", {"id", 1, "9 1 1"}))}},
-       {"run"},
        {"two balls", "1"}},
       {"no soil",
        {{balls, ball_dump(with(ball_arrays(), "type", {"type", 1, "2 3 3"}))}},
-       {"run"},
        {"balls_200.vtp", "no soil"}},
-      {"contacts of words", {{contacts, "hello"}}, {"run"}, {"contacts_200.dump", "no text dump"}},
+      {"contacts of words", {{contacts, "hello"}}, {"contacts_200.dump", "no text dump"}},
       {"contacts of another fix",
        {{contacts, std::regex_replace(contact_dump(), std::regex("f_contacts"), "f_mine")}},
-       {"run"},
        {"contacts_200.dump", "'f_contacts[1]'"}},
       {"contact of a stranger",
        {{contacts, contact_dump("7 1 1 0 0 1 0 0 0.1\n")}},
-       {"run"},
        {"contacts_200.dump", "ball 7"}},
       {"a stranger on the floor",
        {{contacts, contact_dump("7 0 0 1 0 0 1 0 0.1\n")}},
-       {"run"},
        {"contacts_200.dump", "ball 7"}},
       {"a contact twice",
        {{contacts, contact_dump("2 1 1 0 0 1 0 0 0.1\n1 2 -1 0 0 -1 0 0 0.1\n")}},
-       {"run"},
        {"contacts_200.dump", "1 and 2", "twice"}},
   };
   const auto before = files("run/vtk");
@@ -421,8 +393,7 @@ TEST_F(VtkCommand, BadInputIsOneLineAndTouchesNothing) {
                       [](const std::string &line) { return line.find("steps read") == std::string::npos; }),
         1 + bad.skipped)
         << outcome.output;
-    for (const std::string &said : bad.says)
-      EXPECT_TRUE(printed(outcome, said));
+    EXPECT_TRUE(printed(outcome, bad.says));
     EXPECT_EQ(files("run/vtk"), before);
     for (const auto &[file, text] : saved)
       if (text == "-")

@@ -18,7 +18,6 @@
 #include <functional>
 #include <numeric>
 #include <random>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>

@@ -5,12 +5,11 @@
 #include "pages/html.h"
 #include "support/files.h"
 #include "tests/support/checks.h"
+#include "tests/support/engine_runs.h"
 #include "tests/support/page.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-
-#include <unistd.h>
 
 namespace drumlin::test {
 namespace {
@@ -18,7 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(Page, IsStrictXmlAndItsLinksLeadToFiles) {
-  const fs::path out = fs::temp_directory_path() / fmt::format("drumlin-page-{}", ::getpid());
+  const Scratch scratch;
+  const fs::path out = scratch.path();
   post::Page page(out, "Steps & <errors>", post::Drawing::chain);
   page.answer("Steps < errors.");
   page.paragraph("a < b & c");
@@ -45,7 +45,6 @@ TEST(Page, IsStrictXmlAndItsLinksLeadToFiles) {
   EXPECT_EQ(parsed.links.size(), 6u);
   EXPECT_EQ(parsed.contents, (std::vector<std::string>{"#answer", "#section-1", "#section-2"}));
   EXPECT_EQ(post::read_text(out / "data/numbers.csv"), "case,error (-)\nI,1e-3\n");
-  fs::remove_all(out);
 }
 
 std::size_t count(const std::string &text, const std::string &part) {
@@ -85,7 +84,8 @@ TEST(Table, MarksGoodAndBadRowsInItsFirstColumn) {
 }
 
 TEST(Acceptance, IsPartOfTheAnswerAndMarksIt) {
-  const fs::path out = fs::temp_directory_path() / fmt::format("drumlin-answer-{}", ::getpid());
+  const Scratch scratch;
+  const fs::path out = scratch.path();
   for (const bool holds : {true, false}) {
     const std::vector<post::Acceptance> criteria = {{"error at most 1", "0.5", true},
                                                     {"order at least 2", "1.5", holds}};
@@ -106,7 +106,6 @@ TEST(Acceptance, IsPartOfTheAnswerAndMarksIt) {
         fmt::format("acceptance criterion,measured,holds\nerror at most 1,0.5,yes\norder at least 2,1.5,{}\n",
                     holds ? "yes" : "no"));
   }
-  fs::remove_all(out);
 }
 
 TEST(KeyFigures, AreTheTwoOfLargestWeight) {

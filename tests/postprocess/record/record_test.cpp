@@ -7,10 +7,9 @@
 #include "support/csv.h"
 #include "support/files.h"
 #include "tests/support/checks.h"
+#include "tests/support/engine_runs.h"
 
 #include <gtest/gtest.h>
-
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -30,15 +29,11 @@ constexpr double omega = 125.66370614359172;
 class RecordFiles : public ::testing::Test {
 protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("drumlin-record-" + std::to_string(::getpid()) + "-" +
-                                           ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
     DirectOptions options;
     options.cycles = 6;
     options.samples_per_cycle = 100;
     history_ = solve_direct(table1_case("II", Transition::B), options).history;
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   fs::path put(const std::string &name, const std::string &text) const {
     write_files({{folder_ / name, text}});
@@ -53,18 +48,11 @@ protected:
   /// The message with which the run is refused after a change of its history.
   std::string refused(const std::function<void(ChainHistory &)> &change) {
     change(history_);
-    return message([&] { read_record(put_run()); });
-  }
-  static std::string message(const std::function<void()> &call) {
-    try {
-      call();
-    } catch (const std::exception &error) {
-      return error.what();
-    }
-    return "not refused";
+    return error_of<std::exception>([&] { read_record(put_run()); });
   }
 
-  fs::path folder_;
+  const Scratch scratch_;
+  const fs::path folder_ = scratch_.path();
   ChainHistory history_;
 };
 
@@ -123,12 +111,12 @@ TEST_F(RecordFiles, SamplingRateReplacesTimesOfFewDigits) {
     text += csv_line({number_text(history_.time[i], 2), number_text(history_.a_drum[i])});
   const fs::path file = put("measured.csv", text);
   RecordOptions options;
-  EXPECT_TRUE(contains(message([&] { read_record(file, options); }), "line"));
+  EXPECT_TRUE(contains(error_of<std::exception>([&] { read_record(file, options); }), "line"));
   std::string untimed = "a_drum\n";
   for (const double a : history_.a_drum)
     untimed += number_text(a) + "\n";
   const fs::path bare = put("bare.csv", untimed);
-  EXPECT_TRUE(contains(message([&] { read_record(bare, options); }), "time"));
+  EXPECT_TRUE(contains(error_of<std::exception>([&] { read_record(bare, options); }), "time"));
   options.sampling_rate = 2000.0;
   EXPECT_DOUBLE_EQ(read_record(bare, options).time[40], 0.02);
 }
@@ -177,17 +165,17 @@ TEST_F(RecordFiles, RefusesShortAndCoarseRecords) {
   RecordOptions options;
   options.omega = 20 * omega;
   SetUp();
-  const std::string coarse = message([&] { read_record(put_run(), options); });
+  const std::string coarse = error_of<std::exception>([&] { read_record(put_run(), options); });
   EXPECT_TRUE(contains(coarse, "samples per cycle is '5'"));
 }
 
 TEST_F(RecordFiles, RefusesColumns) {
   const fs::path file = put("other.csv", "time,b\n0,1\n1,2\n2,3\n");
-  EXPECT_TRUE(contains(message([&] { read_record(file); }), "no column of motion or force"));
-  EXPECT_TRUE(contains(message([&] { read_record(folder_); }), "the record is '"));
+  EXPECT_TRUE(contains(error_of<std::exception>([&] { read_record(file); }), "no column of motion or force"));
+  EXPECT_TRUE(contains(error_of<std::exception>([&] { read_record(folder_); }), "the record is '"));
   RecordOptions options;
   options.columns.insert(column_from_text("a_drum=c"));
-  EXPECT_TRUE(contains(message([&] { read_record(file, options); }), "'c'"));
+  EXPECT_TRUE(contains(error_of<std::exception>([&] { read_record(file, options); }), "'c'"));
   for (const char *text : {"a_drum", "a=b", "a_drum=", "a_drum=b:kN", "time=b:-s", "a_drum=b:"})
     EXPECT_THROW(column_from_text(text), std::invalid_argument) << text;
 }

@@ -4,6 +4,7 @@
 #include "support/process.h"
 #include "tests/support/checks.h"
 #include "tests/support/dump_texts.h"
+#include "tests/support/engine_runs.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -13,14 +14,10 @@
 #include <sys/sysmacros.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cmath>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <functional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -31,21 +28,9 @@ namespace fs = std::filesystem;
 using post::Outcome;
 using post::read_text;
 
-std::string refused(const std::function<void()> &call) {
-  try {
-    call();
-  } catch (const std::runtime_error &fault) {
-    return fault.what();
-  }
-  return "accepted";
-}
-
 class OutputFiles : public ::testing::Test {
 protected:
   OutputFiles() {
-    std::string name = (fs::temp_directory_path() / "drumlin-output-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
-    folder_ = name;
     fs::create_directory(folder_ / "folder");
     put("file");
     put("read-only");
@@ -58,10 +43,6 @@ protected:
     fs::create_symlink("circle", folder_ / "circle");
     fs::create_symlink("pipe", folder_ / "link-to-pipe");
     fs::create_symlink("folder", folder_ / "link-to-folder");
-  }
-  ~OutputFiles() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
   }
   void put(const std::string &name, const std::string &text = "earlier\n") const {
     fs::create_directories((folder_ / name).parent_path());
@@ -84,7 +65,8 @@ protected:
     return names;
   }
 
-  fs::path folder_;
+  const Scratch scratch_;
+  const fs::path folder_ = scratch_.path();
   bool has_device_ = false;
 };
 
@@ -96,9 +78,9 @@ TEST_F(OutputFiles, NothingButARegularFileIsReplaced) {
     EXPECT_EQ(bed.status, 2) << bed.output;
     EXPECT_EQ(bed.output.rfind("ERROR: drumlin bed: --out is '" + name + "': ", 0), 0u) << bed.output;
     EXPECT_TRUE(printed(bed, "; allowed: a file that can be written\n"));
-    EXPECT_NE(refused([&] { post::write_files({{folder_ / name, "new"}}); }), "accepted");
-    EXPECT_NE(refused([&] { post::append_text(folder_ / name, "new"); }), "accepted");
-    EXPECT_NE(refused([&] { post::replace_file(folder_ / "file", folder_ / name); }), "accepted");
+    EXPECT_NE(error_of([&] { post::write_files({{folder_ / name, "new"}}); }), "no error");
+    EXPECT_NE(error_of([&] { post::append_text(folder_ / name, "new"); }), "no error");
+    EXPECT_NE(error_of([&] { post::replace_file(folder_ / "file", folder_ / name); }), "no error");
     EXPECT_EQ(listing(), before);
   }
 }
@@ -127,11 +109,11 @@ TEST_F(OutputFiles, FoldersOfResultsAreChecked) {
 // Only the checks are called: nothing is written there.
 TEST_F(OutputFiles, TheSystemsFoldersAreRefused) {
   for (const char *name : {"/", "//", "/dev", "/dev/x", "/proc/self", "/sys/x/y", "/tmp/../dev/x"})
-    EXPECT_NE(refused([name] { post::check_output_folder(name); }), "accepted") << name;
+    EXPECT_NE(error_of([name] { post::check_output_folder(name); }), "no error") << name;
   fs::create_symlink("/dev", folder_ / "link-to-dev");
-  EXPECT_NE(refused([this] { post::check_output_folder(folder_ / "link-to-dev" / "x"); }), "accepted");
-  EXPECT_NE(refused([] { post::check_output_file("/dev/drumlin"); }), "accepted");
-  EXPECT_EQ(refused([this] { post::check_output_folder(folder_ / "device-of-mine" / "new"); }), "accepted");
+  EXPECT_NE(error_of([this] { post::check_output_folder(folder_ / "link-to-dev" / "x"); }), "no error");
+  EXPECT_NE(error_of([] { post::check_output_file("/dev/drumlin"); }), "no error");
+  EXPECT_EQ(error_of([this] { post::check_output_folder(folder_ / "device-of-mine" / "new"); }), "no error");
 }
 
 // In an earlier result's folder, too: exact replaces neither a file that is read-only nor a node, and keeps
@@ -265,7 +247,8 @@ TEST_F(FullDisk, ARowThatDoesNotArriveIsAnError) {
     rlimit limit{};
     limit.rlim_cur = limit.rlim_max = 12;
     ::setrlimit(RLIMIT_FSIZE, &limit);
-    const std::string fault = refused([this] { post::append_text(folder_ / "rows.csv", "3,4,5,6,7,8,9\n"); });
+    const std::string fault =
+        error_of([this] { post::append_text(folder_ / "rows.csv", "3,4,5,6,7,8,9\n"); });
     std::_Exit(fault.find("rows.csv: cannot be written: ") != std::string::npos ? 0 : 1);
   };
   EXPECT_EXIT(child(), ::testing::ExitedWithCode(0), "");

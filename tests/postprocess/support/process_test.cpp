@@ -99,12 +99,8 @@ TEST(Process, WithoutItsProgramIsAnError) {
   const Scratch scratch;
   Program program = shell(scratch, "");
   program.words = {"no-such-program"};
-  try {
-    run_program(program);
-    ADD_FAILURE() << "it was started";
-  } catch (const std::runtime_error &fault) {
-    EXPECT_EQ(std::string(fault.what()), "cannot start no-such-program: No such file or directory");
-  }
+  EXPECT_EQ(error_of([&] { run_program(program); }),
+            "cannot start no-such-program: No such file or directory");
 }
 
 TEST(Process, IsFoundByPath) {

@@ -11,13 +11,12 @@
 #include "support/usage_error.h"
 #include "tests/support/checks.h"
 #include "tests/support/dump_texts.h"
+#include "tests/support/engine_runs.h"
 #include "tests/support/page.h"
 #include "tests/support/run_folders.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -37,14 +36,9 @@ namespace fs = std::filesystem;
 /// Six cycles at 20 Hz, of which the last four are steady.
 class BedReport : public ::testing::Test {
 protected:
-  BedReport() : root(fs::temp_directory_path() / fmt::format("drumlin-bed-{}", ::getpid())) {
-    fs::remove_all(root);
+  BedReport() {
     write_run("A", Transition::A);
     write_run("B", Transition::B);
-  }
-  ~BedReport() override {
-    std::error_code ignored;
-    fs::remove_all(root, ignored);
   }
 
   void put(const std::string &file, const std::string &text) const {
@@ -60,7 +54,7 @@ protected:
   void write_dumps(const std::string &name) const { test::write_bed_dumps(root / name); }
 
   BedResult result(const std::string &name) const {
-    auto run = read_run(root / name);
+    auto run = drumlin::post::read_run(root / name);
     run.name = name;
     return analyse_bed(std::move(run));
   }
@@ -76,18 +70,13 @@ protected:
 
   /// Expects that the report is refused with one line that has the words, and that an earlier report stays.
   void expect_refusal(const std::vector<std::string> &names, const std::vector<std::string> &words) const {
-    try {
-      report(names);
-      FAIL() << "was accepted";
-    } catch (const UsageError &error) {
-      const std::string text = error.what();
-      EXPECT_EQ(text.find('\n'), std::string::npos) << text;
-      for (const std::string &word : words)
-        EXPECT_TRUE(contains(text, word));
-    }
+    const std::string error = error_of<UsageError>([&] { report(names); });
+    EXPECT_TRUE(contains(error, words));
+    EXPECT_FALSE(contains(error, "\n"));
   }
 
-  fs::path root;
+  const Scratch scratch_;
+  const fs::path root = scratch_.path();
 };
 
 TEST_F(BedReport, MeasuresWhatTheRecordsSay) {
@@ -323,8 +312,7 @@ TEST_F(BedReport, CutsABedOfThreeDimensionsInTheMiddle) {
   for (const PageFigure &figure : plan.figures)
     figures[figure.figure.name] = &figure;
   const PageFigure &picture = *figures.at("bed1_peak");
-  for (const char *circle : {"A soil,1,1,0.86602", "A soil,2.8,1,0.71414", "A roller,1,3.9,2,"})
-    EXPECT_TRUE(contains(picture.csv, circle));
+  EXPECT_TRUE(contains(picture.csv, {"A soil,1,1,0.86602", "A soil,2.8,1,0.71414", "A roller,1,3.9,2,"}));
   EXPECT_TRUE(contains(picture.caption, "section z = 0.5 m"));
   // Two balls of radius 1 m in 3.8 m by 2 m by 3.2 m.
   EXPECT_TRUE(contains(figures.at("bed1_profile")->csv, "A before whole,1,0.34447"));
@@ -361,12 +349,12 @@ TEST_F(BedReport, IsMadeOfARunThatEndsAtOnce) {
 
 // In a bed of layers parameters of contacts are lists, the lowest layer first; the drum is on the last.
 TEST_F(BedReport, OfLayersHasTheContactsOfTheUppermost) {
-  std::map<std::string, std::string> values = read_run(root / "B").parameters;
+  std::map<std::string, std::string> values = drumlin::post::read_run(root / "B").parameters;
   values["k"] = "1e8,1e9";
   values["D"] = "0.1,0.25";
   put("B/parameters.csv", parameters_text({values.begin(), values.end()}));
-  EXPECT_EQ(read_run(root / "B").chain.k, 1e9);
-  EXPECT_EQ(read_run(root / "B").chain.D, 0.25);
+  EXPECT_EQ(drumlin::post::read_run(root / "B").chain.k, 1e9);
+  EXPECT_EQ(drumlin::post::read_run(root / "B").chain.D, 0.25);
   values["k"] = "1e8,soft";
   put("B/parameters.csv", parameters_text({values.begin(), values.end()}));
   expect_refusal({"B"}, {"parameters.csv", "k is 'soft'", "not a number"});

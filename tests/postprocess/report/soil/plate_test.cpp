@@ -96,12 +96,8 @@ TEST_F(PlateReport, RefusesWhatItCannotRead) {
 
 TEST_F(PlateReport, NeedsTheWidthOfThePlate) {
   write_run("tests", "plate.csv", header + seating + "1,20,1,1,1,1,1,1,1,1,1\n", "deck,plate\n");
-  try {
-    report("tests");
-    ADD_FAILURE();
-  } catch (const UsageError &error) {
-    EXPECT_TRUE(contains(error.what(), "plate_width is ''; allowed: a number above 0"));
-  }
+  EXPECT_TRUE(contains(error_of<UsageError>([this] { report("tests"); }),
+                       "plate_width is ''; allowed: a number above 0"));
 }
 
 } // namespace
