@@ -60,11 +60,6 @@ const Variables mesh_with_stress = {{"mesh", "1"}, {"surface", "mesh/surface/str
 class WallForce : public BothEngines {};
 INSTANTIATE_TEST_SUITE_P(Decks, WallForce, engines_and_steppings(), engine_and_stepping);
 
-Variables together(Variables some, const Variables &more) {
-  some.insert(some.end(), more.begin(), more.end());
-  return some;
-}
-
 /// Heavily damped heaps, whose contacts are solved for together, and balls that come and go: with planes, a
 /// moving mesh (LIGGGHTS) and the faces of a region (LAMMPS).
 TEST_P(WallForce, IsTheMomentumThatTheWallsGive) {
@@ -81,7 +76,7 @@ TEST_P(WallForce, IsTheMomentumThatTheWallsGive) {
         const Scratch folder;
         write_floor(folder / "floor.stl", 0.4, false);
         const Outcome outcome =
-            well(run("wall_force", folder, together(together(law, walls), {{"D", D}, {"store", "yes"}})));
+            well(run("wall_force", folder, with(with(law, walls), {{"D", D}, {"store", "yes"}})));
         const bool mesh = !lammps && !walls.empty();
         const Table rows = table_of(outcome.output, mesh ? 17 : 8);
         ASSERT_EQ(rows.size(), 3001u) << outcome.output;
@@ -105,9 +100,9 @@ TEST(WallForceOnRanks, IsThatOnOne) {
     for (const int ranks : {1, 2}) {
       const Scratch folder;
       write_floor(folder / "floor.stl", 0.4, false);
-      const Outcome outcome = well(run_deck(
-          test_deck(deck), together(walls, {{"newton", newton}, {"rolling", "epsd2"}, {"store", "yes"}}),
-          folder.path(), ranks));
+      const Outcome outcome = well(
+          run_deck(test_deck(deck), with(walls, {{"newton", newton}, {"rolling", "epsd2"}, {"store", "yes"}}),
+                   folder.path(), ranks));
       const Table rows = table_of(outcome.output, lammps ? 8 : 17);
       ASSERT_EQ(rows.size(), 3001u) << outcome.output;
       EXPECT_LT(missing_momentum(rows, force, 1), 1e-12) << deck << ", ranks " << ranks;
@@ -129,12 +124,12 @@ TEST(ForceOnAMesh, IsTheWeightOfAShakenBallOnAverage) {
       const Scratch folder;
       write_floor(folder / "floor.stl", 0.4, false);
       const Outcome outcome = well(run_deck(test_deck("wall_force.in"),
-                                            together(mesh_with_stress, {{"alone", "1"},
-                                                                        {"normal", normal},
-                                                                        {"D", D},
-                                                                        {"amplitude", "2e-3"},
-                                                                        {"steps", "30000"},
-                                                                        {"store", "yes"}}),
+                                            with(mesh_with_stress, {{"alone", "1"},
+                                                                    {"normal", normal},
+                                                                    {"D", D},
+                                                                    {"amplitude", "2e-3"},
+                                                                    {"steps", "30000"},
+                                                                    {"store", "yes"}}),
                                             folder.path()));
       const Table rows = table_of(outcome.output, 17);
       ASSERT_EQ(rows.size(), 12 * period + 1);
@@ -168,13 +163,13 @@ TEST(ForceOnAMesh, GivesItsTorqueStressAndWear) {
     write_floor(folder / "floor.stl", 0.4, false);
     const Outcome outcome =
         well(run_deck(test_deck("wall_force.in"),
-                      together(mesh_with_stress, {{"alone", "1"},
-                                                  {"stepping", stepping},
-                                                  {"D", std::string(stepping) == "second" ? "200" : "5"},
-                                                  {"amplitude", "0"},
-                                                  {"place", "move 0.2 0.15 0 wear finnie"},
-                                                  {"steps", std::to_string(steps)},
-                                                  {"store", "yes"}}),
+                      with(mesh_with_stress, {{"alone", "1"},
+                                              {"stepping", stepping},
+                                              {"D", std::string(stepping) == "second" ? "200" : "5"},
+                                              {"amplitude", "0"},
+                                              {"place", "move 0.2 0.15 0 wear finnie"},
+                                              {"steps", std::to_string(steps)},
+                                              {"store", "yes"}}),
                       folder.path()));
     const Table rows = table_of(outcome.output, 17);
     ASSERT_EQ(rows.size(), static_cast<std::size_t>(steps) + 1) << outcome.output;

@@ -187,13 +187,15 @@ BadGroup contact_energy() {
   });
 }
 
-BadInput with_the_stock_law(const std::string &lines, const std::string &command) {
-  BadInput input{"the stock law, " + command,
-                 lines,
-                 {command + ": pair_style is '", "pair_style gran model hooke/transition"}};
-  input.pair = "pair_style gran model hooke/stiffness\npair_coeff * *\n" + property("kn", "1e7") +
-               property("kt", "1e7") + property("gamman", "1") + property("gammat", "1");
-  return input;
+BadInput with_the_stock_law(const std::string &lines, const std::string &command,
+                            unsigned kind = on_one_rank) {
+  return {"the stock law, " + command,
+          lines,
+          {command + ": pair_style is '", "pair_style gran model hooke/transition"},
+          kind,
+          {},
+          "pair_style gran model hooke/stiffness\npair_coeff * *\n" + property("kn", "1e7") +
+              property("kt", "1e7") + property("gamman", "1") + property("gammat", "1")};
 }
 
 BadGroup roller_history() {
@@ -255,12 +257,13 @@ BadGroup roller_history() {
        "time step as long as the fix is defined, or no keyword cycles",
        in_the_run},
   });
-  group.inputs.push_back(
-      with_the_stock_law("fix history drum roller/history file out/x.csv every 10", "fix roller/history"));
-  group.inputs.push_back(
-      with_the_stock_law("fix events all contact/events file out/x.csv", "fix contact/events"));
-  group.inputs.push_back(with_the_stock_law("fix contacts all contact/local every 10", "fix contact/local"));
-  group.inputs.push_back(with_the_stock_law("fix energy all contact/energy", "fix contact/energy"));
+  for (const BadInput &input :
+       {with_the_stock_law("fix history drum roller/history file out/x.csv every 10", "fix roller/history"),
+        with_the_stock_law("fix events all contact/events file out/x.csv", "fix contact/events",
+                           on_two_ranks),
+        with_the_stock_law("fix contacts all contact/local every 10", "fix contact/local"),
+        with_the_stock_law("fix energy all contact/energy", "fix contact/energy")})
+    group.inputs.push_back(input);
   return group;
 }
 

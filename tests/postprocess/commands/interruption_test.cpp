@@ -63,15 +63,19 @@ std::string without_times(const std::string &table) {
   return text;
 }
 
-/// Calls a command without interruption in the folder `whole` of a scratch folder, then in others, where it
-/// is killed at random times until it ends by itself; as often as kills() says. `compare` gets the folders of
-/// `--out` of the two.
+/// Calls a command without interruption in the folder `whole` of a scratch folder, then, with each of `more`
+/// words, in others, where it is killed at random times until it ends by itself; as often as kills() says.
+/// `compare` gets the folders of `--out` of the two.
 template <class Compare>
-void kill_and_resume(const std::vector<std::string> &words, const Scratch &scratch, const Compare &compare) {
+void kill_and_resume(const std::vector<std::string> &words, const Compare &compare,
+                     const std::vector<std::vector<std::string>> &more = {{}}) {
+  const Scratch scratch;
   post::Program program;
-  program.words = {DRUMLIN_TOOLS};
-  program.words.insert(program.words.end(), words.begin(), words.end());
-  const auto call = [&](const std::string &folder, double limit, int signal) {
+  const auto call = [&](const std::string &folder, double limit, int signal,
+                        const std::vector<std::string> &further) {
+    program.words = {DRUMLIN_TOOLS};
+    for (const std::vector<std::string> &part : {words, further})
+      program.words.insert(program.words.end(), part.begin(), part.end());
     fs::create_directory(scratch / folder);
     program.folder = scratch / folder;
     program.output = scratch / (folder + ".txt");
@@ -80,28 +84,29 @@ void kill_and_resume(const std::vector<std::string> &words, const Scratch &scrat
     return run_program(program);
   };
   const auto begin = std::chrono::steady_clock::now();
-  const Outcome whole = well(call("whole", 600.0, SIGKILL));
+  well(call("whole", 600.0, SIGKILL, more.front()));
   const double length = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   std::mt19937 random(std::random_device{}());
-  int killed = 0, folders = 0;
-  while (killed < kills() && !testing::Test::HasFailure()) {
-    const std::string folder = fmt::format("killed-{}", ++folders);
-    for (int times = 1;; ++times) {
-      const double limit = std::uniform_real_distribution<double>(0.0, length / 3.0)(random);
-      const Outcome outcome =
-          call(folder, killed < kills() && times < 20 ? limit : 600.0, killed % 2 == 0 ? SIGKILL : SIGTERM);
-      if (!outcome.timed_out) {
-        ASSERT_TRUE(outcome.ok()) << outcome.output;
-        break;
+  int folders = 0;
+  for (const std::vector<std::string> &further : more)
+    for (int killed = 0; killed < kills() && !testing::Test::HasFailure();) {
+      const std::string folder = fmt::format("killed-{}", ++folders);
+      for (int times = 1;; ++times) {
+        const double limit = std::uniform_real_distribution<double>(0.0, length / 3.0)(random);
+        const Outcome outcome = call(folder, killed < kills() && times < 20 ? limit : 600.0,
+                                     killed % 2 == 0 ? SIGKILL : SIGTERM, further);
+        if (!outcome.timed_out) {
+          well(outcome);
+          break;
+        }
+        ++killed;
       }
-      ++killed;
+      compare(scratch / "whole/out", scratch / folder / "out");
+      EXPECT_EQ(content(scratch / folder).count("out"), 1U);
+      for (const fs::directory_entry &entry : fs::directory_iterator(scratch / folder))
+        EXPECT_EQ(entry.path().filename(), "out");
     }
-    compare(scratch / "whole/out", scratch / folder / "out");
-    EXPECT_EQ(content(scratch / folder).count("out"), 1U);
-    for (const fs::directory_entry &entry : fs::directory_iterator(scratch / folder))
-      EXPECT_EQ(entry.path().filename(), "out");
-  }
-  fmt::print("{} kills in {} folders\n", killed, folders);
+  fmt::print("at least {} kills of each in {} folders\n", kills(), folders);
 }
 
 void expect_same(const fs::path &whole, const fs::path &resumed) {
@@ -114,25 +119,24 @@ void expect_same(const fs::path &whole, const fs::path &resumed) {
 }
 
 TEST(KilledAndCalledAgain, AMapIsTheSame) {
-  kill_and_resume({"map", "--x", "k:5e6:40e6:40", "--y", "D:0.1:0.5:30", "--out", "out"}, Scratch(),
-                  expect_same);
+  kill_and_resume({"map", "--x", "k:5e6:40e6:40", "--y", "D:0.1:0.5:30", "--out", "out"}, expect_same);
 }
 
 TEST(KilledAndCalledAgain, AStudyOfTheMeterIsTheSame) {
-  kill_and_resume({"study", "meter", "--quick", "--out", "out"}, Scratch(), expect_same);
+  kill_and_resume({"study", "meter", "--quick", "--out", "out"}, expect_same);
 }
 
 TEST(KilledAndCalledAgain, AStudyOfBedsIsTheSame) {
-  for (const char *jobs : {"1", "2"})
-    kill_and_resume({"study", "box", "--quick", "--jobs", jobs, "--out", "out"}, Scratch(),
-                    [](const fs::path &whole, const fs::path &resumed) {
-                      EXPECT_EQ(without_times(read_text(resumed / "runs.csv")),
-                                without_times(read_text(whole / "runs.csv")));
-                      const auto expected = content(whole), found = content(resumed);
-                      for (const auto &[name, text] : expected)
-                        EXPECT_EQ(found.count(name), 1U) << name;
-                      EXPECT_EQ(found.size(), expected.size());
-                    });
+  kill_and_resume({"study", "box", "--quick", "--out", "out"},
+                  [](const fs::path &whole, const fs::path &resumed) {
+                    EXPECT_EQ(without_times(read_text(resumed / "runs.csv")),
+                              without_times(read_text(whole / "runs.csv")));
+                    const auto expected = content(whole), found = content(resumed);
+                    for (const auto &[name, text] : expected)
+                      EXPECT_EQ(found.count(name), 1U) << name;
+                    EXPECT_EQ(found.size(), expected.size());
+                  },
+                  {{"--jobs", "1"}, {"--jobs", "2"}});
 }
 
 /// A calibration on beds of 60 discs under a small roller, which takes some ten seconds.
@@ -142,9 +146,7 @@ const std::vector<std::string> small_calibration = {
     "out",       "--set",    "m2=100",  "--set",         "m3=50",     "--set",   "r2=0.1", "--set",
     "r3=0.05",   "--set",    "k23=5e4", "--set",         "c23=500",   "--set",   "Fw=2940"};
 
-TEST(KilledAndCalledAgain, ACalibrationIsTheSame) {
-  kill_and_resume(small_calibration, Scratch(), expect_same);
-}
+TEST(KilledAndCalledAgain, ACalibrationIsTheSame) { kill_and_resume(small_calibration, expect_same); }
 
 /// The processes that a process has started.
 std::vector<pid_t> children_of(pid_t parent) {
@@ -202,7 +204,7 @@ TEST(KilledAndCalledAgain, AReportIsTheSame) {
   const Scratch scratch;
   well(run_program({DRUMLIN_TOOLS, "exact", "--cycles", "30", "--out", "run"}, {}, scratch.path()));
   const std::string run = (scratch / "run").string();
-  kill_and_resume({"report", run, "--out", "out"}, Scratch(), expect_same);
+  kill_and_resume({"report", run, "--out", "out"}, expect_same);
 }
 
 // In an installation the decks are in a folder that a user cannot write: the case file goes into a copy of
