@@ -382,21 +382,20 @@ struct Moved {
 };
 
 Variables on_moved(const Moved &scene, double mass, double dt = 1e-4, int steps = 500) {
-  const Variables all = with(scene.more, {{"one", "0.5 0.5 0.5"},
-                                          {"two", "0.5 0.59999 0.5"},
-                                          {"box", "block 0 1 0 1 0 1"},
-                                          {"sides", "f f f"},
-                                          {"m1", number(mass)},
-                                          {"c", "1000"},
-                                          {"mu", "0.5"},
-                                          {"ct", "20"},
-                                          {"integrated", "two"},
-                                          {"first", "fix gravity two gravity 9.81 vector 0 -1 0"},
-                                          {"second", scene.move},
-                                          {"dt", number(dt)},
-                                          {"steps", std::to_string(steps)},
-                                          {"every", std::to_string(steps)}});
-  return all;
+  return with(scene.more, {{"one", "0.5 0.5 0.5"},
+                           {"two", "0.5 0.59999 0.5"},
+                           {"box", "block 0 1 0 1 0 1"},
+                           {"sides", "f f f"},
+                           {"m1", number(mass)},
+                           {"c", "1000"},
+                           {"mu", "0.5"},
+                           {"ct", "20"},
+                           {"integrated", "two"},
+                           {"first", "fix gravity two gravity 9.81 vector 0 -1 0"},
+                           {"second", scene.move},
+                           {"dt", number(dt)},
+                           {"steps", std::to_string(steps)},
+                           {"every", std::to_string(steps)}});
 }
 
 const std::vector<Moved> &moved() {

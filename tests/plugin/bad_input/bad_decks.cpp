@@ -1,6 +1,7 @@
 #include "tests/plugin/bad_input/bad_input.h"
+#include "tests/support/lines.h"
 
-#include <sstream>
+#include <fmt/format.h>
 
 namespace drumlin::test {
 namespace {
@@ -18,14 +19,6 @@ struct Values {
   unsigned kind = on_one_rank;
 };
 
-std::vector<std::string> words_of(const std::string &text) {
-  std::istringstream in(text);
-  std::vector<std::string> words;
-  for (std::string word; in >> word;)
-    words.push_back(word);
-  return words;
-}
-
 /// The mistakes in variables of a deck of inputs. The lines of a row are "NAME VALUE, NAME VALUE".
 BadGroup of_deck(const std::string &name, const std::string &deck, const std::vector<Values> &table,
                  const std::vector<Row> &rows = {}) {
@@ -34,12 +27,12 @@ BadGroup of_deck(const std::string &name, const std::string &deck, const std::ve
     for (const std::string &variable : words_of(row.variables)) {
       unsigned kind = row.kind;
       for (const std::string &value : words_of(row.values)) {
-        group.inputs.push_back(
-            {variable + " '" + value + "'",
-             "",
-             {"drumlin/check: variable " + variable + " is '" + value + "'; ", "allowed: " + row.allowed},
-             kind,
-             {{variable, value}}});
+        group.inputs.push_back({fmt::format("{} '{}'", variable, value),
+                                "",
+                                {fmt::format("drumlin/check: variable {} is '{}'; ", variable, value),
+                                 "allowed: " + row.allowed},
+                                kind,
+                                {{variable, value}}});
         kind = on_one_rank;
       }
     }

@@ -23,14 +23,6 @@ std::string word_of(Verdict verdict) {
   return verdict == Verdict::right ? "right" : verdict == Verdict::refused ? "refused" : "untried";
 }
 
-std::vector<std::string> words_of(const std::string &text) {
-  std::istringstream in(text);
-  std::vector<std::string> words;
-  for (std::string word; in >> word;)
-    words.push_back(word);
-  return words;
-}
-
 Verdicts of_the_plugin() {
   Verdicts all;
   for (const OtherFixes &fixes : other_fixes)
