@@ -306,7 +306,8 @@ TEST(Calibration, RefusesRowsOfNoCalibration) {
            {"1,1,search,1e9,0.2,,0.2,\n", "line 2, column 'measured k' is ''; allowed: a finite number"},
            {"1,1,start,1e9,0.2,1e6,0.2,\n",
             "line 2, column 'stage' is 'start'; allowed: search, slopes, estimate"}}) {
-    EXPECT_TRUE(contains(error_of([&] { continued(task, {3, 1}, scattered(8), header + rows); }), message));
+    const std::string text = header + rows;
+    EXPECT_TRUE(contains(error_of([&] { continued(task, {3, 1}, scattered(8), text); }), message));
   }
 }
 

@@ -63,7 +63,7 @@ TEST(StabilityMap, WithoutItsPointsIsNotJudged) {
 
 TEST(StabilityPage, ShowsVerdictsAndCommands) {
   const Scratch scratch;
-  const fs::path out = scratch.path();
+  const fs::path &out = scratch.path();
   post::Extreme row;
   row.group = "Must stop";
   row.name = "a & b";

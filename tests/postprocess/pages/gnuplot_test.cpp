@@ -67,7 +67,7 @@ TEST(Script, DrawsHostileNamesAsTheyAre) {
 // On a full disk gnuplot leaves a part of a picture and ends with 0.
 TEST(Picture, ThatIsCutShortIsAnError) {
   const Scratch scratch;
-  const fs::path folder = scratch.path();
+  const fs::path &folder = scratch.path();
   std::ofstream(folder / "f.csv") << "x,y\n1,2\n2,3\n";
   Figure figure;
   figure.name = "f";
@@ -204,7 +204,7 @@ std::vector<double> heights_of(const std::string &svg, const std::string &text) 
 // gnuplot thinks that letters are wider in SVG files than they are.
 TEST(Legend, IsBelowTheAxisLabelInSvgFiles) {
   const Scratch scratch;
-  const fs::path folder = scratch.path();
+  const fs::path &folder = scratch.path();
   write_files({{folder / "f.csv", "x,y\n0,-1e6\n1,2e6\n"}});
   for (const int columns : {1, 2, 3})
     for (const char *longest : {"A", "dissipated", "work of the exciter", "the energy of the drum alone"}) {

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 TEST(Page, IsStrictXmlAndItsLinksLeadToFiles) {
   const Scratch scratch;
-  const fs::path out = scratch.path();
+  const fs::path &out = scratch.path();
   post::Page page(out, "Steps & <errors>", post::Drawing::chain);
   page.answer("Steps < errors.");
   page.paragraph("a < b & c");
@@ -85,7 +85,7 @@ TEST(Table, MarksGoodAndBadRowsInItsFirstColumn) {
 
 TEST(Acceptance, IsPartOfTheAnswerAndMarksIt) {
   const Scratch scratch;
-  const fs::path out = scratch.path();
+  const fs::path &out = scratch.path();
   for (const bool holds : {true, false}) {
     const std::vector<post::Acceptance> criteria = {{"error at most 1", "0.5", true},
                                                     {"order at least 2", "1.5", holds}};

@@ -635,7 +635,7 @@ TEST_F(Report, NamesThePackageOfAMissingGnuplot) {
 
 TEST(Names, AreTheShortestTailsThatDiffer) {
   const Scratch scratch;
-  const fs::path root = scratch.path();
+  const fs::path &root = scratch.path();
   for (const char *name : {"stock/II-B", "second/II-B"})
     fs::create_directories(root / name);
   std::vector<drumlin::post::Run> runs(2);
