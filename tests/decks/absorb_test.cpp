@@ -1,5 +1,6 @@
 // fix boundary/absorb in both engines: waves on a chain and on a hexagonal lattice, of which the boundary
 // reflects the share of closed forms; settlement; energy balance; ranks and restart.
+#include "tests/support/checks.h"
 #include "tests/support/engine_and_scheme.h"
 #include "tests/support/oscillator.h"
 
@@ -179,13 +180,12 @@ ChainsRun run_chains(const std::string &engine, const std::string &stepping) {
   }
   write_balls(folder, {d * 2 * count, 0.1, d * (length + 2)}, balls);
   write_fixes(folder, lines + rigid);
-  const Outcome outcome = run_scene(engine, folder,
-                                    {{"stepping", stepping},
-                                     {"dt", number(dt)},
-                                     {"steps", std::to_string(cycles * per_period)},
-                                     {"every", std::to_string(per_period / samples)},
-                                     {"rows", std::to_string(cycles * per_period)}});
-  if (!outcome.ok()) throw std::runtime_error(outcome.output);
+  well(run_scene(engine, folder,
+                 {{"stepping", stepping},
+                  {"dt", number(dt)},
+                  {"steps", std::to_string(cycles * per_period)},
+                  {"every", std::to_string(per_period / samples)},
+                  {"rows", std::to_string(cycles * per_period)}}));
   const std::vector<Frame> frames = read_dump(folder / "balls.txt");
   for (std::size_t c = 0; c < chains().size(); ++c) {
     std::vector<Complex> rows;
@@ -254,12 +254,11 @@ TEST_P(Absorb, ReflectsPlaneWavesOfCompressionAndShearOnAHexagonalLattice) {
                           boundary("top", high, false, area, density, cp, cs, no_layer, true) +
                           "fix shake_z top" + shake + " direction 0 0 1\nfix shake_x top" + shake +
                           " direction 1 0 0\n");
-  const Outcome outcome = run_scene(engine(), folder,
-                                    with_stepping({{"dt", number(dt)},
-                                                   {"steps", std::to_string(cycles * per_period)},
-                                                   {"every", std::to_string(per_period / samples)},
-                                                   {"rows", std::to_string(cycles * per_period)}}));
-  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  well(run_scene(engine(), folder,
+                 with_stepping({{"dt", number(dt)},
+                                {"steps", std::to_string(cycles * per_period)},
+                                {"every", std::to_string(per_period / samples)},
+                                {"rows", std::to_string(cycles * per_period)}})));
   const std::vector<Frame> frames = read_dump(folder / "balls.txt");
   for (const bool shear : {false, true}) {
     const double speed = shear ? cs : cp;
@@ -301,13 +300,12 @@ TEST_P(Absorb, SettlesUnderALoadAsTheLayerDoes) {
               "fix g all gravity " + number(g) + " vector 0 0 -1\n" +
                   boundary("floor", "1", true, 1, density, cp, 0, H, false),
               "f_floor[1]+f_floor[2]", "f_floor[3]", "f_floor[7]");
-  const Outcome outcome = run_scene(engine(), folder,
-                                    with_stepping({{"dt", "1e-5"},
-                                                   {"D", "0.1"},
-                                                   {"steps", "10000"},
-                                                   {"every", std::to_string(every)},
-                                                   {"rows", std::to_string(every)}}));
-  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  well(run_scene(engine(), folder,
+                 with_stepping({{"dt", "1e-5"},
+                                {"D", "0.1"},
+                                {"steps", "10000"},
+                                {"every", std::to_string(every)},
+                                {"rows", std::to_string(every)}})));
   const std::vector<EnergyRow> rows = energy_rows(folder);
   const std::vector<Frame> frames = read_dump(folder / "balls.txt");
   ASSERT_EQ(rows.size() + 1, frames.size());
@@ -344,11 +342,10 @@ TEST_P(Absorb, KeepsTheStaticReactionAndBalancesTheEnergyOfAPulse) {
               boundary("floor", "1", true, 1, density, cp, 0, 0.1, true) +
                   boundary("top", std::to_string(length), false, 1, density, cp, 0, no_layer, true),
               "f_floor[1]+f_floor[2]+f_top[1]+f_top[2]", "f_floor[3]+f_top[3]", "f_top[6]");
-  const Outcome outcome =
-      run_scene(engine(), folder,
-                second() ? with_stepping({{"dt", number(0.05 * tau)}, {"steps", "10000"}, {"rows", "20"}})
-                         : with_stepping({{"dt", number(0.025 * tau)}, {"steps", "20000"}, {"rows", "40"}}));
-  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  well(run_scene(engine(), folder,
+                 second()
+                     ? with_stepping({{"dt", number(0.05 * tau)}, {"steps", "10000"}, {"rows", "20"}})
+                     : with_stepping({{"dt", number(0.025 * tau)}, {"steps", "20000"}, {"rows", "40"}})));
   const std::vector<EnergyRow> rows = energy_rows(folder);
   ASSERT_EQ(rows.size(), 500u);
   double error = 0, most_work = 0;
@@ -392,15 +389,14 @@ protected:
   }
   static std::vector<Frame> run(const Scratch &folder, const std::string &steps, const std::string &after,
                                 bool restarted, int ranks) {
-    const Outcome outcome = run_scene(engine(), folder,
-                                      {{"dt", "2e-5"},
-                                       {"steps", steps},
-                                       {"after", after},
-                                       {"every", "500"},
-                                       {"rows", "10000"},
-                                       {"restart", restarted ? "1" : "0"}},
-                                      ranks);
-    if (!outcome.ok()) throw std::runtime_error(outcome.output);
+    well(run_scene(engine(), folder,
+                   {{"dt", "2e-5"},
+                    {"steps", steps},
+                    {"after", after},
+                    {"every", "500"},
+                    {"rows", "10000"},
+                    {"restart", restarted ? "1" : "0"}},
+                   ranks));
     return read_dump(folder / "balls.txt");
   }
 };

@@ -9,7 +9,6 @@
 
 #include <cmath>
 #include <ostream>
-#include <string>
 #include <vector>
 
 namespace drumlin::test {

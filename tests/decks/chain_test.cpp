@@ -1,5 +1,6 @@
 // The chain of in.chain in the engine against the direct solver: the four cases under A and B, the order of
 // the stepping, the equilibrium that it starts from, and Eq. (1) in every recorded row.
+#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 
 #include "chain/analysis.h"
@@ -295,8 +296,7 @@ TEST(Rollers, FollowTheDirectSolver) {
 
 TEST(Rollers, TheForceFollowsFromTheFrequencyUnlessItIsGiven) {
   const auto largest_force = [](const Variables &given) {
-    Variables variables = {{"cycles", "1"}};
-    variables.insert(variables.end(), given.begin(), given.end());
+    const Variables variables = with({{"cycles", "1"}}, given);
     const std::vector<double> force =
         run_chain("CA3500-high", Transition::B, 2000, 200, variables).history.F_excitation;
     return *std::max_element(force.begin(), force.end());
@@ -330,10 +330,9 @@ TEST(ChainUnderB, ContactIsMadeAgainWhileOverlapping) {
 
 TEST(Settle, FindsAChainWithoutDampingAtRest) {
   const Scratch scratch;
-  const Outcome outcome =
-      run_deck(chain_deck("in.chain"), {{"D", "0"}, {"c23", "0"}, {"cycles", "1"}}, scratch.path());
-  EXPECT_TRUE(outcome.ok()) << outcome.output;
-  EXPECT_TRUE(outcome.says("after 0 steps")) << outcome.output;
+  EXPECT_TRUE(printed(
+      well(run_deck(chain_deck("in.chain"), {{"D", "0"}, {"c23", "0"}, {"cycles", "1"}}, scratch.path())),
+      "after 0 steps"));
 }
 
 // The dashpot alone stops the drum within a small part of a step.
@@ -389,11 +388,10 @@ TEST(HeavyDamping, LongStepsLeaveAChainAtRestAtRest) {
 /// Eight balls, w0 dt from 0.7 to `highest`, each pushed by 1e-6 m between walls.
 void expect_rest_between_walls(const std::filesystem::path &deck, const Scratch &scratch, const char *D,
                                const char *scene = "two", const char *highest = "1.4") {
-  const Outcome outcome = run_deck(
+  well(run_deck(
       deck,
       {{"scene", scene}, {"D", D}, {"balls", "8"}, {"lowest", "0.7"}, {"highest", highest}, {"half", "2000"}},
-      scratch.path());
-  ASSERT_TRUE(outcome.ok()) << outcome.output;
+      scratch.path()));
   const std::string looks = read_text(scratch / "looks.dump");
   std::istringstream last(looks.substr(looks.rfind("ITEM: ATOMS id x z \n")));
   std::string header;
@@ -447,8 +445,7 @@ TEST(Settle, NamesASceneThatNeverSettles) {
                scratch.path());
   EXPECT_EQ(outcome.status, 1);
   EXPECT_FALSE(outcome.timed_out);
-  EXPECT_TRUE(outcome.says("ERROR: drumlin/settle: unbalanced ratio is '")) << outcome.output;
-  EXPECT_TRUE(outcome.says("after 50000 steps")) << outcome.output;
+  EXPECT_TRUE(printed(outcome, {"ERROR: drumlin/settle: unbalanced ratio is '", "after 50000 steps"}));
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 // planes and on a mesh: they run, stay finite, keep the balls in the box, dissipate energy, and agree on 1
 // and 2 ranks.
 #include "tests/support/balls_run.h"
+#include "tests/support/checks.h"
 
 #include "bed/dump_readers.h"
 
@@ -29,10 +30,9 @@ std::vector<Frame> run_box(const Combination &models, const char *transition, co
                            int ranks) {
   const Scratch scratch;
   write_floor(scratch / "floor.stl", 0.3, false);
-  const Outcome outcome = run_deck(
+  const Outcome outcome = well(run_deck(
       test_deck("box.in"), {{"models", models.words()}, {"transition", transition}, {"stepping", stepping}},
-      scratch.path(), ranks);
-  EXPECT_TRUE(outcome.ok()) << outcome.output;
+      scratch.path(), ranks));
   return outcome.ok() ? read_dump(scratch / "state.dump") : std::vector<Frame>{};
 }
 
@@ -78,10 +78,8 @@ TEST_P(Combinations, RunAndDissipateEnergy) {
 TEST(MeshFloor, RowsOfContactsExplainTheForceOnEachBall) {
   const Scratch scratch;
   write_floor(scratch / "floor.stl", 0.3, false);
-  const Outcome outcome =
-      run_deck(test_deck("box.in"),
-               {{"models", "tangential history"}, {"stepping", "stock"}, {"every", "20"}}, scratch.path());
-  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  well(run_deck(test_deck("box.in"),
+                {{"models", "tangential history"}, {"stepping", "stock"}, {"every", "20"}}, scratch.path()));
   int on_floor = 0;
   double worst = 0, largest = 0;
   for (const Frame &frame : read_dump(scratch / "state.dump")) {

@@ -1,5 +1,6 @@
 // The dumps of a bed on which a drum falls: the engine's files, and those that ./drumlin vtk makes from them
 // for ParaView.
+#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 
 #include "bed/dump_readers.h"
@@ -40,16 +41,12 @@ class Dumps : public ::testing::Test {
 protected:
   static void SetUpTestSuite() {
     scratch = std::make_unique<Scratch>();
-    const Outcome made =
-        run_program({DRUMLIN_TOOLS, "bed", "--balls", "150", "--width", "0.6", "--out", "balls.data"}, {},
-                    scratch->path());
-    ASSERT_TRUE(made.ok()) << made.output;
+    well(run_program({DRUMLIN_TOOLS, "bed", "--balls", "150", "--width", "0.6", "--out", "balls.data"}, {},
+                     scratch->path()));
     for (const std::string stepping : {"stock", "second"}) {
-      const Outcome settled =
-          run_deck(decks() / "in.settle",
-                   {{"case", "loose"}, {"balls", "balls.data"}, {"bed", stepping}, {"stepping", stepping}},
-                   scratch->path());
-      ASSERT_TRUE(settled.ok()) << settled.output;
+      well(run_deck(decks() / "in.settle",
+                    {{"case", "loose"}, {"balls", "balls.data"}, {"bed", stepping}, {"stepping", stepping}},
+                    scratch->path()));
     }
   }
   static void TearDownTestSuite() { scratch.reset(); }
@@ -60,18 +57,15 @@ protected:
     std::string stepping = "stock";
     for (const auto &[name, value] : more)
       if (name == "stepping") stepping = value;
-    Variables variables = more;
-    variables.insert(variables.end(),
-                     {{"bed", (scratch->path() / stepping).string()}, {"here", decks().string()}});
-    const Outcome outcome = run_deck(test_deck("dumps.in"), variables, folder.path(), ranks);
-    ASSERT_TRUE(outcome.ok()) << outcome.output;
+    const Variables variables =
+        with(more, {{"bed", (scratch->path() / stepping).string()}, {"here", decks().string()}});
+    well(run_deck(test_deck("dumps.in"), variables, folder.path(), ranks));
   }
 
   /// A run with dumps, and the files that ./drumlin vtk makes from them.
   static void run_and_convert(const Scratch &folder, int ranks) {
     run(folder, {{"dump_every", "250"}}, ranks);
-    const Outcome outcome = run_program({DRUMLIN_TOOLS, "vtk", folder.path().string()}, {}, folder.path());
-    ASSERT_TRUE(outcome.ok()) << outcome.output;
+    well(run_program({DRUMLIN_TOOLS, "vtk", folder.path().string()}, {}, folder.path()));
   }
 
   static std::unique_ptr<Scratch> scratch;
@@ -284,8 +278,7 @@ TEST_F(Dumps, ForcesOfContactsAreThoseThatActedOnRanksOneAndTwo) {
       const Scratch folder;
       // Heavy dashpots: long enough for a ball to be moved out of a contact that barely overlaps.
       const long last = scene == heavy ? 900 : 450;
-      Variables variables = scene;
-      variables.insert(variables.end(), {{"dump_every", "1"}, {"steps", std::to_string(last)}});
+      const Variables variables = with(scene, {{"dump_every", "1"}, {"steps", std::to_string(last)}});
       run(folder, variables, ranks);
       EXPECT_LT(
           unexplained(folder, 100, last, true,
@@ -319,8 +312,7 @@ TEST_F(Dumps, TheEnginesOwnComputeGetsTheForcesOfTheStep) {
                              {"own", "1"},
                              {"dump_every", "1"},
                              {"steps", "450"}};
-    Variables slippery = often;
-    slippery.emplace_back("friction", "0");
+    const Variables slippery = with(often, {{"friction", "0"}});
     run(smooth, slippery);
     EXPECT_LT(unexplained(smooth, 250, 450, false, own(smooth)), 5e-3) << transition;
     run(rough, often);

@@ -1,5 +1,6 @@
 // The files of a run: earlier results stay until a new run has passed its first steps, two runs do not mix,
 // signals and full disks are errors, and nothing but regular files is replaced.
+#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 #include "tests/support/host_deck.h"
 
@@ -12,7 +13,6 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <sys/stat.h>
@@ -48,12 +48,11 @@ int errors_in(const std::string &output) {
 TEST(EarlierRuns, OfAnEarlierRunStayWhenTheFirstStepFailsOnRanksOneAndTwo) {
   for (const int ranks : {1, 2}) {
     const Scratch folder;
-    ASSERT_TRUE(run_deck(chain_deck("in.chain"), {{"cycles", "1"}}, folder.path()).ok());
+    well(run_deck(chain_deck("in.chain"), {{"cycles", "1"}}, folder.path()));
     const auto before = texts(folder.path());
     ASSERT_EQ(before.size(), chain_files.size());
-    const Outcome failed = run_deck(chain_deck("in.chain"), too_strong, folder.path(), ranks);
-    EXPECT_EQ(failed.status, 1);
-    EXPECT_TRUE(failed.says("ERROR: fix guard: overlap of balls ")) << failed.output;
+    EXPECT_TRUE(fails_with(run_deck(chain_deck("in.chain"), too_strong, folder.path(), ranks),
+                           "ERROR: fix guard: overlap of balls "));
     EXPECT_EQ(texts(folder.path()), before);
   }
 }
@@ -69,7 +68,7 @@ TEST(EarlierRuns, OfARunThatFailsAtOnceAreNotThere) {
 // A process that is killed cannot restore its backups: the next run does.
 TEST(EarlierRuns, KeptAsideByAKilledRunComeBack) {
   const Scratch folder;
-  ASSERT_TRUE(run_deck(chain_deck("in.chain"), {{"cycles", "1"}}, folder.path()).ok());
+  well(run_deck(chain_deck("in.chain"), {{"cycles", "1"}}, folder.path()));
   const auto before = texts(folder.path());
   for (const std::string &name : chain_files)
     fs::rename(folder / name, folder / (name + ".earlier"));
@@ -107,16 +106,13 @@ TEST(EarlierRuns, OfARunAreItsOwnUntilASignalEndsItOnRanksOneAndTwo) {
       {"in.chain", {{"cycles", "1000000"}}, 2, {}, {}},
       {"in.impact", {{"contacts", "1000"}, {"steps_per_contact", "1000000"}}, 1, {}, {}}};
   if (post::has_lammps()) runs.push_back({"in.chain.lammps", {{"cycles", "1000000"}}, 1, {}, {}});
-  ::setenv(
-      "OMPI_MCA_odls_base_sigkill_timeout", "2",
-      1); // s from SIGTERM to SIGKILL for the ranks: one, the default, can be too short on a busy machine
+  const WaitForRanks wait(2); // on a busy machine the default can be too short
   std::vector<std::thread> side_by_side;
   side_by_side.reserve(runs.size());
   for (Ended &run : runs)
     side_by_side.emplace_back(run_until_a_signal, std::ref(run));
   for (std::thread &one : side_by_side)
     one.join();
-  ::unsetenv("OMPI_MCA_odls_base_sigkill_timeout");
   // When mpirun of Open MPI 5 has received a signal, it no longer prints what its ranks write.
   const bool mpirun_hands_on =
       run_program({"mpirun", "--version"}, {}, Scratch().path()).says("(Open MPI) 4.");
@@ -152,9 +148,9 @@ TEST(EarlierRuns, ReplaceRegularFilesOnly) {
       fs::create_symlink(folder / "target", node);
     }
     const fs::file_type type = fs::symlink_status(node).type();
-    const Outcome chain = run_deck(chain_deck("in.chain"), {{"cycles", "1"}}, folder.path(), 1, 10.0);
-    EXPECT_EQ(chain.status, 1) << kind;
-    EXPECT_TRUE(chain.says("ERROR: drumlin/outputs: file is '")) << kind << chain.output;
+    EXPECT_TRUE(fails_with(run_deck(chain_deck("in.chain"), {{"cycles", "1"}}, folder.path(), 1, 10.0),
+                           "ERROR: drumlin/outputs: file is '"))
+        << kind;
     EXPECT_EQ(fs::symlink_status(node).type(), type) << kind;
 
     std::ofstream(folder / "balls.data") << "balls\n\n0 atoms\n";
@@ -214,7 +210,7 @@ TEST(EndOfARun, OfAChainIsToldApartOnRanksOneAndTwo) {
       const auto run = [&](const Variables &variables, const post::StopCondition &stop_when) {
         return run_deck(chain_deck(deck), variables, folder.path(), ranks, 60.0, stop_when);
       };
-      ASSERT_TRUE(run({{"cycles", "1"}}, {}).ok());
+      well(run({{"cycles", "1"}}, {}));
       EXPECT_EQ(end_of(folder.path()), "yes") << deck << ranks;
       // The guard ends the run when the first steps, after which no earlier results come back, are over.
       const Outcome guarded = run({{"cycles", "1"}, {"Fw", "3e8"}, {"steps_per_cycle", "20000"}}, {});
@@ -268,7 +264,7 @@ TEST(EndOfARun, OfATestOfSoilIsInItsReport) {
   EXPECT_TRUE(outcome.left_out[0].cut);
   EXPECT_EQ(outcome.left_out[0].why.rfind("it was cut: fix guard: overlap of ", 0), 0u)
       << outcome.left_out[0].why;
-  EXPECT_NE(read_text(outcome.page).find("it was cut: fix guard: overlap of "), std::string::npos);
+  EXPECT_TRUE(contains(read_text(outcome.page), "it was cut: fix guard: overlap of "));
   EXPECT_FALSE(fs::exists(out / "report/oedometer"));
 }
 
@@ -284,12 +280,10 @@ TEST(EarlierRuns, AndInputsAreNotReplaced) {
                     : run_host(host_properties() + host_pair_style(), lines, folder.path(), 1);
     };
     for (const char *output : {"measured.csv", "./measured.csv", "hard.csv"}) {
-      const Outcome refused = run(fmt::format("drumlin/outputs files {} inputs measured.csv", output));
-      EXPECT_EQ(refused.status, 1);
-      EXPECT_TRUE(refused.says(fmt::format("ERROR: drumlin/outputs: file is '{}'; allowed: another file than "
-                                           "'measured.csv', which the run has read",
-                                           output)))
-          << refused.output;
+      EXPECT_TRUE(fails_with(run(fmt::format("drumlin/outputs files {} inputs measured.csv", output)),
+                             fmt::format("ERROR: drumlin/outputs: file is '{}'; allowed: another file than "
+                                         "'measured.csv', which the run has read",
+                                         output)));
       EXPECT_EQ(read_text(folder / "measured.csv"), "kept\n");
       EXPECT_FALSE(fs::exists(folder / "measured.csv.earlier"));
     }
@@ -300,22 +294,17 @@ TEST(EarlierRuns, AndInputsAreNotReplaced) {
   const std::string balls = read_text(folder / "bed.data");
   for (const char *deck : {"../bed/in.settle", "../bed/in.settle.lammps"}) {
     if (std::string(deck) == "../bed/in.settle.lammps" && !post::has_lammps()) continue;
-    const Outcome settled =
-        run_deck(chain_deck(deck), {{"balls", "bed.data"}, {"bed", "bed"}}, folder.path());
-    EXPECT_EQ(settled.status, 1);
     EXPECT_TRUE(
-        settled.says("file is 'bed.data'; allowed: another file than 'bed.data', which the run has read"))
-        << settled.output;
+        fails_with(run_deck(chain_deck(deck), {{"balls", "bed.data"}, {"bed", "bed"}}, folder.path()),
+                   "file is 'bed.data'; allowed: another file than 'bed.data', which the run has read"));
     EXPECT_EQ(read_text(folder / "bed.data"), balls);
   }
-  const Outcome twice = run_host(host_properties() + host_pair_style(),
-                                 "fix a all contact/events file one.csv types 1 2\n"
-                                 "fix b all contact/events file one.csv types 1 2",
-                                 folder.path(), 1);
-  EXPECT_EQ(twice.status, 1);
-  EXPECT_TRUE(twice.says(
-      "one.csv', which cannot be written; allowed: a file that no other fix and no other run writes"))
-      << twice.output;
+  EXPECT_TRUE(fails_with(
+      run_host(host_properties() + host_pair_style(),
+               "fix a all contact/events file one.csv types 1 2\n"
+               "fix b all contact/events file one.csv types 1 2",
+               folder.path(), 1),
+      "one.csv', which cannot be written; allowed: a file that no other fix and no other run writes"));
 }
 
 TEST(EarlierRuns, OnAFullDiskAreAnError) {
@@ -324,9 +313,7 @@ TEST(EarlierRuns, OnAFullDiskAreAnError) {
   const Outcome chain =
       on_small_disk(folder.path(), "LD_PRELOAD=$DRUMLIN_PRELOAD exec liggghts -in \"$DECKS/in.chain\" -log "
                                    "none -var cycles 120 -var out small");
-  EXPECT_EQ(chain.status, 1);
-  EXPECT_TRUE(chain.says("chain.csv', which cannot be written; allowed: a file on a disk with room"))
-      << chain.output;
+  EXPECT_TRUE(fails_with(chain, "chain.csv', which cannot be written; allowed: a file on a disk with room"));
   EXPECT_EQ(errors_in(chain.output), 1) << chain.output;
 }
 
@@ -348,10 +335,9 @@ TEST(EarlierRuns, OnAFullDiskAnEarlierRestartFileStaysWhole) {
                     "cmp before small/{1} && echo whole; ls small\n",
                     run, file, remove));
     fs::remove_all(folder / "small");
-    EXPECT_TRUE(both.says("status 1")) << both.output;
-    EXPECT_TRUE(both.says("whole")) << both.output;
+    EXPECT_TRUE(printed(both, {"status 1", "whole"}));
     EXPECT_FALSE(both.says("unfinished")) << both.output;
-    EXPECT_TRUE(both.says("; allowed: a file on a disk with room")) << both.output;
+    EXPECT_TRUE(printed(both, "; allowed: a file on a disk with room"));
   }
 }
 

@@ -1,6 +1,7 @@
 // The energy balance of the chain: the work of the exciter is the energy dissipated in contact and bond plus
 // the change of the mechanical energy. The energy error is that of the integration scheme, which falls with
 // the step.
+#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 
 #include <gtest/gtest.h>
@@ -63,15 +64,14 @@ struct Recorded {
 
 Recorded run(const std::string &name, Transition transition, int steps, int samples, int cycles) {
   const Scratch scratch;
-  const Outcome outcome = run_deck(chain_deck("in.chain"),
-                                   {{"case", name},
-                                    {"transition", post::transition_name(transition)},
-                                    {"stepping", "stock"},
-                                    {"steps_per_cycle", std::to_string(steps)},
-                                    {"samples_per_cycle", std::to_string(samples)},
-                                    {"cycles", std::to_string(cycles)}},
-                                   scratch.path());
-  if (!outcome.ok()) throw std::runtime_error(outcome.output);
+  well(run_deck(chain_deck("in.chain"),
+                {{"case", name},
+                 {"transition", post::transition_name(transition)},
+                 {"stepping", "stock"},
+                 {"steps_per_cycle", std::to_string(steps)},
+                 {"samples_per_cycle", std::to_string(samples)},
+                 {"cycles", std::to_string(cycles)}},
+                scratch.path()));
   return {balance_of(post::read_table(scratch / "cycles.csv")), post::read_chain(scratch / "chain.csv")};
 }
 

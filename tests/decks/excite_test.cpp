@@ -10,7 +10,6 @@
 #include <functional>
 #include <ostream>
 #include <string>
-#include <vector>
 
 namespace drumlin::test {
 namespace {

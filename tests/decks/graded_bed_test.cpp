@@ -1,5 +1,6 @@
 // The decks of the bed on balls of a given grading: the files note it, and the time steps follow the smallest
 // ball.
+#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 
 #include "runs/parameter_file.h"
@@ -25,35 +26,31 @@ std::map<std::string, std::string> parameters_of(const Scratch &folder, const st
   std::vector<std::string> words = {DRUMLIN_TOOLS, "bed", "--balls", "40",
                                     "--width",     "0.4", "--out",   "balls"};
   words.insert(words.end(), sizes.begin(), sizes.end());
-  const Outcome made = run_program(words, {}, folder.path());
-  EXPECT_TRUE(made.ok()) << made.output;
-  const Outcome settled =
+  well(run_program(words, {}, folder.path()));
+  well(
       run_deck(deck("in.settle"),
                {{"case", case_name}, {"balls", "balls"}, {"bed", "soil"}, {"fall", "0.01"}, {"ratio", "1e9"}},
-               folder.path());
-  EXPECT_TRUE(settled.ok()) << settled.output;
-  const Outcome placed = run_deck(deck("in.place"),
-                                  {{"case", case_name},
-                                   {"bed", "soil"},
-                                   {"start", "roller"},
-                                   {"sink", "0"},
-                                   {"ratio", "1e9"},
-                                   {"r2", "0.1"},
-                                   {"r3", "0.05"},
-                                   {"m2", "1000"},
-                                   {"m3", "500"}},
-                                  folder.path());
-  EXPECT_TRUE(placed.ok()) << placed.output;
+               folder.path()));
+  well(run_deck(deck("in.place"),
+                {{"case", case_name},
+                 {"bed", "soil"},
+                 {"start", "roller"},
+                 {"sink", "0"},
+                 {"ratio", "1e9"},
+                 {"r2", "0.1"},
+                 {"r3", "0.05"},
+                 {"m2", "1000"},
+                 {"m3", "500"}},
+                folder.path()));
   // A frequency so high that the steps are hundreds of times shorter than they have to be.
-  const Outcome shaken = run_deck(deck(last_deck),
-                                  {{"start", "roller"},
-                                   {"out", "B"},
-                                   {"cycles", "1"},
-                                   {"omega", "1e5"},
-                                   {"Fw", "1"},
-                                   {"balance", "1e30"}},
-                                  folder.path());
-  EXPECT_TRUE(shaken.ok()) << shaken.output;
+  well(run_deck(deck(last_deck),
+                {{"start", "roller"},
+                 {"out", "B"},
+                 {"cycles", "1"},
+                 {"omega", "1e5"},
+                 {"Fw", "1"},
+                 {"balance", "1e30"}},
+                folder.path()));
   return post::read_parameters(folder / "B/parameters.csv");
 }
 

@@ -2,6 +2,7 @@
 // their event log and heat, an oblique impact against an integration of its equations in far smaller steps,
 // walls against balls, and transitions without damping. (laws_test has what holds for all laws.)
 #include "tests/support/balls_run.h"
+#include "tests/support/checks.h"
 #include "tests/support/engine_and_scheme.h"
 #include "tests/support/frame_distance.h"
 
@@ -68,8 +69,7 @@ protected:
   static Impacts impacts(Variables variables) {
     variables.emplace_back("normal", "hertz");
     const Scratch folder;
-    const Outcome outcome = run("oblique", folder, variables);
-    if (!outcome.ok()) throw std::runtime_error(outcome.output);
+    const Outcome outcome = well(run("oblique", folder, variables));
     return {read_dump(folder / "balls.txt"), post::read_events(folder / "events.csv"),
             number_behind(outcome.output, "heat of the normal dashpots "),
             number_behind(outcome.output, " of friction ")};
@@ -217,21 +217,19 @@ TEST_P(HertzImpactsUnderSecond, BecomeHeatInTheCyclesOfADrum) {
   constexpr double E_eff = 0.5 * 2e8 / (1 - nu * nu);
   for (const auto &[transition, D] : {std::pair{"A", 0.5}, {"B", 0.3}, {"B", 1.0}, {"B", 3.0}}) {
     const Scratch folder;
-    const Outcome outcome =
-        run("pair", folder,
-            {{"normal", "hertz"},
-             {"damping", "ratio"},
-             {"transition", transition},
-             {"c", number(D)},
-             {"one", "0 0.2001 0.5"},
-             {"dt", number(duration(E_eff, 1, 0.025, 1) / 23)},
-             {"steps", "400"},
-             {"integrated", "one"},
-             {"first", "velocity one set 0 -1 0"},
-             {"second", "fix hold two freeze"},
-             {"third", "fix cycles one roller/history file " + (folder / "c.csv").string() +
-                           " every 400 axis 0 1 0 cycles " + (folder / "cycles.csv").string() + " 400"}});
-    ASSERT_TRUE(outcome.ok()) << outcome.output;
+    well(run("pair", folder,
+             {{"normal", "hertz"},
+              {"damping", "ratio"},
+              {"transition", transition},
+              {"c", number(D)},
+              {"one", "0 0.2001 0.5"},
+              {"dt", number(duration(E_eff, 1, 0.025, 1) / 23)},
+              {"steps", "400"},
+              {"integrated", "one"},
+              {"first", "velocity one set 0 -1 0"},
+              {"second", "fix hold two freeze"},
+              {"third", "fix cycles one roller/history file " + (folder / "c.csv").string() +
+                            " every 400 axis 0 1 0 cycles " + (folder / "cycles.csv").string() + " 400"}}));
     const post::Table cycles = post::read_table(folder / "cycles.csv");
     const double e = closed_form(transition, D), before = cycles.numbers("kinetic").front(),
                  heat = cycles.numbers("dissipated_contact").back();
@@ -362,28 +360,29 @@ INSTANTIATE_TEST_SUITE_P(Decks, WithoutDamping, engines_and_steppings(), engine_
 
 // Without a dashpot no contact is in tension, and A and B are the same law.
 TEST_P(WithoutDamping, TransitionsAreTheSameBitForBit) {
-  for (const char *normal : {"hooke", "hertz"}) {
+  for (const auto &[normal, tangential] :
+       {std::pair{"hooke", "history"}, {"hooke", "coulomb"}, {"hertz", "coulomb"}}) {
     std::vector<std::string> dumps;
     for (const char *transition : {"A", "B"}) {
       const Scratch folder;
-      const Outcome outcome = run("bounce", folder,
-                                  {{"normal", normal},
-                                   {"transition", transition},
-                                   {"D", "0"},
-                                   {"tangential", "coulomb"},
-                                   {"rolling", "epsd2"},
-                                   {"first", "6000"},
-                                   {"rest", "0"},
-                                   {"every", "500"}});
-      ASSERT_TRUE(outcome.ok()) << outcome.output;
+      well(run("bounce", folder,
+               {{"normal", normal},
+                {"transition", transition},
+                {"D", "0"},
+                {"tangential", tangential},
+                {"rolling", "epsd2"},
+                {"first", "6000"},
+                {"rest", "0"},
+                {"every", "500"}}));
       dumps.push_back(read_text(folder / "balls.txt"));
       const std::vector<Frame> frames = read_dump(folder / "balls.txt");
       int spinning = 0; // after contacts
       for (const auto &[id, ball] : frames.back().balls)
         spinning += ball.omega[1] != 0.0 ? 1 : 0;
-      EXPECT_GT(spinning, 10) << normal;
+      EXPECT_GT(spinning, 10) << normal << ", " << tangential;
     }
-    EXPECT_TRUE(dumps[0] == dumps[1]) << normal; // no list of their differences, which takes minutes
+    EXPECT_TRUE(dumps[0] == dumps[1])
+        << normal << ", " << tangential; // no list of their differences, which takes minutes
   }
 }
 

@@ -1,6 +1,7 @@
 // A single impact without gravity, on the fixed ball of in.impact and on plane and mesh walls, against the
 // closed forms.
 #include "tests/support/balls_run.h"
+#include "tests/support/checks.h"
 
 #include "chain/analysis.h"
 
@@ -50,16 +51,15 @@ struct Measured {
 Measured run_impact(const Impact &impact, int steps, double onset, const std::string &stepping = "stock") {
   const post::ImpactParameters p = parameters_of(impact);
   const Scratch scratch;
-  const Outcome outcome = run_deck(chain_deck("in.impact"),
-                                   {{"transition", post::transition_name(impact.transition)},
-                                    {"D", number(impact.D)},
-                                    {"stepping", stepping},
-                                    {"steps_per_contact", std::to_string(steps)},
-                                    {"onset", number(onset)},
-                                    {"contacts", "4"},
-                                    {"samples", "100"}},
-                                   scratch.path());
-  if (!outcome.ok()) throw std::runtime_error(outcome.output);
+  well(run_deck(chain_deck("in.impact"),
+                {{"transition", post::transition_name(impact.transition)},
+                 {"D", number(impact.D)},
+                 {"stepping", stepping},
+                 {"steps_per_contact", std::to_string(steps)},
+                 {"onset", number(onset)},
+                 {"contacts", "4"},
+                 {"samples", "100"}},
+                scratch.path()));
   const ChainRun run = read_run(scratch.path());
   const double dt = pi / (std::sqrt(p.stiffness / p.mass) * steps);
   const double end = post::impact_duration(p);

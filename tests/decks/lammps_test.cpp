@@ -1,6 +1,7 @@
 // LAMMPS against LIGGGHTS: the same fixes and laws in both, with another pair style, other walls and another
 // contact history. The allowed difference is rounding, and its growth in scenes whose motion is sensitive to
 // it.
+#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 #include "tests/support/frame_distance.h"
 
@@ -13,9 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
-#include <limits>
 #include <map>
 #include <ostream>
 #include <string>
@@ -55,10 +54,8 @@ TEST_P(InLammpsChain, IsThatOfLiggghtsAndFollowsTheDirectSolver) {
                                {"transition", post::transition_name(GetParam().transition)},
                                {"stepping", GetParam().stepping}};
   const Scratch lammps, liggghts;
-  const Outcome there = run_deck(chain_deck("in.chain.lammps"), variables, lammps.path());
-  ASSERT_TRUE(there.ok()) << there.output;
-  const Outcome here = run_deck(chain_deck("in.chain"), variables, liggghts.path());
-  ASSERT_TRUE(here.ok()) << here.output;
+  well(run_deck(chain_deck("in.chain.lammps"), variables, lammps.path()));
+  well(run_deck(chain_deck("in.chain"), variables, liggghts.path()));
   const ChainRun a = read_run(lammps.path()), b = read_run(liggghts.path());
   for (const auto column :
        {&post::ChainHistory::x_drum, &post::ChainHistory::v_drum, &post::ChainHistory::a_drum,
@@ -97,10 +94,8 @@ TEST_F(InLammps, RunsRollersAsInLiggghts) {
     SCOPED_TRACE(post::chain_cases[i]);
     const Variables variables = {{"case", post::chain_cases[i]}, {"cycles", "2"}};
     const Scratch lammps, liggghts;
-    const Outcome there = run_deck(chain_deck("in.chain.lammps"), variables, lammps.path());
-    ASSERT_TRUE(there.ok()) << there.output;
-    const Outcome here = run_deck(chain_deck("in.chain"), variables, liggghts.path());
-    ASSERT_TRUE(here.ok()) << here.output;
+    well(run_deck(chain_deck("in.chain.lammps"), variables, lammps.path()));
+    well(run_deck(chain_deck("in.chain"), variables, liggghts.path()));
     const ChainRun a = read_run(lammps.path()), b = read_run(liggghts.path());
     EXPECT_LT(relative_difference(a.history.v_drum, b.history.v_drum), 1e-9);
     EXPECT_LT(relative_difference(a.history.F_contact, b.history.F_contact), 1e-9);
@@ -129,11 +124,10 @@ class InLammpsBounce : public InLammps, public ::testing::WithParamInterface<Bou
 
 TEST_P(InLammpsBounce, GoesAsInLiggghtsOnRanksOneTwoAndFourWithNewtonOffAndOn) {
   const Scratch liggghts;
-  const Outcome here = run_deck(test_deck("bounce.in"), GetParam().variables, liggghts.path());
-  ASSERT_TRUE(here.ok()) << here.output;
+  const Outcome here = well(run_deck(test_deck("bounce.in"), GetParam().variables, liggghts.path()));
   const std::vector<Frame> expected = read_dump(liggghts / "balls.txt");
   const std::string guard = last_line_with(here.output, "fix guard guard: "); // of the second run
-  EXPECT_NE(guard.find("critical step"), std::string::npos) << here.output;
+  EXPECT_TRUE(contains(guard, "critical step")) << here.output;
   // There is something to compare: balls that have hit walls and each other, and rotate.
   ASSERT_EQ(expected.size(), 13u);
   double fastest_turn = 0.0;
@@ -146,10 +140,9 @@ TEST_P(InLammpsBounce, GoesAsInLiggghtsOnRanksOneTwoAndFourWithNewtonOffAndOn) {
   for (const char *newton : {"off", "on"})
     for (const int ranks : {1, 2, 4}) {
       const Scratch lammps;
-      Variables variables = GetParam().in_lammps.empty() ? GetParam().variables : GetParam().in_lammps;
-      variables.emplace_back("newton", newton);
-      const Outcome there = run_deck(test_deck("bounce.lammps"), variables, lammps.path(), ranks);
-      ASSERT_TRUE(there.ok()) << there.output;
+      const Variables variables = with(
+          GetParam().in_lammps.empty() ? GetParam().variables : GetParam().in_lammps, {{"newton", newton}});
+      const Outcome there = well(run_deck(test_deck("bounce.lammps"), variables, lammps.path(), ranks));
       EXPECT_LT(distance(read_dump(lammps / "balls.txt"), expected), GetParam().distance)
           << "ranks " << ranks << ", newton " << newton;
       EXPECT_EQ(last_line_with(there.output, "fix guard guard: "), guard) << "ranks " << ranks;
@@ -184,27 +177,24 @@ INSTANTIATE_TEST_SUITE_P(
 // history changes its sign.
 TEST_F(InLammps, HistoryIsKeptWhenTheOrderOfBallsChanges) {
   const Scratch kept;
-  ASSERT_TRUE(run_deck(test_deck("bounce.lammps"), {{"rolling", "epsd2"}}, kept.path()).ok());
+  well(run_deck(test_deck("bounce.lammps"), {{"rolling", "epsd2"}}, kept.path()));
   for (const char *newton : {"off", "on"}) {
     const Scratch shuffled;
-    const Outcome outcome =
-        run_deck(test_deck("bounce.lammps"), {{"rolling", "epsd2"}, {"shuffle", "50"}, {"newton", newton}},
-                 shuffled.path());
-    ASSERT_TRUE(outcome.ok()) << outcome.output;
-    EXPECT_TRUE(outcome.says("Neighbor list builds = 120")) << outcome.output;
+    EXPECT_TRUE(printed(
+        well(run_deck(test_deck("bounce.lammps"),
+                      {{"rolling", "epsd2"}, {"shuffle", "50"}, {"newton", newton}}, shuffled.path())),
+        "Neighbor list builds = 120"));
     EXPECT_LT(distance(read_dump(kept / "balls.txt"), read_dump(shuffled / "balls.txt")), 1e-9);
   }
 }
 
 TEST_F(InLammps, RefusesAnotherVersionOnRanksOneAndTwo) {
+  const WaitForRanks at_once(0);
   const Scratch folder;
   for (const int ranks : {1, 2}) {
-    const Outcome outcome =
-        run_deck(chain_deck("in.chain.lammps"), {{"plugin", DRUMLIN_OTHER_LAMMPS}}, folder.path(), ranks);
-    EXPECT_EQ(outcome.status, 1) << outcome.output;
-    EXPECT_TRUE(outcome.says("ERROR: drumlin " DRUMLIN_VERSION
-                             ": built for LAMMPS 1 Feb 2003 (20030201), but this is 20"))
-        << outcome.output;
+    EXPECT_TRUE(fails_with(
+        run_deck(chain_deck("in.chain.lammps"), {{"plugin", DRUMLIN_OTHER_LAMMPS}}, folder.path(), ranks),
+        "ERROR: drumlin " DRUMLIN_VERSION ": built for LAMMPS 1 Feb 2003 (20030201), but this is 20"));
   }
 }
 
@@ -218,14 +208,11 @@ TEST_F(InLammps, ContinuesFromARestartFileBitwiseOnRanksOneTwoAndFourWithNewtonO
                                                            {4, "on", "coulomb", "epsd2"}}) {
     const Scratch stayed, left;
     const Variables law = {{"newton", newton}, {"tangential", tangential}, {"rolling", rolling}};
-    const Outcome whole = run_deck(test_deck("bounce.lammps"), law, stayed.path(), ranks);
-    ASSERT_TRUE(whole.ok()) << whole.output;
+    well(run_deck(test_deck("bounce.lammps"), law, stayed.path(), ranks));
     for (const char *file : {"first.restart", "during.6000"}) { // written after a run, and during one
-      Variables again = law;
-      again.emplace_back("start", (stayed / file).string());
-      again.emplace_back("law", std::string(tangential) == "coulomb" ? "restart" : "deck");
-      const Outcome resumed = run_deck(test_deck("bounce.resume.lammps"), again, left.path(), ranks);
-      ASSERT_TRUE(resumed.ok()) << resumed.output;
+      const Variables again = with(law, {{"start", (stayed / file).string()},
+                                         {"law", std::string(tangential) == "coulomb" ? "restart" : "deck"}});
+      well(run_deck(test_deck("bounce.resume.lammps"), again, left.path(), ranks));
       const std::string all = read_text(stayed / "balls.txt"), second = read_text(left / "balls.txt");
       const std::size_t begin = all.find("ITEM: TIMESTEP\n7000\n");
       ASSERT_NE(begin, std::string::npos);
@@ -244,15 +231,13 @@ TEST_F(InLammps, PartitionsAreRunsOfTheirOwnOnRanksOneAndTwo) {
                                             "variable transition world A B\n"
                                             "variable here index "
                                          << chain_deck("").string() << "\ninclude ${here}/in.chain.lammps\n";
-  const Outcome both =
+  const Outcome both = well(
       run_program({drumlin, "run", "-np", "2", "both.lammps", "-partition", "2x1", "-var", "cycles", "3"}, {},
-                  scratch.path());
-  ASSERT_TRUE(both.ok()) << both.output;
+                  scratch.path()));
   for (const char *transition : {"A", "B"}) {
     const Scratch alone;
-    const Outcome outcome =
-        run_deck(chain_deck("in.chain.lammps"), {{"transition", transition}, {"cycles", "3"}}, alone.path());
-    ASSERT_TRUE(outcome.ok()) << outcome.output;
+    well(
+        run_deck(chain_deck("in.chain.lammps"), {{"transition", transition}, {"cycles", "3"}}, alone.path()));
     for (const char *table : {"chain.csv", "events.csv", "cycles.csv"})
       EXPECT_EQ(read_text(alone / table), read_text(scratch / "both" / transition / table)) << table;
   }
@@ -262,7 +247,7 @@ TEST_F(InLammps, PartitionsAreRunsOfTheirOwnOnRanksOneAndTwo) {
 /// package is not in the lmp.
 TEST_F(InLammps, SuffixesChangeNoResult) {
   const Scratch plain;
-  ASSERT_TRUE(run_deck(chain_deck("in.chain.lammps"), {{"cycles", "1"}}, plain.path()).ok());
+  well(run_deck(chain_deck("in.chain.lammps"), {{"cycles", "1"}}, plain.path()));
   for (const std::string suffix : {"opt", "omp"}) {
     const Scratch folder;
     const Outcome outcome = run_program({std::string(DRUMLIN_SOURCE_DIR) + "/drumlin", "run",
@@ -270,7 +255,7 @@ TEST_F(InLammps, SuffixesChangeNoResult) {
                                          "cycles", "1", "-var", "out", "."},
                                         {}, folder.path());
     if (outcome.status == 1) {
-      EXPECT_TRUE(outcome.says("ERROR: Using suffix " + suffix + " without ")) << outcome.output;
+      EXPECT_TRUE(printed(outcome, "ERROR: Using suffix " + suffix + " without "));
       continue;
     }
     ASSERT_TRUE(outcome.ok()) << outcome.output;
@@ -279,17 +264,16 @@ TEST_F(InLammps, SuffixesChangeNoResult) {
 }
 
 TEST_F(InLammps, RefusesTheHistoryOfAnotherWallOnRanksOneAndTwo) {
+  const WaitForRanks at_once(0);
   const Scratch block;
-  ASSERT_TRUE(run_deck(test_deck("bounce.lammps"), {{"walls", "block"}}, block.path()).ok());
+  well(run_deck(test_deck("bounce.lammps"), {{"walls", "block"}}, block.path()));
   for (const int ranks : {1, 2}) {
     const Scratch folder;
-    const Outcome outcome = run_deck(test_deck("bounce.resume.lammps"),
-                                     {{"start", (block / "first.restart").string()}, {"walls", "cylinder"}},
-                                     folder.path(), ranks);
-    EXPECT_EQ(outcome.status, 1) << outcome.output;
-    EXPECT_TRUE(outcome.says(
-        "fix wall/gran/transition: the restart file holds another wall under the ID 'walls'; allowed: "))
-        << outcome.output;
+    EXPECT_TRUE(fails_with(
+        run_deck(test_deck("bounce.resume.lammps"),
+                 {{"start", (block / "first.restart").string()}, {"walls", "cylinder"}}, folder.path(),
+                 ranks),
+        "fix wall/gran/transition: the restart file holds another wall under the ID 'walls'; allowed: "));
   }
 }
 
@@ -298,11 +282,9 @@ const Variables springs = {{"D", "0"}, {"tangential", "off"}, {"mu", "-1"}};
 
 TEST_F(InLammps, ContinuesFromADataFileWithoutContactHistory) {
   const Scratch stayed, left;
-  ASSERT_TRUE(run_deck(test_deck("bounce.lammps"), springs, stayed.path()).ok());
-  Variables variables = springs;
-  variables.emplace_back("start", (stayed / "first.data").string());
-  const Outcome resumed = run_deck(test_deck("bounce.data.lammps"), variables, left.path());
-  ASSERT_TRUE(resumed.ok()) << resumed.output;
+  well(run_deck(test_deck("bounce.lammps"), springs, stayed.path()));
+  const Variables variables = with(springs, {{"start", (stayed / "first.data").string()}});
+  well(run_deck(test_deck("bounce.data.lammps"), variables, left.path()));
   std::vector<Frame> whole = read_dump(stayed / "balls.txt");
   const std::vector<Frame> rest = read_dump(left / "balls.txt");
   whole.erase(whole.begin(), whole.end() - static_cast<std::ptrdiff_t>(rest.size()));
@@ -314,8 +296,7 @@ TEST_F(InLammps, ContinuesFromADataFileWithoutContactHistory) {
 TEST_F(InLammps, HistoryOfABallPutBackOnAFaceOfARegionStartsAtZero) {
   const auto force = [](const char *lifted) {
     const Scratch folder;
-    const Outcome outcome = run_deck(test_deck("lift.lammps"), {{"lifted", lifted}}, folder.path());
-    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    well(run_deck(test_deck("lift.lammps"), {{"lifted", lifted}}, folder.path()));
     std::array<double, 2> along_and_up{};
     std::ifstream in(folder / "force.txt");
     EXPECT_TRUE(in >> along_and_up[0] >> along_and_up[1]);
@@ -335,10 +316,9 @@ TEST_F(InLammps, RunSplitOrWholeIsOneUnderSecondOrderStepping) {
   for (const char *D : {"0", "0.2"}) {
     std::vector<std::vector<Frame>> frames;
     for (const auto &[first, rest] : {std::pair{"2500", "9500"}, std::pair{"10500", "1500"}}) {
-      Variables variables = {{"D", D}, {"first", first}, {"rest", rest}};
-      variables.insert(variables.end(), springs.begin(), springs.end());
+      const Variables variables = with({{"D", D}, {"first", first}, {"rest", rest}}, springs);
       const Scratch folder;
-      ASSERT_TRUE(run_deck(test_deck("bounce.lammps"), variables, folder.path()).ok());
+      well(run_deck(test_deck("bounce.lammps"), variables, folder.path()));
       frames.push_back(read_dump(folder / "balls.txt"));
     }
     EXPECT_LT(distance(frames[0], frames[1]), std::string(D) == "0" ? 1e-9 : 1e-6) << D;
@@ -370,10 +350,8 @@ TEST_F(InLammps, ForcesAreTheCentralDifferencesOfTheEnergy) {
     for (const char *walls : {"planes", "block", "cylinder"}) {
       const bool pipe = std::string(walls) == "cylinder";
       const Scratch folder;
-      Variables variables = springs;
-      variables.insert(variables.end(), {{"stepping", stepping}, {"walls", walls}});
-      const Outcome outcome = run_deck(test_deck("bounce.lammps"), variables, folder.path());
-      ASSERT_TRUE(outcome.ok()) << outcome.output;
+      const Variables variables = with(springs, {{"stepping", stepping}, {"walls", walls}});
+      well(run_deck(test_deck("bounce.lammps"), variables, folder.path()));
       double largest = 0.0;
       for (const Frame &frame : read_dump(folder / "balls.txt"))
         for (const auto &[id, ball] : frame.balls)
@@ -396,10 +374,8 @@ TEST_F(InLammps, ForcesAreTheCentralDifferencesOfTheEnergy) {
 TEST_F(InLammps, ContactsOfADumpExplainTheForcesOnBallsOnRanksOneAndTwo) {
   for (const auto &[ranks, newton] : {std::pair{1, "off"}, {2, "off"}, {1, "on"}, {2, "on"}}) {
     const Scratch folder;
-    const Outcome outcome =
-        run_deck(test_deck("bounce.lammps"), {{"D", "0"}, {"dump_every", "500"}, {"newton", newton}},
-                 folder.path(), ranks);
-    ASSERT_TRUE(outcome.ok()) << outcome.output;
+    well(run_deck(test_deck("bounce.lammps"), {{"D", "0"}, {"dump_every", "500"}, {"newton", newton}},
+                  folder.path(), ranks));
     std::array<std::size_t, 2> judged{};
     const std::map<long, post::StepDump> steps = post::dumped_steps(folder / "dump");
     EXPECT_EQ(steps.size(), 25u);
@@ -458,13 +434,12 @@ TEST_F(InLammps, AnImpactConvergesToTheClosedForm) {
     const double exact = -post::impact_state(p, post::impact_duration(p)).rate;
     for (const char *count : {"100", "400", "1600"}) {
       const Scratch folder;
-      const Outcome outcome = run_deck(chain_deck("in.impact.lammps"),
-                                       {{"transition", post::transition_name(transition)},
-                                        {"D", number(p.damping_ratio)},
-                                        {"steps_per_contact", count},
-                                        {"samples", "100"}},
-                                       folder.path());
-      ASSERT_TRUE(outcome.ok()) << outcome.output;
+      well(run_deck(chain_deck("in.impact.lammps"),
+                    {{"transition", post::transition_name(transition)},
+                     {"D", number(p.damping_ratio)},
+                     {"steps_per_contact", count},
+                     {"samples", "100"}},
+                    folder.path()));
       const double error = std::fabs(read_run(folder.path()).history.v_drum.back() - exact);
       EXPECT_LT(error, p.speed / (std::stod(count) * std::stod(count))) // of second order
           << post::transition_name(transition) << ", " << count << " steps";
@@ -492,10 +467,8 @@ TEST_F(InLammps, RigidBodyBouncesWithItsMassOnRanksOneAndTwo) {
                                        {"nve/small", 1}}) {
       const auto velocities = [&, rigid = rigid, ranks = ranks](const Variables &law) {
         const Scratch folder;
-        Variables variables = law;
-        variables.insert(variables.end(), {{"target", target}, {"rigid", rigid}, {"D", number(D)}});
-        const Outcome outcome = run_deck(test_deck("dumbbell.lammps"), variables, folder.path(), ranks);
-        EXPECT_TRUE(outcome.ok()) << outcome.output;
+        const Variables variables = with(law, {{"target", target}, {"rigid", rigid}, {"D", number(D)}});
+        well(run_deck(test_deck("dumbbell.lammps"), variables, folder.path(), ranks));
         std::vector<double> values(3);
         std::ifstream in(folder / "velocities.txt");
         for (double &value : values)

@@ -1,6 +1,7 @@
 // Balls that fall on one another between walls, with each contact law of the list: the engines against each
 // other on 1, 2 and 4 ranks, and from restart files.
 #include "tests/support/balls_run.h"
+#include "tests/support/checks.h"
 #include "tests/support/frame_distance.h"
 #include "tests/plugin/law_samples.h"
 
@@ -42,25 +43,22 @@ protected:
 
 TEST_P(LawBounce, IsOneInBothEnginesOnRanksOneTwoAndFourWithNewtonOffAndOn) {
   const Scratch liggghts;
-  const Outcome here = run_deck(test_deck("bounce.in"), variables(liggghts, false), liggghts.path());
-  ASSERT_TRUE(here.ok()) << here.output;
+  well(run_deck(test_deck("bounce.in"), variables(liggghts, false), liggghts.path()));
   const std::vector<Frame> expected = read_dump(liggghts / "balls.txt");
   ASSERT_EQ(expected.size(), 13u);
   std::vector<std::pair<int, const char *>> runs = {{1, "off"}, {2, "on"}, {4, "off"}};
   if (GetParam().all_runs) runs.insert(runs.end(), {{1, "on"}, {2, "off"}, {4, "on"}});
   for (const auto &[ranks, newton] : runs) {
     const Scratch lammps;
-    Variables more = variables(lammps, true);
-    more.emplace_back("newton", newton);
-    const Outcome there = run_deck(test_deck("bounce.lammps"), more, lammps.path(), ranks);
-    ASSERT_TRUE(there.ok()) << there.output;
+    const Variables more = with(variables(lammps, true), {{"newton", newton}});
+    well(run_deck(test_deck("bounce.lammps"), more, lammps.path(), ranks));
     EXPECT_LT(distance(read_dump(lammps / "balls.txt"), expected), 1e-9)
         << "ranks " << ranks << ", newton " << newton;
   }
   for (const int ranks : {2, 4}) {
     if (ranks > 2 && !GetParam().all_runs) continue;
     const Scratch more;
-    ASSERT_TRUE(run_deck(test_deck("bounce.in"), variables(more, false), more.path(), ranks).ok());
+    well(run_deck(test_deck("bounce.in"), variables(more, false), more.path(), ranks));
     EXPECT_LT(distance(read_dump(more / "balls.txt"), expected), 1e-9) << ranks;
   }
 }
@@ -83,12 +81,10 @@ TEST_P(LawBounce, ContinuesFromARestartFileBitwiseOnRanks) {
     const Scratch stayed, left;
     Variables law = variables(stayed, std::string(deck) == "bounce.lammps");
     if (*newton != '\0') law.emplace_back("newton", newton);
-    const Outcome whole = run_deck(test_deck(deck), law, stayed.path(), ranks);
-    ASSERT_TRUE(whole.ok()) << whole.output;
+    well(run_deck(test_deck(deck), law, stayed.path(), ranks));
     law.emplace_back("start", (stayed / "first.restart").string());
     if (std::string(resume) == "bounce.resume.lammps") law.emplace_back("law", "restart");
-    const Outcome resumed = run_deck(test_deck(resume), law, left.path(), ranks);
-    ASSERT_TRUE(resumed.ok()) << resumed.output;
+    well(run_deck(test_deck(resume), law, left.path(), ranks));
     const std::string all = read_text(stayed / "balls.txt"), second = read_text(left / "balls.txt");
     const std::string from = "ITEM: TIMESTEP\n7000\n";
     ASSERT_NE(all.find(from), std::string::npos);

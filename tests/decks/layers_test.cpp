@@ -1,5 +1,6 @@
 // Beds of layers: the contacts of each layer, of layers with each other and with walls, in closed form; and
 // small beds that are made and settled layer by layer.
+#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 #include "tests/support/host_deck.h"
 
@@ -92,8 +93,7 @@ protected:
   static std::map<long, Ball> last_state(const std::vector<Placed> &balls, const Variables &more,
                                          int ranks = 1) {
     const Scratch folder;
-    const Outcome outcome = run_scene(folder, balls, more, ranks);
-    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    well(run_scene(folder, balls, more, ranks));
     return read_dump(folder / "balls.txt").back().balls;
   }
 };
@@ -149,7 +149,7 @@ TEST_P(Layers, WithoutBallsOrWithTooManyNumbersAreRefused) {
     const Scratch folder;
     const Outcome outcome = run_scene(folder, balls, more);
     EXPECT_NE(outcome.status, 0);
-    EXPECT_TRUE(outcome.says("ERROR: drumlin/layers: " + says)) << outcome.output;
+    EXPECT_TRUE(printed(outcome, "ERROR: drumlin/layers: " + says));
     EXPECT_EQ(outcome.output.find("ERROR"), outcome.output.rfind("ERROR")) << outcome.output;
   };
   std::vector<Placed> without = lattice();
@@ -247,20 +247,18 @@ protected:
     if (dimension == "3")
       words = {DRUMLIN_TOOLS, "bed", "--width", "0.3", "--depth", "0.15",
                "--layer",     "0.2", "--layer", "0.1", "--out",   "balls"};
-    const Outcome made = run_program(words, {}, folder.path());
-    EXPECT_TRUE(made.ok()) << made.output;
+    well(run_program(words, {}, folder.path()));
     const bool flat = dimension == "2";
-    Variables variables = more;
-    variables.insert(variables.end(), {{"case", flat ? "gravel" : "gravel3d"},
-                                       {"k", flat ? "1e8,1e9" : "4e6,4e7"},
-                                       {"friction", "0.5,0.8"},
-                                       {"pour_friction", "0.5,0.1"},
-                                       {"pour_k", flat ? "1e8" : "4e6"}, // soft, to take fewer steps
-                                       {"pour_dt", flat ? "2e-5" : "1.25e-5"},
-                                       {"fall", "0.3"},
-                                       {"ratio", "1"},
-                                       {"balls", "balls"},
-                                       {"bed", "soil"}});
+    const Variables variables = with(more, {{"case", flat ? "gravel" : "gravel3d"},
+                                            {"k", flat ? "1e8,1e9" : "4e6,4e7"},
+                                            {"friction", "0.5,0.8"},
+                                            {"pour_friction", "0.5,0.1"},
+                                            {"pour_k", flat ? "1e8" : "4e6"}, // soft, to take fewer steps
+                                            {"pour_dt", flat ? "2e-5" : "1.25e-5"},
+                                            {"fall", "0.3"},
+                                            {"ratio", "1"},
+                                            {"balls", "balls"},
+                                            {"bed", "soil"}});
     return run_deck(bed_deck(engine == "lammps" ? "in.settle.lammps" : "in.settle"), variables, folder.path(),
                     ranks);
   }
@@ -279,8 +277,7 @@ INSTANTIATE_TEST_SUITE_P(Decks, LayeredBed,
 // ball, and no ball lies farther than one diameter of the largest one on the other side of the boundary.
 TEST_P(LayeredBed, SettlesLayerByLayer) {
   const Scratch folder;
-  const Outcome outcome = settle(folder, {});
-  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  well(settle(folder, {}));
   const std::vector<double> tops = noted_tops(folder / "soil.data");
   ASSERT_EQ(tops.size(), 2u);
   EXPECT_NEAR(tops[0], thickness[0], 0.5 * largest);
@@ -317,14 +314,12 @@ TEST_P(LayeredBed, CarriesARollerAndContinuesWhereItStopped) {
   const auto &[engine, dimension] = GetParam();
   if (dimension == "3") return;
   const Scratch folder;
-  const Outcome settled = settle(folder, {{"fall", "0.01"}, {"ratio", "1e9"}, {"case", "base_course"}});
-  ASSERT_TRUE(settled.ok()) << settled.output;
+  well(settle(folder, {{"fall", "0.01"}, {"ratio", "1e9"}, {"case", "base_course"}}));
   const std::string ending = engine == "lammps" ? ".lammps" : "";
   const Variables roller = {{"r2", "0.1"}, {"r3", "0.05"}, {"m2", "1000"}, {"m3", "500"}};
-  Variables placing = roller;
-  placing.insert(placing.end(), {{"bed", "soil"}, {"start", "roller"}, {"sink", "0"}, {"ratio", "1e9"}});
-  const Outcome placed = run_deck(bed_deck("in.place" + ending), placing, folder.path());
-  ASSERT_TRUE(placed.ok()) << placed.output;
+  const Variables placing =
+      with(roller, {{"bed", "soil"}, {"start", "roller"}, {"sink", "0"}, {"ratio", "1e9"}});
+  well(run_deck(bed_deck("in.place" + ending), placing, folder.path()));
   const auto shake = [&, lammps = engine == "lammps"](Variables variables) {
     // A frequency so high that the steps are short.
     variables.insert(variables.end(), {{"cycles", "2"},
@@ -336,12 +331,9 @@ TEST_P(LayeredBed, CarriesARollerAndContinuesWhereItStopped) {
     if (lammps) variables.emplace_back("rest", "0");
     return run_deck(bed_deck("in.bed" + ending), variables, folder.path());
   };
-  const Outcome whole = shake({{"out", "whole"}}),
-                stopped = shake({{"out", "parts"}, {"time_limit", "1e-3"}});
-  ASSERT_TRUE(whole.ok()) << whole.output;
-  ASSERT_TRUE(stopped.says("continue from ")) << stopped.output;
-  const Outcome continued = shake({{"out", "parts"}, {"start", "parts/stopped.restart"}});
-  ASSERT_TRUE(continued.ok()) << continued.output;
+  const Outcome whole = well(shake({{"out", "whole"}}));
+  EXPECT_TRUE(printed(shake({{"out", "parts"}, {"time_limit", "1e-3"}}), "continue from "));
+  well(shake({{"out", "parts"}, {"start", "parts/stopped.restart"}}));
   EXPECT_EQ(read_text(folder / "whole/bed.csv"), read_text(folder / "parts/bed.csv"));
   std::map<std::string, std::string> made = post::read_parameters(folder / "whole/parameters.csv");
   EXPECT_EQ(made["k"], "1e8,1e9");

@@ -1,4 +1,5 @@
 // The preloaded library prints in the engine's process and in no other.
+#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 
 #include <gtest/gtest.h>
@@ -31,12 +32,10 @@ TEST(Preload, LeavesOtherProgramsAlone) {
 TEST(Preload, StartLineNamesBothVersions) {
   const Scratch scratch;
   std::ofstream(scratch / "in.empty") << "print \"here is ${here}\"\n";
-  const Outcome outcome = run_deck(scratch / "in.empty", {}, scratch.path());
-  EXPECT_TRUE(outcome.ok()) << outcome.output;
-  EXPECT_TRUE(outcome.says(std::string("drumlin ") + DRUMLIN_VERSION +
-                           ", plugin for LIGGGHTS 3.8.0, loaded in LIGGGHTS 3.8.0\n"))
-      << outcome.output;
-  EXPECT_TRUE(outcome.says("here is " + scratch.path().string() + "\n")) << outcome.output;
+  const Outcome outcome = well(run_deck(scratch / "in.empty", {}, scratch.path()));
+  EXPECT_TRUE(printed(outcome, {std::string("drumlin ") + DRUMLIN_VERSION +
+                                    ", plugin for LIGGGHTS 3.8.0, loaded in LIGGGHTS 3.8.0\n",
+                                "here is " + scratch.path().string() + "\n"}));
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // The engines' own fixes, run styles and walls beside the plugin: plugin/doc/with_other_styles.md. Two balls
 // over a floor, one of which falls on it, in both engines, and lines of the test's own.
 #include "tests/support/balls_run.h"
+#include "tests/support/checks.h"
 #include "tests/support/host_deck.h"
 #include "tests/support/lines.h"
 
@@ -234,8 +235,7 @@ TEST(RigidBodyOfLiggghts, BouncesUnderStockAsWithTheEnginesLaw) {
         "dump_modify state sort id format \"%d %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g "
         "%.17g %.17g %.17g %.17g %.17g\"\nrun 60000\n";
     write_text(folder / "deck.in", text);
-    const Outcome outcome = run_deck(folder / "deck.in", {}, folder.path(), 1);
-    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    well(run_deck(folder / "deck.in", {}, folder.path(), 1));
     std::vector<double> found;
     const auto frames = read_dump(folder / "state.dump");
     if (!frames.empty())
@@ -294,8 +294,7 @@ TEST_P(TimeStepWithinARun, LeavesClocksRight) {
         "fix e cd contact/events file events.csv\n" +
         (place == std::string("behind") ? reset : "");
     const Scratch folder;
-    const Outcome outcome = run(scene, folder);
-    ASSERT_TRUE(outcome.ok()) << outcome.output;
+    well(run(scene, folder));
     const auto balls = read_dump(folder / "state.dump").back().balls;
     const double time = balls.at(2).v[2];
     EXPECT_LT(time, 0.1) << "the step has become shorter";
@@ -327,8 +326,7 @@ std::array<double, 2> heats(Scene scene) {
   std::string text = deck(scene);
   text.replace(text.find("processors 2 1 1"), 16, "processors 1 1 1");
   write_text(file, text + "print \"heats $(f_E[4]) $(f_E[5]) end\"\n");
-  const Outcome outcome = run_deck(file, {}, folder.path());
-  EXPECT_TRUE(outcome.ok()) << outcome.output;
+  const Outcome outcome = well(run_deck(file, {}, folder.path()));
   std::smatch found;
   const std::regex line("\nheats ([0-9.e+-]+) ([0-9.e+-]+) end");
   if (!std::regex_search(outcome.output, found, line)) return {HUGE_VAL, HUGE_VAL};
@@ -519,6 +517,7 @@ class GrowingBalls : public ::testing::TestWithParam<std::tuple<bool, int>> {};
 TEST_P(GrowingBalls, AreStoppedByTheGuardBeforeTheyMissOneAnother) {
   const auto &[lammps, ranks] = GetParam();
   SKIP_WITHOUT_LAMMPS(lammps);
+  const WaitForRanks at_once(0);
   Scene scene{lammps, "second", 1e-5, 4000, ""};
   scene.start = "-0.1 0 0.5";
   scene.second_start = "0.1 0 0.5";
@@ -532,8 +531,7 @@ TEST_P(GrowingBalls, AreStoppedByTheGuardBeforeTheyMissOneAnother) {
               stopped.says("allowed: at most"))
       << stopped.output;
   scene.skin = "0.45"; // the list has all contacts
-  const Outcome ended = run(scene, found, ranks);
-  ASSERT_TRUE(ended.ok()) << ended.output;
+  well(run(scene, found, ranks));
   EXPECT_GT(read_dump(found / "state.dump").back().balls.at(2).v[0], 0.1) << "they push one another";
 }
 
@@ -609,8 +607,7 @@ TEST(OtherStylesOnNoList, GetOneWarning) {
     std::string text = deck({lammps, "second", 1e-5, 10, "fix added all external pf/array 1"});
     text.replace(text.find("processors 2 1 1"), 16, "processors 1 1 1");
     write_text(file, text + "run 10\n");
-    const Outcome outcome = run_deck(file, {}, folder.path());
-    ASSERT_TRUE(outcome.ok()) << outcome.output;
+    const Outcome outcome = well(run_deck(file, {}, folder.path()));
     const std::string warning = "it has not been tried beside fix added (external); ";
     const std::size_t first = outcome.output.find(warning);
     ASSERT_NE(first, std::string::npos) << outcome.output;
@@ -633,10 +630,8 @@ TEST(OtherStylesWithoutThePairStyle, AreRefusedByTheFixesThatAct) {
     }
     text.insert(text.rfind("run "), "run_style respa 2 2\n");
     write_text(file, text);
-    const Outcome outcome = run_deck(file, {}, folder.path());
-    EXPECT_EQ(outcome.status, 1);
-    EXPECT_TRUE(outcome.says("ERROR: fix " + lines.substr(0, lines.find(' ')) + ": run_style is 'respa'"))
-        << outcome.output;
+    EXPECT_TRUE(fails_with(run_deck(file, {}, folder.path()),
+                           "ERROR: fix " + lines.substr(0, lines.find(' ')) + ": run_style is 'respa'"));
   }
 }
 

@@ -2,6 +2,7 @@
 // equilibrium of its balls, behind a smooth wall and in a silo; Janssen's and Rankine's theory; the angle of
 // repose with and without friction; disordered samples in both engines.
 #include "support/statistics.h"
+#include "tests/support/checks.h"
 #include "tests/support/element_runs.h"
 
 #include <gtest/gtest.h>
@@ -189,8 +190,7 @@ const Variables disordered = {{"columns", "7"}, {"layers", "9"}, {"k", "1e7"}, {
 // A disordered sample fails, carried by both walls alike; the force is between those of friction angles of 25
 // and 50 degrees.
 TEST_P(OwnWeight, FindsTheActiveForceOfADisorderedSample) {
-  Variables variables = disordered;
-  variables.insert(variables.end(), {{"strain", "5e-3"}, {"samples_of_strain", "5"}});
+  const Variables variables = with(disordered, {{"strain", "5e-3"}, {"samples_of_strain", "5"}});
   const WeightRun run(GetParam(), "wall", variables);
   EXPECT_GT(run.first("side_force_N"), 2 * run.last("side_force_N"));
   EXPECT_NEAR(run.last("left_force_N"), run.last("side_force_N"), 0.1 * run.last("side_force_N"));
@@ -200,9 +200,8 @@ TEST_P(OwnWeight, FindsTheActiveForceOfADisorderedSample) {
 
 // Full friction of the walls, and the balance of the vertical forces.
 TEST_P(OwnWeight, MobilisesTheFrictionOfTheWallsOfASilo) {
-  Variables variables = disordered;
-  variables.insert(variables.end(),
-                   {{"strain", "1e-3"}, {"samples_of_strain", "5"}, {"inertial_number", "1e-4"}});
+  const Variables variables =
+      with(disordered, {{"strain", "1e-3"}, {"samples_of_strain", "5"}, {"inertial_number", "1e-4"}});
   const WeightRun run(GetParam(), "silo", variables);
   EXPECT_NEAR(run.wall_friction(), 0.3 * run.walls(), 0.01 * run.walls());
   EXPECT_NEAR(run.last("floor_force_N") + run.wall_friction(),
@@ -240,10 +239,8 @@ Heap heap(const std::string &engine, const Variables &variables) {
                          {"inertial_number", "8e-3"},
                          {"k", "1e6"},
                          {"out", "out"}});
-  const Outcome outcome =
-      run_deck(chain_deck(std::string("../soil/in.repose") + (engine == "lammps" ? ".lammps" : "")), all,
-               scratch.path());
-  EXPECT_TRUE(outcome.ok()) << outcome.output;
+  well(run_deck(chain_deck(std::string("../soil/in.repose") + (engine == "lammps" ? ".lammps" : "")), all,
+                scratch.path()));
   const post::Table surface = post::read_table(scratch / "out/surface.csv"),
                     rows = post::read_table(scratch / "out/repose.csv");
   const std::vector<double> x = surface.numbers("x_m"), height = surface.numbers("height_m");

@@ -1,5 +1,6 @@
 // Two balls: momentum, the effective mass, mirror images, the two ways to give damping, and the bond.
 #include "tests/support/balls_run.h"
+#include "tests/support/checks.h"
 #include "tests/support/engine_and_scheme.h"
 
 #include "chain/analysis.h"
@@ -190,8 +191,7 @@ protected:
   };
   static std::vector<Row> rows_of(const Variables &variables) {
     const Scratch folder;
-    const Outcome outcome = run("bond", folder, variables);
-    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    well(run("bond", folder, variables));
     std::ifstream in(folder / "energies.txt");
     std::vector<Row> rows;
     for (Row r{}; in >> r.t >> r.e >> r.energy >> r.force >> r.potential >> r.kinetic >> r.pressure;)
@@ -241,7 +241,7 @@ TEST(Bond, BreaksOnceAtItsStrengthAndNeverPullsAgain) {
                    strength = 8000; // released, it swings back to about -7 kN
   const BallsRun whole =
       run_bond("1", m1, m2, " strength " + number(1.01 * bond_k * stretch), time / 1000, 1000);
-  EXPECT_EQ(whole.output.find("broke"), std::string::npos);
+  EXPECT_FALSE(contains(whole.output, "broke"));
   EXPECT_NE(whole.frames.back().balls.at(2).f[2], 0);
 
   // Started at rest below its strength and driven beyond it.
@@ -296,23 +296,6 @@ TEST(Reaction, OfAFixedBallIsTheForceOnTheOtherBall) {
       EXPECT_LT(miss, 1e-10 * most) << fix << ", D = " << dashpot;
       EXPECT_NEAR(run.reaction.back(), -m2 * g, 0.01 * m2 * g) << fix << ", D = " << dashpot;
     }
-}
-
-class WithoutDashpot : public BothEngines {};
-INSTANTIATE_TEST_SUITE_P(Bounce, WithoutDashpot, engines_and_steppings(), engine_and_stepping);
-
-/// Balls on balls and on walls, that make and break contact with friction.
-TEST_P(WithoutDashpot, AAndBAreOneLawBitForBit) {
-  std::array<std::string, 2> states;
-  for (const std::string transition : {"A", "B"}) {
-    const Scratch folder;
-    const Outcome outcome =
-        run("bounce", folder,
-            {{"transition", transition}, {"D", "0"}, {"first", "1500"}, {"rest", "500"}, {"every", "500"}});
-    ASSERT_TRUE(outcome.ok()) << outcome.output;
-    states.at(transition == "A" ? 0 : 1) = read_text(folder / "balls.txt");
-  }
-  EXPECT_EQ(states[0], states[1]);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // The plate load test: the forces below one loaded ball against Flamant's solution, the balance of forces and
 // of energy, a disordered bed in both engines.
 #include "bed/dump_readers.h"
+#include "tests/support/checks.h"
 #include "tests/support/element_runs.h"
 
 #include <fmt/format.h>
@@ -11,7 +12,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,10 +55,9 @@ struct Lattice {
         << fmt::format("# lattice\n\n{} atoms\n3 atom types\n\n{:.17g} {:.17g} xlo xhi\n0 {:.17g} ylo yhi\n"
                        "-0.02 0.02 zlo zhi\n\nAtoms\n\n{}",
                        id, -wall, wall, rows * row_distance() + 0.5, balls);
-    Variables variables = without_pouring;
-    variables.insert(variables.end(), {{"g", gravity}, {"balls", "balls.data"}, {"bed", "soil.restart"}});
-    const Outcome settled = run_deck(in_settle(), variables, folder);
-    ASSERT_TRUE(settled.ok()) << settled.output;
+    const Variables variables =
+        with(without_pouring, {{"g", gravity}, {"balls", "balls.data"}, {"bed", "soil.restart"}});
+    well(run_deck(in_settle(), variables, folder));
   }
 };
 
@@ -93,22 +92,20 @@ public:
 
 private:
   Forces forces(const std::string &stress, const std::string &steps) const {
-    Variables variables = own_contacts;
-    variables.insert(variables.end(), {{"here", chain_deck("../soil").string()},
-                                       {"g", "981"},
-                                       {"bed", "soil.restart"},
-                                       {"plate_width", "0.04"},
-                                       {"plate_thickness", "0.04"},
-                                       {"seating", "1e-3"},
-                                       {"max_stress", stress},
-                                       {"stages", "1"},
-                                       {"reload", "0"},
-                                       {"drag", "2000"},
-                                       {"ramp", steps},
-                                       {"every", steps},
-                                       {"out", stress}});
-    const Outcome outcome = run_deck(test_deck("plate_contacts.in"), variables, scratch_.path());
-    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    const Variables variables = with(own_contacts, {{"here", chain_deck("../soil").string()},
+                                                    {"g", "981"},
+                                                    {"bed", "soil.restart"},
+                                                    {"plate_width", "0.04"},
+                                                    {"plate_thickness", "0.04"},
+                                                    {"seating", "1e-3"},
+                                                    {"max_stress", stress},
+                                                    {"stages", "1"},
+                                                    {"reload", "0"},
+                                                    {"drag", "2000"},
+                                                    {"ramp", steps},
+                                                    {"every", steps},
+                                                    {"out", stress}});
+    well(run_deck(test_deck("plate_contacts.in"), variables, scratch_.path()));
     std::map<long, std::vector<double>> balls;
     double top = 0.0;
     for (const std::vector<double> &ball : post::read_text_dump(scratch_ / (stress + "/balls.dump")).rows) {
@@ -190,15 +187,14 @@ struct Columns {
   static post::Table load(const std::string &engine, int ranks = 1) {
     const Scratch scratch;
     Lattice{columns, rows, false}.make(scratch.path(), "9.81");
-    Variables variables = own_contacts;
-    variables.insert(variables.end(), {{"bed", (scratch / "soil.restart").string()},
-                                       {"plate_width", number(width)},
-                                       {"plate_thickness", "0.04"},
-                                       {"max_stress", "60"},
-                                       {"stages", "2"},
-                                       {"ramp", "500"},
-                                       {"drag", "2000"},
-                                       {"ratio", "1e-6"}});
+    const Variables variables = with(own_contacts, {{"bed", (scratch / "soil.restart").string()},
+                                                    {"plate_width", number(width)},
+                                                    {"plate_thickness", "0.04"},
+                                                    {"max_stress", "60"},
+                                                    {"stages", "2"},
+                                                    {"ramp", "500"},
+                                                    {"drag", "2000"},
+                                                    {"ratio", "1e-6"}});
     return run_element_test(engine, "plate", variables, ranks);
   }
 };
@@ -239,12 +235,7 @@ TEST_P(PlateOnColumns, RefusesAPlateThatIsNotOnTheBed) {
            {{{"k", "1e8"}}, "ERROR: drumlin/take: variable k is '1e8'; allowed: 1e9"}}) {
     Variables variables = more; // the engine takes the first of a name
     variables.insert(variables.end(), {{"bed", (scratch / "soil.restart").string()}, {"plate_width", "0.1"}});
-    try {
-      run_element_test(GetParam(), "plate", variables);
-      ADD_FAILURE() << says;
-    } catch (const std::runtime_error &error) {
-      EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
-    }
+    EXPECT_TRUE(contains(error_of([&] { run_element_test(GetParam(), "plate", variables); }), says));
   }
 }
 
@@ -255,12 +246,9 @@ class Plate : public InEngine {};
 // A bed of 150 balls of the default gravel.
 TEST_P(Plate, SettlesForGoodUnderItsFirstLoading) {
   const Scratch bed;
-  const Outcome made = run_program(
-      {DRUMLIN_TOOLS, "bed", "--balls", "150", "--width", "0.6", "--out", "balls.data"}, {}, bed.path());
-  ASSERT_TRUE(made.ok()) << made.output;
-  const Outcome settled =
-      run_deck(in_settle(), {{"balls", "balls.data"}, {"bed", "soil.restart"}}, bed.path());
-  ASSERT_TRUE(settled.ok()) << settled.output;
+  well(run_program({DRUMLIN_TOOLS, "bed", "--balls", "150", "--width", "0.6", "--out", "balls.data"}, {},
+                   bed.path()));
+  well(run_deck(in_settle(), {{"balls", "balls.data"}, {"bed", "soil.restart"}}, bed.path()));
   const post::Table rows =
       run_element_test(GetParam(), "plate",
                        {{"bed", (bed / "soil.restart").string()},

@@ -1,5 +1,6 @@
 // A run that leaves the process in the middle of a cycle and continues from its restart file must write the
 // same files, byte for byte, as a run without interruption.
+#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 
 #include <gtest/gtest.h>
@@ -30,22 +31,19 @@ void expect_same_files(const std::string &name, Transition transition, const std
                      {"chain", decks},
                      {"tests", test_deck("split.in").parent_path().string()}};
   };
-  const Outcome whole = run_deck(test_deck("split.in"), chain(stayed), stayed.path(), ranks);
-  ASSERT_TRUE(whole.ok()) << whole.output;
-  const Outcome first = run_deck(test_deck("stop.in"), chain(left), left.path(), ranks);
-  ASSERT_TRUE(first.ok()) << first.output;
+  well(run_deck(test_deck("split.in"), chain(stayed), stayed.path(), ranks));
+  well(run_deck(test_deck("stop.in"), chain(left), left.path(), ranks));
   const std::size_t rows_before = post::read_chain(left / "chain.csv").size();
   const std::size_t events_before = post::read_events(left / "events.csv").size();
-  const Outcome second = run_deck(test_deck("resume.in"),
-                                  {{"transition", post::transition_name(transition)},
-                                   {"stepping", stepping},
-                                   {"k", number(p.k)},
-                                   {"D", number(p.D)},
-                                   {"omega", number(p.omega)},
-                                   {"steps_per_cycle", std::to_string(steps_per_cycle)},
-                                   {"after", std::to_string(after)}},
-                                  left.path(), ranks);
-  ASSERT_TRUE(second.ok()) << second.output;
+  well(run_deck(test_deck("resume.in"),
+                {{"transition", post::transition_name(transition)},
+                 {"stepping", stepping},
+                 {"k", number(p.k)},
+                 {"D", number(p.D)},
+                 {"omega", number(p.omega)},
+                 {"steps_per_cycle", std::to_string(steps_per_cycle)},
+                 {"after", std::to_string(after)}},
+                left.path(), ranks));
   for (const char *file : {"chain.csv", "events.csv", "cycles.csv"})
     EXPECT_EQ(read_text(left / file), read_text(stayed / file)) << file;
 

@@ -1,6 +1,7 @@
 // Rolling resistance in both engines: a ball that rolls to rest on a plane, with its energy balance; a ball
 // that circles around another, so that the normal turns; heaps in two and three dimensions, engine against
 // engine.
+#include "tests/support/checks.h"
 #include "tests/support/engine_and_scheme.h"
 #include "tests/support/frame_distance.h"
 
@@ -43,17 +44,16 @@ TEST_P(RollingBall, SlowsDownAsTheClosedFormAndItsEnergyBecomesHeat) {
     const double arm = r - 0.5 * law.overlap, inertia = 0.4 * m * r * r + m * arm * arm,
                  rate = mu_r * r * N / inertia;
     const Scratch folder;
-    const Outcome outcome = run("slide", folder,
-                                {{"normal", law.normal},
-                                 {"rest", number(law.overlap)},
-                                 {"tangential", "coulomb"},
-                                 {"rolling", "epsd2"},
-                                 {"mu_r", number(mu_r)},
-                                 {"mu", "2"},
-                                 {"D", "0.5"},
-                                 {"spin", number(w0)},
-                                 {"speed", number(w0 * arm)}});
-    ASSERT_TRUE(outcome.ok()) << outcome.output;
+    well(run("slide", folder,
+             {{"normal", law.normal},
+              {"rest", number(law.overlap)},
+              {"tangential", "coulomb"},
+              {"rolling", "epsd2"},
+              {"mu_r", number(mu_r)},
+              {"mu", "2"},
+              {"D", "0.5"},
+              {"spin", number(w0)},
+              {"speed", number(w0 * arm)}}));
     const post::Table table = post::read_table(folder / "bed.csv");
     const std::vector<double> time = table.numbers("time"), kinetic = table.numbers("kinetic"),
                               elastic = table.numbers("elastic"), potential = table.numbers("potential"),
@@ -77,8 +77,7 @@ TEST_P(RollingBall, OnABallIsNotSpunUpAsTheNormalTurns) {
   constexpr double w0 = 1e-3, W = 20, r_eff = 0.015, inertia = 0.4 * 0.3 * 0.03 * 0.03, dt = 1e-5;
   const double q2 = 2.0 / 7.0 * 1e5 * r_eff * r_eff / inertia, p = std::sqrt(q2 + W * W);
   const Scratch folder;
-  const Outcome outcome = run("orbit", folder, {});
-  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  well(run("orbit", folder, {}));
   double largest = 0.0;
   const std::vector<Frame> frames = read_dump(folder / "balls.txt");
   ASSERT_EQ(frames.size(), 301u);
@@ -106,9 +105,8 @@ TEST_P(RollingHeap, IsTheSameInBothEngines) {
   const auto &[dimension, stepping] = GetParam();
   const auto heap = [&, d = dimension, s = stepping](const char *deck, const char *resistance) {
     const Scratch folder;
-    const Outcome outcome = run_deck(
-        test_deck(deck), {{"dimension", d}, {"stepping", s}, {"contact_rolling", resistance}}, folder.path());
-    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    well(run_deck(test_deck(deck), {{"dimension", d}, {"stepping", s}, {"contact_rolling", resistance}},
+                  folder.path()));
     return read_dump(folder / "balls.txt");
   };
   const std::vector<Frame> liggghts = heap("heap.in", "0.2");
@@ -128,15 +126,14 @@ TEST_P(RollingHeap, IsTheSameInTheLoopsOfEngineAndPlugin) {
   for (const char *damping : {"0.2", "20"}) {
     const auto heap = [&, d = dimension, s = stepping](const Scratch &folder, const char *observed,
                                                        const char *pressed) {
-      const Outcome outcome = run_deck(test_deck("heap.in"),
-                                       {{"dimension", d},
-                                        {"stepping", s},
-                                        {"contact_D", damping},
-                                        {"observed", observed},
-                                        {"pressed", pressed},
-                                        {"steps", "2400"}},
-                                       folder.path());
-      EXPECT_TRUE(outcome.ok()) << outcome.output;
+      well(run_deck(test_deck("heap.in"),
+                    {{"dimension", d},
+                     {"stepping", s},
+                     {"contact_D", damping},
+                     {"observed", observed},
+                     {"pressed", pressed},
+                     {"steps", "2400"}},
+                    folder.path()));
       return post::read_text(folder / "balls.txt");
     };
     const Scratch plain, engine, plugin;
@@ -201,15 +198,14 @@ TEST_P(RollingHeap, FrictionAndRollingKeepTheirLimitsAtAnyDamping) {
     if (std::string(deck) == "heap.lammps" && !post::has_lammps()) continue;
     for (const char *damping : {"10", "40"}) {
       const Scratch folder;
-      const Outcome outcome = run_deck(test_deck(deck),
-                                       {{"dimension", dimension},
-                                        {"stepping", stepping},
-                                        {"contact_D", damping},
-                                        {"observed", "1"},
-                                        {"steps", "4000"},
-                                        {"contacts_every", "20"}},
-                                       folder.path());
-      ASSERT_TRUE(outcome.ok()) << outcome.output;
+      well(run_deck(test_deck(deck),
+                    {{"dimension", dimension},
+                     {"stepping", stepping},
+                     {"contact_D", damping},
+                     {"observed", "1"},
+                     {"steps", "4000"},
+                     {"contacts_every", "20"}},
+                    folder.path()));
       int contacts = 0, at_limit = 0;
       std::map<long, std::map<long, double>>
           largest; // torque of each ball that its contacts allow, N m, by step
@@ -248,10 +244,9 @@ TEST_P(RollingHeap, FrictionAndRollingKeepTheirLimitsAtAnyDamping) {
 std::vector<Frame> heap_by_number(const char *deck, const std::string &dimension, const char *newton,
                                   int ranks) {
   const Scratch folder;
-  const Outcome outcome = run_deck(
-      test_deck(deck), {{"dimension", dimension}, {"contact_D", "20"}, {"newton", newton}, {"steps", "2400"}},
-      folder.path(), ranks);
-  EXPECT_TRUE(outcome.ok()) << outcome.output;
+  well(run_deck(test_deck(deck),
+                {{"dimension", dimension}, {"contact_D", "20"}, {"newton", newton}, {"steps", "2400"}},
+                folder.path(), ranks));
   std::vector<Frame> frames = read_dump(folder / "balls.txt");
   const std::map<long, Ball> start = frames.at(0).balls;
   const auto number = [&start](long id) {
@@ -298,17 +293,16 @@ TEST_P(RollingHeap, TheSpringOfFrictionFollowsTheLimit) {
         std::pair("heap.lammps", "pair_coeff * * 1e5 20 0.4 NULL 0")}) {
     if (std::string(deck) == "heap.lammps" && !post::has_lammps()) continue;
     const Scratch folder;
-    const Outcome outcome = run_deck(test_deck(deck),
-                                     {{"dimension", dimension},
-                                      {"stepping", stepping},
-                                      {"contact_D", "20"},
-                                      {"rolling_history", "0"},
-                                      {"line_of_law", undamped_friction},
-                                      {"observed", "1"},
-                                      {"steps", "4000"},
-                                      {"contacts_every", "4000"}},
-                                     folder.path());
-    ASSERT_TRUE(outcome.ok()) << outcome.output;
+    well(run_deck(test_deck(deck),
+                  {{"dimension", dimension},
+                   {"stepping", stepping},
+                   {"contact_D", "20"},
+                   {"rolling_history", "0"},
+                   {"line_of_law", undamped_friction},
+                   {"observed", "1"},
+                   {"steps", "4000"},
+                   {"contacts_every", "4000"}},
+                  folder.path()));
     double stored = 0.0; // J, of the last step
     const std::map<long, std::vector<ContactRow>> steps = rows_of_contacts(folder / "contacts.txt");
     for (const ContactRow &row : steps.at(4000))

@@ -1,13 +1,12 @@
 // Friction between balls of very different sizes, in both engines: a small ball rolls down the groove between
 // two large ones and falls off; a ball stays at rest between a large and a small one.
+#include "tests/support/checks.h"
 #include "tests/support/engine_and_scheme.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <tuple>
 #include <vector>
 
 namespace drumlin::test {
@@ -55,8 +54,7 @@ TEST_P(SizeRatio, RollsDownTheGrooveAndFallsOff) {
     const double slowed = 1 + 0.4 * std::pow((large + r) / length, 2);
     const double leaves = std::acos((force_at_the_end(length / (large + r)) * slowed + 2) / (2 + slowed));
     const Scratch folder;
-    const Outcome outcome = run("groove", folder, {{"ratio", number(ratio)}});
-    ASSERT_TRUE(outcome.ok()) << outcome.output;
+    well(run("groove", folder, {{"ratio", number(ratio)}}));
     const std::vector<Place> path = path_in_the_groove(folder / "balls.txt", length);
     double angle = 0.01745, rate = 0, farthest = 0; // velocity Verlet with 100 steps for a row
     const double dt = 3000e-6 / 100;
@@ -84,8 +82,7 @@ TEST_P(SizeRatio, RollsDownTheGrooveAndFallsOff) {
 TEST_P(SizeRatio, StaysAtRestBetweenALargeAndASmallBall) {
   for (const double ratio : {1.0, 3.0, 20.0, 100.0}) {
     const Scratch folder;
-    const Outcome outcome = run("wedge", folder, {{"ratio", number(ratio)}});
-    ASSERT_TRUE(outcome.ok()) << outcome.output;
+    well(run("wedge", folder, {{"ratio", number(ratio)}}));
     const std::vector<Frame> frames = read_dump(folder / "balls.txt");
     ASSERT_EQ(frames.size(), 11u);
     const Ball &middle = frames[5].balls.at(3), &end = frames[10].balls.at(3);

@@ -1,6 +1,7 @@
 // The reports of the walls: force, torque, stress and wear of a mesh, force on each ball, force of a wall,
 // against the momentum that the balls gain.
 #include "tests/support/balls_run.h"
+#include "tests/support/checks.h"
 #include "tests/support/engine_and_scheme.h"
 #include "tests/support/lines.h"
 
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -60,11 +60,6 @@ const Variables mesh_with_stress = {{"mesh", "1"}, {"surface", "mesh/surface/str
 class WallForce : public BothEngines {};
 INSTANTIATE_TEST_SUITE_P(Decks, WallForce, engines_and_steppings(), engine_and_stepping);
 
-Variables together(Variables some, const Variables &more) {
-  some.insert(some.end(), more.begin(), more.end());
-  return some;
-}
-
 /// Heavily damped heaps, whose contacts are solved for together, and balls that come and go: with planes, a
 /// moving mesh (LIGGGHTS) and the faces of a region (LAMMPS).
 TEST_P(WallForce, IsTheMomentumThatTheWallsGive) {
@@ -81,8 +76,7 @@ TEST_P(WallForce, IsTheMomentumThatTheWallsGive) {
         const Scratch folder;
         write_floor(folder / "floor.stl", 0.4, false);
         const Outcome outcome =
-            run("wall_force", folder, together(together(law, walls), {{"D", D}, {"store", "yes"}}));
-        ASSERT_TRUE(outcome.ok()) << outcome.output;
+            well(run("wall_force", folder, with(with(law, walls), {{"D", D}, {"store", "yes"}})));
         const bool mesh = !lammps && !walls.empty();
         const Table rows = table_of(outcome.output, mesh ? 17 : 8);
         ASSERT_EQ(rows.size(), 3001u) << outcome.output;
@@ -106,10 +100,9 @@ TEST(WallForceOnRanks, IsThatOnOne) {
     for (const int ranks : {1, 2}) {
       const Scratch folder;
       write_floor(folder / "floor.stl", 0.4, false);
-      const Outcome outcome = run_deck(
-          test_deck(deck), together(walls, {{"newton", newton}, {"rolling", "epsd2"}, {"store", "yes"}}),
-          folder.path(), ranks);
-      ASSERT_TRUE(outcome.ok()) << outcome.output;
+      const Outcome outcome = well(
+          run_deck(test_deck(deck), with(walls, {{"newton", newton}, {"rolling", "epsd2"}, {"store", "yes"}}),
+                   folder.path(), ranks));
       const Table rows = table_of(outcome.output, lammps ? 8 : 17);
       ASSERT_EQ(rows.size(), 3001u) << outcome.output;
       EXPECT_LT(missing_momentum(rows, force, 1), 1e-12) << deck << ", ranks " << ranks;
@@ -130,15 +123,14 @@ TEST(ForceOnAMesh, IsTheWeightOfAShakenBallOnAverage) {
     for (const char *D : {"5", "20", "200"}) {
       const Scratch folder;
       write_floor(folder / "floor.stl", 0.4, false);
-      const Outcome outcome = run_deck(test_deck("wall_force.in"),
-                                       together(mesh_with_stress, {{"alone", "1"},
-                                                                   {"normal", normal},
-                                                                   {"D", D},
-                                                                   {"amplitude", "2e-3"},
-                                                                   {"steps", "30000"},
-                                                                   {"store", "yes"}}),
-                                       folder.path());
-      ASSERT_TRUE(outcome.ok()) << outcome.output;
+      const Outcome outcome = well(run_deck(test_deck("wall_force.in"),
+                                            with(mesh_with_stress, {{"alone", "1"},
+                                                                    {"normal", normal},
+                                                                    {"D", D},
+                                                                    {"amplitude", "2e-3"},
+                                                                    {"steps", "30000"},
+                                                                    {"store", "yes"}}),
+                                            folder.path()));
       const Table rows = table_of(outcome.output, 17);
       ASSERT_EQ(rows.size(), 12 * period + 1);
       double mean = 0;
@@ -170,16 +162,15 @@ TEST(ForceOnAMesh, GivesItsTorqueStressAndWear) {
     const Scratch folder;
     write_floor(folder / "floor.stl", 0.4, false);
     const Outcome outcome =
-        run_deck(test_deck("wall_force.in"),
-                 together(mesh_with_stress, {{"alone", "1"},
-                                             {"stepping", stepping},
-                                             {"D", std::string(stepping) == "second" ? "200" : "5"},
-                                             {"amplitude", "0"},
-                                             {"place", "move 0.2 0.15 0 wear finnie"},
-                                             {"steps", std::to_string(steps)},
-                                             {"store", "yes"}}),
-                 folder.path());
-    ASSERT_TRUE(outcome.ok()) << outcome.output;
+        well(run_deck(test_deck("wall_force.in"),
+                      with(mesh_with_stress, {{"alone", "1"},
+                                              {"stepping", stepping},
+                                              {"D", std::string(stepping) == "second" ? "200" : "5"},
+                                              {"amplitude", "0"},
+                                              {"place", "move 0.2 0.15 0 wear finnie"},
+                                              {"steps", std::to_string(steps)},
+                                              {"store", "yes"}}),
+                      folder.path()));
     const Table rows = table_of(outcome.output, 17);
     ASSERT_EQ(rows.size(), static_cast<std::size_t>(steps) + 1) << outcome.output;
     double wear = 0;

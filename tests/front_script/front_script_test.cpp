@@ -3,6 +3,7 @@
 #include "engine/engine_run.h"
 #include "support/files.h"
 
+#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 
 #include <gtest/gtest.h>
@@ -64,7 +65,7 @@ protected:
     EXPECT_EQ(outcome.status, 2) << outcome.output;
     EXPECT_EQ(outcome.output.rfind("ERROR: drumlin", 0), 0u) << outcome.output;
     EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
-    EXPECT_TRUE(outcome.says(text)) << outcome.output;
+    EXPECT_TRUE(printed(outcome, text));
   }
 
   Scratch scratch;
@@ -94,14 +95,12 @@ TEST_F(FrontScript, HandsArgumentsToTheEngineAsTheyAre) {
   put("my.deck", "run 0\n");
   for (const char *ranks : {"1", "2"}) {
     std::vector<std::string> arguments = {"run", "-np", ranks, "my.deck"};
-    std::string printed = "<-in><my.deck>";
+    std::string words = "<-in><my.deck>";
     for (const std::string &name : hostile) {
       arguments.insert(arguments.end(), {"-var", "name", name});
-      printed += "<-var><name><" + name + ">";
+      words += "<-var><name><" + name + ">";
     }
-    const Outcome outcome = call(script, arguments, folder);
-    EXPECT_TRUE(outcome.ok()) << outcome.output;
-    EXPECT_TRUE(outcome.says(printed)) << outcome.output;
+    EXPECT_TRUE(printed(well(call(script, arguments, folder)), words));
   }
   EXPECT_FALSE(fs::exists(folder / "pwned"));
 }
@@ -123,10 +122,8 @@ TEST_F(FrontScript, HandsArgumentsToTheToolsAsTheyAre) {
 
 TEST_F(FrontScript, RunsWithoutHome) {
   const fs::path script = checkout("checkout") / "drumlin";
-  const Outcome help = call(script, {"--help"}, folder);
-  EXPECT_TRUE(help.ok()) << help.output;
-  const Outcome version = call(script, {"report", "--help"}, folder);
-  EXPECT_TRUE(version.ok()) << version.output;
+  const Outcome help = well(call(script, {"--help"}, folder));
+  well(call(script, {"report", "--help"}, folder));
 }
 
 const std::vector<std::string> short_chain = {"run", "chain/in.chain", "-var", "cycles",
@@ -146,40 +143,36 @@ TEST_F(FrontScript, RunsInACheckoutWhosePathHasSpaces) {
        {"inputs/chain/in.chain", "chain/in.chain", "../my check out/inputs/chain/in.chain"}) {
     fs::remove_all(folder / "work here");
     fs::create_directory(folder / "work here");
-    const Outcome outcome = call(place / "drumlin", short_run(deck, "of a/run"), folder / "work here", true);
-    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    const Outcome outcome =
+        well(call(place / "drumlin", short_run(deck, "of a/run"), folder / "work here", true));
     EXPECT_TRUE(fs::is_regular_file(folder / "work here/of a/run/chain.csv")) << outcome.output;
   }
   fs::create_directory_symlink(place, folder / "link");
-  const Outcome linked = call(folder / "link/drumlin", short_chain, folder, true);
-  EXPECT_TRUE(linked.ok()) << linked.output;
+  const Outcome linked = well(call(folder / "link/drumlin", short_chain, folder, true));
   EXPECT_TRUE(fs::is_regular_file(folder / "out/chain.csv")) << linked.output;
-  EXPECT_TRUE(linked.says("LD_PRELOAD=" + (folder / "link/build/release/lib/libdrumlin.so").string()))
-      << linked.output;
+  EXPECT_TRUE(printed(linked, "LD_PRELOAD=" + (folder / "link/build/release/lib/libdrumlin.so").string()));
 }
 
 TEST_F(FrontScript, TakesFilesInFoldersWithSpaces) {
   const fs::path place = checkout("checkout");
   fs::create_directory(folder / "a bed");
-  Outcome outcome =
+  Outcome outcome = well(
       call(place / "drumlin",
            {"run", "bed/in.settle", "-var", "balls", "a bed/balls.data", "-var", "bed", "b/soil.restart"},
-           folder, false);
-  EXPECT_TRUE(outcome.ok()) << outcome.output;
+           folder, false));
   const std::size_t begin = outcome.output.find("<balls><") + 8;
   const fs::path handed = outcome.output.substr(begin, outcome.output.find('>', begin) - begin);
   EXPECT_EQ(handed.string().find(' '), std::string::npos) << outcome.output;
   EXPECT_EQ(fs::canonical(handed.parent_path()) / handed.filename(), folder / "a bed/balls.data");
-  EXPECT_TRUE(outcome.says("<b/soil.restart>")) << outcome.output;
+  EXPECT_TRUE(printed(outcome, "<b/soil.restart>"));
   expect_one_line(call(place / "drumlin", {"run", "bed/in.bed", "-var", "start", "a bed/of mine"}, folder),
                   "-var start is 'a bed/of mine'; allowed: ");
 }
 
 /// Only the working folder can be written, and the user is not the one who has built the checkout.
 TEST_F(FrontScript, RunsInstalledFromAReadOnlyPrefixThatWasMoved) {
-  const Outcome installing = run_program(
-      {"cmake", "--install", DRUMLIN_BINARY_DIR, "--prefix", (folder / "first").string()}, {}, folder, 60.0);
-  ASSERT_TRUE(installing.ok()) << installing.output;
+  well(run_program({"cmake", "--install", DRUMLIN_BINARY_DIR, "--prefix", (folder / "first").string()}, {},
+                   folder, 60.0));
   const fs::path prefix = folder / "moved pre fix";
   fs::rename(folder / "first", prefix);
   const auto writable = [&](bool yes) {
@@ -190,17 +183,15 @@ TEST_F(FrontScript, RunsInstalledFromAReadOnlyPrefixThatWasMoved) {
   fs::create_directory(folder / "work here");
   for (const char *deck : {"chain/in.chain", "inputs/chain/in.impact"}) {
     const Outcome outcome =
-        call(script, {"run", deck, "-var", "out", "of a/run"}, folder / "work here", true);
-    EXPECT_TRUE(outcome.ok()) << outcome.output;
+        well(call(script, {"run", deck, "-var", "out", "of a/run"}, folder / "work here", true));
     EXPECT_TRUE(fs::is_regular_file(folder / "work here/of a/run/chain.csv")) << outcome.output;
     EXPECT_FALSE(outcome.says(root.string())) << outcome.output;
   }
-  const Outcome advice = call(script, {"advise", "--error", "1e-3", "--case", "II"}, folder / "work here");
-  EXPECT_TRUE(advice.ok()) << advice.output;
-  EXPECT_TRUE(advice.says(" drumlin run ")) << advice.output;
-  const Outcome no_bed =
-      call(script, {"run", "bed/in.bed", "-var", "start", "none"}, folder / "work here", true);
-  EXPECT_TRUE(no_bed.says("which 'drumlin run inputs/bed/in.place -var start none' makes")) << no_bed.output;
+  EXPECT_TRUE(printed(well(call(script, {"advise", "--error", "1e-3", "--case", "II"}, folder / "work here")),
+                      " drumlin run "));
+  EXPECT_TRUE(
+      printed(call(script, {"run", "bed/in.bed", "-var", "start", "none"}, folder / "work here", true),
+              "which 'drumlin run inputs/bed/in.place -var start none' makes"));
   expect_one_line(call(script, {"demo", "--balls", "1"}, folder / "work here"),
                   "demo: --balls is '1'; allowed: ");
   expect_one_line(call(script, {"run"}, folder), "allowed: drumlin run [-np N] DECK");
@@ -231,8 +222,7 @@ TEST_F(FrontScript, RunsInPlacesOfAllKinds) {
         "LC_ALL=de_DE.UTF-8 $drumlin $run", "LC_NUMERIC=de_DE.UTF-8 $drumlin $run",
         "cd / && cd - >/dev/null && env -u HOME -u PWD $drumlin $run"}) {
     SCOPED_TRACE(line);
-    const Outcome outcome = shell(line);
-    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    well(shell(line));
     std::size_t rows = 0;
     std::ifstream table(folder / "out/chain.csv");
     for (std::string row; std::getline(table, row); ++rows)
@@ -262,8 +252,7 @@ TEST_F(FrontScript, RunsInAReadOnlyCheckout) {
     words.insert(words.end(), arguments.begin(), arguments.end());
     return run_program(words, {}, folder, 60.0);
   };
-  const Outcome outcome = read_only(short_chain);
-  EXPECT_TRUE(outcome.ok()) << outcome.output;
+  const Outcome outcome = well(read_only(short_chain));
   EXPECT_TRUE(fs::is_regular_file(folder / "out/chain.csv")) << outcome.output;
   for (const char *command : {"setup", "test", "check"})
     expect_one_line(read_only({command}), "cannot be written; allowed: a checkout of one's own");
@@ -300,7 +289,7 @@ TEST_F(FrontScript, JobScriptsContinueUntilTheCyclesAreDone) {
     const std::string calls = post::read_text(folder / "calls");
     EXPECT_EQ(std::count(calls.begin(), calls.end(), '\n'), slurm ? 4 : 3) << calls;
     EXPECT_EQ(calls.find("sbatch bed.slurm\n") != std::string::npos, slurm) << calls;
-    EXPECT_NE(calls.find("-var time_limit 7"), std::string::npos) << calls;
+    EXPECT_TRUE(contains(calls, "-var time_limit 7"));
   }
 }
 
@@ -331,12 +320,12 @@ TEST_F(FrontScript, NamesThePackagesThatAnLmpLacks) {
                     {}, folder);
     if (missing.empty()) {
       EXPECT_EQ(run.status, 0) << run.output;
-      EXPECT_TRUE(run.says("\nstarted\n")) << run.output;
+      EXPECT_TRUE(printed(run, "\nstarted\n"));
       EXPECT_EQ(cmake.status, 0) << cmake.output;
     } else {
       expect_one_line(run, "the engine 'lmp' has been built without " + missing + "; allowed: ");
       EXPECT_NE(cmake.status, 0);
-      EXPECT_TRUE(cmake.says("without " + missing.substr(0, 8))) << cmake.output; // CMake breaks the line
+      EXPECT_TRUE(printed(cmake, "without " + missing.substr(0, 8))); // CMake breaks the line
     }
   }
 }
@@ -348,9 +337,8 @@ TEST_F(FrontScript, FindsTheIncludesOfALinkedDeck) {
   fs::create_symlink("mine", folder / "decks/of mine");
   for (const char *deck : {"decks/mine", "decks/of mine"}) {
     fs::remove_all(folder / "out");
-    const Outcome outcome =
-        call(place / "drumlin", {"run", deck, "-var", "cycles", "1", "-var", "out", "out"}, folder, true);
-    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    const Outcome outcome = well(
+        call(place / "drumlin", {"run", deck, "-var", "cycles", "1", "-var", "out", "out"}, folder, true));
     EXPECT_TRUE(fs::is_regular_file(folder / "out/chain.csv")) << outcome.output;
   }
 }
@@ -373,8 +361,7 @@ TEST_F(FrontScript, PrintsTheCommandThatItRuns) {
     SCOPED_TRACE(ranks);
     const std::vector<std::string> words = {"run",  "-np", ranks, "chain/in.chain", "-var", "cycles", "1",
                                             "-var", "out", "out"};
-    const Outcome outcome = call(place / "drumlin", words, folder, true);
-    ASSERT_TRUE(outcome.ok()) << outcome.output;
+    const Outcome outcome = well(call(place / "drumlin", words, folder, true));
     ASSERT_EQ(outcome.output.rfind("+ ", 0), 0u) << outcome.output;
     const std::string line = outcome.output.substr(2, outcome.output.find('\n') - 2);
     const std::string table = post::read_text(folder / "out/chain.csv");
@@ -383,7 +370,7 @@ TEST_F(FrontScript, PrintsTheCommandThatItRuns) {
         {"env", "-i", "PATH=/usr/bin:/bin", "HOME=" + folder.string(), "sh", "-c", line}, {}, folder, 60.0);
     ASSERT_TRUE(again.ok()) << line << "\n" << again.output;
     EXPECT_EQ(post::read_text(folder / "out/chain.csv"), table);
-    EXPECT_EQ(line.find("drumlin-tools"), std::string::npos) << line;
+    EXPECT_FALSE(contains(line, "drumlin-tools"));
     fs::remove_all(folder / "out");
   }
 }
@@ -439,15 +426,12 @@ std::vector<std::string> demo_lines(bool with_lammps) {
 }
 
 TEST_F(FrontScript, DemoOfFewCyclesAndBalls) {
-  const Outcome installing =
-      run_program({"cmake", "--install", DRUMLIN_BINARY_DIR, "--prefix", (folder / "pre fix").string()}, {},
-                  folder, 60.0);
-  ASSERT_TRUE(installing.ok()) << installing.output;
+  well(run_program({"cmake", "--install", DRUMLIN_BINARY_DIR, "--prefix", (folder / "pre fix").string()}, {},
+                   folder, 60.0));
   const fs::path script = folder / "pre fix/bin/drumlin", work = folder / "work here";
   fs::create_directories(work / "results/demo/of an earlier call");
-  const Outcome outcome = run_program(
-      {"env", "-u", "HOME", script.string(), "demo", "--cycles", "1", "--balls", "300"}, {}, work, 280.0);
-  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  const Outcome outcome = well(run_program(
+      {"env", "-u", "HOME", script.string(), "demo", "--cycles", "1", "--balls", "300"}, {}, work, 280.0));
   const bool with_lammps = post::has_lammps();
   if (!with_lammps) std::puts("SKIPPED: the demo in LAMMPS: LAMMPS is not set up (./drumlin setup lammps)");
   expect_in_order(outcome.output, demo_lines(with_lammps));
@@ -496,11 +480,9 @@ TEST_F(FrontScript, DemoEndsWhenNobodyReadsIt) {
   put("bin/liggghts", "#!/bin/sh\nsleep 0.2\n");
   const std::string line = "set -o pipefail; PATH=" + (folder / "bin").string() + ":/usr/bin:/bin; ";
   const std::string places = "DRUMLIN_PLACES=" + (place / "build/release/bin/places").string();
-  const Outcome unread =
-      run_program({"bash", "-c", line + DRUMLIN_TOOLS + " demo | head -n 1"}, {places}, folder);
-  EXPECT_EQ(unread.status, 1);
-  EXPECT_TRUE(unread.says("ERROR: drumlin demo: nobody reads its output any more, so it has stopped\n"))
-      << unread.output;
+  EXPECT_TRUE(
+      fails_with(run_program({"bash", "-c", line + DRUMLIN_TOOLS + " demo | head -n 1"}, {places}, folder),
+                 "ERROR: drumlin demo: nobody reads its output any more, so it has stopped\n"));
   EXPECT_FALSE(fs::exists(folder / "results/demo/bed"));
   const Outcome full =
       run_program({"bash", "-c", line + DRUMLIN_TOOLS + " demo >/dev/full"}, {places}, folder);
@@ -513,9 +495,8 @@ TEST_F(FrontScript, IsFoundThroughALinkToIt) {
   const fs::path place = checkout("checkout");
   fs::create_symlink(place / "drumlin", folder / "bin/drumlin-link");
   put("my.deck", "run 0\n");
-  const Outcome outcome = call(folder / "bin/drumlin-link", {"run", "my.deck"}, folder);
-  EXPECT_TRUE(outcome.ok()) << outcome.output;
-  EXPECT_TRUE(outcome.says((place / "build/release/lib/libdrumlin.so").string())) << outcome.output;
+  EXPECT_TRUE(printed(well(call(folder / "bin/drumlin-link", {"run", "my.deck"}, folder)),
+                      (place / "build/release/lib/libdrumlin.so").string()));
 }
 
 } // namespace

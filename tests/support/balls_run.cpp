@@ -1,9 +1,9 @@
 #include "tests/support/balls_run.h"
+#include "tests/support/checks.h"
 
 #include <fstream>
 #include <initializer_list>
 #include <iterator>
-#include <stdexcept>
 
 namespace drumlin::test {
 
@@ -17,8 +17,7 @@ std::vector<double> BallsRun::series(long id, std::array<double, 3> Ball::*part,
 BallsRun run_balls(const Variables &variables, int ranks) {
   const Scratch scratch;
   write_floor(scratch / "floor.stl", 1.5, true);
-  const Outcome outcome = run_deck(test_deck("balls.in"), variables, scratch.path(), ranks);
-  if (!outcome.ok()) throw std::runtime_error("balls.in failed:\n" + outcome.output);
+  const Outcome outcome = well(run_deck(test_deck("balls.in"), variables, scratch.path(), ranks));
   std::ifstream in(scratch / "reaction.txt");
   return {read_dump(scratch / "state.dump"),
           post::read_events(scratch / "events.csv"),

@@ -4,6 +4,7 @@
 #include "report/report.h"
 #include "support/files.h"
 #include "support/usage_error.h"
+#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 #include "tests/support/page.h"
 
@@ -35,7 +36,7 @@ protected:
 
   /// The text of the page of a kind of test, after a report that must link to it.
   std::string sound_page(const std::string &folder, const std::string &kind, std::size_t images) const {
-    EXPECT_NE(report(folder).find(kind + "/index.html"), std::string::npos);
+    EXPECT_TRUE(contains(report(folder), kind + "/index.html"));
     expect_sound_page(root / "report" / kind, images);
     return post::read_text(root / "report" / kind / "index.html");
   }
@@ -49,13 +50,7 @@ protected:
   /// message.
   void expect_refused(const std::string &csv, const std::string &text, const std::string &says) const {
     write_run("refused", csv, text, "");
-    try {
-      report("refused");
-      ADD_FAILURE() << text;
-    } catch (const post::UsageError &error) {
-      EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
-      EXPECT_NE(std::string(error.what()).find(csv), std::string::npos) << error.what();
-    }
+    EXPECT_TRUE(contains(error_of<post::UsageError>([&] { report("refused"); }), {says, csv}));
     EXPECT_FALSE(std::filesystem::exists(root / "report"));
   }
 

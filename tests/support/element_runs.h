@@ -2,6 +2,7 @@
 #pragma once
 
 #include "support/csv.h"
+#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 
 #include <gtest/gtest.h>
@@ -17,8 +18,7 @@ inline post::Table run_element_test(const std::string &engine, const std::string
                                     const Variables &variables, int ranks = 1) {
   const Scratch scratch;
   const std::string deck = "../soil/in." + name + (engine == "lammps" ? ".lammps" : "");
-  const Outcome outcome = run_deck(chain_deck(deck), variables, scratch.path(), ranks);
-  if (!outcome.ok()) throw std::runtime_error(outcome.output);
+  well(run_deck(chain_deck(deck), variables, scratch.path(), ranks));
   return post::read_table(scratch / (name + ".csv"));
 }
 

@@ -1,3 +1,4 @@
+#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 
 #include "bed/dump_readers.h"
@@ -9,7 +10,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
@@ -40,6 +40,19 @@ post::StopCondition after_processor_time(double seconds) {
     if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &used) != 0) return false;
     return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec) >= seconds;
   };
+}
+
+namespace {
+constexpr const char *wait_name = "OMPI_MCA_odls_base_sigkill_timeout"; // s from SIGTERM to SIGKILL
+}
+
+WaitForRanks::WaitForRanks(int seconds) {
+  if (const char *before = std::getenv(wait_name)) before_ = before;
+  ::setenv(wait_name, std::to_string(seconds).c_str(), 1);
+}
+
+WaitForRanks::~WaitForRanks() {
+  before_.empty() ? ::unsetenv(wait_name) : ::setenv(wait_name, before_.c_str(), 1);
 }
 
 std::string number(double value) { return post::number_text(value); }
@@ -74,15 +87,14 @@ ChainRun read_run(const fs::path &folder) {
 ChainRun run_chain(const std::string &name, post::Transition transition, int steps_per_cycle,
                    int samples_per_cycle, const Variables &more) {
   const Scratch scratch;
-  Variables variables = {{"case", name},
-                         {"transition", post::transition_name(transition)},
-                         {"steps_per_cycle", std::to_string(steps_per_cycle)},
-                         {"samples_per_cycle", std::to_string(samples_per_cycle)}};
-  variables.insert(variables.end(), more.begin(), more.end());
-  variables.emplace_back("stepping",
-                         "stock"); // the engine takes the first value of a variable: `more` goes before
-  const Outcome outcome = run_deck(chain_deck("in.chain"), variables, scratch.path());
-  if (!outcome.ok()) throw std::runtime_error("in.chain failed:\n" + outcome.output);
+  const Variables variables =
+      with(with({{"case", name},
+                 {"transition", post::transition_name(transition)},
+                 {"steps_per_cycle", std::to_string(steps_per_cycle)},
+                 {"samples_per_cycle", std::to_string(samples_per_cycle)}},
+                more),
+           {{"stepping", "stock"}}); // the engine takes the first value of a variable: `more` goes before
+  well(run_deck(chain_deck("in.chain"), variables, scratch.path()));
   return read_run(scratch.path());
 }
 

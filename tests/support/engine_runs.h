@@ -10,7 +10,6 @@
 #include <filesystem>
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace drumlin::test {
@@ -41,6 +40,19 @@ using post::Variables;
 /// Whether a process has used this processor time, in seconds: an engine's start, which takes less, is over
 /// then, however busy the machine is.
 post::StopCondition after_processor_time(double seconds);
+
+/// How long mpirun waits for the other ranks when one has failed, as long as this lives: by default one to
+/// two seconds, of which runs that are refused have no use. Ranks that put back earlier files need it.
+class WaitForRanks {
+public:
+  explicit WaitForRanks(int seconds);
+  ~WaitForRanks();
+  WaitForRanks(const WaitForRanks &) = delete;
+  WaitForRanks &operator=(const WaitForRanks &) = delete;
+
+private:
+  std::string before_;
+};
 
 /// A number for -var, bit for bit.
 std::string number(double value);

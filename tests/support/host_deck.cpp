@@ -57,6 +57,7 @@ Outcome run_host(const std::string &pair, const std::string &lines, const fs::pa
 
 Outcome run_lammps_host(const std::string &lines, const fs::path &folder, int ranks) {
   write_text(folder / "lines", lines + "\nrun 20\n");
+  const WaitForRanks at_once(0);
   return run_deck(fs::path(DRUMLIN_SOURCE_DIR) / "tests/support/host.lammps",
                   {{"lines", (folder / "lines").string()}}, folder, ranks);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Lines of a text, for tests that read what programs have printed or written.
+// Lines and words of a text, for tests that read what programs have printed or written.
 
 #include <gtest/gtest.h>
 
@@ -16,6 +16,15 @@ inline std::vector<std::string> lines_of(const std::string &text) {
   for (std::string line; std::getline(in, line);)
     lines.push_back(line);
   return lines;
+}
+
+/// The words of a text, with white space between them.
+inline std::vector<std::string> words_of(const std::string &text) {
+  std::vector<std::string> words;
+  std::istringstream in(text);
+  for (std::string word; in >> word;)
+    words.push_back(word);
+  return words;
 }
 
 /// Expects that the last line that a program has printed is an error, "ERROR: " followed by `start` and more,

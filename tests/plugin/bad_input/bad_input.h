@@ -5,26 +5,28 @@
 
 #include <ostream>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace drumlin::test {
 
-/// Whether plugin or engine prints the error line. The plugin's line names command, keyword, value and what
-/// is allowed ("allowed:"); where the engine's own check comes first, only its text is printed (the pages of
-/// plugin/doc say where).
-enum class Text { ours, engine };
+/// How a mistake is tried; kinds are added.
+enum Kind : unsigned {
+  on_one_rank = 0,
+  on_two_ranks = 1, ///< is among those that are tried under 2 ranks, too
+  in_the_run = 2,   ///< shows in the run, after the output files were opened
+  /// The engine's own check comes first, and its text is printed (the pages of plugin/doc say where). The
+  /// plugin's line names command, keyword, value and what is allowed ("allowed:").
+  in_engine_words = 4
+};
 
 /// One mistake.
 struct BadInput {
   std::string name;
   std::string lines;             ///< lines of the host deck; not used for a project deck
-  std::vector<std::string> says; ///< all of them are in the one error line
-  Variables variables = {};      ///< of a project deck
-  bool two_ranks = false;        ///< is among those that are tried under 2 ranks, too
-  Text text = Text::ours;
-  bool runs = false;     ///< the mistake shows in the run, after the output files were opened
-  std::string pair = {}; ///< pair style and properties instead of the host's
+  std::vector<std::string> says; ///< all of them are in the one error line, in this order
+  unsigned kind = on_one_rank;
+  Variables variables = {}; ///< of a project deck
+  std::string pair = {};    ///< pair style and properties instead of the host's
 };
 
 /// Mistakes of one kind. They share a test, one engine run after the other.
@@ -35,34 +37,25 @@ struct BadGroup {
   bool lammps = false; ///< the host deck is that of LAMMPS, which has no pair style of its own
 };
 
-inline BadInput line(const std::string &name, const std::string &lines,
-                     const std::vector<std::string> &says) {
-  return {name, lines, says};
-}
-/// Lines that are their own name.
-inline BadInput line(const std::string &lines, const std::vector<std::string> &says) {
-  return {lines, lines, says};
-}
+/// A mistake in a table: its name (empty: the lines), the lines of the deck, and what the error line says
+/// behind the name of the command, in parts with " ... " between them.
+struct Row {
+  std::string name, lines, says;
+  unsigned kind = on_one_rank;
+};
 
-inline BadInput on_two_ranks(BadInput input) {
-  input.two_ranks = true;
-  return input;
-}
+/// A group whose error lines name one command. In lines and errors of its rows, @ stands for `beginning`.
+struct Table {
+  std::string name, command, beginning;
+  bool lammps = false;
 
-inline BadInput in_the_run(BadInput input) {
-  input.runs = true;
-  return input;
-}
+  BadGroup of(const std::vector<Row> &rows) const;
+};
 
-inline BadInput in_engine_words(BadInput input) {
-  input.text = Text::engine;
-  return input;
-}
+/// The parts of an error line in a row.
+std::vector<std::string> parts_of(const std::string &says);
 
-inline BadGroup in_lammps(const std::string &name, std::vector<BadInput> inputs) {
-  return {name, "", std::move(inputs), true};
-}
-/// A pair style for them.
+/// A pair style for LAMMPS.
 inline const std::string lammps_pair_style = "pair_style gran/hooke/transition\npair_coeff * * 1e5 0.2\n";
 
 /// How a test's listing shows a group.

@@ -2,6 +2,7 @@
 // 0 and with one line that says what is wrong, and leaves the files of an earlier run as they were.
 
 #include "tests/plugin/bad_input/bad_input.h"
+#include "tests/support/checks.h"
 #include "tests/support/host_deck.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +11,31 @@
 #include <map>
 
 namespace drumlin::test {
+
+std::vector<std::string> parts_of(const std::string &says) {
+  const std::string between = " ... ";
+  const std::size_t end = says.find(between);
+  if (end == std::string::npos) return {says};
+  std::vector<std::string> parts = parts_of(says.substr(end + between.size()));
+  parts.insert(parts.begin(), says.substr(0, end));
+  return parts;
+}
+
+BadGroup Table::of(const std::vector<Row> &rows) const {
+  const auto whole = [this](std::string text) {
+    for (std::size_t at = text.find('@'); at != std::string::npos; at = text.find('@', at + beginning.size()))
+      text.replace(at, 1, beginning);
+    return text;
+  };
+  BadGroup group{name, "", {}, lammps};
+  for (const Row &row : rows) {
+    const std::string lines = whole(row.lines), engine = row.kind & in_engine_words ? "" : command;
+    group.inputs.push_back(
+        {row.name.empty() ? lines : row.name, lines, parts_of(engine + whole(row.says)), row.kind});
+  }
+  return group;
+}
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -56,10 +82,14 @@ void expect_one_error(const BadInput &input, const Outcome &outcome) {
   const std::size_t at = errors.front().rfind(" (");
   const std::string place = at == std::string::npos ? errors.front() : errors.front().substr(at);
   EXPECT_EQ(outcome.output.find(place), outcome.output.rfind(place)) << outcome.output;
-  for (const std::string &words : input.says)
-    EXPECT_NE(errors.front().find(words), std::string::npos) << words << "\n" << errors.front();
-  if (input.text == Text::engine) return;
-  EXPECT_NE(errors.front().find("; allowed: "), std::string::npos) << errors.front();
+  std::size_t behind = 0;
+  for (const std::string &words : input.says) {
+    const std::size_t found = errors.front().find(words, behind);
+    ASSERT_NE(found, std::string::npos) << "no '" << words << "' at its place in\n" << errors.front();
+    behind = found + words.size();
+  }
+  if (input.kind & in_engine_words) return;
+  EXPECT_TRUE(contains(errors.front(), "; allowed: "));
 }
 
 /// A file with the notes of a bed, which in.place and in.bed read before they check their other variables.
@@ -69,14 +99,13 @@ const std::string &bed_file(const std::string &stage) {
   std::string &text = files[stage];
   if (text.empty()) {
     const Scratch scratch;
-    const Outcome made = run_host(host_pair_style() + host_properties(),
-                                  "drumlin/write_restart bed.restart bed " + stage +
-                                      " case gravel dimension 2 walls 1 stepping stock g 9.81 tangential "
-                                      "coulomb rolling_history 1 k 1e9 D 0.3 "
-                                      "friction 0.8 rolling 0.3 drum ball m2 2000 m3 1000 r2 0.35 r3 0.25 rc "
-                                      "0.02 drum_depth 0.01 k23 1e6 c23 1e4\n",
-                                  scratch.path(), 1);
-    EXPECT_TRUE(made.ok()) << made.output;
+    well(run_host(host_pair_style() + host_properties(),
+                  "drumlin/write_restart bed.restart bed " + stage +
+                      " case gravel dimension 2 walls 1 stepping stock g 9.81 tangential "
+                      "coulomb rolling_history 1 k 1e9 D 0.3 "
+                      "friction 0.8 rolling 0.3 drum ball m2 2000 m3 1000 r2 0.35 r3 0.25 rc "
+                      "0.02 drum_depth 0.01 k23 1e6 c23 1e4\n",
+                  scratch.path(), 1));
     text = read_text(scratch / "bed.restart");
   }
   return text;
@@ -117,7 +146,7 @@ void try_input(const BadGroup &group, const BadInput &input, int ranks) {
   for (int again = 0; again < 3 && lost(); ++again)
     outcome = run_input(group, input, scratch, ranks);
   expect_one_error(input, outcome);
-  if (!input.runs) earlier.expect_untouched();
+  if (!(input.kind & in_the_run)) earlier.expect_untouched();
 }
 
 void try_inputs(const BadGroup &group, int ranks) {
@@ -140,7 +169,7 @@ std::vector<BadGroup> groups_for_two_ranks() {
   for (const BadGroup &group : all_groups()) {
     groups.push_back({group.name, group.deck, {}, group.lammps});
     for (std::size_t n = 0; n < group.inputs.size(); ++n)
-      if (group.inputs[n].two_ranks || n == 0) groups.back().inputs.push_back(group.inputs[n]);
+      if ((group.inputs[n].kind & on_two_ranks) || n == 0) groups.back().inputs.push_back(group.inputs[n]);
   }
   return groups;
 }
@@ -167,11 +196,9 @@ TEST(BadInput, BracesStayAsTheyAreInLammps) {
                                    {"chain/in.chain.lammps", "case"},
                                    {"bed/in.bed.lammps", "start"}})
     for (const std::string value : {"{}", "{0}", "{"}) {
-      const Outcome outcome = post::run_deck(decks / deck, {{name, value}}, scratch.path());
-      EXPECT_EQ(outcome.status, 1);
-      EXPECT_TRUE(outcome.says("ERROR: drumlin/check: variable " + std::string(name) + " is '" + value +
-                               "'; allowed: "))
-          << outcome.output;
+      EXPECT_TRUE(fails_with(post::run_deck(decks / deck, {{name, value}}, scratch.path()),
+                             "ERROR: drumlin/check: variable " + std::string(name) + " is '" + value +
+                                 "'; allowed: "));
     }
 }
 
@@ -187,11 +214,10 @@ TEST(BadInputDecks, KnowTheirVariables) {
       const Outcome outcome = lammps ? post::run_deck(entry.path(), {{"stepz", "1"}}, scratch.path())
                                      : run_engine(entry.path(), {"-var", "stepz", "1"}, scratch.path(), 1);
       ++decks;
-      EXPECT_EQ(outcome.status, 1) << name;
-      EXPECT_TRUE(
-          outcome.says("ERROR: drumlin/variables: -var stepz is '1', a variable that this deck does not "
-                       "have; allowed: "))
-          << name << outcome.output;
+      EXPECT_TRUE(fails_with(
+          outcome, "ERROR: drumlin/variables: -var stepz is '1', a variable that this deck does not "
+                   "have; allowed: "))
+          << name;
     }
   EXPECT_GE(decks, 20u);
 }
@@ -213,12 +239,11 @@ TEST(BadInputDecks, KeepTheirOwnVariables) {
   for (const auto &[deck, names] : table)
     for (const std::string &name : names) {
       const Scratch scratch;
-      const Outcome outcome = run_engine(fs::path(DRUMLIN_SOURCE_DIR) / "inputs" / deck,
-                                         {"-var", name, "mud"}, scratch.path(), 1);
-      EXPECT_EQ(outcome.status, 1) << deck << ' ' << name;
-      EXPECT_TRUE(outcome.says("ERROR: drumlin/variables: -var " + name +
-                               " is 'mud', a variable that this deck does not have; allowed: "))
-          << deck << ' ' << name << outcome.output;
+      EXPECT_TRUE(fails_with(run_engine(fs::path(DRUMLIN_SOURCE_DIR) / "inputs" / deck, {"-var", name, "mud"},
+                                        scratch.path(), 1),
+                             "ERROR: drumlin/variables: -var " + name +
+                                 " is 'mud', a variable that this deck does not have; allowed: "))
+          << deck << ' ' << name;
     }
 }
 
@@ -227,11 +252,11 @@ TEST(BadInputHost, RunsWithoutAMistake) {
   for (const int ranks : {1, 2}) {
     const Scratch scratch;
     const EarlierRun earlier(scratch.path());
-    const Outcome outcome = run_host(host_pair_style() + host_properties(), outputs, scratch.path(), ranks);
-    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    const Outcome outcome =
+        well(run_host(host_pair_style() + host_properties(), outputs, scratch.path(), ranks));
     EXPECT_FALSE(outcome.says("ERROR")) << outcome.output;
     for (const char *name : {"chain.csv", "events.csv", "cycles.csv"})
-      EXPECT_EQ(read_text(scratch.path() / "out" / name).find("earlier"), std::string::npos) << name;
+      EXPECT_FALSE(contains(read_text(scratch.path() / "out" / name), "earlier")) << name;
   }
 }
 

@@ -15,116 +15,119 @@ namespace {
 
 /// A mistake in the pair style: settings after `model hooke/transition`, then properties.
 BadInput pair(const std::string &name, const std::string &settings, const std::string &properties,
-              const std::vector<std::string> &says) {
-  BadInput input = line(name, "", says);
-  input.pair = "pair_style gran model hooke/transition " + settings + "\npair_coeff * *\n" + properties;
-  return input;
+              const std::vector<std::string> &says, unsigned kind = on_one_rank) {
+  return {name, "", says,
+          kind, {}, "pair_style gran model hooke/transition " + settings + "\npair_coeff * *\n" + properties};
+}
+
+/// Takes the lines of a group as settings of the pair style.
+BadGroup settings_of(const std::string &law, BadGroup group) {
+  for (BadInput &input : group.inputs) {
+    input.pair =
+        "pair_style gran model " + law + " " + input.lines + "\npair_coeff * *\n" + host_properties();
+    input.lines.clear();
+  }
+  return group;
 }
 
 /// A value that one property of the contact law may not have.
-BadInput value(const std::string &property_name, const std::string &text, const std::string &settings = "") {
+BadInput value(const std::string &property_name, const std::string &text, const std::string &settings = "",
+               unsigned kind = on_one_rank) {
   const std::string given = property(property_name, text);
   return pair(property_name + " " + text, settings, given + host_properties(given),
               {"model hooke/transition", "property " + property_name, "types 1 and 1", "is " + text,
-               "a finite number >"});
+               "a finite number >"},
+              kind);
 }
 
 BadInput twice_in_a_hybrid() {
-  BadInput input =
-      line("twice in a hybrid", "",
-           {"pair_style gran model hooke/transition: pair_style hybrid has gran more than once", "once"});
+  BadInput input{
+      "twice in a hybrid",
+      "",
+      {"pair_style gran model hooke/transition: pair_style hybrid has gran more than once", "once"},
+      on_two_ranks};
   input.pair = "pair_style hybrid gran model hooke/transition gran model hooke/transition\n"
                "pair_coeff * * gran 1\npair_coeff 3 3 gran 2\n" +
                host_properties();
   return input;
 }
 
-// Longer than other functions: it has a line for each mistake and nothing else.
 BadGroup pair_style() {
-  const std::string command = "pair_style gran model hooke/transition: ";
-  const std::string good = host_properties();
-  const std::string kn = property("kn", "1e7");
-  const std::string ratio = property("dampingRatio", "0.5");
-  return {
-      "PairStyle",
-      "",
-      {
-          on_two_ranks(pair("unknown transition", "transition C", good,
-                            {command + "keyword transition is 'C'", "A or B"})),
-          pair("small transition", "transition a", good, {command + "keyword transition is 'a'", "A or B"}),
-          pair("transition without value", "transition", good,
-               {command + "keyword transition is missing", "A or B"}),
-          pair("unknown damping", "damping high", good,
-               {command + "keyword damping is 'high'", "coefficient, ratio or restitution"}),
-          pair("damping without value", "damping", good,
-               {command + "keyword damping is missing", "coefficient, ratio or restitution"}),
-          pair("damping as a number", "damping 0.5", good,
-               {command + "keyword damping is '0.5'", "coefficient, ratio or restitution"}),
-          pair("unknown stepping", "stepping third", good,
-               {command + "keyword stepping is 'third'", "stock or second"}),
-          pair("stepping without value", "stepping", good,
-               {command + "keyword stepping is missing", "stock or second"}),
-          on_two_ranks(line(
-              "stress from forces that are not final",
-              "fix stress all continuum/weighted kernel_radius 2 compute stress",
-              {command + "stepping is 'second' and there is a fix continuum/weighted", "stepping stock"})),
-          pair("unknown keyword", "limit on", good,
-               {command + "keyword is 'limit'", "transition, damping or stepping"}),
-          pair("the engine's limitForce", "limitForce on", good,
-               {command + "keyword is 'limitForce'", "transition B in place of 'limitForce on'",
-                "transition A in place of 'limitForce off'"}),
-          pair("the engine's absolute_damping", "transition A absolute_damping on", good,
-               {command + "keyword is 'absolute_damping'", "damping coefficient with property gamman_abs"}),
-          pair("the engine's tangential_damping", "tangential_damping off", good,
-               {command + "keyword is 'tangential_damping'", "property gammat_abs of 0"}),
-          pair("the engine's viscous", "viscous on", good,
-               {command + "keyword is 'viscous'", "damping ratio with property dampingRatio"}),
-          pair("LAMMPS's limit_damping", "limit_damping", good,
-               {command + "keyword is 'limit_damping'", "transition B in place of it"}),
-          pair("the engine's energies", "computeDissipatedEnergy on", good,
-               {command + "keyword is 'computeDissipatedEnergy'", "the energies of fix roller/history"}),
-          on_two_ranks(twice_in_a_hybrid()),
-          pair("cap", "tangential coulomb cap spring", good, {command + "keyword is 'cap'"}),
-          pair("a word left over", "transition A B", good, {command + "keyword is 'B'"}),
-          pair("torsion without rolling", "torsionTorque on", good, {command + "keyword is 'torsionTorque'"}),
-          pair("torsion without value", "rolling_friction epsd2 torsionTorque", good,
-               {command + "keyword torsionTorque is missing", "on or off"}),
-          pair("unknown torsion", "rolling_friction epsd2 torsionTorque yes", good,
-               {command + "keyword torsionTorque is 'yes'", "on or off"}),
-          pair("model too late", "transition A tangential history", good,
-               {command + "'tangential' comes too late"}),
-          pair("model without name", "tangential", good,
-               {command + "'tangential' comes too late or lacks its value"}),
-          in_engine_words(
-              pair("unknown tangential model", "tangential sticky", good, {"Invalid model specified"})),
-          pair("cohesion", "cohesion sjkr", good, {command + "keyword cohesion is 'sjkr'; allowed: off"}),
-          pair("surface", "tangential history surface multicontact", good,
-               {command + "keyword surface is 'multicontact'; allowed: default"}),
-          on_two_ranks(pair("no_history", "tangential no_history", good,
-                            {command + "keyword tangential is 'no_history'; allowed: off, history or "
-                                       "coulomb, of which coulomb replaces no_history"})),
-          pair("cdt", "tangential coulomb rolling_friction cdt", good,
-               {command + "keyword rolling_friction is 'cdt'; allowed: off or epsd2, of which epsd2 replaces "
-                          "cdt"}),
-          pair("epsd", "rolling_friction epsd", good,
-               {command + "keyword rolling_friction is 'epsd'; allowed: off or epsd2"}),
-          on_two_ranks(
-              pair("no kn", "", ratio,
-                   {"property kn (normal stiffness, N/m) is missing; allowed: 'fix ID all property/global kn",
-                    "9 values"})),
-          pair("no damping ratio", "", kn,
-               {"property dampingRatio (damping ratio D", "is missing", "9 values"}),
-          pair("no damping coefficient", "damping coefficient", kn + ratio,
-               {"property gamman_abs (normal damping coefficient, N s/m", "is missing", "9 values"}),
-          pair("no restitution", "damping restitution", kn + ratio,
-               {"property coefficientRestitution (restitution e", "is missing", "9 values"}),
-      }};
+  const std::string kn = property("kn", "1e7"), ratio = property("dampingRatio", "0.5");
+  BadGroup group = settings_of(
+      "hooke/transition",
+      Table{"PairStyle", "pair_style gran model hooke/transition: ", ""}.of({
+          {"unknown transition", "transition C", "keyword transition is 'C' ... A or B", on_two_ranks},
+          {"small transition", "transition a", "keyword transition is 'a' ... A or B"},
+          {"transition without value", "transition", "keyword transition is missing ... A or B"},
+          {"unknown damping", "damping high",
+           "keyword damping is 'high' ... coefficient, ratio or restitution"},
+          {"damping without value", "damping",
+           "keyword damping is missing ... coefficient, ratio or restitution"},
+          {"damping as a number", "damping 0.5",
+           "keyword damping is '0.5' ... coefficient, ratio or restitution"},
+          {"unknown stepping", "stepping third", "keyword stepping is 'third' ... stock or second"},
+          {"stepping without value", "stepping", "keyword stepping is missing ... stock or second"},
+          {"unknown keyword", "limit on", "keyword is 'limit' ... transition, damping or stepping"},
+          {"the engine's limitForce", "limitForce on",
+           "keyword is 'limitForce' ... transition B in place of 'limitForce on' ... transition A in place "
+           "of 'limitForce off'"},
+          {"the engine's absolute_damping", "transition A absolute_damping on",
+           "keyword is 'absolute_damping' ... damping coefficient with property gamman_abs"},
+          {"the engine's tangential_damping", "tangential_damping off",
+           "keyword is 'tangential_damping' ... property gammat_abs of 0"},
+          {"the engine's viscous", "viscous on",
+           "keyword is 'viscous' ... damping ratio with property dampingRatio"},
+          {"LAMMPS's limit_damping", "limit_damping",
+           "keyword is 'limit_damping' ... transition B in place of it"},
+          {"the engine's energies", "computeDissipatedEnergy on",
+           "keyword is 'computeDissipatedEnergy' ... the energies of fix roller/history"},
+          {"cap", "tangential coulomb cap spring", "keyword is 'cap'"},
+          {"a word left over", "transition A B", "keyword is 'B'"},
+          {"torsion without rolling", "torsionTorque on", "keyword is 'torsionTorque'"},
+          {"torsion without value", "rolling_friction epsd2 torsionTorque",
+           "keyword torsionTorque is missing ... on or off"},
+          {"unknown torsion", "rolling_friction epsd2 torsionTorque yes",
+           "keyword torsionTorque is 'yes' ... on or off"},
+          {"model too late", "transition A tangential history", "'tangential' comes too late"},
+          {"model without name", "tangential", "'tangential' comes too late or lacks its value"},
+          {"unknown tangential model", "tangential sticky", "Invalid model specified", in_engine_words},
+          {"cohesion", "cohesion sjkr", "keyword cohesion is 'sjkr'; allowed: off"},
+          {"surface", "tangential history surface multicontact",
+           "keyword surface is 'multicontact'; allowed: default"},
+          {"no_history", "tangential no_history",
+           "keyword tangential is 'no_history'; allowed: off, history or coulomb, of which coulomb replaces "
+           "no_history",
+           on_two_ranks},
+          {"cdt", "tangential coulomb rolling_friction cdt",
+           "keyword rolling_friction is 'cdt'; allowed: off or epsd2, of which epsd2 replaces cdt"},
+          {"epsd", "rolling_friction epsd", "keyword rolling_friction is 'epsd'; allowed: off or epsd2"},
+      }));
+  group.inputs.push_back(
+      {"stress from forces that are not final",
+       "fix stress all continuum/weighted kernel_radius 2 compute stress",
+       {"pair_style gran model hooke/transition: stepping is 'second' and there is a fix continuum/weighted",
+        "stepping stock"},
+       on_two_ranks});
+  group.inputs.push_back(twice_in_a_hybrid());
+  group.inputs.push_back(pair(
+      "no kn", "", ratio,
+      {"property kn (normal stiffness, N/m) is missing; allowed: 'fix ID all property/global kn", "9 values"},
+      on_two_ranks));
+  group.inputs.push_back(
+      pair("no damping ratio", "", kn, {"property dampingRatio (damping ratio D", "is missing", "9 values"}));
+  group.inputs.push_back(
+      pair("no damping coefficient", "damping coefficient", kn + ratio,
+           {"property gamman_abs (normal damping coefficient, N s/m", "is missing", "9 values"}));
+  group.inputs.push_back(pair("no restitution", "damping restitution", kn + ratio,
+                              {"property coefficientRestitution (restitution e", "is missing", "9 values"}));
+  return group;
 }
 
 /// A mistake in the pair style with the Hertz law, whose host properties are given but those in `properties`.
 BadInput hertz(const std::string &name, const std::string &settings, const std::string &E,
-               const std::string &nu, const std::vector<std::string> &says) {
-  BadInput input = line(name, "", says);
+               const std::string &nu, const std::vector<std::string> &says, unsigned kind = on_one_rank) {
+  BadInput input{name, "", says, kind};
   const auto of_types = [](const std::string &property_name, const std::string &value) {
     return value.empty() ? std::string()
                          : "fix " + property_name + " all property/global " + property_name +
@@ -136,18 +139,17 @@ BadInput hertz(const std::string &name, const std::string &settings, const std::
 }
 
 BadGroup hertz_law() {
-  const std::string command = "pair_style gran model hertz/transition: ";
   return {"Hertz",
           "",
           {
               hertz("transition", "transition C", "1e7", "0.3",
-                    {command + "keyword transition is 'C'", "A or B"}),
+                    {"pair_style gran model hertz/transition: keyword transition is 'C'", "A or B"}),
               hertz("torsion", "rolling_friction epsd2 torsionTorque yes", "1e7", "0.3",
-                    {command + "keyword torsionTorque is 'yes'", "on or off"}),
-              on_two_ranks(
-                  hertz("no modulus", "", "", "0.3",
-                        {"model hertz/transition: property youngsModulus (Young's modulus, Pa) is missing",
-                         "peratomtype' and 3 values"})),
+                    {"pair_style gran model hertz/transition: keyword torsionTorque is 'yes'", "on or off"}),
+              hertz("no modulus", "", "", "0.3",
+                    {"model hertz/transition: property youngsModulus (Young's modulus, Pa) is missing",
+                     "peratomtype' and 3 values"},
+                    on_two_ranks),
               hertz("ratio beyond", "", "1e7", "0.6",
                     {"property poissonsRatio of type 1 is 0.6", "a finite number > -1 and <= 0.5"}),
               hertz("damping restitution", "damping restitution", "1e7", "0.3",
@@ -155,211 +157,208 @@ BadGroup hertz_law() {
           }};
 }
 
-// Longer than other functions: it has a line for each mistake and nothing else.
 BadGroup pair_style_in_lammps() {
-  const std::string pair = "pair_style gran/hooke/transition", coeff = "pair_coeff of gran/hooke/transition",
-                    good = lammps_pair_style;
-  return in_lammps(
-      "PairStyleInLammps",
-      {line("pair_style gran/hooke/transition transition C",
-            {pair, "keyword transition is 'C'", "allowed: A or B"}),
-       line("pair_style gran/hooke/transition stepping third",
-            {pair, "keyword stepping is 'third'", "stock or second"}),
-       line("pair_style gran/hooke/transition torsion on",
-            {pair, "keyword is 'torsion'", "allowed: transition"}),
-       line("pair_style gran/hooke/transition rolling on", {pair, "keyword rolling is 'on'", "off or epsd2"}),
-       line("pair_style gran/hooke/transition rolling", {pair, "keyword rolling is missing", "off or epsd2"}),
-       line("pair_style gran/hooke/transition rolling epsd2\npair_coeff * * 1e5 0.2",
-            {coeff, "rolling friction coefficient mu_r is missing", "rolling mu_r, a finite number >= 0"}),
-       line("pair_style gran/hooke/transition rolling epsd2\npair_coeff * * 1e5 0.2 rolling",
-            {coeff, "rolling friction coefficient mu_r is missing", "a finite number >= 0"}),
-       line("pair_style gran/hooke/transition rolling epsd2 tangential coulomb\n"
-            "pair_coeff * * 1e5 0.2 0.5 NULL rolling -0.1",
-            {coeff, "rolling friction coefficient mu_r is '-0.1'", "a finite number >= 0"}),
-       line("pair_style gran/hooke/transition rolling epsd2\npair_coeff * * 1e5 0.2 0.3 rolling 0.1",
-            {coeff, "'0.3' is left over", "I J k damping rolling mu_r"}),
-       line("pair_style gran/hooke/transition\npair_coeff * * 1e5 0.2 rolling 0.1",
-            {coeff, "'rolling' is left over", "rolling epsd2 of pair_style"}),
-       line("pair_style gran/hooke/transition damping", {pair, "keyword damping is missing"}),
-       line("pair_style gran/hooke/transition limit_damping",
-            {pair, "keyword is 'limit_damping'", "transition B in place of it"}),
-       line("pair_style gran/hooke/transition absolute_damping on",
-            {pair, "keyword is 'absolute_damping'", "damping coefficient with c in pair_coeff"}),
-       line("pair_style gran/hooke/transition 1e5 NULL 50 NULL 0.5 1",
-            {pair, "'1e5' is no keyword", "numbers in pair_coeff"}),
-       line("pair_style gran/hooke/transition\npair_coeff 1 1 1e5 0.2\npair_coeff 2 2 1e5 0.2",
-            {pair, "types 1 2 have no coefficients", "pair_coeff 1 2 k damping", "pair_coeff * *"}),
-       in_engine_words(line(good + "pair_style gran/hooke/transition damping coefficient",
-                            {"All pair coeffs are not set"})),
-       line("pair_style hybrid gran/hooke/transition gran/hooke/transition\n"
-            "pair_coeff * * gran/hooke/transition 1 1e5 0.2\npair_coeff 2 2 gran/hooke/transition 2 1e5 0.2",
-            {pair, "pair_style hybrid has it more than once", "once"}),
-       line("pair_style gran/hooke/transition\npair_coeff * * -1 0.2",
-            {coeff, "normal stiffness k is '-1'", "a finite number > 0"}),
-       line("pair_style gran/hooke/transition\npair_coeff * * 1e5", {coeff, "damping ratio D is missing"}),
-       line("pair_style gran/hooke/transition\npair_coeff * * 1e5 0.2 0.4",
-            {coeff, "'0.4' is left over", "tangential"}),
-       line("pair_style gran/hooke/transition tangential history\npair_coeff * * 1e5 0.2 nan",
-            {coeff, "friction coefficient mu is 'nan'"}),
-       line("pair_style gran/hooke/transition tangential sticky",
-            {pair, "keyword tangential is 'sticky'", "off, no_history, history or coulomb"}),
-       line("pair_style gran/hooke/transition cap spring tangential coulomb",
-            {pair, "keyword cap is 'spring'", "no cap with tangential coulomb"}),
-       line("pair_style gran/hooke/transition tangential coulomb\npair_coeff * * 1e5 0.2 -1",
-            {coeff, "friction coefficient mu is '-1'", "a finite number >= 0"}),
-       line(good + "fix body all rigid single",
-            {pair, "fix body (rigid)", "stepping is 'second'", "stepping stock, or fix clump"}),
-       line("fix early all nve/sphere\n" + good,
-            {pair, "fix early (nve/sphere) stands before it", "stepping stock"})});
+  return Table{"PairStyleInLammps", "", "gran/hooke/transition", true}.of({
+      {"", "pair_style @ transition C", "pair_style @ ... keyword transition is 'C' ... allowed: A or B"},
+      {"", "pair_style @ stepping third", "pair_style @ ... keyword stepping is 'third' ... stock or second"},
+      {"", "pair_style @ torsion on", "pair_style @ ... keyword is 'torsion' ... allowed: transition"},
+      {"", "pair_style @ rolling on", "pair_style @ ... keyword rolling is 'on' ... off or epsd2"},
+      {"", "pair_style @ rolling", "pair_style @ ... keyword rolling is missing ... off or epsd2"},
+      {"", "pair_style @ rolling epsd2\npair_coeff * * 1e5 0.2",
+       "pair_coeff of @ ... rolling friction coefficient mu_r is missing ... rolling mu_r, a finite number "
+       ">= 0"},
+      {"", "pair_style @ rolling epsd2\npair_coeff * * 1e5 0.2 rolling",
+       "pair_coeff of @ ... rolling friction coefficient mu_r is missing ... a finite number >= 0"},
+      {"", "pair_style @ rolling epsd2 tangential coulomb\npair_coeff * * 1e5 0.2 0.5 NULL rolling -0.1",
+       "pair_coeff of @ ... rolling friction coefficient mu_r is '-0.1' ... a finite number >= 0"},
+      {"", "pair_style @ rolling epsd2\npair_coeff * * 1e5 0.2 0.3 rolling 0.1",
+       "pair_coeff of @ ... '0.3' is left over ... I J k damping rolling mu_r"},
+      {"", "pair_style @\npair_coeff * * 1e5 0.2 rolling 0.1",
+       "pair_coeff of @ ... 'rolling' is left over ... rolling epsd2 of pair_style"},
+      {"", "pair_style @ damping", "pair_style @ ... keyword damping is missing"},
+      {"", "pair_style @ limit_damping",
+       "pair_style @ ... keyword is 'limit_damping' ... transition B in place of it"},
+      {"", "pair_style @ absolute_damping on",
+       "pair_style @ ... keyword is 'absolute_damping' ... damping coefficient with c in pair_coeff"},
+      {"", "pair_style @ 1e5 NULL 50 NULL 0.5 1",
+       "pair_style @ ... '1e5' is no keyword ... numbers in pair_coeff"},
+      {"", "pair_style @\npair_coeff 1 1 1e5 0.2\npair_coeff 2 2 1e5 0.2",
+       "pair_style @ ... types 1 2 have no coefficients ... pair_coeff 1 2 k damping ... pair_coeff * *"},
+      {"", "pair_style @\npair_coeff * * 1e5 0.2\npair_style @ damping coefficient",
+       "All pair coeffs are not set", in_engine_words},
+      {"", "pair_style hybrid @ @\npair_coeff * * @ 1 1e5 0.2\npair_coeff 2 2 @ 2 1e5 0.2",
+       "pair_style @ ... pair_style hybrid has it more than once ... once"},
+      {"", "pair_style @\npair_coeff * * -1 0.2",
+       "pair_coeff of @ ... normal stiffness k is '-1' ... a finite number > 0"},
+      {"", "pair_style @\npair_coeff * * 1e5", "pair_coeff of @ ... damping ratio D is missing"},
+      {"", "pair_style @\npair_coeff * * 1e5 0.2 0.4",
+       "pair_coeff of @ ... '0.4' is left over ... tangential"},
+      {"", "pair_style @ tangential history\npair_coeff * * 1e5 0.2 nan",
+       "pair_coeff of @ ... friction coefficient mu is 'nan'"},
+      {"", "pair_style @ tangential sticky",
+       "pair_style @ ... keyword tangential is 'sticky' ... off, no_history, history or coulomb"},
+      {"", "pair_style @ cap spring tangential coulomb",
+       "pair_style @ ... keyword cap is 'spring' ... no cap with tangential coulomb"},
+      {"", "pair_style @ tangential coulomb\npair_coeff * * 1e5 0.2 -1",
+       "pair_coeff of @ ... friction coefficient mu is '-1' ... a finite number >= 0"},
+      {"", "pair_style @\npair_coeff * * 1e5 0.2\nfix body all rigid single",
+       "pair_style @ ... fix body (rigid) ... stepping is 'second' ... stepping stock, or fix clump"},
+      {"", "fix early all nve/sphere\npair_style @\npair_coeff * * 1e5 0.2\n",
+       "pair_style @ ... fix early (nve/sphere) stands before it ... stepping stock"},
+  });
 }
 
 BadGroup hertz_law_in_lammps() {
-  const std::string coeff = "pair_coeff of gran/hertz/transition";
-  return in_lammps(
-      "HertzInLammps",
-      {line("pair_style gran/hertz/transition\npair_coeff * * -1 0.3 0.2",
-            {coeff, "Young's modulus E is '-1'", "a finite number > 0"}),
-       line("pair_style gran/hertz/transition\npair_coeff * * 1e7 0.6 0.2",
-            {coeff, "Poisson's ratio nu is '0.6'", "a finite number > -1 and <= 0.5"}),
-       line("pair_style gran/hertz/transition\npair_coeff * * 1e7 0.3",
-            {coeff, "damping ratio D is missing"}),
-       line("pair_style gran/hertz/transition\npair_coeff * * effective 1e7 0 0.2",
-            {coeff, "effective shear modulus G* is '0'", "a finite number > 0"}),
-       line("pair_style gran/hertz/transition tangential coulomb\npair_coeff * * 1e7 0.3 0.2 0.5 NULL 1",
-            {coeff, "'1' is left over", "I J E nu damping", "mu [ct|NULL]"}),
-       line("pair_style gran/hertz/transition rolling epsd2\npair_coeff * * 1e7 0.3 0.2",
-            {coeff, "rolling friction coefficient mu_r is missing", "rolling mu_r, a finite number >= 0"}),
-       line("pair_style gran/hertz/transition rolling epsd2\npair_coeff * * effective 1e7 3e6 0.2 rolling -1",
-            {coeff, "rolling friction coefficient mu_r is '-1'", "a finite number >= 0"}),
-       line("pair_style gran/hertz/transition\npair_coeff 1 1 1e7 0.3 0.2\npair_coeff 2 2 1e7 0.3 0.2",
-            {"types 1 2 have no coefficients", "pair_coeff 1 2 E nu damping"}),
-       line("pair_style hybrid gran/hooke/transition gran/hertz/transition\n"
-            "pair_coeff * * gran/hooke/transition 1e5 0.2\npair_coeff 2 2 gran/hertz/transition 1e7 0.3 0.2",
-            {"or two laws of this plugin", "one law, once"})});
+  return Table{"HertzInLammps", "", "gran/hertz/transition", true}.of({
+      {"", "pair_style @\npair_coeff * * -1 0.3 0.2",
+       "pair_coeff of @ ... Young's modulus E is '-1' ... a finite number > 0"},
+      {"", "pair_style @\npair_coeff * * 1e7 0.6 0.2",
+       "pair_coeff of @ ... Poisson's ratio nu is '0.6' ... a finite number > -1 and <= 0.5"},
+      {"", "pair_style @\npair_coeff * * 1e7 0.3", "pair_coeff of @ ... damping ratio D is missing"},
+      {"", "pair_style @\npair_coeff * * effective 1e7 0 0.2",
+       "pair_coeff of @ ... effective shear modulus G* is '0' ... a finite number > 0"},
+      {"", "pair_style @ tangential coulomb\npair_coeff * * 1e7 0.3 0.2 0.5 NULL 1",
+       "pair_coeff of @ ... '1' is left over ... I J E nu damping ... mu [ct|NULL]"},
+      {"", "pair_style @ rolling epsd2\npair_coeff * * 1e7 0.3 0.2",
+       "pair_coeff of @ ... rolling friction coefficient mu_r is missing ... rolling mu_r, a finite number "
+       ">= 0"},
+      {"", "pair_style @ rolling epsd2\npair_coeff * * effective 1e7 3e6 0.2 rolling -1",
+       "pair_coeff of @ ... rolling friction coefficient mu_r is '-1' ... a finite number >= 0"},
+      {"", "pair_style @\npair_coeff 1 1 1e7 0.3 0.2\npair_coeff 2 2 1e7 0.3 0.2",
+       "types 1 2 have no coefficients ... pair_coeff 1 2 E nu damping"},
+      {"",
+       "pair_style hybrid gran/hooke/transition @\npair_coeff * * gran/hooke/transition 1e5 0.2\npair_coeff "
+       "2 2 @ 1e7 0.3 0.2",
+       "or two laws of this plugin ... one law, once"},
+  });
 }
 
 BadGroup properties() {
   const std::string damping = property("dampingRatio", "0.5");
   const auto engine_value = [&damping](const std::string &text) {
-    return in_engine_words(pair("kn " + text, "", property("kn", text) + damping,
-                                {"Expected floating point parameter", "fix_property_global"}));
+    return pair("kn " + text, "", property("kn", text) + damping,
+                {"Expected floating point parameter", "fix_property_global"}, in_engine_words);
   };
-  return {
-      "Properties",
-      "",
-      {
-          on_two_ranks(value("kn", "-5")),
-          value("kn", "0"),
-          value("dampingRatio", "-1"),
-          value("gamman_abs", "-1", "damping coefficient"),
-          value("coefficientRestitution", "0", "damping restitution"),
-          value("coefficientRestitution", "1.1", "damping restitution"),
-          value("coefficientRollingFriction", "-0.1"),
-          value("kt", "-1"),
-          value("gammat_abs", "-1"),
-          value("coefficientFriction", "-1", "tangential history"),
-          value("coefficientFriction", "-0.5", "tangential coulomb"),
-          pair("kn beyond a double", "", property("kn", "1e400") + damping,
-               {"property kn of types 1 and 1 is inf", "> 0"}),
-          engine_value("nan"),
-          engine_value("inf"),
-          engine_value("stiff"),
-          in_engine_words(pair("kn for two types", "",
-                               "fix kn all property/global kn peratomtypepair 2 1e7 1e7 1e7 1e7\n" + damping,
-                               {"kn", "property/global"})),
-          pair("rolling friction missing", "rolling_friction epsd2", property("kn", "1e7") + damping,
-               {"property coefficientRollingFriction (rolling resistance mu_r", "is missing"}),
-      }};
+  return {"Properties",
+          "",
+          {
+              value("kn", "-5", "", on_two_ranks),
+              value("kn", "0"),
+              value("dampingRatio", "-1"),
+              value("gamman_abs", "-1", "damping coefficient"),
+              value("coefficientRestitution", "0", "damping restitution"),
+              value("coefficientRestitution", "1.1", "damping restitution"),
+              value("coefficientRollingFriction", "-0.1"),
+              value("kt", "-1"),
+              value("gammat_abs", "-1"),
+              value("coefficientFriction", "-1", "tangential history"),
+              value("coefficientFriction", "-0.5", "tangential coulomb"),
+              pair("kn beyond a double", "", property("kn", "1e400") + damping,
+                   {"property kn of types 1 and 1 is inf", "> 0"}),
+              engine_value("nan"),
+              engine_value("inf"),
+              engine_value("stiff"),
+              pair("kn for two types", "",
+                   "fix kn all property/global kn peratomtypepair 2 1e7 1e7 1e7 1e7\n" + damping,
+                   {"property/global", "kn"}, in_engine_words),
+              pair("rolling friction missing", "rolling_friction epsd2", property("kn", "1e7") + damping,
+                   {"property coefficientRollingFriction (rolling resistance mu_r", "is missing"}),
+          }};
 }
 
 /// Lines in the host deck with another pair style.
 BadInput with_pair_style(const std::string &name, const std::string &pair_style_line,
-                         const std::string &lines, const std::vector<std::string> &says) {
-  BadInput input = line(name, lines, says);
+                         const std::string &lines, const std::vector<std::string> &says,
+                         unsigned kind = on_one_rank) {
+  BadInput input{name, lines, says, kind};
   input.pair = pair_style_line + "\npair_coeff * *\n" + host_properties();
   return input;
 }
 
 BadGroup wall() {
-  const std::string command = "fix wall/gran model hooke/transition: ";
-  const std::string fix = "fix wall all wall/gran model hooke/transition ";
-  const std::string plane = "primitive type 1 zplane -1.8 ";
-  return {
-      "Wall",
-      "",
-      {
-          on_two_ranks(line("unknown transition", fix + plane + "transition C",
-                            {command + "keyword transition is 'C'", "A or B"})),
-          line("transition without value", fix + plane + "transition",
-               {command + "keyword transition is missing", "A or B"}),
-          line("unknown damping", fix + plane + "damping 1e5",
-               {command + "keyword damping is '1e5'", "coefficient, ratio or restitution"}),
-          line("unknown keyword", fix + plane + "limit on", {command + "keyword is 'limit'"}),
-          line("the engine's limitForce", fix + plane + "limitForce on",
-               {command + "keyword is 'limitForce'", "transition B in place of 'limitForce on'"}),
-          on_two_ranks(line("stock with a pair style with second", fix + plane + "stepping stock",
-                            {command + "keyword stepping is 'stock' and that of the pair style is 'second'",
-                             "the same stepping for both"})),
-          on_two_ranks(with_pair_style(
-              "second with a pair style with stock", "pair_style gran model hooke/transition stepping stock",
-              fix + plane,
-              {command + "keyword stepping is 'second' (its default) and that of the pair style is 'stock'",
-               "the same stepping for both"})),
-          with_pair_style("stock, and a later pair style that changes to second",
-                          "pair_style gran model hooke/transition stepping stock",
-                          fix + plane +
-                              "stepping stock\npair_style gran model hooke/transition\npair_coeff * *",
-                          {command + "keyword stepping is 'stock' and that of the pair style is 'second'"}),
-          with_pair_style("second with the engine's law", "pair_style gran model hooke/stiffness",
-                          fix + plane,
-                          {command + "keyword stepping is 'second' (its default)",
-                           "there is no pair_style gran model hooke/transition yet"}),
-          line("no_history", fix + "tangential no_history " + plane,
-               {command + "keyword tangential is 'no_history'; allowed: off, history or coulomb"}),
-          on_two_ranks(line("cdt", fix + "rolling_friction cdt " + plane,
-                            {command + "keyword rolling_friction is 'cdt'; allowed: off or epsd2"})),
-          line("unknown stepping", fix + plane + "stepping 2",
-               {command + "keyword stepping is '2'", "stock or second"}),
-          line("settings before the wall", fix + "transition A " + plane,
-               {command + "'primitive' comes too late"}),
-          line("model after the wall", fix + plane + "tangential history",
-               {command + "'tangential' comes too late"}),
-          in_engine_words(line("no wall", fix, {"wall/gran", "'mesh' or 'primitive'"})),
-          in_engine_words(line("type", fix + "primitive type 9 zplane -1.8", {"wall/gran", "type"})),
-      }};
+  const std::string plane = "fix wall all wall/gran model hooke/transition primitive type 1 zplane -1.8 ";
+  BadGroup group = Table{"Wall", "fix wall/gran model hooke/transition: ", plane}.of({
+      {"unknown transition", "@transition C", "keyword transition is 'C' ... A or B", on_two_ranks},
+      {"transition without value", "@transition", "keyword transition is missing ... A or B"},
+      {"unknown damping", "@damping 1e5", "keyword damping is '1e5' ... coefficient, ratio or restitution"},
+      {"unknown keyword", "@limit on", "keyword is 'limit'"},
+      {"the engine's limitForce", "@limitForce on",
+       "keyword is 'limitForce' ... transition B in place of 'limitForce on'"},
+      {"stock with a pair style with second", "@stepping stock",
+       "keyword stepping is 'stock' and that of the pair style is 'second' ... the same stepping for both",
+       on_two_ranks},
+      {"no_history",
+       "fix wall all wall/gran model hooke/transition tangential no_history primitive type 1 zplane -1.8",
+       "keyword tangential is 'no_history'; allowed: off, history or coulomb"},
+      {"cdt",
+       "fix wall all wall/gran model hooke/transition rolling_friction cdt primitive type 1 zplane -1.8",
+       "keyword rolling_friction is 'cdt'; allowed: off or epsd2", on_two_ranks},
+      {"unknown stepping", "@stepping 2", "keyword stepping is '2' ... stock or second"},
+      {"settings before the wall",
+       "fix wall all wall/gran model hooke/transition transition A primitive type 1 zplane -1.8",
+       "'primitive' comes too late"},
+      {"model after the wall", "@tangential history", "'tangential' comes too late"},
+      {"no wall", "fix wall all wall/gran model hooke/transition", "wall/gran ... 'mesh' or 'primitive'",
+       in_engine_words},
+      {"type", "fix wall all wall/gran model hooke/transition primitive type 9 zplane -1.8",
+       "wall/gran ... type", in_engine_words},
+  });
+  group.inputs.push_back(with_pair_style("second with a pair style with stock",
+                                         "pair_style gran model hooke/transition stepping stock", plane,
+                                         {"fix wall/gran model hooke/transition: keyword stepping is "
+                                          "'second' (its default) and that of the pair style is 'stock'",
+                                          "the same stepping for both"},
+                                         on_two_ranks));
+  group.inputs.push_back(
+      with_pair_style("stock, and a later pair style that changes to second",
+                      "pair_style gran model hooke/transition stepping stock",
+                      plane + "stepping stock\npair_style gran model hooke/transition\npair_coeff * *",
+                      {"fix wall/gran model hooke/transition: keyword stepping is 'stock' and that of the "
+                       "pair style is 'second'"}));
+  group.inputs.push_back(
+      with_pair_style("second with the engine's law", "pair_style gran model hooke/stiffness", plane,
+                      {"fix wall/gran model hooke/transition: keyword stepping is 'second' (its default)",
+                       "there is no pair_style gran model hooke/transition yet"}));
+  return group;
 }
 
 BadGroup wall_in_lammps() {
-  const std::string wall = "fix wall/gran/transition", good = lammps_pair_style;
-  return in_lammps(
-      "WallInLammps",
-      {line(good + "fix floor all wall/gran/transition 2 zplane 0 NULL limit_damping",
-            {wall, "'limit_damping' is left over", "its settings are those of the pair style"}),
-       line(
-           "pair_style hybrid gran/hooke/transition lj/cut 0.1\npair_coeff * * lj/cut 0 1\n"
-           "pair_coeff 1 1 gran/hooke/transition 1e5 0.2\nfix floor all wall/gran/transition 2 zplane 0 NULL",
-           {wall, "types 1 2 have no coefficients", "pair_coeff 1 2 k damping"}),
-       line(good + "fix floor all wall/gran/transition 3 zplane 0 NULL",
-            {wall, "type of the wall is '3'", "1 to 2"}),
-       line(good + "fix floor all wall/gran/transition 2 zcylinder 0 NULL",
-            {wall, "'zcylinder'", "xplane, yplane, zplane or region"}),
-       line(good + "fix pipe all wall/gran/transition 2 region pipe",
-            {wall, "region 'pipe' is unknown", "the ID of a region"}),
-       line(good + "variable dx equal step\nregion pipe cylinder z 0 0 1 INF INF move v_dx NULL NULL\n"
-                   "fix pipe all wall/gran/transition 2 region pipe",
-            {wall, "region 'pipe' moves", "a region at rest"}),
-       on_two_ranks(line(
-           good +
-               "region hopper cone y 0 0 1.5 1.5 -1 1\nfix hopper all wall/gran/transition 2 region hopper",
-           {wall, "region 'hopper' is a cone along y", "open 1 open 2"})),
-       line(good + "region hopper cone y 0 0 1.5 1 -1 1 open 1\nregion box2 block -1 1 -1 1 -1 1\n"
-                   "region both union 2 hopper box2\nfix hopper all wall/gran/transition 2 region both",
-            {wall, "region 'both' has a part that is a cone along y", "open 1 open 2"}),
-       line(good + "fix floor all wall/gran/transition 2 zplane NULL NULL", {wall, "both places are NULL"}),
-       line(good + "fix floor all wall/gran/transition 2 zplane 1 0", {wall, "allowed: LOW < HIGH"}),
-       line("pair_style gran/hooke/history 1e5 NULL 1 NULL 0.4 1\npair_coeff * *\nfix floor all "
-            "wall/gran/transition 2 zplane 0 NULL",
-            {wall, "pair_style is 'gran/hooke/history'", "pair_style gran/hooke/transition or"})});
+  return Table{"WallInLammps", "fix wall/gran/transition ... ",
+               "pair_style gran/hooke/transition\npair_coeff * * 1e5 0.2\nfix floor all wall/gran/transition",
+               true}
+      .of({
+          {"", "@ 2 zplane 0 NULL limit_damping",
+           "'limit_damping' is left over ... its settings are those of the pair style"},
+          {"",
+           "pair_style hybrid gran/hooke/transition lj/cut 0.1\npair_coeff * * lj/cut 0 1\npair_coeff 1 1 "
+           "gran/hooke/transition 1e5 0.2\nfix floor all wall/gran/transition 2 zplane 0 NULL",
+           "types 1 2 have no coefficients ... pair_coeff 1 2 k damping"},
+          {"", "@ 3 zplane 0 NULL", "type of the wall is '3' ... 1 to 2"},
+          {"", "@ 2 zcylinder 0 NULL", "'zcylinder' ... xplane, yplane, zplane or region"},
+          {"",
+           "pair_style gran/hooke/transition\npair_coeff * * 1e5 0.2\nfix pipe all wall/gran/transition 2 "
+           "region pipe",
+           "region 'pipe' is unknown ... the ID of a region"},
+          {"",
+           "pair_style gran/hooke/transition\npair_coeff * * 1e5 0.2\nvariable dx equal step\nregion pipe "
+           "cylinder z 0 0 1 INF INF move v_dx NULL NULL\nfix pipe all wall/gran/transition 2 region pipe",
+           "region 'pipe' moves ... a region at rest"},
+          {"",
+           "pair_style gran/hooke/transition\npair_coeff * * 1e5 0.2\nregion hopper cone y 0 0 1.5 1.5 -1 "
+           "1\nfix hopper all wall/gran/transition 2 region hopper",
+           "region 'hopper' is a cone along y ... open 1 open 2", on_two_ranks},
+          {"",
+           "pair_style gran/hooke/transition\npair_coeff * * 1e5 0.2\nregion hopper cone y 0 0 1.5 1 -1 1 "
+           "open 1\nregion box2 block -1 1 -1 1 -1 1\nregion both union 2 hopper box2\nfix hopper all "
+           "wall/gran/transition 2 region both",
+           "region 'both' has a part that is a cone along y ... open 1 open 2"},
+          {"", "@ 2 zplane NULL NULL", "both places are NULL"},
+          {"", "@ 2 zplane 1 0", "allowed: LOW < HIGH"},
+          {"",
+           "pair_style gran/hooke/history 1e5 NULL 1 NULL 0.4 1\npair_coeff * *\nfix floor all "
+           "wall/gran/transition 2 zplane 0 NULL",
+           "pair_style is 'gran/hooke/history' ... pair_style gran/hooke/transition or"},
+      });
 }
 
 /// Numbers that a range does not have.
@@ -380,7 +379,7 @@ struct FrictionNumber {
 template <class Law>
 std::vector<BadGroup> parameters_of() {
   const std::string law = Law::name, name = law.substr(0, law.find('/'));
-  BadGroup properties{name + "_properties", "", {}}, words = in_lammps(name + "_words", {});
+  BadGroup properties{name + "_properties", "", {}}, words{name + "_words", "", {}, true};
   const auto number = [](double value) { return fmt::format("{}", value); };
   const auto property_line = [](const auto &p, const std::string &given) {
     const std::string text = property(p.property, given);
@@ -396,16 +395,17 @@ std::vector<BadGroup> parameters_of() {
       coefficients += (may_be_left_out(p) ? " 0.2 0.5 " : " ") + given;
       if (!given.empty()) lines += property_line(p, given);
     });
-    BadInput input = line(std::string(wrong.property) + " " + value, "",
-                          {"model " + law + ": property " + wrong.property, says});
+    BadInput input{std::string(wrong.property) + " " + value,
+                   "",
+                   {"model " + law + ": property " + wrong.property, says}};
     input.pair = "pair_style gran model " + law + "\npair_coeff * *\n" +
                  host_properties(lines + "property/global " + wrong.property) + lines;
     properties.inputs.push_back(input);
     if (!value.empty())
-      words.inputs.push_back(
-          line("pair_style gran/" + law + " tangential coulomb\npair_coeff * *" + coefficients,
-               {"pair_coeff of gran/" + law,
-                std::string(wrong.name) + " " + wrong.word + " is '" + value + "'", says}));
+      words.inputs.push_back({std::string(wrong.word) + " " + value,
+                              "pair_style gran/" + law + " tangential coulomb\npair_coeff * *" + coefficients,
+                              {"pair_coeff of gran/" + law,
+                               std::string(wrong.name) + " " + wrong.word + " is '" + value + "'", says}});
   };
   test::for_each_given<Law>(1e7, [&](const auto &p, double) {
     if (!may_be_left_out(p)) mistake(p, "", std::string("(") + physics::meaning_of(p) + ") is missing");
@@ -428,8 +428,9 @@ std::vector<BadGroup> parameters_of() {
         FrictionNumber{"coefficientRollingFriction", "rolling friction coefficient mu_r", " 0.2 0.5 rolling ",
                        ""}}) {
     const std::string wrong = property(property_name, "-1e-9");
-    BadInput input = line(std::string(property_name) + " -1e-9", "",
-                          {"model " + law + ": property " + property_name, "a finite number >= 0"});
+    BadInput input{std::string(property_name) + " -1e-9",
+                   "",
+                   {"model " + law + ": property " + property_name, "a finite number >= 0"}};
     const std::string roll = what == std::string("rolling friction coefficient mu_r")
                                  ? ""
                                  : property("coefficientRollingFriction", "0.1");
@@ -438,10 +439,11 @@ std::vector<BadGroup> parameters_of() {
                  host_properties(good_lines + wrong) + good_lines + wrong + roll;
     properties.inputs.push_back(input);
     for (const char *value : {"-1e-9", "nan", "inf"})
-      words.inputs.push_back(line(
-          "pair_style gran/" + law + " tangential coulomb rolling epsd2\npair_coeff * *" + good_words +
-              before + value + behind,
-          {"pair_coeff of gran/" + law, std::string(what) + " is '" + value + "'", "a finite number >= 0"}));
+      words.inputs.push_back(
+          {std::string(property_name) + " " + value,
+           "pair_style gran/" + law + " tangential coulomb rolling epsd2\npair_coeff * *" + good_words +
+               before + value + behind,
+           {"pair_coeff of gran/" + law, std::string(what) + " is '" + value + "'", "a finite number >= 0"}});
   }
   return {properties, words};
 }

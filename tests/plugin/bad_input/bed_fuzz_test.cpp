@@ -1,6 +1,7 @@
 // Damaged files given to the decks of the bed, as tests/postprocess/commands/fuzz_test.cpp gives them to the
 // tools: each deck ends within 20 s in a result or in one line of error, and leaves nothing half-written. The
 // number of a mutant is the seed of its faults.
+#include "tests/support/checks.h"
 #include "tests/support/damaged_files.h"
 #include "tests/support/host_deck.h"
 
@@ -29,21 +30,17 @@ protected:
 
   static Outcome run(const char *deck, const char *variable, const fs::path &file, const Variables &more,
                      const fs::path &folder) {
-    Variables variables = more;
-    variables.emplace_back(variable, file.string());
+    const Variables variables = with(more, {{variable, file.string()}});
     return post::run_deck(fs::path(DRUMLIN_SOURCE_DIR) / "inputs/bed" / deck, variables, folder, 1, 20.0);
   }
 
   /// A settled bed of 30 balls, its data file and the bed with its roller, by the names of BedFile.
   static void make(const Scratch &folder) {
-    ASSERT_TRUE(post::run_program({DRUMLIN_TOOLS, "bed", "--balls", "30", "--width", "0.3", "--out", "data"},
-                                  {}, folder.path(), 20.0)
-                    .ok());
-    ASSERT_TRUE(run("in.settle", "balls", folder / "data",
-                    {{"case", "loose"}, {"bed", "soil"}, {"ratio", "0.1"}}, folder.path())
-                    .ok());
-    const Outcome placed = run("in.place", "bed", folder / "soil", placing(), folder.path());
-    ASSERT_TRUE(placed.ok()) << placed.output;
+    well(post::run_program({DRUMLIN_TOOLS, "bed", "--balls", "30", "--width", "0.3", "--out", "data"}, {},
+                           folder.path(), 20.0));
+    well(run("in.settle", "balls", folder / "data", {{"case", "loose"}, {"bed", "soil"}, {"ratio", "0.1"}},
+             folder.path()));
+    well(run("in.place", "bed", folder / "soil", placing(), folder.path()));
     fs::rename(folder / result, folder / "roller");
   }
   static Variables placing() {

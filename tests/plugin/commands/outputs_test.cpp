@@ -1,6 +1,7 @@
 // The output values of the fixes, read by all output features of the engines: computes, averages, histograms,
 // variables and thermo.
 
+#include "tests/support/checks.h"
 #include "tests/support/host_deck.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +34,7 @@ void expect_outputs(const Scratch &folder, const Outcome &outcome) {
   const std::vector<std::string> histogram = lines_of(read_text(folder / "histogram.txt"));
   ASSERT_GT(histogram.size(), 4U);
   EXPECT_EQ(histogram[4].rfind("1 0.01 ", 0), 0U) << histogram[4];
-  EXPECT_EQ(histogram[4].find(" 0 0"), std::string::npos) << histogram[4];
+  EXPECT_FALSE(contains(histogram[4], " 0 0"));
 }
 
 TEST(OutputsOfFixes, GoIntoAllOutputsOfLiggghts) {

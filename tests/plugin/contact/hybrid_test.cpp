@@ -1,6 +1,7 @@
 // Hybrid pair styles: a scene gives the same results with the law as a part of a hybrid style as with the law
 // alone, with every fix.
 
+#include "tests/support/checks.h"
 #include "tests/support/host_deck.h"
 
 #include <fmt/format.h>
@@ -86,9 +87,8 @@ std::vector<std::string> in_halves(const std::string &pair, const std::string &a
                            "format float %.17g\nrun 10\n";
   write_text(folder / "lines", pair + "velocity drum set 0.3 0 -1 units box\n" + scene +
                                    "run 10\nwrite_restart half.restart\n" + rest);
-  const Outcome whole = run_deck(std::filesystem::path(DRUMLIN_SOURCE_DIR) / "tests/support/host.lammps",
-                                 {{"lines", (folder / "lines").string()}}, folder.path(), ranks);
-  EXPECT_TRUE(whole.ok()) << whole.output;
+  well(run_deck(std::filesystem::path(DRUMLIN_SOURCE_DIR) / "tests/support/host.lammps",
+                {{"lines", (folder / "lines").string()}}, folder.path(), ranks));
   std::vector<std::string> states = {read_text(folder / "state.txt")};
   write_text(folder / "second.lammps", "plugin load ${plugin}\natom_modify map array sort 0 0\nnewton off\n"
                                        "comm_modify vel yes\nread_restart half.restart\ntimestep 1e-5\n" +
@@ -114,7 +114,7 @@ TEST(HybridPairStyle, ContinuesFromARestartFileBitwiseInLammps) {
     const std::vector<std::string> states = in_halves(first, second, ranks);
     EXPECT_EQ(states[0], states[1]) << second << ", ranks " << ranks;
   }
-  EXPECT_NE(in_halves(hybrid + part, "", 1)[1].find("ERROR: "), std::string::npos);
+  EXPECT_TRUE(contains(in_halves(hybrid + part, "", 1)[1], "ERROR: "));
 }
 
 /// The second pair_style line of a deck replaces the first: its settings decide what the contact history
@@ -134,9 +134,7 @@ TEST(PairStyle, GivesWayToTheEnginesOwnBetweenTwoRuns) {
   std::string stiffness = "pair_style gran model hooke/stiffness\npair_coeff * *\n";
   for (const char *name : {"kt", "gamman", "gammat"})
     stiffness += property(name, "1e5");
-  const Outcome outcome =
-      run_host(host_pair_style() + host_properties(), "run 2\n" + stiffness, folder.path(), 1);
-  EXPECT_TRUE(outcome.ok()) << outcome.output;
+  well(run_host(host_pair_style() + host_properties(), "run 2\n" + stiffness, folder.path(), 1));
 }
 
 } // namespace

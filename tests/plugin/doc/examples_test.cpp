@@ -9,6 +9,7 @@
 // are still checked with the engine.
 
 #include "physics/laws/laws.h"
+#include "tests/support/checks.h"
 #include "tests/support/host_deck.h"
 
 #include <gtest/gtest.h>
@@ -105,8 +106,7 @@ TEST_P(DocExamplesTest, Run) {
       continue;
     }
     const Scratch scratch;
-    const Outcome outcome = run_example(example, scratch.path());
-    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    const Outcome outcome = well(run_example(example, scratch.path()));
     EXPECT_FALSE(outcome.says("ERROR")) << outcome.output;
     if (example.language != "sh")
       for (const std::string &file : outputs_of(example.text)) {
@@ -136,14 +136,13 @@ TEST_P(DocExamplesTest, HaveTheirPlace) {
 std::string last_state(const std::string &deck, const std::string &name) {
   const Scratch scratch;
   write_text(scratch / name, deck);
-  const Outcome outcome = run_deck(scratch / name, {}, scratch.path());
-  EXPECT_TRUE(outcome.ok()) << outcome.output;
+  well(run_deck(scratch / name, {}, scratch.path()));
   const std::string text = read_text(scratch / "end.txt");
   return text.substr(text.rfind("ITEM: ATOMS"));
 }
 
 std::string replaced(std::string text, const std::string &from, const std::string &to) {
-  EXPECT_NE(text.find(from), std::string::npos) << from;
+  EXPECT_TRUE(contains(text, from));
   for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
     text.replace(at, from.size(), to);
   return text;
@@ -289,10 +288,9 @@ TEST(DocPages, RunDecksThatHaveTheirVariables) {
       if (fs::path(deck).extension() == ".lammps" && !post::has_lammps()) continue;
       variables.emplace_back("no_such_variable", "1");
       const Scratch scratch;
-      const Outcome outcome = run_deck(root / deck, variables, scratch.path());
-      EXPECT_TRUE(outcome.says("drumlin/variables: -var no_such_variable is '1'"))
-          << file << ": " << command << "\n"
-          << outcome.output;
+      EXPECT_TRUE(printed(run_deck(root / deck, variables, scratch.path()),
+                          "drumlin/variables: -var no_such_variable is '1'"))
+          << file << ": " << command << "\n";
       ++runs;
     }
   EXPECT_GT(runs, 10U);

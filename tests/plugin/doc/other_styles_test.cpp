@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <map>
 #include <sstream>
 #include <string>
@@ -22,14 +21,6 @@ using Verdicts =
 
 std::string word_of(Verdict verdict) {
   return verdict == Verdict::right ? "right" : verdict == Verdict::refused ? "refused" : "untried";
-}
-
-std::vector<std::string> words_of(const std::string &text) {
-  std::istringstream in(text);
-  std::vector<std::string> words;
-  for (std::string word; in >> word;)
-    words.push_back(word);
-  return words;
 }
 
 Verdicts of_the_plugin() {

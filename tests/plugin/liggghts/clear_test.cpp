@@ -1,6 +1,7 @@
 // Engine instances of one process: after the command clear, one after the other, side by side; and that the
 // plugin keeps no state for the process.
 
+#include "tests/support/checks.h"
 #include "tests/support/host_deck.h"
 
 #include <gtest/gtest.h>
@@ -25,12 +26,10 @@ TEST_P(ClearCommand, LeavesADeckThatLoopsItsRuns) {
   const std::vector<std::string> values = {"0.2", "0.5"};
   for (const int ranks : {1, 2}) {
     const Scratch loop;
-    const Outcome outcome = run_deck(deck, {{"deck", deck.string()}}, loop.path(), ranks);
-    ASSERT_TRUE(outcome.ok()) << outcome.output;
+    well(run_deck(deck, {{"deck", deck.string()}}, loop.path(), ranks));
     for (const std::string &D : values) {
       const Scratch alone;
-      const Outcome once = run_deck(deck, {{"deck", deck.string()}, {"D", D}}, alone.path(), ranks);
-      ASSERT_TRUE(once.ok()) << once.output;
+      well(run_deck(deck, {{"deck", deck.string()}, {"D", D}}, alone.path(), ranks));
       for (const std::string &name : {"state_" + D + ".txt", "events_" + D + ".csv"})
         EXPECT_EQ(read_text(loop / name), read_text(alone / name)) << name << ", ranks " << ranks;
     }
@@ -66,14 +65,11 @@ Outcome run_instances(const Scratch &folder, const std::string &how) {
 TEST(TwoLammpsInstances, EachGivesWhatItGivesAlone) {
   if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
   const Scratch alone;
-  for (const char *name : {"first", "second"}) {
-    const Outcome one = run_instances(alone, name);
-    ASSERT_TRUE(one.ok()) << one.output;
-  }
+  for (const char *name : {"first", "second"})
+    well(run_instances(alone, name));
   for (const char *how : {"after", "in_turns"}) {
     const Scratch together;
-    const Outcome both = run_instances(together, how);
-    ASSERT_TRUE(both.ok()) << both.output;
+    well(run_instances(together, how));
     for (const std::string name : {"first", "second"})
       for (const char *kind : {".events", ".history", ".contacts", ".state"}) {
         const std::string text = read_text(alone / (name + kind));
@@ -87,8 +83,8 @@ TEST(TwoLammpsInstances, EachGivesWhatItGivesAlone) {
 /// compiler makes of classes.
 std::set<std::string> writable_names(const fs::path &library) {
   const Scratch folder;
-  const Outcome listed = run_program({"nm", "-C", "--defined-only", library.string()}, {}, folder.path());
-  EXPECT_TRUE(listed.ok()) << listed.output;
+  const Outcome listed =
+      well(run_program({"nm", "-C", "--defined-only", library.string()}, {}, folder.path()));
   const auto holds = [](const std::string &name, const char *word) {
     return name.find(word) != std::string::npos;
   };

@@ -2,11 +2,10 @@
 // with one clear line. (That other programs do not notice it is tested in
 // tests/decks/other_programs_test.cpp.)
 
+#include "tests/support/checks.h"
 #include "tests/support/host_deck.h"
 
 #include <gtest/gtest.h>
-
-#include <algorithm>
 
 namespace drumlin::test {
 namespace {
@@ -30,14 +29,13 @@ void expect_refusal(const Outcome &outcome, const std::vector<std::string> &says
   ASSERT_EQ(errors.size(), 1U) << outcome.output;
   EXPECT_EQ(errors.front().rfind("ERROR: drumlin ", 0), 0U) << errors.front();
   for (const std::string &words : says)
-    EXPECT_NE(errors.front().find(words), std::string::npos) << words << "\n" << errors.front();
+    EXPECT_TRUE(contains(errors.front(), words));
 }
 
 TEST(PreloadedStub, TheFakeEnginesRunWithoutIt) {
   const Scratch scratch;
   for (const char *program : {FAKE_LAMMPS_PROGRAM, FAKE_LIGGGHTS_PROGRAM, FAKE_ONE_PROGRAM}) {
-    const Outcome outcome = run_program({program}, {}, scratch.path());
-    EXPECT_TRUE(outcome.ok());
+    const Outcome outcome = well(run_program({program}, {}, scratch.path()));
     EXPECT_EQ(outcome.output, "the engine runs\n");
   }
 }
@@ -78,19 +76,15 @@ TEST(PreloadedStub, FollowsALinkToThePlugin) {
   const Scratch scratch;
   fs::create_symlink(plugin_library(), scratch / "link.so");
   write_text(scratch / "in.empty", "drumlin/check k 1 positive\n");
-  const Outcome outcome =
-      run_program({"liggghts", "-in", "in.empty"}, preload(scratch / "link.so", scratch), scratch.path());
-  EXPECT_TRUE(outcome.ok()) << outcome.output;
+  well(run_program({"liggghts", "-in", "in.empty"}, preload(scratch / "link.so", scratch), scratch.path()));
 }
 
 TEST(PreloadedStub, LeavesADeckOfTheStockEngineAsItIs) {
   const Scratch scratch;
   write_text(scratch / "in.stock", "units si\nprint \"done\"\n");
   const Outcome outcome =
-      run_program({"liggghts", "-in", "in.stock"}, preload(plugin_library(), scratch), scratch.path());
-  EXPECT_TRUE(outcome.ok()) << outcome.output;
-  EXPECT_TRUE(outcome.says("done"));
-  EXPECT_TRUE(outcome.says("plugin for LIGGGHTS 3.8.0")) << outcome.output;
+      well(run_program({"liggghts", "-in", "in.stock"}, preload(plugin_library(), scratch), scratch.path()));
+  EXPECT_TRUE(printed(outcome, {"done", "plugin for LIGGGHTS 3.8.0"}));
 }
 
 std::vector<std::string> without_lines_of_mpi(const std::vector<std::string> &lines) {
@@ -140,9 +134,8 @@ TEST(PreloadedStub, LeavesErrorsOneLine) {
 TEST(PreloadedStub, WithoutItTheEngineDoesNotKnowTheCommands) {
   const Scratch scratch;
   write_text(scratch / "in.check", "drumlin/check k 1 positive\n");
-  const Outcome outcome = run_program({"liggghts", "-in", "in.check"}, {}, scratch.path());
-  EXPECT_EQ(outcome.status, 1);
-  EXPECT_TRUE(outcome.says("Unknown command: drumlin/check")) << outcome.output;
+  EXPECT_TRUE(fails_with(run_program({"liggghts", "-in", "in.check"}, {}, scratch.path()),
+                         "Unknown command: drumlin/check"));
 }
 
 TEST(PreloadedStub, GivesADeckItsFolderAsHere) {
@@ -169,9 +162,9 @@ TEST(PreloadedStub, GivesADeckItsFolderAsHere) {
   fs::create_symlink("decks/in.here", scratch.path() / "in.link");
   EXPECT_EQ(here({"-in", "in.link"}), "here is <" + fs::canonical(scratch.path() / "decks").string() + ">");
   const fs::path inside = scratch.path() / "some where";
-  const Outcome outcome = run_program({"liggghts", "-in", (inside / "in.here").string()},
-                                      preload(plugin_library(), scratch), inside);
-  EXPECT_TRUE(outcome.says("here is <.>")) << outcome.output;
+  EXPECT_TRUE(printed(run_program({"liggghts", "-in", (inside / "in.here").string()},
+                                  preload(plugin_library(), scratch), inside),
+                      "here is <.>"));
 }
 
 TEST(PluginLoad, NamesThePackageThatIsMissing) {

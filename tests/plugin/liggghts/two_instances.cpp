@@ -3,7 +3,6 @@
 // second. how: one of the names, that instance alone; `after`, the second when the first is closed;
 // `in_turns`, both open, a run of one after a run of the other.
 #include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <dlfcn.h>
 #include <string>

@@ -7,11 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <complex>
 #include <functional>
 #include <limits>
 #include <random>
-#include <string>
 
 namespace {
 

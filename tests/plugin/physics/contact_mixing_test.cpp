@@ -5,8 +5,6 @@
 #include <boost/math/tools/minima.hpp>
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 namespace drumlin::test {
 namespace {
 

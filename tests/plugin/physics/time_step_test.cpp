@@ -97,6 +97,13 @@ double bound(const Chain &chain) {
   return least;
 }
 
+/// Expects that the bound is safe, and at least this share of the true limit.
+void expect_close(const Chain &chain, double share) {
+  const double limit = true_limit(chain, bound(chain));
+  EXPECT_LE(bound(chain), limit * (1.0 + 1e-9));
+  EXPECT_GT(bound(chain), share * limit);
+}
+
 TEST(CriticalStep, OfOneContactIsWhereItsEigenvalueLeavesTheUnitCircle) {
   for (const double ratio : {0.0, 0.1, 0.5, 1.0, 2.0, 10.0}) {
     const double m = 2000.0, k = 1e8, c = 2.0 * ratio * std::sqrt(k * m);
@@ -156,10 +163,7 @@ TEST(CriticalStep, OfABallBetweenFixedPartnersIsExact) {
 TEST(CriticalStep, OfAFreePairIsExactForLikeBallsAndCloseForOthers) {
   const Chain like{{300.0, 300.0}, {{0, 1, 1e8, 2e5}}};
   EXPECT_NEAR(bound(like), true_limit(like, bound(like)), 1e-4 * bound(like));
-  const Chain other{{300.0, 2000.0}, {{0, 1, 1e8, 2e5}}};
-  const double limit = true_limit(other, bound(other));
-  EXPECT_LE(bound(other), limit * (1.0 + 1e-9));
-  EXPECT_GT(bound(other), 0.85 * limit);
+  expect_close({{300.0, 2000.0}, {{0, 1, 1e8, 2e5}}}, 0.85);
 }
 
 // The drum on many soil balls: each of them sets the step, not all together.
@@ -170,18 +174,14 @@ TEST(CriticalStep, OfAHeavyBallOnManyLightOnesIsClose) {
     chain.springs.push_back({0, i, 1e8, 1e3});
     chain.springs.push_back({i, -1, 1e8, 1e3});
   }
-  const double limit = true_limit(chain, bound(chain));
-  EXPECT_LE(bound(chain), limit * (1.0 + 1e-9));
-  EXPECT_GT(bound(chain), 0.97 * limit);
+  expect_close(chain, 0.97);
 }
 
 TEST(CriticalStep, OfALongRowOfLikeBallsIsClose) {
   Chain chain{std::vector<double>(40, 1.0), {}};
   for (int i = 0; i + 1 < 40; ++i)
     chain.springs.push_back({i, i + 1, 1.0, 0.1});
-  const double limit = true_limit(chain, bound(chain));
-  EXPECT_LE(bound(chain), limit * (1.0 + 1e-9));
-  EXPECT_GT(bound(chain), 0.98 * limit);
+  expect_close(chain, 0.98);
 }
 
 TEST(CriticalStep, NeverExceedsTheTrueLimitOfRandomChains) {

@@ -3,6 +3,7 @@
 
 #include "engine/engine_command.h"
 
+#include "tests/support/checks.h"
 #include "tests/support/host_deck.h"
 
 #include <gtest/gtest.h>
@@ -50,8 +51,7 @@ TEST(Signal, EndsDrumlinRunWithOneLineAndRunAsTheEngineHasItInLammps) {
   if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
   const Scratch inside, after;
   const Outcome stopped = lammps_until_interrupted("drumlin/run 2000000000\n", inside);
-  EXPECT_EQ(stopped.status, 1);
-  EXPECT_TRUE(stopped.says("ERROR: drumlin/run: stopped by a signal at step ")) << stopped.output;
+  EXPECT_TRUE(fails_with(stopped, "ERROR: drumlin/run: stopped by a signal at step "));
   EXPECT_EQ(errors_in(stopped.output), 1) << stopped.output;
   EXPECT_EQ(lammps_until_interrupted(std::string("drumlin/run 100\n") + for_ever, after).status, 130);
 }
@@ -61,8 +61,7 @@ TEST(Signal, EndsRunWithOneLineInLiggghts) {
   write_text(folder / "pair", host_pair_style() + host_properties());
   write_text(folder / "lines", for_ever);
   const Outcome stopped = run_until_interrupted("in.host", {}, folder);
-  EXPECT_EQ(stopped.status, 1);
-  EXPECT_TRUE(stopped.says(": stopped by a signal before the end of the deck")) << stopped.output;
+  EXPECT_TRUE(fails_with(stopped, ": stopped by a signal before the end of the deck"));
   EXPECT_EQ(errors_in(stopped.output), 1) << stopped.output;
 }
 

@@ -6,6 +6,7 @@
 #include "support/files.h"
 #include "support/process.h"
 #include "support/usage_error.h"
+#include "tests/support/checks.h"
 #include "tests/support/lines.h"
 
 #include <fmt/format.h>
@@ -19,6 +20,8 @@
 
 namespace drumlin::post {
 namespace {
+
+using namespace test;
 
 /// Errors (100/N)^order for all cases, both transitions and steppings.
 std::vector<ChainPoint> power_laws() {
@@ -142,8 +145,7 @@ TEST(ScalingSummary, CountsAndNamesTheWorst) {
   };
   const std::string text =
       scaling_summary({point(1, 1e-3, 5e-4), point(1, 1e-4, 3e-4), point(4, 1e-3, 1e-5)});
-  EXPECT_NE(text.find("2 other parameter sets: 2 of 3"), std::string::npos) << text;
-  EXPECT_NE(text.find("had 3 times"), std::string::npos) << text;
+  EXPECT_TRUE(contains(text, {"2 other parameter sets: 2 of 3", "had 3 times"}));
   EXPECT_EQ(scaling_summary({}).find("not tested"), 0u);
 }
 
@@ -165,11 +167,9 @@ TEST_F(AdviseCommand, AnswersFromTheStudyThatComesWithTheProject) {
   EXPECT_EQ(outcome.output.find("200 steps per cycle"), 0u) << outcome.output;
   const Outcome other = run({"--error", "1e-3", "--D", "0.4", "--stepping", "stock", "--measure", "force"});
   EXPECT_EQ(other.status, 0) << other.output;
-  EXPECT_TRUE(other.says("tested on 12 other parameter sets")) << other.output;
-  EXPECT_TRUE(other.says("-var D 0.4 -var stepping stock")) << other.output;
+  EXPECT_TRUE(printed(other, {"tested on 12 other parameter sets", "-var D 0.4 -var stepping stock"}));
   EXPECT_FALSE(other.says("outside")) << other.output;
-  const Outcome far = run({"--error", "1e-3", "--D", "20"});
-  EXPECT_TRUE(far.says("outside    D = 20, tested from ")) << far.output;
+  EXPECT_TRUE(printed(run({"--error", "1e-3", "--D", "20"}), "outside    D = 20, tested from "));
 }
 
 // The soil settles by -2 to 2 mm per cycle in the complete scene, and by 0.5 mm more with k / 10.
@@ -186,11 +186,10 @@ TEST_F(AdviseCommand, TakesTheErrorOfASettlementInMillimetres) {
   };
   const Outcome wide = ask("0.6mm"), narrow = ask("0.4mm");
   EXPECT_EQ(wide.output.find("k / 10: "), 0u) << wide.output;
-  EXPECT_TRUE(wide.says("within 0.6 mm")) << wide.output;
-  EXPECT_TRUE(wide.says("error      +0.5 +- 0.0 mm against the complete scene")) << wide.output;
-  EXPECT_TRUE(wide.says("differs from another by 1.6 mm")) << wide.output;
+  EXPECT_TRUE(printed(wide, {"within 0.6 mm", "error      +0.5 +- 0.0 mm against the complete scene",
+                             "differs from another by 1.6 mm"}));
   EXPECT_EQ(narrow.output.find("complete: "), 0u) << narrow.output;
-  EXPECT_TRUE(narrow.says("'k / 10' keeps to 0.5 mm")) << narrow.output;
+  EXPECT_TRUE(printed(narrow, "'k / 10' keeps to 0.5 mm"));
 }
 
 TEST_F(AdviseCommand, RefusesBadInputInOneLine) {
@@ -212,7 +211,7 @@ TEST_F(AdviseCommand, RefusesBadInputInOneLine) {
     const Outcome outcome = run(words);
     EXPECT_EQ(outcome.status, 2) << message;
     test::expect_one_error(outcome.output, "drumlin advise: ");
-    EXPECT_TRUE(outcome.says(message)) << outcome.output;
+    EXPECT_TRUE(printed(outcome, message));
   }
 }
 
@@ -221,7 +220,7 @@ TEST_F(AdviseCommand, RefusesACurveFileThatItCannotRead) {
   write_files({{folder_ / "mine" / "chain.csv", "case,steps\nI,50\n"}});
   const Outcome outcome = run({"--from", "mine"});
   EXPECT_NE(outcome.status, 0);
-  EXPECT_TRUE(outcome.says("chain.csv")) << outcome.output;
+  EXPECT_TRUE(printed(outcome, "chain.csv"));
   EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
 }
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <random>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace drumlin::test {

@@ -6,6 +6,7 @@
 #include "experiment/quantity.h"
 #include "experiment/scene.h"
 #include "support/csv.h"
+#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 #include "tests/support/page.h"
 #include "tests/support/scratch_study.h"
@@ -74,10 +75,9 @@ TEST(CalibratedBed, ContinuesWhereItWasInterrupted) {
   expect_sound_page(scratch / "out", 2);
 
   words[3] = "k=2e6";
-  const Outcome other = calibrate();
-  EXPECT_TRUE(other.says("ERROR: drumlin calibrate: --out is 'out'; allowed: the folder of a calibration "
-                         "with the same settings"))
-      << other.output;
+  EXPECT_TRUE(printed(calibrate(),
+                      "ERROR: drumlin calibrate: --out is 'out'; allowed: the folder of a calibration "
+                      "with the same settings"));
 }
 
 TEST(CalibratedBed, IsMadeByTheCaseFile) {
@@ -104,8 +104,7 @@ TEST(CalibratedBed, IsMadeByTheCaseFile) {
       {{scratch / "balls.data", post::bed_data(packing, post::soil_density, post::pack_balls(packing))}});
   const std::string soil = (scratch / "soil").string(), start = (scratch / "start").string();
   const auto run = [&](const char *deck, const Variables &variables) {
-    const Outcome outcome = run_deck(decks / deck, variables, scratch / "run", 1, 60.0);
-    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    well(run_deck(decks / deck, variables, scratch / "run", 1, 60.0));
   };
   run("in.settle",
       {{"case", "small"}, {"ratio", "1"}, {"balls", (scratch / "balls.data").string()}, {"bed", soil}});

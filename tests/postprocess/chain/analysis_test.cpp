@@ -1,15 +1,16 @@
 // The analysis functions against closed forms.
 #include "chain/analysis.h"
+#include "tests/support/checks.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace {
 
 using namespace drumlin::post;
+using namespace drumlin::test;
 
 const double pi = std::acos(-1.0);
 
@@ -268,7 +269,7 @@ TEST(EnergyBalance, HasTheErrorThatTheColumnsHave) {
   EXPECT_NEAR(energy_balance(cycles, missing)->energy_error(), 0.0, 1e-12);
   cycles.columns.erase("potential");
   EXPECT_FALSE(energy_balance(cycles, missing));
-  EXPECT_NE(missing.find("potential"), std::string::npos);
+  EXPECT_TRUE(contains(missing, "potential"));
 }
 
 /// Drum and frame on known paths, sampled every ms, with the force that follows from the equations of motion;

@@ -1,6 +1,7 @@
 // The direct solver against exact piecewise solutions (piecewise_oracle.h) and the closed forms of an impact.
 #include "chain/direct_solver.h"
 #include "tests/support/piecewise_oracle.h"
+#include "tests/support/checks.h"
 
 #include <gtest/gtest.h>
 
@@ -329,12 +330,7 @@ std::string refusal(const std::function<void(ChainParameters &, DirectOptions &)
   ChainParameters parameters;
   DirectOptions options;
   change(parameters, options);
-  try {
-    post::solve_direct(parameters, options);
-  } catch (const std::invalid_argument &error) {
-    return error.what();
-  }
-  return "accepted";
+  return error_of<std::invalid_argument>([&] { post::solve_direct(parameters, options); });
 }
 
 TEST(DirectSolver, RefusesWhatCannotBeComputed) {

@@ -1,6 +1,7 @@
 // `drumlin calibrate` as a user meets it: bad input is refused before any run, and leaves no file.
 #include "calibration/task.h"
 #include "support/files.h"
+#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 
 #include <fmt/format.h>
@@ -75,7 +76,7 @@ TEST(CalibrateCommand, RefusesBadInputInOneLine) {
     words.insert(words.end(), row.words.begin(), row.words.end());
     const Outcome outcome = run_program(words, {}, scratch.path(), 20.0);
     EXPECT_EQ(outcome.status, 2) << row.message;
-    EXPECT_TRUE(outcome.says("ERROR: drumlin calibrate: " + row.message)) << outcome.output;
+    EXPECT_TRUE(printed(outcome, "ERROR: drumlin calibrate: " + row.message));
     EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
     EXPECT_FALSE(fs::exists(scratch / "results"));
   }

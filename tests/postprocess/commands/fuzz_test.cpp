@@ -9,6 +9,7 @@
 #include "support/files.h"
 #include "support/process.h"
 #include "tests/support/damaged_files.h"
+#include "tests/support/engine_runs.h"
 #include "tests/support/lines.h"
 #include "tests/support/run_folders.h"
 
@@ -20,7 +21,6 @@
 #include <filesystem>
 #include <fstream>
 #include <ostream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -141,17 +141,8 @@ const std::vector<Subject> &subjects() {
 
 class Fuzz : public ::testing::TestWithParam<Subject> {
 protected:
-  Fuzz() {
-    std::string name = (fs::temp_directory_path() / "drumlin-fuzz-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
-    folder = name;
-  }
-  ~Fuzz() override {
-    std::error_code ignored;
-    fs::remove_all(folder, ignored);
-  }
-
-  fs::path folder;
+  const Scratch scratch_;
+  const fs::path folder = scratch_.path();
 };
 
 /// What is wrong with how a command ended; empty if nothing.

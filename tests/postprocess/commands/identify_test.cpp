@@ -2,13 +2,13 @@
 #include "chain/closed_form.h"
 #include "runs/chain_files.h"
 #include "support/csv.h"
+#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 #include "tests/support/lines.h"
 #include "tests/support/page.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -39,7 +39,7 @@ protected:
     const Outcome outcome = identify(words);
     EXPECT_FALSE(outcome.ok());
     expect_one_error(outcome.output, "drumlin identify: ");
-    EXPECT_TRUE(outcome.says(message)) << outcome.output;
+    EXPECT_TRUE(printed(outcome, message));
     EXPECT_FALSE(fs::exists(scratch_ / "results"));
   }
   Scratch scratch_;
@@ -47,10 +47,9 @@ protected:
 
 TEST_F(IdentifyCommand, WritesAnswerTableAndPage) {
   write_run(scratch_ / "run");
-  const Outcome outcome = identify({"run", "--window", "6", "--out", "found"});
-  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  const Outcome outcome = well(identify({"run", "--window", "6", "--out", "found"}));
   EXPECT_TRUE(outcome.says("k = 99.99") || outcome.says("k = 100.00")) << outcome.output;
-  EXPECT_TRUE(outcome.says("does not pull (transition B)")) << outcome.output;
+  EXPECT_TRUE(printed(outcome, "does not pull (transition B)"));
   const post::Table table = post::read_table(scratch_ / "found/identify.csv");
   EXPECT_EQ(table.text("window"), (std::vector<std::string>{"all", "1", "7"}));
   for (const double k : table.numbers("k [N/m]"))
@@ -60,17 +59,14 @@ TEST_F(IdentifyCommand, WritesAnswerTableAndPage) {
                            "figures/along.png", "data/windows.csv"})
     EXPECT_TRUE(fs::is_regular_file(scratch_ / "found" / file)) << file;
   // A second call replaces the results.
-  EXPECT_TRUE(identify({"run", "--accelerations-only", "--out", "found"}).ok());
+  well(identify({"run", "--accelerations-only", "--out", "found"}));
   EXPECT_EQ(post::read_table(scratch_ / "found/identify.csv").rows(), 2U);
 }
 
 TEST_F(IdentifyCommand, DrawsTheChainOverTheRecord) {
   write_run(scratch_ / "run");
-  const Outcome outcome = identify({"run", "--compare", "--out", "found"});
-  ASSERT_TRUE(outcome.ok()) << outcome.output;
-  EXPECT_TRUE(
-      outcome.says("No difference beyond scatter: the drum's peak acceleration, the peak contact force"))
-      << outcome.output;
+  EXPECT_TRUE(printed(well(identify({"run", "--compare", "--out", "found"})),
+                      "No difference beyond scatter: the drum's peak acceleration, the peak contact force"));
   for (const char *file :
        {"figures/chain_and_bed.png", "figures/cycle_by_cycle.svg", "data/chain_and_record.csv"})
     EXPECT_TRUE(fs::is_regular_file(scratch_ / "found" / file)) << file;
@@ -99,29 +95,28 @@ TEST_F(IdentifyCommand, ReadsAMeasuredRecord) {
     text += post::csv_line(
         {post::number_text(-in_g * history.a_drum[i]), post::number_text(in_g * history.a_frame[i])});
   post::write_files({{scratch_ / "measured.csv", text}});
-  const Outcome outcome = identify({"measured.csv",
-                                    "--column",
-                                    "a_drum=Acc drum:-g",
-                                    "--column",
-                                    "a_frame=Acc frame:g",
-                                    "--sampling-rate",
-                                    "4000",
-                                    "--frequency",
-                                    "40",
-                                    "--phase",
-                                    "0",
-                                    "--phase-within",
-                                    "1",
-                                    "--Fw",
-                                    "58800",
-                                    "--m2",
-                                    "2000",
-                                    "--m3",
-                                    "1000",
-                                    "--out",
-                                    "found"});
-  ASSERT_TRUE(outcome.ok()) << outcome.output;
-  EXPECT_TRUE(outcome.says("The contact pulls (transition A)")) << outcome.output;
+  EXPECT_TRUE(printed(well(identify({"measured.csv",
+                                     "--column",
+                                     "a_drum=Acc drum:-g",
+                                     "--column",
+                                     "a_frame=Acc frame:g",
+                                     "--sampling-rate",
+                                     "4000",
+                                     "--frequency",
+                                     "40",
+                                     "--phase",
+                                     "0",
+                                     "--phase-within",
+                                     "1",
+                                     "--Fw",
+                                     "58800",
+                                     "--m2",
+                                     "2000",
+                                     "--m3",
+                                     "1000",
+                                     "--out",
+                                     "found"})),
+                      "The contact pulls (transition A)"));
   const post::Table table = post::read_table(scratch_ / "found/identify.csv");
   EXPECT_NEAR(table.numbers("k [N/m]").front(), p.k, 1e-3 * p.k);
   EXPECT_NEAR(table.numbers("c [N s/m]").front(), p.damping(), 3e-3 * p.damping());
@@ -139,8 +134,7 @@ TEST_F(IdentifyCommand, TakesTheDataOfARoller) {
   const auto found = [&](std::vector<std::string> more) {
     std::vector<std::string> words = {"measured.csv", "--out", "found", "--case", "CA3500-low"};
     words.insert(words.end(), more.begin(), more.end());
-    const Outcome outcome = identify(words);
-    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    well(identify(words));
     return post::read_table(scratch_ / "found/identify.csv").numbers("k [N/m]").front();
   };
   EXPECT_NEAR(found({}), chain.parameters.k, 1e-4 * chain.parameters.k);

@@ -3,6 +3,7 @@
 #include "engine/places.h"
 #include "support/files.h"
 #include "support/process.h"
+#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 
 #include <fmt/format.h>
@@ -62,15 +63,19 @@ std::string without_times(const std::string &table) {
   return text;
 }
 
-/// Calls a command without interruption in the folder `whole` of a scratch folder, then in others, where it
-/// is killed at random times until it ends by itself; as often as kills() says. `compare` gets the folders of
-/// `--out` of the two.
+/// Calls a command without interruption in the folder `whole` of a scratch folder, then, with each of `more`
+/// words, in others, where it is killed at random times until it ends by itself; as often as kills() says.
+/// `compare` gets the folders of `--out` of the two.
 template <class Compare>
-void kill_and_resume(const std::vector<std::string> &words, const Scratch &scratch, const Compare &compare) {
+void kill_and_resume(const std::vector<std::string> &words, const Compare &compare,
+                     const std::vector<std::vector<std::string>> &more = {{}}) {
+  const Scratch scratch;
   post::Program program;
-  program.words = {DRUMLIN_TOOLS};
-  program.words.insert(program.words.end(), words.begin(), words.end());
-  const auto call = [&](const std::string &folder, double limit, int signal) {
+  const auto call = [&](const std::string &folder, double limit, int signal,
+                        const std::vector<std::string> &further) {
+    program.words = {DRUMLIN_TOOLS};
+    for (const std::vector<std::string> &part : {words, further})
+      program.words.insert(program.words.end(), part.begin(), part.end());
     fs::create_directory(scratch / folder);
     program.folder = scratch / folder;
     program.output = scratch / (folder + ".txt");
@@ -79,29 +84,29 @@ void kill_and_resume(const std::vector<std::string> &words, const Scratch &scrat
     return run_program(program);
   };
   const auto begin = std::chrono::steady_clock::now();
-  const Outcome whole = call("whole", 600.0, SIGKILL);
-  ASSERT_TRUE(whole.ok()) << whole.output;
+  well(call("whole", 600.0, SIGKILL, more.front()));
   const double length = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   std::mt19937 random(std::random_device{}());
-  int killed = 0, folders = 0;
-  while (killed < kills() && !testing::Test::HasFailure()) {
-    const std::string folder = fmt::format("killed-{}", ++folders);
-    for (int times = 1;; ++times) {
-      const double limit = std::uniform_real_distribution<double>(0.0, length / 3.0)(random);
-      const Outcome outcome =
-          call(folder, killed < kills() && times < 20 ? limit : 600.0, killed % 2 == 0 ? SIGKILL : SIGTERM);
-      if (!outcome.timed_out) {
-        ASSERT_TRUE(outcome.ok()) << outcome.output;
-        break;
+  int folders = 0;
+  for (const std::vector<std::string> &further : more)
+    for (int killed = 0; killed < kills() && !testing::Test::HasFailure();) {
+      const std::string folder = fmt::format("killed-{}", ++folders);
+      for (int times = 1;; ++times) {
+        const double limit = std::uniform_real_distribution<double>(0.0, length / 3.0)(random);
+        const Outcome outcome = call(folder, killed < kills() && times < 20 ? limit : 600.0,
+                                     killed % 2 == 0 ? SIGKILL : SIGTERM, further);
+        if (!outcome.timed_out) {
+          well(outcome);
+          break;
+        }
+        ++killed;
       }
-      ++killed;
+      compare(scratch / "whole/out", scratch / folder / "out");
+      EXPECT_EQ(content(scratch / folder).count("out"), 1U);
+      for (const fs::directory_entry &entry : fs::directory_iterator(scratch / folder))
+        EXPECT_EQ(entry.path().filename(), "out");
     }
-    compare(scratch / "whole/out", scratch / folder / "out");
-    EXPECT_EQ(content(scratch / folder).count("out"), 1U);
-    for (const fs::directory_entry &entry : fs::directory_iterator(scratch / folder))
-      EXPECT_EQ(entry.path().filename(), "out");
-  }
-  fmt::print("{} kills in {} folders\n", killed, folders);
+  fmt::print("at least {} kills of each in {} folders\n", kills(), folders);
 }
 
 void expect_same(const fs::path &whole, const fs::path &resumed) {
@@ -114,25 +119,24 @@ void expect_same(const fs::path &whole, const fs::path &resumed) {
 }
 
 TEST(KilledAndCalledAgain, AMapIsTheSame) {
-  kill_and_resume({"map", "--x", "k:5e6:40e6:40", "--y", "D:0.1:0.5:30", "--out", "out"}, Scratch(),
-                  expect_same);
+  kill_and_resume({"map", "--x", "k:5e6:40e6:40", "--y", "D:0.1:0.5:30", "--out", "out"}, expect_same);
 }
 
 TEST(KilledAndCalledAgain, AStudyOfTheMeterIsTheSame) {
-  kill_and_resume({"study", "meter", "--quick", "--out", "out"}, Scratch(), expect_same);
+  kill_and_resume({"study", "meter", "--quick", "--out", "out"}, expect_same);
 }
 
 TEST(KilledAndCalledAgain, AStudyOfBedsIsTheSame) {
-  for (const char *jobs : {"1", "2"})
-    kill_and_resume({"study", "box", "--quick", "--jobs", jobs, "--out", "out"}, Scratch(),
-                    [](const fs::path &whole, const fs::path &resumed) {
-                      EXPECT_EQ(without_times(read_text(resumed / "runs.csv")),
-                                without_times(read_text(whole / "runs.csv")));
-                      const auto expected = content(whole), found = content(resumed);
-                      for (const auto &[name, text] : expected)
-                        EXPECT_EQ(found.count(name), 1U) << name;
-                      EXPECT_EQ(found.size(), expected.size());
-                    });
+  kill_and_resume({"study", "box", "--quick", "--out", "out"},
+                  [](const fs::path &whole, const fs::path &resumed) {
+                    EXPECT_EQ(without_times(read_text(resumed / "runs.csv")),
+                              without_times(read_text(whole / "runs.csv")));
+                    const auto expected = content(whole), found = content(resumed);
+                    for (const auto &[name, text] : expected)
+                      EXPECT_EQ(found.count(name), 1U) << name;
+                    EXPECT_EQ(found.size(), expected.size());
+                  },
+                  {{"--jobs", "1"}, {"--jobs", "2"}});
 }
 
 /// A calibration on beds of 60 discs under a small roller, which takes some ten seconds.
@@ -142,9 +146,7 @@ const std::vector<std::string> small_calibration = {
     "out",       "--set",    "m2=100",  "--set",         "m3=50",     "--set",   "r2=0.1", "--set",
     "r3=0.05",   "--set",    "k23=5e4", "--set",         "c23=500",   "--set",   "Fw=2940"};
 
-TEST(KilledAndCalledAgain, ACalibrationIsTheSame) {
-  kill_and_resume(small_calibration, Scratch(), expect_same);
-}
+TEST(KilledAndCalledAgain, ACalibrationIsTheSame) { kill_and_resume(small_calibration, expect_same); }
 
 /// The processes that a process has started.
 std::vector<pid_t> children_of(pid_t parent) {
@@ -173,7 +175,7 @@ TEST(KilledEngine, EndsACalibrationThatContinues) {
     const fs::path file = scratch / folder / "out/evaluations.csv";
     return fs::exists(file) ? read_text(file) : "";
   };
-  ASSERT_TRUE(call("whole", {}).ok());
+  well(call("whole", {}));
   for (const int signal : {SIGKILL, SIGTERM}) {
     const std::string folder = fmt::format("signal-{}", signal);
     bool sent = false;
@@ -192,19 +194,17 @@ TEST(KilledEngine, EndsACalibrationThatContinues) {
     EXPECT_EQ(killed.output.find('\n', error) + 1, killed.output.size());
     std::istringstream lines(rows(folder)); // no failure among them
     for (std::string line; std::getline(lines, line);)
-      EXPECT_NE(rows("whole").find(line + '\n'), std::string::npos) << line;
-    const Outcome again = call(folder, {});
-    EXPECT_TRUE(again.ok()) << again.output;
+      EXPECT_TRUE(contains(rows("whole"), line + '\n')) << line;
+    well(call(folder, {}));
     expect_same(scratch / "whole/out", scratch / folder / "out");
   }
 }
 
 TEST(KilledAndCalledAgain, AReportIsTheSame) {
   const Scratch scratch;
-  ASSERT_TRUE(
-      run_program({DRUMLIN_TOOLS, "exact", "--cycles", "30", "--out", "run"}, {}, scratch.path()).ok());
+  well(run_program({DRUMLIN_TOOLS, "exact", "--cycles", "30", "--out", "run"}, {}, scratch.path()));
   const std::string run = (scratch / "run").string();
-  kill_and_resume({"report", run, "--out", "out"}, Scratch(), expect_same);
+  kill_and_resume({"report", run, "--out", "out"}, expect_same);
 }
 
 // In an installation the decks are in a folder that a user cannot write: the case file goes into a copy of
@@ -218,13 +218,12 @@ TEST(CaseFile, GoesIntoACopyOfInstalledDecks) {
   std::vector<std::string> words = small_calibration;
   words.insert(words.begin(), DRUMLIN_TOOLS);
   const Outcome outcome =
-      run_program(words, {"DRUMLIN_PLACES=" + (scratch / "places").string()}, scratch.path(), 300.0);
-  ASSERT_TRUE(outcome.ok()) << outcome.output;
+      well(run_program(words, {"DRUMLIN_PLACES=" + (scratch / "places").string()}, scratch.path(), 300.0));
   const std::string command = fmt::format(
       "\n  cp -r {} . && cp out/case.calibrated inputs/bed && drumlin run ", post::places().inputs.string());
   ASSERT_TRUE(outcome.says(command)) << outcome.output;
   // The line is followed as far as the copies.
-  ASSERT_TRUE(run_program({"sh", "-c", command.substr(0, command.rfind(" && "))}, {}, scratch.path()).ok());
+  well(run_program({"sh", "-c", command.substr(0, command.rfind(" && "))}, {}, scratch.path()));
   EXPECT_TRUE(fs::is_regular_file(scratch / "inputs/bed/case.calibrated"));
   EXPECT_TRUE(fs::is_regular_file(scratch / "inputs/bed/in.settle"));
 }
@@ -232,8 +231,7 @@ TEST(CaseFile, GoesIntoACopyOfInstalledDecks) {
 // Ctrl-C, or what a scheduler sends: no temporary folder stays beside the results.
 TEST(StoppedBySignal, ACommandClearsAway) {
   const Scratch scratch;
-  ASSERT_TRUE(
-      run_program({DRUMLIN_TOOLS, "exact", "--cycles", "30", "--out", "run"}, {}, scratch.path()).ok());
+  well(run_program({DRUMLIN_TOOLS, "exact", "--cycles", "30", "--out", "run"}, {}, scratch.path()));
   for (const char *command : {"report", "identify", "meter"})
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
       SCOPED_TRACE(fmt::format("{}, signal {}", command, signal));

@@ -4,12 +4,12 @@
 #include "support/files.h"
 #include "support/measured_table.h"
 #include "support/process.h"
+#include "tests/support/checks.h"
+#include "tests/support/engine_runs.h"
 #include "tests/support/lines.h"
 #include "tests/support/run_folders.h"
 
 #include <gtest/gtest.h>
-
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -25,13 +25,6 @@ using namespace drumlin::post;
 
 class MeterCommand : public ::testing::Test {
 protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("drumlin-meter-" + std::to_string(::getpid()) + "-" +
-                                           ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   Outcome meter(std::vector<std::string> words) const {
     words.insert(words.begin(), {DRUMLIN_TOOLS, "meter"});
     return run_program(words, {}, folder_);
@@ -49,7 +42,8 @@ protected:
     write_files({{folder_ / name, text}});
   }
 
-  fs::path folder_;
+  const Scratch scratch_;
+  const fs::path folder_ = scratch_.path();
 };
 
 const std::vector<std::string> as_measured = {"--column",        "time=Time:ms", "--column",
@@ -66,7 +60,7 @@ TEST_F(MeterCommand, KeepsTheRecord) {
   const auto refused = [&](std::vector<std::string> words, const std::string &says) {
     const Outcome outcome = meter(std::move(words));
     EXPECT_EQ(outcome.status, 2) << outcome.output;
-    EXPECT_TRUE(outcome.says("ERROR: drumlin meter: " + says)) << outcome.output;
+    EXPECT_TRUE(printed(outcome, "ERROR: drumlin meter: " + says));
     EXPECT_EQ(lines_of(outcome.output).size(), 1U) << outcome.output;
     EXPECT_EQ(read_text(folder_ / "field.csv"), field);
     EXPECT_EQ(read_text(folder_ / "run/chain.csv"), chain);
@@ -96,8 +90,7 @@ TEST_F(MeterCommand, RecordOfARun) {
   const Outcome outcome =
       meter({"run", "--export", "passes/all.csv", "--drum-radius", "0.759", "--drum-width", "2.13"});
   ASSERT_EQ(outcome.status, 0) << outcome.output;
-  EXPECT_TRUE(outcome.says("run/chain.csv: partial uplift, CMV 15")) << outcome.output;
-  EXPECT_TRUE(outcome.says("may be off by")) << outcome.output;
+  EXPECT_TRUE(printed(outcome, {"run/chain.csv: partial uplift, CMV 15", "may be off by"}));
   const fs::path out = folder_ / "results/meter";
   const Table table = read_table(out / "meter.csv");
   ASSERT_EQ(table.rows(), 2U);
@@ -120,7 +113,7 @@ TEST_F(MeterCommand, MeasuredRecord) {
   words.insert(words.end(), as_measured.begin(), as_measured.end());
   const Outcome outcome = meter(words);
   ASSERT_EQ(outcome.status, 0) << outcome.output;
-  EXPECT_TRUE(outcome.says("same in each cycle, CMV ")) << outcome.output;
+  EXPECT_TRUE(printed(outcome, "same in each cycle, CMV "));
   const Table table = read_table(folder_ / "results/meter/meter.csv");
   ASSERT_EQ(table.rows(), 4U); // 58 cycles in windows of 14
   for (const double cmv : table.numbers("CMV [-]"))
@@ -195,7 +188,7 @@ TEST_F(MeterCommand, RecordsThatAreRefused) {
     EXPECT_NE(outcome.status, 0) << refused.says;
     EXPECT_EQ(outcome.output.rfind("ERROR: drumlin meter: ", 0), 0U) << outcome.output;
     EXPECT_EQ(lines_of(outcome.output).size(), 1U) << outcome.output;
-    EXPECT_TRUE(outcome.says(refused.says)) << outcome.output;
+    EXPECT_TRUE(printed(outcome, refused.says));
     EXPECT_FALSE(fs::exists(folder_ / "results"));
   }
   EXPECT_TRUE(meter({"good.csv", "--column", "time=Time:ms", "--column", "a_drum=Acc Z:g"})

@@ -4,7 +4,9 @@
 #include "runs/chain_files.h"
 #include "support/files.h"
 #include "support/process.h"
+#include "tests/support/checks.h"
 #include "tests/support/dump_texts.h"
+#include "tests/support/engine_runs.h"
 #include "tests/support/lines.h"
 
 #include <fmt/format.h>
@@ -22,13 +24,10 @@
 #include <vtkXMLPolyDataReader.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <regex>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -43,19 +42,12 @@ using post::read_text;
 class VtkCommand : public ::testing::Test {
 protected:
   VtkCommand() {
-    std::string name = (fs::temp_directory_path() / "drumlin-vtk-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
-    folder_ = name;
     put("run/parameters.csv", "name,value\ndeck,bed\ntimestep,0.125\n");
     for (const char *step : {"0", "1000", "200"}) {
       put(std::string("run/dump/balls_") + step + ".vtp", ball_dump());
       put(std::string("run/dump/contacts_") + step + ".dump", contact_dump());
       put(std::string("run/dump/balls_boundingBox_") + step + ".vtr", "of no interest");
     }
-  }
-  ~VtkCommand() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
   }
 
   void put(const std::string &file, const std::string &text) const {
@@ -82,12 +74,12 @@ protected:
     return all;
   }
 
-  fs::path folder_;
+  const Scratch scratch_;
+  const fs::path folder_ = scratch_.path();
 };
 
 TEST_F(VtkCommand, WritesThreeCollections) {
-  const Outcome outcome = run({"run"});
-  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  const Outcome outcome = well(run({"run"}));
   EXPECT_EQ(
       names("run/vtk"),
       (std::vector<std::string>{"balls.pvd", "balls_0.vtp", "balls_1000.vtp", "balls_200.vtp", "contacts.pvd",
@@ -102,12 +94,12 @@ TEST_F(VtkCommand, WritesThreeCollections) {
             "    <DataSet timestep=\"125\" file=\"fields_1000.vti\"/>\n"
             "  </Collection>\n"
             "</VTKFile>\n");
-  EXPECT_TRUE(outcome.says("run/vtk/contacts.pvd: 3 steps, 0 to 125 s\n")) << outcome.output;
+  EXPECT_TRUE(printed(outcome, "run/vtk/contacts.pvd: 3 steps, 0 to 125 s\n"));
 }
 
 // Longer than other tests: it goes through every array of the three files of a step.
 TEST_F(VtkCommand, WritesWhatTheDumpsHold) {
-  ASSERT_TRUE(run({"run", "--cell", "4", "--out", "new/here"}).ok());
+  well(run({"run", "--cell", "4", "--out", "new/here"}));
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName((folder_ / "new/here/balls_200.vtp").c_str());
   reader->Update();
@@ -188,7 +180,7 @@ TEST_F(VtkCommand, WritesWhatTheDumpsHold) {
 // A quarter of a turn into the second cycle of 20 s. Contacts push the drum up by 400 N.
 TEST_F(VtkCommand, WritesThePhaseAndTheForcesOnTheDrum) {
   put("run/parameters.csv", "name,value\ntimestep,0.125\nomega,0.31415926535897931\nFw,1000\n");
-  ASSERT_TRUE(run({"run"}).ok());
+  well(run({"run"}));
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName((folder_ / "run/vtk/balls_200.vtp").c_str());
   reader->Update();
@@ -205,7 +197,7 @@ TEST_F(VtkCommand, WritesThePhaseAndTheForcesOnTheDrum) {
 // drum is not part of it at all.
 TEST_F(VtkCommand, WritesTheRangesOfTheValues) {
   put("run/parameters.csv", "name,value\ntimestep,0.125\nomega,0.31415926535897931\n");
-  ASSERT_TRUE(run({"run"}).ok());
+  well(run({"run"}));
   const nlohmann::json scene = nlohmann::json::parse(read_text(folder_ / "run/vtk/scene.json"));
   EXPECT_EQ(scene["dimension"], 2);
   EXPECT_NEAR(scene["period"].get<double>(), 20.0, 1e-12);
@@ -222,7 +214,7 @@ TEST_F(VtkCommand, WritesTheRangesOfTheValues) {
 // Ball 1 on the left presses on ball 2 on the right through a periodic side.
 TEST_F(VtkCommand, JoinsABallToTheImageOfAnother) {
   put("run/dump/contacts_200.dump", contact_dump("1 2 50 0 0 1 0 0 0.2\n"));
-  ASSERT_TRUE(run({"run", "--cell", "4"}).ok());
+  well(run({"run", "--cell", "4"}));
   vtkNew<vtkXMLPolyDataReader> lines;
   lines->SetFileName((folder_ / "run/vtk/contacts_200.vtp").c_str());
   lines->Update();
@@ -238,23 +230,20 @@ TEST_F(VtkCommand, JoinsABallToTheImageOfAnother) {
 }
 
 TEST_F(VtkCommand, MakesDoWithoutContacts) {
-  ASSERT_TRUE(run({"run"}).ok());
+  well(run({"run"}));
   for (const char *step : {"0", "1000", "200"})
     fs::remove(folder_ / "run/dump" / (std::string("contacts_") + step + ".dump"));
-  const Outcome outcome = run({"run"});
-  ASSERT_TRUE(outcome.ok()) << outcome.output;
-  EXPECT_TRUE(outcome.says("no contacts and no fields")) << outcome.output;
+  EXPECT_TRUE(printed(well(run({"run"})), "no contacts and no fields"));
   EXPECT_EQ(names("run/vtk"), (std::vector<std::string>{"balls.pvd", "balls_0.vtp", "balls_1000.vtp",
                                                         "balls_200.vtp", "scene.json"}));
-  EXPECT_EQ(read_text(folder_ / "run/vtk/balls_0.vtp").find("coordination"), std::string::npos);
+  EXPECT_FALSE(contains(read_text(folder_ / "run/vtk/balls_0.vtp"), "coordination"));
 }
 
 TEST_F(VtkCommand, ReplacesAnEarlierResultAndNothingElse) {
-  ASSERT_TRUE(run({"run"}).ok());
+  well(run({"run"}));
   put("run/vtk/view.pvsm", "the user's");
   fs::remove(folder_ / "run/dump/balls_1000.vtp");
-  const Outcome outcome = run({"run"});
-  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  well(run({"run"}));
   EXPECT_EQ(names("run/vtk"),
             (std::vector<std::string>{"balls.pvd", "balls_0.vtp", "balls_200.vtp", "contacts.pvd",
                                       "contacts_0.vtp", "contacts_200.vtp", "fields.pvd", "fields_0.vti",
@@ -274,7 +263,7 @@ TEST_F(VtkCommand, DoesNotReplaceTheDumps) {
                 "is read"}}) {
     const Outcome outcome = run({"run", "--out", out});
     EXPECT_EQ(outcome.status, 2) << outcome.output;
-    EXPECT_TRUE(outcome.says(std::string("ERROR: drumlin vtk: ") + says)) << outcome.output;
+    EXPECT_TRUE(printed(outcome, std::string("ERROR: drumlin vtk: ") + says));
     EXPECT_EQ(files("run"), before);
     EXPECT_EQ(names("new"), (std::vector<std::string>{"balls.pvd", "scene.json"}));
   }
@@ -283,14 +272,14 @@ TEST_F(VtkCommand, DoesNotReplaceTheDumps) {
 struct Bad {
   std::string name;
   std::map<std::string, std::string> files; ///< replaced in the folder of the run; removed if "-"
-  std::vector<std::string> words;           ///< of the call, after vtk
   std::vector<std::string> says;
-  int skipped = 0; ///< lines on steps that are left out, before the error
+  std::vector<std::string> words = {"run"}; ///< of the call, after vtk
+  int skipped = 0;                          ///< lines on steps that are left out, before the error
 };
 
 // Longer than other tests: it has a line for each mistake.
 TEST_F(VtkCommand, BadInputIsOneLineAndTouchesNothing) {
-  ASSERT_TRUE(run({"run"}).ok());
+  well(run({"run"}));
   const std::string balls = "dump/balls_200.vtp", contacts = "dump/contacts_200.dump";
   const auto with = [](std::map<std::string, Array> arrays, const std::string &name, const Array &array) {
     arrays[name] = array;
@@ -303,104 +292,84 @@ TEST_F(VtkCommand, BadInputIsOneLineAndTouchesNothing) {
   const std::string text_head = "ITEM: TIMESTEP\n300\nITEM: NUMBER OF ATOMS\n2\nITEM: ATOMS ";
   put("file", "not a folder");
   const std::vector<Bad> table = {
-      {"no folder", {}, {}, {"dir is required"}},
-      {"unknown folder", {}, {"nowhere"}, {"'nowhere'", "dump/balls_STEP.vtp", "allowed"}},
+      {"no folder", {}, {"dir is required"}, {}},
+      {"unknown folder", {}, {"'nowhere'", "dump/balls_STEP.vtp", "allowed"}, {"nowhere"}},
       {"no dumps",
        {{"dump/balls_0.vtp", "-"}, {"dump/balls_200.vtp", "-"}, {"dump/balls_1000.vtp", "-"}},
-       {"run"},
        {"'run'", "dump/balls_STEP.vtp"}},
-      {"no parameters", {{"parameters.csv", "-"}}, {"run"}, {"parameters.csv", "cannot be read"}},
-      {"no time step", {{"parameters.csv", "name,value\nk,1\n"}}, {"run"}, {"parameters.csv", "timestep"}},
-      {"time step of words", {{"parameters.csv", "name,value\ntimestep,soon\n"}}, {"run"}, {"'soon'", "> 0"}},
-      {"time step of zero", {{"parameters.csv", "name,value\ntimestep,0\n"}}, {"run"}, {"'0'", "> 0"}},
-      {"endless time step", {{"parameters.csv", "name,value\ntimestep,inf\n"}}, {"run"}, {"'inf'", "> 0"}},
+      {"no parameters", {{"parameters.csv", "-"}}, {"parameters.csv", "cannot be read"}},
+      {"no time step", {{"parameters.csv", "name,value\nk,1\n"}}, {"parameters.csv", "timestep"}},
+      {"time step of words", {{"parameters.csv", "name,value\ntimestep,soon\n"}}, {"'soon'", "> 0"}},
+      {"time step of zero", {{"parameters.csv", "name,value\ntimestep,0\n"}}, {"'0'", "> 0"}},
+      {"endless time step", {{"parameters.csv", "name,value\ntimestep,inf\n"}}, {"'inf'", "> 0"}},
       {"angular frequency of words",
        {{"parameters.csv", "name,value\ntimestep,1\nomega,fast\n"}},
-       {"run"},
        {"omega is 'fast'", "> 0"}},
       {"negative amplitude",
        {{"parameters.csv", "name,value\ntimestep,1\nomega,1\nFw,-1\n"}},
-       {"run"},
        {"Fw is '-1'", ">= 0"}},
-      {"cell of zero", {}, {"run", "--cell", "0"}, {"--cell", "'0'", "from 1e-09"}},
-      {"negative cell", {}, {"run", "--cell=-1"}, {"--cell", "'-1'", "from 1e-09"}},
-      {"cell of words", {}, {"run", "--cell", "big"}, {"--cell", "'big'", "a number"}},
-      {"empty cell", {}, {"run", "--cell", ""}, {"--cell", "''", "a number"}},
-      {"absurd cell", {}, {"run", "--cell", "1e300"}, {"--cell", "'1e300'", "a number"}},
-      {"empty out", {}, {"run", "--out", ""}, {"--out", "''", "allowed"}},
-      {"too many cells", {}, {"run", "--cell", "1e-5"}, {"--cell", "larger cells"}},
-      {"out is a file", {}, {"run", "--out", "file"}, {"--out", "'file'", "allowed"}},
-      {"out below a file", {}, {"run", "--out", "file/x"}, {"--out", "'file/x'", "allowed"}},
-      {"out is the dumps", {}, {"run", "--out", "run/dump"}, {"--out", "'run/dump'", "balls.pvd", "allowed"}},
-      {"text dump of words", {{"dump/balls_300.dump", "hello"}}, {"run"}, {"balls_300.dump", "no text dump"}},
+      {"cell of zero", {}, {"--cell", "'0'", "from 1e-09"}, {"run", "--cell", "0"}},
+      {"negative cell", {}, {"--cell", "'-1'", "from 1e-09"}, {"run", "--cell=-1"}},
+      {"cell of words", {}, {"--cell", "'big'", "a number"}, {"run", "--cell", "big"}},
+      {"empty cell", {}, {"--cell", "''", "a number"}, {"run", "--cell", ""}},
+      {"absurd cell", {}, {"--cell", "'1e300'", "a number"}, {"run", "--cell", "1e300"}},
+      {"empty out", {}, {"--out", "''", "allowed"}, {"run", "--out", ""}},
+      {"too many cells", {}, {"--cell", "larger cells"}, {"run", "--cell", "1e-5"}},
+      {"out is a file", {}, {"--out", "'file'", "allowed"}, {"run", "--out", "file"}},
+      {"out below a file", {}, {"--out", "'file/x'", "allowed"}, {"run", "--out", "file/x"}},
+      {"out is the dumps", {}, {"--out", "'run/dump'", "balls.pvd", "allowed"}, {"run", "--out", "run/dump"}},
+      {"text dump of words", {{"dump/balls_300.dump", "hello"}}, {"balls_300.dump", "no text dump"}},
       {"text dump with a short row",
        {{"dump/balls_300.dump", text_head + "id type\n1 1\n2\n"}},
-       {"run"},
        {"balls_300.dump", "row 2 has 1 numbers; allowed: 2"}},
       {"text dump with a word",
        {{"dump/balls_300.dump", text_head + "id type\n1 soil\n2 1\n"}},
-       {"run"},
        {"balls_300.dump", "a number is 'soil'; allowed: "}},
       {"text dump that is not finite",
        {{"dump/balls_300.dump", text_head + "id type\n1 1\n2 nan\n"}},
-       {"run"},
        {"balls_300.dump", "'type' holds nan"}},
       {"text dump without radius",
        {{"dump/balls_300.dump", text_head + "id type\n1 1\n2 1\n"}},
-       {"run"},
        {"balls_300.dump", "column 'radius' is missing"}},
       {"text dump of two steps",
        {{"dump/balls_300.dump", text_head + "id type\n1 1\n2 1\n" + text_head + "id type\n1 1\n2 1\n"}},
-       {"run"},
        {"balls_300.dump", "more than one step"}},
       {"all balls cut short",
        {{"dump/balls_0.vtp", ""}, {balls, ""}, {"dump/balls_1000.vtp", "<?xml"}},
-       {"run"},
        {"cut short"},
-       3},
-      {"balls of words", {{balls, "hello"}}, {"run"}, {"balls_200.vtp", "no whole VTK file"}},
-      {"no balls", {{balls, point_data(0, "", {})}}, {"run"}, {"balls_200.vtp", "no balls"}},
-      {"points without data", {{balls, point_data(1, "0 0 0", {})}}, {"run"}, {"balls_200.vtp", "'id'"}},
-      {"no radius",
-       {{balls, ball_dump(without(ball_arrays(), "radius"))}},
        {"run"},
-       {"balls_200.vtp", "'radius'"}},
+       3},
+      {"balls of words", {{balls, "hello"}}, {"balls_200.vtp", "no whole VTK file"}},
+      {"no balls", {{balls, point_data(0, "", {})}}, {"balls_200.vtp", "no balls"}},
+      {"points without data", {{balls, point_data(1, "0 0 0", {})}}, {"balls_200.vtp", "'id'"}},
+      {"no radius", {{balls, ball_dump(without(ball_arrays(), "radius"))}}, {"balls_200.vtp", "'radius'"}},
       {"flat velocity",
        {{balls, ball_dump(with(ball_arrays(), "v", {"v", 1, "1 2 3"}))}},
-       {"run"},
        {"balls_200.vtp", "'v'"}},
       {"radius of zero",
        {{balls, ball_dump(with(ball_arrays(), "radius", {"radius", 1, "2 0 1"}))}},
-       {"run"},
        {"ball 2", "> 0"}},
       {"mass of nan",
        {{balls, ball_dump(with(ball_arrays(), "mass", {"mass", 1, "2 nan 1"}))}},
-       {"run"},
        {"'mass'", "nan"}},
       {"an id twice",
        {{balls, ball_dump(with(ball_arrays(), "id", {"id", 1, "9 1 1"}))}},
-       {"run"},
        {"two balls", "1"}},
       {"no soil",
        {{balls, ball_dump(with(ball_arrays(), "type", {"type", 1, "2 3 3"}))}},
-       {"run"},
        {"balls_200.vtp", "no soil"}},
-      {"contacts of words", {{contacts, "hello"}}, {"run"}, {"contacts_200.dump", "no text dump"}},
+      {"contacts of words", {{contacts, "hello"}}, {"contacts_200.dump", "no text dump"}},
       {"contacts of another fix",
        {{contacts, std::regex_replace(contact_dump(), std::regex("f_contacts"), "f_mine")}},
-       {"run"},
        {"contacts_200.dump", "'f_contacts[1]'"}},
       {"contact of a stranger",
        {{contacts, contact_dump("7 1 1 0 0 1 0 0 0.1\n")}},
-       {"run"},
        {"contacts_200.dump", "ball 7"}},
       {"a stranger on the floor",
        {{contacts, contact_dump("7 0 0 1 0 0 1 0 0.1\n")}},
-       {"run"},
        {"contacts_200.dump", "ball 7"}},
       {"a contact twice",
        {{contacts, contact_dump("2 1 1 0 0 1 0 0 0.1\n1 2 -1 0 0 -1 0 0 0.1\n")}},
-       {"run"},
        {"contacts_200.dump", "1 and 2", "twice"}},
   };
   const auto before = files("run/vtk");
@@ -424,8 +393,7 @@ TEST_F(VtkCommand, BadInputIsOneLineAndTouchesNothing) {
                       [](const std::string &line) { return line.find("steps read") == std::string::npos; }),
         1 + bad.skipped)
         << outcome.output;
-    for (const std::string &said : bad.says)
-      EXPECT_TRUE(outcome.says(said)) << said << " is not in " << outcome.output;
+    EXPECT_TRUE(printed(outcome, bad.says));
     EXPECT_EQ(files("run/vtk"), before);
     for (const auto &[file, text] : saved)
       if (text == "-")
@@ -433,7 +401,7 @@ TEST_F(VtkCommand, BadInputIsOneLineAndTouchesNothing) {
       else
         put("run/" + file, text);
   }
-  EXPECT_TRUE(run({"run"}).ok()); // all is as it was
+  well(run({"run"})); // all is as it was
 }
 
 // A run that was stopped leaves its last dumps cut short; the other steps are shown, and one line names each
@@ -464,9 +432,8 @@ TEST_F(VtkCommand, LeavesOutWhatWasCutShortAndSaysSo) {
     put(cut.file, cut.text);
     const Outcome outcome = run({"run"});
     EXPECT_EQ(outcome.status, 0) << outcome.output;
-    EXPECT_TRUE(outcome.says(cut.says)) << outcome.output;
-    EXPECT_TRUE(outcome.says(fmt::format("balls.pvd: {} steps", cut.balls))) << outcome.output;
-    EXPECT_TRUE(outcome.says(fmt::format("contacts.pvd: {} steps", cut.contacts))) << outcome.output;
+    EXPECT_TRUE(printed(outcome, {cut.says, fmt::format("balls.pvd: {} steps", cut.balls),
+                                  fmt::format("contacts.pvd: {} steps", cut.contacts)}));
     if (saved == "-")
       fs::remove(file);
     else
@@ -483,11 +450,11 @@ TEST_F(VtkCommand, NamesMissingSteps) {
 
 // Debian 12's ParaView cannot read VTK's appended data: the arrays are in the XML.
 TEST_F(VtkCommand, WritesNoAppendedData) {
-  ASSERT_TRUE(run({"run"}).ok());
+  well(run({"run"}));
   for (const char *name : {"run/vtk/balls_0.vtp", "run/vtk/contacts_0.vtp", "run/vtk/fields_0.vti"}) {
     const std::string text = read_text(folder_ / name);
-    EXPECT_EQ(text.find("<AppendedData"), std::string::npos) << name;
-    EXPECT_NE(text.find("format=\"binary\""), std::string::npos) << name;
+    EXPECT_FALSE(contains(text, "<AppendedData")) << name;
+    EXPECT_TRUE(contains(text, "format=\"binary\"")) << name;
   }
 }
 
@@ -503,7 +470,7 @@ TEST_F(VtkCommand, TakesHostileNames) {
     EXPECT_TRUE(fs::is_regular_file(run_folder / "vtk" / "balls.pvd")) << name;
   }
   fs::copy(folder_ / "run", folder_ / "-x", fs::copy_options::recursive);
-  EXPECT_TRUE(run({"--", "-x"}).ok());
+  well(run({"--", "-x"}));
   EXPECT_TRUE(fs::is_regular_file(folder_ / "-x" / "vtk" / "balls.pvd"));
   EXPECT_FALSE(fs::exists(folder_ / "pwned"));
 }
@@ -512,13 +479,13 @@ TEST_F(VtkCommand, ClearsAwayWhatAKilledCallLeft) {
   const std::string killed = "run/vtk/unfinished.123", other = "run/vtk/unfinished.work";
   put(killed + "/balls_0.vtp", "half a file");
   put(other + "/balls_0.vtp", "half a file");
-  ASSERT_TRUE(run({"run"}).ok());
+  well(run({"run"}));
   EXPECT_FALSE(fs::exists(folder_ / killed));
   EXPECT_TRUE(fs::exists(folder_ / other));
   const post::TemporaryFolder running(folder_ / "run/vtk", "unfinished.");
   const Outcome second = run({"run"});
   EXPECT_EQ(second.status, 2);
-  EXPECT_TRUE(second.says("vtk', into which another call writes; allowed: another folder")) << second.output;
+  EXPECT_TRUE(printed(second, "vtk', into which another call writes; allowed: another folder"));
 }
 
 TEST_F(VtkCommand, AFailureLeavesNothingBehind) {

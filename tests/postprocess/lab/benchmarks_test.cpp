@@ -9,7 +9,6 @@
 #include <cmath>
 #include <functional>
 #include <string>
-#include <vector>
 
 namespace drumlin::test {
 namespace {

@@ -2,12 +2,11 @@
 #include "lab/stability/boundary.h"
 #include "lab/stability/page.h"
 #include "support/files.h"
+#include "tests/support/checks.h"
+#include "tests/support/engine_runs.h"
 #include "tests/support/page.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
-
-#include <unistd.h>
 
 #include <limits>
 #include <stdexcept>
@@ -63,7 +62,8 @@ TEST(StabilityMap, WithoutItsPointsIsNotJudged) {
 }
 
 TEST(StabilityPage, ShowsVerdictsAndCommands) {
-  const fs::path out = fs::temp_directory_path() / fmt::format("drumlin-stability-page-{}", ::getpid());
+  const Scratch scratch;
+  const fs::path &out = scratch.path();
   post::Extreme row;
   row.group = "Must stop";
   row.name = "a & b";
@@ -78,11 +78,9 @@ TEST(StabilityPage, ShowsVerdictsAndCommands) {
       {{row, std::numeric_limits<double>::infinity(), "ERROR: <no>", false}, {ranks, 0.0, "", true}});
   expect_sound_page(out, 1);
   const std::string text = post::read_text(out / "index.html");
-  for (const char *words :
-       {"1 of 2 runs", "ERROR: &lt;no&gt;", "./drumlin run inputs/chain/in.chain -var k 1e4",
-        "./drumlin run -np 2 inputs/chain/in.chain"})
-    EXPECT_NE(text.find(words), std::string::npos) << words;
-  fs::remove_all(out);
+  EXPECT_TRUE(
+      contains(text, {"1 of 2 runs", "ERROR: &lt;no&gt;", "./drumlin run inputs/chain/in.chain -var k 1e4",
+                      "./drumlin run -np 2 inputs/chain/in.chain"}));
 }
 
 } // namespace

@@ -4,12 +4,12 @@
 #include "map/regime.h"
 #include "support/files.h"
 #include "support/resumed.h"
+#include "tests/support/checks.h"
 #include "tests/support/page.h"
 #include "tests/support/scratch_study.h"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -58,8 +58,7 @@ void expect_right(const SoilPoint &point) {
 
 TEST(MeterStudy, RowsAgreeWithOrbitsAndAnInterruptedCallContinues) {
   const ScratchStudy study("meter");
-  const Outcome whole = study.run();
-  ASSERT_TRUE(whole.ok()) << whole.output;
+  well(study.run());
   const fs::path rows = study.out() / "records.csv";
   const std::vector<SoilPoint> points = read_points(rows, soil_points());
   ASSERT_EQ(points.size(), 8U);
@@ -72,8 +71,7 @@ TEST(MeterStudy, RowsAgreeWithOrbitsAndAnInterruptedCallContinues) {
 
   interrupt(rows);
   fs::remove(study.out() / "index.html");
-  const Outcome rest = study.run();
-  ASSERT_TRUE(rest.ok()) << rest.output;
+  well(study.run());
   EXPECT_EQ(read_points(rows, soil_points()).size(), 8U);
   EXPECT_EQ(read_text(study.out() / "data/courses.csv"), courses);
   expect_sound_page(study.out(), 10);

@@ -4,6 +4,7 @@
 #include "support/csv.h"
 #include "support/files.h"
 #include "support/process.h"
+#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 #include "tests/support/lines.h"
 
@@ -17,7 +18,6 @@
 #include <functional>
 #include <numeric>
 #include <random>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,6 +25,7 @@
 namespace {
 
 using namespace drumlin::post;
+using namespace drumlin::test;
 namespace fs = std::filesystem;
 
 // From the phase integrals of two independent solutions.
@@ -205,8 +206,7 @@ private:
 };
 
 TEST_F(MapCommand, WritesPointsBoundariesAndPictures) {
-  const Outcome outcome = map(few());
-  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  well(map(few()));
   const Table table = read_table(folder() / "m/regimes.csv");
   EXPECT_EQ(table.rows(), 35U);
   EXPECT_TRUE(table.has("k [N/m]"));
@@ -217,21 +217,19 @@ TEST_F(MapCommand, WritesPointsBoundariesAndPictures) {
 }
 
 TEST_F(MapCommand, ContinuesWhereItWasInterrupted) {
-  ASSERT_TRUE(map(few()).ok());
+  well(map(few()));
   const fs::path file = folder() / "m/regimes.csv";
   const std::string whole = read_text(file);
   std::size_t end = 0;
   for (int line = 0; line < 11; ++line)
     end = whole.find('\n', end) + 1;
   write_files({{file, whole.substr(0, end + 17)}}); // ten points and a part of the next
-  const Outcome again = map(few());
-  ASSERT_TRUE(again.ok()) << again.output;
-  EXPECT_TRUE(again.says("10 of 35 points are there already")) << again.output;
+  EXPECT_TRUE(printed(well(map(few())), "10 of 35 points are there already"));
   EXPECT_EQ(read_text(file), whole);
 }
 
 TEST_F(MapCommand, FillsGapsAndRefusesRowsOfNoMap) {
-  ASSERT_TRUE(map(few()).ok());
+  well(map(few()));
   const fs::path file = folder() / "m/regimes.csv";
   const std::string whole = read_text(file);
   std::vector<std::string> lines;
@@ -255,8 +253,7 @@ TEST_F(MapCommand, FillsGapsAndRefusesRowsOfNoMap) {
            [](Rows &rows) { std::reverse(rows.begin() + 1, rows.end()); },
            [](Rows &rows) { rows = {rows[0].substr(0, 20)}; }}) {
     changed(change);
-    const Outcome again = map(few());
-    EXPECT_TRUE(again.ok()) << again.output;
+    well(map(few()));
     EXPECT_EQ(read_text(file), whole);
   }
   for (const auto &[change, message] : std::vector<std::pair<std::function<void(Rows &)>, std::string>>{
@@ -269,36 +266,35 @@ TEST_F(MapCommand, FillsGapsAndRefusesRowsOfNoMap) {
     const Outcome refused = map(few());
     EXPECT_NE(refused.status, 0);
     drumlin::test::expect_one_error(refused.output, "drumlin map: ");
-    EXPECT_TRUE(refused.says(message)) << refused.output;
+    EXPECT_TRUE(printed(refused, message));
     EXPECT_EQ(read_text(file), before);
   }
 }
 
 TEST_F(MapCommand, TakesOneCallAtATime) {
-  ASSERT_TRUE(map(few()).ok());
+  well(map(few()));
   const FolderLock other(folder() / "m");
   const Outcome refused = map(few());
   EXPECT_EQ(refused.status, 2);
-  EXPECT_TRUE(refused.says("ERROR: drumlin map: --out is 'm', into which another call writes; allowed: "))
-      << refused.output;
+  EXPECT_TRUE(
+      printed(refused, "ERROR: drumlin map: --out is 'm', into which another call writes; allowed: "));
 }
 
 TEST_F(MapCommand, AnotherMapDoesNotReplaceOne) {
-  ASSERT_TRUE(map(few()).ok());
+  well(map(few()));
   const std::string whole = read_text(folder() / "m/regimes.csv");
   std::vector<std::string> other = few();
   other.insert(other.end(), {"--cycles", "200"});
   const Outcome refused = map(other);
   EXPECT_EQ(refused.status, 2);
-  EXPECT_TRUE(refused.says("ERROR: drumlin map: --out is 'm'; allowed: ")) << refused.output;
+  EXPECT_TRUE(printed(refused, "ERROR: drumlin map: --out is 'm'; allowed: "));
   EXPECT_EQ(read_text(folder() / "m/regimes.csv"), whole);
   other.emplace_back("--fresh");
-  EXPECT_TRUE(map(other).ok());
+  well(map(other));
 }
 
 TEST_F(MapCommand, ASweepIsWritten) {
-  const Outcome outcome = map({"--sweep", "k:8e6:25e6:9", "--D", "0.1", "--out", "s"});
-  ASSERT_TRUE(outcome.ok()) << outcome.output;
+  well(map({"--sweep", "k:8e6:25e6:9", "--D", "0.1", "--out", "s"}));
   EXPECT_EQ(read_table(folder() / "s/sweep.csv").rows(), 2U * 9U * 32U);
   EXPECT_TRUE(fs::is_regular_file(folder() / "s/sweep.png"));
 }
@@ -327,7 +323,7 @@ TEST_F(MapCommand, BadInputEndsInOneLine) {
     const Outcome outcome = map(words);
     EXPECT_EQ(outcome.status, 2) << message << outcome.output;
     drumlin::test::expect_one_error(outcome.output, "drumlin map: ");
-    EXPECT_TRUE(outcome.says(message)) << outcome.output;
+    EXPECT_TRUE(printed(outcome, message));
   }
   EXPECT_FALSE(fs::exists(folder() / "results"));
 }

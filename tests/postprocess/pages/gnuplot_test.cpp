@@ -4,12 +4,12 @@
 #include "pages/figure_data.h"
 #include "support/files.h"
 #include "support/process.h"
+#include "tests/support/checks.h"
+#include "tests/support/engine_runs.h"
 #include "tests/support/page.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -22,6 +22,7 @@
 namespace {
 
 using namespace drumlin::post;
+using namespace drumlin::test;
 namespace fs = std::filesystem;
 
 TEST(Script, KeepsHostileNamesAsText) {
@@ -34,14 +35,14 @@ TEST(Script, KeepsHostileNamesAsText) {
   panel.x_ticks = {"a\"; system(\"touch /tmp/x\") #", "b\\", "`date`"};
   figure.panels = {panel};
   const std::string script = gnuplot_script(figure);
-  EXPECT_NE(script.find("\\\"; system(\\\"touch"), std::string::npos);
-  EXPECT_NE(script.find("\"b\\\\\""), std::string::npos);
+  EXPECT_TRUE(contains(script, {"\\\"; system(\\\"touch", "\"b\\\\\""}));
   EXPECT_EQ(script.find('`'), std::string::npos); // gnuplot runs what is between backquotes
 }
 
 /// What gnuplot draws of names along an axis, as the texts of the SVG.
 TEST(Script, DrawsHostileNamesAsTheyAre) {
-  const fs::path folder = fs::temp_directory_path() / fmt::format("drumlin-gnuplot 100% {}", ::getpid());
+  const Scratch scratch;
+  const fs::path folder = scratch / "100% {}";
   fs::create_directories(folder);
   std::ofstream(folder / "it's.csv") << "curve,x,y\n\"it's\",1,2\n\"it's\",2,3\n";
   Figure figure;
@@ -57,18 +58,16 @@ TEST(Script, DrawsHostileNamesAsTheyAre) {
   figure.panels = {panel, panel};
   render(find_gnuplot(), folder, figure);
   const std::string svg = read_text(folder / "f.svg");
-  for (const char *text : {"100%", "%s%n", "{}", "a_b^c", "a\"b", "it's", "a\\nb", "x y", ">c<",
-                           "%s {a}_b^c @d", "%d_{}", "100% {t}"})
-    EXPECT_NE(svg.find(text), std::string::npos) << text;
+  EXPECT_TRUE(contains(svg, {"100%", "%s%n", "{}", "a_b^c", "a\"b", "it's", "a\\nb", "x y", ">c<",
+                             "%s {a}_b^c @d", "%d_{}", "100% {t}"}));
   EXPECT_TRUE(drumlin::test::parse(svg).well_formed);
   EXPECT_FALSE(fs::exists(folder / program_output_file));
-  fs::remove_all(folder);
 }
 
 // On a full disk gnuplot leaves a part of a picture and ends with 0.
 TEST(Picture, ThatIsCutShortIsAnError) {
-  const fs::path folder = fs::temp_directory_path() / fmt::format("drumlin-cut-{}", ::getpid());
-  fs::create_directories(folder);
+  const Scratch scratch;
+  const fs::path &folder = scratch.path();
   std::ofstream(folder / "f.csv") << "x,y\n1,2\n2,3\n";
   Figure figure;
   figure.name = "f";
@@ -81,16 +80,10 @@ TEST(Picture, ThatIsCutShortIsAnError) {
     fs::permissions(half, fs::perms::owner_all);
     EXPECT_NO_THROW(render(find_gnuplot(), folder, figure));
     EXPECT_TRUE(is_whole_picture(folder / cut));
-    try {
-      render(half, folder, figure);
-      ADD_FAILURE() << cut;
-    } catch (const std::runtime_error &fault) {
-      EXPECT_EQ(fault.what(),
-                (folder / cut).string() + " is cut short; allowed: a disk with room for what gnuplot draws");
-    }
+    EXPECT_EQ(error_of([&] { render(half, folder, figure); }),
+              (folder / cut).string() + " is cut short; allowed: a disk with room for what gnuplot draws");
     EXPECT_FALSE(is_whole_picture(folder / cut));
   }
-  fs::remove_all(folder);
 }
 
 // Records of zeros or constants have such figures: gnuplot takes a panel without points for an error.
@@ -147,15 +140,14 @@ TEST(Script, DrawsPicturesToScaleAndOnlyAsPixels) {
   picture.curves.back().width = 2.5;
   figure.panels = {picture, Panel()};
   const std::string script = gnuplot_script(figure);
-  EXPECT_NE(script.find("[kind in \"png\"]"), std::string::npos);
-  EXPECT_NE(script.find("with vectors nohead lw 2.5"), std::string::npos);
+  EXPECT_TRUE(contains(script, {"[kind in \"png\"]", "with vectors nohead lw 2.5"}));
   // What the picture sets does not reach the next panel.
   const std::size_t set = script.find("set size ratio -1");
   ASSERT_NE(set, std::string::npos);
   EXPECT_LT(set, script.find("set size noratio"));
   EXPECT_LT(script.find("set colorbox"), script.find("unset colorbox"));
   figure.only_png = false;
-  EXPECT_NE(gnuplot_script(figure).find("[kind in \"svg png\"]"), std::string::npos);
+  EXPECT_TRUE(contains(gnuplot_script(figure), "[kind in \"svg png\"]"));
 }
 
 TEST(Size, OfPanelsInRows) {
@@ -190,12 +182,12 @@ TEST(Legend, HasTheRowsThatItsNamesNeed) {
   for (const char *name : {"A DEM", "B DEM", "A reference", "B reference"})
     panel.curves.push_back({"f.csv", "1", "2", name, CurveStyle::plain});
   figure.panels = {panel};
-  EXPECT_NE(gnuplot_script(figure).find("set key maxrows 1 "), std::string::npos);
+  EXPECT_TRUE(contains(gnuplot_script(figure), "set key maxrows 1 "));
   figure.half = true;
-  EXPECT_NE(gnuplot_script(figure).find("set key maxrows 2 "), std::string::npos);
+  EXPECT_TRUE(contains(gnuplot_script(figure), "set key maxrows 2 "));
   for (Curve &curve : figure.panels[0].curves)
     curve.title.clear();
-  EXPECT_NE(gnuplot_script(figure).find("set key maxrows 1 "), std::string::npos);
+  EXPECT_TRUE(contains(gnuplot_script(figure), "set key maxrows 1 "));
 }
 
 /// Heights, px from the top, at which a text stands in an SVG file of gnuplot's.
@@ -211,8 +203,8 @@ std::vector<double> heights_of(const std::string &svg, const std::string &text) 
 
 // gnuplot thinks that letters are wider in SVG files than they are.
 TEST(Legend, IsBelowTheAxisLabelInSvgFiles) {
-  const fs::path folder = fs::temp_directory_path() / fmt::format("drumlin-legend-{}", ::getpid());
-  fs::create_directories(folder);
+  const Scratch scratch;
+  const fs::path &folder = scratch.path();
   write_files({{folder / "f.csv", "x,y\n0,-1e6\n1,2e6\n"}});
   for (const int columns : {1, 2, 3})
     for (const char *longest : {"A", "dissipated", "work of the exciter", "the energy of the drum alone"}) {
@@ -236,7 +228,6 @@ TEST(Legend, IsBelowTheAxisLabelInSvgFiles) {
         }
       EXPECT_EQ(heights_of(svg, "error").size(), figure.panels.size());
     }
-  fs::remove_all(folder);
 }
 
 } // namespace

@@ -4,12 +4,12 @@
 #include "pages/figure_data.h"
 #include "pages/html.h"
 #include "support/files.h"
+#include "tests/support/checks.h"
+#include "tests/support/engine_runs.h"
 #include "tests/support/page.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-
-#include <unistd.h>
 
 namespace drumlin::test {
 namespace {
@@ -17,7 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(Page, IsStrictXmlAndItsLinksLeadToFiles) {
-  const fs::path out = fs::temp_directory_path() / fmt::format("drumlin-page-{}", ::getpid());
+  const Scratch scratch;
+  const fs::path &out = scratch.path();
   post::Page page(out, "Steps & <errors>", post::Drawing::chain);
   page.answer("Steps < errors.");
   page.paragraph("a < b & c");
@@ -44,7 +45,6 @@ TEST(Page, IsStrictXmlAndItsLinksLeadToFiles) {
   EXPECT_EQ(parsed.links.size(), 6u);
   EXPECT_EQ(parsed.contents, (std::vector<std::string>{"#answer", "#section-1", "#section-2"}));
   EXPECT_EQ(post::read_text(out / "data/numbers.csv"), "case,error (-)\nI,1e-3\n");
-  fs::remove_all(out);
 }
 
 std::size_t count(const std::string &text, const std::string &part) {
@@ -65,31 +65,27 @@ TEST(Table, MarksGoodAndBadRowsInItsFirstColumn) {
   table.add({"b", "2"}, post::RowState::differs);
   table.add({"c", "3"});
   const std::string html = post::table_html(table);
-  EXPECT_NE(html.find("<b>✗ 1 of 2</b> are small"), std::string::npos) << html;
-  EXPECT_NE(html.find("<tr class=\"agrees\"><td class=\"word\">✓ yes</td><td class=\"word\">a</td>"),
-            std::string::npos)
-      << html;
-  EXPECT_NE(html.find("<tr class=\"differs\"><td class=\"word\">✗ no</td><td class=\"word\">b</td>"),
-            std::string::npos)
-      << html;
-  EXPECT_NE(html.find("<tr><td class=\"word\">–</td><td class=\"word\">c</td>"), std::string::npos) << html;
+  EXPECT_TRUE(contains(html, {"<b>✗ 1 of 2</b> are small",
+                              "<tr class=\"agrees\"><td class=\"word\">✓ yes</td><td class=\"word\">a</td>",
+                              "<tr class=\"differs\"><td class=\"word\">✗ no</td><td class=\"word\">b</td>",
+                              "<tr><td class=\"word\">–</td><td class=\"word\">c</td>"}));
   // A column with words of its own moves to the front; the CSV file keeps its order.
   table.header = {"run", "agrees"};
   table.verdict = "agrees";
   table.rows = {{"a", "to all digits"}, {"b", "no"}, {"c", "not judged"}};
   const std::string worded = post::table_html(table);
-  EXPECT_NE(worded.find("<td class=\"word\">✓ to all digits</td><td class=\"word\">a</td>"),
-            std::string::npos);
-  EXPECT_NE(worded.find("<td class=\"word\">✗ no</td><td class=\"word\">b</td>"), std::string::npos);
-  EXPECT_NE(worded.find("<td class=\"word\">not judged</td><td class=\"word\">c</td>"), std::string::npos);
+  EXPECT_TRUE(contains(worded, {"<td class=\"word\">✓ to all digits</td><td class=\"word\">a</td>",
+                                "<td class=\"word\">✗ no</td><td class=\"word\">b</td>",
+                                "<td class=\"word\">not judged</td><td class=\"word\">c</td>"}));
   EXPECT_EQ(count(worded, "to all digits"), 1u);
   EXPECT_EQ(post::table_csv(table), "run,agrees\na,to all digits\nb,no\nc,not judged\n");
   table.states.assign(3, post::RowState::agrees);
-  EXPECT_NE(post::table_html(table).find("<p class=\"tally\"><b>✓ 3 of 3</b>"), std::string::npos);
+  EXPECT_TRUE(contains(post::table_html(table), "<p class=\"tally\"><b>✓ 3 of 3</b>"));
 }
 
 TEST(Acceptance, IsPartOfTheAnswerAndMarksIt) {
-  const fs::path out = fs::temp_directory_path() / fmt::format("drumlin-answer-{}", ::getpid());
+  const Scratch scratch;
+  const fs::path &out = scratch.path();
   for (const bool holds : {true, false}) {
     const std::vector<post::Acceptance> criteria = {{"error at most 1", "0.5", true},
                                                     {"order at least 2", "1.5", holds}};
@@ -100,19 +96,16 @@ TEST(Acceptance, IsPartOfTheAnswerAndMarksIt) {
     page.table(post::acceptance_table(criteria));
     page.write();
     const std::string text = post::read_text(out / "index.html");
-    EXPECT_NE(text.find(holds
-                            ? "<p class=\"verdict good\">✓ Many runs.<br /> <strong>Acceptance.</strong> 2 "
-                              "of 2 acceptance criteria hold.</p>"
-                            : "<p class=\"verdict bad\">✗ Many runs.<br /> <strong>Acceptance.</strong> 1 of "
-                              "2 acceptance criteria hold. Not met: order at least 2 (measured 1.5).</p>"),
-              std::string::npos)
-        << text;
+    EXPECT_TRUE(contains(
+        text, holds ? "<p class=\"verdict good\">✓ Many runs.<br /> <strong>Acceptance.</strong> 2 "
+                      "of 2 acceptance criteria hold.</p>"
+                    : "<p class=\"verdict bad\">✗ Many runs.<br /> <strong>Acceptance.</strong> 1 of "
+                      "2 acceptance criteria hold. Not met: order at least 2 (measured 1.5).</p>"));
     EXPECT_EQ(
         post::read_text(out / "data/acceptance.csv"),
         fmt::format("acceptance criterion,measured,holds\nerror at most 1,0.5,yes\norder at least 2,1.5,{}\n",
                     holds ? "yes" : "no"));
   }
-  fs::remove_all(out);
 }
 
 TEST(KeyFigures, AreTheTwoOfLargestWeight) {

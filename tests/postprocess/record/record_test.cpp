@@ -6,11 +6,11 @@
 #include "runs/chain_files.h"
 #include "support/csv.h"
 #include "support/files.h"
+#include "tests/support/checks.h"
+#include "tests/support/engine_runs.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -30,15 +30,11 @@ constexpr double omega = 125.66370614359172;
 class RecordFiles : public ::testing::Test {
 protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("drumlin-record-" + std::to_string(::getpid()) + "-" +
-                                           ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
     DirectOptions options;
     options.cycles = 6;
     options.samples_per_cycle = 100;
     history_ = solve_direct(table1_case("II", Transition::B), options).history;
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   fs::path put(const std::string &name, const std::string &text) const {
     write_files({{folder_ / name, text}});
@@ -53,18 +49,11 @@ protected:
   /// The message with which the run is refused after a change of its history.
   std::string refused(const std::function<void(ChainHistory &)> &change) {
     change(history_);
-    return message([&] { read_record(put_run()); });
-  }
-  static std::string message(const std::function<void()> &call) {
-    try {
-      call();
-    } catch (const std::exception &error) {
-      return error.what();
-    }
-    return "not refused";
+    return error_of<std::exception>([&] { read_record(put_run()); });
   }
 
-  fs::path folder_;
+  const Scratch scratch_;
+  const fs::path folder_ = scratch_.path();
   ChainHistory history_;
 };
 
@@ -123,12 +112,12 @@ TEST_F(RecordFiles, SamplingRateReplacesTimesOfFewDigits) {
     text += csv_line({number_text(history_.time[i], 2), number_text(history_.a_drum[i])});
   const fs::path file = put("measured.csv", text);
   RecordOptions options;
-  EXPECT_NE(message([&] { read_record(file, options); }).find("line"), std::string::npos);
+  EXPECT_TRUE(contains(error_of<std::exception>([&] { read_record(file, options); }), "line"));
   std::string untimed = "a_drum\n";
   for (const double a : history_.a_drum)
     untimed += number_text(a) + "\n";
   const fs::path bare = put("bare.csv", untimed);
-  EXPECT_NE(message([&] { read_record(bare, options); }).find("time"), std::string::npos);
+  EXPECT_TRUE(contains(error_of<std::exception>([&] { read_record(bare, options); }), "time"));
   options.sampling_rate = 2000.0;
   EXPECT_DOUBLE_EQ(read_record(bare, options).time[40], 0.02);
 }
@@ -224,19 +213,17 @@ TEST_F(RecordFiles, ClockTimesCountFromTheFirstRow) {
 }
 
 TEST_F(RecordFiles, RefusesTimes) {
-  EXPECT_NE(
-      refused([](ChainHistory &h) { h.time[7] = h.time[6]; }).find("chain.csv, line 9, column 'time' is "),
-      std::string::npos);
+  EXPECT_TRUE(contains(refused([](ChainHistory &h) { h.time[7] = h.time[6]; }),
+                       "chain.csv, line 9, column 'time' is "));
   SetUp();
   const std::string gap = refused([](ChainHistory &h) {
     for (std::size_t i = 50; i < h.time.size(); ++i)
       h.time[i] += 0.01;
   });
-  EXPECT_NE(gap.find("line 52"), std::string::npos) << gap;
-  EXPECT_NE(gap.find("without a gap"), std::string::npos) << gap;
+  EXPECT_TRUE(contains(gap, {"line 52", "without a gap"}));
   SetUp();
   const std::string unequal = refused([](ChainHistory &h) { h.time[9] += 0.2 * 0.0005; });
-  EXPECT_NE(unequal.find("equal steps"), std::string::npos) << unequal;
+  EXPECT_TRUE(contains(unequal, "equal steps"));
 }
 
 TEST_F(RecordFiles, RefusesUnitsAndSigns) {
@@ -265,21 +252,21 @@ TEST_F(RecordFiles, RefusesShortAndCoarseRecords) {
                          &h.F_contact, &h.F_excitation, &h.F_bond})
       values->resize(400);
   });
-  EXPECT_NE(text.find("the number of cycles is '3.99'"), std::string::npos) << text;
+  EXPECT_TRUE(contains(text, "the number of cycles is '3.99'"));
   RecordOptions options;
   options.omega = 20 * omega;
   SetUp();
-  const std::string coarse = message([&] { read_record(put_run(), options); });
-  EXPECT_NE(coarse.find("samples per cycle is '5'"), std::string::npos) << coarse;
+  const std::string coarse = error_of<std::exception>([&] { read_record(put_run(), options); });
+  EXPECT_TRUE(contains(coarse, "samples per cycle is '5'"));
 }
 
 TEST_F(RecordFiles, RefusesColumns) {
   const fs::path file = put("other.csv", "time,b\n0,1\n1,2\n2,3\n");
-  EXPECT_NE(message([&] { read_record(file); }).find("no column of motion or force"), std::string::npos);
-  EXPECT_NE(message([&] { read_record(folder_); }).find("the record is '"), std::string::npos);
+  EXPECT_TRUE(contains(error_of<std::exception>([&] { read_record(file); }), "no column of motion or force"));
+  EXPECT_TRUE(contains(error_of<std::exception>([&] { read_record(folder_); }), "the record is '"));
   RecordOptions options;
   options.columns.insert(column_from_text("a_drum=c"));
-  EXPECT_NE(message([&] { read_record(file, options); }).find("'c'"), std::string::npos);
+  EXPECT_TRUE(contains(error_of<std::exception>([&] { read_record(file, options); }), "'c'"));
   for (const char *text : {"a_drum", "a=b", "a_drum=", "a_drum=b:kN", "time=b:-s", "a_drum=b:"})
     EXPECT_THROW(column_from_text(text), std::invalid_argument) << text;
 }

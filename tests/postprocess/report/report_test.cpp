@@ -9,6 +9,8 @@
 #include "support/files.h"
 #include "support/text.h"
 #include "support/usage_error.h"
+#include "tests/support/checks.h"
+#include "tests/support/engine_runs.h"
 #include "tests/support/page.h"
 #include "tests/support/run_folders.h"
 
@@ -26,20 +28,25 @@
 #include <map>
 #include <memory>
 #include <regex>
-#include <set>
 
 namespace {
 
 using namespace drumlin::post;
-using drumlin::test::parse;
-using drumlin::test::Parsed;
-using drumlin::test::write_chain_run;
-using drumlin::test::write_impact_run;
+using namespace drumlin::test;
 namespace fs = std::filesystem;
 
-std::string read(const fs::path &file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+ReportOutcome report_of(const std::vector<fs::path> &folders, const fs::path &out) {
+  ReportOptions options;
+  options.folders = folders;
+  options.out = out;
+  return write_report(options);
+}
+
+/// Replaces a text in the parameters of a run.
+void change_parameters(const fs::path &run, const std::string &from, const std::string &to) {
+  std::string text = read_text(run / "parameters.csv");
+  text.replace(text.find(from), from.size(), to);
+  write_files({{run / "parameters.csv", text}});
 }
 
 void write(const fs::path &file, const std::string &text) { std::ofstream(file, std::ios::binary) << text; }
@@ -62,11 +69,8 @@ protected:
       write(root / name / "chain.csv", "case,steps_per_cycle\nI,50\n");
       write(root / name / "figures" / "f.svg", "<svg/>");
     }
-    ReportOptions options;
-    options.folders = {root / "runs"};
-    options.out = root / "report";
-    outcome = write_report(options);
-    page = parse(read(root / "report" / "index.html"));
+    outcome = report_of({root / "runs"}, root / "report");
+    page = parse(read_text(outcome.page));
   }
   static void TearDownTestSuite() { fs::remove_all(root); }
 
@@ -85,20 +89,20 @@ protected:
     const std::string line = fmt::format("{} '{}' report {} >/dev/null 2>'{}'", environment, DRUMLIN_TOOLS,
                                          arguments, errors.string());
     const int status = std::system(line.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(errors)};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(errors)};
   }
 
   /// Expects that the command fails with status 2 and one line with `words`, and that the earlier report is
   /// unchanged.
   static void expect_refusal(const std::string &arguments, const std::string &words,
                              const std::string &environment = "") {
-    const std::string before = read(root / "report" / "index.html");
+    const std::string before = read_text(outcome.page);
     const auto [status, errors] = command(arguments, environment);
     EXPECT_EQ(status, 2) << errors;
     EXPECT_EQ(errors.rfind("ERROR: drumlin report: ", 0), 0u) << errors;
     EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << errors;
-    EXPECT_NE(errors.find(words), std::string::npos) << errors;
-    EXPECT_EQ(read(root / "report" / "index.html"), before);
+    EXPECT_TRUE(contains(errors, words));
+    EXPECT_EQ(read_text(outcome.page), before);
     EXPECT_TRUE(fs::is_regular_file(root / "report" / "figures" / "fig5_case_II.png"));
     for (const fs::directory_entry &entry : fs::directory_iterator(root))
       EXPECT_NE(entry.path().filename().string().front(), '.') << "left over: " << entry.path();
@@ -124,16 +128,16 @@ TEST_F(Report, IsWellFormed) {
 TEST_F(Report, LoadsNothingFromTheNetwork) {
   for (const std::vector<std::string> *all : {&page.images, &page.links, &page.resources, &page.contents})
     for (const std::string &address : *all) {
-      EXPECT_EQ(address.find("//"), std::string::npos) << address;
-      EXPECT_EQ(address.find("http"), std::string::npos) << address;
+      EXPECT_FALSE(contains(address, "//"));
+      EXPECT_FALSE(contains(address, "http"));
     }
-  const std::string text = read(root / "report" / "index.html");
-  EXPECT_EQ(text.find("url("), std::string::npos);
-  EXPECT_EQ(text.find("@import"), std::string::npos);
+  const std::string text = read_text(outcome.page);
+  EXPECT_FALSE(contains(text, "url("));
+  EXPECT_FALSE(contains(text, "@import"));
   for (const std::string &image : page.images) {
-    const std::string picture = read(root / "report" / image);
-    EXPECT_EQ(picture.find("href=\"http"), std::string::npos) << image;
-    EXPECT_EQ(picture.find("<script"), std::string::npos) << image;
+    const std::string picture = read_text(root / "report" / image);
+    EXPECT_FALSE(contains(picture, "href=\"http")) << image;
+    EXPECT_FALSE(contains(picture, "<script")) << image;
   }
 }
 
@@ -145,11 +149,11 @@ TEST_F(Report, HasEveryPictureItShows) {
     const fs::path svg = root / "report" / image;
     ASSERT_TRUE(fs::is_regular_file(svg)) << svg;
     EXPECT_EQ(svg.extension(), ".svg");
-    const Parsed drawing = parse(read(svg));
+    const Parsed drawing = parse(read_text(svg));
     EXPECT_TRUE(drawing.well_formed) << svg << drawing.error;
     fs::path png = svg;
     png.replace_extension(".png");
-    const std::string bytes = read(png);
+    const std::string bytes = read_text(png);
     EXPECT_GT(bytes.size(), 5000u) << png;
     EXPECT_EQ(bytes.substr(0, 8), "\x89PNG\r\n\x1a\n") << png;
     fs::path script = svg;
@@ -197,13 +201,12 @@ double number_in(const std::string &text, const std::string &expression) {
 }
 
 TEST_F(Report, OpensWithTheAnswer) {
-  const std::string text = read(root / "report" / "index.html");
+  const std::string text = read_text(outcome.page);
   EXPECT_EQ(text.find("<section"), text.find("<section id=\"answer\""));
   const std::string answer = opening(text);
   EXPECT_EQ(answer.rfind("<p class=\"verdict good\">✓", 0), 0u) << answer;
-  EXPECT_NE(answer.find("2 runs of the chain soil – drum – frame (cases I and II) and 2 single impacts"),
-            std::string::npos)
-      << answer;
+  EXPECT_TRUE(
+      contains(answer, "2 runs of the chain soil – drum – frame (cases I and II) and 2 single impacts"));
   EXPECT_EQ(number_in(answer, "(\\d+) of 17 values agree"), 17.0);
   const Table restitution = read_table(root / "report" / "data" / "restitution.csv");
   for (std::size_t i = 0; i < restitution.rows(); ++i)
@@ -216,41 +219,36 @@ TEST_F(Report, OpensWithTheAnswer) {
 TEST_F(Report, OpensWithTheNumbersOfItsTables) {
   for (const Transition transition : {Transition::A, Transition::B})
     write_chain_run(root / "pair" / (transition == Transition::A ? "II-A" : "II-B"), "II", transition, 12);
-  std::string parameters = read(root / "pair" / "II-A" / "parameters.csv");
-  parameters.replace(parameters.find("D,0.5"), 5, "D,0.5000001"); // an error to show
-  write(root / "pair" / "II-A" / "parameters.csv", parameters);
-  ReportOptions options;
-  options.folders = {root / "pair"};
-  options.out = root / "pair-report";
-  const std::string answer = opening(read(write_report(options).page));
+  change_parameters(root / "pair" / "II-A", "D,0.5", "D,0.5000001"); // an error to show
+  const std::string answer = opening(read_text(report_of({root / "pair"}, root / "pair-report").page));
   EXPECT_EQ(answer.rfind("<p class=\"verdict\">", 0), 0u) << "nothing was judged: " << answer;
-  const Table checks = read_table(options.out / "data" / "checks.csv");
+  const Table checks = read_table(root / "pair-report/data/checks.csv");
   for (std::size_t i = 0; i < checks.rows(); ++i)
     if (checks.text("quantity")[i] == "contact force, max") {
       const std::string transition = checks.text("transition")[i];
       EXPECT_NEAR(number_in(answer, "([0-9.]+) kN under " + transition),
                   std::stod(checks.text("measured")[i]), 0.0051);
     }
-  const Table errors = read_table(options.out / "data" / "error_table.csv");
+  const Table errors = read_table(root / "pair-report/data/error_table.csv");
   const std::vector<double> last = errors.numbers("last 5 cycles (-)");
   EXPECT_EQ(number_in(answer, "by at most ([0-9.e-]+)"), *std::max_element(last.begin(), last.end()));
-  EXPECT_NE(answer.find("II-A"), std::string::npos);
+  EXPECT_TRUE(contains(answer, "II-A"));
 }
 
 TEST_F(Report, HasAContentsListThatStaysInView) {
   EXPECT_EQ(page.contents.front(), "#answer");
-  const std::string text = read(root / "report" / "index.html");
+  const std::string text = read_text(outcome.page);
   std::vector<std::string> sections;
   const std::regex expression("<section id=\"([a-z]+)\"");
   for (std::sregex_iterator found(text.begin(), text.end(), expression), end; found != end; ++found)
     sections.push_back("#" + (*found)[1].str());
   EXPECT_EQ(page.contents, sections);
-  EXPECT_NE(text.find("nav { position: sticky; top: 0;"), std::string::npos);
+  EXPECT_TRUE(contains(text, "nav { position: sticky; top: 0;"));
   EXPECT_EQ(page.drawings, 1u) << "the scene";
 }
 
 TEST_F(Report, MarksTheRowsOfItsTables) {
-  const std::string text = read(root / "report" / "index.html");
+  const std::string text = read_text(outcome.page);
   const std::regex row("<tr class=\"agrees[^>]*><td class=\"word\">✓ (to all digits|in tolerance)<");
   const auto rows =
       std::distance(std::sregex_iterator(text.begin(), text.end(), row), std::sregex_iterator());
@@ -259,11 +257,11 @@ TEST_F(Report, MarksTheRowsOfItsTables) {
     judged += read_table(root / "report" / "data" / table).rows();
   EXPECT_EQ(judged, 17u);
   EXPECT_EQ(static_cast<std::size_t>(rows), judged);
-  EXPECT_EQ(text.find("✗"), std::string::npos);
+  EXPECT_FALSE(contains(text, "✗"));
 }
 
 TEST_F(Report, HasItsCommandsAtTheEnd) {
-  const std::string text = read(root / "report" / "index.html");
+  const std::string text = read_text(outcome.page);
   const std::size_t commands = text.find("id=\"commands\"");
   ASSERT_NE(commands, std::string::npos);
   EXPECT_GT(commands, text.rfind("<figure"));
@@ -272,32 +270,27 @@ TEST_F(Report, HasItsCommandsAtTheEnd) {
 }
 
 TEST_F(Report, TakesStudiesAlong) {
-  const std::string text = read(root / "report" / "index.html");
+  const std::string text = read_text(outcome.page);
   for (const auto &[place, title] :
        {std::pair{"studies/study", "runs/more/study"}, {"studies/study-2", "runs/study"}}) {
     EXPECT_TRUE(fs::is_regular_file(root / "report" / place / "figures" / "f.svg")) << place;
-    EXPECT_NE(text.find(fmt::format("<a href=\"{}/index.html\">Cost of {} &amp; more</a>", place, title)),
-              std::string::npos);
+    EXPECT_TRUE(
+        contains(text, fmt::format("<a href=\"{}/index.html\">Cost of {} &amp; more</a>", place, title)));
   }
 }
 
 TEST_F(Report, IsMadeOfAStudyAlone) {
-  ReportOptions options;
-  options.folders = {root / "runs" / "study"};
-  options.out = root / "study-report";
-  const std::string text = read(write_report(options).page);
+  const std::string text = read_text(report_of({root / "runs" / "study"}, root / "study-report").page);
   EXPECT_TRUE(parse(text).well_formed);
-  EXPECT_NE(text.find("studies/study/index.html"), std::string::npos);
+  EXPECT_TRUE(contains(text, "studies/study/index.html"));
 }
 
 TEST_F(Report, PrintsCommandsAsTextAndSaysWhatIsLeftOut) {
-  const std::string text = read(root / "report" / "index.html");
-  EXPECT_NE(
-      text.find(
-          "<span>run</span> <span>&lt;in.chain&gt;</span> <span>&amp;</span> <span>&quot;more&quot;</span>"),
-      std::string::npos);
-  EXPECT_NE(text.find("Fig. 6 is left out"), std::string::npos);
-  EXPECT_NE(text.find("cycles.csv lacks the energies"), std::string::npos);
+  const std::string text = read_text(outcome.page);
+  EXPECT_TRUE(contains(
+      text,
+      {"<span>run</span> <span>&lt;in.chain&gt;</span> <span>&amp;</span> <span>&quot;more&quot;</span>",
+       "Fig. 6 is left out", "cycles.csv lacks the energies"}));
 }
 
 TEST_F(Report, OfTheDirectSolutionAgreesWithEveryReferenceValue) {
@@ -312,42 +305,34 @@ TEST_F(Report, OfTheDirectSolutionAgreesWithEveryReferenceValue) {
 
 TEST_F(Report, DoesNotJudgeAShortRunAndNamesTheCommandOfALongOne) {
   write_chain_run(root / "it's short", "I", Transition::B, 12);
-  ReportOptions options;
-  options.folders = {root / "it's short"};
-  options.out = root / "short-report";
-  const ReportOutcome short_outcome = write_report(options);
+  const ReportOutcome short_outcome = report_of({root / "it's short"}, root / "short-report");
   EXPECT_EQ(short_outcome.checks.all, 0u);
   EXPECT_EQ(short_outcome.checks.not_judged, 7u);
-  const std::string text = read(short_outcome.page);
+  const std::string text = read_text(short_outcome.page);
   EXPECT_TRUE(parse(text).well_formed);
-  EXPECT_NE(text.find("not judged (short run)"), std::string::npos);
-  EXPECT_NE(text.find("7 values are not judged"), std::string::npos);
-  EXPECT_NE(text.find("Fig. 4  Drum acceleration, case I"), std::string::npos);
-  EXPECT_NE(text.find("With fewer than 100 cycles the motion may not be steady yet"), std::string::npos);
-  EXPECT_EQ(text.find("class=\"differs"), std::string::npos);
+  EXPECT_TRUE(contains(text, {"not judged (short run)", "7 values are not judged",
+                              "Fig. 4  Drum acceleration, case I",
+                              "With fewer than 100 cycles the motion may not be steady yet"}));
+  EXPECT_FALSE(contains(text, "class=\"differs"));
   const std::string command = fmt::format(
       "./drumlin run inputs/chain/in.chain -var case I -var transition B -var steps_per_cycle 2000 "
       "-var samples_per_cycle 200 -var cycles 120 -var out {}",
       (fs::canonical(root) / "I-B-120-cycles").string());
   EXPECT_EQ(short_outcome.judging_commands, (std::vector<std::string>{command}));
-  EXPECT_NE(text.find(command), std::string::npos);
-  const std::string json = read(root / "short-report" / "report.json");
-  EXPECT_NE(json.find("\"not_judged\": 7"), std::string::npos);
-  EXPECT_EQ(json.find("\"agrees\": false"), std::string::npos);
+  EXPECT_TRUE(contains(text, command));
+  const std::string json = read_text(root / "short-report" / "report.json");
+  EXPECT_TRUE(contains(json, "\"not_judged\": 7"));
+  EXPECT_FALSE(contains(json, "\"agrees\": false"));
 }
 
 TEST_F(Report, NamesTheCyclesOfARunOfTwo) {
   write_chain_run(root / "two", "II", Transition::B, 2);
-  ReportOptions options;
-  options.folders = {root / "two"};
-  options.out = root / "two-report";
-  const std::string text = read(write_report(options).page);
-  for (const char *words :
-       {"Drum acceleration over the last 2 cycles, case II", "Measured over the last 2 cycles",
-        "Contact force over the last 2 cycles", "Drum acceleration over the last 2 cycles under"})
-    EXPECT_NE(text.find(words), std::string::npos) << words;
+  const std::string text = read_text(report_of({root / "two"}, root / "two-report").page);
+  EXPECT_TRUE(contains(text, {"Drum acceleration over the last 2 cycles, case II",
+                              "Measured over the last 2 cycles", "Contact force over the last 2 cycles",
+                              "Drum acceleration over the last 2 cycles under"}));
   for (const char *words : {"the last 3 cycles", "the last 10 cycles", "at steady state"})
-    EXPECT_EQ(text.find(words), std::string::npos) << words;
+    EXPECT_FALSE(contains(text, words));
 }
 
 TEST_F(Report, CountsEachKindOfWorkToAnEndThatIsKnown) {
@@ -402,7 +387,7 @@ TEST_F(Report, KeepsHostileNamesAsText) {
     fs::create_directories(hostile / name);
     for (const char *file : {"chain.csv", "events.csv"})
       fs::copy(seed / file, hostile / name / file);
-    std::string parameters = read(seed / "parameters.csv");
+    std::string parameters = read_text(seed / "parameters.csv");
     parameters += csv_cell("note " + name) + "," + csv_cell(name) + "\n";
     parameters.replace(parameters.find("a test"), 6, csv_cell(name + " LAMMPS"));
     parameters.replace(parameters.find("D,0.5"), 5, "D,0.5000001"); // an error to draw
@@ -419,23 +404,21 @@ TEST_F(Report, KeepsHostileNamesAsText) {
   fs::current_path(hostile);
   const ReportOutcome hostile_outcome = write_report(options);
   fs::current_path(before);
-  const std::string text = read(hostile_outcome.page);
+  const std::string text = read_text(hostile_outcome.page);
   EXPECT_EQ(text, valid_utf8(text));
   const Parsed shown = parse(text);
   EXPECT_TRUE(shown.well_formed) << shown.error;
-  for (const char *shown_name : {"<td class=\"word\">100%</td>", "<td class=\"word\">%s%n</td>", "&lt;b&gt;",
-                                 "a&quot;b", "it&#39;s", "bad\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd"})
-    EXPECT_NE(text.find(shown_name), std::string::npos) << shown_name;
+  EXPECT_TRUE(contains(text, {"<td class=\"word\">100%</td>", "<td class=\"word\">%s%n</td>", "&lt;b&gt;",
+                              "a&quot;b", "it&#39;s", "bad\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd"}));
   for (const std::string &link : shown.links)
     EXPECT_TRUE(link.front() == '#' || fs::is_regular_file(options.out / drumlin::test::file_of(link)))
         << link;
   for (const std::string &image : shown.images) {
-    const Parsed drawing = parse(read(options.out / image));
+    const Parsed drawing = parse(read_text(options.out / image));
     EXPECT_TRUE(drawing.well_formed) << image << drawing.error;
   }
-  const std::string ticks = read(options.out / "figures" / "figR6_velocity_error.svg");
-  for (const char *label : {">100%<", ">%s%n<", ">{}<", ">x y<"})
-    EXPECT_NE(ticks.find(label), std::string::npos) << label;
+  const std::string ticks = read_text(options.out / "figures" / "figR6_velocity_error.svg");
+  EXPECT_TRUE(contains(ticks, {">100%<", ">%s%n<", ">{}<", ">x y<"}));
   for (const fs::path &place : {hostile, options.out / "figures", before})
     EXPECT_FALSE(fs::exists(place / "pwned")) << place;
 }
@@ -466,39 +449,29 @@ TEST_F(Report, PrintsNoNumberThatIsNone) {
   write(root / "none" / "miss" / "chain.csv", "time,x_drum,v_drum,a_drum,F_contact,F_excitation\n"
                                               "0,1,-1,0,0,0\n0.001,0.999,-1,0,0,0\n0.002,0.998,-1,0,0,0\n");
   write(root / "none" / "miss" / "events.csv", "time,event,overlap,overlap_rate,force,id_i,id_j\n");
-  ReportOptions options;
-  options.folders = {root / "none"};
-  options.out = root / "none-report";
-  const std::string text = read(write_report(options).page);
+  const std::string text = read_text(report_of({root / "none"}, root / "none-report").page);
   EXPECT_TRUE(parse(text).well_formed);
   for (const char *word : {">nan", ">-nan", ">inf", ">-inf", " nan", " inf", "nan "})
-    EXPECT_EQ(text.find(word), std::string::npos) << word;
-  for (const fs::directory_entry &data : fs::directory_iterator(options.out / "data")) {
-    const std::string cells = read(data.path());
-    EXPECT_EQ(cells.find(",nan"), std::string::npos) << data.path();
-    EXPECT_EQ(cells.find(",-nan"), std::string::npos) << data.path();
-    EXPECT_EQ(cells.find(",inf"), std::string::npos) << data.path();
-    EXPECT_EQ(cells.find(",-inf"), std::string::npos) << data.path();
+    EXPECT_FALSE(contains(text, word));
+  for (const fs::directory_entry &data : fs::directory_iterator(root / "none-report" / "data")) {
+    const std::string cells = read_text(data.path());
+    EXPECT_FALSE(contains(cells, ",nan")) << data.path();
+    EXPECT_FALSE(contains(cells, ",-nan")) << data.path();
+    EXPECT_FALSE(contains(cells, ",inf")) << data.path();
+    EXPECT_FALSE(contains(cells, ",-inf")) << data.path();
   }
-  EXPECT_NE(text.find("the mass does not reach the ball within the record"), std::string::npos);
-  EXPECT_NE(text.find("Fig. 3 is left out"), std::string::npos);
+  EXPECT_TRUE(contains(text, {"the mass does not reach the ball within the record", "Fig. 3 is left out"}));
 }
 
 TEST_F(Report, GivesThePapersTitlesToThePapersParametersOnly) {
   write_chain_run(root / "own", "II", Transition::B, 12);
-  std::string parameters = read(root / "own" / "parameters.csv");
-  parameters.replace(parameters.find("m2,2000"), 7, "m2,2100");
-  write(root / "own" / "parameters.csv", parameters);
-  ReportOptions options;
-  options.folders = {root / "own"};
-  options.out = root / "own-report";
-  const std::string text = read(write_report(options).page);
-  EXPECT_NE(text.find("own parameters after case II"), std::string::npos);
-  EXPECT_NE(text.find("m2 = 2100, case II has 2000"), std::string::npos);
-  EXPECT_EQ(text.find("fig5_case_II"), std::string::npos);
-  EXPECT_NE(text.find("own_after_case_II.svg"), std::string::npos);
-  const std::string page_of_paper = read(root / "report" / "index.html");
-  EXPECT_EQ(page_of_paper.find("own parameters"), std::string::npos);
+  change_parameters(root / "own", "m2,2000", "m2,2100");
+  const std::string text = read_text(report_of({root / "own"}, root / "own-report").page);
+  EXPECT_TRUE(contains(text, {"own parameters after case II", "m2 = 2100, case II has 2000"}));
+  EXPECT_FALSE(contains(text, "fig5_case_II"));
+  EXPECT_TRUE(contains(text, "own_after_case_II.svg"));
+  const std::string page_of_paper = read_text(outcome.page);
+  EXPECT_FALSE(contains(page_of_paper, "own parameters"));
 }
 
 TEST_F(Report, ClearsAwayWhatAKilledReportLeft) {
@@ -520,10 +493,7 @@ TEST_F(Report, ClearsAwayWhatAKilledReportLeft) {
       command(quote(root / "runs" / "I-A") + " --out " + quote(place), "PATH=" + quote(root / "killed"));
   EXPECT_EQ(status, 1) << errors;
   EXPECT_TRUE(fs::is_regular_file(place / "thesis.txt"));
-  ReportOptions options;
-  options.folders = {root / "runs" / "I-A"};
-  options.out = place;
-  write_report(options);
+  report_of({root / "runs" / "I-A"}, place);
   EXPECT_TRUE(fs::is_regular_file(place / "index.html"));
   for (const fs::path &folder : {half, earlier, old})
     EXPECT_FALSE(fs::exists(folder)) << folder;
@@ -537,8 +507,7 @@ TEST_F(Report, IsRefusedWhereAnotherCallMakesOne) {
   const TemporaryFolder running(place.parent_path(), ".report.new-");
   const auto [status, errors] = command(quote(root / "runs" / "I-A") + " --out " + quote(place));
   EXPECT_EQ(status, 2);
-  EXPECT_NE(errors.find("', into which another call writes; allowed: another folder"), std::string::npos)
-      << errors;
+  EXPECT_TRUE(contains(errors, "', into which another call writes; allowed: another folder"));
   EXPECT_FALSE(fs::exists(place));
   EXPECT_TRUE(fs::exists(running.path()));
 }
@@ -549,24 +518,17 @@ TEST_F(Report, DoesWithoutOptionalFiles) {
   fs::remove(bare / "cycles.csv");
   const fs::path nameless = copy("nameless");
   fs::remove(nameless / "parameters.csv");
-  ReportOptions options;
-  options.folders = {bare, nameless};
-  options.out = root / "bare-report";
-  const std::string text = read(write_report(options).page);
+  const std::string text = read_text(report_of({bare, nameless}, root / "bare-report").page);
   EXPECT_TRUE(parse(text).well_formed);
-  EXPECT_NE(text.find("events.csv is missing"), std::string::npos);
-  EXPECT_NE(text.find("cycles.csv is missing"), std::string::npos);
-  EXPECT_NE(text.find("parameters.csv is missing"), std::string::npos);
+  EXPECT_TRUE(
+      contains(text, {"events.csv is missing", "cycles.csv is missing", "parameters.csv is missing"}));
 }
 
 TEST_F(Report, ReplacesAnEarlierReportAsAWhole) {
   const fs::path place = root / "again";
-  ReportOptions options;
-  options.folders = {root / "runs" / "I-A"};
-  options.out = place;
-  write_report(options);
+  report_of({root / "runs" / "I-A"}, place);
   write(place / "data" / "stale.csv", "x\n");
-  write_report(options);
+  report_of({root / "runs" / "I-A"}, place);
   EXPECT_FALSE(fs::exists(place / "data" / "stale.csv"));
   EXPECT_TRUE(fs::exists(place / "index.html"));
 }
@@ -586,9 +548,7 @@ TEST_F(Report, RefusesFilesThatItCannotRead) {
   write(unequal / "cycles.csv", "cycle,a_drum_min\n1\n");
   expect_refusal(quote(unequal) + " " + out(), "cycles.csv");
   const fs::path wrong = copy("broken");
-  std::string text = read(wrong / "parameters.csv");
-  text.replace(text.find("transition,B"), 12, "transition,C");
-  write(wrong / "parameters.csv", text);
+  change_parameters(wrong, "transition,B", "transition,C");
   expect_refusal(quote(wrong) + " " + out(), "'C'");
 }
 
@@ -602,32 +562,27 @@ TEST_F(Report, LeavesOutWhatCannotBeRead) {
     fs::copy(root / "runs" / "II-B", mixed / name);
   for (const char *name : {"half", "killed"})
     fs::resize_file(mixed / name / "chain.csv", fs::file_size(mixed / name / "chain.csv") - 60);
-  std::string parameters = read(mixed / "killed/parameters.csv");
-  parameters.replace(parameters.find("ended,yes"), 9, "ended,no");
-  write(mixed / "killed/parameters.csv", parameters);
+  change_parameters(mixed / "killed", "ended,yes", "ended,no");
   fs::copy(root / "report", mixed / "last week", fs::copy_options::recursive);
   fs::copy(root / "report", mixed / ".half.new-1", fs::copy_options::recursive);
   fs::remove(mixed / ".half.new-1/report.json");
   write(mixed / ".half.new-1/data/oedometer.csv", "stress_kPa\n");
   fs::create_directories(mixed / "no table");
   fs::copy_file(mixed / "killed/parameters.csv", mixed / "no table/parameters.csv");
-  ReportOptions options;
-  options.folders = {mixed};
-  options.out = root / "mixed-report";
-  const ReportOutcome made = write_report(options);
+  const ReportOutcome made = report_of({mixed}, root / "mixed-report");
   EXPECT_GT(made.checks.all, 0u); // those of the run that is whole
   ASSERT_EQ(made.left_out.size(), 4u);
   std::map<std::string, std::string> why;
   for (const LeftOut &folder : made.left_out)
     why[folder.folder.filename().string()] = folder.why;
   EXPECT_EQ(why["last week"], "it is an earlier report");
-  EXPECT_NE(why["half"].find("chain.csv"), std::string::npos) << why["half"];
+  EXPECT_TRUE(contains(why["half"], "chain.csv"));
   EXPECT_EQ(why["no table"], "it was killed, or is still running");
   EXPECT_EQ(why["killed"].rfind("it was killed, or is still running; ", 0), 0u) << why["killed"];
-  const std::string text = read(made.page);
+  const std::string text = read_text(made.page);
   EXPECT_TRUE(parse(text).well_formed);
-  EXPECT_NE(text.find("4 folders are left out, and not judged"), std::string::npos);
-  EXPECT_NE(text.find("last week</code>: it is an earlier report"), std::string::npos);
+  EXPECT_TRUE(contains(
+      text, {"4 folders are left out, and not judged", "last week</code>: it is an earlier report"}));
 }
 
 TEST_F(Report, DoesNotJudgeARunThatWasCut) {
@@ -640,23 +595,17 @@ TEST_F(Report, DoesNotJudgeARunThatWasCut) {
     fs::create_directories(root / "cut");
     for (const char *name : {"II-B", "I-A", "impact-B"}) {
       fs::copy(root / "runs" / name, root / "cut" / name);
-      std::string parameters = read(root / "cut" / name / "parameters.csv");
-      parameters.replace(parameters.find("ended,yes\n"), 10, row);
-      write(root / "cut" / name / "parameters.csv", parameters);
+      change_parameters(root / "cut" / name, "ended,yes\n", row);
     }
-    ReportOptions options;
-    options.folders = {root / "cut"};
-    options.out = root / "cut-report";
-    const ReportOutcome made = write_report(options);
+    const ReportOutcome made = report_of({root / "cut"}, root / "cut-report");
     EXPECT_EQ(made.checks.all, 0u) << row;
     EXPECT_GT(made.checks.not_judged, 10u) << row;
-    const std::string text = read(made.page);
+    const std::string text = read_text(made.page);
     EXPECT_TRUE(parse(text).well_formed);
-    EXPECT_NE(text.find(says), std::string::npos) << says;
-    EXPECT_NE(text.find(" (cut)"), std::string::npos);
+    EXPECT_TRUE(contains(text, {says, " (cut)"}));
     for (const char *verdict :
          {"verdict good", "verdict bad", "<tr class=\"agrees\"", "<tr class=\"differs\""})
-      EXPECT_EQ(text.find(verdict), std::string::npos)
+      EXPECT_FALSE(contains(text, verdict))
           << row << text.substr(std::min(text.size(), text.find(verdict)), 300);
   }
 }
@@ -665,7 +614,7 @@ TEST_F(Report, RefusesToReplaceWhatIsNoReport) {
   fs::create_directories(root / "mine");
   write(root / "mine" / "thesis.txt", "years\n");
   expect_refusal(quote(root / "runs") + " --out " + quote(root / "mine"), "holds other files");
-  EXPECT_EQ(read(root / "mine" / "thesis.txt"), "years\n");
+  EXPECT_EQ(read_text(root / "mine" / "thesis.txt"), "years\n");
   expect_refusal(quote(root / "runs") + " --out " + quote(root / "mine" / "thesis.txt"), "is not a folder");
 }
 
@@ -685,7 +634,8 @@ TEST_F(Report, NamesThePackageOfAMissingGnuplot) {
 }
 
 TEST(Names, AreTheShortestTailsThatDiffer) {
-  const fs::path root = fs::temp_directory_path() / fmt::format("drumlin-names-{}", ::getpid());
+  const Scratch scratch;
+  const fs::path &root = scratch.path();
   for (const char *name : {"stock/II-B", "second/II-B"})
     fs::create_directories(root / name);
   std::vector<drumlin::post::Run> runs(2);
@@ -694,7 +644,6 @@ TEST(Names, AreTheShortestTailsThatDiffer) {
   name_runs(runs);
   EXPECT_EQ(runs[0].name, "stock/II-B");
   EXPECT_EQ(runs[1].name, "second/II-B");
-  fs::remove_all(root);
 }
 
 TEST(Text, IsMadeUtf8) {

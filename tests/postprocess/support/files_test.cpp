@@ -2,7 +2,9 @@
 // full disk is a small file system that the test mounts.
 #include "support/files.h"
 #include "support/process.h"
+#include "tests/support/checks.h"
 #include "tests/support/dump_texts.h"
+#include "tests/support/engine_runs.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -12,14 +14,10 @@
 #include <sys/sysmacros.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cmath>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <functional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -30,21 +28,9 @@ namespace fs = std::filesystem;
 using post::Outcome;
 using post::read_text;
 
-std::string refused(const std::function<void()> &call) {
-  try {
-    call();
-  } catch (const std::runtime_error &fault) {
-    return fault.what();
-  }
-  return "accepted";
-}
-
 class OutputFiles : public ::testing::Test {
 protected:
   OutputFiles() {
-    std::string name = (fs::temp_directory_path() / "drumlin-output-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
-    folder_ = name;
     fs::create_directory(folder_ / "folder");
     put("file");
     put("read-only");
@@ -57,10 +43,6 @@ protected:
     fs::create_symlink("circle", folder_ / "circle");
     fs::create_symlink("pipe", folder_ / "link-to-pipe");
     fs::create_symlink("folder", folder_ / "link-to-folder");
-  }
-  ~OutputFiles() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
   }
   void put(const std::string &name, const std::string &text = "earlier\n") const {
     fs::create_directories((folder_ / name).parent_path());
@@ -83,7 +65,8 @@ protected:
     return names;
   }
 
-  fs::path folder_;
+  const Scratch scratch_;
+  const fs::path folder_ = scratch_.path();
   bool has_device_ = false;
 };
 
@@ -94,10 +77,10 @@ TEST_F(OutputFiles, NothingButARegularFileIsReplaced) {
     const Outcome bed = run({"bed", "--balls", "3", "--out", name});
     EXPECT_EQ(bed.status, 2) << bed.output;
     EXPECT_EQ(bed.output.rfind("ERROR: drumlin bed: --out is '" + name + "': ", 0), 0u) << bed.output;
-    EXPECT_TRUE(bed.says("; allowed: a file that can be written\n")) << bed.output;
-    EXPECT_NE(refused([&] { post::write_files({{folder_ / name, "new"}}); }), "accepted");
-    EXPECT_NE(refused([&] { post::append_text(folder_ / name, "new"); }), "accepted");
-    EXPECT_NE(refused([&] { post::replace_file(folder_ / "file", folder_ / name); }), "accepted");
+    EXPECT_TRUE(printed(bed, "; allowed: a file that can be written\n"));
+    EXPECT_NE(error_of([&] { post::write_files({{folder_ / name, "new"}}); }), "no error");
+    EXPECT_NE(error_of([&] { post::append_text(folder_ / name, "new"); }), "no error");
+    EXPECT_NE(error_of([&] { post::replace_file(folder_ / "file", folder_ / name); }), "no error");
     EXPECT_EQ(listing(), before);
   }
 }
@@ -126,11 +109,11 @@ TEST_F(OutputFiles, FoldersOfResultsAreChecked) {
 // Only the checks are called: nothing is written there.
 TEST_F(OutputFiles, TheSystemsFoldersAreRefused) {
   for (const char *name : {"/", "//", "/dev", "/dev/x", "/proc/self", "/sys/x/y", "/tmp/../dev/x"})
-    EXPECT_NE(refused([name] { post::check_output_folder(name); }), "accepted") << name;
+    EXPECT_NE(error_of([name] { post::check_output_folder(name); }), "no error") << name;
   fs::create_symlink("/dev", folder_ / "link-to-dev");
-  EXPECT_NE(refused([this] { post::check_output_folder(folder_ / "link-to-dev" / "x"); }), "accepted");
-  EXPECT_NE(refused([] { post::check_output_file("/dev/drumlin"); }), "accepted");
-  EXPECT_EQ(refused([this] { post::check_output_folder(folder_ / "device-of-mine" / "new"); }), "accepted");
+  EXPECT_NE(error_of([this] { post::check_output_folder(folder_ / "link-to-dev" / "x"); }), "no error");
+  EXPECT_NE(error_of([] { post::check_output_file("/dev/drumlin"); }), "no error");
+  EXPECT_EQ(error_of([this] { post::check_output_folder(folder_ / "device-of-mine" / "new"); }), "no error");
 }
 
 // In an earlier result's folder, too: exact replaces neither a file that is read-only nor a node, and keeps
@@ -143,7 +126,7 @@ TEST_F(OutputFiles, FilesInAFolderOfResultsAreChecked) {
     const std::string before = listing();
     const Outcome outcome = run({"exact", "--cycles", "2", "--out", "o"});
     EXPECT_EQ(outcome.status, 2) << outcome.output;
-    EXPECT_TRUE(outcome.says("--out is 'o': events.csv is ")) << outcome.output;
+    EXPECT_TRUE(printed(outcome, "--out is 'o': events.csv is "));
     EXPECT_EQ(listing(), before);
     fs::remove(folder_ / "o/events.csv");
   }
@@ -161,7 +144,7 @@ TEST_F(OutputFiles, LinksAreFollowed) {
   ::chmod((folder_ / "file").c_str(), 0640);
   EXPECT_EQ(run({"bed", "--balls", "3", "--out", "link"}).status, 0);
   EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
-  EXPECT_NE(read_text(folder_ / "file").find("3 atoms"), std::string::npos);
+  EXPECT_TRUE(contains(read_text(folder_ / "file"), "3 atoms"));
   EXPECT_EQ(fs::status(folder_ / "file").permissions(), fs::perms(0640)); // kept
   EXPECT_EQ(run({"exact", "--cycles", "1", "--out", "link-to-folder/new"}).status, 0);
   EXPECT_TRUE(fs::exists(folder_ / "folder/new/chain.csv"));
@@ -250,7 +233,7 @@ TEST_F(FullDisk, AReportIsAnErrorAndLeavesNothing) {
                           {}, folder_);
     if (outcome.status == 77 || outcome.says("unshare: "))
       GTEST_SKIP() << "this machine lets no small disk be mounted";
-    EXPECT_TRUE(outcome.says("ERROR: drumlin report: ")) << outcome.output;
+    EXPECT_TRUE(printed(outcome, "ERROR: drumlin report: "));
     const std::string end = "status 1\n";
     EXPECT_EQ(outcome.output.find(end) + end.size(), outcome.output.size()) << outcome.output;
   }
@@ -264,7 +247,8 @@ TEST_F(FullDisk, ARowThatDoesNotArriveIsAnError) {
     rlimit limit{};
     limit.rlim_cur = limit.rlim_max = 12;
     ::setrlimit(RLIMIT_FSIZE, &limit);
-    const std::string fault = refused([this] { post::append_text(folder_ / "rows.csv", "3,4,5,6,7,8,9\n"); });
+    const std::string fault =
+        error_of([this] { post::append_text(folder_ / "rows.csv", "3,4,5,6,7,8,9\n"); });
     std::_Exit(fault.find("rows.csv: cannot be written: ") != std::string::npos ? 0 : 1);
   };
   EXPECT_EXIT(child(), ::testing::ExitedWithCode(0), "");

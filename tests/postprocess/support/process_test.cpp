@@ -1,6 +1,7 @@
 // Programs that are run as child processes, and their lines while they run.
 #include "support/process.h"
 
+#include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
 
 #include <gtest/gtest.h>
@@ -47,8 +48,7 @@ TEST(Process, HandsOnLinesWhileItRuns) {
     if (lines.empty()) fs::create_directory(scratch / "seen");
     lines.push_back(line);
   };
-  const Outcome outcome = run_program(program);
-  EXPECT_TRUE(outcome.ok());
+  const Outcome outcome = well(run_program(program));
   EXPECT_EQ(outcome.output, "one\ntwo\n\nhalf");
   EXPECT_EQ(lines, (std::vector<std::string>{"one", "two", ""})); // the last line has no line end
 }
@@ -99,12 +99,8 @@ TEST(Process, WithoutItsProgramIsAnError) {
   const Scratch scratch;
   Program program = shell(scratch, "");
   program.words = {"no-such-program"};
-  try {
-    run_program(program);
-    ADD_FAILURE() << "it was started";
-  } catch (const std::runtime_error &fault) {
-    EXPECT_EQ(std::string(fault.what()), "cannot start no-such-program: No such file or directory");
-  }
+  EXPECT_EQ(error_of([&] { run_program(program); }),
+            "cannot start no-such-program: No such file or directory");
 }
 
 TEST(Process, IsFoundByPath) {

@@ -1,6 +1,7 @@
 // `drumlin study benchmarks --quick`: all criteria are met, and an interrupted call continues to the same
 // result.
 #include "support/files.h"
+#include "tests/support/checks.h"
 #include "tests/support/page.h"
 #include "tests/support/scratch_study.h"
 
@@ -23,7 +24,7 @@ TEST(BenchmarksStudy, MeetsItsCriteriaAndContinuesWhereItWasInterrupted) {
   const post::Outcome whole = study.run();
   ASSERT_TRUE(whole.ok()) << whole.output;
   expect_sound_page(out, 2);
-  EXPECT_NE(post::read_text(out / "index.html").find("3 of 3 acceptance criteria hold."), std::string::npos);
+  EXPECT_TRUE(contains(post::read_text(out / "index.html"), "3 of 3 acceptance criteria hold."));
   const std::string values = post::read_text(out / "data" / "values.csv");
 
   interrupt(out / "runs.csv");

@@ -3,6 +3,7 @@
 // twice. Times are not judged.
 #include "engine/engine_run.h"
 #include "lab/timing/results.h"
+#include "tests/support/checks.h"
 #include "tests/support/page.h"
 #include "tests/support/scratch_study.h"
 
@@ -66,7 +67,7 @@ TEST(TimingStudy, RefusesAPathThatTheEngineWouldSplitAndTellsOfItsOldNames) {
     const post::Outcome old =
         post::run_program({DRUMLIN_TOOLS, "study", name}, {}, fs::temp_directory_path());
     EXPECT_EQ(old.status, 2) << old.output;
-    EXPECT_TRUE(old.says("allowed: timing")) << old.output;
+    EXPECT_TRUE(printed(old, "allowed: timing"));
   }
 }
 

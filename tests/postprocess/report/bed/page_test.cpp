@@ -9,14 +9,14 @@
 #include "runs/chain_files.h"
 #include "support/files.h"
 #include "support/usage_error.h"
+#include "tests/support/checks.h"
 #include "tests/support/dump_texts.h"
+#include "tests/support/engine_runs.h"
 #include "tests/support/page.h"
 #include "tests/support/run_folders.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -29,20 +29,16 @@
 namespace {
 
 using namespace drumlin::post;
+using namespace drumlin::test;
 namespace test = drumlin::test;
 namespace fs = std::filesystem;
 
 /// Six cycles at 20 Hz, of which the last four are steady.
 class BedReport : public ::testing::Test {
 protected:
-  BedReport() : root(fs::temp_directory_path() / fmt::format("drumlin-bed-{}", ::getpid())) {
-    fs::remove_all(root);
+  BedReport() {
     write_run("A", Transition::A);
     write_run("B", Transition::B);
-  }
-  ~BedReport() override {
-    std::error_code ignored;
-    fs::remove_all(root, ignored);
   }
 
   void put(const std::string &file, const std::string &text) const {
@@ -58,7 +54,7 @@ protected:
   void write_dumps(const std::string &name) const { test::write_bed_dumps(root / name); }
 
   BedResult result(const std::string &name) const {
-    auto run = read_run(root / name);
+    auto run = drumlin::post::read_run(root / name);
     run.name = name;
     return analyse_bed(std::move(run));
   }
@@ -74,18 +70,13 @@ protected:
 
   /// Expects that the report is refused with one line that has the words, and that an earlier report stays.
   void expect_refusal(const std::vector<std::string> &names, const std::vector<std::string> &words) const {
-    try {
-      report(names);
-      FAIL() << "was accepted";
-    } catch (const UsageError &error) {
-      const std::string text = error.what();
-      EXPECT_EQ(text.find('\n'), std::string::npos) << text;
-      for (const std::string &word : words)
-        EXPECT_NE(text.find(word), std::string::npos) << text;
-    }
+    const std::string error = error_of<UsageError>([&] { report(names); });
+    EXPECT_TRUE(contains(error, words));
+    EXPECT_FALSE(contains(error, "\n"));
   }
 
-  fs::path root;
+  const Scratch scratch_;
+  const fs::path root = scratch_.path();
 };
 
 TEST_F(BedReport, MeasuresWhatTheRecordsSay) {
@@ -125,7 +116,7 @@ TEST_F(BedReport, MarksAPartialRun) {
   EXPECT_EQ(told(), 0);
   std::ofstream(root / "A/parameters.csv", std::ios::app) << "cycles,10\n";
   EXPECT_EQ(told(), 1);
-  EXPECT_NE(read_text(report({"A", "B"}) / "bed.html").find("A: " + partial), std::string::npos);
+  EXPECT_TRUE(contains(read_text(report({"A", "B"}) / "bed.html"), "A: " + partial));
 }
 
 TEST_F(BedReport, PrintsTheMeasures) {
@@ -154,15 +145,13 @@ TEST_F(BedReport, OpensWithTheNumbersOfItsTables) {
       "bed goes from 0.2500 to 0.2000, the number of contacts per ball from 3.300 to 5.000. The energy error "
       "is 9.000 % of the exciter&#39;s work.";
   for (const char *page : {"index.html", "bed.html"})
-    EXPECT_NE(read_text(out / page).find(words), std::string::npos)
-        << page << read_text(out / page).substr(6000, 2500);
+    EXPECT_TRUE(contains(read_text(out / page), words)) << page << read_text(out / page).substr(6000, 2500);
   const std::string text = read_text(out / "bed.html");
   const std::size_t commands = text.find("id=\"commands\"");
   EXPECT_GT(commands, text.rfind("<figure"));
   EXPECT_GT(commands, text.rfind("<table"));
   EXPECT_LT(text.find("figures/bed1_peak_key.png"), text.find("<h2>"));
-  EXPECT_NE(text.find("<tr class=\"differs\"><td class=\"word\">✗ no</td><td class=\"word\">A</td>"),
-            std::string::npos);
+  EXPECT_TRUE(contains(text, "<tr class=\"differs\"><td class=\"word\">✗ no</td><td class=\"word\">A</td>"));
 }
 
 // The energy error of these runs is too large, and is marked so where the run has ended.
@@ -174,9 +163,9 @@ TEST_F(BedReport, DoesNotJudgeARunThatWasCut) {
   const fs::path out = report({"cut"});
   for (const char *page : {"index.html", "bed.html"}) {
     const std::string text = read_text(out / page);
-    EXPECT_NE(text.find("not judged: it was killed, or is still running."), std::string::npos) << page;
+    EXPECT_TRUE(contains(text, "not judged: it was killed, or is still running.")) << page;
     for (const char *verdict : {"verdict good", "verdict bad", "class=\"agrees\"", "class=\"differs\""})
-      EXPECT_EQ(text.find(verdict), std::string::npos) << page << verdict;
+      EXPECT_FALSE(contains(text, verdict)) << page;
   }
 }
 
@@ -186,8 +175,8 @@ TEST_F(BedReport, SaysThatADrumHasRisen) {
   cycles.replace(cycles.rfind(",0.036"), 6, ",-0.003");
   put("up/cycles.csv", cycles);
   const std::string text = read_text(report({"up"}) / "bed.html");
-  EXPECT_NE(text.find("After 6 cycles the drum has risen by 3.000 mm under B (mean over the last cycle)"),
-            std::string::npos)
+  EXPECT_TRUE(
+      contains(text, "After 6 cycles the drum has risen by 3.000 mm under B (mean over the last cycle)"))
       << text.substr(6000, 2500);
 }
 
@@ -199,13 +188,13 @@ TEST_F(BedReport, NamesTheCyclesThatItDraws) {
     const std::vector<BedResult> beds = {result("some")};
     for (const PageFigure &figure : plan_bed_figures(group_beds(beds)).figures) {
       if (figure.figure.name == "bed1_motion") {
-        EXPECT_NE(figure.caption.find(three), std::string::npos) << cycles << figure.caption;
+        EXPECT_TRUE(contains(figure.caption, three)) << cycles;
       }
       if (figure.figure.name == "bed1_motion" || figure.figure.name == "bed1_walls") {
         EXPECT_EQ(figure.figure.panels.at(0).x_label, fmt::format("time in {} (ms)", three));
       }
       if (figure.figure.name == "bed1_loop") {
-        EXPECT_NE(figure.caption.find(two), std::string::npos) << cycles << figure.caption;
+        EXPECT_TRUE(contains(figure.caption, two)) << cycles;
       }
     }
   }
@@ -238,10 +227,9 @@ TEST_F(BedReport, IsSoundWithBedsOnly) {
       EXPECT_TRUE(name == "curve" || name.find(" (") != std::string::npos) << image << ": " << name;
   }
   const std::string text = read_text(out / "bed.html");
-  EXPECT_NE(
-      text.find("The picture of B is left out: the run has no dumps; run it with -var dumps_per_cycle 10"),
-      std::string::npos);
-  EXPECT_NE(text.find("<span>&lt;in.bed&gt;</span>"), std::string::npos);
+  EXPECT_TRUE(contains(
+      text, {"The picture of B is left out: the run has no dumps; run it with -var dumps_per_cycle 10",
+             "<span>&lt;in.bed&gt;</span>"}));
   for (const char *name : {"bed_runs.csv", "bed_states.csv"})
     EXPECT_EQ(read_table(out / "data" / name).rows(), 2u);
   const Table states = read_table(out / "data/bed_states.csv");
@@ -284,13 +272,11 @@ TEST_F(BedReport, ShowsTheBedAtRestAndAtTheExtremesOfTheForce) {
   EXPECT_EQ(title("bed1_least"), "A: 0.05 s, 0.0 kN on the drum");
   // The drum's 400 N on ball 1, below it, and 100 N along the line from ball 2 to ball 1.
   const std::string &csv = figures.at("bed1_peak")->csv;
-  EXPECT_NE(csv.find("A contact,1,3.9,,,,0,-2.9,400\n"), std::string::npos) << csv;
-  EXPECT_NE(csv.find("A contact,2.8,1,,,,-1.8,0,100\n"), std::string::npos) << csv;
-  EXPECT_NE(csv.find("A contact,1,0.05"), std::string::npos) << csv; // from the floor
-  EXPECT_NE(csv.find("A roller,1,3.9,2,0,1,,,\n"), std::string::npos) << csv;
+  EXPECT_TRUE(contains(csv, {"A contact,1,3.9,,,,0,-2.9,400\n", "A contact,2.8,1,,,,-1.8,0,100\n",
+                             "A contact,1,0.05"})); // from the floor
+  EXPECT_TRUE(contains(csv, "A roller,1,3.9,2,0,1,,,\n"));
   // Two discs of 1 m in a bed of 3.8 m by 2 m: one layer, since two mean diameters are 4 m.
-  EXPECT_NE(figures.at("bed1_profile")->csv.find("A before whole,1,0.826734"), std::string::npos)
-      << figures.at("bed1_profile")->csv;
+  EXPECT_TRUE(contains(figures.at("bed1_profile")->csv, "A before whole,1,0.826734"));
 }
 
 // Balls of type 1 are the lower layer of soil, those of type 4 the upper one, and type 2 is the drum.
@@ -311,9 +297,8 @@ TEST_F(BedReport, DrawsEachLayerWithAnEdgeOfItsColour) {
   EXPECT_EQ(curves[0].style, CurveStyle::discs_1);
   EXPECT_EQ(curves[1].title, "layer 2");
   EXPECT_EQ(curves[1].style, CurveStyle::discs_2);
-  EXPECT_NE(picture->csv.find("A soil 1,1,1,1,"), std::string::npos) << picture->csv;
-  EXPECT_NE(picture->csv.find("A soil 2,2.8,1,1,"), std::string::npos) << picture->csv;
-  EXPECT_NE(picture->caption.find("have the colours of their layers"), std::string::npos) << picture->caption;
+  EXPECT_TRUE(contains(picture->csv, {"A soil 1,1,1,1,", "A soil 2,2.8,1,1,"}));
+  EXPECT_TRUE(contains(picture->caption, "have the colours of their layers"));
 }
 
 // The bed reaches from z = -1.5 m to 2.5 m, its soil from -1 m to 2.2 m.
@@ -327,12 +312,10 @@ TEST_F(BedReport, CutsABedOfThreeDimensionsInTheMiddle) {
   for (const PageFigure &figure : plan.figures)
     figures[figure.figure.name] = &figure;
   const PageFigure &picture = *figures.at("bed1_peak");
-  for (const char *circle : {"A soil,1,1,0.86602", "A soil,2.8,1,0.71414", "A roller,1,3.9,2,"})
-    EXPECT_NE(picture.csv.find(circle), std::string::npos) << picture.csv;
-  EXPECT_NE(picture.caption.find("section z = 0.5 m"), std::string::npos) << picture.caption;
+  EXPECT_TRUE(contains(picture.csv, {"A soil,1,1,0.86602", "A soil,2.8,1,0.71414", "A roller,1,3.9,2,"}));
+  EXPECT_TRUE(contains(picture.caption, "section z = 0.5 m"));
   // Two balls of radius 1 m in 3.8 m by 2 m by 3.2 m.
-  EXPECT_NE(figures.at("bed1_profile")->csv.find("A before whole,1,0.34447"), std::string::npos)
-      << figures.at("bed1_profile")->csv;
+  EXPECT_TRUE(contains(figures.at("bed1_profile")->csv, "A before whole,1,0.34447"));
 }
 
 TEST_F(BedReport, DrawsOneProfileBelowADrumOfManyBalls) {
@@ -361,18 +344,17 @@ TEST_F(BedReport, IsMadeOfARunThatEndsAtOnce) {
   put("short/cycles.csv", "cycle,contact_share,settlement\n0,1,0\n");
   const fs::path out = report({"short"});
   test::expect_sound_page(out, 2, "bed.html");
-  EXPECT_NE(read_text(out / "bed.html").find("short: ends before its first complete cycle"),
-            std::string::npos);
+  EXPECT_TRUE(contains(read_text(out / "bed.html"), "short: ends before its first complete cycle"));
 }
 
 // In a bed of layers parameters of contacts are lists, the lowest layer first; the drum is on the last.
 TEST_F(BedReport, OfLayersHasTheContactsOfTheUppermost) {
-  std::map<std::string, std::string> values = read_run(root / "B").parameters;
+  std::map<std::string, std::string> values = drumlin::post::read_run(root / "B").parameters;
   values["k"] = "1e8,1e9";
   values["D"] = "0.1,0.25";
   put("B/parameters.csv", parameters_text({values.begin(), values.end()}));
-  EXPECT_EQ(read_run(root / "B").chain.k, 1e9);
-  EXPECT_EQ(read_run(root / "B").chain.D, 0.25);
+  EXPECT_EQ(drumlin::post::read_run(root / "B").chain.k, 1e9);
+  EXPECT_EQ(drumlin::post::read_run(root / "B").chain.D, 0.25);
   values["k"] = "1e8,soft";
   put("B/parameters.csv", parameters_text({values.begin(), values.end()}));
   expect_refusal({"B"}, {"parameters.csv", "k is 'soft'", "not a number"});

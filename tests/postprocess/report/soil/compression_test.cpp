@@ -1,6 +1,7 @@
 // The report of biaxial and triaxial tests: what it reads, measures, refuses and shows.
 #include "report/soil/compression.h"
 
+#include "tests/support/checks.h"
 #include "tests/support/element_report.h"
 
 #include <fmt/format.h>
@@ -16,6 +17,7 @@
 namespace {
 
 using namespace drumlin::post;
+using namespace drumlin::test;
 namespace test = drumlin::test;
 
 const std::string header =
@@ -119,14 +121,12 @@ TEST_F(CompressionReport, ShowsTheRunsOnAPageOfTheirOwn) {
   write_test("tests/c, of \"c\"", 100, 2, 43);
   write_test("tests/d", 200, 1, 42);
   const std::string page = sound_page("tests", "biaxial", 2);
-  EXPECT_NE(page.find("2 acceptance criteria hold"), std::string::npos);
+  EXPECT_TRUE(contains(page, "2 acceptance criteria hold"));
   const std::string angles = data("biaxial", "biaxial_angles");
-  EXPECT_NE(angles.find("soil 1: E,100,2,42.0 ± 12.7,41.0 to 43.0,15.0 ± 0.0,27.0 ± 0.0,27.0 to 27.0"),
-            std::string::npos)
-      << angles;
-  EXPECT_NE(angles.find("soil 1: E,all,4,42.3 ± 8.5,41.0 to 43.0"), std::string::npos) << angles;
+  EXPECT_TRUE(contains(angles, {"soil 1: E,100,2,42.0 ± 12.7,41.0 to 43.0,15.0 ± 0.0,27.0 ± 0.0,27.0 to 27.0",
+                                "soil 1: E,all,4,42.3 ± 8.5,41.0 to 43.0"}));
   const std::string lines = data("biaxial", "biaxial_lines");
-  EXPECT_NE(lines.find("soil 1: E,critical,4,3,27.0,27.0 to 27.0"), std::string::npos) << lines;
+  EXPECT_TRUE(contains(lines, "soil 1: E,critical,4,3,27.0,27.0 to 27.0"));
 }
 
 // The two side stresses of a triaxial test count as their mean; the page is a page of its own.
@@ -141,8 +141,7 @@ TEST_F(CompressionReport, ShowsTriaxialTests) {
   write_run("one", "triaxial.csv", rows, "sample,random\nballs,365\nside,100\nseed,1\nengine,E\n");
   sound_page("one", "triaxial", 1);
   const std::string angles = data("triaxial", "triaxial_angles");
-  EXPECT_NE(angles.find("soil 1: E,100,1,42.0,42.0 to 42.0,15.0,27.0,27.0 to 27.0"), std::string::npos)
-      << angles;
+  EXPECT_TRUE(contains(angles, "soil 1: E,100,1,42.0,42.0 to 42.0,15.0,27.0,27.0 to 27.0"));
 }
 
 // A run that was interrupted at half of its strain is not a good one.
@@ -152,9 +151,8 @@ TEST_F(CompressionReport, TellsThatARunWasInterrupted) {
     rows += line(row);
   write_run("half", "biaxial.csv", rows, "sample,random\nside,100\nseed,1\nstrain,0.3\n");
   const std::string page = sound_page("half", "biaxial", 1);
-  EXPECT_NE(page.find("every run reached at least 99 % of its strain"), std::string::npos);
-  EXPECT_NE(page.find("2 of 3 acceptance criteria hold"), std::string::npos);
-  EXPECT_NE(page.find("50 %"), std::string::npos);
+  EXPECT_TRUE(contains(
+      page, {"every run reached at least 99 % of its strain", "2 of 3 acceptance criteria hold", "50 %"}));
 }
 
 TEST_F(CompressionReport, HasNoLineForOneSideStress) {

@@ -1,6 +1,7 @@
 // The report of runs of the oedometer: what it reads, refuses and shows.
 #include "report/soil/oedometer.h"
 
+#include "tests/support/checks.h"
 #include "tests/support/element_report.h"
 
 #include <gtest/gtest.h>
@@ -12,6 +13,7 @@
 namespace {
 
 using namespace drumlin::post;
+using namespace drumlin::test;
 namespace test = drumlin::test;
 
 const std::string header = "stress_kPa,settlement_mm,strain,void_ratio,porosity,modulus_MPa,inertial_number,"
@@ -50,10 +52,9 @@ TEST_F(OedometerReport, ShowsTheRunsOnAPageOfTheirOwn) {
   write_loads("tests/one");
   write_loads("tests/two, of \"two\"", "2e-2"); // an energy error above the criterion
   const std::string page = sound_page("tests", "oedometer", 1);
-  EXPECT_NE(page.find("1 of 2 acceptance criteria hold"), std::string::npos);
-  EXPECT_NE(page.find("largest energy error at most 0.001"), std::string::npos);
+  EXPECT_TRUE(contains(page, {"1 of 2 acceptance criteria hold", "largest energy error at most 0.001"}));
   const std::string runs = data("oedometer", "oedometer_runs");
-  EXPECT_NE(runs.find("one,random,100,0.5,1e8,0.2,1.5,0.75,75,100,0.0002,2e-06"), std::string::npos) << runs;
+  EXPECT_TRUE(contains(runs, "one,random,100,0.5,1e8,0.2,1.5,0.75,75,100,0.0002,2e-06"));
 }
 
 TEST_F(OedometerReport, RefusesWhatItCannotRead) {

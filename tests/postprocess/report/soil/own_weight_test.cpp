@@ -2,6 +2,7 @@
 // reads, refuses and shows.
 #include "report/soil/own_weight.h"
 
+#include "tests/support/checks.h"
 #include "tests/support/element_report.h"
 
 #include <fmt/format.h>
@@ -14,6 +15,7 @@
 namespace {
 
 using namespace drumlin::post;
+using namespace drumlin::test;
 namespace test = drumlin::test;
 
 constexpr double degree = 3.14159265358979323846 / 180.0;
@@ -111,16 +113,15 @@ TEST_F(OwnWeightReport, ShowsWallsOnAPageOfTheirOwn) {
   write_run("tests/a", "wall.csv", text(failing(35)), parameters(1));
   write_run("tests/b", "wall.csv", text(failing(39)), parameters(2));
   const std::string page = sound_page("tests", "wall", 1);
-  EXPECT_NE(page.find("2 acceptance criteria hold"), std::string::npos);
-  EXPECT_NE(data("wall", "wall_soils").find("soil 1: E,2,"), std::string::npos);
-  EXPECT_NE(data("wall", "wall_soils").find(",37.0 ± 25.4"), std::string::npos) << data("wall", "wall_soils");
+  EXPECT_TRUE(contains(page, "2 acceptance criteria hold"));
+  EXPECT_TRUE(contains(data("wall", "wall_soils"), {"soil 1: E,2,", ",37.0 ± 25.4"}));
 }
 
 TEST_F(OwnWeightReport, ShowsSilosOfSeveralHeightsWithOneLineOfJanssen) {
   write_run("tests/a", "silo.csv", text(silo(0.8, 0.3)), parameters(1, "layers,20\n"));
   write_run("tests/b", "silo.csv", text(silo(1.0, 0.3)), parameters(2, "layers,40\n"));
   sound_page("tests", "silo", 1);
-  EXPECT_NE(data("silo", "silo_runs").find(",0.3,0.8,0.9,"), std::string::npos) << data("silo", "silo_runs");
+  EXPECT_TRUE(contains(data("silo", "silo_runs"), ",0.3,0.8,0.9,"));
 }
 
 TEST_F(OwnWeightReport, ShowsHeapsOnAPageOfTheirOwn) {
@@ -131,8 +132,7 @@ TEST_F(OwnWeightReport, ShowsHeapsOnAPageOfTheirOwn) {
     surface += fmt::format("{},{}\n", 0.02 * n, std::max(0.0, 0.5 - 0.02 * n * std::tan(33 * degree)));
   write_files({{root / "tests/a/surface.csv", surface}});
   sound_page("tests", "repose", 1);
-  EXPECT_NE(data("repose", "repose_soils").find("0.8,0.3,1,33.0,33.0 to 33.0"), std::string::npos)
-      << data("repose", "repose_soils");
+  EXPECT_TRUE(contains(data("repose", "repose_soils"), "0.8,0.3,1,33.0,33.0 to 33.0"));
 }
 
 // Three rows, as of a test that was killed. It is named, with the reason, and not judged; the others are as
@@ -144,17 +144,16 @@ TEST_F(OwnWeightReport, NamesTestsThatWereCut) {
     write_run(std::string("cut/") + kind, std::string(kind) + ".csv", cut, parameters(1), "ended,no\n");
   write_run("cut/of 0.2", "wall.csv", cut, parameters(1), "");
   const std::string page = report("cut");
-  EXPECT_NE(page.find("4 folders are left out, and not judged"), std::string::npos);
-  EXPECT_NE(page.find("cut/silo</code>: it was killed, or is still running"), std::string::npos) << page;
-  EXPECT_NE(page.find("cut/of 0.2</code>: its parameters.csv does not say whether it has ended"),
-            std::string::npos);
-  EXPECT_EQ(page.find("acceptance criteria hold"), std::string::npos);
+  EXPECT_TRUE(contains(page, {"4 folders are left out, and not judged",
+                              "cut/silo</code>: it was killed, or is still running",
+                              "cut/of 0.2</code>: its parameters.csv does not say whether it has ended"}));
+  EXPECT_FALSE(contains(page, "acceptance criteria hold"));
   for (const char *kind : {"wall", "silo", "repose"})
     EXPECT_FALSE(std::filesystem::exists(root / "report" / kind));
   write_run("cut/whole", "wall.csv", text(failing(35)), parameters(1));
-  EXPECT_NE(report("cut").find("wall/index.html"), std::string::npos);
-  EXPECT_NE(read_text(root / "report/wall/index.html").find("2 acceptance criteria hold"), std::string::npos);
-  EXPECT_EQ(read_text(root / "report/wall/data/wall_runs.csv").find("of 0.2"), std::string::npos);
+  EXPECT_TRUE(contains(report("cut"), "wall/index.html"));
+  EXPECT_TRUE(contains(read_text(root / "report/wall/index.html"), "2 acceptance criteria hold"));
+  EXPECT_FALSE(contains(read_text(root / "report/wall/data/wall_runs.csv"), "of 0.2"));
 }
 
 TEST_F(OwnWeightReport, RefusesWhatItCannotRead) {

@@ -2,6 +2,7 @@
 // shows.
 #include "report/soil/plate.h"
 
+#include "tests/support/checks.h"
 #include "tests/support/element_report.h"
 
 #include <gtest/gtest.h>
@@ -13,6 +14,7 @@
 namespace {
 
 using namespace drumlin::post;
+using namespace drumlin::test;
 namespace test = drumlin::test;
 
 /// Rows of a test with the settlement s = a1 p + a2 p^2 (mm, kPa) in the first loading, and 1 mm + b1 p in
@@ -77,13 +79,12 @@ TEST_F(PlateReport, ShowsTheRunsOnAPageOfTheirOwn) {
   write_test("tests/one", 1);
   write_test("tests/two", 3, "2e-2"); // an energy error above the criterion
   const std::string page = sound_page("tests", "plate", 1);
-  EXPECT_NE(page.find("1 of 2 acceptance criteria hold"), std::string::npos);
+  EXPECT_TRUE(contains(page, "1 of 2 acceptance criteria hold"));
   const std::string runs = data("plate", "plate_runs");
-  EXPECT_NE(runs.find("one,gravel,100,0.3,100,1,90,180,20.25,40.5,2,,0.0001,2e-06"), std::string::npos)
-      << runs;
+  EXPECT_TRUE(contains(runs, "one,gravel,100,0.3,100,1,90,180,20.25,40.5,2,,0.0001,2e-06"));
   const std::string soils = data("plate", "plate_soils");
-  EXPECT_NE(soils.find("soil 1: LAMMPS,2,60.0 ± "), std::string::npos) << soils;
-  EXPECT_NE(data("plate", "plate_rows").find("two,second loading,70,2.5\n"), std::string::npos);
+  EXPECT_TRUE(contains(soils, "soil 1: LAMMPS,2,60.0 ± "));
+  EXPECT_TRUE(contains(data("plate", "plate_rows"), "two,second loading,70,2.5\n"));
 }
 
 TEST_F(PlateReport, RefusesWhatItCannotRead) {
@@ -95,14 +96,8 @@ TEST_F(PlateReport, RefusesWhatItCannotRead) {
 
 TEST_F(PlateReport, NeedsTheWidthOfThePlate) {
   write_run("tests", "plate.csv", header + seating + "1,20,1,1,1,1,1,1,1,1,1\n", "deck,plate\n");
-  try {
-    report("tests");
-    ADD_FAILURE();
-  } catch (const UsageError &error) {
-    EXPECT_NE(std::string(error.what()).find("plate_width is ''; allowed: a number above 0"),
-              std::string::npos)
-        << error.what();
-  }
+  EXPECT_TRUE(contains(error_of<UsageError>([this] { report("tests"); }),
+                       "plate_width is ''; allowed: a number above 0"));
 }
 
 } // namespace

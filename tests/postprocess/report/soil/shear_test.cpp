@@ -1,6 +1,7 @@
 // The report of simple shear tests: what it reads, measures, refuses and shows.
 #include "report/soil/shear.h"
 
+#include "tests/support/checks.h"
 #include "tests/support/element_report.h"
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 namespace {
 
 using namespace drumlin::post;
+using namespace drumlin::test;
 namespace test = drumlin::test;
 
 const std::string header = "shear_strain,shear_stress_kPa,normal_stress_kPa,volumetric_strain,void_ratio,"
@@ -85,10 +87,9 @@ TEST_F(ShearReport, ShowsTheRunsOnAPageOfTheirOwn) {
   write_test("tests/b", 100, 1, 35);
   write_test("tests/c", 100, 2, 37);
   const std::string page = sound_page("tests", "shear", 1);
-  EXPECT_NE(page.find("2 acceptance criteria hold"), std::string::npos);
+  EXPECT_TRUE(contains(page, "2 acceptance criteria hold"));
   const std::string angles = data("shear", "shear_angles");
-  EXPECT_NE(angles.find("soil 1: E,100,2,36.0 ± 12.7,0.0 ± 0.0,"), std::string::npos) << angles;
-  EXPECT_NE(angles.find("soil 1: E,all,3,"), std::string::npos) << angles;
+  EXPECT_TRUE(contains(angles, {"soil 1: E,100,2,36.0 ± 12.7,0.0 ± 0.0,", "soil 1: E,all,3,"}));
 }
 
 TEST_F(ShearReport, RefusesWhatItCannotRead) {
