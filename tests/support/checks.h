@@ -2,7 +2,6 @@
 #pragma once
 
 #include "engine/engine_run.h"
-#include "tests/support/checks.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
