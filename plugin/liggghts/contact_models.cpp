@@ -205,34 +205,32 @@ struct KindOfModel {
 };
 
 /// All models that the engine's decks can name besides the normal model.
-const std::array<KindOfModel, 4> &kinds_of_models() {
-  static const std::array<KindOfModel, 4> kinds{
-      {{"tangential",
-        6,
-        {{drumlin::no_model, true},
-         {drumlin::tangential_history, true},
-         {drumlin::tangential_coulomb, true},
-         {{1, "no_history"}, false, ", of which coulomb replaces no_history"},
-         {{4, "tan_luding"}, false}}},
-       {"cohesion",
-        12,
-        {{drumlin::no_model, true},
-         {{1, "sjkr"}, false},
-         {{2, "sjkr2"}, false},
-         {{7, "washino/capillary/viscous"}, false},
-         {{8, "easo/capillary/viscous"}, false}}},
-       {"rolling_friction",
-        18,
-        {{drumlin::no_model, true},
-         {drumlin::rolling_epsd2, true},
-         {{1, "cdt"}, false, ", of which epsd2 replaces cdt"},
-         {{2, "epsd"}, false},
-         {{4, "epsd3"}, false},
-         {{6, "luding"}, false}}},
-       {"surface",
-        24,
-        {{{0, "default"}, true}, {{2, "multicontact"}, false}, {{5, "superquadric"}, false}}}}};
-  return kinds;
+std::array<KindOfModel, 4> kinds_of_models() {
+  return {{{"tangential",
+            6,
+            {{drumlin::no_model, true},
+             {drumlin::tangential_history, true},
+             {drumlin::tangential_coulomb, true},
+             {{1, "no_history"}, false, ", of which coulomb replaces no_history"},
+             {{4, "tan_luding"}, false}}},
+           {"cohesion",
+            12,
+            {{drumlin::no_model, true},
+             {{1, "sjkr"}, false},
+             {{2, "sjkr2"}, false},
+             {{7, "washino/capillary/viscous"}, false},
+             {{8, "easo/capillary/viscous"}, false}}},
+           {"rolling_friction",
+            18,
+            {{drumlin::no_model, true},
+             {drumlin::rolling_epsd2, true},
+             {{1, "cdt"}, false, ", of which epsd2 replaces cdt"},
+             {{2, "epsd"}, false},
+             {{4, "epsd3"}, false},
+             {{6, "luding"}, false}}},
+           {"surface",
+            24,
+            {{{0, "default"}, true}, {{2, "multicontact"}, false}, {{5, "superquadric"}, false}}}}};
 }
 
 /// Ends the run with a line that names the first model of a combination that the plugin does not have.

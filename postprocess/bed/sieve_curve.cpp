@@ -106,8 +106,8 @@ double unit_of_sizes(const MeasuredTable &table, std::size_t column) {
   const MeasuredColumn &sizes = table.columns()[column];
   if (sizes.unit.empty()) return mm;
   const std::optional<Unit> unit = unit_from_text(sizes.unit);
-  if (!unit || unit->quantity != Quantity::length)
-    csv_fault(table.file(), 0, sizes.header, refusal("its unit", sizes.unit, unit_names(Quantity::length)));
+  if (!unit || unit->quantity != UnitKind::length)
+    csv_fault(table.file(), 0, sizes.header, refusal("its unit", sizes.unit, unit_names(UnitKind::length)));
   return unit->factor;
 }
 

@@ -35,13 +35,13 @@ constexpr auto record_signals = [] {
 }();
 
 /// What the unit of `time` or of a signal measures; nothing for another name.
-std::optional<Quantity> quantity_of(const std::string &name) {
-  if (name == "time") return Quantity::time;
+std::optional<UnitKind> quantity_of(const std::string &name) {
+  if (name == "time") return UnitKind::time;
   for (const HistoryColumn &signal : record_signals) {
-    constexpr std::array<Quantity, 3> of_derivative = {Quantity::length, Quantity::velocity,
-                                                       Quantity::acceleration};
+    constexpr std::array<UnitKind, 3> of_derivative = {UnitKind::length, UnitKind::velocity,
+                                                       UnitKind::acceleration};
     if (name == signal.name)
-      return signal.derivative == force_column ? Quantity::force
+      return signal.derivative == force_column ? UnitKind::force
                                                : of_derivative[static_cast<std::size_t>(signal.derivative)];
   }
   return std::nullopt;
@@ -55,12 +55,12 @@ std::string signal_names() {
 }
 
 /// The words of the units in which a quantity may be given.
-std::string allowed_units(Quantity quantity) {
-  return unit_names(quantity) + (quantity == Quantity::time ? "" : ", with '-' before it to turn the sign");
+std::string allowed_units(UnitKind quantity) {
+  return unit_names(quantity) + (quantity == UnitKind::time ? "" : ", with '-' before it to turn the sign");
 }
 
-double factor_of(const std::string &unit, Quantity quantity) {
-  const bool negative = !unit.empty() && unit.front() == '-' && quantity != Quantity::time;
+double factor_of(const std::string &unit, UnitKind quantity) {
+  const bool negative = !unit.empty() && unit.front() == '-' && quantity != UnitKind::time;
   const std::optional<Unit> known = unit_from_text(negative ? unit.substr(1) : unit);
   if (!known || known->quantity != quantity)
     throw std::invalid_argument(refusal("the unit", unit, allowed_units(quantity)));
@@ -180,7 +180,7 @@ double factor_of(const MeasuredTable &table, std::size_t place, const std::strin
   const MeasuredColumn &column = table.columns()[place];
   if (source.factor) return *source.factor;
   if (column.unit.empty()) return 1.0;
-  const Quantity quantity = *quantity_of(name);
+  const UnitKind quantity = *quantity_of(name);
   try {
     return factor_of(column.unit, quantity);
   } catch (const std::invalid_argument &) {
@@ -536,7 +536,7 @@ std::pair<std::string, ColumnSource> column_from_text(const std::string &text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos) throw std::invalid_argument(form);
   const std::string name = text.substr(0, equals);
-  const std::optional<Quantity> quantity = quantity_of(name);
+  const std::optional<UnitKind> quantity = quantity_of(name);
   if (!quantity) throw std::invalid_argument(fmt::format("{}, NAME one of {}", form, signal_names()));
   ColumnSource source{text.substr(equals + 1)};
   if (const std::size_t colon = source.header.rfind(':'); colon != std::string::npos) {

@@ -173,7 +173,8 @@ Outcome run_program(const Program &program) {
   outcome.status = WIFEXITED(how.status) ? WEXITSTATUS(how.status) : 128 + WTERMSIG(how.status);
   outcome.cpu_seconds = seconds(how.used.ru_utime) + seconds(how.used.ru_stime);
   outcome.peak_bytes = 1024.0 * static_cast<double>(how.used.ru_maxrss); // Linux counts it in KiB
-  outcome.output = read_text(program.output);
+  // A program that is killed before it opens its output has printed nothing.
+  if (fs::exists(program.output)) outcome.output = read_text(program.output);
   return outcome;
 }
 

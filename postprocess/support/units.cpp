@@ -16,37 +16,37 @@ namespace {
 
 constexpr double g = 9.80665; // m/s2, standard gravity
 
-constexpr std::array<Unit, 31> units = {{{"s", Quantity::time, 1.0},
-                                         {"ms", Quantity::time, 1e-3},
-                                         {"us", Quantity::time, 1e-6},
-                                         {"min", Quantity::time, 60.0},
-                                         {"m", Quantity::length, 1.0},
-                                         {"cm", Quantity::length, 1e-2},
-                                         {"mm", Quantity::length, 1e-3},
-                                         {"um", Quantity::length, 1e-6},
-                                         {"m/s", Quantity::velocity, 1.0},
-                                         {"cm/s", Quantity::velocity, 1e-2},
-                                         {"mm/s", Quantity::velocity, 1e-3},
-                                         {"um/s", Quantity::velocity, 1e-6},
-                                         {"m/s2", Quantity::acceleration, 1.0},
-                                         {"cm/s2", Quantity::acceleration, 1e-2},
-                                         {"mm/s2", Quantity::acceleration, 1e-3},
-                                         {"um/s2", Quantity::acceleration, 1e-6},
-                                         {"g", Quantity::acceleration, g},
-                                         {"mg", Quantity::acceleration, 1e-3 * g},
-                                         {"N", Quantity::force, 1.0},
-                                         {"kN", Quantity::force, 1e3},
-                                         {"MN", Quantity::force, 1e6},
-                                         {"%", Quantity::share, 1e-2},
-                                         {"V", Quantity::other, 1.0},
-                                         {"mV", Quantity::other, 1e-3},
-                                         {"Hz", Quantity::other, 1.0},
-                                         {"rpm", Quantity::other, 1.0},
-                                         {"deg", Quantity::other, 1.0},
-                                         {"km/h", Quantity::other, 1.0},
-                                         {"degC", Quantity::other, 1.0},
-                                         {"kPa", Quantity::other, 1e3},
-                                         {"-", Quantity::other, 1.0}}};
+constexpr std::array<Unit, 31> units = {{{"s", UnitKind::time, 1.0},
+                                         {"ms", UnitKind::time, 1e-3},
+                                         {"us", UnitKind::time, 1e-6},
+                                         {"min", UnitKind::time, 60.0},
+                                         {"m", UnitKind::length, 1.0},
+                                         {"cm", UnitKind::length, 1e-2},
+                                         {"mm", UnitKind::length, 1e-3},
+                                         {"um", UnitKind::length, 1e-6},
+                                         {"m/s", UnitKind::velocity, 1.0},
+                                         {"cm/s", UnitKind::velocity, 1e-2},
+                                         {"mm/s", UnitKind::velocity, 1e-3},
+                                         {"um/s", UnitKind::velocity, 1e-6},
+                                         {"m/s2", UnitKind::acceleration, 1.0},
+                                         {"cm/s2", UnitKind::acceleration, 1e-2},
+                                         {"mm/s2", UnitKind::acceleration, 1e-3},
+                                         {"um/s2", UnitKind::acceleration, 1e-6},
+                                         {"g", UnitKind::acceleration, g},
+                                         {"mg", UnitKind::acceleration, 1e-3 * g},
+                                         {"N", UnitKind::force, 1.0},
+                                         {"kN", UnitKind::force, 1e3},
+                                         {"MN", UnitKind::force, 1e6},
+                                         {"%", UnitKind::share, 1e-2},
+                                         {"V", UnitKind::other, 1.0},
+                                         {"mV", UnitKind::other, 1e-3},
+                                         {"Hz", UnitKind::other, 1.0},
+                                         {"rpm", UnitKind::other, 1.0},
+                                         {"deg", UnitKind::other, 1.0},
+                                         {"km/h", UnitKind::other, 1.0},
+                                         {"degC", UnitKind::other, 1.0},
+                                         {"kPa", UnitKind::other, 1e3},
+                                         {"-", UnitKind::other, 1.0}}};
 
 /// A unit's text with one spelling for each unit.
 std::string spelling(std::string_view text) {
@@ -89,7 +89,7 @@ std::optional<Unit> unit_from_text(std::string_view text) {
   return found == units.end() ? std::nullopt : std::optional(*found);
 }
 
-std::string unit_names(Quantity quantity) {
+std::string unit_names(UnitKind quantity) {
   std::vector<const char *> names;
   for (const Unit &unit : units)
     if (unit.quantity == quantity) names.push_back(unit.name);

@@ -8,12 +8,12 @@
 namespace drumlin::post {
 
 /// What a unit measures.
-enum class Quantity { time, length, velocity, acceleration, force, share, other };
+enum class UnitKind { time, length, velocity, acceleration, force, share, other };
 
 /// A unit, with the factor from it to SI (a share is a number from 0 to 1).
 struct Unit {
   const char *name;
-  Quantity quantity;
+  UnitKind quantity;
   double factor;
 };
 
@@ -22,6 +22,6 @@ struct Unit {
 std::optional<Unit> unit_from_text(std::string_view text);
 
 /// The names of all units of a quantity, "m, cm, mm, um".
-std::string unit_names(Quantity quantity);
+std::string unit_names(UnitKind quantity);
 
 } // namespace drumlin::post
