@@ -223,6 +223,7 @@ std::vector<Taken> columns_to_take(const MeasuredTable &table, const RecordOptio
     headers.push_back(find(signal.name, reading.record.*signal.values, !any_signal_named));
   if (taken.size() == of_time) {
     std::vector<std::string> names;
+    names.reserve(table.columns().size());
     for (const MeasuredColumn &column : table.columns())
       names.push_back(fmt::format("{} '{}'", names.size() + 1, shown(column.header)));
     csv_fault(

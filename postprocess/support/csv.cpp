@@ -2,6 +2,7 @@
 
 #include "support/files.h"
 #include "support/range.h"
+#include "support/text.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -39,13 +40,6 @@ void csv_refusal(const fs::path &file, std::size_t line, std::string_view column
 }
 
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 std::string read_whole_file(const fs::path &file) {
   std::error_code ignored; // then read_text() tells why

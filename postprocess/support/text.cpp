@@ -32,6 +32,13 @@ std::string valid_utf8(const std::string &text) {
   return valid;
 }
 
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
 std::string shortened(const std::string &text, std::size_t letters) {
   std::vector<std::size_t> begins;
   for (std::size_t i = 0; i < text.size(); ++i)

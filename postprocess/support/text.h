@@ -4,12 +4,16 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace drumlin::post {
 
 /// The text as valid UTF-8 without the code points that XML forbids: any other byte becomes U+FFFD, the
 /// replacement character. Control characters stay.
 std::string valid_utf8(const std::string &text);
+
+/// The text without blanks, tabs and carriage returns at its ends.
+std::string_view trimmed(std::string_view text);
 
 /// The text with at most `letters` letters (5 or more): of a longer one the middle is replaced by an
 /// ellipsis. Text in UTF-8.
