@@ -90,6 +90,7 @@ template <class Row>
 void answer_quality(Page &page, const std::vector<ElementRun<Row>> &runs,
                     TestQuality (*quality)(const ElementRun<Row> &) = run_quality<Row>) {
   std::vector<TestQuality> qualities;
+  qualities.reserve(runs.size());
   for (const ElementRun<Row> &run : runs)
     qualities.push_back(quality(run));
   page.answer(quality_criteria(worst_of(qualities)));
