@@ -235,6 +235,11 @@ void FixWallGranTransition::touch(Forces &forces, int i, const Face &face) {
   drumlin::BlockContact contact{i, -1, 0, face.distance < atom->radius[i], remembered + 1};
   const bool touched = remembered[0] != 0.0;
   if (!contact.touches && !touched) return;
+  if constexpr (!Forces::has_history)
+    if (!contact.touches) { // the end of a contact that leaves nothing
+      remembered[0] = 0.0;
+      return;
+    }
   forces.take_wall(i, {face.normal,
                        face.normal_in_middle,
                        {},

@@ -310,11 +310,14 @@ private:
   static constexpr bool turns = Models::rubs && Models::limit == physics::Cap::coulomb;
 
   /// The normal of the wall where the ball was, relative to it, in the middle of the step: another one at the
-  /// edges and corners of a mesh and on a cylinder. \param normal that of the end of the step
+  /// edges and corners of a mesh and on a cylinder. A surface that moves within its shape (`shear`,
+  /// `surface_vel`) turns no normal. \param normal that of the end of the step
   physics::Vec3 normal_in_middle(const SurfacesIntersectData &data, const physics::Vec3 &normal) const {
     double middle[3], delta[3] = {};
+    const bool shape_moves = data.j >= 0 && data.fix_mesh != nullptr && data.fix_mesh->triMesh()->isMoving();
     for (int a = 0; a < 3; ++a)
-      middle[a] = engine_->atom->x[data.i][a] - 0.5 * engine_->update->dt * (data.v_i[a] - data.v_j[a]);
+      middle[a] = engine_->atom->x[data.i][a] -
+                  0.5 * engine_->update->dt * (data.v_i[a] - (shape_moves ? data.v_j[a] : 0.0));
     if (data.j < 0)
       wall_->primitiveWall()->resolveContact(middle, data.radi, delta);
     else if (data.fix_mesh != nullptr) {

@@ -424,11 +424,13 @@ std::vector<ContactPiece> sorted_again(const DrumSignals &signals, const Found &
 void judge_pull(const DrumSignals &signals, Identification &result, const std::vector<double> &limits) {
   constexpr std::size_t enough = 3; // samples that show it
   const double noise = result.law.force_noise;
+  constexpr double least_share = 0.08; // of the peak force: less may come from the data of machine or sensors
+  const double peak = *std::max_element(result.force.begin(), result.force.end());
   std::size_t tensile = 0;
   double most = 0.0;
   for (std::size_t i = 1; i < signals.size(); ++i) {
     const double force = std::max(result.force[i], result.force[i - 1]); // one of them alone is an outlier
-    const double limit = std::max(limits[i], 5.0 * noise);
+    const double limit = std::max({limits[i], 5.0 * noise, least_share * peak});
     if (force >= -limit) continue;
     ++tensile;
     most = std::max(most, -force);

@@ -129,6 +129,9 @@ std::optional<std::string> contradiction(const IdentifiedRecord &record) {
   if (!(law.k.mean > 0.0))
     return fmt::format("k is {:.4g} N/m, and no soil has a negative stiffness; to be checked: {}", law.k.mean,
                        causes);
+  if (law.k.half_width > law.k.mean)
+    return fmt::format("k is {:.4g} +- {:.2g} N/m, which says nothing; to be checked: {}", law.k.mean,
+                       law.k.half_width, causes);
   if (negative(law.c))
     return fmt::format("c is {:.4g} +- {:.2g} N s/m, and no soil drives the drum; to be checked: {}",
                        law.c.mean, law.c.half_width, causes);

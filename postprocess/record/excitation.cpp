@@ -201,19 +201,20 @@ std::vector<double> all_forces(const Forces &forces, const Exciter &exciter) {
   return force;
 }
 
-/// Of phases two degrees apart, that with which the most samples are in runs of a force within `band`.
-Exciter best_phase(const Forces &forces, double omega, double band, std::size_t least) {
+/// Of phases two degrees apart, that with which the most samples are in runs of a force within `band`, with
+/// `ratio` times the exciter's force.
+Exciter best_phase(const Forces &forces, double omega, double ratio, double band, std::size_t least) {
   std::vector<double> sine(forces.time.size()), cosine(sine), force(sine);
   for (std::size_t i = 0; i < sine.size(); ++i) {
     sine[i] = forces.Fw * std::sin(omega * forces.time[i]);
     cosine[i] = forces.Fw * std::cos(omega * forces.time[i]);
   }
   constexpr int steps = 180;
-  Exciter best{omega, 1.0, 0.0};
+  Exciter best{omega, ratio, 0.0};
   std::size_t most = 0;
   for (int step = 0; step < steps; ++step) {
     const double phase = 2.0 * pi * step / steps;
-    const double a = std::cos(phase), b = std::sin(phase);
+    const double a = ratio * std::cos(phase), b = ratio * std::sin(phase);
     for (std::size_t i = 0; i < force.size(); ++i)
       force[i] = forces.without[i] + a * sine[i] + b * cosine[i];
     const std::size_t samples =
@@ -276,7 +277,7 @@ double fit_flights(const Forces &forces, const std::vector<Flight> &flights, Exc
 
 } // namespace
 
-std::optional<FlightFit> flights_of(const Record &record) {
+std::optional<FlightFit> flights_of(const Record &record, double ratio) {
   if (record.a_drum.empty() || !record.omega || !record.Fw || !record.m2 || !record.m3) return std::nullopt;
   constexpr double usual_gravity = 9.81;
   const double weight = (*record.m2 + *record.m3) * record.g.value_or(usual_gravity);
@@ -294,7 +295,7 @@ std::optional<FlightFit> flights_of(const Record &record) {
   const double noise = noise_level(forces.without);
   constexpr double wide = 0.03, narrow = 0.001; // of Fw
   double width = wide * forces.Fw + 3.0 * noise;
-  Exciter exciter = best_phase(forces, *record.omega, width, least);
+  Exciter exciter = best_phase(forces, *record.omega, ratio, width, least);
   FlightFit fit;
   std::vector<double> force = all_forces(forces, exciter);
   // The flights anew with a narrower band each time, as wide as the force that is left in them.
@@ -327,8 +328,9 @@ std::optional<FlightFit> flights_of(const Record &record) {
     ++followed;
     lands += force[next->first] > 0.0 ? 1 : 0;
   }
-  constexpr double most_often = 1.1, most_of_them = 0.9, most_share = 0.85, most_off = 0.6;
+  constexpr double most_often = 1.1, most_of_them = 0.9, most_share = 0.85, most_off = 0.6, most_offset = 0.3;
   if (fit.share > most_share || std::fabs(fit.ratio.mean - 1.0) > most_off ||
+      std::fabs(fit.offset.mean) > most_offset * weight ||
       static_cast<double>(flights.size()) > most_often * record.cycles() + 1.0 ||
       static_cast<double>(lands) < most_of_them * static_cast<double>(followed))
     return std::nullopt;
@@ -364,7 +366,13 @@ void check_range(const Record &record, const std::vector<double> &values, const 
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   if (*least == *most)
     csv_fault(record.file, 0, {}, refusal(name, *least, "values that change; this is the same in every row"));
-  // A signal rarely has its largest value three times in a row unless it is cut there.
+  // A signal rarely has its largest value three times in a row unless it is cut there, or its steps are
+  // coarse.
+  double step = *most - *least;
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (values[i] != values[i - 1]) step = std::min(step, std::fabs(values[i] - values[i - 1]));
+  constexpr double fine = 200.0; // steps from end to end
+  if (*most - *least < fine * step) return;
   std::size_t cut = 0;
   for (std::size_t i = 2; i < values.size(); ++i)
     for (const double limit : {*least, *most})
@@ -388,6 +396,18 @@ void take_frequency(Record &record) {
               refusal("the frequency", fmt::format("{:.6g}", said),
                       fmt::format("that of the record to {:g} % [Hz]; the drum's signal has no line there",
                                   100.0 * frequency_range)));
+  // The exciter's line is the strongest, but for a second harmonic of a hard landing.
+  for (const double factor : {0.5, 2.0, 3.0})
+    if (const double other = factor * found->mean; other * record.interval < 0.9 * pi) {
+      constexpr double stronger = 2.5; // amplitudes
+      if (power_at(signal, record.interval, other) >
+          stronger * stronger * power_at(signal, record.interval, found->mean))
+        csv_fault(
+            record.file, 0, {},
+            refusal("the frequency", fmt::format("{:.6g}", said),
+                    fmt::format("that of the strongest line [Hz]; at {:.6g} Hz there is a far stronger one",
+                                other / (2.0 * pi))));
+    }
   record.omega = found->mean;
   record.notes.push_back(fmt::format("the record has {:.8g} +- {:.2g} Hz, {:.6g} Hz was said",
                                      found->mean / (2.0 * pi), found->half_width / (2.0 * pi), said));
@@ -421,6 +441,51 @@ const char *turned_sign(Record record) {
   return !record.a_frame.empty() && flights_of(record) ? "a_drum and a_frame" : nullptr;
 }
 
+/// Refuses a force of the exciter with which the drum does not fly, if it does with another one.
+void check_force(const Record &record) {
+  for (const double ratio : {0.9, 1.1, 0.8, 1.2, 0.7, 1.35, 0.6, 1.5}) {
+    const std::optional<FlightFit> fit = flights_of(record, ratio);
+    if (!fit) continue;
+    csv_fault(record.file, 0, {},
+              refusal("the exciter's force", fmt::format("{:.6g} N", *record.Fw),
+                      fmt::format("{:.6g} N, which the flights of the drum need with these masses, signs and "
+                                  "units",
+                                  fit->ratio.mean * *record.Fw)));
+  }
+}
+
+/// Refuses a frequency that varies so much that one phase does not describe the record.
+void check_drift(const Record &record) {
+  const std::vector<double> &signal = drum_signal(record);
+  constexpr std::size_t windows = 12;
+  const double cycles = std::floor(record.cycles() / windows);
+  if (!record.phase || signal.empty() || cycles < 2.0) return;
+  const auto length = static_cast<std::size_t>(cycles * record.period() / record.interval);
+  std::vector<double> times, phases;
+  for (std::size_t w = 0; w < windows; ++w) {
+    std::complex<double> sum;
+    for (std::size_t i = w * length; i < (w + 1) * length; ++i)
+      sum += signal[i] * std::polar(1.0, -*record.omega * record.time[i]);
+    const double before = phases.empty() ? 0.0 : phases.back();
+    phases.push_back(before + std::remainder(std::arg(sum) - before, 2.0 * pi));
+    times.push_back(record.time[w * length]);
+  }
+  const LineFit line = fit_line(times, phases);
+  double squares = 0.0;
+  for (std::size_t w = 0; w < windows; ++w)
+    squares += std::pow(phases[w] - line.intercept.mean - line.slope.mean * times[w], 2);
+  constexpr double most = 6.0; // degrees
+  const double wander = std::sqrt(squares / static_cast<double>(windows)) / degree;
+  if (wander > most)
+    csv_fault(
+        record.file, 0, {},
+        refusal("the phase of the drum's motion",
+                fmt::format("wandering by {:.3g} degrees over the record", wander),
+                fmt::format("one frequency, up to {:g} degrees, where no flights tell the exciter's phase; "
+                            "a part of the record may have it",
+                            most)));
+}
+
 void take_flights(Record &record, const RecordOptions &options) {
   std::optional<FlightFit> fit = flights_of(record);
   if (fit && options.me_re) { // the force that belongs to the frequency of the flights
@@ -433,6 +498,8 @@ void take_flights(Record &record, const RecordOptions &options) {
       csv_fault(record.file, 0, {},
                 refusal("the sign of " + std::string(columns), "as given",
                         "the other one, with which the drum flies: a '-' before the unit of --column"));
+    check_force(record);
+    check_drift(record);
     return;
   }
   const std::optional<double> said = record.phase;
@@ -460,6 +527,9 @@ void take_flights(Record &record, const RecordOptions &options) {
                         fmt::format("{:.4g} +- {:.2g} degrees, as the flights of the drum tell, or no phase",
                                     fit->phase.mean / degree, fit->phase.half_width / degree)));
   }
+  // Flights know the force better than a data sheet does.
+  if (std::fabs(fit->ratio.mean - 1.0) > 2.0 * fit->ratio.half_width)
+    record.Fw = fit->ratio.mean * *record.Fw;
   const double of_offset = -fit->offset.mean / *record.m2;
   shift(record.a_drum, of_offset);
   record.omega = fit->omega.mean;

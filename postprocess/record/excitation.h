@@ -34,11 +34,11 @@ struct FlightFit {
   std::size_t flights = 0; ///< number
 };
 
-/// Finds the flights of a record whose omega, Fw, m2 and m3 are known, omega to a tenth of a cycle over the
-/// record. Of all phases of the exciter that one counts with which the most samples are in parts without
-/// force. Nothing if flights are too few to tell, or if no contacts with a force above zero stand between
-/// them.
-std::optional<FlightFit> flights_of(const Record &record);
+/// Finds the flights, of `ratio` times the given force of the exciter to some 5 %, of a record whose omega,
+/// Fw, m2 and m3 are known, omega to a tenth of a cycle over the record. Of all phases of the exciter that
+/// one counts with which the most samples are in parts without force. Nothing if flights are too few to tell,
+/// or if no contacts with a force above zero stand between them.
+std::optional<FlightFit> flights_of(const Record &record, double ratio = 1.0);
 
 /// Takes the exciter's frequency, and if the drum flies its phase, from a measured record whose nominal
 /// frequency is given; removes offsets of accelerations; notes what was found. A record of a run, or with a

@@ -206,6 +206,9 @@ std::vector<Taken> columns_to_take(const MeasuredTable &table, const RecordOptio
     if (!place && named) table.missing(source.header);
     if (!place) return source.header;
     const MeasuredColumn &column = table.columns()[*place];
+    if (std::any_of(taken.begin(), taken.end(), [&](const Taken &other) { return other.place == *place; }))
+      csv_fault(table.file(), 0, column.header,
+                refusal("its use for " + name, source.header, "a column of its own for each signal"));
     taken.push_back({&into, *place, factor_of(table, *place, name, source)});
     const std::string unit = source.factor         ? fmt::format("times {:g}", *source.factor)
                              : column.unit.empty() ? "in SI units"

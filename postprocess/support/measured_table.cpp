@@ -221,7 +221,6 @@ MeasuredColumn column_of(std::string header) {
   const std::size_t open = header.rfind(header.back() == ')' ? '(' : '[');
   if (open == std::string::npos || open == 0) return column;
   const std::string unit(trimmed(std::string_view(header).substr(open + 1, size - open - 2)));
-  if (!unit_from_text(unit)) return column;
   column.name = trimmed(std::string_view(header).substr(0, open));
   column.unit = unit;
   return column;
@@ -295,6 +294,7 @@ void MeasuredTable::find_format(const TableFormat &given) {
         best = score;
         separator_ = separator;
         decimal_ = decimal;
+        width_ = columns.size();
         while (!columns.back().used) // blank cells behind the last separator
           columns.pop_back();
         numeric_.clear();
@@ -355,8 +355,9 @@ void MeasuredTable::find_header(const std::vector<std::string_view> &lines, std:
   std::vector<std::string> names;
   const auto fits = [&](const std::vector<std::string> &cells) {
     return cells.size() >= width &&
-           std::all_of(cells.begin() + static_cast<std::ptrdiff_t>(width), cells.end(),
-                       [](const std::string &cell) { return cell.empty(); }) &&
+           (cells.size() <= width_ || // over the empty cells at the end of the rows, too
+            std::all_of(cells.begin() + static_cast<std::ptrdiff_t>(width), cells.end(),
+                        [](const std::string &cell) { return cell.empty(); })) &&
            std::any_of(cells.begin(), cells.end(), [](const std::string &cell) { return !cell.empty(); });
   };
   for (std::size_t i = first; i-- > 0 && names.empty();) {
@@ -375,12 +376,13 @@ void MeasuredTable::find_header(const std::vector<std::string_view> &lines, std:
       break;
     }
     cells.resize(width);
-    const bool all_units = std::all_of(cells.begin(), cells.end(), [](const std::string &cell) {
-      return cell.empty() || unit_cell(cell).has_value();
-    });
-    if (all_units && unit_line_ == 0 && i > 0) {
+    // A row of units may have one that is not known.
+    std::size_t known = 0, others = 0;
+    for (const std::string &cell : cells)
+      if (!cell.empty()) ++(unit_cell(cell) ? known : others);
+    if (known > others && unit_line_ == 0 && i > 0) {
       for (std::size_t j = 0; j < width; ++j)
-        units[j] = unit_cell(cells[j]).value_or("");
+        units[j] = unit_cell(cells[j]).value_or(cells[j]);
       unit_line_ = i + 1;
       continue;
     }

@@ -24,8 +24,8 @@ struct TableFormat {
 /// A column of a measured table.
 struct MeasuredColumn {
   std::string header; ///< as the file has it, without blanks at its ends; without a header the number
-  std::string name;   ///< the header without a unit in brackets at its end
-  std::string unit;   ///< in these brackets or in the row of units below the header; empty if there is none
+  std::string name;   ///< the header without a text in brackets at its end
+  std::string unit;   ///< this text, or that of the row of units below the header; empty if there is none
 };
 
 class MeasuredTable {
@@ -79,6 +79,7 @@ private:
   char separator_ = ',';
   char decimal_ = '.';
   std::vector<MeasuredColumn> columns_;
+  std::size_t width_ = 0;     // cells of a row, those at its end included that are empty in all rows
   std::vector<bool> numeric_; // columns with numbers or clock times
   std::vector<std::string_view> rows_;
   std::vector<std::size_t> lines_;

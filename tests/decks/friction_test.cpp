@@ -2,6 +2,7 @@
 // law along recorded paths, closed forms of sticking and sliding, the defaults, that the history of a broken
 // contact is deleted, impulses of oblique impacts, and a clump on a slope.
 #include "tests/support/balls_run.h"
+#include "tests/support/checks.h"
 #include "tests/support/engine_and_scheme.h"
 
 #include "physics/laws/friction_law.h"
@@ -590,6 +591,25 @@ TEST_P(Crown, OfAMeshDoesNotDependOnTheFrame) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Decks, Crown, engines_and_steppings(), engine_and_stepping);
+
+// A wall that moves within its shape turns no normal: the ball has the speed of the wall. (LAMMPS's walls do
+// not move.)
+TEST(RotatingDrum, CarriesABallAtItsOwnSpeed) {
+  constexpr double turns = 50.0, R = 0.1, r = 0.02, axis = 0.2; // rad/s, m
+  for (const char *tangential : {"coulomb", "history"})
+    for (const char *stepping : {"second", "stock"}) {
+      const Scratch folder;
+      well(run_deck(test_deck("rotating_drum.in"), {{"tangential", tangential}, {"stepping", stepping}},
+                    folder.path()));
+      const Ball end = read_dump(folder / "balls.txt").back().balls.at(1);
+      // The engine's wall has the velocity of the drum where the centre of the ball is; the lever of a
+      // contact is the radius less half of the overlap.
+      const double below = axis - end.x[2], lever = r - 0.5 * (below + r - R);
+      EXPECT_LT(lever, r);
+      EXPECT_NEAR(std::fabs(end.omega[0]) * lever / (turns * below), 1.0, 1e-12)
+          << tangential << ", " << stepping;
+    }
+}
 
 class Slope : public BothEngines {};
 INSTANTIATE_TEST_SUITE_P(Decks, Slope, engines_and_steppings(), engine_and_stepping);

@@ -173,6 +173,17 @@ INSTANTIATE_TEST_SUITE_P(
                {{"D", "40"}, {"tangential", "off"}, {"mu", "-1"}}}),
     bounce_name);
 
+// The Hertz law's dashpot has no value at a negative overlap: a contact that has ended has no force.
+TEST(InLammpsWalls, WithoutHistoryEndsAContactWithoutAForce) {
+  if (!post::has_lammps()) GTEST_SKIP() << "SKIPPED: LAMMPS is not set up (./drumlin setup lammps)";
+  const Scratch folder;
+  well(run_deck(test_deck("bounce.lammps"),
+                {{"normal", "hertz"}, {"tangential", "no_history"}, {"stepping", "stock"}}, folder.path()));
+  for (const auto &[id, ball] : read_dump(folder / "balls.txt").back().balls)
+    for (const double value : {ball.x[0], ball.v[0], ball.v[2], ball.omega[1]})
+      EXPECT_TRUE(std::isfinite(value)) << "ball " << id;
+}
+
 // The order of balls in memory decides which of two is the first of a pair: when it changes, the contact
 // history changes its sign.
 TEST_F(InLammps, HistoryIsKeptWhenTheOrderOfBallsChanges) {

@@ -382,9 +382,9 @@ std::vector<BadGroup> parameters_of() {
   BadGroup properties{name + "_properties", "", {}}, words{name + "_words", "", {}, true};
   const auto number = [](double value) { return fmt::format("{}", value); };
   const auto property_line = [](const auto &p, const std::string &given) {
-    const std::string text = property(p.property, given);
+    std::string text = property(p.property, given);
     if (!std::is_same_v<std::decay_t<decltype(p)>, physics::MaterialParameter>) return text;
-    return text.substr(0, text.find("pair 3")) + " " + given + " " + given + " " + given + "\n";
+    return fmt::format("{0} {1} {1} {1}\n", text.substr(0, text.find("pair 3")), given);
   };
   const auto mistake = [&](const auto &wrong, const std::string &value, const std::string &says) {
     std::string lines, coefficients;
@@ -434,16 +434,16 @@ std::vector<BadGroup> parameters_of() {
     const std::string roll = what == std::string("rolling friction coefficient mu_r")
                                  ? ""
                                  : property("coefficientRollingFriction", "0.1");
-    input.pair = "pair_style gran model " + law +
-                 " tangential coulomb rolling_friction epsd2\npair_coeff * *\n" +
-                 host_properties(good_lines + wrong) + good_lines + wrong + roll;
+    input.pair = fmt::format(
+        "pair_style gran model {} tangential coulomb rolling_friction epsd2\npair_coeff * *\n{}{}{}{}", law,
+        host_properties(good_lines + wrong), good_lines, wrong, roll);
     properties.inputs.push_back(input);
     for (const char *value : {"-1e-9", "nan", "inf"})
       words.inputs.push_back(
-          {std::string(property_name) + " " + value,
-           "pair_style gran/" + law + " tangential coulomb rolling epsd2\npair_coeff * *" + good_words +
-               before + value + behind,
-           {"pair_coeff of gran/" + law, std::string(what) + " is '" + value + "'", "a finite number >= 0"}});
+          {fmt::format("{} {}", property_name, value),
+           fmt::format("pair_style gran/{} tangential coulomb rolling epsd2\npair_coeff * *{}{}{}{}", law,
+                       good_words, before, value, behind),
+           {"pair_coeff of gran/" + law, fmt::format("{} is '{}'", what, value), "a finite number >= 0"}});
   }
   return {properties, words};
 }

@@ -185,8 +185,8 @@ std::set<std::string> anchors_of(const std::string &page) {
     const std::size_t begin = line.find_first_not_of('#');
     if (fenced || begin == 0 || begin == std::string::npos || line[begin] != ' ') continue;
     std::string name;
-    for (const unsigned char c : line.substr(begin + 1))
-      if (c == ' ')
+    for (const char letter : line.substr(begin + 1))
+      if (const auto c = static_cast<unsigned char>(letter); c == ' ')
         name += '-';
       else if (std::isalnum(c) != 0 || c == '-' || c == '_')
         name += static_cast<char>(std::tolower(c));

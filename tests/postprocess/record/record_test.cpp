@@ -139,6 +139,12 @@ TEST_F(RecordFiles, UnitsOfTheHeaderCount) {
   }
   options.columns["a_drum"] = column_from_text("a_drum=Acc:-m/s2").second;
   EXPECT_NEAR(read_record(folder_ / "logger.csv", options).a_drum[7], -history_.a_drum[7] / 9.80665, 1e-12);
+  options.columns["a_drum"] = {"Rahmen"};
+  EXPECT_TRUE(contains(error_of<std::exception>([&] { read_record(folder_ / "logger.csv", options); }),
+                       "column 'Rahmen': its use for a_frame is 'Rahmen'; allowed: a column of its own"));
+  options.columns.erase("a_frame");
+  options.columns.erase("time");
+  options.sampling_rate = 2000.0;
   options.columns["a_drum"] = {"t"};
   EXPECT_TRUE(contains(error_of<std::exception>([&] { read_record(folder_ / "logger.csv", options); }),
                        "column 't': its unit is 'ms'; allowed: m/s2, "));

@@ -158,9 +158,19 @@ TEST_F(MeasuredTables, BlankCellsAreNoNumbers) {
   const std::vector<double> a = table.numbers(1);
   ASSERT_EQ(a.size(), 5u);
   EXPECT_EQ(a.front(), 2.0);
-  for (const std::size_t row : {1, 2, 3})
+  for (const std::size_t row : {1U, 2U, 3U})
     EXPECT_TRUE(std::isnan(a[row]));
   EXPECT_EQ(a.back(), -1.0);
+}
+
+// Names over empty cells at the end of all rows, and a unit that is not known.
+TEST_F(MeasuredTables, HaveTheirHeaderWithAnEmptyLastColumn) {
+  const MeasuredTable table(put("t,a,p,Comment\ns,g,bar,\n1,2,3,\n2,3,4,\n"));
+  EXPECT_EQ(table.find("a"), 1U);
+  EXPECT_EQ(table.columns().size(), 3U);
+  EXPECT_EQ(table.columns()[1].unit, "g");
+  EXPECT_EQ(table.columns()[2].unit, "bar");
+  EXPECT_EQ(MeasuredTable(put("t,a (ft/s2)\n1,2\n2,3\n")).columns()[1].unit, "ft/s2");
 }
 
 TEST_F(MeasuredTables, ALastLineThatWasCutIsLeftOut) {
