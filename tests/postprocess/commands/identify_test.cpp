@@ -140,8 +140,7 @@ TEST_F(IdentifyCommand, TakesTheDataOfARoller) {
   EXPECT_NEAR(found({}), chain.parameters.k, 1e-4 * chain.parameters.k);
   EXPECT_NEAR(found({"--frequency", "33.5"}), chain.parameters.k, 1e-4 * chain.parameters.k);
   fs::remove_all(scratch_ / "found");
-  expect_refused({"measured.csv", "--case", "CA3500-low", "--m2", "3000"},
-                 "the exciter's force is '17");
+  expect_refused({"measured.csv", "--case", "CA3500-low", "--m2", "3000"}, "the exciter's force is '17");
   expect_refused({"measured.csv", "--phase", "0", "--case", "CA9"}, "--case is 'CA9'; allowed: I, II");
 }
 
