@@ -144,6 +144,23 @@ TEST_F(IdentifyCommand, TakesTheDataOfARoller) {
   expect_refused({"measured.csv", "--phase", "0", "--case", "CA9"}, "--case is 'CA9'; allowed: I, II");
 }
 
+// Unbroken contact, where nothing tells the phase, and one that is 90 degrees off.
+TEST_F(IdentifyCommand, RefusesAResultThatContradictsItself) {
+  post::ChainParameters p = post::named_chain("CA3500-low", post::Transition::B).parameters;
+  p.k = 1e7;
+  const post::ChainHistory history = post::solve_closed_form(p, 30, 100).history;
+  std::string text = "time,a_drum,a_frame\n";
+  for (std::size_t i = 0; i < history.size(); ++i)
+    text += post::csv_line({post::number_text(history.time[i]), post::number_text(history.a_drum[i]),
+                            post::number_text(history.a_frame[i])});
+  post::write_files({{scratch_ / "soft.csv", text}});
+  const std::vector<std::string> words = {"soft.csv", "--case", "CA3500-low", "--phase", "90"};
+  expect_refused(words, "soft.csv: c is -8.");
+  std::vector<std::string> anyway = words;
+  anyway.insert(anyway.end(), {"--anyway", "--out", "found"});
+  EXPECT_TRUE(printed(well(identify(anyway)), "The result contradicts itself: c is -8."));
+}
+
 TEST_F(IdentifyCommand, RefusesBadInputInOneLine) {
   write_run(scratch_ / "run");
   expect_refused({}, "RECORD");
