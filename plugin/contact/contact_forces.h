@@ -336,7 +336,7 @@ private:
     exert_later(n, step);
     double &stored_force = contact.history[places_[Remembered::force]];
     if (step.coupled) couple(n, step.dashpot, stored_force);
-    if (step.begins) begin(n, step, stored_force, announced);
+    if (step.begins) begin(n, step, announced);
     if (stepping_->counts_heat())
       stepping_->tell_heat(contact.i, contact.j,
                            share() * physics::heat_of_change(law, motion, before, step, context.m_eff), 0.0);
@@ -375,13 +375,12 @@ private:
     any_coupled_ = true;
   }
 
-  void begin(int n, const physics::StepResult &step, double &stored_force, std::size_t announced) {
+  void begin(int n, const physics::StepResult &step, std::size_t announced) {
     LAMMPS_NS::FixStepping::Begun &begun = stepping_->begin();
     begun.i = contacts_[n].i;
     begun.j = contacts_[n].j;
     begun.normal = block.normal[n];
     begun.share = share();
-    begun.force = &stored_force;
     begun.step = step;
     begun.announced = announced;
     if constexpr (rubs || rolling) begun_.emplace_back(n, &begun);

@@ -114,7 +114,6 @@ void FixStepping::setup_pre_force(int) {
   if (!in_use_) return;
   in_setup_ = true;
   told_dt_ = update->dt;
-  light_ = false;
   coupled_.clear();
   begun_.clear();
   coupled_links_.clear();
@@ -250,7 +249,6 @@ void FixStepping::pre_force(int) {
   relative_ = false;
   if (neighbor->ago == 0 || update->dt != expected_dt_) expect_contacts();
   counting_ = counting_ || masses_change_; // what was expected may no longer hold
-  light_ = !counted_ && !counting_;
   if (comm->nprocs > 1 || atom->nghost > 0) drumlin::engine::forward_comm(comm, this);
 }
 

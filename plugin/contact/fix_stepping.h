@@ -64,9 +64,6 @@ public:
   /// Whether forces are computed for the set-up of a run: velocities then belong to the time of the
   /// positions.
   bool in_setup() const { return in_setup_; }
-  /// True in a step in which no contact can need coupling, since all damping is light: the sums of c/m are
-  /// then neither known nor needed.
-  bool light() const { return light_; }
   /// Whether this rank computes the force on ball i of a contact: true for an owned ball, and with newton on,
   /// where one rank alone computes the contact, also for a ghost, whose force is sent to its owner. False for
   /// a wall (i = -1).
@@ -168,17 +165,12 @@ public:
   struct Begun : Rubbing {
     int i, j; ///< j < 0: a wall
     std::array<double, 3> normal;
-    double share;        ///< as of a coupled contact
-    const double *force; ///< where the force, N, is stored
+    double share; ///< as of a coupled contact
     drumlin::physics::StepResult step;
     std::size_t announced; ///< FixStepping::announced() before its calls of add_after_kick()
   };
   /// Announces a contact that begins, for the caller to fill in what Rubbing has.
   Begun &begin() { return begun_.emplace_back(); }
-  /// The contact that has begun last, if its force is stored there; else nullptr.
-  Begun *begun_at(const double *stored_force) {
-    return !begun_.empty() && begun_.back().force == stored_force ? &begun_.back() : nullptr;
-  }
   /// Friction, N, and rolling resistance, N m, on ball i of the share of a contact that acts.
   struct RubbingForces {
     drumlin::physics::Vec3 friction{}, rolling{};
@@ -258,7 +250,6 @@ private:
 
   bool in_use_ = true;
   bool in_setup_ = false;
-  bool light_ = false;
   bool counting_ = false; // whether the contacts of this step are counted
   bool counted_ = false;  // whether those of the last were
   bool any_moved_ = false;

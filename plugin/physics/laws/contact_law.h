@@ -30,7 +30,6 @@ struct ContactPower {
 ///   spring(d)     E, N, 0 at d = 0
 ///   dashpot(d)    C, N s/m, >= 0
 ///   slope(d)      dE/dd, N/m
-///   secant(d)     E/d, N/m
 ///   stored(d)     energy in the spring, J, that the contact can give back
 /// and these further members, which LinearLaw (linear_contact.h) and HertzLaw (hertz_contact.h) explain:
 ///   spring_change(), begins_with_jump, first_weight()   for the second-order scheme, advance.h

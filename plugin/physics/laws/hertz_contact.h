@@ -44,7 +44,6 @@ public:
   [[nodiscard]] double spring(double overlap) const { return k_ * overlap * std::sqrt(overlap); }
   [[nodiscard]] double dashpot(double overlap) const { return c_ * std::sqrt(std::sqrt(overlap)); }
   [[nodiscard]] double slope(double overlap) const { return 1.5 * k_ * std::sqrt(overlap); }
-  [[nodiscard]] double secant(double overlap) const { return k_ * std::sqrt(overlap); }
   [[nodiscard]] double stored(double overlap) const {
     return 0.4 * k_ * overlap * overlap * std::sqrt(overlap);
   }

@@ -19,7 +19,6 @@ public:
   [[nodiscard]] double spring(double overlap) const { return k_ * overlap; }
   [[nodiscard]] double dashpot(double) const { return c_; }
   [[nodiscard]] double slope(double) const { return k_; }
-  [[nodiscard]] double secant(double) const { return k_; }
   [[nodiscard]] double stored(double overlap) const { return 0.5 * k_ * overlap * overlap; }
   /// Change, N, of spring() during a time dt, s, in which the overlap grew at a constant rate, m/s, and which
   /// ends at the overlap d, m (the first argument; not needed by this law).

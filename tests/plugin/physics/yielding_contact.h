@@ -20,7 +20,6 @@ public:
   double dashpot(double) const { return c_; }
   double slope(double d) const { return d >= largest_ ? k1_ : unloading(d) > 0.0 ? k2_ : 0.0; }
   double stiffest(double) const { return k2_; }
-  double secant(double d) const { return spring(d) / d; }
   double stored(double d) const { return 0.5 * spring(d) * spring(d) / k2_; }
   double elastic(double d) const { return d >= largest_ ? k1_ / k2_ * spring(d) : spring(d); }
   double spring_change(double d, double rate, double dt) const {
