@@ -222,6 +222,7 @@ std::vector<Taken> columns_to_take(const MeasuredTable &table, const RecordOptio
   const std::string time_header = find("time", reading.times, true);
   const std::size_t of_time = taken.size();
   std::vector<std::string> headers;
+  headers.reserve(record_signals.size());
   for (const HistoryColumn &signal : record_signals)
     headers.push_back(find(signal.name, reading.record.*signal.values, !any_signal_named));
   if (taken.size() == of_time) {

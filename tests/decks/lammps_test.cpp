@@ -179,7 +179,9 @@ TEST(InLammpsWalls, WithoutHistoryEndsAContactWithoutAForce) {
   const Scratch folder;
   well(run_deck(test_deck("bounce.lammps"),
                 {{"normal", "hertz"}, {"tangential", "no_history"}, {"stepping", "stock"}}, folder.path()));
-  for (const auto &[id, ball] : read_dump(folder / "balls.txt").back().balls)
+  const std::vector<Frame> frames = read_dump(folder / "balls.txt");
+  ASSERT_FALSE(frames.empty());
+  for (const auto &[id, ball] : frames.back().balls)
     for (const double value : {ball.x[0], ball.v[0], ball.v[2], ball.omega[1]})
       EXPECT_TRUE(std::isfinite(value)) << "ball " << id;
 }
