@@ -31,7 +31,7 @@ constexpr std::array<Remembered, 6> history_order{Remembered::spring,    Remembe
 /// Name of the normal force in a contact's history.
 constexpr const char *force_name = numbers_of(Remembered::force).names[0];
 
-/// Announces to the engine that contacts remember something.
+/// Tells the engine that contacts have a history.
 inline void announce(LIGGGHTS::IContactHistorySetup &history, Remembered what) {
   const RememberedNumbers &numbers = numbers_of(what);
   for (std::size_t n = 0; n < numbers.count(); ++n)

@@ -566,8 +566,8 @@ TEST_P(Crown, OfAWallIsThatOfABallOfInfiniteMassThatMoves) {
 }
 
 // A mesh at rest and one that moves: its faces, in an impact with rolling resistance. On its edge the ball
-// rolls as on a ball without a radius. (In the set-up of a run the engine does not know yet that a mesh
-// moves.)
+// rolls as on one of a radius of nearly zero. (In the set-up of a run the engine does not know yet that a
+// mesh moves.)
 TEST_P(Crown, OfAMeshDoesNotDependOnTheFrame) {
   if (std::get<0>(GetParam()) == "lammps") GTEST_SKIP() << "SKIPPED: LAMMPS has no mesh";
   for (const char *tangential : {"coulomb", "history"}) {

@@ -41,8 +41,8 @@ using post::Variables;
 /// then, however busy the machine is.
 post::StopCondition after_processor_time(double seconds);
 
-/// How long mpirun waits for the other ranks when one has failed, as long as this lives: by default one to
-/// two seconds, of which runs that are refused have no use. Ranks that put back earlier files need it.
+/// Sets, for its lifetime, how long mpirun waits for the other ranks when one has failed. The default of one
+/// to two seconds is for ranks that put back earlier files; refused runs have none to put back.
 class WaitForRanks {
 public:
   explicit WaitForRanks(int seconds);
