@@ -157,7 +157,7 @@ struct Lines {
   }
 
   void add(const std::string &text, const std::string &where);
-  void read(const std::string &name);
+  void read(const std::string &text, const std::string &name);
 };
 
 /// Reads a line without its comment. \param where "line 7"
@@ -203,40 +203,41 @@ inline void Lines::add(const std::string &text, const std::string &where) {
   if (!values.emplace(name, in_si).second) fail(name + " in " + where, both, "one line for each name");
 }
 
-inline void Lines::read(const std::string &name) {
+inline void Lines::read(const std::string &text, const std::string &name) {
   file = name;
-  std::error_code code;
-  std::ifstream in;
-  if (std::filesystem::is_regular_file(name, code)) in.open(name); // a pipe could block for ever
-  constexpr int longest = 10000; // lines; a file that is longer, or endless, is none of a roller
-  if (!in.is_open() || in.peek() == std::ifstream::traits_type::eof())
-    throw std::invalid_argument("roller is '" + shown(name) +
-                                "'; allowed: a file that can be read, with lines "
-                                "of a name, a number and its unit");
+  std::istringstream lines(text);
   int count = 0;
-  std::string text;
-  if (in.peek() == 0xEF) in.ignore(3); // the byte order mark of UTF-8
-  for (char c = 0; in.get(c);) {
-    if (c != '\n') {
-      text += c;
-      if (text.size() > 1000) fail("line " + std::to_string(count + 1), text, "at most 1000 characters");
-      continue;
-    }
-    if (++count > longest) fail("number of lines", std::to_string(count), "at most 10000");
-    add(text.substr(0, text.find('#')), "line " + std::to_string(count));
-    text.clear();
-  }
-  add(text.substr(0, text.find('#')), "line " + std::to_string(count + 1));
+  for (std::string line; std::getline(lines, line);)
+    add(line.substr(0, line.find('#')), "line " + std::to_string(++count));
 }
 
 } // namespace roller_file
 
-/// Reads a roller file. Throws std::invalid_argument with one line, "WHAT of 'FILE' is 'VALUE'; allowed:
-/// ...", if a line cannot be read, a value is missing or two contradict each other.
-inline Roller read_roller(const std::string &file) {
+/// The text of a roller file. Throws std::invalid_argument if it cannot be read, or is none.
+inline std::string roller_text(const std::string &file) {
+  std::error_code code;
+  std::ifstream in;
+  if (std::filesystem::is_regular_file(file, code)) in.open(file); // a pipe could block for ever
+  constexpr std::size_t largest = 100000;                          // characters
+  std::string text(largest, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(largest));
+  const auto size = static_cast<std::size_t>(in.gcount());
+  if (!in.is_open() || size == 0 || size == largest)
+    throw std::invalid_argument("roller is '" + roller_file::shown(file) +
+                                "'; allowed: a file that can be read, "
+                                "of lines of a name, a number and its unit");
+  text.resize(size);
+  const std::string byte_order_mark = "\xEF\xBB\xBF";
+  return text.compare(0, 3, byte_order_mark) == 0 ? text.substr(3) : text;
+}
+
+/// The roller of a file with that text. Throws std::invalid_argument with one line, "WHAT of 'FILE' is
+/// 'VALUE'; allowed: ...", if a line cannot be read, a value is missing or two contradict each other.
+/// \param file its name, for the error
+inline Roller read_roller(const std::string &text, const std::string &file) {
   using namespace roller_file;
   Lines lines;
-  lines.read(file);
+  lines.read(text, file);
   Roller roller;
   roller.width = lines.of("width");
   roller.diameter = lines.of("diameter");
@@ -337,6 +338,8 @@ inline Roller read_roller(const std::string &file) {
   return roller;
 }
 
+inline Roller read_roller(const std::string &file) { return read_roller(roller_text(file), file); }
+
 /// The setting of that name. Throws std::invalid_argument if the roller has none. \param name empty: the
 /// only one
 inline const RollerSetting &setting_of(const Roller &roller, const std::string &name,
@@ -359,10 +362,10 @@ inline std::vector<DerivedValue> derived_values(const Roller &roller, const Roll
   std::vector<DerivedValue> values = {{"frequency", omega / (2.0 * roller_file::pi), "Hz"},
                                       {"eccentric_moment", setting.me_re, "kg m"},
                                       {"exciter_force", Fw, "N"},
-                                      {"drum_load", load, "N"}};
+                                      {"static_load", load, "N"}};
   if (roller.width) {
     values.push_back({"exciter_force_per_metre", Fw / *roller.width, "N/m"});
-    values.push_back({"drum_load_per_metre", load / *roller.width, "N/m"});
+    values.push_back({"static_load_per_metre", load / *roller.width, "N/m"});
   }
   values.push_back({"nominal_amplitude", setting.me_re / roller.m2, "m"});
   values.push_back({"frame_frequency", std::sqrt(roller.k23 / roller.m3) / (2.0 * roller_file::pi), "Hz"});
