@@ -1,5 +1,6 @@
 #include "commands/bed_files.h"
 
+#include "commands/deck_variables.h"
 #include "support/arguments.h"
 #include "support/whole_file.h"
 
@@ -115,17 +116,33 @@ RestartNotes with_engine(const RestartNotes &notes) {
 
 RestartNotes read_notes(LAMMPS_NS::LAMMPS *lmp, Arguments &in) {
   RestartNotes notes;
+  std::string word;
   while (!in.empty()) {
-    const std::string name = in.word("a note's name");
-    if (name == "values_of") break;
-    notes.emplace_back(name, in.word("the value of note " + name));
+    word = in.word("a note's name");
+    if (word == "values_of" || word == "groups") break;
+    notes.emplace_back(word, in.word("the value of note " + word));
   }
-  while (!in.empty()) {
-    std::string name = in.word("a variable's name");
-    const char *value = lmp->input->variable->retrieve(name.data());
-    if (value == nullptr || *value == '\0' || std::string(value).find_first_of(" \n") != std::string::npos)
+  const DeckVariables variables(lmp);
+  const auto add = [&](const std::string &name) {
+    const std::string value = variables.value(name).value_or("");
+    if (value.empty() || value.find_first_of(" \n") != std::string::npos)
       in.fail("keyword values_of is '" + name + "'; allowed: the names of variables that are one word");
     notes.emplace_back(name, value);
+  };
+  for (bool of_groups = word == "groups"; !in.empty();) {
+    word = in.word("a variable's name");
+    if (word == "groups" || word == "values_of") {
+      of_groups = word == "groups";
+      continue;
+    }
+    if (!of_groups) {
+      add(word);
+      continue;
+    }
+    const std::size_t before = notes.size();
+    for (const DeclaredVariable &variable : variables.declared())
+      if (variable.group == word) add(variable.name);
+    if (notes.size() == before) in.fail("keyword groups", word, "a group of variables of drumlin/variable");
   }
   return notes;
 }
@@ -224,7 +241,7 @@ std::string restart_fault(const std::string &file, const RestartNotes &notes) {
   const RestartNotes found = notes_of_restart(file);
   if (found.empty())
     return fmt::format(", which is incomplete, damaged or no restart file; allowed: a restart file of "
-                       "drumlin/write_restart or drumlin/run{}",
+                       "drumlin/write or drumlin/run{}",
                        engine::restart_alternative);
   for (const auto &[name, value] : with_engine(notes)) {
     const auto same_name = [&name = name](const auto &note) { return note.first == name; };

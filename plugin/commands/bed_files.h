@@ -16,8 +16,9 @@ class Arguments;
 /// Notes in a restart or data file: names and values of the settings with which it was made.
 using RestartNotes = std::vector<std::pair<std::string, std::string>>;
 
-/// Reads notes from the arguments of a command: pairs NAME VALUE, then `values_of` and names of deck
-/// variables, each a note with its value. Ends the run if a name has no value.
+/// Reads notes from the arguments of a command: pairs NAME VALUE, then `groups` and groups of variables of
+/// drumlin/variable, or `values_of` and names of deck variables, each a note with its value. Ends the run if
+/// a name has no value.
 RestartNotes read_notes(LAMMPS_NS::LAMMPS *lmp, Arguments &in);
 
 /// What the name of a restart file may be, for an error text.

@@ -1,7 +1,8 @@
 #include "commands/commands.h"
 
-#include "support/arguments.h"
 #include "commands/bed_files.h"
+#include "commands/deck_variables.h"
+#include "support/arguments.h"
 #include "support/whole_file.h"
 
 #include <algorithm>
@@ -30,14 +31,19 @@ bool is_whole_number(const std::string &text, double &value) {
   return std::isfinite(value) && value == std::floor(value) && std::fabs(value) < 1e15;
 }
 
-/// The command: a variable, its value and a rule, which is a member function of its name.
+/// A value that breaks a rule. \param text what follows "variable NAME is 'VALUE'" in the error
+struct Broken {
+  std::string text;
+};
+
+/// The value of a variable and a rule, which is a member function of its name.
 class Check {
 public:
-  Check(LAMMPS *lmp, int narg, char **arg) : lmp_(lmp), in_(lmp->error, "drumlin/check", narg, arg) {
-    name_ = in_.word("the variable's name");
-    value_ = in_.word("the value of variable " + name_);
-  }
+  /// \param in the arguments behind name and value
+  Check(LAMMPS *lmp, Arguments &in, std::string name, std::string value)
+      : lmp_(lmp), in_(in), name_(std::move(name)), value_(std::move(value)) {}
 
+  /// Throws Broken if the value breaks the rule.
   void run() {
     using Rule = void (Check::*)();
     const std::vector<std::pair<std::string, Rule>> rules = {{"one_of", &Check::one_of},
@@ -54,6 +60,7 @@ public:
                                                              {"directory", &Check::directory},
                                                              {"output_folder", &Check::output_folder},
                                                              {"file", &Check::file},
+                                                             {"suffix_of", &Check::suffix_of},
                                                              {"data_file", &Check::data_file},
                                                              {"restart", &Check::restart},
                                                              {"restart_name", &Check::restart_name},
@@ -72,9 +79,7 @@ public:
   }
 
 private:
-  [[noreturn]] void reject(const std::string &allowed) const {
-    in_.fail("variable " + name_, value_, allowed);
-  }
+  [[noreturn]] static void reject(const std::string &allowed) { throw Broken{"; allowed: " + allowed}; }
 
   /// Rejects the value on all ranks if rank 0 has found it bad. Collective.
   void reject_if(bool bad_on_rank_0, const std::string &allowed) const {
@@ -187,32 +192,74 @@ private:
                                    : ", which '" + maker + "' makes"));
   }
 
+  /// For a variable that is the end of a file's name, such as a case.
+  void suffix_of() {
+    namespace fs = std::filesystem;
+    const fs::path begin = in_.word("rule suffix_of, the begin of the files' names");
+    if (!is_rank_0()) return stop_on("");
+    std::vector<std::string> choices;
+    std::error_code code;
+    const std::string prefix = begin.filename().string();
+    for (const auto &entry : fs::directory_iterator(begin.parent_path(), code))
+      if (const std::string name = entry.path().filename().string(); name.rfind(prefix, 0) == 0)
+        choices.push_back(name.substr(prefix.size()));
+    std::sort(choices.begin(), choices.end());
+    const bool known = std::find(choices.begin(), choices.end(), value_) != choices.end();
+    stop_on(known ? "" : "; allowed: " + join_choices(choices));
+  }
+
   void data_file() { stop_on(is_rank_0() ? data_file_fault(value_) : ""); }
   void restart() {
     const RestartNotes notes = read_notes(lmp_, in_);
     stop_on(is_rank_0() ? restart_fault(value_, notes) : "");
   }
   /// \param fault text behind the value, "; allowed: ..." or more; empty: none
-  void stop_on(const std::string &fault) const {
-    engine::stop_on_fault(lmp_, "drumlin/check",
-                          fault.empty() ? "" : "variable " + name_ + " is '" + value_ + "'" + fault);
+  void stop_on(std::string fault) const {
+    auto length = static_cast<int>(fault.size());
+    MPI_Bcast(&length, 1, MPI_INT, 0, lmp_->world);
+    fault.resize(static_cast<std::size_t>(length));
+    MPI_Bcast(fault.data(), length, MPI_CHAR, 0, lmp_->world);
+    if (!fault.empty()) throw Broken{fault};
   }
 
   void restart_name() { reject_if(is_rank_0() && !is_restart_name(value_), restart_name_allowed); }
 
   void one_rank() {
     if (lmp_->comm->nprocs > 1)
-      in_.fail(fmt::format("variable {} is '{}' on {} ranks; allowed: one rank", name_, value_,
-                           lmp_->comm->nprocs));
+      throw Broken{fmt::format(" on {} ranks; allowed: one rank", lmp_->comm->nprocs)};
   }
 
   LAMMPS *lmp_;
-  Arguments in_;
+  Arguments &in_;
   std::string name_, value_;
 };
 
 } // namespace
 
-void check_command(LAMMPS *lmp, int narg, char **arg) { Check(lmp, narg, arg).run(); }
+std::string rule_fault(LAMMPS *lmp, const std::string &command, const std::string &name,
+                       const std::string &value, const std::vector<std::string> &rule) {
+  std::vector<std::string> words = rule;
+  std::vector<char *> pointers;
+  for (std::string &word : words)
+    pointers.push_back(word.data());
+  Arguments in(lmp->error, command, static_cast<int>(pointers.size()), pointers.data());
+  try {
+    Check(lmp, in, name, value).run();
+  } catch (const Broken &broken) {
+    return broken.text;
+  }
+  return "";
+}
+
+void check_command(LAMMPS *lmp, int narg, char **arg) {
+  Arguments in(lmp->error, "drumlin/check", narg, arg);
+  const std::string name = in.word("the variable's name");
+  const std::string value = in.word("the value of variable " + name);
+  try {
+    Check(lmp, in, name, value).run();
+  } catch (const Broken &broken) {
+    in.fail("variable " + name + " is '" + value + "'" + broken.text);
+  }
+}
 
 } // namespace drumlin

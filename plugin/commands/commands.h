@@ -6,8 +6,11 @@
 
 namespace drumlin {
 
-/// drumlin/variables NAME ...: ends the run if the command line gives a variable that is none of these, or a
-/// value that the engine's parser would change.
+/// drumlin/variable NAME DEFAULT RULE UNIT GROUP MEANING: declares a variable of the deck.
+void variable_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
+
+/// drumlin/variables [NAME ...]: ends the run if the command line gives a variable that is none of these and
+/// not declared, or a value that the engine's parser would change, or if a declared variable breaks its rule.
 void variables_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
 /// drumlin/check NAME VALUE RULE ...: ends the run if the value of a variable breaks a rule.
@@ -20,8 +23,8 @@ void roller_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 /// up the files of an earlier run, which are restored if the new run fails in its first steps.
 void outputs_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
-/// drumlin/take FILE DECKS ALLOWED fixed NAME ... free NAME ... if_noted NAME ...: sets variables to the
-/// values with which a bed was made, and ends the run if one of them has another value already.
+/// drumlin/take FILE DECKS ALLOWED [fixed GROUP ...] [free GROUP ...] [except NAME ...]: gives the variables
+/// that are declared behind it the values with which a bed was made.
 void take_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
 /// drumlin/record FILE NAME VALUE ...: writes parameters.csv, the parameters of a run.
@@ -31,12 +34,9 @@ void record_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 /// progress and a limit of wall time.
 void run_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
-/// drumlin/write_restart FILE [NAME VALUE ...]: writes a restart file, complete or not at all, with notes on
-/// how the scene was made.
-void write_restart_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
-
-/// drumlin/write_data FILE [NAME VALUE ...]: the same for a data file.
-void write_data_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
+/// drumlin/write restart|data|both FILE [NAME VALUE ...] [groups GROUP ...] [values_of NAME ...]: writes a
+/// restart file, a data file or both, complete or not at all, with notes on how the scene was made.
+void write_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
 /// drumlin/settle [ratio r] [every n] [limit N]: runs until static equilibrium.
 void settle_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
@@ -63,18 +63,18 @@ struct CommandType {
 template <class Add>
 void for_each_command(Add &&add) {
   add(CommandType<check_command>(), "drumlin/check", "checks the value of a variable");
+  add(CommandType<variable_command>(), "drumlin/variable", "declares a variable of the deck");
   add(CommandType<variables_command>(), "drumlin/variables", "checks the variables of the command line");
   add(CommandType<roller_command>(), "drumlin/roller", "takes the values of a roller from its file");
   add(CommandType<pick_command>(), "drumlin/pick", "takes a number from a list");
   add(CommandType<layers_command>(), "drumlin/layers", "gives contacts the laws of the layers of a bed");
   add(CommandType<outputs_command>(), "drumlin/outputs", "backs up the files of an earlier run");
   add(CommandType<take_command>(), "drumlin/take", "takes the values with which a bed was made");
-  add(CommandType<write_data_command>(), "drumlin/write_data", "writes a data file with notes");
   add(CommandType<record_command>(), "drumlin/record", "writes the parameters of a run");
   add(CommandType<run_command>(), "drumlin/run", "runs with progress and a limit of wall time");
   add(CommandType<settle_command>(), "drumlin/settle", "runs to static equilibrium");
   add(CommandType<surface_command>(), "drumlin/surface", "measures the mean height of a surface");
-  add(CommandType<write_restart_command>(), "drumlin/write_restart", "writes a restart file with notes");
+  add(CommandType<write_command>(), "drumlin/write", "writes restart and data files with notes");
 }
 
 } // namespace drumlin

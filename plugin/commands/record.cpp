@@ -1,10 +1,12 @@
 #include "commands/commands.h"
 
+#include "commands/deck_variables.h"
 #include "commands/fix_outputs.h"
 #include "support/arguments.h"
 #include "support/command_line.h"
 #include "support/whole_file.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace drumlin {
@@ -33,6 +35,12 @@ void record_command(LAMMPS *lmp, int narg, char **arg) {
     const std::string key = in.word("name");
     rows.emplace_back(key, in.word("the value of " + key));
   }
+  // Declared variables, unless the deck has given their rows.
+  DeckVariables::stop_on_fault(lmp);
+  const DeckVariables variables(lmp);
+  for (const DeclaredVariable &variable : variables.declared())
+    if (std::none_of(rows.begin(), rows.end(), [&](const auto &row) { return row.first == variable.name; }))
+      rows.emplace_back(variable.name, variables.value(variable.name).value_or(""));
   rows.emplace_back("engine", engine::name_and_version());
   rows.emplace_back("plugin", std::string("drumlin ") + DRUMLIN_VERSION);
   rows.emplace_back("ranks", std::to_string(lmp->comm->nprocs));

@@ -1,5 +1,6 @@
 #include "commands/commands.h"
 
+#include "commands/deck_variables.h"
 #include "physics/files/roller.h"
 #include "support/arguments.h"
 
@@ -29,27 +30,6 @@ Roller shared_roller(LAMMPS *lmp, const std::string &file) {
   return read_roller(text, file);
 }
 
-/// Variables of a deck: those that the command line or the deck has set keep their values.
-class Variables {
-public:
-  explicit Variables(LAMMPS *lmp) : variables_(*lmp->input->variable) {}
-
-  std::optional<std::string> value(std::string name) {
-    if (variables_.find(name.data()) < 0) return std::nullopt;
-    const char *text = variables_.retrieve(name.data());
-    return text == nullptr ? std::nullopt : std::optional<std::string>(text);
-  }
-  void set(std::string name, std::string value) {
-    std::string style = "index";
-    char *words[] = {name.data(), style.data(), value.data()};
-    if (variables_.find(name.data()) < 0) variables_.set(3, words);
-  }
-  void set(const std::string &name, double value) { set(name, fmt::format("{:.17g}", value)); }
-
-private:
-  LAMMPS_NS::Variable &variables_;
-};
-
 /// Words for drumlin/record.
 std::string rows_of(const RollerSetting &setting, const std::vector<DerivedValue> &values) {
   std::string rows = "setting " + (setting.name.empty() ? "none" : setting.name);
@@ -71,6 +51,8 @@ void roller_command(LAMMPS *lmp, int narg, char **arg) {
     if (*wanted == "none") wanted->clear();
   }
   in.expect_end("FILE, whole or per_metre, and setting NAME");
+  DeckVariables variables(lmp);
+  if (!variables.fault().empty()) return; // drumlin/variables will tell it
   if (file == "none") {
     if (wanted && !wanted->empty()) in.fail("setting", *wanted, "none, since no roller is given");
     return;
@@ -85,32 +67,34 @@ void roller_command(LAMMPS *lmp, int narg, char **arg) {
               "per metre of it");
     share = 1.0 / *roller.width;
   }
-  Variables variables(lmp);
-  variables.set("m2", roller.m2 * share);
-  variables.set("m3", roller.m3 * share);
-  variables.set("k23", roller.k23 * share);
-  variables.set("c23", roller.c23 * share);
+  const auto set = [&variables](const char *name, double value) {
+    variables.set_default(name, fmt::format("{:.17g}", value));
+  };
+  set("m2", roller.m2 * share);
+  set("m3", roller.m3 * share);
+  set("k23", roller.k23 * share);
+  set("c23", roller.c23 * share);
   if (per_metre && !variables.value("r2")) {
     if (!roller.diameter)
       in.fail("diameter of '" + file +
               "' is missing; allowed: the diameter of the drum in the file, or its "
               "radius by -var r2");
-    variables.set("r2", 0.5 * *roller.diameter);
+    set("r2", 0.5 * *roller.diameter);
   }
   if (!wanted) return;
 
   try {
     const RollerSetting &setting = setting_of(roller, *wanted, file);
-    variables.set("omega", 2.0 * roller_file::pi * setting.frequency);
+    set("omega", 2.0 * roller_file::pi * setting.frequency);
     const std::string omega_text = *variables.value("omega");
     const double omega = parse_number(omega_text);
     if (!in_range(omega, Range::positive))
       in.fail("variable omega", omega_text, allowed_text(Range::positive));
-    variables.set("Fw", setting.me_re * omega * omega * share);
+    set("Fw", setting.me_re * omega * omega * share);
     const double g = parse_number(variables.value("g").value_or(""));
     const std::vector<DerivedValue> values =
         derived_values(roller, setting, omega, std::isfinite(g) ? g : roller_file::gravity);
-    variables.set("roller_values", rows_of(setting, values));
+    variables.set_default("roller_values", rows_of(setting, values));
     std::string text =
         fmt::format("Roller '{}'{}:\n", file, setting.name.empty() ? "" : ", setting " + setting.name);
     for (const DerivedValue &value : values)

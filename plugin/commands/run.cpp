@@ -1,7 +1,8 @@
 #include "commands/commands.h"
 
-#include "support/arguments.h"
 #include "commands/bed_files.h"
+#include "commands/deck_variables.h"
+#include "support/arguments.h"
 #include "support/stop_signal.h"
 
 #include <algorithm>
@@ -18,6 +19,7 @@ class Run : LAMMPS_NS::Pointers {
 public:
   Run(LAMMPS *engine, int narg, char **arg) : Pointers(engine) {
     Arguments in(error, "drumlin/run", narg, arg);
+    DeckVariables::stop_on_fault(lmp);
     last_ = in.integer("the last step", 0, std::numeric_limits<engine::bigint>::max());
     while (!in.empty()) {
       const std::string keyword = in.word("keyword");

@@ -1,7 +1,8 @@
 #include "commands/commands.h"
 
-#include "support/arguments.h"
 #include "commands/bed_files.h"
+#include "commands/deck_variables.h"
+#include "support/arguments.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -35,78 +36,44 @@ RestartNotes shared_notes(LAMMPS *lmp, const std::string &file) {
   return notes;
 }
 
-/// Whether two values are the same: words exactly, numbers, also those of lists, to rounding, since a value
-/// may come from a formula of the deck.
-bool same_value(const std::string &a, const std::string &b) {
-  const std::vector<std::string> of_a = list_entries(a);
-  const std::vector<std::string> of_b = list_entries(b);
-  return std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
-                    [](const std::string &one, const std::string &other) {
-                      const double x = parse_number(one);
-                      const double y = parse_number(other);
-                      constexpr double rounding = 1e-12;
-                      return one == other || std::fabs(x - y) <= rounding * std::fabs(x);
-                    });
-}
-
-/// Whether `name` is an entry of `list`, whose entries are separated by commas.
-bool is_listed(const std::string &list, const std::string &name) {
-  return ("," + list + ",").find("," + name + ",") != std::string::npos;
-}
-
 } // namespace
 
 void take_command(LAMMPS *lmp, int narg, char **arg) {
   Arguments in(lmp->error, "drumlin/take", narg, arg);
-  const std::string file =
-      in.word("file", "a file of drumlin/write_restart, drumlin/write_data or drumlin/run");
-  const std::string decks =
-      in.word("the list of decks", "the names of the decks that make the file, between commas");
-  const std::string allow_change = in.word("the variables that may change", "names between commas, or none");
-  enum class Kind { fixed, free, if_noted };
-  const std::vector<std::string> kinds = {"fixed", "free", "if_noted"};
-  std::vector<std::pair<std::string, Kind>> names;
-  for (Kind kind = Kind::fixed; !in.empty();) {
-    const std::string word = in.word("name");
-    const auto found = std::find(kinds.begin(), kinds.end(), word);
-    if (found != kinds.end())
-      kind = static_cast<Kind>(found - kinds.begin());
+  TakenNotes taken;
+  taken.file = in.word("file", "a file of drumlin/write or drumlin/run");
+  taken.decks = in.word("the list of decks", "the names of the decks that make the file, between commas");
+  if (const std::string change = in.word("the variables that may change", "names between commas, or none");
+      change != "none")
+    taken.change = list_entries(change);
+  std::vector<std::string> except;
+  std::vector<std::string> *const lists[] = {&taken.fixed, &taken.free, &except};
+  const std::vector<std::string> keywords = {"fixed", "free", "except"};
+  std::vector<std::string> *list = nullptr;
+  while (!in.empty()) {
+    const std::string word = in.word("word");
+    const auto keyword = std::find(keywords.begin(), keywords.end(), word);
+    if (keyword != keywords.end())
+      list = lists[keyword - keywords.begin()];
+    else if (list != nullptr)
+      list->push_back(word);
     else
-      names.emplace_back(word, kind);
+      in.fail("keyword", word, join_choices(keywords));
   }
-  std::string may_change;
-  for (const auto &[name, kind] : names)
-    if (kind == Kind::free) may_change += (may_change.empty() ? "" : ",") + name;
-  if (allow_change != "none") {
-    std::istringstream list(allow_change);
-    for (std::string name; std::getline(list, name, ',');)
-      if (!is_listed(may_change, name))
-        in.fail(fmt::format("variable allow_change is '{}'; allowed: none, or names between commas out of {}",
-                            allow_change, may_change));
-  }
-
-  const RestartNotes notes = shared_notes(lmp, file);
-  LAMMPS_NS::Variable &variables = *lmp->input->variable;
-  for (const auto &[name, kind] : names) {
-    const auto note = std::find_if(notes.begin(), notes.end(),
-                                   [&name = name](const auto &one) { return one.first == name; });
-    if (note == notes.end()) {
-      if (kind == Kind::if_noted) continue;
-      in.fail(fmt::format("file is '{}', which does not note the value of {}; allowed: a complete file that "
-                          "{} of this version have made",
-                          file, name, decks));
-    }
-    std::string words[] = {name, "index", note->second};
-    const char *given = variables.find(words[0].data()) >= 0 ? variables.retrieve(words[0].data()) : nullptr;
-    if (given == nullptr) {
-      char *pointers[] = {words[0].data(), words[1].data(), words[2].data()};
-      variables.set(3, pointers);
-    } else if (!same_value(given, note->second) && !(kind == Kind::free && is_listed(allow_change, name)))
-      in.fail(fmt::format(
-          "variable {} is '{}'; allowed: {}, with which '{}' was made; for another value {}{}", name, given,
-          note->second, file, kind == Kind::if_noted ? "begin a new run" : "run " + decks + " again",
-          kind == Kind::free ? ", or change it on purpose by -var allow_change " + name : ""));
-  }
+  DeckVariables variables(lmp);
+  if (!variables.fault().empty()) return; // drumlin/variables will tell it
+  taken.notes = shared_notes(lmp, taken.file);
+  for (const char *own : {"engine", "end", "bytes", "crc32"})
+    except.push_back(own);
+  taken.notes.erase(std::remove_if(taken.notes.begin(), taken.notes.end(),
+                                   [&except](const auto &note) {
+                                     return std::find(except.begin(), except.end(), note.first) !=
+                                            except.end();
+                                   }),
+                    taken.notes.end());
+  variables.take(taken);
+  for (const auto &[name, value] : taken.notes)
+    variables.set_default(name, value);
 }
 
 } // namespace drumlin

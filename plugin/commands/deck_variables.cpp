@@ -1,0 +1,159 @@
+#include "commands/deck_variables.h"
+
+#include "support/arguments.h"
+#include "support/command_line.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fmt/format.h>
+#include <sstream>
+
+namespace drumlin {
+namespace {
+
+constexpr const char *of_declarations = "drumlin_declared";
+constexpr const char *of_notes = "drumlin_notes";
+constexpr const char *of_fault = "drumlin_fault";
+
+std::vector<std::string> words_of(const std::string &text) {
+  std::istringstream in(text);
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+} // namespace
+
+std::optional<std::string> DeckVariables::value(const std::string &name) const {
+  std::string word = name;
+  if (variables_.find(word.data()) < 0) return std::nullopt;
+  const char *text = variables_.retrieve(word.data());
+  return text == nullptr ? std::nullopt : std::optional<std::string>(text);
+}
+
+void DeckVariables::set(const std::string &name, const std::string &value) {
+  std::string words[] = {name, "delete"};
+  char *pointers[] = {words[0].data(), words[1].data()};
+  if (variables_.find(words[0].data()) >= 0) variables_.set(2, pointers);
+  set_default(name, value);
+}
+
+void DeckVariables::set_default(const std::string &name, const std::string &value) {
+  std::string words[] = {name, "index", value};
+  char *pointers[] = {words[0].data(), words[1].data(), words[2].data()};
+  if (variables_.find(words[0].data()) < 0) variables_.set(3, pointers);
+}
+
+std::vector<std::string> DeckVariables::lines(const std::string &name) const {
+  std::vector<std::string> found;
+  std::istringstream in(value(name).value_or(""));
+  for (std::string line; std::getline(in, line);)
+    found.push_back(line);
+  return found;
+}
+
+void DeckVariables::keep(const std::string &name, const std::vector<std::string> &lines) {
+  set(name, joined(lines, "\n"));
+}
+
+std::vector<DeclaredVariable> DeckVariables::declared() const {
+  std::vector<DeclaredVariable> all;
+  for (const std::string &line : lines(of_declarations)) {
+    const std::vector<std::string> words = words_of(line);
+    all.push_back({words[0], words[1], words[2] == "given", words[3] == "words"});
+  }
+  return all;
+}
+
+void DeckVariables::declare(const DeclaredVariable &variable) {
+  std::vector<std::string> all;
+  for (const DeclaredVariable &other : declared()) // a deck that begins again declares again
+    if (other.name != variable.name)
+      all.push_back(fmt::format("{} {} {} {}", other.name, other.group, other.given ? "given" : "noted",
+                                other.words ? "words" : "word"));
+  all.push_back(fmt::format("{} {} {} {}", variable.name, variable.group, variable.given ? "given" : "noted",
+                            variable.words ? "words" : "word"));
+  keep(of_declarations, all);
+}
+
+TakenNotes DeckVariables::taken() const {
+  const std::vector<std::string> all = lines(of_notes);
+  TakenNotes taken;
+  if (all.size() < 5) return taken;
+  taken = {all[0], all[1], words_of(all[2]), words_of(all[3]), words_of(all[4]), {}};
+  for (std::size_t n = 5; n < all.size(); ++n) {
+    const std::size_t blank = all[n].find(' ');
+    taken.notes.emplace_back(all[n].substr(0, blank), all[n].substr(blank + 1));
+  }
+  return taken;
+}
+
+void DeckVariables::take(const TakenNotes &notes) {
+  std::vector<std::string> all = {notes.file, notes.decks, joined(notes.fixed, " "), joined(notes.free, " "),
+                                  joined(notes.change, " ")};
+  for (const auto &[name, value] : notes.notes)
+    all.push_back(name + " " + value);
+  keep(of_notes, all);
+}
+
+std::string DeckVariables::fault() const { return value(of_fault).value_or(""); }
+
+void DeckVariables::add_fault(const std::string &fault) { set_default(of_fault, fault); }
+
+void DeckVariables::stop_on_fault(LAMMPS_NS::LAMMPS *lmp) {
+  // Every rank has the same variables.
+  if (const std::string fault = DeckVariables(lmp).fault(); !fault.empty())
+    engine::stop(lmp, "drumlin/variable: " + fault);
+}
+
+bool same_value(const std::string &a, const std::string &b) {
+  const std::vector<std::string> of_a = list_entries(a);
+  const std::vector<std::string> of_b = list_entries(b);
+  return std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
+                    [](const std::string &one, const std::string &other) {
+                      const double x = parse_number(one);
+                      const double y = parse_number(other);
+                      constexpr double rounding = 1e-12;
+                      return one == other || std::fabs(x - y) <= rounding * std::fabs(x);
+                    });
+}
+
+std::string GivenVariable::shown() const {
+  std::string value = joined(values, " ");
+  for (char &c : value)
+    if (std::iscntrl(static_cast<unsigned char>(c)) != 0) c = '?';
+  constexpr std::size_t longest_shown = 60;
+  if (value.size() > longest_shown) value = value.substr(0, longest_shown) + "...";
+  return fmt::format("variable {} is '{}'", name, value);
+}
+
+std::vector<GivenVariable> given_variables() {
+  const std::vector<std::string> words = command_line_arguments();
+  std::vector<GivenVariable> given;
+  for (std::size_t n = 1; n + 2 < words.size(); ++n) {
+    if (words[n] != "-var" && words[n] != "-v") continue;
+    GivenVariable variable{words[++n], {}};
+    // The word behind the name is a value in any case; further words are values up to the next that begins
+    // with a minus sign.
+    do
+      variable.values.push_back(words[++n]);
+    while (n + 1 < words.size() && (words[n + 1].empty() || words[n + 1][0] != '-'));
+    given.push_back(std::move(variable));
+  }
+  return given;
+}
+
+std::string value_fault(const GivenVariable &variable, bool of_words) {
+  constexpr std::size_t longest_value = 1000;
+  const std::vector<std::string> &values = variable.values;
+  if (values.size() != 1 || values[0].empty()) return "one value that is not empty";
+  const std::string &value = values[0];
+  if (value.size() > longest_value) return fmt::format("a value of at most {} characters", longest_value);
+  const bool unprintable =
+      std::any_of(value.begin(), value.end(), [](unsigned char c) { return std::iscntrl(c) != 0; });
+  if (unprintable || value.find_first_of("\"'$#\\") != std::string::npos ||
+      (!of_words && value.find(' ') != std::string::npos) || value.back() == '&')
+    return "a value without blanks, quotes, backslashes, control characters, $, # and a & at its end, which "
+           "the engine's parser takes for something else";
+  return "";
+}
+
+} // namespace drumlin

@@ -1,0 +1,89 @@
+#pragma once
+// The variables of a deck as drumlin/variable declares them. What is declared, noted in a file or wrong is
+// kept in variables of the engine instance with names that begin with drumlin_, so that it exists before a
+// box, outlives `clear` and is an instance's own.
+
+#include "engine.h"
+
+#include "commands/bed_files.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace drumlin {
+
+/// A variable that drumlin/variable has declared.
+struct DeclaredVariable {
+  std::string name;
+  std::string group;
+  bool given; ///< whether -var may give it
+  bool words; ///< whether its value may have blanks
+};
+
+/// Notes of a file that drumlin/take has read, and which of them must agree.
+struct TakenNotes {
+  std::string file;                ///< empty: none
+  std::string decks;               ///< that make the file, for an error
+  std::vector<std::string> fixed;  ///< groups whose variables the file must note, and that cannot change
+  std::vector<std::string> free;   ///< groups whose variables the file must note, and that may change
+  std::vector<std::string> change; ///< names of variables that may differ
+  RestartNotes notes;
+};
+
+class DeckVariables {
+public:
+  explicit DeckVariables(LAMMPS_NS::LAMMPS *lmp) : variables_(*lmp->input->variable) {}
+
+  /// The value of a variable; none if there is no such variable.
+  std::optional<std::string> value(const std::string &name) const;
+  /// Gives a variable a value, whatever it was before.
+  void set(const std::string &name, const std::string &value);
+  /// Gives a variable a value unless it has one.
+  void set_default(const std::string &name, const std::string &value);
+
+  std::vector<DeclaredVariable> declared() const;
+  void declare(const DeclaredVariable &variable);
+
+  TakenNotes taken() const;
+  void take(const TakenNotes &notes);
+
+  /// The first fault of a declared variable, "variable NAME is 'VALUE'; allowed: WHAT"; empty: none.
+  std::string fault() const;
+  void add_fault(const std::string &fault);
+  /// Ends the run with the first fault, if there is one. Collective.
+  static void stop_on_fault(LAMMPS_NS::LAMMPS *lmp);
+
+private:
+  std::vector<std::string> lines(const std::string &name) const;
+  void keep(const std::string &name, const std::vector<std::string> &lines);
+
+  LAMMPS_NS::Variable &variables_;
+};
+
+/// Whether two values are the same: words exactly, numbers, also those of lists, to rounding, since a value
+/// may come from a formula of the deck.
+bool same_value(const std::string &a, const std::string &b);
+
+/// A variable that -var or -v gives, with its values.
+struct GivenVariable {
+  std::string name;
+  std::vector<std::string> values;
+  /// "variable NAME is 'VALUE'" for an error, without control characters, at most 60 characters of the value
+  std::string shown() const;
+};
+
+/// The variables of the command line of this process, read as the engines read them.
+std::vector<GivenVariable> given_variables();
+
+/// Empty if the engine's parser takes a value as it is; else what is allowed.
+/// \param of_words whether the value may have blanks
+std::string value_fault(const GivenVariable &variable, bool of_words);
+
+/// Empty if a value follows a rule of drumlin/check; else what follows "variable NAME is 'VALUE'" in the
+/// error. Ends the run if there is no such rule. Collective.
+/// \param rule the rule and its words
+std::string rule_fault(LAMMPS_NS::LAMMPS *lmp, const std::string &command, const std::string &name,
+                       const std::string &value, const std::vector<std::string> &rule);
+
+} // namespace drumlin

@@ -1,0 +1,89 @@
+#include "commands/commands.h"
+
+#include "commands/deck_variables.h"
+#include "support/arguments.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+#include <sstream>
+
+namespace drumlin {
+namespace {
+
+using LAMMPS_NS::LAMMPS;
+
+template <class List>
+bool is_in(const List &list, const std::string &name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+/// What is wrong with the value of a variable, or with its note in a file, behind "allowed: "; empty:
+/// nothing.
+std::string note_fault(const DeckVariables &variables, const DeclaredVariable &variable,
+                       const std::string &value) {
+  const TakenNotes taken = variables.taken();
+  if (taken.file.empty()) return "";
+  const auto note = std::find_if(taken.notes.begin(), taken.notes.end(),
+                                 [&](const auto &one) { return one.first == variable.name; });
+  const bool free = is_in(taken.free, variable.group);
+  if (note == taken.notes.end())
+    return free || is_in(taken.fixed, variable.group)
+               ? fmt::format("a file that notes its value, which '{}' does not: one that {} of this version "
+                             "have made",
+                             taken.file, taken.decks)
+               : "";
+  if (same_value(value, note->second) || (free && is_in(taken.change, variable.name))) return "";
+  return fmt::format("{}, with which '{}' was made; for another value {}{}", note->second, taken.file,
+                     free || is_in(taken.fixed, variable.group) ? "run " + taken.decks + " again"
+                                                                : "begin a new run",
+                     free ? ", or change it on purpose by -var allow_change " + variable.name : "");
+}
+
+} // namespace
+
+void variable_command(LAMMPS *lmp, int narg, char **arg) {
+  Arguments in(lmp->error, "drumlin/variable", narg, arg);
+  DeclaredVariable variable{in.word("name", "the variable's name"), "", true, false};
+  const std::string of = " of variable " + variable.name;
+  const std::string standard = in.word("default value" + of);
+  std::istringstream words(in.word("rule" + of, "a rule of drumlin/check, any, words or noted"));
+  std::vector<std::string> rule(std::istream_iterator<std::string>(words), {});
+  in.word("unit" + of, "a unit, or -");
+  variable.group = in.word("group" + of, "a word");
+  in.word("meaning" + of, "a text in quotes");
+  in.expect_end("NAME DEFAULT RULE UNIT GROUP MEANING");
+  if (rule.empty()) in.fail("rule" + of, "", "a rule of drumlin/check, any, words or noted");
+  variable.given = rule[0] != "noted";
+  variable.words = rule[0] == "words";
+
+  DeckVariables variables(lmp);
+  variables.declare(variable);
+  variables.set_default(variable.name, standard);
+  // With a fault the deck continues with the default, so that drumlin/variables can first name a variable
+  // that the deck does not have.
+  const auto refuse = [&](const std::string &fault) {
+    variables.add_fault(fault);
+    variables.set(variable.name, standard);
+  };
+  if (variable.given)
+    for (const GivenVariable &given : given_variables())
+      if (given.name == variable.name)
+        if (const std::string allowed = value_fault(given, variable.words); !allowed.empty()) {
+          refuse(given.shown() + "; allowed: " + allowed);
+          return;
+        }
+  const std::string value = variables.value(variable.name).value_or("");
+  const std::string is = fmt::format("variable {} is '{}'", variable.name, value);
+  if (const std::string allowed = note_fault(variables, variable, value); !allowed.empty()) {
+    refuse(is + "; allowed: " + allowed);
+    return;
+  }
+  if (rule[0] == "any" || rule[0] == "words" || rule[0] == "noted") return;
+  std::replace(rule.begin(), rule.end(), std::string("%"), value);
+  if (const std::string fault = rule_fault(lmp, "drumlin/variable", variable.name, value, rule);
+      !fault.empty())
+    refuse(is + fault);
+}
+
+} // namespace drumlin
