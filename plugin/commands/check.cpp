@@ -258,7 +258,7 @@ void check_command(LAMMPS *lmp, int narg, char **arg) {
   try {
     Check(lmp, in, name, value).run();
   } catch (const Broken &broken) {
-    in.fail("variable " + name + " is '" + value + "'" + broken.text);
+    DeckVariables::refuse(lmp, "drumlin/check: variable " + name + " is '" + value + "'" + broken.text);
   }
 }
 

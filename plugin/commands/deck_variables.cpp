@@ -14,6 +14,7 @@ namespace {
 constexpr const char *of_declarations = "drumlin_declared";
 constexpr const char *of_notes = "drumlin_notes";
 constexpr const char *of_fault = "drumlin_fault";
+constexpr const char *of_open = "drumlin_open";
 
 std::vector<std::string> words_of(const std::string &text) {
   std::istringstream in(text);
@@ -72,6 +73,7 @@ void DeckVariables::declare(const DeclaredVariable &variable) {
   all.push_back(fmt::format("{} {} {} {}", variable.name, variable.group, variable.given ? "given" : "noted",
                             variable.words ? "words" : "word"));
   keep(of_declarations, all);
+  set(of_open, "yes");
 }
 
 TakenNotes DeckVariables::taken() const {
@@ -94,14 +96,23 @@ void DeckVariables::take(const TakenNotes &notes) {
   keep(of_notes, all);
 }
 
+bool DeckVariables::open() const { return value(of_open).value_or("") == "yes"; }
+
+void DeckVariables::close() { set(of_open, "no"); }
+
 std::string DeckVariables::fault() const { return value(of_fault).value_or(""); }
 
 void DeckVariables::add_fault(const std::string &fault) { set_default(of_fault, fault); }
 
+void DeckVariables::refuse(LAMMPS_NS::LAMMPS *lmp, const std::string &fault) {
+  DeckVariables variables(lmp);
+  if (!variables.open()) engine::stop(lmp, fault);
+  variables.add_fault(fault);
+}
+
 void DeckVariables::stop_on_fault(LAMMPS_NS::LAMMPS *lmp) {
   // Every rank has the same variables.
-  if (const std::string fault = DeckVariables(lmp).fault(); !fault.empty())
-    engine::stop(lmp, "drumlin/variable: " + fault);
+  if (const std::string fault = DeckVariables(lmp).fault(); !fault.empty()) engine::stop(lmp, fault);
 }
 
 bool same_value(const std::string &a, const std::string &b) {

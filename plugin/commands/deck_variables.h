@@ -48,9 +48,15 @@ public:
   TakenNotes taken() const;
   void take(const TakenNotes &notes);
 
-  /// The first fault of a declared variable, "variable NAME is 'VALUE'; allowed: WHAT"; empty: none.
+  /// Between the first drumlin/variable and drumlin/variables, which tells the first fault: only then does
+  /// the deck know all names.
+  bool open() const;
+  void close();
+  /// The first fault, "COMMAND: variable NAME is 'VALUE'; allowed: WHAT"; empty: none.
   std::string fault() const;
   void add_fault(const std::string &fault);
+  /// Ends the run with a fault, or notes it while declarations are open. Collective.
+  static void refuse(LAMMPS_NS::LAMMPS *lmp, const std::string &fault);
   /// Ends the run with the first fault, if there is one. Collective.
   static void stop_on_fault(LAMMPS_NS::LAMMPS *lmp);
 

@@ -12,22 +12,26 @@ namespace {
 
 using LAMMPS_NS::LAMMPS;
 
-/// The text of a file on rank 0, on all ranks: only one rank needs to see the file. Ends the run if the file
-/// is no roller's. Collective.
-Roller shared_roller(LAMMPS *lmp, const std::string &file) {
-  std::string fault, text;
+/// The roller of a file that rank 0 reads, on all ranks: only one rank needs to see the file. None if the
+/// file is no roller's, which is refused. Collective.
+std::optional<Roller> shared_roller(LAMMPS *lmp, const std::string &file) {
+  std::string text;
+  int is_roller = 0;
   if (lmp->comm->me == 0) try {
       text = roller_text(file);
       read_roller(text, file);
+      is_roller = 1;
     } catch (const std::invalid_argument &error) {
-      fault = error.what();
+      text = error.what();
     }
-  engine::stop_on_fault(lmp, "drumlin/roller", fault);
+  MPI_Bcast(&is_roller, 1, MPI_INT, 0, lmp->world);
   auto length = static_cast<int>(text.size());
   MPI_Bcast(&length, 1, MPI_INT, 0, lmp->world);
   text.resize(static_cast<std::size_t>(length));
   MPI_Bcast(text.data(), length, MPI_CHAR, 0, lmp->world);
-  return read_roller(text, file);
+  if (is_roller != 0) return read_roller(text, file);
+  DeckVariables::refuse(lmp, "drumlin/roller: " + text);
+  return std::nullopt;
 }
 
 /// Words for drumlin/record.
@@ -51,20 +55,28 @@ void roller_command(LAMMPS *lmp, int narg, char **arg) {
     if (*wanted == "none") wanted->clear();
   }
   in.expect_end("FILE, whole or per_metre, and setting NAME");
+  const auto refuse = [lmp](const std::string &fault) {
+    DeckVariables::refuse(lmp, "drumlin/roller: " + fault);
+  };
   DeckVariables variables(lmp);
   if (!variables.fault().empty()) return; // drumlin/variables will tell it
   if (file == "none") {
-    if (wanted && !wanted->empty()) in.fail("setting", *wanted, "none, since no roller is given");
+    if (wanted && !wanted->empty())
+      refuse("setting is '" + *wanted + "'; allowed: none, since no roller is given");
     return;
   }
 
-  const Roller roller = shared_roller(lmp, file);
+  const std::optional<Roller> read = shared_roller(lmp, file);
+  if (!read) return;
+  const Roller &roller = *read;
   double share = 1.0;
   if (per_metre) {
-    if (!roller.width)
-      in.fail("width of '" + file +
-              "' is missing; allowed: the width of the drum, since a bed has the roller "
-              "per metre of it");
+    if (!roller.width) {
+      refuse("width of '" + file +
+             "' is missing; allowed: the width of the drum, since a bed has the roller per "
+             "metre of it");
+      return;
+    }
     share = 1.0 / *roller.width;
   }
   const auto set = [&variables](const char *name, double value) {
@@ -75,10 +87,12 @@ void roller_command(LAMMPS *lmp, int narg, char **arg) {
   set("k23", roller.k23 * share);
   set("c23", roller.c23 * share);
   if (per_metre && !variables.value("r2")) {
-    if (!roller.diameter)
-      in.fail("diameter of '" + file +
-              "' is missing; allowed: the diameter of the drum in the file, or its "
-              "radius by -var r2");
+    if (!roller.diameter) {
+      refuse("diameter of '" + file +
+             "' is missing; allowed: the diameter of the drum in the file, or its radius "
+             "by -var r2");
+      return;
+    }
     set("r2", 0.5 * *roller.diameter);
   }
   if (!wanted) return;
@@ -88,8 +102,10 @@ void roller_command(LAMMPS *lmp, int narg, char **arg) {
     set("omega", 2.0 * roller_file::pi * setting.frequency);
     const std::string omega_text = *variables.value("omega");
     const double omega = parse_number(omega_text);
-    if (!in_range(omega, Range::positive))
-      in.fail("variable omega", omega_text, allowed_text(Range::positive));
+    if (!in_range(omega, Range::positive)) {
+      refuse("variable omega is '" + omega_text + "'; allowed: " + allowed_text(Range::positive));
+      return;
+    }
     set("Fw", setting.me_re * omega * omega * share);
     const double g = parse_number(variables.value("g").value_or(""));
     const std::vector<DerivedValue> values =
@@ -104,7 +120,7 @@ void roller_command(LAMMPS *lmp, int narg, char **arg) {
           "  The bond of drum and frame is not in the file: that of inputs/rollers/Axas2020 is assumed.\n";
     engine::log_message(lmp, text);
   } catch (const std::invalid_argument &error) {
-    in.fail(error.what());
+    refuse(error.what());
   }
 }
 

@@ -13,18 +13,17 @@ namespace {
 
 using LAMMPS_NS::LAMMPS;
 
-/// The notes of a file, which rank 0 reads and sends to all ranks. Ends the run if there is no such file.
-/// Collective.
+/// The notes of a file, which rank 0 reads and sends to all ranks; none if there is no such file, which is
+/// refused. Collective.
 RestartNotes shared_notes(LAMMPS *lmp, const std::string &file) {
-  std::string text, fault;
-  if (lmp->comm->me == 0) {
-    if (!can_be_read(file))
-      fault = "file is '" + file + "'; allowed: a file that can be read";
-    else
-      for (const auto &[name, value] : notes_of(file))
-        text += fmt::format("{} {}\n", name, value);
-  }
-  engine::stop_on_fault(lmp, "drumlin/take", fault);
+  std::string text;
+  if (lmp->comm->me == 0)
+    for (const auto &[name, value] : can_be_read(file) ? notes_of(file) : RestartNotes())
+      text += fmt::format("{} {}\n", name, value);
+  int readable = can_be_read(file) ? 1 : 0;
+  MPI_Bcast(&readable, 1, MPI_INT, 0, lmp->world);
+  if (readable == 0)
+    DeckVariables::refuse(lmp, "drumlin/take: file is '" + file + "'; allowed: a file that can be read");
   auto length = static_cast<int>(text.size());
   MPI_Bcast(&length, 1, MPI_INT, 0, lmp->world);
   text.resize(static_cast<std::size_t>(length));

@@ -63,7 +63,7 @@ void variable_command(LAMMPS *lmp, int narg, char **arg) {
   // With a fault the deck continues with the default, so that drumlin/variables can first name a variable
   // that the deck does not have.
   const auto refuse = [&](const std::string &fault) {
-    variables.add_fault(fault);
+    variables.add_fault("drumlin/variable: " + fault);
     variables.set(variable.name, standard);
   };
   if (variable.given)

@@ -58,7 +58,8 @@ void variables_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) {
     known.push_back(name);
     if (words) of_words.push_back(name);
   }
-  const DeckVariables variables(lmp);
+  DeckVariables variables(lmp);
+  variables.close();
   const std::vector<DeclaredVariable> declared = variables.declared();
   for (const DeclaredVariable &variable : declared) {
     if (variable.given) known.push_back(variable.name);
