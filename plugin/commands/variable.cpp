@@ -40,6 +40,18 @@ std::string note_fault(const DeckVariables &variables, const DeclaredVariable &v
                      free ? ", or change it on purpose by -var allow_change " + variable.name : "");
 }
 
+/// A quoted text with the values of the variables ${NAME} in it: the engines do not replace these in quotes.
+std::string with_values(const DeckVariables &variables, std::string text) {
+  for (std::size_t begin = 0; (begin = text.find("${", begin)) != std::string::npos;) {
+    const std::size_t end = text.find('}', begin);
+    if (end == std::string::npos) break;
+    const std::string value = variables.value(text.substr(begin + 2, end - begin - 2)).value_or("");
+    text.replace(begin, end + 1 - begin, value);
+    begin += value.size();
+  }
+  return text;
+}
+
 } // namespace
 
 void variable_command(LAMMPS *lmp, int narg, char **arg) {
@@ -47,7 +59,9 @@ void variable_command(LAMMPS *lmp, int narg, char **arg) {
   DeclaredVariable variable{in.word("name", "the variable's name"), "", true, false};
   const std::string of = " of variable " + variable.name;
   const std::string standard = in.word("default value" + of);
-  std::istringstream words(in.word("rule" + of, "a rule of drumlin/check, any, words or noted"));
+  DeckVariables variables(lmp);
+  std::istringstream words(
+      with_values(variables, in.word("rule" + of, "a rule of drumlin/check, any, words or noted")));
   std::vector<std::string> rule(std::istream_iterator<std::string>(words), {});
   in.word("unit" + of, "a unit, or -");
   variable.group = in.word("group" + of, "a word");
@@ -57,7 +71,6 @@ void variable_command(LAMMPS *lmp, int narg, char **arg) {
   variable.given = rule[0] != "noted";
   variable.words = rule[0] == "words";
 
-  DeckVariables variables(lmp);
   variables.declare(variable);
   variables.set_default(variable.name, standard);
   // With a fault the deck continues with the default, so that drumlin/variables can first name a variable
