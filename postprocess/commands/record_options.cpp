@@ -3,6 +3,7 @@
 #include "chain/parameters.h"
 #include "commands/text_options.h"
 #include "record/excitation.h"
+#include "support/csv.h"
 #include "support/options.h"
 #include "support/usage_error.h"
 
@@ -52,24 +53,39 @@ constexpr std::array<RecordNumber, 8> record_numbers = {
       {1e-3, 1e9, "Hz"},
       "cut-off frequency of a filter without phase shift for all columns [Hz]"}}};
 
-// What a roller's data say where the command line does not. With another frequency the force follows from the
-// eccentric moment; the force of a case without one stays the same.
+// What a case says where the command line does not.
 void add_case(const std::string &name, RecordOptions &options) {
-  NamedChain chain;
-  try {
-    chain = named_chain(name, Transition::B);
-  } catch (const std::invalid_argument &error) {
-    throw UsageError(fmt::format("--{}", error.what()));
-  }
-  const ChainParameters &p = chain.parameters;
+  const ChainParameters p = given_case(name, Transition::B);
   if (!options.omega) options.omega = p.omega;
   if (!options.m2) options.m2 = p.m2;
   if (!options.m3) options.m3 = p.m3;
-  if (options.Fw || options.me_re) return;
-  if (chain.me_re)
-    options.me_re = chain.me_re;
+  if (!options.Fw && !options.me_re) options.Fw = p.Fw;
+}
+
+// What a roller file says where the command line does not. A tolerance of the file is that of its own value.
+// With another frequency the force follows from the eccentric moment.
+void add_roller(GivenRoller &roller, RecordOptions &options) {
+  Roller &machine = roller.machine;
+  RollerSetting &setting = roller.setting;
+  MachineTolerances &tolerances = options.tolerances;
+  if (options.omega)
+    setting.frequency = *options.omega / (2.0 * pi);
   else
-    options.Fw = p.Fw;
+    options.omega = 2.0 * pi * setting.frequency;
+  const auto take = [](std::optional<double> &given, double &of_file, double &tolerance, double of_value) {
+    if (given) {
+      of_file = *given;
+    } else {
+      given = of_file;
+      tolerance = of_value;
+    }
+  };
+  take(options.m2, machine.m2, tolerances.m2, machine.m2_tolerance);
+  take(options.m3, machine.m3, tolerances.m3, machine.m3_tolerance);
+  if (options.Fw)
+    setting.me_re = *options.Fw / (*options.omega * *options.omega);
+  else
+    take(options.me_re, setting.me_re, tolerances.me_re, machine.me_re_tolerance);
 }
 
 } // namespace
@@ -92,10 +108,10 @@ void add_record_options(CLI::App &command, RecordArguments &arguments) {
       ->expected(1)
       ->take_all()
       ->group("Measured records");
+  add_roller_options(command, arguments.roller, "Measured records");
   text_option(
       &command, "--case", "NAME", arguments.chain_case,
-      fmt::format("roller whose frequency, eccentric moment and masses count where no option gives them: {}",
-                  fmt::join(chain_cases, ", ")))
+      fmt::format("case of the paper's Table 1 instead of a roller: {}", fmt::join(table1_cases, ", ")))
       ->group("Measured records");
   const auto of_file = [&command](const char *name, std::optional<std::string> &into, const char *help) {
     text_option(&command, name, "WORD", into, help)->group("Measured records");
@@ -143,6 +159,8 @@ std::vector<GivenPath> files_of(const RecordArguments &arguments) {
     else
       files.push_back({"RECORD", path});
   }
+  for (const GivenPath &file : files_of(arguments.roller))
+    files.push_back(file);
   return files;
 }
 
@@ -181,11 +199,22 @@ Record judged(const RecordArguments &arguments) {
   options.low_pass = number(7);
   if (options.Fw && options.me_re)
     throw UsageError(refusal("--me-re", *arguments.me_re, "not together with --Fw, which follows from it"));
+  if (arguments.chain_case && arguments.roller.file)
+    throw UsageError(refusal("--case", *arguments.chain_case, "without --roller, which has another machine"));
   if (arguments.chain_case) add_case(*arguments.chain_case, options);
+  std::optional<GivenRoller> roller = judged(arguments.roller);
+  if (roller) add_roller(*roller, options);
   const std::optional<double> low_pass = std::exchange(options.low_pass, std::nullopt);
   Record record = read_record(paths, options);
   settle_excitation(record, options);
   if (low_pass) filter_signals(record, *low_pass);
+  if (roller) {
+    record.parameters.emplace("k23", number_text(roller->machine.k23));
+    record.parameters.emplace("c23", number_text(roller->machine.c23));
+    if (record.Fw) record.parameters.emplace("Fw", number_text(*record.Fw));
+    const std::vector<std::string> lines = roller->lines(record.g.value_or(ChainParameters().g));
+    record.notes.insert(record.notes.begin(), lines.begin(), lines.end());
+  }
   return record;
 }
 
