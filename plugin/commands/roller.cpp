@@ -39,9 +39,10 @@ public:
     const char *text = variables_.retrieve(name.data());
     return text == nullptr ? std::nullopt : std::optional<std::string>(text);
   }
-  void set(std::string name, std::string value, std::string style = "index") {
+  void set(std::string name, std::string value) {
+    std::string style = "index";
     char *words[] = {name.data(), style.data(), value.data()};
-    if (variables_.find(name.data()) < 0 || style != "index") variables_.set(3, words);
+    if (variables_.find(name.data()) < 0) variables_.set(3, words);
   }
   void set(const std::string &name, double value) { set(name, fmt::format("{:.17g}", value)); }
 
@@ -49,9 +50,9 @@ private:
   LAMMPS_NS::Variable &variables_;
 };
 
-/// Values in the units of a table: kN, mm and so on would need a reader to convert.
-std::string rows_of(const std::vector<DerivedValue> &values) {
-  std::string rows;
+/// Words for drumlin/record.
+std::string rows_of(const RollerSetting &setting, const std::vector<DerivedValue> &values) {
+  std::string rows = "setting " + (setting.name.empty() ? "none" : setting.name);
   for (const DerivedValue &value : values)
     rows += fmt::format(" roller_{} {:.9g}", value.name, value.value);
   return rows;
@@ -70,6 +71,10 @@ void roller_command(LAMMPS *lmp, int narg, char **arg) {
     if (*wanted == "none") wanted->clear();
   }
   in.expect_end("FILE, whole or per_metre, and setting NAME");
+  if (file == "none") {
+    if (wanted && !wanted->empty()) in.fail("setting", *wanted, "none, since no roller is given");
+    return;
+  }
 
   const Roller roller = shared_roller(lmp, file);
   double share = 1.0;
@@ -105,7 +110,7 @@ void roller_command(LAMMPS *lmp, int narg, char **arg) {
     const double g = parse_number(variables.value("g").value_or(""));
     const std::vector<DerivedValue> values =
         derived_values(roller, setting, omega, std::isfinite(g) ? g : roller_file::gravity);
-    variables.set("roller_values", rows_of(values).substr(1), "string");
+    variables.set("roller_values", rows_of(setting, values));
     std::string text =
         fmt::format("Roller '{}'{}:\n", file, setting.name.empty() ? "" : ", setting " + setting.name);
     for (const DerivedValue &value : values)

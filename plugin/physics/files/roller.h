@@ -349,9 +349,9 @@ inline const RollerSetting &setting_of(const Roller &roller, const std::string &
   if (found != roller.settings.end()) return *found;
   if (name.empty() && roller.settings.size() == 1) return roller.settings.front();
   const bool none = roller.settings.front().name.empty();
-  throw std::invalid_argument("setting is '" + roller_file::shown(name) + "'; allowed: " +
-                              (none ? "not given" : roller_file::names_of(roller.settings)) + ", since '" +
-                              file + "' has " + (none ? "no named settings" : "these settings"));
+  throw std::invalid_argument(
+      "setting" + (name.empty() ? " is missing" : " is '" + roller_file::shown(name) + "'") +
+      "; allowed: " + (none ? "none" : roller_file::names_of(roller.settings)) + ", of '" + file + "'");
 }
 
 /// What follows from roller and frequency: printed before a run and stored with it. \param g gravity [m/s2]
