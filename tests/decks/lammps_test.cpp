@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(
     chain_name);
 
 TEST_F(InLammps, RunsRollersAsInLiggghts) {
-  const fs::path rollers = fs::path(DRUMLIN_SOURCE_DIR) / "inputs/rollers";
+  const std::filesystem::path rollers = std::filesystem::path(DRUMLIN_SOURCE_DIR) / "inputs/rollers";
   for (const auto &[machine, setting] :
        {std::pair("Axas2020", "29Hz"), {"BW120", "63Hz"}, {"CA3500", "low"}, {"CA6500", "high"}}) {
     SCOPED_TRACE(machine);
