@@ -65,7 +65,7 @@ std::vector<std::string> GivenRoller::lines(double g) const {
 void add_roller_options(CLI::App &command, RollerArguments &arguments, const char *group) {
   text_option(&command, "--roller", "FILE", arguments.file,
               "masses, bond, frequency and eccentric moment of the roller that the file describes, as those "
-              "of inputs/rollers")
+              "of inputs/rollers; other options, and what a run has noted, count more")
       ->group(group);
   text_option(&command, "--setting", "NAME", arguments.setting,
               "setting of the roller's exciter; needed if its file has several")

@@ -79,6 +79,20 @@ TEST_F(MeterCommand, TakesTheDrumOfARollerFile) {
   EXPECT_NE(values({"--roller", "mine", "--poisson", "0.2"}).first, by_file.first);
 }
 
+// A run has noted its frequency, masses and force, which those of the file do not replace.
+TEST_F(MeterCommand, OfARunTakesTheDrumsSizeAlone) {
+  write_chain_run(folder_ / "run", "II", Transition::B, 30);
+  write_files({{folder_ / "mine", "drum_load 7000 kg\nwidth 2.13 m\ndiameter 1.5 m\nfrequency 29 Hz\n"
+                                  "force 256 kN\namplitude 1.8 mm\n"}});
+  const auto values = [this](std::vector<std::string> words) {
+    words.insert(words.begin(), "run");
+    EXPECT_TRUE(meter(words).ok());
+    return read_text(folder_ / "results/meter/meter.csv");
+  };
+  EXPECT_EQ(values({"--roller", "mine"}), values({"--drum-radius", "0.75", "--drum-width", "2.13"}));
+  EXPECT_NE(values({"--roller", "mine", "--m2", "3000"}), values({"--roller", "mine"}));
+}
+
 const std::vector<std::string> as_measured = {"--column",        "time=Time:ms", "--column",
                                               "a_drum=Acc Z:-g", "--frequency",  "29"};
 
