@@ -198,7 +198,7 @@ std::string case_text(const CalibrationTask &task, const std::vector<double> &po
   std::string text;
   for (const std::string &line : heading)
     text += "# " + line + "\n";
-  text += "\ninclude ${here}/sizes\n";
+  text += "\n";
   const auto set = [&text](const std::string &name, const std::string &value) {
     text += fmt::format("variable {:<15} index {}\n", name, value);
   };
@@ -209,10 +209,9 @@ std::string case_text(const CalibrationTask &task, const std::vector<double> &po
        values_of(task, point, std::array{pour_friction, "m2", "m3", "r2", "r3", "k23", "c23"}))
     set(name, value);
   const double step = time_step(task, point);
-  set("dt", fmt::format("$({}*v_step_scale)", number_text(step, step_digits)));
-  set("steps_per_cycle",
-      fmt::format("$(250*ceil({}/v_step_scale))", steps_per_cycle(step, default_frequency) / 250));
-  return text + "include ${here}/case.gravel\n";
+  set("dt_of_16mm", number_text(step, step_digits));
+  set("steps_at_20_Hz", fmt::format("{}", steps_per_cycle(step, default_frequency) / 250));
+  return text;
 }
 
 } // namespace drumlin::post

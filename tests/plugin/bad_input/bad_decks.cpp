@@ -29,7 +29,7 @@ BadGroup of_deck(const std::string &name, const std::string &deck, const std::ve
       for (const std::string &value : words_of(row.values)) {
         group.inputs.push_back({fmt::format("{} '{}'", variable, value),
                                 "",
-                                {fmt::format("drumlin/check: variable {} is '{}'; ", variable, value),
+                                {fmt::format(": variable {} is '{}'; ", variable, value),
                                  "allowed: " + row.allowed},
                                 kind,
                                 {{variable, value}}});
@@ -141,7 +141,7 @@ BadGroup bed_settle() {
        {"balls", "none.data", "a file that can be read, which './drumlin bed --out none.data' makes",
         on_two_ranks}},
       {{"a case without a file", "case sand",
-        "drumlin/check: variable case is ' ... allowed: a file that can be read"}});
+        "drumlin/variable: variable case is 'sand'; allowed: base_course, gravel, gravel3d"}});
 }
 
 BadGroup bed_place() {
@@ -152,7 +152,7 @@ BadGroup bed_place() {
                   {"drag", "1e9", "a finite number below 160000, which is 1/dt"},
                   {"ratio", "0", positive}},
                  {{"no bed", "bed none.restart",
-                   "drumlin/check: variable bed is 'none.restart'; ... ./drumlin run inputs/bed/in.settle "
+                   "drumlin/variable: variable bed is 'none.restart'; ... ./drumlin run inputs/bed/in.settle "
                    "-var bed none.restart",
                    on_two_ranks}});
 }
@@ -169,7 +169,7 @@ BadGroup bed() {
                    "variable steps_per_cycle is '8000' ... allowed: a multiple of dumps_per_cycle, which is "
                    "3"},
                   {"no roller", "start none.restart",
-                   "drumlin/check: variable start is 'none.restart'; ... ./drumlin run inputs/bed/in.place "
+                   "drumlin/variable: variable start is 'none.restart'; ... ./drumlin run inputs/bed/in.place "
                    "-var start none.restart",
                    on_two_ranks}});
 }
@@ -269,7 +269,7 @@ BadGroup plate() {
        {"a ramp that is no multiple", "ramp 700",
         "variable ramp is '700' ... allowed: a multiple of every, which is 500"},
        {"no bed", "bed none.restart",
-        "drumlin/check: variable bed is 'none.restart'; ... ./drumlin run inputs/bed/in.settle -var bed "
+        "drumlin/variable: variable bed is 'none.restart'; ... ./drumlin run inputs/bed/in.settle -var bed "
         "none.restart",
         on_two_ranks}});
 }
