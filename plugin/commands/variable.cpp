@@ -71,7 +71,15 @@ void variable_command(LAMMPS *lmp, int narg, char **arg) {
   variable.given = rule[0] != "noted";
   variable.words = rule[0] == "words";
 
+  const std::vector<GivenVariable> all_given = given_variables();
+  // A variable of the command line is none until it is declared: what a deck uses itself cannot be given.
+  if (!variables.open())
+    for (const GivenVariable &given : all_given)
+      if (!of_front_script(given.name)) variables.remove(given.name);
   variables.declare(variable);
+  const auto given = std::find_if(all_given.begin(), all_given.end(),
+                                  [&](const GivenVariable &one) { return one.name == variable.name; });
+  if (variable.given && given != all_given.end()) variables.set(variable.name, joined(given->values, " "));
   variables.set_default(variable.name, standard);
   // With a fault the deck continues with the default, so that drumlin/variables can first name a variable
   // that the deck does not have.
@@ -79,13 +87,11 @@ void variable_command(LAMMPS *lmp, int narg, char **arg) {
     variables.add_fault("drumlin/variable: " + fault);
     variables.set(variable.name, standard);
   };
-  if (variable.given)
-    for (const GivenVariable &given : given_variables())
-      if (given.name == variable.name)
-        if (const std::string allowed = value_fault(given, variable.words); !allowed.empty()) {
-          refuse(given.shown() + "; allowed: " + allowed);
-          return;
-        }
+  if (variable.given && given != all_given.end())
+    if (const std::string allowed = value_fault(*given, variable.words); !allowed.empty()) {
+      refuse(given->shown() + "; allowed: " + allowed);
+      return;
+    }
   const std::string value = variables.value(variable.name).value_or("");
   const std::string is = fmt::format("variable {} is '{}'", variable.name, value);
   if (const std::string allowed = note_fault(variables, variable, value); !allowed.empty()) {

@@ -227,7 +227,7 @@ TEST(BadInputDecks, KnowTheirVariables) {
 // redefine variable as a different style", which does not tell the name of the variable.
 TEST(BadInputDecks, KeepTheirOwnVariables) {
   const std::vector<std::pair<const char *, std::vector<std::string>>> table = {
-      {"bed/in.bed", {"rolls", "contact_k", "absorbing", "ground_rule"}},
+      {"bed/in.bed", {"rolls", "contact_k", "absorbing", "ground_rule", "in_lammps", "engine"}},
       {"chain/in.chain", {"roller_values", "drumlin_fault"}},
       {"soil/in.biaxial", {"test", "of_test", "samples"}},
       {"soil/in.oedometer", {"of_test", "samples"}},
