@@ -116,7 +116,11 @@ void DeckVariables::refuse(LAMMPS_NS::LAMMPS *lmp, const std::string &fault) {
 
 void DeckVariables::stop_on_fault(LAMMPS_NS::LAMMPS *lmp) {
   // Every rank has the same variables.
-  if (const std::string fault = DeckVariables(lmp).fault(); !fault.empty()) engine::stop(lmp, fault);
+  const DeckVariables variables(lmp);
+  if (const std::string fault = variables.fault(); !fault.empty()) engine::stop(lmp, fault);
+  if (variables.open())
+    engine::stop(lmp, "drumlin/variable: command drumlin/variables is missing; allowed: behind the last "
+                      "drumlin/variable, before the deck records, settles or runs");
 }
 
 bool same_value(const std::string &a, const std::string &b) {

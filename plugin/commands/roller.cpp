@@ -100,7 +100,9 @@ void roller_command(LAMMPS *lmp, int narg, char **arg) {
   try {
     const RollerSetting &setting = setting_of(roller, *wanted, file);
     set("omega", 2.0 * roller_file::pi * setting.frequency);
-    const std::string omega_text = *variables.value("omega");
+    std::string omega_text = *variables.value("omega");
+    for (const GivenVariable &given : given_variables()) // none of the deck's before it is declared
+      if (given.name == "omega" && given.values.size() == 1) omega_text = given.values.front();
     const double omega = parse_number(omega_text);
     if (!in_range(omega, Range::positive)) {
       refuse("variable omega is '" + omega_text + "'; allowed: " + allowed_text(Range::positive));
