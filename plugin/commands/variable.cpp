@@ -18,6 +18,19 @@ bool is_in(const List &list, const std::string &name) {
   return std::find(list.begin(), list.end(), name) != list.end();
 }
 
+/// A text with the values of the variables that it names as ${NAME}: within quotes the engines leave these.
+std::string with_values(const DeckVariables &variables, std::string text) {
+  for (std::size_t at = text.find("${"); at != std::string::npos; at = text.find("${", at)) {
+    const std::size_t end = text.find('}', at);
+    const auto value =
+        end == std::string::npos ? std::nullopt : variables.value(text.substr(at + 2, end - at - 2));
+    if (!value) return text;
+    text.replace(at, end + 1 - at, *value);
+    at += value->size();
+  }
+  return text;
+}
+
 /// What is wrong with the value of a variable, or with its note in a file, behind "allowed: "; empty:
 /// nothing.
 std::string note_fault(const DeckVariables &variables, const DeclaredVariable &variable,
@@ -47,7 +60,9 @@ void variable_command(LAMMPS *lmp, int narg, char **arg) {
   DeclaredVariable variable{in.word("name", "the variable's name"), "", true, false};
   const std::string of = " of variable " + variable.name;
   const std::string standard = in.word("default value" + of);
-  std::istringstream words(in.word("rule" + of, "a rule of drumlin/check, any, words or noted"));
+  DeckVariables variables(lmp);
+  std::istringstream words(
+      with_values(variables, in.word("rule" + of, "a rule of drumlin/check, any, words or noted")));
   std::vector<std::string> rule(std::istream_iterator<std::string>(words), {});
   in.word("unit" + of, "a unit, or -");
   variable.group = in.word("group" + of, "a word");
@@ -57,7 +72,6 @@ void variable_command(LAMMPS *lmp, int narg, char **arg) {
   variable.given = rule[0] != "noted";
   variable.words = rule[0] == "words";
 
-  DeckVariables variables(lmp);
   variables.declare(variable);
   variables.set_default(variable.name, standard);
   // With a fault the deck continues with the default, so that drumlin/variables can first name a variable
