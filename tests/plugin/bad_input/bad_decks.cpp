@@ -27,12 +27,13 @@ BadGroup of_deck(const std::string &name, const std::string &deck, const std::ve
     for (const std::string &variable : words_of(row.variables)) {
       unsigned kind = row.kind;
       for (const std::string &value : words_of(row.values)) {
-        group.inputs.push_back({fmt::format("{} '{}'", variable, value),
-                                "",
-                                {fmt::format("drumlin/check: variable {} is '{}'; ", variable, value),
-                                 "allowed: " + row.allowed},
-                                kind,
-                                {{variable, value}}});
+        group.inputs.push_back(
+            {fmt::format("{} '{}'", variable, value),
+             "",
+             {"drumlin/", // variable; check, with the value of another one
+              fmt::format(": variable {} is '{}'; ", variable, value), "allowed: " + row.allowed},
+             kind,
+             {{variable, value}}});
         kind = on_one_rank;
       }
     }
@@ -176,6 +177,7 @@ BadGroup bed() {
 
 BadGroup oedometer() {
   const std::string check = "drumlin/check: variable ";
+  const std::string declared = "drumlin/variable: variable ";
   return of_deck(
       "Oedometer", "soil/in.oedometer",
       {{"radius density k kt seating ratio dt drag", "0 -1 nan", positive},
@@ -200,10 +202,13 @@ BadGroup oedometer() {
         check + "density is '1e20' ... allowed: a finite number below ... prepare_drag"},
        {"a drag with which the density does not matter", "density 1e20, prepare_drag 1e9",
         check + "prepare_drag is '1e9'"},
-       {"a lattice in the plane", "sample hexagonal, dimension 3", check + "dimension is '3' ... allowed: 2"},
-       {"a seed without random numbers", "sample cubic, seed 2", check + "seed is '2' ... allowed: 1"},
-       {"a lattice of several sizes", "sample cubic, spread 0.1", check + "spread is '0.1' ... allowed: 0"},
-       {"an unknown sample", "sample clay", check + "sample is 'clay' ... allowed: hexagonal", on_two_ranks},
+       {"a lattice in the plane", "sample hexagonal, dimension 3",
+        declared + "dimension is '3' ... allowed: 2"},
+       {"a seed without random numbers", "sample cubic, seed 2", declared + "seed is '2' ... allowed: 1"},
+       {"a lattice of several sizes", "sample cubic, spread 0.1",
+        declared + "spread is '0.1' ... allowed: 0"},
+       {"an unknown sample", "sample clay", declared + "sample is 'clay' ... allowed: hexagonal",
+        on_two_ranks},
        {"a load of 0", "loads 25 0 50", check + "loads is '0' ... allowed: " + positive},
        {"a load that is a word", "loads 25 heavy", check + "loads is 'heavy' ... allowed: " + positive},
        {"a ramp that is no multiple", "ramp 300",
@@ -211,16 +216,22 @@ BadGroup oedometer() {
 }
 
 BadGroup spheres() {
-  return of_deck("Spheres", "benchmarks/in.spheres",
-                 {{"e density r1 E E2 contacts duration", "0 -1 nan", positive},
-                  {"mu mu_r g onset ceiling vn", "-0.5", non_negative},
-                  {"spheres every steps_per_contact", "0 2.5", whole},
-                  {"case", "chung_ooi_9", "chung_ooi_1", on_two_ranks},
-                  {"material", "gold", "glass or limestone"},
-                  {"normal", "linear", "hooke or hertz"},
-                  {"stepping", "half", "second or stock"}},
-                 {{"a linear law without stiffness", "case slip, k 0",
-                   std::string("drumlin/check: variable k is '0' ... allowed: ") + positive}});
+  return of_deck(
+      "Spheres", "benchmarks/in.spheres",
+      {{"e density r1 E E2 contacts duration", "0 -1 nan", positive},
+       {"mu mu_r g onset ceiling vn", "-0.5", non_negative},
+       {"spheres every steps_per_contact", "0 2.5", whole},
+       {"case", "chung_ooi_9", "chung_ooi_1", on_two_ranks},
+       {"material", "gold", "glass or limestone"},
+       {"normal", "linear", "hooke or hertz"},
+       {"stepping", "half", "second or stock"}},
+      {{"a linear law without stiffness", "case slip, k 0",
+        std::string("drumlin/check: variable k is '0' ... allowed: ") + positive},
+       {"a Hertz law with a stiffness", "k 1e6", "drumlin/check: variable k is '1e6' ... allowed: 0"},
+       {"an impact without speed", "vn 0, mu 0.3",
+        std::string("drumlin/check: variable vn is '0' ... allowed: ") + positive},
+       {"a material of a case without one", "case slip, material glass",
+        "drumlin/variables: -var material is 'glass', a variable that this deck does not have"}});
 }
 
 BadGroup biaxial() {
