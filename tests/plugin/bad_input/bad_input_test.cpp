@@ -100,7 +100,7 @@ const std::string &bed_file(const std::string &stage) {
   if (text.empty()) {
     const Scratch scratch;
     well(run_host(host_pair_style() + host_properties(),
-                  "drumlin/write_restart bed.restart bed " + stage +
+                  "drumlin/write restart bed.restart bed " + stage +
                       " case gravel dimension 2 walls 1 stepping stock g 9.81 tangential "
                       "coulomb rolling_history 1 k 1e9 D 0.3 "
                       "friction 0.8 rolling 0.3 drum ball m2 2000 m3 1000 r2 0.35 r3 0.25 rc "
@@ -197,8 +197,7 @@ TEST(BadInput, BracesStayAsTheyAreInLammps) {
                                    {"bed/in.bed.lammps", "start"}})
     for (const std::string value : {"{}", "{0}", "{"}) {
       EXPECT_TRUE(fails_with(post::run_deck(decks / deck, {{name, value}}, scratch.path()),
-                             "ERROR: drumlin/check: variable " + std::string(name) + " is '" + value +
-                                 "'; allowed: "));
+                             ": variable " + std::string(name) + " is '" + value + "'; allowed: "));
     }
 }
 
@@ -229,10 +228,11 @@ TEST(BadInputDecks, KeepTheirOwnVariables) {
   const std::vector<std::pair<const char *, std::vector<std::string>>> table = {
       {"bed/in.bed", {"of_bed", "of_boundary", "own_names"}},
       {"chain/in.chain", {"own_names"}},
-      {"soil/in.biaxial", {"test", "of_test", "samples"}},
-      {"soil/in.oedometer", {"of_test", "samples"}},
-      {"soil/in.repose", {"test", "of_test", "files", "moved", "along_x", "rough"}},
-      {"soil/in.shear", {"of_test", "samples"}},
+      {"benchmarks/in.spheres", {"m1", "rest", "step", "E2_over_E"}},
+      {"soil/in.biaxial", {"test", "samples", "dimensions"}},
+      {"soil/in.oedometer", {"test", "samples", "mass", "pitch", "of_h", "softer", "loose"}},
+      {"soil/in.repose", {"test", "files", "moved", "along_x", "wall_friction", "rough"}},
+      {"soil/in.shear", {"test", "samples"}},
       {"soil/in.silo", {"floor", "test_drag", "until_free", "along_y", "flat_radius"}},
       {"soil/in.triaxial", {"test", "samples"}},
       {"soil/in.wall", {"floor", "rough"}}};
