@@ -30,10 +30,14 @@ std::optional<std::string> DeckVariables::value(const std::string &name) const {
   return text == nullptr ? std::nullopt : std::optional<std::string>(text);
 }
 
-void DeckVariables::set(const std::string &name, const std::string &value) {
+void DeckVariables::remove(const std::string &name) {
   std::string words[] = {name, "delete"};
   char *pointers[] = {words[0].data(), words[1].data()};
   if (variables_.find(words[0].data()) >= 0) variables_.set(2, pointers);
+}
+
+void DeckVariables::set(const std::string &name, const std::string &value) {
+  remove(name);
   set_default(name, value);
 }
 
@@ -136,6 +140,8 @@ std::string GivenVariable::shown() const {
   if (value.size() > longest_shown) value = value.substr(0, longest_shown) + "...";
   return fmt::format("variable {} is '{}'", name, value);
 }
+
+bool of_front_script(const std::string &name) { return name == "here" || name == "plugin"; }
 
 std::vector<GivenVariable> given_variables() {
   const std::vector<std::string> words = command_line_arguments();

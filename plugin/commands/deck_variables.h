@@ -39,6 +39,7 @@ public:
   std::optional<std::string> value(const std::string &name) const;
   /// Gives a variable a value, whatever it was before.
   void set(const std::string &name, const std::string &value);
+  void remove(const std::string &name);
   /// Gives a variable a value unless it has one.
   void set_default(const std::string &name, const std::string &value);
 
@@ -78,6 +79,9 @@ struct GivenVariable {
   /// "variable NAME is 'VALUE'" for an error, without control characters, at most 60 characters of the value
   std::string shown() const;
 };
+
+/// Whether `drumlin run` gives a variable of this name, to every deck.
+bool of_front_script(const std::string &name);
 
 /// The variables of the command line of this process, read as the engines read them.
 std::vector<GivenVariable> given_variables();

@@ -62,6 +62,10 @@ void take_command(LAMMPS *lmp, int narg, char **arg) {
   DeckVariables variables(lmp);
   if (!variables.fault().empty()) return; // drumlin/variables will tell it
   taken.notes = shared_notes(lmp, taken.file);
+  if (taken.notes.empty() && !(taken.fixed.empty() && taken.free.empty()))
+    DeckVariables::refuse(lmp, "drumlin/take: file is '" + taken.file +
+                                   "', which notes no values; allowed: a file that " + taken.decks +
+                                   " of this version have made");
   for (const char *own : {"engine", "end", "bytes", "crc32"})
     except.push_back(own);
   taken.notes.erase(std::remove_if(taken.notes.begin(), taken.notes.end(),

@@ -18,19 +18,6 @@ bool is_in(const List &list, const std::string &name) {
   return std::find(list.begin(), list.end(), name) != list.end();
 }
 
-/// A text with the values of the variables that it names as ${NAME}: within quotes the engines leave these.
-std::string with_values(const DeckVariables &variables, std::string text) {
-  for (std::size_t at = text.find("${"); at != std::string::npos; at = text.find("${", at)) {
-    const std::size_t end = text.find('}', at);
-    const auto value =
-        end == std::string::npos ? std::nullopt : variables.value(text.substr(at + 2, end - at - 2));
-    if (!value) return text;
-    text.replace(at, end + 1 - at, *value);
-    at += value->size();
-  }
-  return text;
-}
-
 /// What is wrong with the value of a variable, or with its note in a file, behind "allowed: "; empty:
 /// nothing.
 std::string note_fault(const DeckVariables &variables, const DeclaredVariable &variable,
@@ -53,6 +40,18 @@ std::string note_fault(const DeckVariables &variables, const DeclaredVariable &v
                      free ? ", or change it on purpose by -var allow_change " + variable.name : "");
 }
 
+/// A quoted text with the values of the variables ${NAME} in it: the engines do not replace these in quotes.
+std::string with_values(const DeckVariables &variables, std::string text) {
+  for (std::size_t begin = 0; (begin = text.find("${", begin)) != std::string::npos;) {
+    const std::size_t end = text.find('}', begin);
+    if (end == std::string::npos) break;
+    const std::string value = variables.value(text.substr(begin + 2, end - begin - 2)).value_or("");
+    text.replace(begin, end + 1 - begin, value);
+    begin += value.size();
+  }
+  return text;
+}
+
 } // namespace
 
 void variable_command(LAMMPS *lmp, int narg, char **arg) {
@@ -72,7 +71,15 @@ void variable_command(LAMMPS *lmp, int narg, char **arg) {
   variable.given = rule[0] != "noted";
   variable.words = rule[0] == "words";
 
+  const std::vector<GivenVariable> all_given = given_variables();
+  // A variable of the command line is none until it is declared: what a deck uses itself cannot be given.
+  if (!variables.open())
+    for (const GivenVariable &given : all_given)
+      if (!of_front_script(given.name)) variables.remove(given.name);
   variables.declare(variable);
+  const auto given = std::find_if(all_given.begin(), all_given.end(),
+                                  [&](const GivenVariable &one) { return one.name == variable.name; });
+  if (variable.given && given != all_given.end()) variables.set(variable.name, joined(given->values, " "));
   variables.set_default(variable.name, standard);
   // With a fault the deck continues with the default, so that drumlin/variables can first name a variable
   // that the deck does not have.
@@ -80,13 +87,11 @@ void variable_command(LAMMPS *lmp, int narg, char **arg) {
     variables.add_fault("drumlin/variable: " + fault);
     variables.set(variable.name, standard);
   };
-  if (variable.given)
-    for (const GivenVariable &given : given_variables())
-      if (given.name == variable.name)
-        if (const std::string allowed = value_fault(given, variable.words); !allowed.empty()) {
-          refuse(given.shown() + "; allowed: " + allowed);
-          return;
-        }
+  if (variable.given && given != all_given.end())
+    if (const std::string allowed = value_fault(*given, variable.words); !allowed.empty()) {
+      refuse(given->shown() + "; allowed: " + allowed);
+      return;
+    }
   const std::string value = variables.value(variable.name).value_or("");
   const std::string is = fmt::format("variable {} is '{}'", variable.name, value);
   if (const std::string allowed = note_fault(variables, variable, value); !allowed.empty()) {

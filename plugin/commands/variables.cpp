@@ -61,6 +61,8 @@ void variables_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) {
   DeckVariables variables(lmp);
   variables.close();
   const std::vector<DeclaredVariable> declared = variables.declared();
+  if (!declared.empty() && !known.empty())
+    in.fail("name", known.front(), "no names behind drumlin/variable, which declares each");
   for (const DeclaredVariable &variable : declared) {
     if (variable.given) known.push_back(variable.name);
     if (variable.words) of_words.push_back(variable.name);
@@ -69,7 +71,7 @@ void variables_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) {
   // Every rank was started with the same command line, so that all find the same fault.
   const std::vector<GivenVariable> all_given = given_variables();
   for (const GivenVariable &given : all_given)
-    if (given.name != "here" && given.name != "plugin" && !is_in(known, given.name)) // of the front script
+    if (!of_front_script(given.name) && !is_in(known, given.name))
       in.fail(fmt::format("-var {}, a variable that this deck does not have; allowed: {}, the nearest of {}",
                           given.shown().substr(std::string("variable ").size()), nearest(given.name, known),
                           joined(known, ", ")));
@@ -79,6 +81,11 @@ void variables_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) {
       in.fail(given.shown() + "; allowed: " + allowed);
   DeckVariables::stop_on_fault(lmp);
   const TakenNotes taken = variables.taken();
+  for (const auto *groups : {&taken.fixed, &taken.free})
+    for (const std::string &group : *groups)
+      if (std::none_of(declared.begin(), declared.end(),
+                       [&group](const DeclaredVariable &variable) { return variable.group == group; }))
+        in.fail("group of drumlin/take", group, "a group of variables of drumlin/variable");
   std::vector<std::string> may_change;
   for (const DeclaredVariable &variable : declared)
     if (is_in(taken.free, variable.group)) may_change.push_back(variable.name);

@@ -1,5 +1,6 @@
 #include "commands/commands.h"
 
+#include "engine/deck_variables.h"
 #include "engine/engine_command.h"
 #include "engine/places.h"
 #include "support/options.h"
@@ -7,10 +8,12 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,6 +52,16 @@ void run(const std::vector<std::string> &words) {
   const std::string &deck = words[next];
   const std::vector<std::string> rest(words.begin() + static_cast<std::ptrdiff_t>(next) + 1, words.end());
   const std::filesystem::path file = find_deck(deck);
+  if (const auto help = std::find_if(
+          rest.begin(), rest.end(), [](const std::string &word) { return word == "--help" || word == "-h"; });
+      help != rest.end()) {
+    std::map<std::string, std::string> given;
+    for (std::size_t i = 0; i + 2 < rest.size(); ++i)
+      if (rest[i] == "-var" || rest[i] == "-v") given.emplace(rest[i + 1], rest[i + 2]);
+    fmt::print("Variables of {}, by -var NAME VALUE, with defaults:\n{}", deck,
+               variables_text(deck_variables(file, given), 100));
+    return;
+  }
   keep_inputs(file, rest);
   EngineCommand command = engine_command(file, plain_words(rest), ranks);
   if (engine_of(deck) == Engine::lammps)
@@ -73,7 +86,8 @@ void add_run_command(CLI::App &app, Session &) {
   command->footer("Words:\n"
                   "  -np N             number of MPI ranks, started by mpirun; 1 if not given\n"
                   "  DECK              a file, or one of inputs by its name, such as chain/in.chain\n"
-                  "  engine arguments  all further words, as they are, such as -var NAME VALUE\n");
+                  "  engine arguments  all further words, as they are, such as -var NAME VALUE\n"
+                  "  DECK --help       the variables of a deck, with defaults, units and meaning\n");
   command->callback([command] { run(command->remaining()); });
 }
 

@@ -218,7 +218,7 @@ protected:
       for (const auto &[name, value] : of_another_scene) {
         EXPECT_TRUE(
             fails_with(shaken(left, {{"start", start}, {name, value}}, ranks),
-                       fmt::format("ERROR: drumlin/take: variable {} is '{}'; allowed: ", name, value)));
+                       fmt::format("ERROR: drumlin/variable: variable {} is '{}'; allowed: ", name, value)));
       }
       EXPECT_EQ(post::read_parameters(left / "parameters.csv").at("ended"),
                 "drumlin/run: stopped at step 1000 of 3000 by limit 0.001 s; continue from " + start);
@@ -761,21 +761,21 @@ TEST_F(Bed, RefusesValuesThatAreNotTheBedsOnRanksOneAndTwo) {
           std::array{"tangential", "history", "coulomb"}, std::array{"dimension", "3", "2"}})
       if (ranks == 1 || *name == 'k')
         refused("in.bed", {{name, value}},
-                std::string("drumlin/take: variable ") + name + " is '" + value + "'; allowed: " + was +
+                std::string("drumlin/variable: variable ") + name + " is '" + value + "'; allowed: " + was +
                     ", with which ",
                 ranks);
     refused("in.place",
             {{"friction", "0.2"}, {"bed", (scratch / "soil.restart").string()}, {"start", "x.restart"}},
-            "drumlin/take: variable friction is '0.2'; allowed: 0.5, with which ", ranks);
-    refused("in.bed", {{"boundary", "soft"}}, "drumlin/check: variable boundary is 'soft'; allowed: ", ranks);
+            "drumlin/variable: variable friction is '0.2'; allowed: 0.5, with which ", ranks);
+    refused("in.bed", {{"boundary", "soft"}}, "drumlin/variable: variable boundary is 'soft'; allowed: ", ranks);
     for (const char *name : {"ground_depth", "ground_density", "ground_cp"})
       if (ranks == 1)
         refused("in.bed", {{"boundary", "absorb"}, {name, "0"}},
-                std::string("drumlin/check: variable ") + name + " is '0'; allowed: ", ranks);
+                std::string("drumlin/variable: variable ") + name + " is '0'; allowed: ", ranks);
     refused("in.bed", {{"boundary", "absorb"}, {"ground_cs", "1e4"}},
             "fix boundary/absorb: speed of shear waves is '10000 m/s'; allowed: at most", ranks);
     refused("in.bed", {{"allow_change", "m2"}},
-            "drumlin/take: variable allow_change is 'm2'; allowed: none, or ", ranks);
+            "drumlin/variables: variable allow_change is 'm2'; allowed: none, or ", ranks);
     // Variables that may be changed take effect, so that the bed is no longer in equilibrium.
     refused("in.bed", {{"friction", "0.2"}, {"allow_change", "friction"}},
             "drumlin/settle: unbalanced ratio is '", ranks);
@@ -972,13 +972,13 @@ TEST_F(Bed, RefusesNamesThatCannotBeWrittenAtTheBeginning) {
     const std::string allowed = "is '" + file + "'; allowed: a file in a folder that exists, without * and %";
     const Outcome settled = run(bed_folder() / "in.settle", folder,
                                 {{"balls", (scratch / "balls.data").string()}, {"bed", file}});
-    EXPECT_TRUE(printed(settled, "ERROR: drumlin/check: variable bed " + allowed));
+    EXPECT_TRUE(printed(settled, "ERROR: drumlin/variable: variable bed " + allowed));
     const Outcome placed = run(bed_folder() / "in.place", folder,
                                {{"bed", (scratch / "soil.restart").string()}, {"start", file}});
-    EXPECT_TRUE(printed(placed, "ERROR: drumlin/check: variable start " + allowed));
+    EXPECT_TRUE(printed(placed, "ERROR: drumlin/variable: variable start " + allowed));
     const Outcome tiled =
         run(bed_folder() / "in.tile", folder, {{"cell", (scratch / "balls.data").string()}, {"bed", file}});
-    EXPECT_TRUE(printed(tiled, "ERROR: drumlin/check: variable bed " + allowed));
+    EXPECT_TRUE(printed(tiled, "ERROR: drumlin/variable: variable bed " + allowed));
     for (const Outcome &outcome : {settled, placed, tiled}) {
       EXPECT_EQ(outcome.status, 1);
       EXPECT_FALSE(outcome.says("Loop time")) << outcome.output;
@@ -1279,13 +1279,13 @@ TEST_F(Bed, TakesARollerFromItsFileOnRanksOneAndTwo) {
   }
   // A value that differs from that of the file counts, and must be the bed's.
   EXPECT_TRUE(fails_with(run_deck(bed_folder() / "in.bed", {{"start", start}, {"m2", "200"}}, folder.path()),
-                         "drumlin/take: variable m2 is '200'; allowed: 100"));
+                         "drumlin/variable: variable m2 is '200'; allowed: 100"));
   EXPECT_TRUE(
       fails_with(run_deck(bed_folder() / "in.bed", {{"start", start}, {"setting", "high"}}, folder.path()),
                  "drumlin/roller: setting is 'high'; allowed: none, of "));
   EXPECT_TRUE(
       fails_with(run_deck(bed_folder() / "in.bed", {{"start", start}, {"roller", "other"}}, folder.path()),
-                 "drumlin/take: variable roller is 'other'; allowed: " + file));
+                 "drumlin/variable: variable roller is 'other'; allowed: " + file));
   std::ofstream(file, std::ios::app) << "operating_mass 10 kg\n";
   EXPECT_TRUE(fails_with(run_deck(bed_folder() / "in.bed", {{"start", start}}, folder.path()),
                          "drumlin/roller: operating_mass of '" + file + "' is '10 kg'; allowed: at least "));

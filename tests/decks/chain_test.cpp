@@ -20,6 +20,8 @@
 namespace drumlin::test {
 namespace {
 
+namespace fs = std::filesystem;
+
 using post::ChainHistory;
 using post::ChainParameters;
 using post::Transition;
@@ -307,7 +309,7 @@ TEST(Rollers, OfFilesFollowTheDirectSolver) {
     p.Fw = roller.me_re * p.omega * p.omega;
     for (const Transition transition : {Transition::A, Transition::B}) {
       p.transition = transition;
-      const Variables variables = with({{"cycles", "3"}}, of_file(roller));
+      const Variables variables = with({{"stepping", "second"}, {"cycles", "3"}}, of_file(roller));
       const ChainRun run = run_chain("II", transition, 2000, samples, variables);
       const post::DirectResult reference = reference_of(p, samples, 3);
       ASSERT_EQ(run.history.size(), reference.history.size());

@@ -166,7 +166,8 @@ TEST_P(OwnWeight, StandsOnTheFloorAloneBetweenSmoothWalls) {
   EXPECT_NEAR(run.first("left_force_N"), run.first("side_force_N"), 1e-4 * run.first("side_force_N"));
 }
 
-/// The default value of a variable: VALUE of the line `variable NAME index VALUE` in an input file.
+/// The default value of a variable: VALUE of the line `variable NAME index VALUE`, or `drumlin/variable NAME
+/// VALUE`, in an input file.
 std::string default_of(const std::string &file, const std::string &name) {
   std::istringstream lines(read_text(chain_deck(file)));
   for (std::string line; std::getline(lines, line);) {
@@ -174,6 +175,7 @@ std::string default_of(const std::string &file, const std::string &name) {
     std::string command, variable, style, value;
     words >> command >> variable >> style >> value;
     if (command == "variable" && variable == name && style == "index") return value;
+    if (command == "drumlin/variable" && variable == name) return style;
   }
   return "none in " + file;
 }
@@ -182,7 +184,7 @@ std::string default_of(const std::string &file, const std::string &name) {
 TEST(DefaultContacts, AreThoseOfTheGravel) {
   for (const std::string deck : {"own_weight", "compression", "in.shear"})
     for (const std::string name : {"friction", "rolling"})
-      EXPECT_EQ(default_of("../soil/" + deck, name), default_of("../bed/case.gravel", name)) << deck;
+      EXPECT_EQ(default_of("../soil/" + deck, name), default_of("../bed/variables", name)) << deck;
 }
 
 const Variables disordered = {{"columns", "7"}, {"layers", "9"}, {"k", "1e7"}, {"ramp", "1000"}};

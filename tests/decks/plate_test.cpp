@@ -232,7 +232,7 @@ TEST_P(PlateOnColumns, RefusesAPlateThatIsNotOnTheBed) {
            {{{"plate_width", "0.3"}},
             "ERROR: drumlin/check: variable plate_width is '0.3'; allowed: a finite number below 0.2, the "
             "width of"},
-           {{{"k", "1e8"}}, "ERROR: drumlin/take: variable k is '1e8'; allowed: 1e9"}}) {
+           {{{"k", "1e8"}}, "ERROR: drumlin/variable: variable k is '1e8'; allowed: 1e9"}}) {
     Variables variables = more; // the engine takes the first of a name
     variables.insert(variables.end(), {{"bed", (scratch / "soil.restart").string()}, {"plate_width", "0.1"}});
     EXPECT_TRUE(contains(error_of([&] { run_element_test(GetParam(), "plate", variables); }), says));

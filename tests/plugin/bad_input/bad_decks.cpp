@@ -30,8 +30,7 @@ BadGroup of_deck(const std::string &name, const std::string &deck, const std::ve
         group.inputs.push_back(
             {fmt::format("{} '{}'", variable, value),
              "",
-             {"drumlin/", // variable; check, with the value of another one
-              fmt::format(": variable {} is '{}'; ", variable, value), "allowed: " + row.allowed},
+             {fmt::format(": variable {} is '{}'; ", variable, value), "allowed: " + row.allowed},
              kind,
              {{variable, value}}});
         kind = on_one_rank;
@@ -65,7 +64,8 @@ BadGroup chain_choices() {
        {"a long value", "out " + std::string(5000, 'x'),
         "drumlin/variables: variable out is 'xxx ... a value of at most 1000 characters"},
        {"another case of letters", "Case III",
-        "drumlin/variables: -var Case is 'III' ... allowed: case, the nearest of roller, setting, case",
+        "drumlin/variables: -var Case is 'III' ... allowed: case, the nearest of roller, setting, case, g, "
+        "k, D",
         on_two_ranks},
        {"a misspelt name", "step_per_cycle 1000",
         "-var step_per_cycle is '1000' ... allowed: steps_per_cycle, the nearest of "}});
@@ -142,7 +142,7 @@ BadGroup bed_settle() {
        {"balls", "none.data", "a file that can be read, which './drumlin bed --out none.data' makes",
         on_two_ranks}},
       {{"a case without a file", "case sand",
-        "drumlin/check: variable case is ' ... allowed: a file that can be read"}});
+        "drumlin/variable: variable case is 'sand'; allowed: base_course, gravel, gravel3d"}});
 }
 
 BadGroup bed_place() {
@@ -153,26 +153,27 @@ BadGroup bed_place() {
                   {"drag", "1e9", "a finite number below 160000, which is 1/dt"},
                   {"ratio", "0", positive}},
                  {{"no bed", "bed none.restart",
-                   "drumlin/check: variable bed is 'none.restart'; ... ./drumlin run inputs/bed/in.settle "
+                   "drumlin/variable: variable bed is 'none.restart'; ... ./drumlin run inputs/bed/in.settle "
                    "-var bed none.restart",
                    on_two_ranks}});
 }
 
 BadGroup bed() {
-  return of_deck("Bed", "bed/in.bed",
-                 {{"omega time_limit", "0 -1 nan", positive},
-                  {"Fw", "-1", non_negative},
-                  {"ground_depth ground_density ground_cp ground_cs side_height", "300",
-                   "not given with boundary rigid"},
-                  {"cycles steps_per_cycle samples_per_cycle", "0 1.5", whole},
-                  {"dumps_per_cycle", "-1", whole}},
-                 {{"no multiple", "dumps_per_cycle 3",
-                   "variable steps_per_cycle is '8000' ... allowed: a multiple of dumps_per_cycle, which is "
-                   "3"},
-                  {"no roller", "start none.restart",
-                   "drumlin/check: variable start is 'none.restart'; ... ./drumlin run inputs/bed/in.place "
-                   "-var start none.restart",
-                   on_two_ranks}});
+  return of_deck(
+      "Bed", "bed/in.bed",
+      {{"omega time_limit", "0 -1 nan", positive},
+       {"Fw", "-1", non_negative},
+       {"ground_depth ground_density ground_cp ground_cs side_height", "300",
+        "not given with boundary rigid"},
+       {"cycles steps_per_cycle samples_per_cycle", "0 1.5", whole},
+       {"dumps_per_cycle", "-1", whole}},
+      {{"no multiple", "dumps_per_cycle 3",
+        "variable steps_per_cycle is '8000' ... allowed: a multiple of dumps_per_cycle, which is "
+        "3"},
+       {"no roller", "start none.restart",
+        "drumlin/variable: variable start is 'none.restart'; ... ./drumlin run inputs/bed/in.place "
+        "-var start none.restart",
+        on_two_ranks}});
 }
 
 BadGroup oedometer() {
@@ -280,7 +281,7 @@ BadGroup plate() {
        {"a ramp that is no multiple", "ramp 700",
         "variable ramp is '700' ... allowed: a multiple of every, which is 500"},
        {"no bed", "bed none.restart",
-        "drumlin/check: variable bed is 'none.restart'; ... ./drumlin run inputs/bed/in.settle -var bed "
+        "drumlin/variable: variable bed is 'none.restart'; ... ./drumlin run inputs/bed/in.settle -var bed "
         "none.restart",
         on_two_ranks}});
 }

@@ -503,6 +503,8 @@ BadGroup take() {
       {"no file", "@ nofile in.settle none fixed soil", "file is 'nofile'; allowed: a file that can be read",
        on_two_ranks},
       {"a folder", "@ out in.settle none free soil", "file is 'out'; allowed: a file that can be read"},
+      {"no notes", "@ out/chain.csv in.settle none fixed soil",
+       "file is 'out/chain.csv', which notes no values; allowed: a file that in.settle", on_two_ranks},
   });
 }
 
@@ -541,9 +543,9 @@ BadGroup variable() {
        "drumlin/check: variable n is '3' ... 4", in_engine_words},
       {"a record of a fault", "@ k 0 positive N/m soil \"stiffness\"\ndrumlin/record out/parameters.csv",
        "variable k is '0' ... a finite number > 0", on_two_ranks},
-      {"a file without notes", "drumlin/take out/chain.csv in.settle none fixed soil\n" + rest,
-       "variable k is '1' ... a file that notes its value, which 'out/chain.csv' does not: one that "
-       "in.settle",
+      {"a file without its note",
+       "drumlin/write data own.data m 2\ndrumlin/take own.data in.settle none fixed soil\n" + rest,
+       "variable k is '1' ... a file that notes its value, which 'own.data' does not: one that in.settle",
        on_two_ranks},
       {"not the value of a file, fixed",
        made + "variable k index 3\ndrumlin/take own.data in.settle k fixed soil\n" + rest,
@@ -564,6 +566,12 @@ BadGroup variable() {
 BadGroup variables() {
   return Table{"Variables", "drumlin/variables: ", "drumlin/variables"}.of({
       {"nothing", "@", "the names are missing"},
+      {"names behind declarations", "drumlin/variable k 1 positive - soil \"k\"\n@ D",
+       "name is 'D' ... no names behind drumlin/variable, which declares each"},
+      {"an unknown group",
+       "drumlin/write data own.data k 1\ndrumlin/take own.data in.settle none fixed soil\n"
+       "drumlin/variable k 1 positive - roller \"k\"\n@",
+       "group of drumlin/take is 'soil' ... a group of variables of drumlin/variable"},
       {"a change that is not free",
        "drumlin/write data own.data k 1 m 2\ndrumlin/take own.data in.settle m free soil fixed roller\n"
        "drumlin/variable k 1 positive - soil \"k\"\ndrumlin/variable m 2 positive - roller \"m\"\n@",

@@ -272,7 +272,7 @@ TEST(BedStudy, ContinuesWhereItWasInterruptedAndABedThatFailsStopsNoOther) {
   fs::create_directory(bed); // no deck takes that for a bed
   const Outcome outcome = study.run();
   EXPECT_EQ(outcome.status, 1);
-  EXPECT_TRUE(outcome.says(": bed/in.bed: ERROR: drumlin/check: variable start is ")) << outcome.output;
+  EXPECT_TRUE(outcome.says(": bed/in.bed: ERROR: drumlin/variable: variable start is ")) << outcome.output;
   EXPECT_EQ(values_in(study.out()).size(), 5U * 5U) << outcome.output;
   EXPECT_NE(post::read_text(study.out() / "index.html").find("Missing: seed "), std::string::npos);
 }

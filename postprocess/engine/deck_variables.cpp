@@ -1,0 +1,193 @@
+#include "engine/deck_variables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+namespace drumlin::post {
+namespace {
+
+namespace fs = std::filesystem;
+using Values = std::map<std::string, std::string>;
+
+/// The commands of a file: lines that end with & are continued.
+std::vector<std::string> commands_of(const fs::path &file) {
+  std::ifstream in(file);
+  std::vector<std::string> commands;
+  std::string command;
+  for (std::string line; std::getline(in, line);) {
+    line.erase(line.find_last_not_of(" \t\r") + 1);
+    const bool continued = !line.empty() && line.back() == '&';
+    if (continued) line.pop_back();
+    command += line;
+    if (continued) continue;
+    commands.push_back(std::exchange(command, ""));
+  }
+  commands.push_back(command);
+  return commands;
+}
+
+/// The words of a command, quoted ones as one, without the comment.
+std::vector<std::string> words_of(const std::string &command) {
+  std::vector<std::string> words;
+  std::string word;
+  char quote = 0;
+  bool begun = false;
+  const auto end = [&] {
+    if (begun) words.push_back(std::exchange(word, ""));
+    begun = false;
+  };
+  for (const char c : command) {
+    if (quote == 0 && c == '#') break;
+    if (quote == 0 && (c == ' ' || c == '\t')) {
+      end();
+    } else if (c == quote || (quote == 0 && (c == '"' || c == '\''))) {
+      quote = quote == 0 ? c : 0;
+      begun = true;
+    } else {
+      word += c;
+      begun = true;
+    }
+  }
+  end();
+  return words;
+}
+
+/// A text with the values of its variables ${NAME}; those that have none stay.
+std::string with_values(std::string text, const Values &values) {
+  for (std::size_t begin = 0; (begin = text.find("${", begin)) != std::string::npos;) {
+    const std::size_t end = text.find('}', begin);
+    if (end == std::string::npos) break;
+    const auto found = values.find(text.substr(begin + 2, end - begin - 2));
+    if (found == values.end()) {
+      begin = end;
+      continue;
+    }
+    text.replace(begin, end + 1 - begin, found->second);
+    begin += found->second.size();
+  }
+  return text;
+}
+
+class Reader {
+public:
+  explicit Reader(Values given) : values_(std::move(given)) {}
+
+  void read(const fs::path &file, int depth = 0) {
+    constexpr int deepest = 20; // a file may include itself
+    if (depth > deepest) return;
+    for (const std::string &command : commands_of(file)) {
+      const std::vector<std::string> words = words_of(command);
+      if (words.size() == 2 && words[0] == "include") {
+        const fs::path included = with_values(words[1], values_);
+        std::error_code code;
+        if (fs::is_regular_file(included, code)) read(included, depth + 1);
+      } else if (words.size() == 3 && words[0] == "variable" && words[2] == "delete") {
+        values_.erase(words[1]);
+      } else if (words.size() == 4 && words[0] == "variable" &&
+                 (words[2] == "index" || words[2] == "string")) {
+        values_.emplace(words[1], with_values(words[3], values_));
+      } else if (words.size() == 7 && words[0] == "drumlin/variable") {
+        declare(words);
+      }
+    }
+  }
+
+  std::vector<DeckVariable> variables;
+
+private:
+  void declare(const std::vector<std::string> &words) {
+    const std::string value = values_.emplace(words[1], with_values(words[2], values_)).first->second;
+    const DeckVariable variable{words[1], value, words[3], words[4], words[5], words[6]};
+    const auto same = std::find_if(variables.begin(), variables.end(),
+                                   [&](const DeckVariable &other) { return other.name == variable.name; });
+    if (variable.rule != "noted" && same == variables.end()) variables.push_back(variable);
+  }
+
+  Values values_;
+};
+
+/// What a rule of drumlin/check allows, in a few words.
+std::string range_of(const std::string &rule) {
+  std::istringstream in(rule);
+  std::string word, rest;
+  in >> word;
+  std::getline(in >> std::ws, rest);
+  if (word == "each") return range_of(rest) + ", or a list";
+  if (word == "positive") return "> 0";
+  if (word == "non_negative") return ">= 0";
+  if (word == "finite") return "a number";
+  if (word == "one_of") {
+    for (std::size_t at = 0; (at = rest.find(' ', at)) != std::string::npos; at += 2)
+      rest.replace(at, 1, ", ");
+    return rest;
+  }
+  if (word == "integer") {
+    std::istringstream bounds(rest);
+    std::string low, high;
+    bounds >> low >> high;
+    return low + " to " + high;
+  }
+  if (word == "file" || word == "data_file" || word == "restart" || word == "restart_name") return "a file";
+  if (word == "output_folder" || word == "directory") return "a folder";
+  return "";
+}
+
+/// The default as a reader wants it: a formula $(40*PI) without its sign.
+std::string default_of(std::string text) {
+  if (text.size() > 3 && text.compare(0, 2, "$(") == 0 && text.back() == ')')
+    text = text.substr(2, text.size() - 3);
+  for (std::size_t at = 0; (at = text.find("v_", at)) != std::string::npos;)
+    text.erase(at, 2);
+  return text;
+}
+
+std::string wrapped(const std::string &text, std::size_t indent, std::size_t width) {
+  std::istringstream in(text);
+  std::string lines, line;
+  for (std::string word; in >> word;) {
+    if (!line.empty() && line.size() + 1 + word.size() > width) {
+      lines += std::string(indent, ' ') + std::exchange(line, "") + "\n";
+    }
+    line += (line.empty() ? "" : " ") + word;
+  }
+  return lines + std::string(indent, ' ') + line + "\n";
+}
+
+} // namespace
+
+std::vector<DeckVariable> deck_variables(const fs::path &deck, Values given) {
+  given.emplace("here", deck.has_parent_path() ? deck.parent_path().string() : ".");
+  given.emplace("engine", deck.extension() == ".lammps" ? "lammps" : "liggghts");
+  Reader reader(std::move(given));
+  reader.read(deck);
+  return reader.variables;
+}
+
+std::string variables_text(const std::vector<DeckVariable> &variables, std::size_t width) {
+  std::vector<std::string> groups;
+  for (const DeckVariable &variable : variables)
+    if (std::find(groups.begin(), groups.end(), variable.group) == groups.end())
+      groups.push_back(variable.group);
+  std::string text;
+  for (const std::string &group : groups) {
+    std::string title = group;
+    std::replace(title.begin(), title.end(), '_', ' ');
+    text += "\n" + title + ":\n";
+    for (const DeckVariable &variable : variables) {
+      if (variable.group != group) continue;
+      const std::string range = range_of(variable.rule);
+      std::string line = fmt::format("  {:<18} {}", variable.name, default_of(variable.standard));
+      if (variable.unit != "-" && variable.unit != "1") line += " " + variable.unit;
+      if (!range.empty())
+        line += fmt::format("{}({})", std::string(line.size() < 43 ? 44 - line.size() : 1, ' '), range);
+      text += line + "\n" + wrapped(variable.meaning, 21, width - 21);
+    }
+  }
+  return text;
+}
+
+} // namespace drumlin::post

@@ -1,0 +1,25 @@
+// The variables of a deck, read from its lines `drumlin/variable` without a run.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+/// A variable as a deck declares it; texts as in the deck.
+struct DeckVariable {
+  std::string name, standard, rule, unit, group, meaning;
+};
+
+/// The variables that a deck and the files that it includes declare, in this order. Files that it includes
+/// under a condition are not read. \param given values of -var, which decide what is included and are the
+/// defaults shown
+std::vector<DeckVariable> deck_variables(const std::filesystem::path &deck,
+                                         std::map<std::string, std::string> given);
+
+/// A table of the variables by group: name, default, unit, range and meaning. \param width in columns
+std::string variables_text(const std::vector<DeckVariable> &variables, std::size_t width);
+
+} // namespace drumlin::post
