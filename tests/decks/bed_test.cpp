@@ -702,7 +702,7 @@ TEST_F(Bed, NeedsTheFilesOfTheDecksBeforeIt) {
 TEST_F(Bed, RefusesFilesThatAreCutShortOrOfAnotherSceneOnRanksOneAndTwo) {
   const std::string whole = read_text(scratch / "ball.restart"), balls = read_text(scratch / "balls.data");
   const std::string cut = ", which is incomplete, damaged or no restart file; allowed: a restart file of "
-                          "drumlin/write or drumlin/run";
+                          "drumlin/write_restart or drumlin/run";
   const auto refused = [](const char *deck, const Variables &variables, const std::string &says, int ranks) {
     const Scratch folder;
     EXPECT_TRUE(fails_with(run(bed_folder() / deck, folder, variables, ranks), says)) << says;
@@ -1212,7 +1212,7 @@ TEST_F(BedInLammps, RefusesWhatItDoesNotHaveOnRanksOneAndTwo) {
             ", made with engine LIGGGHTS; allowed: made with engine LAMMPS", ranks);
     refused({{"start", (scratch / "balls.data").string()}},
             ", which is incomplete, damaged or no restart file; allowed: a restart file of "
-            "drumlin/write or "
+            "drumlin/write_restart or "
             "drumlin/run, or a data file NAME.data in the same folder",
             ranks);
     refused({{"newton", "maybe"}}, "variable newton is 'maybe'; allowed: on or off", ranks);
