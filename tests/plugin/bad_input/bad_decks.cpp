@@ -313,6 +313,46 @@ BadGroup repose() {
                   {"friction", "-0.1", non_negative}});
 }
 
+// Decks of the studies.
+BadGroup impacts() {
+  return of_deck("Impacts", "study/in.impacts",
+                 {{"k m2 speed steps_per_contact", "0 nan", positive},
+                  {"hertz phases contacts", "-1 2.5", whole},
+                  {"out", "out/events.csv", folder, on_two_ranks}});
+}
+
+BadGroup reference() {
+  return of_deck(
+      "Reference", "study/in.reference",
+      {{"case", "V", "I, II, III or IV", on_two_ranks}, {"omega m2", "0", positive}, {"cycles", "0", whole}},
+      {{"no multiple", "samples_per_cycle 300",
+        "drumlin/check: variable steps_per_cycle is '2000' ... allowed: a multiple of samples_per_cycle"}});
+}
+
+BadGroup small_bed() {
+  return of_deck("SmallBed", "study/in.small_bed",
+                 {{"k radius spacing density drum_radius dt", "0 -1", positive},
+                  {"D friction ct drum_mass", "-0.5", non_negative, on_two_ranks},
+                  {"centre", "left", "a finite number"},
+                  {"columns rows settling steps", "0 2.5", whole}});
+}
+
+BadGroup stability() {
+  return of_deck("Stability", "study/in.stability",
+                 {{"scene", "three", "one, two, cross or four", on_two_ranks},
+                  {"lowest highest", "0", positive},
+                  {"balls half window", "0", whole},
+                  {"window", "6000", "a finite number at most 5000"}});
+}
+
+BadGroup cost_bed() {
+  return of_deck("CostOfABed", "study/in.cost_bed",
+                 {{"from", "nowhere", "data, lattice or copies", on_two_ranks},
+                  {"sides", "x", "f or p"},
+                  {"guards events history", "2", whole},
+                  {"data", "none.data", "a file that can be read"}});
+}
+
 } // namespace
 
 std::vector<BadGroup> bad_variables() {
@@ -333,7 +373,12 @@ std::vector<BadGroup> bad_variables() {
           moved_plate("Shear", "soil/in.shear", "normal"),
           moved_plate("RetainingWall", "soil/in.wall", "g"),
           silo(),
-          repose()};
+          repose(),
+          impacts(),
+          reference(),
+          small_bed(),
+          stability(),
+          cost_bed()};
 }
 
 } // namespace drumlin::test
