@@ -81,9 +81,10 @@ void DeckVariables::declare(const DeclaredVariable &variable) {
 }
 
 TakenNotes DeckVariables::taken() const {
-  const std::vector<std::string> all = lines(of_notes);
+  std::vector<std::string> all = lines(of_notes);
   TakenNotes taken;
-  if (all.size() < 5) return taken;
+  if (all.empty()) return taken;
+  all.resize(std::max<std::size_t>(all.size(), 5)); // the last lists may be empty
   taken = {all[0], all[1], words_of(all[2]), words_of(all[3]), words_of(all[4]), {}};
   for (std::size_t n = 5; n < all.size(); ++n) {
     const std::size_t blank = all[n].find(' ');

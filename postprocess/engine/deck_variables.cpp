@@ -101,7 +101,8 @@ public:
 private:
   void declare(const std::vector<std::string> &words) {
     const std::string value = values_.emplace(words[1], with_values(words[2], values_)).first->second;
-    const DeckVariable variable{words[1], value, words[3], words[4], words[5], words[6]};
+    const DeckVariable variable{words[1], value,    with_values(words[3], values_),
+                                words[4], words[5], words[6]};
     const auto same = std::find_if(variables.begin(), variables.end(),
                                    [&](const DeckVariable &other) { return other.name == variable.name; });
     if (variable.rule != "noted" && same == variables.end()) variables.push_back(variable);

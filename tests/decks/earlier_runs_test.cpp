@@ -320,9 +320,10 @@ TEST(EarlierRuns, OnAFullDiskAreAnError) {
 TEST(EarlierRuns, OnAFullDiskAnEarlierRestartFileStaysWhole) {
   if (!can_mount_small_disk()) GTEST_SKIP() << "SKIPPED: a file system of its own needs root";
   const Scratch folder;
-  std::ofstream(folder / "keep.in") << "variable own_names string keep\ninclude ${here}/in.chain\n"
-                                       "drumlin/write_restart ${keep}/x.restart stage one\n"
-                                       "drumlin/write_data ${keep}/x.data stage one\n";
+  std::ofstream(folder / "keep.in")
+      << "drumlin/variable keep none any - test \"folder of the files\"\ninclude ${here}/in.chain\n"
+         "drumlin/write restart ${keep}/x.restart stage one\n"
+         "drumlin/write data ${keep}/x.data stage one\n";
   const std::string run =
       "env LD_PRELOAD=$DRUMLIN_PRELOAD liggghts -in keep.in -log none -var here \"$DECKS\" -var cycles 1 "
       "-var out out -var keep small\n";

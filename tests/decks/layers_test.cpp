@@ -202,7 +202,7 @@ TEST_P(Layers, HaveTheLawsOfThePageWithEachOtherAndWithTheDrum) {
   }
 }
 
-/// Balls of a data file of drumlin/write_data: type, diameter, height of the centre.
+/// Balls of a data file of drumlin/write: type, diameter, height of the centre.
 struct Settled {
   int type;
   double size, y;

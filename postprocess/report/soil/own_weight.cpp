@@ -167,7 +167,7 @@ void write_silo_page(const std::vector<OwnWeightRun> &runs, const fs::path &out)
     states.push_back(silo_state(run.rows, soil_of(run.run), recorded(run.run, "plate_friction", 0.0)));
   std::vector<SiloSoil> soils;
   std::vector<std::string> varied = of_each_sample;
-  varied.emplace_back("layers");
+  varied.insert(varied.end(), {"layers", "drag", "prepare_time"}); // the last two follow from the first
   PageTable table = element_run_table(
       "silo_runs",
       "height (m) | height over width (-) | floor force over weight (-) | the same after Janssen (-) | "

@@ -14,7 +14,7 @@ namespace {
 
 /// The parameters in which tests of one soil agree, as one text.
 std::string soil_text(const Run &run, std::vector<std::string> varied) {
-  varied.insert(varied.end(), {"seed", "balls", "ranks", "command", "plugin", "timestep"});
+  varied.insert(varied.end(), {"seed", "balls", "ranks", "command", "plugin", "timestep", "dt", "out"});
   std::string text;
   for (const auto &[name, value] : run.parameters)
     if (std::find(varied.begin(), varied.end(), name) == varied.end())

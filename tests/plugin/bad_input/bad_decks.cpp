@@ -27,12 +27,12 @@ BadGroup of_deck(const std::string &name, const std::string &deck, const std::ve
     for (const std::string &variable : words_of(row.variables)) {
       unsigned kind = row.kind;
       for (const std::string &value : words_of(row.values)) {
-        group.inputs.push_back({fmt::format("{} '{}'", variable, value),
-                                "",
-                                {fmt::format(": variable {} is '{}'; ", variable, value),
-                                 "allowed: " + row.allowed},
-                                kind,
-                                {{variable, value}}});
+        group.inputs.push_back(
+            {fmt::format("{} '{}'", variable, value),
+             "",
+             {fmt::format(": variable {} is '{}'; ", variable, value), "allowed: " + row.allowed},
+             kind,
+             {{variable, value}}});
         kind = on_one_rank;
       }
     }
@@ -64,7 +64,8 @@ BadGroup chain_choices() {
        {"a long value", "out " + std::string(5000, 'x'),
         "drumlin/variables: variable out is 'xxx ... a value of at most 1000 characters"},
        {"another case of letters", "Case III",
-        "drumlin/variables: -var Case is 'III' ... allowed: case, the nearest of roller, setting, case, g, k, D",
+        "drumlin/variables: -var Case is 'III' ... allowed: case, the nearest of roller, setting, case, g, "
+        "k, D",
         on_two_ranks},
        {"a misspelt name", "step_per_cycle 1000",
         "-var step_per_cycle is '1000' ... allowed: steps_per_cycle, the nearest of "}});
@@ -158,24 +159,26 @@ BadGroup bed_place() {
 }
 
 BadGroup bed() {
-  return of_deck("Bed", "bed/in.bed",
-                 {{"omega time_limit", "0 -1 nan", positive},
-                  {"Fw", "-1", non_negative},
-                  {"ground_depth ground_density ground_cp ground_cs side_height", "300",
-                   "not given with boundary rigid"},
-                  {"cycles steps_per_cycle samples_per_cycle", "0 1.5", whole},
-                  {"dumps_per_cycle", "-1", whole}},
-                 {{"no multiple", "dumps_per_cycle 3",
-                   "variable steps_per_cycle is '8000' ... allowed: a multiple of dumps_per_cycle, which is "
-                   "3"},
-                  {"no roller", "start none.restart",
-                   "drumlin/variable: variable start is 'none.restart'; ... ./drumlin run inputs/bed/in.place "
-                   "-var start none.restart",
-                   on_two_ranks}});
+  return of_deck(
+      "Bed", "bed/in.bed",
+      {{"omega time_limit", "0 -1 nan", positive},
+       {"Fw", "-1", non_negative},
+       {"ground_depth ground_density ground_cp ground_cs side_height", "300",
+        "not given with boundary rigid"},
+       {"cycles steps_per_cycle samples_per_cycle", "0 1.5", whole},
+       {"dumps_per_cycle", "-1", whole}},
+      {{"no multiple", "dumps_per_cycle 3",
+        "variable steps_per_cycle is '8000' ... allowed: a multiple of dumps_per_cycle, which is "
+        "3"},
+       {"no roller", "start none.restart",
+        "drumlin/variable: variable start is 'none.restart'; ... ./drumlin run inputs/bed/in.place "
+        "-var start none.restart",
+        on_two_ranks}});
 }
 
 BadGroup oedometer() {
   const std::string check = "drumlin/check: variable ";
+  const std::string declared = "drumlin/variable: variable ";
   return of_deck(
       "Oedometer", "soil/in.oedometer",
       {{"radius density k kt seating ratio dt drag", "0 -1 nan", positive},
@@ -200,10 +203,13 @@ BadGroup oedometer() {
         check + "density is '1e20' ... allowed: a finite number below ... prepare_drag"},
        {"a drag with which the density does not matter", "density 1e20, prepare_drag 1e9",
         check + "prepare_drag is '1e9'"},
-       {"a lattice in the plane", "sample hexagonal, dimension 3", check + "dimension is '3' ... allowed: 2"},
-       {"a seed without random numbers", "sample cubic, seed 2", check + "seed is '2' ... allowed: 1"},
-       {"a lattice of several sizes", "sample cubic, spread 0.1", check + "spread is '0.1' ... allowed: 0"},
-       {"an unknown sample", "sample clay", check + "sample is 'clay' ... allowed: hexagonal", on_two_ranks},
+       {"a lattice in the plane", "sample hexagonal, dimension 3",
+        declared + "dimension is '3' ... allowed: 2"},
+       {"a seed without random numbers", "sample cubic, seed 2", declared + "seed is '2' ... allowed: 1"},
+       {"a lattice of several sizes", "sample cubic, spread 0.1",
+        declared + "spread is '0.1' ... allowed: 0"},
+       {"an unknown sample", "sample clay", declared + "sample is 'clay' ... allowed: hexagonal",
+        on_two_ranks},
        {"a load of 0", "loads 25 0 50", check + "loads is '0' ... allowed: " + positive},
        {"a load that is a word", "loads 25 heavy", check + "loads is 'heavy' ... allowed: " + positive},
        {"a ramp that is no multiple", "ramp 300",
@@ -211,16 +217,22 @@ BadGroup oedometer() {
 }
 
 BadGroup spheres() {
-  return of_deck("Spheres", "benchmarks/in.spheres",
-                 {{"e density r1 E E2 contacts duration", "0 -1 nan", positive},
-                  {"mu mu_r g onset ceiling vn", "-0.5", non_negative},
-                  {"spheres every steps_per_contact", "0 2.5", whole},
-                  {"case", "chung_ooi_9", "chung_ooi_1", on_two_ranks},
-                  {"material", "gold", "glass or limestone"},
-                  {"normal", "linear", "hooke or hertz"},
-                  {"stepping", "half", "second or stock"}},
-                 {{"a linear law without stiffness", "case slip, k 0",
-                   std::string("drumlin/check: variable k is '0' ... allowed: ") + positive}});
+  return of_deck(
+      "Spheres", "benchmarks/in.spheres",
+      {{"e density r1 E E2 contacts duration", "0 -1 nan", positive},
+       {"mu mu_r g onset ceiling vn", "-0.5", non_negative},
+       {"spheres every steps_per_contact", "0 2.5", whole},
+       {"case", "chung_ooi_9", "chung_ooi_1", on_two_ranks},
+       {"material", "gold", "glass or limestone"},
+       {"normal", "linear", "hooke or hertz"},
+       {"stepping", "half", "second or stock"}},
+      {{"a linear law without stiffness", "case slip, k 0",
+        std::string("drumlin/check: variable k is '0' ... allowed: ") + positive},
+       {"a Hertz law with a stiffness", "k 1e6", "drumlin/check: variable k is '1e6' ... allowed: 0"},
+       {"an impact without speed", "vn 0, mu 0.3",
+        std::string("drumlin/check: variable vn is '0' ... allowed: ") + positive},
+       {"a material of a case without one", "case slip, material glass",
+        "drumlin/variables: -var material is 'glass', a variable that this deck does not have"}});
 }
 
 BadGroup biaxial() {
@@ -301,6 +313,46 @@ BadGroup repose() {
                   {"friction", "-0.1", non_negative}});
 }
 
+// Decks of the studies.
+BadGroup impacts() {
+  return of_deck("Impacts", "study/in.impacts",
+                 {{"k m2 speed steps_per_contact", "0 nan", positive},
+                  {"hertz phases contacts", "-1 2.5", whole},
+                  {"out", "out/events.csv", folder, on_two_ranks}});
+}
+
+BadGroup reference() {
+  return of_deck(
+      "Reference", "study/in.reference",
+      {{"case", "V", "I, II, III or IV", on_two_ranks}, {"omega m2", "0", positive}, {"cycles", "0", whole}},
+      {{"no multiple", "samples_per_cycle 300",
+        "drumlin/check: variable steps_per_cycle is '2000' ... allowed: a multiple of samples_per_cycle"}});
+}
+
+BadGroup small_bed() {
+  return of_deck("SmallBed", "study/in.small_bed",
+                 {{"k radius spacing density drum_radius dt", "0 -1", positive},
+                  {"D friction ct drum_mass", "-0.5", non_negative, on_two_ranks},
+                  {"centre", "left", "a finite number"},
+                  {"columns rows settling steps", "0 2.5", whole}});
+}
+
+BadGroup stability() {
+  return of_deck("Stability", "study/in.stability",
+                 {{"scene", "three", "one, two, cross or four", on_two_ranks},
+                  {"lowest highest", "0", positive},
+                  {"balls half window", "0", whole},
+                  {"window", "6000", "a finite number at most 5000"}});
+}
+
+BadGroup cost_bed() {
+  return of_deck("CostOfABed", "study/in.cost_bed",
+                 {{"from", "nowhere", "data, lattice or copies", on_two_ranks},
+                  {"sides", "x", "f or p"},
+                  {"guards events history", "2", whole},
+                  {"data", "none.data", "a file that can be read"}});
+}
+
 } // namespace
 
 std::vector<BadGroup> bad_variables() {
@@ -321,7 +373,12 @@ std::vector<BadGroup> bad_variables() {
           moved_plate("Shear", "soil/in.shear", "normal"),
           moved_plate("RetainingWall", "soil/in.wall", "g"),
           silo(),
-          repose()};
+          repose(),
+          impacts(),
+          reference(),
+          small_bed(),
+          stability(),
+          cost_bed()};
 }
 
 } // namespace drumlin::test

@@ -332,7 +332,7 @@ BadGroup check() {
       {"no multiple", "@ k 10 multiple_of n 4", "variable k is '10' ... a multiple of n, which is 4"},
       {"multiple of zero", "@ k 10 multiple_of n 0", "variable k is '10' ... a multiple of n, which is 0"},
       {"no restart file", "@ start nowhere restart stage ten",
-       "variable start is 'nowhere' ... a restart file of drumlin/write_restart", on_two_ranks},
+       "variable start is 'nowhere' ... a restart file of drumlin/write or drumlin/run", on_two_ranks},
       {"note without value", "@ start nowhere restart stage", "the value of note stage is missing"},
       {"no data file", "@ balls nowhere data_file", "variable balls is 'nowhere' ... a data file with atoms"},
       {"no name of a restart file", "@ bed nowhere/x restart_name",
@@ -371,23 +371,26 @@ BadGroup run() {
   });
 }
 
-BadGroup write_restart() {
-  return Table{"WriteRestart", "drumlin/write_restart: ", "drumlin/write_restart"}.of({
-      {"nothing", "@", "file is missing ... a file in a folder that exists"},
-      {"name without value", "@ out/x bed", "the value of note bed is missing"},
-      {"name with a star", "@ out/x.*", "file is 'out/x.*', which cannot be written ... without * and %"},
-      {"file in no folder", "@ nowhere/x bed soil",
+BadGroup write() {
+  return Table{"Write", "drumlin/write: ", "drumlin/write"}.of({
+      {"nothing", "@", "kind of file is missing ... restart, data or both"},
+      {"unknown kind", "@ dump out/x", "kind of file is 'dump' ... restart, data or both"},
+      {"no file", "@ restart", "file is missing ... a file in a folder that exists"},
+      {"name without value", "@ restart out/x bed", "the value of note bed is missing"},
+      {"name with a star", "@ restart out/x.*",
+       "file is 'out/x.*', which cannot be written ... without * and %"},
+      {"restart file in no folder", "@ restart nowhere/x bed soil",
        "file is 'nowhere/x', which cannot be written ... a file in a folder that exists", on_two_ranks},
-  });
-}
-
-BadGroup write_data() {
-  return Table{"WriteData", "drumlin/write_data: ", "drumlin/write_data"}.of({
-      {"nothing", "@", "file is missing ... a file in a folder that exists"},
-      {"unknown variable", "@ out/x values_of depth",
+      {"data file in no folder", "@ data nowhere/x bed soil",
+       "file is 'nowhere/x', which cannot be written ... a file in a folder that exists", on_two_ranks},
+      {"both in no folder", "@ both nowhere/x", "file is 'nowhere/x', which cannot be written"},
+      {"unknown variable", "@ data out/x values_of depth",
        "keyword values_of is 'depth' ... the names of variables"},
-      {"file in no folder", "@ nowhere/x bed soil",
-       "file is 'nowhere/x', which cannot be written ... a file in a folder that exists", on_two_ranks},
+      {"a variable of two words", "variable law index \"a b\"\n@ data out/x values_of law",
+       "keyword values_of is 'law' ... variables that are one word"},
+      {"a group without variables", "@ both out/x stage ten groups soil",
+       "keyword groups is 'soil' ... a group of variables of drumlin/variable", on_two_ranks},
+      {"no box", "clear\n@ restart out/x", "simulation box is missing ... create_box"},
   });
 }
 
@@ -494,19 +497,85 @@ BadGroup take() {
   return Table{"Take", "drumlin/take: ", "drumlin/take"}.of({
       {"nothing", "@", "file is missing"},
       {"no decks", "@ out/x", "the list of decks is missing"},
-      {"no notes", "@ out/chain.csv in.settle none fixed k",
-       "file is 'out/chain.csv', which does not note the value of k ... in.settle", on_two_ranks},
-      {"no file", "@ nofile in.settle none fixed k", "file is 'nofile'; allowed: a file that can be read",
+      {"no list of changes", "@ out/x in.settle", "the variables that may change is missing"},
+      {"unknown keyword", "@ out/chain.csv in.settle none if_noted soil",
+       "keyword is 'if_noted' ... fixed, free or except"},
+      {"no file", "@ nofile in.settle none fixed soil", "file is 'nofile'; allowed: a file that can be read",
        on_two_ranks},
-      {"a folder", "@ out in.settle none if_noted k", "file is 'out'; allowed: a file that can be read"},
-      {"a change that is not free", "@ out/chain.csv in.settle m2 fixed m2 free k",
-       "variable allow_change is 'm2' ... none, or names between commas out of k"},
+      {"a folder", "@ out in.settle none free soil", "file is 'out'; allowed: a file that can be read"},
+      {"no notes", "@ out/chain.csv in.settle none fixed soil",
+       "file is 'out/chain.csv', which notes no values; allowed: a file that in.settle", on_two_ranks},
+  });
+}
+
+/// The value is wrong, or not that of a file with which it was made: refused by the closing command.
+BadGroup variable() {
+  const std::string made = "drumlin/write data own.data k 1 m 2\n";
+  const std::string rest = "@ k 1 positive N/m soil \"stiffness\"\ndrumlin/variables";
+  return Table{"Variable", "drumlin/variable: ", "drumlin/variable"}.of({
+      {"nothing", "@", "name is missing ... the variable's name"},
+      {"no default", "@ k", "default value of variable k is missing"},
+      {"no rule", "@ k 1", "rule of variable k is missing ... a rule of drumlin/check, any, words or noted"},
+      {"no unit", "@ k 1 any", "unit of variable k is missing ... a unit, or -"},
+      {"no group", "@ k 1 any -", "group of variable k is missing ... a word"},
+      {"no meaning", "@ k 1 any - soil", "meaning of variable k is missing ... a text in quotes"},
+      {"a meaning without quotes", "@ k 1 any - soil of all contacts",
+       "argument is 'all' ... NAME DEFAULT RULE UNIT"},
+      {"unknown rule", "@ k 1 small - soil \"stiffness\"", "rule for variable k is 'small' ... multiple_of",
+       on_two_ranks},
+      {"a rule without its words", "@ k 1 \"integer 1\" - soil \"number\"",
+       "rule integer, highest is missing"},
+      {"a rule of too many words", "@ k 1 \"positive 2\" - soil \"number\"",
+       "argument behind the rule for variable k is '2' ... one value and one rule"},
+      {"a default that breaks the rule", "@ k 0 positive N/m soil \"stiffness\"\ndrumlin/variables",
+       "variable k is '0' ... a finite number > 0"},
+      {"an earlier line that breaks the rule", "variable k index -1\n" + rest,
+       "variable k is '-1' ... a finite number > 0", on_two_ranks},
+      {"a word of a list",
+       "variable kinds index \"sand silt\"\n@ soil mud \"one_of ${kinds}\" - soil \"kind\"\n"
+       "drumlin/variables",
+       "variable soil is 'mud' ... sand or silt"},
+      {"the first of two faults", "@ g -1 non_negative m/s2 run \"gravity\"\nvariable k index -1\n" + rest,
+       "variable g is '-1'"},
+      {"a check before the end of declarations",
+       "@ n 3 \"integer 1 9\" - run \"number\"\ndrumlin/check n 3 one_of 4\nvariable k index -1\n@ k 1 "
+       "positive - soil \"stiffness\"\ndrumlin/variables",
+       "drumlin/check: variable n is '3' ... 4", in_engine_words},
+      {"a record of a fault", "@ k 0 positive N/m soil \"stiffness\"\ndrumlin/record out/parameters.csv",
+       "variable k is '0' ... a finite number > 0", on_two_ranks},
+      {"a file without its note",
+       "drumlin/write data own.data m 2\ndrumlin/take own.data in.settle none fixed soil\n" + rest,
+       "variable k is '1' ... a file that notes its value, which 'own.data' does not: one that in.settle",
+       on_two_ranks},
+      {"not the value of a file, fixed",
+       made + "variable k index 3\ndrumlin/take own.data in.settle k fixed soil\n" + rest,
+       "variable k is '3'; allowed: 1, with which 'own.data' was made; for another value run in.settle again",
+       on_two_ranks},
+      {"not the value of a file, free",
+       made + "variable k index 3\ndrumlin/take own.data in.settle none free soil\n" + rest,
+       "variable k is '3'; allowed: 1, with ... or change it on purpose by -var allow_change k"},
+      {"not the value of a file, in no group",
+       made + "variable k index 3\ndrumlin/take own.data in.settle none\n" + rest,
+       "variable k is '3'; allowed: 1, with ... for another value begin a new run"},
+      {"the value of a file breaks the rule",
+       "drumlin/write data own.data k -1\ndrumlin/take own.data in.settle none free soil\n" + rest,
+       "variable k is '-1' ... a finite number > 0"},
   });
 }
 
 BadGroup variables() {
   return Table{"Variables", "drumlin/variables: ", "drumlin/variables"}.of({
       {"nothing", "@", "the names are missing"},
+      {"names behind declarations", "drumlin/variable k 1 positive - soil \"k\"\n@ D",
+       "name is 'D' ... no names behind drumlin/variable, which declares each"},
+      {"an unknown group",
+       "drumlin/write data own.data k 1\ndrumlin/take own.data in.settle none fixed soil\n"
+       "drumlin/variable k 1 positive - roller \"k\"\n@",
+       "group of drumlin/take is 'soil' ... a group of variables of drumlin/variable"},
+      {"a change that is not free",
+       "drumlin/write data own.data k 1 m 2\ndrumlin/take own.data in.settle m free soil fixed roller\n"
+       "drumlin/variable k 1 positive - soil \"k\"\ndrumlin/variable m 2 positive - roller \"m\"\n@",
+       "variable allow_change is 'm' ... none, or names between commas out of k", on_two_ranks},
   });
 }
 
@@ -617,8 +686,8 @@ std::vector<BadGroup> bad_lines() {
   return {drum_excite(),    bond_spring(),   boundary_absorb(), clump(),
           contact_events(), contact_local(), contact_energy(),  roller_history(),
           guard(),          check(),         record(),          run(),
-          settle(),         surface(),       write_restart(),   write_data(),
-          outputs(),        take(),          variables(),       layers(),
+          settle(),         surface(),       write(),           outputs(),
+          take(),           variables(),     variable(),        layers(),
           pick(),           roller(),        other_styles(),    other_styles_in_lammps(),
           fixes_in_lammps()};
 }

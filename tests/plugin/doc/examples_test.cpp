@@ -87,6 +87,7 @@ Outcome run_example(const Example &example, const fs::path &folder) {
     return run_deck(deck, {}, folder);
   }
   fs::create_directory(folder / "results");
+  fs::create_directory_symlink(root / "inputs", folder / "inputs");
   if (example.language == "lammps") return run_lammps_host(example.text, folder, 1);
   const bool own_pair_style = example.text.find("pair_style") != std::string::npos;
   return run_host((own_pair_style ? "" : host_pair_style()) + host_properties(example.text), example.text,
