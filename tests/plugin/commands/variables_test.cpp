@@ -35,7 +35,7 @@ protected:
       if (line.rfind(name + ",", 0) == 0) value = value == "none" ? line.substr(name.size() + 1) : "twice";
     return value;
   }
-  std::string box() const {
+  static std::string box() {
     return "units si\natom_style " + std::string(GetParam() ? "sphere" : "granular") +
            "\nregion box block 0 1 0 1 0 1 units box\ncreate_box 1 box\n"
            "create_atoms 1 single 0.5 0.5 0.5 units box\nset group all diameter 0.1 density 1000\n";
