@@ -97,7 +97,7 @@ void DeckVariables::take(const TakenNotes &notes) {
   std::vector<std::string> all = {notes.file, notes.decks, joined(notes.fixed, " "), joined(notes.free, " "),
                                   joined(notes.change, " ")};
   for (const auto &[name, value] : notes.notes)
-    all.push_back(name + " " + value);
+    all.push_back(fmt::format("{} {}", name, value));
   keep(of_notes, all);
 }
 
