@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace drumlin::post {
@@ -64,32 +63,34 @@ OperatingMode mode_of(const Cycles &cycles, const MeterWindow &window, std::size
   return difference(cycles, window, count, 2) <= same ? OperatingMode::double_jump : OperatingMode::irregular;
 }
 
-/// 'constant times numerator over denominator', how far it may be off if both may be.
-double ratio_bound(double constant, double numerator, double above, double denominator, double below) {
-  if (!(denominator > below)) return std::numeric_limits<double>::infinity();
-  return constant * ((numerator + above) / (denominator - below) - numerator / denominator);
-}
-
-void take_amplitudes(const Cycles &cycles, const MeterOptions &options, std::size_t count,
+void take_amplitudes(const MeterRecord &record, const MeterOptions &options, std::size_t count,
                      MeterWindow &window) {
-  std::array<double, meter_orders.size()> bound{};
-  for (std::size_t j = 0; j < meter_orders.size(); ++j) {
-    std::vector<std::complex<double>> harmonics;
-    for (std::size_t i = window.first; i < window.first + count; ++i) {
-      harmonics.push_back(cycles[i].acceleration[j]);
-      bound[j] += cycles[i].bound[j] / static_cast<double>(count);
-    }
-    window.amplitude[j] = amplitude_over(harmonics, 0, count);
+  SampledCycles sampled;
+  sampled.source = record.source;
+  sampled.omega = record.omega;
+  sampled.interval = record.interval;
+  sampled.cycles = static_cast<int>(count);
+  sampled.noise = record.noise;
+  sampled.gain = record.gain;
+  for (std::size_t i = window.first; i < window.first + count; ++i) {
+    const MeterCycle &cycle = record.cycles[i];
+    for (std::size_t j = 0; j < meter_orders.size(); ++j)
+      sampled.harmonics[j] += cycle.acceleration[j] / static_cast<double>(count);
+    sampled.jumps.insert(sampled.jumps.end(), cycle.jumps.begin(), cycle.jumps.end());
   }
-  const HarmonicAmplitudes amplitudes = {window.amplitude[basic_order], window.amplitude[double_order],
-                                         window.amplitude[half_order]};
-  if (!(amplitudes.fundamental > 0.0)) return;
-  window.cmv = compaction_meter_value(amplitudes);
-  window.rmv = resonance_meter_value(amplitudes, options.rmv_constant);
-  window.cmv_bound = ratio_bound(compaction_meter_value({1.0, 1.0, 0.0}), amplitudes.second,
-                                 bound[double_order], amplitudes.fundamental, bound[basic_order]);
-  window.rmv_bound = ratio_bound(options.rmv_constant, amplitudes.half, bound[half_order],
-                                 amplitudes.fundamental, bound[basic_order]);
+  sampled.end_jumps = record.cycles[window.first + count - 1].end_jump +
+                      (window.first > 0 ? record.cycles[window.first - 1].end_jump : 0.0);
+  for (std::size_t j = 0; j < meter_orders.size(); ++j)
+    window.amplitude[j] = std::abs(sampled.harmonics[j]);
+  if (!(window.amplitude[basic_order] > 0.0)) return;
+  const MeterFormula rmv = resonance_meter(options.rmv_constant);
+  window.cmv = compaction_meter(window.amplitude);
+  window.rmv = rmv(window.amplitude);
+  if (record.source == HarmonicSource::every_step) return;
+  window.ccv = compaction_control(window.amplitude);
+  window.cmv_bound = sampling_bound(compaction_meter, sampled);
+  window.rmv_bound = sampling_bound(rmv, sampled);
+  window.ccv_bound = sampling_bound(compaction_control, sampled);
 }
 
 /// Stiffness and damping at the excitation frequency.
@@ -142,7 +143,7 @@ std::vector<MeterWindow> meter_windows(const MeterRecord &record, const MeterOpt
     window.first = total % count + i * count;
     window.begin = record.cycles[window.first].begin;
     window.end = window.begin + period * static_cast<double>(count);
-    take_amplitudes(record.cycles, options, count, window);
+    take_amplitudes(record, options, count, window);
     window.contact_share = mean_of(record.cycles, window, count, &MeterCycle::contact_share);
     if (const auto energy = mean_of(record.cycles, window, count, &MeterCycle::energy))
       window.energy = 2.0 * *energy;

@@ -48,8 +48,9 @@ struct MeterWindow {
   std::array<double, meter_orders.size()> amplitude{}; ///< A_n [m/s2]; of every_step 0 at 1.5, 2.5 and 3
   std::optional<double> cmv;                           ///< 300 A_2 / A_1 [-]
   std::optional<double> rmv;                           ///< constant A_0.5 / A_1 [-]
-  double cmv_bound = 0.0;              ///< how far CMV may be off by the sampling [-]; may be infinite
-  double rmv_bound = 0.0;              ///< the same of RMV [-]
+  std::optional<double> ccv; ///< 100 (A_0.5 + A_1.5 + A_2 + A_2.5 + A_3) / (A_0.5 + A_1) [-]
+  /// How far each may be off by sampling and noise [-], see sampling_bound(); 0 for sums over every step.
+  double cmv_bound = 0.0, rmv_bound = 0.0, ccv_bound = 0.0;
   std::optional<double> displacement;  ///< amplitude A_1 / omega^2 of the drum's first harmonic [m]
   std::optional<double> contact_share; ///< [-]
   std::optional<double> peak_force;    ///< [N]

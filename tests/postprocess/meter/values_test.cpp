@@ -8,13 +8,17 @@
 #include "chain/parameters.h"
 #include "tests/support/chain_record.h"
 #include "tests/support/lines.h"
+#include "tests/support/piecewise_oracle.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
+#include <random>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace drumlin::test {
@@ -66,6 +70,7 @@ TEST(Meter, AmplitudesOfAKnownSignal) {
     EXPECT_NEAR(whole.amplitude[j], parts[j].second, 1e-11) << meter_orders[j];
   EXPECT_NEAR(*whole.cmv, 300.0 * 16.0 / 40.0, 1e-9);
   EXPECT_NEAR(*whole.rmv, 100.0 * 1.0 / 40.0, 1e-9);
+  EXPECT_NEAR(*whole.ccv, 100.0 * (1.0 + 2.0 + 16.0 + 3.0 + 4.0) / (1.0 + 40.0), 1e-9);
   MeterOptions other;
   other.rmv_constant = 300.0;
   EXPECT_NEAR(*last_window(synthetic(64.0, 20, parts), other).rmv, 7.5, 1e-9);
@@ -113,6 +118,88 @@ TEST(Meter, BoundsHoldForCoarseRecords) {
       EXPECT_LT(std::abs(*acceleration.cmv - known.cmv), acceleration.cmv_bound) << known.name << samples;
       EXPECT_LT(velocity.cmv_bound, acceleration.cmv_bound) << known.name << samples;
     }
+}
+
+/// Amplitudes of the acceleration from changes of velocity over the last two cycles of an exact solution.
+MeterAmplitudes amplitudes_of(const OracleResult &exact, int samples_per_cycle, double omega) {
+  MeterAmplitudes amplitudes{};
+  const std::size_t last = exact.time.size() - 1;
+  for (std::size_t j = 0; j < amplitudes.size(); ++j) {
+    std::complex<double> sum;
+    for (std::size_t i = last - 2 * static_cast<std::size_t>(samples_per_cycle); i < last; ++i)
+      sum += (exact.v_drum[i + 1] - exact.v_drum[i]) *
+             std::polar(1.0, -meter_orders[j] * omega * 0.5 * (exact.time[i] + exact.time[i + 1]));
+    amplitudes[j] = std::abs(sum) * omega / (2.0 * pi);
+  }
+  return amplitudes;
+}
+
+/// Samples of the exact solution from its 301st cycle on, one of `every`.
+Record thinned(const OracleResult &exact, const ChainParameters &p, int samples_per_cycle, int every,
+               int first, bool velocity) {
+  Record record;
+  record.file = "measured.csv";
+  record.omega = p.omega;
+  record.interval = p.period() / samples_per_cycle * every;
+  for (std::size_t i = static_cast<std::size_t>(300 * samples_per_cycle + first); i < exact.time.size();
+       i += static_cast<std::size_t>(every)) {
+    record.time.push_back(exact.time[i]);
+    (velocity ? record.v_drum : record.a_drum).push_back(velocity ? exact.v_drum[i] : exact.a_drum[i]);
+  }
+  return record;
+}
+
+// Over regimes, rates and phases of the samples: no value is off by more than its bound, and most bounds are
+// not much larger. Exact solutions share no code with the meter.
+TEST(Meter, BoundsAreTight) {
+  constexpr int samples = 3000;
+  std::array<std::vector<double>, 2> ratios; // bound over error, from accelerations and from velocities
+  const auto take = [&ratios](bool velocity, double value, double truth, double bound) {
+    EXPECT_LE(std::abs(value - truth), bound + 1e-5 * (1.0 + truth)) << "but for the error of the truth";
+    if (truth > 1.0) ratios[velocity ? 1 : 0].push_back(bound / std::max(std::abs(value - truth), 1e-9));
+  };
+  for (const auto &[k, D, transition] : {std::tuple{20e6, 0.5, Transition::B},
+                                         {100e6, 0.5, Transition::B},
+                                         {60e6, 0.2, Transition::B},
+                                         {60e6, 0.3, Transition::A}}) {
+    ChainParameters p = table1_case("II", transition);
+    p.k = k;
+    p.D = D;
+    const OracleResult exact = exact_pieces(p, 313, samples);
+    const MeterAmplitudes truth = amplitudes_of(exact, samples, p.omega);
+    for (const int every : {120, 97, 60, 31, 15, 7, 3}) // 25 to 1000 samples per cycle
+      for (const int first : {0, 1, 2, 5, 11, 23, 47})
+        for (const bool velocity : {false, true}) {
+          SCOPED_TRACE(std::to_string(k) + " " + std::to_string(every) + " " + std::to_string(first));
+          const MeterWindow window = last_window(thinned(exact, p, samples, every, first % every, velocity));
+          take(velocity, *window.cmv, compaction_meter(truth), window.cmv_bound);
+          take(velocity, *window.rmv, resonance_meter()(truth), window.rmv_bound);
+          take(velocity, *window.ccv, compaction_control(truth), window.ccv_bound);
+        }
+  }
+  for (std::vector<double> &all : ratios) {
+    std::sort(all.begin(), all.end());
+    RecordProperty("median", std::to_string(all[all.size() / 2]));
+    EXPECT_LT(all[all.size() / 2], 8.0);
+    EXPECT_LT(all[all.size() * 3 / 4], 30.0);
+  }
+}
+
+// Noise counts, too: of a motion in unbroken contact, which has no second harmonic, nearly all is noise.
+TEST(Meter, BoundsContainNoise) {
+  int within = 0;
+  constexpr int seeds = 200;
+  for (int seed = 0; seed < seeds; ++seed) {
+    Record record = synthetic(64.0, 20, {{1.0, 40.0}});
+    std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+    std::normal_distribution<double> noise(0.0, 0.4);
+    for (double &a : record.a_drum)
+      a += noise(random);
+    const MeterWindow window = last_window(record);
+    if (*window.cmv < window.cmv_bound) ++within;
+    EXPECT_LT(window.cmv_bound, 2.0); // 300 times 0.4 root(2/640) / 40 is 0.17
+  }
+  EXPECT_GE(within, 190);
 }
 
 TEST(Meter, DoubleJumpAgainstTheClosedFormSolver) {
