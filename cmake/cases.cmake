@@ -1,19 +1,16 @@
 # Writes the cases of the chain, as the decks inputs/chain/case.* have them, into a file for the
-# post-processor: they are typed once. Each becomes one line {"NAME", k, D, omega, m_e r_e, m2, m3, k23, c23},
-# in which numbers may be expressions with PI, as in the decks. The cases of the paper's Table 1 end after
-# omega: they have what is the default of the chain.
+# post-processor: they are typed once. Each becomes one line {"NAME", k, D, omega}, in which numbers may be
+# expressions with PI, as in the decks.
 function(drumlin_deck_number result deck name)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${deck})
   file(STRINGS ${deck} line REGEX "^variable +${name} +index ")
-  set(value "([0-9.e]+|[$][(]([0-9.e]+[*]PI)[)]|[$][(]([0-9.e]+)[*]v_omega\\^2[)])")
+  set(value "([0-9.e]+|[$][(]([0-9.e]+[*]PI)[)])")
   if(NOT line MATCHES "^variable +${name} +index +${value}( |$)")
     message(FATAL_ERROR "${deck}: variable ${name} is '${line}'; "
-                        "allowed: index and a number, $(NUMBER*PI) or $(NUMBER*v_omega^2)")
+                        "allowed: index and a number or $(NUMBER*PI)")
   endif()
   if(CMAKE_MATCH_2)
     set(${result} ${CMAKE_MATCH_2} PARENT_SCOPE)
-  elseif(CMAKE_MATCH_3)
-    set(${result} ${CMAKE_MATCH_3} PARENT_SCOPE)
   else()
     set(${result} ${CMAKE_MATCH_1} PARENT_SCOPE)
   endif()
@@ -26,19 +23,6 @@ function(drumlin_write_cases file)
     set(row "\"${case}\"")
     foreach(name k D omega)
       drumlin_deck_number(number ${folder}/case.${case} ${name})
-      string(APPEND row ", ${number}")
-    endforeach()
-    string(APPEND rows "{${row}},\n")
-  endforeach()
-  foreach(case BW120-63Hz BW120-67Hz CA3500-high CA3500-low CA6500-high CA6500-low Axas2020-29Hz)
-    string(REGEX REPLACE "-.*" "" machine ${case})
-    set(row "\"${case}\"")
-    foreach(name k D omega Fw m2 m3 k23 c23)
-      set(deck ${folder}/machine.${machine})
-      if(name STREQUAL omega OR name STREQUAL Fw)
-        set(deck ${folder}/case.${case})
-      endif()
-      drumlin_deck_number(number ${deck} ${name})
       string(APPEND row ", ${number}")
     endforeach()
     string(APPEND rows "{${row}},\n")

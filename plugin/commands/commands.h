@@ -13,6 +13,9 @@ void variables_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 /// drumlin/check NAME VALUE RULE ...: ends the run if the value of a variable breaks a rule.
 void check_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
+/// drumlin/roller FILE whole|per_metre [setting NAME]: sets the variables of a roller to those of its file.
+void roller_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
+
 /// drumlin/outputs [folder F] [continue STEP TIME] files NAME ... [numbered FOLDER PREFIX SUFFIX ...]: backs
 /// up the files of an earlier run, which are restored if the new run fails in its first steps.
 void outputs_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
@@ -61,6 +64,7 @@ template <class Add>
 void for_each_command(Add &&add) {
   add(CommandType<check_command>(), "drumlin/check", "checks the value of a variable");
   add(CommandType<variables_command>(), "drumlin/variables", "checks the variables of the command line");
+  add(CommandType<roller_command>(), "drumlin/roller", "takes the values of a roller from its file");
   add(CommandType<pick_command>(), "drumlin/pick", "takes a number from a list");
   add(CommandType<layers_command>(), "drumlin/layers", "gives contacts the laws of the layers of a bed");
   add(CommandType<outputs_command>(), "drumlin/outputs", "backs up the files of an earlier run");

@@ -30,9 +30,7 @@ constexpr std::array law_names = {"k", "D", "friction", "rolling"}; ///< of the 
 std::string value_of(const CalibrationTask &task, const std::vector<double> &point, const std::string &name) {
   for (std::size_t i = 0; i < task.vary.size(); ++i)
     if (task.vary[i].name == name) return number_text(point[i]);
-  for (const auto &[fixed, value] : task.fixed)
-    if (fixed == name) return value;
-  return {};
+  return task.fixed_value(name).value_or("");
 }
 
 /// The values of several variables, without those that are the deck's defaults.
@@ -67,14 +65,14 @@ int steps_per_cycle(double step, double frequency) {
   return 250 * static_cast<int>(std::ceil(1.0 / (frequency * step) / 250.0));
 }
 
+} // namespace
+
 PackingOptions packing_of(const CalibrationTask &task) {
   PackingOptions packing;
   packing.balls = task.balls;
   packing.width *= std::sqrt(task.balls / 2500.0); // as deep in relation to the width as the default bed
   return packing;
 }
-
-} // namespace
 
 bool measures(const CalibrationTask &task, SoilTest test) {
   return std::any_of(task.targets.begin(), task.targets.end(),

@@ -1,6 +1,7 @@
 // Measures the targets of a calibration in runs of the engine.
 #pragma once
 
+#include "bed/packing.h"
 #include "calibration/evaluations.h"
 #include "calibration/task.h"
 
@@ -40,6 +41,9 @@ private:
   const CalibrationTask task_;
   const std::filesystem::path out_;
 };
+
+/// The balls of a bed, and the box in which they settle.
+PackingOptions packing_of(const CalibrationTask &task);
 
 /// Whether a task has targets that a test measures.
 bool measures(const CalibrationTask &task, SoilTest test);

@@ -37,6 +37,7 @@ const std::array<SoilQuantity, 9> soil_quantities = {
 
 namespace {
 
+constexpr double pi = 3.14159265358979323846;
 constexpr Range tolerance_range = {1e-4, 1.0};
 constexpr double default_tolerance = 0.05;
 constexpr const char *target_option = "--target";
@@ -78,9 +79,8 @@ double number_in(const char *option, const std::string &whole, const std::string
 /// Weight of drum and frame together, per metre of drum width [N/m].
 double weight(const CalibrationTask &task) {
   const auto mass = [&task](const char *name, double of_gravel) {
-    for (const auto &[fixed, value] : task.fixed)
-      if (fixed == name) return number_from_text(value);
-    return of_gravel;
+    const std::optional<std::string> value = task.fixed_value(name);
+    return value ? number_from_text(*value) : of_gravel;
   };
   constexpr double g = 9.81;
   return (mass("m2", gravel_drum) + mass("m3", gravel_frame)) * g;
@@ -131,15 +131,22 @@ std::pair<std::string, std::string> fixed_from_text(const std::string &text) {
   constexpr const char *option = "--set";
   const auto named = parts(text, '=');
   const SoilParameter *parameter = named ? find_named(soil_parameters, named->first) : nullptr;
+  const bool in_hertz = named && named->first == "frequency";
   const bool of_roller =
-      named && std::count(roller_variables.begin(), roller_variables.end(), named->first) > 0;
+      in_hertz || (named && std::count(roller_variables.begin(), roller_variables.end(), named->first) > 0);
   if (parameter == nullptr && !of_roller)
     throw UsageError(refusal(option, text,
-                             fmt::format("NAME=VALUE, NAME one of {}, {}", names_of(soil_parameters),
-                                         fmt::join(roller_variables, ", "))));
+                             fmt::format("NAME=VALUE, NAME one of {}, {}, frequency",
+                                         names_of(soil_parameters), fmt::join(roller_variables, ", "))));
   constexpr Range any = {1e-9, 1e15};
-  number_in(option, text, named->second, of_roller ? any : parameter->range);
-  return *named;
+  const double value = number_in(option, text, named->second, of_roller ? any : parameter->range);
+  return in_hertz ? std::pair{std::string("omega"), number_text(2.0 * pi * value)} : *named;
+}
+
+std::optional<std::string> CalibrationTask::fixed_value(const std::string &name) const {
+  for (const auto &[fixed_name, value] : fixed)
+    if (fixed_name == name) return value;
+  return std::nullopt;
 }
 
 bool CalibrationTask::varies(const std::string &name) const { return find_named(vary, name) != nullptr; }

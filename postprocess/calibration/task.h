@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -67,6 +68,8 @@ struct CalibrationTask {
   int target_beds = 0;
 
   bool varies(const std::string &name) const;
+  /// The text of a fixed variable; nothing if it has the deck's value.
+  std::optional<std::string> fixed_value(const std::string &name) const;
   /// Throws UsageError unless there are parameters and targets, each once, no more parameters than targets,
   /// no parameter that is also fixed, and no targets that contradict each other.
   void check() const;
@@ -77,8 +80,8 @@ struct CalibrationTask {
 CalibrationTarget target_from_text(const std::string &text);
 /// From "NAME=LOW:HIGH". Throws UsageError for the option --vary.
 VariedParameter varied_from_text(const std::string &text);
-/// From "NAME=VALUE", NAME a parameter of the soil or a variable of the roller, VALUE a number. Throws
-/// UsageError for the option --set.
+/// From "NAME=VALUE", NAME a parameter of the soil, a variable of the roller, or frequency [Hz], which
+/// becomes omega; VALUE a number. Throws UsageError for the option --set.
 std::pair<std::string, std::string> fixed_from_text(const std::string &text);
 
 /// The quantity of that name. \pre there is one

@@ -1,5 +1,6 @@
 #include "chain/parameters.h"
 
+#include "files/roller.h"
 #include "support/csv.h"
 
 #include <fmt/format.h>
@@ -16,14 +17,12 @@ namespace {
 
 constexpr double PI = 3.14159265358979323846; // its name in the decks
 
-// A line of a case as CMake takes it from the decks inputs/chain/case.*; a mass of 0 stands for the defaults
-// of the chain.
+// A line of a case as CMake takes it from the decks inputs/chain/case.*.
 struct CaseRow {
   const char *name;
   double k, D, omega;
-  double me_re = 0, m2 = 0, m3 = 0, k23 = 0, c23 = 0;
 };
-constexpr std::array<CaseRow, chain_cases.size()> rows = {{
+constexpr std::array<CaseRow, table1_cases.size()> rows = {{
 #include <cases.inc>
 }};
 
@@ -65,29 +64,26 @@ std::string ChainParameters::invalid() const {
   return {};
 }
 
-NamedChain named_chain(const std::string &name, Transition transition) {
+ChainParameters table1_case(const std::string &name, Transition transition) {
   const auto *const row =
       std::find_if(rows.begin(), rows.end(), [&](const CaseRow &entry) { return name == entry.name; });
   if (row == rows.end())
-    throw std::invalid_argument(refusal("case", name, fmt::format("{}", fmt::join(chain_cases, ", "))));
-  NamedChain chain;
-  ChainParameters &p = chain.parameters;
+    throw std::invalid_argument(refusal("case", name, fmt::format("{}", fmt::join(table1_cases, ", "))));
+  ChainParameters p;
   p.k = row->k;
   p.D = row->D;
   p.omega = row->omega;
   p.transition = transition;
-  if (row->m2 == 0.0) return chain;
-  chain.me_re = row->me_re;
-  p.Fw = row->me_re * p.omega * p.omega;
-  p.m2 = row->m2;
-  p.m3 = row->m3;
-  p.k23 = row->k23;
-  p.c23 = row->c23;
-  return chain;
+  return p;
 }
 
-ChainParameters table1_case(const std::string &name, Transition transition) {
-  return named_chain(name, transition).parameters;
+void set_machine(ChainParameters &p, const Roller &roller, const RollerSetting &setting) {
+  p.m2 = roller.m2;
+  p.m3 = roller.m3;
+  p.k23 = roller.k23;
+  p.c23 = roller.c23;
+  p.omega = 2.0 * PI * setting.frequency;
+  p.Fw = setting.me_re * p.omega * p.omega;
 }
 
 std::vector<std::pair<std::string, std::string>> parameter_values(const ChainParameters &p) {

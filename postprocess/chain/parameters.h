@@ -1,15 +1,19 @@
 // The lumped chain soil - drum - frame: its parameters, the cases of Table 1 of the paper (Wang, Sha and Hu
-// 2018) and of rollers, and the allowed ranges of the parameters. Everything is in SI units; x points up and
-// x_drum = 0 where drum and soil just touch.
+// 2018), the machine of a roller file, and the allowed ranges of the parameters. Everything is in SI units; x
+// points up and x_drum = 0 where drum and soil just touch.
 #pragma once
 
 #include "support/range.h"
 
 #include <array>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+namespace drumlin {
+struct Roller;
+struct RollerSetting;
+} // namespace drumlin
 
 namespace drumlin::post {
 
@@ -69,27 +73,14 @@ extern const std::array<ChainNumber, 9> chain_numbers;
 /// The chain's parameters by the names that decks, commands and parameters.csv give them, as text.
 std::vector<std::pair<std::string, std::string>> parameter_values(const ChainParameters &parameters);
 
-/// A chain that has a name, as the deck inputs/chain/case.NAME sets it.
-struct NamedChain {
-  ChainParameters parameters;
-  /// Eccentric moment m_e r_e of a roller's exciter [kg m], with which Fw = m_e r_e omega^2; none: Fw is the
-  /// same at any frequency.
-  std::optional<double> me_re;
-};
-
-/// The names of all cases: those of the paper's Table 1, then rollers of manufacturers at their settings.
-constexpr std::array<const char *, 11> chain_cases = {
-    "I",           "II",         "III",         "IV",         "BW120-63Hz",   "BW120-67Hz",
-    "CA3500-high", "CA3500-low", "CA6500-high", "CA6500-low", "Axas2020-29Hz"};
-
-/// The case of that name. Throws std::invalid_argument, which names the value and what is allowed, for any
-/// other name.
-NamedChain named_chain(const std::string &name, Transition transition);
-
 /// The names of the cases of the paper's Table 1.
 constexpr std::array<const char *, 4> table1_cases = {"I", "II", "III", "IV"};
 
-/// The parameters of named_chain().
+/// The case as the deck inputs/chain/case.NAME sets it: k, D and omega. Throws std::invalid_argument, which
+/// names the value and what is allowed, for any other name.
 ChainParameters table1_case(const std::string &name, Transition transition);
+
+/// Lets the chain have the machine of a roller file: masses, bond, frequency and force of the exciter.
+void set_machine(ChainParameters &parameters, const Roller &roller, const RollerSetting &setting);
 
 } // namespace drumlin::post

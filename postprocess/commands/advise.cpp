@@ -43,6 +43,7 @@ struct Arguments {
   std::optional<std::string> within;
 };
 
+constexpr double pi = 3.14159265358979323846;
 /// The largest number that in.chain allows.
 constexpr int most_cycles = 10'000'000;
 
@@ -119,7 +120,8 @@ void run_bed(const Arguments &arguments) {
 
 void run(const Arguments &arguments) {
   AdviceRequest request;
-  request.parameters = judged(arguments.chain);
+  const AskedChain asked = judged_chain(arguments.chain);
+  request.parameters = asked.parameters;
   request.stepping = choice_option("--stepping", arguments.stepping, {"second", "stock"});
   request.error = number_option("--error", arguments.error, {1e-15, 1.0, "", false, false, true});
   const Measure &measure = measure_of(arguments.measure);
@@ -131,11 +133,11 @@ void run(const Arguments &arguments) {
     throw UsageError(refusal("--from", folder.string(), "folders of an accuracy study, with chain.csv"));
 
   if (const double least = slowest_excitation(request.parameters); request.parameters.omega < least)
-    throw UsageError(
-        refusal("--omega", request.parameters.omega,
-                fmt::format("at least {:.3g} rad/s with the other numbers of this chain: {} cycles "
-                            "of it are solved several times",
-                            least, accuracy_cycles)));
+    throw UsageError(frequency_refusal(
+        arguments.chain, request.parameters.omega,
+        fmt::format("at least {:.3g} rad/s, {:.3g} Hz, with the other numbers of this chain: {} cycles "
+                    "of it are solved several times",
+                    least, least / (2.0 * pi), accuracy_cycles)));
   const std::vector<ChainPoint> points = read_points(folder / "chain.csv", chain_points());
   TimedProgress progress;
   const StepAdvice advice = advise(request, points, [&](const ChainParameters &chain) {
@@ -143,6 +145,9 @@ void run(const Arguments &arguments) {
       progress.tell("{:.0f} % of the solutions that tell how sensitive a chain is", 100.0 * share);
     });
   });
+  if (asked.roller)
+    for (const std::string &line : asked.roller->lines(request.parameters.g))
+      fmt::print("{}\n", line);
   const double step = request.parameters.period() / advice.steps_per_cycle;
   fmt::print("{} steps per cycle, a step of {:.4g} s, with {} stepping\n", advice.steps_per_cycle, step,
              request.stepping);

@@ -4,6 +4,7 @@
 #include "calibration/page.h"
 #include "calibration/soil_tests.h"
 #include "calibration/task.h"
+#include "commands/roller_options.h"
 #include "commands/text_options.h"
 #include "engine/places.h"
 #include "experiment/study.h"
@@ -18,6 +19,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -25,6 +27,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <unistd.h>
@@ -35,8 +38,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr double gravity = 9.81; // m/s2, of in.bed
+
 struct Arguments {
   std::vector<std::string> targets, vary, fixed;
+  RollerArguments roller;
   std::string seeds = "5";
   std::string balls = "1000";
   std::string cycles = "6";
@@ -48,7 +54,31 @@ struct Arguments {
   bool fresh = false;
 };
 
-CalibrationTask judged_task(const Arguments &arguments) {
+/// Gives the roller to the bed, per metre of the drum's width; what --set gives counts more.
+void set_roller(const GivenRoller &roller, CalibrationTask &task) {
+  const Roller &machine = roller.machine;
+  const auto refuse = [&roller](const char *allowed) {
+    throw UsageError(refusal("--roller", roller.file, allowed));
+  };
+  if (!machine.width) refuse("a file with the width of the drum, since a bed has the roller per metre of it");
+  if (!machine.diameter && !task.fixed_value("r2"))
+    refuse("a file with the diameter of the drum, or its radius by --set r2=");
+  ChainParameters whole;
+  set_machine(whole, machine, roller.setting);
+  if (const std::optional<std::string> omega = task.fixed_value("omega")) {
+    whole.omega = number_from_text(*omega);
+    whole.Fw = roller.setting.me_re * whole.omega * whole.omega;
+  }
+  const double width = *machine.width;
+  const std::vector<std::pair<const char *, double>> values = {
+      {"m2", whole.m2 / width},   {"m3", whole.m3 / width},   {"r2", 0.5 * machine.diameter.value_or(0.0)},
+      {"k23", whole.k23 / width}, {"c23", whole.c23 / width}, {"omega", whole.omega},
+      {"Fw", whole.Fw / width}};
+  for (const auto &[name, value] : values)
+    if (!task.fixed_value(name)) task.fixed.emplace_back(name, number_text(value));
+}
+
+CalibrationTask judged_task(const Arguments &arguments, const std::optional<GivenRoller> &roller) {
   CalibrationTask task;
   for (const std::string &text : arguments.targets)
     task.targets.push_back(target_from_text(text));
@@ -56,12 +86,21 @@ CalibrationTask judged_task(const Arguments &arguments) {
     task.vary.push_back(varied_from_text(text));
   for (const std::string &text : arguments.fixed)
     task.fixed.push_back(fixed_from_text(text));
+  if (roller) set_roller(*roller, task);
   task.check();
   constexpr int most_seeds = 1000, least_balls = 50, least_cycles = 4, most = 1000000;
   task.seeds = count_option("--seeds", arguments.seeds, 2, most_seeds);
   task.balls = count_option("--balls", arguments.balls, least_balls, most);
   task.cycles = count_option("--cycles", arguments.cycles, least_cycles, most);
   task.target_beds = count_option("--target-beds", arguments.target_beds, 0, most);
+  if (const std::optional<std::string> r2 = task.fixed_value("r2")) {
+    const double diameter = 2.0 * number_from_text(*r2), width = packing_of(task).width;
+    if (!(diameter < width))
+      throw UsageError(refusal(
+          "--balls", arguments.balls,
+          fmt::format("at least {:.0f}: the drum has a diameter of {:g} m, the box a width of {:.3g} m",
+                      std::ceil(task.balls * diameter * diameter / (width * width)) + 1.0, diameter, width)));
+  }
   return task;
 }
 
@@ -97,8 +136,12 @@ int points_at_once(const fs::path &settings, int jobs, int seeds) {
 }
 
 /// All that the results depend on.
-std::string settings_text(const CalibrationTask &task, int at_once) {
+std::string settings_text(const CalibrationTask &task, const std::optional<GivenRoller> &roller,
+                          int at_once) {
   std::string text = build_line();
+  if (roller)
+    for (const auto &[name, value] : roller->rows(gravity))
+      text += csv_line({name, value});
   for (const auto &[name, value] : settings_of(task))
     text += csv_line({name, value});
   return text + csv_line({at_once_name, std::to_string(at_once)});
@@ -134,18 +177,23 @@ std::vector<LumpedComparison> compared_records(const CalibrationTask &task, cons
 
 void run(const Arguments &arguments, const std::string &command) {
   constexpr int most = 100000;
-  const CalibrationTask task = judged_task(arguments);
+  std::optional<GivenRoller> roller = judged(arguments.roller);
+  const CalibrationTask task = judged_task(arguments, roller);
   CalibrationEffort effort;
   effort.evaluations = count_option("--evaluations", arguments.evaluations, 1, most);
   effort.jobs = count_option("--jobs", arguments.jobs, 1, most);
   const std::string name = judged_name(arguments.name);
   const fs::path out = output_folder_option("--out", arguments.out);
-  keep_apart({}, {{"--out", out, true}});
+  keep_apart(files_of(arguments.roller), {{"--out", out, true}});
   check_engine_path(out);
   effort.at_once = arguments.fresh ? std::max(1, effort.jobs / task.seeds)
                                    : points_at_once(out / settings_name, effort.jobs, task.seeds);
-  const ResumedFolder folder(out, "calibration", settings_text(task, effort.at_once), arguments.fresh);
+  const ResumedFolder folder(out, "calibration", settings_text(task, roller, effort.at_once),
+                             arguments.fresh);
 
+  if (roller)
+    for (const std::string &line : roller->lines(gravity))
+      fmt::print("{}\n", line);
   const SoilTests tests(task, out);
   const MeasureSeed measure = [&tests](const Evaluation &evaluation, int seed) {
     return tests.measure(evaluation, seed);
@@ -211,8 +259,9 @@ void add_calibrate_command(CLI::App &app, Session &session) {
   list("--set", &Arguments::fixed,
        "NAME=VALUE, another value than case gravel has: of these parameters, or of the roller's variables "
        "m2, m3, r2, r3, "
-       "k23, c23, omega, Fw",
+       "k23, c23, omega or frequency [Hz], Fw; m2, m3, k23, c23, Fw per metre of the drum's width",
        "SETTING");
+  add_roller_options(*calibrate, arguments->roller, "The roller, instead of that of case gravel");
   text_option(calibrate, "--seeds", "COUNT", arguments->seeds, "beds at each point, 2 or more");
   text_option(calibrate, "--balls", "COUNT", arguments->balls,
               "soil balls of a bed; its width grows with their square root, 2 m for 2500");

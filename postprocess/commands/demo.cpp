@@ -251,13 +251,6 @@ private:
   std::vector<Step> steps_;
 };
 
-/// The folder of the decks, named from the working folder where it is below it: a name without blanks,
-/// whatever the path of the checkout.
-fs::path decks_folder() {
-  std::error_code code;
-  return fs::equivalent(places().inputs, "inputs", code) ? fs::path("inputs") : places().inputs;
-}
-
 void run(const Arguments &arguments) {
   const Plan plan = plan_of(arguments);
   if (const std::string fault = engine_fault(Engine::liggghts); !fault.empty()) throw UsageError(fault);
@@ -274,7 +267,7 @@ void run(const Arguments &arguments) {
       print(fmt::format("SKIPPED: the cases in LAMMPS: {}\n", fault));
       with_lammps = false;
     }
-  Demo(plan, decks_folder(), with_lammps).run();
+  Demo(plan, inputs_here(), with_lammps).run();
 }
 
 } // namespace

@@ -38,6 +38,7 @@ struct Arguments {
 struct Task {
   ChainParameters parameters;
   std::optional<double> me_re; ///< kg m, from which Fw follows; none: Fw is given
+  std::optional<GivenRoller> roller;
   DirectOptions options;
   bool closed_form = true;
   fs::path out;
@@ -48,9 +49,10 @@ constexpr std::array<const char *, 4> file_names = {"chain.csv", "events.csv", "
 
 Task judge(const Arguments &arguments) {
   Task task;
-  const NamedChain chain = judged_chain(arguments.chain);
+  const AskedChain chain = judged_chain(arguments.chain);
   task.parameters = chain.parameters;
   task.me_re = chain.me_re;
+  task.roller = chain.roller;
   DirectOptions &options = task.options;
   options.cycles = number_option("--cycles", arguments.cycles, DirectOptions::cycles_range);
   options.samples_per_cycle =
@@ -63,7 +65,8 @@ Task judge(const Arguments &arguments) {
   if (!fault.empty()) throw UsageError("--" + fault);
   task.closed_form = !arguments.rtol && closed_form_suffices(task.parameters, options.cycles);
   task.out = output_folder_option("--out", arguments.out);
-  keep_apart({}, files_in("--out", task.out, {file_names.begin(), file_names.end()}));
+  keep_apart(files_of(arguments.chain.roller),
+             files_in("--out", task.out, {file_names.begin(), file_names.end()}));
   for (const char *name : file_names)
     try {
       check_output_file(task.out / name);
@@ -86,14 +89,20 @@ std::vector<std::pair<std::string, std::string>> record(const Arguments &argumen
                                {"cycles", number_text(task.options.cycles)},
                                {"samples_per_cycle", fmt::format("{}", task.options.samples_per_cycle)},
                                {"solver", solver},
-                               {"rtol", number_text(task.closed_form ? 0.0 : task.options.rtol)},
-                               {"command", command},
-                               {"ended", "yes"}});
+                               {"rtol", number_text(task.closed_form ? 0.0 : task.options.rtol)}});
+  if (task.roller) {
+    const auto rows = task.roller->rows(p.g);
+    values.insert(values.end(), rows.begin(), rows.end());
+  }
+  values.insert(values.end(), {{"command", command}, {"ended", "yes"}});
   return values;
 }
 
 void run(const Arguments &arguments, const std::string &command) {
   const Task task = judge(arguments);
+  if (task.roller)
+    for (const std::string &line : task.roller->lines(task.parameters.g))
+      fmt::print("{}\n", line);
   TimedProgress progress;
   const SolverProgress tell = [&](double share) {
     progress.tell("solved to cycle {:.1f} of {:g}", share * task.options.cycles, task.options.cycles);
@@ -112,7 +121,7 @@ void run(const Arguments &arguments, const std::string &command) {
                {task.out / file_names[3], parameters_text(record(arguments, task, result.cost, command))}});
   const std::string of_moment =
       task.me_re
-          ? fmt::format(", of the eccentric moment {:g} kg m of the case, whatever the masses", *task.me_re)
+          ? fmt::format(", of the eccentric moment {:g} kg m of the roller, whatever the masses", *task.me_re)
           : "";
   fmt::print("{}: {} samples, {} events, {} cycles (case {}, transition {}; {} steps), Fw {:g} N{}\n",
              task.out.string(), result.history.size(), result.events.size(), result.cycles.size(),

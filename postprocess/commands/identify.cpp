@@ -121,11 +121,12 @@ void add_identify_command(CLI::App &app, Session & /*session*/) {
       "do not use positions and velocities of the record: what a roller with accelerometers has");
   identify->add_flag("--anyway", arguments->anyway,
                      "show a result that contradicts itself, or of a filtered record");
-  identify->add_flag("--compare", arguments->compare,
-                     "solve the chain with this k and D, and draw it over the record: acceleration, force "
-                     "loop, share of contact, "
-                     "CMV, with what a spring and a dashpot cannot do; for folders of a run, whose "
-                     "parameters.csv has the bond");
+  identify->add_flag(
+      "--compare", arguments->compare,
+      "solve the chain with this k and D, and draw it over the record: acceleration, force "
+      "loop, share of contact, "
+      "CMV, with what a spring and a dashpot cannot do; needs the bond, from parameters.csv of "
+      "a run or --roller");
   text_option(
       identify, "--origin", "WORD", arguments->origin,
       "known: x_drum = 0 is where drum and soil just touch (chain.csv); free: unknown, for each contact (all "
@@ -148,7 +149,8 @@ void add_identify_command(CLI::App &app, Session & /*session*/) {
       "  drumlin identify results/bed/B --compare --window 5 --out results/identify-bed\n"
       "  drumlin identify measured.csv --column 'a_drum=Acc drum:g' --column 'a_frame=Acc frame:g' "
       "--sampling-rate 1000 --frequency 29 --phase 90 --phase-within 1 --me-re 7.31 --m2 3962 --m3 "
-      "3379\n");
+      "3379\n"
+      "  drumlin identify measured.csv --roller inputs/rollers/CA3500 --setting high\n");
   identify->callback([arguments] { run(*arguments); });
 }
 

@@ -45,6 +45,7 @@ constexpr const char *page_name = "index.html";
 
 struct Task {
   MapGrid grid;
+  std::optional<GivenRoller> roller;
   std::optional<MapAxis> sweep;
   int threads = 1;
   fs::path out;
@@ -60,7 +61,7 @@ MapAxis axis_option(const char *option, const std::string &text) {
 
 // Refuses chains that cannot be computed, or that move so much faster than they are excited that a cycle
 // takes seconds.
-void judge_corner(const ChainParameters &parameters) {
+void judge_corner(const ChainArguments &arguments, const ChainParameters &parameters) {
   if (const std::string fault = parameters.invalid(); !fault.empty()) throw UsageError("--" + fault);
   constexpr double most_pieces = 1e4;
   for (const bool touching : {true, false}) {
@@ -68,8 +69,8 @@ void judge_corner(const ChainParameters &parameters) {
                                  touching ? parameters.damping() : 0.0);
     // Judged by the pieces after the fast decay, since they make up nearly all of the motion.
     if (parameters.period() / dynamics.longest_piece(1e300) > most_pieces)
-      throw UsageError(refusal(
-          "--omega", parameters.omega,
+      throw UsageError(frequency_refusal(
+          arguments, parameters.omega,
           fmt::format("a frequency not so far below those of the chain itself: a cycle of k = {:g} N/m, m2 = "
                       "{:g} kg, c23 = {:g} N s/m would take more than {:g} pieces",
                       parameters.k, parameters.m2, parameters.c23, most_pieces)));
@@ -79,9 +80,11 @@ void judge_corner(const ChainParameters &parameters) {
 Task judge(const MapArguments &arguments) {
   Task task;
   MapGrid &grid = task.grid;
-  const NamedChain chain = judged_chain(arguments.chain);
+  const AskedChain chain = judged_chain(arguments.chain);
+  task.roller = chain.roller;
   grid.chain.base = chain.parameters;
   if (arguments.me_re) grid.chain.me_re = number_option("--me-re", *arguments.me_re, {1e-9, 1e12, "kg m"});
+  if (task.roller && grid.chain.me_re) task.roller->setting.me_re = *grid.chain.me_re;
   std::vector<std::pair<MapAxis, const char *>> axes;
   if (arguments.sweep) {
     if (arguments.axes_given)
@@ -91,22 +94,19 @@ Task judge(const MapArguments &arguments) {
   } else {
     grid.x = axis_option("--x", arguments.x);
     grid.y = axis_option("--y", arguments.y);
-    if (grid.x.name == grid.y.name)
+    if (grid.x.parameter() == grid.y.parameter())
       throw UsageError(refusal("--y", arguments.y, "another NAME than that of --x"));
     axes = {{grid.x, "--x"}, {grid.y, "--y"}};
   }
   const bool moment = arguments.me_re || std::any_of(axes.begin(), axes.end(), [](const auto &axis) {
                         return axis.first.name == "me_re";
                       });
-  for (std::size_t i = 0; moment && i < chain_numbers.size(); ++i)
-    if (arguments.chain.numbers[i] && std::string("Fw") == chain_numbers[i].name)
-      throw UsageError(
-          refusal("--Fw", *arguments.chain.numbers[i], "not together with me_re, from which Fw follows"));
+  if (const auto Fw = given_number(arguments.chain, "Fw"); moment && Fw)
+    throw UsageError(refusal(Fw->first, Fw->second, "not together with me_re, from which Fw follows"));
   for (const auto &[axis, option] : axes) {
-    for (std::size_t i = 0; i < chain_numbers.size(); ++i)
-      if (arguments.chain.numbers[i] && axis.name == chain_numbers[i].name)
-        throw UsageError(refusal(fmt::format("--{}", axis.name), *arguments.chain.numbers[i],
-                                 fmt::format("not together with the axis {} of {}", axis.name, option)));
+    if (const auto given = given_number(arguments.chain, axis.parameter()))
+      throw UsageError(refusal(given->first, given->second,
+                               fmt::format("not together with the axis {} of {}", axis.name, option)));
     if (axis.name == "Fw" && moment)
       throw UsageError(refusal(option, "Fw", "not together with me_re, from which Fw follows"));
     if (axis.name == "me_re" && arguments.me_re)
@@ -119,13 +119,13 @@ Task judge(const MapArguments &arguments) {
   task.threads = count_option("--threads", arguments.threads, 1, most_threads);
   if (task.sweep)
     for (const double value : {task.sweep->from, task.sweep->to})
-      judge_corner(grid.chain.with({{task.sweep->name, value}}));
+      judge_corner(arguments.chain, grid.chain.with({{task.sweep->name, value}}));
   else
     for (const double x : {grid.x.from, grid.x.to})
       for (const double y : {grid.y.from, grid.y.to})
-        judge_corner(grid.at(x, y));
+        judge_corner(arguments.chain, grid.at(x, y));
   task.out = output_folder_option("--out", arguments.out);
-  keep_apart({}, {{"--out", task.out, true}});
+  keep_apart(files_of(arguments.chain.roller), {{"--out", task.out, true}});
   return task;
 }
 
@@ -137,7 +137,8 @@ std::string settings(const Task &task) {
   };
   std::vector<std::pair<std::string, std::string>> values = parameter_values(grid.chain.base);
   const auto is_axis = [&task, &grid](const char *name) {
-    return task.sweep ? task.sweep->name == name : grid.x.name == name || grid.y.name == name;
+    return task.sweep ? task.sweep->parameter() == name
+                      : grid.x.parameter() == name || grid.y.parameter() == name;
   };
   const bool varies = is_axis("Fw") || is_axis("me_re") || (grid.chain.me_re && is_axis("omega"));
   for (auto &[name, value] : values)
@@ -150,6 +151,10 @@ std::string settings(const Task &task) {
     values.emplace_back("y", words(grid.y));
   }
   values.emplace_back("cycles", fmt::format("{}", grid.cycles));
+  if (task.roller) {
+    const auto rows = task.roller->rows(grid.chain.base.g);
+    values.insert(values.end(), rows.begin(), rows.end());
+  }
   return parameters_text(values);
 }
 
@@ -312,6 +317,9 @@ void print_map(const MapArguments &arguments) {
   const std::string record = settings(task);
   const ResumedFolder folder(task.out, "map", record, arguments.fresh);
   write_files({{task.out / record_name, record}});
+  if (task.roller)
+    for (const std::string &line : task.roller->lines(task.grid.chain.base.g))
+      fmt::print("{}\n", line);
   if (task.sweep)
     run_sweep(task);
   else
@@ -327,10 +335,9 @@ void add_map_command(CLI::App &app, Session & /*session*/) {
                                 "RMV, peak force and share of contact. Writes CSV "
                                 "files and plots. An interrupted map continues where it was interrupted.");
   add_chain_options(*map, arguments->chain);
-  CLI::Option *x =
-      text_option(map, "--x", "AXIS", arguments->x,
-                  "axis NAME:FROM:TO:COUNT or NAME:FROM:TO:COUNT:log, NAME one of k, D, omega, Fw, "
-                  "me_re, m2, m3, k23, c23");
+  CLI::Option *x = text_option(map, "--x", "AXIS", arguments->x,
+                               "axis NAME:FROM:TO:COUNT or NAME:FROM:TO:COUNT:log, NAME one of k, D, omega, "
+                               "frequency, Fw, me_re, m2, m3, k23, c23");
   CLI::Option *y = text_option(map, "--y", "AXIS", arguments->y, "the other axis");
   text_option(map, "--sweep", "AXIS", arguments->sweep,
               "instead of a map: follow the motion along one axis up and down, once-per-cycle samples");

@@ -3,6 +3,8 @@
 #include "chain/parameters.h"
 #include "commands/text_options.h"
 #include "record/excitation.h"
+#include "runs/parameter_file.h"
+#include "support/csv.h"
 #include "support/options.h"
 #include "support/usage_error.h"
 
@@ -12,7 +14,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <initializer_list>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -21,6 +25,9 @@ namespace drumlin::post {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
+
+/// Files of a run from which its record may be read.
+constexpr std::array<const char *, 3> run_files = {"chain.csv", "bed.csv", "cycles.csv"};
 
 /// An option that is a number of the record.
 struct RecordNumber {
@@ -52,24 +59,50 @@ constexpr std::array<RecordNumber, 8> record_numbers = {
       {1e-3, 1e9, "Hz"},
       "cut-off frequency of a filter without phase shift for all columns [Hz]"}}};
 
-// What a roller's data say where the command line does not. With another frequency the force follows from the
-// eccentric moment; the force of a case without one stays the same.
-void add_case(const std::string &name, RecordOptions &options) {
-  NamedChain chain;
-  try {
-    chain = named_chain(name, Transition::B);
-  } catch (const std::invalid_argument &error) {
-    throw UsageError(fmt::format("--{}", error.what()));
-  }
-  const ChainParameters &p = chain.parameters;
-  if (!options.omega) options.omega = p.omega;
-  if (!options.m2) options.m2 = p.m2;
-  if (!options.m3) options.m3 = p.m3;
-  if (options.Fw || options.me_re) return;
-  if (chain.me_re)
-    options.me_re = chain.me_re;
-  else
-    options.Fw = p.Fw;
+using Noted = std::map<std::string, std::string>;
+
+/// What parameters.csv of a run notes; nothing of a measured record.
+Noted noted_of(const std::vector<std::filesystem::path> &paths) {
+  const std::filesystem::path &path = paths.front();
+  const bool folder = std::filesystem::is_directory(path);
+  if (!folder && std::find(run_files.begin(), run_files.end(), path.filename()) == run_files.end()) return {};
+  const std::filesystem::path file = (folder ? path : path.parent_path()) / "parameters.csv";
+  return std::filesystem::is_regular_file(file) ? read_parameters(file) : Noted();
+}
+
+/// Takes a value of a case or of a roller's file where neither command line nor run have it; whether it did.
+bool take(std::optional<double> &given, double value, const Noted &noted, const char *name) {
+  const auto found = noted.find(name);
+  if (given || (found != noted.end() && !found->second.empty())) return false;
+  given = value;
+  return true;
+}
+
+void add_case(const std::string &name, const Noted &noted, RecordOptions &options) {
+  const ChainParameters p = given_case(name, Transition::B);
+  take(options.omega, p.omega, noted, "omega");
+  take(options.m2, p.m2, noted, "m2");
+  take(options.m3, p.m3, noted, "m3");
+  if (!options.me_re) take(options.Fw, p.Fw, noted, "Fw");
+}
+
+/// A tolerance of the file is that of its own value. With another frequency the force follows from the
+/// eccentric moment.
+void add_roller(GivenRoller &roller, const Noted &noted, RecordOptions &options) {
+  Roller &machine = roller.machine;
+  RollerSetting &setting = roller.setting;
+  MachineTolerances &tolerances = options.tolerances;
+  take(options.omega, 2.0 * pi * setting.frequency, noted, "omega");
+  if (take(options.m2, machine.m2, noted, "m2")) tolerances.m2 = machine.m2_tolerance;
+  if (take(options.m3, machine.m3, noted, "m3")) tolerances.m3 = machine.m3_tolerance;
+  if (!options.Fw && take(options.me_re, setting.me_re, noted, "Fw"))
+    tolerances.me_re = machine.me_re_tolerance;
+  // What follows from the file is told with the values that count.
+  if (options.omega) setting.frequency = *options.omega / (2.0 * pi);
+  machine.m2 = options.m2.value_or(machine.m2);
+  machine.m3 = options.m3.value_or(machine.m3);
+  setting.me_re = options.me_re.value_or(setting.me_re);
+  if (options.Fw) setting.me_re = *options.Fw / std::pow(2.0 * pi * setting.frequency, 2);
 }
 
 } // namespace
@@ -92,10 +125,10 @@ void add_record_options(CLI::App &command, RecordArguments &arguments) {
       ->expected(1)
       ->take_all()
       ->group("Measured records");
+  add_roller_options(command, arguments.roller, "Measured records");
   text_option(
       &command, "--case", "NAME", arguments.chain_case,
-      fmt::format("roller whose frequency, eccentric moment and masses count where no option gives them: {}",
-                  fmt::join(chain_cases, ", ")))
+      fmt::format("case of the paper's Table 1 instead of a roller: {}", fmt::join(table1_cases, ", ")))
       ->group("Measured records");
   const auto of_file = [&command](const char *name, std::optional<std::string> &into, const char *help) {
     text_option(&command, name, "WORD", into, help)->group("Measured records");
@@ -133,7 +166,8 @@ char sign_of(const char *option, const std::string &text,
 } // namespace
 
 std::vector<GivenPath> files_of(const RecordArguments &arguments) {
-  const std::vector<std::string> of_run = {"chain.csv", "bed.csv", "cycles.csv", "parameters.csv"};
+  std::vector<std::string> of_run(run_files.begin(), run_files.end());
+  of_run.emplace_back("parameters.csv");
   std::vector<GivenPath> files;
   for (const std::filesystem::path &path : paths_of(arguments)) {
     const bool folder = std::filesystem::is_directory(path);
@@ -143,6 +177,8 @@ std::vector<GivenPath> files_of(const RecordArguments &arguments) {
     else
       files.push_back({"RECORD", path});
   }
+  for (const GivenPath &file : files_of(arguments.roller))
+    files.push_back(file);
   return files;
 }
 
@@ -181,11 +217,22 @@ Record judged(const RecordArguments &arguments) {
   options.low_pass = number(7);
   if (options.Fw && options.me_re)
     throw UsageError(refusal("--me-re", *arguments.me_re, "not together with --Fw, which follows from it"));
-  if (arguments.chain_case) add_case(*arguments.chain_case, options);
+  if (arguments.chain_case && arguments.roller.file)
+    throw UsageError(refusal("--case", *arguments.chain_case, "without --roller, which has another machine"));
+  std::optional<GivenRoller> roller = judged(arguments.roller);
+  if (arguments.chain_case) add_case(*arguments.chain_case, noted_of(paths), options);
+  if (roller) add_roller(*roller, noted_of(paths), options);
   const std::optional<double> low_pass = std::exchange(options.low_pass, std::nullopt);
   Record record = read_record(paths, options);
   settle_excitation(record, options);
   if (low_pass) filter_signals(record, *low_pass);
+  if (roller) {
+    record.parameters.emplace("k23", number_text(roller->machine.k23));
+    record.parameters.emplace("c23", number_text(roller->machine.c23));
+    if (record.Fw) record.parameters.emplace("Fw", number_text(*record.Fw));
+    const std::vector<std::string> lines = roller->lines(record.g.value_or(ChainParameters().g));
+    record.notes.insert(record.notes.begin(), lines.begin(), lines.end());
+  }
   return record;
 }
 

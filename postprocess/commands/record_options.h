@@ -2,6 +2,7 @@
 // all subcommands that take a record.
 #pragma once
 
+#include "commands/roller_options.h"
 #include "record/record.h"
 #include "support/options.h"
 
@@ -21,8 +22,9 @@ struct RecordArguments {
   std::vector<std::string> records;
   std::vector<std::string> columns;
   std::optional<std::string> separator, decimal, piece;
-  std::optional<std::string>
-      chain_case; ///< roller whose frequency, force and masses count where none is given
+  /// The roller, or the case of Table 1, whose frequency, force and masses count where none is given.
+  RollerArguments roller;
+  std::optional<std::string> chain_case;
   std::optional<std::string> sampling_rate, frequency, phase, Fw, me_re, m2, m3, low_pass;
 };
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace drumlin::post {
@@ -49,6 +50,11 @@ Places read_places() {
 const Places &places() {
   static const Places found = read_places();
   return found;
+}
+
+fs::path inputs_here() {
+  std::error_code code;
+  return fs::equivalent(places().inputs, "inputs", code) ? fs::path("inputs") : places().inputs;
 }
 
 std::string front_command() { return places().installed ? "drumlin" : "./drumlin"; }

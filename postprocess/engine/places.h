@@ -23,6 +23,10 @@ struct Places {
 /// the folder of this program. Throws std::runtime_error if the file cannot be read.
 const Places &places();
 
+/// The folder of the decks, named from the working folder where it is below it: a name without blanks,
+/// whatever the path of the checkout.
+std::filesystem::path inputs_here();
+
 /// What a user types to call this project: "drumlin" where it is installed, "./drumlin" in a checkout. For
 /// messages.
 std::string front_command();

@@ -43,10 +43,10 @@ double number_of(const Record &record, const char *name) {
   const std::optional<double> value =
       found == record.parameters.end() ? std::nullopt : any_number_from_text(found->second);
   if (!value || !std::isfinite(*value))
-    throw std::runtime_error(
-        fmt::format("{}: {}", record.file.string(),
-                    refusal(name, found == record.parameters.end() ? "" : found->second,
-                            "a number in parameters.csv, for the chain beside the record")));
+    throw std::runtime_error(fmt::format(
+        "{}: {}", record.file.string(),
+        refusal(name, found == record.parameters.end() ? "" : found->second,
+                "a number in parameters.csv, or a roller by --roller, for the chain beside the record")));
   return *value;
 }
 

@@ -161,7 +161,7 @@ MapFigures map_figures(const MapGrid &grid, const std::vector<RegimePoint> &poin
         panel.curves.push_back(
             {"plot_boundaries.csv", fmt::format("($1=={}?$2:NaN)", i), "3", kinds[i].title, kinds[i].style});
   };
-  const std::string given = conditions(grid.chain, {grid.x.name, grid.y.name});
+  const std::string given = conditions(grid.chain, {grid.x.parameter(), grid.y.parameter()});
   Figure regimes;
   regimes.name = "regimes";
   regimes.title = "Motion of the roller";
@@ -220,7 +220,7 @@ MapFigures sweep_figures(const MapChain &chain, const MapAxis &axis, const Sweep
   figure.name = "sweep";
   figure.title = "Once-per-cycle position of the drum";
   figure.only_png = true;
-  Panel panel{conditions(chain, {axis.name}), shown.label, "drum at the start of a cycle [mm]", {}};
+  Panel panel{conditions(chain, {axis.parameter()}), shown.label, "drum at the start of a cycle [mm]", {}};
   panel.log_x = axis.log;
   panel.x_range = axis_range(shown.scale * axis.from, shown.scale * axis.to);
   panel.y_range = axis_range(low - rim, high + rim);

@@ -14,7 +14,9 @@ namespace drumlin::post {
 
 namespace {
 
+constexpr double pi = 3.14159265358979323846;
 const Range me_re_range = {1e-9, 1e12, "kg m"};
+const Range frequency_in_hertz = {1e-6, 1e8, "Hz"};
 
 const ChainNumber *number_named(const std::string &name) {
   const auto *const found = std::find_if(chain_numbers.begin(), chain_numbers.end(),
@@ -24,7 +26,7 @@ const ChainNumber *number_named(const std::string &name) {
 
 const Range &range_of(const std::string &name) {
   const ChainNumber *number = number_named(name);
-  return number == nullptr ? me_re_range : number->range;
+  return number != nullptr ? number->range : name == "frequency" ? frequency_in_hertz : me_re_range;
 }
 
 } // namespace
@@ -34,6 +36,8 @@ double MapAxis::value(double place) const {
   if (share == 1.0) return to;
   return log ? from * std::pow(to / from, share) : from + (to - from) * share;
 }
+
+std::string MapAxis::parameter() const { return name == "frequency" ? "omega" : name; }
 
 std::string MapAxis::unit() const {
   const std::string unit = range_of(name).unit;
@@ -57,8 +61,8 @@ MapAxis axis_from_text(const std::string &option, const std::string &text, int m
   axis.name = parts[0];
   if (parts.size() < 4 || parts.size() > 5 || (parts.size() == 5 && parts[4] != "log"))
     fail("NAME:FROM:TO:COUNT or NAME:FROM:TO:COUNT:log, e.g. k:1e6:200e6:100:log");
-  if (number_named(axis.name) == nullptr && axis.name != "me_re")
-    fail("a NAME of k, D, omega, Fw, me_re, m2, m3, k23, c23");
+  if (number_named(axis.name) == nullptr && axis.name != "frequency" && axis.name != "me_re")
+    fail("a NAME of k, D, omega, frequency, Fw, me_re, m2, m3, k23, c23");
   axis.log = parts.size() == 5;
   double count = 0.0;
   try {
@@ -85,6 +89,8 @@ ChainParameters MapChain::with(const std::vector<std::pair<std::string, double>>
   for (const auto &[name, value] : values) {
     if (const ChainNumber *number = number_named(name))
       parameters.*number->value = value;
+    else if (name == "frequency")
+      parameters.omega = 2.0 * pi * value;
     else
       moment = value;
   }

@@ -11,8 +11,8 @@
 
 namespace drumlin::post {
 
-/// An axis of a map: the number's name as in decks, or me_re, the eccentric moment m_e r_e [kg m] with Fw =
-/// m_e r_e omega^2.
+/// An axis of a map: the number's name as in decks; frequency, omega/(2 pi) [Hz]; or me_re, the eccentric
+/// moment m_e r_e [kg m] with Fw = m_e r_e omega^2.
 struct MapAxis {
   std::string name;
   double from = 0.0;
@@ -21,6 +21,7 @@ struct MapAxis {
   bool log = false; ///< values in equal ratios instead of equal steps
 
   double value(double place) const; ///< place 0 to count - 1, also between
+  std::string parameter() const;    ///< the number of the chain that it sets: its name, or omega of frequency
   std::string unit() const;         ///< "N/m"; "-" for a ratio
   std::string label() const;        ///< "k [N/m]"
 };

@@ -165,6 +165,7 @@ void take_options(Record &record, const RecordOptions &options) {
   if (options.m2) record.m2 = options.m2;
   if (options.m3) record.m3 = options.m3;
   if (options.me_re && record.omega) record.Fw = *options.me_re * *record.omega * *record.omega;
+  record.tolerances = options.tolerances;
 }
 
 /// A column of a file that is read into a signal.

@@ -23,13 +23,19 @@ struct RecordPiece {
   std::size_t samples = 0;
 };
 
+/// Relative tolerances of the data of a machine; 0: exact.
+struct MachineTolerances {
+  double m2 = 0.0, m3 = 0.0; ///< of the masses of drum and frame
+  double me_re = 0.0;        ///< of the eccentric moment, and so of Fw
+};
+
 /// A record. Signals that the file does not have are empty; F_bond is not read.
 struct Record : ChainHistory {
   std::filesystem::path file; ///< that was read
   /// The table of sums over every time step of each cycle; empty without one. See read_record().
   std::filesystem::path cycles_file;
   std::map<std::string, std::string>
-      parameters; ///< parameters.csv of the run as it stands; empty without one
+      parameters; ///< parameters.csv of the run as it stands, and the bond of a roller file; empty without
 
   double interval = 0.0; ///< between samples [s]
 
@@ -47,6 +53,7 @@ struct Record : ChainHistory {
   std::optional<double> m2;      ///< mass of the drum [kg]
   std::optional<double> m3;      ///< mass of the frame [kg]
   std::optional<double> g;       ///< gravity [m/s2]
+  MachineTolerances tolerances;  ///< of m2, m3 and Fw, as the roller's file has them
 
   /// Time of one cycle of the excitation [s]; std::runtime_error if `omega` is not known.
   double period() const;
@@ -82,6 +89,7 @@ struct RecordOptions {
   std::optional<double> m2;            ///< mass of the drum [kg]
   std::optional<double> m3;            ///< mass of the frame [kg]
   std::optional<double> low_pass;      ///< cut-off frequency of low_passed(), for all signals [Hz]
+  MachineTolerances tolerances;        ///< of m2, m3 and me_re
 };
 
 /// The least number of excitation cycles, and of samples per cycle, of a record that is read with `omega`

@@ -128,9 +128,10 @@ bool is_standard(const Include &include) {
 /// among the folders of that room, 0 if it is not named here: it may include its room's own headers and
 /// folders of lower levels. What lies directly in a room may include all its folders.
 using Heights = std::map<std::string, int>;
-const Heights plugin_rooms{{"physics", 0},        {"support", 1},       {"contact", 2}, {"fixes", 3},
-                           {"commands", 3},       {"liggghts", 4},      {"lammps", 4},  {"physics/laws", 0},
-                           {"physics/scheme", 1}, {"physics/bodies", 2}};
+const Heights plugin_rooms{{"physics", 0},        {"support", 1},      {"contact", 2},
+                           {"fixes", 3},          {"commands", 3},     {"liggghts", 4},
+                           {"lammps", 4},         {"physics/laws", 0}, {"physics/scheme", 1},
+                           {"physics/bodies", 2}, {"physics/files", 0}};
 const Heights postprocess_rooms{{"support", 0},     {"engine", 1},       {"pages", 1},      {"runs", 2},
                                 {"chain", 3},       {"bed", 3},          {"record", 4},     {"meter", 5},
                                 {"identify", 6},    {"map", 7},          {"experiment", 8}, {"advice", 9},
@@ -163,8 +164,16 @@ bool fits_room(const std::string &file, const std::string &header, const Heights
   return level(room + "/" + its_folder) < level(room + "/" + folder);
 }
 
+/// Readers of files that a user writes for plugin and tools, the only code that both share: physics/files,
+/// which the tools name without `physics`.
+bool is_shared_reader(const std::string &header) {
+  return starts_with(header, "files/") && header.find("..") == std::string::npos &&
+         fs::exists(root / "plugin/physics" / header);
+}
+
 /// Of the commands, `study` alone may include the laboratory, which a build may lack.
 bool fits_postprocess(const std::string &file, const std::string &header) {
+  if (is_shared_reader(header)) return true;
   if (starts_with(header, "lab/") && starts_with(file, "commands/") && file != "commands/study.cpp")
     return false;
   return fits_room(file, header, postprocess_rooms);
@@ -174,6 +183,7 @@ bool fits_postprocess(const std::string &file, const std::string &header) {
 bool fits_physics(const std::string &file, const Include &include) {
   if (is_standard(include)) return true;
   if (!include.quoted || !starts_with(include.name, "physics/")) return false;
+  if (starts_with(file, "physics/files/")) return false; // the tools include it without the rest of physics
   if (room_and_folder(file).second.empty() && !room_and_folder(include.name).second.empty()) return false;
   return fits_room(file, include.name, plugin_rooms);
 }
@@ -196,10 +206,12 @@ bool fits_adapter(const std::string &file, const Include &include) {
   return !fs::exists(root / "plugin" / include.name);
 }
 
-/// The post-processor judges what the plugin does, and so do the oracles: they share no code with it.
+/// The post-processor judges what the plugin does, and so do the oracles: they share no code with it but the
+/// readers of a user's files.
 bool fits_judge(const Include &include) {
   if (!include.quoted) return !starts_with(include.name, "physics/") && !starts_with(include.name, "plugin/");
   if (include.name.find("..") != std::string::npos) return false;
+  if (is_shared_reader(include.name)) return true;
   if (starts_with(include.name, "tests/support/") || starts_with(include.name, "tests/postprocess/"))
     return fs::exists(root / include.name);
   return fs::exists(root / "postprocess" / include.name);
@@ -370,6 +382,7 @@ TEST(BoundaryChecks, RefuseWhatDoesNotFit) {
   EXPECT_TRUE(fits_physics("physics/bodies/file.h", {"physics/scheme/advance.h", true}));
   EXPECT_FALSE(fits_physics("physics/laws/file.h", {"physics/scheme/advance.h", true}));
   EXPECT_FALSE(fits_physics("physics/scheme/file.h", {"physics/bodies/excitation.h", true}));
+  EXPECT_FALSE(fits_physics("physics/files/roller.h", {"physics/vec3.h", true}));
   EXPECT_FALSE(fits_physics("physics/vec3.h", {"physics/laws/contact_law.h", true}));
   for (const char *name : {"math.h", "Eigen/Dense", "mpi.h", "vtkPoints.h", "unistd.h", "cvode/cvode.h"})
     EXPECT_FALSE(fits_physics("physics/scheme/file.h", {name, false})) << name;
@@ -414,6 +427,10 @@ TEST(BoundaryChecks, RefuseWhatDoesNotFit) {
         "../../plugin/physics/laws/contact_law.h", "fixes/anything.h", "support/arguments.h"})
     EXPECT_FALSE(fits_judge({name, true})) << name;
   EXPECT_FALSE(fits_judge({"physics/laws/contact_law.h", false}));
+  EXPECT_TRUE(fits_judge({"files/roller.h", true}));
+  EXPECT_FALSE(fits_judge({"files/nothing.h", true}));
+  EXPECT_FALSE(fits_judge({"physics/files/roller.h", true}));
+  EXPECT_TRUE(fits_postprocess("chain/parameters.cpp", "files/roller.h"));
 
   EXPECT_TRUE(uses_hidden_lists("for (int n = 0; n < modify->nfix; ++n)"));
   EXPECT_TRUE(uses_hidden_lists("modify->find_fix(id) >= 0"));

@@ -1235,24 +1235,89 @@ TEST_F(BedInLammps, EndsAtASignalAndContinues) {
 
 // Three dimensions: spheres, a cylinder of soil-sized balls on a cell that was copied, periodic all around.
 // Longer than other tests: making the cell and placing the cylinder are part of what is tested.
+/// The file of a roller of twice the masses and forces of `roller`, which is given per metre, and 2 m wide.
+fs::path roller_file(const Scratch &folder, const Variables &roller, double Fw, double frequency) {
+  const auto value = [&roller](const char *name) {
+    for (const auto &[other, text] : roller)
+      if (other == name) return std::stod(text);
+    throw std::invalid_argument(name);
+  };
+  const fs::path file = folder / "my_roller";
+  std::ofstream(file) << fmt::format("drum_mass {} kg\nframe_mass {} kg\nwidth 2 m\ndiameter {} m\n"
+                                     "bond_stiffness {} N/m\nbond_damping {} N s/m\n"
+                                     "frequency {} Hz\nforce {} N\n",
+                                     2 * value("m2"), 2 * value("m3"), 2 * value("r2"), 2 * value("k23"),
+                                     2 * value("c23"), frequency, 2 * Fw);
+  return file;
+}
+
+// All values of the file are divided by the width of the drum: the run is that with the values per metre.
+TEST_F(Bed, TakesARollerFromItsFileOnRanksOneAndTwo) {
+  const Scratch folder;
+  const std::string file = roller_file(folder, roller(), 2940.0, 50.0).string();
+  const std::string start = (folder / "drum.restart").string();
+  const Variables soil = {{"bed", (scratch / "soil.restart").string()}, {"start", start}};
+  well(run_deck(bed_folder() / "in.place", with({{"roller", file}, {"r3", "0.05"}}, soil), folder.path()));
+  const auto shaken = [&](const char *deck, const Variables &more, int ranks) {
+    const Variables variables = with(more, {{"start", start}, {"cycles", "1"}, {"samples_per_cycle", "100"}});
+    const Outcome outcome = run_deck(bed_folder() / deck, variables, folder.path(), ranks);
+    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    return read_text(folder / "bed.csv");
+  };
+  const Variables by_hand = {{"omega", "314.1592653589793"}, {"Fw", "2940"}};
+  for (const char *deck : {"in.bed", "in.bed.lammps"}) {
+    if (std::string(deck) != "in.bed" && !post::has_lammps()) continue;
+    for (const int ranks : {1, 2}) {
+      const std::string expected = shaken(deck, by_hand, ranks);
+      EXPECT_EQ(shaken(deck, {}, ranks), expected) << deck;
+      const std::map<std::string, std::string> noted = post::read_parameters(folder / "parameters.csv");
+      EXPECT_NEAR(std::stod(noted.at("m2")), 100.0, 1e-9);
+      EXPECT_NEAR(std::stod(noted.at("Fw")), 2940.0, 1e-9);
+      EXPECT_NEAR(std::stod(noted.at("roller_exciter_force_per_metre")), 2940.0, 1e-4);
+      EXPECT_EQ(noted.at("steps_per_cycle"), "1000"); // 2500 at 20 Hz
+    }
+  }
+  // A value that differs from that of the file counts, and must be the bed's.
+  EXPECT_TRUE(fails_with(run_deck(bed_folder() / "in.bed", {{"start", start}, {"m2", "200"}}, folder.path()),
+                         "drumlin/take: variable m2 is '200'; allowed: 100"));
+  EXPECT_TRUE(
+      fails_with(run_deck(bed_folder() / "in.bed", {{"start", start}, {"setting", "high"}}, folder.path()),
+                 "drumlin/roller: setting is 'high'; allowed: none, of "));
+  EXPECT_TRUE(
+      fails_with(run_deck(bed_folder() / "in.bed", {{"start", start}, {"roller", "other"}}, folder.path()),
+                 "drumlin/take: variable roller is 'other'; allowed: " + file));
+  std::ofstream(file, std::ios::app) << "operating_mass 10 kg\n";
+  EXPECT_TRUE(fails_with(run_deck(bed_folder() / "in.bed", {{"start", start}}, folder.path()),
+                         "drumlin/roller: operating_mass of '" + file + "' is '10 kg'; allowed: at least "));
+}
+
+TEST_F(Bed, SaysWhenTheDrumTouchesFewBalls) {
+  const Scratch folder;
+  const auto placed = [&](const char *r2) {
+    return run_deck(bed_folder() / "in.place",
+                    with({{"r2", r2}}, with(roller(), {{"bed", (scratch / "soil.restart").string()},
+                                                       {"start", "x.restart"}})),
+                    folder.path());
+  };
+  EXPECT_TRUE(printed(placed("0.1"), "WARNING: the drum is 3.")); // sqrt(2 0.1/0.02) = 3.2 soil balls wide
+  EXPECT_FALSE(printed(placed("0.28"), "soil balls wide"));       // 5.3
+}
+
 TEST(Bed3d, CarriesACylinderOnCopiesOfACellOnRanksOneAndTwo) {
   const Scratch scratch;
+  const Variables per_metre = {{"m2", "1000"}, {"m3", "500"}, {"r2", "0.1"}, {"k23", "5e5"}, {"c23", "5e3"}};
+  const std::string roller = roller_file(scratch, per_metre, 29400.0, 20.0).string();
   const auto file = [&scratch](const char *name) { return (scratch / name).string(); };
   const auto run = [&](const Scratch &folder, const char *deck, Variables variables, int ranks = 1) {
-    variables.insert(variables.end(), {{"case", "loose3d"},
-                                       {"walls", "0"},
-                                       {"m2", "1000"},
-                                       {"m3", "500"},
-                                       {"r2", "0.1"},
-                                       {"k23", "5e5"},
-                                       {"c23", "5e3"}});
+    variables.insert(variables.end(), {{"case", "loose3d"}, {"walls", "0"}});
+    if (std::string(deck) != "in.tile") variables.emplace_back("roller", roller);
     const std::string name = deck;
     if (name == "in.tile") variables.emplace_back("cell", file("cell.data"));
     if (name.rfind("in.bed", 0) != 0) {
       variables.emplace_back("bed", file("soil.restart"));
       if (name != "in.tile") variables.emplace_back("ratio", "0.01");
     } else
-      variables.insert(variables.end(), {{"Fw", "29400"}, {"cycles", "1"}});
+      variables.emplace_back("cycles", "1");
     if (name == "in.place" || name.rfind("in.bed", 0) == 0)
       variables.emplace_back("start", file("roller.restart"));
     return run_deck(bed_folder() / deck, variables, folder.path(), ranks);

@@ -20,6 +20,8 @@
 namespace drumlin::test {
 namespace {
 
+namespace fs = std::filesystem;
+
 using post::ChainHistory;
 using post::ChainParameters;
 using post::Transition;
@@ -275,17 +277,41 @@ INSTANTIATE_TEST_SUITE_P(Table1, SecondOrderChain, ::testing::ValuesIn(second_or
                            return row.param.chain.name + post::transition_name(row.param.chain.transition);
                          });
 
-// The rollers of manufacturers: a few cycles from static equilibrium.
-TEST(Rollers, FollowTheDirectSolver) {
+/// A roller file of inputs/rollers with what its data sheet says, computed by hand.
+struct RollerInFile {
+  const char *file, *setting;
+  double m2, m3, k23, c23, frequency, me_re;
+};
+constexpr std::array<RollerInFile, 7> rollers = {
+    {{"Axas2020", "29Hz", 3962.07, 3379.4, 3.1e6, 31e3, 29, 7.31},
+     {"BW120", "63Hz", 461, 895, 8.21e5, 8.21e3, 63, 0.2305},
+     {"BW120", "67Hz", 461, 895, 8.21e5, 8.21e3, 67, 0.2305},
+     {"CA3500", "high", 3955, 3713, 3.1e6, 31e3, 31, 7.38},
+     {"CA3500", "low", 3955, 3713, 3.1e6, 31e3, 34, 3.725},
+     {"CA6500", "high", 5166, 8679, 7.96e6, 7.96e4, 29, 10.84},
+     {"CA6500", "low", 5166, 8679, 7.96e6, 7.96e4, 30, 4.222}}};
+
+Variables of_file(const RollerInFile &roller) {
+  return {{"roller", (fs::path(DRUMLIN_SOURCE_DIR) / "inputs/rollers" / roller.file).string()},
+          {"setting", roller.setting}};
+}
+
+TEST(Rollers, OfFilesFollowTheDirectSolver) {
   constexpr int samples = 50;
-  for (std::size_t i = post::table1_cases.size(); i < post::chain_cases.size(); ++i) {
-    const std::string name = post::chain_cases[i];
-    SCOPED_TRACE(name);
+  for (const RollerInFile &roller : rollers) {
+    SCOPED_TRACE(std::string(roller.file) + " " + roller.setting);
+    ChainParameters p = post::table1_case("II", Transition::B);
+    p.m2 = roller.m2;
+    p.m3 = roller.m3;
+    p.k23 = roller.k23;
+    p.c23 = roller.c23;
+    p.omega = 2.0 * pi * roller.frequency;
+    p.Fw = roller.me_re * p.omega * p.omega;
     for (const Transition transition : {Transition::A, Transition::B}) {
-      const ChainRun run =
-          run_chain(name, transition, 2000, samples, {{"stepping", "second"}, {"cycles", "3"}});
-      const post::DirectResult reference =
-          reference_of(post::named_chain(name, transition).parameters, samples, 3);
+      p.transition = transition;
+      const Variables variables = with({{"stepping", "second"}, {"cycles", "3"}}, of_file(roller));
+      const ChainRun run = run_chain("II", transition, 2000, samples, variables);
+      const post::DirectResult reference = reference_of(p, samples, 3);
       ASSERT_EQ(run.history.size(), reference.history.size());
       EXPECT_LT(post::relative_rms(run.history.v_drum, reference.history.v_drum, 0, reference.history.size()),
                 1e-4);
@@ -296,13 +322,33 @@ TEST(Rollers, FollowTheDirectSolver) {
 
 TEST(Rollers, TheForceFollowsFromTheFrequencyUnlessItIsGiven) {
   const auto largest_force = [](const Variables &given) {
-    const Variables variables = with({{"cycles", "1"}}, given);
+    const Variables variables = with(with({{"cycles", "1"}}, given), of_file(rollers[3]));
     const std::vector<double> force =
-        run_chain("CA3500-high", Transition::B, 2000, 200, variables).history.F_excitation;
+        run_chain("II", Transition::B, 2000, 200, variables).history.F_excitation;
     return *std::max_element(force.begin(), force.end());
   };
   EXPECT_NEAR(largest_force({{"omega", "200"}}), 7.38 * 200 * 200, 1e-3);
   EXPECT_NEAR(largest_force({{"omega", "200"}, {"Fw", "1e5"}}), 1e5, 1e-6);
+}
+
+TEST(Rollers, AreNotedWithWhatFollowsFromThem) {
+  for (const bool lammps : {false, true}) {
+    if (lammps && !post::has_lammps()) continue;
+    const Scratch folder;
+    const Outcome outcome =
+        run_deck(chain_deck(lammps ? "in.chain.lammps" : "in.chain"),
+                 with({{"cycles", "1"}, {"out", "."}}, of_file(rollers[4])), folder.path());
+    EXPECT_TRUE(printed(well(outcome), "exciter_force_per_metre  79811.3 N/m"));
+    const std::map<std::string, std::string> noted = post::read_parameters(folder / "parameters.csv");
+    EXPECT_EQ(noted.at("setting"), "low");
+    for (const auto &[name, value] : {std::pair("frequency", 34.0),
+                                      {"static_load", 36.0 * 213.0 * 9.81},
+                                      {"static_load_per_metre", 3600.0 * 9.81},
+                                      {"exciter_force", 3.725 * std::pow(68.0 * pi, 2)},
+                                      {"nominal_amplitude", 3.725 / 3955.0},
+                                      {"frame_frequency", std::sqrt(3.1e6 / 3713.0) / (2.0 * pi)}})
+      EXPECT_NEAR(std::stod(noted.at(std::string("roller_") + name)) / value, 1.0, 1e-8) << name;
+  }
 }
 
 // The drum reverses its motion before the gap opens: the contact of B is made again at Fc = 0 while the balls

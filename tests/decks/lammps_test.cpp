@@ -90,9 +90,12 @@ INSTANTIATE_TEST_SUITE_P(
     chain_name);
 
 TEST_F(InLammps, RunsRollersAsInLiggghts) {
-  for (std::size_t i = post::table1_cases.size(); i < post::chain_cases.size(); ++i) {
-    SCOPED_TRACE(post::chain_cases[i]);
-    const Variables variables = {{"case", post::chain_cases[i]}, {"cycles", "2"}};
+  const std::filesystem::path rollers = std::filesystem::path(DRUMLIN_SOURCE_DIR) / "inputs/rollers";
+  for (const auto &[machine, setting] :
+       {std::pair("Axas2020", "29Hz"), {"BW120", "63Hz"}, {"CA3500", "low"}, {"CA6500", "high"}}) {
+    SCOPED_TRACE(machine);
+    const Variables variables = {
+        {"roller", (rollers / machine).string()}, {"setting", setting}, {"cycles", "2"}};
     const Scratch lammps, liggghts;
     well(run_deck(chain_deck("in.chain.lammps"), variables, lammps.path()));
     well(run_deck(chain_deck("in.chain"), variables, liggghts.path()));

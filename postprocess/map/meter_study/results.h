@@ -21,7 +21,7 @@ struct FoundStiffness {
 /// A record of a roller on soil of one stiffness. The first two name it. NaN: the record does not give the
 /// value.
 struct SoilPoint {
-  std::string roller;         ///< case of the chain
+  std::string roller;         ///< case of Table 1, or MACHINE-SETTING of a file in inputs/rollers
   double k = 0.0;             ///< stiffness of the soil [N/m]
   std::string mode;           ///< as in mode_names
   double cmv = 0.0;           ///< [-]
@@ -57,9 +57,9 @@ inline const CsvSchema<SoilPoint> &soil_points() {
   return schema;
 }
 
-/// A roller of the study: its case of the chain, and how the page names it.
+/// A roller of the study, and how the page names it.
 struct SoilRoller {
-  const char *name;
+  const char *name; ///< as in SoilPoint
   const char *title;
 };
 constexpr std::array<SoilRoller, 9> soil_rollers = {{{"II", "paper, 20 Hz"},

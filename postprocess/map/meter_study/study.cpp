@@ -1,6 +1,8 @@
 #include "map/meter_study/study.h"
 
 #include "chain/closed_form.h"
+#include "engine/places.h"
+#include "files/roller.h"
 #include "identify/identified_record.h"
 #include "map/meter_study/results.h"
 #include "meter/values.h"
@@ -60,14 +62,15 @@ FoundStiffness found_in(const Record &record, const RecordSetting &setting) {
 }
 
 SoilPoint measure(const std::string &roller, double k, std::uint64_t seed) {
-  ChainParameters p = named_chain(roller, Transition::B).parameters;
+  const SoilMachine machine = soil_machine(roller);
+  ChainParameters p = machine.chain;
   p.k = k;
   const ChainHistory history = solve_closed_form(p, cycles, samples_per_cycle, lead).history;
   MeterOptions options;
   options.window = cycles;
-  if (roller.rfind("Axas2020", 0) == 0) { // the one drum of which radius and width are published
-    options.drum_radius = 0.759;
-    options.drum_width = 2.13;
+  if (machine.diameter && machine.width) {
+    options.drum_radius = 0.5 * *machine.diameter;
+    options.drum_width = machine.width;
   }
   const MeterWindow w = meter_windows(meter_cycles(chain_record(p, history, 1)), options).back();
   const double none = std::nan("");
@@ -96,6 +99,16 @@ SoilPoint measure(const std::string &roller, double k, std::uint64_t seed) {
 }
 
 } // namespace
+
+SoilMachine soil_machine(const std::string &roller) {
+  const std::size_t dash = roller.find('-');
+  if (dash == std::string::npos) return {table1_case(roller, Transition::B), {}, {}};
+  const std::string file = (places().inputs / "rollers" / roller.substr(0, dash)).string();
+  const Roller machine = read_roller(file);
+  SoilMachine soil = {table1_case("II", Transition::B), machine.width, machine.diameter};
+  set_machine(soil.chain, machine, setting_of(machine, roller.substr(dash + 1), file));
+  return soil;
+}
 
 void run_meter_study(const std::filesystem::path &out, bool quick) {
   constexpr double softest = 1e6; // N/m

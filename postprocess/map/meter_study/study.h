@@ -2,9 +2,21 @@
 // finds in the same records, for all rollers of the chain. Needs no engine.
 #pragma once
 
+#include "chain/parameters.h"
+
 #include <filesystem>
+#include <optional>
+#include <string>
 
 namespace drumlin::post {
+
+/// The chain of a roller of the study, with D of case II, and what its file has of the drum's size [m].
+struct SoilMachine {
+  ChainParameters chain;
+  std::optional<double> width, diameter;
+};
+/// \param roller as SoilPoint has it
+SoilMachine soil_machine(const std::string &roller);
 
 /// Makes the records that the folder does not have yet, and writes there
 ///   records.csv  meter values, operating mode and identified stiffness of each record

@@ -50,7 +50,7 @@ BadGroup of_deck(const std::string &name, const std::string &deck, const std::ve
 BadGroup chain_choices() {
   return of_deck(
       "ChainChoices", "chain/in.chain",
-      {{"case", "V ii 2", "I, II, III, IV, BW120-63Hz, ", on_two_ranks},
+      {{"case", "V ii 2", "I, II, III or IV", on_two_ranks},
        {"transition", "C AB", "A or B", on_two_ranks},
        {"stepping", "exact", "second or stock", on_two_ranks},
        {"guard", "yes", "on or off", on_two_ranks}},
@@ -64,7 +64,8 @@ BadGroup chain_choices() {
        {"a long value", "out " + std::string(5000, 'x'),
         "drumlin/variables: variable out is 'xxx ... a value of at most 1000 characters"},
        {"another case of letters", "Case III",
-        "drumlin/variables: -var Case is 'III' ... allowed: case, the nearest of case, k, D", on_two_ranks},
+        "drumlin/variables: -var Case is 'III' ... allowed: case, the nearest of roller, setting, case, k, D",
+        on_two_ranks},
        {"a misspelt name", "step_per_cycle 1000",
         "-var step_per_cycle is '1000' ... allowed: steps_per_cycle, the nearest of "}});
 }

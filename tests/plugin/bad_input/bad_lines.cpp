@@ -474,6 +474,22 @@ BadGroup pick() {
   });
 }
 
+BadGroup roller() {
+  return Table{"Roller", "drumlin/roller: ", "drumlin/roller"}.of({
+      {"nothing", "@", "roller is missing ... a roller file"},
+      {"not of what", "@ none", "what the values are of is missing ... whole or per_metre"},
+      {"per foot", "@ none per_foot", "what the values are of is 'per_foot' ... whole or per_metre"},
+      {"a word too many", "@ none whole setting none high",
+       "argument is 'high' ... FILE, whole or per_metre"},
+      {"no name of a setting", "@ none whole setting", "setting is missing"},
+      {"a setting of no roller", "@ none whole setting high", "setting is 'high' ... none, since no roller"},
+      {"no file", "@ nofile whole", "roller is 'nofile' ... a file that can be read", on_two_ranks},
+      {"a folder", "@ out whole", "roller is 'out' ... a file that can be read"},
+      {"another kind of file", "@ out/chain.csv whole", "name in line 1 of 'out/chain.csv' is ",
+       on_two_ranks},
+  });
+}
+
 BadGroup take() {
   return Table{"Take", "drumlin/take: ", "drumlin/take"}.of({
       {"nothing", "@", "file is missing"},
@@ -598,29 +614,12 @@ BadGroup fixes_in_lammps() {
 } // namespace
 
 std::vector<BadGroup> bad_lines() {
-  return {drum_excite(),
-          bond_spring(),
-          boundary_absorb(),
-          clump(),
-          contact_events(),
-          contact_local(),
-          contact_energy(),
-          roller_history(),
-          guard(),
-          check(),
-          record(),
-          run(),
-          settle(),
-          surface(),
-          write_restart(),
-          write_data(),
-          outputs(),
-          take(),
-          variables(),
-          layers(),
-          pick(),
-          other_styles(),
-          other_styles_in_lammps(),
+  return {drum_excite(),    bond_spring(),   boundary_absorb(), clump(),
+          contact_events(), contact_local(), contact_energy(),  roller_history(),
+          guard(),          check(),         record(),          run(),
+          settle(),         surface(),       write_restart(),   write_data(),
+          outputs(),        take(),          variables(),       layers(),
+          pick(),           roller(),        other_styles(),    other_styles_in_lammps(),
           fixes_in_lammps()};
 }
 

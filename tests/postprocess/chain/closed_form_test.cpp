@@ -3,6 +3,7 @@
 // roots are known.
 #include "chain/closed_form.h"
 #include "chain/direct_solver.h"
+#include "files/roller.h"
 #include "tests/support/piecewise_oracle.h"
 
 #include <gtest/gtest.h>
@@ -177,9 +178,18 @@ INSTANTIATE_TEST_SUITE_P(ChainSolver, EveryDamping,
 TEST(ChainSolver, TwoHundredCyclesTakeAtMost6500Pieces) {
   constexpr int most = 6500;
   for (const Transition transition : {Transition::A, Transition::B}) {
-    for (const char *name : chain_cases)
-      EXPECT_LE(pieces_of_200_cycles(named_chain(name, transition).parameters), most)
+    for (const char *name : table1_cases)
+      EXPECT_LE(pieces_of_200_cycles(table1_case(name, transition)), most)
           << name << ", " << transition_name(transition);
+    for (const char *name : {"Axas2020", "BW120", "CA3500", "CA6500"}) {
+      ChainParameters p = table1_case("II", transition);
+      const drumlin::Roller roller =
+          drumlin::read_roller(std::string(DRUMLIN_SOURCE_DIR "/inputs/rollers/") + name);
+      for (const drumlin::RollerSetting &setting : roller.settings) {
+        set_machine(p, roller, setting);
+        EXPECT_LE(pieces_of_200_cycles(p), most) << name << ", " << transition_name(transition);
+      }
+    }
     ChainParameters p = table1_case("II", transition);
     const double weight = (p.m2 + p.m3) * p.g;
     int largest = 0;

@@ -3,13 +3,13 @@
 #include "chain/direct_solver.h"
 #include "runs/chain_files.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -28,6 +28,15 @@ struct Outcome {
   std::string out;
   std::string err;
 };
+
+/// A roller file as a data sheet fills it.
+const std::string data_sheet = "operating_mass 12.1 t\ndrum_load 7000 kg\nwidth 2.13 m\ndiameter 1.5 m\n"
+                               "frequency 30 Hz\nforce 256 kN\namplitude 1.8 mm\n";
+
+/// A roller file of the project.
+std::string roller_file(const std::string &machine) {
+  return (fs::path(DRUMLIN_SOURCE_DIR) / "inputs/rollers" / machine).string();
+}
 
 class ExactCommand : public ::testing::Test {
 protected:
@@ -120,15 +129,13 @@ TEST_F(ExactCommand, TakesTheIntegratorWhereAskedOrNeeded) {
 
 // Of a roller the eccentric moment stays when masses or frequency are others, and the command says so.
 TEST_F(ExactCommand, SaysFromWhichMomentTheForceFollows) {
-  const Outcome outcome = run("exact --case CA3500-high --m2 6000 --omega 100 --cycles 1 --out o");
+  const std::string roller = "exact --roller " + roller_file("CA3500") + " --setting high ";
+  const Outcome outcome = run(roller + "--m2 6000 --omega 100 --cycles 1 --out o");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const double me_re = *post::named_chain("CA3500-high", post::Transition::B).me_re;
-  EXPECT_NE(outcome.out.find(fmt::format(", Fw {:g} N, of the eccentric moment {:g} kg m of the case",
-                                         me_re * 1e4, me_re)),
+  EXPECT_NE(outcome.out.find(", Fw 73800 N, of the eccentric moment 7.38 kg m of the roller"),
             std::string::npos)
       << outcome.out;
-  EXPECT_NE(run("exact --case CA3500-high --Fw 1e5 --cycles 1 --out o").out.find(", Fw 100000 N\n"),
-            std::string::npos);
+  EXPECT_NE(run(roller + "--Fw 1e5 --cycles 1 --out o").out.find(", Fw 100000 N\n"), std::string::npos);
 }
 
 TEST_F(ExactCommand, RefusesFilesThatAreOne) {
@@ -159,13 +166,13 @@ TEST_F(ExactCommand, EveryOverrideArrives) {
 }
 
 TEST_F(ExactCommand, SolvesEveryCase) {
-  for (const std::string name : post::chain_cases) {
+  for (const std::string name : post::table1_cases) {
     SCOPED_TRACE(name);
     const Outcome outcome = run("exact --case " + name + " --cycles 1 --samples-per-cycle 10 --out o");
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const std::map<std::string, std::string> record = post::read_parameters(folder_ / "o" / "parameters.csv");
     EXPECT_EQ(record.at("case"), name);
-    const post::ChainParameters p = post::named_chain(name, post::Transition::B).parameters;
+    const post::ChainParameters p = post::table1_case(name, post::Transition::B);
     for (const post::ChainNumber &number : post::chain_numbers)
       EXPECT_EQ(post::number_from_text(record.at(number.name)), p.*number.value) << number.name;
   }
@@ -173,17 +180,76 @@ TEST_F(ExactCommand, SolvesEveryCase) {
 
 TEST_F(ExactCommand, TheForceOfARollerFollowsFromItsFrequency) {
   const auto force = [&](const std::string &options) {
-    EXPECT_EQ(run("exact --case CA3500-high --cycles 1 --out o " + options).status, 0);
+    const std::string roller = "exact --roller " + roller_file("CA3500") + " --setting high ";
+    EXPECT_EQ(run(roller + "--cycles 1 --out o " + options).status, 0);
     return post::number_from_text(post::read_parameters(folder_ / "o" / "parameters.csv").at("Fw"));
   };
   EXPECT_DOUBLE_EQ(force("--omega 200"), 7.38 * 200.0 * 200.0);
   EXPECT_DOUBLE_EQ(force("--omega 200 --Fw 1e5"), 1e5);
+  constexpr double pi = 3.14159265358979323846;
+  EXPECT_DOUBLE_EQ(force("--frequency 30"), 7.38 * std::pow(60.0 * pi, 2));
+}
+
+// A roller of which a data sheet is all that is known. By hand: m_e r_e = 256e3/(60 pi)^2 = 7.205062 kg m, m2
+// = m_e r_e/1.8 mm = 4002.812 kg, m3 = 7000 kg - m2, k23 = m3 (2 pi 4.82 Hz)^2, c23 = 2 0.151 sqrt(k23 m3).
+TEST_F(ExactCommand, TakesARollerKnownByItsDataSheet) {
+  std::ofstream(folder_ / "mine") << data_sheet;
+  const Outcome outcome = run("exact --roller mine --k 45e6 --D 0.25 --cycles 2 --out o");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const std::map<std::string, std::string> record = post::read_parameters(folder_ / "o" / "parameters.csv");
+  const auto near = [&record](const std::string &name, double expected) {
+    EXPECT_NEAR(post::number_from_text(record.at(name)) / expected, 1.0, 1e-6) << name;
+  };
+  near("m2", 4002.8122);
+  near("m3", 2997.1878);
+  near("k23", 2748955.9);
+  near("c23", 27412.447);
+  near("omega", 188.49556);
+  near("Fw", 256e3);
+  near("k", 45e6);
+  near("roller_frequency", 30.0);
+  near("roller_eccentric_moment", 7.2050619);
+  near("roller_exciter_force", 256e3);
+  near("roller_static_load", 68670.0);
+  near("roller_exciter_force_per_metre", 120187.79);
+  near("roller_static_load_per_metre", 32239.437);
+  near("roller_nominal_amplitude", 1.8e-3);
+  near("roller_frame_frequency", 4.82);
+  EXPECT_EQ(record.at("roller"), "mine");
+  EXPECT_EQ(record.at("setting"), "");
+  EXPECT_EQ(record.at("roller_bond_assumed"), "yes");
+  EXPECT_EQ(record.at("ended"), "yes");
+  for (const char *line :
+       {"roller mine: drum 4002.81 kg, frame 2997.19 kg\n", "exciter force           256 kN\n",
+        "static load per metre   32.239 kN/m\n", "nominal amplitude       1.8 mm\n",
+        "frame frequency         4.82 Hz\n", "The bond of drum and frame is assumed"})
+    EXPECT_NE(outcome.out.find(line), std::string::npos) << outcome.out;
+  // What a single option gives counts, also in what follows.
+  ASSERT_EQ(run("exact --roller mine --m2 4000 --frequency 33 --cycles 1 --out o").status, 0);
+  const std::map<std::string, std::string> other = post::read_parameters(folder_ / "o" / "parameters.csv");
+  EXPECT_EQ(other.at("m2"), "4000");
+  EXPECT_NEAR(post::number_from_text(other.at("Fw")), 256e3 * 1.21, 1e-6);
+  EXPECT_EQ(other.at("roller_frequency"), "33");
+  EXPECT_NEAR(post::number_from_text(other.at("roller_exciter_force")), 256e3 * 1.21, 1e-6);
+  EXPECT_NEAR(post::number_from_text(other.at("roller_nominal_amplitude")), 7.2050619 / 4000.0, 1e-9);
+}
+
+TEST_F(ExactCommand, KeepsTheRollerFile) {
+  fs::create_directories(folder_ / "o");
+  std::ofstream(folder_ / "o/parameters.csv") << data_sheet;
+  const Outcome outcome = run("exact --roller o/parameters.csv --cycles 1 --out o");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.err, "ERROR: drumlin exact: --out is 'o/parameters.csv'; allowed: another file than "
+                         "--roller 'o/parameters.csv', which is read\n");
+  EXPECT_EQ(get(folder_ / "o/parameters.csv"), data_sheet);
 }
 
 // Longer than other tests: it has a line for each mistake.
 TEST_F(ExactCommand, BadInputIsOneLineAndTouchesNothing) {
   ASSERT_EQ(run("exact --cycles 1 --out kept").status, 0);
   std::ofstream(folder_ / "file") << "not a folder";
+  std::ofstream(folder_ / "mine") << data_sheet;
+  std::ofstream(folder_ / "light") << "drum_mass 1e-6 t\nframe_mass 1e-7 kg\nfrequency 30 Hz\nforce 1 N\n";
   const std::map<std::string, std::string> before = files();
 
   struct Bad {
@@ -193,6 +259,29 @@ TEST_F(ExactCommand, BadInputIsOneLineAndTouchesNothing) {
   const std::vector<Bad> table = {
       {"--case V --out kept", {"--case", "'V'", "I, II, III, IV"}},
       {"--case '' --out kept", {"--case", "''"}},
+      {"--case CA3500-high --out kept",
+       {"--case is 'CA3500-high'; allowed: I, II, III, IV; a roller is a file: --roller ",
+        "inputs/rollers/CA3500 --setting high\n"}},
+      {"--case Axas2020 --out kept", {"--case is 'Axas2020'", "inputs/rollers/Axas2020\n"}},
+      {"--case CA9-high --out kept", {"--case is 'CA9-high'; allowed: I, II, III, IV\n"}},
+      {"--case ../rollers/CA3500-high --out kept", {"allowed: I, II, III, IV\n"}},
+      {"--roller nowhere --out kept", {"--roller is 'nowhere'; allowed: a file that can be read"}},
+      {"--roller '' --out kept", {"--roller is ''; allowed: "}},
+      {"--roller . --out kept", {"--roller is '.'; allowed: a file that can be read"}},
+      {"--roller file --out kept", {"name in line 1 of 'file' is 'not'; allowed: setting, "}},
+      {"--roller light --out kept",
+       {"--roller is 'light'; allowed: a file by which m3 is a number from 1e-06"}},
+      {"--roller mine --setting high --out kept", {"--setting is 'high'; allowed: "}},
+      {"--roller " + roller_file("CA3500") + " --out kept", {"--setting is missing; allowed: high or low"}},
+      {"--roller " + roller_file("CA3500") + " --setting middle --out kept",
+       {"--setting is 'middle'; allowed: high or low"}},
+      {"--setting high --out kept", {"--setting is 'high'; allowed: only with --roller"}},
+      {"--frequency 20 --omega 120 --out kept", {"--frequency is '20'; allowed: without --omega"}},
+      {"--frequency 0 --out kept", {"--frequency is '0'; allowed: a number from 1e-06 to 1e+08 [Hz]"}},
+      {"--frequency 20Hz --out kept", {"--frequency is '20Hz'; allowed: a number"}},
+      {"--roller mine --frequency 1e-6 --out kept",
+       {"--frequency is '1e-06'; allowed: a frequency with which m_e r_e omega^2 is 0, or a number from "
+        "1e-09"}},
       {"--transition C --out kept", {"--transition", "'C'", "A, B"}},
       {"--k -5 --out kept", {"--k is '-5'; allowed: a number from 1e-06 to 1e+15 [N/m]"}},
       {"--k 0 --out kept", {"--k is '0'"}},

@@ -28,6 +28,20 @@ void write_run(const fs::path &folder, int cycles = 12) {
        {folder / "parameters.csv", post::parameters_text(post::parameter_values(p))}});
 }
 
+/// A roller of the project, and its chain on the soil of case II by hand.
+const std::vector<std::string> roller = {
+    "--roller", (fs::path(DRUMLIN_SOURCE_DIR) / "inputs/rollers/CA3500").string(), "--setting", "low"};
+post::ChainParameters low_CA3500() {
+  post::ChainParameters p = post::table1_case("II", post::Transition::B);
+  p.m2 = 3955;
+  p.m3 = 3713;
+  p.k23 = 3.1e6;
+  p.c23 = 3.1e4;
+  p.omega = 68.0 * M_PI;
+  p.Fw = 3.725 * p.omega * p.omega;
+  return p;
+}
+
 class IdentifyCommand : public ::testing::Test {
 protected:
   Outcome identify(std::vector<std::string> words) const {
@@ -122,31 +136,44 @@ TEST_F(IdentifyCommand, ReadsAMeasuredRecord) {
   EXPECT_NEAR(table.numbers("c [N s/m]").front(), p.damping(), 3e-3 * p.damping());
 }
 
-// The data of a manufacturer's roller by its name; an option of the command line counts more.
+// The data of a manufacturer's roller by its file; an option of the command line counts more.
 TEST_F(IdentifyCommand, TakesTheDataOfARoller) {
-  const post::NamedChain chain = post::named_chain("CA3500-low", post::Transition::B);
-  const post::ChainHistory history = post::solve_closed_form(chain.parameters, 20, 200).history;
+  const post::ChainParameters p = low_CA3500();
+  const post::ChainHistory history = post::solve_closed_form(p, 20, 200).history;
   std::string text = "time,a_drum,a_frame\n";
   for (std::size_t i = 0; i < history.size(); ++i)
     text += post::csv_line({post::number_text(history.time[i]), post::number_text(history.a_drum[i]),
                             post::number_text(history.a_frame[i])});
   post::write_files({{scratch_ / "measured.csv", text}});
   const auto found = [&](std::vector<std::string> more) {
-    std::vector<std::string> words = {"measured.csv", "--out", "found", "--case", "CA3500-low"};
+    std::vector<std::string> words = {"measured.csv", "--out", "found"};
+    words.insert(words.end(), roller.begin(), roller.end());
     words.insert(words.end(), more.begin(), more.end());
-    well(identify(words));
+    EXPECT_TRUE(printed(well(identify(words)), "eccentric moment        3.725 kg m"));
     return post::read_table(scratch_ / "found/identify.csv").numbers("k [N/m]").front();
   };
-  EXPECT_NEAR(found({}), chain.parameters.k, 1e-4 * chain.parameters.k);
-  EXPECT_NEAR(found({"--frequency", "33.5"}), chain.parameters.k, 1e-4 * chain.parameters.k);
+  EXPECT_NEAR(found({}), p.k, 1e-4 * p.k);
+  EXPECT_NEAR(found({"--frequency", "33.5"}), p.k, 1e-4 * p.k);
+  EXPECT_NEAR(found({"--compare"}), p.k, 1e-4 * p.k); // the file has the bond
+  EXPECT_TRUE(fs::is_regular_file(scratch_ / "found/data/chain_and_record.csv"));
   fs::remove_all(scratch_ / "found");
-  expect_refused({"measured.csv", "--case", "CA3500-low", "--m2", "3000"}, "the exciter's force is '17");
+  std::vector<std::string> words = {"measured.csv", "--m2", "3000"};
+  words.insert(words.end(), roller.begin(), roller.end());
+  expect_refused(words, "the exciter's force is '17");
+  words = {"measured.csv", "--case", "II"};
+  words.insert(words.end(), roller.begin(), roller.end());
+  expect_refused(words, "--case is 'II'; allowed: without --roller");
+  expect_refused({"measured.csv", "--case", "CA3500-low"}, "inputs/rollers/CA3500 --setting low");
+  post::write_files({{scratch_ / "wrong", "drum_mass 4 kN\n"}});
+  expect_refused({"measured.csv", "--roller", "wrong"},
+                 "drum_mass in line 1 of 'wrong' is '4 kN'; allowed: ");
+  expect_refused({"measured.csv", "--setting", "low"}, "--setting is 'low'; allowed: only with --roller");
   expect_refused({"measured.csv", "--phase", "0", "--case", "CA9"}, "--case is 'CA9'; allowed: I, II");
 }
 
 // Unbroken contact, where nothing tells the phase, and one that is 90 degrees off.
 TEST_F(IdentifyCommand, RefusesAResultThatContradictsItself) {
-  post::ChainParameters p = post::named_chain("CA3500-low", post::Transition::B).parameters;
+  post::ChainParameters p = low_CA3500();
   p.k = 1e7;
   const post::ChainHistory history = post::solve_closed_form(p, 30, 100).history;
   std::string text = "time,a_drum,a_frame\n";
@@ -154,7 +181,8 @@ TEST_F(IdentifyCommand, RefusesAResultThatContradictsItself) {
     text += post::csv_line({post::number_text(history.time[i]), post::number_text(history.a_drum[i]),
                             post::number_text(history.a_frame[i])});
   post::write_files({{scratch_ / "soft.csv", text}});
-  const std::vector<std::string> words = {"soft.csv", "--case", "CA3500-low", "--phase", "90"};
+  std::vector<std::string> words = {"soft.csv", "--phase", "90"};
+  words.insert(words.end(), roller.begin(), roller.end());
   expect_refused(words, "soft.csv: c is -8.");
   std::vector<std::string> anyway = words;
   anyway.insert(anyway.end(), {"--anyway", "--out", "found"});

@@ -1,5 +1,6 @@
 // `drumlin meter` as a user meets it: records of runs and measured ones, and records that it refuses in one
 // line.
+#include "runs/chain_files.h"
 #include "support/csv.h"
 #include "support/files.h"
 #include "support/measured_table.h"
@@ -45,6 +46,52 @@ protected:
   const Scratch scratch_;
   const fs::path folder_ = scratch_.path();
 };
+
+// Width and radius for E_vib, and frequency, force and masses, come from the roller's file.
+TEST_F(MeterCommand, TakesTheDrumOfARollerFile) {
+  write_files({{folder_ / "mine", "drum_load 7000 kg\nwidth 2.13 m\ndiameter 1.5 m\nfrequency 29 Hz\n"
+                                  "force 256 kN\namplitude 1.8 mm\n"}});
+  const std::vector<std::string> exact = {DRUMLIN_TOOLS, "exact", "--roller", "mine", "--k",   "45e6",
+                                          "--D",         "0.25",  "--cycles", "60",   "--out", "run"};
+  ASSERT_TRUE(run_program(exact, {}, folder_).ok());
+  const ChainHistory history = read_chain(folder_ / "run/chain.csv");
+  std::string text = "time,x_drum,a_drum,a_frame\n";
+  for (std::size_t i = 0; i < history.size(); ++i)
+    text += csv_line({number_text(history.time[i]), number_text(history.x_drum[i]),
+                      number_text(history.a_drum[i]), number_text(history.a_frame[i])});
+  write_files({{folder_ / "field.csv", text}});
+  const auto values = [this](const std::vector<std::string> &more) {
+    std::vector<std::string> words = {"field.csv"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = meter(words);
+    EXPECT_TRUE(outcome.ok()) << outcome.output;
+    const Table table = read_table(folder_ / "results/meter/meter.csv");
+    return std::pair(table.numbers("E_vib [Pa]").back(), table.numbers("k_B [N/m]").back());
+  };
+  const double me_re = 256e3 / std::pow(58.0 * M_PI, 2), m2 = me_re / 1.8e-3;
+  const auto by_hand =
+      values({"--frequency", "29", "--me-re", number_text(me_re), "--m2", number_text(m2), "--m3",
+              number_text(7000.0 - m2), "--drum-radius", "0.75", "--drum-width", "2.13"});
+  const auto by_file = values({"--roller", "mine"});
+  EXPECT_NEAR(by_file.first / by_hand.first, 1.0, 1e-9);
+  EXPECT_NEAR(by_file.second / by_hand.second, 1.0, 1e-9);
+  EXPECT_GT(values({"--roller", "mine", "--drum-width", "1"}).first, 1.5 * by_file.first);
+  EXPECT_NE(values({"--roller", "mine", "--poisson", "0.2"}).first, by_file.first);
+}
+
+// A run has noted its frequency, masses and force, which those of the file do not replace.
+TEST_F(MeterCommand, OfARunTakesTheDrumsSizeAlone) {
+  write_chain_run(folder_ / "run", "II", Transition::B, 30);
+  write_files({{folder_ / "mine", "drum_load 7000 kg\nwidth 2.13 m\ndiameter 1.5 m\nfrequency 29 Hz\n"
+                                  "force 256 kN\namplitude 1.8 mm\n"}});
+  const auto values = [this](std::vector<std::string> words) {
+    words.insert(words.begin(), "run");
+    EXPECT_TRUE(meter(words).ok());
+    return read_text(folder_ / "results/meter/meter.csv");
+  };
+  EXPECT_EQ(values({"--roller", "mine"}), values({"--drum-radius", "0.75", "--drum-width", "2.13"}));
+  EXPECT_NE(values({"--roller", "mine", "--m2", "3000"}), values({"--roller", "mine"}));
+}
 
 const std::vector<std::string> as_measured = {"--column",        "time=Time:ms", "--column",
                                               "a_drum=Acc Z:-g", "--frequency",  "29"};

@@ -71,6 +71,13 @@ TEST_F(ToolOptions, AbsurdValuesAreRefusedAtOnce) {
       {"exact --out a\nb\x01 --k 1\n2", "--k is '1?2'; allowed: "},
       {"advise --omega 1e-308", "--omega is '1e-308'; allowed: a number from 1e-06"},
       {"advise --omega 1e-6", "--omega is '1e-06'; allowed: at least "},
+      {"advise --frequency 1e-6", "--frequency is '1e-06'; allowed: at least 0.00421 rad/s, 0.000671 Hz"},
+      {"advise --frequency 20 --omega 125", "--frequency is '20'; allowed: without --omega"},
+      {"advise --roller nowhere", "--roller is 'nowhere'; allowed: a file that can be read"},
+      {"advise --setting high", "--setting is 'high'; allowed: only with --roller"},
+      {"advise --case CA6500-low", "... inputs/rollers/CA6500 --setting low"},
+      {"advise --bed --question force --roller r", "--roller is 'r'; allowed: without --bed"},
+      {"advise --bed --question force --frequency 20", "--frequency is '20'; allowed: without --bed"},
       {"advise --D 1e18", "--D is '1e18'; allowed: 0, or a number from 1e-12 to 1e+06"},
       {"advise --m2 inf", "--m2 is 'inf'; allowed: "},
       {"advise --error ''", "--error is ''; allowed: "},
@@ -143,12 +150,31 @@ TEST_F(ToolOptions, AbsurdValuesAreRefusedAtOnce) {
       {"meter r --drum-radius 0.7 --drum-width 2 --poisson 0.6",
        "--poisson is '0.6'; allowed: a number from 0 to 0.5"},
       {"meter r --poisson 0.3", "--poisson is '0.3'; allowed: only with --drum-radius"},
+      {"meter r --roller nowhere", "--roller is 'nowhere'; allowed: a file that can be read"},
+      {"meter r --roller LONG", "... (5000 characters)'; allowed: a path"},
+      {"meter r --setting high", "--setting is 'high'; allowed: only with --roller"},
+      {"meter r --case BW120-63Hz", "... inputs/rollers/BW120 --setting 63Hz"},
+      {"identify r --roller ''", "--roller is ''; allowed: "},
+      {"identify r --case Axas2020-29Hz", "... inputs/rollers/Axas2020 --setting 29Hz"},
       {"meter r --speed 3", "--speed is '3'; allowed: only with --export"},
       {"meter r --pass 2", "--pass is '2'; allowed: only with --export"},
       {"map --x k:1e6:1e8:5 --k 3e6", "--k is '3e6'; allowed: not together with the axis k of --x"},
       {"map --D 0.3", "--D is '0.3'; allowed: not together with the axis D of --y"},
       {"map --sweep Fw:1e4:1e5:5 --Fw 2e4",
        "--Fw is '2e4'; allowed: not together with the axis Fw of --sweep"},
+      {"map --x frequency:20:40:5 --omega 100",
+       "--omega is '100'; allowed: not together with the axis frequency of --x"},
+      {"map --x frequency:20:40:5 --frequency 30",
+       "--frequency is '30'; allowed: not together with the axis frequency of --x"},
+      {"map --sweep omega:20:40:5 --frequency 30",
+       "--frequency is '30'; allowed: not together with the axis omega of --sweep"},
+      {"map --x frequency:20:40:5 --y omega:100:200:5",
+       "--y is 'omega:100:200:5'; allowed: another NAME than that of --x"},
+      {"map --x frequency:0:40:5", "--x is 'frequency:0:40:5'; allowed: FROM and TO for frequency: a number "
+                                   "from 1e-06 to 1e+08 [Hz]"},
+      {"map --x Omega:1:2:3", "--x is 'Omega:1:2:3'; allowed: a NAME of k, D, omega, frequency, Fw"},
+      {"map --roller nowhere", "--roller is 'nowhere'; allowed: a file that can be read"},
+      {"map --roller .", "--roller is '.'; allowed: a file that can be read"},
       {"map --sweep k:1e6:1e8:5 --threads 2", "--threads is '2'; allowed: without --sweep"},
       {"meter r --column a_drum", "--column is 'a_drum'; allowed: NAME=HEADER"},
       {"meter r --column a_drum=Z:kN", "... the unit is 'kN'; allowed: m/s2, cm/s2"},
@@ -308,6 +334,49 @@ TEST_F(ToolOptions, AMapRecordsItsForce) {
   EXPECT_EQ(force({"--x", "k:1e7:2e7:2", "--y", "D:0.1:0.2:2", "--me-re", "4", "--omega", "100"}), "40000");
   EXPECT_EQ(force({"--x", "k:1e7:2e7:2", "--y", "omega:100:120:2", "--me-re", "4"}), "");
   EXPECT_EQ(force({"--x", "k:1e7:2e7:2", "--y", "Fw:1e4:2e4:2"}), "");
+}
+
+// A drum of 6000 kg under B, with condition and numbers that others have computed.
+TEST_F(ToolOptions, AMapTakesARollerFromItsFile) {
+  std::ofstream(folder_ / "heavy") << "drum_mass 6 t\nframe_mass 3500 kg\nbond_stiffness 3.1 MN/m\n"
+                                      "bond_damping 31 kN s/m\nfrequency 1800 vpm\n"
+                                      "eccentric_moment 11.4 kg m\n";
+  const post::Outcome outcome =
+      well(run({"map", "--sweep", "k:10e6:100e6:60", "--roller", "heavy", "--D", "0.2", "--out", "m"}));
+  EXPECT_TRUE(printed(outcome, {"eccentric moment        11.4 kg m\n", "nominal amplitude       1.9 mm\n",
+                                "loss of contact     k = 28859", "period doubling     k = 642150"}));
+  const post::Table boundaries = post::read_table(folder_ / "m/boundaries.csv");
+  EXPECT_EQ(boundaries.text("kind"), (std::vector<std::string>{"loss of contact", "period doubling"}));
+  EXPECT_NEAR(boundaries.numbers("k [N/m]").at(0), 28.8593e6, 50.0);
+  EXPECT_NEAR(boundaries.numbers("k [N/m]").at(1), 64.2151e6, 50.0);
+  const auto noted = post::read_parameters(folder_ / "m/parameters.csv");
+  EXPECT_EQ(noted.at("roller"), "heavy");
+  EXPECT_EQ(noted.at("me_re"), "11.4");
+  EXPECT_NEAR(std::stod(noted.at("roller_exciter_force")), 11.4 * std::pow(60.0 * M_PI, 2), 1e-6);
+
+  // Over k and frequency the force of the same moment follows from the frequency; of one axis only the name
+  // and the unit differ from omega.
+  const auto points = [this](const std::string &x) {
+    well(run({"map", "--x", x, "--y", "k:20e6:80e6:2", "--roller", "heavy", "--cycles", "100", "--out", x}));
+    return post::read_table(folder_ / x / "regimes.csv");
+  };
+  const post::Table hertz = points("frequency:25:30:2"),
+                    radians = points("omega:157.0796326794897:188.4955592153876:2");
+  EXPECT_EQ(hertz.numbers("frequency [Hz]"), (std::vector<double>{25, 30, 25, 30}));
+  EXPECT_EQ(hertz.text("regime"), radians.text("regime"));
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(hertz.numbers("peak_force [N]").at(i) / radians.numbers("peak_force [N]").at(i), 1.0, 1e-6);
+}
+
+// What is advised for a roller holds for a run of the deck with the same file.
+TEST_F(ToolOptions, AdviceForARollerNamesItsFile) {
+  const std::string file = (fs::path(DRUMLIN_SOURCE_DIR) / "inputs/rollers/CA3500").string();
+  const post::Outcome outcome =
+      well(run({"advise", "--roller", file, "--setting", "low", "--frequency", "33", "--error", "1e-2"}));
+  EXPECT_TRUE(
+      printed(outcome, {"setting low: drum 3955 kg, frame 3713 kg\n", "frequency               33 Hz\n",
+                        "-var case II -var transition B -var roller " + file +
+                            " -var setting low -var omega 207.34511513692635 -var stepping"}));
 }
 
 // The balls of a layer have its type, lie above those of the layer below, and fill the thickness that was

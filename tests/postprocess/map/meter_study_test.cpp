@@ -1,6 +1,7 @@
 // `drumlin study meter --quick`: the rows against closed forms and orbits, which do not use records, and an
 // interrupted call that continues to the same result.
 #include "map/meter_study/results.h"
+#include "map/meter_study/study.h"
 #include "map/regime.h"
 #include "support/files.h"
 #include "support/resumed.h"
@@ -39,7 +40,7 @@ std::string mode_of(Regime regime) {
 
 void expect_right(const SoilPoint &point) {
   SCOPED_TRACE(point.k);
-  ChainParameters p = named_chain(point.roller, Transition::B).parameters;
+  ChainParameters p = soil_machine(point.roller).chain;
   p.k = point.k;
   const RegimePoint orbit = judge_regime(p, 300);
   EXPECT_EQ(point.mode, mode_of(orbit.regime));

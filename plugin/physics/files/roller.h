@@ -1,0 +1,376 @@
+#pragma once
+// The machine of a roller file: lines of `name value unit` with # comments, as inputs/rollers has them.
+// Plugin and tools share this reader.
+//
+//     Fw = m_e r_e omega^2                  amplitude of the exciter's force, N
+//     A  = m_e r_e / m2                     nominal amplitude, m: of the drum alone, on no soil
+//     f3 = sqrt(k23/m3) / (2 pi)            frequency of the frame on its bond, Hz
+//     zeta3 = c23 / (2 sqrt(k23 m3))        its damping ratio
+//
+// with m2 the mass of the drum (all that vibrates with it), m3 the rest of the load on the drum.
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace drumlin {
+
+/// One setting of a roller's exciter.
+struct RollerSetting {
+  std::string name;       ///< empty: the only one of a file that names none
+  double frequency = 0.0; ///< [Hz]
+  double me_re = 0.0;     ///< eccentric moment m_e r_e [kg m]
+};
+
+/// One drum of a roller with the part of the machine that rests on it.
+struct Roller {
+  double m2 = 0.0;                      ///< mass of the drum [kg]
+  double m3 = 0.0;                      ///< mass of the frame: the rest of the load on the drum [kg]
+  double k23 = 0.0;                     ///< stiffness of the bond between them [N/m]
+  double c23 = 0.0;                     ///< damping coefficient of the bond [N s/m]
+  std::optional<double> width;          ///< of the drum [m]
+  std::optional<double> diameter;       ///< of the drum [m]
+  std::optional<double> operating_mass; ///< of the whole machine [kg]
+  double m2_tolerance = 0.0;            ///< relative tolerance of m2
+  double m3_tolerance = 0.0;            ///< of m3
+  double me_re_tolerance = 0.0;         ///< of m_e r_e
+  bool bond_assumed = false;            ///< the file has neither the bond nor the frame's frequency on it
+  std::vector<RollerSetting> settings;  ///< in the order of the file, at least one
+};
+
+/// A value that follows from a roller file: its name in parameters.csv, and its unit.
+struct DerivedValue {
+  std::string name;
+  double value;
+  std::string unit;
+};
+
+namespace roller_file {
+
+constexpr double gravity = 9.81; // m/s2, with which a load in newtons becomes a mass
+constexpr double pi = 3.14159265358979323846;
+/// The bond of a roller whose file does not have it: that of inputs/rollers/Axas2020.
+constexpr double assumed_frame_frequency = 4.82; // Hz
+constexpr double assumed_frame_damping = 0.151;
+/// Values that say the same thing twice may differ by this, since data sheets round.
+constexpr double agreement = 0.1;
+
+struct Unit {
+  const char *name;
+  double factor;
+};
+using Units = std::vector<Unit>;
+
+/// What a line may begin with.
+struct Quantity {
+  const char *name;
+  Units units;
+  double largest; ///< in SI units; the value is positive, or zero as well where the lowest is 0
+  bool zero_allowed;
+  bool of_setting;
+};
+
+inline const std::vector<Quantity> &quantities() {
+  static const Units mass = {{"kg", 1.0}, {"t", 1e3}};
+  static const Units load = {{"kg", 1.0}, {"t", 1e3}, {"kN", 1e3 / gravity}, {"N", 1.0 / gravity}};
+  static const Units linear = {
+      {"kg/cm", 100.0}, {"kg/m", 1.0}, {"kN/m", 1e3 / gravity}, {"N/mm", 1e3 / gravity}};
+  static const Units length = {{"m", 1.0}, {"mm", 1e-3}, {"cm", 1e-2}};
+  static const Units frequency = {{"Hz", 1.0}, {"1/min", 1.0 / 60.0}, {"vpm", 1.0 / 60.0}};
+  static const Units percent = {{"%", 0.01}};
+  static const std::vector<Quantity> list = {
+      {"operating_mass", mass, 1e6, false, false},
+      {"drum_load", load, 1e6, false, false},
+      {"linear_load", linear, 1e6, false, false},
+      {"drum_mass", mass, 1e6, false, false},
+      {"frame_mass", mass, 1e6, false, false},
+      {"width", length, 100.0, false, false},
+      {"diameter", length, 100.0, false, false},
+      {"bond_stiffness", {{"N/m", 1.0}, {"kN/m", 1e3}, {"MN/m", 1e6}}, 1e12, false, false},
+      {"bond_damping", {{"N s/m", 1.0}, {"kN s/m", 1e3}}, 1e9, true, false},
+      {"frame_frequency", frequency, 1e3, false, false},
+      {"frame_damping", {{"-", 1.0}, {"%", 0.01}}, 100.0, true, false},
+      {"drum_mass_tolerance", percent, 0.5, true, false},
+      {"frame_mass_tolerance", percent, 0.5, true, false},
+      {"eccentric_moment_tolerance", percent, 0.5, true, false},
+      {"frequency", frequency, 1e4, false, true},
+      {"eccentric_moment", {{"kg m", 1.0}, {"kgm", 1.0}, {"kg mm", 1e-3}}, 1e6, false, true},
+      {"force", {{"N", 1.0}, {"kN", 1e3}}, 1e9, false, true},
+      {"amplitude", {{"mm", 1e-3}, {"m", 1.0}}, 1.0, false, true}};
+  return list;
+}
+
+/// "a, b or c" of the names of `list`.
+template <class List>
+std::string names_of(const List &list) {
+  std::string text;
+  for (auto one = list.begin(); one != list.end(); ++one)
+    text += (one == list.begin() ? "" : one + 1 == list.end() ? " or " : ", ") + std::string(one->name);
+  return text;
+}
+
+/// Text of a file for an error: without control characters, at most 60 characters.
+inline std::string shown(std::string text) {
+  for (char &c : text)
+    if (std::iscntrl(static_cast<unsigned char>(c)) != 0) c = '?';
+  return text.size() <= 60 ? text : text.substr(0, 60) + "...";
+}
+
+/// A number with the digits that a reader wants.
+inline std::string number_text(double value) {
+  std::ostringstream text;
+  text.precision(6);
+  text << value;
+  return text.str();
+}
+
+using Values = std::map<std::string, double>;
+
+/// What the lines of a roller file say, in SI units.
+struct Lines {
+  std::string file;
+  Values machine;
+  std::vector<std::pair<std::string, Values>> settings;
+
+  [[noreturn]] void fail(const std::string &what, const std::string &value,
+                         const std::string &allowed) const {
+    throw std::invalid_argument(what + " of '" + file + "' is '" + shown(value) + "'; allowed: " + allowed);
+  }
+  [[noreturn]] void missing(const std::string &what, const std::string &allowed) const {
+    throw std::invalid_argument(what + " of '" + file + "' is missing; allowed: " + allowed);
+  }
+
+  std::optional<double> of(const std::string &name) const {
+    const auto found = machine.find(name);
+    return found == machine.end() ? std::nullopt : std::optional(found->second);
+  }
+
+  void add(const std::string &text, const std::string &where);
+  void read(const std::string &text, const std::string &name);
+};
+
+/// Reads a line without its comment. \param where "line 7"
+inline void Lines::add(const std::string &text, const std::string &where) {
+  std::istringstream words(text);
+  std::string name, number, unit;
+  if (!(words >> name)) return;
+  words >> number;
+  for (std::string word; words >> word;)
+    unit += (unit.empty() ? "" : " ") + word;
+  if (name == "setting") {
+    if (number.empty() || !unit.empty())
+      fail("setting in " + where, (number + " " + unit), "one word, the name of the setting");
+    for (const auto &[other, values] : settings)
+      if (other == number) fail("setting in " + where, number, "a name that no other setting has");
+    if (!settings.empty() && settings.front().first.empty())
+      fail("setting in " + where, number, "settings before the first frequency, force and amplitude");
+    settings.push_back({number, {}});
+    return;
+  }
+  const auto &list = quantities();
+  const auto known =
+      std::find_if(list.begin(), list.end(), [&](const Quantity &one) { return one.name == name; });
+  if (known == list.end()) fail("name in " + where, name, "setting, " + names_of(list));
+  char *end = nullptr;
+  const double value = std::strtod(number.c_str(), &end);
+  const bool decimal = !number.empty() && *end == '\0' && number.find_first_of("xXnN") == std::string::npos;
+  const auto unit_of = std::find_if(known->units.begin(), known->units.end(),
+                                    [&](const Unit &one) { return one.name == unit; });
+  const std::string both = number + (unit.empty() ? "" : " ") + unit;
+  if (!decimal || unit_of == known->units.end())
+    fail(name + " in " + where, both, "a number and its unit, " + names_of(known->units));
+  const double in_si = value * unit_of->factor;
+  constexpr double smallest = 1e-9;
+  if (!(in_si <= known->largest) || !(in_si >= smallest || (known->zero_allowed && in_si == 0.0)))
+    fail(name + " in " + where, both,
+         (known->zero_allowed ? "0 or a positive number" : "a positive number") + std::string(" up to ") +
+             number_text(known->largest / unit_of->factor) + " " + unit);
+  if (known->of_setting && settings.empty()) settings.push_back({"", {}});
+  if (!known->of_setting && !settings.empty() && !settings.front().first.empty())
+    fail(name + " in " + where, both, "values of the machine before its settings");
+  Values &values = known->of_setting ? settings.back().second : machine;
+  if (!values.emplace(name, in_si).second) fail(name + " in " + where, both, "one line for each name");
+}
+
+inline void Lines::read(const std::string &text, const std::string &name) {
+  file = name;
+  std::istringstream lines(text);
+  int count = 0;
+  for (std::string line; std::getline(lines, line);)
+    add(line.substr(0, line.find('#')), "line " + std::to_string(++count));
+}
+
+} // namespace roller_file
+
+/// The text of a roller file. Throws std::invalid_argument if it cannot be read, or is none.
+inline std::string roller_text(const std::string &file) {
+  std::error_code code;
+  std::ifstream in;
+  if (std::filesystem::is_regular_file(file, code)) in.open(file); // a pipe could block for ever
+  constexpr std::size_t largest = 100000;                          // characters
+  std::string text(largest, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(largest));
+  const auto size = static_cast<std::size_t>(in.gcount());
+  if (!in.is_open() || size == 0 || size == largest)
+    throw std::invalid_argument("roller is '" + roller_file::shown(file) +
+                                "'; allowed: a file that can be read, "
+                                "of lines of a name, a number and its unit");
+  text.resize(size);
+  const std::string byte_order_mark = "\xEF\xBB\xBF";
+  return text.compare(0, 3, byte_order_mark) == 0 ? text.substr(3) : text;
+}
+
+/// The roller of a file with that text. Throws std::invalid_argument with one line, "WHAT of 'FILE' is
+/// 'VALUE'; allowed: ...", if a line cannot be read, a value is missing or two contradict each other.
+/// \param file its name, for the error
+inline Roller read_roller(const std::string &text, const std::string &file) {
+  using namespace roller_file;
+  Lines lines;
+  lines.read(text, file);
+  Roller roller;
+  roller.width = lines.of("width");
+  roller.diameter = lines.of("diameter");
+  roller.operating_mass = lines.of("operating_mass");
+  roller.m2_tolerance = lines.of("drum_mass_tolerance").value_or(0.0);
+  roller.m3_tolerance = lines.of("frame_mass_tolerance").value_or(0.0);
+  roller.me_re_tolerance = lines.of("eccentric_moment_tolerance").value_or(0.0);
+
+  const auto apart = [](double a, double b) { return std::fabs(a - b) > agreement * std::max(a, b); };
+  const auto contradict = [&](const std::string &what, double value, const std::string &unit,
+                              const std::string &other, double expected) {
+    lines.fail(what, number_text(value) + " " + unit,
+               number_text(expected) + " " + unit + " within 10 %, which follows from " + other);
+  };
+
+  // The load on the drum.
+  std::optional<double> load = lines.of("drum_load");
+  if (const std::optional<double> linear = lines.of("linear_load")) {
+    if (!roller.width) lines.missing("width", "the width of the drum, which linear_load needs");
+    const double from_linear = *linear * *roller.width;
+    if (load && apart(*load, from_linear))
+      contradict("drum_load", *load, "kg", "linear_load and width", from_linear);
+    if (!load) load = from_linear;
+  }
+  const std::optional<double> frame = lines.of("frame_mass");
+
+  // The settings: m_e r_e from itself, else from F / omega^2, else, below, from A m2.
+  if (lines.settings.empty())
+    lines.missing("frequency", "a frequency and a force, eccentric_moment or amplitude");
+  std::optional<double> m2 = lines.of("drum_mass");
+  double of_amplitudes = 0.0; // sum of m_e r_e / A over the settings that have both
+  int counted = 0;
+  for (const auto &[name, values] : lines.settings) {
+    const std::string of_setting = name.empty() ? "" : " of setting " + name;
+    const auto value = [&values = values](const char *key) {
+      const auto found = values.find(key);
+      return found == values.end() ? 0.0 : found->second;
+    };
+    const double frequency = value("frequency");
+    if (frequency == 0.0) lines.missing("frequency" + of_setting, "a number and its unit, Hz, 1/min or vpm");
+    const double omega = 2.0 * pi * frequency;
+    const double of_force = value("force") / (omega * omega);
+    const double me_re = value("eccentric_moment") > 0.0 ? value("eccentric_moment") : of_force;
+    if (of_force > 0.0 && apart(me_re, of_force))
+      contradict("force" + of_setting, value("force"), "N", "frequency and eccentric_moment",
+                 me_re * omega * omega);
+    if (me_re == 0.0 && value("amplitude") == 0.0)
+      lines.missing("force" + of_setting, "force, eccentric_moment or amplitude");
+    if (me_re > 0.0 && value("amplitude") > 0.0) {
+      of_amplitudes += me_re / value("amplitude");
+      ++counted;
+    }
+    roller.settings.push_back({name, frequency, me_re});
+  }
+  if (!m2 && frame && load && *load > *frame) m2 = *load - *frame;
+  if (!m2 && counted > 0) m2 = of_amplitudes / counted;
+  if (!m2)
+    lines.missing("drum_mass",
+                  "drum_mass, or a setting with an amplitude and a force or eccentric_moment, from "
+                  "which it follows");
+  for (std::size_t n = 0; n < roller.settings.size(); ++n) {
+    const auto &[name, values] = lines.settings[n];
+    const auto amplitude = values.find("amplitude");
+    if (amplitude == values.end()) continue;
+    double &me_re = roller.settings[n].me_re;
+    if (me_re == 0.0) me_re = amplitude->second * *m2;
+    if (apart(me_re / *m2, amplitude->second))
+      contradict("amplitude" + (name.empty() ? "" : " of setting " + name), amplitude->second * 1e3, "mm",
+                 "eccentric moment and mass of the drum", me_re / *m2 * 1e3);
+  }
+  roller.m2 = *m2;
+
+  // The rest of the load on the drum is the frame.
+  if (!frame && !load) lines.missing("drum_load", "drum_load, linear_load or frame_mass");
+  if (frame && load && apart(*load, roller.m2 + *frame))
+    contradict("drum_load", *load, "kg", "the masses of drum and frame", roller.m2 + *frame);
+  roller.m3 = frame ? *frame : *load - roller.m2;
+  if (roller.m3 <= 0.0)
+    lines.fail("drum_load", number_text(*load) + " kg",
+               "more than the mass of the drum, " + number_text(roller.m2) + " kg");
+  if (roller.operating_mass && roller.m2 + roller.m3 > *roller.operating_mass * (1.0 + 1e-9))
+    lines.fail("operating_mass", number_text(*roller.operating_mass) + " kg",
+               "at least the load on the drum, " + number_text(roller.m2 + roller.m3) + " kg");
+
+  // The bond.
+  const std::optional<double> k23 = lines.of("bond_stiffness");
+  const std::optional<double> f3 = lines.of("frame_frequency");
+  if (k23 && f3)
+    lines.fail("frame_frequency", number_text(*f3) + " Hz", "bond_stiffness or frame_frequency, not both");
+  const std::optional<double> c23 = lines.of("bond_damping");
+  const std::optional<double> zeta3 = lines.of("frame_damping");
+  if (c23 && zeta3)
+    lines.fail("frame_damping", number_text(*zeta3), "bond_damping or frame_damping, not both");
+  const double omega3 = 2.0 * pi * f3.value_or(assumed_frame_frequency);
+  roller.k23 = k23.value_or(roller.m3 * omega3 * omega3);
+  roller.c23 = c23.value_or(2.0 * zeta3.value_or(assumed_frame_damping) * std::sqrt(roller.k23 * roller.m3));
+  roller.bond_assumed = !k23 && !f3;
+  return roller;
+}
+
+inline Roller read_roller(const std::string &file) { return read_roller(roller_text(file), file); }
+
+/// The setting of that name. Throws std::invalid_argument if the roller has none. \param name empty: the
+/// only one
+inline const RollerSetting &setting_of(const Roller &roller, const std::string &name,
+                                       const std::string &file) {
+  const auto found = std::find_if(roller.settings.begin(), roller.settings.end(),
+                                  [&name](const RollerSetting &one) { return one.name == name; });
+  if (found != roller.settings.end()) return *found;
+  if (name.empty() && roller.settings.size() == 1) return roller.settings.front();
+  const bool none = roller.settings.front().name.empty();
+  throw std::invalid_argument(
+      "setting" + (name.empty() ? " is missing" : " is '" + roller_file::shown(name) + "'") +
+      "; allowed: " + (none ? "none" : roller_file::names_of(roller.settings)) + ", of '" + file + "'");
+}
+
+/// What follows from roller and frequency: printed before a run and stored with it. \param g gravity [m/s2]
+inline std::vector<DerivedValue> derived_values(const Roller &roller, const RollerSetting &setting,
+                                                double omega, double g = roller_file::gravity) {
+  const double Fw = setting.me_re * omega * omega;
+  const double load = (roller.m2 + roller.m3) * g;
+  std::vector<DerivedValue> values = {{"frequency", omega / (2.0 * roller_file::pi), "Hz"},
+                                      {"eccentric_moment", setting.me_re, "kg m"},
+                                      {"exciter_force", Fw, "N"},
+                                      {"static_load", load, "N"}};
+  if (roller.width) {
+    values.push_back({"exciter_force_per_metre", Fw / *roller.width, "N/m"});
+    values.push_back({"static_load_per_metre", load / *roller.width, "N/m"});
+  }
+  values.push_back({"nominal_amplitude", setting.me_re / roller.m2, "m"});
+  values.push_back({"frame_frequency", std::sqrt(roller.k23 / roller.m3) / (2.0 * roller_file::pi), "Hz"});
+  values.push_back({"frame_damping_ratio", roller.c23 / (2.0 * std::sqrt(roller.k23 * roller.m3)), "-"});
+  return values;
+}
+
+} // namespace drumlin

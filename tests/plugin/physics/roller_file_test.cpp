@@ -1,0 +1,168 @@
+/// Roller files: what follows from a data sheet, against values computed by hand, and what is refused.
+
+#include "physics/files/roller.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <unistd.h>
+
+namespace {
+
+using namespace drumlin;
+
+constexpr double pi = 3.14159265358979323846;
+
+class RollerFile : public testing::Test {
+protected:
+  RollerFile() : file_(testing::TempDir() + "drumlin_roller_" + std::to_string(::getpid())) {}
+  ~RollerFile() override { std::filesystem::remove(file_); }
+
+  Roller read(const std::string &text) const {
+    std::ofstream(file_, std::ios::binary) << text;
+    return read_roller(file_);
+  }
+  /// The error without the file's name, for which it has FILE.
+  std::string fault(const std::string &text) const {
+    try {
+      read(text);
+    } catch (const std::invalid_argument &error) {
+      std::string line = error.what();
+      for (std::size_t at; (at = line.find(file_)) != std::string::npos;)
+        line.replace(at, file_.size(), "FILE");
+      return line;
+    }
+    return "";
+  }
+  double derived(const Roller &roller, const std::string &name) const {
+    const RollerSetting &setting = roller.settings.front();
+    for (const DerivedValue &value : derived_values(roller, setting, 2.0 * pi * setting.frequency))
+      if (value.name == name) return value.value;
+    ADD_FAILURE() << name;
+    return 0.0;
+  }
+
+  std::string file_;
+};
+
+TEST_F(RollerFile, ADataSheetGivesMassesMomentAndBond) {
+  // 12 t class: linear load 30 kg/cm on 2 m is 6000 kg. 250 kN at 30 Hz: m_e r_e = 250e3/(60 pi)^2 = 7.03619
+  // kg m; amplitude 1.8 mm: drum 3909.00 kg, frame 2091.00 kg.
+  const Roller roller =
+      read("operating_mass 12 t\nlinear_load 30 kg/cm # static\nwidth 2 m\n\nfrequency 1800 1/min\n"
+           "force 250 kN\namplitude 1.8 mm");
+  EXPECT_NEAR(roller.m2, 3909.00, 0.01);
+  EXPECT_NEAR(roller.m3, 2091.00, 0.01);
+  ASSERT_EQ(roller.settings.size(), 1U);
+  EXPECT_NEAR(roller.settings[0].frequency, 30.0, 1e-12);
+  EXPECT_NEAR(roller.settings[0].me_re, 7.03619, 1e-5);
+  EXPECT_TRUE(roller.bond_assumed);
+  EXPECT_NEAR(roller.k23, 2091.00 * 4 * pi * pi * 4.82 * 4.82, 10.0);
+  EXPECT_NEAR(derived(roller, "exciter_force"), 250e3, 1e-6);
+  EXPECT_NEAR(derived(roller, "exciter_force_per_metre"), 125e3, 1e-6);
+  EXPECT_NEAR(derived(roller, "static_load"), 58860.0, 1e-6);
+  EXPECT_NEAR(derived(roller, "static_load_per_metre"), 29430.0, 1e-6);
+  EXPECT_NEAR(derived(roller, "nominal_amplitude"), 1.8e-3, 1e-12);
+  EXPECT_NEAR(derived(roller, "frame_frequency"), 4.82, 1e-9);
+  EXPECT_NEAR(derived(roller, "frame_damping_ratio"), 0.151, 1e-9);
+}
+
+TEST_F(RollerFile, TakesMassesUnitsToleranceAndSettings) {
+  const Roller roller =
+      read("\xEF\xBB\xBF"
+           "drum_mass 6 t\r\nframe_mass 3500 kg\r\nbond_stiffness 3.1 MN/m\r\n"
+           "bond_damping 31 kN s/m\r\ndrum_mass_tolerance 1 %\r\neccentric_moment_tolerance 3 %\r\n"
+           "setting high\r\nfrequency 30 Hz\r\neccentric_moment 11.4 kg m\r\n"
+           "setting low\r\nfrequency 35 Hz\r\namplitude 0.9 mm\r\n");
+  EXPECT_EQ(roller.m2, 6000.0);
+  EXPECT_EQ(roller.m3, 3500.0);
+  EXPECT_EQ(roller.k23, 3.1e6);
+  EXPECT_EQ(roller.c23, 31e3);
+  EXPECT_FALSE(roller.bond_assumed);
+  EXPECT_DOUBLE_EQ(roller.m2_tolerance, 0.01);
+  EXPECT_EQ(roller.m3_tolerance, 0.0);
+  EXPECT_DOUBLE_EQ(roller.me_re_tolerance, 0.03);
+  EXPECT_EQ(setting_of(roller, "high", file_).me_re, 11.4);
+  EXPECT_DOUBLE_EQ(setting_of(roller, "low", file_).me_re, 5.4);
+  EXPECT_THROW(setting_of(roller, "", file_), std::invalid_argument);
+  EXPECT_THROW(setting_of(roller, "middle", file_), std::invalid_argument);
+  // The drum's mass may be the load without the frame.
+  EXPECT_NEAR(read("drum_load 58.86 kN\nframe_mass 2 t\nfrequency 30 Hz\nforce 250 kN\n").m2, 4000.0, 1e-9);
+}
+
+TEST_F(RollerFile, RefusesWhatCannotBeRightInOneLine) {
+  const std::string machine = "drum_mass 4 t\nframe_mass 3 t\n", setting = "frequency 30 Hz\nforce 250 kN\n";
+  EXPECT_EQ(fault(machine + setting), "");
+  EXPECT_EQ(fault(machine + "frequency 30 Hz\n"),
+            "force of 'FILE' is missing; allowed: force, eccentric_moment or amplitude");
+  EXPECT_EQ(fault(machine),
+            "frequency of 'FILE' is missing; allowed: a frequency and a force, eccentric_moment "
+            "or amplitude");
+  EXPECT_EQ(fault("drum_mass 4 t\n" + setting),
+            "drum_load of 'FILE' is missing; allowed: drum_load, linear_load or frame_mass");
+  EXPECT_EQ(fault("drum_mas 4 t\n").substr(0, 67),
+            "name in line 1 of 'FILE' is 'drum_mas'; allowed: setting, operating");
+  EXPECT_EQ(fault("drum_mass 4\n"),
+            "drum_mass in line 1 of 'FILE' is '4'; allowed: a number and its unit, kg or t");
+  for (const char *number : {"4,5 t", "nan t", "inf t", "0x10 t", "t", "4 5 t", "4 T", "4t"})
+    EXPECT_NE(fault(std::string("drum_mass ") + number).find("allowed: a number and its unit, kg or t"),
+              std::string::npos)
+        << number;
+  for (const char *number : {"0 t", "-4 t", "1e9 t", "1e400 t"})
+    EXPECT_NE(fault(std::string("drum_mass ") + number).find("allowed: a positive number up to 1000 t"),
+              std::string::npos)
+        << number;
+  // Each contradiction, and which value is named.
+  for (const auto &[text, named] :
+       {std::pair<std::string, std::string>(machine + machine, "drum_mass in line 3"),
+        {machine + "drum_load 8 t\n" + setting, "drum_load"},
+        {machine + "operating_mass 6 t\n" + setting, "operating_mass"},
+        {"drum_mass 4 t\ndrum_load 3 t\n" + setting, "drum_load"},
+        {machine + "linear_load 30 kg/cm\n" + setting, "width"},
+        {machine + setting + "eccentric_moment 9 kg m\n", "force"},
+        {machine + setting + "amplitude 3 mm\n", "amplitude"},
+        {machine + "bond_stiffness 1 MN/m\nframe_frequency 4 Hz\n" + setting, "frame_frequency"},
+        {machine + "bond_damping 1 kN s/m\nframe_damping 0.1 -\n" + setting, "frame_damping"},
+        {machine + "setting a\n" + setting + "setting a\n", "setting in line 6"},
+        {machine + "setting a\n" + setting + "width 2 m\n", "width in line 6"},
+        {machine + setting + "setting a\n", "setting in line 5"},
+        {machine + "setting\n", "setting in line 3"},
+        {machine + "frame_mass_tolerance 60 %\n" + setting, "frame_mass_tolerance"},
+        {machine + std::string(2000, 'x'), "name in line 3"}}) {
+    const std::string line = fault(text);
+    EXPECT_EQ(line.substr(0, named.size()), named) << line;
+    EXPECT_NE(line.find("; allowed: "), std::string::npos) << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+  }
+  for (const char *name : {"/dev/zero", "/", "", "/nowhere/roller"})
+    EXPECT_THROW(read_roller(name), std::invalid_argument) << name;
+  EXPECT_THROW(read(""), std::invalid_argument);
+}
+
+// Bytes at random, and lines of a good file in which bytes are changed: each is read or refused.
+TEST_F(RollerFile, AnyBytesAreReadOrRefused) {
+  const std::string good = "drum_mass 4 t\nframe_mass 3 t\nsetting a\nfrequency 30 Hz\nforce 250 kN\n";
+  unsigned state = 1;
+  const auto random = [&state](unsigned below) {
+    return (state = state * 1664525u + 1013904223u) / 65536u % below;
+  };
+  int accepted = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    std::string text = good;
+    for (unsigned change = random(4); change-- > 0;)
+      text[random(static_cast<unsigned>(text.size()))] = static_cast<char>(random(256));
+    try {
+      const Roller roller = read(text);
+      ++accepted;
+      EXPECT_TRUE(roller.m2 > 0.0 && roller.m3 > 0.0 && roller.k23 > 0.0 && roller.settings[0].me_re > 0.0)
+          << text;
+    } catch (const std::invalid_argument &error) {
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    }
+  }
+  EXPECT_GT(accepted, 40);
+}
+
+} // namespace
