@@ -260,20 +260,22 @@ void take_sums(const StepSums &sums, double period, std::vector<MeterCycle> &cyc
 /// Gives the harmonics the size that they had before the filter.
 void undo_filter(const Record &record, MeterRecord &result) {
   if (record.low_pass == 0.0) return;
+  result.filtered = true;
   const double frequency = 1.0 / record.period();
-  for (std::size_t j = 0; j < result.gain.size(); ++j)
-    result.gain[j] = low_pass_gain(meter_orders[j] * frequency, record.interval, record.low_pass);
+  MeterAmplitudes gain{};
+  for (std::size_t j = 0; j < gain.size(); ++j)
+    gain[j] = low_pass_gain(meter_orders[j] * frequency, record.interval, record.low_pass);
   constexpr double least_gain = 0.1;
-  if (result.gain[double_order] < least_gain)
+  if (gain[double_order] < least_gain)
     csv_fault(
         record.file, 0, {},
         refusal("the cut-off frequency", record.low_pass,
                 fmt::format("one that leaves a tenth of the second harmonic at {:.4g} Hz", 2.0 * frequency)));
   for (MeterCycle &cycle : result.cycles) {
-    for (std::size_t j = 0; j < result.gain.size(); ++j)
-      cycle.acceleration[j] /= result.gain[j];
-    if (cycle.frame) *cycle.frame /= result.gain[basic_order];
-    if (cycle.excitation) *cycle.excitation /= result.gain[basic_order];
+    for (std::size_t j = 0; j < gain.size(); ++j)
+      cycle.acceleration[j] /= gain[j];
+    if (cycle.frame) *cycle.frame /= gain[basic_order];
+    if (cycle.excitation) *cycle.excitation /= gain[basic_order];
   }
 }
 
@@ -282,6 +284,19 @@ void take_excitation(const Record &record, std::vector<MeterCycle> &cycles) {
   if (!record.time.empty() || !record.Fw || !record.phase) return;
   for (MeterCycle &cycle : cycles)
     cycle.excitation = *record.Fw * std::complex<double>(std::sin(*record.phase), -std::cos(*record.phase));
+}
+
+/// The width whose forces a record has, as MeterRecord::thickness. A bed.csv without parameters.csv counts as
+/// one in two dimensions.
+std::optional<double> thickness_of(const Record &record) {
+  const auto dimension = record.parameters.find("dimension");
+  if (dimension == record.parameters.end())
+    return record.file.filename() == "bed.csv" ? std::optional(1.0) : std::nullopt;
+  if (dimension->second == "2") return 1.0;
+  const auto thickness = record.parameters.find("thickness");
+  const std::optional<double> known =
+      thickness == record.parameters.end() ? std::nullopt : any_number_from_text(thickness->second);
+  return known && *known > 0.0 ? *known : std::nan("");
 }
 
 std::size_t whole_cycles(const Record &record) {
@@ -345,7 +360,7 @@ MeterRecord meter_cycles(const Record &record) {
   MeterRecord result;
   const double period = record.period();
   result.omega = *record.omega;
-  result.gain.fill(1.0);
+  result.thickness = thickness_of(record);
   result.m2 = record.m2;
   result.m3 = record.m3;
   const StepSums sums = read_sums(record);

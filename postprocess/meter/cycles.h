@@ -34,10 +34,13 @@ struct MeterRecord {
   double omega = 0.0;          ///< [rad/s]
   double interval = 0.0;       ///< between samples [s]; 0 without samples
   double noise = 0.0;          ///< of the samples, as in SignalFaults
-  MeterAmplitudes gain{};      ///< that a filter has left of each order; `acceleration` is free of it [-]
+  bool filtered = false;       ///< the samples have passed a filter; the harmonics are free of it
   bool computed_force = false; ///< the contact force is not recorded but computed from the accelerations
-  std::optional<double> m2;    ///< mass of the drum [kg]
-  std::optional<double> m3;    ///< mass of the frame [kg]
+  /// Width of drum and soil whose forces the record has [m]: 1 of a bed in two dimensions, the thickness of
+  /// one in three; none: the whole drum's. NaN: not known.
+  std::optional<double> thickness;
+  std::optional<double> m2; ///< mass of the drum [kg]
+  std::optional<double> m3; ///< mass of the frame [kg]
   std::vector<MeterCycle> cycles;
 };
 

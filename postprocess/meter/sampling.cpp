@@ -164,7 +164,7 @@ Harmonics error_of(const AccelerationJump &jump, double s, const SampledCycles &
     const std::complex<double> direction = cycles.source == HarmonicSource::velocity
                                                ? std::complex<double>(-std::sin(turn), -std::cos(turn))
                                                : std::complex<double>(std::cos(turn), -std::sin(turn));
-    errors[j] = 2.0 / time * jump.size * cycles.interval * curved / cycles.gain[j] * direction;
+    errors[j] = 2.0 / time * jump.size * cycles.interval * curved * direction;
   }
   return errors;
 }
@@ -195,11 +195,10 @@ double sampling_bound(const MeterFormula &formula, const SampledCycles &cycles) 
   // Cubic's rule: of its integral, and of a velocity [intervals].
   const double next_to = velocity ? 0.15 : 0.55;
   for (std::size_t j = 0; j < border.size(); ++j)
-    border[j] =
-        next_to * cycles.end_jumps * cycles.interval * cycles.omega / (pi * cycles.cycles) / cycles.gain[j];
+    border[j] = next_to * cycles.end_jumps * cycles.interval * cycles.omega / (pi * cycles.cycles);
   for (std::size_t j = 0; j < noise.size(); ++j) {
-    const double each = cycles.noise * std::sqrt(2.0 / samples) / cycles.gain[j];
-    const double ends = std::sqrt(2.0) * cycles.noise * cycles.omega / (pi * cycles.cycles) / cycles.gain[j];
+    const double each = cycles.noise * std::sqrt(2.0 / samples);
+    const double ends = std::sqrt(2.0) * cycles.noise * cycles.omega / (pi * cycles.cycles);
     noise[j] = velocity ? std::hypot(each * meter_orders[j] * cycles.omega, ends) : each;
   }
   std::vector<std::array<Harmonics, 2>> errors; // B is largest at the ends of an interval

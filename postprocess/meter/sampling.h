@@ -50,7 +50,6 @@ struct SampledCycles {
   std::vector<AccelerationJump> jumps; ///< in these cycles
   double end_jumps = 0.0;              ///< largest differences at the ends of the cycles, summed [m/s2]
   double noise = 0.0;                  ///< as in SignalFaults
-  MeterAmplitudes gain{};              ///< that a filter has left of each order [-]
   std::array<std::complex<double>, meter_orders.size()> harmonics{}; ///< [m/s2]
 };
 

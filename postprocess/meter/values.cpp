@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace drumlin::post {
@@ -71,7 +72,6 @@ void take_amplitudes(const MeterRecord &record, const MeterOptions &options, std
   sampled.interval = record.interval;
   sampled.cycles = static_cast<int>(count);
   sampled.noise = record.noise;
-  sampled.gain = record.gain;
   for (std::size_t i = window.first; i < window.first + count; ++i) {
     const MeterCycle &cycle = record.cycles[i];
     for (std::size_t j = 0; j < meter_orders.size(); ++j)
@@ -88,6 +88,11 @@ void take_amplitudes(const MeterRecord &record, const MeterOptions &options, std
   window.rmv = rmv(window.amplitude);
   if (record.source == HarmonicSource::every_step) return;
   window.ccv = compaction_control(window.amplitude);
+  // A filter hides the jumps, but not what sampling has done before.
+  if (record.filtered) {
+    window.cmv_bound = window.rmv_bound = window.ccv_bound = std::numeric_limits<double>::infinity();
+    return;
+  }
   window.cmv_bound = sampling_bound(compaction_meter, sampled);
   window.rmv_bound = sampling_bound(rmv, sampled);
   window.ccv_bound = sampling_bound(compaction_control, sampled);
@@ -113,14 +118,20 @@ void take_stiffness(const MeterRecord &record, std::size_t count, MeterWindow &w
   window.c_1 = stiffness.imag() / record.omega;
 }
 
-void take_modulus(const Cycles &cycles, const MeterOptions &options, std::size_t count, MeterWindow &window) {
+void take_modulus(const MeterRecord &record, const MeterOptions &options, std::size_t count,
+                  MeterWindow &window) {
   if (!options.drum_radius || !options.drum_width) return;
+  const Cycles &cycles = record.cycles;
   const LineContact contact = {*options.drum_radius, *options.drum_width, options.poisson};
+  // The force on the whole drum.
+  const double slices = record.thickness ? *options.drum_width / *record.thickness : 1.0;
+  if (std::isnan(slices)) return;
   double sum = 0.0;
   int found = 0;
   for (std::size_t i = window.first; i < window.first + count; ++i) {
     if (!cycles[i].low_force || !cycles[i].deflection) continue;
-    if (const auto modulus = lundberg_modulus(*cycles[i].low_force, *cycles[i].deflection, contact)) {
+    if (const auto modulus =
+            lundberg_modulus(slices * *cycles[i].low_force, *cycles[i].deflection, contact)) {
       sum += *modulus;
       ++found;
     }
@@ -153,7 +164,7 @@ std::vector<MeterWindow> meter_windows(const MeterRecord &record, const MeterOpt
         window.peak_force = std::max(*window.peak_force, *record.cycles[cycle].peak_force);
     }
     take_stiffness(record, count, window);
-    take_modulus(record.cycles, options, count, window);
+    take_modulus(record, options, count, window);
     window.mode = mode_of(record.cycles, window, count, options.same);
   }
   return windows;

@@ -295,6 +295,63 @@ TEST(Meter, ModulusFromTheLowestPosition) {
   EXPECT_FALSE(meter_windows(cycles, {}).back().E_vib);
 }
 
+/// E in Lundberg's formula for a deflection, by bisection of its own words.
+double modulus_by_bisection(double force, double deflection, double radius, double width, double poisson) {
+  double low = 1e3, high = 1e12;
+  for (int i = 0; i < 200; ++i) {
+    const double E = std::sqrt(low * high);
+    const double u = (1.0 - poisson * poisson) / E * force / width;
+    const double B = std::sqrt(16.0 / pi * radius * u);
+    (u * 2.0 / pi * (1.8864 + std::log(width / B)) > deflection ? low : high) = E;
+  }
+  return std::sqrt(low * high);
+}
+
+// A bed in two dimensions has the forces of 1 m of the drum, one in three those of its thickness; E_vib is
+// that of the whole drum in each. As if the bed were the soil of the chain: the same motion, the forces of a
+// slice.
+TEST(Meter, ModulusOfASliceIsThatOfTheDrum) {
+  constexpr double radius = 0.759, width = 2.13;
+  ChainParameters p = table1_case("II", Transition::B);
+  p.m2 = 4000.0;
+  p.m3 = 3400.0;
+  p.Fw = 150e3;
+  p.k = 60e6;
+  const OracleResult exact = exact_pieces(p, 120, 2000);
+  const auto slice = [&](double thickness, const std::string &dimension, const std::string &noted) {
+    Record record;
+    record.file = dimension.empty() ? "chain.csv" : "bed.csv";
+    record.omega = p.omega;
+    record.interval = p.period() / 2000;
+    record.time = exact.time;
+    record.x_drum = exact.x_drum;
+    record.v_drum = exact.v_drum;
+    for (const double force : exact.F_contact)
+      record.F_contact.push_back(force * thickness / width);
+    if (!dimension.empty()) record.parameters["dimension"] = dimension;
+    if (!noted.empty()) record.parameters["thickness"] = noted;
+    return record;
+  };
+  MeterOptions options;
+  options.drum_radius = radius;
+  options.drum_width = width;
+  const std::size_t last = exact.x_drum.size() - 1;
+  const double z =
+      -*std::min_element(exact.x_drum.begin() + static_cast<std::ptrdiff_t>(last - 2000), exact.x_drum.end());
+  const double expected = modulus_by_bisection(p.k * z, z, radius, width, 0.35);
+  EXPECT_NEAR(*last_window(slice(width, "", ""), options).E_vib / expected, 1.0, 1e-3);
+  EXPECT_NEAR(*last_window(slice(1.0, "2", ""), options).E_vib / expected, 1.0, 0.01);
+  EXPECT_NEAR(*last_window(slice(1.0, "2", "1"), options).E_vib / expected, 1.0, 0.01);
+  EXPECT_NEAR(*last_window(slice(0.2, "3", "0.2"), options).E_vib / expected, 1.0, 0.01);
+  EXPECT_FALSE(last_window(slice(0.2, "3", ""), options).E_vib) << "the thickness is not known";
+  MeterResult result;
+  result.record = slice(1.0, "2", "");
+  result.cycles = meter_cycles(result.record);
+  result.options = options;
+  EXPECT_EQ(width_words(result), "Forces, energy and stiffnesses are those of 1 m of the drum; for E_vib the "
+                                 "force is that of the whole drum, 2.13 m wide.");
+}
+
 TEST(Meter, WindowsEndWithTheRecord) {
   const MeterRecord record = meter_cycles(synthetic(50.0, 47, {{1.0, 40.0}}));
   const std::vector<MeterWindow> windows = meter_windows(record, {});
