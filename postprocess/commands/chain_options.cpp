@@ -42,13 +42,14 @@ void add_chain_options(CLI::App &command, ChainArguments &arguments) {
   command.add_option("--transition", arguments.transition, "transition condition of the contact: A or B")
       ->capture_default_str();
   add_roller_options(command, arguments.roller, group);
-  for (std::size_t i = 0; i < chain_numbers.size(); ++i)
+  for (std::size_t i = 0; i < chain_numbers.size(); ++i) {
     text_option(&command, fmt::format("--{}", chain_numbers[i].name), "NUMBER", arguments.numbers[i],
                 chain_numbers[i].help)
         ->group(group);
-  text_option(&command, "--frequency", "NUMBER", arguments.frequency,
-              "frequency of the excitation [Hz], in place of --omega")
-      ->group(group);
+    if (chain_numbers[i].value == &ChainParameters::omega)
+      text_option(&command, "--frequency", "NUMBER", arguments.frequency, "the same in Hz, instead")
+          ->group(group);
+  }
 }
 
 std::optional<std::pair<std::string, std::string>> given_number(const ChainArguments &arguments,

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <regex>
 #include <string>
@@ -60,6 +61,24 @@ TEST(CalibrateCommand, RefusesBadInputInOneLine) {
        "identified"},
       {with({"--set", "g=9.81"}), "--set is 'g=9.81'; allowed: NAME=VALUE"},
       {with({"--set", "k=1e9"}), "--set is 'k'; allowed: a variable that --vary does not name"},
+      {with({"--set", "frequency=fast"}), "--set is 'frequency=fast'; allowed: for 'fast': a number"},
+      {with({"--set", "frequency=20", "--set", "omega=120"}), "--set is 'omega'; allowed: each name once"},
+      {with({"--set", "r2=0.7"}), "--balls is '1000'; allowed: at least 1226: the drum has a diameter of 1.4 "
+                                  "m, the box a width of 1.26 m"},
+      {with({"--roller", "nowhere"}), "--roller is 'nowhere'; allowed: a file that can be read"},
+      {with({"--roller", "mine", "--setting", "high"}), "--setting is 'high'; allowed: none, of 'mine'"},
+      {with({"--setting", "high"}), "--setting is 'high'; allowed: only with --roller"},
+      {with({"--roller", "narrow"}), "--roller is 'narrow'; allowed: a file with the width of the drum, "
+                                     "since a bed has the roller per metre"},
+      {with({"--roller", "flat"}),
+       "--roller is 'flat'; allowed: a file with the diameter of the drum, or its radius by --set r2="},
+      {with({"--roller", "mine"}),
+       "--balls is '1000'; allowed: at least 1408: the drum has a diameter of 1.5 m"},
+      // The load of 7000 kg on 2 m is 34335 N/m; with half of the drum's mass by --set 24525 N/m.
+      {with({"--roller", "mine", "--balls", "1500", "--target", "force=3e4"}),
+       "--target force is '30000'; allowed: at least 34335 N/m, the weight of the roller"},
+      {with({"--roller", "flat", "--set", "r2=0.4", "--set", "m2=1000", "--target", "force=2e4"}),
+       "--target force is '20000'; allowed: at least 24525 N/m, the weight of the roller"},
       {with({"--set", "m2=heavy"}), "--set is 'm2=heavy'; allowed: for 'heavy': a number"},
       {with({"--seeds", "1"}), "--seeds is '1'; allowed: a whole number from 2"},
       {with({"--balls", "5"}), "--balls is '5'; allowed: a whole number from 50"},
@@ -71,6 +90,10 @@ TEST(CalibrateCommand, RefusesBadInputInOneLine) {
       {with({"--name", "gravel"}), "--name is 'gravel'; allowed: letters"},
       {with({"--out", "a b"}), "--out is 'a b'; allowed: a path without spaces"}};
   const Scratch scratch;
+  const std::string machine = "drum_mass 4 t\nframe_mass 3 t\nfrequency 30 Hz\nforce 250 kN\n";
+  post::write_files({{scratch / "mine", "width 2 m\ndiameter 1.5 m\n" + machine},
+                     {scratch / "flat", "width 2 m\n" + machine},
+                     {scratch / "narrow", machine}});
   for (const Bad &row : rows) {
     std::vector<std::string> words = {DRUMLIN_TOOLS, "calibrate"};
     words.insert(words.end(), row.words.begin(), row.words.end());
@@ -80,6 +103,35 @@ TEST(CalibrateCommand, RefusesBadInputInOneLine) {
     EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
     EXPECT_FALSE(fs::exists(scratch / "results"));
   }
+}
+
+// The settings of a calibration whose engine cannot be started: masses, bond and force are divided by the
+// width of the drum, 2 m. By hand: 250 kN at 30 Hz are 302.5 kN at 33 Hz; k23 = 1500 kg (2 pi 4.82 Hz)^2.
+TEST(CalibrateCommand, GivesABedTheRollerPerMetre) {
+  const Scratch scratch;
+  post::write_files({{scratch / "mine", "width 2 m\ndiameter 1.5 m\ndrum_mass 4 t\nframe_mass 3 t\n"
+                                        "frequency 30 Hz\nforce 250 kN\n"},
+                     {scratch / "places", "inputs=" DRUMLIN_SOURCE_DIR "/inputs\nliggghts_plugin=" +
+                                              post::plugin_library() + "\nliggghts=/no/engine\n"}});
+  const Outcome outcome =
+      run_program({DRUMLIN_TOOLS, "calibrate", "--target", "k=20e6", "--vary", "k=1e8:1e10", "--roller",
+                   "mine", "--balls", "1500", "--set", "frequency=33", "--set", "c23=7", "--out", "out"},
+                  {"DRUMLIN_PLACES=" + (scratch / "places").string()}, scratch.path(), 20.0);
+  EXPECT_TRUE(
+      printed(outcome, {"exciter force per metre 125 kN/m\n", "the engine '/no/engine' cannot be run"}));
+  const std::string settings = post::read_text(scratch / "out/study.txt");
+  const auto set = [&settings](const std::string &name) {
+    std::smatch match;
+    const bool found = std::regex_search(settings, match, std::regex("\nset " + name + ",([^\n]+)\n"));
+    return found ? std::stod(match[1]) : std::nan("");
+  };
+  EXPECT_EQ(set("m2"), 2000.0);
+  EXPECT_EQ(set("m3"), 1500.0);
+  EXPECT_EQ(set("r2"), 0.75);
+  EXPECT_EQ(set("c23"), 7.0);
+  EXPECT_NEAR(set("k23"), 1375767.6, 0.1);
+  EXPECT_NEAR(set("omega"), 207.3451151, 1e-6);
+  EXPECT_NEAR(set("Fw"), 151250.0, 1e-6);
 }
 
 TEST(CalibrateCommand, KnowsTheMassesOfTheGravelsRoller) {

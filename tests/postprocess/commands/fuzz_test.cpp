@@ -88,6 +88,11 @@ Outcome run_advise(const fs::path &folder, int mutant) {
   return run_tools(folder, mutant % 4 == 0 ? own : measured); // the first solves the chain seven times
 }
 
+Outcome run_exact(const fs::path &folder, int /*mutant*/) {
+  return run_tools(folder,
+                   {"exact", "--roller", "run/roller", "--setting", "low", "--cycles", "3", "--out", "out"});
+}
+
 void write_chain(const fs::path &folder) {
   write_chain_run(folder / "run", "II", Transition::B, 4);
   // The engine's cycles.csv has energies and harmonics besides.
@@ -109,6 +114,11 @@ void write_curves(const fs::path &folder) {
   fs::create_directories(folder / "run");
   for (const char *file : {"chain.csv", "scaling.csv"})
     fs::copy_file(fs::path(DRUMLIN_SOURCE_DIR) / "inputs/study/accuracy" / file, folder / "run" / file);
+}
+
+void write_roller(const fs::path &folder) {
+  fs::create_directories(folder / "run");
+  fs::copy_file(fs::path(DRUMLIN_SOURCE_DIR) / "inputs/rollers/CA3500", folder / "run/roller");
 }
 
 const std::vector<std::string> csv_files = {"chain.csv", "events.csv", "cycles.csv", "parameters.csv",
@@ -133,6 +143,7 @@ const std::vector<Subject> &subjects() {
       {"dumps", 100, write_bed, dump_files, run_report},
       {"vtk", 100, write_bed, dump_files, run_vtk},
       {"advise", 40, write_curves, {"chain.csv", "scaling.csv"}, run_advise},
+      {"roller", 300, write_roller, {"roller"}, run_exact},
   };
   return all;
 }

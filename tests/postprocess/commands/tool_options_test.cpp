@@ -376,6 +376,48 @@ TEST_F(ToolOptions, AMapTakesARollerFromItsFile) {
     EXPECT_NEAR(hertz.numbers("peak_force [N]").at(i) / radians.numbers("peak_force [N]").at(i), 1.0, 1e-6);
 }
 
+// Of this roller a data sheet is all that is known. By hand: m_e r_e = 256e3/(60 pi)^2, m2 = m_e r_e/1.8 mm,
+// m3 = 7000 kg - m2, k23 = m3 (2 pi 4.82 Hz)^2, c23 = 2 0.151 sqrt(k23 m3).
+TEST_F(ToolOptions, ADataSheetIsEnoughForAllCommands) {
+  std::ofstream(folder_ / "mine")
+      << "operating_mass 12.1 t\ndrum_load 7000 kg\nwidth 2.13 m\nfrequency 30 Hz\n"
+         "force 256 kN\namplitude 1.8 mm\n";
+  const std::vector<std::string> by_file = {"--roller", "mine"},
+                                 by_hand = {"--omega", "188.49555921538757", "--me-re", "7.2050619478995772",
+                                            "--m2",    "4002.8121932775",    "--m3",    "2997.1878067225",
+                                            "--k23",   "2748955.8845542",    "--c23",   "27412.447104822"};
+  const auto boundaries = [this](const std::vector<std::string> &roller) {
+    std::vector<std::string> words = {"map", "--sweep", "k:5e6:100e6:40", "--D",
+                                      "0.2", "--fresh", "--out",          "m"};
+    words.insert(words.end(), roller.begin(), roller.end());
+    well(run(words));
+    return post::read_table(folder_ / "m/boundaries.csv").numbers("k [N/m]");
+  };
+  const std::vector<double> expected = boundaries(by_hand), found = boundaries(by_file);
+  ASSERT_EQ(found.size(), expected.size());
+  ASSERT_FALSE(found.empty());
+  for (std::size_t i = 0; i < found.size(); ++i)
+    EXPECT_NEAR(found[i] / expected[i], 1.0, 1e-9);
+
+  well(run({"exact", "--roller", "mine", "--frequency", "29.3", "--k", "45e6", "--D", "0.25", "--cycles",
+            "60", "--out", "run"}));
+  fs::rename(folder_ / "run/chain.csv", folder_ / "logged.csv"); // without parameters, and with other columns
+  const std::vector<std::string> record = {"logged.csv",      "--column",      "time=time",
+                                           "--column",        "a_drum=a_drum", "--column",
+                                           "a_frame=a_frame", "--roller",      "mine"};
+  std::vector<std::string> words = {"identify", "--out", "found"};
+  words.insert(words.end(), record.begin(), record.end());
+  EXPECT_TRUE(printed(well(run(words)),
+                      {"exciter force per metre 120.19 kN/m", "The bond of drum and frame is assumed",
+                       "the record has 29.3", "30 Hz was said"}));
+  EXPECT_NEAR(post::read_table(folder_ / "found/identify.csv").numbers("k [N/m]").front(), 45e6, 1e4);
+  words = {"meter", "--out", "meter"};
+  words.insert(words.end(), record.begin(), record.end());
+  EXPECT_TRUE(printed(well(run(words)), {"nominal amplitude       1.8 mm", "k_B "}));
+  EXPECT_TRUE(printed(well(run({"advise", "--roller", "mine", "--k", "45e6", "--D", "0.25"})),
+                      {"frame frequency         4.82 Hz", " -var roller mine -var k 45e6 -var D 0.25 "}));
+}
+
 // What is advised for a roller holds for a run of the deck with the same file.
 TEST_F(ToolOptions, AdviceForARollerNamesItsFile) {
   const std::string file = (fs::path(DRUMLIN_SOURCE_DIR) / "inputs/rollers/CA3500").string();
