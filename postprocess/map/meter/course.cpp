@@ -293,6 +293,7 @@ std::string course_csv(const MapAxis &axis, const std::vector<CoursePoint> &poin
   const CsvSchema<CoursePoint> columns = course_columns(axis, false);
   std::vector<std::string> header = columns.header();
   std::vector<std::vector<std::string>> rows;
+  rows.reserve(points.size());
   for (const CoursePoint &point : points)
     rows.push_back(columns.cells(point));
   for (const CourseValue &value : course_values) {

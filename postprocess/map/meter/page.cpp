@@ -488,12 +488,14 @@ PageTable meaning_table(const MapAxis &axis, const Course &course) {
   double step = std::pow(10.0, exponent);
   for (const double factor : {2.0, 5.0, 10.0})
     if (highest / step > rows) step = factor * std::pow(10.0, exponent);
-  for (double cmv = step; cmv < highest; cmv += step) {
+  const auto count = static_cast<int>(std::ceil(highest / step));
+  for (int i = 1; i < count; ++i) {
+    const double cmv = step * i;
     const std::vector<double> places = course.met_at(cmv);
     std::string words;
     constexpr std::size_t most = 8;
-    for (std::size_t i = 0; i < places.size() && i < most; ++i)
-      words += (i == 0 ? "" : ", ") + number_in(shown, places[i]);
+    for (std::size_t place = 0; place < places.size() && place < most; ++place)
+      words += (place == 0 ? "" : ", ") + number_in(shown, places[place]);
     if (places.size() > most) words += fmt::format(" and {} more", places.size() - most);
     table.add({fmt::format("{:g}", cmv), words.empty() ? no_value : words, std::to_string(places.size())});
   }
