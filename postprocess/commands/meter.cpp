@@ -153,6 +153,7 @@ void run(const Arguments &arguments) {
   for (const std::string &line : result.record.notes)
     fmt::print("{}\n", line);
   fmt::print("{}: {}\n{}\n", result.record.file.string(), answer_line(result), source_words(result));
+  if (const std::string words = width_words(result); !words.empty()) fmt::print("{}\n", words);
   print_windows(result);
   const fs::path place = fs::weakly_canonical(fs::absolute(task.out));
   make_output_folder(place.parent_path());
