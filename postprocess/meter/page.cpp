@@ -59,6 +59,12 @@ const char *mode_name(const MeterWindow &window) { return mode_names[static_cast
 /// Whether stiffnesses of a window are the soil's; in other modes they are apparent.
 bool stiffness_valid(const MeterWindow &window) { return window.mode == OperatingMode::continuous_contact; }
 
+/// What the stiffnesses of a window are of.
+std::string stiffness_words(const MeterWindow &window) {
+  if (!stiffness_valid(window)) return "apparent";
+  return window.k_1 ? "k_1 of the soil, k_B of soil and frame" : "k_B of soil and frame";
+}
+
 /// A value that sums over every step do not give is left out.
 bool is_given(const MeterResult &result, std::size_t column) {
   constexpr std::array<std::size_t, 3> of_samples = {4, 6, 7}; // CCV has no value then
@@ -214,9 +220,7 @@ std::string meter_csv(const MeterResult &result) {
       const std::optional<double> value = columns[i].value(window);
       cells.push_back(value && std::isfinite(*value) && is_given(result, i) ? number_text(*value) : "");
     }
-    cells.insert(
-        cells.end(),
-        {mode_name(window), stiffness_valid(window) ? "k_1 of the soil, k_B of soil and frame" : "apparent"});
+    cells.insert(cells.end(), {mode_name(window), stiffness_words(window)});
     text += csv_line(cells);
   }
   return text;

@@ -156,7 +156,6 @@ std::vector<CoursePoint> course_points(const std::filesystem::path &file, const 
                                        const std::vector<CourseChain> &rollers, int threads) {
   const CsvSchema<CoursePoint> columns = course_columns(axis, !rollers.front().roller.empty());
   ResumedTable table(file, columns);
-  const std::vector<CoursePoint> earlier = read_points(table.file(), columns);
   std::vector<CoursePoint> points;
   std::vector<std::size_t> missing;
   for (const CourseChain &roller : rollers)
@@ -165,13 +164,7 @@ std::vector<CoursePoint> course_points(const std::filesystem::path &file, const 
       point.roller = roller.roller;
       point.value = axis.value(i);
       point.k = roller.chain(point.value).k;
-      if (!table.has(columns.key(point))) {
-        missing.push_back(points.size());
-      } else {
-        point = *find_point(earlier, columns, point);
-        point.roller = roller.roller;
-        point.k = roller.chain(axis.value(i)).k;
-      }
+      if (!table.has(columns.key(point))) missing.push_back(points.size());
       points.push_back(point);
     }
   table.finish(); // before the work, for rows that belong to no point
@@ -190,10 +183,10 @@ std::vector<CoursePoint> course_points(const std::filesystem::path &file, const 
       const auto every = static_cast<std::size_t>(roller.identify_every);
       setting.identify = every > 0 && (place % every == 0 || place + 1 == count);
       setting.seed = number + 1;
-      const CoursePoint named = points[number];
-      points[number] = course_point(roller.chain(named.value), setting);
-      points[number].roller = named.roller;
-      points[number].value = named.value;
+      CoursePoint point = course_point(roller.chain(points[number].value), setting);
+      point.roller = points[number].roller;
+      point.value = points[number].value;
+      points[number] = point;
     });
     std::vector<ResumedTable::Row> rows;
     for (std::size_t i = first; i < first + more; ++i)
@@ -202,6 +195,15 @@ std::vector<CoursePoint> course_points(const std::filesystem::path &file, const 
     progress.tell("{} of {} points", points.size() - missing.size() + first + more, points.size());
   }
   table.finish();
+  // With the digits of the file: an interrupted call gives the same.
+  const std::vector<CoursePoint> written = read_points(table.file(), columns);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const CoursePoint asked = points[i];
+    points[i] = written.at(i);
+    points[i].roller = asked.roller;
+    points[i].value = asked.value;
+    points[i].k = asked.k;
+  }
   return points;
 }
 

@@ -211,6 +211,9 @@ TEST_F(CourseCommand, AlongOtherNumbers) {
   EXPECT_TRUE(table.text("E_vib [Pa]").front().empty());
   EXPECT_TRUE(table.text("k_identified [N/m]").front().empty());
   expect_sound_page(folder() / "f", 2);
+  well(map({"--x", "me_re:1:4:4", "--k", "2e7", "--identify", "0", "--out", "e"}));
+  EXPECT_GT(read_table(folder() / "e/meter.csv").numbers("peak_force [N]").back(),
+            read_table(folder() / "e/meter.csv").numbers("peak_force [N]").front());
 }
 
 } // namespace
