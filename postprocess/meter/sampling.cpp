@@ -64,12 +64,12 @@ SignalFaults faults_of(const Record &record, HarmonicSource source) {
   // in `alone` intervals to either side, too.
   const std::size_t alone = velocity ? 2 : 1;
   const auto jump = [&](std::size_t i, double share) {
-    return std::abs(jump_at(a, velocity ? i - 1 : i, i + 1, share));
+    return jump_at(a, velocity ? i - 1 : i, i + 1, share);
   };
   std::vector<double> &size = faults.differences;
   size.assign(record.size() - 1, 0.0);
   for (std::size_t i = alone; i + 2 < a.size(); ++i)
-    size[i] = jump(i, 0.5);
+    size[i] = std::abs(jump(i, 0.5));
   constexpr double standard_deviations = 5.0;
   const double of_noise = velocity ? std::sqrt(28.0) / record.interval : std::sqrt(5.0); // from the weights
   const double least = std::max(standard_deviations * of_noise * faults.noise,
@@ -79,9 +79,17 @@ SignalFaults faults_of(const Record &record, HarmonicSource source) {
     const auto from = size.begin() + static_cast<std::ptrdiff_t>(i - alone);
     const auto to = size.begin() + static_cast<std::ptrdiff_t>(std::min(size.size(), i + alone + 1));
     if (std::max_element(from, to) != size.begin() + static_cast<std::ptrdiff_t>(i)) continue;
+    // The differences of a jump change their sign within two intervals. Those of a curve do not, if a cycle
+    // has enough samples.
+    constexpr double opposite = 0.15, enough = 30.0;
+    const double sign = jump(i, 0.5) > 0.0 ? 1.0 : -1.0;
+    bool curve = record.period() > enough * record.interval;
+    for (std::size_t near = i < alone + 2 ? alone : i - 2; near <= i + 2 && near + 2 < a.size(); ++near)
+      curve = curve && sign * jump(near, 0.5) > -opposite * size[i];
+    if (curve) continue;
     const double side = velocity ? 0.25 : 0.0; // the ends of interval i
-    faults.jumps.push_back(
-        {record.time[i] + 0.5 * record.interval, std::max({size[i], jump(i, side), jump(i, 1.0 - side)})});
+    faults.jumps.push_back({record.time[i] + 0.5 * record.interval,
+                            std::max({size[i], std::abs(jump(i, side)), std::abs(jump(i, 1.0 - side))})});
   }
   return faults;
 }

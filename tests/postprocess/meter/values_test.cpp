@@ -186,6 +186,21 @@ TEST(Meter, BoundsAreTight) {
   }
 }
 
+// A motion in unbroken contact is smooth: its CMV is zero, and is told to be so.
+TEST(Meter, BoundsOfUnbrokenContactAreSmall) {
+  constexpr int samples = 3000;
+  ChainParameters p = table1_case("II", Transition::B);
+  p.k = 5e6;
+  const OracleResult exact = exact_pieces(p, 313, samples);
+  for (const int every : {83, 60, 31, 15, 7}) // 36 samples per cycle and more
+    for (const bool velocity : {false, true}) {
+      const MeterWindow window = last_window(thinned(exact, p, samples, every, 1, velocity));
+      EXPECT_LE(*window.cmv, window.cmv_bound + 1e-6) << every << velocity;
+      EXPECT_LT(window.cmv_bound, 0.05) << every << velocity;
+      EXPECT_LT(window.rmv_bound, 0.05) << every << velocity;
+    }
+}
+
 // Noise counts, too: of a motion in unbroken contact, which has no second harmonic, nearly all is noise.
 TEST(Meter, BoundsContainNoise) {
   int within = 0;
