@@ -19,9 +19,11 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr const char *group = "Instead of the case's values";
 
-const std::optional<std::string> &text_of(const ChainArguments &arguments, const std::string &name) {
+/// Of a name that is none of chain_numbers, as me_re of an axis, nothing is given.
+std::optional<std::string> text_of(const ChainArguments &arguments, const std::string &name) {
   const auto *const number = std::find_if(chain_numbers.begin(), chain_numbers.end(),
                                           [&](const ChainNumber &one) { return name == one.name; });
+  if (number == chain_numbers.end()) return std::nullopt;
   return arguments.numbers.at(static_cast<std::size_t>(number - chain_numbers.begin()));
 }
 
@@ -54,7 +56,7 @@ void add_chain_options(CLI::App &command, ChainArguments &arguments) {
 
 std::optional<std::pair<std::string, std::string>> given_number(const ChainArguments &arguments,
                                                                 const std::string &name) {
-  if (const std::optional<std::string> &text = text_of(arguments, name)) return std::pair{"--" + name, *text};
+  if (const std::optional<std::string> text = text_of(arguments, name)) return std::pair{"--" + name, *text};
   if (name == "omega" && arguments.frequency) return std::pair{"--frequency", *arguments.frequency};
   return std::nullopt;
 }

@@ -3,6 +3,7 @@
 #include "commands/commands.h"
 #include "commands/text_options.h"
 #include "map/figures.h"
+#include "map/meter/course.h"
 #include "map/regime_map.h"
 #include "pages/drawing.h"
 #include "pages/html.h"
@@ -47,6 +48,9 @@ struct Task {
   MapGrid grid;
   std::optional<GivenRoller> roller;
   std::optional<MapAxis> sweep;
+  bool along = false; ///< along x alone: what the meter shows
+  std::optional<LineContact> drum;
+  int identify = 10; ///< every so many-th point of one axis
   int threads = 1;
   fs::path out;
 };
@@ -87,16 +91,21 @@ Task judge(const MapArguments &arguments) {
   if (task.roller && grid.chain.me_re) task.roller->setting.me_re = *grid.chain.me_re;
   std::vector<std::pair<MapAxis, const char *>> axes;
   if (arguments.sweep) {
-    if (arguments.axes_given)
+    if (arguments.x || arguments.y)
       throw UsageError(refusal("--sweep", *arguments.sweep, "without --x and --y, which are those of a map"));
     task.sweep = axis_option("--sweep", *arguments.sweep);
     axes = {{*task.sweep, "--sweep"}};
   } else {
-    grid.x = axis_option("--x", arguments.x);
-    grid.y = axis_option("--y", arguments.y);
+    grid.x = axis_option("--x", arguments.x.value_or("k:1e6:200e6:60:log"));
+    axes = {{grid.x, "--x"}};
+    task.along = arguments.x && !arguments.y;
+  }
+  if (!task.sweep && !task.along) {
+    const std::string y = arguments.y.value_or("D:0.02:1:50");
+    grid.y = axis_option("--y", y);
     if (grid.x.parameter() == grid.y.parameter())
-      throw UsageError(refusal("--y", arguments.y, "another NAME than that of --x"));
-    axes = {{grid.x, "--x"}, {grid.y, "--y"}};
+      throw UsageError(refusal("--y", y, "another NAME than that of --x"));
+    axes.emplace_back(grid.y, "--y");
   }
   const bool moment = arguments.me_re || std::any_of(axes.begin(), axes.end(), [](const auto &axis) {
                         return axis.first.name == "me_re";
@@ -124,6 +133,16 @@ Task judge(const MapArguments &arguments) {
     for (const double x : {grid.x.from, grid.x.to})
       for (const double y : {grid.y.from, grid.y.to})
         judge_corner(arguments.chain, grid.at(x, y));
+  constexpr int most_points = 1000000;
+  if (arguments.identify) task.identify = count_option("--identify", *arguments.identify, 0, most_points);
+  const auto along_only = [&task](const std::optional<std::string> &given, const char *option) {
+    if (given && !task.along) throw UsageError(refusal(option, *given, "only with --x and without --y"));
+  };
+  along_only(arguments.identify, "--identify");
+  along_only(arguments.drum.radius, "--drum-radius");
+  along_only(arguments.drum.width, "--drum-width");
+  along_only(arguments.drum.poisson, "--poisson");
+  task.drum = judged(arguments.drum, task.roller);
   task.out = output_folder_option("--out", arguments.out);
   keep_apart(files_of(arguments.chain.roller), {{"--out", task.out, true}});
   return task;
@@ -148,7 +167,16 @@ std::string settings(const Task &task) {
     values.emplace_back("sweep", words(*task.sweep));
   } else {
     values.emplace_back("x", words(grid.x));
-    values.emplace_back("y", words(grid.y));
+    if (!task.along) values.emplace_back("y", words(grid.y));
+  }
+  if (task.along) {
+    const auto of_drum = [&task](double LineContact::*part) {
+      return task.drum ? number_text((*task.drum).*part) : std::string();
+    };
+    values.emplace_back("identify", fmt::format("{}", task.identify));
+    values.emplace_back("drum_radius", of_drum(&LineContact::radius));
+    values.emplace_back("drum_width", of_drum(&LineContact::length));
+    values.emplace_back("poisson", of_drum(&LineContact::poisson));
   }
   values.emplace_back("cycles", fmt::format("{}", grid.cycles));
   if (task.roller) {
@@ -173,12 +201,7 @@ CsvSchema<MapPoint> map_columns(const MapGrid &grid) {
        csv_column(grid.y.label(), &MapPoint::y),
        {"regime",
         [](const MapPoint &row) { return regime_names[static_cast<std::size_t>(row.point.regime)]; },
-        [](MapPoint &row, const std::string &cell) {
-          const auto *const found = std::find(regime_names.begin(), regime_names.end(), cell);
-          if (found == regime_names.end())
-            throw std::invalid_argument(fmt::format("{}", fmt::join(regime_names, ", ")));
-          row.point.regime = static_cast<Regime>(found - regime_names.begin());
-        }},
+        [](MapPoint &row, const std::string &cell) { row.point.regime = regime_from_name(cell); }},
        csv_column("period [cycles]", &MapPoint::point, &RegimePoint::period),
        number(
            "CMV [-]", [](auto &row) -> auto & { return row.point.meter.cmv; }),
@@ -290,6 +313,39 @@ void run_map(const Task &task) {
   write_page(task, figures.figures, counts);
 }
 
+/// What the meter shows along one axis.
+void run_along(const Task &task) {
+  const MapGrid &grid = task.grid;
+  CourseChain roller;
+  roller.chain = [&grid](double value) { return grid.at(value, 0.0); };
+  roller.setting.drum = task.drum;
+  roller.setting.cycles = grid.cycles;
+  roller.identify_every = task.identify;
+  const std::vector<CoursePoint> points =
+      course_points(task.out / points_name, grid.x, {roller}, task.threads);
+  std::vector<RegimePoint> motions;
+  motions.reserve(points.size());
+  for (const CoursePoint &point : points)
+    motions.push_back(point.motion);
+  TimedProgress progress;
+  const std::vector<BoundaryPoint> boundaries =
+      find_boundaries(grid, motions, task.threads,
+                      [&](double share) { progress.tell("boundaries: {:.0f} %", 100.0 * share); });
+  std::string text = fmt::format("kind,{}\n", grid.x.label());
+  for (const BoundaryPoint &point : boundaries) {
+    text += fmt::format("{},{}\n", point.kind, number_text(point.x));
+    fmt::print("  {:<20}{} = {:.10g}\n", point.kind, grid.x.name, point.x);
+  }
+  write_files({{task.out / boundaries_name, text}, {task.out / "meter.csv", course_csv(grid.x, points)}});
+  write_course_page(task.out, conditions(grid.chain, {grid.x.parameter()}), grid.x, points, boundaries);
+  const Course cmv = course_of(points, course_values[0]);
+  const auto several =
+      std::count_if(cmv.same.begin(), cmv.same.end(), [](std::size_t count) { return count > 1; });
+  fmt::print("  {} of {} points have a CMV that belongs to several {}\n", several, points.size(),
+             grid.x.name);
+  fmt::print("{}: {} points\n", (task.out / page_name).string(), points.size());
+}
+
 void run_sweep(const Task &task) {
   constexpr int kept = 32;
   TimedProgress progress;
@@ -322,6 +378,8 @@ void print_map(const MapArguments &arguments) {
       fmt::print("{}\n", line);
   if (task.sweep)
     run_sweep(task);
+  else if (task.along)
+    run_along(task);
   else
     run_map(task);
 }
@@ -332,13 +390,18 @@ void add_map_command(CLI::App &app, Session & /*session*/) {
       app.add_subcommand("map", "Which motion a roller comes to, over two numbers of the chain "
                                 "or along one: continuous contact, partial "
                                 "uplift, period 2 (double jump), higher period, aperiodic; CMV, "
-                                "RMV, peak force and share of contact. Writes CSV "
+                                "RMV, peak force and share of contact. With --x alone all that its meter "
+                                "shows, where a value means several stiffnesses, and what identify finds. "
+                                "Writes CSV "
                                 "files and plots. An interrupted map continues where it was interrupted.");
   add_chain_options(*map, arguments->chain);
-  CLI::Option *x = text_option(map, "--x", "AXIS", arguments->x,
-                               "axis NAME:FROM:TO:COUNT or NAME:FROM:TO:COUNT:log, NAME one of k, D, omega, "
-                               "frequency, Fw, me_re, m2, m3, k23, c23");
-  CLI::Option *y = text_option(map, "--y", "AXIS", arguments->y, "the other axis");
+  text_option(map, "--x", "AXIS", arguments->x,
+              "axis NAME:FROM:TO:COUNT or NAME:FROM:TO:COUNT:log, NAME one of k, D, omega, "
+              "frequency, Fw, me_re, m2, m3, k23, c23; without axes k:1e6:200e6:60:log over D:0.02:1:50");
+  text_option(map, "--y", "AXIS", arguments->y, "the other axis; not given: what the meter shows along --x");
+  text_option(map, "--identify", "COUNT", arguments->identify,
+              "with --x alone: identify a record at every so many-th point; 10 if not given, 0: at none");
+  add_drum_options(*map, arguments->drum);
   text_option(map, "--sweep", "AXIS", arguments->sweep,
               "instead of a map: follow the motion along one axis up and down, once-per-cycle samples");
   text_option(map, "--me-re", "NUMBER", arguments->me_re,
@@ -349,8 +412,7 @@ void add_map_command(CLI::App &app, Session & /*session*/) {
       text_option(map, "--threads", "COUNT", arguments->threads, "points at the same time");
   text_option(map, "--out", "DIR", arguments->out, "folder of the results");
   map->add_flag("--fresh", arguments->fresh, "forget the points of an earlier call");
-  map->callback([arguments, x, y, threads] {
-    arguments->axes_given = x->count() > 0 || y->count() > 0;
+  map->callback([arguments, threads] {
     if (arguments->sweep && threads->count() > 0)
       throw UsageError(refusal("--threads", arguments->threads, "without --sweep, which is one computation"));
     print_map(*arguments);

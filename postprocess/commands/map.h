@@ -11,15 +11,16 @@ namespace drumlin::post {
 /// The options as given.
 struct MapArguments {
   ChainArguments chain;
-  std::string x = "k:1e6:200e6:60:log";
-  std::string y = "D:0.02:1:50";
+  /// Axes; none: those of the usual map. x alone: the meter along this axis.
+  std::optional<std::string> x, y;
+  std::optional<std::string> identify; ///< every so many-th point of one axis
+  DrumArguments drum;                  ///< of one axis
   std::optional<std::string> sweep;
   std::optional<std::string> me_re;
   std::string cycles = "300";
   std::string threads = "2";
   std::string out = "results/map";
   bool fresh = false;
-  bool axes_given = false;
 };
 
 /// Writes the map or the sweep and prints what it holds. Throws UsageError for options that cannot be used.

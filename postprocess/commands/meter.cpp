@@ -28,9 +28,8 @@ struct Arguments {
   bool show = false;
   std::string rmv_constant = "100";
   std::string same = "0.05";
-  std::string poisson = "0.35";
-  bool poisson_given = false;
-  std::optional<std::string> window, drum_radius, drum_width, speed, exported;
+  DrumArguments drum;
+  std::optional<std::string> window, speed, exported;
   std::string pass = "1";
   std::string out = "results/meter";
 };
@@ -77,22 +76,11 @@ Task judge(const Arguments &arguments) {
   MeterOptions &options = task.options;
   options.rmv_constant = number_option("--rmv-constant", arguments.rmv_constant, Range{1.0, 1e4});
   options.same = number_option("--same", arguments.same, Range{1e-9, 1.0});
-  options.poisson = number_option("--poisson", arguments.poisson, Range{0.0, 0.5});
-  if (const std::optional<GivenRoller> roller = judged(arguments.record.roller)) {
-    options.drum_width = roller->machine.width;
-    if (const auto diameter = roller->machine.diameter) options.drum_radius = 0.5 * *diameter;
+  if (const auto drum = judged(arguments.drum, judged(arguments.record.roller))) {
+    options.drum_radius = drum->radius;
+    options.drum_width = drum->length;
+    options.poisson = drum->poisson;
   }
-  if (arguments.drum_radius)
-    options.drum_radius = number_option("--drum-radius", *arguments.drum_radius, Range{1e-3, 1e3, "m"});
-  if (arguments.drum_width)
-    options.drum_width = number_option("--drum-width", *arguments.drum_width, Range{1e-3, 1e3, "m"});
-  const bool both = options.drum_radius && options.drum_width;
-  if ((arguments.drum_radius || arguments.drum_width) && !both)
-    throw UsageError(refusal(options.drum_radius ? "--drum-width" : "--drum-radius", "",
-                             "a number [m], for E_vib needs radius and width of the drum"));
-  if (arguments.poisson_given && !both)
-    throw UsageError(refusal("--poisson", arguments.poisson,
-                             "only with --drum-radius and --drum-width, or a roller that has both"));
   if (arguments.speed)
     task.passes.speed = number_option("--speed", *arguments.speed, Range{1e-3, 1e3, "km/h"});
   task.passes.pass = count_option("--pass", arguments.pass, 1, 65535);
@@ -165,6 +153,7 @@ void run(const Arguments &arguments) {
   for (const std::string &line : result.record.notes)
     fmt::print("{}\n", line);
   fmt::print("{}: {}\n{}\n", result.record.file.string(), answer_line(result), source_words(result));
+  if (const std::string words = width_words(result); !words.empty()) fmt::print("{}\n", words);
   print_windows(result);
   const fs::path place = fs::weakly_canonical(fs::absolute(task.out));
   make_output_folder(place.parent_path());
@@ -201,11 +190,7 @@ void add_meter_command(CLI::App &app, Session & /*session*/) {
               "cycles in a window, an even number of 4 or more, or seconds such as 0.5s; without it 10 "
               "cycles, or all of a "
               "shorter record");
-  text_option(meter, "--drum-radius", "NUMBER", arguments->drum_radius,
-              "radius of the drum [m], for E_vib; not given: that of --roller");
-  text_option(meter, "--drum-width", "NUMBER", arguments->drum_width,
-              "width of the drum [m], for E_vib; not given: that of --roller");
-  text_option(meter, "--poisson", "NUMBER", arguments->poisson, "Poisson's ratio of the soil [-], for E_vib");
+  add_drum_options(*meter, arguments->drum);
   text_option(meter, "--out", "DIR", arguments->out,
               "folder of meter.csv and the page; an earlier one is replaced");
   text_option(meter, "--export", "FILE", arguments->exported,
@@ -225,7 +210,6 @@ void add_meter_command(CLI::App &app, Session & /*session*/) {
         throw UsageError(refusal(option, meter->get_option(option)->as<std::string>(),
                                  fmt::format("only with {}", other)));
     };
-    arguments->poisson_given = meter->count("--poisson") > 0;
     needs("--speed", "--export");
     needs("--pass", "--export");
     run(*arguments);

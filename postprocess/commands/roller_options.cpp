@@ -101,6 +101,36 @@ std::string deck_words(const RollerArguments &arguments) {
   return words;
 }
 
+void add_drum_options(CLI::App &command, DrumArguments &arguments) {
+  text_option(&command, "--drum-radius", "NUMBER", arguments.radius,
+              "radius of the drum [m], for E_vib; not given: that of --roller");
+  text_option(&command, "--drum-width", "NUMBER", arguments.width,
+              "width of the drum [m], for E_vib; not given: that of --roller");
+  text_option(&command, "--poisson", "NUMBER", arguments.poisson,
+              fmt::format("Poisson's ratio of the soil [-], for E_vib; {} if not given", usual_poisson));
+}
+
+std::optional<LineContact> judged(const DrumArguments &arguments, const std::optional<GivenRoller> &roller) {
+  std::optional<double> radius, width;
+  double poisson = usual_poisson;
+  if (arguments.poisson) poisson = number_option("--poisson", *arguments.poisson, Range{0.0, 0.5});
+  if (roller) {
+    width = roller->machine.width;
+    if (const auto diameter = roller->machine.diameter) radius = 0.5 * *diameter;
+  }
+  if (arguments.radius) radius = number_option("--drum-radius", *arguments.radius, Range{1e-3, 1e3, "m"});
+  if (arguments.width) width = number_option("--drum-width", *arguments.width, Range{1e-3, 1e3, "m"});
+  const bool both = radius && width;
+  if ((arguments.radius || arguments.width) && !both)
+    throw UsageError(refusal(radius ? "--drum-width" : "--drum-radius", "",
+                             "a number [m], for E_vib needs radius and width of the drum"));
+  if (arguments.poisson && !both)
+    throw UsageError(refusal("--poisson", *arguments.poisson,
+                             "only with --drum-radius and --drum-width, or a roller that has both"));
+  if (!both) return std::nullopt;
+  return LineContact{*radius, *width, poisson};
+}
+
 ChainParameters given_case(const std::string &name, Transition transition) {
   if (std::find(table1_cases.begin(), table1_cases.end(), name) != table1_cases.end())
     return table1_case(name, transition);

@@ -4,6 +4,7 @@
 
 #include "chain/parameters.h"
 #include "files/roller.h"
+#include "meter/values.h"
 #include "support/options.h"
 
 #include <optional>
@@ -45,6 +46,18 @@ std::vector<GivenPath> files_of(const RollerArguments &arguments);
 
 /// The same as -var words for a deck, each after a blank.
 std::string deck_words(const RollerArguments &arguments);
+
+/// The size of the drum as given, for E_vib.
+struct DrumArguments {
+  std::optional<std::string> radius, width, poisson;
+};
+
+/// Adds --drum-radius, --drum-width and --poisson; `arguments` must outlive the app.
+void add_drum_options(CLI::App &command, DrumArguments &arguments);
+
+/// The drum on its soil, where radius and width are known: from the options, else from the roller's file.
+/// UsageError for one without the other.
+std::optional<LineContact> judged(const DrumArguments &arguments, const std::optional<GivenRoller> &roller);
 
 /// The case of Table 1 that --case names. UsageError for another name; for that of a roller of the project it
 /// says which file has the roller.

@@ -8,20 +8,15 @@
 
 namespace drumlin::post {
 
-namespace {
-
-// How a number is shown on an axis of a picture: k in MN/m rather than 1e+08.
-struct Shown {
-  double scale;
-  std::string label;
-};
-Shown shown_axis(const MapAxis &axis) {
+ShownAxis shown_axis(const MapAxis &axis) {
   if (axis.name == "k" || axis.name == "k23") return {1e-6, axis.name + " [MN/m]"};
   if (axis.name == "Fw") return {1e-3, "Fw [kN]"};
   if (axis.name == "c23") return {1e-3, "c23 [kN s/m]"};
   if (axis.name == "me_re") return {1.0, "m_e r_e [kg m]"};
   return {1.0, axis.label()};
 }
+
+namespace {
 
 struct Box {
   double left, right, low, high;
@@ -44,21 +39,6 @@ std::string box_cells(const MapGrid &grid, const Box &box) {
   };
   return fmt::format("{:.8g},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g}", middle(grid.x, box.left, box.right),
                      middle(grid.y, box.low, box.high), box.left, box.right, box.low, box.high);
-}
-
-std::string conditions(const MapChain &chain, const std::vector<std::string> &varied) {
-  const auto fixed = [&](const char *name) {
-    return std::find(varied.begin(), varied.end(), name) == varied.end();
-  };
-  const ChainParameters &p = chain.base;
-  std::string text = fmt::format("Condition {}", transition_name(p.transition));
-  const bool moment = chain.me_re || !fixed("me_re");
-  if (fixed("k")) text += fmt::format(", k = {:g} MN/m", p.k / 1e6);
-  if (fixed("D")) text += fmt::format(", D = {:g}", p.D);
-  if (fixed("omega")) text += fmt::format(", {:.4g} Hz", 1.0 / p.period());
-  if (!moment && fixed("Fw")) text += fmt::format(", Fw = {:g} kN", p.Fw / 1e3);
-  if (moment && fixed("me_re")) text += fmt::format(", m_e r_e = {:g} kg m", *chain.me_re);
-  return text;
 }
 
 struct Layer {
@@ -89,8 +69,8 @@ constexpr std::array<Kind, 3> kinds = {{{"loss of contact", "end of unbroken con
 Panel empty_panel(const MapGrid &grid, const std::string &title) {
   Panel panel;
   panel.title = title;
-  const Shown x = shown_axis(grid.x);
-  const Shown y = shown_axis(grid.y);
+  const ShownAxis x = shown_axis(grid.x);
+  const ShownAxis y = shown_axis(grid.y);
   panel.x_label = x.label;
   panel.y_label = y.label;
   panel.log_x = grid.x.log;
@@ -147,6 +127,27 @@ MapTables tables_of(const MapGrid &grid, const std::vector<RegimePoint> &points,
 
 } // namespace
 
+std::string boundary_title(const std::string &kind) {
+  for (const Kind &one : kinds)
+    if (kind == one.name) return one.title;
+  return kind;
+}
+
+std::string conditions(const MapChain &chain, const std::vector<std::string> &varied) {
+  const auto fixed = [&](const char *name) {
+    return std::find(varied.begin(), varied.end(), name) == varied.end();
+  };
+  const ChainParameters &p = chain.base;
+  std::string text = fmt::format("Condition {}", transition_name(p.transition));
+  const bool moment = chain.me_re || !fixed("me_re");
+  if (fixed("k")) text += fmt::format(", k = {:g} MN/m", p.k / 1e6);
+  if (fixed("D")) text += fmt::format(", D = {:g}", p.D);
+  if (fixed("omega")) text += fmt::format(", {:.4g} Hz", 1.0 / p.period());
+  if (!moment && fixed("Fw")) text += fmt::format(", Fw = {:g} kN", p.Fw / 1e3);
+  if (moment && fixed("me_re")) text += fmt::format(", m_e r_e = {:g} kg m", *chain.me_re);
+  return text;
+}
+
 MapFigures map_figures(const MapGrid &grid, const std::vector<RegimePoint> &points,
                        const std::vector<BoundaryPoint> &boundaries) {
   const MapTables tables = tables_of(grid, points, boundaries);
@@ -195,7 +196,7 @@ MapFigures map_figures(const MapGrid &grid, const std::vector<RegimePoint> &poin
 
 MapFigures sweep_figures(const MapChain &chain, const MapAxis &axis, const Sweep &sweep) {
   MapFigures result;
-  const Shown shown = shown_axis(axis);
+  const ShownAxis shown = shown_axis(axis);
   std::string samples = "up,value,x_drum_mm\n";
   double low = 1e300;
   double high = -1e300;

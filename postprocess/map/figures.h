@@ -16,6 +16,19 @@ struct MapFigures {
   std::vector<std::pair<std::string, std::string>> data;
 };
 
+/// How a number is shown on an axis of a picture: k in MN/m rather than 1e+08.
+struct ShownAxis {
+  double scale = 1.0; ///< from SI
+  std::string label;
+};
+ShownAxis shown_axis(const MapAxis &axis);
+
+/// Kinds of boundaries as pictures name them.
+std::string boundary_title(const std::string &kind);
+
+/// What the chain has at all points of a map, in words. \param varied numbers of the axes
+std::string conditions(const MapChain &chain, const std::vector<std::string> &varied);
+
 /// regimes, cmv, rmv, peak_force and contact_share over the axes, boundaries drawn in.
 MapFigures map_figures(const MapGrid &grid, const std::vector<RegimePoint> &points,
                        const std::vector<BoundaryPoint> &boundaries);

@@ -2,9 +2,14 @@
 
 #include "support/harmonics.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace drumlin::post {
@@ -12,7 +17,16 @@ namespace drumlin::post {
 const std::array<const char *, regime_count> regime_names = {
     "continuous contact", "partial uplift", "period 2", "higher period", "aperiodic", "undecided"};
 
+Regime regime_from_name(const std::string &name) {
+  const auto *const found = std::find(regime_names.begin(), regime_names.end(), name);
+  if (found == regime_names.end())
+    throw std::invalid_argument(fmt::format("{}", fmt::join(regime_names, ", ")));
+  return static_cast<Regime>(found - regime_names.begin());
+}
+
 namespace {
+
+constexpr double pi = 3.14159265358979323846;
 
 // Gauss's rule of 12 points on [-1, 1], the positive half: Abramowitz and Stegun, Handbook of Mathematical
 // Functions, table 25.4.
@@ -26,11 +40,16 @@ constexpr std::array<Node, 6> gauss = {{{0.125233408511468915, 0.249147045813402
                                         {0.904117256370474857, 0.106939325995318431},
                                         {0.981560634246719251, 0.047175336386511827}}};
 
+using Complex = std::complex<double>;
+
 class Meter : public MotionObserver {
 public:
   explicit Meter(const ChainSolver &solver) : solver_(solver) {}
 
-  void begin_cycle(int cycle) { turn_ = (cycle % 2 == 0 ? 0.0 : 3.14159265358979323846); }
+  void begin_cycle(int cycle) {
+    turn_ = (cycle % 2 == 0 ? 0.0 : pi);
+    end_cycle();
+  }
 
   void piece(const MotionPiece &piece, const PhaseDynamics & /*dynamics*/) override {
     const double half = 0.5 * piece.end;
@@ -39,67 +58,104 @@ public:
         add(piece, half * (1.0 + side * node.place), node.weight * half * piece.length);
     if (piece.phase != ContactPhase::contact) return;
     contact_ += piece.end * piece.length;
-    peak(piece);
+    extremes(piece);
   }
   void change(const PhaseChange & /*change*/) override {}
 
-  MeterValues values(int cycles) const {
-    const double basic = std::abs(amplitude_[1]);
+  MeterValues values(int cycles) {
+    end_cycle();
+    const ChainParameters &p = solver_.parameters();
     MeterValues values;
-    if (basic > 0.0) {
-      const HarmonicAmplitudes amplitudes = {basic, std::abs(amplitude_[2]), std::abs(amplitude_[0])};
-      values.cmv = compaction_meter_value(amplitudes);
-      values.rmv = resonance_meter_value(amplitudes);
+    MeterAmplitudes amplitudes{};
+    for (std::size_t j = 0; j < amplitudes.size(); ++j)
+      amplitudes[j] = std::abs(drum_[j]);
+    if (amplitudes[basic_order] > 0.0) {
+      values.cmv = compaction_meter(amplitudes);
+      values.rmv = resonance_meter()(amplitudes);
+      values.ccv = compaction_control(amplitudes);
+      // Sums of a exp(i omega t) are over half the time of the cycles as large as amplitudes.
+      const Complex drum = drum_[basic_order] * (2.0 / (cycles * p.period()));
+      const Complex frame = frame_ * (2.0 / (cycles * p.period()));
+      const Complex displacement = -drum / (p.omega * p.omega);
+      const Complex from_drum = p.m2 * drum + Complex(0.0, p.Fw); // Fw sin(omega t)
+      const Complex stiffness = -(from_drum + p.m3 * frame) / displacement;
+      values.k_B = -(from_drum / displacement).real();
+      values.k_1 = stiffness.real();
+      values.c_1 = -stiffness.imag() / p.omega;
     }
+    values.energy = 2.0 * energy_ / cycles;
     values.peak_force = peak_;
-    values.contact_share = std::min(1.0, contact_ / (cycles * solver_.parameters().period()));
+    values.contact_share = std::min(1.0, contact_ / (cycles * p.period()));
+    values.deflections = std::move(deflections_);
     return values;
   }
 
 private:
-  void add(const MotionPiece &piece, double s, double weight) {
-    const double a = weight * piece.drum_acceleration(s);
-    const double half_angle = 0.5 * (solver_.parameters().omega * (piece.begin + s * piece.length)) + turn_;
-    const std::complex<double> half(std::cos(half_angle), std::sin(half_angle));
-    const std::complex<double> once = half * half;
-    amplitude_[0] += a * half;
-    amplitude_[1] += a * once;
-    amplitude_[2] += a * once * once;
+  void end_cycle() {
+    if (lowest_ < 0.0) deflections_.push_back(-lowest_);
+    lowest_ = 0.0;
   }
 
-  // Largest force in a piece: where its rate changes from rise to fall between points so close that it does
-  // so once.
-  void peak(const MotionPiece &piece) {
+  void add(const MotionPiece &piece, double s, double weight) {
+    const ChainParameters &p = solver_.parameters();
+    const ChainState state = piece.state(s);
+    const double a = weight * piece.drum_acceleration(s);
+    const double half_angle = 0.5 * (p.omega * (piece.begin + s * piece.length)) + turn_;
+    const Complex half(std::cos(half_angle), std::sin(half_angle));
+    Complex turned = a;
+    for (Complex &sum : drum_) // the orders are multiples of one half
+      sum += turned *= half;
+    const double from_bond = p.c23 * (state[3] - state[1]) + p.k23 * (state[2] - state[0]);
+    frame_ += weight * (-p.g - from_bond / p.m3) * half * half;
+    if (piece.phase == ContactPhase::contact) energy_ -= weight * solver_.law(state) * state[1];
+  }
+
+  // Largest force and lowest position in a piece: where their rates change sign between points so close that
+  // they do so once.
+  void extremes(const MotionPiece &piece) {
     constexpr int parts = 8;
-    const auto force = [&](double s) { return solver_.force(piece.phase, piece.state(s)); };
+    const ChainParameters &p = solver_.parameters();
     const auto rate = [&](double s) {
-      return -(solver_.parameters().k * piece.state(s)[1] +
-               solver_.parameters().damping() * piece.drum_acceleration(s));
+      return -(p.k * piece.state(s)[1] + p.damping() * piece.drum_acceleration(s));
     };
-    double lo = 0.0;
-    double rise = rate(lo);
-    peak_ = std::max({peak_, force(0.0), force(piece.end)});
+    const auto sinking = [&](double s) { return -piece.state(s)[1]; };
+    const auto take = [&](double s) {
+      const ChainState state = piece.state(s);
+      peak_ = std::max(peak_, solver_.force(piece.phase, state));
+      lowest_ = std::min(lowest_, state[0]);
+    };
+    take(0.0);
+    take(piece.end);
+    double before = 0.0;
+    double rise = rate(before), sink = sinking(before);
     for (int part = 1; part <= parts; ++part) {
-      double hi = piece.end * part / parts;
-      const double next = rate(hi);
-      const double end = hi;
-      if (rise > 0.0 && next < 0.0) {
-        while (hi - lo > 1e-9) { // the force is flat here: its own error is the square
-          const double middle = 0.5 * (lo + hi);
-          (rate(middle) > 0.0 ? lo : hi) = middle;
-        }
-        peak_ = std::max(peak_, force(lo));
-      }
-      lo = end;
-      rise = next;
+      const double after = piece.end * part / parts;
+      const double next_rise = rate(after), next_sink = sinking(after);
+      if (rise > 0.0 && next_rise < 0.0) take(turn_between(before, after, rate));
+      if (sink > 0.0 && next_sink < 0.0) take(turn_between(before, after, sinking));
+      before = after;
+      rise = next_rise;
+      sink = next_sink;
     }
+  }
+  template <class Rate>
+  static double turn_between(double low, double high, const Rate &rate) {
+    while (high - low > 1e-9) { // the value is flat here: its own error is the square
+      const double middle = 0.5 * (low + high);
+      (rate(middle) > 0.0 ? low : high) = middle;
+    }
+    return low;
   }
 
   const ChainSolver &solver_;
   double turn_ = 0.0;
-  std::array<std::complex<double>, 3> amplitude_{}; // at 0.5, 1 and 2 times the excitation
+  std::array<Complex, meter_orders.size()> drum_{}; // integrals of the acceleration times exp(i n omega t)
+  Complex frame_;                                   // the same of the frame, once the excitation
+  double energy_ = 0.0;
   double peak_ = 0.0;
   double contact_ = 0.0;
+  double lowest_ = 0.0; // position of the drum in this cycle
+  std::vector<double> deflections_;
 };
 
 double distance(const ChainState &a, const ChainState &b, const ChainState &scale) {

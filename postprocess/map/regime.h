@@ -4,6 +4,8 @@
 #include "map/orbits.h"
 
 #include <array>
+#include <string>
+#include <vector>
 
 namespace drumlin::post {
 
@@ -15,14 +17,24 @@ constexpr std::size_t regime_count = 6;
 /// Their names in files: "continuous contact", "partial uplift", "period 2", "higher period", "aperiodic",
 /// "undecided".
 extern const std::array<const char *, regime_count> regime_names;
+/// The regime of a name; std::invalid_argument says which there are.
+Regime regime_from_name(const std::string &name);
 
-/// Values over a whole number of periods, or over 64 cycles of a motion without one.
+/// Values over a whole number of periods, or over 64 cycles of a motion without one. Of the exact motion: no
+/// sampling. As in meter/values.h.
 struct MeterValues {
-  double cmv =
-      0.0; ///< 300 A_2 / A_1 [-], A_n the amplitude of the drum's acceleration at n times the excitation
+  double cmv = 0.0;           ///< 300 A_2 / A_1 [-]
   double rmv = 0.0;           ///< 100 A_0.5 / A_1 [-]
+  double ccv = 0.0;           ///< [-]
+  double k_B = 0.0;           ///< from the drum's mass alone: contains the force of the frame [N/m]
+  double k_1 = 0.0;           ///< the same with the frame's force: that of the soil [N/m]
+  double c_1 = 0.0;           ///< [N s/m]
+  double energy = 0.0;        ///< given to the soil in two cycles [J]
   double peak_force = 0.0;    ///< largest contact force [N]
   double contact_share = 0.0; ///< share of time in contact [-]
+  /// Lowest position of the drum in each cycle below that where it just touches, if it is in contact there:
+  /// its velocity is zero, so that the contact force is k times this [m].
+  std::vector<double> deflections;
 };
 
 /// Meter values of the motion from a state at the start of a cycle, over an even number of cycles. The

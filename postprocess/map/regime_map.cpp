@@ -106,7 +106,8 @@ double MapGrid::y_of(std::size_t point) const {
   return y.value(static_cast<double>(row));
 }
 ChainParameters MapGrid::at(double x_value, double y_value) const {
-  return chain.with({{x.name, x_value}, {y.name, y_value}});
+  return y.name.empty() ? chain.with({{x.name, x_value}})
+                        : chain.with({{x.name, x_value}, {y.name, y_value}});
 }
 
 void judge_points(const MapGrid &grid, const std::vector<std::size_t> &numbers, int threads,

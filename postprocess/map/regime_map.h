@@ -38,10 +38,11 @@ struct MapChain {
   ChainParameters with(const std::vector<std::pair<std::string, double>> &values) const;
 };
 
-/// Points of a map in rows along x.
+/// Points of a map in rows along x. A map along x alone has a y without a name, of one value.
 struct MapGrid {
   MapChain chain;
-  MapAxis x, y;
+  MapAxis x;
+  MapAxis y = {"", 0.0, 0.0, 1, false};
   int cycles = 300;
 
   std::size_t size() const { return static_cast<std::size_t>(x.count) * static_cast<std::size_t>(y.count); }

@@ -48,67 +48,106 @@ double at(const std::vector<double> &values, std::size_t row, double share) {
 
 std::complex<double> turn(double angle) { return {std::cos(angle), -std::sin(angle)}; }
 
-/// Adds the harmonics of acceleration computed from differences of velocity. The mean acceleration between
-/// two samples is assigned to the instant half-way between them. Taking this mean reduces the amplitude of a
-/// steady oscillation; division by the ratio sin(x)/x corrects this.
-void add_from_velocity(const Record &record, std::vector<MeterCycle> &cycles) {
-  const std::vector<double> &v = record.v_drum;
-  const double h = record.interval;
-  const double scale = 2.0 / record.period();
-  for_each_part(record, cycles.size(), [&](const Part &part) {
-    const double mean = (v[part.row + 1] - v[part.row]) / h;
-    const double before = part.row > 0 ? (v[part.row] - v[part.row - 1]) / h : mean;
-    const double middle = record.time[part.row] + 0.5 * (part.from + part.to) * h;
-    const double length = (part.to - part.from) * h;
-    for (std::size_t j = 0; j < meter_orders.size(); ++j) {
-      const double frequency = meter_orders[j] * *record.omega;
-      const double half = 0.5 * frequency * h;
-      cycles[part.cycle].acceleration[j] +=
-          scale * length * mean * (half / std::sin(half)) * turn(frequency * middle);
-      // A jump of height J at a share s of the interval has its impulse J (1 - s) h late by s h / 2.
-      cycles[part.cycle].bound[j] += scale * std::abs(mean - before) * frequency * h * length / 8.0;
-    }
+/// A cubic through the four samples around an interval, two to either side where the record has them.
+class Cubic {
+public:
+  Cubic(std::size_t row, std::size_t size) : base_(std::clamp<std::size_t>(row, 1, size - 3) - 1) {
+    shift_ = static_cast<double>(row) - static_cast<double>(base_);
+  }
+  /// Its value at a share of the interval.
+  template <class Value>
+  Value at(const std::vector<Value> &values, double share) const {
+    const double x = share + shift_;
+    return (-(x - 1.0) * (x - 2.0) * (x - 3.0) / 6.0) * values[base_] +
+           (x * (x - 2.0) * (x - 3.0) / 2.0) * values[base_ + 1] +
+           (-x * (x - 1.0) * (x - 3.0) / 2.0) * values[base_ + 2] +
+           (x * (x - 1.0) * (x - 2.0) / 6.0) * values[base_ + 3];
+  }
+  /// Its mean between two shares: Simpson's rule is exact for cubics.
+  template <class Value>
+  Value mean(const std::vector<Value> &values, double from, double to) const {
+    return (at(values, from) + 4.0 * at(values, 0.5 * (from + to)) + at(values, to)) / 6.0;
+  }
+
+private:
+  std::size_t base_;
+  double shift_ = 0.0;
+};
+
+/// Calls `take` with each cycle's mean of a signal times exp(-i frequency t). Full intervals add up to the
+/// trapezoidal rule, but for the ends of the record.
+template <class Take>
+void for_each_mean(const Record &record, const std::vector<double> &values, double frequency,
+                   std::size_t cycles, const Take &take) {
+  std::vector<std::complex<double>> turned(values.size());
+  for (std::size_t row = 0; row < values.size(); ++row)
+    turned[row] = values[row] * turn(frequency * record.time[row]);
+  const double share = record.interval / record.period();
+  std::vector<std::complex<double>> means(cycles);
+  for_each_part(record, cycles, [&](const Part &part) {
+    means[part.cycle] +=
+        (part.to - part.from) * share * Cubic(part.row, turned.size()).mean(turned, part.from, part.to);
   });
+  for (std::size_t i = 0; i < cycles; ++i)
+    take(i, means[i]);
 }
 
-/// Harmonics from samples of acceleration by the trapezoidal rule.
-void add_from_acceleration(const Record &record, std::vector<MeterCycle> &cycles) {
-  const std::vector<double> &a = record.a_drum;
-  const double h = record.interval;
+/// Harmonics of the acceleration by parts from those of the velocity: the integral of a exp(-i w t) is the
+/// change of v exp(-i w t) plus i w times the integral of v exp(-i w t).
+void add_from_velocity(const Record &record, std::vector<MeterCycle> &cycles) {
+  const std::vector<double> &v = record.v_drum;
   const double scale = 2.0 / record.period();
   for_each_part(record, cycles.size(), [&](const Part &part) {
-    const double length = (part.to - part.from) * h;
+    const Cubic cubic(part.row, v.size());
+    const double from = cubic.at(v, part.from);
+    const double to = cubic.at(v, part.to);
+    MeterCycle &cycle = cycles[part.cycle];
     for (std::size_t j = 0; j < meter_orders.size(); ++j) {
       const double frequency = meter_orders[j] * *record.omega;
-      const auto value = [&](std::size_t row) { return a[row] * turn(frequency * record.time[row]); };
-      const auto between = [&](double share) {
-        return at(a, part.row, share) * turn(frequency * (record.time[part.row] + share * h));
-      };
-      cycles[part.cycle].acceleration[j] += scale * 0.5 * length * (between(part.from) + between(part.to));
-      // A jump of height J between two samples makes two second differences of J, and an error of J h / 2 at
-      // most.
-      if (part.row > 0)
-        cycles[part.cycle].bound[j] +=
-            scale * 0.25 * length *
-            std::abs(value(part.row + 1) - 2.0 * value(part.row) + value(part.row - 1));
+      const double time = record.time[part.row];
+      cycle.acceleration[j] += scale * (to * turn(frequency * (time + part.to * record.interval)) -
+                                        from * turn(frequency * (time + part.from * record.interval)));
     }
   });
+  for (std::size_t j = 0; j < meter_orders.size(); ++j) {
+    const double frequency = meter_orders[j] * *record.omega;
+    for_each_mean(record, v, frequency, cycles.size(), [&](std::size_t i, std::complex<double> mean) {
+      cycles[i].acceleration[j] += 2.0 * std::complex<double>(0.0, frequency) * mean;
+    });
+  }
+}
+
+void add_from_acceleration(const Record &record, std::vector<MeterCycle> &cycles) {
+  for (std::size_t j = 0; j < meter_orders.size(); ++j)
+    for_each_mean(record, record.a_drum, meter_orders[j] * *record.omega, cycles.size(),
+                  [&](std::size_t i, std::complex<double> mean) { cycles[i].acceleration[j] = 2.0 * mean; });
+}
+
+/// Jumps of the drum's acceleration, by cycles, and those at their ends.
+void add_faults(const Record &record, const SignalFaults &faults, std::vector<MeterCycle> &cycles) {
+  for (const AccelerationJump &jump : faults.jumps) {
+    const double cycle = (jump.time - record.time.front()) / record.period();
+    if (cycle < static_cast<double>(cycles.size()))
+      cycles[static_cast<std::size_t>(cycle)].jumps.push_back(jump);
+  }
+  constexpr double rounding = 1e-6;
+  constexpr std::ptrdiff_t reach = 3; // intervals, whose samples the cubic and the jump use
+  for (std::size_t i = 0; i < cycles.size(); ++i) {
+    const double place = static_cast<double>(i + 1) * record.period() / record.interval;
+    if (std::abs(place - std::round(place)) < rounding) continue;
+    const auto row = static_cast<std::ptrdiff_t>(place);
+    const auto last = static_cast<std::ptrdiff_t>(faults.differences.size());
+    for (std::ptrdiff_t at = std::max<std::ptrdiff_t>(0, row - reach); at < std::min(last, row + reach); ++at)
+      cycles[i].end_jump = std::max(cycles[i].end_jump, faults.differences[static_cast<std::size_t>(at)]);
+  }
 }
 
 /// Order 1 of a signal, for each cycle; nothing for a signal that the record does not have.
 void add_first_order(const Record &record, const std::vector<double> &values,
                      std::optional<std::complex<double>> MeterCycle::*into, std::vector<MeterCycle> &cycles) {
   if (values.empty()) return;
-  for (MeterCycle &cycle : cycles)
-    cycle.*into = std::complex<double>();
-  const double h = record.interval;
-  for_each_part(record, cycles.size(), [&](const Part &part) {
-    const auto between = [&](double share) {
-      return at(values, part.row, share) * turn(*record.omega * (record.time[part.row] + share * h));
-    };
-    *(cycles[part.cycle].*into) +=
-        (part.to - part.from) * h / record.period() * (between(part.from) + between(part.to));
-  });
+  for_each_mean(record, values, *record.omega, cycles.size(),
+                [&](std::size_t i, std::complex<double> mean) { cycles[i].*into = 2.0 * mean; });
 }
 
 /// Share of contact, largest force, energy and what Lundberg's formula needs, from samples.
@@ -208,7 +247,6 @@ void take_sums(const StepSums &sums, double period, std::vector<MeterCycle> &cyc
     MeterCycle &cycle = cycles[i];
     if (columns.has("time")) cycle.begin = columns.at("time")[row] - period;
     if (std::abs(cycle.begin) < 1e-9 * period) cycle.begin = 0.0; // the difference of two rounded times
-    cycle.bound = {};
     cycle.acceleration = {};
     cycle.acceleration[half_order] = sums.harmonics.half[row];
     cycle.acceleration[basic_order] = sums.harmonics.fundamental[row];
@@ -220,10 +258,11 @@ void take_sums(const StepSums &sums, double period, std::vector<MeterCycle> &cyc
 }
 
 /// Gives the harmonics the size that they had before the filter.
-void undo_filter(const Record &record, std::vector<MeterCycle> &cycles) {
+void undo_filter(const Record &record, MeterRecord &result) {
   if (record.low_pass == 0.0) return;
+  result.filtered = true;
   const double frequency = 1.0 / record.period();
-  std::array<double, meter_orders.size()> gain{};
+  MeterAmplitudes gain{};
   for (std::size_t j = 0; j < gain.size(); ++j)
     gain[j] = low_pass_gain(meter_orders[j] * frequency, record.interval, record.low_pass);
   constexpr double least_gain = 0.1;
@@ -232,11 +271,9 @@ void undo_filter(const Record &record, std::vector<MeterCycle> &cycles) {
         record.file, 0, {},
         refusal("the cut-off frequency", record.low_pass,
                 fmt::format("one that leaves a tenth of the second harmonic at {:.4g} Hz", 2.0 * frequency)));
-  for (MeterCycle &cycle : cycles) {
-    for (std::size_t j = 0; j < gain.size(); ++j) {
+  for (MeterCycle &cycle : result.cycles) {
+    for (std::size_t j = 0; j < gain.size(); ++j)
       cycle.acceleration[j] /= gain[j];
-      cycle.bound[j] /= gain[j];
-    }
     if (cycle.frame) *cycle.frame /= gain[basic_order];
     if (cycle.excitation) *cycle.excitation /= gain[basic_order];
   }
@@ -247,6 +284,19 @@ void take_excitation(const Record &record, std::vector<MeterCycle> &cycles) {
   if (!record.time.empty() || !record.Fw || !record.phase) return;
   for (MeterCycle &cycle : cycles)
     cycle.excitation = *record.Fw * std::complex<double>(std::sin(*record.phase), -std::cos(*record.phase));
+}
+
+/// The width whose forces a record has, as MeterRecord::thickness. A bed.csv without parameters.csv counts as
+/// one in two dimensions.
+std::optional<double> thickness_of(const Record &record) {
+  const auto dimension = record.parameters.find("dimension");
+  if (dimension == record.parameters.end())
+    return record.file.filename() == "bed.csv" ? std::optional(1.0) : std::nullopt;
+  if (dimension->second == "2") return 1.0;
+  const auto thickness = record.parameters.find("thickness");
+  const std::optional<double> known =
+      thickness == record.parameters.end() ? std::nullopt : any_number_from_text(thickness->second);
+  return known && *known > 0.0 ? *known : std::nan("");
 }
 
 std::size_t whole_cycles(const Record &record) {
@@ -310,6 +360,7 @@ MeterRecord meter_cycles(const Record &record) {
   MeterRecord result;
   const double period = record.period();
   result.omega = *record.omega;
+  result.thickness = thickness_of(record);
   result.m2 = record.m2;
   result.m3 = record.m3;
   const StepSums sums = read_sums(record);
@@ -336,7 +387,13 @@ MeterRecord meter_cycles(const Record &record) {
     add_from_acceleration(record, result.cycles);
   add_first_order(record, record.a_frame, &MeterCycle::frame, result.cycles);
   add_first_order(record, record.F_excitation, &MeterCycle::excitation, result.cycles);
-  if (!summed) undo_filter(record, result.cycles);
+  if (!summed) {
+    result.interval = record.interval;
+    const SignalFaults faults = faults_of(record, result.source);
+    result.noise = faults.noise;
+    add_faults(record, faults, result.cycles);
+    undo_filter(record, result);
+  }
   const std::vector<double> force = soil_force(record);
   result.computed_force = record.F_contact.empty() && !force.empty();
   if (!force.empty()) ContactSums(record, force, result.computed_force, result.cycles).add();

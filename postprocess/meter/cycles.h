@@ -1,37 +1,24 @@
 // What each cycle of a record contributes to the meter values: harmonics, contact, force, energy.
 #pragma once
 
+#include "meter/sampling.h"
 #include "record/record.h"
+#include "support/harmonics.h"
 
 #include <array>
 #include <complex>
-#include <cstddef>
 #include <optional>
 #include <vector>
 
 namespace drumlin::post {
-
-/// Multiples of the excitation frequency whose amplitudes are computed.
-constexpr std::array<double, 6> meter_orders = {0.5, 1.0, 1.5, 2.0, 2.5, 3.0};
-constexpr std::size_t half_order = 0;
-constexpr std::size_t basic_order = 1;
-constexpr std::size_t double_order = 3;
-
-/// What the harmonics of the drum's acceleration are computed from.
-enum class HarmonicSource {
-  every_step,  ///< sums over every time step, of cycles.csv: orders 0.5, 1 and 2 only
-  velocity,    ///< changes of velocity between samples, which contain the whole impulse of a make
-  acceleration ///< samples of acceleration, of which a make's jump may lie anywhere between two
-};
 
 /// One cycle of the excitation. What the record does not give has no value.
 struct MeterCycle {
   double begin = 0.0; ///< [s]
   /// Harmonics of the drum's acceleration over this cycle, by meter_orders, phases counted from time 0 [m/s2]
   std::array<std::complex<double>, meter_orders.size()> acceleration{};
-  /// How far each may be off by jumps between samples and by curvature [m/s2]; 0 for
-  /// HarmonicSource::every_step.
-  std::array<double, meter_orders.size()> bound{};
+  std::vector<AccelerationJump> jumps; ///< of the drum's acceleration between its samples
+  double end_jump = 0.0; ///< largest of SignalFaults::differences where the cycle ends between two samples
   std::optional<std::complex<double>> frame;      ///< order 1 of the frame's acceleration [m/s2]
   std::optional<std::complex<double>> excitation; ///< order 1 of F_e, positive down [N]
   std::optional<double> contact_share;            ///< share of the cycle with a contact force above zero [-]
@@ -45,9 +32,15 @@ struct MeterCycle {
 struct MeterRecord {
   HarmonicSource source = HarmonicSource::acceleration;
   double omega = 0.0;          ///< [rad/s]
+  double interval = 0.0;       ///< between samples [s]; 0 without samples
+  double noise = 0.0;          ///< of the samples, as in SignalFaults
+  bool filtered = false;       ///< the samples have passed a filter; the harmonics are free of it
   bool computed_force = false; ///< the contact force is not recorded but computed from the accelerations
-  std::optional<double> m2;    ///< mass of the drum [kg]
-  std::optional<double> m3;    ///< mass of the frame [kg]
+  /// Width of drum and soil whose forces the record has [m]: 1 of a bed in two dimensions, the thickness of
+  /// one in three; none: the whole drum's. NaN: not known.
+  std::optional<double> thickness;
+  std::optional<double> m2; ///< mass of the drum [kg]
+  std::optional<double> m3; ///< mass of the frame [kg]
   std::vector<MeterCycle> cycles;
 };
 

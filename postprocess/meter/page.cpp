@@ -28,7 +28,7 @@ std::optional<double> amplitude(const MeterWindow &window) {
   return window.amplitude[order];
 }
 
-constexpr std::array<MeterColumn, 19> columns = {
+constexpr std::array<MeterColumn, 21> columns = {
     {{"begin [s]", [](const MeterWindow &w) { return std::optional(w.begin); }},
      {"end [s]", [](const MeterWindow &w) { return std::optional(w.end); }},
      {"A_0.5 [m/s2]", amplitude<0>},
@@ -43,6 +43,9 @@ constexpr std::array<MeterColumn, 19> columns = {
      {"RMV [-]", [](const MeterWindow &w) { return w.rmv; }},
      {"RMV_bound [-]",
       [](const MeterWindow &w) { return w.rmv ? std::optional(w.rmv_bound) : std::nullopt; }},
+     {"CCV [-]", [](const MeterWindow &w) { return w.ccv; }},
+     {"CCV_bound [-]",
+      [](const MeterWindow &w) { return w.ccv ? std::optional(w.ccv_bound) : std::nullopt; }},
      {"contact_share [-]", [](const MeterWindow &w) { return w.contact_share; }},
      {"peak_force [N]", [](const MeterWindow &w) { return w.peak_force; }},
      {"energy_two_cycles [J]", [](const MeterWindow &w) { return w.energy; }},
@@ -56,9 +59,15 @@ const char *mode_name(const MeterWindow &window) { return mode_names[static_cast
 /// Whether stiffnesses of a window are the soil's; in other modes they are apparent.
 bool stiffness_valid(const MeterWindow &window) { return window.mode == OperatingMode::continuous_contact; }
 
+/// What the stiffnesses of a window are of.
+std::string stiffness_words(const MeterWindow &window) {
+  if (!stiffness_valid(window)) return "apparent";
+  return window.k_1 ? "k_1 of the soil, k_B of soil and frame" : "k_B of soil and frame";
+}
+
 /// A value that sums over every step do not give is left out.
 bool is_given(const MeterResult &result, std::size_t column) {
-  constexpr std::array<std::size_t, 3> of_samples = {4, 6, 7};
+  constexpr std::array<std::size_t, 3> of_samples = {4, 6, 7}; // CCV has no value then
   return result.cycles.source != HarmonicSource::every_step ||
          std::find(of_samples.begin(), of_samples.end(), column) == of_samples.end();
 }
@@ -68,21 +77,24 @@ std::string text_of(std::optional<double> value, const char *format, double scal
 }
 
 PageTable value_table(const MeterResult &result) {
-  PageTable table(
-      "windows", "Values over each window",
-      "mode | begin (s) | CMV (-) | off by at most (-) | RMV (-) | share of contact (-) | peak force (kN) | "
-      "energy in two cycles (J) | k_B (MN/m) | k_1 (MN/m) | c_1 (kN s/m) | E_vib (MPa)");
+  PageTable table("windows", "Values over each window",
+                  "mode | begin (s) | CMV (-) | off by at most (-) | RMV (-) | CCV (-) | share of contact "
+                  "(-) | peak force "
+                  "(kN) | energy in two cycles (J) | k_B: soil and frame (MN/m) | k_1: without the frame "
+                  "(MN/m) | c_1 (kN "
+                  "s/m) | E_vib (MPa)");
   for (const MeterWindow &w : result.windows)
     table.add({mode_name(w), fmt::format("{:.4g}", w.begin), text_of(w.cmv, "{:.2f}"),
                result.cycles.source == HarmonicSource::every_step ? no_value : text_of(w.cmv_bound, "{:.2g}"),
-               text_of(w.rmv, "{:.2f}"), text_of(w.contact_share, "{:.3f}"),
+               text_of(w.rmv, "{:.2f}"), text_of(w.ccv, "{:.2f}"), text_of(w.contact_share, "{:.3f}"),
                text_of(w.peak_force, "{:.1f}", 1e-3), text_of(w.energy, "{:.1f}"),
                text_of(w.k_B, "{:.2f}", 1e-6), text_of(w.k_1, "{:.2f}", 1e-6), text_of(w.c_1, "{:.1f}", 1e-3),
                text_of(w.E_vib, "{:.1f}", 1e-6)});
-  table.notes = {
-      source_words(result),
-      "k_B, k_1 and c_1 are the soil's in continuous contact; in other modes they are apparent values. " +
-          std::string(no_value) + ": the record does not give it."};
+  table.notes = {source_words(result), "In continuous contact k_1 and c_1 are the soil's, and k_B contains "
+                                       "the force of the frame, too; in other "
+                                       "modes they are apparent values. " +
+                                           std::string(no_value) + ": the record does not give it."};
+  if (const std::string words = width_words(result); !words.empty()) table.notes.push_back(words);
   return table;
 }
 
@@ -94,12 +106,17 @@ PageTable formula_table(const MeterResult &result) {
              "Advances in Civil Engineering 2011, 783836"});
   table.add({"RMV", fmt::format("{:g} A_0.5 / A_1", result.options.rmv_constant),
              "shows double jump; sources have 100 or 300 as constant", "as CMV"});
+  table.add({"CCV", "100 (A_0.5 + A_1.5 + A_2 + A_2.5 + A_3) / (A_0.5 + A_1)",
+             "as CMV; rollers of Sakai; not from sums over every step",
+             "NCHRP Report 676 (2010) as others quote it; not read"});
   table.add({"energy in two cycles", "-2 x mean of the integral of F dx over a cycle",
              "any mode; the quantity behind Omega, without the scale of that meter", "definition"});
   table.add({"k_B", "omega^2 (m_d + m_e r_e cos(phi) / A_z)",
-             "continuous contact; the force of the frame is not counted", "equation of motion of the drum"});
-  table.add({"k_1, c_1", "-F/x at the excitation frequency: real part, imaginary part over omega",
-             "continuous contact on a linear soil", "equations of motion of drum and frame"});
+             "continuous contact; contains the force of the frame", "equation of motion of the drum"});
+  table.add(
+      {"k_1, c_1",
+       "-F/x at the excitation frequency, the frame's force counted: real part, imaginary part over omega",
+       "continuous contact on a linear soil", "equations of motion of drum and frame"});
   table.add({"E_vib", "z = (1 - nu^2)/E F/L 2/pi (1.8864 + ln(L/B)), B = sqrt(16/pi R (1 - nu^2)/E F/L)",
              "a homogeneous half-space, contact longer than wide", "Lundberg's line contact"});
   table.add({"mode",
@@ -203,7 +220,7 @@ std::string meter_csv(const MeterResult &result) {
       const std::optional<double> value = columns[i].value(window);
       cells.push_back(value && std::isfinite(*value) && is_given(result, i) ? number_text(*value) : "");
     }
-    cells.insert(cells.end(), {mode_name(window), stiffness_valid(window) ? "of the soil" : "apparent"});
+    cells.insert(cells.end(), {mode_name(window), stiffness_words(window)});
     text += csv_line(cells);
   }
   return text;
@@ -211,10 +228,12 @@ std::string meter_csv(const MeterResult &result) {
 
 std::string source_words(const MeterResult &result) {
   const MeterWindow &last = result.windows.back();
-  const std::string off = std::isfinite(last.cmv_bound)
-                              ? fmt::format("CMV of the last window may be off by {:.2g}, RMV by {:.2g}",
-                                            last.cmv_bound, last.rmv_bound)
-                              : std::string("they have no bound with so few samples");
+  const std::string off =
+      std::isfinite(last.cmv_bound)
+          ? fmt::format("CMV of the last window may be off by {:.2g}, RMV by {:.2g}", last.cmv_bound,
+                        last.rmv_bound)
+          : std::string(result.cycles.filtered ? "how far they may be off is not known behind a filter"
+                                               : "they have no bound with so few samples");
   switch (result.cycles.source) {
   case HarmonicSource::every_step:
     return "Harmonics are sums over every time step (cycles.csv).";
@@ -225,6 +244,25 @@ std::string source_words(const MeterResult &result) {
   }
   return fmt::format(
       "Harmonics are from samples of acceleration; a jump may lie anywhere between two of them: {}.", off);
+}
+
+std::string width_words(const MeterResult &result) {
+  const std::optional<double> thickness = result.cycles.thickness;
+  const MeterOptions &options = result.options;
+  const bool modulus = options.drum_radius && options.drum_width;
+  if (!thickness)
+    return modulus ? fmt::format("E_vib: the forces are those of the whole drum, {:g} m wide.",
+                                 *options.drum_width)
+                   : "";
+  if (std::isnan(*thickness))
+    return "The thickness of the bed is not noted: E_vib is left out; forces, energy and stiffnesses are "
+           "those "
+           "of the bed.";
+  std::string words =
+      fmt::format("Forces, energy and stiffnesses are those of {:g} m of the drum", *thickness);
+  if (modulus)
+    words += fmt::format("; for E_vib the force is that of the whole drum, {:g} m wide", *options.drum_width);
+  return words + ".";
 }
 
 std::vector<std::string> reading_words(const Record &record) {
@@ -276,9 +314,10 @@ std::string answer_line(const MeterResult &result) {
   const MeterWindow &w = result.windows.back();
   std::string text =
       fmt::format("{}, CMV {}, RMV {}", mode_name(w), text_of(w.cmv, "{:.2f}"), text_of(w.rmv, "{:.2f}"));
+  if (w.ccv) text += fmt::format(", CCV {:.2f}", *w.ccv);
   const char *apparent = stiffness_valid(w) ? "" : "apparent ";
-  if (w.k_B) text += fmt::format(", {}k_B {:.2f} MN/m", apparent, 1e-6 * *w.k_B);
-  if (w.k_1) text += fmt::format(", {}k_1 {:.2f} MN/m", apparent, 1e-6 * *w.k_1);
+  if (w.k_B) text += fmt::format(", {}k_B {:.2f} MN/m (soil and frame)", apparent, 1e-6 * *w.k_B);
+  if (w.k_1) text += fmt::format(", {}k_1 {:.2f} MN/m (without the frame)", apparent, 1e-6 * *w.k_1);
   if (w.E_vib) text += fmt::format(", E_vib {:.1f} MPa", 1e-6 * *w.E_vib);
   if (w.energy) text += fmt::format(", {:.1f} J in two cycles", *w.energy);
   return text;
@@ -322,6 +361,7 @@ void write_meter_page(const std::filesystem::path &folder, const MeterResult &re
   page.answer(fmt::format("In the last {} cycles, at {:.4g} Hz: {}.", result.options.window,
                           result.cycles.omega / (2.0 * pi), answer_line(result)));
   page.answer(source_words(result));
+  if (const std::string words = width_words(result); !words.empty()) page.answer(words);
   if (!stiffness_valid(last) && last.k_B)
     page.answer(
         "The drum does not stay in contact, or its contact is not known: the stiffnesses are apparent.");

@@ -23,6 +23,10 @@ std::string meter_csv(const MeterResult &result);
 /// What the values come from and how exact that is, as a sentence.
 std::string source_words(const MeterResult &result);
 
+/// Of which width the forces are, and what that means for E_vib and stiffnesses; empty if there is nothing to
+/// say.
+std::string width_words(const MeterResult &result);
+
 /// How a record was understood: how its files are written, what its columns are, its pieces, rate and length.
 std::vector<std::string> reading_words(const Record &record);
 

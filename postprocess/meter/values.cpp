@@ -64,32 +64,38 @@ OperatingMode mode_of(const Cycles &cycles, const MeterWindow &window, std::size
   return difference(cycles, window, count, 2) <= same ? OperatingMode::double_jump : OperatingMode::irregular;
 }
 
-/// 'constant times numerator over denominator', how far it may be off if both may be.
-double ratio_bound(double constant, double numerator, double above, double denominator, double below) {
-  if (!(denominator > below)) return std::numeric_limits<double>::infinity();
-  return constant * ((numerator + above) / (denominator - below) - numerator / denominator);
-}
-
-void take_amplitudes(const Cycles &cycles, const MeterOptions &options, std::size_t count,
+void take_amplitudes(const MeterRecord &record, const MeterOptions &options, std::size_t count,
                      MeterWindow &window) {
-  std::array<double, meter_orders.size()> bound{};
-  for (std::size_t j = 0; j < meter_orders.size(); ++j) {
-    std::vector<std::complex<double>> harmonics;
-    for (std::size_t i = window.first; i < window.first + count; ++i) {
-      harmonics.push_back(cycles[i].acceleration[j]);
-      bound[j] += cycles[i].bound[j] / static_cast<double>(count);
-    }
-    window.amplitude[j] = amplitude_over(harmonics, 0, count);
+  SampledCycles sampled;
+  sampled.source = record.source;
+  sampled.omega = record.omega;
+  sampled.interval = record.interval;
+  sampled.cycles = static_cast<int>(count);
+  sampled.noise = record.noise;
+  for (std::size_t i = window.first; i < window.first + count; ++i) {
+    const MeterCycle &cycle = record.cycles[i];
+    for (std::size_t j = 0; j < meter_orders.size(); ++j)
+      sampled.harmonics[j] += cycle.acceleration[j] / static_cast<double>(count);
+    sampled.jumps.insert(sampled.jumps.end(), cycle.jumps.begin(), cycle.jumps.end());
   }
-  const HarmonicAmplitudes amplitudes = {window.amplitude[basic_order], window.amplitude[double_order],
-                                         window.amplitude[half_order]};
-  if (!(amplitudes.fundamental > 0.0)) return;
-  window.cmv = compaction_meter_value(amplitudes);
-  window.rmv = resonance_meter_value(amplitudes, options.rmv_constant);
-  window.cmv_bound = ratio_bound(compaction_meter_value({1.0, 1.0, 0.0}), amplitudes.second,
-                                 bound[double_order], amplitudes.fundamental, bound[basic_order]);
-  window.rmv_bound = ratio_bound(options.rmv_constant, amplitudes.half, bound[half_order],
-                                 amplitudes.fundamental, bound[basic_order]);
+  sampled.end_jumps = record.cycles[window.first + count - 1].end_jump +
+                      (window.first > 0 ? record.cycles[window.first - 1].end_jump : 0.0);
+  for (std::size_t j = 0; j < meter_orders.size(); ++j)
+    window.amplitude[j] = std::abs(sampled.harmonics[j]);
+  if (!(window.amplitude[basic_order] > 0.0)) return;
+  const MeterFormula rmv = resonance_meter(options.rmv_constant);
+  window.cmv = compaction_meter(window.amplitude);
+  window.rmv = rmv(window.amplitude);
+  if (record.source == HarmonicSource::every_step) return;
+  window.ccv = compaction_control(window.amplitude);
+  // A filter hides the jumps, but not what sampling has done before.
+  if (record.filtered) {
+    window.cmv_bound = window.rmv_bound = window.ccv_bound = std::numeric_limits<double>::infinity();
+    return;
+  }
+  window.cmv_bound = sampling_bound(compaction_meter, sampled);
+  window.rmv_bound = sampling_bound(rmv, sampled);
+  window.ccv_bound = sampling_bound(compaction_control, sampled);
 }
 
 /// Stiffness and damping at the excitation frequency.
@@ -112,14 +118,20 @@ void take_stiffness(const MeterRecord &record, std::size_t count, MeterWindow &w
   window.c_1 = stiffness.imag() / record.omega;
 }
 
-void take_modulus(const Cycles &cycles, const MeterOptions &options, std::size_t count, MeterWindow &window) {
+void take_modulus(const MeterRecord &record, const MeterOptions &options, std::size_t count,
+                  MeterWindow &window) {
   if (!options.drum_radius || !options.drum_width) return;
+  const Cycles &cycles = record.cycles;
   const LineContact contact = {*options.drum_radius, *options.drum_width, options.poisson};
+  // The force on the whole drum.
+  const double slices = record.thickness ? *options.drum_width / *record.thickness : 1.0;
+  if (std::isnan(slices)) return;
   double sum = 0.0;
   int found = 0;
   for (std::size_t i = window.first; i < window.first + count; ++i) {
     if (!cycles[i].low_force || !cycles[i].deflection) continue;
-    if (const auto modulus = lundberg_modulus(*cycles[i].low_force, *cycles[i].deflection, contact)) {
+    if (const auto modulus =
+            lundberg_modulus(slices * *cycles[i].low_force, *cycles[i].deflection, contact)) {
       sum += *modulus;
       ++found;
     }
@@ -142,7 +154,7 @@ std::vector<MeterWindow> meter_windows(const MeterRecord &record, const MeterOpt
     window.first = total % count + i * count;
     window.begin = record.cycles[window.first].begin;
     window.end = window.begin + period * static_cast<double>(count);
-    take_amplitudes(record.cycles, options, count, window);
+    take_amplitudes(record, options, count, window);
     window.contact_share = mean_of(record.cycles, window, count, &MeterCycle::contact_share);
     if (const auto energy = mean_of(record.cycles, window, count, &MeterCycle::energy))
       window.energy = 2.0 * *energy;
@@ -152,7 +164,7 @@ std::vector<MeterWindow> meter_windows(const MeterRecord &record, const MeterOpt
         window.peak_force = std::max(*window.peak_force, *record.cycles[cycle].peak_force);
     }
     take_stiffness(record, count, window);
-    take_modulus(record.cycles, options, count, window);
+    take_modulus(record, options, count, window);
     window.mode = mode_of(record.cycles, window, count, options.same);
   }
   return windows;

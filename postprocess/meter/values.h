@@ -31,13 +31,16 @@ constexpr std::size_t mode_count = 5;
 /// "same in each cycle".
 extern const std::array<const char *, mode_count> mode_names;
 
+/// Poisson's ratio of soil where none is given [-].
+constexpr double usual_poisson = 0.35;
+
 struct MeterOptions {
   int window = 10;                          ///< cycles in a window, even, 4 or more
   double rmv_constant = usual_rmv_constant; ///< 100, or 300 in some sources
   double same = 0.05;                       ///< relative difference up to which cycles count as the same [-]
   std::optional<double> drum_radius;        ///< R [m]
   std::optional<double> drum_width;         ///< L [m]
-  double poisson = 0.35;                    ///< nu of the soil, for E_vib [-]
+  double poisson = usual_poisson;           ///< nu of the soil, for E_vib [-]
 };
 
 /// Values over one window. What the record does not give has no value.
@@ -48,19 +51,21 @@ struct MeterWindow {
   std::array<double, meter_orders.size()> amplitude{}; ///< A_n [m/s2]; of every_step 0 at 1.5, 2.5 and 3
   std::optional<double> cmv;                           ///< 300 A_2 / A_1 [-]
   std::optional<double> rmv;                           ///< constant A_0.5 / A_1 [-]
-  double cmv_bound = 0.0;              ///< how far CMV may be off by the sampling [-]; may be infinite
-  double rmv_bound = 0.0;              ///< the same of RMV [-]
+  std::optional<double> ccv; ///< 100 (A_0.5 + A_1.5 + A_2 + A_2.5 + A_3) / (A_0.5 + A_1) [-]
+  /// How far each may be off by sampling and noise [-], see sampling_bound(); 0 for sums over every step.
+  double cmv_bound = 0.0, rmv_bound = 0.0, ccv_bound = 0.0;
   std::optional<double> displacement;  ///< amplitude A_1 / omega^2 of the drum's first harmonic [m]
   std::optional<double> contact_share; ///< [-]
   std::optional<double> peak_force;    ///< [N]
   std::optional<double> energy; ///< given to the soil in two cycles, the quantity behind the Omega value [J]
   /// k_B = omega^2 (m_d + m_e r_e cos(phi) / A_z) [N/m], phi the angle by which the displacement lags the
-  /// eccentric force, A_z its amplitude: the soil's stiffness in continuous contact, if the force of the
-  /// frame is small. Apparent in other modes.
+  /// eccentric force, A_z its amplitude, m_d the mass of the drum alone. In continuous contact: the stiffness
+  /// of the soil plus what the frame on its bond adds, real part of its force over the displacement. Apparent
+  /// in other modes.
   std::optional<double> k_B;
-  /// Soil force over displacement at the excitation frequency: real part of -F/x [N/m] and imaginary part
-  /// over omega [N s/m], the forces of drum, frame and excitation all counted. In continuous contact these
-  /// are exactly the stiffness and damping of a linear soil; apparent in other modes.
+  /// The same with the frame's force: soil force over displacement at the excitation frequency, real part of
+  /// -F/x [N/m] and imaginary part over omega [N s/m]. In continuous contact these are exactly the stiffness
+  /// and damping of a linear soil; apparent in other modes.
   std::optional<double> k_1;
   std::optional<double> c_1;
   std::optional<double> E_vib; ///< Lundberg's modulus, mean over the cycles that give it [Pa]

@@ -81,34 +81,31 @@ struct Quantity {
   bool of_setting;
 };
 
-inline const std::vector<Quantity> &quantities() {
-  static const Units mass = {{"kg", 1.0}, {"t", 1e3}};
-  static const Units load = {{"kg", 1.0}, {"t", 1e3}, {"kN", 1e3 / gravity}, {"N", 1.0 / gravity}};
-  static const Units linear = {
-      {"kg/cm", 100.0}, {"kg/m", 1.0}, {"kN/m", 1e3 / gravity}, {"N/mm", 1e3 / gravity}};
-  static const Units length = {{"m", 1.0}, {"mm", 1e-3}, {"cm", 1e-2}};
-  static const Units frequency = {{"Hz", 1.0}, {"1/min", 1.0 / 60.0}, {"vpm", 1.0 / 60.0}};
-  static const Units percent = {{"%", 0.01}};
-  static const std::vector<Quantity> list = {
-      {"operating_mass", mass, 1e6, false, false},
-      {"drum_load", load, 1e6, false, false},
-      {"linear_load", linear, 1e6, false, false},
-      {"drum_mass", mass, 1e6, false, false},
-      {"frame_mass", mass, 1e6, false, false},
-      {"width", length, 100.0, false, false},
-      {"diameter", length, 100.0, false, false},
-      {"bond_stiffness", {{"N/m", 1.0}, {"kN/m", 1e3}, {"MN/m", 1e6}}, 1e12, false, false},
-      {"bond_damping", {{"N s/m", 1.0}, {"kN s/m", 1e3}}, 1e9, true, false},
-      {"frame_frequency", frequency, 1e3, false, false},
-      {"frame_damping", {{"-", 1.0}, {"%", 0.01}}, 100.0, true, false},
-      {"drum_mass_tolerance", percent, 0.5, true, false},
-      {"frame_mass_tolerance", percent, 0.5, true, false},
-      {"eccentric_moment_tolerance", percent, 0.5, true, false},
-      {"frequency", frequency, 1e4, false, true},
-      {"eccentric_moment", {{"kg m", 1.0}, {"kgm", 1.0}, {"kg mm", 1e-3}}, 1e6, false, true},
-      {"force", {{"N", 1.0}, {"kN", 1e3}}, 1e9, false, true},
-      {"amplitude", {{"mm", 1e-3}, {"m", 1.0}}, 1.0, false, true}};
-  return list;
+inline std::vector<Quantity> quantities() {
+  const Units mass = {{"kg", 1.0}, {"t", 1e3}};
+  const Units load = {{"kg", 1.0}, {"t", 1e3}, {"kN", 1e3 / gravity}, {"N", 1.0 / gravity}};
+  const Units linear = {{"kg/cm", 100.0}, {"kg/m", 1.0}, {"kN/m", 1e3 / gravity}, {"N/mm", 1e3 / gravity}};
+  const Units length = {{"m", 1.0}, {"mm", 1e-3}, {"cm", 1e-2}};
+  const Units frequency = {{"Hz", 1.0}, {"1/min", 1.0 / 60.0}, {"vpm", 1.0 / 60.0}};
+  const Units percent = {{"%", 0.01}};
+  return {{"operating_mass", mass, 1e6, false, false},
+          {"drum_load", load, 1e6, false, false},
+          {"linear_load", linear, 1e6, false, false},
+          {"drum_mass", mass, 1e6, false, false},
+          {"frame_mass", mass, 1e6, false, false},
+          {"width", length, 100.0, false, false},
+          {"diameter", length, 100.0, false, false},
+          {"bond_stiffness", {{"N/m", 1.0}, {"kN/m", 1e3}, {"MN/m", 1e6}}, 1e12, false, false},
+          {"bond_damping", {{"N s/m", 1.0}, {"kN s/m", 1e3}}, 1e9, true, false},
+          {"frame_frequency", frequency, 1e3, false, false},
+          {"frame_damping", {{"-", 1.0}, {"%", 0.01}}, 100.0, true, false},
+          {"drum_mass_tolerance", percent, 0.5, true, false},
+          {"frame_mass_tolerance", percent, 0.5, true, false},
+          {"eccentric_moment_tolerance", percent, 0.5, true, false},
+          {"frequency", frequency, 1e4, false, true},
+          {"eccentric_moment", {{"kg m", 1.0}, {"kgm", 1.0}, {"kg mm", 1e-3}}, 1e6, false, true},
+          {"force", {{"N", 1.0}, {"kN", 1e3}}, 1e9, false, true},
+          {"amplitude", {{"mm", 1e-3}, {"m", 1.0}}, 1.0, false, true}};
 }
 
 /// "a, b or c" of the names of `list`.
@@ -178,7 +175,7 @@ inline void Lines::add(const std::string &text, const std::string &where) {
     settings.push_back({number, {}});
     return;
   }
-  const auto &list = quantities();
+  const std::vector<Quantity> list = quantities();
   const auto known =
       std::find_if(list.begin(), list.end(), [&](const Quantity &one) { return one.name == name; });
   if (known == list.end()) fail("name in " + where, name, "setting, " + names_of(list));

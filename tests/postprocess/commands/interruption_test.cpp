@@ -122,6 +122,10 @@ TEST(KilledAndCalledAgain, AMapIsTheSame) {
   kill_and_resume({"map", "--x", "k:5e6:40e6:40", "--y", "D:0.1:0.5:30", "--out", "out"}, expect_same);
 }
 
+TEST(KilledAndCalledAgain, AMeterAlongAnAxisIsTheSame) {
+  kill_and_resume({"map", "--x", "k:5e6:150e6:80", "--identify", "4", "--out", "out"}, expect_same);
+}
+
 TEST(KilledAndCalledAgain, AStudyOfTheMeterIsTheSame) {
   kill_and_resume({"study", "meter", "--quick", "--out", "out"}, expect_same);
 }

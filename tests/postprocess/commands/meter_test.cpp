@@ -137,7 +137,8 @@ TEST_F(MeterCommand, RecordOfARun) {
   const Outcome outcome =
       meter({"run", "--export", "passes/all.csv", "--drum-radius", "0.759", "--drum-width", "2.13"});
   ASSERT_EQ(outcome.status, 0) << outcome.output;
-  EXPECT_TRUE(printed(outcome, {"run/chain.csv: partial uplift, CMV 15", "may be off by"}));
+  EXPECT_TRUE(printed(outcome, {"run/chain.csv: partial uplift, CMV 15", "may be off by",
+                                "E_vib: the forces are those of the whole drum, 2.13 m wide."}));
   const fs::path out = folder_ / "results/meter";
   const Table table = read_table(out / "meter.csv");
   ASSERT_EQ(table.rows(), 2U);
@@ -152,6 +153,41 @@ TEST_F(MeterCommand, RecordOfARun) {
   fs::create_directories(folder_ / "other");
   write_files({{folder_ / "other/mine", "x"}});
   EXPECT_TRUE(meter({"run", "--out", "other"}).says("--out is 'other'; allowed: a folder that is new"));
+}
+
+// A bed in two dimensions as its deck writes it: the run of the chain, with the forces of 1 m.
+TEST_F(MeterCommand, BedPerMetre) {
+  write_chain_run(folder_ / "run", "II", Transition::B, 20);
+  const std::vector<std::string> drum = {"--drum-radius", "0.759", "--drum-width", "2.13"};
+  const auto E_vib = [&](const std::string &name) {
+    std::vector<std::string> words = {name, "--out", "m"};
+    words.insert(words.end(), drum.begin(), drum.end());
+    well(meter(words));
+    return read_table(folder_ / "m/meter.csv").numbers("E_vib [Pa]").back();
+  };
+  const double whole = E_vib("run/chain.csv");
+  const Table chain = read_table(folder_ / "run/chain.csv");
+  const std::vector<double> time = chain.numbers("time"), x = chain.numbers("x_drum"),
+                            v = chain.numbers("v_drum"), force = chain.numbers("F_contact");
+  std::string bed = "time,x_drum,v_drum,F_contact\n";
+  for (std::size_t i = 0; i < time.size(); ++i)
+    bed += number_text(time[i]) + "," + number_text(x[i]) + "," + number_text(v[i]) + "," +
+           number_text(force[i] / 2.13) + "\n";
+  fs::create_directories(folder_ / "bed");
+  const auto parameters = [](const std::string &more) {
+    return "name,value\nomega,125.66370614359172\nm2," + number_text(2000.0 / 2.13) + "\nm3," +
+           number_text(1000.0 / 2.13) + "\ng,9.81\n" + more;
+  };
+  write_files(
+      {{folder_ / "bed/bed.csv", bed}, {folder_ / "bed/parameters.csv", parameters("dimension,2\n")}});
+  EXPECT_NEAR(E_vib("bed") / whole, 1.0, 0.05);
+  EXPECT_TRUE(meter({"bed", "--drum-radius", "0.759", "--drum-width", "2.13", "--out", "m"})
+                  .says("Forces, energy and stiffnesses are those of 1 m of the drum; for E_vib the force is "
+                        "that of the whole drum, 2.13 m wide."));
+  // Of a bed in three dimensions of unknown thickness it cannot be told.
+  write_files({{folder_ / "bed/parameters.csv", parameters("dimension,3\n")}});
+  well(meter({"bed", "--drum-radius", "0.759", "--drum-width", "2.13", "--out", "m"}));
+  EXPECT_TRUE(read_table(folder_ / "m/meter.csv").text("E_vib [Pa]").back().empty());
 }
 
 TEST_F(MeterCommand, MeasuredRecord) {

@@ -8,13 +8,17 @@
 #include "chain/parameters.h"
 #include "tests/support/chain_record.h"
 #include "tests/support/lines.h"
+#include "tests/support/piecewise_oracle.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
+#include <random>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace drumlin::test {
@@ -66,6 +70,7 @@ TEST(Meter, AmplitudesOfAKnownSignal) {
     EXPECT_NEAR(whole.amplitude[j], parts[j].second, 1e-11) << meter_orders[j];
   EXPECT_NEAR(*whole.cmv, 300.0 * 16.0 / 40.0, 1e-9);
   EXPECT_NEAR(*whole.rmv, 100.0 * 1.0 / 40.0, 1e-9);
+  EXPECT_NEAR(*whole.ccv, 100.0 * (1.0 + 2.0 + 16.0 + 3.0 + 4.0) / (1.0 + 40.0), 1e-9);
   MeterOptions other;
   other.rmv_constant = 300.0;
   EXPECT_NEAR(*last_window(synthetic(64.0, 20, parts), other).rmv, 7.5, 1e-9);
@@ -113,6 +118,104 @@ TEST(Meter, BoundsHoldForCoarseRecords) {
       EXPECT_LT(std::abs(*acceleration.cmv - known.cmv), acceleration.cmv_bound) << known.name << samples;
       EXPECT_LT(velocity.cmv_bound, acceleration.cmv_bound) << known.name << samples;
     }
+}
+
+/// Amplitudes of the acceleration from changes of velocity over the last two cycles of an exact solution.
+MeterAmplitudes amplitudes_of(const OracleResult &exact, int samples_per_cycle, double omega) {
+  MeterAmplitudes amplitudes{};
+  const std::size_t last = exact.time.size() - 1;
+  for (std::size_t j = 0; j < amplitudes.size(); ++j) {
+    std::complex<double> sum;
+    for (std::size_t i = last - 2 * static_cast<std::size_t>(samples_per_cycle); i < last; ++i)
+      sum += (exact.v_drum[i + 1] - exact.v_drum[i]) *
+             std::polar(1.0, -meter_orders[j] * omega * 0.5 * (exact.time[i] + exact.time[i + 1]));
+    amplitudes[j] = std::abs(sum) * omega / (2.0 * pi);
+  }
+  return amplitudes;
+}
+
+/// Samples of the exact solution from its 301st cycle on, one of `every`.
+Record thinned(const OracleResult &exact, const ChainParameters &p, int samples_per_cycle, int every,
+               int first, bool velocity) {
+  Record record;
+  record.file = "measured.csv";
+  record.omega = p.omega;
+  record.interval = p.period() / samples_per_cycle * every;
+  for (std::size_t i = static_cast<std::size_t>(300 * samples_per_cycle + first); i < exact.time.size();
+       i += static_cast<std::size_t>(every)) {
+    record.time.push_back(exact.time[i]);
+    (velocity ? record.v_drum : record.a_drum).push_back(velocity ? exact.v_drum[i] : exact.a_drum[i]);
+  }
+  return record;
+}
+
+// Over regimes, rates and phases of the samples: no value is off by more than its bound, and most bounds are
+// not much larger. Exact solutions share no code with the meter.
+TEST(Meter, BoundsAreTight) {
+  constexpr int samples = 3000;
+  std::array<std::vector<double>, 2> ratios; // bound over error, from accelerations and from velocities
+  const auto take = [&ratios](bool velocity, double value, double truth, double bound) {
+    EXPECT_LE(std::abs(value - truth), bound + 1e-5 * (1.0 + truth)) << "but for the error of the truth";
+    if (truth > 1.0) ratios[velocity ? 1 : 0].push_back(bound / std::max(std::abs(value - truth), 1e-9));
+  };
+  for (const auto &[k, D, transition] : {std::tuple{20e6, 0.5, Transition::B},
+                                         {100e6, 0.5, Transition::B},
+                                         {60e6, 0.2, Transition::B},
+                                         {60e6, 0.3, Transition::A}}) {
+    ChainParameters p = table1_case("II", transition);
+    p.k = k;
+    p.D = D;
+    const OracleResult exact = exact_pieces(p, 313, samples);
+    const MeterAmplitudes truth = amplitudes_of(exact, samples, p.omega);
+    for (const int every : {120, 97, 60, 31, 15, 7, 3}) // 25 to 1000 samples per cycle
+      for (const int first : {0, 1, 2, 5, 11, 23, 47})
+        for (const bool velocity : {false, true}) {
+          SCOPED_TRACE(std::to_string(k) + " " + std::to_string(every) + " " + std::to_string(first));
+          const MeterWindow window = last_window(thinned(exact, p, samples, every, first % every, velocity));
+          take(velocity, *window.cmv, compaction_meter(truth), window.cmv_bound);
+          take(velocity, *window.rmv, resonance_meter()(truth), window.rmv_bound);
+          take(velocity, *window.ccv, compaction_control(truth), window.ccv_bound);
+        }
+  }
+  for (std::vector<double> &all : ratios) {
+    std::sort(all.begin(), all.end());
+    RecordProperty(&all == &ratios[0] ? "accelerations" : "velocities",
+                   std::to_string(all.size()) + " values, median " + std::to_string(all[all.size() / 2]));
+    EXPECT_LT(all[all.size() / 2], 8.0);
+    EXPECT_LT(all[all.size() * 3 / 4], 30.0);
+  }
+}
+
+// A motion in unbroken contact is smooth: its CMV is zero, and is told to be so.
+TEST(Meter, BoundsOfUnbrokenContactAreSmall) {
+  constexpr int samples = 3000;
+  ChainParameters p = table1_case("II", Transition::B);
+  p.k = 5e6;
+  const OracleResult exact = exact_pieces(p, 313, samples);
+  for (const int every : {83, 60, 31, 15, 7}) // 36 samples per cycle and more
+    for (const bool velocity : {false, true}) {
+      const MeterWindow window = last_window(thinned(exact, p, samples, every, 1, velocity));
+      EXPECT_LE(*window.cmv, window.cmv_bound + 1e-6) << every << velocity;
+      EXPECT_LT(window.cmv_bound, 0.05) << every << velocity;
+      EXPECT_LT(window.rmv_bound, 0.05) << every << velocity;
+    }
+}
+
+// Noise counts, too: of a motion in unbroken contact, which has no second harmonic, nearly all is noise.
+TEST(Meter, BoundsContainNoise) {
+  int within = 0;
+  constexpr int seeds = 200;
+  for (int seed = 0; seed < seeds; ++seed) {
+    Record record = synthetic(64.0, 20, {{1.0, 40.0}});
+    std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+    std::normal_distribution<double> noise(0.0, 0.4);
+    for (double &a : record.a_drum)
+      a += noise(random);
+    const MeterWindow window = last_window(record);
+    if (*window.cmv < window.cmv_bound) ++within;
+    EXPECT_LT(window.cmv_bound, 2.0); // 300 times 0.4 root(2/640) / 40 is 0.17
+  }
+  EXPECT_GE(within, 190);
 }
 
 TEST(Meter, DoubleJumpAgainstTheClosedFormSolver) {
@@ -206,6 +309,63 @@ TEST(Meter, ModulusFromTheLowestPosition) {
   const auto expected = lundberg_modulus(p.k * *last.deflection, *last.deflection, {0.759, 2.13, 0.35});
   EXPECT_NEAR(*meter_windows(cycles, options).back().E_vib / *expected, 1.0, 0.02);
   EXPECT_FALSE(meter_windows(cycles, {}).back().E_vib);
+}
+
+/// E in Lundberg's formula for a deflection, by bisection of its own words.
+double modulus_by_bisection(double force, double deflection, double radius, double width, double poisson) {
+  double low = 1e3, high = 1e12;
+  for (int i = 0; i < 200; ++i) {
+    const double E = std::sqrt(low * high);
+    const double u = (1.0 - poisson * poisson) / E * force / width;
+    const double B = std::sqrt(16.0 / pi * radius * u);
+    (u * 2.0 / pi * (1.8864 + std::log(width / B)) > deflection ? low : high) = E;
+  }
+  return std::sqrt(low * high);
+}
+
+// A bed in two dimensions has the forces of 1 m of the drum, one in three those of its thickness; E_vib is
+// that of the whole drum in each. As if the bed were the soil of the chain: the same motion, the forces of a
+// slice.
+TEST(Meter, ModulusOfASliceIsThatOfTheDrum) {
+  constexpr double radius = 0.759, width = 2.13;
+  ChainParameters p = table1_case("II", Transition::B);
+  p.m2 = 4000.0;
+  p.m3 = 3400.0;
+  p.Fw = 150e3;
+  p.k = 60e6;
+  const OracleResult exact = exact_pieces(p, 120, 2000);
+  const auto slice = [&](double thickness, const std::string &dimension, const std::string &noted) {
+    Record record;
+    record.file = dimension.empty() ? "chain.csv" : "bed.csv";
+    record.omega = p.omega;
+    record.interval = p.period() / 2000;
+    record.time = exact.time;
+    record.x_drum = exact.x_drum;
+    record.v_drum = exact.v_drum;
+    for (const double force : exact.F_contact)
+      record.F_contact.push_back(force * thickness / width);
+    if (!dimension.empty()) record.parameters["dimension"] = dimension;
+    if (!noted.empty()) record.parameters["thickness"] = noted;
+    return record;
+  };
+  MeterOptions options;
+  options.drum_radius = radius;
+  options.drum_width = width;
+  const std::size_t last = exact.x_drum.size() - 1;
+  const double z =
+      -*std::min_element(exact.x_drum.begin() + static_cast<std::ptrdiff_t>(last - 2000), exact.x_drum.end());
+  const double expected = modulus_by_bisection(p.k * z, z, radius, width, 0.35);
+  EXPECT_NEAR(*last_window(slice(width, "", ""), options).E_vib / expected, 1.0, 1e-3);
+  EXPECT_NEAR(*last_window(slice(1.0, "2", ""), options).E_vib / expected, 1.0, 0.01);
+  EXPECT_NEAR(*last_window(slice(1.0, "2", "1"), options).E_vib / expected, 1.0, 0.01);
+  EXPECT_NEAR(*last_window(slice(0.2, "3", "0.2"), options).E_vib / expected, 1.0, 0.01);
+  EXPECT_FALSE(last_window(slice(0.2, "3", ""), options).E_vib) << "the thickness is not known";
+  MeterResult result;
+  result.record = slice(1.0, "2", "");
+  result.cycles = meter_cycles(result.record);
+  result.options = options;
+  EXPECT_EQ(width_words(result), "Forces, energy and stiffnesses are those of 1 m of the drum; for E_vib the "
+                                 "force is that of the whole drum, 2.13 m wide.");
 }
 
 TEST(Meter, WindowsEndWithTheRecord) {

@@ -15,11 +15,11 @@ struct SoilMachine {
   ChainParameters chain;
   std::optional<double> width, diameter;
 };
-/// \param roller as SoilPoint has it
+/// \param roller case of Table 1, or MACHINE-SETTING of a file in inputs/rollers
 SoilMachine soil_machine(const std::string &roller);
 
 /// Makes the records that the folder does not have yet, and writes there
-///   records.csv  meter values, operating mode and identified stiffness of each record
+///   records.csv  meter values, regime and identified stiffness of each point
 ///   index.html   tables and figures
 /// \param quick few points, to see that it works
 void run_meter_study(const std::filesystem::path &out, bool quick);
