@@ -23,7 +23,8 @@ void roller_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 /// up the files of an earlier run, which are restored if the new run fails in its first steps.
 void outputs_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
-/// drumlin/take FILE DECKS ALLOWED [fixed GROUP ...] [free GROUP ...] [except NAME ...]: gives the variables
+/// drumlin/take FILE DECKS ALLOWED [fixed GROUP ...] [free GROUP ...] [except NAME ...] [only NAME ...]
+/// [default NAME ...]: gives the variables
 /// that are declared behind it the values with which a bed was made.
 void take_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 

@@ -21,6 +21,10 @@ std::vector<std::string> words_of(const std::string &text) {
   return {std::istream_iterator<std::string>(in), {}};
 }
 
+bool is_in(const std::vector<std::string> &names, const std::string &name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 } // namespace
 
 std::optional<std::string> DeckVariables::value(const std::string &name) const {
@@ -84,22 +88,52 @@ TakenNotes DeckVariables::taken() const {
   std::vector<std::string> all = lines(of_notes);
   TakenNotes taken;
   if (all.empty()) return taken;
-  all.resize(std::max<std::size_t>(all.size(), 5)); // the last lists may be empty
-  taken = {all[0], all[1], words_of(all[2]), words_of(all[3]), words_of(all[4]), {}};
-  for (std::size_t n = 5; n < all.size(); ++n) {
+  all.resize(std::max<std::size_t>(all.size(), 6)); // the last lists may be empty
+  taken = {all[0], all[1], words_of(all[2]), words_of(all[3]), words_of(all[4]), words_of(all[5]), {}};
+  for (std::size_t n = 6; n < all.size(); ++n) {
     const std::size_t blank = all[n].find(' ');
     taken.notes.emplace_back(all[n].substr(0, blank), all[n].substr(blank + 1));
   }
   return taken;
 }
 
+bool DeckVariables::is_declared(const std::string &name) const {
+  const std::vector<DeclaredVariable> all = declared();
+  return std::any_of(all.begin(), all.end(), [&](const DeclaredVariable &one) { return one.name == name; });
+}
+
+std::string DeckVariables::note_fault(const DeclaredVariable &variable, const std::string &value) const {
+  const TakenNotes taken = this->taken();
+  if (taken.file.empty() || is_in(taken.standard, variable.name)) return "";
+  const auto note = std::find_if(taken.notes.begin(), taken.notes.end(),
+                                 [&](const auto &one) { return one.first == variable.name; });
+  const bool free = is_in(taken.free, variable.group);
+  if (note == taken.notes.end())
+    return free || is_in(taken.fixed, variable.group)
+               ? fmt::format("a file that notes its value, which '{}' does not: one that {} of this version "
+                             "have made",
+                             taken.file, taken.decks)
+               : "";
+  if (same_value(value, note->second) || (free && is_in(taken.change, variable.name))) return "";
+  return fmt::format("{}, with which '{}' was made; for another value {}{}", note->second, taken.file,
+                     free || is_in(taken.fixed, variable.group) ? "run " + taken.decks + " again"
+                                                                : "begin a new run",
+                     free ? ", or change it on purpose by -var allow_change " + variable.name : "");
+}
+
 void DeckVariables::take(const TakenNotes &notes) {
-  std::vector<std::string> all = {notes.file, notes.decks, joined(notes.fixed, " "), joined(notes.free, " "),
-                                  joined(notes.change, " ")};
+  std::vector<std::string> all = {notes.file,
+                                  notes.decks,
+                                  joined(notes.fixed, " "),
+                                  joined(notes.free, " "),
+                                  joined(notes.change, " "),
+                                  joined(notes.standard, " ")};
   for (const auto &[name, value] : notes.notes)
     all.push_back(fmt::format("{} {}", name, value));
   keep(of_notes, all);
 }
+
+void DeckVariables::forget_notes() { remove(of_notes); }
 
 bool DeckVariables::open() const { return value(of_open).value_or("") == "yes"; }
 

@@ -23,11 +23,12 @@ struct DeclaredVariable {
 
 /// Notes of a file that drumlin/take has read, and which of them must agree.
 struct TakenNotes {
-  std::string file;                ///< empty: none
-  std::string decks;               ///< that make the file, for an error
-  std::vector<std::string> fixed;  ///< groups whose variables the file must note, and that cannot change
-  std::vector<std::string> free;   ///< groups whose variables the file must note, and that may change
-  std::vector<std::string> change; ///< names of variables that may differ
+  std::string file;                  ///< empty: none
+  std::string decks;                 ///< that make the file, for an error
+  std::vector<std::string> fixed;    ///< groups whose variables the file must note, and that cannot change
+  std::vector<std::string> free;     ///< groups whose variables the file must note, and that may change
+  std::vector<std::string> change;   ///< names of variables that may differ
+  std::vector<std::string> standard; ///< names whose notes are defaults, and need not agree
   RestartNotes notes;
 };
 
@@ -46,8 +47,14 @@ public:
   std::vector<DeclaredVariable> declared() const;
   void declare(const DeclaredVariable &variable);
 
+  bool is_declared(const std::string &name) const;
+
   TakenNotes taken() const;
+  /// What is allowed instead of the value of a declared variable, by the notes that have been taken; empty:
+  /// it agrees with them.
+  std::string note_fault(const DeclaredVariable &variable, const std::string &value) const;
   void take(const TakenNotes &notes);
+  void forget_notes();
 
   /// Between the first drumlin/variable and drumlin/variables, which tells the first fault: only then does
   /// the deck know all names.

@@ -1,5 +1,6 @@
 #include "commands/commands.h"
 
+#include "commands/deck_variables.h"
 #include "support/arguments.h"
 #include "commands/fix_outputs.h"
 #include "support/output_set.h"
@@ -82,6 +83,7 @@ void prepare(OutputSet &set, const Outputs &outputs, double half_step) {
 } // namespace
 
 void outputs_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) {
+  DeckVariables::stop_on_fault(lmp);
   const std::string command = "drumlin/outputs";
   Arguments in(lmp->error, command, narg, arg);
   const Outputs outputs = read_outputs(in);

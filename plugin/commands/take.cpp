@@ -35,6 +35,10 @@ RestartNotes shared_notes(LAMMPS *lmp, const std::string &file) {
   return notes;
 }
 
+bool is_in(const std::vector<std::string> &names, const std::string &name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 } // namespace
 
 void take_command(LAMMPS *lmp, int narg, char **arg) {
@@ -46,8 +50,9 @@ void take_command(LAMMPS *lmp, int narg, char **arg) {
       change != "none")
     taken.change = list_entries(change);
   std::vector<std::string> except;
-  std::vector<std::string> *const lists[] = {&taken.fixed, &taken.free, &except};
-  const std::vector<std::string> keywords = {"fixed", "free", "except"};
+  std::vector<std::string> only;
+  std::vector<std::string> *const lists[] = {&taken.fixed, &taken.free, &except, &only, &taken.standard};
+  const std::vector<std::string> keywords = {"fixed", "free", "except", "only", "default"};
   std::vector<std::string> *list = nullptr;
   while (!in.empty()) {
     const std::string word = in.word("word");
@@ -69,9 +74,9 @@ void take_command(LAMMPS *lmp, int narg, char **arg) {
   for (const char *own : {"engine", "end", "bytes", "crc32"})
     except.push_back(own);
   taken.notes.erase(std::remove_if(taken.notes.begin(), taken.notes.end(),
-                                   [&except](const auto &note) {
-                                     return std::find(except.begin(), except.end(), note.first) !=
-                                            except.end();
+                                   [&](const auto &note) {
+                                     return is_in(except, note.first) ||
+                                            (!only.empty() && !is_in(only, note.first));
                                    }),
                     taken.notes.end());
   variables.take(taken);

@@ -13,33 +13,6 @@ namespace {
 
 using LAMMPS_NS::LAMMPS;
 
-template <class List>
-bool is_in(const List &list, const std::string &name) {
-  return std::find(list.begin(), list.end(), name) != list.end();
-}
-
-/// What is wrong with the value of a variable, or with its note in a file, behind "allowed: "; empty:
-/// nothing.
-std::string note_fault(const DeckVariables &variables, const DeclaredVariable &variable,
-                       const std::string &value) {
-  const TakenNotes taken = variables.taken();
-  if (taken.file.empty()) return "";
-  const auto note = std::find_if(taken.notes.begin(), taken.notes.end(),
-                                 [&](const auto &one) { return one.first == variable.name; });
-  const bool free = is_in(taken.free, variable.group);
-  if (note == taken.notes.end())
-    return free || is_in(taken.fixed, variable.group)
-               ? fmt::format("a file that notes its value, which '{}' does not: one that {} of this version "
-                             "have made",
-                             taken.file, taken.decks)
-               : "";
-  if (same_value(value, note->second) || (free && is_in(taken.change, variable.name))) return "";
-  return fmt::format("{}, with which '{}' was made; for another value {}{}", note->second, taken.file,
-                     free || is_in(taken.fixed, variable.group) ? "run " + taken.decks + " again"
-                                                                : "begin a new run",
-                     free ? ", or change it on purpose by -var allow_change " + variable.name : "");
-}
-
 /// A quoted text with the values of the variables ${NAME} in it: the engines do not replace these in quotes.
 std::string with_values(const DeckVariables &variables, std::string text) {
   for (std::size_t begin = 0; (begin = text.find("${", begin)) != std::string::npos;) {
@@ -75,7 +48,7 @@ void variable_command(LAMMPS *lmp, int narg, char **arg) {
   // A variable of the command line is none until it is declared: what a deck uses itself cannot be given.
   if (!variables.open())
     for (const GivenVariable &given : all_given)
-      if (!of_front_script(given.name)) variables.remove(given.name);
+      if (!of_front_script(given.name) && !variables.is_declared(given.name)) variables.remove(given.name);
   variables.declare(variable);
   const auto given = std::find_if(all_given.begin(), all_given.end(),
                                   [&](const GivenVariable &one) { return one.name == variable.name; });
@@ -94,7 +67,7 @@ void variable_command(LAMMPS *lmp, int narg, char **arg) {
     }
   const std::string value = variables.value(variable.name).value_or("");
   const std::string is = fmt::format("variable {} is '{}'", variable.name, value);
-  if (const std::string allowed = note_fault(variables, variable, value); !allowed.empty()) {
+  if (const std::string allowed = variables.note_fault(variable, value); !allowed.empty()) {
     refuse(is + "; allowed: " + allowed);
     return;
   }

@@ -67,7 +67,8 @@ void variables_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) {
     if (variable.given) known.push_back(variable.name);
     if (variable.words) of_words.push_back(variable.name);
   }
-  if (known.empty()) in.fail("the names are missing; allowed: the names of the deck's variables");
+  if (known.empty() && declared.empty())
+    in.fail("the names are missing; allowed: the names of the deck's variables");
   // Every rank was started with the same command line, so that all find the same fault.
   const std::vector<GivenVariable> all_given = given_variables();
   for (const GivenVariable &given : all_given)
@@ -81,6 +82,12 @@ void variables_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) {
       in.fail(given.shown() + "; allowed: " + allowed);
   DeckVariables::stop_on_fault(lmp);
   const TakenNotes taken = variables.taken();
+  // A value that was noted behind its declaration, or changed since.
+  for (const DeclaredVariable &variable : declared) {
+    const std::string value = variables.value(variable.name).value_or("");
+    if (const std::string allowed = variables.note_fault(variable, value); !allowed.empty())
+      in.fail("variable " + variable.name, value, allowed);
+  }
   for (const auto *groups : {&taken.fixed, &taken.free})
     for (const std::string &group : *groups)
       if (std::none_of(declared.begin(), declared.end(),
@@ -93,6 +100,7 @@ void variables_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) {
     if (!is_in(may_change, name))
       in.fail("variable allow_change", joined(taken.change, ","),
               "none, or names between commas out of " + joined(may_change, ","));
+  variables.forget_notes(); // of a next scene in this run they say nothing
 }
 
 } // namespace drumlin

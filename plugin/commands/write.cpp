@@ -1,6 +1,7 @@
 #include "commands/commands.h"
 
 #include "commands/bed_files.h"
+#include "commands/deck_variables.h"
 #include "support/arguments.h"
 
 namespace drumlin {
@@ -8,6 +9,7 @@ namespace drumlin {
 void write_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) {
   const std::string command = "drumlin/write";
   Arguments in(lmp->error, command, narg, arg);
+  DeckVariables::stop_on_fault(lmp);
   enum { restart, data, both };
   const int kind = in.choice("kind of file", {"restart", "data", "both"});
   const std::string file = in.word("file", restart_name_allowed);

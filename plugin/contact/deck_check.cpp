@@ -91,6 +91,13 @@ void DeckCheck::look(engine::LAMMPS *lmp, const std::string &command, bool secon
            std::string("atom_style is '") + lmp->atom->atom_style +
                "', whose balls have no mass of their own; allowed: sphere");
   check_run(lmp, command);
+  // drumlin/variable has declared variables whose faults drumlin/variables has not told.
+  char open[] = "drumlin_open";
+  LAMMPS_NS::Variable &variables = *lmp->input->variable;
+  if (const char *value = variables.find(open) < 0 ? nullptr : variables.retrieve(open);
+      value != nullptr && std::string(value) == "yes")
+    refuse(lmp, "drumlin/variable",
+           "command drumlin/variables is missing; allowed: behind the last drumlin/variable, before a run");
   std::string untried, growing;
   bool guarded = false;
   const auto add = [](std::string &names, const std::string &name) {

@@ -26,7 +26,7 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 
 std::vector<DerivedValue> values_of(const GivenRoller &roller, double g) {
-  return derived_values(roller.machine, roller.setting, 2.0 * pi * roller.setting.frequency, g);
+  return derived_values(roller.machine, &roller.setting, 2.0 * pi * roller.setting.frequency, g);
 }
 
 /// "279.98 kN" of 279984 N.

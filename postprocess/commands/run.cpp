@@ -58,8 +58,12 @@ void run(const std::vector<std::string> &words) {
     std::map<std::string, std::string> given;
     for (std::size_t i = 0; i + 2 < rest.size(); ++i)
       if (rest[i] == "-var" || rest[i] == "-v") given.emplace(rest[i + 1], rest[i + 2]);
+    const std::vector<DeckVariable> variables = deck_variables(file, given);
+    if (variables.empty())
+      throw UsageError(
+          fmt::format("DECK is '{}'; allowed with --help: a deck with lines drumlin/variable", deck));
     fmt::print("Variables of {}, by -var NAME VALUE, with defaults:\n{}", deck,
-               variables_text(deck_variables(file, given), 100));
+               variables_text(variables, 100));
     return;
   }
   keep_inputs(file, rest);

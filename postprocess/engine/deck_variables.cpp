@@ -1,6 +1,7 @@
 #include "engine/deck_variables.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <fstream>
@@ -76,15 +77,20 @@ class Reader {
 public:
   explicit Reader(Values given) : values_(std::move(given)) {}
 
-  void read(const fs::path &file, int depth = 0) {
-    constexpr int deepest = 20; // a file may include itself
-    if (depth > deepest) return;
+  void read(const fs::path &file) {
+    constexpr int most_files = 200; // a file may include itself
+    if (++files_ > most_files) return;
+    std::string skipped_to; // a label
     for (const std::string &command : commands_of(file)) {
       const std::vector<std::string> words = words_of(command);
-      if (words.size() == 2 && words[0] == "include") {
+      if (!skipped_to.empty()) {
+        if (words.size() == 2 && words[0] == "label" && words[1] == skipped_to) skipped_to.clear();
+      } else if (words.size() == 4 && words[0] == "if" && words[2] == "then") {
+        skipped_to = label_of_jump(words[1], words[3]);
+      } else if (words.size() == 2 && words[0] == "include") {
         const fs::path included = with_values(words[1], values_);
         std::error_code code;
-        if (fs::is_regular_file(included, code)) read(included, depth + 1);
+        if (fs::is_regular_file(included, code)) read(included);
       } else if (words.size() == 3 && words[0] == "variable" && words[2] == "delete") {
         values_.erase(words[1]);
       } else if (words.size() == 4 && words[0] == "variable" &&
@@ -99,6 +105,14 @@ public:
   std::vector<DeckVariable> variables;
 
 private:
+  /// The label of a line `if "A == B" then "jump SELF LABEL"` whose condition holds; empty: none.
+  std::string label_of_jump(const std::string &condition, const std::string &then) const {
+    const std::vector<std::string> sides = words_of(with_values(condition, values_));
+    const std::vector<std::string> jump = words_of(then);
+    const bool holds = sides.size() == 3 && sides[1] == "==" && sides[0] == sides[2];
+    return holds && jump.size() == 3 && jump[0] == "jump" ? jump[2] : "";
+  }
+
   void declare(const std::vector<std::string> &words) {
     const std::string value = values_.emplace(words[1], with_values(words[2], values_)).first->second;
     const DeckVariable variable{words[1], value,    with_values(words[3], values_),
@@ -109,6 +123,7 @@ private:
   }
 
   Values values_;
+  int files_ = 0;
 };
 
 /// What a rule of drumlin/check allows, in a few words.
@@ -132,6 +147,17 @@ std::string range_of(const std::string &rule) {
     bounds >> low >> high;
     return low + " to " + high;
   }
+  if (word == "suffix_of") {
+    const fs::path begin = rest;
+    std::vector<std::string> names;
+    std::error_code code;
+    for (const auto &entry : fs::directory_iterator(begin.parent_path(), code))
+      if (const std::string name = entry.path().filename().string();
+          name.rfind(begin.filename().string(), 0) == 0)
+        names.push_back(name.substr(begin.filename().string().size()));
+    std::sort(names.begin(), names.end());
+    return fmt::format("{}", fmt::join(names, ", "));
+  }
   if (word == "file" || word == "data_file" || word == "restart" || word == "restart_name") return "a file";
   if (word == "output_folder" || word == "directory") return "a folder";
   return "";
@@ -139,8 +165,10 @@ std::string range_of(const std::string &rule) {
 
 /// The default as a reader wants it: a formula $(40*PI) without its sign.
 std::string default_of(std::string text) {
-  if (text.size() > 3 && text.compare(0, 2, "$(") == 0 && text.back() == ')')
-    text = text.substr(2, text.size() - 3);
+  if (text.size() < 4 || text.compare(0, 2, "$(") != 0 || text.find("$(", 2) != std::string::npos ||
+      text.back() != ')')
+    return text;
+  text = text.substr(2, text.size() - 3);
   for (std::size_t at = 0; (at = text.find("v_", at)) != std::string::npos;)
     text.erase(at, 2);
   return text;
@@ -173,6 +201,9 @@ std::string variables_text(const std::vector<DeckVariable> &variables, std::size
   for (const DeckVariable &variable : variables)
     if (std::find(groups.begin(), groups.end(), variable.group) == groups.end())
       groups.push_back(variable.group);
+  // What every deck has stands last.
+  std::stable_partition(groups.begin(), groups.end(),
+                        [](const std::string &group) { return group != "run"; });
   std::string text;
   for (const std::string &group : groups) {
     std::string title = group;

@@ -265,8 +265,7 @@ inline Roller read_roller(const std::string &text, const std::string &file) {
   if (lines.settings.empty())
     lines.missing("frequency", "a frequency and a force, eccentric_moment or amplitude");
   std::optional<double> m2 = lines.of("drum_mass");
-  double of_amplitudes = 0.0; // sum of m_e r_e / A over the settings that have both
-  int counted = 0;
+  std::vector<std::pair<std::string, double>> masses; // m_e r_e / A of the settings that have both
   for (const auto &[name, values] : lines.settings) {
     const std::string of_setting = name.empty() ? "" : " of setting " + name;
     const auto value = [&values = values](const char *key) {
@@ -283,14 +282,21 @@ inline Roller read_roller(const std::string &text, const std::string &file) {
                  me_re * omega * omega);
     if (me_re == 0.0 && value("amplitude") == 0.0)
       lines.missing("force" + of_setting, "force, eccentric_moment or amplitude");
-    if (me_re > 0.0 && value("amplitude") > 0.0) {
-      of_amplitudes += me_re / value("amplitude");
-      ++counted;
-    }
+    if (me_re > 0.0 && value("amplitude") > 0.0) masses.emplace_back(of_setting, me_re / value("amplitude"));
     roller.settings.push_back({name, frequency, me_re});
   }
   if (!m2 && frame && load && *load > *frame) m2 = *load - *frame;
-  if (!m2 && counted > 0) m2 = of_amplitudes / counted;
+  if (!m2 && !masses.empty()) { // their mean
+    m2 = 0.0;
+    for (const auto &[of_setting, mass] : masses) {
+      if (apart(mass, masses.front().second))
+        throw std::invalid_argument("force, frequency and amplitude" + of_setting + " of '" + file +
+                                    "' give a drum of " + number_text(mass) + " kg, those" +
+                                    masses.front().first + " one of " + number_text(masses.front().second) +
+                                    " kg; allowed: the same within 10 %");
+      *m2 += mass / static_cast<double>(masses.size());
+    }
+  }
   if (!m2)
     lines.missing("drum_mass",
                   "drum_mass, or a setting with an amplitude and a force or eccentric_moment, from "
@@ -303,7 +309,9 @@ inline Roller read_roller(const std::string &text, const std::string &file) {
     if (me_re == 0.0) me_re = amplitude->second * *m2;
     if (apart(me_re / *m2, amplitude->second))
       contradict("amplitude" + (name.empty() ? "" : " of setting " + name), amplitude->second * 1e3, "mm",
-                 "eccentric moment and mass of the drum", me_re / *m2 * 1e3);
+                 "its eccentric moment, or force and frequency, and a drum of " + number_text(*m2) +
+                     " kg (what vibrates, not the load on the drum): one of these is wrong",
+                 me_re / *m2 * 1e3);
   }
   roller.m2 = *m2;
 
@@ -313,7 +321,7 @@ inline Roller read_roller(const std::string &text, const std::string &file) {
     contradict("drum_load", *load, "kg", "the masses of drum and frame", roller.m2 + *frame);
   roller.m3 = frame ? *frame : *load - roller.m2;
   if (roller.m3 <= 0.0)
-    lines.fail("drum_load", number_text(*load) + " kg",
+    lines.fail(lines.of("drum_load") ? "drum_load" : "linear_load times width", number_text(*load) + " kg",
                "more than the mass of the drum, " + number_text(roller.m2) + " kg");
   if (roller.operating_mass && roller.m2 + roller.m3 > *roller.operating_mass * (1.0 + 1e-9))
     lines.fail("operating_mass", number_text(*roller.operating_mass) + " kg",
@@ -351,20 +359,23 @@ inline const RollerSetting &setting_of(const Roller &roller, const std::string &
       "; allowed: " + (none ? "none" : roller_file::names_of(roller.settings)) + ", of '" + file + "'");
 }
 
-/// What follows from roller and frequency: printed before a run and stored with it. \param g gravity [m/s2]
-inline std::vector<DerivedValue> derived_values(const Roller &roller, const RollerSetting &setting,
+/// What follows from a roller and a setting: printed before a run and stored with it. \param setting none:
+/// what does not depend on it \param omega [rad/s] \param g gravity [m/s2]
+inline std::vector<DerivedValue> derived_values(const Roller &roller, const RollerSetting *setting,
                                                 double omega, double g = roller_file::gravity) {
-  const double Fw = setting.me_re * omega * omega;
   const double load = (roller.m2 + roller.m3) * g;
-  std::vector<DerivedValue> values = {{"frequency", omega / (2.0 * roller_file::pi), "Hz"},
-                                      {"eccentric_moment", setting.me_re, "kg m"},
-                                      {"exciter_force", Fw, "N"},
-                                      {"static_load", load, "N"}};
-  if (roller.width) {
-    values.push_back({"exciter_force_per_metre", Fw / *roller.width, "N/m"});
-    values.push_back({"static_load_per_metre", load / *roller.width, "N/m"});
+  std::vector<DerivedValue> values;
+  const auto per_metre = [&](const std::string &name, double value) {
+    values.push_back({name, value, "N"});
+    if (roller.width) values.push_back({name + "_per_metre", value / *roller.width, "N/m"});
+  };
+  if (setting != nullptr) {
+    values.push_back({"frequency", omega / (2.0 * roller_file::pi), "Hz"});
+    values.push_back({"eccentric_moment", setting->me_re, "kg m"});
+    per_metre("exciter_force", setting->me_re * omega * omega);
+    values.push_back({"nominal_amplitude", setting->me_re / roller.m2, "m"});
   }
-  values.push_back({"nominal_amplitude", setting.me_re / roller.m2, "m"});
+  per_metre("static_load", load);
   values.push_back({"frame_frequency", std::sqrt(roller.k23 / roller.m3) / (2.0 * roller_file::pi), "Hz"});
   values.push_back({"frame_damping_ratio", roller.c23 / (2.0 * std::sqrt(roller.k23 * roller.m3)), "-"});
   return values;

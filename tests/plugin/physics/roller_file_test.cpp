@@ -38,7 +38,7 @@ protected:
   }
   double derived(const Roller &roller, const std::string &name) const {
     const RollerSetting &setting = roller.settings.front();
-    for (const DerivedValue &value : derived_values(roller, setting, 2.0 * pi * setting.frequency))
+    for (const DerivedValue &value : derived_values(roller, &setting, 2.0 * pi * setting.frequency))
       if (value.name == name) return value.value;
     ADD_FAILURE() << name;
     return 0.0;

@@ -18,11 +18,13 @@ namespace {
 
 using namespace drumlin::post;
 
-/// The value of an index variable of a deck, or the default of a declared one: a number, or the number of $(NUMBER*PI) times pi.
+/// The value of an index variable of a deck, or the default of a declared one: a number, or the number of
+/// $(NUMBER*PI) times pi.
 double deck_value(const std::string &deck, const std::string &name) {
   const std::string text = read_text(std::filesystem::path(DRUMLIN_SOURCE_DIR) / "inputs/chain" / deck);
   std::smatch match;
-  const std::regex line("(?:^|\n)(?:drumlin/)?variable +" + name + R"( +(?:index +)?(?:\$\(([0-9.]+)\*PI\)|([0-9.e]+)))");
+  const std::regex line("(?:^|\n)(?:drumlin/)?variable +" + name +
+                        R"( +(?:index +)?(?:\$\(([0-9.]+)\*PI\)|([0-9.e]+)))");
   if (!std::regex_search(text, match, line)) throw std::runtime_error(deck + " has no variable " + name);
   return match[1].matched ? std::stod(match[1]) * std::acos(-1.0) : std::stod(match[2]);
 }
