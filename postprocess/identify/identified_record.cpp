@@ -1,5 +1,6 @@
 #include "identify/identified_record.h"
 
+#include "identify/motion_fit.h"
 #include "meter/values.h"
 #include "support/csv.h"
 #include "support/range.h"
@@ -144,26 +145,105 @@ std::optional<std::string> contradiction(const IdentifiedRecord &record) {
   return std::nullopt;
 }
 
-IdentifiedRecord identify_record(const Record &record, const RecordSetting &setting,
+namespace {
+
+/// What the whole motion says, from the contacts or, if they are far off, from a softer or harder soil.
+std::optional<MotionFit> follow_motion(const Record &record, const Identification &contacts,
+                                       const MotionSetting &setting) {
+  std::optional<MotionFit> first;
+  for (const double factor : {1.0, 0.75, 1.35}) {
+    Identification start = contacts;
+    start.law.k.mean *= factor;
+    for (double &x : start.x)
+      x /= factor;
+    const std::optional<MotionFit> fit = fit_motion(record, start, setting);
+    if (fit && fit->is_noise) return fit;
+    if (!first) first = fit;
+  }
+  return first;
+}
+
+/// Sets the exciter's phase of a record whose flights are too short to tell it: of phases fifteen degrees
+/// apart that from which the equations of motion follow some cycles best. Nothing else tells how far the drum
+/// is from the next contact. Leaves the record as it is if no phase makes them follow to the noise.
+void find_phase(Record &record, const IdentificationSetting &law) {
+  if (!record.omega || !record.Fw || !record.m2 || !record.m3 || record.a_drum.empty() ||
+      record.a_frame.empty() || record.excitation_read)
+    return;
+  constexpr double cycles = 12.0;
+  Record part = record;
+  const auto size = std::min(record.size(), static_cast<std::size_t>(cycles * record.period() / record.interval) + 1);
+  for (std::vector<double> *values : {&part.time, &part.a_drum, &part.a_frame})
+    values->resize(size);
+  for (std::vector<double> *values : {&part.x_drum, &part.v_drum, &part.x_frame, &part.v_frame, &part.F_contact})
+    values->clear();
+  std::optional<MotionFit> best;
+  constexpr int trials = 24;
+  for (int trial = 0; trial < trials; ++trial) {
+    part.phase = 2.0 * pi * trial / trials;
+    compute_excitation(part);
+    try {
+      const Identification found = identify(signals_of(part, true), law);
+      if (!(found.law.k.mean > 0.0 && found.law.c.mean > 0.0)) continue;
+      const std::optional<MotionFit> fit = fit_motion(part, found, {});
+      if (fit && fit->is_noise && (!best || fit->residual < best->residual)) best = fit;
+    } catch (const std::runtime_error &) { // no contact with this phase
+      continue;
+    }
+  }
+  constexpr double most = 5.0 * pi / 180.0;
+  if (!best || best->phase.half_width > most) return;
+  record.phase = best->phase.mean;
+  record.omega = best->omega.mean;
+  record.phase_half_width = best->phase.half_width;
+  compute_excitation(record);
+}
+
+/// Takes over what the whole motion says.
+void take_motion(const MotionFit &motion, const Record &record, IdentifiedRecord &result) {
+  LawEstimate &law = result.whole.law;
+  law.k = motion.k;
+  law.c = motion.c;
+  const double to_D = 1.0 / (2.0 * std::sqrt(*record.m2 * law.k.mean));
+  const double of_k = 0.5 * law.c.mean / law.k.mean * law.k.half_width;
+  law.D = {law.c.mean * to_D,
+           to_D * std::sqrt(std::max(0.0, law.c.half_width * law.c.half_width + of_k * of_k -
+                                              2.0 * motion.correlation * of_k * law.c.half_width))};
+  law.phase = {std::remainder(motion.phase.mean - *record.phase, 2.0 * pi), motion.phase.half_width};
+  result.frequency = motion.omega.mean / (2.0 * pi);
+  result.motion = motion;
+  if (!motion.pull_is_clear) return;
+  result.whole.pull = motion.pulls ? Pull::pulls : Pull::does_not_pull;
+  result.whole.tension = motion.tension;
+}
+
+} // namespace
+
+IdentifiedRecord identify_record(const Record &given, const RecordSetting &setting,
                                  const std::function<void(const std::string &)> &progress) {
-  const DrumSignals signals = signals_of(record, setting.accelerations_only);
   IdentifiedRecord result;
-  result.file = record.file;
-  result.frequency = *record.omega / (2.0 * pi);
-  result.cycles = record.cycles();
-  const bool of_chain = record.file.filename() == "chain.csv";
+  result.file = given.file;
+  const bool of_chain = given.file.filename() == "chain.csv";
   constexpr double usual_share = 0.2; // soil that a drum just touches is softer
   result.known_origin = setting.known_origin.value_or(of_chain);
+  IdentificationSetting law;
+  law.m2 = given.m2.value_or(0.0);
+  law.known_origin = result.known_origin;
+  law.least_force = setting.least_force.value_or(of_chain ? 0.0 : usual_share);
+  Record record = given;
+  if (record.F_excitation.empty()) find_phase(record, law);
+  const DrumSignals signals = signals_of(record, setting.accelerations_only);
+  result.frequency = *record.omega / (2.0 * pi);
+  result.cycles = record.cycles();
   // An interval of 95 % is exceeded by errors of half its size more now and then.
   const double phase_within = std::max(setting.phase_within, 1.5 * record.phase_half_width);
+  law.phase_within = phase_within;
   result.phase_known = phase_within == 0.0;
   result.positions = !signals.x_drum.empty() || !signals.v_drum.empty();
   result.frame = !record.a_frame.empty();
   result.force_difference = force_difference(signals.force, record.F_contact);
   result.time = record.time;
   result.per_cycle = signals.per_cycle;
-  const IdentificationSetting law = {*record.m2, result.known_origin, phase_within,
-                                     setting.least_force.value_or(of_chain ? 0.0 : usual_share)};
   try {
     result.whole = identify(signals, law, [&progress](double share) {
       if (progress) progress(fmt::format("the whole record: {:.0f} %", 100.0 * share));
@@ -173,6 +253,15 @@ IdentifiedRecord identify_record(const Record &record, const RecordSetting &sett
   }
   add_meter_values(record, result);
   result.windows = windows_of(signals, law, result, setting.window, progress);
+  if (!record.excitation_read && !result.positions && record.low_pass == 0.0) {
+    MotionSetting of_phase;
+    if (record.phase_half_width == 0.0) of_phase.phase_within = phase_within;
+    if (progress) progress("the motion from contact to contact");
+    if (const std::optional<MotionFit> motion = follow_motion(record, result.whole, of_phase)) {
+      if (std::getenv("MF")) fmt::print(stderr, "motion k {:.5g} +- {:.3g} c {:.5g} noise {} residual {:.4g}, {} cycles\n", motion->k.mean, motion->k.half_width, motion->c.mean, motion->is_noise, motion->residual, motion->cycles);
+      if (motion->is_noise) take_motion(*motion, record, result);
+    }
+  }
   return result;
 }
 

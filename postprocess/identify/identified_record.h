@@ -2,6 +2,7 @@
 #pragma once
 
 #include "identify/identification.h"
+#include "identify/motion_fit.h"
 #include "record/record.h"
 
 #include <filesystem>
@@ -51,6 +52,7 @@ struct IdentifiedRecord {
   double per_cycle = 0.0;   ///< samples per cycle
   Identification whole;
   std::vector<LawWindow> windows;
+  std::optional<MotionFit> motion; ///< whose k and c `whole` has, if the equations of motion follow the record
 };
 
 /// The signals of a record, from its accelerations, masses and excitation; the record's column F_contact is

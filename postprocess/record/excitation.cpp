@@ -328,7 +328,7 @@ std::optional<FlightFit> flights_of(const Record &record, double ratio) {
     ++followed;
     lands += force[next->first] > 0.0 ? 1 : 0;
   }
-  constexpr double most_often = 1.1, most_of_them = 0.9, most_share = 0.85, most_off = 0.6, most_offset = 0.3;
+  constexpr double most_often = 1.1, most_of_them = 0.9, most_share = 0.93, most_off = 0.6, most_offset = 0.3;
   if (fit.share > most_share || std::fabs(fit.ratio.mean - 1.0) > most_off ||
       std::fabs(fit.offset.mean) > most_offset * weight ||
       static_cast<double>(flights.size()) > most_often * record.cycles() + 1.0 ||
@@ -429,6 +429,9 @@ void remove_offset(Record &record, std::vector<double> Record::*values, const ch
                                      of_gravity ? ": the sensor shows gravity" : ""));
 }
 
+/// Share by which data of the machine may be off.
+constexpr double machine = 0.1;
+
 /// Whether the drum flies if the sign of its acceleration, or of both accelerations, is turned.
 const char *turned_sign(Record record) {
   const auto turn = [](std::vector<double> &values) {
@@ -445,7 +448,7 @@ const char *turned_sign(Record record) {
 void check_force(const Record &record) {
   for (const double ratio : {0.9, 1.1, 0.8, 1.2, 0.7, 1.35, 0.6, 1.5}) {
     const std::optional<FlightFit> fit = flights_of(record, ratio);
-    if (!fit) continue;
+    if (!fit || std::fabs(fit->ratio.mean - 1.0) < machine) continue;
     csv_fault(record.file, 0, {},
               refusal("the exciter's force", fmt::format("{:.6g} N", *record.Fw),
                       fmt::format("{:.6g} N, which the flights of the drum need with these masses, signs and "
@@ -510,7 +513,6 @@ void take_flights(Record &record, const RecordOptions &options) {
       fit->flights, 100.0 * fit->share, fit->omega.mean / (2.0 * pi), fit->omega.half_width / (2.0 * pi),
       fit->phase.mean / degree, fit->phase.half_width / degree, fit->ratio.mean, fit->ratio.half_width,
       fit->offset.mean, fit->offset.half_width));
-  constexpr double machine = 0.1; // by which data of the machine may be off
   if (std::fabs(fit->ratio.mean - 1.0) > machine + fit->ratio.half_width)
     csv_fault(
         record.file, 0, {},

@@ -1,0 +1,674 @@
+#include "identify/motion_fit.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace drumlin::post {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double pi = 3.14159265358979323846;
+
+// A state: position and velocity of drum and frame, sine and cosine of the exciter's angle, and 1.
+constexpr Index of_sine = 4, of_cosine = 5, of_one = 6, size = 7;
+using State = Eigen::Matrix<double, size, 1>;
+using Square = Eigen::Matrix<double, size, size>;
+
+// Columns of derivatives: by the state at the start of a stretch, and by what all stretches share.
+constexpr Index of_start = 0, of_k = 4, of_c = 5, of_k23 = 6, of_c23 = 7, of_phase = 8, of_omega = 9,
+                columns = 10;
+using Slopes = Eigen::Matrix<double, size, columns>;
+// Behind the derivatives that states have, an observation has those by offset and drift of each sensor.
+constexpr Index starts = 4, shared = columns - starts, sensors = 2, unknowns = shared + 2 * sensors;
+using Shared = Eigen::Matrix<double, unknowns, 1>;
+
+// The mechanical model with the present values.
+struct Model {
+  double m2, m3, g, Fw;
+  double k, c, k23, c23, omega, phase; // phase at time 0
+  std::array<double, sensors> offset{}, drift{};
+  bool pulls = false;
+
+  // What has to be positive in contact, for the position of the drum alone and for the force [m].
+  double overlap(const State &y) const { return -y[0]; }
+  double pressed(const State &y) const { return -y[0] - c / k * y[1]; }
+  double indicator(const State &y) const {
+    return pulls ? overlap(y) : std::min(overlap(y), pressed(y));
+  }
+
+  template <class Matrix> Matrix rate(const Matrix &y, bool contact) const {
+    Matrix d;
+    const auto bond = (k23 * (y.row(0) - y.row(2)) + c23 * (y.row(1) - y.row(3))).eval();
+    d.row(0) = y.row(1);
+    d.row(1) = (-bond - Fw * y.row(of_sine)) / m2 - g * y.row(of_one);
+    if (contact) d.row(1) -= (k * y.row(0) + c * y.row(1)) / m2;
+    d.row(2) = y.row(3);
+    d.row(3) = bond / m3 - g * y.row(of_one);
+    d.row(of_sine) = omega * y.row(of_cosine);
+    d.row(of_cosine) = -omega * y.row(of_sine);
+    d.row(of_one).setZero();
+    return d;
+  }
+  // Adds the change of the rate by the change of each parameter.
+  void add_sources(const State &y, bool contact, double factor, Slopes &s) const {
+    if (contact) {
+      s(1, of_k) -= factor * y[0] / m2;
+      s(1, of_c) -= factor * y[1] / m2;
+    }
+    const double stretch = factor * (y[0] - y[2]), speed = factor * (y[1] - y[3]);
+    s(1, of_k23) -= stretch / m2;
+    s(3, of_k23) += stretch / m3;
+    s(1, of_c23) -= speed / m2;
+    s(3, of_c23) += speed / m3;
+    s(of_sine, of_omega) += factor * y[of_cosine];
+    s(of_cosine, of_omega) -= factor * y[of_sine];
+  }
+};
+
+// The state after a time, by the series of the exponential, with derivatives if they are asked for.
+void advance(const Model &model, bool contact, double h, State &y, Slopes *s) {
+  constexpr int most_terms = 40;
+  constexpr double small = 1e-17;
+  State term = y;
+  Slopes slopes;
+  if (s != nullptr) slopes = *s;
+  for (int n = 1; n <= most_terms; ++n) {
+    const double factor = h / n;
+    if (s != nullptr) {
+      Slopes next = factor * model.rate(slopes, contact);
+      model.add_sources(term, contact, factor, next);
+      slopes = next;
+      *s += slopes;
+    }
+    term = (factor * model.rate(term, contact)).eval();
+    y += term;
+    constexpr int least_terms = 8;
+    if (n >= least_terms && term.cwiseAbs().maxCoeff() < small &&
+        (s == nullptr || (slopes.cwiseAbs().array() <= small * (1.0 + s->cwiseAbs().array())).all()))
+      break;
+  }
+}
+
+// A step of fixed length, computed once: the exponential and its derivatives by the parameters.
+class Step {
+public:
+  Step(const Model &model, bool contact, double h) {
+    for (Index i = 0; i < size; ++i) {
+      State column = State::Unit(i);
+      Slopes slopes = Slopes::Zero();
+      advance(model, contact, h, column, &slopes);
+      all_.col(i) = column;
+      for (Index p = 0; p < of_parameters; ++p)
+        by_[static_cast<std::size_t>(p)].col(i) = slopes.col(parameter(p));
+    }
+  }
+  State moved(const State &y) const { return all_ * y; }
+  void move(const State &before, Slopes &s) const {
+    s = (all_ * s).eval();
+    for (Index p = 0; p < of_parameters; ++p)
+      s.col(parameter(p)) += by_[static_cast<std::size_t>(p)] * before;
+  }
+
+private:
+  static constexpr Index of_parameters = 5;
+  static Index parameter(Index p) { return p < 4 ? of_k + p : of_omega; }
+  Square all_;
+  std::array<Square, of_parameters> by_;
+};
+
+// The time until contact begins or ends, which it does within h.
+double event_within(const Model &model, bool contact, double h, const State &y) {
+  double before = 0.0, after = h;
+  constexpr int most_halvings = 60;
+  constexpr double short_enough = 1e-15;
+  for (int n = 0; n < most_halvings && after - before > short_enough; ++n) {
+    const double middle = 0.5 * (before + after);
+    State there = y;
+    advance(model, contact, middle, there, nullptr);
+    ((model.indicator(there) > 0.0) != contact ? after : before) = middle;
+  }
+  return after;
+}
+
+// What a small change of the state or of a parameter does behind an event, which it delays.
+void pass_event(const Model &model, bool contact, const State &y, Slopes &s) {
+  const State before = model.rate(y, contact), after = model.rate(y, !contact);
+  const bool of_force = !model.pulls && model.pressed(y) < model.overlap(y);
+  const double of_v = of_force ? model.c / model.k : 0.0;
+  const double speed = before[0] + of_v * before[1];
+  if (speed == 0.0) return;
+  Eigen::Matrix<double, 1, columns> change = s.row(0) + of_v * s.row(1);
+  if (of_force) {
+    change[of_k] -= model.c / (model.k * model.k) * y[1];
+    change[of_c] += y[1] / model.k;
+  }
+  s -= (before - after) * (change / speed);
+}
+
+// Samples from `first` to before `end` that one motion follows, and its state at the first.
+struct Stretch {
+  std::size_t first, end;
+  Eigen::Vector4d start;
+};
+
+// Normal equations of a stretch: of its start, and what it adds to those of the shared unknowns.
+struct Equations {
+  Eigen::Matrix4d own = Eigen::Matrix4d::Zero();
+  Eigen::Matrix<double, starts, unknowns> mixed = Eigen::Matrix<double, starts, unknowns>::Zero();
+  Eigen::Vector4d own_right = Eigen::Vector4d::Zero();
+};
+
+struct Signals {
+  std::array<const std::vector<double> *, sensors> a{};
+  double dt = 0.0, start = 0.0, middle = 0.0, half_length = 0.0;
+  double per_cycle = 0.0;
+  std::size_t size() const { return a[0]->size(); }
+  double time(std::size_t i) const { return start + dt * static_cast<double>(i); }
+};
+
+// Derivatives of an observation by the shared unknowns.
+template <class Row> Shared observed(const Row &row, std::size_t sensor, double u) {
+  Shared all = Shared::Zero();
+  all.head<shared>() = row.template tail<shared>().transpose();
+  const auto at = static_cast<Index>(shared + 2 * sensor);
+  all[at] = 1.0;
+  all[at + 1] = u;
+  return all;
+}
+
+class Fit {
+public:
+  Fit(const Signals &signals, Model model, std::vector<Stretch> stretches, double phase_weight,
+      double phase_said)
+      : signals_(&signals), model_(model), stretches_(std::move(stretches)), phase_weight_(phase_weight),
+        phase_said_(phase_said) {}
+
+  bool solve();
+  bool join();
+  const Model &model() const { return model_; }
+  const std::vector<Stretch> &stretches() const { return stretches_; }
+  double level(std::size_t sensor) const { return level_[sensor]; }
+  double squares(std::size_t sensor) const { return squares_[sensor]; }
+  std::size_t samples() const { return samples_; }
+  // Of the errors of the shared unknowns; nothing if the record does not determine them.
+  std::optional<MatrixXd> covariance();
+  bool is_noise() const;
+  // The largest tension of the law while drum and soil overlap.
+  double tension() const;
+
+private:
+  // Calls `use` for each sample with its residuals and derivatives; false if the motion cannot be followed.
+  struct Nothing {
+    void operator()(const State & /*state*/) const {}
+  };
+  template <class Use, class See = Nothing>
+  bool follow(const Model &model, const Stretch &stretch, const Use &use, const See &see = {}) const;
+  bool equations();
+  // The sum of weighted squares of a trial; nothing if it cannot be followed.
+  std::optional<double> cost(const Model &model, const std::vector<Stretch> &stretches);
+  void set_levels();
+
+  const Signals *signals_;
+  Model model_;
+  std::vector<Stretch> stretches_;
+  double phase_weight_, phase_said_;
+  std::vector<Equations> of_stretch_;
+  Eigen::Matrix<double, unknowns, unknowns> normal_;
+  Shared right_;
+  std::array<double, sensors> level_{1.0, 1.0}, squares_{};
+  double cost_ = 0.0;
+  std::size_t samples_ = 0;
+};
+
+template <class Use, class See>
+bool Fit::follow(const Model &model, const Stretch &stretch, const Use &use, const See &see) const {
+  const double fine = std::max(64.0 * model.omega / (2.0 * pi), 1.5 * std::sqrt(model.k / model.m2));
+  const auto steps = static_cast<int>(std::ceil(signals_->dt * fine));
+  const double h = signals_->dt / steps;
+  const std::array<Step, 2> step = {Step(model, false, h), Step(model, true, h)};
+  State y;
+  const double angle = model.phase + model.omega * signals_->time(stretch.first);
+  y << stretch.start, std::sin(angle), std::cos(angle), 1.0;
+  Slopes s = Slopes::Zero();
+  s.topLeftCorner<starts, starts>().setIdentity();
+  s(of_sine, of_phase) = y[of_cosine];
+  s(of_cosine, of_phase) = -y[of_sine];
+  s(of_sine, of_omega) = signals_->time(stretch.first) * y[of_cosine];
+  s(of_cosine, of_omega) = -signals_->time(stretch.first) * y[of_sine];
+  bool contact = model.indicator(y) > 0.0;
+  std::size_t events = 0;
+  bool changed = false; // between the sample before and this one
+  const auto u_of = [this](std::size_t i) { return (signals_->time(i) - signals_->middle) / signals_->half_length; };
+  const auto most_events =
+      static_cast<std::size_t>(20.0 * static_cast<double>(stretch.end - stretch.first) / signals_->per_cycle + 20.0);
+  for (std::size_t i = stretch.first; i < stretch.end; ++i) {
+    const State here = y;
+    see(here);
+    const Slopes slopes = s;
+    const bool touches = contact;
+    const std::size_t events_before = events;
+    for (int j = 0; j < steps; ++j) {
+      double left = h;
+      State next = step[contact ? 1 : 0].moved(y);
+      while ((model.indicator(next) > 0.0) != contact) {
+        if (++events > most_events) return false;
+        const double after = event_within(model, contact, left, y);
+        advance(model, contact, after, y, &s);
+        pass_event(model, contact, y, s);
+        contact = !contact;
+        left -= after;
+        next = y;
+        advance(model, contact, left, next, nullptr);
+      }
+      if (left == h)
+        step[contact ? 1 : 0].move(y, s);
+      else {
+        next = y;
+        advance(model, contact, left, next, &s);
+      }
+      y = next;
+    }
+    if (!y.allFinite()) return false;
+    // Next to an event a sample is taken for that side of it which is nearer: else the acceleration's jump
+    // would hold the event between two samples while the parameters still change.
+    const bool next_to_event = events > events_before || changed;
+    changed = events > events_before;
+    const auto at = [&](bool in_contact) {
+      const double rate = model.rate(here, in_contact)[1];
+      return rate + model.offset[0] + model.drift[0] * u_of(i) - (*signals_->a[0])[i];
+    };
+    const bool other = next_to_event && std::fabs(at(!touches)) < std::fabs(at(touches));
+    const bool side = other ? !touches : touches;
+    const State rate = model.rate(here, side);
+    Slopes change = model.rate(slopes, side);
+    model.add_sources(here, side, 1.0, change);
+    for (std::size_t sensor = 0; sensor < sensors; ++sensor) {
+      if (signals_->a[sensor]->empty()) continue;
+      const auto row = static_cast<Index>(1 + 2 * sensor);
+      const double u = u_of(i);
+      use(i, sensor, rate[row] + model.offset[sensor] + model.drift[sensor] * u - (*signals_->a[sensor])[i],
+          change.row(row), u);
+    }
+  }
+  return true;
+}
+
+bool Fit::equations() {
+  of_stretch_.assign(stretches_.size(), {});
+  normal_.setZero();
+  right_.setZero();
+  squares_.fill(0.0);
+  samples_ = 0;
+  for (std::size_t n = 0; n < stretches_.size(); ++n) {
+    Equations &e = of_stretch_[n];
+    samples_ += stretches_[n].end - stretches_[n].first;
+    const bool followed =
+        follow(model_, stretches_[n], [&](std::size_t, std::size_t sensor, double residual, const auto &row, double u) {
+          const double weight = 1.0 / (level_[sensor] * level_[sensor]);
+          const Eigen::Vector4d own = row.template head<starts>().transpose();
+          const Shared all = observed(row, sensor, u);
+          e.own += weight * own * own.transpose();
+          e.mixed += weight * own * all.transpose();
+          e.own_right += weight * residual * own;
+          normal_ += weight * all * all.transpose();
+          right_ += weight * residual * all;
+          squares_[sensor] += residual * residual;
+        });
+    if (!followed) return false;
+  }
+  const Index phase = of_phase - starts;
+  normal_(phase, phase) += phase_weight_;
+  right_[phase] += phase_weight_ * (model_.phase - phase_said_);
+  for (std::size_t sensor = 0; sensor < sensors; ++sensor)
+    if (signals_->a[sensor]->empty())
+      for (Index i = 0; i < 2; ++i)
+        normal_(shared + 2 * static_cast<Index>(sensor) + i, shared + 2 * static_cast<Index>(sensor) + i) += 1.0;
+  cost_ = phase_weight_ * std::pow(model_.phase - phase_said_, 2);
+  for (std::size_t sensor = 0; sensor < sensors; ++sensor)
+    cost_ += squares_[sensor] / (level_[sensor] * level_[sensor]);
+  return true;
+}
+
+std::optional<double> Fit::cost(const Model &model, const std::vector<Stretch> &stretches) {
+  double sum = phase_weight_ * std::pow(model.phase - phase_said_, 2);
+  for (const Stretch &stretch : stretches)
+    if (!follow(model, stretch, [&](std::size_t, std::size_t sensor, double residual, const auto &, double) {
+          sum += std::pow(residual / level_[sensor], 2);
+        }))
+      return std::nullopt;
+  return sum;
+}
+
+void Fit::set_levels() {
+  for (std::size_t sensor = 0; sensor < sensors; ++sensor) {
+    const double freedom = static_cast<double>(samples_) - 0.5 * static_cast<double>(starts * static_cast<Index>(stretches_.size()) + unknowns);
+    level_[sensor] = std::max(1e-9, std::sqrt(squares_[sensor] / std::max(1.0, freedom)));
+  }
+}
+
+bool Fit::solve() {
+  if (!equations()) return false;
+  set_levels();
+  if (!equations()) return false;
+  constexpr int most_rounds = 40;
+  constexpr double first_damping = 1e-3;
+  double damping = first_damping;
+  for (int round = 0; round < most_rounds; ++round) {
+    // Starts are eliminated stretch by stretch.
+    Eigen::Matrix<double, unknowns, unknowns> reduced = normal_;
+    reduced.diagonal() *= 1.0 + damping;
+    Shared right = right_;
+    std::vector<Eigen::LDLT<Eigen::Matrix4d>> own;
+    for (const Equations &e : of_stretch_) {
+      Eigen::Matrix4d square = e.own;
+      square.diagonal() *= 1.0 + damping;
+      own.emplace_back(square);
+      reduced -= e.mixed.transpose() * own.back().solve(e.mixed);
+      right -= e.mixed.transpose() * own.back().solve(e.own_right);
+    }
+    const Shared sizes = reduced.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    const Shared change =
+        -sizes.cwiseProduct((sizes.asDiagonal() * reduced * sizes.asDiagonal()).ldlt().solve(sizes.cwiseProduct(right)));
+    if (!change.allFinite()) return false;
+    Model model = model_;
+    std::vector<Stretch> stretches = stretches_;
+    double expected = -change.dot(right_);
+    for (std::size_t n = 0; n < stretches.size(); ++n) {
+      const Eigen::Vector4d by = -own[n].solve(of_stretch_[n].own_right + of_stretch_[n].mixed * change);
+      stretches[n].start += by;
+      expected -= by.dot(of_stretch_[n].own_right);
+    }
+    model.k += change[of_k - starts];
+    model.c += change[of_c - starts];
+    model.k23 += change[of_k23 - starts];
+    model.c23 += change[of_c23 - starts];
+    model.phase += change[of_phase - starts];
+    model.omega += change[of_omega - starts];
+    for (std::size_t sensor = 0; sensor < sensors; ++sensor) {
+      model.offset[sensor] += change[shared + 2 * static_cast<Index>(sensor)];
+      model.drift[sensor] += change[shared + 2 * static_cast<Index>(sensor) + 1];
+    }
+    const bool possible = model.k > 0.2 * model_.k && model.k < 5.0 * model_.k;
+    const std::optional<double> found = possible ? cost(model, stretches) : std::nullopt;
+    if (!found || !(*found <= cost_)) {
+      damping *= 8.0;
+        if (damping > 1e8) return round > 0;
+      if (expected < 1e-3) return true;
+      continue;
+    }
+    const double gain = cost_ - *found;
+    model_ = model;
+    stretches_ = stretches;
+    damping = std::max(1e-12, damping * 0.1);
+    if (!equations()) return false;
+    const std::array<double, sensors> before = level_;
+    set_levels();
+    const bool settled = std::fabs(level_[0] / before[0] - 1.0) < 1e-3 && std::fabs(level_[1] / before[1] - 1.0) < 1e-3;
+    if (!equations()) return false;
+    if (settled && gain < 1e-3) return true;
+  }
+  return true;
+}
+
+// Joins three stretches to one each; false if there is but one.
+bool Fit::join() {
+  if (stretches_.size() < 2) return false;
+  constexpr std::size_t together = 3;
+  std::vector<Stretch> joined;
+  for (std::size_t i = 0; i < stretches_.size(); i += together) {
+    joined.push_back(stretches_[i]);
+    joined.back().end = stretches_[std::min(i + together, stretches_.size()) - 1].end;
+  }
+  stretches_ = joined;
+  return true;
+}
+
+std::optional<MatrixXd> Fit::covariance() {
+  if (!equations()) return std::nullopt;
+  MatrixXd reduced = normal_;
+  std::vector<Eigen::LDLT<Eigen::Matrix4d>> own;
+  for (const Equations &e : of_stretch_) {
+    own.emplace_back(e.own);
+    reduced -= e.mixed.transpose() * own.back().solve(e.mixed);
+  }
+  const VectorXd sizes = reduced.diagonal().cwiseSqrt().cwiseInverse();
+  if (!sizes.allFinite()) return std::nullopt;
+  const Eigen::LDLT<MatrixXd> solver(sizes.asDiagonal() * reduced * sizes.asDiagonal());
+  constexpr double least_pivot = 1e-11;
+  if (!(solver.vectorD().minCoeff() > least_pivot)) return std::nullopt;
+  const MatrixXd plain =
+      sizes.asDiagonal() * solver.solve(MatrixXd::Identity(unknowns, unknowns)) * sizes.asDiagonal();
+  // Residuals that are larger in some cycles, or correlated within them (sandwich estimator).
+  std::vector<Shared> scores;
+  for (std::size_t n = 0; n < stretches_.size(); ++n) {
+    const Eigen::Matrix<double, starts, unknowns> share = own[n].solve(of_stretch_[n].mixed);
+    std::size_t cycle = 0;
+    scores.emplace_back(Shared::Zero());
+    follow(model_, stretches_[n],
+           [&](std::size_t i, std::size_t sensor, double residual, const auto &row, double u) {
+             const auto now = static_cast<std::size_t>(static_cast<double>(i - stretches_[n].first) /
+                                                       signals_->per_cycle);
+             if (now != cycle) scores.emplace_back(Shared::Zero());
+             cycle = now;
+             Shared all = observed(row, sensor, u);
+             all -= share.transpose() * row.template head<starts>().transpose();
+             scores.back() += residual / (level_[sensor] * level_[sensor]) * all;
+           });
+  }
+  MatrixXd middle = MatrixXd::Zero(unknowns, unknowns);
+  for (const Shared &score : scores)
+    middle += score * score.transpose();
+  const MatrixXd of_cycles = plain * middle * plain;
+  const double chance = 4.0 * std::sqrt(2.0 / static_cast<double>(scores.size()));
+  MatrixXd result = plain;
+  for (const Index i : {of_k - starts, of_c - starts})
+    if (of_cycles(i, i) > (1.0 + chance) * plain(i, i)) result = of_cycles;
+  return result;
+}
+
+// Whether what is left is noise: not correlated from sample to sample, nor the same in each cycle.
+bool Fit::is_noise() const {
+  constexpr std::size_t lags = 3, bins = 24;
+  std::array<std::array<double, lags + 1>, sensors> products{};
+  std::array<std::array<double, bins>, sensors> sums{}, counts{};
+  double count = 0.0;
+  for (const Stretch &stretch : stretches_) {
+    std::array<std::array<double, lags>, sensors> before{};
+    follow(model_, stretch, [&](std::size_t i, std::size_t sensor, double residual, const auto &, double) {
+      products[sensor][0] += residual * residual;
+      for (std::size_t lag = 1; lag <= lags; ++lag)
+        products[sensor][lag] += residual * before[sensor][lag - 1];
+      std::rotate(before[sensor].begin(), before[sensor].end() - 1, before[sensor].end());
+      before[sensor][0] = residual;
+      double cycle = 0.0;
+      const double part = std::modf(model_.omega * signals_->time(i) / (2.0 * pi), &cycle);
+      const auto bin = std::min(bins - 1, static_cast<std::size_t>(std::fabs(part) * bins));
+      sums[sensor][bin] += residual;
+      counts[sensor][bin] += 1.0;
+      if (sensor == 0) count += 1.0;
+    });
+  }
+  for (std::size_t sensor = 0; sensor < sensors; ++sensor) {
+    if (!(products[sensor][0] > 0.0)) continue;
+    constexpr double most = 4.5; // standard deviations
+    for (std::size_t lag = 1; lag <= lags; ++lag)
+      if (std::fabs(products[sensor][lag]) > most / std::sqrt(count) * products[sensor][0]) return false;
+    double squares = 0.0;
+    for (std::size_t bin = 0; bin < bins; ++bin)
+      if (counts[sensor][bin] > 0.0) squares += sums[sensor][bin] * sums[sensor][bin] / counts[sensor][bin];
+    const auto freedom = static_cast<double>(bins);
+    if (squares * count > (freedom + most * std::sqrt(2.0 * freedom)) * products[sensor][0]) return false;
+  }
+  return true;
+}
+
+double Fit::tension() const {
+  double most = 0.0;
+  for (const Stretch &stretch : stretches_) {
+    follow(
+        model_, stretch, [](std::size_t, std::size_t, double, const auto &, double) {},
+        [&](const State &y) {
+          if (y[0] < 0.0) most = std::max(most, model_.k * y[0] + model_.c * y[1]);
+        });
+  }
+  return most;
+}
+
+// Stretches from contact to contact, with the drum's state that the fit of single contacts gives.
+std::vector<Stretch> first_stretches(const Signals &signals, const Identification &start) {
+  std::vector<Stretch> stretches;
+  constexpr double least_cycles_apart = 0.5;
+  for (const ContactPiece &piece : start.pieces) {
+    const std::size_t i = piece.run.first + piece.run.size() / 3;
+    if (!stretches.empty()) {
+      if (static_cast<double>(i - stretches.back().first) < least_cycles_apart * signals.per_cycle) continue;
+      stretches.back().end = i;
+    }
+    stretches.push_back({i, signals.size(), {start.x[i], start.v[i], 0.0, 0.0}});
+  }
+  return stretches;
+}
+
+// Bond and motion of the frame: m3 (a3 + g) is the force of a spring and a dashpot, whose length and speed are
+// integrals of measured accelerations and, of each stretch, two unknowns.
+bool start_frame(const Signals &signals, Model &model, std::vector<Stretch> &stretches) {
+  Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d right = Eigen::Vector2d::Zero();
+  const auto rows_of = [&](const Stretch &stretch, Eigen::MatrixX2d &bond, Eigen::MatrixX2d &own, VectorXd &force) {
+    std::vector<double> between(stretch.end - stretch.first);
+    const auto rows = static_cast<Index>(between.size());
+    bond.resize(rows, 2);
+    own.resize(rows, 2);
+    force.resize(rows);
+    for (std::size_t j = 0; j < between.size(); ++j)
+      between[j] = (*signals.a[0])[stretch.first + j] - (*signals.a[1])[stretch.first + j];
+    const Integrals way = integrals(between, {0, between.size()}, signals.dt);
+    for (Index j = 0; j < rows; ++j) {
+      const auto at = static_cast<std::size_t>(j);
+      bond.row(j) << way.twice[at], way.once[at];
+      own.row(j) << 1.0, signals.dt * static_cast<double>(j);
+      force[j] = model.m3 * ((*signals.a[1])[stretch.first + at] + model.g);
+    }
+  };
+  Eigen::MatrixX2d bond, own;
+  VectorXd force;
+  for (const Stretch &stretch : stretches) {
+    rows_of(stretch, bond, own, force);
+    const Eigen::LDLT<Eigen::Matrix2d> solver(own.transpose() * own);
+    const Eigen::MatrixX2d left = bond - own * solver.solve(own.transpose() * bond);
+    square += left.transpose() * left;
+    right += left.transpose() * force;
+  }
+  const Eigen::Vector2d law = square.ldlt().solve(right);
+  if (!law.allFinite() || !(law[0] > 0.0)) return false;
+  model.k23 = law[0];
+  model.c23 = law[1];
+  for (Stretch &stretch : stretches) {
+    rows_of(stretch, bond, own, force);
+    const Eigen::Vector2d found = (own.transpose() * own).ldlt().solve(own.transpose() * (force - bond * law));
+    const double speed = found[1] / model.k23; // of the drum over the frame
+    stretch.start[3] = stretch.start[1] - speed;
+    stretch.start[2] = stretch.start[0] - (found[0] - model.c23 * speed) / model.k23;
+  }
+  return true;
+}
+
+} // namespace
+
+std::optional<MotionFit> fit_motion(const Record &record, const Identification &start,
+                                    const MotionSetting &setting) {
+  if (!record.omega || !record.phase || !record.Fw || !record.m2 || !record.m3 || record.a_drum.empty() ||
+      record.a_frame.empty() || !(start.law.k.mean > 0.0))
+    return std::nullopt;
+  Signals signals;
+  signals.a = {&record.a_drum, &record.a_frame};
+  signals.dt = record.interval;
+  signals.start = record.time.front();
+  signals.middle = 0.5 * (record.time.front() + record.time.back());
+  signals.half_length = 0.5 * (record.time.back() - record.time.front());
+  signals.per_cycle = record.period() / record.interval;
+
+  constexpr double usual_gravity = 9.81;
+  Model model{};
+  model.m2 = *record.m2;
+  model.m3 = *record.m3;
+  model.g = record.g.value_or(usual_gravity);
+  model.Fw = *record.Fw;
+  model.omega = *record.omega;
+  model.phase = *record.phase;
+  model.k = start.law.k.mean;
+  model.c = std::max(start.law.c.mean, 1e-3 * std::sqrt(model.k * model.m2));
+  std::vector<Stretch> stretches = first_stretches(signals, start);
+  if (stretches.size() < 2 || !start_frame(signals, model, stretches)) return std::nullopt;
+  const double phase_weight = setting.phase_within ? 3.84 / std::pow(std::max(*setting.phase_within, 1e-7), 2) : 0.0;
+
+  std::optional<Fit> best;
+  std::optional<MatrixXd> covariance;
+  double best_cost = 0.0, other_cost = std::numeric_limits<double>::infinity();
+  for (const bool pulls : {false, true}) {
+    model.pulls = pulls;
+    Fit fit(signals, model, stretches, phase_weight, model.phase);
+    if (!fit.solve()) continue;
+    std::optional<MatrixXd> of_fit = fit.covariance();
+    while (of_fit) {
+      Fit longer = fit;
+      if (!longer.join() || !longer.solve()) break;
+      bool as_good = true;
+      const double worse = 1.0 + 4.0 / std::sqrt(2.0 * static_cast<double>(longer.samples()));
+      for (std::size_t sensor = 0; sensor < sensors; ++sensor)
+        as_good = as_good && longer.level(sensor) <= worse * fit.level(sensor);
+      const std::optional<MatrixXd> of_longer = longer.covariance();
+      if (!as_good || !of_longer) break;
+      fit = longer;
+      of_fit = of_longer;
+    }
+    if (!of_fit) continue;
+    double cost = 0.0;
+    for (std::size_t sensor = 0; sensor < sensors; ++sensor)
+      cost += 2.0 * static_cast<double>(fit.samples()) * std::log(fit.level(sensor));
+    if (best) other_cost = std::max(best_cost, cost);
+    if (best && cost >= best_cost) continue;
+    best.emplace(fit);
+    covariance = of_fit;
+    best_cost = cost;
+  }
+  if (!best) return std::nullopt;
+  MotionFit result;
+  const double freedom = 2.0 * static_cast<double>(best->samples()) -
+                         static_cast<double>(starts * static_cast<Index>(best->stretches().size()) + unknowns);
+  const double t = t_factor(std::max(1.0, freedom));
+  const auto interval = [&](double mean, Index column) {
+    return MeanInterval{mean, t * std::sqrt((*covariance)(column - starts, column - starts))};
+  };
+  const Model &found = best->model();
+  result.k = interval(found.k, of_k);
+  result.c = interval(found.c, of_c);
+  result.correlation = (*covariance)(of_k - starts, of_c - starts) * t * t / (result.k.half_width * result.c.half_width);
+  result.omega = interval(found.omega, of_omega);
+  result.phase = interval(found.phase, of_phase);
+  result.pulls = found.pulls;
+  constexpr double clear = 20.0;
+  result.pull_is_clear = other_cost - best_cost > clear;
+  result.bond_stiffness = found.k23;
+  result.bond_damping = found.c23;
+  result.tension = best->tension();
+  result.residual = best->level(0);
+  result.is_noise = best->is_noise();
+  const Stretch &longest = *std::max_element(
+      best->stretches().begin(), best->stretches().end(),
+      [](const Stretch &a, const Stretch &b) { return a.end - a.first < b.end - b.first; });
+  result.cycles = static_cast<double>(longest.end - longest.first) / signals.per_cycle;
+  return result;
+}
+
+} // namespace drumlin::post
