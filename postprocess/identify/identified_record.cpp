@@ -147,6 +147,13 @@ std::optional<std::string> contradiction(const IdentifiedRecord &record) {
 
 namespace {
 
+double rms(const std::vector<double> &values) {
+  double squares = 0.0;
+  for (const double value : values)
+    squares += value * value;
+  return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
 /// What the whole motion says, from the contacts or, if they are far off, from a softer or harder soil.
 std::optional<MotionFit> follow_motion(const Record &record, const Identification &contacts,
                                        const MotionSetting &setting) {
@@ -172,10 +179,12 @@ void find_phase(Record &record, const IdentificationSetting &law) {
     return;
   constexpr double cycles = 12.0;
   Record part = record;
-  const auto size = std::min(record.size(), static_cast<std::size_t>(cycles * record.period() / record.interval) + 1);
+  const auto size =
+      std::min(record.size(), static_cast<std::size_t>(cycles * record.period() / record.interval) + 1);
   for (std::vector<double> *values : {&part.time, &part.a_drum, &part.a_frame})
     values->resize(size);
-  for (std::vector<double> *values : {&part.x_drum, &part.v_drum, &part.x_frame, &part.v_frame, &part.F_contact})
+  for (std::vector<double> *values :
+       {&part.x_drum, &part.v_drum, &part.x_frame, &part.v_frame, &part.F_contact})
     values->clear();
   std::optional<MotionFit> best;
   constexpr int trials = 24;
@@ -199,11 +208,16 @@ void find_phase(Record &record, const IdentificationSetting &law) {
   compute_excitation(record);
 }
 
-/// Takes over what the whole motion says.
+/// Takes over what the whole motion says. If more than noise is left of the record, the interval contains
+/// what single contacts say, too.
 void take_motion(const MotionFit &motion, const Record &record, IdentifiedRecord &result) {
   LawEstimate &law = result.whole.law;
-  law.k = motion.k;
-  law.c = motion.c;
+  const auto taken = [&motion](const MeanInterval &of_motion, const MeanInterval &of_contacts) {
+    const double off = motion.is_noise ? 0.0 : of_contacts.mean - of_motion.mean;
+    return MeanInterval{of_motion.mean, std::hypot(of_motion.half_width, off)};
+  };
+  law.k = taken(motion.k, law.k);
+  law.c = taken(motion.c, law.c);
   const double to_D = 1.0 / (2.0 * std::sqrt(*record.m2 * law.k.mean));
   const double of_k = 0.5 * law.c.mean / law.k.mean * law.k.half_width;
   law.D = {law.c.mean * to_D,
@@ -258,8 +272,9 @@ IdentifiedRecord identify_record(const Record &given, const RecordSetting &setti
     if (record.phase_half_width == 0.0) of_phase.phase_within = phase_within;
     if (progress) progress("the motion from contact to contact");
     if (const std::optional<MotionFit> motion = follow_motion(record, result.whole, of_phase)) {
-      if (std::getenv("MF")) fmt::print(stderr, "motion k {:.5g} +- {:.3g} c {:.5g} noise {} residual {:.4g}, {} cycles\n", motion->k.mean, motion->k.half_width, motion->c.mean, motion->is_noise, motion->residual, motion->cycles);
-      if (motion->is_noise) take_motion(*motion, record, result);
+      constexpr double close = 0.05; // of the drum's acceleration
+      result.left = motion->residual / rms(record.a_drum);
+      if (motion->is_noise || *result.left < close) take_motion(*motion, record, result);
     }
   }
   return result;

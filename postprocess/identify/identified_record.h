@@ -52,7 +52,10 @@ struct IdentifiedRecord {
   double per_cycle = 0.0;   ///< samples per cycle
   Identification whole;
   std::vector<LawWindow> windows;
-  std::optional<MotionFit> motion; ///< whose k and c `whole` has, if the equations of motion follow the record
+  /// Whose k and c `whole` has, if the equations of motion follow the record.
+  std::optional<MotionFit> motion;
+  /// Share of the drum's acceleration that these equations leave (RMS); not given if they were not tried.
+  std::optional<double> left;
 };
 
 /// The signals of a record, from its accelerations, masses and excitation; the record's column F_contact is

@@ -42,11 +42,10 @@ struct Model {
   // What has to be positive in contact, for the position of the drum alone and for the force [m].
   double overlap(const State &y) const { return -y[0]; }
   double pressed(const State &y) const { return -y[0] - c / k * y[1]; }
-  double indicator(const State &y) const {
-    return pulls ? overlap(y) : std::min(overlap(y), pressed(y));
-  }
+  double indicator(const State &y) const { return pulls ? overlap(y) : std::min(overlap(y), pressed(y)); }
 
-  template <class Matrix> Matrix rate(const Matrix &y, bool contact) const {
+  template <class Matrix>
+  Matrix rate(const Matrix &y, bool contact) const {
     Matrix d;
     const auto bond = (k23 * (y.row(0) - y.row(2)) + c23 * (y.row(1) - y.row(3))).eval();
     d.row(0) = y.row(1);
@@ -102,6 +101,7 @@ void advance(const Model &model, bool contact, double h, State &y, Slopes *s) {
 // A step of fixed length, computed once: the exponential and its derivatives by the parameters.
 class Step {
 public:
+  Step() = default;
   Step(const Model &model, bool contact, double h) {
     for (Index i = 0; i < size; ++i) {
       State column = State::Unit(i);
@@ -114,7 +114,11 @@ public:
   }
   State moved(const State &y) const { return all_ * y; }
   void move(const State &before, Slopes &s) const {
-    s = (all_ * s).eval();
+    // The exciter's angle depends on phase and frequency alone.
+    s.topRows<of_sine>() = (all_.topLeftCorner<of_sine, of_sine>() * s.topRows<of_sine>()).eval();
+    s.block<of_sine, 2>(0, of_phase) += all_.block<of_sine, 2>(0, of_sine) * s.block<2, 2>(of_sine, of_phase);
+    s.block<2, 2>(of_sine, of_phase) =
+        (all_.block<2, 2>(of_sine, of_sine) * s.block<2, 2>(of_sine, of_phase)).eval();
     for (Index p = 0; p < of_parameters; ++p)
       s.col(parameter(p)) += by_[static_cast<std::size_t>(p)] * before;
   }
@@ -126,16 +130,30 @@ private:
   std::array<Square, of_parameters> by_;
 };
 
-// The time until contact begins or ends, which it does within h.
+// The time until contact begins or ends, which it does within h, by the secant in a shrinking bracket.
 double event_within(const Model &model, bool contact, double h, const State &y) {
   double before = 0.0, after = h;
-  constexpr int most_halvings = 60;
-  constexpr double short_enough = 1e-15;
-  for (int n = 0; n < most_halvings && after - before > short_enough; ++n) {
-    const double middle = 0.5 * (before + after);
+  const auto at = [&](double time) {
     State there = y;
-    advance(model, contact, middle, there, nullptr);
-    ((model.indicator(there) > 0.0) != contact ? after : before) = middle;
+    advance(model, contact, time, there, nullptr);
+    return model.indicator(there) * (contact ? 1.0 : -1.0); // negative behind the event
+  };
+  double of_before = std::max(0.0, at(before)), of_after = at(after);
+  constexpr int most_rounds = 60;
+  constexpr double short_enough = 1e-14;
+  for (int n = 0; n < most_rounds && after - before > short_enough; ++n) {
+    double trial = before + (after - before) * of_before / (of_before - of_after);
+    if (n % 3 == 2 || !(trial > before && trial < after)) trial = 0.5 * (before + after);
+    const double value = at(trial);
+    if (value < 0.0) {
+      after = trial;
+      of_after = value;
+    } else {
+      before = trial;
+      of_before = value;
+    }
+    constexpr double at_event = 1e-15; // m
+    if (std::fabs(value) < at_event) return value < 0.0 ? trial : std::min(after, trial + short_enough);
   }
   return after;
 }
@@ -161,6 +179,16 @@ struct Stretch {
   Eigen::Vector4d start;
 };
 
+// So many stretches to one each.
+std::vector<Stretch> joined(const std::vector<Stretch> &stretches, std::size_t together) {
+  std::vector<Stretch> result;
+  for (std::size_t i = 0; i < stretches.size(); i += together) {
+    result.push_back(stretches[i]);
+    result.back().end = stretches[std::min(i + together, stretches.size()) - 1].end;
+  }
+  return result;
+}
+
 // Normal equations of a stretch: of its start, and what it adds to those of the shared unknowns.
 struct Equations {
   Eigen::Matrix4d own = Eigen::Matrix4d::Zero();
@@ -177,7 +205,8 @@ struct Signals {
 };
 
 // Derivatives of an observation by the shared unknowns.
-template <class Row> Shared observed(const Row &row, std::size_t sensor, double u) {
+template <class Row>
+Shared observed(const Row &row, std::size_t sensor, double u) {
   Shared all = Shared::Zero();
   all.head<shared>() = row.template tail<shared>().transpose();
   const auto at = static_cast<Index>(shared + 2 * sensor);
@@ -194,7 +223,7 @@ public:
         phase_said_(phase_said) {}
 
   bool solve();
-  bool join();
+  void join(std::size_t together) { stretches_ = joined(stretches_, together); }
   const Model &model() const { return model_; }
   const std::vector<Stretch> &stretches() const { return stretches_; }
   double level(std::size_t sensor) const { return level_[sensor]; }
@@ -208,15 +237,30 @@ public:
 
 private:
   // Calls `use` for each sample with its residuals and derivatives; false if the motion cannot be followed.
+  // A model with its steps between samples.
+  struct Motion {
+    Motion(const Signals &signals, const Model &of) : model(of) {
+      const double fine = std::max(64.0 * of.omega / (2.0 * pi), 1.5 * std::sqrt(of.k / of.m2));
+      steps = static_cast<int>(std::ceil(signals.dt * fine));
+      h = signals.dt / steps;
+      step = {Step(model, false, h), Step(model, true, h)};
+    }
+    Model model;
+    int steps;
+    double h;
+    std::array<Step, 2> step;
+  };
   struct Nothing {
     void operator()(const State & /*state*/) const {}
   };
   template <class Use, class See = Nothing>
-  bool follow(const Model &model, const Stretch &stretch, const Use &use, const See &see = {}) const;
+  bool follow(const Motion &motion, const Stretch &stretch, bool slopes_too, const Use &use,
+              const See &see = {}) const;
   bool equations();
   // The sum of weighted squares of a trial; nothing if it cannot be followed.
   std::optional<double> cost(const Model &model, const std::vector<Stretch> &stretches);
-  void set_levels();
+  // Weights from what is left, and the equations with them.
+  bool settle_levels(bool *settled = nullptr);
 
   const Signals *signals_;
   Model model_;
@@ -231,11 +275,11 @@ private:
 };
 
 template <class Use, class See>
-bool Fit::follow(const Model &model, const Stretch &stretch, const Use &use, const See &see) const {
-  const double fine = std::max(64.0 * model.omega / (2.0 * pi), 1.5 * std::sqrt(model.k / model.m2));
-  const auto steps = static_cast<int>(std::ceil(signals_->dt * fine));
-  const double h = signals_->dt / steps;
-  const std::array<Step, 2> step = {Step(model, false, h), Step(model, true, h)};
+bool Fit::follow(const Motion &motion, const Stretch &stretch, bool slopes_too, const Use &use,
+                 const See &see) const {
+  const Model &model = motion.model;
+  const std::array<Step, 2> &step = motion.step;
+  const double h = motion.h;
   State y;
   const double angle = model.phase + model.omega * signals_->time(stretch.first);
   y << stretch.start, std::sin(angle), std::cos(angle), 1.0;
@@ -248,31 +292,32 @@ bool Fit::follow(const Model &model, const Stretch &stretch, const Use &use, con
   bool contact = model.indicator(y) > 0.0;
   std::size_t events = 0;
   bool changed = false; // between the sample before and this one
-  const auto u_of = [this](std::size_t i) { return (signals_->time(i) - signals_->middle) / signals_->half_length; };
-  const auto most_events =
-      static_cast<std::size_t>(20.0 * static_cast<double>(stretch.end - stretch.first) / signals_->per_cycle + 20.0);
+  const auto u_of = [this](std::size_t i) {
+    return (signals_->time(i) - signals_->middle) / signals_->half_length;
+  };
+  const auto most_events = static_cast<std::size_t>(
+      20.0 * static_cast<double>(stretch.end - stretch.first) / signals_->per_cycle + 20.0);
   for (std::size_t i = stretch.first; i < stretch.end; ++i) {
     const State here = y;
     see(here);
     const Slopes slopes = s;
     const bool touches = contact;
     const std::size_t events_before = events;
-    for (int j = 0; j < steps; ++j) {
+    for (int j = 0; j < motion.steps; ++j) {
       double left = h;
       State next = step[contact ? 1 : 0].moved(y);
       while ((model.indicator(next) > 0.0) != contact) {
         if (++events > most_events) return false;
         const double after = event_within(model, contact, left, y);
-        advance(model, contact, after, y, &s);
-        pass_event(model, contact, y, s);
+        advance(model, contact, after, y, slopes_too ? &s : nullptr);
+        if (slopes_too) pass_event(model, contact, y, s);
         contact = !contact;
         left -= after;
         next = y;
         advance(model, contact, left, next, nullptr);
       }
-      if (left == h)
-        step[contact ? 1 : 0].move(y, s);
-      else {
+      if (slopes_too && left == h) step[contact ? 1 : 0].move(y, s);
+      if (slopes_too && left < h) {
         next = y;
         advance(model, contact, left, next, &s);
       }
@@ -290,8 +335,11 @@ bool Fit::follow(const Model &model, const Stretch &stretch, const Use &use, con
     const bool other = next_to_event && std::fabs(at(!touches)) < std::fabs(at(touches));
     const bool side = other ? !touches : touches;
     const State rate = model.rate(here, side);
-    Slopes change = model.rate(slopes, side);
-    model.add_sources(here, side, 1.0, change);
+    Slopes change;
+    if (slopes_too) {
+      change = model.rate(slopes, side);
+      model.add_sources(here, side, 1.0, change);
+    }
     for (std::size_t sensor = 0; sensor < sensors; ++sensor) {
       if (signals_->a[sensor]->empty()) continue;
       const auto row = static_cast<Index>(1 + 2 * sensor);
@@ -309,22 +357,28 @@ bool Fit::equations() {
   right_.setZero();
   squares_.fill(0.0);
   samples_ = 0;
+  const Motion motion(*signals_, model_);
+  constexpr Index all_unknowns = starts + unknowns;
   for (std::size_t n = 0; n < stretches_.size(); ++n) {
-    Equations &e = of_stretch_[n];
     samples_ += stretches_[n].end - stretches_[n].first;
+    Eigen::Matrix<double, all_unknowns, all_unknowns> square;
+    Eigen::Matrix<double, all_unknowns, 1> right, line;
+    square.setZero();
+    right.setZero();
     const bool followed =
-        follow(model_, stretches_[n], [&](std::size_t, std::size_t sensor, double residual, const auto &row, double u) {
-          const double weight = 1.0 / (level_[sensor] * level_[sensor]);
-          const Eigen::Vector4d own = row.template head<starts>().transpose();
-          const Shared all = observed(row, sensor, u);
-          e.own += weight * own * own.transpose();
-          e.mixed += weight * own * all.transpose();
-          e.own_right += weight * residual * own;
-          normal_ += weight * all * all.transpose();
-          right_ += weight * residual * all;
-          squares_[sensor] += residual * residual;
-        });
+        follow(motion, stretches_[n], true,
+               [&](std::size_t, std::size_t sensor, double residual, const auto &row, double u) {
+                 const double weight = 1.0 / (level_[sensor] * level_[sensor]);
+                 line << row.template head<starts>().transpose(), observed(row, sensor, u);
+                 square.noalias() += (weight * line) * line.transpose();
+                 right += weight * residual * line;
+                 squares_[sensor] += residual * residual;
+               });
     if (!followed) return false;
+    of_stretch_[n] = {square.topLeftCorner<starts, starts>(), square.topRightCorner<starts, unknowns>(),
+                      right.head<starts>()};
+    normal_ += square.bottomRightCorner<unknowns, unknowns>();
+    right_ += right.tail<unknowns>();
   }
   const Index phase = of_phase - starts;
   normal_(phase, phase) += phase_weight_;
@@ -332,7 +386,8 @@ bool Fit::equations() {
   for (std::size_t sensor = 0; sensor < sensors; ++sensor)
     if (signals_->a[sensor]->empty())
       for (Index i = 0; i < 2; ++i)
-        normal_(shared + 2 * static_cast<Index>(sensor) + i, shared + 2 * static_cast<Index>(sensor) + i) += 1.0;
+        normal_(shared + 2 * static_cast<Index>(sensor) + i, shared + 2 * static_cast<Index>(sensor) + i) +=
+            1.0;
   cost_ = phase_weight_ * std::pow(model_.phase - phase_said_, 2);
   for (std::size_t sensor = 0; sensor < sensors; ++sensor)
     cost_ += squares_[sensor] / (level_[sensor] * level_[sensor]);
@@ -341,26 +396,37 @@ bool Fit::equations() {
 
 std::optional<double> Fit::cost(const Model &model, const std::vector<Stretch> &stretches) {
   double sum = phase_weight_ * std::pow(model.phase - phase_said_, 2);
+  const Motion motion(*signals_, model);
   for (const Stretch &stretch : stretches)
-    if (!follow(model, stretch, [&](std::size_t, std::size_t sensor, double residual, const auto &, double) {
-          sum += std::pow(residual / level_[sensor], 2);
-        }))
+    if (!follow(motion, stretch, false,
+                [&](std::size_t, std::size_t sensor, double residual, const auto &, double) {
+                  sum += std::pow(residual / level_[sensor], 2);
+                }))
       return std::nullopt;
   return sum;
 }
 
-void Fit::set_levels() {
+bool Fit::settle_levels(bool *settled) {
+  const std::array<double, sensors> before = level_;
   for (std::size_t sensor = 0; sensor < sensors; ++sensor) {
-    const double freedom = static_cast<double>(samples_) - 0.5 * static_cast<double>(starts * static_cast<Index>(stretches_.size()) + unknowns);
-    level_[sensor] = std::max(1e-9, std::sqrt(squares_[sensor] / std::max(1.0, freedom)));
+    const double freedom =
+        static_cast<double>(samples_) -
+        0.5 * static_cast<double>(starts * static_cast<Index>(stretches_.size()) + unknowns);
+    constexpr double least = 1e-9; // m/s2
+    level_[sensor] = std::max(least, std::sqrt(squares_[sensor] / std::max(1.0, freedom)));
   }
+  constexpr double same = 1e-3;
+  const bool alike =
+      std::fabs(level_[0] / before[0] - 1.0) < same && std::fabs(level_[1] / before[1] - 1.0) < same;
+  if (settled != nullptr) *settled = alike;
+  if (!alike) return equations();
+  level_ = before;
+  return true;
 }
 
 bool Fit::solve() {
-  if (!equations()) return false;
-  set_levels();
-  if (!equations()) return false;
-  constexpr int most_rounds = 40;
+  if (!equations() || !settle_levels()) return false;
+  constexpr int most_rounds = 30;
   constexpr double first_damping = 1e-3;
   double damping = first_damping;
   for (int round = 0; round < most_rounds; ++round) {
@@ -377,8 +443,8 @@ bool Fit::solve() {
       right -= e.mixed.transpose() * own.back().solve(e.own_right);
     }
     const Shared sizes = reduced.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-    const Shared change =
-        -sizes.cwiseProduct((sizes.asDiagonal() * reduced * sizes.asDiagonal()).ldlt().solve(sizes.cwiseProduct(right)));
+    const Shared change = -sizes.cwiseProduct(
+        (sizes.asDiagonal() * reduced * sizes.asDiagonal()).ldlt().solve(sizes.cwiseProduct(right)));
     if (!change.allFinite()) return false;
     Model model = model_;
     std::vector<Stretch> stretches = stretches_;
@@ -402,7 +468,7 @@ bool Fit::solve() {
     const std::optional<double> found = possible ? cost(model, stretches) : std::nullopt;
     if (!found || !(*found <= cost_)) {
       damping *= 8.0;
-        if (damping > 1e8) return round > 0;
+      if (damping > 1e5) return true;
       if (expected < 1e-3) return true;
       continue;
     }
@@ -411,25 +477,10 @@ bool Fit::solve() {
     stretches_ = stretches;
     damping = std::max(1e-12, damping * 0.1);
     if (!equations()) return false;
-    const std::array<double, sensors> before = level_;
-    set_levels();
-    const bool settled = std::fabs(level_[0] / before[0] - 1.0) < 1e-3 && std::fabs(level_[1] / before[1] - 1.0) < 1e-3;
-    if (!equations()) return false;
+    bool settled = false;
+    if (!settle_levels(&settled)) return false;
     if (settled && gain < 1e-3) return true;
   }
-  return true;
-}
-
-// Joins three stretches to one each; false if there is but one.
-bool Fit::join() {
-  if (stretches_.size() < 2) return false;
-  constexpr std::size_t together = 3;
-  std::vector<Stretch> joined;
-  for (std::size_t i = 0; i < stretches_.size(); i += together) {
-    joined.push_back(stretches_[i]);
-    joined.back().end = stretches_[std::min(i + together, stretches_.size()) - 1].end;
-  }
-  stretches_ = joined;
   return true;
 }
 
@@ -450,14 +501,15 @@ std::optional<MatrixXd> Fit::covariance() {
       sizes.asDiagonal() * solver.solve(MatrixXd::Identity(unknowns, unknowns)) * sizes.asDiagonal();
   // Residuals that are larger in some cycles, or correlated within them (sandwich estimator).
   std::vector<Shared> scores;
+  const Motion motion(*signals_, model_);
   for (std::size_t n = 0; n < stretches_.size(); ++n) {
     const Eigen::Matrix<double, starts, unknowns> share = own[n].solve(of_stretch_[n].mixed);
     std::size_t cycle = 0;
     scores.emplace_back(Shared::Zero());
-    follow(model_, stretches_[n],
+    follow(motion, stretches_[n], true,
            [&](std::size_t i, std::size_t sensor, double residual, const auto &row, double u) {
-             const auto now = static_cast<std::size_t>(static_cast<double>(i - stretches_[n].first) /
-                                                       signals_->per_cycle);
+             const auto now =
+                 static_cast<std::size_t>(static_cast<double>(i - stretches_[n].first) / signals_->per_cycle);
              if (now != cycle) scores.emplace_back(Shared::Zero());
              cycle = now;
              Shared all = observed(row, sensor, u);
@@ -482,25 +534,31 @@ bool Fit::is_noise() const {
   std::array<std::array<double, lags + 1>, sensors> products{};
   std::array<std::array<double, bins>, sensors> sums{}, counts{};
   double count = 0.0;
+  std::array<double, sensors> largest{};
+  const Motion motion(*signals_, model_);
   for (const Stretch &stretch : stretches_) {
     std::array<std::array<double, lags>, sensors> before{};
-    follow(model_, stretch, [&](std::size_t i, std::size_t sensor, double residual, const auto &, double) {
-      products[sensor][0] += residual * residual;
-      for (std::size_t lag = 1; lag <= lags; ++lag)
-        products[sensor][lag] += residual * before[sensor][lag - 1];
-      std::rotate(before[sensor].begin(), before[sensor].end() - 1, before[sensor].end());
-      before[sensor][0] = residual;
-      double cycle = 0.0;
-      const double part = std::modf(model_.omega * signals_->time(i) / (2.0 * pi), &cycle);
-      const auto bin = std::min(bins - 1, static_cast<std::size_t>(std::fabs(part) * bins));
-      sums[sensor][bin] += residual;
-      counts[sensor][bin] += 1.0;
-      if (sensor == 0) count += 1.0;
-    });
+    follow(motion, stretch, false,
+           [&](std::size_t i, std::size_t sensor, double residual, const auto &, double) {
+             products[sensor][0] += residual * residual;
+             largest[sensor] = std::max(largest[sensor], std::fabs(residual));
+             for (std::size_t lag = 1; lag <= lags; ++lag)
+               products[sensor][lag] += residual * before[sensor][lag - 1];
+             std::rotate(before[sensor].begin(), before[sensor].end() - 1, before[sensor].end());
+             before[sensor][0] = residual;
+             double cycle = 0.0;
+             const double part = std::modf(model_.omega * signals_->time(i) / (2.0 * pi), &cycle);
+             const auto bin = std::min(bins - 1, static_cast<std::size_t>(std::fabs(part) * bins));
+             sums[sensor][bin] += residual;
+             counts[sensor][bin] += 1.0;
+             if (sensor == 0) count += 1.0;
+           });
   }
   for (std::size_t sensor = 0; sensor < sensors; ++sensor) {
     if (!(products[sensor][0] > 0.0)) continue;
     constexpr double most = 4.5; // standard deviations
+    constexpr double outlier = 6.5;
+    if (largest[sensor] > outlier * std::sqrt(products[sensor][0] / count)) return false;
     for (std::size_t lag = 1; lag <= lags; ++lag)
       if (std::fabs(products[sensor][lag]) > most / std::sqrt(count) * products[sensor][0]) return false;
     double squares = 0.0;
@@ -514,9 +572,10 @@ bool Fit::is_noise() const {
 
 double Fit::tension() const {
   double most = 0.0;
+  const Motion motion(*signals_, model_);
   for (const Stretch &stretch : stretches_) {
     follow(
-        model_, stretch, [](std::size_t, std::size_t, double, const auto &, double) {},
+        motion, stretch, false, [](std::size_t, std::size_t, double, const auto &, double) {},
         [&](const State &y) {
           if (y[0] < 0.0) most = std::max(most, model_.k * y[0] + model_.c * y[1]);
         });
@@ -539,12 +598,13 @@ std::vector<Stretch> first_stretches(const Signals &signals, const Identificatio
   return stretches;
 }
 
-// Bond and motion of the frame: m3 (a3 + g) is the force of a spring and a dashpot, whose length and speed are
-// integrals of measured accelerations and, of each stretch, two unknowns.
+// Bond and motion of the frame: m3 (a3 + g) is the force of a spring and a dashpot, whose length and speed
+// are integrals of measured accelerations and, of each stretch, two unknowns.
 bool start_frame(const Signals &signals, Model &model, std::vector<Stretch> &stretches) {
   Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
-  const auto rows_of = [&](const Stretch &stretch, Eigen::MatrixX2d &bond, Eigen::MatrixX2d &own, VectorXd &force) {
+  const auto rows_of = [&](const Stretch &stretch, Eigen::MatrixX2d &bond, Eigen::MatrixX2d &own,
+                           VectorXd &force) {
     std::vector<double> between(stretch.end - stretch.first);
     const auto rows = static_cast<Index>(between.size());
     bond.resize(rows, 2);
@@ -575,12 +635,60 @@ bool start_frame(const Signals &signals, Model &model, std::vector<Stretch> &str
   model.c23 = law[1];
   for (Stretch &stretch : stretches) {
     rows_of(stretch, bond, own, force);
-    const Eigen::Vector2d found = (own.transpose() * own).ldlt().solve(own.transpose() * (force - bond * law));
+    const Eigen::Vector2d found =
+        (own.transpose() * own).ldlt().solve(own.transpose() * (force - bond * law));
     const double speed = found[1] / model.k23; // of the drum over the frame
     stretch.start[3] = stretch.start[1] - speed;
     stretch.start[2] = stretch.start[0] - (found[0] - model.c23 * speed) / model.k23;
   }
   return true;
+}
+
+} // namespace
+
+namespace {
+
+// A fit with the covariance of its shared unknowns.
+struct Solved {
+  Fit fit;
+  MatrixXd covariance;
+
+  double cost() const {
+    double sum = 0.0;
+    for (std::size_t sensor = 0; sensor < sensors; ++sensor)
+      sum += 2.0 * static_cast<double>(fit.samples()) * std::log(fit.level(sensor));
+    return sum;
+  }
+};
+
+std::optional<Solved> solved(Fit fit) {
+  if (!fit.solve()) return std::nullopt;
+  const std::optional<MatrixXd> covariance = fit.covariance();
+  return covariance ? std::optional(Solved{std::move(fit), *covariance}) : std::nullopt;
+}
+
+// Joins stretches for as long as one motion follows them as well as several did.
+void join_stretches(Solved &best, std::size_t together) {
+  while (best.fit.stretches().size() > 1) {
+    Fit trial = best.fit;
+    trial.join(together);
+    std::optional<Solved> longer = solved(std::move(trial));
+    if (!longer) return;
+    const double worse = 1.0 + 4.0 / std::sqrt(2.0 * static_cast<double>(longer->fit.samples()));
+    for (std::size_t sensor = 0; sensor < sensors; ++sensor)
+      if (longer->fit.level(sensor) > worse * best.fit.level(sensor)) return;
+    best = std::move(*longer);
+  }
+}
+
+// Whether a fit follows the record better than another of the other condition.
+bool is_better(const Solved &one, const Solved &other) {
+  const std::size_t stretches = one.fit.stretches().size(), of_other = other.fit.stretches().size();
+  // The condition that joins more contacts is the better one: short stretches follow jitter, too.
+  constexpr double alike = 1.25;
+  if (stretches < of_other && one.fit.level(0) < alike * other.fit.level(0)) return true;
+  if (stretches > of_other && other.fit.level(0) < alike * one.fit.level(0)) return false;
+  return one.cost() < other.cost();
 }
 
 } // namespace
@@ -610,63 +718,58 @@ std::optional<MotionFit> fit_motion(const Record &record, const Identification &
   model.c = std::max(start.law.c.mean, 1e-3 * std::sqrt(model.k * model.m2));
   std::vector<Stretch> stretches = first_stretches(signals, start);
   if (stretches.size() < 2 || !start_frame(signals, model, stretches)) return std::nullopt;
-  const double phase_weight = setting.phase_within ? 3.84 / std::pow(std::max(*setting.phase_within, 1e-7), 2) : 0.0;
+  const double phase_weight =
+      setting.phase_within ? 3.84 / std::pow(std::max(*setting.phase_within, 1e-7), 2) : 0.0;
 
-  std::optional<Fit> best;
-  std::optional<MatrixXd> covariance;
-  double best_cost = 0.0, other_cost = std::numeric_limits<double>::infinity();
+  // The condition is found with the first contacts of a long record.
+  constexpr std::size_t pilot_contacts = 80, few = 3, many = 8;
+  const std::vector<Stretch> first(
+      stretches.begin(),
+      stretches.begin() + static_cast<std::ptrdiff_t>(std::min(pilot_contacts, stretches.size())));
+  std::optional<Solved> best;
+  double difference = std::numeric_limits<double>::infinity();
   for (const bool pulls : {false, true}) {
     model.pulls = pulls;
-    Fit fit(signals, model, stretches, phase_weight, model.phase);
-    if (!fit.solve()) continue;
-    std::optional<MatrixXd> of_fit = fit.covariance();
-    while (of_fit) {
-      Fit longer = fit;
-      if (!longer.join() || !longer.solve()) break;
-      bool as_good = true;
-      const double worse = 1.0 + 4.0 / std::sqrt(2.0 * static_cast<double>(longer.samples()));
-      for (std::size_t sensor = 0; sensor < sensors; ++sensor)
-        as_good = as_good && longer.level(sensor) <= worse * fit.level(sensor);
-      const std::optional<MatrixXd> of_longer = longer.covariance();
-      if (!as_good || !of_longer) break;
-      fit = longer;
-      of_fit = of_longer;
-    }
-    if (!of_fit) continue;
-    double cost = 0.0;
-    for (std::size_t sensor = 0; sensor < sensors; ++sensor)
-      cost += 2.0 * static_cast<double>(fit.samples()) * std::log(fit.level(sensor));
-    if (best) other_cost = std::max(best_cost, cost);
-    if (best && cost >= best_cost) continue;
-    best.emplace(fit);
-    covariance = of_fit;
-    best_cost = cost;
+    std::optional<Solved> one = solved(Fit(signals, model, first, phase_weight, model.phase));
+    if (!one) continue;
+    join_stretches(*one, few);
+    if (best) difference = std::fabs(one->cost() - best->cost());
+    if (!best || is_better(*one, *best)) best = std::move(one);
   }
   if (!best) return std::nullopt;
+  if (first.size() < stretches.size()) {
+    const std::size_t together = std::max<std::size_t>(1, (first.size() + best->fit.stretches().size() - 1) /
+                                                              best->fit.stretches().size());
+    best = solved(Fit(signals, best->fit.model(), joined(stretches, together), phase_weight, model.phase));
+    if (!best) return std::nullopt;
+    join_stretches(*best, many);
+  }
   MotionFit result;
-  const double freedom = 2.0 * static_cast<double>(best->samples()) -
-                         static_cast<double>(starts * static_cast<Index>(best->stretches().size()) + unknowns);
+  const double freedom =
+      2.0 * static_cast<double>(best->fit.samples()) -
+      static_cast<double>(starts * static_cast<Index>(best->fit.stretches().size()) + unknowns);
   const double t = t_factor(std::max(1.0, freedom));
   const auto interval = [&](double mean, Index column) {
-    return MeanInterval{mean, t * std::sqrt((*covariance)(column - starts, column - starts))};
+    return MeanInterval{mean, t * std::sqrt(best->covariance(column - starts, column - starts))};
   };
-  const Model &found = best->model();
+  const Model &found = best->fit.model();
   result.k = interval(found.k, of_k);
   result.c = interval(found.c, of_c);
-  result.correlation = (*covariance)(of_k - starts, of_c - starts) * t * t / (result.k.half_width * result.c.half_width);
+  result.correlation =
+      best->covariance(of_k - starts, of_c - starts) * t * t / (result.k.half_width * result.c.half_width);
   result.omega = interval(found.omega, of_omega);
   result.phase = interval(found.phase, of_phase);
   result.pulls = found.pulls;
   constexpr double clear = 20.0;
-  result.pull_is_clear = other_cost - best_cost > clear;
+  result.pull_is_clear = difference > clear;
   result.bond_stiffness = found.k23;
   result.bond_damping = found.c23;
-  result.tension = best->tension();
-  result.residual = best->level(0);
-  result.is_noise = best->is_noise();
-  const Stretch &longest = *std::max_element(
-      best->stretches().begin(), best->stretches().end(),
-      [](const Stretch &a, const Stretch &b) { return a.end - a.first < b.end - b.first; });
+  result.tension = best->fit.tension();
+  result.residual = best->fit.level(0);
+  result.is_noise = best->fit.is_noise();
+  const Stretch &longest =
+      *std::max_element(best->fit.stretches().begin(), best->fit.stretches().end(),
+                        [](const Stretch &a, const Stretch &b) { return a.end - a.first < b.end - b.first; });
   result.cycles = static_cast<double>(longest.end - longest.first) / signals.per_cycle;
   return result;
 }

@@ -18,20 +18,20 @@ namespace drumlin::post {
 
 /// What the whole motion tells. Intervals: 95 %.
 struct MotionFit {
-  MeanInterval k{};           ///< [N/m]
-  MeanInterval c{};           ///< [N s/m]
-  double correlation = 0.0;   ///< of the errors of k and c [-]
-  MeanInterval omega{};       ///< [rad/s]
-  MeanInterval phase{};       ///< of the exciter at time 0 [rad]
-  bool pulls = false;         ///< condition A fits better
-  double tension = 0.0;       ///< the largest one, or that of condition A [N]
-  bool pull_is_clear = false; ///< the other condition fits worse by more than noise explains
+  MeanInterval k{};            ///< [N/m]
+  MeanInterval c{};            ///< [N s/m]
+  double correlation = 0.0;    ///< of the errors of k and c [-]
+  MeanInterval omega{};        ///< [rad/s]
+  MeanInterval phase{};        ///< of the exciter at time 0 [rad]
+  bool pulls = false;          ///< condition A fits better
+  double tension = 0.0;        ///< the largest one, or that of condition A [N]
+  bool pull_is_clear = false;  ///< the other condition fits worse by more than noise explains
   double bond_stiffness = 0.0; ///< between drum and frame [N/m]
   double bond_damping = 0.0;   ///< [N s/m]
   double residual = 0.0;       ///< RMS of the drum's acceleration [m/s2]
   /// What is left is noise; if not, the soil, the frame or the machine is another than in the equations.
   bool is_noise = false;
-  double cycles = 0.0;         ///< of the longest stretch that one motion follows
+  double cycles = 0.0; ///< of the longest stretch that one motion follows
 };
 
 /// What is known besides the record.

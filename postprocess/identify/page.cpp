@@ -49,6 +49,13 @@ bool phase_decides(const IdentifiedRecord &record) {
 }
 
 std::string source_sentence(const IdentifiedRecord &record) {
+  if (record.motion)
+    return fmt::format(
+        "From the whole motion of drum and frame: one motion follows {:.4g} cycles and leaves "
+        "{:.2g} m/s2 of the drum's acceleration{}; the bond has {:.4g} MN/m and {:.4g} kN s/m.",
+        record.motion->cycles, record.motion->residual,
+        record.motion->is_noise ? ", which is noise" : ", more than noise, which widens the intervals",
+        record.motion->bond_stiffness / 1e6, record.motion->bond_damping / 1e3);
   std::string text = record.positions ? "From accelerations, position and velocity of the drum"
                                       : "From accelerations alone, integrated over each contact";
   if (record.positions)
@@ -56,6 +63,11 @@ std::string source_sentence(const IdentifiedRecord &record) {
                                 : "; where drum and soil just touch is unknown and found for each contact.";
   else
     text += ".";
+  if (record.left)
+    text += fmt::format(
+        " Drum, frame, bond and a soil of constant k and c do not follow the whole motion: {:.2g} % "
+        "of the drum's acceleration are left, which the intervals do not contain.",
+        100.0 * *record.left);
   if (!record.frame) text += " No acceleration of the frame: it counts as zero.";
   return text;
 }
@@ -294,7 +306,11 @@ void write_identification_page(const std::filesystem::path &out, const Identifie
       "the phase of the exciter and these constants minimize the squared residuals of force, position and "
       "velocity together, each weighted by its own scatter. Confidence intervals allow any correlation of "
       "the residuals within a contact (or a cycle of one that lasts longer). They cover scatter and the "
-      "phase, not what the law leaves out: a pattern in the residuals shows that.");
+      "phase, not what the law leaves out: a pattern in the residuals shows that. Where the equations of "
+      "motion "
+      "of drum, frame, bond and soil follow a measured record, k and c of all of it are those of this "
+      "motion, "
+      "with the intervals of its noise; windows, loop and residuals are those of single contacts.");
   page.write();
 }
 
