@@ -170,13 +170,17 @@ std::optional<MotionFit> follow_motion(const Record &record, const Identificatio
   return first;
 }
 
-/// Sets the exciter's phase of a record whose flights are too short to tell it: of phases fifteen degrees
-/// apart that from which the equations of motion follow some cycles best. Nothing else tells how far the drum
-/// is from the next contact. Leaves the record as it is if no phase makes them follow to the noise.
-void find_phase(Record &record, const IdentificationSetting &law) {
-  if (!record.omega || !record.Fw || !record.m2 || !record.m3 || record.a_drum.empty() ||
-      record.a_frame.empty() || record.excitation_read)
-    return;
+/// Whether the record has what the equations of motion of drum and frame need, and no positions beside it.
+bool has_motion(const Record &record) {
+  return !record.pieces.empty() && !record.excitation_read && record.omega && record.Fw && record.m2 &&
+         record.m3 && !record.a_drum.empty() && !record.a_frame.empty() && record.low_pass == 0.0;
+}
+
+/// Sets the exciter's phase of a record whose flights do not tell it: of phases fifteen degrees apart that
+/// from which the equations of motion follow some cycles best. Whether no phase makes them follow to the
+/// noise.
+bool find_phase(Record &record, const IdentificationSetting &law) {
+  if (!has_motion(record)) return false;
   constexpr double cycles = 12.0;
   Record part = record;
   const auto size =
@@ -187,7 +191,7 @@ void find_phase(Record &record, const IdentificationSetting &law) {
        {&part.x_drum, &part.v_drum, &part.x_frame, &part.v_frame, &part.F_contact})
     values->clear();
   std::optional<MotionFit> best;
-  constexpr int trials = 24;
+  constexpr int trials = 8;
   for (int trial = 0; trial < trials; ++trial) {
     part.phase = 2.0 * pi * trial / trials;
     compute_excitation(part);
@@ -201,11 +205,13 @@ void find_phase(Record &record, const IdentificationSetting &law) {
     }
   }
   constexpr double most = 5.0 * pi / 180.0;
-  if (!best || best->phase.half_width > most) return;
+  if (!best || best->phase.half_width > most) return false;
   record.phase = best->phase.mean;
+  record.Fw = *record.Fw * std::pow(best->omega.mean / *record.omega, 2);
   record.omega = best->omega.mean;
   record.phase_half_width = best->phase.half_width;
   compute_excitation(record);
+  return true;
 }
 
 /// Takes over what the whole motion says. If more than noise is left of the record, the interval contains
@@ -231,21 +237,13 @@ void take_motion(const MotionFit &motion, const Record &record, IdentifiedRecord
   result.whole.tension = motion.tension;
 }
 
-} // namespace
-
-IdentifiedRecord identify_record(const Record &given, const RecordSetting &setting,
-                                 const std::function<void(const std::string &)> &progress) {
+/// Identifies a record whose excitation is known.
+IdentifiedRecord identify_with_phase(const Record &record, const RecordSetting &setting,
+                                     IdentificationSetting law,
+                                     const std::function<void(const std::string &)> &progress) {
   IdentifiedRecord result;
-  result.file = given.file;
-  const bool of_chain = given.file.filename() == "chain.csv";
-  constexpr double usual_share = 0.2; // soil that a drum just touches is softer
-  result.known_origin = setting.known_origin.value_or(of_chain);
-  IdentificationSetting law;
-  law.m2 = given.m2.value_or(0.0);
-  law.known_origin = result.known_origin;
-  law.least_force = setting.least_force.value_or(of_chain ? 0.0 : usual_share);
-  Record record = given;
-  if (record.F_excitation.empty()) find_phase(record, law);
+  result.file = record.file;
+  result.known_origin = law.known_origin;
   const DrumSignals signals = signals_of(record, setting.accelerations_only);
   result.frequency = *record.omega / (2.0 * pi);
   result.cycles = record.cycles();
@@ -267,7 +265,7 @@ IdentifiedRecord identify_record(const Record &given, const RecordSetting &setti
   }
   add_meter_values(record, result);
   result.windows = windows_of(signals, law, result, setting.window, progress);
-  if (!record.excitation_read && !result.positions && record.low_pass == 0.0) {
+  if (has_motion(record) && !result.positions) {
     MotionSetting of_phase;
     if (record.phase_half_width == 0.0) of_phase.phase_within = phase_within;
     if (progress) progress("the motion from contact to contact");
@@ -278,6 +276,31 @@ IdentifiedRecord identify_record(const Record &given, const RecordSetting &setti
     }
   }
   return result;
+}
+
+} // namespace
+
+IdentifiedRecord identify_record(const Record &given, const RecordSetting &setting,
+                                 const std::function<void(const std::string &)> &progress) {
+  const bool of_chain = given.file.filename() == "chain.csv";
+  constexpr double usual_share = 0.2; // soil that a drum just touches is softer
+  IdentificationSetting law;
+  law.m2 = given.m2.value_or(0.0);
+  law.known_origin = setting.known_origin.value_or(of_chain);
+  law.least_force = setting.least_force.value_or(of_chain ? 0.0 : usual_share);
+  if (given.F_excitation.empty()) {
+    Record record = given;
+    find_phase(record, law);
+    return identify_with_phase(record, setting, law, progress);
+  }
+  IdentifiedRecord found = identify_with_phase(given, setting, law, progress);
+  if (!found.left || (found.motion && found.motion->is_noise)) return found;
+  // What looked like flights may have been a contact of little force.
+  Record other = given;
+  other.Fw = other.said_Fw.value_or(*other.Fw);
+  if (given.phase_half_width == 0.0 || !find_phase(other, law)) return found;
+  IdentifiedRecord again = identify_with_phase(other, setting, law, progress);
+  return again.motion && again.motion->is_noise ? again : found;
 }
 
 } // namespace drumlin::post

@@ -34,10 +34,12 @@ using Shared = Eigen::Matrix<double, unknowns, 1>;
 
 // The mechanical model with the present values.
 struct Model {
-  double m2, m3, g, Fw;
+  double m2, m3, g, me_re;
   double k, c, k23, c23, omega, phase; // phase at time 0
   std::array<double, sensors> offset{}, drift{};
   bool pulls = false;
+
+  double Fw() const { return me_re * omega * omega; } // amplitude of the exciter's force [N]
 
   // What has to be positive in contact, for the position of the drum alone and for the force [m].
   double overlap(const State &y) const { return -y[0]; }
@@ -49,7 +51,7 @@ struct Model {
     Matrix d;
     const auto bond = (k23 * (y.row(0) - y.row(2)) + c23 * (y.row(1) - y.row(3))).eval();
     d.row(0) = y.row(1);
-    d.row(1) = (-bond - Fw * y.row(of_sine)) / m2 - g * y.row(of_one);
+    d.row(1) = (-bond - Fw() * y.row(of_sine)) / m2 - g * y.row(of_one);
     if (contact) d.row(1) -= (k * y.row(0) + c * y.row(1)) / m2;
     d.row(2) = y.row(3);
     d.row(3) = bond / m3 - g * y.row(of_one);
@@ -69,6 +71,7 @@ struct Model {
     s(3, of_k23) += stretch / m3;
     s(1, of_c23) -= speed / m2;
     s(3, of_c23) += speed / m3;
+    s(1, of_omega) -= factor * 2.0 * me_re * omega * y[of_sine] / m2;
     s(of_sine, of_omega) += factor * y[of_cosine];
     s(of_cosine, of_omega) -= factor * y[of_sine];
   }
@@ -711,7 +714,7 @@ std::optional<MotionFit> fit_motion(const Record &record, const Identification &
   model.m2 = *record.m2;
   model.m3 = *record.m3;
   model.g = record.g.value_or(usual_gravity);
-  model.Fw = *record.Fw;
+  model.me_re = *record.Fw / (*record.omega * *record.omega);
   model.omega = *record.omega;
   model.phase = *record.phase;
   model.k = start.law.k.mean;

@@ -530,8 +530,10 @@ void take_flights(Record &record, const RecordOptions &options) {
                                     fit->phase.mean / degree, fit->phase.half_width / degree)));
   }
   // Flights know the force better than a data sheet does.
-  if (std::fabs(fit->ratio.mean - 1.0) > 2.0 * fit->ratio.half_width)
+  if (std::fabs(fit->ratio.mean - 1.0) > 2.0 * fit->ratio.half_width) {
+    record.said_Fw = record.Fw;
     record.Fw = fit->ratio.mean * *record.Fw;
+  }
   const double of_offset = -fit->offset.mean / *record.m2;
   shift(record.a_drum, of_offset);
   record.omega = fit->omega.mean;
