@@ -30,7 +30,7 @@ struct RecordNumber {
   const char *help;
 };
 
-constexpr std::array<RecordNumber, 8> record_numbers = {
+constexpr std::array<RecordNumber, 9> record_numbers = {
     {{"--sampling-rate",
       &RecordArguments::sampling_rate,
       {1e-3, 1e9, "Hz"},
@@ -50,7 +50,12 @@ constexpr std::array<RecordNumber, 8> record_numbers = {
      {"--low-pass",
       &RecordArguments::low_pass,
       {1e-3, 1e9, "Hz"},
-      "cut-off frequency of a filter without phase shift for all columns [Hz]"}}};
+      "cut-off frequency of a filter without phase shift for all columns [Hz]"},
+     {"--pulse-angle",
+      &RecordArguments::pulse_angle,
+      {-360.0, 360.0, "degrees"},
+      "angle of the exciter at which the column pulse rises [degrees], 0 if not given: F_e = Fw "
+      "sin(angle)"}}};
 
 // What a roller's data say where the command line does not. With another frequency the force follows from the
 // eccentric moment; the force of a case without one stays the same.
@@ -179,6 +184,11 @@ Record judged(const RecordArguments &arguments) {
   options.m2 = number(5);
   options.m3 = number(6);
   options.low_pass = number(7);
+  if (const auto angle = number(8)) {
+    if (options.columns.count("pulse") == 0)
+      throw UsageError(refusal("--pulse-angle", *arguments.pulse_angle, "only with --column pulse=HEADER"));
+    options.pulse_angle = *angle * pi / 180.0;
+  }
   if (options.Fw && options.me_re)
     throw UsageError(refusal("--me-re", *arguments.me_re, "not together with --Fw, which follows from it"));
   if (arguments.chain_case) add_case(*arguments.chain_case, options);

@@ -23,7 +23,7 @@ struct RecordArguments {
   std::optional<std::string> separator, decimal, piece;
   std::optional<std::string>
       chain_case; ///< roller whose frequency, force and masses count where none is given
-  std::optional<std::string> sampling_rate, frequency, phase, Fw, me_re, m2, m3, low_pass;
+  std::optional<std::string> sampling_rate, frequency, phase, Fw, me_re, m2, m3, low_pass, pulse_angle;
 };
 
 /// Adds RECORD, --column and so on; `arguments` must outlive the app.

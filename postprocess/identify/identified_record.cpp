@@ -25,6 +25,12 @@ void need(const Record &record, bool there, const char *name, const char *allowe
 // Fw cos(omega t + phase) of an excitation F_e = Fw sin(omega t + phase), whose phase and amplitude are those
 // of the record's F_e by least squares.
 std::vector<double> quadrature_of(const std::vector<double> &excitation, const Record &record) {
+  if (!record.wander.empty()) {
+    std::vector<double> quadrature;
+    for (std::size_t i = 0; i < record.size(); ++i)
+      quadrature.push_back(*record.Fw * record.force_share(i) * std::cos(record.angle(i)));
+    return quadrature;
+  }
   const auto n = static_cast<Eigen::Index>(excitation.size());
   Eigen::MatrixXd waves(n, 2);
   Eigen::VectorXd force(n);
@@ -248,7 +254,8 @@ IdentifiedRecord identify_with_phase(const Record &record, const RecordSetting &
   result.frequency = *record.omega / (2.0 * pi);
   result.cycles = record.cycles();
   // An interval of 95 % is exceeded by errors of half its size more now and then.
-  const double phase_within = std::max(setting.phase_within, 1.5 * record.phase_half_width);
+  const double phase_within =
+      std::max({setting.phase_within, record.phase_within, 1.5 * record.phase_half_width});
   law.phase_within = phase_within;
   result.phase_known = phase_within == 0.0;
   result.positions = !signals.x_drum.empty() || !signals.v_drum.empty();

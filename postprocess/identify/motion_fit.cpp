@@ -203,6 +203,9 @@ struct Signals {
   std::array<const std::vector<double> *, sensors> a{};
   double dt = 0.0, start = 0.0, middle = 0.0, half_length = 0.0;
   double per_cycle = 0.0;
+  const std::vector<double> *wander = nullptr; // of the exciter's angle
+  std::vector<double> force_share;             // of the exciter's force, if its angle wanders
+  double wander_at(std::size_t i) const { return wander->empty() ? 0.0 : (*wander)[i]; }
   std::size_t size() const { return a[0]->size(); }
   double time(std::size_t i) const { return start + dt * static_cast<double>(i); }
 };
@@ -284,14 +287,22 @@ bool Fit::follow(const Motion &motion, const Stretch &stretch, bool slopes_too, 
   const std::array<Step, 2> &step = motion.step;
   const double h = motion.h;
   State y;
-  const double angle = model.phase + model.omega * signals_->time(stretch.first);
-  y << stretch.start, std::sin(angle), std::cos(angle), 1.0;
+  y << stretch.start, 0.0, 0.0, 1.0;
   Slopes s = Slopes::Zero();
   s.topLeftCorner<starts, starts>().setIdentity();
-  s(of_sine, of_phase) = y[of_cosine];
-  s(of_cosine, of_phase) = -y[of_sine];
-  s(of_sine, of_omega) = signals_->time(stretch.first) * y[of_cosine];
-  s(of_cosine, of_omega) = -signals_->time(stretch.first) * y[of_sine];
+  const auto turn_to = [&](std::size_t i, double angle) {
+    const double time = signals_->time(i), share = signals_->wander->empty() ? 1.0 : signals_->force_share[i];
+    y[of_sine] = share * std::sin(angle);
+    y[of_cosine] = share * std::cos(angle);
+    s(of_sine, of_phase) = y[of_cosine];
+    s(of_cosine, of_phase) = -y[of_sine];
+    s(of_sine, of_omega) = time * y[of_cosine];
+    s(of_cosine, of_omega) = -time * y[of_sine];
+  };
+  const auto angle_at = [&](std::size_t i) {
+    return model.phase + model.omega * signals_->time(i) + signals_->wander_at(i);
+  };
+  turn_to(stretch.first, angle_at(stretch.first));
   bool contact = model.indicator(y) > 0.0;
   std::size_t events = 0;
   bool changed = false; // between the sample before and this one
@@ -301,11 +312,15 @@ bool Fit::follow(const Motion &motion, const Stretch &stretch, bool slopes_too, 
   const auto most_events = static_cast<std::size_t>(
       20.0 * static_cast<double>(stretch.end - stretch.first) / signals_->per_cycle + 20.0);
   for (std::size_t i = stretch.first; i < stretch.end; ++i) {
+    if (!signals_->wander->empty()) turn_to(i, angle_at(i));
     const State here = y;
     see(here);
     const Slopes slopes = s;
     const bool touches = contact;
     const std::size_t events_before = events;
+    // To the next sample with the frequency of the fit, right in the middle between them.
+    if (!signals_->wander->empty() && i + 1 < signals_->size())
+      turn_to(i, angle_at(i) + 0.5 * (signals_->wander_at(i + 1) - signals_->wander_at(i)));
     for (int j = 0; j < motion.steps; ++j) {
       double left = h;
       State next = step[contact ? 1 : 0].moved(y);
@@ -703,6 +718,9 @@ std::optional<MotionFit> fit_motion(const Record &record, const Identification &
     return std::nullopt;
   Signals signals;
   signals.a = {&record.a_drum, &record.a_frame};
+  signals.wander = &record.wander;
+  for (std::size_t i = 0; i < record.wander.size(); ++i)
+    signals.force_share.push_back(record.force_share(i));
   signals.dt = record.interval;
   signals.start = record.time.front();
   signals.middle = 0.5 * (record.time.front() + record.time.back());

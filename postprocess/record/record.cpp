@@ -47,8 +47,10 @@ std::optional<UnitKind> quantity_of(const std::string &name) {
   return std::nullopt;
 }
 
+constexpr const char *pulse_name = "pulse"; // a column that has no unit
+
 std::string signal_names() {
-  std::string names = "time";
+  std::string names = "time, pulse";
   for (const HistoryColumn &signal : record_signals)
     names += fmt::format(", {}", signal.name);
   return names;
@@ -178,6 +180,7 @@ struct Taken {
 double factor_of(const MeasuredTable &table, std::size_t place, const std::string &name,
                  const ColumnSource &source) {
   const MeasuredColumn &column = table.columns()[place];
+  if (name == pulse_name) return 1.0;
   if (source.factor) return *source.factor;
   if (column.unit.empty()) return 1.0;
   const UnitKind quantity = *quantity_of(name);
@@ -210,7 +213,8 @@ std::vector<Taken> columns_to_take(const MeasuredTable &table, const RecordOptio
       csv_fault(table.file(), 0, column.header,
                 refusal("its use for " + name, source.header, "a column of its own for each signal"));
     taken.push_back({&into, *place, factor_of(table, *place, name, source)});
-    const std::string unit = source.factor         ? fmt::format("times {:g}", *source.factor)
+    const std::string unit = name == pulse_name    ? "which rises once per revolution"
+                             : source.factor       ? fmt::format("times {:g}", *source.factor)
                              : column.unit.empty() ? "in SI units"
                                                    : "in " + column.unit;
     understood += fmt::format("{}{} is column {} '{}' {}", understood.empty() ? "" : ", ", name, *place + 1,
@@ -218,14 +222,17 @@ std::vector<Taken> columns_to_take(const MeasuredTable &table, const RecordOptio
                               name == "time" && table.has_clock_times(*place) ? "with clock times" : unit);
     return column.header;
   };
-  const bool any_signal_named = options.columns.size() > options.columns.count("time");
+  const bool any_signal_named =
+      options.columns.size() > options.columns.count("time") + options.columns.count(pulse_name);
   const std::string time_header = find("time", reading.times, true);
   const std::size_t of_time = taken.size();
   std::vector<std::string> headers;
   headers.reserve(record_signals.size());
   for (const HistoryColumn &signal : record_signals)
     headers.push_back(find(signal.name, reading.record.*signal.values, !any_signal_named));
-  if (taken.size() == of_time) {
+  const std::size_t of_motion = taken.size();
+  find(pulse_name, reading.record.pulse, false);
+  if (of_motion == of_time) {
     std::vector<std::string> names;
     names.reserve(table.columns().size());
     for (const MeasuredColumn &column : table.columns())
@@ -269,6 +276,10 @@ void read_samples(const std::vector<fs::path> &files, Reading &reading, const Re
       }
     }
     rows += table.rows();
+    if (!reading.record.pulse.empty() && reading.record.pulse.size() != rows)
+      csv_fault(file, 0, {},
+                fmt::format("has not the same columns as {}; allowed: files of one record",
+                            files.front().string()));
     for (const HistoryColumn &signal : record_signals) {
       const std::size_t size = (reading.record.*signal.values).size();
       if (size > 0 && size != rows)
@@ -314,6 +325,7 @@ std::vector<SampleRange> pieces_of(const Reading &reading, const RecordOptions &
   if (!reading.times.empty()) columns.push_back(&reading.times);
   for (const HistoryColumn &signal : record_signals)
     if (!(reading.record.*signal.values).empty()) columns.push_back(&(reading.record.*signal.values));
+  if (!reading.record.pulse.empty()) columns.push_back(&reading.record.pulse);
   const std::size_t rows = columns.front()->size();
   const auto [usual, gap] = usual_and_gap(reading.times, options);
   std::vector<SampleRange> pieces;
@@ -382,6 +394,7 @@ void take_piece(Reading &reading, const RecordOptions &options) {
   };
   record.time = reading.times;
   cut(record.time);
+  cut(record.pulse);
   for (const HistoryColumn &signal : record_signals)
     cut(record.*signal.values);
   if (pieces.size() > 1)
@@ -520,8 +533,8 @@ void filter_signals(Record &record, double cutoff) {
 void compute_excitation(Record &record) {
   if (record.excitation_read || !record.omega || !record.phase || !record.Fw) return;
   record.F_excitation.clear();
-  std::transform(record.time.begin(), record.time.end(), std::back_inserter(record.F_excitation),
-                 [&record](double t) { return *record.Fw * std::sin(*record.omega * t + *record.phase); });
+  for (std::size_t i = 0; i < record.size(); ++i)
+    record.F_excitation.push_back(*record.Fw * record.force_share(i) * std::sin(record.angle(i)));
 }
 
 double Record::period() const {
@@ -530,6 +543,12 @@ double Record::period() const {
               refusal("the frequency of the excitation", "",
                       "a number above 0 [Hz], which no parameters.csv gives"));
   return 2.0 * pi / *omega;
+}
+
+double Record::force_share(std::size_t sample) const {
+  if (wander.size() < 3) return 1.0;
+  const std::size_t i = std::clamp<std::size_t>(sample, 1, wander.size() - 2);
+  return std::pow(1.0 + 0.5 * (wander[i + 1] - wander[i - 1]) / interval / *omega, 2);
 }
 
 double Record::cycles() const {
@@ -541,6 +560,7 @@ std::pair<std::string, ColumnSource> column_from_text(const std::string &text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos) throw std::invalid_argument(form);
   const std::string name = text.substr(0, equals);
+  if (name == pulse_name && equals + 1 < text.size()) return {name, {text.substr(equals + 1)}};
   const std::optional<UnitKind> quantity = quantity_of(name);
   if (!quantity) throw std::invalid_argument(fmt::format("{}, NAME one of {}", form, signal_names()));
   ColumnSource source{text.substr(equals + 1)};
