@@ -30,7 +30,7 @@ struct RecordNumber {
   const char *help;
 };
 
-constexpr std::array<RecordNumber, 9> record_numbers = {
+constexpr std::array<RecordNumber, 10> record_numbers = {
     {{"--sampling-rate",
       &RecordArguments::sampling_rate,
       {1e-3, 1e9, "Hz"},
@@ -55,7 +55,11 @@ constexpr std::array<RecordNumber, 9> record_numbers = {
       &RecordArguments::pulse_angle,
       {-360.0, 360.0, "degrees"},
       "angle of the exciter at which the column pulse rises [degrees], 0 if not given: F_e = Fw "
-      "sin(angle)"}}};
+      "sin(angle)"},
+     {"--corner-frequency",
+      &RecordArguments::corner_frequency,
+      {1e-4, 1e4, "Hz"},
+      "of accelerometers that pass no constant, of first order [Hz]: what they take is given back"}}};
 
 // What a roller's data say where the command line does not. With another frequency the force follows from the
 // eccentric moment; the force of a case without one stays the same.
@@ -94,6 +98,15 @@ void add_record_options(CLI::App &command, RecordArguments &arguments) {
                   "positive) or "
                   "F_excitation (down positive); a '-' before the unit turns the sign")
       ->type_name("NAME=HEADER:UNIT")
+      ->expected(1)
+      ->take_all()
+      ->group("Measured records");
+  command
+      .add_option(
+          "--delay", arguments.delays,
+          "by how much a signal comes later than the time of its row says: 'a_frame=0.5ms'; may be given "
+          "several times")
+      ->type_name("SIGNAL=TIME")
       ->expected(1)
       ->take_all()
       ->group("Measured records");
@@ -184,6 +197,17 @@ Record judged(const RecordArguments &arguments) {
   options.m2 = number(5);
   options.m3 = number(6);
   options.low_pass = number(7);
+  options.corner = number(9);
+  if (options.corner && options.omega && 2.0 * pi * *options.corner > 0.5 * *options.omega)
+    throw UsageError(refusal("--corner-frequency", *arguments.corner_frequency,
+                             "up to half the frequency of the excitation [Hz]"));
+  for (const std::string &text : arguments.delays)
+    try {
+      if (!options.delays.insert(delay_from_text(text)).second)
+        throw std::invalid_argument("each signal once");
+    } catch (const std::invalid_argument &allowed) {
+      throw UsageError(refusal("--delay", text, allowed.what()));
+    }
   if (const auto angle = number(8)) {
     if (options.columns.count("pulse") == 0)
       throw UsageError(refusal("--pulse-angle", *arguments.pulse_angle, "only with --column pulse=HEADER"));

@@ -220,10 +220,18 @@ PageFigure window_figure(const IdentifiedRecord &record) {
 
 std::vector<std::string> identification_answer(const IdentifiedRecord &record) {
   const LawEstimate &law = record.whole.law;
+  const auto value = [&record](const char *name, const MeanInterval &interval, double unit,
+                               double MachinePart::*machine, const char *unit_name) {
+    std::string text = fmt::format("{} = {}{}", name, with_interval(interval, unit), unit_name);
+    if (record.machine)
+      text += fmt::format(" by noise, +- {:.2g}{} by the machine's tolerances",
+                          (*record.machine).*machine / unit, unit_name);
+    return text;
+  };
   std::vector<std::string> lines = {
-      fmt::format("k = {} MN/m", with_interval(law.k, 1e6)),
-      fmt::format("c = {} kN s/m", with_interval(law.c, 1e3)),
-      fmt::format("D = {}", with_interval(law.D, 1.0)),
+      value("k", law.k, 1e6, &MachinePart::k, " MN/m"),
+      value("c", law.c, 1e3, &MachinePart::c, " kN s/m"),
+      value("D", law.D, 1.0, &MachinePart::D, ""),
       pull_sentence(record.whole),
       fmt::format("R2 = {:.6f}; RMS residual of the force {:.3g} kN; {} samples in contact, {:.1f} % of all; "
                   "{} contacts or cycles of them.",
@@ -248,10 +256,26 @@ std::vector<std::string> identification_answer(const IdentifiedRecord &record) {
 }
 
 std::string identification_csv(const IdentifiedRecord &record) {
-  std::string text = csv_line({"window", "begin [s]", "end [s]", "k [N/m]", "k_half_width [N/m]", "c [N s/m]",
-                               "c_half_width [N s/m]", "D [-]", "D_half_width [-]", "phase_error [rad]",
-                               "phase_half_width [rad]", "R2 [-]", "residual [N]", "contact_share [-]",
-                               "contacts", "samples", "pulls"});
+  std::string text = csv_line({"window",
+                               "begin [s]",
+                               "end [s]",
+                               "k [N/m]",
+                               "k_half_width [N/m]",
+                               "c [N s/m]",
+                               "c_half_width [N s/m]",
+                               "D [-]",
+                               "D_half_width [-]",
+                               "phase_error [rad]",
+                               "phase_half_width [rad]",
+                               "R2 [-]",
+                               "residual [N]",
+                               "contact_share [-]",
+                               "contacts",
+                               "samples",
+                               "pulls",
+                               "k_machine [N/m]",
+                               "c_machine [N s/m]",
+                               "D_machine [-]"});
   const auto cell = [](double value) { return std::isfinite(value) ? number_text(value) : std::string(); };
   for (const Row &row : rows_of(record)) {
     std::vector<std::string> cells = {row.name, cell(row.begin), cell(row.end)};
@@ -274,6 +298,8 @@ std::string identification_csv(const IdentifiedRecord &record) {
                        : pull == Pull::pulls         ? "yes"
                        : pull == Pull::does_not_pull ? "no"
                                                      : "cannot be told");
+    for (const auto part : {&MachinePart::k, &MachinePart::c, &MachinePart::D})
+      cells.push_back(row.name == "all" && record.machine ? cell((*record.machine).*part) : "");
     text += csv_line(cells);
   }
   return text;

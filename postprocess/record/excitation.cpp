@@ -522,12 +522,12 @@ void take_pulses(Record &record, const RecordOptions &options) {
       const double t = record.time[i], reach = neighbours * period;
       while (first + 1 < times.size() && times[first] < t - 2.0 * reach)
         ++first;
-      Eigen::Matrix2d square = 1e-9 * Eigen::Matrix2d::Identity();
-      Eigen::Vector2d right = Eigen::Vector2d::Zero();
+      Eigen::Matrix3d square = 1e-9 * Eigen::Matrix3d::Identity();
+      Eigen::Vector3d right = Eigen::Vector3d::Zero();
       const std::size_t begin = std::min(first, times.size() - std::min<std::size_t>(4, times.size()));
       for (std::size_t n = begin; n < times.size() && (times[n] < t + 2.0 * reach || n < begin + 4); ++n) {
         const double u = (times[n] - t) / reach, weight = std::exp(-u * u);
-        const Eigen::Vector2d row(1.0, u);
+        const Eigen::Vector3d row(1.0, u, u * u);
         square += weight * row * row.transpose();
         right += weight * left[n] * row;
       }
@@ -666,6 +666,13 @@ void settle_excitation(Record &record, const RecordOptions &options) {
   if (record.time.empty() || !options.omega || record.excitation_read || record.pieces.empty()) return;
   check_range(record, record.a_drum, "a_drum");
   check_range(record, record.a_frame, "a_frame");
+  if (options.corner)
+    for (const auto values : {&Record::a_drum, &Record::a_frame})
+      if (!(record.*values).empty()) {
+        constexpr double few_cycles = 12.0;
+        record.*values =
+            without_high_pass(record.*values, record.interval, *options.corner, record.cycles() < few_cycles);
+      }
   if (record.pulse.empty())
     take_frequency(record);
   else

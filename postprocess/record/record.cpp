@@ -6,6 +6,8 @@
 #include "support/statistics.h"
 #include "support/units.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -572,6 +574,101 @@ std::pair<std::string, ColumnSource> column_from_text(const std::string &text) {
   return {name, source};
 }
 
+std::pair<std::string, double> delay_from_text(const std::string &text) {
+  constexpr const char *form = "SIGNAL=TIME as a_frame=0.5ms, from -1 to 1 s";
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) throw std::invalid_argument(form);
+  const std::string name = text.substr(0, equals), time = text.substr(equals + 1);
+  if (name == "time" || !quantity_of(name)) throw std::invalid_argument(form);
+  const std::size_t unit = time.find_first_not_of("+-.0123456789eE");
+  double seconds = 0.0;
+  try {
+    seconds = number_from_text(time.substr(0, unit)) *
+              (unit == std::string::npos ? 1.0 : factor_of(time.substr(unit), UnitKind::time));
+  } catch (const std::invalid_argument &) {
+    throw std::invalid_argument(form);
+  }
+  if (!(std::fabs(seconds) <= 1.0)) throw std::invalid_argument(form);
+  return {name, seconds};
+}
+
+std::vector<double> without_high_pass(const std::vector<double> &values, double interval, double corner,
+                                      bool is_short) {
+  const auto count = static_cast<Eigen::Index>(values.size());
+  const Eigen::Index terms = is_short ? 2 : 4;
+  Eigen::VectorXd whole(count);
+  Eigen::MatrixXd slow(count, terms);
+  double integral = 0.0;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (at > 0) integral += 0.5 * interval * (values[at - 1] + values[at]);
+    whole[i] = values[at] + 2.0 * pi * corner * integral;
+    const double u = 2.0 * static_cast<double>(i) / static_cast<double>(count - 1) - 1.0;
+    for (Eigen::Index n = 0; n < terms; ++n)
+      slow(i, n) = std::cos(static_cast<double>(n) * std::acos(std::clamp(u, -1.0, 1.0)));
+  }
+  whole -= slow * (slow.transpose() * slow).ldlt().solve(slow.transpose() * whole);
+  return {whole.data(), whole.data() + count};
+}
+
+namespace {
+
+/// Moves signals that come late. The drum's acceleration, which jumps, is not interpolated: the others and
+/// the times go with it.
+void undo_delays(Record &record, const std::map<std::string, double> &delays) {
+  const auto of_drum = delays.find("a_drum");
+  const double own = of_drum == delays.end() ? 0.0 : of_drum->second;
+  std::size_t first = 0, end = record.size();
+  std::vector<std::pair<std::vector<double> *, double>> moved; // signals, and by how many samples
+  for (const HistoryColumn &signal : record_signals) {
+    std::vector<double> &values = record.*signal.values;
+    const auto given = delays.find(signal.name);
+    if (given != delays.end() && values.empty())
+      csv_fault(record.file, 0, {},
+                refusal("the delay of " + std::string(signal.name), given->second, "signals of the record"));
+    const double samples = ((given == delays.end() ? 0.0 : given->second) - own) / record.interval;
+    if (values.empty() || samples == 0.0) continue;
+    moved.emplace_back(&values, samples);
+    if (samples < 0.0) first = std::max(first, static_cast<std::size_t>(std::ceil(-samples)) + 1);
+    if (samples > 0.0)
+      end = std::min(end, record.size() -
+                              std::min(record.size(), static_cast<std::size_t>(std::ceil(samples)) + 2));
+  }
+  if (end < first + 3)
+    csv_fault(record.file, 0, {},
+              refusal("the length", record.time.back() - record.time.front(), "more than delays"));
+  for (const auto &[values, samples] : moved) {
+    std::vector<double> at_own_time(*values);
+    const auto whole = static_cast<std::ptrdiff_t>(std::floor(samples));
+    const double u = samples - std::floor(samples);
+    const auto value = [values = values](std::ptrdiff_t i) {
+      const auto last = static_cast<std::ptrdiff_t>(values->size()) - 1;
+      return (*values)[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, last))];
+    };
+    for (std::size_t i = first; i < end; ++i) { // the cubic through four neighbours
+      const std::ptrdiff_t j = static_cast<std::ptrdiff_t>(i) + whole;
+      at_own_time[i] = value(j - 1) * u * (u - 1.0) * (2.0 - u) / 6.0 +
+                       value(j) * (1.0 + u) * (1.0 - u) * (2.0 - u) / 2.0 +
+                       value(j + 1) * (1.0 + u) * u * (2.0 - u) / 2.0 +
+                       value(j + 2) * (1.0 + u) * u * (u - 1.0) / 6.0;
+    }
+    *values = std::move(at_own_time);
+  }
+  const auto cut = [first, end](std::vector<double> &values) {
+    if (values.empty()) return;
+    values.erase(values.begin() + static_cast<std::ptrdiff_t>(end), values.end());
+    values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(first));
+  };
+  cut(record.time);
+  cut(record.pulse);
+  for (const HistoryColumn &signal : record_signals)
+    cut(record.*signal.values);
+  for (double &time : record.time)
+    time -= own;
+}
+
+} // namespace
+
 Record read_record(const fs::path &path, const RecordOptions &options) {
   return read_record(std::vector<fs::path>{path}, options);
 }
@@ -592,6 +689,7 @@ Record read_record(const std::vector<fs::path> &files, const RecordOptions &opti
   read_samples(read, reading, options);
   take_piece(reading, options);
   take_times(reading, options);
+  if (!options.delays.empty()) undo_delays(record, options.delays);
   check_length(record);
   check_derivative(reading, &Record::x_drum, &Record::v_drum);
   check_derivative(reading, &Record::v_drum, &Record::a_drum);

@@ -85,17 +85,20 @@ struct RecordOptions {
   /// By `time` or the name of the signal. Others are looked for by their own names in SI; if any signal is
   /// named here, only those named here are read, and `time`.
   std::map<std::string, ColumnSource> columns;
-  TableFormat format;                  ///< of a measured file; what is not given is found
-  std::optional<std::size_t> piece;    ///< counted from 1; not given: the one with the most samples
-  std::optional<double> sampling_rate; ///< [Hz]; needed without a column `time`, or if its digits are few
-  std::optional<double> omega;         ///< angular frequency of the excitation [rad/s]
-  std::optional<double> phase;         ///< of the excitation at time 0 [rad]
-  double pulse_angle = 0.0;            ///< angle of the exciter at which `pulse` rises [rad]
-  std::optional<double> Fw;            ///< amplitude of the excitation force [N]
-  std::optional<double> me_re;         ///< eccentric moment [kg m] instead: Fw = m_e r_e omega^2
-  std::optional<double> m2;            ///< mass of the drum [kg]
-  std::optional<double> m3;            ///< mass of the frame [kg]
-  std::optional<double> low_pass;      ///< cut-off frequency of low_passed(), for all signals [Hz]
+  TableFormat format;                   ///< of a measured file; what is not given is found
+  std::optional<std::size_t> piece;     ///< counted from 1; not given: the one with the most samples
+  std::optional<double> sampling_rate;  ///< [Hz]; needed without a column `time`, or if its digits are few
+  std::optional<double> omega;          ///< angular frequency of the excitation [rad/s]
+  std::optional<double> phase;          ///< of the excitation at time 0 [rad]
+  double pulse_angle = 0.0;             ///< angle of the exciter at which `pulse` rises [rad]
+  std::optional<double> Fw;             ///< amplitude of the excitation force [N]
+  std::optional<double> me_re;          ///< eccentric moment [kg m] instead: Fw = m_e r_e omega^2
+  std::optional<double> m2;             ///< mass of the drum [kg]
+  std::optional<double> m3;             ///< mass of the frame [kg]
+  std::map<std::string, double> delays; ///< by which signals come late [s]
+  /// Corner frequency of sensors that pass no constant, of first order, for accelerations [Hz].
+  std::optional<double> corner;
+  std::optional<double> low_pass; ///< cut-off frequency of low_passed(), for all signals [Hz]
 };
 
 /// The least number of excitation cycles, and of samples per cycle, of a record that is read with `omega`
@@ -127,6 +130,15 @@ void compute_excitation(Record &record);
 /// All signals without what is faster than `cutoff` [Hz], by low_passed(); std::runtime_error if it is not
 /// below half the sampling rate.
 void filter_signals(Record &record, double cutoff);
+
+/// "NAME=TIME": by how much a signal comes late, as "a_frame=0.5ms"; in s without a unit.
+/// std::invalid_argument says what is allowed.
+std::pair<std::string, double> delay_from_text(const std::string &text);
+
+/// What a sensor of first order that passes no constant has made of `values`, undone but for a polynomial of
+/// third order over the whole record (a straight line if `is_short`), which such a sensor does not tell.
+std::vector<double> without_high_pass(const std::vector<double> &values, double interval, double corner,
+                                      bool is_short);
 
 /// Share of an amplitude that low_passed() leaves at a frequency [Hz].
 double low_pass_gain(double frequency, double interval, double cutoff);
