@@ -105,8 +105,8 @@ DrumSignals signals_of(const Record &record, bool accelerations_only) {
   need(record, record.m3.has_value(), "m3", "the mass of the frame in parameters.csv, or --m3");
   need(
       record, !record.F_excitation.empty(), "the excitation force",
-      "a column F_excitation, or --frequency with --Fw or --me-re, and --phase, which no flights of the drum "
-      "tell here");
+      "a column F_excitation, or --frequency with --Fw or --me-re, and --phase or --column pulse, since no "
+      "flights of the drum tell the phase here; 'drumlin meter' needs none for harmonics, CMV, RMV and mode");
   constexpr double usual_gravity = 9.81;
   const double weight = (*record.m2 + *record.m3) * record.g.value_or(usual_gravity);
   DrumSignals signals;
@@ -196,22 +196,33 @@ bool find_phase(Record &record, const IdentificationSetting &law) {
   for (std::vector<double> *values :
        {&part.x_drum, &part.v_drum, &part.x_frame, &part.v_frame, &part.F_contact})
     values->clear();
-  std::optional<MotionFit> best;
-  constexpr int trials = 8;
-  for (int trial = 0; trial < trials; ++trial) {
-    part.phase = 2.0 * pi * trial / trials;
+  const auto fit_from = [&](double phase, const MotionSetting &setting) -> std::optional<MotionFit> {
+    part.phase = phase;
     compute_excitation(part);
     try {
       const Identification found = identify(signals_of(part, true), law);
-      if (!(found.law.k.mean > 0.0 && found.law.c.mean > 0.0)) continue;
-      const std::optional<MotionFit> fit = fit_motion(part, found, {});
-      if (fit && fit->is_noise && (!best || fit->residual < best->residual)) best = fit;
+      if (!(found.law.k.mean > 0.0 && found.law.c.mean > 0.0)) return std::nullopt;
+      return fit_motion(part, found, setting);
     } catch (const std::runtime_error &) { // no contact with this phase
-      continue;
+      return std::nullopt;
     }
+  };
+  std::optional<MotionFit> best;
+  constexpr int trials = 8;
+  for (int trial = 0; trial < trials; ++trial) {
+    const std::optional<MotionFit> fit = fit_from(2.0 * pi * trial / trials, {});
+    if (fit && fit->is_noise && (!best || fit->residual < best->residual)) best = fit;
   }
-  constexpr double most = 5.0 * pi / 180.0;
+  // In unbroken contact a phase fits as well as another, up to that at which contact would just be lost.
+  constexpr double degree = pi / 180.0, most = 5.0 * degree;
   if (!best || best->phase.half_width > most) return false;
+  const double as_good = (1.0 + 4.0 / std::sqrt(static_cast<double>(part.size()))) * best->residual;
+  for (const double other : {-30.0, -15.0, 15.0, 30.0}) {
+    constexpr double held = 1e-4;
+    part.omega = best->omega.mean;
+    const std::optional<MotionFit> fit = fit_from(best->phase.mean + other * degree, {held});
+    if (fit && fit->residual < as_good) return false;
+  }
   record.phase = best->phase.mean;
   record.Fw = *record.Fw * std::pow(best->omega.mean / *record.omega, 2);
   record.omega = best->omega.mean;

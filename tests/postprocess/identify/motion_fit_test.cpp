@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace drumlin::test {
@@ -125,6 +127,24 @@ TEST(MotionFit, TellsThePhaseOfShortFlights) {
   ASSERT_TRUE(found.motion);
   EXPECT_NEAR(found.whole.law.k.mean, p.k, 0.01 * p.k);
   EXPECT_NEAR(std::remainder(found.motion->phase.mean, 2.0 * M_PI), 0.0, 0.01);
+}
+
+// Where contact is not lost nothing tells the phase, whatever the equations of motion can be made to follow.
+TEST(MotionFit, TellsNoPhaseInUnbrokenContact) {
+  std::mt19937_64 random(5);
+  for (const auto &[k, D, transition] :
+       {std::tuple{12e6, 0.4, Transition::B}, std::tuple{20e6, 0.5, Transition::A},
+        std::tuple{8e6, 0.2, Transition::B}}) {
+    const ChainParameters p = roller(k, D, 29.3, transition);
+    const Made one = measured(p, 58, 34, 0.01 * g0, random);
+    EXPECT_EQ(one.contact_share, 1.0);
+    try {
+      identified(one.record, p, 0.99);
+      ADD_FAILURE() << "k " << k << " was found";
+    } catch (const std::runtime_error &error) {
+      EXPECT_NE(std::string(error.what()).find("--column pulse"), std::string::npos) << error.what();
+    }
+  }
 }
 
 // A soil that hardens along the record is not one spring and one dashpot: the motion is not taken, and the
