@@ -666,17 +666,14 @@ void settle_excitation(Record &record, const RecordOptions &options) {
   if (record.time.empty() || !options.omega || record.excitation_read || record.pieces.empty()) return;
   check_range(record, record.a_drum, "a_drum");
   check_range(record, record.a_frame, "a_frame");
-  if (options.corner)
-    for (const auto values : {&Record::a_drum, &Record::a_frame})
-      if (!(record.*values).empty()) {
-        constexpr double few_cycles = 12.0;
-        record.*values =
-            without_high_pass(record.*values, record.interval, *options.corner, record.cycles() < few_cycles);
-      }
   if (record.pulse.empty())
     take_frequency(record);
   else
     take_pulses(record, options);
+  if (options.corner)
+    for (const auto values : {&Record::a_drum, &Record::a_frame})
+      if (!(record.*values).empty())
+        record.*values = without_high_pass(record.*values, record.interval, *options.corner, *record.omega);
   remove_offset(record, &Record::a_drum, "a_drum");
   remove_offset(record, &Record::a_frame, "a_frame");
   if (options.me_re) record.Fw = *options.me_re * *record.omega * *record.omega;

@@ -593,11 +593,11 @@ std::pair<std::string, double> delay_from_text(const std::string &text) {
 }
 
 std::vector<double> without_high_pass(const std::vector<double> &values, double interval, double corner,
-                                      bool is_short) {
+                                      double omega) {
   const auto count = static_cast<Eigen::Index>(values.size());
-  const Eigen::Index terms = is_short ? 2 : 4;
+  constexpr Eigen::Index terms = 4, waves = 6;
   Eigen::VectorXd whole(count);
-  Eigen::MatrixXd slow(count, terms);
+  Eigen::MatrixXd parts(count, terms + 2 * waves);
   double integral = 0.0;
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto at = static_cast<std::size_t>(i);
@@ -605,9 +605,15 @@ std::vector<double> without_high_pass(const std::vector<double> &values, double 
     whole[i] = values[at] + 2.0 * pi * corner * integral;
     const double u = 2.0 * static_cast<double>(i) / static_cast<double>(count - 1) - 1.0;
     for (Eigen::Index n = 0; n < terms; ++n)
-      slow(i, n) = std::cos(static_cast<double>(n) * std::acos(std::clamp(u, -1.0, 1.0)));
+      parts(i, n) = std::cos(static_cast<double>(n) * std::acos(std::clamp(u, -1.0, 1.0)));
+    for (Eigen::Index n = 0; n < waves; ++n) {
+      const double angle = 0.5 * static_cast<double>(n + 1) * omega * interval * static_cast<double>(i);
+      parts(i, terms + 2 * n) = std::sin(angle);
+      parts(i, terms + 2 * n + 1) = std::cos(angle);
+    }
   }
-  whole -= slow * (slow.transpose() * slow).ldlt().solve(slow.transpose() * whole);
+  const Eigen::VectorXd found = (parts.transpose() * parts).ldlt().solve(parts.transpose() * whole);
+  whole -= parts.leftCols(terms) * found.head(terms);
   return {whole.data(), whole.data() + count};
 }
 

@@ -136,9 +136,10 @@ void filter_signals(Record &record, double cutoff);
 std::pair<std::string, double> delay_from_text(const std::string &text);
 
 /// What a sensor of first order that passes no constant has made of `values`, undone but for a polynomial of
-/// third order over the whole record (a straight line if `is_short`), which such a sensor does not tell.
+/// third order over the whole record, which such a sensor does not tell; waves of half to three times omega
+/// [rad/s] stay out of it.
 std::vector<double> without_high_pass(const std::vector<double> &values, double interval, double corner,
-                                      bool is_short);
+                                      double omega);
 
 /// Share of an amplitude that low_passed() leaves at a frequency [Hz].
 double low_pass_gain(double frequency, double interval, double cutoff);

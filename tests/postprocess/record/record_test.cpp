@@ -308,7 +308,7 @@ TEST(HighPass, IsUndone) {
     std::vector<double> values;
     for (int i = 0; i < 8000; ++i)
       values.push_back(gain * std::sin(w * i * dt + lead) + 9.81 * std::exp(-c * i * dt));
-    const std::vector<double> whole = without_high_pass(values, dt, corner, false);
+    const std::vector<double> whole = without_high_pass(values, dt, corner, w);
     for (std::size_t i = 0; i < whole.size(); ++i)
       ASSERT_NEAR(whole[i], std::sin(w * static_cast<double>(i) * dt), 0.01) << corner << ' ' << i;
   }
