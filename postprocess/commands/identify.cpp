@@ -10,11 +10,15 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 
 namespace drumlin::post {
 
@@ -33,6 +37,7 @@ struct Arguments {
   std::optional<std::string> origin;
   std::optional<std::string> phase_within;
   std::optional<std::string> least_force;
+  std::optional<std::string> m2_tolerance, m3_tolerance, me_re_tolerance;
   std::string window = "10";
   std::string out = "results/identify";
 };
@@ -65,22 +70,70 @@ fs::path judged_folder(const std::string &text) {
   return place;
 }
 
+/// The tolerances that were given, half widths of 95 %; else those of the roller's file.
+MachineTolerances judge_tolerances(const Arguments &arguments, const Record &record) {
+  constexpr Range range{0.0, 20.0, "%"};
+  const auto share = [&range](const char *name, const std::optional<std::string> &text, double of_file) {
+    return text ? 0.01 * number_option(name, *text, range) : of_file;
+  };
+  const MachineTolerances &file = record.tolerances;
+  const bool with_force = record.excitation_read || !record.Fw;
+  if (with_force && arguments.me_re_tolerance)
+    throw UsageError(refusal("--me-re-tolerance", *arguments.me_re_tolerance,
+                             "not given for a record with a column F_excitation"));
+  return {share("--m2-tolerance", arguments.m2_tolerance, file.m2),
+          share("--m3-tolerance", arguments.m3_tolerance, file.m3),
+          share("--me-re-tolerance", arguments.me_re_tolerance, with_force ? 0.0 : file.me_re)};
+}
+
+/// What the tolerances do to k, c and D: the record is read and identified again with each datum changed.
+std::optional<MachinePart> machine_part(const MachineTolerances &tolerances, const RecordArguments &arguments,
+                                        const RecordSetting &setting, const Record &record,
+                                        const IdentifiedRecord &found) {
+  if (tolerances.m2 + tolerances.m3 + tolerances.me_re == 0.0) return std::nullopt;
+  MachinePart part;
+  const auto add = [&](double tolerance, const std::function<void(RecordArguments &, double)> &change) {
+    if (tolerance == 0.0) return;
+    constexpr double most_step = 0.01; // the effect is linear in smaller ones
+    const double step = std::min(tolerance, most_step);
+    RecordArguments changed = arguments;
+    change(changed, 1.0 + step);
+    const LawEstimate law = identify_record(judged(changed), setting).whole.law, &before = found.whole.law;
+    const double factor = tolerance / step;
+    part.k = std::hypot(part.k, factor * (law.k.mean - before.k.mean));
+    part.c = std::hypot(part.c, factor * (law.c.mean - before.c.mean));
+    part.D = std::hypot(part.D, factor * (law.D.mean - before.D.mean));
+  };
+  add(tolerances.m2, [&](RecordArguments &a, double by) { a.m2 = fmt::format("{:.17g}", by * *record.m2); });
+  add(tolerances.m3, [&](RecordArguments &a, double by) { a.m3 = fmt::format("{:.17g}", by * *record.m3); });
+  add(tolerances.me_re, [&](RecordArguments &a, double by) {
+    const double Fw = by * record.said_Fw.value_or(*record.Fw);
+    if (a.Fw)
+      a.Fw = fmt::format("{:.17g}", Fw);
+    else
+      a.me_re = fmt::format("{:.17g}", Fw / (*record.omega * *record.omega));
+  });
+  return part;
+}
+
 void run(const Arguments &arguments) {
   const RecordSetting setting = judge(arguments);
   const fs::path place = judged_folder(arguments.out);
   keep_apart(files_of(arguments.record), {{"--out", place, true}});
   const Record record = judged(arguments.record);
+  const MachineTolerances tolerances = judge_tolerances(arguments, record);
   if (record.low_pass > 0.0 && !arguments.anyway)
     throw UsageError(refusal("--low-pass", fmt::format("{:g}", record.low_pass),
                              "no filter: it smooths the jump of each landing, which changes k and c; the fit "
                              "averages noise by itself"));
   if (arguments.compare) require_comparable(record);
   TimedProgress progress;
-  const IdentifiedRecord found =
+  IdentifiedRecord found =
       identify_record(record, setting, [&progress](const std::string &what) { progress.tell("{}", what); });
   const std::optional<std::string> doubt = contradiction(found);
   if (doubt && !arguments.anyway)
     throw std::runtime_error(fmt::format("{}: {} (--anyway shows the result)", found.file.string(), *doubt));
+  found.machine = machine_part(tolerances, arguments.record, setting, record, found);
   std::optional<LumpedComparison> compared;
   if (arguments.compare) compared = compare_lumped(record, found);
   try {
@@ -141,6 +194,13 @@ void add_identify_command(CLI::App &app, Session & /*session*/) {
       "forces up to this share of the largest one [%] are not fitted, unless the law follows them, 0 to 90; "
       "if not "
       "given 0 for chain.csv, 20 for all others, since soil that a drum just touches is softer");
+  for (const auto &[name, into, what] :
+       {std::tuple{"--m2-tolerance", &arguments->m2_tolerance, "the mass of the drum"},
+        std::tuple{"--m3-tolerance", &arguments->m3_tolerance, "the mass of the frame"},
+        std::tuple{"--me-re-tolerance", &arguments->me_re_tolerance, "the eccentric moment or force"}})
+    text_option(
+        identify, name, "NUMBER", *into,
+        fmt::format("by how much {} may be off [%], 0 to 20: the effect on k, c and D is shown apart", what));
   text_option(identify, "--window", "COUNT", arguments->window, "cycles of a window, 4 or more");
   text_option(identify, "--out", "DIR", arguments->out, "folder of the results");
   identify->footer(

@@ -37,7 +37,7 @@ struct RecordNumber {
   const char *help;
 };
 
-constexpr std::array<RecordNumber, 8> record_numbers = {
+constexpr std::array<RecordNumber, 10> record_numbers = {
     {{"--sampling-rate",
       &RecordArguments::sampling_rate,
       {1e-3, 1e9, "Hz"},
@@ -57,7 +57,16 @@ constexpr std::array<RecordNumber, 8> record_numbers = {
      {"--low-pass",
       &RecordArguments::low_pass,
       {1e-3, 1e9, "Hz"},
-      "cut-off frequency of a filter without phase shift for all columns [Hz]"}}};
+      "cut-off frequency of a filter without phase shift for all columns [Hz]"},
+     {"--pulse-angle",
+      &RecordArguments::pulse_angle,
+      {-360.0, 360.0, "degrees"},
+      "angle of the exciter at which the column pulse rises [degrees], 0 if not given: F_e = Fw "
+      "sin(angle)"},
+     {"--corner-frequency",
+      &RecordArguments::corner_frequency,
+      {1e-4, 1e4, "Hz"},
+      "of accelerometers that pass no constant, of first order [Hz]: what they take is given back"}}};
 
 using Noted = std::map<std::string, std::string>;
 
@@ -126,6 +135,15 @@ void add_record_options(CLI::App &command, RecordArguments &arguments) {
       ->take_all()
       ->group("Measured records");
   add_roller_options(command, arguments.roller, "Measured records");
+  command
+      .add_option(
+          "--delay", arguments.delays,
+          "by how much a signal comes later than the time of its row says: 'a_frame=0.5ms'; may be given "
+          "several times")
+      ->type_name("SIGNAL=TIME")
+      ->expected(1)
+      ->take_all()
+      ->group("Measured records");
   text_option(
       &command, "--case", "NAME", arguments.chain_case,
       fmt::format("case of the paper's Table 1 instead of a roller: {}", fmt::join(table1_cases, ", ")))
@@ -215,6 +233,22 @@ Record judged(const RecordArguments &arguments) {
   options.m2 = number(5);
   options.m3 = number(6);
   options.low_pass = number(7);
+  options.corner = number(9);
+  if (options.corner && options.omega && 2.0 * pi * *options.corner > 0.5 * *options.omega)
+    throw UsageError(refusal("--corner-frequency", *arguments.corner_frequency,
+                             "up to half the frequency of the excitation [Hz]"));
+  for (const std::string &text : arguments.delays)
+    try {
+      if (!options.delays.insert(delay_from_text(text)).second)
+        throw std::invalid_argument("each signal once");
+    } catch (const std::invalid_argument &allowed) {
+      throw UsageError(refusal("--delay", text, allowed.what()));
+    }
+  if (const auto angle = number(8)) {
+    if (options.columns.count("pulse") == 0)
+      throw UsageError(refusal("--pulse-angle", *arguments.pulse_angle, "only with --column pulse=HEADER"));
+    options.pulse_angle = *angle * pi / 180.0;
+  }
   if (options.Fw && options.me_re)
     throw UsageError(refusal("--me-re", *arguments.me_re, "not together with --Fw, which follows from it"));
   if (arguments.chain_case && arguments.roller.file)

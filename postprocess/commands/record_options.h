@@ -20,12 +20,13 @@ namespace drumlin::post {
 /// The options as given. Numbers stay text until all are judged.
 struct RecordArguments {
   std::vector<std::string> records;
-  std::vector<std::string> columns;
+  std::vector<std::string> columns, delays;
   std::optional<std::string> separator, decimal, piece;
   /// The roller, or the case of Table 1, whose frequency, force and masses count where none is given.
   RollerArguments roller;
   std::optional<std::string> chain_case;
-  std::optional<std::string> sampling_rate, frequency, phase, Fw, me_re, m2, m3, low_pass;
+  std::optional<std::string> sampling_rate, frequency, phase, Fw, me_re, m2, m3, low_pass, pulse_angle,
+      corner_frequency;
 };
 
 /// Adds RECORD, --column and so on; `arguments` must outlive the app.

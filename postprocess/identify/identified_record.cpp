@@ -1,5 +1,6 @@
 #include "identify/identified_record.h"
 
+#include "identify/motion_fit.h"
 #include "meter/values.h"
 #include "support/csv.h"
 #include "support/range.h"
@@ -24,6 +25,12 @@ void need(const Record &record, bool there, const char *name, const char *allowe
 // Fw cos(omega t + phase) of an excitation F_e = Fw sin(omega t + phase), whose phase and amplitude are those
 // of the record's F_e by least squares.
 std::vector<double> quadrature_of(const std::vector<double> &excitation, const Record &record) {
+  if (!record.wander.empty()) {
+    std::vector<double> quadrature;
+    for (std::size_t i = 0; i < record.size(); ++i)
+      quadrature.push_back(*record.Fw * record.force_share(i) * std::cos(record.angle(i)));
+    return quadrature;
+  }
   const auto n = static_cast<Eigen::Index>(excitation.size());
   Eigen::MatrixXd waves(n, 2);
   Eigen::VectorXd force(n);
@@ -98,8 +105,8 @@ DrumSignals signals_of(const Record &record, bool accelerations_only) {
   need(record, record.m3.has_value(), "m3", "the mass of the frame in parameters.csv, or --m3");
   need(
       record, !record.F_excitation.empty(), "the excitation force",
-      "a column F_excitation, or --frequency with --Fw or --me-re, and --phase, which no flights of the drum "
-      "tell here");
+      "a column F_excitation, or --frequency with --Fw or --me-re, and --phase or --column pulse, since no "
+      "flights of the drum tell the phase here; 'drumlin meter' needs none for harmonics, CMV, RMV and mode");
   constexpr double usual_gravity = 9.81;
   const double weight = (*record.m2 + *record.m3) * record.g.value_or(usual_gravity);
   DrumSignals signals;
@@ -144,26 +151,129 @@ std::optional<std::string> contradiction(const IdentifiedRecord &record) {
   return std::nullopt;
 }
 
-IdentifiedRecord identify_record(const Record &record, const RecordSetting &setting,
-                                 const std::function<void(const std::string &)> &progress) {
-  const DrumSignals signals = signals_of(record, setting.accelerations_only);
+namespace {
+
+double rms(const std::vector<double> &values) {
+  double squares = 0.0;
+  for (const double value : values)
+    squares += value * value;
+  return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+/// What the whole motion says, from the contacts or, if they are far off, from a softer or harder soil.
+std::optional<MotionFit> follow_motion(const Record &record, const Identification &contacts,
+                                       const MotionSetting &setting) {
+  std::optional<MotionFit> first;
+  for (const double factor : {1.0, 0.75, 1.35}) {
+    Identification start = contacts;
+    start.law.k.mean *= factor;
+    for (double &x : start.x)
+      x /= factor;
+    const std::optional<MotionFit> fit = fit_motion(record, start, setting);
+    if (fit && fit->is_noise) return fit;
+    if (!first) first = fit;
+  }
+  return first;
+}
+
+/// Whether the record has what the equations of motion of drum and frame need, and no positions beside it.
+bool has_motion(const Record &record) {
+  return !record.pieces.empty() && !record.excitation_read && record.omega && record.Fw && record.m2 &&
+         record.m3 && !record.a_drum.empty() && !record.a_frame.empty() && record.low_pass == 0.0;
+}
+
+/// Sets the exciter's phase of a record whose flights do not tell it: of phases fifteen degrees apart that
+/// from which the equations of motion follow some cycles best. Whether no phase makes them follow to the
+/// noise.
+bool find_phase(Record &record, const IdentificationSetting &law) {
+  if (!has_motion(record)) return false;
+  constexpr double cycles = 12.0;
+  Record part = record;
+  const auto size =
+      std::min(record.size(), static_cast<std::size_t>(cycles * record.period() / record.interval) + 1);
+  for (std::vector<double> *values : {&part.time, &part.a_drum, &part.a_frame})
+    values->resize(size);
+  for (std::vector<double> *values :
+       {&part.x_drum, &part.v_drum, &part.x_frame, &part.v_frame, &part.F_contact})
+    values->clear();
+  const auto fit_from = [&](double phase, const MotionSetting &setting) -> std::optional<MotionFit> {
+    part.phase = phase;
+    compute_excitation(part);
+    try {
+      const Identification found = identify(signals_of(part, true), law);
+      if (!(found.law.k.mean > 0.0 && found.law.c.mean > 0.0)) return std::nullopt;
+      return fit_motion(part, found, setting);
+    } catch (const std::runtime_error &) { // no contact with this phase
+      return std::nullopt;
+    }
+  };
+  std::optional<MotionFit> best;
+  constexpr int trials = 8;
+  for (int trial = 0; trial < trials; ++trial) {
+    const std::optional<MotionFit> fit = fit_from(2.0 * pi * trial / trials, {});
+    if (fit && fit->is_noise && (!best || fit->residual < best->residual)) best = fit;
+  }
+  // In unbroken contact a phase fits as well as another, up to that at which contact would just be lost.
+  constexpr double degree = pi / 180.0, most = 5.0 * degree;
+  if (!best || best->phase.half_width > most) return false;
+  const double as_good = (1.0 + 4.0 / std::sqrt(static_cast<double>(part.size()))) * best->residual;
+  for (const double other : {-30.0, -15.0, 15.0, 30.0}) {
+    constexpr double held = 1e-4;
+    part.omega = best->omega.mean;
+    const std::optional<MotionFit> fit = fit_from(best->phase.mean + other * degree, {held});
+    if (fit && fit->residual < as_good) return false;
+  }
+  record.phase = best->phase.mean;
+  record.Fw = *record.Fw * std::pow(best->omega.mean / *record.omega, 2);
+  record.omega = best->omega.mean;
+  record.phase_half_width = best->phase.half_width;
+  compute_excitation(record);
+  return true;
+}
+
+/// Takes over what the whole motion says. If more than noise is left of the record, the interval contains
+/// what single contacts say, too.
+void take_motion(const MotionFit &motion, const Record &record, IdentifiedRecord &result) {
+  LawEstimate &law = result.whole.law;
+  const auto taken = [&motion](const MeanInterval &of_motion, const MeanInterval &of_contacts) {
+    const double off = motion.is_noise ? 0.0 : of_contacts.mean - of_motion.mean;
+    return MeanInterval{of_motion.mean, std::hypot(of_motion.half_width, off)};
+  };
+  law.k = taken(motion.k, law.k);
+  law.c = taken(motion.c, law.c);
+  const double to_D = 1.0 / (2.0 * std::sqrt(*record.m2 * law.k.mean));
+  const double of_k = 0.5 * law.c.mean / law.k.mean * law.k.half_width;
+  law.D = {law.c.mean * to_D,
+           to_D * std::sqrt(std::max(0.0, law.c.half_width * law.c.half_width + of_k * of_k -
+                                              2.0 * motion.correlation * of_k * law.c.half_width))};
+  law.phase = {std::remainder(motion.phase.mean - *record.phase, 2.0 * pi), motion.phase.half_width};
+  result.frequency = motion.omega.mean / (2.0 * pi);
+  result.motion = motion;
+  if (!motion.pull_is_clear) return;
+  result.whole.pull = motion.pulls ? Pull::pulls : Pull::does_not_pull;
+  result.whole.tension = motion.tension;
+}
+
+/// Identifies a record whose excitation is known.
+IdentifiedRecord identify_with_phase(const Record &record, const RecordSetting &setting,
+                                     IdentificationSetting law,
+                                     const std::function<void(const std::string &)> &progress) {
   IdentifiedRecord result;
   result.file = record.file;
+  result.known_origin = law.known_origin;
+  const DrumSignals signals = signals_of(record, setting.accelerations_only);
   result.frequency = *record.omega / (2.0 * pi);
   result.cycles = record.cycles();
-  const bool of_chain = record.file.filename() == "chain.csv";
-  constexpr double usual_share = 0.2; // soil that a drum just touches is softer
-  result.known_origin = setting.known_origin.value_or(of_chain);
   // An interval of 95 % is exceeded by errors of half its size more now and then.
-  const double phase_within = std::max(setting.phase_within, 1.5 * record.phase_half_width);
+  const double phase_within =
+      std::max({setting.phase_within, record.phase_within, 1.5 * record.phase_half_width});
+  law.phase_within = phase_within;
   result.phase_known = phase_within == 0.0;
   result.positions = !signals.x_drum.empty() || !signals.v_drum.empty();
   result.frame = !record.a_frame.empty();
   result.force_difference = force_difference(signals.force, record.F_contact);
   result.time = record.time;
   result.per_cycle = signals.per_cycle;
-  const IdentificationSetting law = {*record.m2, result.known_origin, phase_within,
-                                     setting.least_force.value_or(of_chain ? 0.0 : usual_share)};
   try {
     result.whole = identify(signals, law, [&progress](double share) {
       if (progress) progress(fmt::format("the whole record: {:.0f} %", 100.0 * share));
@@ -173,7 +283,42 @@ IdentifiedRecord identify_record(const Record &record, const RecordSetting &sett
   }
   add_meter_values(record, result);
   result.windows = windows_of(signals, law, result, setting.window, progress);
+  if (has_motion(record) && !result.positions) {
+    MotionSetting of_phase;
+    if (record.phase_half_width == 0.0) of_phase.phase_within = phase_within;
+    if (progress) progress("the motion from contact to contact");
+    if (const std::optional<MotionFit> motion = follow_motion(record, result.whole, of_phase)) {
+      constexpr double close = 0.05; // of the drum's acceleration
+      result.left = motion->residual / rms(record.a_drum);
+      if (motion->is_noise || *result.left < close) take_motion(*motion, record, result);
+    }
+  }
   return result;
+}
+
+} // namespace
+
+IdentifiedRecord identify_record(const Record &given, const RecordSetting &setting,
+                                 const std::function<void(const std::string &)> &progress) {
+  const bool of_chain = given.file.filename() == "chain.csv";
+  constexpr double usual_share = 0.2; // soil that a drum just touches is softer
+  IdentificationSetting law;
+  law.m2 = given.m2.value_or(0.0);
+  law.known_origin = setting.known_origin.value_or(of_chain);
+  law.least_force = setting.least_force.value_or(of_chain ? 0.0 : usual_share);
+  if (given.F_excitation.empty()) {
+    Record record = given;
+    find_phase(record, law);
+    return identify_with_phase(record, setting, law, progress);
+  }
+  IdentifiedRecord found = identify_with_phase(given, setting, law, progress);
+  if (!found.left || (found.motion && found.motion->is_noise)) return found;
+  // What looked like flights may have been a contact of little force.
+  Record other = given;
+  other.Fw = other.said_Fw.value_or(*other.Fw);
+  if (given.phase_half_width == 0.0 || !find_phase(other, law)) return found;
+  IdentifiedRecord again = identify_with_phase(other, setting, law, progress);
+  return again.motion && again.motion->is_noise ? again : found;
 }
 
 } // namespace drumlin::post

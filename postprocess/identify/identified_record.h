@@ -2,6 +2,7 @@
 #pragma once
 
 #include "identify/identification.h"
+#include "identify/motion_fit.h"
 #include "record/record.h"
 
 #include <filesystem>
@@ -33,6 +34,13 @@ struct LawWindow {
   std::string why_not; ///< the reason if there is no law
 };
 
+/// Half widths by the tolerances of the machine's data.
+struct MachinePart {
+  double k = 0.0; ///< [N/m]
+  double c = 0.0; ///< [N s/m]
+  double D = 0.0; ///< [-]
+};
+
 /// What a record says.
 struct IdentifiedRecord {
   std::filesystem::path file;
@@ -51,6 +59,11 @@ struct IdentifiedRecord {
   double per_cycle = 0.0;   ///< samples per cycle
   Identification whole;
   std::vector<LawWindow> windows;
+  /// Whose k and c `whole` has, if the equations of motion follow the record.
+  std::optional<MotionFit> motion;
+  std::optional<MachinePart> machine; ///< if tolerances are given
+  /// Share of the drum's acceleration that these equations leave (RMS); not given if they were not tried.
+  std::optional<double> left;
 };
 
 /// The signals of a record, from its accelerations, masses and excitation; the record's column F_contact is

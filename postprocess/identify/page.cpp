@@ -49,6 +49,13 @@ bool phase_decides(const IdentifiedRecord &record) {
 }
 
 std::string source_sentence(const IdentifiedRecord &record) {
+  if (record.motion)
+    return fmt::format(
+        "From the whole motion of drum and frame: one motion follows {:.4g} cycles and leaves "
+        "{:.2g} m/s2 of the drum's acceleration{}; the bond has {:.4g} MN/m and {:.4g} kN s/m.",
+        record.motion->cycles, record.motion->residual,
+        record.motion->is_noise ? ", which is noise" : ", more than noise, which widens the intervals",
+        record.motion->bond_stiffness / 1e6, record.motion->bond_damping / 1e3);
   std::string text = record.positions ? "From accelerations, position and velocity of the drum"
                                       : "From accelerations alone, integrated over each contact";
   if (record.positions)
@@ -56,6 +63,11 @@ std::string source_sentence(const IdentifiedRecord &record) {
                                 : "; where drum and soil just touch is unknown and found for each contact.";
   else
     text += ".";
+  if (record.left)
+    text += fmt::format(
+        " Drum, frame, bond and a soil of constant k and c do not follow the whole motion: {:.2g} % "
+        "of the drum's acceleration are left, which the intervals do not contain.",
+        100.0 * *record.left);
   if (!record.frame) text += " No acceleration of the frame: it counts as zero.";
   return text;
 }
@@ -208,10 +220,18 @@ PageFigure window_figure(const IdentifiedRecord &record) {
 
 std::vector<std::string> identification_answer(const IdentifiedRecord &record) {
   const LawEstimate &law = record.whole.law;
+  const auto value = [&record](const char *name, const MeanInterval &interval, double unit,
+                               double MachinePart::*machine, const char *unit_name) {
+    std::string text = fmt::format("{} = {}{}", name, with_interval(interval, unit), unit_name);
+    if (record.machine)
+      text += fmt::format(" by noise, +- {:.2g}{} by the machine's tolerances",
+                          (*record.machine).*machine / unit, unit_name);
+    return text;
+  };
   std::vector<std::string> lines = {
-      fmt::format("k = {} MN/m", with_interval(law.k, 1e6)),
-      fmt::format("c = {} kN s/m", with_interval(law.c, 1e3)),
-      fmt::format("D = {}", with_interval(law.D, 1.0)),
+      value("k", law.k, 1e6, &MachinePart::k, " MN/m"),
+      value("c", law.c, 1e3, &MachinePart::c, " kN s/m"),
+      value("D", law.D, 1.0, &MachinePart::D, ""),
       pull_sentence(record.whole),
       fmt::format("R2 = {:.6f}; RMS residual of the force {:.3g} kN; {} samples in contact, {:.1f} % of all; "
                   "{} contacts or cycles of them.",
@@ -236,10 +256,26 @@ std::vector<std::string> identification_answer(const IdentifiedRecord &record) {
 }
 
 std::string identification_csv(const IdentifiedRecord &record) {
-  std::string text = csv_line({"window", "begin [s]", "end [s]", "k [N/m]", "k_half_width [N/m]", "c [N s/m]",
-                               "c_half_width [N s/m]", "D [-]", "D_half_width [-]", "phase_error [rad]",
-                               "phase_half_width [rad]", "R2 [-]", "residual [N]", "contact_share [-]",
-                               "contacts", "samples", "pulls"});
+  std::string text = csv_line({"window",
+                               "begin [s]",
+                               "end [s]",
+                               "k [N/m]",
+                               "k_half_width [N/m]",
+                               "c [N s/m]",
+                               "c_half_width [N s/m]",
+                               "D [-]",
+                               "D_half_width [-]",
+                               "phase_error [rad]",
+                               "phase_half_width [rad]",
+                               "R2 [-]",
+                               "residual [N]",
+                               "contact_share [-]",
+                               "contacts",
+                               "samples",
+                               "pulls",
+                               "k_machine [N/m]",
+                               "c_machine [N s/m]",
+                               "D_machine [-]"});
   const auto cell = [](double value) { return std::isfinite(value) ? number_text(value) : std::string(); };
   for (const Row &row : rows_of(record)) {
     std::vector<std::string> cells = {row.name, cell(row.begin), cell(row.end)};
@@ -262,6 +298,8 @@ std::string identification_csv(const IdentifiedRecord &record) {
                        : pull == Pull::pulls         ? "yes"
                        : pull == Pull::does_not_pull ? "no"
                                                      : "cannot be told");
+    for (const auto part : {&MachinePart::k, &MachinePart::c, &MachinePart::D})
+      cells.push_back(row.name == "all" && record.machine ? cell((*record.machine).*part) : "");
     text += csv_line(cells);
   }
   return text;
@@ -294,7 +332,11 @@ void write_identification_page(const std::filesystem::path &out, const Identifie
       "the phase of the exciter and these constants minimize the squared residuals of force, position and "
       "velocity together, each weighted by its own scatter. Confidence intervals allow any correlation of "
       "the residuals within a contact (or a cycle of one that lasts longer). They cover scatter and the "
-      "phase, not what the law leaves out: a pattern in the residuals shows that.");
+      "phase, not what the law leaves out: a pattern in the residuals shows that. Where the equations of "
+      "motion "
+      "of drum, frame, bond and soil follow a measured record, k and c of all of it are those of this "
+      "motion, "
+      "with the intervals of its noise; windows, loop and residuals are those of single contacts.");
   page.write();
 }
 

@@ -157,6 +157,11 @@ struct Forces {
   std::vector<double> without; ///< [N]
   std::vector<double> time;    ///< [s]
   double Fw = 0.0;             ///< [N]
+  std::vector<double> wander;  ///< of the exciter's angle [rad]
+
+  std::vector<double> share; ///< of the exciter's force [-]
+
+  double angle(double omega, std::size_t i) const { return omega * time[i] + wander[i]; }
 };
 
 /// The exciter's force Fw (a sin(omega t) + b cos(omega t)) and an offset [N].
@@ -165,8 +170,9 @@ struct Exciter {
 };
 
 double force_at(const Forces &forces, const Exciter &exciter, std::size_t i) {
-  const double angle = exciter.omega * forces.time[i];
-  return forces.without[i] + forces.Fw * (exciter.a * std::sin(angle) + exciter.b * std::cos(angle)) -
+  const double angle = forces.angle(exciter.omega, i);
+  return forces.without[i] +
+         forces.Fw * forces.share[i] * (exciter.a * std::sin(angle) + exciter.b * std::cos(angle)) -
          exciter.offset;
 }
 
@@ -206,8 +212,8 @@ std::vector<double> all_forces(const Forces &forces, const Exciter &exciter) {
 Exciter best_phase(const Forces &forces, double omega, double ratio, double band, std::size_t least) {
   std::vector<double> sine(forces.time.size()), cosine(sine), force(sine);
   for (std::size_t i = 0; i < sine.size(); ++i) {
-    sine[i] = forces.Fw * std::sin(omega * forces.time[i]);
-    cosine[i] = forces.Fw * std::cos(omega * forces.time[i]);
+    sine[i] = forces.Fw * forces.share[i] * std::sin(forces.angle(omega, i));
+    cosine[i] = forces.Fw * forces.share[i] * std::cos(forces.angle(omega, i));
   }
   constexpr int steps = 180;
   Exciter best{omega, ratio, 0.0};
@@ -238,7 +244,8 @@ double fit_flights(const Forces &forces, const std::vector<Flight> &flights, Exc
   for (const Flight &flight : flights) {
     scores.emplace_back(Eigen::Vector4d::Zero());
     for (std::size_t i = flight.first; i < flight.end; ++i) {
-      const double angle = exciter.omega * forces.time[i], sine = std::sin(angle), cosine = std::cos(angle);
+      const double angle = forces.angle(exciter.omega, i), sine = forces.share[i] * std::sin(angle),
+                   cosine = forces.share[i] * std::cos(angle);
       const Eigen::Vector4d row(sine, cosine, -1.0,
                                 forces.time[i] / unit * (exciter.a * cosine - exciter.b * sine));
       const double off = force_at(forces, exciter, i) / forces.Fw;
@@ -288,6 +295,8 @@ std::optional<FlightFit> flights_of(const Record &record, double ratio) {
     forces.without.push_back(weight + *record.m2 * record.a_drum[i] +
                              (record.a_frame.empty() ? 0.0 : *record.m3 * record.a_frame[i]));
     forces.time.push_back(record.time[i] - middle);
+    forces.share.push_back(record.force_share(i));
+    forces.wander.push_back(record.wander.empty() ? 0.0 : record.wander[i]);
   }
   const double per_cycle = record.period() / record.interval;
   constexpr double shortest = 0.05, longest = 3.0; // cycles
@@ -328,7 +337,7 @@ std::optional<FlightFit> flights_of(const Record &record, double ratio) {
     ++followed;
     lands += force[next->first] > 0.0 ? 1 : 0;
   }
-  constexpr double most_often = 1.1, most_of_them = 0.9, most_share = 0.85, most_off = 0.6, most_offset = 0.3;
+  constexpr double most_often = 1.1, most_of_them = 0.9, most_share = 0.93, most_off = 0.6, most_offset = 0.3;
   if (fit.share > most_share || std::fabs(fit.ratio.mean - 1.0) > most_off ||
       std::fabs(fit.offset.mean) > most_offset * weight ||
       static_cast<double>(flights.size()) > most_often * record.cycles() + 1.0 ||
@@ -429,6 +438,111 @@ void remove_offset(Record &record, std::vector<double> Record::*values, const ch
                                      of_gravity ? ": the sensor shows gravity" : ""));
 }
 
+/// Share by which data of the machine may be off.
+constexpr double machine = 0.1;
+
+/// Times at which a signal rises through the middle of its range, between samples; it has to fall below a
+/// quarter of the range before the next one [s].
+std::vector<double> rises_of(const Record &record) {
+  const auto [least, most] = std::minmax_element(record.pulse.begin(), record.pulse.end());
+  if (*least == *most)
+    csv_fault(record.file, 0, {}, refusal("pulse", *least, "a signal that rises once in each revolution"));
+  const double middle = 0.5 * (*least + *most), low = *least + 0.25 * (*most - *least);
+  std::vector<double> times;
+  bool armed = false;
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    if (record.pulse[i] <= low) armed = true;
+    if (!armed || record.pulse[i] < middle || i == 0) continue;
+    armed = false;
+    const double before = record.pulse[i - 1], share = (middle - before) / (record.pulse[i] - before);
+    times.push_back(record.time[i - 1] + std::clamp(share, 0.0, 1.0) * record.interval);
+  }
+  return times;
+}
+
+/// Takes frequency and phase from pulses, and how the angle wanders about a constant frequency.
+void take_pulses(Record &record, const RecordOptions &options) {
+  const std::vector<double> rises = rises_of(record);
+  const double period = record.period();
+  std::vector<double> times, angles;
+  std::size_t missing = 0, doubled = 0;
+  double turns = 0.0;
+  for (const double time : rises) {
+    if (!times.empty()) {
+      const double passed = std::round((time - times.back()) / period);
+      if (passed < 1.0) {
+        ++doubled;
+        continue;
+      }
+      missing += static_cast<std::size_t>(passed) - 1;
+      turns += passed;
+    }
+    times.push_back(time);
+    angles.push_back(2.0 * pi * turns + options.pulse_angle);
+  }
+  constexpr double most_missing = 0.5;
+  const double expected = std::floor(record.cycles());
+  if (static_cast<double>(times.size()) < std::max(4.0, most_missing * expected) ||
+      static_cast<double>(doubled) > most_missing * static_cast<double>(times.size()))
+    csv_fault(record.file, 0, {},
+              refusal("the number of pulses", fmt::format("{}", rises.size()),
+                      fmt::format("one per revolution, about {:.0f} at {:.6g} Hz", expected, 1.0 / period)));
+  // The mean line through all, and what is left of it, as the mean of neighbours.
+  const LineFit line = fit_line(times, angles);
+  const double off = line.slope.mean / *record.omega - 1.0;
+  if (std::fabs(off) > frequency_range)
+    csv_fault(record.file, 0, {},
+              refusal("the frequency", fmt::format("{:.6g}", 1.0 / period),
+                      fmt::format("that of the pulses to {:g} % [Hz]; they have {:.6g} Hz",
+                                  100.0 * frequency_range, line.slope.mean / (2.0 * pi))));
+  std::vector<double> left(times.size());
+  for (std::size_t i = 0; i < times.size(); ++i)
+    left[i] = angles[i] - line.intercept.mean - line.slope.mean * times[i];
+  std::vector<double> steps; // from pulse to pulse: sampling and noise of the pulses alone
+  for (std::size_t i = 2; i < left.size(); ++i)
+    steps.push_back(std::fabs(left[i] - 2.0 * left[i - 1] + left[i - 2]));
+  constexpr double of_median = 0.6744897501960817 * 2.449489742783178; // of a second difference
+  const double scatter = steps.empty() ? 0.0 : median(steps) / of_median;
+  double squares = 0.0;
+  for (const double value : left)
+    squares += value * value;
+  const double wanders = std::sqrt(squares / static_cast<double>(left.size()));
+  record.omega = line.slope.mean;
+  record.phase = std::remainder(line.intercept.mean, 2.0 * pi);
+  // Where on its slope an edge counts is known to some 2 % of the time between samples.
+  const double edge = 0.02 * *record.omega * record.interval;
+  record.phase_within = std::hypot(line.intercept.half_width, edge);
+  constexpr double told = 0.3 * degree;
+  const bool drifts = wanders > std::max(told, 2.0 * scatter) && times.size() > 8;
+  if (drifts) {
+    constexpr double neighbours = 8.0; // pulses to either side, with less weight the farther they are
+    record.phase_within = std::hypot(2.0 * scatter / std::sqrt(neighbours), edge);
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < record.size(); ++i) {
+      const double t = record.time[i], reach = neighbours * period;
+      while (first + 1 < times.size() && times[first] < t - 2.0 * reach)
+        ++first;
+      Eigen::Matrix3d square = 1e-9 * Eigen::Matrix3d::Identity();
+      Eigen::Vector3d right = Eigen::Vector3d::Zero();
+      const std::size_t begin = std::min(first, times.size() - std::min<std::size_t>(4, times.size()));
+      for (std::size_t n = begin; n < times.size() && (times[n] < t + 2.0 * reach || n < begin + 4); ++n) {
+        const double u = (times[n] - t) / reach, weight = std::exp(-u * u);
+        const Eigen::Vector3d row(1.0, u, u * u);
+        square += weight * row * row.transpose();
+        right += weight * left[n] * row;
+      }
+      record.wander.push_back(square.ldlt().solve(right)[0]);
+    }
+  }
+  record.notes.push_back(fmt::format(
+      "{} pulses, {} missing, {} too many, give {:.8g} +- {:.2g} Hz and a phase of {:.3f} +- {:.2g} "
+      "degrees{}",
+      rises.size(), missing, doubled, line.slope.mean / (2.0 * pi), line.slope.half_width / (2.0 * pi),
+      *record.phase / degree, record.phase_within / degree,
+      drifts ? fmt::format("; the angle wanders by {:.3g} degrees (RMS), which is followed", wanders / degree)
+             : std::string()));
+}
+
 /// Whether the drum flies if the sign of its acceleration, or of both accelerations, is turned.
 const char *turned_sign(Record record) {
   const auto turn = [](std::vector<double> &values) {
@@ -445,7 +559,7 @@ const char *turned_sign(Record record) {
 void check_force(const Record &record) {
   for (const double ratio : {0.9, 1.1, 0.8, 1.2, 0.7, 1.35, 0.6, 1.5}) {
     const std::optional<FlightFit> fit = flights_of(record, ratio);
-    if (!fit) continue;
+    if (!fit || std::fabs(fit->ratio.mean - 1.0) < machine) continue;
     csv_fault(record.file, 0, {},
               refusal("the exciter's force", fmt::format("{:.6g} N", *record.Fw),
                       fmt::format("{:.6g} N, which the flights of the drum need with these masses, signs and "
@@ -455,11 +569,11 @@ void check_force(const Record &record) {
 }
 
 /// Refuses a frequency that varies so much that one phase does not describe the record.
-void check_drift(const Record &record) {
+void check_drift(Record &record) {
   const std::vector<double> &signal = drum_signal(record);
   constexpr std::size_t windows = 12;
   const double cycles = std::floor(record.cycles() / windows);
-  if (!record.phase || signal.empty() || cycles < 2.0) return;
+  if (!record.phase || !record.pulse.empty() || signal.empty() || cycles < 2.0) return;
   const auto length = static_cast<std::size_t>(cycles * record.period() / record.interval);
   std::vector<double> times, phases;
   for (std::size_t w = 0; w < windows; ++w) {
@@ -476,6 +590,14 @@ void check_drift(const Record &record) {
     squares += std::pow(phases[w] - line.intercept.mean - line.slope.mean * times[w], 2);
   constexpr double most = 6.0; // degrees
   const double wander = std::sqrt(squares / static_cast<double>(windows)) / degree;
+  constexpr double told = 0.3;
+  if (wander > told && wander <= most) {
+    record.phase_within = 2.0 * wander * degree;
+    record.notes.push_back(fmt::format("the phase of the drum's motion wanders by {:.2g} degrees over the "
+                                       "record; that of the exciter counts "
+                                       "as known to {:.2g} degrees",
+                                       wander, 2.0 * wander));
+  }
   if (wander > most)
     csv_fault(
         record.file, 0, {},
@@ -510,7 +632,6 @@ void take_flights(Record &record, const RecordOptions &options) {
       fit->flights, 100.0 * fit->share, fit->omega.mean / (2.0 * pi), fit->omega.half_width / (2.0 * pi),
       fit->phase.mean / degree, fit->phase.half_width / degree, fit->ratio.mean, fit->ratio.half_width,
       fit->offset.mean, fit->offset.half_width));
-  constexpr double machine = 0.1; // by which data of the machine may be off
   if (std::fabs(fit->ratio.mean - 1.0) > machine + fit->ratio.half_width)
     csv_fault(
         record.file, 0, {},
@@ -528,8 +649,10 @@ void take_flights(Record &record, const RecordOptions &options) {
                                     fit->phase.mean / degree, fit->phase.half_width / degree)));
   }
   // Flights know the force better than a data sheet does.
-  if (std::fabs(fit->ratio.mean - 1.0) > 2.0 * fit->ratio.half_width)
+  if (std::fabs(fit->ratio.mean - 1.0) > 2.0 * fit->ratio.half_width) {
+    record.said_Fw = record.Fw;
     record.Fw = fit->ratio.mean * *record.Fw;
+  }
   const double of_offset = -fit->offset.mean / *record.m2;
   shift(record.a_drum, of_offset);
   record.omega = fit->omega.mean;
@@ -543,7 +666,14 @@ void settle_excitation(Record &record, const RecordOptions &options) {
   if (record.time.empty() || !options.omega || record.excitation_read || record.pieces.empty()) return;
   check_range(record, record.a_drum, "a_drum");
   check_range(record, record.a_frame, "a_frame");
-  take_frequency(record);
+  if (record.pulse.empty())
+    take_frequency(record);
+  else
+    take_pulses(record, options);
+  if (options.corner)
+    for (const auto values : {&Record::a_drum, &Record::a_frame})
+      if (!(record.*values).empty())
+        record.*values = without_high_pass(record.*values, record.interval, *options.corner, *record.omega);
   remove_offset(record, &Record::a_drum, "a_drum");
   remove_offset(record, &Record::a_frame, "a_frame");
   if (options.me_re) record.Fw = *options.me_re * *record.omega * *record.omega;

@@ -6,6 +6,8 @@
 #include "support/statistics.h"
 #include "support/units.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -47,8 +49,10 @@ std::optional<UnitKind> quantity_of(const std::string &name) {
   return std::nullopt;
 }
 
+constexpr const char *pulse_name = "pulse"; // a column that has no unit
+
 std::string signal_names() {
-  std::string names = "time";
+  std::string names = "time, pulse";
   for (const HistoryColumn &signal : record_signals)
     names += fmt::format(", {}", signal.name);
   return names;
@@ -179,6 +183,7 @@ struct Taken {
 double factor_of(const MeasuredTable &table, std::size_t place, const std::string &name,
                  const ColumnSource &source) {
   const MeasuredColumn &column = table.columns()[place];
+  if (name == pulse_name) return 1.0;
   if (source.factor) return *source.factor;
   if (column.unit.empty()) return 1.0;
   const UnitKind quantity = *quantity_of(name);
@@ -211,7 +216,8 @@ std::vector<Taken> columns_to_take(const MeasuredTable &table, const RecordOptio
       csv_fault(table.file(), 0, column.header,
                 refusal("its use for " + name, source.header, "a column of its own for each signal"));
     taken.push_back({&into, *place, factor_of(table, *place, name, source)});
-    const std::string unit = source.factor         ? fmt::format("times {:g}", *source.factor)
+    const std::string unit = name == pulse_name    ? "which rises once per revolution"
+                             : source.factor       ? fmt::format("times {:g}", *source.factor)
                              : column.unit.empty() ? "in SI units"
                                                    : "in " + column.unit;
     understood += fmt::format("{}{} is column {} '{}' {}", understood.empty() ? "" : ", ", name, *place + 1,
@@ -219,14 +225,17 @@ std::vector<Taken> columns_to_take(const MeasuredTable &table, const RecordOptio
                               name == "time" && table.has_clock_times(*place) ? "with clock times" : unit);
     return column.header;
   };
-  const bool any_signal_named = options.columns.size() > options.columns.count("time");
+  const bool any_signal_named =
+      options.columns.size() > options.columns.count("time") + options.columns.count(pulse_name);
   const std::string time_header = find("time", reading.times, true);
   const std::size_t of_time = taken.size();
   std::vector<std::string> headers;
   headers.reserve(record_signals.size());
   for (const HistoryColumn &signal : record_signals)
     headers.push_back(find(signal.name, reading.record.*signal.values, !any_signal_named));
-  if (taken.size() == of_time) {
+  const std::size_t of_motion = taken.size();
+  find(pulse_name, reading.record.pulse, false);
+  if (of_motion == of_time) {
     std::vector<std::string> names;
     names.reserve(table.columns().size());
     for (const MeasuredColumn &column : table.columns())
@@ -270,6 +279,10 @@ void read_samples(const std::vector<fs::path> &files, Reading &reading, const Re
       }
     }
     rows += table.rows();
+    if (!reading.record.pulse.empty() && reading.record.pulse.size() != rows)
+      csv_fault(file, 0, {},
+                fmt::format("has not the same columns as {}; allowed: files of one record",
+                            files.front().string()));
     for (const HistoryColumn &signal : record_signals) {
       const std::size_t size = (reading.record.*signal.values).size();
       if (size > 0 && size != rows)
@@ -315,6 +328,7 @@ std::vector<SampleRange> pieces_of(const Reading &reading, const RecordOptions &
   if (!reading.times.empty()) columns.push_back(&reading.times);
   for (const HistoryColumn &signal : record_signals)
     if (!(reading.record.*signal.values).empty()) columns.push_back(&(reading.record.*signal.values));
+  if (!reading.record.pulse.empty()) columns.push_back(&reading.record.pulse);
   const std::size_t rows = columns.front()->size();
   const auto [usual, gap] = usual_and_gap(reading.times, options);
   std::vector<SampleRange> pieces;
@@ -383,6 +397,7 @@ void take_piece(Reading &reading, const RecordOptions &options) {
   };
   record.time = reading.times;
   cut(record.time);
+  cut(record.pulse);
   for (const HistoryColumn &signal : record_signals)
     cut(record.*signal.values);
   if (pieces.size() > 1)
@@ -521,8 +536,8 @@ void filter_signals(Record &record, double cutoff) {
 void compute_excitation(Record &record) {
   if (record.excitation_read || !record.omega || !record.phase || !record.Fw) return;
   record.F_excitation.clear();
-  std::transform(record.time.begin(), record.time.end(), std::back_inserter(record.F_excitation),
-                 [&record](double t) { return *record.Fw * std::sin(*record.omega * t + *record.phase); });
+  for (std::size_t i = 0; i < record.size(); ++i)
+    record.F_excitation.push_back(*record.Fw * record.force_share(i) * std::sin(record.angle(i)));
 }
 
 double Record::period() const {
@@ -531,6 +546,12 @@ double Record::period() const {
               refusal("the frequency of the excitation", "",
                       "a number above 0 [Hz], which no parameters.csv gives"));
   return 2.0 * pi / *omega;
+}
+
+double Record::force_share(std::size_t sample) const {
+  if (wander.size() < 3) return 1.0;
+  const std::size_t i = std::clamp<std::size_t>(sample, 1, wander.size() - 2);
+  return std::pow(1.0 + 0.5 * (wander[i + 1] - wander[i - 1]) / interval / *omega, 2);
 }
 
 double Record::cycles() const {
@@ -542,6 +563,7 @@ std::pair<std::string, ColumnSource> column_from_text(const std::string &text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos) throw std::invalid_argument(form);
   const std::string name = text.substr(0, equals);
+  if (name == pulse_name && equals + 1 < text.size()) return {name, {text.substr(equals + 1)}};
   const std::optional<UnitKind> quantity = quantity_of(name);
   if (!quantity) throw std::invalid_argument(fmt::format("{}, NAME one of {}", form, signal_names()));
   ColumnSource source{text.substr(equals + 1)};
@@ -552,6 +574,107 @@ std::pair<std::string, ColumnSource> column_from_text(const std::string &text) {
   if (source.header.empty()) throw std::invalid_argument(form);
   return {name, source};
 }
+
+std::pair<std::string, double> delay_from_text(const std::string &text) {
+  constexpr const char *form = "SIGNAL=TIME as a_frame=0.5ms, from -1 to 1 s";
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) throw std::invalid_argument(form);
+  const std::string name = text.substr(0, equals), time = text.substr(equals + 1);
+  if (name == "time" || !quantity_of(name)) throw std::invalid_argument(form);
+  const std::size_t unit = time.find_first_not_of("+-.0123456789eE");
+  double seconds = 0.0;
+  try {
+    seconds = number_from_text(time.substr(0, unit)) *
+              (unit == std::string::npos ? 1.0 : factor_of(time.substr(unit), UnitKind::time));
+  } catch (const std::invalid_argument &) {
+    throw std::invalid_argument(form);
+  }
+  if (!(std::fabs(seconds) <= 1.0)) throw std::invalid_argument(form);
+  return {name, seconds};
+}
+
+std::vector<double> without_high_pass(const std::vector<double> &values, double interval, double corner,
+                                      double omega) {
+  const auto count = static_cast<Eigen::Index>(values.size());
+  constexpr Eigen::Index terms = 4, waves = 6;
+  Eigen::VectorXd whole(count);
+  Eigen::MatrixXd parts(count, terms + 2 * waves);
+  double integral = 0.0;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (at > 0) integral += 0.5 * interval * (values[at - 1] + values[at]);
+    whole[i] = values[at] + 2.0 * pi * corner * integral;
+    const double u = 2.0 * static_cast<double>(i) / static_cast<double>(count - 1) - 1.0;
+    for (Eigen::Index n = 0; n < terms; ++n)
+      parts(i, n) = std::cos(static_cast<double>(n) * std::acos(std::clamp(u, -1.0, 1.0)));
+    for (Eigen::Index n = 0; n < waves; ++n) {
+      const double angle = 0.5 * static_cast<double>(n + 1) * omega * interval * static_cast<double>(i);
+      parts(i, terms + 2 * n) = std::sin(angle);
+      parts(i, terms + 2 * n + 1) = std::cos(angle);
+    }
+  }
+  const Eigen::VectorXd found = (parts.transpose() * parts).ldlt().solve(parts.transpose() * whole);
+  whole -= parts.leftCols(terms) * found.head(terms);
+  return {whole.data(), whole.data() + count};
+}
+
+namespace {
+
+/// Moves signals that come late. The drum's acceleration, which jumps, is not interpolated: the others and
+/// the times go with it.
+void undo_delays(Record &record, const std::map<std::string, double> &delays) {
+  const auto of_drum = delays.find("a_drum");
+  const double own = of_drum == delays.end() ? 0.0 : of_drum->second;
+  std::size_t first = 0, end = record.size();
+  std::vector<std::pair<std::vector<double> *, double>> moved; // signals, and by how many samples
+  for (const HistoryColumn &signal : record_signals) {
+    std::vector<double> &values = record.*signal.values;
+    const auto given = delays.find(signal.name);
+    if (given != delays.end() && values.empty())
+      csv_fault(record.file, 0, {},
+                refusal("the delay of " + std::string(signal.name), given->second, "signals of the record"));
+    const double samples = ((given == delays.end() ? 0.0 : given->second) - own) / record.interval;
+    if (values.empty() || samples == 0.0) continue;
+    moved.emplace_back(&values, samples);
+    if (samples < 0.0) first = std::max(first, static_cast<std::size_t>(std::ceil(-samples)) + 1);
+    if (samples > 0.0)
+      end = std::min(end, record.size() -
+                              std::min(record.size(), static_cast<std::size_t>(std::ceil(samples)) + 2));
+  }
+  if (end < first + 3)
+    csv_fault(record.file, 0, {},
+              refusal("the length", record.time.back() - record.time.front(), "more than delays"));
+  for (const auto &[values, samples] : moved) {
+    std::vector<double> at_own_time(*values);
+    const auto whole = static_cast<std::ptrdiff_t>(std::floor(samples));
+    const double u = samples - std::floor(samples);
+    const auto value = [values = values](std::ptrdiff_t i) {
+      const auto last = static_cast<std::ptrdiff_t>(values->size()) - 1;
+      return (*values)[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, last))];
+    };
+    for (std::size_t i = first; i < end; ++i) { // the cubic through four neighbours
+      const std::ptrdiff_t j = static_cast<std::ptrdiff_t>(i) + whole;
+      at_own_time[i] = value(j - 1) * u * (u - 1.0) * (2.0 - u) / 6.0 +
+                       value(j) * (1.0 + u) * (1.0 - u) * (2.0 - u) / 2.0 +
+                       value(j + 1) * (1.0 + u) * u * (2.0 - u) / 2.0 +
+                       value(j + 2) * (1.0 + u) * u * (u - 1.0) / 6.0;
+    }
+    *values = std::move(at_own_time);
+  }
+  const auto cut = [first, end](std::vector<double> &values) {
+    if (values.empty()) return;
+    values.erase(values.begin() + static_cast<std::ptrdiff_t>(end), values.end());
+    values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(first));
+  };
+  cut(record.time);
+  cut(record.pulse);
+  for (const HistoryColumn &signal : record_signals)
+    cut(record.*signal.values);
+  for (double &time : record.time)
+    time -= own;
+}
+
+} // namespace
 
 Record read_record(const fs::path &path, const RecordOptions &options) {
   return read_record(std::vector<fs::path>{path}, options);
@@ -573,6 +696,7 @@ Record read_record(const std::vector<fs::path> &files, const RecordOptions &opti
   read_samples(read, reading, options);
   take_piece(reading, options);
   take_times(reading, options);
+  if (!options.delays.empty()) undo_delays(record, options.delays);
   check_length(record);
   check_derivative(reading, &Record::x_drum, &Record::v_drum);
   check_derivative(reading, &Record::v_drum, &Record::a_drum);

@@ -47,9 +47,16 @@ struct Record : ChainHistory {
   /// F_e = Fw sin(omega time + phase) [rad]: 0 in a run; of a measured record only if it is given.
   std::optional<double> phase;
   double phase_half_width = 0.0; ///< of the phase, if flights have told it [rad]
+  double phase_within = 0.0;     ///< half the 95 % interval of a phase from pulses, or that wanders [rad]
+  /// What the angle of the exciter has besides omega time + phase, sample by sample, from pulses [rad];
+  /// empty: 0.
+  std::vector<double> wander;
+  /// A signal that rises once in each revolution of the exciter, in any unit; empty without one.
+  std::vector<double> pulse;
   double low_pass = 0.0;         ///< cut-off of the filter that all signals passed [Hz]; 0: none
   bool excitation_read = false;  ///< F_excitation is from the file
   std::optional<double> Fw;      ///< amplitude of the excitation force [N]
+  std::optional<double> said_Fw; ///< what was given for it, if flights of the drum replaced it [N]
   std::optional<double> m2;      ///< mass of the drum [kg]
   std::optional<double> m3;      ///< mass of the frame [kg]
   std::optional<double> g;       ///< gravity [m/s2]
@@ -57,6 +64,12 @@ struct Record : ChainHistory {
 
   /// Time of one cycle of the excitation [s]; std::runtime_error if `omega` is not known.
   double period() const;
+  /// The angle of the exciter at a sample, if its phase is known [rad].
+  double angle(std::size_t sample) const {
+    return *omega * time[sample] + *phase + (wander.empty() ? 0.0 : wander[sample]);
+  }
+  /// The exciter's force over Fw at a sample, which goes with the square of the frequency [-].
+  double force_share(std::size_t sample) const;
   /// Number of cycles of the excitation in the samples (they last `size() - 1` intervals).
   double cycles() const;
 };
@@ -70,8 +83,8 @@ struct ColumnSource {
 };
 
 /// "NAME=HEADER" or "NAME=HEADER:UNIT", where a '-' before the unit turns the sign: "a_drum=Acc Z:-g". NAME
-/// is `time` or a signal; HEADER as MeasuredTable::find() takes it. std::invalid_argument says what is
-/// allowed. Units: those of support/units.h.
+/// is `time`, a signal or `pulse`, which has no UNIT; HEADER as MeasuredTable::find() takes it.
+/// std::invalid_argument says what is allowed. Units: those of support/units.h.
 std::pair<std::string, ColumnSource> column_from_text(const std::string &text);
 
 /// How a record is read. What is not given comes from the run's parameters.csv, if there is one.
@@ -79,17 +92,21 @@ struct RecordOptions {
   /// By `time` or the name of the signal. Others are looked for by their own names in SI; if any signal is
   /// named here, only those named here are read, and `time`.
   std::map<std::string, ColumnSource> columns;
-  TableFormat format;                  ///< of a measured file; what is not given is found
-  std::optional<std::size_t> piece;    ///< counted from 1; not given: the one with the most samples
-  std::optional<double> sampling_rate; ///< [Hz]; needed without a column `time`, or if its digits are few
-  std::optional<double> omega;         ///< angular frequency of the excitation [rad/s]
-  std::optional<double> phase;         ///< of the excitation at time 0 [rad]
-  std::optional<double> Fw;            ///< amplitude of the excitation force [N]
-  std::optional<double> me_re;         ///< eccentric moment [kg m] instead: Fw = m_e r_e omega^2
-  std::optional<double> m2;            ///< mass of the drum [kg]
-  std::optional<double> m3;            ///< mass of the frame [kg]
-  std::optional<double> low_pass;      ///< cut-off frequency of low_passed(), for all signals [Hz]
-  MachineTolerances tolerances;        ///< of m2, m3 and me_re
+  TableFormat format;                   ///< of a measured file; what is not given is found
+  std::optional<std::size_t> piece;     ///< counted from 1; not given: the one with the most samples
+  std::optional<double> sampling_rate;  ///< [Hz]; needed without a column `time`, or if its digits are few
+  std::optional<double> omega;          ///< angular frequency of the excitation [rad/s]
+  std::optional<double> phase;          ///< of the excitation at time 0 [rad]
+  double pulse_angle = 0.0;             ///< angle of the exciter at which `pulse` rises [rad]
+  std::optional<double> Fw;             ///< amplitude of the excitation force [N]
+  std::optional<double> me_re;          ///< eccentric moment [kg m] instead: Fw = m_e r_e omega^2
+  std::optional<double> m2;             ///< mass of the drum [kg]
+  std::optional<double> m3;             ///< mass of the frame [kg]
+  std::map<std::string, double> delays; ///< by which signals come late [s]
+  /// Corner frequency of sensors that pass no constant, of first order, for accelerations [Hz].
+  std::optional<double> corner;
+  std::optional<double> low_pass; ///< cut-off frequency of low_passed(), for all signals [Hz]
+  MachineTolerances tolerances;   ///< of m2, m3 and me_re
 };
 
 /// The least number of excitation cycles, and of samples per cycle, of a record that is read with `omega`
@@ -121,6 +138,16 @@ void compute_excitation(Record &record);
 /// All signals without what is faster than `cutoff` [Hz], by low_passed(); std::runtime_error if it is not
 /// below half the sampling rate.
 void filter_signals(Record &record, double cutoff);
+
+/// "NAME=TIME": by how much a signal comes late, as "a_frame=0.5ms"; in s without a unit.
+/// std::invalid_argument says what is allowed.
+std::pair<std::string, double> delay_from_text(const std::string &text);
+
+/// What a sensor of first order that passes no constant has made of `values`, undone but for a polynomial of
+/// third order over the whole record, which such a sensor does not tell; waves of half to three times omega
+/// [rad/s] stay out of it.
+std::vector<double> without_high_pass(const std::vector<double> &values, double interval, double corner,
+                                      double omega);
 
 /// Share of an amplitude that low_passed() leaves at a frequency [Hz].
 double low_pass_gain(double frequency, double interval, double cutoff);

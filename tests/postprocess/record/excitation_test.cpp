@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -158,6 +159,69 @@ TEST(Excitation, OfUnbrokenContactHasAFrequencyAlone) {
   EXPECT_NEAR(*record.omega, roller.omega(), 1e-5 * roller.omega());
 }
 
+/// A signal that rises when the exciter passes an angle, but not in the `missing` turn, and twice in another.
+std::vector<double> pulses(const Record &record, double omega, double phase, double angle, double missing,
+                           double doubled) {
+  std::vector<double> signal;
+  for (const double t : record.time) {
+    const double turns = (omega * t + phase - angle) / (2.0 * M_PI), part = turns - std::floor(turns);
+    const bool first = part < 0.1 && std::floor(turns) != missing;
+    const bool second = part > 0.3 && part < 0.35 && std::floor(turns) == doubled;
+    signal.push_back(first || second ? 4.8 : 0.2);
+  }
+  return signal;
+}
+
+// In unbroken contact, where no flight does.
+TEST(Excitation, IsToldByPulses) {
+  Roller roller;
+  roller.k = 12e6;
+  roller.c = 2.0 * 0.4 * std::sqrt(roller.k * roller.m2);
+  constexpr double rate = 2000.0, angle = 40.0 * degree;
+  Record record = record_of(roller, rate, 120);
+  const double phase = first_phase(roller, rate);
+  record.pulse = pulses(record, roller.omega(), phase, angle, 7.0, 12.0);
+  RecordOptions options = said(roller, 1.04);
+  options.pulse_angle = angle;
+  record.omega = options.omega;
+  settle_excitation(record, options);
+  ASSERT_TRUE(record.phase);
+  EXPECT_NEAR(*record.omega, roller.omega(), 1e-5 * roller.omega());
+  const double off = std::fabs(std::remainder(*record.phase - phase, 2.0 * M_PI));
+  EXPECT_LT(off, 1.5 * record.phase_within);
+  EXPECT_LT(record.phase_within, 1.0 * degree);
+  EXPECT_TRUE(record.wander.empty());
+  const auto note = std::find_if(record.notes.begin(), record.notes.end(), [](const std::string &text) {
+    return text.find(" 1 missing, 1 too many") != std::string::npos;
+  });
+  EXPECT_NE(note, record.notes.end());
+}
+
+// A frequency that goes up and down by 0.5 %: the pulses follow the angle.
+TEST(Excitation, FollowsADriftByPulses) {
+  Roller roller;
+  constexpr double rate = 2000.0, swing = 0.4;
+  Record record = record_of(roller, rate, 120);
+  const double length = record.time.back();
+  std::vector<double> angles;
+  record.pulse.clear();
+  for (const double t : record.time) {
+    angles.push_back(roller.omega() * t + swing * std::sin(2.0 * M_PI * t / length));
+    record.pulse.push_back(std::fmod(angles.back(), 2.0 * M_PI) < 0.6 ? 5.0 : 0.0);
+  }
+  RecordOptions options = said(roller, 0.98);
+  record.omega = options.omega;
+  record.m2.reset(); // the pulses alone
+  settle_excitation(record, options);
+  ASSERT_EQ(record.wander.size(), record.size());
+  constexpr double of_sample = 5.3, of_many = 3.0; // degrees
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    const bool at_end = std::min(i, record.size() - i) < 500;
+    ASSERT_NEAR(std::remainder(record.angle(i) - angles[i], 2.0 * M_PI), 0.0,
+                (at_end ? of_sample : of_many) * degree);
+  }
+}
+
 TEST(Excitation, RefusesRecordsThatContradictWhatWasSaid) {
   const Roller roller;
   const auto message = [&roller](const auto &change) {
@@ -189,6 +253,12 @@ TEST(Excitation, RefusesRecordsThatContradictWhatWasSaid) {
              a = std::min(a, 2.0 * g);
          }),
          "made.csv: a_drum is '");
+  expect(message([&roller](Record &r, RecordOptions &) {
+           r.pulse = pulses(r, 0.2 * roller.omega(), 0.0, 0.0, -1.0, -1.0);
+         }),
+         "made.csv: the number of pulses is '");
+  expect(message([](Record &r, RecordOptions &) { r.pulse.assign(r.size(), 1.0); }),
+         "made.csv: pulse is '1'; allowed: a signal that rises once in each revolution");
   expect(message([](Record &r, RecordOptions &) { r.a_frame.assign(r.size(), 0.5); }),
          "made.csv: a_frame is '0.5'; allowed: values that change");
 }

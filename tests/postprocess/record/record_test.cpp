@@ -275,6 +275,45 @@ TEST_F(RecordFiles, RefusesColumns) {
     EXPECT_THROW(column_from_text(text), std::invalid_argument) << text;
 }
 
+// What comes late is moved back, the drum's samples as they are, with the times.
+TEST_F(RecordFiles, UndoesDelays) {
+  constexpr double dt = 1e-3, late_drum = 1.3e-3, late_frame = 4.15e-3, w = 180.0;
+  std::string text = "time,a_drum,a_frame\n";
+  for (int i = 0; i < 400; ++i)
+    text += fmt::format("{:.6f},{:.9f},{:.9f}\n", i * dt, std::sin(w * (i * dt - late_drum)),
+                        std::sin(w * (i * dt - late_frame) + 1.0));
+  const fs::path file = put("late.csv", text);
+  RecordOptions options;
+  options.delays.insert(delay_from_text("a_drum=1.3ms"));
+  options.delays.insert(delay_from_text("a_frame=0.00415"));
+  const Record record = read_record(file, options);
+  EXPECT_GT(record.size(), 390U);
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    ASSERT_NEAR(record.a_drum[i], std::sin(w * record.time[i]), 1e-8);
+    ASSERT_NEAR(record.a_frame[i], std::sin(w * record.time[i] + 1.0), 1e-4);
+  }
+  options.delays = {{"x_frame", 1e-3}};
+  EXPECT_TRUE(
+      contains(error_of<std::exception>([&] { read_record(file, options); }), "the delay of x_frame"));
+  for (const char *wrong : {"a_drum", "a_drum=", "b=1", "time=1ms", "a_drum=1m", "a_drum=2", "a_drum=nan"})
+    EXPECT_THROW(delay_from_text(wrong), std::invalid_argument) << wrong;
+}
+
+// The closed form of a filter of first order: amplitude, phase, and what is left of a constant that it was
+// switched on with.
+TEST(HighPass, IsUndone) {
+  constexpr double dt = 5e-4, w = 184.0;
+  for (const double corner : {0.5, 3.0, 10.0}) {
+    const double c = 2.0 * M_PI * corner, gain = w / std::hypot(w, c), lead = std::atan2(c, w);
+    std::vector<double> values;
+    for (int i = 0; i < 8000; ++i)
+      values.push_back(gain * std::sin(w * i * dt + lead) + 9.81 * std::exp(-c * i * dt));
+    const std::vector<double> whole = without_high_pass(values, dt, corner, w);
+    for (std::size_t i = 0; i < whole.size(); ++i)
+      ASSERT_NEAR(whole[i], std::sin(w * static_cast<double>(i) * dt), 0.01) << corner << ' ' << i;
+  }
+}
+
 TEST(LowPass, HalvesAtTheCutOffAndKeepsPhase) {
   // Forward and back, the gain is that of the analogue filter at the frequency that the bilinear transform
   // puts in its place, squared.

@@ -1,0 +1,49 @@
+// Stiffness and damping of the soil from the whole motion of drum and frame.
+//
+// A fit of single contacts has to find position and velocity of the drum anew in each of them. Here the
+// equations of motion of drum, frame, bond and soil follow the record from contact to contact, through its
+// flights, so that few unknowns are left: k, c, stiffness and damping of the bond, the exciter's phase and
+// frequency, offset and slow drift of each sensor, and the state at the start of each stretch of cycles.
+// Stretches are joined as long as one motion follows them; where errors grow from cycle to cycle, as in
+// aperiodic motion, they stay short. Between events the motion is linear, and its exact solution and the
+// derivatives of that are used; least squares by Gauss, Newton, Levenberg and Marquardt.
+#pragma once
+
+#include "identify/identification.h"
+#include "record/record.h"
+
+#include <optional>
+
+namespace drumlin::post {
+
+/// What the whole motion tells. Intervals: 95 %.
+struct MotionFit {
+  MeanInterval k{};            ///< [N/m]
+  MeanInterval c{};            ///< [N s/m]
+  double correlation = 0.0;    ///< of the errors of k and c [-]
+  MeanInterval omega{};        ///< [rad/s]
+  MeanInterval phase{};        ///< of the exciter at time 0 [rad]
+  bool pulls = false;          ///< condition A fits better
+  double tension = 0.0;        ///< the largest one, or that of condition A [N]
+  bool pull_is_clear = false;  ///< the other condition fits worse by more than noise explains
+  double bond_stiffness = 0.0; ///< between drum and frame [N/m]
+  double bond_damping = 0.0;   ///< [N s/m]
+  double residual = 0.0;       ///< RMS of the drum's acceleration [m/s2]
+  /// What is left is noise; if not, the soil, the frame or the machine is another than in the equations.
+  bool is_noise = false;
+  double cycles = 0.0; ///< of the longest stretch that one motion follows
+};
+
+/// What is known besides the record.
+struct MotionSetting {
+  /// Half the width within which the record's phase at time 0 is known [rad]; not given: the record tells it.
+  std::optional<double> phase_within;
+};
+
+/// Follows a measured record of accelerations of drum and frame from what single contacts say; nothing if the
+/// equations of motion do not follow it to its noise, which a soil of another kind, a frame that does more
+/// than move up and down, or wrong data of the machine may cause.
+std::optional<MotionFit> fit_motion(const Record &record, const Identification &start,
+                                    const MotionSetting &setting);
+
+} // namespace drumlin::post

@@ -1,0 +1,171 @@
+// Stiffness and damping from measured records of accelerations alone, with noise and offsets, told neither
+// the exact frequency nor a phase. The records are sequences of exact solutions
+// (tests/support/piecewise_oracle.h), which share no code with the tools.
+#include "identify/identified_record.h"
+#include "record/excitation.h"
+#include "tests/support/piecewise_oracle.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace drumlin::test {
+namespace {
+
+using namespace post;
+
+constexpr double g0 = 9.80665, running_in = 20.0; // m/s2, cycles
+
+/// A roller of 12 t.
+ChainParameters roller(double k, double D, double frequency, Transition transition) {
+  ChainParameters p;
+  p.transition = transition;
+  p.m2 = 3955.0;
+  p.m3 = 3713.0;
+  p.k23 = 3.1e6;
+  p.c23 = 31e3;
+  p.omega = 2.0 * M_PI * frequency;
+  p.Fw = 7.38 * p.omega * p.omega;
+  p.k = k;
+  p.D = D;
+  return p;
+}
+
+struct Made {
+  Record record;
+  double contact_share = 0.0;
+};
+
+/// A measured record after the running-in, with noise and offset of both sensors [m/s2].
+Made measured(const ChainParameters &p, int cycles, int samples_per_cycle, double noise,
+              std::mt19937_64 &random) {
+  const auto all = exact_pieces(p, static_cast<int>(running_in) + cycles, samples_per_cycle);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  std::uniform_real_distribution<double> offset(-3.0, 3.0);
+  const double of_drum = offset(random), of_frame = offset(random);
+  Made made;
+  Record &record = made.record;
+  record.file = "made.csv";
+  record.m2 = p.m2;
+  record.m3 = p.m3;
+  record.g = p.g;
+  record.interval = 2.0 * M_PI / p.omega / samples_per_cycle;
+  for (std::size_t i = static_cast<std::size_t>(running_in) * static_cast<std::size_t>(samples_per_cycle);
+       i < all.time.size(); ++i) {
+    const double a_frame = (all.F_contact[i] - p.m2 * all.a_drum[i] - (p.m2 + p.m3) * p.g -
+                            p.Fw * std::sin(p.omega * all.time[i])) /
+                           p.m3;
+    record.time.push_back(record.interval * static_cast<double>(record.time.size()));
+    record.a_drum.push_back(all.a_drum[i] + of_drum + noise * normal(random));
+    record.a_frame.push_back(a_frame + of_frame + noise * normal(random));
+    made.contact_share += all.F_contact[i] != 0.0 ? 1.0 : 0.0;
+  }
+  made.contact_share /= static_cast<double>(record.size());
+  record.pieces = {{0.0, record.time.back(), record.size()}};
+  return made;
+}
+
+IdentifiedRecord identified(Record record, const ChainParameters &p, double nominal) {
+  RecordOptions options;
+  options.omega = nominal * p.omega;
+  options.me_re = p.Fw / (p.omega * p.omega);
+  record.omega = options.omega;
+  settle_excitation(record, options);
+  RecordSetting setting;
+  setting.window = 20;
+  return identify_record(record, setting);
+}
+
+// The intervals of 95 % are those of noise: they contain the truth about as often as they say, and are
+// narrow.
+TEST(MotionFit, IntervalsContainTheTruth) {
+  std::mt19937_64 random(3);
+  const auto between = [&random](double least, double most) {
+    return std::uniform_real_distribution<double>(least, most)(random);
+  };
+  constexpr int records = 40;
+  int held = 0, answered = 0, made = 0;
+  std::vector<double> half_widths;
+  while (made < records) {
+    const ChainParameters p = roller(25e6 * std::pow(8.0, between(0.0, 1.0)), between(0.1, 0.6),
+                                     between(26.0, 34.0), made % 2 == 0 ? Transition::A : Transition::B);
+    const Made one = measured(p, 40, 40, between(0.002, 0.02) * g0, random);
+    if (one.contact_share > 0.92) continue;
+    ++made;
+    SCOPED_TRACE("k " + std::to_string(p.k) + ", D " + std::to_string(p.D));
+    const IdentifiedRecord found = identified(one.record, p, between(0.96, 1.04));
+    const LawEstimate &law = found.whole.law;
+    EXPECT_NEAR(law.k.mean, p.k, 0.02 * p.k);
+    EXPECT_NEAR(law.c.mean, p.damping(), 0.1 * p.damping());
+    if (!found.motion) continue;
+    ++answered;
+    held += std::fabs(law.k.mean - p.k) <= law.k.half_width ? 1 : 0;
+    held += std::fabs(law.c.mean - p.damping()) <= law.c.half_width ? 1 : 0;
+    half_widths.push_back(law.k.half_width / p.k);
+    const Pull true_one = p.transition == Transition::A ? Pull::pulls : Pull::does_not_pull;
+    EXPECT_TRUE(found.whole.pull == true_one || found.whole.pull == Pull::unknown);
+  }
+  EXPECT_GE(answered, 36);
+  EXPECT_GE(held, 2 * answered - 10); // of 80 four are expected outside
+  std::sort(half_widths.begin(), half_widths.end());
+  EXPECT_LT(half_widths[half_widths.size() / 2], 1e-3);
+}
+
+// Contact is lost for so short that no flight of five samples tells the phase.
+TEST(MotionFit, TellsThePhaseOfShortFlights) {
+  std::mt19937_64 random(5);
+  const ChainParameters p = roller(31.8e6, 0.22, 27.79, Transition::A);
+  const Made one = measured(p, 60, 36, 0.01 * g0, random);
+  EXPECT_GT(one.contact_share, 0.85);
+  const IdentifiedRecord found = identified(one.record, p, 0.98);
+  ASSERT_TRUE(found.motion);
+  EXPECT_NEAR(found.whole.law.k.mean, p.k, 0.01 * p.k);
+  EXPECT_NEAR(std::remainder(found.motion->phase.mean, 2.0 * M_PI), 0.0, 0.01);
+}
+
+// Where contact is not lost nothing tells the phase, whatever the equations of motion can be made to follow.
+TEST(MotionFit, TellsNoPhaseInUnbrokenContact) {
+  std::mt19937_64 random(5);
+  for (const auto &[k, D, transition] :
+       {std::tuple{12e6, 0.4, Transition::B}, std::tuple{20e6, 0.5, Transition::A},
+        std::tuple{8e6, 0.2, Transition::B}}) {
+    const ChainParameters p = roller(k, D, 29.3, transition);
+    const Made one = measured(p, 58, 34, 0.01 * g0, random);
+    EXPECT_EQ(one.contact_share, 1.0);
+    try {
+      identified(one.record, p, 0.99);
+      ADD_FAILURE() << "k " << k << " was found";
+    } catch (const std::runtime_error &error) {
+      EXPECT_NE(std::string(error.what()).find("--column pulse"), std::string::npos) << error.what();
+    }
+  }
+}
+
+// A soil that hardens along the record is not one spring and one dashpot: the motion is not taken, and the
+// windows show how k grows.
+TEST(MotionFit, IsNotTakenForSoilThatVaries) {
+  std::mt19937_64 random(7);
+  Record record = measured(roller(60e6, 0.25, 30.0, Transition::B), 40, 40, 0.05, random).record;
+  const ChainParameters harder = roller(90e6, 0.25, 30.0, Transition::B);
+  const Record behind = measured(harder, 40, 40, 0.05, random).record;
+  for (std::size_t i = 1; i < behind.size(); ++i) {
+    record.time.push_back(record.time.back() + record.interval);
+    record.a_drum.push_back(behind.a_drum[i]);
+    record.a_frame.push_back(behind.a_frame[i]);
+  }
+  record.pieces = {{0.0, record.time.back(), record.size()}};
+  const IdentifiedRecord found = identified(record, harder, 1.0);
+  EXPECT_FALSE(found.motion && found.motion->is_noise);
+  ASSERT_EQ(found.windows.size(), 4U);
+  EXPECT_NEAR(found.windows[0].law->k.mean, 60e6, 2e6);
+  EXPECT_NEAR(found.windows[3].law->k.mean, 90e6, 3e6);
+}
+
+} // namespace
+} // namespace drumlin::test
