@@ -44,11 +44,7 @@ std::map<std::string, std::string> parameters_of(const Scratch &folder, const st
                 folder.path()));
   // A cycle of 20 Hz, from which the number of steps follows.
   well(run_deck(deck(last_deck),
-                {{"start", "roller"},
-                 {"out", "B"},
-                 {"cycles", "1"},
-                 {"Fw", "1"},
-                 {"balance", "1e30"}},
+                {{"start", "roller"}, {"out", "B"}, {"cycles", "1"}, {"Fw", "1"}, {"balance", "1e30"}},
                 folder.path()));
   return post::read_parameters(folder / "B/parameters.csv");
 }
