@@ -217,7 +217,7 @@ bool find_phase(Record &record, const IdentificationSetting &law) {
   constexpr double degree = pi / 180.0, most = 5.0 * degree;
   if (!best || best->phase.half_width > most) return false;
   const double as_good = (1.0 + 4.0 / std::sqrt(static_cast<double>(part.size()))) * best->residual;
-  for (const double other : {-30.0, -15.0, 15.0, 30.0}) {
+  for (const double other : {-4.0, 4.0, -8.0, 8.0, -15.0, 15.0}) {
     constexpr double held = 1e-4;
     part.omega = best->omega.mean;
     const std::optional<MotionFit> fit = fit_from(best->phase.mean + other * degree, {held});
