@@ -80,10 +80,10 @@ protected:
     for (const auto &variable : roller())
       if (!of_soil) variables.push_back(variable);
     std::string drum = "ball", stepping = "stock";
-    for (const auto &[name, value] : more)
-      if (name == "drum")
+    for (const auto &[variable, value] : more)
+      if (variable == "drum")
         drum = value;
-      else if (name == "stepping")
+      else if (variable == "stepping")
         stepping = value;
     const fs::path bed = settled(stepping);
     variables.emplace_back("here", bed_folder().string());
@@ -1287,7 +1287,7 @@ TEST_F(Bed, TakesARollerFromItsFileOnRanksOneAndTwo) {
                  "drumlin/roller: setting is 'high'; allowed: none, of "));
   EXPECT_TRUE(
       fails_with(run_deck(bed_folder() / "in.bed", {{"start", start}, {"roller", "other"}}, folder.path()),
-                 "drumlin/variable: variable roller is 'other'; allowed: " + file));
+                 "drumlin/roller: roller is 'other'; allowed: a file that can be read"));
   std::ofstream(file, std::ios::app) << "operating_mass 10 kg\n";
   EXPECT_TRUE(fails_with(run_deck(bed_folder() / "in.bed", {{"start", start}}, folder.path()),
                          "drumlin/roller: operating_mass of '" + file + "' is '10 kg'; allowed: at least "));
