@@ -239,9 +239,8 @@ private:
 std::string rule_fault(LAMMPS *lmp, const std::string &command, const std::string &name,
                        const std::string &value, const std::vector<std::string> &rule) {
   std::vector<std::string> words = rule;
-  std::vector<char *> pointers;
-  for (std::string &word : words)
-    pointers.push_back(word.data());
+  std::vector<char *> pointers(words.size());
+  std::transform(words.begin(), words.end(), pointers.begin(), [](std::string &word) { return word.data(); });
   Arguments in(lmp->error, command, static_cast<int>(pointers.size()), pointers.data());
   try {
     Check(lmp, in, name, value).run();

@@ -24,9 +24,9 @@ constexpr Index of_sine = 4, of_cosine = 5, of_one = 6, size = 7;
 using State = Eigen::Matrix<double, size, 1>;
 using Square = Eigen::Matrix<double, size, size>;
 
-// Columns of derivatives: by the state at the start of a stretch, and by what all stretches share.
-constexpr Index of_start = 0, of_k = 4, of_c = 5, of_k23 = 6, of_c23 = 7, of_phase = 8, of_omega = 9,
-                columns = 10;
+// Columns of derivatives: the first four by the state at the start of a stretch, the others by what all
+// stretches share.
+constexpr Index of_k = 4, of_c = 5, of_k23 = 6, of_c23 = 7, of_phase = 8, of_omega = 9, columns = 10;
 using Slopes = Eigen::Matrix<double, size, columns>;
 // Behind the derivatives that states have, an observation has those by offset and drift of each sensor.
 constexpr Index starts = 4, shared = columns - starts, sensors = 2, unknowns = shared + 2 * sensors;

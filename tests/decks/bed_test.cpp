@@ -1243,7 +1243,7 @@ fs::path roller_file(const Scratch &folder, const Variables &roller, double Fw, 
       if (other == name) return std::stod(text);
     throw std::invalid_argument(name);
   };
-  const fs::path file = folder / "my_roller";
+  fs::path file = folder / "my_roller";
   std::ofstream(file) << fmt::format("drum_mass {} kg\nframe_mass {} kg\nwidth 2 m\ndiameter {} m\n"
                                      "bond_stiffness {} N/m\nbond_damping {} N s/m\n"
                                      "frequency {} Hz\nforce {} N\n",

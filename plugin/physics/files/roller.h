@@ -289,11 +289,13 @@ inline Roller read_roller(const std::string &text, const std::string &file) {
   if (!m2 && !masses.empty()) { // their mean
     m2 = 0.0;
     for (const auto &[of_setting, mass] : masses) {
-      if (apart(mass, masses.front().second))
-        throw std::invalid_argument("force, frequency and amplitude" + of_setting + " of '" + file +
-                                    "' give a drum of " + number_text(mass) + " kg, those" +
-                                    masses.front().first + " one of " + number_text(masses.front().second) +
-                                    " kg; allowed: the same within 10 %");
+      if (apart(mass, masses.front().second)) {
+        std::ostringstream fault;
+        fault << "force, frequency and amplitude" << of_setting << " of '" << file << "' give a drum of "
+              << mass << " kg, those" << masses.front().first << " one of " << masses.front().second
+              << " kg; allowed: the same within 10 %";
+        throw std::invalid_argument(fault.str());
+      }
       *m2 += mass / static_cast<double>(masses.size());
     }
   }

@@ -141,8 +141,9 @@ Record thinned(const OracleResult &exact, const ChainParameters &p, int samples_
   record.file = "measured.csv";
   record.omega = p.omega;
   record.interval = p.period() / samples_per_cycle * every;
-  for (std::size_t i = static_cast<std::size_t>(300 * samples_per_cycle + first); i < exact.time.size();
-       i += static_cast<std::size_t>(every)) {
+  for (auto i =
+           std::size_t{300} * static_cast<std::size_t>(samples_per_cycle) + static_cast<std::size_t>(first);
+       i < exact.time.size(); i += static_cast<std::size_t>(every)) {
     record.time.push_back(exact.time[i]);
     (velocity ? record.v_drum : record.a_drum).push_back(velocity ? exact.v_drum[i] : exact.a_drum[i]);
   }

@@ -306,6 +306,7 @@ TEST(HighPass, IsUndone) {
   for (const double corner : {0.5, 3.0, 10.0}) {
     const double c = 2.0 * M_PI * corner, gain = w / std::hypot(w, c), lead = std::atan2(c, w);
     std::vector<double> values;
+    values.reserve(8000);
     for (int i = 0; i < 8000; ++i)
       values.push_back(gain * std::sin(w * i * dt + lead) + 9.81 * std::exp(-c * i * dt));
     const std::vector<double> whole = without_high_pass(values, dt, corner, w);
