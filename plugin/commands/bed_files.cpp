@@ -119,7 +119,7 @@ RestartNotes read_notes(LAMMPS_NS::LAMMPS *lmp, Arguments &in) {
   std::string word;
   while (!in.empty()) {
     word = in.word("a note's name");
-    if (word == "values_of" || word == "groups") break;
+    if (word == "values_of" || word == "groups" || word == "chosen") break;
     notes.emplace_back(word, in.word("the value of note " + word));
   }
   const DeckVariables variables(lmp);
@@ -129,20 +129,23 @@ RestartNotes read_notes(LAMMPS_NS::LAMMPS *lmp, Arguments &in) {
       in.fail("keyword values_of is '" + name + "'; allowed: the names of variables that are one word");
     notes.emplace_back(name, value);
   };
-  for (bool of_groups = word == "groups"; !in.empty();) {
+  for (std::string keyword = word; !in.empty();) {
     word = in.word("a variable's name");
-    if (word == "groups" || word == "values_of") {
-      of_groups = word == "groups";
+    if (word == "groups" || word == "chosen" || word == "values_of") {
+      keyword = word;
       continue;
     }
-    if (!of_groups) {
+    if (keyword == "values_of") {
       add(word);
       continue;
     }
-    const std::size_t before = notes.size();
-    for (const DeclaredVariable &variable : variables.declared())
-      if (variable.group == word) add(variable.name);
-    if (notes.size() == before) in.fail("keyword groups", word, "a group of variables of drumlin/variable");
+    bool known = false;
+    for (const DeclaredVariable &variable : variables.declared()) {
+      if (variable.group != word) continue;
+      known = true;
+      if (keyword == "groups" || variable.chosen) add(variable.name);
+    }
+    if (!known) in.fail("keyword " + keyword, word, "a group of variables of drumlin/variable");
   }
   return notes;
 }

@@ -17,8 +17,8 @@ class Arguments;
 using RestartNotes = std::vector<std::pair<std::string, std::string>>;
 
 /// Reads notes from the arguments of a command: pairs NAME VALUE, then `groups` and groups of variables of
-/// drumlin/variable, or `values_of` and names of deck variables, each a note with its value. Ends the run if
-/// a name has no value.
+/// drumlin/variable, `chosen` and groups of which only those count whose value is not the deck's own, or
+/// `values_of` and names of deck variables, each a note with its value. Ends the run if a name has no value.
 RestartNotes read_notes(LAMMPS_NS::LAMMPS *lmp, Arguments &in);
 
 /// What the name of a restart file may be, for an error text.

@@ -67,19 +67,20 @@ std::vector<DeclaredVariable> DeckVariables::declared() const {
   std::vector<DeclaredVariable> all;
   for (const std::string &line : lines(of_declarations)) {
     const std::vector<std::string> words = words_of(line);
-    all.push_back({words[0], words[1], words[2] == "given", words[3] == "words"});
+    all.push_back({words[0], words[1], words[2] == "given", words[3] == "words", words[4] == "chosen"});
   }
   return all;
 }
 
 void DeckVariables::declare(const DeclaredVariable &variable) {
   std::vector<std::string> all;
+  const auto add = [&all](const DeclaredVariable &one) {
+    all.push_back(fmt::format("{} {} {} {} {}", one.name, one.group, one.given ? "given" : "noted",
+                              one.words ? "words" : "word", one.chosen ? "chosen" : "default"));
+  };
   for (const DeclaredVariable &other : declared()) // a deck that begins again declares again
-    if (other.name != variable.name)
-      all.push_back(fmt::format("{} {} {} {}", other.name, other.group, other.given ? "given" : "noted",
-                                other.words ? "words" : "word"));
-  all.push_back(fmt::format("{} {} {} {}", variable.name, variable.group, variable.given ? "given" : "noted",
-                            variable.words ? "words" : "word"));
+    if (other.name != variable.name) add(other);
+  add(variable);
   keep(of_declarations, all);
   set(of_open, "yes");
 }

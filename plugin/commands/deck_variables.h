@@ -19,6 +19,8 @@ struct DeclaredVariable {
   std::string group;
   bool given; ///< whether -var may give it
   bool words; ///< whether its value may have blanks
+  /// Whether the command line, or a note of a file, has chosen its value.
+  bool chosen = false;
 };
 
 /// Notes of a file that drumlin/take has read, and which of them must agree.

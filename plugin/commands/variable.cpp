@@ -49,9 +49,13 @@ void variable_command(LAMMPS *lmp, int narg, char **arg) {
   if (!variables.open())
     for (const GivenVariable &given : all_given)
       if (!of_front_script(given.name) && !variables.is_declared(given.name)) variables.remove(given.name);
-  variables.declare(variable);
   const auto given = std::find_if(all_given.begin(), all_given.end(),
                                   [&](const GivenVariable &one) { return one.name == variable.name; });
+  const RestartNotes notes = variables.taken().notes;
+  variable.chosen =
+      (variable.given && given != all_given.end()) ||
+      std::any_of(notes.begin(), notes.end(), [&](const auto &note) { return note.first == variable.name; });
+  variables.declare(variable);
   if (variable.given && given != all_given.end()) variables.set(variable.name, joined(given->values, " "));
   variables.set_default(variable.name, standard);
   // With a fault the deck continues with the default, so that drumlin/variables can first name a variable

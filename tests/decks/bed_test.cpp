@@ -76,9 +76,8 @@ protected:
   static Outcome run(const fs::path &deck, const Scratch &folder, const Variables &more, int ranks = 1) {
     Variables variables = more; // the engine takes the first of a name
     const std::string name = deck.filename().string();
-    const bool of_soil = name == "in.settle" || name == "in.settle.lammps" || name == "in.tile";
     for (const auto &variable : roller())
-      if (!of_soil) variables.push_back(variable);
+      variables.push_back(variable);
     std::string drum = "ball", stepping = "stock";
     for (const auto &[variable, value] : more)
       if (variable == "drum")
@@ -1313,7 +1312,7 @@ TEST(Bed3d, CarriesACylinderOnCopiesOfACellOnRanksOneAndTwo) {
   const auto run = [&](const Scratch &folder, const char *deck, Variables variables, int ranks = 1) {
     variables.insert(variables.end(), {{"case", "loose3d"}, {"walls", "0"}});
     const std::string name = deck;
-    if (name != "in.tile" && name != "in.settle") variables.emplace_back("roller", roller);
+    if (name == "in.settle") variables.emplace_back("roller", roller); // and from there to the others
     if (name == "in.tile") variables.emplace_back("cell", file("cell.data"));
     if (name.rfind("in.bed", 0) != 0) {
       variables.emplace_back("bed", file("soil.restart"));

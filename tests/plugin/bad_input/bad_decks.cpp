@@ -131,8 +131,8 @@ BadGroup bed_settle() {
        {"stepping", "half", "second or stock"},
        {"tangential", "off", "coulomb or history"},
        {"guard", "1", "on or off"},
-       {"k dt ratio pour_k pour_dt", "0 -1 nan", positive},
-       {"D friction rolling g drag fall pour_D pour_friction pour_rolling", "-0.5", non_negative},
+       {"k m2 m3 r2 r3 k23 dt ratio pour_k pour_dt", "0 -1 nan", positive},
+       {"D friction rolling g c23 drag fall pour_D pour_friction pour_rolling", "-0.5", non_negative},
        {"k", "1e8,-1 1e8, 1e8;1e9", "a finite number > 0, or several, separated by commas"},
        {"settle_limit", "-1", whole},
        {"loose", "1", "a finite number below 1"},
@@ -141,9 +141,7 @@ BadGroup bed_settle() {
        {"fall", "1e9", below},
        {"balls", "none.data", "a file that can be read, which './drumlin bed --out none.data' makes",
         on_two_ranks}},
-      {{"a roller where there is none", "m2 4000",
-        "drumlin/variables: -var m2 is '4000', a variable that this deck does not have; allowed: "},
-       {"a case without a file", "case sand",
+      {{"a case without a file", "case sand",
         "drumlin/variable: variable case is 'sand'; allowed: base_course, gravel, gravel3d"}});
 }
 
