@@ -24,8 +24,8 @@ void roller_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 void outputs_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
 /// drumlin/take FILE DECKS ALLOWED [fixed GROUP ...] [free GROUP ...] [except NAME ...] [only NAME ...]
-/// [default NAME ...]: gives the variables
-/// that are declared behind it the values with which a bed was made.
+/// [default NAME ...]: reads the values with which a bed was made from its file, and gives them to the
+/// variables that later lines of the deck declare.
 void take_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
 /// drumlin/record FILE NAME VALUE ...: writes parameters.csv, the parameters of a run.

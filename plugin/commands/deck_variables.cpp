@@ -21,11 +21,11 @@ std::vector<std::string> words_of(const std::string &text) {
   return {std::istream_iterator<std::string>(in), {}};
 }
 
+} // namespace
+
 bool is_in(const std::vector<std::string> &names, const std::string &name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
-
-} // namespace
 
 std::optional<std::string> DeckVariables::value(const std::string &name) const {
   std::string word = name;
@@ -188,8 +188,8 @@ std::vector<GivenVariable> given_variables() {
   for (std::size_t n = 1; n + 2 < words.size(); ++n) {
     if (words[n] != "-var" && words[n] != "-v") continue;
     GivenVariable variable{words[++n], {}};
-    // The word behind the name is a value in any case; further words are values up to the next that begins
-    // with a minus sign.
+    // The first word after the name is a value, even if it begins with a minus sign; the words after it are
+    // values up to the next word that begins with one.
     do
       variable.values.push_back(words[++n]);
     while (n + 1 < words.size() && (words[n + 1].empty() || words[n + 1][0] != '-'));

@@ -40,10 +40,10 @@ public:
 
   /// The value of a variable; none if there is no such variable.
   std::optional<std::string> value(const std::string &name) const;
-  /// Gives a variable a value, whatever it was before.
+  /// Makes a variable an index variable of this value. One of any style that has the name is replaced.
   void set(const std::string &name, const std::string &value);
   void remove(const std::string &name);
-  /// Gives a variable a value unless it has one.
+  /// The same, unless there is a variable of this name.
   void set_default(const std::string &name, const std::string &value);
 
   std::vector<DeclaredVariable> declared() const;
@@ -76,6 +76,9 @@ private:
 
   LAMMPS_NS::Variable &variables_;
 };
+
+/// Whether a name is in a list.
+bool is_in(const std::vector<std::string> &names, const std::string &name);
 
 /// Whether two values are the same: words exactly, numbers, also those of lists, to rounding, since a value
 /// may come from a formula of the deck.

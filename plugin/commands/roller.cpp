@@ -104,8 +104,7 @@ void roller_command(LAMMPS *lmp, int narg, char **arg) {
     }
     share = 1.0 / *roller.width;
   }
-  // Another file than that with which a bed was placed must be of the same roller; values that replaced some
-  // of the file's at that time are in the notes.
+  // A file other than the one that in.place has used must describe the same roller.
   for (const auto &[noted, noted_file] : variables.taken().notes) {
     if (noted != "roller" || noted_file == file || noted_file == "none") continue;
     for (const auto &[name, value] : {std::pair("m2", &Roller::m2), std::pair("m3", &Roller::m3),
@@ -120,7 +119,7 @@ void roller_command(LAMMPS *lmp, int narg, char **arg) {
         return;
       }
   }
-  // What follows is that of the values with which the run is made.
+  // The derived values are computed from the values of the run, which may replace some of the file's.
   for (const auto &[name, value] : {std::pair("m2", &Roller::m2), std::pair("m3", &Roller::m3),
                                     std::pair("k23", &Roller::k23), std::pair("c23", &Roller::c23)}) {
     variables.set_default(name, fmt::format("{:.17g}", roller.*value * share));

@@ -35,10 +35,6 @@ RestartNotes shared_notes(LAMMPS *lmp, const std::string &file) {
   return notes;
 }
 
-bool is_in(const std::vector<std::string> &names, const std::string &name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 } // namespace
 
 void take_command(LAMMPS *lmp, int narg, char **arg) {

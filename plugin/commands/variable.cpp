@@ -45,7 +45,8 @@ void variable_command(LAMMPS *lmp, int narg, char **arg) {
   variable.words = rule[0] == "words";
 
   const std::vector<GivenVariable> all_given = given_variables();
-  // A variable of the command line is none until it is declared: what a deck uses itself cannot be given.
+  // Remove the variables of the command line that are not declared: -var must not change what a deck uses
+  // internally.
   if (!variables.open())
     for (const GivenVariable &given : all_given)
       if (!of_front_script(given.name) && !variables.is_declared(given.name)) variables.remove(given.name);

@@ -39,10 +39,6 @@ std::string nearest(const std::string &name, const std::vector<std::string> &kno
   });
 }
 
-bool is_in(const std::vector<std::string> &names, const std::string &name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 } // namespace
 
 void variables_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) {
@@ -82,7 +78,7 @@ void variables_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg) {
       in.fail(given.shown() + "; allowed: " + allowed);
   DeckVariables::stop_on_fault(lmp);
   const TakenNotes taken = variables.taken();
-  // A value that was noted behind its declaration, or changed since.
+  // Notes that were read after a declaration, or a value that the deck has changed since, also count.
   for (const DeclaredVariable &variable : declared) {
     const std::string value = variables.value(variable.name).value_or("");
     if (const std::string allowed = variables.note_fault(variable, value); !allowed.empty())

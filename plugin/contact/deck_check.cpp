@@ -91,7 +91,7 @@ void DeckCheck::look(engine::LAMMPS *lmp, const std::string &command, bool secon
            std::string("atom_style is '") + lmp->atom->atom_style +
                "', whose balls have no mass of their own; allowed: sphere");
   check_run(lmp, command);
-  // drumlin/variable has declared variables whose faults drumlin/variables has not told.
+  // Without the closing command drumlin/variables the faults of declared variables have not been reported.
   char open[] = "drumlin_open";
   LAMMPS_NS::Variable &variables = *lmp->input->variable;
   if (const char *value = variables.find(open) < 0 ? nullptr : variables.retrieve(open);

@@ -11,7 +11,7 @@ namespace drumlin::post {
 /// The options as given.
 struct MapArguments {
   ChainArguments chain;
-  /// Axes; none: those of the usual map. x alone: the meter along this axis.
+  /// The axes that were given. Neither: a map over k and D. x alone: meter values over x, without a map.
   std::optional<std::string> x, y;
   std::optional<std::string> identify; ///< every so many-th point of one axis
   DrumArguments drum;                  ///< of one axis

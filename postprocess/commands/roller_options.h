@@ -1,5 +1,4 @@
-// A roller on a command line: --roller and --setting, with one rule and one kind of message for all
-// subcommands that take it; and the cases of the paper's Table 1, among which rollers once were.
+// The options --roller, --setting and --case, with the same checks and messages in all subcommands.
 #pragma once
 
 #include "chain/parameters.h"
@@ -55,7 +54,8 @@ struct DrumArguments {
 /// Adds --drum-radius, --drum-width and --poisson; `arguments` must outlive the app.
 void add_drum_options(CLI::App &command, DrumArguments &arguments);
 
-/// The drum on its soil, where radius and width are known: from the options, else from the roller's file.
+/// Size of the drum and Poisson's ratio of the soil, from the options, else from the roller's file; nothing
+/// if neither has radius and width.
 /// UsageError for one without the other.
 std::optional<LineContact> judged(const DrumArguments &arguments, const std::optional<GivenRoller> &roller);
 

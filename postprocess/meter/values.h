@@ -52,7 +52,8 @@ struct MeterWindow {
   std::optional<double> cmv;                           ///< 300 A_2 / A_1 [-]
   std::optional<double> rmv;                           ///< constant A_0.5 / A_1 [-]
   std::optional<double> ccv; ///< 100 (A_0.5 + A_1.5 + A_2 + A_2.5 + A_3) / (A_0.5 + A_1) [-]
-  /// How far each may be off by sampling and noise [-], see sampling_bound(); 0 for sums over every step.
+  /// Largest error of each of these values that sampling and noise can cause [-], see sampling_bound(); 0 if
+  /// the sums contain every time step.
   double cmv_bound = 0.0, rmv_bound = 0.0, ccv_bound = 0.0;
   std::optional<double> displacement;  ///< amplitude A_1 / omega^2 of the drum's first harmonic [m]
   std::optional<double> contact_share; ///< [-]

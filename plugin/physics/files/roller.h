@@ -45,8 +45,8 @@ struct Roller {
   double m2_tolerance = 0.0;            ///< relative tolerance of m2
   double m3_tolerance = 0.0;            ///< of m3
   double me_re_tolerance = 0.0;         ///< of m_e r_e
-  bool bond_assumed = false;            ///< the file has neither the bond nor the frame's frequency on it
-  std::vector<RollerSetting> settings;  ///< in the order of the file, at least one
+  bool bond_assumed = false;            ///< no bond in the file: the default is taken
+  std::vector<RollerSetting> settings;  ///< at least one, in the order of the file
 };
 
 /// A value that follows from a roller file: its name in parameters.csv, and its unit.
@@ -261,11 +261,11 @@ inline Roller read_roller(const std::string &text, const std::string &file) {
   }
   const std::optional<double> frame = lines.of("frame_mass");
 
-  // The settings: m_e r_e from itself, else from F / omega^2, else, below, from A m2.
+  // The eccentric moment of each setting: as given, else F / omega^2, else (below) A m2.
   if (lines.settings.empty())
     lines.missing("frequency", "a frequency and a force, eccentric_moment or amplitude");
   std::optional<double> m2 = lines.of("drum_mass");
-  std::vector<std::pair<std::string, double>> masses; // m_e r_e / A of the settings that have both
+  std::vector<std::pair<std::string, double>> masses; // name and m_e r_e / A of settings that have both
   for (const auto &[name, values] : lines.settings) {
     const std::string of_setting = name.empty() ? "" : " of setting " + name;
     const auto value = [&values = values](const char *key) {

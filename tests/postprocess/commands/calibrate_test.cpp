@@ -106,7 +106,8 @@ TEST(CalibrateCommand, RefusesBadInputInOneLine) {
 }
 
 // The settings of a calibration whose engine cannot be started: masses, bond and force are divided by the
-// width of the drum, 2 m. By hand: 250 kN at 30 Hz are 302.5 kN at 33 Hz; k23 = 1500 kg (2 pi 4.82 Hz)^2.
+// width of the drum, 2 m. Computed by hand: a force of 250 kN at 30 Hz is one of 302.5 kN at 33 Hz; k23 =
+// 1500 kg (2 pi 4.82 Hz)^2.
 TEST(CalibrateCommand, GivesABedTheRollerPerMetre) {
   const Scratch scratch;
   post::write_files({{scratch / "mine", "width 2 m\ndiameter 1.5 m\ndrum_mass 4 t\nframe_mass 3 t\n"

@@ -190,7 +190,7 @@ TEST_F(ExactCommand, TheForceOfARollerFollowsFromItsFrequency) {
   EXPECT_DOUBLE_EQ(force("--frequency 30"), 7.38 * std::pow(60.0 * pi, 2));
 }
 
-// A roller of which a data sheet is all that is known. By hand: m_e r_e = 256e3/(60 pi)^2 = 7.205062 kg m, m2
+// A roller known by its data sheet alone. Computed by hand: m_e r_e = 256e3/(60 pi)^2 = 7.205062 kg m, m2
 // = m_e r_e/1.8 mm = 4002.812 kg, m3 = 7000 kg - m2, k23 = m3 (2 pi 4.82 Hz)^2, c23 = 2 0.151 sqrt(k23 m3).
 TEST_F(ExactCommand, TakesARollerKnownByItsDataSheet) {
   std::ofstream(folder_ / "mine") << data_sheet;

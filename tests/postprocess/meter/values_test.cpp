@@ -154,7 +154,8 @@ Record thinned(const OracleResult &exact, const ChainParameters &p, int samples_
 // not much larger. Exact solutions share no code with the meter.
 TEST(Meter, BoundsAreTight) {
   constexpr int samples = 3000;
-  std::array<std::vector<double>, 2> ratios; // bound over error, from accelerations and from velocities
+  std::array<std::vector<double>, 2>
+      ratios; // the bound divided by the error: records with accelerations, with velocities
   const auto take = [&ratios](bool velocity, double value, double truth, double bound) {
     EXPECT_LE(std::abs(value - truth), bound + 1e-5 * (1.0 + truth)) << "but for the error of the truth";
     if (truth > 1.0) ratios[velocity ? 1 : 0].push_back(bound / std::max(std::abs(value - truth), 1e-9));
