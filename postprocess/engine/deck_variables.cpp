@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -83,34 +85,86 @@ public:
     std::string skipped_to; // a label
     for (const std::string &command : commands_of(file)) {
       const std::vector<std::string> words = words_of(command);
-      if (!skipped_to.empty()) {
-        if (words.size() == 2 && words[0] == "label" && words[1] == skipped_to) skipped_to.clear();
-      } else if (words.size() == 4 && words[0] == "if" && words[2] == "then") {
-        skipped_to = label_of_jump(words[1], words[3]);
-      } else if (words.size() == 2 && words[0] == "include") {
-        const fs::path included = with_values(words[1], values_);
-        std::error_code code;
-        if (fs::is_regular_file(included, code)) read(included);
-      } else if (words.size() == 3 && words[0] == "variable" && words[2] == "delete") {
-        values_.erase(words[1]);
-      } else if (words.size() == 4 && words[0] == "variable" &&
-                 (words[2] == "index" || words[2] == "string")) {
-        values_.emplace(words[1], with_values(words[3], values_));
-      } else if (words.size() == 7 && words[0] == "drumlin/variable") {
-        declare(words);
-      }
+      if (skipped_to.empty())
+        skipped_to = act(words);
+      else if (words.size() == 2 && words[0] == "label" && words[1] == skipped_to)
+        skipped_to.clear();
     }
   }
 
   std::vector<DeckVariable> variables;
 
 private:
-  /// The label of a line `if "A == B" then "jump SELF LABEL"` whose condition holds; empty: none.
-  std::string label_of_jump(const std::string &condition, const std::string &then) const {
-    const std::vector<std::string> sides = words_of(with_values(condition, values_));
-    const std::vector<std::string> jump = words_of(then);
-    const bool holds = sides.size() == 3 && sides[1] == "==" && sides[0] == sides[2];
-    return holds && jump.size() == 3 && jump[0] == "jump" ? jump[2] : "";
+  /// Does what a command does to variables. Returns the label to which it jumps; empty: none.
+  std::string act(const std::vector<std::string> &words) {
+    if (words.size() >= 4 && words[0] == "if" && words[2] == "then") return choose(words);
+    if (words.size() == 3 && words[0] == "jump") return words[2];
+    if (words.size() == 2 && words[0] == "include") {
+      const fs::path included = with_values(words[1], values_);
+      std::error_code code;
+      if (fs::is_regular_file(included, code)) read(included);
+    } else if (words.size() == 3 && words[0] == "variable" && words[2] == "delete") {
+      values_.erase(words[1]);
+    } else if (words.size() == 4 && words[0] == "variable") {
+      set(words[1], words[2], with_values(words[3], values_));
+    } else if (words.size() == 7 && words[0] == "drumlin/variable") {
+      declare(words);
+    }
+    return "";
+  }
+
+  /// \param style index keeps a value that the variable has; of equal only a number or another variable is
+  /// known
+  void set(const std::string &name, const std::string &style, const std::string &text) {
+    if (style == "index") {
+      values_.emplace(name, text);
+    } else if (style == "string") {
+      values_[name] = text;
+    } else if (style == "equal") {
+      const auto other = text.compare(0, 2, "v_") == 0 ? values_.find(text.substr(2)) : values_.end();
+      if (other != values_.end())
+        values_[name] = other->second;
+      else if (!text.empty() && text.find_first_not_of("0123456789.") == std::string::npos)
+        values_[name] = text;
+    }
+  }
+
+  /// A line `if "CONDITION" then "COMMAND" ... else "COMMAND" ...`; one whose condition is not known here
+  /// does nothing.
+  std::string choose(const std::vector<std::string> &words) {
+    const std::optional<bool> holds = condition(words_of(with_values(words[1], values_)));
+    if (!holds) return "";
+    const auto otherwise = std::find(words.begin(), words.end(), "else");
+    const auto begin = *holds ? words.begin() + 3 : otherwise == words.end() ? otherwise : otherwise + 1;
+    const auto end = *holds ? otherwise : words.end();
+    std::string label;
+    for (auto command = begin; command != end && label.empty(); ++command)
+      label = act(words_of(*command));
+    return label;
+  }
+
+  static std::optional<double> number(const std::string &text) {
+    char *end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    return text.empty() || *end != '\0' ? std::nullopt : std::optional(value);
+  }
+
+  /// "A", "A == B" and so on of numbers, or "A == B" of words; none if it is something else.
+  static std::optional<bool> condition(const std::vector<std::string> &words) {
+    if (words.empty() || (words.size() != 1 && words.size() != 3)) return std::nullopt;
+    const std::optional<double> a = number(words[0]);
+    if (words.size() == 1) return a ? std::optional(*a != 0.0) : std::nullopt;
+    const std::optional<double> b = number(words[2]);
+    const std::string &is = words[1];
+    if (!a || !b)
+      return is == "==" && words[0].find('$') == std::string::npos ? std::optional(words[0] == words[2])
+                                                                   : std::nullopt;
+    return is == "=="   ? *a == *b
+           : is == "!=" ? *a != *b
+           : is == ">"  ? *a > *b
+           : is == "<"  ? *a < *b
+           : is == ">=" ? *a >= *b
+                        : *a <= *b;
   }
 
   void declare(const std::vector<std::string> &words) {

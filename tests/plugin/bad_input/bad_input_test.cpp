@@ -1,6 +1,7 @@
 // Each mistake of the tables, on one rank and on two: the engine ends within seconds with a status other than
 // 0 and with one line that says what is wrong, and leaves the files of an earlier run as they were.
 
+#include "engine/deck_variables.h"
 #include "tests/plugin/bad_input/bad_input.h"
 #include "tests/support/checks.h"
 #include "tests/support/host_deck.h"
@@ -9,6 +10,8 @@
 
 #include <chrono>
 #include <map>
+#include <set>
+#include <sstream>
 
 namespace drumlin::test {
 
@@ -205,7 +208,21 @@ TEST(BadInput, BracesStayAsTheyAreInLammps) {
     }
 }
 
-// A misspelt name is an error in every deck, LAMMPS's included.
+/// The names that an error of drumlin/variables lists behind "the nearest of".
+std::set<std::string> names_in(const std::string &output) {
+  const std::string mark = "the nearest of ";
+  const std::size_t begin = output.find(mark);
+  if (begin == std::string::npos) return {};
+  std::istringstream list(
+      output.substr(begin + mark.size(), output.find_first_of("(\n", begin) - begin - mark.size()));
+  std::set<std::string> names;
+  for (std::string name; list >> name;)
+    names.insert(name.substr(0, name.find(',')));
+  return names;
+}
+
+// A misspelt name is an error in every deck, LAMMPS's included; `drumlin run DECK --help`, which reads the
+// deck without the engine, lists the same names as the engine.
 TEST(BadInputDecks, KnowTheirVariables) {
   std::size_t decks = 0;
   for (const char *room : {"benchmarks", "chain", "bed", "soil", "study"})
@@ -221,6 +238,10 @@ TEST(BadInputDecks, KnowTheirVariables) {
           outcome, "ERROR: drumlin/variables: -var stepz is '1', a variable that this deck does not "
                    "have; allowed: "))
           << name;
+      std::set<std::string> in_help;
+      for (const post::DeckVariable &variable : post::deck_variables(entry.path(), {}))
+        in_help.insert(variable.name);
+      EXPECT_EQ(in_help, names_in(outcome.output)) << name;
     }
   EXPECT_GE(decks, 20u);
 }
