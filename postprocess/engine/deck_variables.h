@@ -13,9 +13,9 @@ struct DeckVariable {
   std::string name, standard, rule, unit, group, meaning;
 };
 
-/// The variables that a deck and the files that it includes declare, in this order. `if` is followed
-/// where it jumps over lines. \param given values of -var, which decide what is included and are the
-/// defaults shown
+/// The variables that a deck and the files that it includes declare, in this order. An `if` whose
+/// condition the values decide is followed, others are ignored. \param given values of -var, which decide
+/// what is included and are the defaults shown
 std::vector<DeckVariable> deck_variables(const std::filesystem::path &deck,
                                          std::map<std::string, std::string> given);
 
