@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 
 namespace drumlin::post {
@@ -541,15 +542,35 @@ PhaseChange ChainSolver::leave(ChainMotion &motion, int exit) const {
   return change;
 }
 
+void ChainSolver::take_over(const ChainSolver &before, ChainMotion &motion, MotionObserver *observer) const {
+  const bool same = before.parameters_.k == parameters_.k && before.c_ == c_;
+  if (same) return;
+  motion.since = 0.0;
+  if (motion.boundary == 1) motion.boundary = -1; // where F was 0, it no longer is
+  if (parameters_.transition == Transition::A || motion.state[0] >= 0.0) return;
+  const ContactPhase phase = law(motion.state) > 0.0 ? ContactPhase::contact : ContactPhase::clamped;
+  if (phase == motion.phase) return;
+  const double force = (phase == ContactPhase::contact ? *this : before).law(motion.state);
+  if (observer != nullptr)
+    observer->change({motion.phase, phase, motion.time, motion.state, std::max(0.0, force), 0.0});
+  motion.phase = phase;
+  motion.boundary = -1;
+}
+
 void ChainSolver::finish_cycle(ChainMotion &motion, MotionObserver *observer) const {
+  go_to(parameters_.period(), motion, observer);
+  motion.time = 0.0;
+  ++motion.cycle;
+}
+
+void ChainSolver::go_to(double end, ChainMotion &motion, MotionObserver *observer) const {
   constexpr int most_changes = 100'000;
-  const double period = parameters_.period();
-  const double nothing = 1e-15 * period;
+  const double nothing = 1e-15 * parameters_.period();
   MotionPiece piece;
   int changes = 0;
-  while (period - motion.time > nothing) {
+  while (end - motion.time > nothing) {
     const PhaseDynamics &dynamics = motion.phase == ContactPhase::contact ? touching_ : apart_;
-    const double left = period - motion.time;
+    const double left = end - motion.time;
     const double longest = dynamics.longest_piece(motion.since);
     const bool last = left <= longest;
     const double length = last ? left : longest;
@@ -563,7 +584,7 @@ void ChainSolver::finish_cycle(ChainMotion &motion, MotionObserver *observer) co
     motion.state = piece.state(piece.end);
     motion.boundary = -1;
     motion.since += length * piece.end;
-    motion.time = exit.index < 0 && last ? period : motion.time + length * piece.end;
+    motion.time = exit.index < 0 && last ? end : motion.time + length * piece.end;
     if (exit.index < 0) continue;
     const PhaseChange change = leave(motion, exit.index);
     if (observer != nullptr) observer->change(change);
@@ -571,8 +592,6 @@ void ChainSolver::finish_cycle(ChainMotion &motion, MotionObserver *observer) co
       throw std::runtime_error(
           fmt::format("more than {} contacts made and broken in cycle {}", most_changes, motion.cycle + 1));
   }
-  motion.time = 0.0;
-  ++motion.cycle;
 }
 
 // ---- history ----
@@ -583,28 +602,33 @@ namespace {
 class Recorder : public MotionObserver {
 public:
   Recorder(const ChainSolver &solver, const DirectOptions &options)
-      : solver_(solver), options_(options),
+      : solver_(&solver), options_(options),
         end_(static_cast<double>(options.last_point()) / static_cast<double>(options.points_per_cycle()) *
              solver.parameters().period()),
         last_row_(options.last_point() / options.points_per_sample()) {}
 
+  /// What follows is over this section of the way.
+  void enter(const ChainSolver &solver, const WaySection &section) {
+    solver_ = &solver;
+    section_ = &section;
+  }
   void begin_cycle(long cycle) {
-    start_ = static_cast<double>(cycle) * solver_.parameters().period();
+    start_ = static_cast<double>(cycle) * solver_->parameters().period();
     row_of_cycle_ = cycle * options_.samples_per_cycle;
     next_ = 0;
     summary_ = {static_cast<int>(cycle) + 1, start_, no_limit, -no_limit, no_limit, -no_limit, 0.0, 0, 0};
   }
   void end_cycle() {
-    if (solver_.parameters().transition == Transition::B)
+    if (solver_->parameters().transition == Transition::B)
       summary_.F_contact_min = std::max(0.0, summary_.F_contact_min);
-    summary_.contact_share = std::min(1.0, summary_.contact_share / solver_.parameters().period());
+    summary_.contact_share = std::min(1.0, summary_.contact_share / solver_->parameters().period());
     result_.cycles.push_back(summary_);
   }
 
   void piece(const MotionPiece &piece, const PhaseDynamics & /*dynamics*/) override {
     ++result_.cost.steps;
     summarize(piece);
-    const double period = solver_.parameters().period();
+    const double period = solver_->parameters().period();
     for (; next_ < options_.samples_per_cycle && row_of_cycle_ + next_ <= last_row_; ++next_) {
       const double t = next_ * period / options_.samples_per_cycle;
       const double s = (t - piece.begin) / piece.length;
@@ -623,11 +647,11 @@ public:
                               0.0 - change.state[1], change.force + 0.0, 1, 2});
   }
   void row(ContactPhase phase, double t, const ChainState &y) {
-    const ChainParameters &p = solver_.parameters();
+    const ChainParameters &p = solver_->parameters();
     ChainHistory &h = result_.history;
     const double bond = p.c23 * (y[3] - y[1]) + p.k23 * (y[2] - y[0]);
     const double push = p.Fw * std::sin(p.omega * t);
-    const double force = solver_.force(phase, y);
+    const double force = solver_->force(phase, y);
     h.time.push_back(start_ + t);
     h.x_drum.push_back(y[0]);
     h.v_drum.push_back(y[1]);
@@ -638,6 +662,10 @@ public:
     h.F_contact.push_back(force);
     h.F_excitation.push_back(push);
     h.F_bond.push_back(bond);
+    if (section_ != nullptr) {
+      h.s.push_back(section_->place(start_ + t));
+      h.pass.push_back(section_->pass);
+    }
   }
   DirectResult take() { return std::move(result_); }
 
@@ -648,7 +676,7 @@ private:
   void summarize(const MotionPiece &piece) {
     std::array<double, most_terms> a{};
     std::array<double, most_terms> F{};
-    const ChainParameters &p = solver_.parameters();
+    const ChainParameters &p = solver_->parameters();
     const double k = piece.phase == ContactPhase::contact ? p.k : 0.0;
     const double c = piece.phase == ContactPhase::contact ? p.damping() : 0.0;
     double power = 1.0; // of piece.end
@@ -669,7 +697,8 @@ private:
     min = -largest_value(values.data(), terms, -min);
   }
 
-  const ChainSolver &solver_;
+  const ChainSolver *solver_;
+  const WaySection *section_ = nullptr;
   const DirectOptions &options_;
   double end_;
   long last_row_;
@@ -680,21 +709,42 @@ private:
   DirectResult result_;
 };
 
+/// The chain over a section of its way.
+ChainParameters over(ChainParameters parameters, const WaySection &section) {
+  if (!section.constant()) throw std::invalid_argument("k and D along the way are not constant in steps");
+  parameters.k = section.k;
+  parameters.D = section.D;
+  return parameters;
+}
+
 DirectResult solve(const ChainParameters &parameters, const DirectOptions &options, int lead,
                    const SolverProgress &progress) {
-  const ChainSolver solver(parameters);
-  Recorder recorder(solver, options);
-  ChainMotion motion = solver.start(options.impact_speed);
+  auto section = options.way.begin();
+  auto here =
+      std::make_unique<ChainSolver>(section == options.way.end() ? parameters : over(parameters, *section));
+  Recorder recorder(*here, options);
+  if (section != options.way.end()) recorder.enter(*here, *section);
+  ChainMotion motion = here->start(options.impact_speed);
   for (int cycle = 0; cycle < lead; ++cycle)
-    solver.finish_cycle(motion);
+    here->finish_cycle(motion);
   const long whole = options.last_point() / options.points_per_cycle();
   const bool part = whole == 0 || options.last_point() % options.points_per_cycle() != 0;
   for (long cycle = lead; cycle < whole + part; ++cycle) {
     recorder.begin_cycle(cycle);
     if (cycle == 0 && motion.phase == ContactPhase::contact && motion.state[0] == 0.0)
       recorder.change(
-          {ContactPhase::flight, ContactPhase::contact, 0.0, motion.state, solver.law(motion.state), 0.0});
-    solver.finish_cycle(motion, &recorder);
+          {ContactPhase::flight, ContactPhase::contact, 0.0, motion.state, here->law(motion.state), 0.0});
+    const double period = parameters.period();
+    while (options.way.end() - section > 1) {
+      const double end = section->end - static_cast<double>(cycle) * period;
+      if (end >= period) break;
+      here->go_to(end, motion, &recorder);
+      auto next = std::make_unique<ChainSolver>(over(parameters, *++section));
+      recorder.enter(*next, *section);
+      next->take_over(*here, motion, &recorder);
+      here = std::move(next);
+    }
+    here->finish_cycle(motion, &recorder);
     if (cycle < whole) recorder.end_cycle();
     if (progress) progress(std::min(1.0, static_cast<double>(cycle + 1) / options.cycles));
   }
@@ -721,11 +771,20 @@ DirectResult solve_closed_form(const ChainParameters &parameters, int cycles, in
   return solve(parameters, options, lead, {});
 }
 
-bool closed_form_suffices(const ChainParameters &parameters, double cycles) {
-  constexpr double most_pieces = 3e6;                         // some two seconds
-  const double end = std::ceil(cycles) * parameters.period(); // the last cycle is followed to its end
-  return end <= most_pieces * PhaseDynamics(parameters, parameters.k, parameters.damping()).longest_piece() &&
-         end <= most_pieces * PhaseDynamics(parameters, 0.0, 0.0).longest_piece();
+bool closed_form_suffices(const ChainParameters &parameters, const DirectOptions &options) {
+  constexpr double most_pieces = 3e6;                                 // some two seconds
+  const double end = std::ceil(options.cycles) * parameters.period(); // the last cycle is followed to its end
+  double pieces = 0.0;
+  const auto include = [&](ChainParameters p, double duration) {
+    pieces += duration / std::min(PhaseDynamics(p, p.k, p.damping()).longest_piece(),
+                                  PhaseDynamics(p, 0.0, 0.0).longest_piece());
+  };
+  if (options.way.empty()) include(parameters, end);
+  for (const WaySection &section : options.way) {
+    if (!section.constant()) return false;
+    include(over(parameters, section), section.end - section.begin);
+  }
+  return pieces <= most_pieces;
 }
 
 } // namespace drumlin::post

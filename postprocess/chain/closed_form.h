@@ -136,6 +136,11 @@ public:
   /// Continues the motion to the end of the cycle. Throws std::runtime_error if it has more than 100,000
   /// changes of phase in it.
   void finish_cycle(ChainMotion &motion, MotionObserver *observer = nullptr) const;
+  /// The same to a time within the cycle [s].
+  void go_to(double time, ChainMotion &motion, MotionObserver *observer = nullptr) const;
+  /// A motion that comes here from other soil. Under B a contact ends where the law's force has become a
+  /// tension, and begins again where it has become a compression.
+  void take_over(const ChainSolver &before, ChainMotion &motion, MotionObserver *observer = nullptr) const;
 
 private:
   struct Exit {
@@ -159,9 +164,10 @@ DirectResult solve_closed_form(const ChainParameters &parameters, const DirectOp
 DirectResult solve_closed_form(const ChainParameters &parameters, int cycles, int samples_per_cycle,
                                int lead = 0);
 
-/// Whether the closed form has the solution within seconds. It splits off one fast decay: if contact and bond
-/// both decay very fast, its pieces become as short as the slower of the two.
-bool closed_form_suffices(const ChainParameters &parameters, double cycles);
+/// Whether the closed form has the solution within seconds: not where k or D change linearly along the way of
+/// a roller that drives. It splits off one fast decay: if contact and bond both decay very fast, its pieces
+/// become as short as the slower of the two.
+bool closed_form_suffices(const ChainParameters &parameters, const DirectOptions &options);
 
 /// The first s in [0, 1] where a polynomial that is not positive at s = 0 becomes positive; 2 if it does not.
 /// Coefficients of s^0, s^1, ..., at most `most_terms`. No crossing is missed: an interval is discarded only

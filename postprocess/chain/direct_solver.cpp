@@ -46,47 +46,86 @@ struct Exit {
 constexpr std::size_t max_exits = 2;
 using Exits = std::array<Exit, max_exits>;
 
+// The contact between drum and soil, and how fast a roller that drives meets another one.
+struct Soil {
+  double k = 0.0, c = 0.0;           // N/m, N s/m
+  double k_rate = 0.0, c_rate = 0.0; // per second
+};
+
 class Chain {
 public:
-  explicit Chain(const ChainParameters &parameters) : p_(parameters), c_(parameters.damping()) {}
+  explicit Chain(const ChainParameters &parameters, const std::vector<WaySection> &way = {})
+      : p_(parameters), standing_{p_.k, p_.damping(), 0.0, 0.0} {
+    // The stiffest and the most damped places are at ends of sections.
+    for (const WaySection &section : way)
+      for (const double t : {section.begin, section.end}) {
+        section_ = &section;
+        met_.push_back(soil(t));
+      }
+    if (way.empty()) met_.push_back(standing_);
+    section_ = way.empty() ? nullptr : &way.front();
+  }
 
   const ChainParameters &parameters() const { return p_; }
-  double c() const { return c_; }
+
+  // The roller now drives over this section of its way.
+  void enter(const WaySection &section) { section_ = &section; }
+  const WaySection *section() const { return section_; }
+
+  Soil soil(double t) const {
+    if (section_ == nullptr) return standing_;
+    const double k = section_->k + section_->k_rate * (t - section_->begin);
+    const double D = section_->D + section_->D_rate * (t - section_->begin);
+    const double critical = 2.0 * std::sqrt(p_.m2 * k); // c = 2 D sqrt(m2 k)
+    return {k, critical * D, section_->k_rate,
+            critical * (section_->D_rate + 0.5 * D * section_->k_rate / k)};
+  }
 
   double excitation(double t) const { return p_.Fw * std::sin(p_.omega * t); }
   double bond(const State &y) const {
     return p_.c23 * (y[v_frame] - y[v_drum]) + p_.k23 * (y[x_frame] - y[x_drum]);
   }
   // k d + c d', whether it acts or not.
-  double law(const State &y) const { return -(p_.k * y[x_drum] + c_ * y[v_drum]); }
-  double contact_force(Phase phase, const State &y) const { return phase == Phase::contact ? law(y) : 0.0; }
+  double law(double t, const State &y) const {
+    const Soil at = soil(t);
+    return -(at.k * y[x_drum] + at.c * y[v_drum]);
+  }
+  // Its rate, from y' at the same time.
+  double law_rate(double t, const State &y, const State &rate) const {
+    const Soil at = soil(t);
+    return -(at.k * rate[x_drum] + at.c * rate[v_drum]) - (at.k_rate * y[x_drum] + at.c_rate * y[v_drum]);
+  }
+  double contact_force(Phase phase, double t, const State &y) const {
+    return phase == Phase::contact ? law(t, y) : 0.0;
+  }
 
   // The contact force for output files. Near the end of a contact under condition B the force is zero within
   // rounding errors; a negative value there is written as zero.
-  double recorded_force(Phase phase, const State &y) const {
-    const double force = contact_force(phase, y);
+  double recorded_force(Phase phase, double t, const State &y) const {
+    const double force = contact_force(phase, t, y);
     return p_.transition == Transition::B ? std::max(0.0, force) : force;
   }
 
   // y' = f(t, y)
   State derivative(Phase phase, double t, const State &y) const {
     const double bond_force = bond(y);
-    return {y[v_drum], (contact_force(phase, y) + bond_force - excitation(t)) / p_.m2 - p_.g, y[v_frame],
+    return {y[v_drum], (contact_force(phase, t, y) + bond_force - excitation(t)) / p_.m2 - p_.g, y[v_frame],
             -bond_force / p_.m3 - p_.g};
   }
 
   // The row of df/dy that belongs to the drum's (m = m2, sign +) or the frame's acceleration (m3, sign -).
-  State drum_row(Phase phase) const {
-    const double k = phase == Phase::contact ? p_.k : 0.0;
-    const double c = phase == Phase::contact ? c_ : 0.0;
-    return {-(k + p_.k23) / p_.m2, -(c + p_.c23) / p_.m2, p_.k23 / p_.m2, p_.c23 / p_.m2};
+  State drum_row(Phase phase, double t) const {
+    const Soil at = phase == Phase::contact ? soil(t) : Soil();
+    return {-(at.k + p_.k23) / p_.m2, -(at.c + p_.c23) / p_.m2, p_.k23 / p_.m2, p_.c23 / p_.m2};
   }
   State frame_row() const { return {p_.k23 / p_.m3, p_.c23 / p_.m3, -p_.k23 / p_.m3, -p_.c23 / p_.m3}; }
 
   // Rate of the drum's acceleration, from y' at the same time.
-  double drum_jerk(Phase phase, double t, const State &rate) const {
-    const State row = drum_row(phase);
-    double jerk = -p_.omega * p_.Fw * std::cos(p_.omega * t) / p_.m2;
+  double drum_jerk(Phase phase, double t, const State &y, const State &rate) const {
+    const State row = drum_row(phase, t);
+    const Soil at = phase == Phase::contact ? soil(t) : Soil();
+    double jerk = -p_.omega * p_.Fw * std::cos(p_.omega * t) / p_.m2 -
+                  (at.k_rate * y[x_drum] + at.c_rate * y[v_drum]) / p_.m2;
     for (std::size_t i = 0; i < row.size(); ++i)
       jerk += row[i] * rate[i];
     return jerk;
@@ -94,11 +133,14 @@ public:
 
   std::size_t exit_count(Phase phase) const { return phase == Phase::clamped ? 2 : 1; }
 
-  Exits exits(Phase phase, const State &y, const State &rate) const {
+  Exits exits(Phase phase, double t, const State &y) const {
+    const State rate = derivative(phase, t, y);
+    const double force = law(t, y);
+    const double force_rate = law_rate(t, y, rate);
     const Exit overlap_begins = {-y[x_drum], -y[v_drum]};
     const Exit overlap_ends = {y[x_drum], y[v_drum]};
-    const Exit force_begins = {law(y), law(rate)};
-    const Exit force_ends = {-law(y), -law(rate)};
+    const Exit force_begins = {force, force_rate};
+    const Exit force_ends = {-force, -force_rate};
     switch (phase) {
     case Phase::contact:
       return {p_.transition == Transition::A ? overlap_ends : force_ends, Exit{}};
@@ -114,20 +156,29 @@ public:
   // Adams. Adams' steps are limited by the decay rate (to a few tenths of its inverse), BDF's at tight
   // tolerances by accuracy (some thousand steps per radian of the motion), so that the two cost the same at a
   // ratio of the rates near 10^2 to 10^3.
-  bool stiff(Phase phase) const {
-    constexpr double bdf_pays = 300.0;
-    const Rates found = rates(phase);
-    return found.decay > bdf_pays * found.motion;
-  }
+  bool stiff(Phase phase, double t) const { return stiff(rates(phase == Phase::contact ? soil(t) : Soil())); }
 
   // Radians per second that the integrator's steps must resolve, over all phases.
   double fastest() const {
     double fastest = 0.0;
-    for (const Phase phase : {Phase::contact, Phase::free}) {
-      const Rates found = rates(phase);
-      fastest = std::max(fastest, stiff(phase) ? found.motion : std::max(found.motion, found.decay));
-    }
+    const auto include = [&](const Soil &soil) {
+      const Rates found = rates(soil);
+      fastest = std::max(fastest, stiff(found) ? found.motion : std::max(found.motion, found.decay));
+    };
+    include(Soil());
+    for (const Soil &soil : met_)
+      include(soil);
     return fastest;
+  }
+  double largest_stiffness() const {
+    return std::max_element(met_.begin(), met_.end(),
+                            [](const Soil &one, const Soil &other) { return one.k < other.k; })
+        ->k;
+  }
+  double largest_damping() const {
+    return std::max_element(met_.begin(), met_.end(),
+                            [](const Soil &one, const Soil &other) { return one.c < other.c; })
+        ->c;
   }
 
 private:
@@ -135,7 +186,11 @@ private:
     double decay = 0.0;  // of the fastest overdamped pair, 1/s
     double motion = 0.0; // fastest oscillation or excitation, rad/s
   };
-  Rates rates(Phase phase) const {
+  static bool stiff(const Rates &found) {
+    constexpr double bdf_pays = 300.0;
+    return found.decay > bdf_pays * found.motion;
+  }
+  Rates rates(const Soil &soil) const {
     Rates rates = {0.0, p_.omega};
     const auto include = [&rates](double k, double c, double m) {
       const double beta = 0.5 * c / m;
@@ -145,24 +200,28 @@ private:
       else
         rates.motion = std::max(rates.motion, std::sqrt(square));
     };
-    if (phase == Phase::contact) include(p_.k, c_, p_.m2);
+    include(soil.k, soil.c, p_.m2);
     include(p_.k23, p_.c23, p_.m2 * p_.m3 / (p_.m2 + p_.m3));
     return rates;
   }
 
   ChainParameters p_;
-  double c_;
+  Soil standing_;                       // where it does not drive
+  const WaySection *section_ = nullptr; // where it drives
+  std::vector<Soil> met_;
 };
 
 // Absolute tolerances far below each component's contribution to the forces: a relative tolerance alone could
 // not be met where a component passes through zero.
-State absolute_tolerances(const ChainParameters &p, const DirectOptions &options) {
-  const double c = p.damping();
-  const double root = std::sqrt(p.m2 * p.k);
+State absolute_tolerances(const Chain &chain, const DirectOptions &options) {
+  const ChainParameters &p = chain.parameters();
+  const double k = chain.largest_stiffness();
+  const double c = chain.largest_damping();
+  const double root = std::sqrt(p.m2 * k);
   double force = std::max({p.Fw, (p.m2 + p.m3) * p.g, options.impact_speed * root});
   if (force <= 0.0) force = 1.0;
   const double part = 1e-2 * options.rtol * force;
-  return {part / p.k, part * std::min(1.0 / (c + root), p.omega / p.k),
+  return {part / k, part * std::min(1.0 / (c + root), p.omega / k),
           part / std::max({p.k23, p.c23 * p.omega, p.m3 * p.omega * p.omega}),
           part / std::max({p.c23, p.k23 / p.omega, p.m3 * p.omega})};
 }
@@ -216,7 +275,7 @@ public:
     if (!state_ || !tolerance_ || !dense_ || !matrix_ || !linear_ || !memory_)
       throw std::runtime_error("CVODE could not be set up");
     put_state({0.0, 0.0, 0.0, 0.0}, state_.get());
-    put_state(absolute_tolerances(chain.parameters(), options), tolerance_.get());
+    put_state(absolute_tolerances(chain, options), tolerance_.get());
     void *memory = memory_.get();
     check(CVodeInit(memory, &Integrator::right_hand_side, 0.0, state_.get()), "CVodeInit");
 #if SUNDIALS_VERSION_MAJOR >= 7
@@ -291,11 +350,11 @@ private:
     return 0;
   }
 
-  static int jacobian(sunrealtype /*elapsed*/, N_Vector /*y*/, N_Vector /*rate*/, SUNMatrix matrix,
-                      void *user, N_Vector /*work1*/, N_Vector /*work2*/, N_Vector /*work3*/) {
+  static int jacobian(sunrealtype elapsed, N_Vector /*y*/, N_Vector /*rate*/, SUNMatrix matrix, void *user,
+                      N_Vector /*work1*/, N_Vector /*work2*/, N_Vector /*work3*/) {
     const auto &self = *static_cast<Integrator *>(user);
     const std::array<State, 4> rows = {{{0.0, 1.0, 0.0, 0.0},
-                                        self.chain_.drum_row(self.phase_),
+                                        self.chain_.drum_row(self.phase_, self.t0_ + elapsed),
                                         {0.0, 0.0, 0.0, 1.0},
                                         self.chain_.frame_row()}};
     for (std::size_t column = 0; column < 4; ++column) {
@@ -309,8 +368,7 @@ private:
   static int root_functions(sunrealtype elapsed, N_Vector y, sunrealtype *values, void *user) {
     const auto &self = *static_cast<Integrator *>(user);
     const State state = state_of(y);
-    const Exits exits =
-        self.chain_.exits(self.phase_, state, self.chain_.derivative(self.phase_, self.t0_ + elapsed, state));
+    const Exits exits = self.chain_.exits(self.phase_, self.t0_ + elapsed, state);
     for (std::size_t i = 0; i < self.chain_.exit_count(self.phase_); ++i)
       values[i] = exits[i].value;
     return 0;
@@ -435,9 +493,13 @@ public:
       history_.x_frame.push_back(y[x_frame]);
       history_.v_frame.push_back(y[v_frame]);
       history_.a_frame.push_back(rate[v_frame]);
-      history_.F_contact.push_back(chain_.recorded_force(phase, y));
+      history_.F_contact.push_back(chain_.recorded_force(phase, t, y));
       history_.F_excitation.push_back(chain_.excitation(t));
       history_.F_bond.push_back(chain_.bond(y));
+      if (const WaySection *section = chain_.section()) {
+        history_.s.push_back(section->place(t));
+        history_.pass.push_back(section->pass);
+      }
     }
     ++next_;
     take(moment(phase, t, y, chain_.derivative(phase, t, y))); // a border of cycles belongs to both
@@ -493,8 +555,8 @@ private:
   Cycle &current() { return cycles_[static_cast<std::size_t>(std::max(0L, next_ - 1) / per_cycle_)]; }
 
   Moment moment(Phase phase, double t, const State &y, const State &rate) const {
-    return {t, rate[v_drum], chain_.drum_jerk(phase, t, rate), chain_.contact_force(phase, y),
-            chain_.contact_force(phase, rate)};
+    return {t, rate[v_drum], chain_.drum_jerk(phase, t, y, rate), chain_.contact_force(phase, t, y),
+            phase == Phase::contact ? chain_.law_rate(t, y, rate) : 0.0};
   }
 
   void take(const Moment &now) {
@@ -518,7 +580,7 @@ private:
 class Run {
 public:
   Run(const ChainParameters &parameters, const DirectOptions &options, const SolverProgress &progress)
-      : chain_(parameters), options_(options), progress_(progress), recorder_(chain_, options) {
+      : chain_(parameters, options.way), options_(options), progress_(progress), recorder_(chain_, options) {
     SUNContext context = nullptr;
 #if SUNDIALS_VERSION_MAJOR >= 7
     const auto no_ranks = SUN_COMM_NULL;
@@ -537,9 +599,15 @@ public:
     // The rest of the run after an event near its end may be shorter than the rounding error of the period:
     // nothing moves in it.
     const double nothing = 1e-14 * chain_.parameters().period();
-    bool at_end = false;
-    while (!at_end && end - t_ > nothing)
-      at_end = piece(end);
+    std::size_t section = 0;
+    while (end - t_ > nothing) {
+      const bool last = section + 1 >= options_.way.size();
+      const double until = last ? end : std::min(end, options_.way[section].end);
+      while (until - t_ > nothing && !piece(until)) {
+      }
+      if (last) break;
+      enter(options_.way[++section]);
+    }
     while (recorder_.next() <= end)
       recorder_.grid_point(phase_, y_);
     if (phase_ == Phase::contact) recorder_.contact(made_at_, end);
@@ -555,22 +623,35 @@ private:
     if (options_.impact_speed > 0.0) {
       y_ = {0.0, -options_.impact_speed, 0.0, -options_.impact_speed};
     } else {
-      const double x2 = p.g > 0.0 ? -(p.m2 + p.m3) * p.g / p.k : 0.0;
+      const double x2 = p.g > 0.0 ? -(p.m2 + p.m3) * p.g / chain_.soil(0.0).k : 0.0;
       y_ = {x2, 0.0, p.g > 0.0 ? x2 - p.m3 * p.g / p.k23 : x2, 0.0};
     }
     if (y_[x_drum] < 0.0) {
       phase_ = Phase::contact;
     } else if (options_.impact_speed > 0.0 || p.Fw > 0.0) {
-      make(chain_.c() * -y_[v_drum]); // touching, and moving or about to be pushed down
+      make(chain_.soil(t_).c * -y_[v_drum]); // touching, and moving or about to be pushed down
     } else {
       phase_ = Phase::free; // touching, and nothing acts
     }
   }
 
-  // One smooth piece, from event to event; true if it reached the end of the run.
+  // The roller comes to the next section of its way. At a step of the soil the force jumps; under B a contact
+  // then ends where it would be a tension, and begins again where it is a compression.
+  void enter(const WaySection &section) {
+    const double before = chain_.law(t_, y_);
+    chain_.enter(section);
+    const double force = chain_.law(t_, y_);
+    if (chain_.parameters().transition == Transition::A || y_[x_drum] >= 0.0 || force == before) return;
+    if (phase_ == Phase::contact && force < 0.0)
+      end_contact(Phase::clamped, std::max(0.0, before));
+    else if (phase_ == Phase::clamped && force > 0.0)
+      make(force);
+  }
+
+  // One smooth piece, from event to event; true if it reached `end`.
   bool piece(double end) {
     const double start = t_;
-    const bool stiff = chain_.stiff(phase_);
+    const bool stiff = chain_.stiff(phase_, start);
     Integrator &integrator = method(stiff);
     integrator.start(phase_, start, y_, end - start);
     result_.cost.bdf = result_.cost.bdf || stiff;
@@ -623,7 +704,7 @@ private:
   Departure first_departure(Integrator &integrator, double start, double from, const Reached &reached) const {
     const auto exits_at = [&](double elapsed) {
       const State y = integrator.state_at(elapsed);
-      return chain_.exits(phase_, y, chain_.derivative(phase_, start + elapsed, y));
+      return chain_.exits(phase_, start + elapsed, y);
     };
     const Exits before = exits_at(from);
     const Exits now = exits_at(reached.elapsed);
@@ -664,7 +745,7 @@ private:
     switch (phase_) {
     case Phase::free:
       y_[x_drum] = 0.0;
-      make(chain_.c() * -y_[v_drum]);
+      make(chain_.soil(t_).c * -y_[v_drum]);
       break;
     case Phase::clamped:
       if (exit == 0) {
@@ -677,8 +758,8 @@ private:
     case Phase::contact:
       if (chain_.parameters().transition == Transition::A) {
         y_[x_drum] = 0.0;
-        end_contact(Phase::free, chain_.c() * -y_[v_drum]);
-      } else if (chain_.c() > 0.0 && y_[x_drum] < 0.0) {
+        end_contact(Phase::free, chain_.soil(t_).c * -y_[v_drum]);
+      } else if (chain_.soil(t_).c > 0.0 && y_[x_drum] < 0.0) {
         end_contact(Phase::clamped, 0.0);
       } else { // without damping F_c = 0 and d = 0 are one
         y_[x_drum] = 0.0;
@@ -759,20 +840,27 @@ std::string DirectOptions::invalid() const {
   return {};
 }
 
-double most_cycles(const ChainParameters &parameters) {
+namespace {
+
+double most_cycles(const Chain &chain) {
   // A few steps each: about a minute.
   constexpr double most_radians = 1e7;
-  return most_radians / (Chain(parameters).fastest() * parameters.period());
+  return most_radians / (chain.fastest() * chain.parameters().period());
 }
 
+} // namespace
+
+double most_cycles(const ChainParameters &parameters) { return most_cycles(Chain(parameters)); }
+
 std::string too_much_work(const ChainParameters &parameters, const DirectOptions &options) {
-  const double most = most_cycles(parameters);
+  const Chain chain(parameters, options.way);
+  const double most = most_cycles(chain);
   if (options.cycles <= most) return {};
   return refusal(
       "cycles", options.cycles,
       fmt::format(
           "at most {:.3g} of this chain, which moves at up to {:.3g} rad/s against {:g} of the excitation",
-          most, Chain(parameters).fastest(), parameters.omega));
+          most, chain.fastest(), parameters.omega));
 }
 
 DirectResult solve_direct(const ChainParameters &parameters, const DirectOptions &options,

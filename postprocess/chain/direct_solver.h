@@ -4,6 +4,7 @@
 // event, because the contact force changes its law there.
 #pragma once
 
+#include "chain/driven_way.h"
 #include "chain/parameters.h"
 #include "runs/chain_files.h"
 
@@ -23,6 +24,9 @@ struct DirectOptions {
   /// If positive: start at x_drum = 0 moving down at this speed [m/s], the frame with it and the bond
   /// unstretched (a roller that falls onto the soil), instead of at static equilibrium.
   double impact_speed = 0.0;
+  /// Where a roller drives: the soil it meets, from t = 0 to the end at least; k and D of the chain are then
+  /// without effect. Empty: it stands.
+  std::vector<WaySection> way;
 
   /// Empty if usable; else one line that names the option, its value and what is allowed.
   std::string invalid() const;

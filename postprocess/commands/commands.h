@@ -21,6 +21,7 @@ void add_demo_command(CLI::App &app, Session &session);
 /// `exact`: solves a case of the chain by the direct solver. Writes chain.csv, events.csv, cycles.csv and
 /// parameters.csv into the folder --out, all or none.
 void add_exact_command(CLI::App &app, Session &session);
+void add_way_command(CLI::App &app, Session &session);
 
 /// `identify RECORD`: stiffness and damping of the soil from a record of a roller's motion.
 void add_identify_command(CLI::App &app, Session &session);

@@ -2,6 +2,7 @@
 
 #include "chain/closed_form.h"
 #include "chain/direct_solver.h"
+#include "chain/driven_way.h"
 #include "chain/parameters.h"
 #include "commands/chain_options.h"
 #include "commands/text_options.h"
@@ -13,6 +14,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <memory>
@@ -28,15 +30,24 @@ namespace {
 // The options as given. Numbers stay text until they are checked.
 struct Arguments {
   ChainArguments chain;
-  std::string cycles = "30";
+  std::optional<std::string> cycles; // 30 where it stands
+  std::optional<std::string> way, speed, passes;
   std::string samples_per_cycle = "200";
   std::optional<std::string> rtol;
   std::string impact_speed = "0";
   std::string out;
 };
 
+/// A roller that drives.
+struct Drive {
+  Way way;
+  double speed = 0.0; ///< [m/s]
+  int passes = 1;
+};
+
 struct Task {
   ChainParameters parameters;
+  std::optional<Drive> drive;
   std::optional<double> me_re; ///< kg m, from which Fw follows; none: Fw is given
   std::optional<GivenRoller> roller;
   DirectOptions options;
@@ -47,6 +58,45 @@ struct Task {
 constexpr std::array<const char *, 4> file_names = {"chain.csv", "events.csv", "cycles.csv",
                                                     "parameters.csv"};
 
+/// The roller that drives, if it does, and its time in the options.
+std::optional<Drive> judge_drive(const Arguments &arguments, const ChainParameters &parameters,
+                                 DirectOptions &options) {
+  if (!arguments.way) {
+    if (arguments.speed) throw UsageError(refusal("--speed", *arguments.speed, "a number with --way FILE"));
+    if (arguments.passes)
+      throw UsageError(refusal("--passes", *arguments.passes, "a number with --way FILE"));
+    return std::nullopt;
+  }
+  Drive drive;
+  try {
+    drive.way = read_way(*arguments.way);
+  } catch (const std::invalid_argument &error) {
+    throw UsageError(
+        fmt::format("{}{}", std::string(error.what()).rfind("way", 0) == 0 ? "--" : "", error.what()));
+  }
+  for (const char *name : {"k", "D"})
+    if (const auto given = given_number(arguments.chain, name))
+      throw UsageError(refusal(given->first, given->second, "none with --way, which has it of each place"));
+  if (arguments.cycles)
+    throw UsageError(refusal("--cycles", *arguments.cycles,
+                             "none with --way: they follow from its length, --speed and --passes"));
+  if (!arguments.speed) throw UsageError("--speed is missing; allowed: a number [m/s], with --way");
+  drive.speed = number_option("--speed", *arguments.speed, {1e-6, 100.0, "m/s"});
+  if (arguments.passes) drive.passes = static_cast<int>(count_option("--passes", *arguments.passes, 1, 1000));
+  const double length = drive.way.back().s - drive.way.front().s;
+  options.cycles = drive.passes * length / drive.speed / parameters.period();
+  if (!DirectOptions::cycles_range.holds(options.cycles))
+    throw UsageError(refusal("--speed", *arguments.speed,
+                             fmt::format("one with which {} passes over {:g} m take at most {:g} cycles",
+                                         drive.passes, length, DirectOptions::cycles_range.most)));
+  constexpr std::size_t most_sections = 1'000'000;
+  if (drive.way.size() * static_cast<std::size_t>(drive.passes) > most_sections)
+    throw UsageError(refusal("--passes", *arguments.passes,
+                             fmt::format("passes times rows of --way up to {}", most_sections)));
+  options.way = post::drive(drive.way, drive.speed, drive.passes);
+  return drive;
+}
+
 Task judge(const Arguments &arguments) {
   Task task;
   const AskedChain chain = judged_chain(arguments.chain);
@@ -54,7 +104,9 @@ Task judge(const Arguments &arguments) {
   task.me_re = chain.me_re;
   task.roller = chain.roller;
   DirectOptions &options = task.options;
-  options.cycles = number_option("--cycles", arguments.cycles, DirectOptions::cycles_range);
+  task.drive = judge_drive(arguments, task.parameters, options);
+  if (arguments.cycles)
+    options.cycles = number_option("--cycles", *arguments.cycles, DirectOptions::cycles_range);
   options.samples_per_cycle =
       count_option("--samples-per-cycle", arguments.samples_per_cycle, 1, DirectOptions::most_samples);
   if (arguments.rtol) options.rtol = number_option("--rtol", *arguments.rtol, DirectOptions::rtol_range);
@@ -63,10 +115,11 @@ Task judge(const Arguments &arguments) {
   std::string fault = options.invalid();
   if (fault.empty()) fault = too_much_work(task.parameters, options);
   if (!fault.empty()) throw UsageError("--" + fault);
-  task.closed_form = !arguments.rtol && closed_form_suffices(task.parameters, options.cycles);
+  task.closed_form = !arguments.rtol && closed_form_suffices(task.parameters, options);
   task.out = output_folder_option("--out", arguments.out);
-  keep_apart(files_of(arguments.chain.roller),
-             files_in("--out", task.out, {file_names.begin(), file_names.end()}));
+  std::vector<GivenPath> given = files_of(arguments.chain.roller);
+  if (arguments.way) given.push_back({"--way", *arguments.way});
+  keep_apart(given, files_in("--out", task.out, {file_names.begin(), file_names.end()}));
   for (const char *name : file_names)
     try {
       check_output_file(task.out / name);
@@ -84,8 +137,18 @@ std::vector<std::pair<std::string, std::string>> record(const Arguments &argumen
   const std::string solver =
       task.closed_form ? "closed form"
                        : fmt::format("{} {}", direct_solver_name(), cost.bdf ? "Adams and BDF" : "Adams");
-  values.insert(values.end(), {{"c", number_text(p.damping())},
-                               {"impact_speed", number_text(task.options.impact_speed)},
+  if (task.drive) { // k, D and c are those of each place
+    const auto of_place = [](const auto &value) { return value.first == "k" || value.first == "D"; };
+    values.erase(std::remove_if(values.begin(), values.end(), of_place), values.end());
+    values.insert(values.end(), {{"way", *arguments.way},
+                                 {"way_begin", number_text(task.drive->way.front().s)},
+                                 {"way_end", number_text(task.drive->way.back().s)},
+                                 {"speed", number_text(task.drive->speed)},
+                                 {"passes", fmt::format("{}", task.drive->passes)}});
+  } else {
+    values.emplace_back("c", number_text(p.damping()));
+  }
+  values.insert(values.end(), {{"impact_speed", number_text(task.options.impact_speed)},
                                {"cycles", number_text(task.options.cycles)},
                                {"samples_per_cycle", fmt::format("{}", task.options.samples_per_cycle)},
                                {"solver", solver},
@@ -139,7 +202,15 @@ void add_exact_command(CLI::App &app, Session &session) {
       "with --rtol, and where contact and bond decay so fast that the closed form would take long. "
       "Writes chain.csv, events.csv, cycles.csv and parameters.csv.");
   add_chain_options(*exact, arguments->chain);
-  text_option(exact, "--cycles", "NUMBER", arguments->cycles, "cycles of the excitation");
+  text_option(exact, "--cycles", "NUMBER", arguments->cycles, "cycles of the excitation (default 30)");
+  text_option(
+      exact, "--way", "FILE", arguments->way,
+      fmt::format("the roller drives over the soil of this table, with the columns {}; chain.csv then "
+                  "has place and pass",
+                  way_file::header));
+  text_option(exact, "--speed", "NUMBER", arguments->speed, "of a roller that drives [m/s]");
+  text_option(exact, "--passes", "COUNT", arguments->passes,
+              "over the whole way: forth, back and so on (default 1)");
   text_option(exact, "--samples-per-cycle", "COUNT", arguments->samples_per_cycle,
               "rows of chain.csv per cycle");
   text_option(exact, "--rtol", "NUMBER", arguments->rtol,

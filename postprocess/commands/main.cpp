@@ -36,6 +36,7 @@ constexpr std::array subcommands = {
     Subcommand{"calibrate", &drumlin::post::add_calibrate_command},
     Subcommand{"demo", &drumlin::post::add_demo_command},
     Subcommand{"exact", &drumlin::post::add_exact_command},
+    Subcommand{"way", &drumlin::post::add_way_command},
     Subcommand{"identify", &drumlin::post::add_identify_command},
     Subcommand{"map", &drumlin::post::add_map_command},
     Subcommand{"meter", &drumlin::post::add_meter_command},

@@ -28,9 +28,9 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// The signals that are read: all columns but `time` and F_bond, the first and the last.
+/// The signals that are read: all columns from x_drum, the second, to F_excitation.
 constexpr auto record_signals = [] {
-  std::array<HistoryColumn, history_columns.size() - 2> signals{};
+  std::array<HistoryColumn, 8> signals{};
   for (std::size_t i = 0; i < signals.size(); ++i)
     signals[i] = history_columns[i + 1];
   return signals;

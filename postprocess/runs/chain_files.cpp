@@ -67,13 +67,18 @@ constexpr const char *known_cycle_columns[] = {
 ChainHistory read_chain(const fs::path &file) {
   // A long record has millions of cells: they go straight into numbers, not through a Table of text.
   CsvRows rows(file);
-  const bool any_of_frame =
-      std::any_of(history_columns.begin(), history_columns.end(),
-                  [&](const HistoryColumn &column) { return column.frame && rows.find(column.name); });
+  const auto any_of = [&](ColumnGroup group) {
+    return std::any_of(history_columns.begin(), history_columns.end(), [&](const HistoryColumn &column) {
+      return column.group == group && rows.find(column.name);
+    });
+  };
+  const bool any_of_frame = any_of(ColumnGroup::frame), any_of_way = any_of(ColumnGroup::way);
   std::vector<std::pair<const HistoryColumn *, std::size_t>> found; // with the place in a row
   for (const HistoryColumn &column : history_columns) {
     const std::optional<std::size_t> place = rows.find(column.name);
-    const bool optional = column.frame ? !any_of_frame : column.values == &ChainHistory::F_excitation;
+    const bool optional = column.group == ColumnGroup::frame ? !any_of_frame
+                          : column.group == ColumnGroup::way ? !any_of_way
+                                                             : column.values == &ChainHistory::F_excitation;
     if (place)
       found.emplace_back(&column, *place);
     else if (!optional)
@@ -109,7 +114,7 @@ std::string chain_text(const ChainHistory &history) {
   std::vector<std::string> names;
   std::vector<const std::vector<double> *> columns;
   for (const HistoryColumn &column : history_columns) {
-    if (column.frame && !history.has_frame()) continue;
+    if (!history.has(column.group)) continue;
     names.emplace_back(column.name);
     columns.push_back(&(history.*column.values));
     if (columns.back()->size() != history.size())

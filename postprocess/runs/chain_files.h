@@ -15,6 +15,10 @@
 
 namespace drumlin::post {
 
+/// Columns of chain.csv that are there all together or not at all: those of every run, of one with a frame,
+/// of a roller that drives.
+enum class ColumnGroup { motion, frame, way };
+
 /// Time series of a roller, one vector for each column of chain.csv, all of one length; those that a file
 /// does not have are empty.
 struct ChainHistory {
@@ -28,32 +32,39 @@ struct ChainHistory {
   std::vector<double> F_contact;    ///< of the soil on the drum, positive in compression [N]
   std::vector<double> F_excitation; ///< F_e, positive where it pushes the drum down [N]
   std::vector<double> F_bond;       ///< c23 (v_frame - v_drum) + k23 (x_frame - x_drum) [N]
+  std::vector<double> s;            ///< place along the way of a roller that drives [m]
+  std::vector<double> pass;         ///< and its pass, counted from 1
 
   /// Number of rows.
   std::size_t size() const { return time.size(); }
-  /// Whether the frame's columns are there.
-  bool has_frame() const { return !x_frame.empty(); }
+  /// Whether the columns are there.
+  bool has(ColumnGroup group) const {
+    return group == ColumnGroup::motion || (group == ColumnGroup::frame ? !x_frame.empty() : !s.empty());
+  }
+  bool has_frame() const { return has(ColumnGroup::frame); }
 };
 
 /// A column of chain.csv.
 struct HistoryColumn {
   const char *name;
   std::vector<double> ChainHistory::*values;
-  int derivative;     ///< of the position: 0, 1, 2 in m, m/s, m/s2; or one of the two below
-  bool frame = false; ///< the columns of the frame are there all together or not at all
+  int derivative; ///< of the position: 0, 1, 2 in m, m/s, m/s2; or one of those below
+  ColumnGroup group = ColumnGroup::motion;
 };
-constexpr int force_column = -1, time_column = -2; ///< N, s
-constexpr std::array<HistoryColumn, 10> history_columns = {
+constexpr int force_column = -1, time_column = -2, way_column = -3; ///< N; s; m, or the number of a pass
+constexpr std::array<HistoryColumn, 12> history_columns = {
     {{"time", &ChainHistory::time, time_column},
      {"x_drum", &ChainHistory::x_drum, 0},
      {"v_drum", &ChainHistory::v_drum, 1},
      {"a_drum", &ChainHistory::a_drum, 2},
-     {"x_frame", &ChainHistory::x_frame, 0, true},
-     {"v_frame", &ChainHistory::v_frame, 1, true},
-     {"a_frame", &ChainHistory::a_frame, 2, true},
+     {"x_frame", &ChainHistory::x_frame, 0, ColumnGroup::frame},
+     {"v_frame", &ChainHistory::v_frame, 1, ColumnGroup::frame},
+     {"a_frame", &ChainHistory::a_frame, 2, ColumnGroup::frame},
      {"F_contact", &ChainHistory::F_contact, force_column},
      {"F_excitation", &ChainHistory::F_excitation, force_column},
-     {"F_bond", &ChainHistory::F_bond, force_column, true}}};
+     {"F_bond", &ChainHistory::F_bond, force_column, ColumnGroup::frame},
+     {"s", &ChainHistory::s, way_column, ColumnGroup::way},
+     {"pass", &ChainHistory::pass, way_column, ColumnGroup::way}}};
 
 /// A contact made or broken: one row of events.csv.
 struct ContactEvent {
@@ -87,7 +98,8 @@ struct CycleColumns {
   const std::vector<double> &at(const std::string &name) const { return columns.at(name); }
 };
 
-/// Reads chain.csv. The frame's four columns may be missing (all of them), so may F_excitation (then zeros).
+/// Reads chain.csv. The frame's four columns may be missing (all of them), so may those of the way, and
+/// F_excitation (then zeros).
 ChainHistory read_chain(const std::filesystem::path &file);
 /// Reads events.csv.
 std::vector<ContactEvent> read_events(const std::filesystem::path &file);

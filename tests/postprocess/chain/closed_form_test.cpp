@@ -25,6 +25,12 @@ double largest(const std::vector<double> &values) {
   return most;
 }
 
+DirectOptions cycles(double count) {
+  DirectOptions options;
+  options.cycles = count;
+  return options;
+}
+
 // Largest difference of two columns over the largest value.
 double relative(const std::vector<double> &a, const std::vector<double> &b) {
   EXPECT_EQ(a.size(), b.size());
@@ -303,11 +309,11 @@ TEST(ChainSolver, AChainWithoutGravityStartsAsTheDirectSolverDoes) {
 // Contact and bond both decay within a millionth of a cycle: only one of the two is split off.
 TEST(ChainSolver, KnowsWhichChainsItCannotSolveInTime) {
   ChainParameters p = table1_case("II", Transition::B);
-  EXPECT_TRUE(closed_form_suffices(p, 25000));
+  EXPECT_TRUE(closed_form_suffices(p, cycles(25000)));
   p.D = 1e6;
-  EXPECT_TRUE(closed_form_suffices(p, 30));
+  EXPECT_TRUE(closed_form_suffices(p, cycles(30)));
   p.c23 = 1e14;
-  EXPECT_FALSE(closed_form_suffices(p, 30));
+  EXPECT_FALSE(closed_form_suffices(p, cycles(30)));
 }
 
 // ---- the search for events ----

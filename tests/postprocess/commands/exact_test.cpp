@@ -165,6 +165,86 @@ TEST_F(ExactCommand, EveryOverrideArrives) {
   EXPECT_EQ(post::read_table(folder_ / "o" / "cycles.csv").rows(), 1U);
 }
 
+// A way of the project, there and back: place and pass stand in chain.csv, and the soil of each place in the
+// forces.
+TEST_F(ExactCommand, DrivesOverAWay) {
+  const std::string way = (fs::path(DRUMLIN_SOURCE_DIR) / "inputs/chain/way").string();
+  const Outcome outcome = run("exact --case II --way " + way + " --speed 2 --passes 2 --out o");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const post::ChainHistory h = post::read_chain(folder_ / "o/chain.csv");
+  ASSERT_EQ(h.s.size(), h.size());
+  EXPECT_EQ(h.s.front(), 0.0);
+  EXPECT_NEAR(h.s.back(), 0.0, 1e-9);
+  EXPECT_NEAR(h.time.back(), 12.0, 1e-3);
+  EXPECT_NEAR(*std::max_element(h.s.begin(), h.s.end()), 12.0, 1e-3);
+  for (std::size_t i = 0; i < h.size(); i += 97) {
+    const double s = h.s[i];
+    EXPECT_EQ(h.pass[i], h.time[i] < 6.0 ? 1.0 : 2.0) << i;
+    EXPECT_NEAR(s, h.time[i] < 6.0 ? 2.0 * h.time[i] : 24.0 - 2.0 * h.time[i], 1e-9) << i;
+    const double k = s < 4.0 ? 3e7 : s < 6.0 ? 8e7 : s < 8.0 ? 8e7 - 2e7 * (s - 6.0) : 4e7;
+    const double law = -k * h.x_drum[i] - 0.5 * std::sqrt(2000.0 * k) * h.v_drum[i];
+    EXPECT_NEAR(h.F_contact[i], h.F_contact[i] > 0.0 ? law : 0.0, 1e-6 * 1e5) << i;
+  }
+  const std::map<std::string, std::string> record = post::read_parameters(folder_ / "o/parameters.csv");
+  for (const char *of_place : {"k", "D", "c"})
+    EXPECT_EQ(record.count(of_place), 0U);
+  EXPECT_EQ(record.at("way"), way);
+  EXPECT_EQ(record.at("passes"), "2");
+}
+
+TEST_F(ExactCommand, WritesARandomWayAndDrivesOverIt) {
+  const std::string options = "--mean 5e7 --variation 0.3 --correlation 1.5 --from 2 --to 5 --step 0.25 ";
+  ASSERT_EQ(run("way " + options + "--out w.csv").status, 0);
+  ASSERT_EQ(run("way " + options + "--seed 2 --out other.csv").status, 0);
+  EXPECT_NE(get(folder_ / "w.csv"), get(folder_ / "other.csv"));
+  EXPECT_EQ(post::read_table(folder_ / "w.csv").header(),
+            (std::vector<std::string>{"s (m)", "k (N/m)", "D (-)"}));
+  EXPECT_EQ(post::read_table(folder_ / "w.csv").rows(), 13U);
+  ASSERT_EQ(run("exact --way w.csv --speed 1 --out o").status, 0);
+  EXPECT_EQ(post::read_chain(folder_ / "o/chain.csv").s.front(), 2.0);
+}
+
+TEST_F(ExactCommand, RefusesAWayThatCannotBeDrivenOver) {
+  const std::string head = "s (m),k (N/m),D (-)\n";
+  const auto refuse = [&](const std::string &text, const std::string &options, const std::string &line) {
+    std::ofstream(folder_ / "w.csv") << text;
+    const Outcome outcome = run("exact --way w.csv " + options + " --out o");
+    EXPECT_EQ(outcome.status, 2) << line;
+    EXPECT_EQ(outcome.err, "ERROR: drumlin exact: " + line + "\n");
+    EXPECT_FALSE(fs::exists(folder_ / "o"));
+  };
+  const std::string good = head + "0,1e7,0.2\n2,2e7,0.2\n";
+  const std::string fast = "--speed 1";
+  refuse("place,k\n1,2\n", fast, "header in line 1 of 'w.csv' is 'place,k'; allowed: s (m),k (N/m),D (-)");
+  refuse(head + "0,1e7,0.2\n", fast, "--way of 'w.csv' has 1 rows; allowed: two or more, of different s");
+  refuse(head + "0,1e7,0.2\n0,2e7,0.2\n", fast,
+         "--way of 'w.csv' has 2 rows; allowed: two or more, of different s");
+  refuse(head + "0,1e7,0.2\n2,1e7,0.2\n1,1e7,0.2\n", fast,
+         "s in line 4 of 'w.csv' is '1'; allowed: not below the row before");
+  refuse(head + "0,1e7,0.2\n1,1e7,0.2\n1,2e7,0.2\n1,3e7,0.2\n", fast,
+         "s in line 5 of 'w.csv' is '1'; allowed: at most two rows of one place");
+  refuse(head + "0,-1,0.2\n2,2e7,0.2\n", fast,
+         "k in line 2 of 'w.csv' is '-1'; allowed: a number from 1e-6 to 1e15 [N/m]");
+  refuse(head + "0,1e7,nan\n2,2e7,0.2\n", fast,
+         "D in line 2 of 'w.csv' is 'nan'; allowed: a number from 0 to 1e6");
+  refuse(head + "0,1e7\n2,2e7,0.2\n", fast, "D in line 2 of 'w.csv' is ''; allowed: a number from 0 to 1e6");
+  refuse(head + "0,1e7,0.2,9\n", fast,
+         "row in line 2 of 'w.csv' is '0,1e7,0.2,9'; allowed: three numbers, s (m),k (N/m),D (-)");
+  refuse(good, "", "--speed is missing; allowed: a number [m/s], with --way");
+  refuse(good, "--speed 0", "--speed is '0'; allowed: a number from 1e-06 to 100 [m/s]");
+  refuse(good, "--speed 1e-3",
+         "--speed is '1e-3'; allowed: one with which 1 passes over 2 m take at most 25000 cycles");
+  refuse(good, fast + " --passes 0", "--passes is '0'; allowed: a whole number from 1 to 1000");
+  refuse(good, fast + " --k 2e7", "--k is '2e7'; allowed: none with --way, which has it of each place");
+  refuse(good, fast + " --cycles 3",
+         "--cycles is '3'; allowed: none with --way: they follow from its length, --speed and --passes");
+  const Outcome outcome = run("exact --speed 1 --out o");
+  EXPECT_EQ(outcome.err, "ERROR: drumlin exact: --speed is '1'; allowed: a number with --way FILE\n");
+  EXPECT_EQ(run("exact --way none.csv --speed 1 --out o").err,
+            "ERROR: drumlin exact: --way is 'none.csv'; allowed: a file that can be read, with the columns s "
+            "(m),k (N/m),D (-)\n");
+}
+
 TEST_F(ExactCommand, SolvesEveryCase) {
   for (const std::string name : post::table1_cases) {
     SCOPED_TRACE(name);

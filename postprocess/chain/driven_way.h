@@ -1,0 +1,46 @@
+// A roller that drives over a way: when it is where, and which soil it then meets. The contact's k and D are
+// those of the place, whatever the overlap: soil that stiffens along the way takes work, the integral of
+// k'(s) d^2 / 2 over the distance in contact, from what moves the roller.
+#pragma once
+
+#include "files/way.h"
+
+#include <string>
+#include <vector>
+
+namespace drumlin::post {
+
+/// A stretch of time in which k and D of the contact are linear in time.
+struct WaySection {
+  double begin = 0.0, end = 0.0;  ///< since the start of the excitation [s]
+  double k = 0.0, k_rate = 0.0;   ///< at its begin [N/m], and per time [N/(m s)]
+  double D = 0.0, D_rate = 0.0;   ///< at its begin [-], and per time [1/s]
+  double s = 0.0, velocity = 0.0; ///< place at its begin [m]; negative on the way back [m/s]
+  int pass = 1;                   ///< counted from 1
+
+  bool constant() const { return k_rate == 0.0 && D_rate == 0.0; }
+  double place(double time) const { return s + velocity * (time - begin); }
+};
+
+/// The sections of `passes` over the whole way at a constant speed [m/s]: forth, and back with the next, and
+/// so on; it turns without delay. In the order of time, without gaps.
+std::vector<WaySection> drive(const Way &way, double speed, int passes);
+
+/// Soil whose stiffness is a random field along the way: log-normal, ln k with the correlation
+/// exp(-distance / length).
+struct RandomSoil {
+  double mean = 0.0;        ///< of k [N/m]
+  double variation = 0.0;   ///< coefficient of variation of k, standard deviation over mean [-]
+  double correlation = 0.0; ///< length of correlation [m]
+  double D = 0.0;           ///< damping ratio, everywhere the same [-]
+  double from = 0.0, to = 0.0, step = 0.0; ///< places of the rows [m]; the last one is `to`
+  unsigned seed = 1;
+};
+
+/// The rows of one realization; the same on every machine but for rounding.
+Way random_way(const RandomSoil &soil);
+
+/// The text of a way's file.
+std::string way_text(const Way &way);
+
+} // namespace drumlin::post
