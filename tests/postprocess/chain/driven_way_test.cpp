@@ -222,6 +222,39 @@ TEST(DrivenWay, RampsAndRandomSoilFollowTheIntegration) {
     }
 }
 
+// Under B a step can turn the force into a tension, which ends the contact there and then, or an overlap
+// without force into a contact that begins with the force of the law.
+TEST(DrivenWay, AStepCanEndAContactOrBeginOne) {
+  ChainParameters p = roller(Transition::B);
+  p.k = 3e7;
+  for (const bool ends : {true, false}) {
+    p.D = ends ? 0.05 : 0.9;
+    const double behind = ends ? 0.9 : 0.05;
+    const auto law = [&p](double D, double x, double v) {
+      return -p.k * x - 2.0 * D * std::sqrt(p.m2 * p.k) * v;
+    };
+    const ChainHistory standing = solve_closed_form(p, 10, 1000).history;
+    std::size_t row = 5000; // the last one of the contact, with the other D beyond it
+    while (row < standing.size() &&
+           !(standing.x_drum[row] < 0.0 &&
+             (law(p.D, standing.x_drum[row], standing.v_drum[row]) > 0.0) == ends &&
+             (law(behind, standing.x_drum[row], standing.v_drum[row]) < 0.0) == ends))
+      ++row;
+    ASSERT_LT(row, standing.size());
+    const double place = standing.time[row]; // at 1 m/s
+    const DirectOptions options = driven(
+        p, {{0.0, p.k, p.D}, {place, p.k, p.D}, {place, p.k, behind}, {place + 0.1, p.k, behind}}, 1.0);
+    for (const DirectResult &result : {solve_closed_form(p, options), solve_direct(p, options)}) {
+      const auto event =
+          std::find_if(result.events.begin(), result.events.end(),
+                       [&](const ContactEvent &one) { return std::fabs(one.time - place) < 1e-9; });
+      ASSERT_NE(event, result.events.end());
+      EXPECT_EQ(event->make, !ends);
+      EXPECT_NEAR(event->force, law(0.05, standing.x_drum[row], standing.v_drum[row]), 1e-4);
+    }
+  }
+}
+
 // A ramp of many small steps: the closed form then has the ramp but for an error of second order in them.
 TEST(DrivenWay, AStaircaseConvergesToTheRamp) {
   const ChainParameters p = roller(Transition::B);
