@@ -56,6 +56,7 @@ public:
                                                              {"above", &Check::above},
                                                              {"below", &Check::below},
                                                              {"at_most", &Check::at_most},
+                                                             {"at_least", &Check::at_least},
                                                              {"not_given", &Check::not_given},
                                                              {"directory", &Check::directory},
                                                              {"output_folder", &Check::output_folder},
@@ -146,6 +147,9 @@ private:
   }
   void below() {
     against("below", [](double value, double limit) { return value < limit; });
+  }
+  void at_least() {
+    against("at least", [](double value, double limit) { return value >= limit; });
   }
   void at_most() {
     against("at most", [](double value, double limit) { return value <= limit; });

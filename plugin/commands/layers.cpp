@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <optional>
 
 namespace drumlin {
 namespace {
@@ -90,18 +91,18 @@ std::string variable_of(LAMMPS *lmp, const std::string &name, const std::string 
 /// time step: the first of their contacts would throw them out of the box before fix guard sees it.
 /// Collective.
 void check_stability(LAMMPS *lmp, const Arguments &in, const Given &k, const Given &D,
-                     const std::vector<ContactValues> &laws) {
+                     const std::vector<ContactValues> &laws, double yield) {
   const std::vector<double> masses = least_masses(lmp, static_cast<int>(laws.size()));
   const double dt = lmp->update->dt;
   for (std::size_t layer = 0; layer < laws.size(); ++layer) {
-    const double m_eff = 0.5 * masses[layer], stiffness = laws[layer].stiffness;
+    const double m_eff = 0.5 * masses[layer], stiffness = yield * laws[layer].stiffness;
     const auto refuse = [&](const Given &given, double critical, double largest, const char *unit) {
       in.fail(fmt::format("{} is '{}', with which two of the lightest balls of layer {} have the critical "
                           "step {:.3g} s; allowed: at most {:.3g}{} with the time step {:.3g} s",
                           given.name, given.text, layer + 1, critical, largest, unit, dt));
     };
     if (const double critical = physics::critical_step_stock(stiffness, 0.0, m_eff); dt > critical)
-      refuse(k, critical, 4.0 * m_eff / (dt * dt), " N/m");
+      refuse(k, critical, 4.0 * m_eff / (dt * dt) / yield, " N/m");
     if (std::isinf(m_eff) || LAMMPS_NS::FixStepping::find(lmp) != nullptr)
       continue; // under `stepping second` the dashpots do not limit the step
     const double w = physics::angular_frequency(stiffness, m_eff), q = 0.5 * w * dt;
@@ -143,19 +144,25 @@ void layers_command(LAMMPS *lmp, int narg, char **arg) {
   in.choice("keyword", {"rolling"});
   const bool rolling = in.choice("keyword rolling, model", {"off", "epsd2"}) == 1;
   read(3, "rolling", &ContactValues::rolling, Range::non_negative);
-  in.expect_end("k LIST D LIST friction LIST rolling off|epsd2 LIST [variables NAME NAME NAME NAME]");
+  std::optional<double> yield;
+  if (!in.empty() && in.peek() == "yield") {
+    in.word("keyword");
+    yield = in.number("keyword yield, stiffness of unloading over that of first loading", Range{1.0});
+  }
+  in.expect_end(
+      "k LIST D LIST friction LIST rolling off|epsd2 LIST [yield RATIO] [variables NAME NAME NAME NAME]");
   const std::vector<int> counts = ball_counts(lmp, layers);
   if (const auto none = std::find(counts.begin(), counts.end(), 0); layers > 1 && none != counts.end()) {
     const auto layer = static_cast<int>(none - counts.begin());
     in.fail(fmt::format("layer {} has '0' balls; allowed: at least one ball of type {}", layer + 1,
                         type_of(layer)));
   }
-  check_stability(lmp, in, k, D, laws);
+  check_stability(lmp, in, k, D, laws, yield.value_or(1.0));
   std::vector<ContactValues> table;
   for (int a = 1; a <= types; ++a)
     for (int b = 1; b <= types; ++b)
       table.push_back(contact(laws, a, b));
-  engine::set_contacts(lmp, table, rolling);
+  engine::set_contacts(lmp, table, rolling, yield);
 }
 
 } // namespace drumlin

@@ -480,8 +480,10 @@ private:
     record.overlap = block.overlap[n];
     record.radius = at_walls ? block.ri[n] : std::min(block.ri[n], block.rj[n]);
     record.share = share();
-    record.elastic_force = law.elastic(record.overlap);
+    record.spring_force = law.spring(record.overlap);
     record.spring_energy = law.energy(record.overlap);
+    if constexpr (remembers)
+      record.yield_heat = law.yielded(0.0) - law_before(n, coefficients.contact).yielded(0.0);
     record.normal_stiffness = law.stiffest(record.overlap);
     if (!stepped) record.normal_dashpot = law.dashpot(record.overlap);
     record.normal_force = block.force[n];

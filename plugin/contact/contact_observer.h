@@ -28,8 +28,9 @@ struct ContactRecord {
   double overlap;                      ///< m
   double radius;                       ///< of the smaller ball, m
   double share;                        ///< 1; less where triangles of a mesh share the force of one contact
-  double elastic_force;                ///< N, d spring_energy / d overlap
+  double spring_force;                 ///< N, of the normal spring
   double spring_energy;                ///< J, in the normal spring
+  double yield_heat;                   ///< J, that the spring has turned into heat in this step
   double normal_stiffness;             ///< N/m
   double normal_dashpot;       ///< N s/m; 0 under `stepping second`, where it does not limit the time step
   double tangential_stiffness; ///< N/m; 0 without a tangential spring

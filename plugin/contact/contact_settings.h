@@ -144,9 +144,11 @@ struct ContactSettings {
     else
       contact.damping = given;
   }
-  /// Which numbers a deck may give for it.
-  Range damping_range() const {
-    return damping == DampingInput::restitution ? Range{0.0, true, 1.0} : Range::non_negative;
+  /// Which numbers a deck may give for it. \param contact with all its parameters but the damping
+  template <class Contact>
+  Range damping_range(const Contact &contact) const {
+    return damping == DampingInput::restitution ? Range{0.0, true, contact.largest_restitution()}
+                                                : Range::non_negative;
   }
   /// What that damping means.
   physics::Damping kind() const {

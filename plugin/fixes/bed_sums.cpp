@@ -72,7 +72,8 @@ ContactSums BedSums::contacts(const Vec3 &axis) const {
     const double *vj = wall ? e.wall_velocity.data() : atom.v[e.j];
     const Vec3 v{vi[0] - vj[0], vi[1] - vj[1], vi[2] - vj[2]};
     const double rate = -dot(e.normal, v.data());
-    mine.normal_heat += weight * (force - e.share * e.elastic_force) * rate;
+    mine.normal_heat += weight * (force - e.share * e.spring_force) * rate;
+    mine.yield_heat += weight * e.share * e.yield_heat;
     mine.normal_stored += weight * e.share * e.spring_energy;
     mine.tangential_power -= weight * (dot(tangential, v.data()) + dot(e.final_torque_i(), atom.omega[e.i]) +
                                        (wall ? 0.0 : dot(e.final_torque_j(), atom.omega[e.j])));

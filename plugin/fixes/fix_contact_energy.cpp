@@ -20,7 +20,7 @@ FixContactEnergy::FixContactEnergy(LAMMPS *lammps, int narg, char **arg)
   drumlin::Arguments in(error, command, narg - 3, arg + 3);
   in.expect_end("fix ID group contact/energy");
   vector_flag = 1;
-  size_vector = 6;
+  size_vector = 7;
   extvector = 0;
   global_freq = nevery = 1;
   time_depend = 1; // heat is a sum over the steps
@@ -59,6 +59,7 @@ void FixContactEnergy::end_of_step() {
   evaluate();
   const double half_step = 0.5 * dt_;
   normal_heat_ += half_step * (before.normal_heat + now_.normal_heat) + now_.missed_heat;
+  yield_heat_ += now_.yield_heat;
   tangential_work_ += half_step * (before.tangential_power + now_.tangential_power) + now_.missed_work;
 }
 
@@ -82,7 +83,9 @@ double FixContactEnergy::compute_vector(int n) {
     return normal_heat_;
   case 4:
     return tangential_work_ - (now_.tangential_stored - spring_0_.value_or(0.0));
-  default:
+  case 5:
     return balls_.soil_balls > 0.0 ? now_.coordination / balls_.soil_balls : 0.0;
+  default:
+    return yield_heat_;
   }
 }

@@ -29,7 +29,8 @@ public:
   void pack_ghosts(int, const int *, double *) override;
   void unpack_ghosts(int, int, double *) override;
   /// 0: kinetic energy, J; 1, 2: energy of the normal and of the tangential springs, J; 3, 4: heat of the
-  /// normal dashpots, and of friction and rolling, J; 5: mean number of contacts of a ball of the group.
+  /// normal dashpots, and of friction and rolling, J; 5: mean number of contacts of a ball of the group; 6:
+  /// heat of springs that yield, J.
   double compute_vector(int) override;
 
 private:
@@ -40,6 +41,7 @@ private:
   drumlin::BallSums balls_;        // of the last evaluated step
   double dt_ = 0.0;                // s, of the present step: at its end another fix may set that of the next
   double normal_heat_ = 0.0;       // J, since the first set-up
+  double yield_heat_ = 0.0;        // J, since then
   double tangential_work_ = 0.0;   // J, taken from the balls by friction and rolling since then
   std::optional<double> spring_0_; // J, in the tangential springs at the first set-up
 };

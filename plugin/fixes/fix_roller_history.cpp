@@ -9,6 +9,7 @@
 #include "support/restart_record.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 using namespace LAMMPS_NS;
@@ -20,6 +21,9 @@ namespace {
 constexpr const char *command = "fix roller/history";
 constexpr const char *file_keyword = "fix roller/history: keyword file";
 constexpr const char *cycles_keyword = "fix roller/history: keyword cycles";
+/// Added to the whole number of a step in a restart file: behind all else follows the heat of yielding.
+/// (Files of beds that do not yield have no such number.)
+constexpr double with_yield_heat = 0.5;
 
 } // namespace
 
@@ -165,6 +169,11 @@ void FixRollerHistory::find_partners() {
     if (const auto *boundary = dynamic_cast<const FixBoundaryAbsorb *>(fix)) ground_.push_back(boundary);
 }
 
+/// Whether the contacts of a bed have a law that remembers, and may yield.
+bool FixRollerHistory::yields() const {
+  return bed_ && source_ != nullptr && source_->places()[drumlin::Remembered::memory] >= 0;
+}
+
 double FixRollerHistory::along(const double *vector) const {
   return vector[0] * axis_[0] + vector[1] * axis_[1] + vector[2] * axis_[2];
 }
@@ -196,7 +205,7 @@ void FixRollerHistory::open_files() {
   if (steps_per_cycle_ > 0 && !cycles_file_) {
     cycles_file_.emplace(cycles_name_, append_);
     cycles_file_->open(comm, error, world, cycles_keyword,
-                       drumlin::cycles_header(bed_.has_value(), !ground_.empty()).c_str());
+                       drumlin::cycles_header(bed_.has_value(), !ground_.empty(), yields()).c_str());
   }
 }
 
@@ -275,6 +284,7 @@ void FixRollerHistory::add_forces_of_partners() {
 void FixRollerHistory::end_of_step() {
   const drumlin::RollerState before = state_;
   evaluate();
+  yield_heat_ += bed_contacts_.yield_heat;
   if (steps_per_cycle_ > 0) {
     cycle_.add_step(before, state_, clock_.dt(), steps_per_cycle_);
     if (static_cast<int>(cycle_.steps) == steps_per_cycle_) {
@@ -295,6 +305,8 @@ std::optional<drumlin::BedSample> FixRollerHistory::bed_sample() const {
   sample.void_ratio = bed_->void_ratio(axis_, reference_.window_top, sample.balls.solid);
   sample.raised = sample.balls.height - reference_.height;
   sample.absorbs = !ground_.empty();
+  sample.yields = yields();
+  sample.yield_heat = yield_heat_;
   sample.friction_heat =
       cycle_.tangential_work - (bed_contacts_.tangential_stored - reference_.tangential_stored);
   return sample;
@@ -342,13 +354,14 @@ void FixRollerHistory::write_restart(FILE *file) {
   std::vector<double> state(clock.begin(), clock.end());
   state.push_back(drum_.origin);
   state.push_back(frame_.origin);
-  state.push_back(static_cast<double>(last_sample_));
+  state.push_back(static_cast<double>(last_sample_) + (yields() ? with_yield_heat : 0.0));
   const auto append = [&state](const auto &numbers) {
     const auto *first = reinterpret_cast<const double *>(&numbers);
     state.insert(state.end(), first, first + sizeof(numbers) / sizeof(double));
   };
   append(cycle_);
   append(reference_);
+  if (yields()) state.push_back(yield_heat_);
   drumlin::write_restart_record(file, comm->me, state);
 }
 
@@ -358,12 +371,14 @@ void FixRollerHistory::restart(char *buffer) {
   drum_.origin = state[3];
   frame_.origin = state[4];
   drum_.has_origin = frame_.has_origin = true;
-  last_sample_ = static_cast<bigint>(state[5]);
+  last_sample_ = static_cast<bigint>(std::floor(state[5]));
+  const bool yielded = state[5] == static_cast<double>(last_sample_) + with_yield_heat;
   state += 6;
   constexpr std::size_t cycle_numbers = sizeof(cycle_) / sizeof(double);
   std::copy_n(state, cycle_numbers, reinterpret_cast<double *>(&cycle_));
-  std::copy_n(state + cycle_numbers, sizeof(Reference) / sizeof(double),
-              reinterpret_cast<double *>(&reference_));
+  constexpr std::size_t reference_numbers = sizeof(Reference) / sizeof(double);
+  std::copy_n(state + cycle_numbers, reference_numbers, reinterpret_cast<double *>(&reference_));
+  if (yielded) yield_heat_ = state[cycle_numbers + reference_numbers];
 }
 
 double FixRollerHistory::compute_vector(int n) {

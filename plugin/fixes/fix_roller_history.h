@@ -70,6 +70,7 @@ private:
   void write_sample();
   void write_cycle();
   void flush();
+  bool yields() const;
   double along(const double *vector) const;
 
   std::string file_name_, cycles_name_, excite_id_, bond_id_, frame_group_;
@@ -91,7 +92,8 @@ private:
   bool pairs_outdated_ = true; // the neighbour list was built again after contacts_ had read it
   drumlin::RollerState state_; // of the last evaluated step
   drumlin::CycleSums cycle_;
-  int soil_groupbit_ = 0; // 0: no bed
+  double yield_heat_ = 0.0; // J, of the springs of a bed since the start
+  int soil_groupbit_ = 0;   // 0: no bed
   std::optional<drumlin::BedSums> bed_;
   drumlin::ContactSums bed_contacts_; // of the last evaluated step
   Reference reference_;

@@ -26,17 +26,19 @@ std::vector<double> history_row(const RollerState &state, const CycleSums &cycle
              {cycle.settlement, contacts.contacts > 0.0 ? contacts.overlap / contacts.contacts : 0.0,
               contacts.coordination / bed->balls.soil_balls, bed->void_ratio, bed->balls.kinetic,
               masses.gravity * bed->raised, forces.contact_stored + forces.bond_stored + forces.ground_stored,
-              cycle.contact_dissipated + cycle.bond_dissipated + bed->friction_heat + forces.ground_heat,
+              cycle.contact_dissipated + cycle.bond_dissipated + bed->friction_heat + forces.ground_heat +
+                  bed->yield_heat,
               cycle.work, contacts.floor_force, contacts.side_force, contacts.side_thrust});
   return row;
 }
 
-std::string cycles_header(bool with_bed, bool absorbs) {
+std::string cycles_header(bool with_bed, bool absorbs, bool yields) {
   std::string columns = "cycle,time,a_drum_min,a_drum_max,F_contact_min,F_contact_max,contact_share,a1_cos,"
                         "a1_sin,a2_cos,a2_sin,ah_cos,ah_sin,work_excitation,dissipated_contact,dissipated_"
                         "bond,kinetic,potential,stored_contact,stored_bond";
   if (!with_bed) return columns;
-  return columns + ",dissipated_friction,settlement" + (absorbs ? ",stored_ground,dissipated_ground" : "");
+  return columns + ",dissipated_friction,settlement" + (absorbs ? ",stored_ground,dissipated_ground" : "") +
+         (yields ? ",dissipated_yield" : "");
 }
 
 std::vector<double> cycles_row(const RollerState &state, const CycleSums &cycle, const RollerMasses &masses,
@@ -59,6 +61,7 @@ std::vector<double> cycles_row(const RollerState &state, const CycleSums &cycle,
   if (bed != nullptr)
     row.insert(row.end(), {bed->friction_heat, cycle.steps > 0.0 ? cycle.sinking / cycle.steps : 0.0});
   if (bed != nullptr && bed->absorbs) row.insert(row.end(), {forces.ground_stored, forces.ground_heat});
+  if (bed != nullptr && bed->yields) row.push_back(bed->yield_heat);
   return row;
 }
 

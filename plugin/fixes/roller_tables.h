@@ -25,7 +25,9 @@ struct BedSample {
   double void_ratio = 0.0;
   double raised = 0.0;        ///< kg m, mass times rise of all balls since the first set-up
   double friction_heat = 0.0; ///< J, of friction and rolling since the start
+  double yield_heat = 0.0;    ///< J, of springs that have yielded since the start
   bool absorbs = false;       ///< whether fix boundary/absorb acts on the bed
+  bool yields = false;        ///< whether the contact law remembers, and may yield
 };
 
 /// Header line of the samples, and a row. \param bed nullptr: not a bed; otherwise `with_frame` must be true
@@ -33,9 +35,9 @@ std::string history_header(bool with_frame, bool with_bed);
 std::vector<double> history_row(const RollerState &state, const CycleSums &cycle, const RollerMasses &masses,
                                 bool with_frame, const BedSample *bed);
 
-/// Header line of the cycles, and a row. \param bed nullptr: not a bed \param absorbs whether a bed has
-/// absorbing boundaries
-std::string cycles_header(bool with_bed, bool absorbs);
+/// Header line of the cycles, and a row. \param bed nullptr: not a bed \param absorbs, yields those of
+/// BedSample
+std::string cycles_header(bool with_bed, bool absorbs, bool yields);
 std::vector<double> cycles_row(const RollerState &state, const CycleSums &cycle, const RollerMasses &masses,
                                const BedSample *bed);
 

@@ -139,12 +139,13 @@ std::vector<double *> restart_numbers(ContactCoefficients<Contact> &p) {
   return numbers;
 }
 
-/// Damping, N s/m, D or e.
-inline double read_damping(Arguments &in, const ContactSettings &settings) {
+/// Damping, N s/m, D or e, of a contact whose other parameters are read.
+template <class Contact>
+double read_damping(Arguments &in, const ContactSettings &settings, const Contact &contact) {
   return in.number(settings.damping == DampingInput::restitution ? "restitution e"
                    : settings.damping == DampingInput::ratio     ? "damping ratio D"
                                                                  : "damping coefficient c",
-                   settings.damping_range());
+                   settings.damping_range(contact));
 }
 
 /// `rolling mu_r`, needed with rolling resistance and refused without.
@@ -166,7 +167,7 @@ ContactCoefficients<Parameters> read_coefficients(Arguments &in, const ContactSe
   using Words = LawWords<Parameters>;
   ContactCoefficients<Parameters> p;
   read_before_damping(in, p.contact);
-  settings.set_damping(p.contact, read_damping(in, settings));
+  settings.set_damping(p.contact, read_damping(in, settings, p.contact));
   if (settings.tangential != FrictionModel::none) {
     p.friction = in.number("friction coefficient mu", Range::non_negative);
     for (const auto &one : Parameters::parameters())

@@ -35,6 +35,7 @@
 #include <array>
 #include <cstdio>
 #include <fmt/format.h>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -163,8 +164,10 @@ inline double inertia_share(const LAMMPS *lmp) { return lmp->domain->dimension =
 
 /// Gives the pair style of the deck the contacts of each pair of types, as properties.
 /// \param table rows of as many contacts as there are types
-/// \param rolling whether the deck's models have rolling friction
-inline void set_contacts(LAMMPS *lmp, const std::vector<physics::ContactValues> &table, bool rolling) {
+/// \param rolling whether the deck's models have rolling friction \param yield k2/k1 of the law that yields;
+/// none: the linear law
+inline void set_contacts(LAMMPS *lmp, const std::vector<physics::ContactValues> &table, bool rolling,
+                         const std::optional<double> &yield) {
   const struct {
     const char *property;
     double physics::ContactValues::*value;
@@ -172,14 +175,17 @@ inline void set_contacts(LAMMPS *lmp, const std::vector<physics::ContactValues> 
                     {"dampingRatio", &physics::ContactValues::damping_ratio},
                     {"coefficientFriction", &physics::ContactValues::friction},
                     {"coefficientRollingFriction", &physics::ContactValues::rolling}};
-  for (const auto &[property, value] : properties) {
-    if (value == &physics::ContactValues::rolling && !rolling) continue;
+  const auto give = [&](const char *property, const auto &number_of) {
     std::string line =
         fmt::format("fix {0} all property/global {0} peratomtypepair {1}", property, lmp->atom->ntypes);
     for (const physics::ContactValues &contact : table)
-      line += fmt::format(" {:.17g}", contact.*value);
+      line += fmt::format(" {:.17g}", number_of(contact));
     lmp->input->one(line.c_str());
-  }
+  };
+  for (const auto &property : properties)
+    if (property.value != &physics::ContactValues::rolling || rolling)
+      give(property.property, [&](const physics::ContactValues &contact) { return contact.*property.value; });
+  if (yield) give("stiffnessRatio", [&](const physics::ContactValues &) { return *yield; });
 }
 
 } // namespace drumlin::engine

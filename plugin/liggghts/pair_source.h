@@ -100,7 +100,7 @@ public:
   /// Sets them for a pair of types. Tangential damping is c / 2 where the deck gives none.
   template <class Contact>
   void set(ContactCoefficients<Contact> &p, int i, int j, const ContactSettings &settings) {
-    settings.set_damping(p.contact, damping_(i, j, settings.damping_range()));
+    settings.set_damping(p.contact, damping_(i, j, settings.damping_range(p.contact)));
     if (tangential_.given()) p.set_tangential_damping(tangential_(i, j, Range::non_negative));
     if (settings.tangential != FrictionModel::none) p.friction = default_friction;
     if (friction_.given()) p.friction = friction_(i, j, Range::non_negative);

@@ -27,7 +27,7 @@
 
 namespace drumlin {
 
-/// The engine's number of the normal model with a law, 23 to 63 for a new one. Each law has its own
+/// The engine's number of the normal model with a law, 24 to 63 for a new one. Each law has its own
 /// specialization.
 template <class Contact>
 constexpr int normal_model_number = 0;
@@ -35,6 +35,8 @@ template <>
 constexpr int normal_model_number<physics::LinearContact> = 21;
 template <>
 constexpr int normal_model_number<physics::HertzContact> = 22;
+template <>
+constexpr int normal_model_number<physics::YieldContact> = 23;
 
 /// A model that decks name with the normal model, and its number. Those of `history` and `epsd2` are the
 /// engine's, whose names they have.

@@ -31,7 +31,8 @@ struct ContactPower {
 ///   dashpot(d)    C, N s/m, >= 0
 ///   slope(d)      dE/dd, N/m
 ///   stored(d)     energy in the spring, J, that the contact can give back
-/// and these further members, which LinearLaw (linear_contact.h) and HertzLaw (hertz_contact.h) explain:
+/// and these further members, which LinearLaw (linear_contact.h) and HertzLaw (hertz_contact.h) explain (a
+/// law that remembers is YieldLaw, yield_contact.h):
 ///   spring_change(), begins_with_jump, first_weight()   for the second-order scheme, advance.h
 ///   is_linear    whether E is proportional to d and C constant: the times of events then have a closed form,
 ///                event_location.h
@@ -82,6 +83,8 @@ public:
   void remember(double) {}
   /// d stored / dd, N: the part of E that stores energy. The work of the rest turns into heat.
   [[nodiscard]] double elastic(double overlap) const { return self().spring(overlap); }
+  /// What the spring has turned into heat since the contact began, J: its work is stored() and this.
+  [[nodiscard]] double yielded(double) const { return 0.0; }
   /// The greatest dE/dd, N/m, that the contact can have at this overlap, whether it is loaded or unloaded:
   /// for the limits of the time step.
   [[nodiscard]] double stiffest(double overlap) const { return self().slope(overlap); }

@@ -105,6 +105,7 @@ struct HertzContact {
     set_moduli(one[0], one[1], other[0], other[1]);
   }
   void set_defaults() {}
+  [[nodiscard]] static double largest_restitution() { return 1.0; }
   /// The relation of D and e is that of the linear law: see above.
   void set_restitution(double e) {
     damping = damping_ratio_of_restitution(transition, e);

@@ -4,6 +4,7 @@
 
 #include "physics/laws/hertz_contact.h"
 #include "physics/laws/linear_contact.h"
+#include "physics/laws/yield_contact.h"
 
 #include <string>
 #include <tuple>
@@ -12,7 +13,7 @@
 namespace drumlin {
 
 /// Adding a law is adding its parameters here, and its number among the models of LIGGGHTS.
-using Laws = std::tuple<physics::LinearContact, physics::HertzContact>;
+using Laws = std::tuple<physics::LinearContact, physics::HertzContact, physics::YieldContact>;
 
 namespace detail {
 

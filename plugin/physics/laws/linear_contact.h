@@ -68,6 +68,8 @@ struct LinearContact {
   static constexpr std::array<MaterialParameter, 0> material() { return {}; }
   /// Sets the parameters that a deck may leave out, from the others.
   void set_defaults() { tangential_stiffness = 2.0 / 7.0 * stiffness; }
+  /// The restitution of an impact without dashpot.
+  [[nodiscard]] static double largest_restitution() { return 1.0; }
   /// Sets the damping to that of a restitution e, > 0 and <= 1, of an impact without gravity.
   void set_restitution(double e) {
     damping = damping_ratio_of_restitution(transition, e);

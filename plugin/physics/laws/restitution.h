@@ -26,6 +26,20 @@ namespace drumlin::physics {
   return std::exp(-b * angle / w);
 }
 
+/// D of a restitution e > 0, by bisection: `restitution_of` falls with D, from at least e.
+template <class RestitutionOf>
+[[nodiscard]] double damping_ratio_by_bisection(const RestitutionOf &restitution_of, double e) {
+  double low = 0.0, high = 1.0;
+  while (restitution_of(high) > e && high < 1e150)
+    high *= 2.0;
+  for (int n = 0; n < 200 && low < high; ++n) {
+    const double middle = 0.5 * (low + high);
+    if (middle == low || middle == high) break;
+    (restitution_of(middle) > e ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
 /// D of a restitution e, 0 < e <= 1. Under A in closed form; under B by bisection, as e falls with D. B's e
 /// stays above 1 / (4 D^2) for large D, so that any e > 0 has a D; D for e = 1e-6 is 500.
 [[nodiscard]] inline double damping_ratio_of_restitution(Transition transition, double e) {
@@ -35,15 +49,7 @@ namespace drumlin::physics {
     return loss / std::hypot(pi, loss);
   }
   if (e >= 1.0) return 0.0;
-  double low = 0.0, high = 1.0;
-  while (restitution(transition, high) > e && high < 1e150)
-    high *= 2.0;
-  for (int n = 0; n < 200 && low < high; ++n) {
-    const double middle = 0.5 * (low + high);
-    if (middle == low || middle == high) break;
-    (restitution(transition, middle) > e ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  return damping_ratio_by_bisection([transition](double D) { return restitution(transition, D); }, e);
 }
 
 } // namespace drumlin::physics

@@ -234,8 +234,8 @@ template <class Law>
 
 /// Heat of a contact's dashpot that the trapezoidal rule misses in a step through which the contact goes on,
 /// J. (The rule sums the power (F - E) d' of the dashpot at the end of each step, times dt.) Half kicks and
-/// drift make the spring do the work of the mean of its two forces, while its energy changes by the integral
-/// of E. With a dashpot, what is between them counts as heat: it changes sign where the overlap is largest,
+/// drift make the spring do the work of the mean of its two forces, while its energy, and what has yielded,
+/// change by the integral of E. With a dashpot, what is between them counts as heat: it changes sign where the overlap is largest,
 /// and is nearly 0 in an undamped impact, but the dashpot makes the loading faster than the unloading. 0 for
 /// a linear spring.
 template <class Law>
@@ -243,8 +243,8 @@ template <class Law>
   if constexpr (Law::is_linear) return 0.0;
   const double now = motion.overlap, before = motion.overlap_before();
   if (before <= 0.0 || law.dashpot(now) == 0.0) return 0.0;
-  return 0.5 * (law.elastic(now) + law.elastic(before)) * (now - before) -
-         (law.energy(now) - law.energy(before));
+  return 0.5 * (law.spring(now) + law.spring(before)) * (now - before) -
+         (law.energy(now) - law.energy(before)) - (law.yielded(now) - law.yielded(before));
 }
 
 /// The same in any step. In that in which the contact begins or ends, the heat is the energy that the contact
@@ -263,12 +263,12 @@ template <class Law>
   if (step.begins) {
     const double d = motion.overlap;
     if (law.dashpot(d) == 0.0) return 0.0;
-    const double spring = law.elastic(d), dashpot = step.force - spring;
+    const double spring = law.spring(d), dashpot = step.force - spring;
     const double rate = motion.rate_predicted() - 0.5 * per_mass * step.kick;
     const double corrected = 0.5 * dt * per_mass * step.shift; // m, of the overlap in the next drift
     const double next = d + dt * (rate - 0.5 * per_mass * step.force) - corrected;
-    const double drift = 0.5 * (spring + (next > 0.0 ? law.elastic(next) : 0.0)) * corrected;
-    return closing_work(slowing) - law.energy(d) + drift - 0.5 * dt * dashpot * rate -
+    const double drift = 0.5 * (spring + (next > 0.0 ? law.spring(next) : 0.0)) * corrected;
+    return closing_work(slowing) - law.energy(d) - law.yielded(d) + drift - 0.5 * dt * dashpot * rate -
            0.125 * dt * per_mass * (dashpot - spring) * step.force;
   }
   const double others = slowing + 0.5 * per_mass * before.force;
@@ -277,7 +277,7 @@ template <class Law>
            (step.coupled || step.kick == step.force ? 0.0 : closing_work(others));
   const double d = motion.overlap_before();
   if (!before.in_contact || d <= 0.0 || law.dashpot(d) == 0.0) return 0.0;
-  return law.energy(d) + 0.5 * dt * law.elastic(d) * motion.rate_half + closing_work(others);
+  return law.energy(d) + 0.5 * dt * law.spring(d) * motion.rate_half + closing_work(others);
 }
 
 /// The same with the engines' own scheme, `stock`: the dashpot force is computed with the half-step velocity,

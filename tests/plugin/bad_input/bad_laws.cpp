@@ -157,6 +157,55 @@ BadGroup hertz_law() {
           }};
 }
 
+/// A mistake in the pair style with the law that yields, whose host properties are given but k2/k1.
+BadInput yield(const std::string &name, const std::string &settings, const std::string &ratio,
+               const std::string &more, const std::vector<std::string> &says, unsigned kind = on_one_rank) {
+  BadInput input{name, "", says, kind};
+  input.pair = "pair_style gran model yield/transition " + settings + "\npair_coeff * *\n" +
+               property("kn", "1e5") + property("dampingRatio", "0.3") +
+               (ratio.empty() ? "" : property("stiffnessRatio", ratio)) + more;
+  return input;
+}
+
+BadGroup yield_law() {
+  const char *const command = "model yield/transition: property ";
+  return {
+      "Yield",
+      "",
+      {
+          yield("no ratio", "", "", "",
+                {std::string(command) + "stiffnessRatio (stiffness of unloading over that of first loading) "
+                                        "is missing",
+                 "9 values"},
+                on_two_ranks),
+          yield("k2 below k1", "", "0.99", "",
+                {std::string(command) + "stiffnessRatio of types 1 and 1 is 0.99", "a finite number >= 1"},
+                on_two_ranks),
+          yield("negative ratio", "", "-2", "", {"stiffnessRatio of types 1 and 1 is -2", ">= 1"}),
+          yield("a restitution that cannot be had", "damping restitution", "4",
+                property("coefficientRestitution", "0.51"),
+                {std::string(command) + "coefficientRestitution of types 1 and 1 is 0.51",
+                 "a finite number > 0 and <= 0.5"},
+                on_two_ranks),
+      }};
+}
+
+BadGroup yield_law_in_lammps() {
+  return Table{"YieldInLammps", "", "gran/yield/transition", true}.of({
+      {"", "pair_style @\npair_coeff * * 1e5 0.5 0.2",
+       "pair_coeff of @ ... stiffness of unloading over that of first loading k2/k1 is '0.5' ... a finite "
+       "number >= 1"},
+      {"", "pair_style @\npair_coeff * * 1e5 nan 0.2", "pair_coeff of @ ... k2/k1 is 'nan' ... >= 1"},
+      {"", "pair_style @\npair_coeff * * -1e5 2 0.2",
+       "pair_coeff of @ ... normal stiffness of first loading k1 is '-1e5' ... a finite number > 0"},
+      {"", "pair_style @\npair_coeff * * 1e5 2", "pair_coeff of @ ... damping ratio D is missing"},
+      {"", "pair_style @ damping restitution\npair_coeff * * 1e5 4 0.51",
+       "pair_coeff of @ ... restitution e is '0.51' ... a finite number > 0 and <= 0.5"},
+      {"", "pair_style @\npair_coeff * * 1e5 2 0.2 0.5",
+       "pair_coeff of @ ... '0.5' is left over ... I J k1 k2/k1 damping"},
+  });
+}
+
 BadGroup pair_style_in_lammps() {
   return Table{"PairStyleInLammps", "", "gran/hooke/transition", true}.of({
       {"", "pair_style @ transition C", "pair_style @ ... keyword transition is 'C' ... allowed: A or B"},
@@ -451,9 +500,9 @@ std::vector<BadGroup> parameters_of() {
 } // namespace
 
 std::vector<BadGroup> bad_laws() {
-  std::vector<BadGroup> all = {pair_style(),    pair_style_in_lammps(), properties(),
-                               hertz_law(),     hertz_law_in_lammps(),  wall(),
-                               wall_in_lammps()};
+  std::vector<BadGroup> all = {
+      pair_style(), pair_style_in_lammps(), properties(), hertz_law(),     hertz_law_in_lammps(),
+      yield_law(),  yield_law_in_lammps(),  wall(),       wall_in_lammps()};
   for_each_law([&all](auto law) {
     for (BadGroup &group : parameters_of<typename decltype(law)::type>())
       all.push_back(std::move(group));

@@ -460,6 +460,11 @@ BadGroup layers() {
       {"no model of rolling", "@ k 1e8 D 0 friction 0.5 rolling 0.1",
        "keyword rolling, model is '0.1' ... off or epsd2"},
       {"rolling negative", "@ k 1e8 D 0 friction 0.5 rolling off -1", "keyword rolling is '-1' ... >= 0"},
+      {"yield below 1", "@ k 1e8 D 0 friction 0.5 rolling off 0 yield 0.9",
+       "keyword yield, stiffness of unloading over that of first loading is '0.9' ... a finite number >= 1",
+       on_two_ranks},
+      {"k2 too stiff for the time step", "timestep 1e-3\n@ k 1e8 D 0 friction 0 rolling off 0 yield 1e10",
+       "keyword k is '1e8', with which two of the lightest balls of layer 1 have the critical step"},
       {"a word too many", "@ k 1e8 D 0 friction 0.5 rolling off 0 all",
        "argument is 'all' ... k LIST D LIST"},
   });

@@ -2,7 +2,6 @@
 
 #include "physics/scheme/contact_block.h"
 
-#include "tests/plugin/physics/yielding_contact.h"
 #include "tests/plugin/law_samples.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +14,6 @@
 namespace {
 
 using namespace drumlin::physics;
-using yielding::YieldingContact;
 
 /// Coefficients as the adapters have them.
 template <class Contact>
@@ -31,14 +29,6 @@ struct Coefficients {
 template <class Contact>
 Contact contact_of_stiffness() { // forces of some 10 N at the overlaps of these blocks
   return drumlin::test::sample_contact<Contact>(Contact::depends_on_radius ? 1e7 : 1e5);
-}
-template <>
-YieldingContact contact_of_stiffness() {
-  YieldingContact contact;
-  contact.stiffness = 1e5;
-  contact.unloading_stiffness = 3e5;
-  contact.tangential_stiffness = 3e4;
-  return contact;
 }
 
 template <class Contact>
@@ -206,7 +196,6 @@ void expect_all_blocks() {
 
 TEST(ContactBlock, HasTheBitsOfItsContactsOneByOne) {
   drumlin::for_each_law([](auto law) { expect_all_blocks<typename decltype(law)::type>(); });
-  expect_all_blocks<YieldingContact>();
 }
 
 // A wall differs from a ball that does not turn by the effective radius alone, which the linear law needs for

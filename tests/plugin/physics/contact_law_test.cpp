@@ -4,7 +4,6 @@
 #include "physics/laws/linear_contact.h"
 
 #include "tests/plugin/physics/velocity_verlet.h"
-#include "tests/plugin/physics/yielding_contact.h"
 #include "tests/support/ode.h"
 #include "tests/support/oscillator.h"
 
@@ -240,65 +239,6 @@ TEST(EffectiveMass, IsTheHarmonicSum) {
 TEST(EffectiveMass, OfAFixedPartnerIsTheOtherBallsMass) {
   EXPECT_EQ(effective_mass(2000.0, infinity), 2000.0);
   EXPECT_EQ(effective_mass(infinity, 2000.0), 2000.0);
-}
-
-// A law that remembers is the same function of the overlap before and after it has taken up the end of its
-// step.
-TEST(LawThatRemembers, HasTheSameBitsWithWhatItRemembersAtTheEndOfItsStep) {
-  using yielding::YieldingLaw;
-  for (const double largest : {0.0, 3e-4, 1e-3, 2e-3})
-    for (const double d : {1e-5, 7.1e-4, 1e-3, 1.3e-3}) {
-      const YieldingLaw before(1e7, 3e7, 1e3, Transition::A, largest);
-      YieldingLaw after = before;
-      for (int n = 0; n < 2; ++n) { // a set-up computes a step again
-        after.remember(d);
-        EXPECT_EQ(after.memory(), std::max(largest, d));
-        EXPECT_EQ(after.force(d, 0.3), before.force(d, 0.3));
-        EXPECT_EQ(after.energy(d), before.energy(d));
-        EXPECT_EQ(after.power(d, 0.3).stored, before.power(d, 0.3).stored);
-        EXPECT_EQ(after.stiffest(d), before.stiffest(d));
-      }
-    }
-}
-
-// Along any path the work is what is stored and the heat.
-TEST(LawThatRemembers, StoresThePartOfItsWorkThatItGivesBack) {
-  yielding::YieldingLaw law(1e7, 3e7, 0.0, Transition::B, 0.0);
-  double work = 0.0, heat = 0.0, before = 0.0;
-  constexpr int steps = 400000;
-  constexpr double dt = 1.0 / steps;
-  for (int n = 1; n <= steps; ++n) {
-    const double t = n * dt, d = 1e-3 * (std::sin(11.0 * t) + 1.2 * t), rate = (d - before) / dt;
-    const double middle = 0.5 * (d + before);
-    if (middle > 0.0) {
-      const ContactPower power = law.power(middle, rate);
-      EXPECT_GE(power.dissipated, 0.0);
-      work += dt * law.force(middle, rate) * rate;
-      heat += dt * power.dissipated;
-    }
-    law.remember(d);
-    before = d;
-  }
-  EXPECT_GT(heat, 1.0);
-  EXPECT_NEAR(work, law.energy(before) + heat, 1e-5 * work); // of first order in dt in steps across a kink
-}
-
-// Without a dashpot the work of the way back is k1/k2 of that of the way in.
-TEST(LawThatRemembers, ReboundsAsItsTwoStiffnessesSay) {
-  using Ball = verlet::SecondOrderBall<yielding::YieldingLaw>;
-  std::vector<double> steps, errors;
-  for (const double dt : {4e-5, 2e-5, 1e-5}) {
-    double worst = 0.0;
-    for (const double start : {1e-6, 0.7e-5, 1.3e-5}) { // where in its step the contact begins
-      Ball ball(2.0, start, -1.0, dt, {{0.0, 1.0, {1e6, 4e6, 0.0, Transition::B, 0.0}}});
-      while (ball.v < 0.0 || ball.x < 0.0)
-        ball.step();
-      worst = std::max(worst, std::fabs(ball.v - 0.5));
-    }
-    errors.push_back(worst);
-  }
-  EXPECT_LT(errors[0], 2e-3);
-  EXPECT_LT(errors[2], errors[0] / 8.0);
 }
 
 } // namespace

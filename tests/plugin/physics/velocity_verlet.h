@@ -44,13 +44,14 @@ public:
     double place;
     double sign; ///< +1: the partner is below
     Law law;
+    Law fresh = law; ///< that of a contact that begins
     drumlin::physics::ContactState state{};
   };
 
   SecondOrderBall(double mass, double x_start, double v_start, double dt, std::vector<Partner> partners,
                   double constant_force = 0.0)
-      : x(x_start), v(v_start), mass_(mass), dt_(dt), partners_(std::move(partners)),
-        constant_(constant_force), force_(constant_force) {
+      : x(x_start), v(v_start), constant(constant_force), mass_(mass), dt_(dt),
+        partners_(std::move(partners)), force_(constant_force) {
     for (Partner &p : partners_) {
       const double d = overlap(p), rate = -p.sign * v;
       if (d <= 0.0) continue;
@@ -67,9 +68,9 @@ public:
     x += dt_ * half;
     half -= 0.5 * dt_ * shift_ / mass_;
     shift_ = 0.0;
-    double kick = constant_;
+    double kick = constant;
     double damping = 0.0;
-    force_ = constant_;
+    force_ = constant;
     std::vector<std::pair<Partner *, CoupledDashpot>> coupled;
     for (Partner &p : partners_) {
       const StepMotion motion{overlap(p), -p.sign * half, -p.sign * before, dt_};
@@ -91,7 +92,10 @@ public:
     double largest = 0.0;
     for (Partner &p : partners_) {
       largest = std::max(largest, p.state.force);
-      p.law.remember(overlap(p));
+      if (overlap(p) > 0.0)
+        p.law.remember(overlap(p));
+      else
+        p.law = p.fresh;
     }
     return largest;
   }
@@ -99,11 +103,11 @@ public:
   double overlap(const Partner &p) const { return -p.sign * (x - p.place); }
 
   double x, v;
+  double constant; ///< N, such as a weight; a force that changes is set before each step for its end
 
 private:
   double mass_, dt_;
   std::vector<Partner> partners_;
-  double constant_; // such as a weight
   double force_;
   double shift_ = 0.0;
   double damping_ = 0.0;
