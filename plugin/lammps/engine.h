@@ -161,6 +161,7 @@ inline void set_contacts(LAMMPS *lmp, const std::vector<physics::ContactValues> 
       std::string line = fmt::format("pair_coeff {} {} {:.17g} {:.17g} {:.17g}", a + 1, b + 1,
                                      contact.stiffness, contact.damping_ratio, contact.friction);
       if (rolling) line += fmt::format(" rolling {:.17g}", contact.rolling);
+      if (contact.suction > 0.0) line += fmt::format(" suction {:.17g}", contact.suction);
       lmp->input->one(line);
     }
 }

@@ -171,9 +171,14 @@ inline void set_contacts(LAMMPS *lmp, const std::vector<physics::ContactValues> 
   } properties[] = {{"kn", &physics::ContactValues::stiffness},
                     {"dampingRatio", &physics::ContactValues::damping_ratio},
                     {"coefficientFriction", &physics::ContactValues::friction},
-                    {"coefficientRollingFriction", &physics::ContactValues::rolling}};
+                    {"coefficientRollingFriction", &physics::ContactValues::rolling},
+                    {"suction", &physics::ContactValues::suction}};
+  const bool pulls =
+      std::any_of(table.begin(), table.end(), [](const auto &one) { return one.suction > 0.0; });
   for (const auto &[property, value] : properties) {
     if (value == &physics::ContactValues::rolling && !rolling) continue;
+    if (value == &physics::ContactValues::suction && !pulls && find_fix(lmp->modify, property) == nullptr)
+      continue;
     std::string line =
         fmt::format("fix {0} all property/global {0} peratomtypepair {1}", property, lmp->atom->ntypes);
     for (const physics::ContactValues &contact : table)
