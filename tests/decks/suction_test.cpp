@@ -165,7 +165,7 @@ TEST_P(Suction, FollowsFromTheTensileStrengthOfASoil) {
   const Outcome both =
       run_deck(chain_deck(std::string("../soil/in.biaxial") + (lammps ? ".lammps" : "")),
                {{"sample", "hexagonal"}, {"tensile_strength", "1"}, {"suction", "1"}}, folder.path());
-  EXPECT_TRUE(printed(both, "ERROR: drumlin/check: variable suction is '1'; allowed: a finite number <= 0"));
+  EXPECT_TRUE(printed(both, "ERROR: drumlin/check: variable suction is '1'; allowed: a finite number at most 0"));
 }
 
 } // namespace

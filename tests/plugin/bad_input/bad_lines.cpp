@@ -475,7 +475,7 @@ BadGroup suction() {
       {"solid above 1", "@ F all strength 1e3 solid 1.1 contacts 4", "keyword solid is '1.1' ... <= 1"},
       {"no contacts", "@ F all strength 1e3 solid 0.8 contacts 0", "keyword contacts is '0' ... > 0"},
       {"a word too many", "@ F all strength 1e3 solid 0.8 contacts 4 5", "argument is '5' ... NAME GROUP"},
-      {"no balls", "group none empty\n@ F none strength 1e3 solid 0.8 contacts 4",
+      {"no balls", "group none id 99999\n@ F none strength 1e3 solid 0.8 contacts 4",
        "the group has '0' balls ... a group with balls", on_two_ranks},
   });
 }
