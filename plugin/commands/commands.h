@@ -46,12 +46,16 @@ void settle_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 /// group of balls.
 void surface_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
-/// drumlin/layers k LIST D LIST friction LIST rolling off|epsd2 LIST [variables NAME NAME NAME NAME]: gives
-/// the contacts of a bed the laws of its layers.
+/// drumlin/layers k LIST D LIST friction LIST rolling off|epsd2 LIST [suction LIST]
+/// [variables NAME NAME NAME NAME]: gives the contacts of a bed the laws of its layers.
 void layers_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
 /// drumlin/pick NAME WHICH LIST: sets a variable to the largest number of a list, or to that in a place.
 void pick_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
+
+/// drumlin/suction NAME GROUP strength S solid P contacts Z: sets a variable to the suction that gives soil a
+/// tensile strength.
+void suction_command(LAMMPS_NS::LAMMPS *lmp, int narg, char **arg);
 
 /// A command as a type, for engines that want a class for each.
 template <void (*run)(LAMMPS_NS::LAMMPS *, int, char **)>
@@ -75,6 +79,7 @@ void for_each_command(Add &&add) {
   add(CommandType<run_command>(), "drumlin/run", "runs with progress and a limit of wall time");
   add(CommandType<settle_command>(), "drumlin/settle", "runs to static equilibrium");
   add(CommandType<surface_command>(), "drumlin/surface", "measures the mean height of a surface");
+  add(CommandType<suction_command>(), "drumlin/suction", "finds the suction for a tensile strength");
   add(CommandType<write_command>(), "drumlin/write", "writes restart and data files with notes");
 }
 

@@ -42,12 +42,16 @@ std::vector<double> values(Arguments &in, const std::string &name, Range range, 
   return numbers;
 }
 
-/// The contact of balls of two types. That of a layer with the drum or a wall is the layer's own; drum and
-/// frame have no contacts with each other.
+/// The contact of balls of two types. That of a layer with the drum or a wall is the layer's own, without
+/// suction, which would make the drum stick; drum and frame have no contacts with each other.
 ContactValues contact(const std::vector<ContactValues> &layers, int type_a, int type_b) {
   const int a = layer_of(type_a), b = layer_of(type_b);
-  if (a == b || b < 0) return layers[static_cast<std::size_t>(std::max(a, 0))];
-  if (a < 0) return layers[static_cast<std::size_t>(b)];
+  if (a < 0 || b < 0) {
+    ContactValues one = layers[static_cast<std::size_t>(std::max({a, b, 0}))];
+    one.suction = 0.0;
+    return one;
+  }
+  if (a == b) return layers[static_cast<std::size_t>(a)];
   return physics::mixed(layers[static_cast<std::size_t>(a)], layers[static_cast<std::size_t>(b)]);
 }
 
@@ -129,7 +133,9 @@ void layers_command(LAMMPS *lmp, int narg, char **arg) {
   std::vector<ContactValues> laws(static_cast<std::size_t>(layers));
   const auto read = [&](int n, const std::string &keyword, double ContactValues::*value, Range range) {
     const std::string text = in.empty() ? "" : in.peek();
-    Given given{named ? variable_of(lmp, arg[narg - variables + n], text) : "keyword " + keyword, text};
+    Given given{named && n < variables ? variable_of(lmp, arg[narg - variables + n], text)
+                                       : "keyword " + keyword,
+                text};
     const std::vector<double> numbers = values(in, given.name, range, layers);
     for (std::size_t layer = 0; layer < laws.size(); ++layer)
       laws[layer].*value = numbers[layer];
@@ -144,13 +150,17 @@ void layers_command(LAMMPS *lmp, int narg, char **arg) {
   in.choice("keyword", {"rolling"});
   const bool rolling = in.choice("keyword rolling, model", {"off", "epsd2"}) == 1;
   read(3, "rolling", &ContactValues::rolling, Range::non_negative);
+  if (!in.empty() && in.peek() == "suction") {
+    in.word("keyword");
+    read(variables, "suction", &ContactValues::suction, Range::non_negative);
+  }
   std::optional<double> yield;
   if (!in.empty() && in.peek() == "yield") {
     in.word("keyword");
     yield = in.number("keyword yield, stiffness of unloading over that of first loading", Range{1.0});
   }
-  in.expect_end(
-      "k LIST D LIST friction LIST rolling off|epsd2 LIST [yield RATIO] [variables NAME NAME NAME NAME]");
+  in.expect_end("k LIST D LIST friction LIST rolling off|epsd2 LIST [suction LIST] [yield RATIO] [variables NAME "
+                "NAME NAME NAME]");
   const std::vector<int> counts = ball_counts(lmp, layers);
   if (const auto none = std::find(counts.begin(), counts.end(), 0); layers > 1 && none != counts.end()) {
     const auto layer = static_cast<int>(none - counts.begin());

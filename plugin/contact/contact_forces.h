@@ -118,6 +118,7 @@ public:
     physics::compute_normal_forces<stepped, rubs ? physics::Slip::at_end : physics::Slip::none, partner>(
         block, 0, 1, law.contact, dt_);
     if constexpr (stepped) block.push[0] = block.force[0] = block.force_before[0];
+    physics::attract(block, 0, 1, law.suction);
     if constexpr (rubs || rolling)
       physics::compute_tangential_stiffness<springs, rolling, false>(block, 0, 1, law.contact, dt_);
     Vec3 friction{};
@@ -193,6 +194,7 @@ private:
   void compute_law(int first, int end) {
     const ContactCoefficients<Parameters> &law = law_of(first);
     ContactSet rare = push(first, end, law.contact);
+    if (law.suction != 0.0) physics::attract(block, first, end, law.suction);
     if constexpr (stepped) {
       rare |= in_setup_ ? between(first, end) : changed_;
       if (moved_) rare |= with_moved_balls(first, end);
@@ -332,15 +334,18 @@ private:
     const physics::ContactState before{block.force_before[n], (new_ >> n & 1) == 0};
     physics::ContactState state = before;
     const physics::StepResult step = physics::advance(law, motion, state, context);
+    const double suction = law_of(n).suction;
+    const physics::StepResult acting = physics::with_suction(step, suction, motion, before, in_setup_);
     const std::size_t announced = stepping_->announced();
-    exert_later(n, step);
+    exert_later(n, acting);
     double &stored_force = contact.history[places_[Remembered::force]];
     if (step.coupled) couple(n, step.dashpot, stored_force);
     if (step.begins) begin(n, step, announced);
     if (stepping_->counts_heat())
-      stepping_->tell_heat(contact.i, contact.j,
-                           share() * physics::heat_of_change(law, motion, before, step, context.m_eff), 0.0);
-    block.push[n] = step.kick;
+      stepping_->tell_heat(
+          contact.i, contact.j,
+          share() * physics::heat_of_change(law, suction, motion, before, step, acting, context.m_eff), 0.0);
+    block.push[n] = acting.kick;
     block.force[n] = state.force;
     if (!state.in_contact || !stepping_->counting()) return;
     stepping_->add_damping(contact.i, law.dashpot(overlap));
@@ -480,8 +485,9 @@ private:
     record.overlap = block.overlap[n];
     record.radius = at_walls ? block.ri[n] : std::min(block.ri[n], block.rj[n]);
     record.share = share();
-    record.spring_force = law.spring(record.overlap);
-    record.spring_energy = law.energy(record.overlap);
+    record.suction = coefficients.suction;
+    record.spring_force = law.spring(record.overlap) - record.suction;
+    record.spring_energy = law.energy(record.overlap) - record.suction * record.overlap;
     if constexpr (remembers)
       record.yield_heat = law.yielded(0.0) - law_before(n, coefficients.contact).yielded(0.0);
     record.normal_stiffness = law.stiffest(record.overlap);

@@ -28,15 +28,16 @@ struct ContactRecord {
   double overlap;                      ///< m
   double radius;                       ///< of the smaller ball, m
   double share;                        ///< 1; less where triangles of a mesh share the force of one contact
-  double spring_force;                 ///< N, of the normal spring
-  double spring_energy;                ///< J, in the normal spring
+  double suction;                      ///< N, constant attraction
+  double spring_force;                 ///< N, of the normal spring, less suction
+  double spring_energy;                ///< J, in the normal spring, less suction times overlap
   double yield_heat;                   ///< J, that the spring has turned into heat in this step
   double normal_stiffness;             ///< N/m
   double normal_dashpot;       ///< N s/m; 0 under `stepping second`, where it does not limit the time step
   double tangential_stiffness; ///< N/m; 0 without a tangential spring
   double tangential_dashpot;   ///< N s/m; 0 without a tangential dashpot
   double rolling_stiffness;    ///< N m; 0 without a rolling spring
-  double normal_force;         ///< N, positive when it pushes
+  double normal_force;         ///< N, of spring and dashpot, positive when it pushes
   const double *final_force;   ///< where the final normal force is stored once all forces of the step are
                                ///< known (`stepping second`); nullptr: normal_force is final
   const double *spring;        ///< tangential spring, m, three components; nullptr: none
@@ -46,7 +47,10 @@ struct ContactRecord {
                                 ///< nullptr: nothing
 
   // To be called when all forces of the step are known:
-  double final_normal_force() const { return share * (final_force != nullptr ? *final_force : normal_force); }
+  /// N, with suction, positive when it pushes.
+  double final_normal_force() const {
+    return share * ((final_force != nullptr ? *final_force : normal_force) - suction);
+  }
   physics::Vec3 final_tangential_force() const {
     return change != nullptr ? physics::sum(tangential_force, 1.0, change->force) : tangential_force;
   }
@@ -63,6 +67,7 @@ struct ContactRecord {
 struct PairStep {
   int tag_i, tag_j; ///< IDs of the balls, the lower first
   const AnyLaw &law;
+  double suction;                      ///< N, which the law does not contain
   double dt;                           ///< s, length of the step
   physics::OverlapState before, after; ///< at the beginning and the end of the step
 };

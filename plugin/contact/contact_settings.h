@@ -28,6 +28,7 @@ struct ContactCoefficients {
   double tangential_damping = 0.0;       ///< ct, N s/m
   double tangential_damping_share = 0.5; ///< of the normal damping coefficient, on top of ct
   double rolling = 0.0;                  ///< mu_r
+  double suction = 0.0;                  ///< F_a, N, see physics::with_suction()
 
   void set_tangential_damping(double ct) {
     tangential_damping = ct;

@@ -15,6 +15,11 @@ AnyLaw ContactSource::law(int i, int j, double memory) const {
       table());
 }
 
+double ContactSource::suction(int i, int j) const {
+  const int *type = balls().type;
+  return std::visit([&](const auto *table) { return table->at(type[i], type[j]).suction; }, table());
+}
+
 physics::Friction ContactSource::friction(int i, int j, const AnyLaw &law, double overlap,
                                           const TangentialSpring &spring) const {
   const LAMMPS_NS::Atom &atom = balls();

@@ -32,6 +32,8 @@ public:
   virtual AnyTable table() const = 0;
   /// The law of balls i and j (local or ghost indices). \param memory of their contact, see law_memory()
   AnyLaw law(int i, int j, double memory) const;
+  /// Suction F_a, N, of balls i and j, which the law does not contain.
+  double suction(int i, int j) const;
   /// What that law depends on besides the types of the balls: their masses, kg, and radii, m.
   std::array<double, 4> sizes(int i, int j) const {
     return {mass(i), mass(j), balls().radius[i], balls().radius[j]};

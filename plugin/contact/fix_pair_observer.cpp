@@ -91,7 +91,8 @@ void FixPairObserver::end_of_step() {
     const drumlin::PairMotion motion = drumlin::pair_motion(*atom, pair.i, pair.j);
     const physics::OverlapState now{motion.overlap, motion.rate};
     pair.law.follow(*source_, pair.i, pair.j, pair.state.memory);
-    see_pair({pair.tags.first, pair.tags.second, pair.law.law(), dt_, pair.state.overlap, now});
+    see_pair({pair.tags.first, pair.tags.second, pair.law.law(), source_->suction(pair.i, pair.j), dt_,
+              pair.state.overlap, now});
     pair.state = {now, drumlin::memory_at(pair.memory)};
   }
 }

@@ -2,6 +2,7 @@
 
 #include "contact/pair_motion.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace drumlin {
@@ -48,7 +49,8 @@ void DrumContacts::add(std::array<double, 5> &sums, const Pair &pair, const Law 
   const auto along = [&axis](const double *v) { return v[0] * axis[0] + v[1] * axis[1] + v[2] * axis[2]; };
   const PairMotion m = pair_motion(atom, pair.i, pair.j);
   const double F = law.force(m.overlap, m.rate);
-  sums[0] += pair.sign * F * along(m.normal.data());
+  const double suction = m.overlap > 0.0 ? source_->suction(pair.i, pair.j) : 0.0;
+  sums[0] += pair.sign * (F - suction) * along(m.normal.data());
   if (m.overlap > 0.0 && source_->friction_model() != FrictionModel::none) {
     const physics::Friction friction =
         source_->friction(pair.i, pair.j, pair.law.law(), m.overlap, pair.spring);
@@ -58,8 +60,8 @@ void DrumContacts::add(std::array<double, 5> &sums, const Pair &pair, const Law 
                                        .data());
   }
   sums[1] += law.power(m.overlap, m.rate).dissipated;
-  sums[2] += law.energy(m.overlap);
-  sums[3] += law.acts(m.overlap, m.rate) ? 1.0 : 0.0;
+  sums[2] += law.energy(m.overlap) - suction * std::max(0.0, m.overlap);
+  sums[3] += suction > 0.0 || law.acts(m.overlap, m.rate) ? 1.0 : 0.0;
 }
 
 DrumContactSums DrumContacts::sums(const std::array<double, 3> &axis) {

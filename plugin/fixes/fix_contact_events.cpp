@@ -86,7 +86,9 @@ bool FixContactEvents::selects(int i, int j) const {
 
 void FixContactEvents::see_pair(const drumlin::PairStep &pair) {
   const auto event = std::visit(
-      [&](const auto &law) { return physics::locate_transition(law, pair.dt, pair.before, pair.after); },
+      [&](const auto &law) {
+        return physics::locate_transition(law, pair.dt, pair.before, pair.after, pair.suction);
+      },
       pair.law);
   if (event)
     pending_.push_back({clock_.time(update->ntimestep - 1) + event->since, event->make ? 1 : 0,

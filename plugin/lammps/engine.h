@@ -165,6 +165,7 @@ inline void set_contacts(LAMMPS *lmp, const std::vector<physics::ContactValues> 
       if (yield) line += fmt::format(" {:.17g}", *yield);
       line += fmt::format(" {:.17g} {:.17g}", contact.damping_ratio, contact.friction);
       if (rolling) line += fmt::format(" rolling {:.17g}", contact.rolling);
+      if (contact.suction > 0.0) line += fmt::format(" suction {:.17g}", contact.suction);
       lmp->input->one(line);
     }
 }

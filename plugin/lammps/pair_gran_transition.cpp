@@ -367,7 +367,7 @@ void PairGranTransition::tell_single(const ContactCoefficients<Parameters> &law,
       law.contact.law(effective_mass(i, j), r_eff, drumlin::memory_at(stored(Remembered::memory)));
   const double normal_force =
       settings_.stock ? normal.force(now.overlap, now.rate) : *stored(Remembered::force);
-  force_over_distance = normal_force / (atom->radius[i] + atom->radius[j] - now.overlap);
+  force_over_distance = (normal_force - law.suction) / (atom->radius[i] + atom->radius[j] - now.overlap);
   const bool rubs = settings_.tangential != FrictionModel::none;
   const double *stiffness = stored(Remembered::stiffness);
   const double kt =
@@ -391,7 +391,8 @@ void PairGranTransition::transfer_history(double *source, double *target DRUMLIN
 }
 
 /// Pair style hybrid keeps the settings of its parts, and no coefficients. Rolling resistance is the second
-/// bit of a word, so that files that were written without it can be read.
+/// bit of a word, and suction that of the first number of a pair of types, so that files that were written
+/// without them can be read.
 void PairGranTransition::write_restart_settings(FILE *file) {
   const int words[5] = {static_cast<int>(settings_.transition), static_cast<int>(settings_.damping),
                         (settings_.stock ? 1 : 0) + (settings_.rolling ? 2 : 0),
@@ -414,10 +415,12 @@ void PairGranTransition::write_restart(FILE *file) {
   const auto write = [&](auto table) { // a copy
     for (int i = 1; i <= atom->ntypes; ++i)
       for (int j = i; j <= atom->ntypes; ++j) {
-        std::vector<double> numbers{static_cast<double>(setflag[i][j])};
+        const double suction = table.at(i, j).suction;
+        std::vector<double> numbers{static_cast<double>(setflag[i][j] + (suction > 0.0 ? 2 : 0))};
         for (const double *number : drumlin::restart_numbers(table.at(i, j)))
           numbers.push_back(*number);
         if (settings_.rolling) numbers.push_back(table.at(i, j).rolling);
+        if (suction > 0.0) numbers.push_back(suction);
         std::fwrite(numbers.data(), sizeof(double), numbers.size(), file);
       }
   };
@@ -438,7 +441,12 @@ void PairGranTransition::read_restart(FILE *file) {
         if (comm->me == 0)
           utils::sfread(FLERR, numbers.data(), sizeof(double), numbers.size(), file, nullptr, error);
         MPI_Bcast(numbers.data(), count, MPI_DOUBLE, 0, world);
-        setflag[i][j] = static_cast<int>(numbers[0]);
+        const int flags = static_cast<int>(numbers[0]);
+        setflag[i][j] = flags & 1;
+        if ((flags & 2) != 0) {
+          if (comm->me == 0) utils::sfread(FLERR, &p.suction, sizeof(double), 1, file, nullptr, error);
+          MPI_Bcast(&p.suction, 1, MPI_DOUBLE, 0, world);
+        }
         for (std::size_t n = 0; n < places.size(); ++n)
           *places[n] = numbers[n + 1];
         if (settings_.rolling) p.rolling = numbers.back();

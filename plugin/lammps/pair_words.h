@@ -53,7 +53,7 @@ inline ContactSettings read_settings(Arguments &in, const std::string &pair_coef
 
 /// Whether a number follows; NULL in its place is read. \param what for error texts
 inline bool next_is_given(Arguments &in, const char *what) {
-  if (in.empty() || in.peek() == "rolling") return false;
+  if (in.empty() || in.peek() == "rolling" || in.peek() == "suction") return false;
   if (in.peek() != "NULL") return true;
   in.word(what);
   return false;
@@ -89,7 +89,7 @@ struct LawWords {
         friction = fmt::format("[{} {}", p.word, friction);
         close += "]";
       }
-    return forms(" [mu " + friction + close + "] [rolling mu_r]");
+    return forms(" [mu " + friction + close + "] [rolling mu_r] [suction F_a]");
   }
   static std::string behind_friction() {
     std::string friction = "[ct|NULL", close = "]";
@@ -161,7 +161,7 @@ inline double read_rolling(Arguments &in, const ContactSettings &settings) {
 }
 
 /// Stiffness, damping and, with friction, mu and at will what the law has for friction and ct, then with
-/// rolling resistance `rolling mu_r` up to the end.
+/// rolling resistance `rolling mu_r`, and at will `suction F_a`, up to the end.
 template <class Parameters>
 ContactCoefficients<Parameters> read_coefficients(Arguments &in, const ContactSettings &settings) {
   using Words = LawWords<Parameters>;
@@ -176,11 +176,15 @@ ContactCoefficients<Parameters> read_coefficients(Arguments &in, const ContactSe
       p.set_tangential_damping(in.number("tangential damping coefficient ct", Range::non_negative));
   }
   p.rolling = read_rolling(in, settings);
+  if (!in.empty() && in.peek() == "suction") {
+    in.word("suction");
+    p.suction = in.number("suction F_a", Range::non_negative);
+  }
   const bool rubs = settings.tangential != FrictionModel::none;
   if (!in.empty())
     in.fail("'" + in.peek() + "' is left over; allowed: " + Words::forms("") +
             (rubs ? Words::behind_friction() : "") + (settings.rolling ? " rolling mu_r" : "") +
-            (rubs ? "" : "; friction needs keyword tangential of pair_style"));
+            " [suction F_a]" + (rubs ? "" : "; friction needs keyword tangential of pair_style"));
   return p;
 }
 

@@ -174,7 +174,10 @@ inline void set_contacts(LAMMPS *lmp, const std::vector<physics::ContactValues> 
   } properties[] = {{"kn", &physics::ContactValues::stiffness},
                     {"dampingRatio", &physics::ContactValues::damping_ratio},
                     {"coefficientFriction", &physics::ContactValues::friction},
-                    {"coefficientRollingFriction", &physics::ContactValues::rolling}};
+                    {"coefficientRollingFriction", &physics::ContactValues::rolling},
+                    {"suction", &physics::ContactValues::suction}};
+  const bool pulls =
+      std::any_of(table.begin(), table.end(), [](const auto &one) { return one.suction > 0.0; });
   const auto give = [&](const char *property, const auto &number_of) {
     std::string line =
         fmt::format("fix {0} all property/global {0} peratomtypepair {1}", property, lmp->atom->ntypes);
@@ -182,9 +185,12 @@ inline void set_contacts(LAMMPS *lmp, const std::vector<physics::ContactValues> 
       line += fmt::format(" {:.17g}", number_of(contact));
     lmp->input->one(line.c_str());
   };
-  for (const auto &property : properties)
-    if (property.value != &physics::ContactValues::rolling || rolling)
-      give(property.property, [&](const physics::ContactValues &contact) { return contact.*property.value; });
+  for (const auto &property : properties) {
+    if (property.value == &physics::ContactValues::rolling && !rolling) continue;
+    const bool pulled = pulls || find_fix(lmp->modify, property.property) != nullptr;
+    if (property.value == &physics::ContactValues::suction && !pulled) continue;
+    give(property.property, [&](const physics::ContactValues &contact) { return contact.*property.value; });
+  }
   if (yield) give("stiffnessRatio", [&](const physics::ContactValues &) { return *yield; });
 }
 

@@ -114,7 +114,8 @@ DampingProperties::DampingProperties(LAMMPS *lmp, const std::string &command, in
                                      const ContactSettings &settings)
     : damping_(lmp, command, damping_property(settings.damping).name, ntypes),
       tangential_(lmp, command, "gammat_abs", ntypes), friction_(lmp, command, "coefficientFriction", ntypes),
-      rolling_(lmp, command, "coefficientRollingFriction", ntypes) {
+      rolling_(lmp, command, "coefficientRollingFriction", ntypes),
+      suction_(lmp, command, "suction", ntypes) {
   damping_.require(damping_property(settings.damping).meaning);
   if (settings.rolling) rolling_.require("rolling resistance mu_r");
 }

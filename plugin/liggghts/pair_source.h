@@ -91,7 +91,7 @@ private:
   std::vector<TypeProperty> of_pairs_, of_types_;
 };
 
-/// The properties of all laws: damping, tangential damping and friction.
+/// The properties of all laws: damping, tangential damping, friction and suction.
 class DampingProperties {
 public:
   DampingProperties(LAMMPS_NS::LAMMPS *lmp, const std::string &command, int ntypes,
@@ -105,12 +105,13 @@ public:
     if (settings.tangential != FrictionModel::none) p.friction = default_friction;
     if (friction_.given()) p.friction = friction_(i, j, Range::non_negative);
     if (rolling_.given()) p.rolling = rolling_(i, j, Range::non_negative);
+    if (suction_.given()) p.suction = suction_(i, j, Range::non_negative);
   }
 
 private:
   static constexpr double default_friction = 0.5;
 
-  TypeProperty damping_, tangential_, friction_, rolling_;
+  TypeProperty damping_, tangential_, friction_, rolling_, suction_;
 };
 
 /// Access of walls, FixStepping and fixes to the pair style, which derives from it. It collects the tables in

@@ -124,7 +124,14 @@ std::vector<Scene> scenes() {
        {{"normal", "hertz"}, {"tangential", "coulomb"}, {"transition", "A"}, {"stepping", "stock"}}},
       {"history", {{"normal", "hertz"}}},
       {"heavy_dashpots", {{"normal", "hertz"}, {"D", "40"}, {"tangential", "off"}, {"mu", "-1"}}},
-      {"hooke", {{"normal", "hooke"}, {"tangential", "coulomb"}, {"rolling", "epsd2"}}}};
+      {"hooke", {{"normal", "hooke"}, {"tangential", "coulomb"}, {"rolling", "epsd2"}}},
+      {"suction",
+       {{"normal", "hooke"}, {"tangential", "coulomb"}, {"rolling", "epsd2"}, {"suction", "20"}},
+       true},
+      {"suction_heavy_dashpots",
+       {{"normal", "hertz"}, {"D", "40"}, {"tangential", "off"}, {"mu", "-1"}, {"suction", "20"}}},
+      {"suction_A_stock",
+       {{"normal", "hertz"}, {"transition", "A"}, {"stepping", "stock"}, {"suction", "20"}}}};
   for_each_law([&all](auto law) {
     using Law = typename decltype(law)::type;
     if constexpr (!std::is_same_v<Law, physics::LinearContact> && !std::is_same_v<Law, physics::HertzContact>)

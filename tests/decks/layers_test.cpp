@@ -49,13 +49,14 @@ void write_balls(const std::filesystem::path &file, const std::vector<Placed> &b
 
 /// The law of a layer, and that between two of them, as the page drumlin/layers has it.
 struct Law {
-  double k, D, friction, rolling;
+  double k, D, friction, rolling, suction;
 };
 Law between(const Law &a, const Law &b) {
   return {2.0 * a.k * b.k / (a.k + b.k), 0.5 * (a.D + b.D), std::fmin(a.friction, b.friction),
-          std::fmin(a.rolling, b.rolling)};
+          std::fmin(a.rolling, b.rolling), std::fmin(a.suction, b.suction)};
 }
-const std::array<Law, 3> laws = {{{1e6, 0.3, 0.5, 0.1}, {4e6, 0.1, 0.8, 0.05}, {3e5, 0.2, 0.3, 0.2}}};
+const std::array<Law, 3> laws = {
+    {{1e6, 0.3, 0.5, 0.1, 20.0}, {4e6, 0.1, 0.8, 0.05, 10.0}, {3e5, 0.2, 0.3, 0.2, 5.0}}};
 
 /// Type of the balls of layer n, from 0.
 int type_of(std::size_t layer) { return layer == 0 ? 1 : static_cast<int>(layer) + 3; }
@@ -73,9 +74,9 @@ protected:
                            int ranks = 1) {
     write_balls(folder / "balls", balls, static_cast<int>(laws.size()) + 2);
     Variables variables = more; // the engine takes the first of a name
-    std::array<std::string, 4> lists;
+    std::array<std::string, 5> lists;
     for (const Law &law : laws) {
-      const std::array<double, 4> values = {law.k, law.D, law.friction, law.rolling};
+      const std::array<double, 5> values = {law.k, law.D, law.friction, law.rolling, law.suction};
       for (std::size_t n = 0; n < lists.size(); ++n)
         lists[n] += (lists[n].empty() ? "" : ",") + number(values[n]);
     }
@@ -84,6 +85,7 @@ protected:
                                        {"D", lists[1]},
                                        {"friction", lists[2]},
                                        {"rolling", lists[3]},
+                                       {"suction", lists[4]},
                                        {"dimension", dimension},
                                        {"balls", (folder / "balls").string()}});
     return run_deck(test_deck(engine == "lammps" ? "layers.lammps" : "layers.in"), variables, folder.path(),
@@ -116,8 +118,8 @@ std::vector<Placed> lattice() {
   return balls;
 }
 
-// Each contact of a column is a spring that carries the weight of the balls above it, and the springs of a
-// column are in series.
+// Each contact of a column is a spring that carries the weight of the balls above it, and between balls also
+// the suction, and the springs of a column are in series.
 TEST_P(Layers, OfALatticeSettleAsSpringsInSeries) {
   const std::vector<Placed> balls = lattice();
   const std::map<long, Ball> rest = last_state(balls, {{"drag", "300"}});
@@ -128,7 +130,8 @@ TEST_P(Layers, OfALatticeSettleAsSpringsInSeries) {
       const Law &own = laws[columns[c][n < lower ? 0 : 1]];
       const Law &below =
           n == 0 ? own : laws[columns[c][n - 1 < lower ? 0 : 1]]; // the floor has the law of the ball
-      settlement += static_cast<double>(all - n) * 9.81 / between(own, below).k; // balls of 1 kg
+      const double weight = static_cast<double>(all - n) * 9.81;  // balls of 1 kg
+      settlement += (weight + (n == 0 ? 0.0 : between(own, below).suction)) / between(own, below).k;
       const std::size_t id = c * all + n;
       EXPECT_NEAR(balls[id].x[1] - rest.at(static_cast<long>(id) + 1).x[1], settlement, 1e-6 * settlement)
           << "column " << c << ", ball " << n;
@@ -174,7 +177,8 @@ TEST_P(Layers, HaveTheLawsOfThePageWithEachOtherAndWithTheDrum) {
   for (std::size_t a = 0; a < laws.size(); ++a) {
     for (std::size_t b = a; b < laws.size(); ++b)
       pairs.push_back({type_of(a), type_of(b), a == b ? laws[a] : between(laws[a], laws[b])});
-    pairs.push_back({2, type_of(a), laws[a]});
+    pairs.push_back({2, type_of(a), laws[a]}); // without suction
+    pairs.back().law.suction = 0.0;
   }
   std::vector<Placed> balls;
   for (std::size_t n = 0; n < pairs.size(); ++n) {
@@ -192,10 +196,10 @@ TEST_P(Layers, HaveTheLawsOfThePageWithEachOtherAndWithTheDrum) {
                &rolls = state.at(4 * static_cast<long>(n) + 3);
     const double normal =
         law.k * overlap + 2.0 * law.D * std::sqrt(law.k * 0.5) * approach; // m_eff of 1 kg each
-    EXPECT_NEAR(-slides.f[1], normal, 1e-3 * normal) << what;
+    EXPECT_NEAR(-slides.f[1], normal - law.suction, 1e-3 * normal) << what;
     EXPECT_NEAR(-slides.f[0], law.friction * normal, 1e-3 * normal) << what;
     EXPECT_NEAR(std::fabs(slides.torque[2]), lever * law.friction * normal, 2e-3 * lever * normal) << what;
-    EXPECT_NEAR(-rolls.f[1], law.k * overlap, 1e-3 * law.k * overlap) << what;
+    EXPECT_NEAR(-rolls.f[1], law.k * overlap - law.suction, 1e-3 * law.k * overlap) << what;
     EXPECT_NEAR(-rolls.torque[2], law.rolling * 0.5 * radius * law.k * overlap,
                 2e-3 * law.rolling * radius * law.k * overlap)
         << what;

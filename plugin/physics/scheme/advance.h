@@ -9,6 +9,7 @@
 /// the forces.
 
 #include "physics/laws/contact_law.h"
+#include "physics/scheme/event_location.h"
 #include "physics/scheme/implicit_dashpot.h"
 
 #include <algorithm>
@@ -232,6 +233,39 @@ template <class Law>
   return {state.force, dashpot.first, 0.0, 1.0, false, true, dashpot};
 }
 
+/// The forces of a contact with suction: a constant attraction F_a that acts while the balls touch, on top of
+/// the force of the law, so that
+///   Fc = (spring and dashpot under the transition condition) - F_a  for d > 0, else 0,
+/// with the potential -F_a d: it does no work on a closed path. ContactState::force stays the part of the law
+/// alone, to which friction is limited, and whose change the implicit dashpot needs.
+///
+/// The attraction jumps where the overlap begins and where it ends. Both times are located on the parabola of
+/// the overlap within the step. It acts for the share of the step in which there was an overlap: the closing
+/// half kick gives what the impulse of this share is more than the opening one has given, and the position
+/// correction does the same for the drift, so that the step is exact for constant forces.
+/// \param step of the law alone, from advance() \param suction F_a, N, >= 0 \param before the state that
+/// advance() was called with \param in_setup see StepContext
+[[nodiscard]] inline StepResult with_suction(StepResult step, double suction, const StepMotion &motion,
+                                             const ContactState &before, bool in_setup) {
+  if (suction == 0.0) return step;
+  const double start = motion.overlap_before();
+  const bool continues = before.in_contact || in_setup || !came_from_apart(motion);
+  const bool ends = before.in_contact && !in_setup && start > 0.0 && motion.overlap < 0.0;
+  if (motion.overlap < 0.0 && !ends) return step;
+  if (!ends) step.force -= suction;
+  if (!ends && continues) {
+    step.kick -= suction;
+    return step;
+  }
+  const double bend = (motion.rate_half - motion.rate_before) / motion.dt;
+  const double before_jump =
+      detail::first_crossing(start, motion.rate_before, bend, motion.dt) / motion.dt; // share of the step
+  const double after_jump = 1.0 - before_jump;
+  step.kick -= (ends ? before_jump - after_jump : 2.0 * after_jump) * suction;
+  step.shift += (ends ? 1.0 : -1.0) * after_jump * after_jump * suction;
+  return step;
+}
+
 /// Heat of a contact's dashpot that the trapezoidal rule misses in a step through which the contact goes on,
 /// J. (The rule sums the power (F - E) d' of the dashpot at the end of each step, times dt.) Half kicks and
 /// drift make the spring do the work of the mean of its two forces, while its energy, and what has yielded,
@@ -278,6 +312,35 @@ template <class Law>
   const double d = motion.overlap_before();
   if (!before.in_contact || d <= 0.0 || law.dashpot(d) == 0.0) return 0.0;
   return law.energy(d) + 0.5 * dt * law.spring(d) * motion.rate_half + closing_work(others);
+}
+
+namespace detail {
+
+/// A law with suction, as far as heat_of_change() needs it.
+template <class Law>
+struct Attracting {
+  static constexpr bool is_linear = Law::is_linear;
+  const Law &law;
+  double suction; ///< N
+  [[nodiscard]] double dashpot(double overlap) const { return law.dashpot(overlap); }
+  [[nodiscard]] double spring(double overlap) const { return law.spring(overlap) - suction; }
+  [[nodiscard]] double yielded(double overlap) const { return law.yielded(overlap); }
+  [[nodiscard]] double energy(double overlap) const {
+    return law.energy(overlap) - suction * std::max(0.0, overlap);
+  }
+};
+
+} // namespace detail
+
+/// The same of a contact with suction, N. \param step of the law alone \param acting with_suction() of it
+template <class Law>
+[[nodiscard]] inline double heat_of_change(const Law &law, double suction, const StepMotion &motion,
+                                           const ContactState &before, const StepResult &step,
+                                           const StepResult &acting, double m_eff) {
+  if (suction == 0.0 || (motion.overlap >= 0.0 && !step.begins))
+    return heat_of_change(law, motion, before, step, m_eff);
+  const ContactState acted{before.in_contact ? before.force - suction : 0.0, before.in_contact};
+  return heat_of_change(detail::Attracting<Law>{law, suction}, motion, acted, acting, m_eff);
 }
 
 /// The same with the engines' own scheme, `stock`: the dashpot force is computed with the half-step velocity,

@@ -94,8 +94,8 @@ struct ContactBlock {
   Vectors slip;               ///< m/s, of ball i's surface relative to j's
   Numbers arm_i, arm_j;       ///< m, from the centre of each ball to the point where friction acts
   Numbers r_eff;              ///< m; 0 for a law that does not depend on it
-  Numbers force;              ///< N, normal force at the end of the step, used for friction
-  Numbers push;               ///< N, normal force of the closing half kick
+  Numbers force;              ///< N, normal force at the end of the step without suction, for friction
+  Numbers push;               ///< N, normal force of the closing half kick, with suction
   Numbers dashpot;            ///< N s/m, of the normal dashpot
   Numbers memory;             ///< what the contact remembers for its law at the end of the step
   Numbers kt;                 ///< N/m, tangential stiffness
@@ -176,6 +176,12 @@ DRUMLIN_FOR_THIS_PROCESSOR ContactSet compute_normal_forces(ContactBlock &b, int
     for (int n = first; n < end; ++n)
       rare |= lost_its_force(b.force_before[n], b.force[n]) ? detail::bits.of[n] : 0;
   return rare;
+}
+
+/// Adds suction F_a, N, to the closing half kick of contacts: see with_suction().
+inline void attract(ContactBlock &b, int first, int end, double suction) {
+  for (int n = first; n < end; ++n)
+    b.push[n] -= suction;
 }
 
 /// Tangential stiffness of all contacts of a block. Where it varies, the springs of friction and of rolling

@@ -28,7 +28,7 @@ struct ContactTransition {
   double overlap; ///< m, at the event
   double rate;    ///< m/s, at the event
   double force; ///< N: just after a make; just before a break under A (tensile, Eq. 5); 0 at a break under B
-                ///< (Eq. 6)
+                ///< (Eq. 6); with suction also minus that
 };
 
 namespace detail {
@@ -61,20 +61,23 @@ double balance(const Law &law, double dt, double d0, double r, double q, bool wa
 /// The event between two consecutive steps, if the contact changed.
 /// \param before, after states at the two steps; whether there is contact in each follows from the law A
 /// second event within the same step is not found: steps are far shorter than a contact.
+/// \param suction N; a contact with suction acts as long as the balls overlap, under B, too
 template <class Law>
 [[nodiscard]] inline std::optional<ContactTransition>
-locate_transition(const Law &law, double dt, const OverlapState &before, const OverlapState &after) {
-  const bool was = law.acts(before.overlap, before.rate);
-  const bool is = law.acts(after.overlap, after.rate);
+locate_transition(const Law &law, double dt, const OverlapState &before, const OverlapState &after,
+                  double suction = 0.0) {
+  const bool was = suction > 0.0 ? before.overlap > 0.0 : law.acts(before.overlap, before.rate);
+  const bool is = suction > 0.0 ? after.overlap > 0.0 : law.acts(after.overlap, after.rate);
   if (was == is) return std::nullopt;
 
   const double q = (after.overlap - before.overlap - before.rate * dt) / (dt * dt);
-  const bool through_gap = is ? before.overlap <= 0.0 : law.ends_in_tension();
+  const bool through_gap = is ? before.overlap <= 0.0 : suction > 0.0 || law.ends_in_tension();
   ContactTransition event{is, 0.0, 0.0, 0.0, 0.0};
   if (through_gap) { // d = 0
     event.since = detail::first_crossing(before.overlap, before.rate, q, dt);
     event.rate = before.rate + 2.0 * q * event.since;
     event.force = law.dashpot(0.0) * event.rate;
+    if (suction > 0.0) event.force = law.limited(event.force) - suction;
   } else if constexpr (!Law::is_linear) { // spring and dashpot balance
     event.since = detail::balance(law, dt, before.overlap, before.rate, q, was);
     event.overlap = std::max(0.0, before.overlap + (before.rate + q * event.since) * event.since);

@@ -475,7 +475,8 @@ std::vector<BadGroup> parameters_of() {
         FrictionNumber{"gammat_abs", "tangential damping coefficient ct", " 0.2 0.5" + left_out + " ",
                        " rolling 0.1"},
         FrictionNumber{"coefficientRollingFriction", "rolling friction coefficient mu_r", " 0.2 0.5 rolling ",
-                       ""}}) {
+                       ""},
+        FrictionNumber{"suction", "suction F_a", " 0.2 0.5 rolling 0.1 suction ", ""}}) {
     const std::string wrong = property(property_name, "-1e-9");
     BadInput input{std::string(property_name) + " -1e-9",
                    "",

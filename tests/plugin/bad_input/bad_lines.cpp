@@ -465,8 +465,23 @@ BadGroup layers() {
        on_two_ranks},
       {"k2 too stiff for the time step", "timestep 1e-3\n@ k 1e8 D 0 friction 0 rolling off 0 yield 1e10",
        "keyword k is '1e8', with which two of the lightest balls of layer 1 have the critical step"},
+      {"suction negative", "@ k 1e8 D 0 friction 0.5 rolling off 0 suction -1",
+       "keyword suction is '-1' ... >= 0"},
       {"a word too many", "@ k 1e8 D 0 friction 0.5 rolling off 0 all",
        "argument is 'all' ... k LIST D LIST"},
+  });
+}
+
+BadGroup suction() {
+  return Table{"Suction", "drumlin/suction: ", "drumlin/suction"}.of({
+      {"nothing", "@", "variable is missing ... the name of a variable"},
+      {"no group", "@ F sand strength 1e3 solid 0.8 contacts 4", "group is 'sand' ... the name of a group"},
+      {"strength negative", "@ F all strength -1 solid 0.8 contacts 4", "keyword strength is '-1' ... >= 0"},
+      {"solid above 1", "@ F all strength 1e3 solid 1.1 contacts 4", "keyword solid is '1.1' ... <= 1"},
+      {"no contacts", "@ F all strength 1e3 solid 0.8 contacts 0", "keyword contacts is '0' ... > 0"},
+      {"a word too many", "@ F all strength 1e3 solid 0.8 contacts 4 5", "argument is '5' ... NAME GROUP"},
+      {"no balls", "group none id 99999\n@ F none strength 1e3 solid 0.8 contacts 4",
+       "the group has '0' balls ... a group with balls", on_two_ranks},
   });
 }
 
@@ -688,12 +703,31 @@ BadGroup fixes_in_lammps() {
 } // namespace
 
 std::vector<BadGroup> bad_lines() {
-  return {drum_excite(),    bond_spring(),   boundary_absorb(), clump(),
-          contact_events(), contact_local(), contact_energy(),  roller_history(),
-          guard(),          check(),         record(),          run(),
-          settle(),         surface(),       write(),           outputs(),
-          take(),           variables(),     variable(),        layers(),
-          pick(),           roller(),        other_styles(),    other_styles_in_lammps(),
+  return {drum_excite(),
+          bond_spring(),
+          boundary_absorb(),
+          clump(),
+          contact_events(),
+          contact_local(),
+          contact_energy(),
+          roller_history(),
+          guard(),
+          check(),
+          record(),
+          run(),
+          settle(),
+          surface(),
+          write(),
+          outputs(),
+          take(),
+          variables(),
+          variable(),
+          layers(),
+          suction(),
+          pick(),
+          roller(),
+          other_styles(),
+          other_styles_in_lammps(),
           fixes_in_lammps()};
 }
 

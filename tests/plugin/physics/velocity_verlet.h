@@ -46,6 +46,7 @@ public:
     Law law;
     Law fresh = law; ///< that of a contact that begins
     drumlin::physics::ContactState state{};
+    double suction = 0.0; ///< N
   };
 
   SecondOrderBall(double mass, double x_start, double v_start, double dt, std::vector<Partner> partners,
@@ -55,7 +56,8 @@ public:
     for (Partner &p : partners_) {
       const double d = overlap(p), rate = -p.sign * v;
       if (d <= 0.0) continue;
-      force_ += p.sign * advance(p.law, {d, rate, rate, dt_}, p.state, {mass_, 0.0, true}).force;
+      force_ +=
+          p.sign * (advance(p.law, {d, rate, rate, dt_}, p.state, {mass_, 0.0, true}).force - p.suction);
       damping_ += p.law.dashpot(d) / mass_;
     }
   }
@@ -74,7 +76,9 @@ public:
     std::vector<std::pair<Partner *, CoupledDashpot>> coupled;
     for (Partner &p : partners_) {
       const StepMotion motion{overlap(p), -p.sign * half, -p.sign * before, dt_};
-      const StepResult f = advance(p.law, motion, p.state, {mass_, damping_, false});
+      const ContactState old = p.state;
+      const StepResult own = advance(p.law, motion, p.state, {mass_, damping_, false});
+      const StepResult f = with_suction(own, p.suction, motion, old, false);
       if (p.state.in_contact) damping += p.law.dashpot(motion.overlap) / mass_;
       if (f.coupled) coupled.emplace_back(&p, f.dashpot);
       force_ += p.sign * (f.coupled ? f.kick : f.force);
