@@ -454,6 +454,15 @@ void MeasuredTable::find_rows() {
       if (!cell.empty()) filled = count;
     });
     if (count < width && i + 1 == lines.size() && !complete) break; // cut
+    // Lines of text at the end, "End of file".
+    if (count < width &&
+        std::none_of(lines.begin() + static_cast<std::ptrdiff_t>(i), lines.end(),
+                     [this](std::string_view line) {
+                       const std::vector<std::string> cells = cells_of(line);
+                       return std::any_of(cells.begin(), cells.end(),
+                                          [this](const auto &cell) { return is_value(cell, decimal_); });
+                     }))
+      break;
     if (count < width || filled > width)
       csv_fault(file_, i + 1, {},
                 refusal("the number of cells", fmt::format("{}", count),

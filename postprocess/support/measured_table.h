@@ -33,8 +33,8 @@ class MeasuredTable {
 public:
   /// Reads a file and finds out how it is written. The rows of numbers begin with the first line that has as
   /// many cells as most lines with numbers, and numbers in the same columns; the header is up to three lines
-  /// of texts above them, and a row of units, in any order. A last line without line end that lacks cells is
-  /// left out.
+  /// of texts above them, and a row of units, in any order. Lines of text at the end are left out, and a last
+  /// line without line end that lacks cells.
   explicit MeasuredTable(std::filesystem::path file, const TableFormat &format = {});
 
   MeasuredTable(const MeasuredTable &) = delete; // rows point into its text

@@ -90,7 +90,9 @@ TEST(SieveCurve, SaysWhatToWriteWhereRetainedMayBeCumulative) {
     clear.insert(clear.find("retained"), "individual ");
     const bool unit = clear.find("(g)") != std::string::npos, share = clear.find("(%)") != std::string::npos;
     if (!unit && !share) clear.insert(clear.find("\n"), " (g)");
-    if (!share || clear.find("87.5") == std::string::npos) EXPECT_EQ(message(clear), "not refused") << clear;
+    if (!share || clear.find("87.5") == std::string::npos) {
+      EXPECT_EQ(message(clear), "not refused") << clear;
+    }
   }
   for (const auto &[text, says] : {std::pair{"size;cumulative retained (g)\n16;0\n8;1000\n4;1750\n",
                                              "its unit is 'g'; allowed: %, or a row of "},

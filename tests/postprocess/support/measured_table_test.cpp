@@ -175,8 +175,11 @@ TEST_F(MeasuredTables, HaveTheirHeaderWithAnEmptyLastColumn) {
   EXPECT_EQ(MeasuredTable(put("t,a (ft/s2)\n1,2\n2,3\n")).columns()[1].unit, "ft/s2");
 }
 
-TEST_F(MeasuredTables, ALastLineThatWasCutIsLeftOut) {
+TEST_F(MeasuredTables, LinesAtTheEndThatAreCutOrTextAreLeftOut) {
   EXPECT_EQ(MeasuredTable(put("t,a,b\n1,2,3\n2,3,4\n3,")).rows(), 2u);
+  EXPECT_EQ(MeasuredTable(put("t,a,b\n1,2,3\n2,3,4\n\nEnd of file\nchecked, yes\n")).rows(), 2u);
+  EXPECT_NE(message("t,a,b\n1,2,3\npause\n2,3,4\n").find("line 3: the number of cells is '1'"),
+            std::string::npos);
   EXPECT_NE(message("t,a,b\n1,2,3\n2,3\n3,4,5\n").find("line 3: the number of cells is '2'; allowed: 3"),
             std::string::npos);
 }
