@@ -3,13 +3,18 @@
 #include "support/csv.h"
 #include "support/measured_table.h"
 #include "support/range.h"
+#include "support/text.h"
 #include "support/units.h"
 
+#include <boost/algorithm/string/case_conv.hpp>
+#include <boost/algorithm/string/erase.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -113,47 +118,124 @@ double unit_of_sizes(const MeasuredTable &table, std::size_t column) {
 
 } // namespace
 
+namespace {
+
+/// What a column tells of each sieve.
+enum class SieveColumn { passing, individual, cumulative };
+
+/// A column as laboratories name it: its names, in lower case and without a '%', which is its unit.
+std::optional<std::size_t> column_named(const MeasuredTable &table,
+                                        std::initializer_list<const char *> names) {
+  for (const char *name : names)
+    for (std::size_t i = 0; i < table.columns().size(); ++i) {
+      std::string text = boost::to_lower_copy(table.columns()[i].name);
+      boost::erase_all(text, "%");
+      if (trimmed(text) == name) return i;
+    }
+  return std::nullopt;
+}
+
+bool in_percent(const MeasuredColumn &column) {
+  return column.unit == "%" || column.name.find('%') != std::string::npos;
+}
+
+/// What to write instead of "retained" alone, which some laboratories use for the sum over the coarser
+/// sieves.
+constexpr const char *clear_names = "'individual retained' for what stays on each sieve, 'cumulative "
+                                    "retained' for what stays on it and on all "
+                                    "coarser ones, with (g) or (%)";
+
+/// Shares that pass, from what stays on each sieve, the finest first; what is in the pan has the size 0.
+std::vector<double> passing_from_individual(const std::vector<double> &kept, bool pan, bool of_hundred) {
+  const double sum = std::accumulate(kept.begin(), kept.end(), 0.0);
+  const double all = of_hundred && !pan ? 1.0 / percent : sum;
+  double finer = of_hundred && !pan ? std::max(0.0, 1.0 - sum / all) : 0.0;
+  std::vector<double> passing;
+  for (const double share : kept) {
+    passing.push_back(std::min(1.0, finer));
+    finer += share / all;
+  }
+  // Rounding must not leave a share of the largest grains.
+  if (kept.back() == 0.0) passing.back() = 1.0;
+  return passing;
+}
+
+} // namespace
+
 SieveCurve read_sieve_file(const std::filesystem::path &file) {
   const MeasuredTable table(file);
-  const std::optional<std::size_t> size_column = table.find("size");
+  const std::optional<std::size_t> size_column = column_named(table, {"size", "sieve size", "sieve"});
   if (!size_column) table.missing("size");
-  const std::optional<std::size_t> passing_column = table.find("passing");
-  const std::optional<std::size_t> share_column = passing_column ? passing_column : table.find("retained");
-  if (!share_column) table.missing("passing (%)");
+  SieveColumn meaning = SieveColumn::passing;
+  std::optional<std::size_t> column = column_named(table, {"passing", "cumulative passing"});
+  if (!column) {
+    meaning = SieveColumn::cumulative;
+    column = column_named(table, {"cumulative retained", "retained cumulative"});
+  }
+  if (!column) {
+    meaning = SieveColumn::individual;
+    column = column_named(table, {"individual retained", "retained individual", "retained"});
+  }
+  if (!column) table.missing("passing (%)");
+  const MeasuredColumn &named = table.columns()[*column];
   const std::vector<double> sizes = all_numbers(table, *size_column);
-  const std::vector<double> shares = all_numbers(table, *share_column);
+  const std::vector<double> shares = all_numbers(table, *column);
   const double unit = unit_of_sizes(table, *size_column);
   // Rows from the finest sieve on; a file may begin with the coarsest.
   std::vector<std::size_t> rows(sizes.size());
   std::iota(rows.begin(), rows.end(), std::size_t{0});
   if (sizes.size() > 1 && sizes.front() > sizes.back()) std::reverse(rows.begin(), rows.end());
-  std::vector<Sieve> sieves;
-  if (passing_column) {
-    for (const std::size_t row : rows)
-      sieves.push_back({sizes[row] * unit, shares[row] * percent});
-  } else { // what stays on a sieve; what is in the pan has the size 0
-    for (const std::size_t row : rows)
-      if (shares[row] < 0.0) table.refuse(row, *share_column, "a mass or share of 0 or more");
-    const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
-    const bool pan = sizes[rows.front()] == 0.0;
-    const bool of_hundred = table.columns()[*share_column].unit == "%" && !pan;
-    const double all = of_hundred ? 1.0 / percent : sum;
-    if (!(all > 0.0) || sum > all * (1.0 + percent))
-      csv_fault(file, 0, table.columns()[*share_column].header,
-                refusal("the sum", sum, "more than 0, and of shares at most 100 %"));
-    double finer = of_hundred ? std::max(0.0, 1.0 - sum / all) : 0.0;
-    for (const std::size_t row : rows) {
-      if (sizes[row] != 0.0) sieves.push_back({sizes[row] * unit, std::min(1.0, finer)});
-      finer += shares[row] / all;
-    }
-    if (pan) rows.erase(rows.begin());
-    // Rounding must not leave a share of the largest grains.
-    if (!sieves.empty() && shares[rows.back()] == 0.0) sieves.back().passing = 1.0;
+  std::vector<double> values;
+  for (const std::size_t row : rows) {
+    if (shares[row] < 0.0 && meaning != SieveColumn::passing)
+      table.refuse(row, *column, "a mass or share of 0 or more");
+    values.push_back(shares[row]);
   }
+  const bool pan = sizes[rows.front()] == 0.0 && (meaning != SieveColumn::passing || values.front() == 0.0);
+  const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+  const bool hundred = std::fabs(sum - 100.0) <= 1.0;
+  const auto refuse = [&](std::string_view what, const std::string &found, const std::string &allowed) {
+    csv_fault(file, 0, named.header, refusal(std::string(what), found, allowed));
+  };
+  if (meaning == SieveColumn::individual) {
+    const bool share = in_percent(named);
+    if (!(sum > 0.0) || (share && sum > 101.0))
+      refuse("the sum", fmt::format("{:g}", sum),
+             fmt::format("more than 0, and of shares at most 100 %; or the name {}", clear_names));
+    const bool plain = boost::to_lower_copy(named.name).find("individual") == std::string::npos;
+    // Sums over the coarser sieves rise towards the finest; their own sum is not 100 %.
+    const auto filled = std::count_if(values.begin(), values.end(), [](double value) { return value > 0.0; });
+    if (plain && filled > 1 && !hundred && std::is_sorted(values.rbegin(), values.rend()))
+      refuse("its name", named.header, clear_names);
+    // Without a unit shares and masses differ by what is finer than all sieves.
+    if (!share && named.unit.empty() && !pan && sum < 99.0) refuse("its name", named.header, clear_names);
+    values = passing_from_individual(values, pan, share);
+  } else if (meaning == SieveColumn::cumulative) {
+    const bool share =
+        in_percent(named) || (named.unit.empty() && !pan && std::fabs(values.front() - 100.0) <= 1.0);
+    if (!share && !pan)
+      refuse("its unit", named.unit, "%, or a row of size 0 for the pan, with the mass of all");
+    for (std::size_t i = 0; i + 1 < rows.size(); ++i)
+      if (values[i] < values[i + 1])
+        table.refuse(rows[i], *column,
+                     fmt::format("at least {:g}, what stays on the coarser sieve", values[i + 1]));
+    const double all = pan ? values.front() : 100.0;
+    if (!(all > 0.0) || values.front() > 1.01 * all || (share && std::fabs(all - 100.0) > 1.0))
+      table.refuse(rows.front(), *column, "more than 0, and of shares at most 100 %, all of it in the pan");
+    for (double &value : values)
+      value = std::max(0.0, 1.0 - value / all);
+  } else {
+    for (double &value : values)
+      value *= percent;
+  }
+  std::vector<Sieve> sieves;
+  for (std::size_t i = pan ? 1 : 0; i < rows.size(); ++i)
+    sieves.push_back({sizes[rows[i]] * unit, values[i]});
+  if (pan) rows.erase(rows.begin());
   try {
     return SieveCurve(std::move(sieves));
   } catch (const SieveFault &fault) {
-    table.refuse(rows.at(fault.row), fault.value == SieveFault::Value::size ? *size_column : *share_column,
+    table.refuse(rows.at(fault.row), fault.value == SieveFault::Value::size ? *size_column : *column,
                  fault.what());
   }
 }

@@ -61,8 +61,13 @@ private:
 };
 
 /// Reads a table as a laboratory writes it (MeasuredTable), a row for each sieve, the finest or the coarsest
-/// first: a column `size`, in mm if it has no unit, and `passing` in % or `retained`, the mass or share in %
-/// that stays on each sieve; a row of size 0 is the pan. Without it the rest of 100 % is finer than all.
+/// first: a column `size`, in mm if it has no unit, and one of
+/// - `passing`, in %;
+/// - `individual retained`, the mass or share in % that stays on each sieve;
+/// - `cumulative retained`, what stays on it and on all coarser ones;
+/// - `retained`, the same as `individual retained`, refused if it could be cumulative.
+/// A row of size 0 is the pan; without it the rest of 100 % is finer than all. Capitals do not matter, and
+/// "% passing" is "passing (%)".
 /// Throws std::runtime_error that names file, line, column, value and what is allowed.
 SieveCurve read_sieve_file(const std::filesystem::path &file);
 

@@ -3,6 +3,7 @@
 #include "commands/record_options.h"
 #include "commands/text_options.h"
 #include "identify/page.h"
+#include "runs/parameter_file.h"
 #include "support/files.h"
 #include "support/options.h"
 #include "support/progress.h"
@@ -142,8 +143,10 @@ void run(const Arguments &arguments) {
     throw UsageError(fmt::format("--out is '{}': {}", arguments.out, error.what()));
   }
   FolderInProgress draft(place);
-  write_identification_page(draft.path(), found, compared ? &*compared : nullptr);
-  write_files({{draft.path() / table_name, identification_csv(found)}});
+  write_identification_page(draft.path(), found, compared ? &*compared : nullptr,
+                            roller_words(record.parameters));
+  write_files({{draft.path() / table_name, identification_csv(found)},
+               {draft.path() / "parameters.csv", settings_of(record)}});
   draft.publish();
   for (const std::string &line : record.notes)
     fmt::print("{}\n", line);

@@ -8,6 +8,7 @@
 #include "pages/drawing.h"
 #include "pages/html.h"
 #include "runs/chain_files.h"
+#include "runs/parameter_file.h"
 #include "support/csv.h"
 #include "support/files.h"
 #include "support/options.h"
@@ -148,6 +149,13 @@ Task judge(const MapArguments &arguments) {
   return task;
 }
 
+/// A sentence on the roller; empty without one.
+std::string roller_sentence(const Task &task) {
+  if (!task.roller) return {};
+  const auto rows = task.roller->rows(task.grid.chain.base.g);
+  return roller_words({rows.begin(), rows.end()});
+}
+
 std::string settings(const Task &task) {
   const MapGrid &grid = task.grid;
   const auto words = [](const MapAxis &axis) {
@@ -271,10 +279,11 @@ void write_page(const Task &task, const std::vector<Figure> &figures,
   for (std::size_t i = 0; i < regime_count; ++i)
     if (counts[i] > 0)
       motions += fmt::format("{}{} at {}", motions.empty() ? "" : ", ", regime_names[i], counts[i]);
-  std::string body = answer_html(
-      {{fmt::format("The motion that the roller reaches from rest, over {} and {}: {} of {} points.",
-                    task.grid.x.name, task.grid.y.name, motions, task.grid.size())}},
-      Verdict::none, drawing_html(Drawing::chain));
+  std::vector<Sentence> answer = {
+      {fmt::format("The motion that the roller reaches from rest, over {} and {}: {} of {} points.",
+                   task.grid.x.name, task.grid.y.name, motions, task.grid.size())}};
+  if (const std::string roller = roller_sentence(task); !roller.empty()) answer.push_back({roller});
+  std::string body = answer_html(answer, Verdict::none, drawing_html(Drawing::chain));
   std::vector<PageLink> contents = {{"#answer", "Answer"}};
   for (const Figure &figure : figures) {
     contents.push_back({"#" + figure.name, figure.title});
@@ -337,7 +346,11 @@ void run_along(const Task &task) {
     fmt::print("  {:<20}{} = {:.10g}\n", point.kind, grid.x.name, point.x);
   }
   write_files({{task.out / boundaries_name, text}, {task.out / "meter.csv", course_csv(grid.x, points)}});
-  write_course_page(task.out, conditions(grid.chain, {grid.x.parameter()}), grid.x, points, boundaries);
+  const std::string roller_text = roller_sentence(task);
+  write_course_page(task.out,
+                    conditions(grid.chain, {grid.x.parameter()}) +
+                        (roller_text.empty() ? "" : ". " + roller_text.substr(0, roller_text.size() - 1)),
+                    grid.x, points, boundaries);
   const Course cmv = course_of(points, course_values[0]);
   const auto several =
       std::count_if(cmv.same.begin(), cmv.same.end(), [](std::size_t count) { return count > 1; });

@@ -158,7 +158,8 @@ void run(const Arguments &arguments) {
   const fs::path place = fs::weakly_canonical(fs::absolute(task.out));
   make_output_folder(place.parent_path());
   FolderInProgress draft(place);
-  write_files({{draft.path() / values_name, meter_csv(result)}});
+  write_files({{draft.path() / values_name, meter_csv(result)},
+               {draft.path() / "parameters.csv", settings_of(result.record)}});
   write_meter_page(draft.path(), result);
   draft.publish();
   if (task.exported) {

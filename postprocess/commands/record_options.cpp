@@ -209,8 +209,6 @@ Record judged(const RecordArguments &arguments) {
                 {{"comma", ','}, {"semicolon", ';'}, {"tab", '\t'}, {"bar", '|'}, {"blank", ' '}});
   if (arguments.decimal)
     options.format.decimal = sign_of("--decimal", *arguments.decimal, {{"point", '.'}, {"comma", ','}});
-  if (options.format.separator == ',' && options.format.decimal == ',')
-    throw UsageError(refusal("--decimal", *arguments.decimal, "not the sign between cells"));
   constexpr int most_pieces = 1000000;
   if (arguments.piece) options.piece = count_option("--piece", *arguments.piece, 1, most_pieces);
   for (const std::string &text : arguments.columns)
@@ -264,10 +262,25 @@ Record judged(const RecordArguments &arguments) {
     record.parameters.emplace("k23", number_text(roller->machine.k23));
     record.parameters.emplace("c23", number_text(roller->machine.c23));
     if (record.Fw) record.parameters.emplace("Fw", number_text(*record.Fw));
-    const std::vector<std::string> lines = roller->lines(record.g.value_or(ChainParameters().g));
+    const double g = record.g.value_or(ChainParameters().g);
+    for (const auto &[name, value] : roller->rows(g))
+      record.parameters.emplace(name, value);
+    const std::vector<std::string> lines = roller->lines(g);
     record.notes.insert(record.notes.begin(), lines.begin(), lines.end());
   }
   return record;
+}
+
+std::string settings_of(const Record &record) {
+  std::vector<std::pair<std::string, std::string>> values = {{"record", record.file.string()}};
+  for (const auto &[name, value] :
+       {std::pair{"omega", record.omega}, std::pair{"phase", record.phase}, std::pair{"Fw", record.Fw},
+        std::pair{"m2", record.m2}, std::pair{"m3", record.m3}, std::pair{"g", record.g}})
+    if (value) values.emplace_back(name, number_text(*value));
+  for (const auto &[name, value] : record.parameters)
+    if (name == "k23" || name == "c23" || name == "setting" || name.rfind("roller", 0) == 0)
+      values.emplace_back(name, value);
+  return parameters_text(values);
 }
 
 } // namespace drumlin::post

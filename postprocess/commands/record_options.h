@@ -39,4 +39,8 @@ std::vector<GivenPath> files_of(const RecordArguments &arguments);
 /// file that cannot.
 Record judged(const RecordArguments &arguments);
 
+/// The text of a parameters.csv beside results: the record, the numbers of the machine that counted, and what
+/// followed from a roller's file.
+std::string settings_of(const Record &record);
+
 } // namespace drumlin::post

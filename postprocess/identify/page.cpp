@@ -306,11 +306,12 @@ std::string identification_csv(const IdentifiedRecord &record) {
 }
 
 void write_identification_page(const std::filesystem::path &out, const IdentifiedRecord &record,
-                               const LumpedComparison *compared) {
+                               const LumpedComparison *compared, const std::string &roller) {
   const bool bed = record.file.filename() == "bed.csv";
   Page page(out, "What the record says of the soil", bed ? Drawing::bed : Drawing::chain);
   page.answer(
       fmt::format("{}, {:.4g} cycles at {:.4g} Hz.", record.file.string(), record.cycles, record.frequency));
+  if (!roller.empty()) page.answer(roller);
   for (const std::string &line : identification_answer(record))
     page.answer(line.back() == '.' ? line : line + ".");
   page.section("Law of the contact");

@@ -19,7 +19,8 @@ std::string identification_csv(const IdentifiedRecord &record);
 
 /// Writes the page with plots into a folder: index.html, data, figures.
 /// \param compared the chain beside the record, for a section of its own; nullptr: none
+/// \param roller a sentence on the roller; may be empty
 void write_identification_page(const std::filesystem::path &out, const IdentifiedRecord &record,
-                               const LumpedComparison *compared = nullptr);
+                               const LumpedComparison *compared = nullptr, const std::string &roller = "");
 
 } // namespace drumlin::post

@@ -2,6 +2,7 @@
 
 #include "pages/figure_data.h"
 #include "pages/page.h"
+#include "runs/parameter_file.h"
 #include "support/csv.h"
 
 #include <fmt/format.h>
@@ -59,11 +60,17 @@ const char *mode_name(const MeterWindow &window) { return mode_names[static_cast
 /// Whether stiffnesses of a window are the soil's; in other modes they are apparent.
 bool stiffness_valid(const MeterWindow &window) { return window.mode == OperatingMode::continuous_contact; }
 
+/// Whether a force is known that does not tell whether the drum loses contact.
+bool just_touches(const MeterWindow &window) { return window.peak_force && !window.contact_share; }
+
 /// What the stiffnesses of a window are of.
 std::string stiffness_words(const MeterWindow &window) {
   if (!stiffness_valid(window)) return "apparent";
   return window.k_1 ? "k_1 of the soil, k_B of soil and frame" : "k_B of soil and frame";
 }
+
+constexpr const char *touching_words =
+    "The drum just touches: accelerations do not tell whether its contact is just lost or just kept";
 
 /// A value that sums over every step do not give is left out.
 bool is_given(const MeterResult &result, std::size_t column) {
@@ -320,6 +327,7 @@ std::string answer_line(const MeterResult &result) {
   if (w.k_1) text += fmt::format(", {}k_1 {:.2f} MN/m (without the frame)", apparent, 1e-6 * *w.k_1);
   if (w.E_vib) text += fmt::format(", E_vib {:.1f} MPa", 1e-6 * *w.E_vib);
   if (w.energy) text += fmt::format(", {:.1f} J in two cycles", *w.energy);
+  if (just_touches(w)) text += ". " + std::string(touching_words);
   return text;
 }
 
@@ -360,9 +368,10 @@ void write_meter_page(const std::filesystem::path &folder, const MeterResult &re
   const MeterWindow &last = result.windows.back();
   page.answer(fmt::format("In the last {} cycles, at {:.4g} Hz: {}.", result.options.window,
                           result.cycles.omega / (2.0 * pi), answer_line(result)));
+  if (const std::string words = roller_words(result.record.parameters); !words.empty()) page.answer(words);
   page.answer(source_words(result));
   if (const std::string words = width_words(result); !words.empty()) page.answer(words);
-  if (!stiffness_valid(last) && last.k_B)
+  if (!stiffness_valid(last) && last.k_B && !just_touches(last))
     page.answer(
         "The drum does not stay in contact, or its contact is not known: the stiffnesses are apparent.");
   if (result.cycles.computed_force)

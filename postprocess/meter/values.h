@@ -24,7 +24,7 @@ enum class OperatingMode {
   partial_uplift,     ///< the same motion in every cycle, with loss of contact
   double_jump,        ///< the same motion every second cycle
   irregular,          ///< neither: chaos, a longer period, or a motion that is not steady yet
-  same_each_cycle     ///< the same motion in every cycle, contact not known
+  same_each_cycle ///< the same motion in every cycle, contact not known: no force, or the drum just touches
 };
 constexpr std::size_t mode_count = 5;
 /// As they stand in files and tables: "continuous contact", "partial uplift", "double jump", "irregular",

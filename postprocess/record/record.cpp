@@ -407,10 +407,15 @@ void take_piece(Reading &reading, const RecordOptions &options) {
                                        record.pieces[record.piece].end));
 }
 
-/// Refuses steps that are not equal to 1 %; with a sampling rate given, a length that differs by 0.1 %, or
-/// by a few digits of the times if these are few.
+/// Share of a step up to which times may lie beside equally spaced ones; of a measured file they may scatter
+/// more, since loggers stamp their samples a little early or late.
+constexpr double even_steps = 0.01, scattered_steps = 0.05;
+
+/// Refuses steps that are not equal; with a sampling rate given, a length that differs by 0.1 %, or by a few
+/// digits of the times if these are few.
 void check_steps(const Reading &reading, double interval, bool rate_given) {
   const std::vector<double> &time = reading.record.time;
+  const double tolerance = is_of_run(reading.record.file) ? even_steps : scattered_steps;
   const double length = interval * static_cast<double>(time.size() - 1);
   double digit = std::numeric_limits<double>::infinity();
   for (std::size_t row = 1; row < time.size(); ++row)
@@ -418,14 +423,40 @@ void check_steps(const Reading &reading, double interval, bool rate_given) {
   for (std::size_t row = 1; row < time.size(); ++row) {
     const double place = time.front() + interval * static_cast<double>(row);
     if (std::fabs(time[row] - place) >
-        (rate_given ? 1e-3 * length + std::max(interval, digit) : 0.01 * interval))
-      reading.refuse_time(reading.first + row,
-                          rate_given
-                              ? fmt::format("{:g} to one sample, as the sampling rate says", place)
-                              : fmt::format("equal steps: {} to 1 % of the step of {:g} s, or times with few "
-                                            "digits together with the sampling rate",
-                                            place, interval));
+        (rate_given ? 1e-3 * length + std::max(interval, digit) : tolerance * interval))
+      reading.refuse_time(
+          reading.first + row,
+          rate_given ? fmt::format("{:g} to one sample, as the sampling rate says", place)
+                     : fmt::format("equal steps: {} to {:g} % of the step of {:g} s, or times with few "
+                                   "digits together with the sampling rate",
+                                   place, 100.0 * tolerance, interval));
   }
+}
+
+/// Puts times that scatter by more than 1 % of a step onto the straight line through them, and says so.
+void even_out(Record &record) {
+  std::vector<double> &time = record.time;
+  const auto count = static_cast<double>(time.size());
+  const double middle = 0.5 * (count - 1.0), centre = mean(time);
+  double products = 0.0;
+  for (std::size_t row = 0; row < time.size(); ++row)
+    products += (static_cast<double>(row) - middle) * (time[row] - centre);
+  const double interval = 12.0 * products / (count * (count * count - 1.0));
+  double most = 0.0, squares = 0.0;
+  std::vector<double> even;
+  for (std::size_t row = 0; row < time.size(); ++row) {
+    even.push_back(centre + interval * (static_cast<double>(row) - middle));
+    const double off = (time[row] - even.back()) / interval;
+    most = std::max(most, std::fabs(off));
+    squares += off * off;
+  }
+  if (most <= even_steps) return;
+  record.notes.push_back(
+      fmt::format("the times scatter by {:.2g} % of a step, at most {:.2g} %: samples are taken as "
+                  "equally spaced, {:.8g} per second",
+                  100.0 * std::sqrt(squares / count), 100.0 * most, 1.0 / interval));
+  time = std::move(even);
+  record.interval = interval;
 }
 
 /// Checks the times and sets the interval; without a column of time they count from 0, and clock times from
@@ -438,7 +469,10 @@ void take_times(Reading &reading, const RecordOptions &options) {
   record.interval = options.sampling_rate ? 1.0 / *options.sampling_rate
                                           : (record.time.back() - record.time.front()) / steps;
   if (stamped) check_steps(reading, record.interval, options.sampling_rate.has_value());
-  if (stamped && !options.sampling_rate) return;
+  if (stamped && !options.sampling_rate) {
+    if (!is_of_run(record.file)) even_out(record);
+    return;
+  }
   const double start = record.pieces[record.piece].begin;
   record.time.resize(count);
   for (std::size_t row = 0; row < count; ++row)

@@ -2,6 +2,8 @@
 
 #include "report/chain/engine_comparison.h"
 #include "report/chain/tables.h"
+#include "runs/parameter_file.h"
+#include "support/statistics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -95,10 +97,10 @@ Answer reference_values_answer(const ReportResults &results) {
   Answer answer;
   if (count.all > 0) {
     answer.verdict = count.agree == count.all ? Verdict::good : Verdict::bad;
-    answer.sentences.push_back(
-        {fmt::format("{} of {} values agree with the reference values, {} of them in every digit given.",
-                     count.agree, count.all, count.same_digits),
-         "Agreement."});
+    answer.sentences.push_back({fmt::format("{} of {} values agree with the reference values, which are "
+                                            "computed and not measured, {} of them in every digit given.",
+                                            count.agree, count.all, count.same_digits),
+                                "Verification."});
     if (const std::string schemes = by_scheme(results); !schemes.empty())
       answer.sentences.push_back({schemes});
   }
@@ -108,9 +110,10 @@ Answer reference_values_answer(const ReportResults &results) {
              "{} values are not judged: the reference values are of steady states, which need runs of {} "
              "cycles or more that have ended; the table of runs has the commands for such runs.",
              count.not_judged, long_run_cycles),
-         count.all > 0 ? "" : "Agreement."});
+         count.all > 0 ? "" : "Verification."});
   if (count.all + count.not_judged == 0)
-    answer.sentences.push_back({"No run has the parameters of a case with reference values.", "Agreement."});
+    answer.sentences.push_back(
+        {"No run has the parameters of a case with reference values.", "Verification."});
   return answer;
 }
 
@@ -195,15 +198,24 @@ Answer engines_answer(const ReportResults &results) {
   return answer;
 }
 
-/// "9.362 mm under B and 9.748 mm under A"; one value if all are the same text.
-std::string of_each(const BedGroup &group, const std::function<std::string(const BedMeasures &)> &value) {
+/// "36 mm under B and 35 mm under A", of several beds "36 ± 2 mm under B"; one value if all are the
+/// same text.
+std::string of_each(const BedGroup &group, const std::function<double(const BedMeasures &)> &value,
+                    const std::string &unit) {
   std::vector<std::string> values;
   std::vector<std::string> words;
-  for (const BedResult *result : group.runs) {
-    values.push_back(value(result->measures));
-    words.push_back(fmt::format("{} under {}", values.back(), transition_name(result->run.transition())));
+  for (const Transition transition : group.conditions()) {
+    std::vector<double> found;
+    for (const BedResult *result : group.under(transition))
+      found.push_back(value(result->measures));
+    const MeanError mean = mean_error(found);
+    const double deviation = std::sqrt(mean.variance.value * static_cast<double>(found.size()));
+    values.push_back(found.size() == 1
+                         ? two_digits(mean.mean) + unit
+                         : fmt::format("{} ± {}{}", two_digits(mean.mean), two_digits(deviation), unit));
+    words.push_back(fmt::format("{} under {}", values.back(), transition_name(transition)));
   }
-  return group.runs.size() > 1 && distinct(values).size() == 1 ? values.front() : enumerated(words);
+  return words.size() > 1 && distinct(values).size() == 1 ? values.front() : enumerated(words);
 }
 
 void add_group(Answer &answer, const BedGroup &group) {
@@ -219,37 +231,59 @@ void add_group(Answer &answer, const BedGroup &group) {
     good = good && energy_is_good(result->measures);
     judged = judged && result->run.cut.empty();
   }
+  const char *per = per_metre_words(run);
   const std::string scene =
-      fmt::format("A roller on {} balls ({}): drum {:g} kg, frame {:g} kg, exciter {:g} kN at {:g} Hz",
-                  run.text("balls", "?"), enumerated(names), run.chain.m2, run.chain.m3, run.chain.Fw * 1e-3,
-                  1.0 / run.chain.period());
+      fmt::format("A roller on {} balls ({}): drum {:g} kg{}, frame {:g} kg{}, exciter {:g} kN{} at {:g} Hz",
+                  run.text("balls", "?"), enumerated(names), run.chain.m2, per, run.chain.m3, per,
+                  run.chain.Fw * 1e-3, per, 1.0 / run.chain.period());
   if (cycles < 1) {
     answer.sentences.push_back({scene + ". It ends before its first complete cycle.", "Bed."});
     return;
   }
   answer.sentences.push_back({scene + ".", "Bed."});
+  if (const std::string roller = roller_words(run.parameters); !roller.empty())
+    answer.sentences.push_back({roller});
+  const auto risen = [](const BedResult *result) { return result->measures.settlement < 0.0; };
+  const bool all_risen = std::all_of(group.runs.begin(), group.runs.end(), risen);
+  const bool some_risen = !all_risen && std::any_of(group.runs.begin(), group.runs.end(), risen);
+  const double sign = all_risen ? -1e3 : 1e3;
   answer.sentences.push_back({fmt::format(
-      "After {} the drum has {} (mean over the last cycle); the largest contact force on it in {} is {}.",
-      counted(static_cast<std::size_t>(cycles), "cycle", "cycles"),
-      of_each(group,
-              [](const BedMeasures &m) {
-                return fmt::format("{} by {:.3f} mm", m.settlement < 0.0 ? "risen" : "settled",
-                                   std::abs(m.settlement) * 1e3);
-              }),
-      last_cycles_words(steady), of_each(group, [](const BedMeasures &m) {
-        return fmt::format("{:.2f} kN", m.extremes.force.max * 1e-3);
-      }))});
+      "After {} the drum has {} by {} (mean over the last cycle{}); the largest contact force on it in {} is "
+      "{}.",
+      counted(static_cast<std::size_t>(cycles), "cycle", "cycles"), all_risen ? "risen" : "settled",
+      of_each(
+          group, [sign](const BedMeasures &m) { return m.settlement * sign; }, " mm"),
+      some_risen ? ", negative where it has risen" : "", last_cycles_words(steady),
+      of_each(
+          group, [](const BedMeasures &m) { return m.extremes.force.max * 1e-3; },
+          std::string(" kN") + per))});
+  std::vector<std::string> beds;
+  for (const Transition transition : group.conditions())
+    beds.push_back(fmt::format("{} under {}", counted(group.under(transition).size(), "bed", "beds"),
+                               transition_name(transition)));
+  answer.sentences.push_back(
+      {group.several()
+           ? fmt::format(
+                 "Means are over {}, and behind ± stands the standard deviation of single beds, which differ "
+                 "in their seed.",
+                 enumerated(beds))
+           : BedScatter::words()});
   answer.sentences.push_back({fmt::format(
-      "The void ratio of the bed goes from {:.4f} to {}, the number of contacts per ball from {:.3f} to {}.",
-      group.runs.front()->measures.void_ratio_start,
-      of_each(group, [](const BedMeasures &m) { return fmt::format("{:.4f}", m.void_ratio_end); }),
-      group.runs.front()->measures.coordination_start,
-      of_each(group, [](const BedMeasures &m) { return fmt::format("{:.3f}", m.coordination_end); }))});
+      "The void ratio of the bed, at first {}, changes by {}, the number of contacts per ball, at first {}, "
+      "by {}.",
+      two_digits(group.runs.front()->measures.void_ratio_start),
+      of_each(
+          group, [](const BedMeasures &m) { return m.void_ratio_end - m.void_ratio_start; }, ""),
+      two_digits(group.runs.front()->measures.coordination_start),
+      of_each(
+          group, [](const BedMeasures &m) { return m.coordination_end - m.coordination_start; }, ""))});
   if (std::isfinite(group.runs.front()->measures.imbalance_percent))
-    answer.sentences.push_back({fmt::format(
-        "The energy error is {} of the exciter's work.",
-        of_each(group, [](const BedMeasures &m) { return fmt::format("{:.3f} %", m.imbalance_percent); }))});
-  if (answer.verdict != Verdict::bad && judged) answer.verdict = good ? Verdict::good : Verdict::bad;
+    answer.sentences.push_back(
+        {fmt::format("The energy error, a check of the integration alone, is {} of the exciter's work.",
+                     of_each(
+                         group, [](const BedMeasures &m) { return m.imbalance_percent; }, " %"))});
+  // That energy is balanced does not show that a bed is right: no good verdict.
+  if (judged && !good) answer.verdict = Verdict::bad;
 }
 
 } // namespace
@@ -263,6 +297,11 @@ Answer chain_answer(const ReportResults &results) {
   Answer answer;
   if (results.runs.empty()) return answer;
   answer.sentences.push_back({what_was_run(results), "Runs."});
+  std::vector<std::string> rollers;
+  for (const RunResult &result : results.runs)
+    rollers.push_back(roller_words(result.run.parameters));
+  for (const std::string &roller : distinct(rollers))
+    answer.sentences.push_back({roller});
   answer.add(reference_values_answer(results));
   for (const Sentence &sentence :
        {Sentence{a_against_b(results), "A against B."}, Sentence{restitution_words(results), "Impact."},

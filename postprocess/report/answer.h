@@ -24,8 +24,8 @@ struct Answer {
 /// agrees and the engines do. Empty without runs.
 Answer chain_answer(const ReportResults &results);
 
-/// On beds: what was run, settlement, state of the bed, forces, energy error. Good if the energy error is
-/// small. Empty without groups.
+/// On beds: what was run, settlement, state of the bed, forces and their scatter, energy error. Bad if the
+/// energy error is large, never good. Empty without groups.
 Answer bed_answer(const std::vector<BedGroup> &groups);
 
 /// Whether a bed run's energy error is small enough to be marked as good.

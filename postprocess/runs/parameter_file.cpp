@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <optional>
 
 namespace drumlin::post {
 
@@ -28,6 +29,38 @@ std::string parameters_text(const std::vector<std::pair<std::string, std::string
   for (const auto &[name, value] : parameters)
     text += fmt::format("{},{}\n", csv_cell(name), csv_cell(value));
   return text;
+}
+
+std::string roller_words(const std::map<std::string, std::string> &parameters) {
+  const auto text = [&parameters](const std::string &name) {
+    const auto found = parameters.find(name);
+    return found == parameters.end() || found->second == "none" ? std::string() : found->second;
+  };
+  if (text("roller").empty()) return {};
+  const auto number = [&text](const std::string &name, double scale, const char *unit) {
+    const std::optional<double> value = any_number_from_text(text("roller_" + name));
+    return value ? fmt::format("{:.4g}{}", scale * *value, unit) : std::string();
+  };
+  std::string words = "The roller is that of " + text("roller");
+  if (!text("setting").empty()) words += ", setting " + text("setting");
+  const char *between = ": ";
+  const auto add = [&](const char *name, const std::string &value, const std::string &behind = "") {
+    if (value.empty()) return;
+    words += between + fmt::format(fmt::runtime(name), value) + behind;
+    between = ", ";
+  };
+  const auto per_metre = [&number](const char *name) {
+    const std::string value = number(name, 1e-3, " kN/m");
+    return value.empty() ? value : " (" + value + ")";
+  };
+  add("{}", number("frequency", 1.0, " Hz"));
+  add("eccentric moment {}", number("eccentric_moment", 1.0, " kg m"));
+  add("exciter force {}", number("exciter_force", 1e-3, " kN"), per_metre("exciter_force_per_metre"));
+  add("nominal amplitude {}", number("nominal_amplitude", 1e3, " mm"));
+  add("static load {}", number("static_load", 1e-3, " kN"), per_metre("static_load_per_metre"));
+  add("frame on its bond {}", number("frame_frequency", 1.0, " Hz"),
+      text("roller_bond_assumed") == "yes" ? ", a bond that is assumed" : "");
+  return words + ".";
 }
 
 } // namespace drumlin::post

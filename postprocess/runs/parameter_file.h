@@ -15,4 +15,8 @@ std::map<std::string, std::string> read_parameters(const std::filesystem::path &
 /// The text of the file.
 std::string parameters_text(const std::vector<std::pair<std::string, std::string>> &parameters);
 
+/// The roller that parameters.csv names, its setting and what followed from its file, as a sentence; empty
+/// without one.
+std::string roller_words(const std::map<std::string, std::string> &parameters);
+
 } // namespace drumlin::post

@@ -6,6 +6,7 @@
 #include "support/text.h"
 #include "support/units.h"
 
+#include <boost/algorithm/string/replace.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -16,6 +17,7 @@
 #include <ctime>
 #include <limits>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -137,25 +139,94 @@ bool is_blank(std::string_view cell) {
   return std::find(words.begin(), words.end(), cell) != words.end();
 }
 
-std::optional<double> number_in(std::string_view cell, char decimal) {
-  if (decimal == '.') return any_number_from_text(cell);
-  if (cell.find('.') != std::string_view::npos) return std::nullopt;
+/// Whether a text has digits alone, and at least one.
+bool only_digits(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// How a cell is a number.
+struct Number {
+  double value;
+  char between = '\0'; ///< the sign or blank between its thousands, if there is one
+};
+
+/// A number whose thousands stand apart, "1,234.5", "1 234,5" or "1'234", or that has the minus sign or the
+/// blanks of a text program.
+std::optional<Number> written_number(std::string_view cell, char decimal) {
   std::string text(cell);
-  std::replace(text.begin(), text.end(), decimal, '.');
-  return any_number_from_text(text);
+  constexpr std::array<std::pair<const char *, const char *>, 6> same = {
+      {{"\xE2\x88\x92", "-"}, // minus sign
+       {"\xC2\xA0", " "},     // blanks that do not break
+       {"\xE2\x80\xAF", " "},
+       {"\xE2\x80\x89", " "},
+       {"\xE2\x80\x99", "'"}, // the apostrophe of a text program
+       {"\xCA\xBC", "'"}}};
+  for (const auto &[from, to] : same)
+    boost::replace_all(text, from, to);
+  text = trimmed(text);
+  const std::size_t point = std::min(text.find(decimal), text.size());
+  std::string whole = text.substr(0, point);
+  const std::string rest = point < text.size() ? '.' + text.substr(point + 1) : "";
+  const std::size_t begin = !whole.empty() && (whole[0] == '-' || whole[0] == '+') ? 1 : 0;
+  const std::size_t first = std::min(whole.find_first_not_of("0123456789", begin), whole.size());
+  Number number{};
+  if (first < whole.size()) {
+    number.between = whole[first];
+    const std::size_t digits = first - begin;
+    if (std::string_view(",.' ").find(number.between) == std::string_view::npos || digits < 1 || digits > 3 ||
+        whole[begin] == '0')
+      return std::nullopt;
+    for (std::size_t i = first; i < whole.size(); i += 4)
+      if (whole[i] != number.between || whole.size() < i + 4 || !only_digits(whole.substr(i + 1, 3)))
+        return std::nullopt;
+    whole.erase(std::remove(whole.begin(), whole.end(), number.between), whole.end());
+  }
+  const std::optional<double> value = any_number_from_text(whole + rest);
+  if (!value) return std::nullopt;
+  number.value = *value;
+  return number;
+}
+
+std::optional<Number> number_in(std::string_view cell, char decimal) {
+  if (decimal == '.') {
+    if (const auto value = any_number_from_text(cell)) return Number{*value};
+  } else if (cell.find('.') == std::string_view::npos) {
+    std::string text(cell);
+    std::replace(text.begin(), text.end(), decimal, '.');
+    if (const auto value = any_number_from_text(text)) return Number{*value};
+  }
+  return written_number(cell, decimal);
+}
+
+/// What a number says of its decimal sign.
+enum class Decimals {
+  none,     ///< it has none, and not more than three digits
+  some,     ///< it has one, or so many digits that their thousands do not stand apart
+  thousands ///< it has one, which could as well stand between thousands: "1.250"
+};
+
+Decimals decimals_in(std::string_view cell, char decimal) {
+  if (!cell.empty() && (cell[0] == '-' || cell[0] == '+')) cell.remove_prefix(1);
+  const std::size_t point = cell.find(decimal);
+  if (point == std::string_view::npos) return cell.size() <= 3 ? Decimals::none : Decimals::some;
+  return point >= 1 && point <= 3 && cell[0] != '0' && cell.size() == point + 4 &&
+                 only_digits(cell.substr(0, point)) && only_digits(cell.substr(point + 1))
+             ? Decimals::thousands
+             : Decimals::some;
 }
 
 /// A clock time: seconds from midnight, and the day, counted from any day, if there is a date.
 struct ClockTime {
   double seconds;
   std::optional<long> day;
+  bool universal = false; ///< it named its zone, and the seconds are those of UTC
 };
 
 /// A date such as 2026-11-26, 2026/Nov/26 or 26.11.2026 as a day.
 std::optional<long> day_in(std::string_view date) {
   std::vector<long> parts;
   while (true) {
-    const std::size_t end = std::min(date.find_first_of("-/."), date.size());
+    const std::size_t end = std::min(date.find_first_of("-/. "), date.size());
     constexpr std::string_view months = "JanFebMarAprMayJunJulAugSepOctNovDec";
     const std::string_view text = date.substr(0, end);
     const std::size_t place = text.size() == 3 ? months.find(text) : months.size();
@@ -167,7 +238,8 @@ std::optional<long> day_in(std::string_view date) {
     date.remove_prefix(end + 1);
   }
   if (parts.size() != 3) return std::nullopt;
-  if (parts[0] < 100) std::swap(parts[0], parts[2]); // the year stands last
+  if (parts[0] < 100) std::swap(parts[0], parts[2]);                  // the year stands last
+  if (parts[1] > 12 && parts[2] <= 12) std::swap(parts[1], parts[2]); // the month first, as in 11/26/2026
   if (parts[0] < 100 || parts[1] < 1 || parts[1] > 12 || parts[2] < 1 || parts[2] > 31) return std::nullopt;
   std::tm day{};
   day.tm_year = static_cast<int>(parts[0] - 1900);
@@ -175,6 +247,29 @@ std::optional<long> day_in(std::string_view date) {
   day.tm_mday = static_cast<int>(parts[2]);
   constexpr long seconds_of_day = 86400;
   return timegm(&day) / seconds_of_day;
+}
+
+/// Takes the zone off the end of a time of day, "Z", "UTC", "+01:00", "+0100" or "-05": by how much its
+/// clock is ahead of UTC [s].
+std::optional<double> take_zone(std::string_view &time) {
+  for (const std::string_view name : {"Z", "UTC", "GMT"})
+    if (time.size() > name.size() && time.substr(time.size() - name.size()) == name) {
+      time = trimmed(time.substr(0, time.size() - name.size()));
+      return 0.0;
+    }
+  const std::size_t sign = time.find_last_of("+-");
+  if (sign == std::string_view::npos || sign == 0) return std::nullopt;
+  std::string digits(time.substr(sign + 1));
+  if (digits.size() == 5 && digits[2] == ':') digits.erase(2, 1);
+  if (!only_digits(digits) || (digits.size() != 2 && digits.size() != 4)) return std::nullopt;
+  digits.resize(4, '0');
+  const long hours = *whole_number_from_text(digits.substr(0, 2));
+  const long minutes = *whole_number_from_text(digits.substr(2));
+  if (hours > 14 || minutes > 59) return std::nullopt;
+  const double ahead = 3600.0 * static_cast<double>(hours) + 60.0 * static_cast<double>(minutes);
+  const bool negative = time[sign] == '-';
+  time = trimmed(time.substr(0, sign));
+  return negative ? -ahead : ahead;
 }
 
 std::optional<ClockTime> clock_in(std::string_view cell) {
@@ -187,25 +282,31 @@ std::optional<ClockTime> clock_in(std::string_view cell) {
       afternoon = hours;
       halves = true;
     }
-  const std::size_t space = cell.find_first_of(" T");
+  const std::size_t colon = cell.find(':');
+  if (colon == std::string_view::npos) return std::nullopt;
+  const std::size_t space = cell.substr(0, colon).find_last_of(" T");
   if (space != std::string_view::npos) {
-    clock.day = day_in(cell.substr(0, space));
+    clock.day = day_in(trimmed(cell.substr(0, space)));
     if (!clock.day) return std::nullopt;
     cell = trimmed(cell.substr(space + 1));
   }
+  const std::optional<double> ahead = take_zone(cell);
+  clock.universal = ahead.has_value();
   const std::size_t first = cell.find(':');
   if (first == std::string_view::npos) return std::nullopt;
   const std::size_t second = cell.find(':', first + 1);
   if (second == std::string_view::npos) return std::nullopt;
   const std::optional<long> hours = whole_number_from_text(cell.substr(0, first));
   const std::optional<long> minutes = whole_number_from_text(cell.substr(first + 1, second - first - 1));
-  const std::string_view rest = cell.substr(second + 1);
-  const std::optional<double> seconds = number_in(rest, rest.find(',') == std::string_view::npos ? '.' : ',');
+  std::string rest(cell.substr(second + 1));
+  if (rest.size() == 6 && rest[2] == ':' && only_digits(rest.substr(3))) rest[2] = '.'; // milliseconds
+  std::replace(rest.begin(), rest.end(), ',', '.');
+  const std::optional<double> seconds = any_number_from_text(rest);
   if (!hours || !minutes || !seconds || *hours < 0 || *hours > 24 || *minutes < 0 || *minutes > 59 ||
       !(*seconds >= 0.0 && *seconds < 61.0))
     return std::nullopt;
   const auto hour = static_cast<double>(halves ? *hours % 12 : *hours) + afternoon;
-  clock.seconds = 3600.0 * hour + 60.0 * static_cast<double>(*minutes) + *seconds;
+  clock.seconds = 3600.0 * hour + 60.0 * static_cast<double>(*minutes) + *seconds - ahead.value_or(0.0);
   return clock;
 }
 
@@ -214,8 +315,8 @@ bool is_value(std::string_view cell, char decimal) {
 }
 
 /// Text and unit of a header such as "Acc Z (g)" or "time [ms]".
-MeasuredColumn column_of(std::string header) {
-  MeasuredColumn column{header, header, ""};
+MeasuredColumn column_of(const std::string &header) {
+  MeasuredColumn column{header, header, "", {}};
   const std::size_t size = header.size();
   if (size < 3 || (header.back() != ')' && header.back() != ']')) return column;
   const std::size_t open = header.rfind(header.back() == ')' ? '(' : '[');
@@ -241,7 +342,8 @@ std::string separator_words(char separator) {
 
 } // namespace
 
-MeasuredTable::MeasuredTable(std::filesystem::path file, const TableFormat &format) : file_(std::move(file)) {
+MeasuredTable::MeasuredTable(std::filesystem::path file, const TableFormat &format)
+    : file_(std::move(file)), decimal_given_(format.decimal.has_value()) {
   text_ = decoded(read_text(file_), encoding_);
   find_format(format);
   find_rows();
@@ -254,16 +356,23 @@ std::vector<std::string> MeasuredTable::cells_of(std::string_view line) const {
 }
 
 // The separator and decimal sign by which the most cells of a sample of the lines are numbers, each other
-// text counted against it. A tab or semicolon is preferred where both do equally well.
+// text counted against it, and numbers whose thousands stand apart a little less than others. A tab or
+// semicolon is preferred where both do equally well. A comma is both signs only of cells in quotes.
 void MeasuredTable::find_format(const TableFormat &given) {
   const std::vector<std::string_view> lines = lines_of(text_);
   constexpr std::size_t most = 400;
   const std::size_t step = std::max<std::size_t>(1, lines.size() / most);
+  const bool quoted = text_.find('"') != std::string::npos;
+  if (given.separator && given.separator == given.decimal && !quoted)
+    csv_fault(file_, 0, {},
+              refusal("the decimal sign", std::string(1, *given.decimal),
+                      "another one than that between cells, or cells in quotes"));
   long best = std::numeric_limits<long>::min();
+  bool blank_in_cells = false; // between thousands, with tabs between cells
   for (const char separator : {'\t', ';', '|', ',', ' '})
     for (const char decimal : {'.', ','}) {
-      if (separator == decimal || (given.separator && separator != *given.separator) ||
-          (given.decimal && decimal != *given.decimal))
+      if ((separator == decimal && !quoted) || (separator == ' ' && blank_in_cells) ||
+          (given.separator && separator != *given.separator) || (given.decimal && decimal != *given.decimal))
         continue;
       struct Column {
         long sum = 0;      // of kinds
@@ -272,13 +381,19 @@ void MeasuredTable::find_format(const TableFormat &given) {
       std::map<std::size_t, std::vector<Column>> found; // by the number of cells
       for (std::size_t i = 0; i < lines.size(); i += step) {
         if (trimmed(lines[i]).empty() || is_comment(lines[i])) continue;
-        std::vector<long> kinds; // 1 a value, -1 another text, 0 blank
+        constexpr long value = 4, apart = 3, other = -4;
+        std::vector<long> kinds; // 0 for a blank cell
         std::vector<bool> used;
         for_each_cell(lines[i], separator, [&](std::string_view cell) {
-          kinds.push_back(is_value(cell, decimal) ? 1 : is_blank(cell) ? 0 : -1);
+          const std::optional<Number> number = number_in(cell, decimal);
+          kinds.push_back(number           ? number->between == '\0' ? value : apart
+                          : clock_in(cell) ? value
+                          : is_blank(cell) ? 0
+                                           : other);
           used.push_back(!cell.empty());
+          if (number && number->between == ' ' && separator == '\t') blank_in_cells = true;
         });
-        if (std::find(kinds.begin(), kinds.end(), 1) == kinds.end()) continue;
+        if (*std::max_element(kinds.begin(), kinds.end()) <= 0) continue;
         std::vector<Column> &columns = found[kinds.size()];
         columns.resize(kinds.size());
         for (std::size_t j = 0; j < kinds.size(); ++j) {
@@ -329,7 +444,7 @@ void MeasuredTable::find_rows() {
         ++count;
         if (!cell.empty()) filled = count;
       });
-      begun = count >= width && filled <= width && values && any;
+      begun = count >= width && filled <= width && values && any && !numbers_sensors(lines, i);
       if (!begun) continue;
       find_header(lines, i);
     }
@@ -339,6 +454,15 @@ void MeasuredTable::find_rows() {
       if (!cell.empty()) filled = count;
     });
     if (count < width && i + 1 == lines.size() && !complete) break; // cut
+    // Lines of text at the end, "End of file".
+    if (count < width &&
+        std::none_of(lines.begin() + static_cast<std::ptrdiff_t>(i), lines.end(),
+                     [this](std::string_view line) {
+                       const std::vector<std::string> cells = cells_of(line);
+                       return std::any_of(cells.begin(), cells.end(),
+                                          [this](const auto &cell) { return is_value(cell, decimal_); });
+                     }))
+      break;
     if (count < width || filled > width)
       csv_fault(file_, i + 1, {},
                 refusal("the number of cells", fmt::format("{}", count),
@@ -349,10 +473,44 @@ void MeasuredTable::find_rows() {
   }
 }
 
+// A row of different whole numbers above 0 below a row of texts, when the rows that follow have a decimal
+// sign in each of these columns.
+bool MeasuredTable::numbers_sensors(const std::vector<std::string_view> &lines, std::size_t row) const {
+  const std::vector<std::string> cells = cells_of(lines[row]);
+  std::set<std::string> different;
+  std::size_t filled = 0;
+  for (const std::string &cell : cells) {
+    if (cell.empty()) continue;
+    if (!only_digits(cell) || cell.find_first_not_of('0') == std::string::npos) return false;
+    different.insert(cell);
+    ++filled;
+  }
+  if (row == 0 || different.size() < std::max<std::size_t>(filled, 2)) return false;
+  const std::vector<std::string> above = cells_of(lines[row - 1]);
+  if (above.size() < numeric_.size() ||
+      std::any_of(above.begin(), above.end(), [&](const auto &cell) { return is_value(cell, decimal_); }))
+    return false;
+  constexpr std::size_t most = 5;
+  std::size_t seen = 0;
+  for (std::size_t i = row + 1; i < lines.size() && seen < most; ++i, ++seen) {
+    const std::vector<std::string> below = cells_of(lines[i]);
+    for (std::size_t j = 0; j < std::min(cells.size(), below.size()); ++j)
+      if (!cells[j].empty() && below[j].find(decimal_) == std::string::npos) return false;
+  }
+  return seen > 0;
+}
+
 void MeasuredTable::find_header(const std::vector<std::string_view> &lines, std::size_t first) {
   const std::size_t width = numeric_.size();
-  std::vector<std::string> units(width);
-  std::vector<std::string> names;
+  struct HeaderRow {
+    std::vector<std::string> cells;
+    std::size_t line;
+    bool with_units = false;   // in brackets, in half of its cells or more
+    bool with_numbers = false; // those of sensors, or of a line above the header
+  };
+  std::vector<HeaderRow> rows; // of texts, from the lowest up
+  std::optional<HeaderRow> units;
+  std::optional<std::size_t> above_units;
   const auto fits = [&](const std::vector<std::string> &cells) {
     return cells.size() >= width &&
            (cells.size() <= width_ || // over the empty cells at the end of the rows, too
@@ -360,12 +518,17 @@ void MeasuredTable::find_header(const std::vector<std::string_view> &lines, std:
                         [](const std::string &cell) { return cell.empty(); })) &&
            std::any_of(cells.begin(), cells.end(), [](const std::string &cell) { return !cell.empty(); });
   };
-  for (std::size_t i = first; i-- > 0 && names.empty();) {
-    if (trimmed(lines[i]).empty()) continue;
+  constexpr std::size_t most_rows = 3;
+  for (std::size_t i = first; i-- > 0 && rows.size() < most_rows;) {
+    if (trimmed(lines[i]).empty()) {
+      if (rows.empty()) continue;
+      break;
+    }
     std::string_view line = lines[i];
     const bool comment = is_comment(line);
     if (comment) line = trimmed(trimmed(line).substr(trimmed(line).find_first_not_of("#%/ ")));
-    std::vector<std::string> cells = cells_of(line);
+    HeaderRow row{cells_of(line), i + 1};
+    std::vector<std::string> &cells = row.cells;
     // Some programs leave a comma in the name of the last column unquoted.
     if (cells.size() == width + 1 && !cells.back().empty() && cells.back().front() == '_') {
       cells[width - 1] += separator_ + cells.back();
@@ -377,23 +540,47 @@ void MeasuredTable::find_header(const std::vector<std::string_view> &lines, std:
     }
     cells.resize(width);
     // A row of units may have one that is not known.
-    std::size_t known = 0, others = 0;
-    for (const std::string &cell : cells)
-      if (!cell.empty()) ++(unit_cell(cell) ? known : others);
-    if (known > others && unit_line_ == 0 && i > 0) {
-      for (std::size_t j = 0; j < width; ++j)
-        units[j] = unit_cell(cells[j]).value_or(cells[j]);
-      unit_line_ = i + 1;
+    std::size_t known = 0, filled = 0, bracketed = 0;
+    for (const std::string &cell : cells) {
+      if (cell.empty()) continue;
+      ++filled;
+      if (unit_cell(cell)) ++known;
+      if (unit_from_text(column_of(cell).unit)) ++bracketed;
+      row.with_numbers = row.with_numbers || is_value(cell, decimal_);
+    }
+    if (2 * known > filled && !units) {
+      units = std::move(row);
+      above_units = rows.size();
       continue;
     }
-    names = std::move(cells);
-    header_line_ = i + 1;
+    row.with_units = 2 * bracketed >= filled && bracketed > 0 && !row.with_numbers;
+    rows.push_back(std::move(row));
   }
-  if (names.empty()) unit_line_ = 0;
+  if (rows.empty() && units) { // they are the names, too
+    rows.push_back(*units);
+    above_units = 0;
+  }
+  // The names: the row above the units, or with units in brackets, or the lowest one of texts.
+  std::size_t names = 0;
+  const auto choose = [&](const auto &is) {
+    const auto found = std::find_if(rows.begin(), rows.end(), is);
+    if (found == rows.end()) return false;
+    names = static_cast<std::size_t>(found - rows.begin());
+    return true;
+  };
+  if (above_units && *above_units < rows.size())
+    names = *above_units;
+  else if (!choose([](const HeaderRow &row) { return row.with_units; }))
+    choose([](const HeaderRow &row) { return !row.with_numbers; });
+  if (!rows.empty()) header_line_ = rows[names].line;
+  if (units) unit_line_ = units->line;
   for (std::size_t j = 0; j < width; ++j) {
-    const bool named = !names.empty() && !names[j].empty();
-    columns_.push_back(column_of(named ? names[j] : fmt::format("{}", j + 1)));
-    if (unit_line_ > 0 && !units[j].empty()) columns_.back().unit = units[j];
+    const bool named = !rows.empty() && !rows[names].cells[j].empty();
+    MeasuredColumn &column =
+        columns_.emplace_back(column_of(named ? rows[names].cells[j] : fmt::format("{}", j + 1)));
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (i != names && !rows[i].cells[j].empty()) column.others.push_back(rows[i].cells[j]);
+    if (units && !units->cells[j].empty()) column.unit = unit_cell(units->cells[j]).value_or(units->cells[j]);
   }
 }
 
@@ -410,14 +597,24 @@ std::optional<std::size_t> MeasuredTable::find(std::string_view header) const {
   const std::optional<long> number = whole_number_from_text(header);
   if (number && *number >= 1 && static_cast<std::size_t>(*number) <= columns_.size())
     return static_cast<std::size_t>(*number - 1);
-  return std::nullopt;
+  std::optional<std::size_t> place;
+  for (std::size_t i = 0; i < columns_.size(); ++i)
+    for (const std::string &other : columns_[i].others) {
+      if (other != header && column_of(other).name != header) continue;
+      if (place && *place != i) return std::nullopt;
+      place = i;
+    }
+  return place;
 }
 
 void MeasuredTable::missing(std::string_view header) const {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < columns_.size(); ++i)
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
     names.push_back(header_line_ > 0 ? fmt::format("{} '{}'", i + 1, columns_[i].header)
                                      : fmt::format("{}", i + 1));
+    for (const std::string &other : columns_[i].others)
+      names.back() += fmt::format(" or '{}'", other);
+  }
   csv_fault(file_, header_line_, {},
             refusal("the column", header,
                     fmt::format("the name, if only one column has it, or the number of one of these: {}; {}",
@@ -431,17 +628,30 @@ std::string MeasuredTable::cell(std::size_t row, std::size_t column) const {
 std::vector<double> MeasuredTable::numbers(std::size_t column) const {
   std::vector<double> values;
   values.reserve(rows_.size());
+  bool clear = decimal_given_, whole = false; // numbers that tell what their signs are, and that have none
+  std::optional<std::size_t> unclear;
   for (std::size_t row = 0; row < rows_.size(); ++row) {
     std::size_t place = 0;
     for_each_cell(rows_[row], separator_, [&](std::string_view cell) {
       if (place++ != column) return;
-      const std::optional<double> value = number_in(cell, decimal_);
+      const std::optional<Number> number = number_in(cell, decimal_);
       const bool blank = is_blank(cell);
-      if (!blank && !(value && std::isfinite(*value)))
+      if (!blank && !(number && std::isfinite(number->value)))
         refuse(row, column, fmt::format("a finite number with '{}' as decimal sign, or no text", decimal_));
-      values.push_back(blank ? std::nan("") : *value);
+      values.push_back(blank ? std::nan("") : number->value);
+      if (clear || blank) return;
+      const Decimals decimals = decimals_in(cell, decimal_);
+      clear = number->between != '\0' || decimals == Decimals::some;
+      whole = whole || decimals == Decimals::none;
+      if (decimals == Decimals::thousands && !unclear) unclear = row;
     });
   }
+  // Fixed decimals would stand in all rows.
+  if (unclear && whole && !clear)
+    refuse(*unclear, column,
+           fmt::format("a number that cannot be read as thousands: '{}' may be the decimal sign or stand "
+                       "between them, since other rows have none; write no sign between thousands",
+                       decimal_));
   return values;
 }
 
@@ -458,6 +668,7 @@ std::vector<double> MeasuredTable::clock_times(std::size_t column, std::optional
   std::vector<double> values;
   values.reserve(rows_.size());
   double midnights = 0.0, before = 0.0;
+  std::optional<bool> universal;
   for (std::size_t row = 0; row < rows_.size(); ++row) {
     const std::string text = cell(row, column);
     if (is_blank(text)) {
@@ -465,7 +676,12 @@ std::vector<double> MeasuredTable::clock_times(std::size_t column, std::optional
       continue;
     }
     const std::optional<ClockTime> clock = clock_in(text);
-    if (!clock) refuse(row, column, "a time such as 14:03:07.25 or 2026-11-26 14:03:07.25");
+    if (!clock) refuse(row, column, "a time such as 14:03:07.25 or 2026-11-26T14:03:07.25+01:00");
+    if (universal && *universal != clock->universal)
+      refuse(row, column,
+             *universal ? "a time with its zone, as the first one has"
+                        : "a time without a zone, as the first one has");
+    universal = clock->universal;
     if (clock->day && !first_day) first_day = clock->day;
     if (!clock->day && clock->seconds < before - 0.5 * day) midnights += day;
     before = clock->seconds;

@@ -1,6 +1,6 @@
-// Tables of numbers as loggers and laboratories write them: any separator, decimal point or comma, lines
-// above the header, units in the header or below it, comments, blank cells, clock times, UTF-8, UTF-16 or
-// Latin-1.
+// Tables of numbers as loggers and laboratories write them: any separator, decimal point or comma, thousands
+// apart, lines above the header, a header of up to four rows (names, units, sensors), comments, blank cells,
+// clock times, UTF-8, UTF-16 or Latin-1.
 //
 // Errors are std::runtime_error of one line that names file, line, column, cell and what is allowed, and
 // shows the line and how it was split into cells.
@@ -25,14 +25,16 @@ struct TableFormat {
 struct MeasuredColumn {
   std::string header; ///< as the file has it, without blanks at its ends; without a header the number
   std::string name;   ///< the header without a text in brackets at its end
-  std::string unit;   ///< this text, or that of the row of units below the header; empty if there is none
+  std::string unit;   ///< this text, or that of the row of units; empty if there is none
+  std::vector<std::string> others; ///< its texts in other rows of the header, such as names of sensors
 };
 
 class MeasuredTable {
 public:
   /// Reads a file and finds out how it is written. The rows of numbers begin with the first line that has as
-  /// many cells as most lines with numbers, and numbers in the same columns; the header is the line above
-  /// them, or the one above a row of units. A last line without line end that lacks cells is left out.
+  /// many cells as most lines with numbers, and numbers in the same columns; the header is up to three lines
+  /// of texts above them, and a row of units, in any order. Lines of text at the end are left out, and a last
+  /// line without line end that lacks cells.
   explicit MeasuredTable(std::filesystem::path file, const TableFormat &format = {});
 
   MeasuredTable(const MeasuredTable &) = delete; // rows point into its text
@@ -45,7 +47,8 @@ public:
   std::size_t line(std::size_t row) const { return lines_.at(row); }
 
   /// The column whose header or, failing that, whose name this is; failing both, the column of this number,
-  /// counted from 1. Nothing if there is none, or if two columns have this name.
+  /// counted from 1, or that has this text in another row of the header. Nothing if there is none, or if two
+  /// columns have this name.
   std::optional<std::size_t> find(std::string_view header) const;
   /// Throws the fault that no column has this name; the message lists those that there are.
   [[noreturn]] void missing(std::string_view header) const;
@@ -53,11 +56,13 @@ public:
   /// The cell as it stands in the file.
   std::string cell(std::size_t row, std::size_t column) const;
   /// The finite numbers of a column; NaN for blank cells and for the words of a missing value (NaN, NA, -).
+  /// Refused are numbers whose only signs may be decimal signs as well as between thousands.
   std::vector<double> numbers(std::size_t column) const;
   /// Whether the column has clock times, such as 14:03:07.25, with or without a date.
   bool has_clock_times(std::size_t column) const;
   /// Clock times in seconds from the midnight before the first row; over midnight they go on growing. With
-  /// dates they count from `first_day`, which the first row sets if nothing has set it before.
+  /// dates they count from `first_day`, which the first row sets if nothing has set it before. Those that
+  /// name their zone are turned into UTC.
   std::vector<double> clock_times(std::size_t column, std::optional<long> &first_day) const;
 
   /// Throws the fault that this cell is not allowed.
@@ -69,6 +74,7 @@ public:
 private:
   void find_format(const TableFormat &given);
   void find_rows();
+  bool numbers_sensors(const std::vector<std::string_view> &lines, std::size_t row) const;
   void find_header(const std::vector<std::string_view> &lines, std::size_t first);
   std::vector<std::string> cells_of(std::string_view line) const;
   std::string reading_of(std::string_view line) const;
@@ -78,6 +84,7 @@ private:
   std::string text_; // in UTF-8
   char separator_ = ',';
   char decimal_ = '.';
+  bool decimal_given_ = false;
   std::vector<MeasuredColumn> columns_;
   std::size_t width_ = 0;     // cells of a row, those at its end included that are empty in all rows
   std::vector<bool> numeric_; // columns with numbers or clock times

@@ -51,13 +51,37 @@ struct BedResult {
 /// file and line for a file that cannot be read, or if cycles.csv is missing.
 BedResult analyse_bed(Run run);
 
-/// Bed runs that the figures show together: one, or one under A and one under B that are equal otherwise.
-struct BedGroup {
-  std::vector<const BedResult *> runs; ///< B before A, the order of drawing
+/// Whether masses, forces and energies are per metre of the drum: in two dimensions.
+bool per_metre(const Run &run);
+/// "/m" or " per m" behind a unit of forces, masses and energies of a run, or nothing.
+const char *per_metre_words(const Run &run, const char *words = "/m");
+
+/// A number to two digits, as the scatter of single beds allows, without an exponent.
+std::string two_digits(double value);
+
+/// How single beds scatter that differ in their seed alone: standard deviations of five beds of the default
+/// gravel, inputs/study/fidelity/findings.md.
+struct BedScatter {
+  static constexpr double force = 0.18, acceleration = 0.18, contact_share = 0.14; ///< relative
+  static constexpr double settlement = 3.3e-3;                                     ///< of a cycle, m
+  static std::string words();                                                      ///< the same as a sentence
 };
 
-/// The groups, in the order of their first runs. If a run has several partners, one from the same restart
-/// file is preferred.
+/// Bed runs that the figures show together: under B, under A or both, equal otherwise, on one bed or on beds
+/// that differ in their seed.
+struct BedGroup {
+  std::vector<const BedResult *> runs; ///< those under B first, the order of drawing
+  /// Those under one condition.
+  std::vector<const BedResult *> under(Transition transition) const;
+  /// The conditions that it has, B first.
+  std::vector<Transition> conditions() const;
+  /// Whether a condition has several beds.
+  bool several() const { return runs.size() > conditions().size(); }
+};
+
+/// The groups, in the order of their first runs. If a run has several partners under the other condition, one
+/// from the same restart file is preferred. Beds are of different seeds if their restart files and their
+/// balls (d50) differ.
 std::vector<BedGroup> group_beds(const std::vector<BedResult> &beds);
 
 } // namespace drumlin::post

@@ -15,9 +15,7 @@ namespace {
 
 const std::string dash = no_value;
 
-std::string fixed(double value, int decimals) {
-  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : dash;
-}
+std::string rounded(double value) { return std::isfinite(value) ? two_digits(value) : dash; }
 
 /// A size that the files of the bed note, as a multiple of a unit, or a list of those of the layers; a dash
 /// in runs of beds of earlier versions.
@@ -35,8 +33,15 @@ std::string noted(const Run &run, const std::string &name, double per_unit) {
   return sizes;
 }
 
-/// "Run bed/B (condition B)" or "Runs bed/B (condition B) and bed/A (condition A)".
+/// "Run bed/B (condition B)", "Runs bed/B (condition B) and bed/A (condition A)" or "Runs on 3 beds under B".
 std::string title_of(const BedGroup &group) {
+  if (group.several()) {
+    std::string title = "Runs on";
+    for (const Transition transition : group.conditions())
+      title += fmt::format("{} {} beds under {}", transition == group.conditions().front() ? "" : " and",
+                           group.under(transition).size(), transition_name(transition));
+    return title;
+  }
   std::string title = group.runs.size() > 1 ? "Runs" : "Run";
   for (const BedResult *result : group.runs)
     title += fmt::format("{} {} (condition {})", result == group.runs.front() ? "" : " and", result->run.name,
@@ -47,39 +52,57 @@ std::string title_of(const BedGroup &group) {
 std::string words_of(const BedGroup &group) {
   const Run &run = group.runs.front()->run;
   const double frequency = 1.0 / run.chain.period();
-  return fmt::format("{} soil balls, friction {}, damping ratio {:g}. The exciter's force is {:g} kN at {:g} "
-                     "Hz, the mass of the drum {:g} kg and of the frame {:g} kg.",
-                     run.text("balls", "?"), run.text("friction", "?"), run.chain.D, run.chain.Fw * 1e-3,
-                     frequency, run.chain.m2, run.chain.m3);
+  const char *per = per_metre_words(run);
+  std::string words =
+      fmt::format("{} soil balls, friction {}, damping ratio {:g}. The exciter's force is {:g} kN{} at {:g} "
+                  "Hz, the mass of the drum {:g} kg{} and of the frame {:g} kg{}.",
+                  run.text("balls", "?"), run.text("friction", "?"), run.chain.D, run.chain.Fw * 1e-3, per,
+                  frequency, run.chain.m2, per, run.chain.m3, per);
+  if (group.several())
+    words += " Lines are means over the beds of a condition, thin lines the least and the largest of them; "
+             "pictures "
+             "show the first bed of each.";
+  return words;
+}
+
+/// The unit of a column of forces, of runs in two and in three dimensions.
+std::string force_unit(const std::vector<BedResult> &beds) {
+  bool two = false, three = false;
+  for (const BedResult &result : beds)
+    (per_metre(result.run) ? two : three) = true;
+  return two && three ? "kN/m, in three dimensions kN" : two ? "kN/m" : "kN";
 }
 
 PageTable motion_table(const std::vector<BedResult> &beds) {
-  PageTable motion(
-      "bed_runs", "Motion of the roller",
-      "run | transition | friction (-) | balls | frequency (Hz) | cycles (-) | steady cycles | largest drum "
-      "acceleration (m/s²) | largest contact force (kN) | smallest contact force (kN) | share of time in "
-      "contact (-) | CMV (-) | stepping | steps per cycle | ranks | command",
-      2);
+  PageTable motion("bed_runs", "Motion of the roller",
+                   fmt::format("run | transition | friction (-) | balls | frequency (Hz) | cycles (-) | "
+                               "steady cycles | largest drum "
+                               "acceleration (m/s²) | largest contact force ({0}) | smallest contact force "
+                               "({0}) | share of time in "
+                               "contact (-) | CMV (-) | stepping | steps per cycle | ranks | command",
+                               force_unit(beds)),
+                   2);
   motion.section = "bed";
   motion.shown_columns = motion.header.size() - 4;
   for (const BedResult &result : beds) {
     const Run &run = result.run;
     const BedMeasures &m = result.measures;
     const bool any = m.cycles > 0;
-    const auto steady = [any](double value, int decimals) { return any ? fixed(value, decimals) : dash; };
+    const auto steady = [any](double value) { return any ? rounded(value) : dash; };
     motion.add(
         {run.name, transition_name(run.transition()), run.text("friction", dash), run.text("balls", dash),
          fmt::format("{:g}", 1.0 / run.chain.period()), fmt::format("{}", m.cycles),
          any ? fmt::format("{} to {}", m.cycles - m.steady_count + 1, m.cycles) : dash,
-         steady(m.extremes.acceleration.max, 2), steady(m.extremes.force.max * 1e-3, 2),
-         steady(m.extremes.force.min * 1e-3, 2), steady(m.contact_share, 4),
-         m.amplitudes ? fixed(compaction_meter_value(*m.amplitudes), 2) : dash, run.text("stepping", dash),
+         steady(m.extremes.acceleration.max), steady(m.extremes.force.max * 1e-3),
+         steady(m.extremes.force.min * 1e-3), steady(m.contact_share),
+         m.amplitudes ? rounded(compaction_meter_value(*m.amplitudes)) : dash, run.text("stepping", dash),
          run.steps_per_cycle > 0 ? fmt::format("{}", run.steps_per_cycle) : dash, run.text("ranks", dash),
          run.text("command", dash)});
     if (!any) motion.notes.push_back(fmt::format("{}: ends before its first complete cycle.", run.name));
     for (const std::string &missing : run.missing)
       motion.notes.push_back(fmt::format("{}: {}", run.name, missing));
   }
+  motion.notes.push_back(BedScatter::words() + " Two digits are given; cycles.csv of a run has all.");
   motion.notes.emplace_back(
       "Steady cycles: about the second half of the run, an even number of cycles; both of a run of two. "
       "Acceleration, forces, share of time in contact and CMV are of every time step in these cycles. "
@@ -92,26 +115,33 @@ PageTable state_table(const std::vector<BedResult> &beds) {
   PageTable state(
       "bed_states", "State of the bed",
       "run | transition | settlement at the end (mm) | settlement per cycle (mm) | coordination at the start "
-      "(-) | coordination at the end (-) | void ratio at the start (-) | void ratio at the end (-) | "
+      "(-) | coordination at the end (-) | void ratio at the start (-) | change of the void ratio (-) | "
       "imbalance of energy (% of work) | drum at rest, depth below the surface (% of its diameter) | grading "
-      "| smallest and largest ball (mm) | d50 (mm) | coefficient of uniformity Cu (-)",
+      "| smallest and largest ball (mm) | d50 (mm) | coefficient of uniformity Cu (-) | energy balanced",
       2);
   state.section = "bed";
-  state.criterion = "runs have an energy error of at most 1 % of the exciter's work";
+  state.verdict = "energy balanced";
+  state.criterion =
+      "runs have an energy error of at most 1 % of the exciter's work, which checks the integration alone";
   for (const BedResult &result : beds) {
     const BedMeasures &m = result.measures;
     const bool any = m.cycles > 0;
-    const auto steady = [any](double value, int decimals) { return any ? fixed(value, decimals) : dash; };
+    const auto steady = [any](double value) { return any ? rounded(value) : dash; };
     const std::string smallest = noted(result.run, "r_min", 2e3), largest = noted(result.run, "r_max", 2e3);
     const std::string sizes = largest == dash ? dash : fmt::format("{} to {}", smallest, largest);
-    state.add({result.run.name, transition_name(result.run.transition()), steady(m.settlement * 1e3, 3),
-               steady(m.settlement_per_cycle * 1e3, 3), fixed(m.coordination_start, 3),
-               fixed(m.coordination_end, 3), fixed(m.void_ratio_start, 4), fixed(m.void_ratio_end, 4),
-               fixed(m.imbalance_percent, 3), fixed(m.depth_percent, 1), result.run.text("grading", dash),
-               sizes, noted(result.run, "d50", 1e3), noted(result.run, "C_u", 1.0)},
-              !std::isfinite(m.imbalance_percent) || !result.run.cut.empty() ? RowState::plain
-              : energy_is_good(m)                                            ? RowState::agrees
-                                                                             : RowState::differs);
+    const RowState judged = !std::isfinite(m.imbalance_percent) || !result.run.cut.empty() ? RowState::plain
+                            : energy_is_good(m)                                            ? RowState::agrees
+                                                : RowState::differs;
+    state.add({result.run.name, transition_name(result.run.transition()), steady(m.settlement * 1e3),
+               steady(m.settlement_per_cycle * 1e3), rounded(m.coordination_start),
+               rounded(m.coordination_end), rounded(m.void_ratio_start),
+               rounded(m.void_ratio_end - m.void_ratio_start), rounded(m.imbalance_percent),
+               rounded(m.depth_percent), result.run.text("grading", dash), sizes,
+               noted(result.run, "d50", 1e3), noted(result.run, "C_u", 1.0),
+               judged == RowState::plain    ? dash
+               : judged == RowState::agrees ? "yes"
+                                            : "no"},
+              judged);
   }
   state.notes.emplace_back(
       "Settlement: mean position of the drum over a cycle, below its position at rest, negative above it, as "
@@ -145,7 +175,7 @@ std::string bed_page(const ReportContent &content) {
   begin("numbers", "Numbers");
   s += "<p>Drum and frame stand on a bed of balls and move up and down only; the exciter acts on the drum. "
        "In two dimensions masses, forces and energies are per metre perpendicular to the picture. Condition "
-       "A dashed, condition B (no-tension limit) solid.</p>\n";
+       "A dashed, condition B (no-tension limit) solid. Nothing here is compared with a measurement.</p>\n";
   for (const PageTable &table : content.bed_tables)
     s += table_html(table);
   s += "</section>\n";

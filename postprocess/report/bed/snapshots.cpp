@@ -140,12 +140,6 @@ Scales scales_of(const std::vector<Views> &all) {
   return scales;
 }
 
-/// A number to two digits, without an exponent below 1e6.
-std::string two_digits(double value) {
-  const double unit = value > 0.0 ? std::pow(10.0, std::floor(std::log10(value)) - 1.0) : 1.0;
-  return fmt::format("{:g}", std::round(value / unit) * unit);
-}
-
 /// The name of the curve of a layer's balls, counted from 1, the lowest.
 std::string soil_curve(int layer_number, const Scales &scales) {
   return scales.layers == 1 ? " soil" : fmt::format(" soil {}", layer_number);
@@ -179,11 +173,12 @@ void put_instant(CurveTable &table, const std::string &label, const Instant &ins
 }
 
 Panel instant_panel(const std::string &figure, const std::string &label, const Instant &instant,
-                    const Scales &scales, bool by_contacts) {
-  Panel panel{fmt::format("{}: {:.4g} s, {:.1f} kN on the drum", label, instant.time, instant.force * 1e-3),
-              "x (m)",
-              "y (m)",
-              {}};
+                    const Scales &scales, bool by_contacts, const char *per) {
+  Panel panel{
+      fmt::format("{}: {:.4g} s, {:.1f} kN{} on the drum", label, instant.time, instant.force * 1e-3, per),
+      "x (m)",
+      "y (m)",
+      {}};
   panel.equal_scales = true;
   const double margin = 0.02 * (scales.bounds.high[0] - scales.bounds.low[0]);
   const auto range = [&](std::size_t axis) {
@@ -215,7 +210,7 @@ Panel instant_panel(const std::string &figure, const std::string &label, const I
         CurveStyle::segments);
     panel.curves.back().width = widest * 0.75 * high / scales.strongest; // of the middle of the class
     panel.curves.back().title =
-        fmt::format("{} to {} kN", two_digits(0.5e-3 * high), two_digits(1e-3 * high));
+        fmt::format("{} to {} kN{}", two_digits(0.5e-3 * high), two_digits(1e-3 * high), per);
   }
   add(" roller", "$2", "3:4", CurveStyle::circles);
   return panel;
@@ -320,6 +315,116 @@ void plan_profile(const std::vector<Views> &all, const std::string &stem, const 
   plan.figures.push_back(std::move(figure));
 }
 
+/// The vertical stress below the drum over the depth, at the largest force.
+void plan_stress(const std::vector<Views> &all, const std::string &stem, const std::string &section,
+                 FigurePlan &plan) {
+  const std::string name = stem + "stress";
+  CurveTable table("depth (m),vertical stress (Pa)");
+  Panel panel{"Stress below the drum", "vertical stress (kPa)", "depth below the highest ball (m)", {}};
+  for (const Views &views : all) {
+    if (!views.views[peak] || !views.views[peak]->has_contacts) continue;
+    const Instant &instant = *views.views[peak];
+    const Transition transition = views.result->run.transition();
+    Bounds soil, drum;
+    double diameters = 0.0, balls = 0.0;
+    for (const Ball &ball : instant.balls) {
+      if (ball.type == drum_type) drum.add(ball);
+      if (!is_soil(ball.type)) continue;
+      soil.add(ball);
+      diameters += 2.0 * ball.radius;
+      balls += 1.0;
+    }
+    if (soil.empty() || drum.empty()) continue;
+    FieldGrid grid;
+    grid.flat = in_a_plane(instant.balls);
+    const double depth = soil.high[1] - soil.low[1];
+    grid.cells[1] = static_cast<std::size_t>(std::max(1.0, std::round(depth * balls / (layer * diameters))));
+    grid.origin = {drum.low[0], soil.low[1], grid.flat ? 0.0 : soil.low[2]};
+    grid.sides = {drum.high[0] - drum.low[0], depth / static_cast<double>(grid.cells[1]),
+                  grid.flat ? 1.0 : soil.high[2] - soil.low[2]};
+    if (grid.cells[1] < 2) continue;
+    const BedFields fields = coarse_grained(instant.balls, instant.contacts.balls, grid);
+    constexpr std::size_t vertical = 4; // yy
+    for (std::size_t c = 0; c < grid.cells[1]; ++c)
+      table.row(transition_name(transition),
+                {depth - (static_cast<double>(c) + 0.5) * grid.sides[1], fields.stress[c][vertical]});
+    panel.add(curve(name, transition_name(transition), "($3*1e-3)", "2",
+                    transition == Transition::A ? CurveStyle::series_2 : CurveStyle::series_1),
+              "condition " + transition_name(transition));
+  }
+  if (panel.curves.empty()) return;
+  panel.x_range = "[0:*]";
+  panel.y_range = "[*:*] reverse";
+  PageFigure figure{
+      section,
+      "",
+      fmt::format("Vertical stress in the soil over the width of the drum, at the dump with the largest "
+                  "force on it, in layers of about {:g} mean diameters: force and branch of the contacts "
+                  "between balls over the volume. It is that of one bed at one instant. The contacts of "
+                  "the drum and of the walls do not count, so that the outermost layers have too little.",
+                  layer),
+      {},
+      table.text()};
+  figure.figure = {name, panel.title, {panel}, 1};
+  plan.figures.push_back(std::move(figure));
+}
+
+/// How many soil balls touch the drum, and how far the outermost of their contacts are apart [m].
+std::pair<int, double> drum_contact(const Instant &instant) {
+  int count = 0;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const BallContact &contact : instant.contacts.balls) {
+    const Ball &i = instant.balls[contact.i], &j = instant.balls[contact.j];
+    if (!(i.type == drum_type && is_soil(j.type)) && !(j.type == drum_type && is_soil(i.type))) continue;
+    const double x = i.position[0] - contact.branch[0] * i.radius / (i.radius + j.radius);
+    low = std::min(low, x);
+    high = std::max(high, x);
+    ++count;
+  }
+  return {count, count > 0 ? high - low : 0.0};
+}
+
+/// Number and width of the drum's contacts in the last cycles that have dumps.
+void plan_drum_contact(const std::vector<Views> &all, const std::string &stem, const std::string &section,
+                       FigurePlan &plan) {
+  constexpr double cycles = 2.0;
+  const std::string name = stem + "contact";
+  CurveTable table("time (s),touching balls (-),contact width (m)");
+  Panel count{"balls that touch the drum", "time (s)", "balls that touch the drum (-)", {}};
+  Panel width{"contact width", "time (s)", "width of the contact (mm)", {}};
+  for (const Views &views : all) {
+    const Run &run = views.result->run;
+    const std::string label = transition_name(run.transition());
+    const std::map<long, StepDump> steps = dumped_steps(run.folder / "dump");
+    const double from =
+        static_cast<double>(steps.rbegin()->first) * run.timestep - (cycles + 1e-6) * run.chain.period();
+    std::size_t rows = 0;
+    for (const auto &[step, dump] : steps) {
+      if (static_cast<double>(step) * run.timestep < from || dump.contacts.empty()) continue;
+      const Instant instant = read_instant(*views.result, step, dump);
+      const auto [balls, apart] = drum_contact(instant);
+      table.row(label, {instant.time, static_cast<double>(balls), apart});
+      ++rows;
+    }
+    if (rows == 0) continue;
+    const CurveStyle style = run.transition() == Transition::A ? CurveStyle::series_2 : CurveStyle::series_1;
+    count.add(curve(name, label, "$2", "3", style), "condition " + label);
+    width.add(curve(name, label, "$2", "($4*1e3)", style), "condition " + label);
+  }
+  if (count.curves.empty()) return;
+  count.y_range = width.y_range = "[0:*]";
+  PageFigure figure{
+      section,
+      "",
+      "How many soil balls touch the drum, and the distance between the outermost contacts, in the "
+      "dumps of the last two cycles that have any. With one ball the width is 0: a drum stands on few "
+      "stones, which is why its force scatters from bed to bed.",
+      {},
+      table.text()};
+  figure.figure = {name, "Contact of drum and soil", {count, width}, 2};
+  plan.figures.push_back(std::move(figure));
+}
+
 } // namespace
 
 void plan_bed_pictures(const BedGroup &group, const std::string &stem, const std::string &section,
@@ -351,7 +456,8 @@ void plan_bed_pictures(const BedGroup &group, const std::string &stem, const std
       if (!instant) continue;
       const std::string label = transition_name(views.result->run.transition());
       put_instant(table, label, *instant, scales);
-      panels.push_back(instant_panel(name, label, *instant, scales, by_contacts));
+      panels.push_back(
+          instant_panel(name, label, *instant, scales, by_contacts, per_metre_words(views.result->run)));
     }
     if (panels.empty()) continue;
     PageFigure figure{section, "", picture_caption(which, scales, by_contacts), {}, table.text()};
@@ -361,6 +467,8 @@ void plan_bed_pictures(const BedGroup &group, const std::string &stem, const std
     plan.figures.push_back(std::move(figure));
   }
   plan_profile(all, stem, section, plan);
+  plan_stress(all, stem, section, plan);
+  plan_drum_contact(all, stem, section, plan);
 }
 
 } // namespace drumlin::post

@@ -43,7 +43,15 @@ TEST(SieveCurve, IsReadAsLaboratoriesWriteIt) {
        {"size (mm),passing (%)\n4,12.5\n8,50\n16,100\n", "Probe 3\n\nsize;passing\n16;100\n8;50\n4;12,5\n",
         "size [m]\tretained [%]\n0.016\t0\n0.008\t50\n0.004\t37.5\n",
         "size (mm);retained (g)\n16;0\n8;1000\n4;750\n0;250\n",
-        "size (mm);retained (g)\n0;250,0\n4;750,0\n8;1000,0\n16;0,0\n"}) {
+        "size (mm);retained (g)\n0;250,0\n4;750,0\n8;1000,0\n16;0,0\n",
+        "Size;Retained\n16;0\n8;1000\n4;750\n0;250\n", "size,retained\n16,0\n8,50\n4,37.5\n0,12.5\n",
+        "Sieve size (mm),% passing\n16,100\n8,50\n4,12.5\n",
+        "size (mm);cumulative retained (%)\n16;0\n8;50\n4;87,5\n",
+        "size (mm);Cumulative Retained (%)\n0;100\n4;87,5\n8;50\n16;0\n",
+        "size (mm);cumulative retained\n16;0\n8;1.000\n4;1.750,0\n0;2.000\n",
+        "size (mm);individual retained (g)\n16;0\n8;1'000\n4;750\n0;250\n",
+        "size (mm),retained (g),retained (%),cumulative retained (%),passing (%)\n16,0,0,0,100\n"
+        "8,1000,50,50,50\n4,750,37.5,87.5,12.5\n0,250,12.5,100,0\n"}) {
     post::write_files({{file, text}});
     const SieveCurve curve = post::read_sieve_file(file);
     ASSERT_EQ(curve.sieves().size(), 3u) << text;
@@ -54,6 +62,48 @@ TEST(SieveCurve, IsReadAsLaboratoriesWriteIt) {
       EXPECT_NEAR(sieve.passing, passing, 1e-14) << text;
     }
   }
+  std::filesystem::remove(file);
+}
+
+/// What stays on a sieve and what stays on it and all coarser ones are not mixed up.
+TEST(SieveCurve, SaysWhatToWriteWhereRetainedMayBeCumulative) {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("drumlin-retained-" + std::to_string(::getpid()) + ".csv");
+  const auto message = [&file](const std::string &text) {
+    post::write_files({{file, text}});
+    try {
+      post::read_sieve_file(file);
+    } catch (const std::exception &error) {
+      return std::string(error.what());
+    }
+    return std::string("not refused");
+  };
+  for (const char *text :
+       {"size (mm);retained\n16;0\n8;50\n4;87.5\n", "size (mm);retained (%)\n4;40\n8;10\n16;0\n",
+        "size (mm);retained (%)\n4;87.5\n8;50\n16;0\n",
+        "size (mm);retained\n16;0\n8;50\n4;37.5\n", // shares, or masses without a pan
+        "size (mm);retained (g)\n16;0\n8;1000\n4;1750\n0;2000\n"}) {
+    EXPECT_NE(message(text).find("'cumulative retained' for what stays on it and on all coarser ones"),
+              std::string::npos)
+        << text << message(text);
+    std::string clear = text;
+    clear.insert(clear.find("retained"), "individual ");
+    const bool unit = clear.find("(g)") != std::string::npos, share = clear.find("(%)") != std::string::npos;
+    if (!unit && !share) clear.insert(clear.find("\n"), " (g)");
+    if (!share || clear.find("87.5") == std::string::npos) {
+      EXPECT_EQ(message(clear), "not refused") << clear;
+    }
+  }
+  for (const auto &[text, says] : {std::pair{"size;cumulative retained (g)\n16;0\n8;1000\n4;1750\n",
+                                             "its unit is 'g'; allowed: %, or a row of "},
+                                   std::pair{"size;cumulative retained (%)\n16;0\n8;50\n4;37.5\n",
+                                             "line 4, column 'cumulative retained (%)' is "
+                                             "'37.5'; allowed: at least 50"},
+                                   std::pair{"size;cumulative retained (%)\n16;0\n8;50\n4;120\n",
+                                             "is '120'; allowed: more than 0, and of shares"},
+                                   std::pair{"size;cumulative retained (%)\n16;0\n8;50\n0;90\n",
+                                             "is '90'; allowed: more than 0, and of shares"}})
+    EXPECT_NE(message(text).find(says), std::string::npos) << message(text);
   std::filesystem::remove(file);
 }
 

@@ -2,7 +2,9 @@
 #include "chain/closed_form.h"
 #include "chain/direct_solver.h"
 #include "runs/chain_files.h"
+#include "support/files.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <sys/wait.h>
@@ -304,6 +306,16 @@ TEST_F(ExactCommand, TakesARollerKnownByItsDataSheet) {
         "static load per metre   32.239 kN/m\n", "nominal amplitude       1.8 mm\n",
         "frame frequency         4.82 Hz\n", "The bond of drum and frame is assumed"})
     EXPECT_NE(outcome.out.find(line), std::string::npos) << outcome.out;
+  // Pages name it, and what follows from it.
+  const std::string words =
+      "The roller is that of mine: 30 Hz, eccentric moment 7.205 kg m, exciter force 256 kN "
+      "(120.2 kN/m), nominal amplitude 1.8 mm, static load 68.67 kN (32.24 kN/m), frame on its "
+      "bond 4.82 Hz, a bond that is assumed";
+  for (const char *axes : {"--x k:40e6:50e6:2 --identify 0", "--x k:40e6:50e6:2 --y D:0.2:0.3:2"}) {
+    const std::string text = fmt::format("map {} --roller mine --cycles 100 --fresh --out map", axes);
+    ASSERT_EQ(run(text).status, 0) << run(text).err;
+    EXPECT_NE(post::read_text(folder_ / "map" / "index.html").find(words), std::string::npos) << axes;
+  }
   // What a single option gives counts, also in what follows.
   ASSERT_EQ(run("exact --roller mine --m2 4000 --frequency 33 --cycles 1 --out o").status, 0);
   const std::map<std::string, std::string> other = post::read_parameters(folder_ / "o" / "parameters.csv");

@@ -1,6 +1,7 @@
 // `drumlin identify` as a user meets it: the program itself, its files, its messages, its exit status.
 #include "chain/closed_form.h"
 #include "runs/chain_files.h"
+#include "runs/parameter_file.h"
 #include "support/csv.h"
 #include "tests/support/checks.h"
 #include "tests/support/engine_runs.h"
@@ -11,6 +12,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -190,6 +192,13 @@ TEST_F(IdentifyCommand, TakesTheDataOfARoller) {
   EXPECT_NEAR(found({"--frequency", "33.5"}), p.k, 1e-4 * p.k);
   EXPECT_NEAR(found({"--compare"}), p.k, 1e-4 * p.k); // the file has the bond
   EXPECT_TRUE(fs::is_regular_file(scratch_ / "found/data/chain_and_record.csv"));
+  const std::map<std::string, std::string> noted = post::read_parameters(scratch_ / "found/parameters.csv");
+  EXPECT_EQ(noted.at("setting"), "low");
+  EXPECT_NEAR(post::number_from_text(noted.at("roller_exciter_force")) / p.Fw, 1.0, 1e-4);
+  EXPECT_NEAR(post::number_from_text(noted.at("roller_static_load")), (p.m2 + p.m3) * 9.81, 1e-3);
+  EXPECT_NE(
+      post::read_text(scratch_ / "found/index.html").find("setting low: 34 Hz, eccentric moment 3.725 kg m"),
+      std::string::npos);
   fs::remove_all(scratch_ / "found");
   std::vector<std::string> words = {"measured.csv", "--m2", "3000"};
   words.insert(words.end(), roller.begin(), roller.end());

@@ -3,6 +3,7 @@
 #include "runs/chain_files.h"
 #include "support/csv.h"
 #include "support/files.h"
+#include "runs/parameter_file.h"
 #include "support/measured_table.h"
 #include "support/process.h"
 #include "tests/support/checks.h"
@@ -77,6 +78,16 @@ TEST_F(MeterCommand, TakesTheDrumOfARollerFile) {
   EXPECT_NEAR(by_file.second / by_hand.second, 1.0, 1e-9);
   EXPECT_GT(values({"--roller", "mine", "--drum-width", "1"}).first, 1.5 * by_file.first);
   EXPECT_NE(values({"--roller", "mine", "--poisson", "0.2"}).first, by_file.first);
+  // What follows from the file stands in a table of the folder and on the page.
+  const std::map<std::string, std::string> noted = read_parameters(folder_ / "results/meter/parameters.csv");
+  EXPECT_EQ(noted.at("record"), "field.csv");
+  EXPECT_EQ(noted.at("roller"), "mine");
+  EXPECT_NEAR(number_from_text(noted.at("roller_exciter_force_per_metre")) / (256e3 / 2.13), 1.0, 1e-6);
+  EXPECT_NEAR(number_from_text(noted.at("roller_static_load")), 7000.0 * 9.81, 1e-6);
+  EXPECT_NEAR(number_from_text(noted.at("m2")) / m2, 1.0, 1e-6);
+  EXPECT_NE(read_text(folder_ / "results/meter/index.html")
+                .find("The roller is that of mine: 29 Hz, eccentric moment"),
+            std::string::npos);
 }
 
 // A run has noted its frequency, masses and force, which those of the file do not replace.

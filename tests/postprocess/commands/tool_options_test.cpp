@@ -247,7 +247,7 @@ TEST_F(ToolOptions, SieveFilesThatAreNoCurveAreRefused) {
       {header + "4,-1\n8,100\n", "s.csv, line 2, column 'passing (%)' is '-1'; allowed: "},
       {header + "4,half\n8,100\n", "s.csv, line 2, column 'passing (%)' is 'half'; allowed: "},
       {header + "4,nan\n8,100\n", "s.csv, line 2, column 'passing (%)' is 'nan'; allowed: "},
-      {header + "0,0\n8,100\n",
+      {header + "0,5\n8,100\n",
        "s.csv, line 2, column 'size (mm)' is '0'; allowed: a number from 1e-06 to 1e+06 [mm]"},
       {header + "4,0\n8,90\n", "s.csv, line 3, column 'passing (%)' is '90'; allowed: 100 in the last row"},
       {header + "8,100\n",

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -214,6 +215,28 @@ TEST_F(RecordFiles, ClockTimesCountFromTheFirstRow) {
       contains(error_of<std::exception>([&] { read_record(put("clock.csv", clock(0))); }), "sampling rate"));
   options.sampling_rate = 2000.0;
   EXPECT_EQ(read_record(put("clock.csv", clock(0)), options).a_drum, history_.a_drum);
+}
+
+// Stamps that scatter around equally spaced samples, as those of loggers do.
+TEST_F(RecordFiles, TimesMayScatter) {
+  const auto read = [this](double scatter) {
+    std::mt19937 random(7);
+    std::normal_distribution<double> normal(0.0, scatter);
+    std::string text = "time,a_drum\n";
+    for (std::size_t i = 0; i < history_.size(); ++i)
+      text +=
+          fmt::format("{:.12f},{:.12g}\n", history_.time[i] + 0.0005 * normal(random), history_.a_drum[i]);
+    return read_record(put("logger.csv", text));
+  };
+  EXPECT_TRUE(contains(read(0.001).notes.back(), "in SI units"));
+  const Record record = read(0.005);
+  EXPECT_TRUE(contains(record.notes.back(), "the times scatter by 0.5"));
+  EXPECT_NEAR(record.interval, 0.0005, 1e-5 * 0.0005);
+  ASSERT_EQ(record.size(), history_.size());
+  for (std::size_t i = 0; i < record.size(); ++i)
+    EXPECT_NEAR(record.time[i], history_.time[i], 1e-3 * 0.0005);
+  EXPECT_EQ(record.a_drum.size(), record.size());
+  EXPECT_TRUE(contains(error_of<std::exception>([&] { read(0.1); }), "equal steps: "));
 }
 
 TEST_F(RecordFiles, RefusesTimes) {

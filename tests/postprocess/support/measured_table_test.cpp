@@ -9,9 +9,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace drumlin::test {
@@ -173,10 +175,101 @@ TEST_F(MeasuredTables, HaveTheirHeaderWithAnEmptyLastColumn) {
   EXPECT_EQ(MeasuredTable(put("t,a (ft/s2)\n1,2\n2,3\n")).columns()[1].unit, "ft/s2");
 }
 
-TEST_F(MeasuredTables, ALastLineThatWasCutIsLeftOut) {
+TEST_F(MeasuredTables, LinesAtTheEndThatAreCutOrTextAreLeftOut) {
   EXPECT_EQ(MeasuredTable(put("t,a,b\n1,2,3\n2,3,4\n3,")).rows(), 2u);
+  EXPECT_EQ(MeasuredTable(put("t,a,b\n1,2,3\n2,3,4\n\nEnd of file\nchecked, yes\n")).rows(), 2u);
+  EXPECT_NE(message("t,a,b\n1,2,3\npause\n2,3,4\n").find("line 3: the number of cells is '1'"),
+            std::string::npos);
   EXPECT_NE(message("t,a,b\n1,2,3\n2,3\n3,4,5\n").find("line 3: the number of cells is '2'; allowed: 3"),
             std::string::npos);
+}
+
+// Names, units and names of sensors below one another, in each order, over numbers of each kind.
+TEST_F(MeasuredTables, HaveHeadersOfSeveralRows) {
+  std::vector<std::string> rows = {"Zeit;Bandage;Rahmen", "ms;g;m/s2", "DAQ;10423;10424"};
+  std::sort(rows.begin(), rows.end());
+  do
+    for (const char *above : {"", "Logger 7\n\n", "Logger;7;x\n"}) {
+      const std::string text =
+          fmt::format("{}{}\n{}\n{}\n1,5;2,5;-3,5\n2,5;3,5;4,5\n3,5;1,5;0,5\n4,5;-1,5;1,5\n", above, rows[0],
+                      rows[1], rows[2]);
+      SCOPED_TRACE(text);
+      const MeasuredTable table(put(text));
+      ASSERT_EQ(table.rows(), 4U);
+      for (const auto &[name, place] :
+           {std::pair{"Zeit", 0U}, std::pair{"Bandage", 1U}, std::pair{"Rahmen", 2U}, std::pair{"DAQ", 0U},
+            std::pair{"10424", 2U}, std::pair{"2", 1U}})
+        EXPECT_EQ(table.find(name), place) << name;
+      EXPECT_EQ(table.columns()[0].unit, "ms");
+      EXPECT_EQ(table.columns()[1].unit, "g");
+      EXPECT_EQ(table.columns()[2].unit, "m/s2");
+    }
+  while (std::next_permutation(rows.begin(), rows.end()));
+  // Numbers of sensors alone, below names with units.
+  const MeasuredTable table(put("t [ms],a [g],b [g]\n1,2,3\n0.5,0.1,0.2\n1.0,0.3,0.1\n"));
+  EXPECT_EQ(table.rows(), 2U);
+  EXPECT_EQ(table.columns()[2].unit, "g");
+  EXPECT_EQ(MeasuredTable(put("t,a,b\n1,2,3\n2,0.1,0.2\n3,0.3,0.1\n")).rows(), 3U); // no sensors
+  // A row of units alone, which must not be lost.
+  const MeasuredTable nameless(put("ms;g\n1;2\n2;3\n"));
+  EXPECT_EQ(nameless.columns()[nameless.find("1").value()].unit, "ms");
+  EXPECT_EQ(nameless.columns()[1].unit, "g");
+}
+
+TEST_F(MeasuredTables, ReadNumbersAsOfficeProgramsWriteThem) {
+  const std::vector<double> numbers = {1.25, 1234.5, -1234567.0, 0.125, 999.0};
+  for (const char *text : {"t,a\n1,\"1,25\"\n2,\"1234,5\"\n3,\"-1234567,0\"\n4,\"0,125\"\n5,\"999,0\"\n",
+                           "\"t\",\"a\"\r\n\"1,0\",\"1,25\"\r\n\"2,0\",\"1.234,5\"\r\n\"3,0\",\"-1.234."
+                           "567\"\r\n\"4,0\",\"0,125\"\r\n"
+                           "\"5,0\",\"999\"\r\n",
+                           "t,a\n1,1.25\n2,\"1,234.5\"\n3,\"-1,234,567\"\n4,0.125\n5,999\n",
+                           "t;a\n1;1.25\n2;1,234.5\n3;-1,234,567.00\n4;.125\n5;999\n",
+                           "t;a\n1;1,25\n2;1.234,5\n3;-1.234.567\n4;0,125\n5;999\n",
+                           "t\ta\n1\t1,25\n2\t1 234,5\n3\t-1 234 567\n4\t0,125\n5\t999\n",
+                           "t;a\n1;1.25\n2;1'234.5\n3;-1'234'567\n4;0.125\n5;+999\n",
+                           "t;a\n1;1,25\n2;1\xC2\xA0"
+                           "234,5\n3;\xE2\x88\x92"
+                           "1\xE2\x80\xAF"
+                           "234\xE2\x80\xAF"
+                           "567\n4;0,125\n5;999\xC2\xA0\n",
+                           "t;a\n1;1,25E0\n2;12345E-1\n3;-1,234567e+06\n4;0,125\n5;999\n"}) {
+    const MeasuredTable table(put(text));
+    const std::size_t place = table.find("a").value();
+    EXPECT_EQ(table.numbers(place), numbers) << text << table.words();
+    EXPECT_EQ(table.numbers(0), (std::vector<double>{1, 2, 3, 4, 5})) << text;
+  }
+  for (const char *cell : {"1,2345.5", "12,34.5", "1,234'567.5", "0,234.5", "1,234,56.5", ",234.5"}) {
+    const std::string text = fmt::format("t;a\n1;1.5\n2;{}\n3;2.5\n", cell);
+    EXPECT_NE(message(text).find("line 3, column 'a' is"), std::string::npos) << message(text);
+  }
+  // 1250 or 1.25?
+  for (const char *text : {"t;a\n1;750\n2;1.250\n3;2.500\n", "t;a\n1;750\n2;1,250\n3;2,500\n"})
+    EXPECT_NE(message(text).find("line 3, column 'a' is '1"), std::string::npos) << message(text);
+  EXPECT_EQ(message("t;a\n1;750,000\n2;1,250\n3;2,500\n"), "not refused");
+  EXPECT_EQ(MeasuredTable(put("t;a\n1;750\n2;1,250\n"), {std::nullopt, ','}).numbers(1).back(), 1.25);
+}
+
+TEST_F(MeasuredTables, ClockTimesMayNameTheirZone) {
+  const auto seconds = [this](const std::string &first, const std::string &second) {
+    const MeasuredTable table(put(fmt::format("t;a\n{};1,5\n{};2,5\n", first, second)));
+    EXPECT_TRUE(table.has_clock_times(0)) << first;
+    std::optional<long> day;
+    const std::vector<double> times = table.clock_times(0, day);
+    return times.back() - times.front();
+  };
+  const std::string day = "2026-11-26";
+  for (const char *zone : {"", "Z", "+01:00", "-0530", "+01", " UTC", " +0100"})
+    EXPECT_EQ(seconds(day + "T14:03:07.25" + zone, day + "T14:03:08.50" + zone), 1.25) << zone;
+  EXPECT_EQ(seconds("14:03:07.25Z", "14:03:08.50Z"), 1.25);
+  EXPECT_EQ(seconds("23:59:59.5+01:00", "00:00:00.75+01:00"), 1.25);
+  EXPECT_EQ(seconds(day + "T23:59:59.5-02:00", "2026-11-27T00:00:00,75-02:00"), 1.25);
+  EXPECT_EQ(seconds(day + "T02:59:59.5+02:00", day + "T02:00:00.75+01:00"), 1.25); // the clocks go back
+  EXPECT_EQ(seconds("14:03:07:250", "14:03:08:500"), 1.25);
+  EXPECT_EQ(seconds("11/26/2026 14:03:07.25", "11/26/2026 14:03:08.5"), 1.25);
+  EXPECT_EQ(seconds("26 Nov 2026 14:03:07.25", "26 Nov 2026 14:03:08.5"), 1.25);
+  const MeasuredTable mixed(put("t;a\n14:03:07Z;1\n14:03:08;2\n14:03:09Z;3\n"));
+  std::optional<long> first;
+  EXPECT_THROW(mixed.clock_times(0, first), std::runtime_error);
 }
 
 TEST_F(MeasuredTables, ShowWhatTheyCannotRead) {
