@@ -159,8 +159,9 @@ void layers_command(LAMMPS *lmp, int narg, char **arg) {
     in.word("keyword");
     yield = in.number("keyword yield, stiffness of unloading over that of first loading", Range{1.0});
   }
-  in.expect_end("k LIST D LIST friction LIST rolling off|epsd2 LIST [suction LIST] [yield RATIO] [variables NAME "
-                "NAME NAME NAME]");
+  in.expect_end(
+      "k LIST D LIST friction LIST rolling off|epsd2 LIST [suction LIST] [yield RATIO] [variables NAME "
+      "NAME NAME NAME]");
   const std::vector<int> counts = ball_counts(lmp, layers);
   if (const auto none = std::find(counts.begin(), counts.end(), 0); layers > 1 && none != counts.end()) {
     const auto layer = static_cast<int>(none - counts.begin());

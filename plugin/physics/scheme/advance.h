@@ -269,9 +269,9 @@ template <class Law>
 /// Heat of a contact's dashpot that the trapezoidal rule misses in a step through which the contact goes on,
 /// J. (The rule sums the power (F - E) d' of the dashpot at the end of each step, times dt.) Half kicks and
 /// drift make the spring do the work of the mean of its two forces, while its energy, and what has yielded,
-/// change by the integral of E. With a dashpot, what is between them counts as heat: it changes sign where the overlap is largest,
-/// and is nearly 0 in an undamped impact, but the dashpot makes the loading faster than the unloading. 0 for
-/// a linear spring.
+/// change by the integral of E. With a dashpot, what is between them counts as heat: it changes sign where
+/// the overlap is largest, and is nearly 0 in an undamped impact, but the dashpot makes the loading faster
+/// than the unloading. 0 for a linear spring.
 template <class Law>
 [[nodiscard]] inline double heat_of_spring(const Law &law, const StepMotion &motion) {
   if constexpr (Law::is_linear) return 0.0;
