@@ -1,10 +1,10 @@
 /// Suction: a constant attraction of balls that touch, against closed forms and CVODE, under both schemes.
 
 #include "tests/plugin/physics/velocity_verlet.h"
-#include "tests/plugin/physics/yielding_contact.h"
 
 #include "physics/laws/hertz_contact.h"
 #include "physics/laws/linear_contact.h"
+#include "physics/laws/yield_contact.h"
 
 #include "tests/support/ode.h"
 
@@ -254,8 +254,8 @@ TEST(Suction, NeitherMovesNorHeatsAStickingPair) {
 // unloading branch carries the suction.
 TEST(Suction, ActsOverThePlasticOverlap) {
   const double k2 = 3.0 * k, suction = 0.5 * std::sqrt(k * m), dt = 0.02 / w0;
-  yielding::YieldingLaw law(k, k2, coefficient(0.5), Transition::B, 0.0);
-  verlet::SecondOrderBall<yielding::YieldingLaw> ball(m, 0.3 * dt, -1.0, dt, {{0.0, 1.0, law, {}, suction}});
+  YieldLaw law(k, k2, coefficient(0.5), Transition::B, 0.0);
+  verlet::SecondOrderBall<YieldLaw> ball(m, 0.3 * dt, -1.0, dt, {{0.0, 1.0, law, {}, suction}});
   double largest = 0.0;
   for (int n = 0; n < 100000; ++n) {
     ball.step();
@@ -263,6 +263,31 @@ TEST(Suction, ActsOverThePlasticOverlap) {
   }
   EXPECT_NEAR(-ball.x, largest - (k * largest - suction) / k2, 1e-9 * largest);
   EXPECT_NEAR(ball.v, 0.0, 1e-9);
+}
+
+// Without a dashpot, at 1 m/s: the ball is at rest at the overlap D, k D^2/2 - F_a D = m/2. Unloading gives
+// back (k D)^2/(2 k2), of which suction takes F_a D; where that is more, the ball sticks.
+TEST(Suction, TakesItsPartOfWhatAYieldedContactGivesBack) {
+  const double k2 = 3.0 * k, dt = M_PI / (w0 * 800.0);
+  for (const Transition transition : {Transition::A, Transition::B})
+    for (const double share : {0.0, 0.05, 0.1, 0.3}) {
+      const double suction = share * std::sqrt(k * m);
+      const double D = (suction + std::sqrt(suction * suction + k * m)) / k;
+      const double back = 0.5 * k * k * D * D / k2 - suction * D;
+      verlet::SecondOrderBall<YieldLaw> ball(m, 0.3 * dt, -1.0, dt,
+                                             {{0.0, 1.0, {k, k2, 0.0, transition, 0.0}, {}, suction}});
+      double largest = 0.0;
+      for (int n = 0; n < 4000; ++n) {
+        ball.step();
+        largest = std::max(largest, -ball.x);
+      }
+      EXPECT_NEAR(largest, D, 1e-4 * D) << share;
+      if (back > 0.0) {
+        EXPECT_NEAR(ball.v, std::sqrt(2.0 * back / m), 2e-3) << share;
+      } else {
+        EXPECT_LT(ball.x, 0.0) << share;
+      }
+    }
 }
 
 TEST(Suction, IsTheForceThatPullsABallOff) {

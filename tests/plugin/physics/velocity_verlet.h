@@ -44,9 +44,9 @@ public:
     double place;
     double sign; ///< +1: the partner is below
     Law law;
-    Law fresh = law; ///< that of a contact that begins
     drumlin::physics::ContactState state{};
     double suction = 0.0; ///< N
+    Law fresh = law;      ///< that of a contact that begins
   };
 
   SecondOrderBall(double mass, double x_start, double v_start, double dt, std::vector<Partner> partners,
