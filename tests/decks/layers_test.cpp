@@ -314,7 +314,7 @@ TEST_P(LayeredBed, CarriesARollerAndContinuesWhereItStopped) {
   const auto &[engine, dimension] = GetParam();
   if (dimension == "3") return;
   const Scratch folder;
-  well(settle(folder, {{"fall", "0.01"}, {"ratio", "1e9"}, {"case", "base_course"}}));
+  well(settle(folder, {{"fall", "0.01"}, {"ratio", "1e9"}, {"case", "two_layers"}}));
   const std::string ending = engine == "lammps" ? ".lammps" : "";
   const Variables roller = {{"r2", "0.1"}, {"r3", "0.05"}, {"m2", "1000"}, {"m3", "500"}};
   const Variables placing =

@@ -142,7 +142,9 @@ BadGroup bed_settle() {
        {"balls", "none.data", "a file that can be read, which './drumlin bed --out none.data' makes",
         on_two_ranks}},
       {{"a case without a file", "case sand",
-        "drumlin/variable: variable case is 'sand'; allowed: base_course, gravel, gravel3d"}});
+        "drumlin/variable: variable case is 'sand'; allowed: base_course, gravel, gravel3d"},
+       {"the earlier name of a case", "case base_course",
+        "drumlin/check: variable case is 'base_course'; allowed: two_layers", on_two_ranks}});
 }
 
 BadGroup bed_place() {
